@@ -264,7 +264,7 @@ void bind_size(py::module_& m) {
              for (const WeightedPoint& p : places) {
                if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.w))
                  fail(ErrorCode::not_finite, "points are not finite");
-               if (!plane && length(lifted(p)) == 0)
+               if (!plane && length(as_vector(p)) == 0)
                  fail(ErrorCode::not_on_sphere, "the center of the sphere is in no direction");
                const SizeField::Sample sample = field.at(p, hint);
                hint = sample.triangle;

@@ -33,12 +33,12 @@ py::array over(const std::array<Doubles, n>& arrays, const F& f) {
   return result;
 }
 
-/// f(a_i, b_i, …) for points of the plane, or for lifted points of the sphere.
+/// f(a_i, b_i, …) for points of the plane, or for weighted vectors of the sphere.
 template <class Value, std::size_t n, class F>
 py::array in_space(bool sphere, const std::array<Doubles, n>& arrays, const F& f) {
   if (sphere) {
     return over<Value, n>(arrays, [&f](const auto& points, std::size_t i) {
-      return std::apply([&f, i](const auto&... p) { return f(lifted(p[i])...); }, points);
+      return std::apply([&f, i](const auto&... p) { return f(as_vector(p[i])...); }, points);
     });
   }
   return over<Value, n>(arrays, [&f](const auto& points, std::size_t i) {
@@ -106,17 +106,17 @@ void bind_constructions(py::module_& m) {
   });
   m.def("corner_angle", [](const Doubles& a, const Doubles& b, const Doubles& c, bool sphere) {
     return over<double, 3>({a, b, c}, [sphere](const auto& p, std::size_t i) {
-      if (sphere) return corner_angle(lifted(p[0][i]), lifted(p[1][i]), lifted(p[2][i]));
+      if (sphere) return corner_angle(as_vector(p[0][i]), as_vector(p[1][i]), as_vector(p[2][i]));
       return corner_angle(p[0][i].position(), p[1][i].position(), p[2][i].position());
     });
   });
   m.def("arc_length", [](const Doubles& a, const Doubles& b) {
-    return over<double, 2>({a, b},
-                           [](const auto& p, std::size_t i) { return arc_length(lifted(p[0][i]), lifted(p[1][i])); });
+    return over<double, 2>(
+        {a, b}, [](const auto& p, std::size_t i) { return arc_length(as_vector(p[0][i]), as_vector(p[1][i])); });
   });
   m.def("solid_angle", [](const Doubles& a, const Doubles& b, const Doubles& c) {
     return over<double, 3>({a, b, c}, [](const auto& p, std::size_t i) {
-      return solid_angle(lifted(p[0][i]), lifted(p[1][i]), lifted(p[2][i]));
+      return solid_angle(as_vector(p[0][i]), as_vector(p[1][i]), as_vector(p[2][i]));
     });
   });
 }

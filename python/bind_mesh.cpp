@@ -64,14 +64,14 @@ py::array points_of(const std::shared_ptr<const Mesh>& mesh) {
   places.reserve(mesh->n_vertices());
   for (const VertexId v : mesh->vertices()) {
     const WeightedPoint p = mesh->point(v);
-    places.push_back(lifted(mesh->weight(v) == 0 ? p : mesh->space().with_weight(p, 0)));
+    places.push_back(as_vector(mesh->weight(v) == 0 ? p : mesh->space().with_weight(p, 0)));
   }
   return read_only(rows_of<double>(std::span<const Vec3>(places)));
 }
 
-py::array lifted_points_of(const std::shared_ptr<const Mesh>& mesh) {
+py::array weighted_vectors_of(const std::shared_ptr<const Mesh>& mesh) {
   if (mesh->space().is_plane()) {
-    fail(ErrorCode::unsupported, "lifted_points: the mesh is one of the plane; its vertices are points and weights");
+    fail(ErrorCode::unsupported, "weighted_vectors: the mesh is one of the plane; its vertices are points and weights");
   }
   return vertex_view(mesh, 3);
 }
@@ -129,7 +129,7 @@ py::array edges_of(const Mesh& mesh, const Wanted& wanted) {
 // --- changes ------------------------------------------------------------------------------------------------
 
 /// The numbers of vertices that are assigned.
-enum class Assigned { points, weights, lifted_points };
+enum class Assigned { points, weights, weighted_vectors };
 
 [[noreturn]] void fail_at(VertexId v, ErrorCode code, const std::string& message) {
   fail(code, "point " + std::to_string(v.index) + ": " + message);
@@ -141,11 +141,11 @@ WeightedPoint assigned(const Space& space, VertexId v, const WeightedPoint& form
     if (space.is_plane()) return {former.x, former.y, in[0]};
     if (!(in[0] > -space.radius() * space.radius()))
       fail_at(v, ErrorCode::out_of_scale, "weight not above minus the square of the radius");
-    return space.vertex_at(lifted(former), in[0]);
+    return space.vertex_at(as_vector(former), in[0]);
   }
   if (space.is_plane()) return space.in_domain({in[0], in[1], former.w});
   const Vec3 p = {in[0], in[1], in[2]};
-  if (what == Assigned::lifted_points) return as_point(p);
+  if (what == Assigned::weighted_vectors) return as_point(p);
   constexpr double kOffRadius = 1e-6;  // as Mesh::build
   if (!(std::abs(length(p) - space.radius()) <= kOffRadius * space.radius()))
     fail_at(v, ErrorCode::not_on_sphere, "not at the radius of the sphere, to one part in a million");
@@ -226,7 +226,7 @@ void bind_sizes_and_space(py::class_<PyMesh>& type) {
 }
 
 void bind_arrays(py::class_<PyMesh>& type) {
-  type.def("lifted_points", [](const PyMesh& self) { return lifted_points_of(self.read_with_erased()); });
+  type.def("weighted_vectors", [](const PyMesh& self) { return weighted_vectors_of(self.read_with_erased()); });
   type.def("points", [](const PyMesh& self) { return points_of(self.read_with_erased()); });
   type.def("weights", [](const PyMesh& self) { return weights_of(self.read_with_erased()); });
   type.def("triangles", [](const PyMesh& self) { return triangles_of(self.read_with_erased()); });
@@ -250,8 +250,8 @@ void bind_arrays(py::class_<PyMesh>& type) {
 void bind_changes(py::class_<PyMesh>& type) {
   type.def("set_points", [](PyMesh& self, const Doubles& points) { set_vertices(self, points, Assigned::points); });
   type.def("set_weights", [](PyMesh& self, const Doubles& weights) { set_vertices(self, weights, Assigned::weights); });
-  type.def("set_lifted_points",
-           [](PyMesh& self, const Doubles& points) { set_vertices(self, points, Assigned::lifted_points); });
+  type.def("set_weighted_vectors",
+           [](PyMesh& self, const Doubles& points) { set_vertices(self, points, Assigned::weighted_vectors); });
   type.def("set_fixed", set_fixed);
   type.def("set_constrained", set_constrained);
   type.def("compact", [](PyMesh& self) { return to_python(self.compact()); });

@@ -97,7 +97,7 @@ struct EnergyModel {
 };
 
 /// E of one triangle alone, all its edges boundary edges. On the sphere this and all other energies are those of the
-/// flat triangles of the lifted points (space.hpp), with the same signs as on the sphere.
+/// flat triangles of the weighted vectors (space.hpp), with the same signs as on the sphere.
 [[nodiscard]] double triangle_energy(const EnergyModel& model, const WeightedPoint& p, const WeightedPoint& q,
                                      const WeightedPoint& r, const Space& space = {});
 /// Total energy; +∞ when any term is outside its domain. Summed in fixed blocks: the same for any executor. O(n).

@@ -125,7 +125,7 @@ class Mesh {
   void set_space(const Space& space) { space_ = space; }
 
   // --- vertices ----------------------------------------------------------------------------------
-  /// As the mesh has it: in the plane x, y, w, on the sphere X, Y, Z of the lifted point (space.hpp).
+  /// As the mesh has it: in the plane x, y, w, on the sphere X, Y, Z of the weighted vector (space.hpp).
   [[nodiscard]] WeightedPoint point(VertexId v) const { return {record(v).x, record(v).y, record(v).w}; }
   void set_point(VertexId v, WeightedPoint p) { record(v).x = p.x, record(v).y = p.y, record(v).w = p.w; }
   [[nodiscard]] double weight(VertexId v) const { return space_.weight(point(v)); }
@@ -148,7 +148,7 @@ class Mesh {
   [[nodiscard]] Vec2 position(VertexId v) const { return {record(v).x, record(v).y}; }
   void set_position(VertexId v, Vec2 p) { record(v).x = p.x, record(v).y = p.y; }
   /// P of a vertex. Precondition: the mesh lies on the sphere.
-  [[nodiscard]] Vec3 lifted_point(VertexId v) const { return lifted(point(v)); }
+  [[nodiscard]] Vec3 weighted_vector(VertexId v) const { return as_vector(point(v)); }
   /// A vertex that the user wants to stay where it is. (Boundary vertices stay without being marked.)
   [[nodiscard]] bool is_fixed(VertexId v) const { return (record(v).flags & kFixed) != 0; }
   void set_fixed(VertexId v, bool fixed);

@@ -150,7 +150,7 @@ class Mesh:
     -----
     ``points``, ``weights``, ``triangles`` and ``twins`` are read-only views on the mesh's own memory, without copies. A
     view keeps what it shows: when the mesh changes afterwards, the mesh is given new memory and the view is that of
-    before. All other arrays are copies; on a sphere so are ``points`` and ``weights``, and ``lifted_points`` is the
+    before. All other arrays are copies; on a sphere so are ``points`` and ``weights``, and ``weighted_vectors`` is the
     view. To change a mesh, assign: ``mesh.weights = w``.
 
     Halfedge 3 t + k runs from corner k to corner k + 1 of triangle t. Triangles are counter-clockwise, on a sphere as
@@ -268,15 +268,15 @@ class Mesh:
         self._handle.set_weights(_doubles(weights, 0, "weights"))
 
     @property
-    def lifted_points(self) -> npt.NDArray[np.float64]:
-        """On a sphere: the lifted point P of each vertex, (n, 3) float64 [length], whose direction is its place, and
+    def weighted_vectors(self) -> npt.NDArray[np.float64]:
+        """On a sphere: the weighted vector P of each vertex, (n, 3) float64 [length], whose direction is its place, and
         \\|P\\|² = R² + w. A read-only view, rows 32 bytes apart; what ``temper.geometry`` takes. Assigning sets places
         and weights at once, as for ``points``. TemperError in the plane."""
-        return self._handle.lifted_points()
+        return self._handle.weighted_vectors()
 
-    @lifted_points.setter
-    def lifted_points(self, points: npt.ArrayLike) -> None:
-        self._handle.set_lifted_points(_doubles(points, 3, "lifted_points"))
+    @weighted_vectors.setter
+    def weighted_vectors(self, points: npt.ArrayLike) -> None:
+        self._handle.set_weighted_vectors(_doubles(points, 3, "weighted_vectors"))
 
     @property
     def triangles(self) -> npt.NDArray[np.int32]:
@@ -369,8 +369,8 @@ class Mesh:
 
     def __reduce__(self) -> Any:
         """All that ``copy`` keeps, for another process. To keep a mesh, write it."""
-        lifted = None if self.space.is_plane else np.array(self.lifted_points)
-        vertices = (self.space, np.array(self.points), np.array(self.weights), lifted, self.fixed)
+        vectors = None if self.space.is_plane else np.array(self.weighted_vectors)
+        vertices = (self.space, np.array(self.points), np.array(self.weights), vectors, self.fixed)
         triangles = (np.array(self.triangles), self.constrained_edges, self.regions)
         source = (_temper.source_as_dict(self._handle), self.point_data_rules)
         state = {"reversed_triangles": self.reversed_triangles, "warnings": self.warnings}
@@ -422,11 +422,11 @@ class Mesh:
 
 
 def _unpickle(vertices: tuple[Any, ...], triangles: tuple[Any, ...], source: tuple[Any, ...]) -> Mesh:
-    space, points, weights, lifted, fixed = vertices
+    space, points, weights, vectors, fixed = vertices
     corners, constrained, regions = triangles
     mesh = Mesh(points, corners, weights, constrained_edges=constrained, regions=regions, fixed=fixed, space=space)
-    if lifted is not None:
-        mesh.lifted_points = lifted  # bit for bit: places and weights are rounded
+    if vectors is not None:
+        mesh.weighted_vectors = vectors  # bit for bit: places and weights are rounded
     file, rules = source
     if file is not None:
         _temper.set_source_from_dict(mesh._handle, file)

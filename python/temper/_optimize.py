@@ -39,7 +39,7 @@ class TraceEvent:
     """Energy of the vertex's patch, or of all edges that a flip changes, before the event; NaN where none belongs."""
     after: float
     point: tuple[float, float, float]
-    """move, weight, insertion, split: x, y, w of the vertex now; on a sphere its lifted point."""
+    """move, weight, insertion, split: x, y, w of the vertex now; on a sphere its weighted vector."""
     quad: tuple[int, int, int, int]
     """flip: edge a→b, with c on its left and d on its right, becomes d→c; split: a→b was cut (d −1 on the boundary)."""
     link: npt.NDArray[np.int32]

@@ -14,7 +14,7 @@ class Space:
     """The plane, ``Space()``, a sphere around the origin, ``Space.sphere(radius)``, or a plane that repeats itself,
     ``Space.periodic(x, y)``. Immutable.
 
-    On the sphere of radius R a vertex at p, \\|p\\| = R, with weight w is the lifted point P = p √(R² + w)/R: its
+    On the sphere of radius R a vertex at p, \\|p\\| = R, with weight w is the weighted vector P = p √(R² + w)/R: its
     direction is the place, and \\|P\\|² = R² + w. The regular triangulation is the boundary of the convex hull of all
     P.
 

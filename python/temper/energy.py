@@ -76,7 +76,7 @@ def total_energy(mesh: MeshLike, model: EnergyModel = EnergyModel(), *, threads:
 
 def triangle_energy(model: EnergyModel, corners: npt.ArrayLike, *, space: Space = Space()) -> float:
     """The energy of one triangle alone, all its edges boundary edges: ``corners`` is (3, 3), rows x, y, w; on a sphere
-    lifted points. There this and all other energies are those of the flat triangles of the lifted points.
+    weighted vectors. There this and all other energies are those of the flat triangles of the weighted vectors.
 
     >>> from temper import energy
     >>> model = energy.EnergyModel("BH")

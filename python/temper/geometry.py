@@ -5,7 +5,7 @@ other, and results have the shape of what is left. Triangle ijk is counter-clock
 → j; d_ij = ℓ/2 + (w_i − w_j)/(2ℓ) from i towards j (docs/concepts.md). Signs are −1, 0 or 1, int8, and right for all
 doubles in the range of ``is_exact_coordinate`` and ``is_exact_weight``.
 
-With ``space=mesh.space`` on a sphere points are ``mesh.lifted_points``, (…, 3): directions whose squared lengths are
+With ``space=mesh.space`` on a sphere points are ``mesh.weighted_vectors``, (…, 3): directions whose squared lengths are
 R² + w (``temper.Space``). Triangles are counter-clockwise as seen from outside, lengths and heights are arcs in
 radians, signed as in the plane, and only the directions and the ratios of lengths count, not the radius.
 """

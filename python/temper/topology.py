@@ -185,7 +185,7 @@ def restore_regularity(mesh: MeshLike, *, policy: Literal["undo", "remove", "kee
 
 def flip_threshold(mesh: MeshLike, vertex: int, step: tuple[float, float, float]) -> float:
     """The least t ≥ 0 past which an edge around the vertex is not regular when it moves along ``step`` = (x, y, w)
-    [length, length, length²], on a sphere (X, Y, Z) of its lifted point [length]; inf when there is none (eq. 10 of the
+    [length, length, length²], on a sphere (X, Y, Z) of its weighted vector [length]; inf when there is none (eq. 10 of the
     paper)."""
     return _temper.flip_threshold(as_mesh(mesh)._handle, vertex, *step)
 

@@ -23,7 +23,8 @@ inline constexpr double kRelativeError = 0x1p-42;
 /// 2 d ℓ of edge pq, from p.
 [[nodiscard]] double doubled_crossing(const WeightedPoint& p, const WeightedPoint& q);
 
-// --- on the sphere, of lifted points -------------------------------------------------------------------------------
+// --- on the sphere, of weighted vectors
+// -------------------------------------------------------------------------------
 
 /// det(P, Q, R).
 [[nodiscard]] double orientation_determinant(Vec3 p, Vec3 q, Vec3 r);

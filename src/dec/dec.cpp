@@ -75,7 +75,7 @@ class SphereMeasures {
  public:
   using Point = Vec3;
   explicit SphereMeasures(const Mesh& mesh) : mesh_(mesh), radius_(mesh.space().radius()) {}
-  [[nodiscard]] Point point(VertexId v) const { return mesh_.lifted_point(v); }
+  [[nodiscard]] Point point(VertexId v) const { return mesh_.weighted_vector(v); }
   [[nodiscard]] Point point(VertexId v, const Point& /*near*/) const { return point(v); }
 
   void triangle(DecComplex& c, TriangleId t) const {

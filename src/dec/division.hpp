@@ -27,17 +27,17 @@ class Chart {
     const auto [i, j, k] = mesh.corners(t);
     Chart chart(mesh, i);
     if (mesh.space().is_plane()) return chart;
-    chart.lifted_origin_ = mesh.lifted_point(i);
-    const Vec3 along = mesh.lifted_point(j) - mesh.lifted_point(i);
-    chart.turn(along, cross(along, mesh.lifted_point(k) - mesh.lifted_point(i)));
+    chart.weighted_origin_ = mesh.weighted_vector(i);
+    const Vec3 along = mesh.weighted_vector(j) - mesh.weighted_vector(i);
+    chart.turn(along, cross(along, mesh.weighted_vector(k) - mesh.weighted_vector(i)));
     return chart;
   }
   /// From a vertex. On the sphere the plane that touches it there: it has the places less than a quarter turn away.
   [[nodiscard]] static Chart around(const Mesh& mesh, VertexId v) {
     Chart chart(mesh, v);
     if (mesh.space().is_plane()) return chart;
-    const Vec3 p = mesh.lifted_point(v);
-    chart.lifted_origin_ = mesh.space().radius() / length(p) * p;
+    const Vec3 p = mesh.weighted_vector(v);
+    chart.weighted_origin_ = mesh.space().radius() / length(p) * p;
     const bool upright = std::abs(p.z) > 0.5 * length(p);
     chart.turn(cross(upright ? Vec3{1, 0, 0} : Vec3{0, 0, 1}, p), p);
     return chart;
@@ -51,18 +51,18 @@ class Chart {
       const Vec2 at = mesh.point(v, origin_).position() - origin_.position();
       return {at.x, at.y, mesh.weight(v)};
     }
-    const Vec3 from_origin = mesh.lifted_point(v) - lifted_origin_;
+    const Vec3 from_origin = mesh.weighted_vector(v) - weighted_origin_;
     const Vec2 at = {dot(e1_, from_origin), dot(e2_, from_origin)};
-    return {at.x, at.y, squared_length(at) + 2 * dot(lifted_origin_, from_origin)};
+    return {at.x, at.y, squared_length(at) + 2 * dot(weighted_origin_, from_origin)};
   }
 
   /// A place of the sphere, in the plane around a vertex.
   [[nodiscard]] Vec2 of(Vec3 place) const {
-    const double scale = squared_length(lifted_origin_) / dot(lifted_origin_, place);
+    const double scale = squared_length(weighted_origin_) / dot(weighted_origin_, place);
     return {scale * dot(e1_, place), scale * dot(e2_, place)};
   }
   /// The ray of a place in the plane, not scaled to the radius.
-  [[nodiscard]] Vec3 ray(Vec2 at) const { return lifted_origin_ + at.x * e1_ + at.y * e2_; }
+  [[nodiscard]] Vec3 ray(Vec2 at) const { return weighted_origin_ + at.x * e1_ + at.y * e2_; }
   /// A place of another plane in this one, around a vertex.
   [[nodiscard]] Vec2 moved(const Chart& from, Vec2 at) const {
     if (!space_.is_plane()) return of(from.ray(at));
@@ -73,7 +73,7 @@ class Chart {
     constexpr double kLeastCosine = 0.02;
     if (space_.is_plane()) return true;
     const Vec3 x = from.ray(at);
-    return dot(lifted_origin_, x) > kLeastCosine * length(lifted_origin_) * length(x);
+    return dot(weighted_origin_, x) > kLeastCosine * length(weighted_origin_) * length(x);
   }
 
  private:
@@ -88,7 +88,7 @@ class Chart {
 
   Space space_;
   WeightedPoint origin_;
-  Vec3 lifted_origin_, e1_, e2_;
+  Vec3 weighted_origin_, e1_, e2_;
 };
 
 /// A corner of a piece, and what lies along the side from it to the next corner: one of the two.

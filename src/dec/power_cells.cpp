@@ -26,14 +26,14 @@ constexpr double kInvisible = 0x1p-50;
 
 Sign crossing_sign(const Mesh& mesh, VertexId p, VertexId q) {
   const WeightedPoint from = mesh.point(p), to = mesh.point(q, from);
-  return mesh.space().is_plane() ? dual_crossing_sign(from, to) : dual_crossing_sign(lifted(from), lifted(to));
+  return mesh.space().is_plane() ? dual_crossing_sign(from, to) : dual_crossing_sign(as_vector(from), as_vector(to));
 }
 
 /// From vertex to vertex, on the sphere along an arc.
 double length_between(const Mesh& mesh, VertexId p, VertexId q) {
   const WeightedPoint from = mesh.point(p);
   if (mesh.space().is_plane()) return length(mesh.point(q, from).position() - from.position());
-  return mesh.space().radius() * arc_length(mesh.lifted_point(p), mesh.lifted_point(q));
+  return mesh.space().radius() * arc_length(mesh.weighted_vector(p), mesh.weighted_vector(q));
 }
 
 class CellBuilder {

@@ -32,7 +32,7 @@ View::View(double radius, Vec2 middle) : radius_(radius) {
 }
 
 Vec3 View::seen(const WeightedPoint& p) const {
-  const Vec3 d = unit(lifted(p));
+  const Vec3 d = unit(as_vector(p));
   return {dot(right_, d), dot(up_, d), dot(towards_, d)};
 }
 
@@ -81,7 +81,7 @@ std::vector<Vec2> View::polygon(const std::array<WeightedPoint, 3>& t) const {
 
 // The circle in the plane that touches the sphere at p, seen from the center.
 std::vector<WeightedPoint> View::circle(const WeightedPoint& p, double radius) const {
-  const Vec3 d = unit(lifted(p));
+  const Vec3 d = unit(as_vector(p));
   const Vec3 axis = std::abs(d.z) < 0.5 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};  // not along d
   const Vec3 u = unit(cross(axis, d)), v = cross(d, u);
   std::vector<WeightedPoint> around;
@@ -99,7 +99,7 @@ View make_view(std::span<const Mesh* const> meshes, const DrawOptions& options) 
   Vec3 sum;
   double count = 0;
   for (const Mesh* mesh : meshes) {
-    for (const VertexId v : mesh->vertices()) sum = sum + unit(mesh->lifted_point(v)), ++count;
+    for (const VertexId v : mesh->vertices()) sum = sum + unit(mesh->weighted_vector(v)), ++count;
   }
   if (!(length(sum) > kOneSided * count)) return {space.radius(), {0, 0}};
   return {space.radius(), {std::atan2(sum.y, sum.x) / kDegree, std::atan2(sum.z, std::hypot(sum.x, sum.y)) / kDegree}};

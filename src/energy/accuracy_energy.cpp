@@ -37,7 +37,7 @@ typename In::Point point_of(const WeightedPoint& p) {
   return {p.x, p.y, p.w};
 }
 WeightedPoint as_vertex(const PointOf<double>& p) { return {p.x, p.y, p.w}; }
-WeightedPoint as_vertex(const LiftedPointOf<double>& p) { return {p.x, p.y, p.z}; }
+WeightedPoint as_vertex(const WeightedVectorOf<double>& p) { return {p.x, p.y, p.z}; }
 
 }  // namespace
 

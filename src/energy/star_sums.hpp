@@ -67,7 +67,7 @@ struct TriangleDerivatives {
   /// The derivatives of 4 F/S² from those of F, with m = ∇S; in the plane S is linear in p, on the sphere ∇²S = κ n̂⊗n̂:
   ///
   ///   4/S² (∇F − 2 F m/S)      4/S² (∇²F − 2 (∇F⊗m + m⊗∇F)/S + 6 F m⊗m/S² − 2 F ∇²S/S)
-  TEMPER_INLINE void divide_by_area2(const Pack& f, const LiftedSpoke<Pack>&, const LiftedSpoke<Pack>&,
+  TEMPER_INLINE void divide_by_area2(const Pack& f, const SphereSpoke<Pack>&, const SphereSpoke<Pack>&,
                                      const Pack& inverse_area) {
     const CornerVector<Pack> u = -2.0 * inverse_area * g.area;
     hessian.add(u, gradient + (1.5 * f) * u);

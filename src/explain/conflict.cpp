@@ -285,7 +285,7 @@ class Tree {
  private:
   [[nodiscard]] const Space& space() const { return mesh_.space(); }
   [[nodiscard]] Vec3 at(VertexId v) const {
-    if (!space().is_plane()) return (1 / length(mesh_.lifted_point(v))) * mesh_.lifted_point(v);
+    if (!space().is_plane()) return (1 / length(mesh_.weighted_vector(v))) * mesh_.weighted_vector(v);
     const Vec2 p = mesh_.position(v) - origin_;
     return {p.x, p.y, 1};
   }

@@ -4,7 +4,8 @@
 // With a + b ≤ S both bounds are below S, so that both vertices lie in the discs with diameters from u to u + S (v − u)
 // and from v to v + S (u − v). For S ≥ 1 so do the triangles u v X, and whatever hides X: all is found inside the
 // smallest disc around both, on the sphere inside a cap. There a point between u and v is the direction of
-// (1 − s) U + s V, U and V as they are lifted, and what sees a diameter at a right angle is a cone of the second order.
+// (1 − s) U + s V, U and V their weighted vectors, and what sees a diameter at a right angle is a cone of the second
+// order.
 #include "temper/detail/necessity.hpp"
 
 #include <algorithm>
@@ -154,7 +155,7 @@ Point point_of(const Mesh& mesh, VertexId v) {
   if constexpr (std::is_same_v<Point, Vec2>)
     return mesh.position(v);
   else
-    return mesh.lifted_point(v);
+    return mesh.weighted_vector(v);
 }
 
 template <class Point>

@@ -73,7 +73,7 @@ class SphereInserter {
     const auto corners = result_.mesh.corners(t);
     VertexId nearest = corners[0];
     const auto nearness = [&](VertexId v) {
-      const Vec3 q = result_.mesh.lifted_point(v);
+      const Vec3 q = result_.mesh.weighted_vector(v);
       return dot(p, q) / length(q);
     };
     for (const VertexId v : corners) nearest = nearness(v) > nearness(nearest) ? v : nearest;

@@ -82,12 +82,13 @@ double corner_angle(Vec3 p, Vec3 q, Vec3 r) {
 double solid_angle(Vec3 p, Vec3 q, Vec3 r) { return solid_angle(dot(p, cross(q - p, r - p)), p, q, r); }
 
 double distance(const Space& space, const WeightedPoint& p, const WeightedPoint& q) {
-  return space.is_plane() ? length(q.position() - p.position()) : space.radius() * arc_length(lifted(p), lifted(q));
+  return space.is_plane() ? length(q.position() - p.position())
+                          : space.radius() * arc_length(as_vector(p), as_vector(q));
 }
 
 double corner_angle(const Space& space, const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
   return space.is_plane() ? corner_angle(p.position(), q.position(), r.position())
-                          : corner_angle(lifted(p), lifted(q), lifted(r));
+                          : corner_angle(as_vector(p), as_vector(q), as_vector(r));
 }
 
 }  // namespace temper

@@ -52,7 +52,8 @@ inline auto doubled_crossing(const WeightedPoint& p, const WeightedPoint& q) {
   return dot(pq, pq) + difference(p.w, q.w);
 }
 
-// --- of lifted points ----------------------------------------------------------------------------------------------
+// --- of weighted vectors
+// ----------------------------------------------------------------------------------------------
 
 struct ExactVector3 {
   Expansion<2> x, y, z;

@@ -79,7 +79,7 @@ class Ground {
   /// A number that grows with the area of a triangle: twice that, or the solid angle.
   [[nodiscard]] double extent(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) const {
     return is_plane() ? doubled_area(p.position(), q.position(), r.position())
-                      : solid_angle(lifted(p), lifted(q), lifted(r));
+                      : solid_angle(as_vector(p), as_vector(q), as_vector(r));
   }
 
   /// p on the line of ab: is it between them, neither of both?

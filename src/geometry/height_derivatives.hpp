@@ -139,7 +139,7 @@ TEMPER_INLINE PlaneVector<T> gradient_of_l2(const Spoke<T>& a) {
   return {-2.0 * a.x, -2.0 * a.y};
 }
 template <class T>
-TEMPER_INLINE CornerVector<T> gradient_of_l2(const LiftedSpoke<T>& a) {
+TEMPER_INLINE CornerVector<T> gradient_of_l2(const SphereSpoke<T>& a) {
   return {-2.0 * a.x, -2.0 * a.y, -2.0 * (a.sigma * a.z)};
 }
 
@@ -170,7 +170,7 @@ TEMPER_INLINE void add_curvature(const Spoke<T>&, const T& f_l, const T&, Corner
   sum.add_in_plane(2.0 * f_l);
 }
 template <class T>
-TEMPER_INLINE void add_curvature(const LiftedSpoke<T>& a, const T& f_l, const T& f_w, CornerMatrix<T>& sum) {
+TEMPER_INLINE void add_curvature(const SphereSpoke<T>& a, const T& f_l, const T& f_w, CornerMatrix<T>& sum) {
   const T f = 2.0 * (f_l + f_w);
   sum.add_in_plane(f);
   sum.ww = sum.ww + f * (a.sigma * a.sigma);
@@ -200,7 +200,7 @@ TEMPER_INLINE void bend(const Chart<T>& chart, CornerDerivatives<T>& d) {
 ///
 /// Below all vectors are in the chart's (x, y, w): their part along up times σ.
 template <class T>
-struct HeightsAtLiftedCorner {
+struct HeightsAtSphereCorner {
   CornerVector<T> pq, qr, rp;  ///< gradients
   CornerVector<T> area;        ///< m
   CornerVector<T> normal, c;   ///< n̂, c
@@ -216,9 +216,9 @@ struct HeightsAtLiftedCorner {
 };
 
 template <class T>
-TEMPER_INLINE HeightsAtLiftedCorner<T> heights_at_corner(const LiftedSpoke<T>& a, const LiftedSpoke<T>& b,
+TEMPER_INLINE HeightsAtSphereCorner<T> heights_at_corner(const SphereSpoke<T>& a, const SphereSpoke<T>& b,
                                                          const T& inverse_area) {
-  HeightsAtLiftedCorner<T> h;
+  HeightsAtSphereCorner<T> h;
   const T cx = b.x - a.x, cy = b.y - a.y, cz = b.z - a.z, qz = a.rho + a.z, sigma = a.sigma;
   const T nx = (a.y * b.z - a.z * b.y) * inverse_area, ny = (a.z * b.x - a.x * b.z) * inverse_area;
   const T nz = (a.x * b.y - a.y * b.x) * inverse_area;
@@ -252,10 +252,10 @@ struct InPlaneOf {
 template <class T>
 struct OnSphereOf {
   using Scalar = T;
-  using Point = LiftedPointOf<T>;
+  using Point = WeightedVectorOf<T>;
   using Center = Chart<T>;
-  using Spoke = LiftedSpoke<T>;
-  using Heights = HeightsAtLiftedCorner<T>;
+  using Spoke = SphereSpoke<T>;
+  using Heights = HeightsAtSphereCorner<T>;
 };
 
 // Vectors and matrices in the six differences (q − p, w_q − w_p, r − p, w_r − w_p).

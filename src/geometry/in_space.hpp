@@ -17,13 +17,13 @@ namespace temper {
 
 /// The places midway; their weights mean nothing.
 [[nodiscard]] inline WeightedPoint middle(const Space& space, const WeightedPoint& a, const WeightedPoint& b) {
-  if (!space.is_plane()) return as_point(0.5 * (lifted(a) + lifted(b)));
+  if (!space.is_plane()) return as_point(0.5 * (as_vector(a) + as_vector(b)));
   const Vec2 p = 0.5 * (a.position() + b.position());
   return {p.x, p.y, 0};
 }
 [[nodiscard]] inline WeightedPoint middle(const Space& space, const WeightedPoint& a, const WeightedPoint& b,
                                           const WeightedPoint& c) {
-  if (!space.is_plane()) return as_point((1.0 / 3) * (lifted(a) + lifted(b) + lifted(c)));
+  if (!space.is_plane()) return as_point((1.0 / 3) * (as_vector(a) + as_vector(b) + as_vector(c)));
   const Vec2 p = (1.0 / 3) * (a.position() + b.position() + c.position());
   return {p.x, p.y, 0};
 }
@@ -31,19 +31,19 @@ namespace temper {
 /// The place of the orthocenter, with weight 0.
 [[nodiscard]] inline WeightedPoint orthocenter(const Space& space, const WeightedPoint& a, const WeightedPoint& b,
                                                const WeightedPoint& c) {
-  if (!space.is_plane()) return as_point(space.radius() * orthocenter(lifted(a), lifted(b), lifted(c)));
+  if (!space.is_plane()) return as_point(space.radius() * orthocenter(as_vector(a), as_vector(b), as_vector(c)));
   const Vec2 o = orthocenter(a, b, c);
   return {o.x, o.y, 0};
 }
 
 /// The vertex at a place inside triangle abc with the weight that is linear between the corners': never hidden, since
-/// the plane through the lifted corners is beyond.
+/// the plane through the weighted vectors of the corners is beyond.
 [[nodiscard]] inline WeightedPoint with_interpolated_weight(const Space& space, const WeightedPoint& p,
                                                             const WeightedPoint& a, const WeightedPoint& b,
                                                             const WeightedPoint& c) {
   const auto across = [&](const WeightedPoint& q, const WeightedPoint& r) {  // of the triangle pqr, or of 0pqr
     return space.is_plane() ? cross(q.position() - p.position(), r.position() - p.position())
-                            : dot(lifted(p), cross(lifted(q), lifted(r)));
+                            : dot(as_vector(p), cross(as_vector(q), as_vector(r)));
   };
   const double at_a = across(b, c), at_b = across(c, a), at_c = across(a, b);
   return space.with_weight(
@@ -52,27 +52,27 @@ namespace temper {
 
 /// The place in the coordinates of its space, without its weight: of the plane with z = 0.
 [[nodiscard]] inline Vec3 place_in_space(const Space& space, const WeightedPoint& p) {
-  return space.is_plane() ? Vec3{p.x, p.y, 0} : lifted(space.with_weight(p, 0));
+  return space.is_plane() ? Vec3{p.x, p.y, 0} : as_vector(space.with_weight(p, 0));
 }
 
 /// The dual of the edge ab with c on its left and d on its right [length]. Signed.
 [[nodiscard]] inline double dual_length(const Space& space, const WeightedPoint& a, const WeightedPoint& b,
                                         const WeightedPoint& c, const WeightedPoint& d) {
   if (space.is_plane()) return signed_height(a, b, c) + signed_height(b, a, d);
-  const Vec3 p = lifted(a), q = lifted(b);
-  return space.radius() * (signed_height(p, q, lifted(c)) + signed_height(q, p, lifted(d)));
+  const Vec3 p = as_vector(a), q = as_vector(b);
+  return space.radius() * (signed_height(p, q, as_vector(c)) + signed_height(q, p, as_vector(d)));
 }
 
 /// The weighted midpoint of an edge; on the sphere the foot of the perpendicular from its center.
 [[nodiscard]] inline WeightedPoint weighted_midpoint(const Space& space, const WeightedPoint& a,
                                                      const WeightedPoint& b) {
-  const Vec3 p = lifted(a), along = space.chord(a, b);
+  const Vec3 p = as_vector(a), along = space.chord(a, b);
   if (!space.is_plane()) return as_point(p - (dot(p, along) / squared_length(along)) * along);
   const double part = dual_crossing(a, b) / length(along);
   return {a.x + part * along.x, a.y + part * along.y, 0};
 }
 
-/// Twice the area of a triangle, of which one corner is p; on the sphere of that of the lifted points.
+/// Twice the area of a triangle, of which one corner is p; on the sphere of that of the weighted vectors.
 [[nodiscard]] inline double unsigned_doubled_area(const Space& space, const WeightedPoint& p, const WeightedPoint& q,
                                                   const WeightedPoint& r) {
   const Vec3 across = cross(space.chord(p, q), space.chord(p, r));
@@ -83,7 +83,7 @@ namespace temper {
 /// both great circles are the same, or opposite.) Exact.
 [[nodiscard]] inline bool is_ahead(const Space& space, const WeightedPoint& v, const WeightedPoint& a,
                                    const WeightedPoint& b) {
-  if (!space.is_plane()) return dot(cross(lifted(v), lifted(a)), cross(lifted(v), lifted(b))) > 0;
+  if (!space.is_plane()) return dot(cross(as_vector(v), as_vector(a)), cross(as_vector(v), as_vector(b))) > 0;
   return (v.x < a.x) == (v.x < b.x) && (v.x > a.x) == (v.x > b.x) && (v.y < a.y) == (v.y < b.y) &&
          (v.y > a.y) == (v.y > b.y);
 }
@@ -140,7 +140,7 @@ inline double right_triangle_areas(const Space& space, double d, double left, do
 [[nodiscard]] inline bool is_between(const Space& space, const WeightedPoint& a, const WeightedPoint& b,
                                      const WeightedPoint& p) {
   return space.is_plane() ? is_between(a.position(), b.position(), p.position())
-                          : is_between(lifted(a), lifted(b), lifted(p));
+                          : is_between(as_vector(a), as_vector(b), as_vector(p));
 }
 
 }  // namespace temper

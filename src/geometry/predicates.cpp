@@ -130,11 +130,11 @@ Sign power_test(const Space& space, const WeightedPoint& a, const WeightedPoint&
 Sign power_test_perturbed(const Space& space, const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
                           const WeightedPoint& d, const std::array<std::uint32_t, 4>& index) {
   if (space.is_plane()) return power_test_perturbed(a, b, c, d, index);
-  return power_test_perturbed(lifted(a), lifted(b), lifted(c), lifted(d), index);
+  return power_test_perturbed(as_vector(a), as_vector(b), as_vector(c), as_vector(d), index);
 }
 
 Sign signed_height_sign(const Space& space, const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
-  return space.is_plane() ? signed_height_sign(p, q, r) : signed_height_sign(lifted(p), lifted(q), lifted(r));
+  return space.is_plane() ? signed_height_sign(p, q, r) : signed_height_sign(as_vector(p), as_vector(q), as_vector(r));
 }
 bool is_well_centered(const Space& space, const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
   return inlined::is_well_centered(space, p, q, r);

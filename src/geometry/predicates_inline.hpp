@@ -50,11 +50,11 @@ inline constexpr double kHeightBound = 16 * kUnitRoundoff;
 // On the sphere. 7: minor 4, its product with a coordinate, two sums.
 inline constexpr double kOrientationBound = 8 * kUnitRoundoff;
 // 8: minor 4, its product with a difference 2, two sums.
-inline constexpr double kLiftedPowerTestBound = 16 * kUnitRoundoff;
+inline constexpr double kSpherePowerTestBound = 16 * kUnitRoundoff;
 // 4: difference, product, two sums.
-inline constexpr double kLiftedDualCrossingBound = 8 * kUnitRoundoff;
+inline constexpr double kSphereDualCrossingBound = 8 * kUnitRoundoff;
 // 11: dot product 4, dot product of differences 5, their product, one sum.
-inline constexpr double kLiftedHeightBound = 16 * kUnitRoundoff;
+inline constexpr double kSphereHeightBound = 16 * kUnitRoundoff;
 
 /// A value whose sign is a predicate, with a bound of its rounding: the sign is right where the value is beyond the
 /// bound. The functions that return it take points of doubles or of packs (base/pack.hpp).
@@ -63,13 +63,13 @@ struct Filtered {
   T value, bound;
 };
 
-/// A vertex as the plane has it, and as the sphere does: x, y, w, or x, y, z of the lifted point.
+/// A vertex as the plane has it, and as the sphere does: x, y, w, or x, y, z of the weighted vector.
 template <class Point>
 concept Planar = requires(const Point& p) {
   p.w;
 };
 template <class Point>
-concept Lifted = requires(const Point& p) {
+concept OnSphere = requires(const Point& p) {
   p.z;
 };
 
@@ -173,7 +173,7 @@ TEMPER_INLINE auto filtered_dual_crossing(const Point& p, const Point& q) {
 // --- on the sphere: all from differences of neighbours, of which few digits cancel -------------------------------
 
 /// det(P, Q, R) = P·((Q − P) × (R − P)).
-template <Lifted Point>
+template <OnSphere Point>
 TEMPER_INLINE auto filtered_orientation(const Point& p, const Point& q, const Point& r) {
   using T = decltype(q.x - p.x);
   const T ax = q.x - p.x, ay = q.y - p.y, az = q.z - p.z;
@@ -187,7 +187,7 @@ TEMPER_INLINE auto filtered_orientation(const Point& p, const Point& q, const Po
 }
 
 /// − det(A − D, B − D, C − D).
-template <Lifted Point>
+template <OnSphere Point>
 TEMPER_INLINE auto filtered_power_test(const Point& a, const Point& b, const Point& c, const Point& d) {
   using T = decltype(a.x - d.x);
   const T ax = a.x - d.x, ay = a.y - d.y, az = a.z - d.z;
@@ -200,11 +200,11 @@ TEMPER_INLINE auto filtered_power_test(const Point& a, const Point& b, const Poi
   const T permanent = absolute(az) * (absolute(bxcy) + absolute(bycx)) +
                       absolute(bz) * (absolute(cxay) + absolute(cyax)) +
                       absolute(cz) * (absolute(axby) + absolute(aybx));
-  return Filtered<T>{-determinant, kLiftedPowerTestBound * permanent};
+  return Filtered<T>{-determinant, kSpherePowerTestBound * permanent};
 }
 
 /// (P × Q)·n = (P·a) (a·b) − (P·b) |a|², with a = Q − P, b = R − P and n = a × b.
-template <Lifted Point>
+template <OnSphere Point>
 TEMPER_INLINE auto filtered_height_numerator(const Point& p, const Point& q, const Point& r) {
   using T = decltype(q.x - p.x);
   const T ax = q.x - p.x, ay = q.y - p.y, az = q.z - p.z;
@@ -217,15 +217,15 @@ TEMPER_INLINE auto filtered_height_numerator(const Point& p, const Point& q, con
   const T permanent =
       (absolute(pax) + absolute(pay) + absolute(paz)) * (absolute(abx) + absolute(aby) + absolute(abz)) +
       (absolute(pbx) + absolute(pby) + absolute(pbz)) * aa;
-  return Filtered<T>{numerator, kLiftedHeightBound * permanent};
+  return Filtered<T>{numerator, kSphereHeightBound * permanent};
 }
 
 /// P·(P − Q).
-template <Lifted Point>
+template <OnSphere Point>
 TEMPER_INLINE auto filtered_dual_crossing(const Point& p, const Point& q) {
   using T = decltype(q.x - p.x);
   const T x = p.x * (p.x - q.x), y = p.y * (p.y - q.y), z = p.z * (p.z - q.z);
-  return Filtered<T>{x + y + z, kLiftedDualCrossingBound * (absolute(x) + absolute(y) + absolute(z))};
+  return Filtered<T>{x + y + z, kSphereDualCrossingBound * (absolute(x) + absolute(y) + absolute(z))};
 }
 
 // --- in the space of a mesh: what the plane does is inlined, the sphere is a call -------------------------------
@@ -234,28 +234,28 @@ TEMPER_INLINE auto filtered_dual_crossing(const Point& p, const Point& q) {
                                       const WeightedPoint& r) {
   if (space.is_plane()) [[likely]]
     return inlined::orient2d(p.position(), q.position(), r.position());
-  return temper::orientation(lifted(p), lifted(q), lifted(r));
+  return temper::orientation(as_vector(p), as_vector(q), as_vector(r));
 }
 
 [[nodiscard]] inline Sign power_test(const Space& space, const WeightedPoint& a, const WeightedPoint& b,
                                      const WeightedPoint& c, const WeightedPoint& d) {
   if (space.is_plane()) [[likely]]
     return inlined::power_test(a, b, c, d);
-  return temper::power_test(lifted(a), lifted(b), lifted(c), lifted(d));
+  return temper::power_test(as_vector(a), as_vector(b), as_vector(c), as_vector(d));
 }
 
 [[nodiscard]] inline bool crosses_edge(const Space& space, const WeightedPoint& p, const WeightedPoint& q) {
   if (space.is_plane()) [[likely]]
     return inlined::crosses_edge(p, q);
-  return temper::dual_crossing_sign(lifted(p), lifted(q)) == Sign::positive &&
-         temper::dual_crossing_sign(lifted(q), lifted(p)) == Sign::positive;
+  return temper::dual_crossing_sign(as_vector(p), as_vector(q)) == Sign::positive &&
+         temper::dual_crossing_sign(as_vector(q), as_vector(p)) == Sign::positive;
 }
 
 [[nodiscard]] inline bool is_well_centered(const Space& space, const WeightedPoint& p, const WeightedPoint& q,
                                            const WeightedPoint& r) {
   if (space.is_plane()) [[likely]]
     return inlined::is_well_centered(p, q, r);
-  return temper::is_well_centered(lifted(p), lifted(q), lifted(r));
+  return temper::is_well_centered(as_vector(p), as_vector(q), as_vector(r));
 }
 
 }  // namespace temper::inlined

@@ -54,9 +54,9 @@ struct PointOf {
   T x, y, w;
 };
 
-/// The lifted point of a vertex on the sphere.
+/// The weighted vector of a vertex on the sphere.
 template <class T>
-struct LiftedPointOf {
+struct WeightedVectorOf {
   T x, y, z;
 };
 
@@ -97,12 +97,12 @@ TEMPER_INLINE PointOf<T> seen_from(const PointOf<T>& p) {
 /// P with its chart: unit vectors e₁, e₂ and up, and σ = 1/(2ρ).
 template <class T>
 struct Chart {
-  LiftedPointOf<T> at;
-  LiftedPointOf<T> e1, e2, up;
+  WeightedVectorOf<T> at;
+  WeightedVectorOf<T> e1, e2, up;
   T rho, sigma;
 
   /// The point that a step leads to; of no step P itself, bit for bit.
-  TEMPER_INLINE LiftedPointOf<T> moved(const T& x, const T& y, const T& w) const {
+  TEMPER_INLINE WeightedVectorOf<T> moved(const T& x, const T& y, const T& w) const {
     // 1 + f is √((ρ² + w)/(ρ² + x² + y²)).
     const T rho2 = rho * rho, s2 = x * x + y * y, root = square_root((rho2 + w) / (rho2 + s2));
     const T f = (w - s2) / ((rho2 + s2) * (root + 1)), g = 1 + f;
@@ -113,7 +113,7 @@ struct Chart {
 
 /// e₁ and e₂ without a branch (Duff et al., Building an orthonormal basis, revisited, JCGT 6, 2017).
 template <class T>
-TEMPER_INLINE Chart<T> seen_from(const LiftedPointOf<T>& p) {
+TEMPER_INLINE Chart<T> seen_from(const WeightedVectorOf<T>& p) {
   const T rho = square_root(p.x * p.x + p.y * p.y + p.z * p.z), inverse = 1.0 / rho;
   const T x = p.x * inverse, y = p.y * inverse, z = p.z * inverse;
   const T sign = select(z < all<T>(0), all<T>(-1), all<T>(1)), a = all<T>(-1) / (sign + z), b = x * y * a;
@@ -122,7 +122,7 @@ TEMPER_INLINE Chart<T> seen_from(const LiftedPointOf<T>& p) {
 
 /// From P to another corner, in the chart of P.
 template <class T>
-struct LiftedSpoke {
+struct SphereSpoke {
   T x, y, z;     ///< a
   T l2;          ///< |a|²
   T dw;          ///< |P|² − |Q|²
@@ -131,7 +131,7 @@ struct LiftedSpoke {
 };
 
 template <class T>
-TEMPER_INLINE LiftedSpoke<T> spoke(const Chart<T>& p, const LiftedPointOf<T>& q) {
+TEMPER_INLINE SphereSpoke<T> spoke(const Chart<T>& p, const WeightedVectorOf<T>& q) {
   const T dx = q.x - p.at.x, dy = q.y - p.at.y, dz = q.z - p.at.z;
   const T x = dx * p.e1.x + dy * p.e1.y + dz * p.e1.z, y = dx * p.e2.x + dy * p.e2.y + dz * p.e2.z;
   const T z = dx * p.up.x + dy * p.up.y + dz * p.up.z;
@@ -140,8 +140,8 @@ TEMPER_INLINE LiftedSpoke<T> spoke(const Chart<T>& p, const LiftedPointOf<T>& q)
 }
 
 template <class T>
-TEMPER_INLINE TriangleShapeOf<T> triangle_shape(const LiftedSpoke<T>& a, const LiftedSpoke<T>& b,
-                                                const LiftedPointOf<T>& q, const LiftedPointOf<T>& r) {
+TEMPER_INLINE TriangleShapeOf<T> triangle_shape(const SphereSpoke<T>& a, const SphereSpoke<T>& b,
+                                                const WeightedVectorOf<T>& q, const WeightedVectorOf<T>& r) {
   const T nx = a.y * b.z - a.z * b.y, ny = a.z * b.x - a.x * b.z, nz = a.x * b.y - a.y * b.x;
   const T area = square_root(nx * nx + ny * ny + nz * nz), s = select(nz < all<T>(0), -area, area);
   const T ab = a.x * b.x + a.y * b.y + a.z * b.z, inverse = 1.0 / s;
@@ -158,7 +158,7 @@ TEMPER_INLINE TriangleShapeOf<T> triangle_shape(const LiftedSpoke<T>& a, const L
   return {{s.pq, s.qr, s.rp}, s.doubled_area};
 }
 
-[[nodiscard]] TEMPER_INLINE LiftedPointOf<double> lifted_point(const WeightedPoint& p) { return {p.x, p.y, p.w}; }
+[[nodiscard]] TEMPER_INLINE WeightedVectorOf<double> weighted_vector(const WeightedPoint& p) { return {p.x, p.y, p.w}; }
 
 /// ℓ² and Δw of an edge in the space of its mesh.
 struct EdgeMeasures {
@@ -166,8 +166,8 @@ struct EdgeMeasures {
 };
 // What the sphere does is behind a call, with points by value: in the plane they stay in registers.
 [[gnu::noinline]] inline EdgeMeasures edge_measures_on_sphere(WeightedPoint p, WeightedPoint q) {
-  const Vec3 c = lifted(q) - lifted(p);
-  return {squared_length(c), -dot(c, lifted(p) + lifted(q))};
+  const Vec3 c = as_vector(q) - as_vector(p);
+  return {squared_length(c), -dot(c, as_vector(p) + as_vector(q))};
 }
 [[nodiscard]] TEMPER_INLINE EdgeMeasures edge_measures(const Space& space, const WeightedPoint& p,
                                                        const WeightedPoint& q) {
@@ -177,8 +177,8 @@ struct EdgeMeasures {
 }
 
 [[gnu::noinline]] inline TriangleShape triangle_shape_on_sphere(WeightedPoint p, WeightedPoint q, WeightedPoint r) {
-  const Chart<double> from = seen_from(lifted_point(p));
-  const LiftedPointOf<double> to_q = lifted_point(q), to_r = lifted_point(r);
+  const Chart<double> from = seen_from(weighted_vector(p));
+  const WeightedVectorOf<double> to_q = weighted_vector(q), to_r = weighted_vector(r);
   const TriangleShapeOf<double> s = triangle_shape(spoke(from, to_q), spoke(from, to_r), to_q, to_r);
   return {{s.pq, s.qr, s.rp}, s.doubled_area};
 }
@@ -196,7 +196,7 @@ struct EdgeMeasures {
                                          double t) {
   if (space.is_plane()) [[likely]]
     return {p.x + t * step[0], p.y + t * step[1], p.w + t * step[2]};
-  const LiftedPointOf<double> q = seen_from(lifted_point(p)).moved(t * step[0], t * step[1], t * step[2]);
+  const WeightedVectorOf<double> q = seen_from(weighted_vector(p)).moved(t * step[0], t * step[1], t * step[2]);
   return {q.x, q.y, q.z};
 }
 
@@ -205,7 +205,7 @@ struct EdgeMeasures {
 [[nodiscard]] inline Vec2 direction_to(const Space& space, const WeightedPoint& p, const WeightedPoint& q) {
   if (space.is_plane()) [[likely]]
     return q.position() - p.position();
-  const LiftedSpoke<double> a = spoke(seen_from(lifted_point(p)), lifted_point(q));
+  const SphereSpoke<double> a = spoke(seen_from(weighted_vector(p)), weighted_vector(q));
   return a.rho / (a.rho + a.z) * Vec2{a.x, a.y};
 }
 

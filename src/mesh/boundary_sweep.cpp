@@ -175,7 +175,7 @@ struct Arc {
 
 Arc arc_of(const Mesh& mesh, HalfedgeId h) {
   const auto unit = [](Vec3 p) { return (1 / length(p)) * p; };
-  const Vec3 a = unit(mesh.lifted_point(mesh.origin(h))), b = unit(mesh.lifted_point(mesh.target(h)));
+  const Vec3 a = unit(mesh.weighted_vector(mesh.origin(h))), b = unit(mesh.weighted_vector(mesh.target(h)));
   // An arc leaves its chord c by at most 1 − √(1 − c²/4), which is below c²/4 for chords up to 2.
   const double out = 0.25 * squared_length(b - a) + 1e-14;
   return {h,
@@ -202,7 +202,7 @@ bool arcs_meet(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
 bool meet(const Mesh& mesh, HalfedgeId g, HalfedgeId h) {
   const VertexId a = mesh.origin(g), b = mesh.target(g), c = mesh.origin(h), d = mesh.target(h);
   if (b == c || d == a) return false;  // neighbours on their loop, which go different ways
-  return arcs_meet(mesh.lifted_point(a), mesh.lifted_point(b), mesh.lifted_point(c), mesh.lifted_point(d));
+  return arcs_meet(mesh.weighted_vector(a), mesh.weighted_vector(b), mesh.weighted_vector(c), mesh.weighted_vector(d));
 }
 
 /// From south to north: each arc with those that begin no farther north than it ends.

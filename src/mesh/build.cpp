@@ -273,7 +273,7 @@ class MeshBuilder {
   std::optional<InputError> find_duplicate() const {
     std::vector<std::uint32_t> order(n_points());
     std::iota(order.begin(), order.end(), 0u);
-    const auto at = [&](std::uint32_t i) { return lifted(in_.space.in_domain(as_point(place(i)))); };
+    const auto at = [&](std::uint32_t i) { return as_vector(in_.space.in_domain(as_point(place(i)))); };
     const auto before = [&](std::uint32_t a, std::uint32_t b) {
       const Vec3 p = at(a), q = at(b);
       if (p.x != q.x) return p.x < q.x;

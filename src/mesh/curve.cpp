@@ -23,7 +23,7 @@ struct Keys {
 Keys keys_on_sphere(const Mesh& mesh, Executor* executor) {
   Keys keys{IdVector<VertexId, std::uint64_t>(mesh.n_vertices()), kCubeBits};
   for_each_index(mesh.n_vertices(), executor,
-                 [&](std::size_t i) { keys.of[VertexId(i)] = cube_hilbert_index(mesh.lifted_point(VertexId(i))); });
+                 [&](std::size_t i) { keys.of[VertexId(i)] = cube_hilbert_index(mesh.weighted_vector(VertexId(i))); });
   return keys;
 }
 Keys keys_in_plane(const Mesh& mesh, Executor* executor) {

@@ -26,7 +26,7 @@ struct EdgeLengths {
   return {length, (left.g + right.g) / length};
 }
 
-/// The squared length of the shortest edge at v, on the sphere between lifted points; +∞ at a vertex of no triangle.
+/// The squared length of the shortest edge at v, on the sphere between weighted vectors; +∞ at a vertex of no triangle.
 [[nodiscard]] inline double squared_shortest_edge(const Mesh& mesh, VertexId v) {
   const WeightedPoint p = mesh.point(v);
   double least = std::numeric_limits<double>::infinity();

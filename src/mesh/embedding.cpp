@@ -31,7 +31,7 @@ bool is_upper(Vec3 v, Vec3 p) {
 }
 
 bool is_upper(const Mesh& mesh, VertexId v, VertexId p) {
-  if (!mesh.space().is_plane()) return is_upper(mesh.lifted_point(v), mesh.lifted_point(p));
+  if (!mesh.space().is_plane()) return is_upper(mesh.weighted_vector(v), mesh.weighted_vector(p));
   const WeightedPoint from = mesh.point(v);
   return is_upper(from.position(), mesh.point(p, from).position());
 }

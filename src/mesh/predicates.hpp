@@ -25,7 +25,8 @@ namespace temper::inlined {
     const auto [p, q, r] = mesh.points(a, b, c);
     return temper::power_test(p, q, r, mesh.point(d, p));
   }
-  return temper::power_test(mesh.lifted_point(a), mesh.lifted_point(b), mesh.lifted_point(c), mesh.lifted_point(d));
+  return temper::power_test(mesh.weighted_vector(a), mesh.weighted_vector(b), mesh.weighted_vector(c),
+                            mesh.weighted_vector(d));
 }
 
 /// Of the edge ab, with c on its left and d on its right. Which space it is, is asked before points are fetched: in the

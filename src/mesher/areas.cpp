@@ -282,8 +282,8 @@ class AreaFinder {
     for (const TriangleId t : hull_.mesh.triangles()) {
       const auto [a, b, c] = hull_.mesh.corners(t);
       const Mesh& mesh = hull_.mesh;
-      area[component_[t]] +=
-          solid_angle(mesh.lifted_point(a), mesh.lifted_point(b), mesh.lifted_point(c)) / (4 * std::numbers::pi);
+      area[component_[t]] += solid_angle(mesh.weighted_vector(a), mesh.weighted_vector(b), mesh.weighted_vector(c)) /
+                             (4 * std::numbers::pi);
     }
     return area;
   }

@@ -9,7 +9,7 @@ namespace temper {
 
 [[nodiscard]] inline Vec3 place_of(const Space& space, const WeightedPoint& p) {
   if (space.is_plane()) return {p.x, p.y, 0};
-  return (1 / length(lifted(p))) * lifted(p);
+  return (1 / length(as_vector(p))) * as_vector(p);
 }
 [[nodiscard]] inline Vec3 place_of(const Mesh& mesh, VertexId v) { return place_of(mesh.space(), mesh.point(v)); }
 /// Of images of a periodic plane the one nearest to a point.

@@ -70,7 +70,7 @@ double TriangleMeasure::margin() const {
 }
 
 TriangleMeasure measure_triangle(const Space& space, const std::array<WeightedPoint, 3>& p) {
-  if (!space.is_plane()) return measure_on_sphere({lifted(p[0]), lifted(p[1]), lifted(p[2])});
+  if (!space.is_plane()) return measure_on_sphere({as_vector(p[0]), as_vector(p[1]), as_vector(p[2])});
   TriangleMeasure m;
   m.orientation = orient2d(p[0].position(), p[1].position(), p[2].position());
   measure_heights(m, p);
@@ -274,7 +274,7 @@ std::string degrees(double angle) {
 Vec2 middle_of(const Mesh& mesh, TriangleId t) {
   const auto [a, b, c] = mesh.points(t);
   const double part = mesh.space().dimension() == 2 ? 1.0 / 3 : 1;  // on the sphere the direction counts
-  return mesh.space().as_shown(part * (lifted(a) + lifted(b) + lifted(c)));
+  return mesh.space().as_shown(part * (as_vector(a) + as_vector(b) + as_vector(c)));
 }
 
 WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names) {

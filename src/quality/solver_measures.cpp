@@ -160,9 +160,9 @@ double centroid_offset(const Space& space, const Ring& ring) {
   const Vec3 at = space.place(ring.center), up = space.up(as_point(at));
   Vec3 moment = {0, 0, 0};
   double doubled = 0;
-  Vec3 from = lifted(orthocenter(space, ring.center, ring.before(0), ring.around[0])) - at;
+  Vec3 from = as_vector(orthocenter(space, ring.center, ring.before(0), ring.around[0])) - at;
   for (std::size_t k = 0; k < ring.around.size(); ++k) {
-    const Vec3 to = lifted(orthocenter(space, ring.center, ring.around[k], ring.after(k))) - at;
+    const Vec3 to = as_vector(orthocenter(space, ring.center, ring.around[k], ring.after(k))) - at;
     const double area = dot(up, cross(from, to));
     moment = moment + (area / 3) * (from + to);
     doubled += area;

@@ -22,8 +22,8 @@ struct Quadratic {
 /// −F(t) on the sphere: how far p(t) is above the plane of the face.
 Quadratic conflict_on_sphere(const WeightedPoint& p, const WeightedPoint& a, const WeightedPoint& b,
                              const WeightedPoint& c, const std::array<double, 3>& step) {
-  const Vec3 from = lifted(a), n = cross(lifted(b) - from, lifted(c) - from);
-  return {dot(n, lifted(p) - from), dot(n, {step[0], step[1], step[2]}), 0};
+  const Vec3 from = as_vector(a), n = cross(as_vector(b) - from, as_vector(c) - from);
+  return {dot(n, as_vector(p) - from), dot(n, {step[0], step[1], step[2]}), 0};
 }
 
 /// −F(t) in the plane, for the lifted points a, b, c seen from p: positive when p(t) conflicts with triangle abc
@@ -98,7 +98,7 @@ double weight_flip_threshold(const Mesh& mesh, VertexId v, double direction) {
   const double sign = direction > 0 ? 1.0 : direction < 0 ? -1.0 : 0.0;
   if (mesh.space().is_plane()) return flip_threshold(mesh, v, {0, 0, sign});
   // P (1 ± t) has the weight |P|² (1 ± t)² − R²; past the center there is none.
-  const Vec3 p = mesh.lifted_point(v);
+  const Vec3 p = mesh.weighted_vector(v);
   const double t = flip_threshold(mesh, v, {sign * p.x, sign * p.y, sign * p.z});
   if (t == kNoThreshold || (sign < 0 && t >= 1)) return kNoThreshold;
   return squared_length(p) * t * (2 + sign * t);

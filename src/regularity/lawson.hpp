@@ -7,8 +7,8 @@
 // weights.) At most O(n²) flips; about as many as there are vertices in practice. The signed volume under the surface
 // falls by that tetrahedron's whatever the triangles' orientation, so it ends even where some are turned over; but
 // then a flip may join two vertices that have an edge already. All triangles counter-clockwise is a precondition.
-// On the sphere the surface is the polyhedron of the lifted points (space.hpp), below is farther from the center, and
-// all of this holds as it stands.
+// On the sphere the surface is the polyhedron of the weighted vectors (space.hpp), below is farther from the center,
+// and all of this holds as it stands.
 //
 // Which edges are queued. A flip can spoil, or free, only the four edges around it: it pushes those. The queue
 // holds halfedge slots, with no check when one is taken out. That is safe: a flip moves edges between slots of its

@@ -47,7 +47,7 @@ WeightedPoint split_point(const Space& space, const WeightedPoint& a, const Weig
   const Vec3 from = ground.place(a), to = ground.place(b), p = ground.between(from, to, t);
   // The piece ap has both d inside when σ is between σ_a cos(ap) and σ_a / cos(ap), σ = R/|P|, and the other likewise.
   const double r = space.radius(), r2 = r * r;
-  const double sigma_a = r / length(lifted(a)), sigma_b = r / length(lifted(b));
+  const double sigma_a = r / length(as_vector(a)), sigma_b = r / length(as_vector(b));
   const double cos_a = std::cos(arc_length(from, p)), cos_b = std::cos(arc_length(p, to));
   const auto highest = [](double sigma, double cosine) { return cosine > 0 ? sigma / cosine : kNoLimit; };
   const double w = space.weight(a) + t * (space.weight(b) - space.weight(a)), linear = r / std::sqrt(r2 + w);

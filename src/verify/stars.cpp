@@ -67,7 +67,7 @@ struct Cross {
 
 EdgeMeans means_on_sphere(const Setting& s, const Field& field, EdgeId e) {
   const DecEdge& edge = s.dec.edges[e];
-  const Vec3 p = s.mesh.lifted_point(edge.from), q = s.mesh.lifted_point(edge.to), middle = s.midpoint(e);
+  const Vec3 p = s.mesh.weighted_vector(edge.from), q = s.mesh.weighted_vector(edge.to), middle = s.midpoint(e);
   const Vec3 left = Setting::unit(cross(p, q - p));
   const Cross at = {middle, cross(left, middle), left};
   const double from = -s.length_in_frame(edge.crossing), to = s.length_in_frame(edge.length - edge.crossing);

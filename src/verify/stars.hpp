@@ -27,7 +27,7 @@ struct Setting {
   }
   [[nodiscard]] Place vertex(VertexId v) const {
     if (is_plane()) return in_frame(mesh.position(v));
-    return unit(mesh.lifted_point(v));
+    return unit(mesh.weighted_vector(v));
   }
   [[nodiscard]] Place orthocenter(TriangleId t) const {
     if (is_plane()) return in_frame(dec.orthocenters[t]);

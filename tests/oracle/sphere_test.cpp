@@ -88,7 +88,7 @@ Sign rational_perturbed_sign(const RationalQuad& q, const std::array<std::uint32
 
 int wrong_signs(const Quad& quad, const std::array<std::uint32_t, 4>& index) {
   const RationalQuad exact = to_rational(quad);
-  const Vec3 a = lifted(quad[0]), b = lifted(quad[1]), c = lifted(quad[2]), d = lifted(quad[3]);
+  const Vec3 a = as_vector(quad[0]), b = as_vector(quad[1]), c = as_vector(quad[2]), d = as_vector(quad[3]);
   return (orientation(a, b, c) != sign_of(determinant(exact[0], exact[1], exact[2]))) +
          (power_test(a, b, c, d) != sign_of(above(exact))) +
          (power_test_perturbed(a, b, c, d, index) != rational_perturbed_sign(exact, index)) +

@@ -29,7 +29,7 @@ ELSEWHERE = {
     "missing_need": "optimize warns", "spell_options": "texts are spelled", "stopped_early": "OptimizeReport.stopped",
     "read_number": "float", "read_by_strtod": "float",
     "triangle_values": "NumPy, of mesh and dec", "spread": "NumPy", "orient2d": "geometry.orientation",
-    "lifted": "Mesh.lifted_points", "as_point": "arrays have three columns", "expect_plane": "functions do it",
+    "lifted": "Mesh.weighted_vectors", "as_point": "arrays have three columns", "expect_plane": "functions do it",
     "expect_no_period": "functions do it",
     "local_sizes": "local_size",
     "dot": "NumPy", "cross": "NumPy", "length": "NumPy", "squared_length": "NumPy",

@@ -28,7 +28,7 @@ def tempered(globe):
 
 
 def faces_of(mesh):
-    return np.moveaxis(mesh.lifted_points[mesh.triangles], 1, 0)
+    return np.moveaxis(mesh.weighted_vectors[mesh.triangles], 1, 0)
 
 
 def unit(vectors):
@@ -66,30 +66,30 @@ def test_closed_meshes_go_in_and_out_unchanged():
     assert temper.Mesh(OCTAHEDRON, np.array(FACES)[:, ::-1], space=Space.sphere(1)).reversed_triangles == 8
 
 
-def test_places_are_on_the_sphere_and_lifted_points_are_weights_too(tempered):
-    places, lifted, weights = tempered.points, tempered.lifted_points, tempered.weights
+def test_places_are_on_the_sphere_and_weighted_vectors_are_weights_too(tempered):
+    places, lifted, weights = tempered.points, tempered.weighted_vectors, tempered.weights
     assert places.shape == lifted.shape == (300, 3) and np.ptp(weights) > 0
     assert np.allclose(np.linalg.norm(places, axis=1), EARTH, rtol=1e-15)
     assert np.allclose(np.sum(lifted**2, axis=1) - weights, EARTH**2, rtol=1e-15)
     assert np.allclose(places, EARTH * unit(lifted), rtol=1e-15)
     assert not any(array.flags.writeable for array in (places, lifted, weights))
-    assert not lifted.flags.owndata and lifted.strides == (32, 8)
+    assert without weights.flags.owndata and lifted.strides == (32, 8)
 
 
 def test_a_view_keeps_what_it_showed(globe):
-    lifted = globe.lifted_points
+    lifted = globe.weighted_vectors
     before = lifted.copy()
     temper.optimize(globe, max_sweeps=2)
-    assert np.array_equal(lifted, before) and not np.array_equal(globe.lifted_points, before)
+    assert np.array_equal(lifted, before) and not np.array_equal(globe.weighted_vectors, before)
 
 
 def test_copies_are_meshes_of_their_own_bit_for_bit(tempered):
     for other in (tempered.copy(), copy.deepcopy(tempered), pickle.loads(pickle.dumps(tempered))):
-        assert other == tempered and np.array_equal(other.lifted_points, tempered.lifted_points)
+        assert other == tempered and np.array_equal(other.weighted_vectors, tempered.weighted_vectors)
         other.weights = np.zeros(300)
         assert other != tempered
     again = temper.Mesh(tempered.points, tempered.triangles, tempered.weights, space=tempered.space)
-    assert np.allclose(again.lifted_points, tempered.lifted_points, rtol=0, atol=1e-8)
+    assert np.allclose(again.weighted_vectors, tempered.weighted_vectors, rtol=0, atol=1e-8)
 
 
 def test_vertices_are_assigned_at_once_or_not_at_all(globe):
@@ -125,10 +125,10 @@ def test_bad_points_are_refused_by_name(points, code, says):
     assert caught.value.code == code and says in caught.value.message
 
 
-def test_the_plane_has_no_lifted_points_and_no_third_coordinate(ring):
+def test_the_plane_has_no_weighted_vectors_and_no_third_coordinate(ring):
     assert ring.space == Space()
     with pytest.raises(temper.TemperError, match="the mesh is one of the plane"):
-        ring.lifted_points
+        ring.weighted_vectors
     with pytest.raises(ValueError, match=r"expected shape \(n, 3\), found \(6, 2\)"):
         temper.Mesh(OCTAHEDRON[:, :2], FACES, space=Space.sphere(1))
 
@@ -173,7 +173,7 @@ def test_files_keep_all_bits_of_what_has_no_weights(globe, in_scratch):
     temper.write("after.vtu", again)
     after = temper.read("after.vtu")
     assert np.array_equal(after.triangles, again.triangles)
-    assert np.allclose(after.lifted_points, again.lifted_points, rtol=1e-15)
+    assert np.allclose(after.weighted_vectors, again.weighted_vectors, rtol=1e-15)
 
 
 def test_data_are_assigned_on_a_sphere(globe):
@@ -240,7 +240,7 @@ def test_arcs_crossings_and_heights_are_what_vectors_say(tempered):
 
 def test_power_tests_say_that_no_point_is_above_a_face(tempered):
     p, q, r = faces_of(tempered)
-    lifted, space = tempered.lifted_points, tempered.space
+    lifted, space = tempered.weighted_vectors, tempered.space
     twins = tempered.twins.reshape(-1, 3)[:, 0]
     across = lifted[tempered.triangles.ravel()[3 * (twins // 3) + (twins + 2) % 3]]
     assert (geometry.power_test(p, q, r, across, space=space) == -1).all()
@@ -298,7 +298,7 @@ def test_explain_gives_reasons_with_places_in_degrees():
     bad = np.concatenate([reason.bad for reason in why.reasons])
     assert sorted(bad) == list(np.flatnonzero(~temper.triangle_quality(globe).well_centered))
     worst = why.reasons[0]
-    x, y, z = globe.lifted_points[globe.triangles[worst.bad[0]]].sum(axis=0)
+    x, y, z = globe.weighted_vectors[globe.triangles[worst.bad[0]]].sum(axis=0)
     assert np.allclose(worst.at, (np.degrees(np.arctan2(y, x)), np.degrees(np.arctan2(z, np.hypot(x, y)))))
     assert temper.check_certificate(globe, worst.certificate) == "proves"
     assert worst.cures and temper.edges_that_must_be_split(globe) == []
@@ -335,7 +335,7 @@ def test_what_is_for_the_plane_says_so(name, globe):
 def test_a_size_field_is_linear_between_the_points(globe, ring):
     sizes = 1e5 + np.arange(300.0)
     field = temper.SizeField.from_values(globe, sizes)
-    assert np.array_equal(field.at(globe.points), sizes) and np.array_equal(field.at(2 * globe.lifted_points), sizes)
+    assert np.array_equal(field.at(globe.points), sizes) and np.array_equal(field.at(2 * globe.weighted_vectors), sizes)
     middles = globe.points[globe.triangles].mean(axis=1)
     assert np.allclose(field.at(middles), sizes[globe.triangles].mean(axis=1)) and not field.outside(middles).any()
     with pytest.raises(ValueError, match=r"expected shape \(n, 3\), found \(1, 2\)"):
@@ -436,7 +436,7 @@ def test_operators_are_those_of_arcs(tempered):
     assert (complex.star1 > 0).all()
     a, b, c = faces_of(tempered)
     assert np.allclose(complex.orthocenters, EARTH * unit(np.cross(b - a, c - a)), rtol=0, atol=1e-5)
-    p, q = np.moveaxis(tempered.lifted_points[complex.edges.vertices], 1, 0)
+    p, q = np.moveaxis(tempered.weighted_vectors[complex.edges.vertices], 1, 0)
     assert np.allclose(complex.edges.length, EARTH * angle(p, q), rtol=1e-12)
     middle = complex.edges.midpoint
     assert np.allclose(np.linalg.norm(middle, axis=1), EARTH, rtol=1e-14)
@@ -463,7 +463,7 @@ def test_graded_globes_are_fine_where_one_says():
     mesh = temper.generate.graded_sphere(5000, ratio=10, at=(90, 0), radius=EARTH)
     assert mesh.space == temper.Space.sphere(EARTH)
     assert mesh == temper.generate.graded_sphere(5000, ratio=10, at=(90, 0), radius=EARTH)
-    towards = mesh.lifted_points[:, 1] / EARTH
+    towards = mesh.weighted_vectors[:, 1] / EARTH
     assert np.count_nonzero(towards > 0.8) > 10 * np.count_nonzero(towards < -0.8)
     with pytest.raises(temper.TemperError, match="ratio"):
         temper.generate.graded_sphere(ratio=0.5)
@@ -474,7 +474,7 @@ def test_an_ocean_is_meshed_well_centered():
     river = temper.Outline([(0, 10), (10, 12), (15, 20)], [(0, 1), (1, 2)])
     made = temper.mesh_sphere(8e5, coasts=island, lines=river, radius=EARTH)
     assert made.bad == 0 and set(made.line_tags) == {0, 4} and made.mesh.space == temper.Space.sphere(EARTH)
-    places = temper.projection.lon_lat_of(made.mesh.lifted_points[made.vertex_of_point])
+    places = temper.projection.lon_lat_of(made.mesh.weighted_vectors[made.vertex_of_point])
     assert np.allclose(places, [(170, -10), (-170, -12), (-175, -35), (0, 10), (10, 12), (15, 20)], rtol=0, atol=1e-9)
     assert temper.dec(made.mesh).areas.sum() < 4 * np.pi * EARTH**2
     with pytest.raises(temper.TemperError, match="closed"):
@@ -483,7 +483,7 @@ def test_an_ocean_is_meshed_well_centered():
 
 def test_sizes_of_a_mesh_are_those_of_its_field():
     rough = temper.generate.graded_sphere(3000, ratio=5, at=(20, 40))
-    wanted = temper.generate.graded_sphere_size(rough.lifted_points, 3000, ratio=5, at=(20, 40))
+    wanted = temper.generate.graded_sphere_size(rough.weighted_vectors, 3000, ratio=5, at=(20, 40))
     assert 4 < wanted.max() / wanted.min() <= 5
     field = temper.SizeField.from_values(rough, wanted)
     made = temper.mesh_sphere(field)

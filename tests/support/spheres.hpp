@@ -25,14 +25,14 @@ inline Mesh ocean(const Mesh& globe, double northernmost) {
   std::vector<std::int32_t> number(globe.n_vertices(), -1);
   for (const TriangleId t : globe.triangles()) {
     const auto corners = globe.corners(t);
-    const auto is_north = [&](VertexId v) { return globe.lifted_point(v).z > northernmost; };
+    const auto is_north = [&](VertexId v) { return globe.weighted_vector(v).z > northernmost; };
     if (std::any_of(corners.begin(), corners.end(), is_north)) continue;
     triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       std::int32_t& n = number[corners[k].index];
       if (n < 0) {
         n = static_cast<std::int32_t>(points.size());
-        points.push_back(globe.lifted_point(corners[k]));
+        points.push_back(globe.weighted_vector(corners[k]));
       }
       triangles.back()[k] = n;
     }

@@ -213,8 +213,8 @@ class JsonWriter {
     const VertexId u = input_.mesh().origin(c.edge), v = input_.mesh().target(c.edge);
     const Space& space = input_.mesh().space();
     const WeightedPoint p = input_.mesh().point(u), q = input_.mesh().point(v);
-    const double l =
-        space.is_plane() ? length(q.position() - p.position()) : space.radius() * arc_length(lifted(p), lifted(q));
+    const double l = space.is_plane() ? length(q.position() - p.position())
+                                      : space.radius() * arc_length(as_vector(p), as_vector(q));
     return {{"edge", {point(u), point(v)}},
             {"length", l},
             {"near", {point(c.near_u), point(c.near_v)}},

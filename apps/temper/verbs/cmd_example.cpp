@@ -172,7 +172,7 @@ Expected<Mesh> make_random_periodic(ExampleSettings& s) {
 }
 
 double size_of_graded_sphere(const ExampleSettings& s, const Mesh& mesh, VertexId v) {
-  return graded_sphere_size(s.graded_sphere, mesh.lifted_point(v));
+  return graded_sphere_size(s.graded_sphere, mesh.weighted_vector(v));
 }
 
 Expected<Mesh> make_random(ExampleSettings& s) {

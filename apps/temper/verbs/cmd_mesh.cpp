@@ -191,7 +191,7 @@ void measure_covered(MapUsed& map, const Mesh& mesh) {
   double covered = 0;
   for (const TriangleId t : mesh.triangles()) {
     const auto [a, b, c] = mesh.corners(t);
-    covered += solid_angle(mesh.lifted_point(a), mesh.lifted_point(b), mesh.lifted_point(c));
+    covered += solid_angle(mesh.weighted_vector(a), mesh.weighted_vector(b), mesh.weighted_vector(c));
   }
   map.covered = covered / (4 * std::numbers::pi);
 }

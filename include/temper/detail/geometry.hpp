@@ -54,7 +54,7 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 /// Says whether a triangle is well-centered: all h > 0, all 0 < d < ℓ, and counter-clockwise. Exact.
 [[nodiscard]] bool is_well_centered(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
 
-// --- the same on the sphere, for lifted points P (space.hpp): exact for coordinates in the range above -----------
+// --- the same on the sphere, for weighted vector P (space.hpp): exact for coordinates in the range above -----------
 
 /// Positive when p, q, r turn counter-clockwise, seen from outside. Sign of det(P, Q, R), exact.
 [[nodiscard]] Sign orientation(Vec3 p, Vec3 q, Vec3 r);

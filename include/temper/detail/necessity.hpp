@@ -41,8 +41,8 @@ struct EdgeConflict {
 /// of is_exact_coordinate. Asked are the vertices that stay, on the boundary, on constrained lines or fixed, for which
 /// the triangle u v X lies in the domain (exact); constrained lines in between do not matter. So, with up_to = 1: no
 /// well-centered mesh has this edge and these two vertices. Larger values find edges that leave little room. Looks at
-/// the triangles that meet the disc around the edge. On the sphere up_to is of chords between lifted points, which is
-/// the same for 1, and exact are coordinates that are 0 or of 2^-82 … 2^120.
+/// the triangles that meet the disc around the edge. On the sphere up_to is of chords between weighted vectors, which
+/// is the same for 1, and exact are coordinates that are 0 or of 2^-82 … 2^120.
 [[nodiscard]] std::optional<EdgeConflict> edge_conflict(const Mesh& mesh, HalfedgeId h, double up_to = 1);
 
 /// The edges of the boundary and of constrained lines with such a conflict, least sum first. None does not mean that

@@ -7,12 +7,12 @@
 // is in the plane. Periods, and coordinates along them, are multiples of 2⁻⁴⁷ of the power of two at the period, so
 // that images and the differences of points are exact.
 //
-// On the sphere of radius R a vertex at p, |p| = R, with weight w is the lifted point P = p √(R² + w)/R: its direction
-// is the place, and |P|² = R² + w. The regular triangulation is the boundary of the convex hull of all P, and the face
-// PQR, read in its own plane with the weights |P|², |Q|² and |R|², has its orthocenter at the foot of the perpendicular
-// from the center of the sphere: what is well-centered and what is regular there is so on the sphere (Sugihara,
-// Laguerre Voronoi diagram on the sphere, J. Geom. Graphics 6, 2002). Equal shifts of all |P|², which change nothing in
-// the plane, are here all P times a number.
+// On the sphere of radius R a vertex at p, |p| = R, with weight w is the weighted vector P = p √(R² + w)/R: its
+// direction is the place, and |P|² = R² + w. The regular triangulation is the boundary of the convex hull of all P, and
+// the face PQR, read in its own plane with the weights |P|², |Q|² and |R|², has its orthocenter at the foot of the
+// perpendicular from the center of the sphere: what is well-centered and what is regular there is so on the sphere
+// (Sugihara, Laguerre Voronoi diagram on the sphere, J. Geom. Graphics 6, 2002). Equal shifts of all |P|², which change
+// nothing in the plane, are here all P times a number.
 //
 //                 P         A vertex is kept as three numbers in all spaces, a WeightedPoint: x, y and w in the plane,
 //               /           and X, Y, Z of P, in this order, on the sphere. Who works on vertices in any space
@@ -32,7 +32,7 @@ namespace temper {
 enum class SpaceKind : std::uint8_t { plane, sphere, periodic_plane };
 
 /// P of a vertex on the sphere, and the vertex of P.
-[[nodiscard]] constexpr Vec3 lifted(const WeightedPoint& p) { return {p.x, p.y, p.w}; }
+[[nodiscard]] constexpr Vec3 as_vector(const WeightedPoint& p) { return {p.x, p.y, p.w}; }
 [[nodiscard]] constexpr WeightedPoint as_point(Vec3 p) { return {p.x, p.y, p.z}; }
 
 class Space {
@@ -102,14 +102,14 @@ class Space {
   [[nodiscard]] double weight(const WeightedPoint& p) const {
     if (is_plane()) return p.w;
     constexpr double kRounded = 0x1p-48;
-    const double r2 = radius_ * radius_, w = squared_length(lifted(p)) - r2;
+    const double r2 = radius_ * radius_, w = squared_length(as_vector(p)) - r2;
     return std::abs(w) < kRounded * r2 ? 0 : w;
   }
   /// The vertex at the same place with another weight; on the sphere more than −R².
   [[nodiscard]] WeightedPoint with_weight(const WeightedPoint& p, double w) const {
     if (is_plane()) return {p.x, p.y, w};
-    const double factor = std::sqrt((radius_ * radius_ + w) / squared_length(lifted(p)));
-    return as_point(factor * lifted(p));
+    const double factor = std::sqrt((radius_ * radius_ + w) / squared_length(as_vector(p)));
+    return as_point(factor * as_vector(p));
   }
 
   /// The vertex at a place, of the plane with any z; on the sphere its distance from the center is not looked at: the
@@ -124,12 +124,12 @@ class Space {
   /// Where a vertex is: bit for bit what it was made of, without a weight; in the plane with z = 0.
   [[nodiscard]] Vec3 place(const WeightedPoint& p) const {
     if (is_plane()) return {p.x, p.y, 0};
-    return weight(p) == 0 ? lifted(p) : lifted(with_weight(p, 0));
+    return weight(p) == 0 ? as_vector(p) : as_vector(with_weight(p, 0));
   }
 
   /// The unit vector away from the ground.
   [[nodiscard]] Vec3 up(const WeightedPoint& p) const {
-    return is_plane() ? Vec3{0, 0, 1} : (1 / length(lifted(p))) * lifted(p);
+    return is_plane() ? Vec3{0, 0, 1} : (1 / length(as_vector(p))) * as_vector(p);
   }
   /// How far along the ground what is `across` and this high from a point is [length]. Across is a tangent.
   [[nodiscard]] double along_ground(double across, double height) const {
@@ -141,9 +141,9 @@ class Space {
     constexpr double kDegrees = 180 / std::numbers::pi;
     return {kDegrees * std::atan2(place.y, place.x), kDegrees * std::atan2(place.z, std::hypot(place.x, place.y))};
   }
-  /// From one vertex to another on a straight line: of the sphere between lifted points, in the plane with z = 0.
+  /// From one vertex to another on a straight line: of the sphere between weighted vectors, in the plane with z = 0.
   [[nodiscard]] Vec3 chord(const WeightedPoint& p, const WeightedPoint& q) const {
-    return is_plane() ? Vec3{q.x - p.x, q.y - p.y, 0} : lifted(q) - lifted(p);
+    return is_plane() ? Vec3{q.x - p.x, q.y - p.y, 0} : as_vector(q) - as_vector(p);
   }
 
   /// The area of the right triangle with legs d and h, with the sign of d·h: dual cells and kites are made of these. On
@@ -157,8 +157,8 @@ class Space {
   /// calls of it.
   [[nodiscard]] bool same_place(const WeightedPoint& p, const WeightedPoint& q, double rounding = 0x1p-49) const {
     if (is_plane()) return p.x == q.x && p.y == q.y;
-    return squared_length(cross(lifted(p), lifted(q))) <=
-           rounding * rounding * squared_length(lifted(p)) * squared_length(lifted(q));
+    return squared_length(cross(as_vector(p), as_vector(q))) <=
+           rounding * rounding * squared_length(as_vector(p)) * squared_length(as_vector(q));
   }
 
   friend constexpr bool operator==(const Space&, const Space&) = default;

@@ -56,7 +56,7 @@ void copy_sphere(MeshFile& file, const Mesh& mesh, const Former& former) {
   std::vector<double> weights;
   for (const VertexId v : mesh.vertices()) {
     const std::size_t was = former.empty() ? v.index : former[v].valid() ? former[v].index : before.size();
-    const Vec3 p = mesh.lifted_point(v);
+    const Vec3 p = mesh.weighted_vector(v);
     weights.push_back(mesh.weight(v));
     if (was < before.size() && mesh.space().same_place(as_point(before[was]), as_point(p))) {
       degrees.push_back(file.points[was]);
@@ -205,7 +205,7 @@ Former vertices_by_place(const MeshFile& file, const Mesh& mesh) {
   if (file.sphere() == nullptr) return vertices_by_place_in_plane(file.points, mesh);
   const PlacesOnSphere places(file.sphere()->places, mesh.space());
   Former former(mesh.n_vertices());
-  for (const VertexId v : mesh.vertices()) former[v] = places.find(mesh.lifted_point(v));
+  for (const VertexId v : mesh.vertices()) former[v] = places.find(mesh.weighted_vector(v));
   return former;
 }
 

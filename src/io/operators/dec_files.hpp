@@ -33,7 +33,7 @@ struct DecPlaces {
     return k == 0 ? at[i].x : k == 1 ? at[i].y : at[i].z;
   }
 };
-/// Of vertices on the sphere, not lifted.
+/// Of vertices on the sphere, without weights.
 [[nodiscard]] DecPlaces vertex_places(const Mesh& mesh);
 [[nodiscard]] DecPlaces orthocenter_places(const DecComplex& complex);
 [[nodiscard]] DecPlaces midpoint_places(const DecComplex& complex);

@@ -99,8 +99,8 @@ struct PackDirection {
 TEMPER_INLINE PackDirection direction_to(const PointOf<Pack>& p, const PointOf<Pack>& q) {
   return {q.x - p.x, q.y - p.y};
 }
-TEMPER_INLINE PackDirection direction_to(const Chart<Pack>& p, const LiftedPointOf<Pack>& q) {
-  const LiftedSpoke<Pack> a = spoke(p, q);
+TEMPER_INLINE PackDirection direction_to(const Chart<Pack>& p, const WeightedVectorOf<Pack>& q) {
+  const SphereSpoke<Pack> a = spoke(p, q);
   const Pack projected = a.rho / (a.rho + a.z);
   return {projected * a.x, projected * a.y};
 }
@@ -126,8 +126,8 @@ TEMPER_INLINE PointOf<Pack> moved(const PointOf<Pack>& p, const PackStep& step, 
   return {select(moves, (p.x + t * step.x + cx) - cx, p.x), select(moves, (p.y + t * step.y + cy) - cy, p.y),
           p.w + t * step.w};
 }
-TEMPER_INLINE LiftedPointOf<Pack> moved(const Chart<Pack>& p, const PackStep& step, const Pack& t, Mask,
-                                        const StepParameters&) {
+TEMPER_INLINE WeightedVectorOf<Pack> moved(const Chart<Pack>& p, const PackStep& step, const Pack& t, Mask,
+                                           const StepParameters&) {
   return p.moved(t * step.x, t * step.y, t * step.w);
 }
 

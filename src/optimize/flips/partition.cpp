@@ -79,7 +79,7 @@ void ShiftedCuts::cut(const Mesh& mesh, std::size_t count, Executor& executor) {
       part_of_[k] = parts_along(mesh, n_parts_, executor, [&](VertexId v) { return curve(mesh.position(v)); });
     } else {
       part_of_[k] = parts_along(mesh, n_parts_, executor,
-                                [&](VertexId v) { return cube_hilbert_index(turned(mesh.lifted_point(v), k)); });
+                                [&](VertexId v) { return cube_hilbert_index(turned(mesh.weighted_vector(v), k)); });
     }
   }
 }

@@ -31,8 +31,8 @@ WeightRange weights_that_cross(const Space& space, const WeightedPoint& p, const
     return {q.w - l2, q.w + l2};
   }
   // With p̂ the direction of p: |P| > p̂·Q, and |P| p̂·Q < |Q|².
-  const double along_q = dot(lifted(p), lifted(q)) / length(lifted(p)), r2 = space.radius() * space.radius();
-  const double highest = squared_length(lifted(q)) / along_q;
+  const double along_q = dot(as_vector(p), as_vector(q)) / length(as_vector(p)), r2 = space.radius() * space.radius();
+  const double highest = squared_length(as_vector(q)) / along_q;
   return {along_q * along_q - r2, highest * highest - r2};
 }
 

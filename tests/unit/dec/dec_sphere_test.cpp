@@ -101,13 +101,13 @@ TEST(DecSphere, DualVerticesHaveEqualPowerAndDualArcsAreWhatLiesBetweenThem) {
     const auto [i, j, k] = mesh.corners(t);
     const Vec3 o = c.sphere_orthocenters[t];
     EXPECT_NEAR(length(o), radius, kOnSphere * radius);
-    EXPECT_NEAR(dot(o, mesh.lifted_point(i)), dot(o, mesh.lifted_point(j)), 1e-10);
-    EXPECT_NEAR(dot(o, mesh.lifted_point(i)), dot(o, mesh.lifted_point(k)), 1e-10);
+    EXPECT_NEAR(dot(o, mesh.weighted_vector(i)), dot(o, mesh.weighted_vector(j)), 1e-10);
+    EXPECT_NEAR(dot(o, mesh.weighted_vector(i)), dot(o, mesh.weighted_vector(k)), 1e-10);
   }
   for (std::size_t i = 0; i < c.edges.size(); ++i) {
     const EdgeId id(i);
     const DecEdge& e = c.edges[id];
-    const Vec3 p = mesh.lifted_point(e.from), q = mesh.lifted_point(e.to), m = c.sphere_midpoints[id];
+    const Vec3 p = mesh.weighted_vector(e.from), q = mesh.weighted_vector(e.to), m = c.sphere_midpoints[id];
     const Vec3 pole = (1 / length(cross(p, q))) * cross(p, q);  // on the left
     EXPECT_NEAR(length(m), radius, kOnSphere);
     EXPECT_NEAR(dot(m, p), dot(m, q), kOnSphere * radius * radius);
@@ -129,11 +129,12 @@ TEST(DecSphere, SignsAreThoseOfTheExactPredicates) {
     const DecComplex c = dec(mesh);
     for (const HalfedgeId h : mesh.halfedges()) {
       const double star1 = c.star1[c.edge_of_halfedge[h]];
-      const Vec3 p = mesh.lifted_point(mesh.origin(h)), q = mesh.lifted_point(mesh.target(h));
-      const Vec3 r = mesh.lifted_point(mesh.opposite(h));
+      const Vec3 p = mesh.weighted_vector(mesh.origin(h)), q = mesh.weighted_vector(mesh.target(h));
+      const Vec3 r = mesh.weighted_vector(mesh.opposite(h));
       const Sign found = star1 > 0 ? Sign::positive : star1 < 0 ? Sign::negative : Sign::zero;
-      const Sign expected = mesh.is_boundary(h) ? signed_height_sign(p, q, r)
-                                                : -power_test(p, q, r, mesh.lifted_point(mesh.opposite(mesh.twin(h))));
+      const Sign expected = mesh.is_boundary(h)
+                                ? signed_height_sign(p, q, r)
+                                : -power_test(p, q, r, mesh.weighted_vector(mesh.opposite(mesh.twin(h))));
       EXPECT_EQ(found, expected);
       zeros += found == Sign::zero ? 1 : 0;
       negative += found == Sign::negative ? 1 : 0;
@@ -163,7 +164,7 @@ std::vector<double> minus_laplacian(const Mesh& mesh, const DecComplex& c, const
   std::vector<double> result(mesh.n_vertices(), 0.0);
   for (std::size_t i = 0; i < c.edges.size(); ++i) {
     const DecEdge& e = c.edges[EdgeId(i)];
-    const double flow = c.star1[EdgeId(i)] * (u(mesh.lifted_point(e.from)) - u(mesh.lifted_point(e.to)));
+    const double flow = c.star1[EdgeId(i)] * (u(mesh.weighted_vector(e.from)) - u(mesh.weighted_vector(e.to)));
     result[e.from.index] += flow, result[e.to.index] -= flow;
   }
   for (const VertexId v : mesh.vertices()) result[v.index] /= c.star0[v];
@@ -189,7 +190,7 @@ double eigenvalue_error(const Mesh& mesh, int degree) {
   const auto found = minus_laplacian(mesh, c, [&](Vec3 p) { return harmonic(degree, p); });
   double error = 0, size = 0;
   for (const VertexId v : mesh.vertices()) {
-    const double expected = eigenvalue * harmonic(degree, mesh.lifted_point(v));
+    const double expected = eigenvalue * harmonic(degree, mesh.weighted_vector(v));
     error += c.star0[v] * (found[v.index] - expected) * (found[v.index] - expected);
     size += c.star0[v] * expected * expected;
   }
@@ -222,7 +223,7 @@ TEST(DecSphere, TurningTheSphereKeepsStars) {
   const Vec3 a = {-20.0 / 30, 20.0 / 30, 10.0 / 30}, b = {4.0 / 30, -10.0 / 30, 28.0 / 30},
              c = {22.0 / 30, 20.0 / 30, 4.0 / 30};
   for (const VertexId v : mesh.vertices()) {
-    const Vec3 p = mesh.lifted_point(v);
+    const Vec3 p = mesh.weighted_vector(v);
     turned.set_point(v, as_point(p.x * a + p.y * b + p.z * c));
   }
   ASSERT_FALSE(turned.validate());
@@ -236,7 +237,7 @@ TEST(DecSphere, UnitsOfLengthScaleStars) {
   const Mesh mesh = coasts();
   Mesh scaled = mesh;
   scaled.set_space(mesh.space().in_units_of(1.0 / 8));
-  for (const VertexId v : mesh.vertices()) scaled.set_point(v, as_point(8.0 * mesh.lifted_point(v)));
+  for (const VertexId v : mesh.vertices()) scaled.set_point(v, as_point(8.0 * mesh.weighted_vector(v)));
   const DecComplex a = dec(mesh), b = dec(scaled);
   expect_close(a.star0, b.star0, 64, 0);
   expect_close(a.star1, b.star1, 1, 0);
@@ -247,7 +248,7 @@ TEST(DecSphere, UnitsOfLengthScaleStars) {
 TEST(DecSphere, AllPointsScaledChangeNothing) {
   const Mesh mesh = coasts();
   Mesh scaled = mesh;
-  for (const VertexId v : mesh.vertices()) scaled.set_point(v, as_point(2.0 * mesh.lifted_point(v)));
+  for (const VertexId v : mesh.vertices()) scaled.set_point(v, as_point(2.0 * mesh.weighted_vector(v)));
   const DecComplex a = dec(mesh), b = dec(scaled);
   expect_close(a.star0, b.star0, 1, 0);
   expect_close(a.star1, b.star1, 1, 0);
@@ -322,7 +323,7 @@ void expect_partition(const Mesh& mesh, const PowerCells& cells, bool of_power_d
   for (const TriangleId t : mesh.triangles()) {
     const auto [i, j, k] = mesh.corners(t);
     const double a = rng.uniform(0.05, 0.9), b = rng.uniform(0.02, 0.95 - a);
-    const Vec3 x = a * mesh.lifted_point(i) + b * mesh.lifted_point(j) + (1 - a - b) * mesh.lifted_point(k);
+    const Vec3 x = a * mesh.weighted_vector(i) + b * mesh.weighted_vector(j) + (1 - a - b) * mesh.weighted_vector(k);
     std::vector<VertexId> owners;
     for (std::size_t p = 0; p < cells.n_polygons(); ++p) {
       if (dot(x, cells.sphere_corners[cells.starts[p]]) > 0 && inside(sphere_polygon(cells, p), x))
@@ -331,7 +332,7 @@ void expect_partition(const Mesh& mesh, const PowerCells& cells, bool of_power_d
     ASSERT_EQ(owners.size(), 1u);
     if (!of_power_diagram) continue;
     for (const VertexId v : mesh.vertices())
-      EXPECT_LE(dot(x, mesh.lifted_point(v)), dot(x, mesh.lifted_point(owners[0])) + 1e-12);
+      EXPECT_LE(dot(x, mesh.weighted_vector(v)), dot(x, mesh.weighted_vector(owners[0])) + 1e-12);
   }
 }
 

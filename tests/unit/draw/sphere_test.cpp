@@ -72,8 +72,8 @@ TEST(View, TrianglesOfAClosedMeshCoverTheDiscOnce) {
 }
 
 TEST(View, IsOfTheMiddleOfAPartOfTheSphere) {
-  const std::array<Vec3, 3> points = {lifted(at_degrees(100, 0)), lifted(at_degrees(140, 0)),
-                                      lifted(at_degrees(120, 30))};
+  const std::array<Vec3, 3> points = {as_vector(at_degrees(100, 0)), as_vector(at_degrees(140, 0)),
+                                      as_vector(at_degrees(120, 30))};
   const std::array<std::array<std::int32_t, 3>, 1> triangles = {{{0, 1, 2}}};
   MeshInput input;
   input.space = Space::sphere(kRadius);

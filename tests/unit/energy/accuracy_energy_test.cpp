@@ -115,7 +115,7 @@ TEST(AccuracyEnergy, IsTheNaiveTwinsInTotalAndByParts) {
     SCOPED_TRACE(radius);
     const Mesh mesh = small_lattice(1, {}, radius);
     ASSERT_TRUE(has_margins(mesh, kMargin));
-    // On a sphere the squared length of a lifted point, of which the weight is a part, is known to rounding.
+    // On a sphere the squared length of a weighted vector, of which the weight is a part, is known to rounding.
     const double rounding = 1e-14 + 1e-16 * radius * radius;
     const VertexSizes sizes = uneven_sizes(mesh);
     AccuracyFloors floors;

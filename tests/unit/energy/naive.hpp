@@ -37,8 +37,8 @@ inline NaiveEdge naive_edge(const NaivePoint& i, const NaivePoint& j, const Naiv
   return e;
 }
 
-/// The same on the sphere, of lifted points: the flat triangle with the weights |P|², turned into the plane.
-inline NaiveEdge naive_lifted_edge(const NaivePoint& i, const NaivePoint& j, const NaivePoint& k) {
+/// The same on the sphere, of weighted vectors: the flat triangle with the weights |P|², turned into the plane.
+inline NaiveEdge naive_sphere_edge(const NaivePoint& i, const NaivePoint& j, const NaivePoint& k) {
   using Vector = std::array<Real, 3>;  // NaivePoint's three numbers
   const auto minus = [](const NaivePoint& p, const NaivePoint& q) { return Vector{p.x - q.x, p.y - q.y, p.w - q.w}; };
   const auto product = [](const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
@@ -76,7 +76,7 @@ inline Real naive_half(const EnergyModel& m, Real d, Real d_other, Real h, Real 
 
 /// An edge in the space of its mesh.
 inline NaiveEdge naive_edge(const Space& space, const NaivePoint& i, const NaivePoint& j, const NaivePoint& k) {
-  return space.is_plane() ? naive_edge(i, j, k) : naive_lifted_edge(i, j, k);
+  return space.is_plane() ? naive_edge(i, j, k) : naive_sphere_edge(i, j, k);
 }
 
 /// Total energy, by full edges; vertex v is replaced by p.
@@ -130,7 +130,7 @@ inline NaivePoint naive_point(const Mesh& mesh, VertexId v) {
 inline NaivePoint naive_step(const Mesh& mesh, VertexId v, Real x, Real y, Real w) {
   const NaivePoint p = naive_point(mesh, v);
   if (mesh.space().is_plane()) return {p.x + x, p.y + y, p.w + w};
-  const Chart<double> chart = seen_from(lifted_point(mesh.point(v)));
+  const Chart<double> chart = seen_from(weighted_vector(mesh.point(v)));
   const NaivePoint q{p.x + x * chart.e1.x + y * chart.e2.x, p.y + x * chart.e1.y + y * chart.e2.y,
                      p.w + x * chart.e1.z + y * chart.e2.z};
   const Real rho2 = p.x * p.x + p.y * p.y + p.w * p.w;

@@ -215,7 +215,7 @@ std::size_t bad_on_sphere(const Mesh& mesh) {
   std::size_t bad = 0;
   for (const TriangleId t : mesh.triangles()) {
     const auto [p, q, r] = mesh.corners(t);
-    bad += !is_well_centered(mesh.lifted_point(p), mesh.lifted_point(q), mesh.lifted_point(r));
+    bad += !is_well_centered(mesh.weighted_vector(p), mesh.weighted_vector(q), mesh.weighted_vector(r));
   }
   return bad;
 }
@@ -244,7 +244,7 @@ struct Sums {
 };
 /// From the definition: a right angle at X, tan um = tan uX / cos U; the arcs that are left, over that of the edge.
 Sums least_sums(const Mesh& mesh, HalfedgeId h) {
-  const Vec3 u = mesh.lifted_point(mesh.origin(h)), v = mesh.lifted_point(mesh.target(h));
+  const Vec3 u = mesh.weighted_vector(mesh.origin(h)), v = mesh.weighted_vector(mesh.target(h));
   const auto left = [](Vec3 p, Vec3 q, Vec3 r) { return orientation(p, q, r) == Sign::positive; };
   const auto cross_properly = [&](Vec3 p, Vec3 q, Vec3 r, Vec3 s) {
     return left(p, q, r) != left(p, q, s) && left(r, s, p) != left(r, s, q);
@@ -255,12 +255,12 @@ Sums least_sums(const Mesh& mesh, HalfedgeId h) {
   };
   double a = kUnbounded, b = kUnbounded;
   for (const VertexId y : mesh.vertices()) {
-    const Vec3 x = mesh.lifted_point(y);
+    const Vec3 x = mesh.weighted_vector(y);
     if (!mesh.is_boundary(y) || !left(u, v, x)) continue;
     bool visible = true;
     for (const HalfedgeId g : mesh.halfedges()) {
       if (!mesh.is_boundary(g)) continue;
-      const Vec3 p = mesh.lifted_point(mesh.origin(g)), q = mesh.lifted_point(mesh.target(g));
+      const Vec3 p = mesh.weighted_vector(mesh.origin(g)), q = mesh.weighted_vector(mesh.target(g));
       const bool near = dot(p, u) > 0 && dot(q, u) > 0;  // arcs cross where their great circles do, or opposite to it
       const bool touches_x = mesh.origin(g) == y || mesh.target(g) == y;
       for (const Vec3 end : {u, v}) {

@@ -32,7 +32,7 @@ Mesh jittered_globe(std::uint64_t seed, double jitter, int level = 1) {
   const double most = jitter * std::sqrt(squared_length_of(mesh, HalfedgeId(std::size_t{0})));
   for (const VertexId v : mesh.vertices()) {
     const Vec3 move = {rng.uniform(-most, most), rng.uniform(-most, most), rng.uniform(-most, most)};
-    const Vec3 p = mesh.lifted_point(v) + move;
+    const Vec3 p = mesh.weighted_vector(v) + move;
     const WeightedPoint was = mesh.point(v);
     mesh.set_point(v, as_point((mesh.space().radius() / length(p)) * p));
     if (!is_upright(mesh, v)) mesh.set_point(v, was);
@@ -48,7 +48,7 @@ Mesh with_random_weights(Mesh mesh, std::uint64_t seed, double most) {
 
 /// All P times a number.
 Mesh gauged(Mesh mesh, double factor) {
-  for (const VertexId v : mesh.vertices()) mesh.set_point(v, as_point(factor * mesh.lifted_point(v)));
+  for (const VertexId v : mesh.vertices()) mesh.set_point(v, as_point(factor * mesh.weighted_vector(v)));
   return mesh;
 }
 
@@ -56,7 +56,7 @@ Mesh gauged(Mesh mesh, double factor) {
 Mesh turned(Mesh mesh, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   for (const VertexId v : mesh.vertices()) {
-    Vec3 p = mesh.lifted_point(v);
+    Vec3 p = mesh.weighted_vector(v);
     p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
     p = {p.x, c * p.y - s * p.z, s * p.y + c * p.z};
     p = {c * p.x - s * p.z, p.y, s * p.x + c * p.z};
@@ -113,7 +113,7 @@ TEST(SphereForms, HaveTheSignsOfTheExactPredicates) {
     const Mesh sphere = *random_sphere({.vertices = 60, .seed = seed, .radius = radius});
     const Mesh mesh = with_random_weights(sphere, seed, 0.3 * radius * radius);
     for (const HalfedgeId h : mesh.halfedges()) {
-      const auto at = [&](VertexId v) { return mesh.lifted_point(v); };
+      const auto at = [&](VertexId v) { return mesh.weighted_vector(v); };
       const VertexId p = mesh.origin(h), q = mesh.target(h), r = mesh.opposite(h), s = mesh.opposite(mesh.twin(h));
       expect_sign(mesh, height_constraint(mesh, h), signed_height_sign(at(p), at(q), at(r)));
       expect_sign(mesh, split_constraint(p, q), dual_crossing_sign(at(p), at(q)));
@@ -129,8 +129,8 @@ TEST(SphereForms, HaveTheSignsOfTheExactPredicates) {
 TEST(SphereForms, AreArcsOfTheMeshWhereWeightsAreEqual) {
   const Mesh mesh = globe(100, 7);
   for (const HalfedgeId h : mesh.halfedges()) {
-    const Vec3 p = mesh.lifted_point(mesh.origin(h)), q = mesh.lifted_point(mesh.target(h)),
-               r = mesh.lifted_point(mesh.opposite(h));
+    const Vec3 p = mesh.weighted_vector(mesh.origin(h)), q = mesh.weighted_vector(mesh.target(h)),
+               r = mesh.weighted_vector(mesh.opposite(h));
     const double half = 0.5 * arc_length(p, q);
     const double expected = std::tan(signed_height(p, q, r)) / (2 * std::sin(half) * std::cos(half) * std::cos(half));
     const double value = value_of(linear_form(mesh, height_constraint(mesh, h)), [](VertexId) { return 0.0; });

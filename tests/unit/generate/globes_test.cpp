@@ -24,7 +24,7 @@ double area_of(const Mesh& globe) {
   double sum = 0;
   for (const TriangleId t : globe.triangles()) {
     const auto [a, b, c] = globe.corners(t);
-    sum += solid_angle(globe.lifted_point(a), globe.lifted_point(b), globe.lifted_point(c));
+    sum += solid_angle(globe.weighted_vector(a), globe.weighted_vector(b), globe.weighted_vector(c));
   }
   return sum;
 }
@@ -54,7 +54,7 @@ TEST(GradedSphere, HasTheSizesThatItFollows) {
     // Sizes of random points scatter: over a sixteenth of the way along the axis their mean squares do not.
     std::vector<double> area(16, 0), count(16, 0);
     for (const VertexId v : globe.vertices()) {
-      const Vec3 p = globe.lifted_point(v);
+      const Vec3 p = globe.weighted_vector(v);
       const double wanted = graded_sphere_size(shape, p), size = local_size(globe, v);
       const auto part = static_cast<std::size_t>(std::min(15.0, 8 * (1 - dot(p, fine) / length(p))));
       area[part] += size * size / (wanted * wanted);

@@ -355,7 +355,7 @@ IdVector<VertexId, VertexId> remove_and_insert(Mesh& mesh, std::size_t n, std::s
   for (std::size_t k = 0; k < m; ++k) {
     const TriangleId t(40 * k + 3);
     const auto [a, b, c] = mesh.corners(t);
-    const Vec3 middle = mesh.lifted_point(a) + mesh.lifted_point(b) + mesh.lifted_point(c);
+    const Vec3 middle = mesh.weighted_vector(a) + mesh.weighted_vector(b) + mesh.weighted_vector(c);
     insert_in_triangle(mesh, t, mesh.space().vertex_at(middle, 0));
   }
   for (std::size_t v = before; v-- > 0 && n > 0;) {

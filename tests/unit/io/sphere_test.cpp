@@ -120,7 +120,7 @@ TEST_F(SphereFiles, FesomKeepsDegreesOfWhatHasNotMoved) {
   ASSERT_TRUE(made) << made.error().what();
   Mesh mesh = made->mesh;
   const VertexId inner(4);
-  const Vec3 p = mesh.lifted_point(inner);
+  const Vec3 p = mesh.weighted_vector(inner);
   mesh.set_point(inner, as_point({p.x, p.y, p.z + 1000}));
   mesh.set_weight(VertexId(1), 5e8);
   update(file, *made, mesh);

@@ -46,7 +46,7 @@ SphereArrays octahedron(double radius = 1) {
 SphereArrays arrays_of(const Mesh& mesh) {
   SphereArrays a;
   a.radius = mesh.space().radius();
-  for (const VertexId v : mesh.vertices()) a.points.push_back(mesh.lifted_point(v));
+  for (const VertexId v : mesh.vertices()) a.points.push_back(mesh.weighted_vector(v));
   for (const TriangleId t : mesh.triangles()) {
     const auto [i, j, k] = mesh.corners(t);
     a.triangles.push_back(
@@ -70,7 +70,7 @@ TEST(SphereMesh, MayBeClosedAndKeepsPointsBitForBit) {
   EXPECT_FALSE(built->mesh.validate());
   for (const VertexId v : built->mesh.vertices()) {
     EXPECT_FALSE(built->mesh.is_boundary(v));
-    EXPECT_EQ(built->mesh.lifted_point(v), a.points[v.index]);
+    EXPECT_EQ(built->mesh.weighted_vector(v), a.points[v.index]);
     EXPECT_EQ(built->mesh.weight(v), 0);
   }
   EXPECT_EQ(built->mesh.n_edges(), 12U);
@@ -91,7 +91,7 @@ TEST(SphereMesh, HasWeightsAsLengths) {
   ASSERT_TRUE(built) << built.error().what();
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_NEAR(built->mesh.weight(VertexId(i)), a.weights[i], 1e-14);
-    EXPECT_NEAR(length(built->mesh.lifted_point(VertexId(i))), std::sqrt(4 + a.weights[i]), 1e-15);
+    EXPECT_NEAR(length(built->mesh.weighted_vector(VertexId(i))), std::sqrt(4 + a.weights[i]), 1e-15);
   }
   a.weights[2] = -4;
   expect_refused(a, ErrorCode::out_of_scale, "point 2 has weight -4; expected more than -4");

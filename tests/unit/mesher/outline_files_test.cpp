@@ -293,7 +293,7 @@ double part_of_sphere(const Mesh& mesh) {
   double sum = 0;
   for (const TriangleId t : mesh.triangles()) {
     const auto [a, b, c] = mesh.corners(t);
-    sum += solid_angle(mesh.lifted_point(a), mesh.lifted_point(b), mesh.lifted_point(c));
+    sum += solid_angle(mesh.weighted_vector(a), mesh.weighted_vector(b), mesh.weighted_vector(c));
   }
   return sum / (4 * std::numbers::pi);
 }

@@ -51,7 +51,7 @@ double area_of(const Mesh& mesh) {
   double sum = 0;
   for (const TriangleId t : mesh.triangles()) {
     const auto [a, b, c] = mesh.corners(t);
-    sum += solid_angle(mesh.lifted_point(a), mesh.lifted_point(b), mesh.lifted_point(c));
+    sum += solid_angle(mesh.weighted_vector(a), mesh.weighted_vector(b), mesh.weighted_vector(c));
   }
   return sum / (4 * kPi);
 }
@@ -146,7 +146,7 @@ TEST(SphereMesher, BoundariesAreDividedWhereSizesAskForIt) {
   const OutlineMesh made = globe_of(o, globe_sized(3e5));
   expect_good(made, 3e5);
   for (const MeshLine& line : made.lines) {
-    const double edge = kEarth * arc_length(made.mesh.lifted_point(line.a), made.mesh.lifted_point(line.b));
+    const double edge = kEarth * arc_length(made.mesh.weighted_vector(line.a), made.mesh.weighted_vector(line.b));
     EXPECT_LT(edge, 1.3 * 3e5);
     EXPECT_GT(edge, 0.5 * 3e5);
   }
@@ -156,7 +156,7 @@ TEST(SphereMesher, SizesGrowAsTheFieldDoes) {
   const GradedSphere shape{.vertices = 8000, .ratio = 30, .at = {-30, 45}, .radius = kEarth};
   const Mesh globe = *graded_sphere(shape);
   std::vector<double> sizes;
-  for (const VertexId v : globe.vertices()) sizes.push_back(graded_sphere_size(shape, globe.lifted_point(v)));
+  for (const VertexId v : globe.vertices()) sizes.push_back(graded_sphere_size(shape, globe.weighted_vector(v)));
   MesherOptions options;
   options.field = *SizeField::from_values(globe, sizes);
   const OutlineMesh made = globe_of({}, options);
@@ -175,7 +175,7 @@ TEST(SphereMesher, SizesGrowAsTheFieldDoes) {
 TEST(SphereMesher, ASteepFieldIsGraded) {
   const Mesh globe = *icosahedral({.level = 3, .radius = 1});
   std::vector<double> sizes;
-  for (const VertexId v : globe.vertices()) sizes.push_back(globe.lifted_point(v).z > 0.98 ? 0.02 : 0.4);
+  for (const VertexId v : globe.vertices()) sizes.push_back(globe.weighted_vector(v).z > 0.98 ? 0.02 : 0.4);
   MesherOptions options;
   options.field = *SizeField::from_values(globe, sizes);
   const OutlineMesh made = globe_of({.radius = 1}, options);
@@ -210,7 +210,7 @@ TEST(SphereMesher, ASphereTwiceAsLargeGivesTheSameMeshTwiceAsLarge) {
   options.size *= 1024;
   const Mesh other = globe_of(o, options).mesh;
   ASSERT_EQ(one.n_vertices(), other.n_vertices());
-  for (const VertexId v : one.vertices()) EXPECT_EQ(1024.0 * one.lifted_point(v), other.lifted_point(v));
+  for (const VertexId v : one.vertices()) EXPECT_EQ(1024.0 * one.weighted_vector(v), other.weighted_vector(v));
 }
 
 TEST(SphereMesher, LongitudesMayBeInEitherConvention) {

@@ -130,7 +130,7 @@ TEST(Sphere, RepairsMendWhatSweepsOfPositionsAloneDoNot) {
   EXPECT_GT(report.vertices_inserted + report.vertices_removed, 0U);
   for (const VertexId v : refined.vertices()) {
     EXPECT_EQ(refined.weight(v), 0);
-    EXPECT_NEAR(length(refined.lifted_point(v)), 1, 1e-12);
+    EXPECT_NEAR(length(refined.weighted_vector(v)), 1, 1e-12);
   }
 }
 
@@ -139,7 +139,7 @@ TEST(Sphere, RepairsInsertBesideInterfaces) {
   Mesh mesh = globe(800, 1);
   const auto is_north = [&](TriangleId t) {
     const auto [a, b, c] = mesh.corners(t);
-    return mesh.lifted_point(a).z + mesh.lifted_point(b).z + mesh.lifted_point(c).z > 0;
+    return mesh.weighted_vector(a).z + mesh.weighted_vector(b).z + mesh.weighted_vector(c).z > 0;
   };
   for (const TriangleId t : mesh.triangles()) mesh.set_region(t, is_north(t) ? 1 : 2);
   for (const HalfedgeId h : mesh.halfedges()) {
@@ -215,7 +215,7 @@ TEST(Sphere, UnitsOfLengthByAPowerOfTwoChangeNothing) {
   const OptimizeReport a = optimized(small), b = optimized(large);
   EXPECT_EQ(a.sweeps, b.sweeps);
   for (const VertexId v : small.vertices()) {
-    EXPECT_EQ(0x1p22 * small.lifted_point(v), large.lifted_point(v)) << v.index;
+    EXPECT_EQ(0x1p22 * small.weighted_vector(v), large.weighted_vector(v)) << v.index;
   }
 }
 
@@ -234,7 +234,7 @@ TEST(Sphere, TurnedGlobesEndTheSameButForRounding) {
     return Vec3{r[0][0] * p.x + r[0][1] * p.y + r[0][2] * p.z, r[1][0] * p.x + r[1][1] * p.y + r[1][2] * p.z,
                 r[2][0] * p.x + r[2][1] * p.y + r[2][2] * p.z};
   };
-  for (const VertexId v : mesh.vertices()) points.push_back(turned(mesh.lifted_point(v)));
+  for (const VertexId v : mesh.vertices()) points.push_back(turned(mesh.weighted_vector(v)));
   for (const TriangleId t : mesh.triangles()) {
     const auto [a, b, c] = mesh.corners(t);
     triangles.push_back(
@@ -255,7 +255,7 @@ TEST(Sphere, TurnedGlobesEndTheSameButForRounding) {
   optimized(other->mesh, o);
   double farthest = 0;
   for (const VertexId v : mesh.vertices()) {
-    farthest = std::max(farthest, length(turned(mesh.lifted_point(v)) - other->mesh.lifted_point(v)));
+    farthest = std::max(farthest, length(turned(mesh.weighted_vector(v)) - other->mesh.weighted_vector(v)));
   }
   EXPECT_LT(farthest, 1e-8);
 }
@@ -325,7 +325,7 @@ TEST(Sphere, SolidAnglesOfAGlobeAreThatOfTheSphere) {
   double sum = 0;
   for (const TriangleId t : mesh.triangles()) {
     const auto [a, b, c] = mesh.corners(t);
-    sum += solid_angle(mesh.lifted_point(a), mesh.lifted_point(b), mesh.lifted_point(c));
+    sum += solid_angle(mesh.weighted_vector(a), mesh.weighted_vector(b), mesh.weighted_vector(c));
   }
   EXPECT_NEAR(sum, 4 * std::numbers::pi, 1e-12);
 }
@@ -352,7 +352,8 @@ TEST(SphericalDelaunay, KeepsNumbersAndHasEmptyCircles) {
     const auto [a, b, c] = mesh.corners(t);
     for (const VertexId d : mesh.vertices()) {  // all against all: the hull
       if (d == a || d == b || d == c) continue;
-      EXPECT_EQ(power_test(mesh.lifted_point(a), mesh.lifted_point(b), mesh.lifted_point(c), mesh.lifted_point(d)),
+      EXPECT_EQ(power_test(mesh.weighted_vector(a), mesh.weighted_vector(b), mesh.weighted_vector(c),
+                           mesh.weighted_vector(d)),
                 Sign::negative);
       ++asked;
     }
@@ -379,8 +380,8 @@ TEST(SphericalDelaunay, DecidesTiesByNumberAlone) {
   // Each edge as the perturbed test has it, which is the same from both of its triangles.
   for (const HalfedgeId h : mesh->halfedges()) {
     const VertexId a = mesh->origin(h), b = mesh->target(h), c = mesh->opposite(h), d = mesh->opposite(mesh->twin(h));
-    EXPECT_EQ(power_test_perturbed(mesh->lifted_point(a), mesh->lifted_point(b), mesh->lifted_point(c),
-                                   mesh->lifted_point(d), {a.index, b.index, c.index, d.index}),
+    EXPECT_EQ(power_test_perturbed(mesh->weighted_vector(a), mesh->weighted_vector(b), mesh->weighted_vector(c),
+                                   mesh->weighted_vector(d), {a.index, b.index, c.index, d.index}),
               Sign::negative);
   }
 }

@@ -21,14 +21,14 @@ Vec3 on_unit_sphere(Vec3 p) { return (1 / length(p)) * p; }
 Vec3 flat_mean_of(const Mesh& mesh, const Place& place) {
   Vec3 sum;
   for (std::size_t k = 0; k < static_cast<std::size_t>(place.n); ++k) {
-    sum = sum + place.shares[k] * on_unit_sphere(mesh.lifted_point(place.corners[k]));
+    sum = sum + place.shares[k] * on_unit_sphere(mesh.weighted_vector(place.corners[k]));
   }
   return sum;
 }
 
 bool has(const Mesh& mesh, TriangleId t, Vec3 p) {
   const auto [a, b, c] = mesh.corners(t);
-  const Vec3 pa = mesh.lifted_point(a), pb = mesh.lifted_point(b), pc = mesh.lifted_point(c);
+  const Vec3 pa = mesh.weighted_vector(a), pb = mesh.weighted_vector(b), pc = mesh.weighted_vector(c);
   return orientation(pa, pb, p) != Sign::negative && orientation(pb, pc, p) != Sign::negative &&
          orientation(pc, pa, p) != Sign::negative;
 }
@@ -40,13 +40,13 @@ Mesh south_of(const Mesh& globe, double northernmost) {
   std::vector<std::int32_t> number(globe.n_vertices(), -1);
   for (const TriangleId t : globe.triangles()) {
     const auto corners = globe.corners(t);
-    if (std::ranges::any_of(corners, [&](VertexId v) { return globe.lifted_point(v).z > northernmost; })) continue;
+    if (std::ranges::any_of(corners, [&](VertexId v) { return globe.weighted_vector(v).z > northernmost; })) continue;
     std::array<std::int32_t, 3>& triangle = triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       std::int32_t& n = number[corners[k].index];
       if (n < 0) {
         n = static_cast<std::int32_t>(points.size());
-        points.push_back(globe.lifted_point(corners[k]));
+        points.push_back(globe.weighted_vector(corners[k]));
       }
       triangle[k] = n;
     }
@@ -84,7 +84,7 @@ TEST(PlaceOnSphere, OfAVertexIsThatVertexAndOfTheMiddleOfAnEdgeIsNearThatEdge) {
     EXPECT_EQ(place.corners[0], v);
   }
   for (const HalfedgeId h : mesh.halfedges()) {
-    const Vec3 middle = 0.5 * (mesh.lifted_point(mesh.origin(h)) + mesh.lifted_point(mesh.target(h)));
+    const Vec3 middle = 0.5 * (mesh.weighted_vector(mesh.origin(h)) + mesh.weighted_vector(mesh.target(h)));
     EXPECT_LT(length(flat_mean_of(mesh, finder.find(as_point(middle))) - (1 / kRadius) * middle), 1e-14);
   }
 }
@@ -103,7 +103,7 @@ TEST(PlaceOnSphere, BeyondTheCoastIsTheNearestPointOfIt) {
     if (inside) continue;
     ++outside;
     for (const VertexId v : ocean.vertices()) {
-      EXPECT_LE(length(flat_mean_of(ocean, place) - p), length(on_unit_sphere(ocean.lifted_point(v)) - p) + 1e-14);
+      EXPECT_LE(length(flat_mean_of(ocean, place) - p), length(on_unit_sphere(ocean.weighted_vector(v)) - p) + 1e-14);
     }
   }
   EXPECT_GT(outside, 100);
@@ -120,9 +120,9 @@ TEST(PlacesOfVertices, OnTheSphereGiveSmoothDataWhereverAnOptimisationPutsVertic
     const auto sources = sources_of_triangles(before, after, places);
     std::size_t moved = 0;
     for (const VertexId v : after.vertices()) {
-      const Vec3 p = on_unit_sphere(after.lifted_point(v));
+      const Vec3 p = on_unit_sphere(after.weighted_vector(v));
       const double value =
-          interpolated(places[v], [&](VertexId u) { return field(on_unit_sphere(before.lifted_point(u))); });
+          interpolated(places[v], [&](VertexId u) { return field(on_unit_sphere(before.weighted_vector(u))); });
       EXPECT_NEAR(value, field(p), 10);  // triangles of 0.1 are 1 % of the radius below the sphere at most
       EXPECT_EQ(interpolated(places[v], [](VertexId) { return 0.1; }), 0.1);
       const bool stayed = before.space().same_place(before.point(v), after.point(v));
@@ -134,8 +134,8 @@ TEST(PlacesOfVertices, OnTheSphereGiveSmoothDataWhereverAnOptimisationPutsVertic
     EXPECT_GT(moved, after.n_vertices() / 2);
     for (const TriangleId t : after.triangles()) {
       const auto [a, b, c] = after.corners(t);
-      const Vec3 middle = on_unit_sphere(after.lifted_point(a)) + on_unit_sphere(after.lifted_point(b)) +
-                          on_unit_sphere(after.lifted_point(c));
+      const Vec3 middle = on_unit_sphere(after.weighted_vector(a)) + on_unit_sphere(after.weighted_vector(b)) +
+                          on_unit_sphere(after.weighted_vector(c));
       if (whole) {
         EXPECT_TRUE(has(before, sources[t], middle));
       }

@@ -45,7 +45,7 @@ TEST(SizeField, OfASphereIsExactAtItsVerticesAndWhatSizesAreComparedWith) {
   }
   for (const TriangleId t : mesh.triangles()) {
     const auto [a, b, c] = mesh.corners(t);
-    const Vec3 middle = mesh.lifted_point(a) + mesh.lifted_point(b) + mesh.lifted_point(c);
+    const Vec3 middle = mesh.weighted_vector(a) + mesh.weighted_vector(b) + mesh.weighted_vector(c);
     const SizeField::Sample sample = field.at(as_point(middle), t);
     EXPECT_EQ(sample.triangle, t);
     EXPECT_NEAR(sample.size, (sizes[a.index] + sizes[b.index] + sizes[c.index]) / 3, 1e-9);

@@ -64,7 +64,7 @@ TEST(VerifySphere, TheRadiusAndOneScaleOfAllPointsChangeNothing) {
   const VerifyReport plain = verified(mesh);
   Mesh larger = mesh;
   larger.set_space(Space::sphere(1024));
-  for (const VertexId v : mesh.vertices()) larger.set_point(v, as_point(2048.0 * mesh.lifted_point(v)));
+  for (const VertexId v : mesh.vertices()) larger.set_point(v, as_point(2048.0 * mesh.weighted_vector(v)));
   expect_near(verified(larger), plain, 1e-10);
 }
 
@@ -85,7 +85,7 @@ TEST(VerifySphere, IntegralsAreFlows) {
       flow -= side * complex.edges[e].length * means[e].potential.y;
     }
     const auto [i, j, k] = mesh->corners(t);
-    const Vec3 p = mesh->lifted_point(i), a = mesh->lifted_point(j) - p, b = mesh->lifted_point(k) - p;
+    const Vec3 p = mesh->weighted_vector(i), a = mesh->weighted_vector(j) - p, b = mesh->weighted_vector(k) - p;
     constexpr int kSteps = 64;
     const auto add = [&](double s, double r, double turn) {
       const auto at = [&](double x, double y) { return p + ((s + x) / kSteps) * a + ((r + y) / kSteps) * b; };

@@ -109,11 +109,11 @@ export function contains(mesh: MeshData, t: number, x: number, y: number): boole
 export function hasNegativeDual(mesh: MeshData, h: number, twin: number): boolean {
   const { points, triangles } = mesh;
   const a = triangles[h], b = triangles[next(h)], c = triangles[previous(h)], d = triangles[previous(twin)];
-  const lifted = (v: number): number[] => {
+  const asVector = (v: number): number[] => {
     const x = points[2 * v] - points[2 * d], y = points[2 * v + 1] - points[2 * d + 1];
     return [x, y, x * x + y * y - weightOf(mesh, v) + weightOf(mesh, d)];
   };
-  const [p, q, r] = [lifted(a), lifted(b), lifted(c)];
+  const [p, q, r] = [asVector(a), asVector(b), asVector(c)];
   const power =
     p[2] * (q[0] * r[1] - q[1] * r[0]) - q[2] * (p[0] * r[1] - p[1] * r[0]) + r[2] * (p[0] * q[1] - p[1] * q[0]);
   return power > 0;

@@ -132,7 +132,7 @@ class MpasBuilder {
       return std::atan2(along.y, along.x);
     }
     const Vec3 at = complex_.sphere_midpoints[EdgeId(edge)];
-    const Vec3 p = mesh_.lifted_point(from), normal = cross(cross(p, mesh_.lifted_point(to) - p), at);
+    const Vec3 p = mesh_.weighted_vector(from), normal = cross(cross(p, mesh_.weighted_vector(to) - p), at);
     const Vec3 east = east_of(at), north = cross(at, east);
     return std::atan2(dot(normal, north) / length(at), dot(normal, east));
   }
