@@ -22,7 +22,7 @@ bool fill_lane(const Mesh& mesh, VertexId v, std::size_t lane, StarBatch& batch)
   batch.triangles[lane] = static_cast<double>(i);
   batch.open[lane] = mesh.is_boundary(v) ? -1 : 0;
   batch.moves[lane] = mesh.is_boundary(v) || mesh.is_fixed(v) ? 0 : -1;
-  batch.weighs[lane] = -1;
+  batch.changes_weight[lane] = -1;
   batch.most_triangles = std::max(batch.most_triangles, i);
   batch.lanes = std::max(batch.lanes, lane + 1);
   return true;

@@ -52,7 +52,7 @@ void part_newton(const StarBatch& batch, PartsState& state) {
   const auto& [value, x, y, w, xx, xy, xw, yy, yw, ww] = packs;
   d.sums = {value, {{x, y, w}, {xx, xy, xw, yy, yw, ww}}};
   d.squared_radius = Pack::load(state.squared_radius);
-  const PackStep step = newton_step(d, load(batch.moves), load(batch.weighs));
+  const PackStep step = newton_step(d, load(batch.moves), load(batch.changes_weight));
   step.x.store(state.step_x);
   step.y.store(state.step_y);
   step.w.store(state.step_w);

@@ -207,7 +207,7 @@ def optimize(
     communicator: Any = None,
     **changes: Unpack[OptionChanges],
 ) -> OptimizeReport:
-    """Improves a mesh in place: moves vertices, weighs them and flips edges until every triangle is well-centered.
+    """Improves a mesh in place: moves vertices, changes weights and flips edges until every triangle is well-centered.
 
     A triangle is well-centered when its orthocenter is strictly inside and each of its edges is crossed by its dual:
     all h > 0 and all 0 < d < ℓ (docs/concepts.md). The domain boundary, fixed vertices and constrained edges stay, bit

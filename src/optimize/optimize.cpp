@@ -67,7 +67,7 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   if (!found) return found.error();
   Candidate best = *std::move(found);
   input.fold();
-  best = weighed(std::move(best), input, settings, state, run);
+  best = reweighted(std::move(best), input, settings, state, run);
   best = repaired(std::move(best), settings, state, run);
   if (sizes) improve<AccuracyPhase>(best, settings, run, *sizes);
   if (settings.objective == Objective::error) improve<ErrorPhase>(best, settings, run, *sizes);

@@ -29,7 +29,7 @@ namespace temper::app {
 std::span<const Verb> verbs() {
   static constexpr auto kVerbs = std::to_array<Verb>({
       {"mesh", "mesh an outline, and optimize that until every triangle is well-centered", run_mesh},
-      {"optimize", "move, weigh and flip until every triangle is well-centered", run_optimize},
+      {"optimize", "move vertices, change weights and flip edges until every triangle is well-centered", run_optimize},
       {"weights", "find weights for a mesh as it is, or prove that there are none", run_weights},
       {"explain", "say why triangles are not well-centered, and what would cure them", run_explain},
       {"check", "report on the quality of a mesh, and test requirements", run_check},

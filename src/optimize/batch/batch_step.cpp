@@ -96,7 +96,7 @@ void BatchStep::gather(VertexId v, Mobility mobility) {
   batch_.p.set(lane, mesh.point(v));
   batch_.triangles[lane] = occupant.alone ? 0 : static_cast<double>(triangles);
   batch_.moves[lane] = !occupant.alone && mobility == Mobility::free && unknowns_ != Unknowns::weights ? -1 : 0;
-  batch_.weighs[lane] = !occupant.alone && unknowns_ != Unknowns::positions ? -1 : 0;
+  batch_.changes_weight[lane] = !occupant.alone && unknowns_ != Unknowns::positions ? -1 : 0;
   if (state.accuracy_domain != nullptr) gather_domain(occupant, lane);
   if (!occupant.alone) batch_.most_triangles = std::max(batch_.most_triangles, triangles);
   ++batch_.lanes;
@@ -155,7 +155,7 @@ void BatchStep::gather_domain(const Occupant& occupant, std::size_t lane) {
     const HalfedgeId h = occupant.spokes[i], across = mesh.twin(Mesh::next(h));
     const TriangleId t = Mesh::triangle(h);
     if (!floors.has(t) || (across.valid() && !floors.has(Mesh::triangle(across)))) {
-      batch_.moves[lane] = batch_.weighs[lane] = 0;
+      batch_.moves[lane] = batch_.changes_weight[lane] = 0;
     }
     accuracy_.floor[i][lane] = floors[t];
     accuracy_.inner[i][lane] = across.valid() ? -1 : 0;
@@ -185,7 +185,7 @@ void BatchStep::run() {
 void BatchStep::step_and_settle() {
   for (std::size_t lane = batch_.lanes; lane < kLanes; ++lane) {
     batch_.triangles[lane] = 0;
-    batch_.open[lane] = batch_.moves[lane] = batch_.weighs[lane] = 0;
+    batch_.open[lane] = batch_.moves[lane] = batch_.changes_weight[lane] = 0;
   }
   const Vec2 rounding = frame.rounding;
   const StepParameters parameters{edge_formula(state.model), state.relaxation, rounding.x, rounding.y};

@@ -29,7 +29,7 @@ struct alignas(64) StarBatch {
   LanePoints p;
   Lane triangles;                        ///< how many, as a double
   LaneMask open;                         ///< a boundary vertex: one point more on the link than triangles
-  LaneMask moves, weighs;                ///< position and weight are unknowns; a lane without either is left as it is
+  LaneMask moves, changes_weight;        ///< position and weight are unknowns; a lane without either is left as it is
   LanePoints link[kMostTriangles + 1];   ///< q_0 … q_n, where q_n is q_0 again in a closed star
   LanePoints across[kMostTriangles];     ///< o_i, where link_flips
   LaneMask spoke_flips[kMostTriangles];  ///< spoke i may flip: inside, and not constrained

@@ -77,17 +77,17 @@ TEMPER_INLINE Derivatives derivatives(const AccuracyStarOf<In>& star, const Star
 using PackStep = NewtonStepOf<Pack>;
 
 /// newton_step of optimize/step/descent.hpp, for a positive definite Hessian.
-TEMPER_INLINE PackStep newton_step(const Derivatives& d, Mask moves, Mask weighs) {
+TEMPER_INLINE PackStep newton_step(const Derivatives& d, Mask moves, Mask changes_weight) {
   const Pack zero = Pack::all(0), r2 = d.squared_radius, r = square_root(r2);
   const auto& [gradient, hessian] = d.sums.derivatives;
-  const Mask both = moves & weighs;
+  const Mask both = moves & changes_weight;
   // Scaled by (R, R, R²). What is no unknown gets the curvature of what is, and no slope.
   const Pack xx = hessian.xx * r2, yy = hessian.yy * r2, ww = hessian.ww * (r2 * r2);
   const CornerMatrix<Pack> h = {
       select(moves, xx, ww), select(moves, hessian.xy * r2, zero),      select(both, hessian.xw * (r * r2), zero),
-      select(moves, yy, ww), select(both, hessian.yw * (r * r2), zero), select(weighs, ww, xx)};
+      select(moves, yy, ww), select(both, hessian.yw * (r * r2), zero), select(changes_weight, ww, xx)};
   const CornerVector<Pack> g = {select(moves, -gradient.x * r, zero), select(moves, -gradient.y * r, zero),
-                                select(weighs, -gradient.w * r2, zero)};
+                                select(changes_weight, -gradient.w * r2, zero)};
   const PackStep step = scaled_newton_step(h, g);
   return {step.x * r, step.y * r, step.w * r2, step.predicted, step.definite};
 }
@@ -313,10 +313,10 @@ TEMPER_INLINE Found<In> newton_search(const Energy& energy, int trials, const St
                                       StarBatch& batch) {
   const typename In::Point at = load<In>(batch.p);
   const typename In::Center p = seen_from(at);
-  const Mask moves = load(batch.moves), weighs = load(batch.weighs);
+  const Mask moves = load(batch.moves), changes_weight = load(batch.changes_weight);
   const Derivatives d = derivatives<In>(energy, batch, p);
-  const PackStep newton = newton_step(d, moves, weighs);
-  const Mask usable = d.feasible & newton.definite & (moves | weighs);
+  const PackStep newton = newton_step(d, moves, changes_weight);
+  const Mask usable = d.feasible & newton.definite & (moves | changes_weight);
   const double relaxation = parameters.relaxation;
   const PackStep step = {relaxation * newton.x, relaxation * newton.y, relaxation * newton.w, {}, {}};
 
@@ -339,7 +339,7 @@ TEMPER_INLINE Found<In> newton_search(const Energy& energy, int trials, const St
   store(to, batch.to);
   d.sums.value.store(batch.before);
   after.store(batch.after);
-  const Mask alone = (uncertain | ~usable) & (moves | weighs);
+  const Mask alone = (uncertain | ~usable) & (moves | changes_weight);
   return {to, stepped & ~alone, alone};
 }
 

@@ -135,8 +135,8 @@ std::vector<VertexId> splice(WorkingCopy& work, Flipper& flipper, const Recorder
       case EventKind::move:
       case EventKind::weight: {
         const VertexId v = whole(e.vertex);
-        const WeightedPoint from = mesh.point(v), weighed = mesh.space().with_weight(from, e.point.w);
-        mesh.set_point(v, e.kind == EventKind::move ? e.point : weighed);
+        const WeightedPoint from = mesh.point(v), reweighted = mesh.space().with_weight(from, e.point.w);
+        mesh.set_point(v, e.kind == EventKind::move ? e.point : reweighted);
         recorder.placed(v, from, mesh.point(v), e.before, e.after);
         break;
       }

@@ -71,13 +71,13 @@ void add_removals(const Neighborhood& around, const std::vector<TriangleId>& bad
 }
 
 /// The edits in tiers; a tier is tried when none of the one before helps. Those that change least come first: sweeps
-/// alone and kicks, which keep every vertex; with `weighs` then weights by a linear programme. With `vertices` also:
-/// one vertex less near a bad triangle, or one more in its middle, at its orthocenter or on an edge; then as many more
-/// as are missing; then all of them anew. Fixed, boundary and constrained vertices stay.
-std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool weighs, bool vertices, Rng& rng) {
+/// alone and kicks, which keep every vertex; with `assigns_weights` then weights by a linear programme. With `vertices`
+/// also: one vertex less near a bad triangle, or one more in its middle, at its orthocenter or on an edge; then as many
+/// more as are missing; then all of them anew. Fixed, boundary and constrained vertices stay.
+std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool assigns_weights, bool vertices, Rng& rng) {
   std::vector<Edit> moves = {{.kind = Edit::nothing}}, weights, one, many, anew;
   for (int i = 0; i < kKicks; ++i) moves.push_back({.kind = Edit::kick, .seed = rng.next()});
-  if (weighs) weights.push_back({.kind = Edit::weigh});
+  if (assigns_weights) weights.push_back({.kind = Edit::assign_weights});
   if (!vertices) return {moves, weights};
   const std::vector<TriangleId> bad = some_bad_triangles(around);
   add_removals(around, bad, one);
@@ -161,7 +161,7 @@ void RepairSearch::find_bad() {
 
 /// Says whether a linear programme is asked for weights, which is of places that do not go round: not twice for the
 /// same ones, and not where no mesh with an edge of the triangle has any.
-bool RepairSearch::weighs(TriangleId seed) const {
+bool RepairSearch::assigns_weights(TriangleId seed) const {
   const Mesh& mesh = work_.mesh;
   if (!asks_programmes_ || run_.repair_trials_left < kTrialsOfAProgramme ||
       settings_.options.unknowns == Unknowns::positions || mesh.space().is_periodic() ||
@@ -180,10 +180,11 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
   std::optional<Edit> best;
   Standing least = before;
   std::vector<Tried> tried;
-  for (const auto& tier : edits_for(around, weighs(seed), settings_.options.repair == Repair::vertices, rng_)) {
+  for (const auto& tier :
+       edits_for(around, assigns_weights(seed), settings_.options.repair == Repair::vertices, rng_)) {
     for (const Edit& edit : tier) {
       if (run_.repair_trials_left-- <= 0 || run_.asked_to_stop(0)) return best;
-      if (edit.kind == Edit::weigh) {
+      if (edit.kind == Edit::assign_weights) {
         weighed_.push_back(seed);
         run_.repair_trials_left -= kTrialsOfAProgramme;
       }

@@ -41,7 +41,7 @@ class RepairSearch {
     Edit edit;
     Standing standing;
   };
-  [[nodiscard]] bool weighs(TriangleId seed) const;
+  [[nodiscard]] bool assigns_weights(TriangleId seed) const;
   std::optional<Edit> choose(const Neighborhood& around, TriangleId seed);
   std::optional<Edit> sideways(std::vector<Tried> tried, Standing before);
   void find_bad();

@@ -172,7 +172,7 @@ class Trial {
 
   Outcome run(const Edit& edit) && {
     if (!apply(edit) || !flipper_.restore_all()) return {};
-    if (edit.kind != Edit::weigh) sweep();  // whose first γ would take the weights back
+    if (edit.kind != Edit::assign_weights) sweep();  // whose first γ would take the weights back
     Outcome outcome;
     outcome.standing = standing(work_.mesh, settings_.accuracy);
     outcome.valid = count_non_regular_edges(work_.mesh, false) == 0 && rim_is_regular(around_, work_.mesh);
@@ -208,8 +208,8 @@ class Trial {
         step_.shake(kKick, rng);
         return true;
       }
-      case Edit::weigh:
-        weigh();
+      case Edit::assign_weights:
+        assign_weights();
         return true;
       case Edit::insert:
         return insert(edit.triangle, edit.place);
@@ -227,7 +227,7 @@ class Trial {
   }
 
   /// Of the vertices around the bad triangle. Those of the rim, which have triangles outside, keep their weights.
-  void weigh() {
+  void assign_weights() {
     const Mesh& mesh = work_.mesh;
     VertexMask free(mesh.n_vertices(), 0);
     const auto corners = mesh.corners(around_.seed);

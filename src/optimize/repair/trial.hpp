@@ -16,14 +16,14 @@ namespace temper {
 /// The edit that a trial begins with, in the numbers of the neighbourhood.
 struct Edit {
   enum Kind {
-    nothing,  ///< only sweep again
-    kick,     ///< all free vertices, at random, by part of their shortest edge
-    weigh,    ///< by the linear programme of the weights that lack least of a margin; positions stay
-    insert,   ///< a vertex in a triangle
-    split,    ///< an inner edge in its middle
-    remove,   ///< a vertex
-    refine,   ///< with vertices, until no triangle is large for its place
-    remesh,   ///< the same, after all free vertices have been removed
+    nothing,         ///< only sweep again
+    kick,            ///< all free vertices, at random, by part of their shortest edge
+    assign_weights,  ///< by the linear programme of the weights that lack least of a margin; positions stay
+    insert,          ///< a vertex in a triangle
+    split,           ///< an inner edge in its middle
+    remove,          ///< a vertex
+    refine,          ///< with vertices, until no triangle is large for its place
+    remesh,          ///< the same, after all free vertices have been removed
   } kind = nothing;
   TriangleId triangle = {};  ///< insert
   WeightedPoint place = {};  ///< insert; without a weight

@@ -187,7 +187,7 @@ Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, Swe
   return *std::move(best);
 }
 
-Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, SweepState state, Run& run) {
+Candidate reweighted(Candidate best, InputMesh& input, const Settings& settings, SweepState state, Run& run) {
   Settings own = settings;
   own.options.unknowns = Unknowns::weights;
   std::vector<Attempt> tries(1);

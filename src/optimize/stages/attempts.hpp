@@ -11,7 +11,8 @@ namespace temper {
 
 /// Attempts from the input with weights alone, where that leaves fewer triangles bad: where they are thin as they have
 /// to be, in layers, moves that lower the energy elsewhere may leave them no weights.
-[[nodiscard]] Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, SweepState state, Run& run);
+[[nodiscard]] Candidate reweighted(Candidate best, InputMesh& input, const Settings& settings, SweepState state,
+                                   Run& run);
 
 /// Says whether a repair that made `now` of `before` is kept: it is no worse, and vertices that came or went have cured
 /// something.

@@ -258,7 +258,7 @@ void Driver::jitter(double amount) {
 }
 
 int Driver::attempt(const Attempt& attempt, bool may_give_up) {
-  if (weigh_ties(attempt.tie_weight)) return polish(run_.report.sweeps);
+  if (reweight_ties(attempt.tie_weight)) return polish(run_.report.sweeps);
   jitter(attempt.jitter);
   const int first = run_.next_sweep();
   const bool may_return_there = attempt.first_energy.has_value() || settings_.policy.defers_flips();
@@ -270,7 +270,7 @@ int Driver::attempt(const Attempt& attempt, bool may_give_up) {
   return last;
 }
 
-bool Driver::weigh_ties(double amount) {
+bool Driver::reweight_ties(double amount) {
   if (amount == 0) return false;
   recorder_.begin_sweep(run_.next_sweep());
   std::vector<std::pair<VertexId, double>> before;

@@ -40,7 +40,7 @@ class Driver {
   void jitter(double amount);
   /// Makes the heavier ends of ties (ties.hpp) heavier by `amount` of their shortest edge squared, and flips: a sweep
   /// of its own. True when that is all it takes: sweeps with a large γ would undo it.
-  bool weigh_ties(double amount);
+  bool reweight_ties(double amount);
   /// Counts and records what was done to the mesh since the last sweep as one more.
   void end_sweep_of_its_own();
   void begin(Phase& phase, int sweep);

@@ -64,9 +64,9 @@ Real twin_total(const Mesh& mesh, const VertexSizes& sizes, const Twin& twin, Ve
       const Real other = boundary ? 0 : side(mesh.twin(h)).h_left, dual = e.h_left + other;
       const Real eta = (e.h_left - other) / 2;
       const Real moment = (alpha * e.l * e.l + beta * dual * dual) / 4;
-      const Real weighed =
+      const Real weighted =
           twin.offset * alpha * delta * delta + (boundary ? twin.boundary_offset : twin.offset) * beta * eta * eta;
-      sum += e.l * dual * (moment + 3 * weighed) / (s * s);
+      sum += e.l * dual * (moment + 3 * weighted) / (s * s);
       if (twin.lengths != nullptr && !boundary) {
         const auto [factor, l2, dual2] = twin.lengths->lengths(mesh, h);
         sum -= Real(factor) * (std::log(e.l * e.l - Real(l2)) + std::log(dual * dual - Real(dual2))) / 2;

@@ -101,7 +101,7 @@ void put(const Mesh& mesh, VertexId v, StarBatch& batch) {
   batch.triangles[lane] = static_cast<double>(patch.size());
   batch.open[lane] = patch.closed ? 0 : -1;
   batch.moves[lane] = patch.closed ? -1 : 0;
-  batch.weighs[lane] = -1;
+  batch.changes_weight[lane] = -1;
   batch.most_triangles = std::max(batch.most_triangles, patch.size());
   for (std::size_t i = 0; i <= patch.size(); ++i) batch.link[i].set(lane, patch.q(i));
   for (std::size_t i = 0; i < patch.size(); ++i) {
@@ -115,7 +115,7 @@ void put(const Mesh& mesh, VertexId v, StarBatch& batch) {
 void leave_empty(StarBatch& batch, std::size_t from) {
   for (std::size_t lane = from; lane < kLanes; ++lane) {
     batch.triangles[lane] = 0;
-    batch.open[lane] = batch.moves[lane] = batch.weighs[lane] = 0;
+    batch.open[lane] = batch.moves[lane] = batch.changes_weight[lane] = 0;
   }
 }
 

@@ -17,13 +17,13 @@ namespace {
 
 TEST(RepairByProgramme, CuresWhatSweepsLeave) {
   const Mesh input = *horseshoe({.a = 6, .b = 7});
-  Mesh swept = input, weighed = input;
-  const auto without = optimize(swept), with = optimize(weighed, {}, {.solvers = solvers()});
+  Mesh swept = input, reweighted = input;
+  const auto without = optimize(swept), with = optimize(reweighted, {}, {.solvers = solvers()});
   ASSERT_TRUE(without && with);
   EXPECT_GT(standing(swept).bad, 0u);
-  EXPECT_EQ(standing(weighed).bad, 0u);
-  EXPECT_EQ(count_non_regular_edges(weighed), 0u);
-  EXPECT_EQ(weighed.validate(), std::nullopt);
+  EXPECT_EQ(standing(reweighted).bad, 0u);
+  EXPECT_EQ(count_non_regular_edges(reweighted), 0u);
+  EXPECT_EQ(reweighted.validate(), std::nullopt);
   const auto says_so = [](const std::string& note) { return note.starts_with("repairs had no solver of linear"); };
   EXPECT_EQ(std::count_if(without->notes.begin(), without->notes.end(), says_so), 1);
   EXPECT_EQ(std::count_if(with->notes.begin(), with->notes.end(), says_so), 0);
@@ -50,7 +50,7 @@ TEST(RepairByProgramme, OfAPlaceChangesWeightsNearItAndNoneOfTheRim) {
   std::size_t cured = 0;
   for (std::size_t t = 0; t < mesh.n_triangles(); t += 37) {
     const Neighborhood around = neighborhood_of(mesh, TriangleId(t), 3);
-    const Outcome outcome = try_edit(around, {.kind = Edit::weigh}, *settings, Frame::of(mesh), true);
+    const Outcome outcome = try_edit(around, {.kind = Edit::assign_weights}, *settings, Frame::of(mesh), true);
     if (!outcome.valid) continue;
     cured += outcome.standing < standing(around.mesh) ? 1 : 0;
     for (const TraceEvent& e : outcome.events) {

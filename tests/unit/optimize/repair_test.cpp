@@ -82,16 +82,16 @@ TEST(Repair, WithoutInsertionAndRemovalEveryVertexStays) {
 TEST(Attempts, WithWeightsAloneCureLayersThatMovesDoNot) {
   const Mesh input = test::layers();
   EXPECT_EQ(n_bad(input), input.n_triangles());  // right angles
-  Mesh moved = input, weighed = input;
+  Mesh moved = input, reweighted = input;
   const OptimizeOptions options = {.objective = Objective::energy};
   OptimizeOptions positions = options;
   positions.unknowns = Unknowns::positions;
   positions.repair = Repair::none;
   ASSERT_TRUE(optimize(moved, positions));
-  ASSERT_TRUE(optimize(weighed, options));
+  ASSERT_TRUE(optimize(reweighted, options));
   EXPECT_GT(n_bad(moved), 0u);
-  EXPECT_EQ(n_bad(weighed), 0u);
-  for (const VertexId v : input.vertices()) ASSERT_EQ(weighed.position(v), input.position(v)) << v.index;
+  EXPECT_EQ(n_bad(reweighted), 0u);
+  for (const VertexId v : input.vertices()) ASSERT_EQ(reweighted.position(v), input.position(v)) << v.index;
 }
 
 TEST(Repair, OfOnePlaceInALargeMeshChangesNothingElsewhere) {
