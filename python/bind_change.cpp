@@ -219,7 +219,7 @@ void bind_topology(py::module_& m) {
     require_plane(*mesh, "plan_boundary_grading()");
     const GradingPlan plan = plan_boundary_grading(*mesh, ratio, widest);
     py::list cuts;
-    for (const EdgeCuts& c : plan.cuts) cuts.append(py::make_tuple(c.a.index, c.b.index, to_python(c.at)));
+    for (const EdgeSplits& c : plan.cuts) cuts.append(py::make_tuple(c.a.index, c.b.index, to_python(c.at)));
     return Record()("cuts", cuts)("vertices", plan.vertices)("ratio_before", plan.ratio_before)("ratio_after",
                                                                                                 plan.ratio_after)
         .dict;

@@ -163,17 +163,17 @@ VertexId insert_vertex(Mesh& mesh, const InsertionPlan& plan, const InsertionObs
 // --- boundary grading: for meshes of the plane, a precondition ------------------------------------------------------
 
 /// One edge of the boundary or of constrained lines, and where to cut it.
-struct EdgeCuts {
+struct EdgeSplits {
   VertexId a, b;           ///< a < b
   std::vector<double> at;  ///< fractions of the way from a to b, ascending, strictly between 0 and 1
 };
 
 /// A plan that cuts the edges of the boundary and of constrained lines so that neighbours are of like length.
 struct GradingPlan {
-  std::vector<EdgeCuts> cuts;  ///< by a, then b
-  std::size_t vertices = 0;    ///< how many vertices that makes
-  double ratio_before = 1;     ///< the largest ratio of the lengths of two such edges that meet at a vertex
-  double ratio_after = 1;      ///< the same with the cuts, at most `ratio`
+  std::vector<EdgeSplits> cuts;  ///< by a, then b
+  std::size_t vertices = 0;      ///< how many vertices that makes
+  double ratio_before = 1;       ///< the largest ratio of the lengths of two such edges that meet at a vertex
+  double ratio_after = 1;        ///< the same with the cuts, at most `ratio`
 };
 
 /// Cuts edges of the boundary and constrained edges until any two of them that meet at a vertex are within `ratio` of

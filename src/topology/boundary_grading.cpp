@@ -170,7 +170,7 @@ double largest_ratio(const std::vector<LineEdge>& edges, const std::vector<std::
   return largest;
 }
 
-std::vector<double> cuts_of(const std::vector<double>& pieces) {
+std::vector<double> splits_of(const std::vector<double>& pieces) {
   double total = 0, sum = 0;
   for (const double piece : pieces) total += piece;
   std::vector<double> at;
@@ -179,7 +179,7 @@ std::vector<double> cuts_of(const std::vector<double>& pieces) {
 }
 
 /// Cuts the edge a→b at `at`, one after the other.
-void cut_edge(Mesh& mesh, const EdgeCuts& cuts, const InsertionObserver* observer, Grading& grading) {
+void split_edge_at(Mesh& mesh, const EdgeSplits& cuts, const InsertionObserver* observer, Grading& grading) {
   const WeightedPoint a = mesh.point(cuts.a), b = mesh.point(cuts.b);
   const Vec2 step = b.position() - a.position();
   VertexId from = cuts.a;
@@ -216,7 +216,7 @@ GradingPlan plan_boundary_grading(const Mesh& mesh, double ratio, double widest_
     whole.push_back({e.length});
     pieces.push_back(divide(e, sizes[e.a], sizes[e.b], ratio));
     if (pieces.back().size() == 1) continue;
-    plan.cuts.push_back({e.a, e.b, cuts_of(pieces.back())});
+    plan.cuts.push_back({e.a, e.b, splits_of(pieces.back())});
     plan.vertices += plan.cuts.back().at.size();
   }
   plan.ratio_before = largest_ratio(edges, whole, n);
@@ -271,7 +271,7 @@ Grading grade_boundary(Mesh& mesh, double ratio, const InsertionObserver* observ
   Grading grading;
   for (int pass = 0; pass < kGradingPasses; ++pass) {
     const GradingPlan plan = plan_boundary_grading(mesh, ratio, kWidestBoundaryAngle);
-    for (const EdgeCuts& cuts : plan.cuts) cut_edge(mesh, cuts, observer, grading);
+    for (const EdgeSplits& cuts : plan.cuts) split_edge_at(mesh, cuts, observer, grading);
   }
   InsertionPlan plan;
   for (const auto& corners : triangles_without_free_corner(mesh)) {

@@ -406,7 +406,7 @@ void mark_new_points(MeshFile& file, const Mesh& mesh, const Chains& chains) {
 
 }  // namespace
 
-void cut_lines(MeshFile& file, const Mesh& mesh, const Vertices& vertices) {
+void split_lines(MeshFile& file, const Mesh& mesh, const Vertices& vertices) {
   if (std::all_of(vertices.begin(), vertices.end(), [](VertexId v) { return v.valid(); })) return;
   const Chains chains(mesh, vertices);
   cut_edges(file, mesh, chains);

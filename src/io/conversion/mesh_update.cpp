@@ -264,7 +264,7 @@ void follow(MeshFile& file, std::size_t n, const Mesh& mesh, const Former& forme
   renumber(file, [&](std::int32_t p) { return new_index[static_cast<std::size_t>(p)]; });
   const std::size_t lost = n_lines - merged - file.lines.size() + n_marked - file.marked_points.size();
   if (lost > 0) file.warnings.push_back(text(lost, " lines or marked points have lost their vertices and are dropped"));
-  cut_lines(file, mesh, former);
+  split_lines(file, mesh, former);
 }
 
 bool same_numbers(const Former& former, std::size_t n) {

@@ -172,8 +172,8 @@ class BoundaryCutter {
   BoundaryCutter(WorkingCopy& work, Flipper& flipper)
       : work_(work), mesh_(work.mesh), flipper_(flipper), ratio_before_(length_ratio(work.mesh)) {}
 
-  /// Cuts the edge from a towards b, each time what is left of it.
-  void cut(const EdgeCuts& edge) {
+  /// BoundarySplitting the edge from a towards b, each time what is left of it.
+  void cut(const EdgeSplits& edge) {
     const Vec2 a = mesh_.position(edge.a), along = mesh_.position(edge.b) - a;
     VertexId last = edge.a;
     for (const double t : edge.at) {
@@ -220,7 +220,7 @@ class BoundaryCutter {
     ++inside_;
   }
 
-  [[nodiscard]] BoundaryCuts cuts() const {
+  [[nodiscard]] SplitCounts cuts() const {
     return {vertices_, conflicts_, inside_, refused_.size(), ratio_before_, length_ratio(mesh_)};
   }
 
@@ -277,13 +277,13 @@ std::vector<Ends> lines_at(const Mesh& mesh, TriangleId t) {
 
 }  // namespace
 
-BoundaryCuts operator+(const BoundaryCuts& a, const BoundaryCuts& b) {
+SplitCounts operator+(const SplitCounts& a, const SplitCounts& b) {
   return {a.vertices + b.vertices, a.conflicts + b.conflicts,
           a.inside + b.inside,     a.refused + b.refused,
           a.ratio_before,          b.ratio_after};
 }
 
-BoundaryCuts cut_where_bad(WorkingCopy& work, Flipper& flipper) {
+SplitCounts split_where_bad(WorkingCopy& work, Flipper& flipper) {
   const Mesh& mesh = work.mesh;
   BoundaryCutter cutter(work, flipper);
   VertexMarks near(mesh.n_vertices(), 0);
@@ -301,13 +301,13 @@ BoundaryCuts cut_where_bad(WorkingCopy& work, Flipper& flipper) {
   return cutter.cuts();
 }
 
-BoundaryCuts cut_boundary(WorkingCopy& work, Flipper& flipper, double ratio) {
+SplitCounts split_boundary(WorkingCopy& work, Flipper& flipper, double ratio) {
   BoundaryCutter cutter(work, flipper);
   // First: after other cuts more splits are needed, and at sharp corners far more.
   cutter.resolve_conflicts();
   for (int pass = 0; pass < kGradingPasses; ++pass) {
     const GradingPlan plan = plan_boundary_grading(work.mesh, ratio, kWidestBoundaryAngle);
-    for (const EdgeCuts& edge : plan.cuts) cutter.cut(edge);
+    for (const EdgeSplits& edge : plan.cuts) cutter.cut(edge);
   }
   for (const auto& corners : triangles_without_free_corner(work.mesh)) cutter.free(corners);
   return cutter.cuts();

@@ -13,7 +13,7 @@
 
 namespace temper {
 
-struct BoundaryCuts {
+struct SplitCounts {
   std::size_t vertices = 0;   ///< inserted on edges
   std::size_t conflicts = 0;  ///< of these, on edges that left their dual no room or little
   std::size_t inside = 0;     ///< inserted in triangles whose corners all are on the boundary or on lines
@@ -22,12 +22,12 @@ struct BoundaryCuts {
   double ratio_after = 1;     ///< the same after all cuts
 };
 /// Both together, those of b after those of a.
-[[nodiscard]] BoundaryCuts operator+(const BoundaryCuts& a, const BoundaryCuts& b);
+[[nodiscard]] SplitCounts operator+(const SplitCounts& a, const SplitCounts& b);
 
 /// The mesh's unconstrained edges are regular, and so they are left.
-BoundaryCuts cut_boundary(WorkingCopy& work, Flipper& flipper, double ratio);
+SplitCounts split_boundary(WorkingCopy& work, Flipper& flipper, double ratio);
 /// The same at the corners of bad triangles alone: of lines that leave a dual no room or little; else, at each triangle
 /// without such, the longest one is halved.
-BoundaryCuts cut_where_bad(WorkingCopy& work, Flipper& flipper);
+SplitCounts split_where_bad(WorkingCopy& work, Flipper& flipper);
 
 }  // namespace temper

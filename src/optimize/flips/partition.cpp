@@ -45,7 +45,8 @@ class ShiftedCurve {
 
 /// Turned by a radian around an axis, another one for each cut: near one axis the other two turn.
 Vec3 turned(Vec3 p, std::size_t cut) {
-  constexpr std::array<Vec3, ShiftedCuts::kCuts> kAxes = {{{2, 3, 6}, {6, 2, -3}, {3, -6, 2}}};  // of length 7
+  constexpr std::array<Vec3, ShiftedPartitions::kPartitions> kAxes = {
+      {{2, 3, 6}, {6, 2, -3}, {3, -6, 2}}};  // of length 7
   const Vec3 axis = (1.0 / 7) * kAxes[cut];
   const double c = std::cos(1.0), s = std::sin(1.0);
   return c * p + s * cross(axis, p) + (1 - c) * dot(axis, p) * axis;
@@ -69,11 +70,11 @@ std::vector<PartNumber> parts_along(const Mesh& mesh, std::size_t count, Executo
 
 }  // namespace
 
-void ShiftedCuts::cut(const Mesh& mesh, std::size_t count, Executor& executor) {
+void ShiftedPartitions::cut(const Mesh& mesh, std::size_t count, Executor& executor) {
   n_parts_ = std::min<std::size_t>(count, std::numeric_limits<PartNumber>::max());
   Box box;
   for (const VertexId v : mesh.vertices()) box.add(mesh.position(v));
-  for (std::size_t k = 0; k < kCuts; ++k) {
+  for (std::size_t k = 0; k < kPartitions; ++k) {
     if (mesh.space().is_plane()) {
       const ShiftedCurve curve(mesh, box, static_cast<double>(k + 1) / 5);
       part_of_[k] = parts_along(mesh, n_parts_, executor, [&](VertexId v) { return curve(mesh.position(v)); });

@@ -31,7 +31,7 @@ struct Part {
 };
 
 /// A mesh cut into `count` parts of equal size.
-struct Cut {
+struct Partition {
   std::size_t n_vertices = 0, count = 1;
 
   [[nodiscard]] Part operator[](std::size_t i) const { return {bound(i), bound(i + 1)}; }
@@ -63,9 +63,9 @@ struct Cut {
 ///
 /// So nothing is left after three of the four, or little. On a sphere the curves are turned instead, around three axes;
 /// in a periodic plane they begin elsewhere.
-class ShiftedCuts {
+class ShiftedPartitions {
  public:
-  static constexpr std::size_t kCuts = 3;
+  static constexpr std::size_t kPartitions = 3;
 
   /// Each into about `count` parts of about the same size, by the vertices' places now. O(n log count).
   void cut(const Mesh& mesh, std::size_t count, Executor& executor);
@@ -82,7 +82,7 @@ class ShiftedCuts {
 
  private:
   std::size_t n_parts_ = 0;
-  std::array<std::vector<PartNumber>, kCuts> part_of_;  // by each vertex
+  std::array<std::vector<PartNumber>, kPartitions> part_of_;  // by each vertex
 };
 
 }  // namespace temper

@@ -29,10 +29,10 @@ class Notes {
   void add(std::string note) { report_.notes.push_back(std::move(note)); }
 
   void tell_facts(const RunFacts& facts) {
-    if (facts.stays_uncut) {
+    if (facts.stays_unsplit) {
       add("the boundary and lines were not split: more triangles would be left that are not well-centered");
-    } else if (facts.boundary_cuts) {
-      tell_cuts(*facts.boundary_cuts);
+    } else if (facts.boundary_splits) {
+      note_splits(*facts.boundary_splits);
     }
     tell_input_flips(facts.input_flips);
     if (facts.weights_shrunk) add("weights left edges uncrossed that a barrier needs crossed: all were made smaller");
@@ -159,7 +159,7 @@ class Notes {
     if (flips > 0) add(count_of(flips, "edge", "edges") + " of the input flipped to make it regular");
   }
 
-  void tell_cuts(const BoundaryCuts& cuts) {
+  void note_splits(const SplitCounts& cuts) {
     const auto rounded = [](double ratio) { return to_text(std::round(100 * ratio) / 100); };
     if (cuts.vertices > 0) {
       add(count_of(cuts.vertices, "vertex", "vertices") +

@@ -21,13 +21,13 @@ namespace temper {
 
 /// Facts that the report tells in sentences.
 struct RunFacts {
-  std::size_t input_flips = 0;                ///< that made the input regular
-  std::optional<BoundaryCuts> boundary_cuts;  ///< when they were asked for
-  BoundaryCuts cuts_where_bad;                ///< before the last attempt that made some there
-  bool stays_uncut = false;                   ///< since cuts leave more triangles bad
-  bool weights_shrunk = false;                ///< all of them, since they left edges uncrossed
-  bool energy_rose = false;                   ///< in the last sweeps, which were taken back
-  bool lacks_programs = false;                ///< of which a repair would have asked one
+  std::size_t input_flips = 0;                 ///< that made the input regular
+  std::optional<SplitCounts> boundary_splits;  ///< when they were asked for
+  SplitCounts splits_where_bad;                ///< before the last attempt that made some there
+  bool stays_unsplit = false;                  ///< since cuts leave more triangles bad
+  bool weights_shrunk = false;                 ///< all of them, since they left edges uncrossed
+  bool energy_rose = false;                    ///< in the last sweeps, which were taken back
+  bool lacks_programs = false;                 ///< of which a repair would have asked one
 };
 
 /// While it lives, this mesh is the best one so far, and a stage tries another.

@@ -17,7 +17,7 @@
 namespace temper {
 
 /// Where the boundary and lines are cut before an attempt, if the options ask for cuts.
-enum class Cuts : std::uint8_t {
+enum class BoundarySplitting : std::uint8_t {
   graded,     ///< where long edges meet short ones, and where a dual has no place to cross
   none,       ///< nowhere
   where_bad,  ///< where the best mesh so far has bad triangles; the attempt goes on with that mesh
@@ -34,8 +34,8 @@ struct Attempt {
   double jitter = 0;        ///< of free vertices before the first sweep, relative to their shortest edge
   double fewer = 1;         ///< it is given up when bad triangles do not become fewer than this part of them for long
   double tie_weight = 0;    ///< added before it to the heavier ends of ties, relative to their shortest edge squared
-  std::optional<EnergyKind> first_energy = {};  ///< of its first sweeps
-  Cuts cuts = Cuts::graded;                     ///< before it
+  std::optional<EnergyKind> first_energy = {};              ///< of its first sweeps
+  BoundarySplitting splitting = BoundarySplitting::graded;  ///< before it
 };
 
 /// The attempt for a mesh that is well-centered already, or as good as can be: the sharpest γ at once.

@@ -88,12 +88,12 @@ std::vector<Attempt> attempts_for(const Mesh& mesh, const Settings& settings) {
   std::vector<Attempt> tries(all.begin(), all.end());
   const bool splits = settings.options.boundary == BoundaryVertices::split;
   Attempt where_bad = kNearlyGood;
-  where_bad.cuts = Cuts::where_bad;
+  where_bad.splitting = BoundarySplitting::where_bad;
   if (splits) {
     tries.insert(tries.end(), kRoundsWhereBad, where_bad);
-    for (Attempt uncut : all) {
-      uncut.cuts = Cuts::none;
-      tries.push_back(uncut);
+    for (Attempt unsplit : all) {
+      unsplit.splitting = BoundarySplitting::none;
+      tries.push_back(unsplit);
     }
     tries.insert(tries.end(), kRoundsWhereBad, where_bad);
   }
@@ -114,24 +114,24 @@ std::vector<Attempt> attempts_by_weights(const Mesh& mesh, const Settings& setti
 
 /// The input made regular, and its boundary cut, as an attempt begins; or the best mesh, cut where it is bad.
 std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Settings& settings, const Attempt& attempt) {
-  if (attempt.cuts == Cuts::where_bad) {
-    driver.cut_where_bad();
+  if (attempt.splitting == BoundarySplitting::where_bad) {
+    driver.split_where_bad();
     return std::nullopt;
   }
   if (!settings.policy.keeps_connectivity() && !driver.make_regular()) {
     return hidden_vertices_error(input, settings.hooks.names);
   }
-  if (attempt.cuts == Cuts::graded) driver.grade_boundary();
+  if (attempt.splitting == BoundarySplitting::graded) driver.grade_boundary();
   return std::nullopt;
 }
 
 /// The cuts of the best mesh, which that attempt has made.
-void tell_cuts(const Attempt& attempt, RunFacts& facts) {
-  if (attempt.cuts == Cuts::where_bad) {
-    const bool on_uncut = facts.stays_uncut || !facts.boundary_cuts;
-    facts.boundary_cuts = on_uncut ? facts.cuts_where_bad : *facts.boundary_cuts + facts.cuts_where_bad;
+void note_splits(const Attempt& attempt, RunFacts& facts) {
+  if (attempt.splitting == BoundarySplitting::where_bad) {
+    const bool on_unsplit = facts.stays_unsplit || !facts.boundary_splits;
+    facts.boundary_splits = on_unsplit ? facts.splits_where_bad : *facts.boundary_splits + facts.splits_where_bad;
   }
-  facts.stays_uncut = attempt.cuts == Cuts::none;
+  facts.stays_unsplit = attempt.splitting == BoundarySplitting::none;
 }
 
 }  // namespace
@@ -151,13 +151,14 @@ Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, Swe
   // The second attempt from the same beginning is more thorough, and takes many sweeps: where the first left far more
   // bad than there are in the best mesh it does not make up for that.
   const auto may_gain = [&](std::size_t i) {
-    if (all[i].cuts == Cuts::where_bad) return renewed;
-    return all[i - 1].cuts != all[i].cuts || left <= kFarMore * count_bad(best->work.mesh, settings.executor());
+    if (all[i].splitting == BoundarySplitting::where_bad) return renewed;
+    return all[i - 1].splitting != all[i].splitting ||
+           left <= kFarMore * count_bad(best->work.mesh, settings.executor());
   };
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (best && !may_gain(i)) continue;
     const BestBefore kept(run.best_before, best ? &best->work : nullptr);
-    const bool goes_on = all[i].cuts == Cuts::where_bad;
+    const bool goes_on = all[i].splitting == BoundarySplitting::where_bad;
     Candidate now = goes_on ? *best : Candidate{WorkingCopy(input.whole(), settings.policy.order, settings.executor())};
     Driver driver(now.work, settings, state, run);
     if (best) driver.recorder().returned_to(goes_on ? best->sweep : -1);
@@ -171,12 +172,13 @@ Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, Swe
     const Attempt& attempt = all[i];
     now.sweep = driver.attempt(attempt, i + 1 < all.size() || repairs(settings));
     // The user asks for cuts: without them fewer triangles have to be bad.
-    const Requirement required = attempt.cuts == Cuts::graded ? Requirement::not_worse : Requirement::fewer_bad;
+    const Requirement required =
+        attempt.splitting == BoundarySplitting::graded ? Requirement::not_worse : Requirement::fewer_bad;
     if (!best || replaces(now.work.mesh, best->work.mesh, required, settings, state.model)) {
       best = std::move(now);
       left = 0;
       renewed = true;
-      tell_cuts(attempt, run.facts);
+      note_splits(attempt, run.facts);
     } else {
       driver.recorder().returned_to(best->sweep);
       left = count_bad(now.work.mesh, settings.executor());
@@ -209,7 +211,7 @@ Candidate reweighted(Candidate best, InputMesh& input, const Settings& settings,
     now.sweep = driver.attempt(tries[i], true);
     if (replaces(now.work.mesh, best.work.mesh, Requirement::fewer_bad, settings, state.model)) {
       best = std::move(now);
-      run.facts.stays_uncut = settings.options.boundary == BoundaryVertices::split;
+      run.facts.stays_unsplit = settings.options.boundary == BoundaryVertices::split;
     } else {
       driver.recorder().returned_to(best.sweep);
     }

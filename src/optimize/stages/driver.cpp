@@ -239,14 +239,14 @@ bool Driver::make_regular() {
 void Driver::grade_boundary() {
   if (settings_.options.boundary != BoundaryVertices::split) return;
   TEMPER_ASSERT_SLOW(settings_.policy.keeps_hidden() || count_non_regular_edges(mesh_, false) == 0);
-  const BoundaryCuts cuts = cut_boundary(work_, flipper_, settings_.options.boundary_ratio);
+  const SplitCounts cuts = split_boundary(work_, flipper_, settings_.options.boundary_ratio);
   grow();
   TEMPER_ASSERT_SLOW(settings_.policy.keeps_hidden() || count_non_regular_edges(mesh_, false) == 0);
-  run_.facts.boundary_cuts = cuts;  // of each attempt the same
+  run_.facts.boundary_splits = cuts;  // of each attempt the same
 }
 
-void Driver::cut_where_bad() {
-  run_.facts.cuts_where_bad = temper::cut_where_bad(work_, flipper_);
+void Driver::split_where_bad() {
+  run_.facts.splits_where_bad = temper::split_where_bad(work_, flipper_);
   grow();
 }
 

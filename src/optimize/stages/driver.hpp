@@ -17,10 +17,10 @@ class Driver {
 
   /// Lawson on the whole input, before any phase. False when its weights hide a vertex that may not be.
   bool make_regular();
-  /// Cuts edges of the boundary and of lines, when the options ask for it.
+  /// BoundarySplitting edges of the boundary and of lines, when the options ask for it.
   void grade_boundary();
   /// The same at bad triangles alone.
-  void cut_where_bad();
+  void split_where_bad();
   /// One attempt on the input. Returns the sweep whose mesh the working copy is then. `may_give_up`: as EnergyPhase.
   int attempt(const Attempt& attempt, bool may_give_up);
   /// Sweeps of one phase. `sweep`: whose mesh the working copy is. Returns as above.

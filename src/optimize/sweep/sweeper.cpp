@@ -140,19 +140,19 @@ bool Sweeper::visit_all(int iteration, Unknowns unknowns, std::span<const Vertex
 void Sweeper::visit_parts(StopToken& stop) {
   const Mesh& mesh = context_.mesh;
   const std::size_t n = mesh.n_vertices(), count = std::max<std::size_t>(1, (n + part_size_ - 1) / part_size_);
-  if (count > 1 && !cuts_.are_of(mesh)) cuts_.cut(mesh, count, engine().executor());
-  const Cut cut{n, count};
-  const auto numbers = [&](std::size_t i) { return IdRange<VertexId>(cut[i].first, cut[i].last); };
+  if (count > 1 && !partitions_.are_of(mesh)) partitions_.cut(mesh, count, engine().executor());
+  const Partition partition{n, count};
+  const auto numbers = [&](std::size_t i) { return IdRange<VertexId>(partition[i].first, partition[i].last); };
   run_parts(
-      count, stop, [&](std::size_t i) { return count == 1 ? Part() : cut[i]; }, numbers);
+      count, stop, [&](std::size_t i) { return count == 1 ? Part() : partition[i]; }, numbers);
   const auto handed_out = [&](std::size_t i) {
     return std::span<const VertexId>(waiting_).subspan(begin_[i], begin_[i + 1] - begin_[i]);
   };
-  for (std::size_t k = 0; count > 1 && k < ShiftedCuts::kCuts; ++k) {
+  for (std::size_t k = 0; count > 1 && k < ShiftedPartitions::kPartitions; ++k) {
     stop.ask_soon();
     hand_out(k);
     run_parts(
-        cuts_.n_parts(), stop, [&](std::size_t i) { return cuts_.part(k, i); }, handed_out);
+        partitions_.n_parts(), stop, [&](std::size_t i) { return partitions_.part(k, i); }, handed_out);
   }
   std::sort(waiting_.begin(), waiting_.end());
   visit_in_order(waiting_, stop);
@@ -202,12 +202,12 @@ void Sweeper::run_parts(std::size_t n, StopToken& stop, PartOf&& part, VerticesO
 
 /// Those that wait, by their parts of cut k (counting sort).
 void Sweeper::hand_out(std::size_t k) {
-  begin_.assign(cuts_.n_parts() + 1, 0);
-  for (const VertexId v : waiting_) ++begin_[cuts_.part_of(k, v) + 1];
+  begin_.assign(partitions_.n_parts() + 1, 0);
+  for (const VertexId v : waiting_) ++begin_[partitions_.part_of(k, v) + 1];
   for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
   handed_out_.resize(waiting_.size());
   std::vector<std::size_t> next = begin_;
-  for (const VertexId v : waiting_) handed_out_[next[cuts_.part_of(k, v)]++] = v;
+  for (const VertexId v : waiting_) handed_out_[next[partitions_.part_of(k, v)]++] = v;
   waiting_.swap(handed_out_);
 }
 

@@ -4,7 +4,7 @@
 // The vertices of a working copy are numbered along a Hilbert curve. They are cut into parts, ranges of about 16,000
 // numbers, however many threads there are, and each part improves the vertices that are confined to it (partition.hpp),
 // in order; it lists those that are not, or whose flips would not be. These wait for the parts of other cuts
-// (ShiftedCuts): nearly all are inside of one of three. What is left then, mostly nothing, comes one after
+// (ShiftedPartitions): nearly all are inside of one of three. What is left then, mostly nothing, comes one after
 // another. A mesh of one part is swept as a whole.
 //
 // Why parts may run at once. Call a triangle inner to a part when all its corners are in there. While parts run:
@@ -159,7 +159,7 @@ class Sweeper {
   /// The mesh has been compacted, or has got new vertices.
   void renumber(const Compaction& kept) {
     limits_.renumber(kept);
-    cuts_.clear();
+    partitions_.clear();
   }
   void grow() { limits_.grow(); }
 
@@ -190,7 +190,7 @@ class Sweeper {
   std::vector<VertexId> waiting_;     // for the phase under way
   std::vector<VertexId> handed_out_;  // as they are put in the order of their parts
   std::vector<std::size_t> begin_;    // of each part among those that wait
-  ShiftedCuts cuts_;                  // as the mesh was at the first sweep, or the first with these vertices
+  ShiftedPartitions partitions_;      // as the mesh was at the first sweep, or the first with these vertices
 };
 
 }  // namespace temper

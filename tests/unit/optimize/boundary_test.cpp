@@ -422,7 +422,7 @@ TEST(Boundary, CutsWhereTrianglesAreBadAreAtTheirCornersAlone) {
     if (work.mesh.is_boundary(h)) edges.emplace_back(work.mesh.origin(h), work.mesh.target(h));
   }
   const std::size_t n = work.mesh.n_vertices();
-  const BoundaryCuts cuts = cut_where_bad(work, flipper);
+  const SplitCounts cuts = split_where_bad(work, flipper);
   EXPECT_GT(cuts.vertices, 0u);
   EXPECT_EQ(work.mesh.n_vertices(), n + cuts.vertices);
   EXPECT_EQ(count_non_regular_edges(work.mesh, false), 0u);

@@ -245,30 +245,30 @@ TEST(Together, RanksThatAreGivenDifferentThingsAllSaySo) {
 
 // --- cuts into parts -----------------------------------------------------------------------------
 
-struct CutCase {
+struct PartitionCase {
   const char* name;
   Mesh (*make)();
 };
 
-class Cuts : public testing::TestWithParam<CutCase> {};
+class Partitions : public testing::TestWithParam<PartitionCase> {};
 
-TEST_P(Cuts, LeaveNoneOrFewVerticesOutsideOfAllParts) {
+TEST_P(Partitions, LeaveNoneOrFewVerticesOutsideOfAllParts) {
   constexpr std::size_t kParts = 6;
   const Mesh mesh = hilbert_ordered(GetParam().make()).mesh;
   const std::size_t n = mesh.n_vertices();
-  const Cut numbers{n, kParts};
+  const Partition numbers{n, kParts};
   StdThreads crew(3);
-  ShiftedCuts cuts;
+  ShiftedPartitions cuts;
   cuts.cut(mesh, kParts, crew);
   ASSERT_EQ(cuts.n_parts(), kParts);
   EXPECT_TRUE(cuts.are_of(mesh));
-  std::array<std::vector<std::size_t>, ShiftedCuts::kCuts> sizes;
+  std::array<std::vector<std::size_t>, ShiftedPartitions::kPartitions> sizes;
   sizes.fill(std::vector<std::size_t>(kParts, 0));
   std::size_t in_order = 0, nowhere = 0;
   for (const VertexId v : mesh.vertices()) {
     bool confined = is_confined(mesh, v, numbers[v.index * kParts / n]);
     in_order += confined ? 0 : 1;
-    for (std::size_t k = 0; k < ShiftedCuts::kCuts; ++k) {
+    for (std::size_t k = 0; k < ShiftedPartitions::kPartitions; ++k) {
       const std::size_t i = cuts.part_of(k, v);
       ASSERT_LT(i, kParts);
       ++sizes[k][i];
@@ -280,16 +280,16 @@ TEST_P(Cuts, LeaveNoneOrFewVerticesOutsideOfAllParts) {
   }
   EXPECT_GT(in_order, n / 20);
   EXPECT_LE(nowhere, n / 200);
-  for (const auto& of_cut : sizes) {
-    EXPECT_LT(*std::max_element(of_cut.begin(), of_cut.end()), 2 * n / kParts);
-    EXPECT_GT(*std::min_element(of_cut.begin(), of_cut.end()), n / kParts / 2);
+  for (const auto& of_partition : sizes) {
+    EXPECT_LT(*std::max_element(of_partition.begin(), of_partition.end()), 2 * n / kParts);
+    EXPECT_GT(*std::min_element(of_partition.begin(), of_partition.end()), n / kParts / 2);
   }
 
-  ShiftedCuts alone;
+  ShiftedPartitions alone;
   SerialExecutor one;
   alone.cut(mesh, kParts, one);
   for (const VertexId v : mesh.vertices()) {
-    for (std::size_t k = 0; k < ShiftedCuts::kCuts; ++k)
+    for (std::size_t k = 0; k < ShiftedPartitions::kPartitions; ++k)
       EXPECT_EQ(cuts.part_of(k, v), alone.part_of(k, v)) << "threads";
   }
   cuts.clear();
@@ -302,10 +302,12 @@ Mesh points_on_sphere() { return *random_sphere({.vertices = 24000, .seed = 4});
 Mesh points_around_both_ways() { return *random_periodic({.vertices = 24000, .seed = 4, .period = {2, 1}}); }
 Mesh channel() { return *periodic_hexagons({.nx = 160, .ny = 150, .channel = true}); }
 
-INSTANTIATE_TEST_SUITE_P(Spaces, Cuts,
-                         testing::Values(CutCase{"plane", points_in_plane}, CutCase{"graded", points_of_many_sizes},
-                                         CutCase{"sphere", points_on_sphere},
-                                         CutCase{"periodic", points_around_both_ways}, CutCase{"channel", channel}),
+INSTANTIATE_TEST_SUITE_P(Spaces, Partitions,
+                         testing::Values(PartitionCase{"plane", points_in_plane},
+                                         PartitionCase{"graded", points_of_many_sizes},
+                                         PartitionCase{"sphere", points_on_sphere},
+                                         PartitionCase{"periodic", points_around_both_ways},
+                                         PartitionCase{"channel", channel}),
                          [](const auto& one) { return std::string(one.param.name); });
 
 // --- what one part touches -----------------------------------------------------------------------
@@ -349,7 +351,7 @@ struct OnePart {
   [[nodiscard]] Part part(bool shifted) const { return shifted ? cuts.part(1, 1) : Part{VertexId(300), VertexId(700)}; }
   WorkingCopy work;
   Settings settings;
-  ShiftedCuts cuts;
+  ShiftedPartitions cuts;
 };
 
 std::vector<OptimizeOptions> ways_to_step() {

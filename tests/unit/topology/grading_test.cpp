@@ -40,7 +40,7 @@ TEST(BoundaryGrading, BringsEveryPairWithinTheRatioAndThenHasNothingLeftToDo) {
     EXPECT_EQ(plan.vertices > 0, plan.ratio_before > ratio);
     cut += plan.vertices > 0 ? 1 : 0;
     vertices += plan.vertices;
-    for (const EdgeCuts& cuts : plan.cuts) {
+    for (const EdgeSplits& cuts : plan.cuts) {
       EXPECT_LT(cuts.a, cuts.b);
       EXPECT_TRUE(std::is_sorted(cuts.at.begin(), cuts.at.end()));
       VertexId last = cuts.a;
@@ -67,7 +67,7 @@ TEST(BoundaryGrading, CutsALongEdgeIntoAGeometricProgression) {
   const Mesh mesh = test::build_or_die({{0, 0}, {1, 0}, {20, 0}, {20, 30}}, {{0, 1, 3}, {1, 2, 3}});
   const GradingPlan plan = plan_boundary_grading(mesh, 4);
   const double q = 0.5 * (std::sqrt(77.0) - 1);
-  for (const EdgeCuts& cuts : plan.cuts) {
+  for (const EdgeSplits& cuts : plan.cuts) {
     if (cuts.a != VertexId(1) || cuts.b != VertexId(2)) continue;
     ASSERT_EQ(cuts.at.size(), 1u);
     EXPECT_NEAR(cuts.at[0], q / 19, 1e-12);
