@@ -98,7 +98,7 @@ std::vector<Variant> schemes() {
 std::vector<Variant> variants() {
   OptimizeOptions accuracy;
   accuracy.objective = Objective::accuracy;
-  accuracy.accuracy = {.offset_weight = 10, .boundary_offset_weight = 18, .margin = 0.02};
+  accuracy.accuracy = {.offset_factor = 10, .boundary_offset_factor = 18, .margin = 0.02};
   std::vector<Variant> list = {{"c = 10, c_b = 18, ε = 0.02", accuracy}};
   const auto add = [&](const char* name, auto change) {
     list.push_back({name, accuracy});
@@ -107,13 +107,13 @@ std::vector<Variant> variants() {
   add("`--star 0`", [](OptimizeOptions& o) { o.star = Star::zero; });
   add("`--star 2`", [](OptimizeOptions& o) { o.star = Star::two; });
   add("`--star all`", [](OptimizeOptions& o) { o.star = Star::all; });
-  add("`--offset-weight 1 --boundary-offset-weight 1` (HOT/s²)",
-      [](OptimizeOptions& o) { o.accuracy.offset_weight = o.accuracy.boundary_offset_weight = 1; });
-  add("`--offset-weight 5`", [](OptimizeOptions& o) { o.accuracy.offset_weight = 5; });
-  add("`--offset-weight 20`", [](OptimizeOptions& o) { o.accuracy.offset_weight = 20; });
-  add("`--boundary-offset-weight 0.5`", [](OptimizeOptions& o) { o.accuracy.boundary_offset_weight = 0.5; });
-  add("`--boundary-offset-weight 10`", [](OptimizeOptions& o) { o.accuracy.boundary_offset_weight = 10; });
-  add("`--boundary-offset-weight 30`", [](OptimizeOptions& o) { o.accuracy.boundary_offset_weight = 30; });
+  add("`--offset-factor 1 --boundary-offset-factor 1` (HOT/s²)",
+      [](OptimizeOptions& o) { o.accuracy.offset_factor = o.accuracy.boundary_offset_factor = 1; });
+  add("`--offset-factor 5`", [](OptimizeOptions& o) { o.accuracy.offset_factor = 5; });
+  add("`--offset-factor 20`", [](OptimizeOptions& o) { o.accuracy.offset_factor = 20; });
+  add("`--boundary-offset-factor 0.5`", [](OptimizeOptions& o) { o.accuracy.boundary_offset_factor = 0.5; });
+  add("`--boundary-offset-factor 10`", [](OptimizeOptions& o) { o.accuracy.boundary_offset_factor = 10; });
+  add("`--boundary-offset-factor 30`", [](OptimizeOptions& o) { o.accuracy.boundary_offset_factor = 30; });
   add("`--margin 0.05`", [](OptimizeOptions& o) { o.accuracy.margin = 0.05; });
   add("`--barrier 0.03`", [](OptimizeOptions& o) { o.accuracy.barrier = 0.03; });
   add("`--barrier 0.0003`", [](OptimizeOptions& o) { o.accuracy.barrier = 0.0003; });

@@ -13,7 +13,7 @@ namespace temper::gallery {
 
 /// The options that the paper leaves open: the order of line 9 of Algorithm 1, "for each point"; §5.2's "the maximum
 /// search distance is the patch radius", for positions and for weights; whether a step may turn a triangle over; γ.
-inline constexpr std::array<std::string_view, kOpenOptions> kOpen = {"order", "search_radius", "weight_reach",
+inline constexpr std::array<std::string_view, kOpenOptions> kOpen = {"order", "search_radius", "weight_search_radius",
                                                                      "inversion", "gamma"};
 
 struct ReadOption {

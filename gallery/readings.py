@@ -21,12 +21,12 @@ READINGS = [  # letter, name, options
     ("a", "steps may turn triangles over", "--inversion allow"),
     ("f", "R is the distance to the farthest neighbour", "--search-radius max"),
     ("n", "R is the distance to the nearest neighbour", "--search-radius min"),
-    ("4", "weights are searched up to 4 R²", "--weight-reach 4"),
+    ("4", "weights are searched up to 4 R²", "--weight-search-radius 4"),
     ("i", "points are visited as numbered", "--order input"),
     ("v", "points are visited in reverse", "--order reverse"),
-    ("r4", "no step turns a triangle over, and weights up to 4 R²", "--inversion refuse --weight-reach 4"),
+    ("r4", "no step turns a triangle over, and weights up to 4 R²", "--inversion refuse --weight-search-radius 4"),
     ("all", "everything as `--method paper` has it",
-     "--order input --search-radius rms --weight-reach 1 --inversion allow --gamma 1"),
+     "--order input --search-radius rms --weight-search-radius 1 --inversion allow --gamma 1"),
 ]
 
 

@@ -111,7 +111,7 @@ PolicyRun run_policy(const WeightPolicy& policy, const Mesh& start, const Vertex
                      const WeightReading& reading) {
   OptimizeOptions options = policy_options(policy, order);
   options.energy = reading.energy;
-  options.paper.weight_reach = reading.reach;
+  options.paper.weight_search_radius = reading.reach;
   EnergyModel model = energy_dt();
   model.kind = reading.energy;
   const double overshoot = options.paper.overshoot - 1;

@@ -26,8 +26,8 @@ namespace {
 
 struct PositionWeightLoop {
   EnergyKind energy = EnergyKind::dT;
-  double weight_reach = 1;  ///< greatest change of a weight in one search, over r²
-  bool limited = false;     ///< searches stop after the next flip: overshoot 1.1, 1.01, …
+  double weight_search_radius = 1;  ///< greatest change of a weight in one search, over r²
+  bool limited = false;             ///< searches stop after the next flip: overshoot 1.1, 1.01, …
 };
 
 /// A mesh of the run.
@@ -66,7 +66,7 @@ OptimizeOptions options_of(const PositionWeightLoop& loop, const VertexOrder& or
   options.paper.anchor = {};
   options.paper.inversion = Inversion::allow;
   options.paper.visits = Visits::twice;
-  options.paper.weight_reach = loop.weight_reach;
+  options.paper.weight_search_radius = loop.weight_search_radius;
   options.paper.flip_limit = loop.limited ? FlipLimit::after : FlipLimit::unlimited;
   options.paper.inner = 1;
   options.paper.outer = 0;

@@ -141,10 +141,10 @@ enum class StoppingRule {
 /// c times as much of the offset between their middles, which is what a diagonal ★ errs by at first order. The star
 /// picks α and β. docs/accuracy.md derives it. [length²]
 struct AccuracyOptions {
-  std::optional<double> offset_weight = {};  ///< c ≥ 0: 1 is HOT itself. Absent: by the scheme
+  std::optional<double> offset_factor = {};  ///< c ≥ 0: 1 is HOT itself. Absent: by the scheme
   /// Of H² of edges on the boundary, which no mesh avoids: a smaller one is better for vertex-centered solvers, a
   /// larger one for cell-centered ones. ≥ 0. Absent: by the scheme.
-  std::optional<double> boundary_offset_weight = {};
+  std::optional<double> boundary_offset_factor = {};
   /// ε: all h/ℓ, d/ℓ and 1 − d/ℓ stay above it. 0 < ε < 1/4 (equilateral: h/ℓ = 0.289). Absent: by the scheme.
   std::optional<double> margin = {};
   /// Interior edges stay longer than so many times the local size, the mean of those at their ends, and where they are
@@ -160,7 +160,7 @@ struct AccuracyOptions {
 
 /// What AccuracyOptions are for a scheme where they are absent.
 struct SchemeWeights {
-  double offset_weight, boundary_offset_weight, margin;
+  double offset_factor, boundary_offset_factor, margin;
 };
 /// By measurement, docs/accuracy.md.
 [[nodiscard]] SchemeWeights scheme_weights(Scheme scheme);
@@ -199,8 +199,8 @@ struct PaperSwitches {
   Updates position_updates = Updates::immediate;
   Visits visits = Visits::once;
   SearchRadius search_radius = SearchRadius::rms;  ///< R of Solver::golden, and of the search for E_c
-  double weight_reach = 1;  ///< Solver::golden searches for a weight as far as this times R². > 0
-  VertexId anchor = {};     ///< whose weight is shifted to 0 after each sweep (Algorithm 1, line 17); invalid: none
+  double weight_search_radius = 1;  ///< Solver::golden searches for a weight as far as this times R². > 0
+  VertexId anchor = {};  ///< whose weight is shifted to 0 after each sweep (Algorithm 1, line 17); invalid: none
 
   int inner = 1;  ///< with deferred flips: most sweeps before edges are flipped; 0: until they converge
   int outer = 0;  ///< with deferred flips: most rounds of sweeps and flips; 0: until no flips are needed
@@ -218,7 +218,7 @@ struct PaperSwitches {
   Removal removal = Removal::none;
   RemovalMeasure removal_measure = RemovalMeasure::mean;  ///< of insertions too
   double removal_margin = 0.1;                            ///< by which the patch must be better, relative
-  double removal_weight = 1;                              ///< Removal::weight: how far below, relative to R², rms. > 0
+  double hidden_threshold = 1;                            ///< Removal::weight: how far below, relative to R², rms. > 0
   int removal_from = 10;                                  ///< first sweep with removals
   /// First sweep after which vertices are inserted: at the orthocenters of triangles of large energy, where the mesh is
   /// better with them (§7). Absent: never.

@@ -64,7 +64,7 @@ std::vector<Options> option_sets() {
           {"energy", {.objective = kEnergy}},
           {"accuracy",
            {.objective = Objective::accuracy,
-            .accuracy = {.offset_weight = 10, .boundary_offset_weight = 18, .margin = 0.02},
+            .accuracy = {.offset_factor = 10, .boundary_offset_factor = 18, .margin = 0.02},
             .max_sweeps = 60}},
           {"lengths",
            {.accuracy = {.min_edge = 0.75, .min_dual = 0.3},

@@ -161,8 +161,8 @@ std::optional<InputError> check_space(const OptimizeOptions& o, const Mesh& mesh
 AccuracyModel accuracy_model(const AccuracyOptions& a, Scheme scheme, Star star) {
   const auto i = static_cast<std::size_t>(star);
   const SchemeWeights preset = scheme_weights(scheme);
-  AccuracyModel model = AccuracyModel::of(kAlpha[i], kBeta[i], a.offset_weight.value_or(preset.offset_weight),
-                                          a.boundary_offset_weight.value_or(preset.boundary_offset_weight));
+  AccuracyModel model = AccuracyModel::of(kAlpha[i], kBeta[i], a.offset_factor.value_or(preset.offset_factor),
+                                          a.boundary_offset_factor.value_or(preset.boundary_offset_factor));
   model.margin = a.margin.value_or(preset.margin);
   model.barrier = a.barrier;
   model.min_edge = a.min_edge, model.min_dual = a.min_dual;

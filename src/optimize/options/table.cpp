@@ -213,12 +213,12 @@ constexpr OptionRow kAccuracyRows[] = {
     row<kAccuracy, &Accuracy::min_dual>("min_dual",
                                         "of accuracy: the same of their dual edges, whose lengths bound time steps",
                                         {.range = from_to(0, kMostDual), .needs = {kForAccuracy}}),
-    row<kAccuracy, &Accuracy::offset_weight>(
-        "offset_weight",
+    row<kAccuracy, &Accuracy::offset_factor>(
+        "offset_factor",
         "of accuracy: how many times as much as in HOT the offset of the middles counts; 1: HOT over size squared",
         {.range = at_least(0), .absent = "10, but 20 for stars", .needs = {kForAccuracy}}),
-    row<kAccuracy, &Accuracy::boundary_offset_weight>(
-        "boundary_offset_weight", "of accuracy: the same of the height of boundary edges",
+    row<kAccuracy, &Accuracy::boundary_offset_factor>(
+        "boundary_offset_factor", "of accuracy: the same of the height of boundary edges",
         {.range = at_least(0), .absent = "5; for vertex 0.5, cell 30, stars 18", .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::barrier>("barrier", "of accuracy: factor of the logarithms that keep the margin",
                                        {.range = more_than(0), .needs = {kForAccuracy}}),
@@ -251,8 +251,8 @@ constexpr OptionRow kMoveRows[] = {
                                        "how far golden section searches for a position: the root mean square distance "
                                        "to the neighbours, or that of the farthest or the nearest",
                                        {.needs = {{{"solver", "golden", makes_golden_searches}}}}),
-    row<kPaper, &Paper::weight_reach>(
-        "weight_reach", "how far golden section searches for a weight, relative to the search radius squared",
+    row<kPaper, &Paper::weight_search_radius>(
+        "weight_search_radius", "how far golden section searches for a weight, relative to the search radius squared",
         {.range = more_than(0), .needs = {kGolden}}),
     row<kPaper, &Paper::visits>("visits",
                                 "a sweep visits each vertex once, or twice: all positions first, then all weights",
@@ -334,8 +334,8 @@ constexpr OptionRow kPaperRows[] = {
         {.needs = {{{"removal", "patch", compares_patches}}}}),
     row<kPaper, &Paper::removal_margin>("removal_margin", "by which part the patch must be better",
                                         {.range = at_least(0), .needs = {{{"removal", "patch", compares_patches}}}}),
-    row<kPaper, &Paper::removal_weight>(
-        "removal_weight",
+    row<kPaper, &Paper::hidden_threshold>(
+        "hidden_threshold",
         "of `removal=weight`: how far below the mean of its neighbours', relative to their mean squared distance",
         {.range = more_than(0), .needs = {{{"removal", "weight"}}}}),
     row<kPaper, &Paper::removal_from>("removal_from", "first sweep with removals, from 0", {.needs = {kRemovals}}),

@@ -89,7 +89,7 @@ void VertexStep::remove_if_better(VertexId v) {
   gather(v);
   const Policy& o = settings.policy;
   const bool by_weight = o.removal == Removal::weight;
-  if (by_weight && !(relative_lightness(star_->patch(), origin_) > o.removal_weight)) return;
+  if (by_weight && !(relative_lightness(star_->patch(), origin_) > o.hidden_threshold)) return;
   plan_ = plan_removal(mesh, v, std::move(plan_));
   if (plan_.status != RemovalStatus::possible) return;
   const PatchComparison e = compare_patch(mesh, star_->patch(), state.model, plan_, o.removal_measure);
@@ -219,7 +219,7 @@ void VertexStep::golden_search(const Freedom& freedom) {
   const Patch& patch = star_->patch();
   const Policy& o = settings.policy;
   const double r = patch_radius(patch, origin_, o.search_radius);
-  const double reach = freedom.moves() ? r : o.weight_reach * (r * r);
+  const double reach = freedom.moves() ? r : o.weight_search_radius * (r * r);
   const auto direction = steepest_descent(patch, state.model, origin_, freedom, reach);
   if (!direction) return;
   const double limit = flip_limited(*direction, farthest(*direction));

@@ -476,10 +476,10 @@ TEST(Accuracy, OptionsOutOfRangeAreRefusedByName) {
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(with([](OptimizeOptions&) {}), "no error");
-  EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.offset_weight = -1; }),
-            "`offset_weight` is -1; expected at least 0, or auto");
-  EXPECT_EQ(with([&](OptimizeOptions& o) { o.accuracy.boundary_offset_weight = nan; }),
-            "`boundary_offset_weight` is nan; expected at least 0, or auto");
+  EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.offset_factor = -1; }),
+            "`offset_factor` is -1; expected at least 0, or auto");
+  EXPECT_EQ(with([&](OptimizeOptions& o) { o.accuracy.boundary_offset_factor = nan; }),
+            "`boundary_offset_factor` is nan; expected at least 0, or auto");
   EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.margin = 0; }),
             "`margin` is 0; expected more than 0 and less than 0.25, or auto");
   EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.margin = 0.25; }),

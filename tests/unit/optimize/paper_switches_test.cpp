@@ -593,7 +593,7 @@ TEST(Options, SwitchesThatContradictEachOtherAreRefused) {
            {.paper = {.position_updates = Updates::deferred}},
            {.unknowns = Unknowns::positions, .size_band = 2, .paper = {.position_updates = Updates::deferred}},
            {.flips = Flips::none, .paper = {.insertion_from = 0}},
-           {.paper = {.weight_reach = 0}},
+           {.paper = {.weight_search_radius = 0}},
            {.paper = {.overshoot_factor = 1.5}},
            {.paper = {.insertion_ratio = 1}},
            {.energy = EnergyKind::ODT, .unknowns = Unknowns::weights},

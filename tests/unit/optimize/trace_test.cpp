@@ -66,14 +66,14 @@ std::vector<Case> cases() {
   };
   for (const SearchRadius radius : {SearchRadius::max, SearchRadius::min}) {
     add_paper("search radius " + std::to_string(static_cast<int>(radius)),
-              [&](PaperSwitches& p) { p.search_radius = radius, p.weight_reach = 4; });
+              [&](PaperSwitches& p) { p.search_radius = radius, p.weight_search_radius = 4; });
   }
   add_paper("all deferred", [](PaperSwitches& p) { p.position_updates = p.weight_updates = Updates::deferred; });
   add_paper("visits twice", [](PaperSwitches& p) { p.visits = Visits::twice; });
   add_paper("constant overshoot",
             [](PaperSwitches& p) { p.flip_limit = FlipLimit::after, p.overshoot = 1.5, p.overshoot_factor = 1; });
   add_paper("removal by weight",
-            [](PaperSwitches& p) { p.removal = Removal::weight, p.removal_weight = 0.2, p.removal_from = 1; });
+            [](PaperSwitches& p) { p.removal = Removal::weight, p.hidden_threshold = 0.2, p.removal_from = 1; });
   add("Newton, all deferred", {.paper = {.weight_updates = Updates::deferred, .position_updates = Updates::deferred}});
   add("insertion", {.energy = EnergyKind::T,
                     .paper = {.removal_measure = RemovalMeasure::sum, .insertion_from = 1, .insertion_ratio = 1.5}});

@@ -72,7 +72,7 @@ TEST(SearchRadius, BoundsTheWayOfAWeight) {
       OptimizeOptions o = one_sweep(EnergyKind::T);
       o.unknowns = Unknowns::weights;
       o.paper.search_radius = radius;
-      o.paper.weight_reach = reach;
+      o.paper.weight_search_radius = reach;
       double most = 0;
       OptimizeHooks hooks;
       hooks.tracer = [&](const TraceEvent& e) {
@@ -246,7 +246,7 @@ TEST(RemovalByWeight, TakesTheVertexThatIsAboutToBeHiddenAndNoOther) {
   for (const double limit : {0.3, 0.9}) {
     OptimizeOptions o{.unknowns = Unknowns::positions, .repair = Repair::none, .max_sweeps = 1};
     o.paper.removal = Removal::weight;
-    o.paper.removal_weight = limit;
+    o.paper.hidden_threshold = limit;
     o.paper.removal_from = 0;
     std::vector<VertexId> removed;  // whether or not the run returns to what was before
     OptimizeHooks hooks;

@@ -28,9 +28,9 @@ export interface OptimizeOptions {
   /** of accuracy: the same of their dual edges, whose lengths bound time steps; at least 0 and at most 0.55. Default: 0. */
   min_dual?: number;
   /** of accuracy: how many times as much as in HOT the offset of the middles counts; 1: HOT over size squared; at least 0; null: 10, but 20 for stars. Default: null. */
-  offset_weight?: number | null;
+  offset_factor?: number | null;
   /** of accuracy: the same of the height of boundary edges; at least 0; null: 5; for vertex 0.5, cell 30, stars 18. Default: null. */
-  boundary_offset_weight?: number | null;
+  boundary_offset_factor?: number | null;
   /** of accuracy: factor of the logarithms that keep the margin; more than 0. Default: 0.003. */
   barrier?: number;
   /** of accuracy: at most this many, after those for the energy; at least 0. Default: 30. */
@@ -54,7 +54,7 @@ export interface OptimizeOptions {
   /** how far golden section searches for a position: the root mean square distance to the neighbours, or that of the farthest or the nearest. Default: "rms". */
   search_radius?: "rms" | "max" | "min";
   /** how far golden section searches for a weight, relative to the search radius squared; more than 0. Default: 1. */
-  weight_reach?: number;
+  weight_search_radius?: number;
   /** a sweep visits each vertex once, or twice: all positions first, then all weights. Default: "once". */
   visits?: "once" | "twice";
   /** shift the weights after each sweep so that this vertex has weight 0; a vertex; null: they stay. Default: null. */
@@ -100,7 +100,7 @@ export interface OptimizeOptions {
   /** by which part the patch must be better; at least 0. Default: 0.1. */
   removal_margin?: number;
   /** of removal: "weight": how far below the mean of its neighbours', relative to their mean squared distance; more than 0. Default: 1. */
-  removal_weight?: number;
+  hidden_threshold?: number;
   /** first sweep with removals, from 0; at least 0. Default: 10. */
   removal_from?: number;
   /** first sweep after which vertices are inserted at the orthocenters of triangles of large energy, where that makes the mesh better, from 0; at least 0; null: no insertions. Default: null. */
