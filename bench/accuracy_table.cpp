@@ -89,9 +89,9 @@ bool print_variant(const std::vector<NamedMesh>& meshes, const Variant& variant,
 std::vector<Variant> schemes() {
   return {{"`--objective energy`", {.objective = Objective::energy}},
           {"(none)", {}},
-          {"`--for vertex`", {.for_ = Scheme::vertex}},
-          {"`--for cell`", {.for_ = Scheme::cell}},
-          {"`--for stars`", {.for_ = Scheme::stars}}};
+          {"`--for vertex`", {.target = Scheme::vertex}},
+          {"`--for cell`", {.target = Scheme::cell}},
+          {"`--for stars`", {.target = Scheme::stars}}};
 }
 
 /// Each has one option that is another than in the first.

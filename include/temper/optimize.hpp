@@ -252,7 +252,7 @@ struct OptimizeOptions {
   /// `solver`, `order`, `tolerance` and `stopping` are of the first phase. energy: `energy` is lowered
   /// to the end. Absent: objective_of().
   std::optional<Objective> objective = {};
-  Scheme for_ = Scheme::all;  ///< of Objective::accuracy and error
+  Scheme target = Scheme::all;  ///< of Objective::accuracy and error
   AccuracyOptions accuracy = {};
   ErrorOptions error = {};
   EnergyKind energy = EnergyKind::BP;

@@ -1,6 +1,6 @@
 // What this build of temper has to solve linear programs and systems of equations with, for OptimizeHooks::solvers:
 //
-//     auto report = temper::optimize(mesh, {.for_ = temper::Scheme::vertex}, {.solvers = temper::solvers()});
+//     auto report = temper::optimize(mesh, {.target = temper::Scheme::vertex}, {.solvers = temper::solvers()});
 //
 // A library of its own (temper::solvers), because it links Clp and uses Eigen if the build has them.
 #pragma once

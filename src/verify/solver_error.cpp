@@ -318,8 +318,9 @@ Expected<std::shared_ptr<const ErrorModel>> solver_error_model(const Mesh& mesh,
     return refused("`objective=error` is for meshes of the plane; expected `objective=accuracy`");
   if (options.scheme == Scheme::stars) {
     return refused(
-        "`objective=error` is for a scheme that solves, and stars solve nothing; expected `for_=vertex`, `for_=cell` "
-        "or `for_=all`");
+        "`objective=error` is for a scheme that solves, and stars solve nothing; expected `target=vertex`, "
+        "`target=cell` "
+        "or `target=all`");
   }
   if (options.fields == 0) return refused("errors are averaged over no field; expected one at least");
   return std::shared_ptr<const ErrorModel>(std::make_shared<verify_detail::SolverErrorModel>(options));

@@ -48,7 +48,7 @@ def by_cpp(program, given, result, name, options):
 def with_names_of_python(options):
     """Which are those of the npm package, too."""
     numbers = {key: int(value) if value.isdigit() else value for key, value in options.items()}
-    return {"for_" if key == "for" else key.replace("-", "_"): value for key, value in numbers.items()}
+    return {"target" if key == "for" else key.replace("-", "_"): value for key, value in numbers.items()}
 
 
 def by_python(folder, given, result, name, options):

@@ -105,7 +105,7 @@ constexpr int kSweepsOfOdt = 10;
 bool begins_with_odt(const Settings& s, const Mesh& mesh) {
   const OptimizeOptions& o = s.options;
   const bool newton = s.policy.solver == Solver::newton && s.policy.flips_at_once() && !s.policy.defers_updates();
-  return s.objective != Objective::energy && o.for_ != Scheme::all && !o.paper.first_energy &&
+  return s.objective != Objective::energy && o.target != Scheme::all && !o.paper.first_energy &&
          mesh.space().kind() == SpaceKind::plane && o.unknowns != Unknowns::weights && newton &&
          !first_of_other_weight(mesh).valid();
 }
@@ -174,7 +174,7 @@ Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
   const OptimizeOptions& o = s.options;
   const bool wants = wants_error_model(o, mesh);
   if (wants && s.hooks.solvers.error_model) {
-    auto model = s.hooks.solvers.error_model(mesh, o.for_);
+    auto model = s.hooks.solvers.error_model(mesh, o.target);
     if (!model) return model.error();
     s.errors = *std::move(model);
   }
@@ -212,7 +212,7 @@ Objective objective_of(const OptimizeOptions& o) {
 
 bool wants_error_model(const OptimizeOptions& o, const Mesh& mesh) {
   const Objective objective = objective_of(o);
-  const bool of_one = o.for_ == Scheme::vertex || o.for_ == Scheme::cell;
+  const bool of_one = o.target == Scheme::vertex || o.target == Scheme::cell;
   const bool judges = of_one && mesh.space().kind() == SpaceKind::plane && mesh.n_vertices() <= kMostJudged;
   return objective == Objective::error || (objective == Objective::accuracy && judges);
 }
@@ -311,7 +311,7 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   s.model.wall = !s.policy.allows_inversion();
   if (p.gamma) s.model.gamma = in_frame(*p.gamma, frame);
   if (p.h0) s.model.h0 = in_frame(*p.h0, frame);
-  s.accuracy = accuracy_model(options.accuracy, options.for_, options.star);
+  s.accuracy = accuracy_model(options.accuracy, options.target, options.star);
   if (hooks.solvers.lp) s.lp = hooks.solvers.lp();
   return with_error_model(std::move(s), mesh);
 }

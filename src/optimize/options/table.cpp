@@ -182,7 +182,7 @@ constexpr OptionRow kEnergyRows[] = {
         {.needs = {{{"energy", "F|nF"}}}}),
     row<kPaper, &Paper::first_energy>("first_energy",
                                       "what the first sweeps lower instead, before they switch to `energy`",
-                                      {.absent = "`energy` from the first sweep on; ODT for ten sweeps `for_` one "
+                                      {.absent = "`energy` from the first sweep on; ODT for ten sweeps `target` one "
                                                  "scheme on a mesh of the plane without weights"}),
     row<kPaper, &Paper::switch_at>("switch_at",
                                    "of `first_energy`: the first sweep that lowers `energy`, from 0; an earlier one "
@@ -195,18 +195,19 @@ constexpr OptionRow kAccuracyRows[] = {
         "objective",
         "energy: the one of `energy`, to the end; accuracy: only until every triangle is well-centered with a margin, "
         "then how far the middles of edges and duals are apart, which a solver's error is proportional to; error: "
-        "after that the errors of the schemes of `for_` themselves, by adjoint solutions, which takes much longer",
+        "after that the errors of the schemes of `target` themselves, by adjoint solutions, which takes much longer",
         {.common = true,
-         .absent = "accuracy, but error `for_` vertex or cell on a plane of no more than 20000 vertices; energy where "
-                   "`energy` is not BP, or has switches of its own"}),
-    row<&Options::for_>(
-        "for_",
+         .absent =
+             "accuracy, but error `target` vertex or cell on a plane of no more than 20000 vertices; energy where "
+             "`energy` is not BP, or has switches of its own"}),
+    row<&Options::target>(
+        "target",
         "of accuracy: what the mesh is for. vertex: unknowns at vertices (discrete exterior calculus); cell: at "
         "orthocenters (two-point flux); stars: the diagonal Hodge stars; all: something for each, and larger margins",
         {.common = true, .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::margin>(
         "margin", "of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle",
-        {.range = inside(0, kMostMargin), .absent = "0.1, but 0.02 `for_` one scheme", .needs = {kForAccuracy}}),
+        {.range = inside(0, kMostMargin), .absent = "0.1, but 0.02 `target` one scheme", .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::min_edge>("min_edge",
                                         "of accuracy: least length of interior edges, over the local size; 0: none",
                                         {.range = from_to(0, kMostEdge), .needs = {kForAccuracy}}),

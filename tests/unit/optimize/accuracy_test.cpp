@@ -26,7 +26,7 @@ namespace {
 OptimizeOptions for_accuracy() {
   OptimizeOptions o;
   o.objective = Objective::accuracy;
-  o.for_ = Scheme::stars;
+  o.target = Scheme::stars;
   o.accuracy.margin = 0.02;
   return o;
 }
@@ -97,7 +97,7 @@ TEST(Accuracy, MakesEdgesAndDualsAsLongAsIsAskedFor) {
   for (const Mesh& input : {*random_points({.vertices = 300, .seed = 2}), *annulus(), *airfoil()}) {
     for (const Scheme scheme : {Scheme::all, Scheme::vertex}) {
       OptimizeOptions o;
-      o.for_ = scheme;
+      o.target = scheme;
       Mesh without = input, with = input;
       improved(without, o);
       o.accuracy.min_edge = kEdge, o.accuracy.min_dual = kDual;
@@ -119,7 +119,7 @@ TEST(Accuracy, OfOneSchemeBeginsWithSweepsOfOdtWhereThereAreNoWeights) {
     return mesh;
   };
   OptimizeOptions said, stars, at_once, all;
-  for (OptimizeOptions* o : {&said, &stars, &at_once}) o->for_ = Scheme::stars;
+  for (OptimizeOptions* o : {&said, &stars, &at_once}) o->target = Scheme::stars;
   said.paper.first_energy = EnergyKind::ODT, said.paper.switch_at = 10;
   at_once.paper.first_energy = EnergyKind::ODT, at_once.paper.switch_at = 0;
   EXPECT_EQ(made_by(input, stars), made_by(input, said));

@@ -69,7 +69,7 @@ TEST(PeriodicOptimize, AFewVerticesAroundAPeriodDo) {
 TEST(PeriodicOptimize, TheAccuracyObjectiveLowersItsEnergyAndKeepsItsMargin) {
   for (const std::size_t vertices : {200U, 1500U}) {
     Mesh mesh = torus(vertices, 5);
-    const OptimizeReport report = optimized_periodic(mesh, {.objective = Objective::accuracy, .for_ = Scheme::stars});
+    const OptimizeReport report = optimized_periodic(mesh, {.objective = Objective::accuracy, .target = Scheme::stars});
     expect_all_well_centered(mesh);
     EXPECT_LT(report.final_energy, 0.35 * report.initial_energy);
     const Quality q = quality(mesh);

@@ -78,7 +78,7 @@ TEST(Sphere, TheAccuracyObjectiveLowersItsEnergyAndKeepsItsMargin) {
   for (const std::size_t vertices : {200U, 1500U}) {  // one by one, and in batches
     Mesh barrier = globe(vertices, 5), mesh = barrier;
     optimized(barrier);
-    const OptimizeReport report = optimized(mesh, {.objective = Objective::accuracy, .for_ = Scheme::stars});
+    const OptimizeReport report = optimized(mesh, {.objective = Objective::accuracy, .target = Scheme::stars});
     expect_well_centered(mesh);
     EXPECT_LT(report.final_energy, 0.35 * report.initial_energy);
     const auto q = quality(mesh);

@@ -21,7 +21,7 @@ constexpr double kMargin = 0.02;
 
 OptimizeOptions options_for(Scheme scheme) {
   OptimizeOptions o;
-  o.for_ = scheme;
+  o.target = scheme;
   if (scheme == Scheme::all) o.objective = Objective::error;
   o.error.steps = 40;
   return o;
@@ -53,7 +53,7 @@ TEST(ErrorObjective, LowersTheErrorsOfItsSchemeBelowThoseOfTheAccuracyObjective)
   for (const Scheme scheme : {Scheme::vertex, Scheme::cell, Scheme::all}) {
     const OptimizeOptions options = options_for(scheme);
     const Improved error = improved(input, options);
-    const Improved accuracy = improved(input, {.objective = Objective::accuracy, .for_ = scheme});
+    const Improved accuracy = improved(input, {.objective = Objective::accuracy, .target = scheme});
     const auto after = errors_on(error.mesh, input, scheme), before = errors_on(accuracy.mesh, input, scheme);
     ASSERT_EQ(after.size(), before.size());
     double product = 1;
@@ -116,22 +116,22 @@ TEST(ErrorObjective, StopsWhenItIsAsked) {
 TEST(ErrorObjective, WithoutAModelLowersAccuracyAndSaysSo) {
   const Mesh input = *random_points({.vertices = 60, .seed = 2});
   Mesh without = input, accuracy = input;
-  const auto report = optimize(without, {.for_ = Scheme::vertex});
+  const auto report = optimize(without, {.target = Scheme::vertex});
   ASSERT_TRUE(report);
-  ASSERT_TRUE(optimize(accuracy, {.objective = Objective::accuracy, .for_ = Scheme::vertex}));
+  ASSERT_TRUE(optimize(accuracy, {.objective = Objective::accuracy, .target = Scheme::vertex}));
   EXPECT_EQ(without, accuracy);
   EXPECT_EQ(report->objective, Objective::accuracy);
   EXPECT_NE(report->notes.front().find("the objective was accuracy, not the error"), std::string::npos);
-  EXPECT_EQ(improved(input, {.for_ = Scheme::vertex}).report.objective, Objective::error);
+  EXPECT_EQ(improved(input, {.target = Scheme::vertex}).report.objective, Objective::error);
 }
 
 TEST(ErrorObjective, IsForSchemesAndEnergiesThatCenterTriangles) {
   Mesh mesh = *random_points({.vertices = 20, .seed = 2});
   const Mesh before = mesh;
   EXPECT_FALSE(wants_error_model({}, mesh));
-  EXPECT_FALSE(wants_error_model({.for_ = Scheme::stars}, mesh));
-  EXPECT_FALSE(wants_error_model({.for_ = Scheme::cell, .energy = EnergyKind::T}, mesh));
-  EXPECT_TRUE(wants_error_model({.for_ = Scheme::cell}, mesh));
+  EXPECT_FALSE(wants_error_model({.target = Scheme::stars}, mesh));
+  EXPECT_FALSE(wants_error_model({.target = Scheme::cell, .energy = EnergyKind::T}, mesh));
+  EXPECT_TRUE(wants_error_model({.target = Scheme::cell}, mesh));
   OptimizeOptions hot = options_for(Scheme::vertex);
   hot.objective = Objective::error;
   hot.energy = EnergyKind::T;

@@ -13,15 +13,15 @@ export interface OptimizeOptions {
   h0?: SofteningLike | null;
   /** of energy F: the h of boundary edges as it is, |h|, or as if the mesh were mirrored there. Default: "as_is". */
   boundary_treatment?: "as_is" | "absolute" | "mirrored";
-  /** what the first sweeps lower instead, before they switch to energy; null: energy from the first sweep on; ODT for ten sweeps for_ one scheme on a mesh of the plane without weights. Default: null. */
+  /** what the first sweeps lower instead, before they switch to energy; null: energy from the first sweep on; ODT for ten sweeps target one scheme on a mesh of the plane without weights. Default: null. */
   first_energy?: "F" | "T" | "dT" | "BH" | "BHs" | "BP" | "nF" | "nT" | "ndT" | "ODT" | null;
   /** of first_energy: the first sweep that lowers energy, from 0; an earlier one when the first energy has converged; at least 0. Default: 20. */
   switch_at?: number;
-  /** energy: the one of energy, to the end; accuracy: only until every triangle is well-centered with a margin, then how far the middles of edges and duals are apart, which a solver's error is proportional to; error: after that the errors of the schemes of for_ themselves, by adjoint solutions, which takes much longer; null: accuracy, but error for_ vertex or cell on a plane of no more than 20000 vertices; energy where energy is not BP, or has switches of its own. Default: null. */
+  /** energy: the one of energy, to the end; accuracy: only until every triangle is well-centered with a margin, then how far the middles of edges and duals are apart, which a solver's error is proportional to; error: after that the errors of the schemes of target themselves, by adjoint solutions, which takes much longer; null: accuracy, but error target vertex or cell on a plane of no more than 20000 vertices; energy where energy is not BP, or has switches of its own. Default: null. */
   objective?: "energy" | "accuracy" | "error" | null;
   /** of accuracy: what the mesh is for. vertex: unknowns at vertices (discrete exterior calculus); cell: at orthocenters (two-point flux); stars: the diagonal Hodge stars; all: something for each, and larger margins. Default: "all". */
-  for_?: "all" | "vertex" | "cell" | "stars";
-  /** of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle; more than 0 and less than 0.25; null: 0.1, but 0.02 for_ one scheme. Default: null. */
+  target?: "all" | "vertex" | "cell" | "stars";
+  /** of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle; more than 0 and less than 0.25; null: 0.1, but 0.02 target one scheme. Default: null. */
   margin?: number | null;
   /** of accuracy: least length of interior edges, over the local size; 0: none; at least 0 and at most 0.95. Default: 0. */
   min_edge?: number;

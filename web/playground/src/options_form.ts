@@ -1,7 +1,7 @@
 // The options as a form: the few that matter first, all others by their groups, made from the table in the library.
 import { type OptimizeOptions, option_table, type OptionRow } from 'temper-mesh';
 
-const kFirst = ['for_', 'objective', 'boundary', 'repair', 'energy', 'max_sweeps'];
+const kFirst = ['target', 'objective', 'boundary', 'repair', 'energy', 'max_sweeps'];
 
 export class OptionsForm {
   private readonly controls = new Map<string, { row: OptionRow; input: HTMLInputElement | HTMLSelectElement }>();
