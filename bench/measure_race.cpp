@@ -19,7 +19,7 @@ Finish time_to(const Mesh& mesh, OptimizeOptions options, const SweepRecord& las
   options.max_sweeps = kPlainSweeps + 1;
   Mesh copy = mesh;
   const auto there = [&](const SweepRecord& now) {
-    return now.softening == last.softening && now.energy <= last.energy;
+    return now.length_parameter == last.length_parameter && now.energy <= last.energy;
   };
   const TimedRun run = timed_run(copy, options, there);
   if (!there(run.marks.back().last)) return {};

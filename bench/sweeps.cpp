@@ -59,8 +59,9 @@ TimedRun timed_sweeps(const Mesh& mesh, OptimizeOptions options, int count, Exec
 Mesh well_centered_mesh(const Mesh& mesh) {
   constexpr double kLastGamma = 0.003;
   Mesh result = mesh;
-  const TimedRun run = timed_run(result, sweeps_only(),
-                                 [](const SweepRecord& last) { return last.bad == 0 && last.softening <= kLastGamma; });
+  const TimedRun run = timed_run(result, sweeps_only(), [](const SweepRecord& last) {
+    return last.bad == 0 && last.length_parameter <= kLastGamma;
+  });
   if (run.report.history.back().bad > 0) fail("the mesh does not become well-centered");
   return result;
 }

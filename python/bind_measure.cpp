@@ -83,8 +83,8 @@ EnergyModel model_from(const py::dict& d) {
   model.star = static_cast<Star>(star);
   model.boundary_treatment =
       from_name<BoundaryTreatment>("boundary_treatment", d["boundary_treatment"].cast<std::string>());
-  model.gamma = softening_from(d["gamma"]);
-  model.h0 = softening_from(d["h0"]);
+  model.gamma = length_parameter_from(d["gamma"]);
+  model.h0 = length_parameter_from(d["h0"]);
   model.wall = d["wall"].cast<bool>();
   return model;
 }
@@ -106,8 +106,8 @@ void bind_energy(py::module_& m) {
                       const py::object& threads) {
     const auto mesh = self.read();
     QualityOptions options;
-    options.gamma = softening_from(gamma);
-    options.h0 = softening_from(h0);
+    options.gamma = length_parameter_from(gamma);
+    options.h0 = length_parameter_from(h0);
     options.worst = worst;
     const auto count = threads_from(threads);
     return quality_to_dict(aside([&] {

@@ -37,7 +37,7 @@ std::size_t choose(std::string_view option, std::string_view text, std::span<con
   fail(ErrorCode::invalid_option, message + "; found '" + std::string(text) + "'");
 }
 
-Softening softening_from(const py::handle& value) {
+LengthParameter length_parameter_from(const py::handle& value) {
   const auto pair = value.cast<py::tuple>();
   return {pair[0].cast<double>(), from_name<LengthScale>("scale", pair[1].cast<std::string>())};
 }

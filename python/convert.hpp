@@ -138,7 +138,7 @@ inline py::object to_python(const Spread& s) {
   dict["min"] = s.min, dict["p05"] = s.p05, dict["median"] = s.median, dict["p95"] = s.p95, dict["max"] = s.max;
   return dict;
 }
-inline py::object to_python(const Softening& s) {
+inline py::object to_python(const LengthParameter& s) {
   return py::make_tuple(s.value, s.scale == LengthScale::relative ? "relative" : "absolute");
 }
 template <class T>
@@ -214,7 +214,7 @@ Enum from_name(std::string_view option, std::string_view text) {
     static constexpr std::string_view list[] = {__VA_ARGS__}; \
   }
 
-Softening softening_from(const py::handle& value);
+LengthParameter length_parameter_from(const py::handle& value);
 
 /// A text of the library with its options as Python's users write them.
 std::string spelled(std::string_view text);

@@ -41,8 +41,8 @@ OptionValue value_from_python(const OptionRow& row, const py::handle& value, std
     case OptionKind::choice:
       text = py::isinstance<py::int_>(value) ? py::str(value).cast<std::string>() : value.cast<std::string>();
       return std::string_view(text);
-    case OptionKind::softening:
-      return softening_from(value);
+    case OptionKind::length_parameter:
+      return length_parameter_from(value);
     case OptionKind::vertex: {
       const auto number = value.cast<std::int64_t>();
       return number < 0 ? OptionValue(number) : OptionValue(VertexId(static_cast<std::size_t>(number)));
@@ -61,8 +61,8 @@ std::string type_of(const OptionRow& row) {
     switch (row.kind) {
       case OptionKind::number:
         return "float";
-      case OptionKind::softening:
-        return "SofteningLike";
+      case OptionKind::length_parameter:
+        return "LengthParameterLike";
       case OptionKind::choice: {
         std::string list;
         for (const std::string_view choice : row.choices) list += (list.empty() ? "" : ", ") + quoted(choice);
@@ -142,8 +142,8 @@ py::list idle_options(const py::dict& given, const py::list& names) {
 }
 
 py::dict record_to_dict(const SweepRecord& r) {
-  return Record()("sweep", r.sweep)("energy", r.energy)("bad", r.bad)("flips", r.flips)("softening", r.softening)(
-             "seconds", r.seconds)("objective", name(r.objective))
+  return Record()("sweep", r.sweep)("energy", r.energy)("bad", r.bad)("flips", r.flips)(
+             "length_parameter", r.length_parameter)("seconds", r.seconds)("objective", name(r.objective))
       .dict;
 }
 

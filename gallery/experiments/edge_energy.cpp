@@ -16,11 +16,11 @@ namespace {
 constexpr double kFactor = 1.0 / 3;  // α = β of ★1
 constexpr double kMargin = 1e-3;     // random points keep this far from walls, of ℓ: beyond, e has few digits
 
-EnergyModel model_of(EnergyKind kind, double softening) {
+EnergyModel model_of(EnergyKind kind, double length_parameter) {
   EnergyModel model;
   model.kind = kind;
-  model.gamma = {softening, LengthScale::absolute};
-  model.h0 = {softening, LengthScale::absolute};
+  model.gamma = {length_parameter, LengthScale::absolute};
+  model.h0 = {length_parameter, LengthScale::absolute};
   return model;
 }
 
@@ -29,11 +29,11 @@ EnergyModel model_of(EnergyKind kind, double softening) {
 double EdgeEnergy::phi(double h) const {
   switch (kind) {
     case EnergyKind::BHs:
-      return h + softening;
+      return h + length_parameter;
     case EnergyKind::BP: {
-      const double root = std::sqrt(h * h + softening * softening);
+      const double root = std::sqrt(h * h + length_parameter * length_parameter);
       // For h < 0 the sum cancels: (h + r)/2 = γ²/(2 (r − h)).
-      return h >= 0 ? (h + root) / 2 : softening * softening / (2 * (root - h));
+      return h >= 0 ? (h + root) / 2 : length_parameter * length_parameter / (2 * (root - h));
     }
     default:
       return h;
@@ -48,8 +48,8 @@ double EdgeEnergy::operator()(double d, double h) const {
 }
 
 Consistency consistency(EnergyKind kind, std::size_t tries) {
-  constexpr double kSoftening = 0.3;
-  const EnergyModel model = model_of(kind, kSoftening);
+  constexpr double kLengthParameter = 0.3;
+  const EnergyModel model = model_of(kind, kLengthParameter);
   Random random(11);
   Consistency result;
   for (std::size_t k = 0; k < tries; ++k) {
@@ -59,7 +59,7 @@ Consistency consistency(EnergyKind kind, std::size_t tries) {
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const WeightedPoint &a = p[i], &b = p[(i + 1) % 3], &c = p[(i + 2) % 3];
-      const EdgeEnergy e{kind, temper::length(b.position() - a.position()), kSoftening};
+      const EdgeEnergy e{kind, temper::length(b.position() - a.position()), kLengthParameter};
       sum += e(dual_crossing(a, b), signed_height(a, b, c));
     }
     const double whole = triangle_energy(model, p[0], p[1], p[2]);

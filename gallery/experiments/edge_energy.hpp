@@ -18,7 +18,7 @@ namespace temper::gallery {
 struct EdgeEnergy {
   EnergyKind kind = EnergyKind::BH;  ///< BH, BHs or BP
   double length = 1;                 ///< ℓ
-  double softening = 0;              ///< γ, or −h° ≥ 0
+  double length_parameter = 0;       ///< γ, or −h° ≥ 0
 
   /// +∞ outside the domain.
   [[nodiscard]] double operator()(double d, double h) const;

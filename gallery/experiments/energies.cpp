@@ -19,7 +19,7 @@ std::string symbol(std::string_view energy) { return "E_" + subscript(energy); }
 
 std::string plot_symbol(std::string_view energy) { return "E_{" + subscript(energy) + "}"; }
 
-Softening shift_beyond(const Mesh& input) {
+LengthParameter shift_beyond(const Mesh& input) {
   constexpr double kBeyond = 1.25;
   double least = 0;
   for (const HalfedgeId h : input.halfedges()) {

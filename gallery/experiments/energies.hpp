@@ -26,7 +26,7 @@ inline constexpr std::array<std::string_view, 5> kFiveEnergies = {"F", "dT", "T"
 /// γ of E_BP, the paper's.
 inline constexpr double kPaperGamma = 1;
 /// −h° of E_BHs: a quarter more than the least h of the input, so that the energy is finite at the start.
-[[nodiscard]] Softening shift_beyond(const Mesh& input);
+[[nodiscard]] LengthParameter shift_beyond(const Mesh& input);
 
 /// The energy of that name, ★1, as a run from the input has it.
 [[nodiscard]] EnergyModel model_of(std::string_view energy, const Mesh& input);

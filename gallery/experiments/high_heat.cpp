@@ -50,7 +50,7 @@ const std::vector<OrderedHeat>& high_heat_by_order(Effort effort) {
 OptimizeOptions high_heat_options(std::string_view energy) {
   OptimizeOptions options = paper_method();
   options.energy = find_energy(energy)->kind;
-  options.paper.gamma = Softening{kPaperGamma, LengthScale::absolute};
+  options.paper.gamma = LengthParameter{kPaperGamma, LengthScale::absolute};
   options.paper.h0 = shift_beyond(dense_horseshoe());
   options.paper.removal = Removal::none;
   options.paper.collapse_energy = EnergyKind::F;

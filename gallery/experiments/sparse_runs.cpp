@@ -52,8 +52,9 @@ OptimizeOptions options_of(const SparseSetting& setting, const Mesh& input) {
   o.paper.outer = 1;
   if (o.paper.weights_from > 0) o.paper.tolerance = 0;
   o.max_sweeps = setting.sweeps;
-  o.paper.gamma = Softening{setting.softening.value_or(kPaperGamma), LengthScale::absolute};
-  o.paper.h0 = setting.softening ? Softening{*setting.softening, LengthScale::absolute} : shift_beyond(input);
+  o.paper.gamma = LengthParameter{setting.length_parameter.value_or(kPaperGamma), LengthScale::absolute};
+  o.paper.h0 = setting.length_parameter ? LengthParameter{*setting.length_parameter, LengthScale::absolute}
+                                        : shift_beyond(input);
   return o;
 }
 

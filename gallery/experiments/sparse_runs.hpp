@@ -30,8 +30,8 @@ struct SparseSetting {
   std::optional<std::string_view> collapse_energy = {};  ///< E_c, from iteration 0; absent: no collapses
   VertexSequence sequence = kAsNumbered;
   Inversion inversion = Inversion::refuse;
-  std::optional<double> softening = {};  ///< γ of E_BP or −h° of E_BHs, instead of the usual
-  int sweeps = 12;                       ///< at most
+  std::optional<double> length_parameter = {};  ///< γ of E_BP or −h° of E_BHs, instead of the usual
+  int sweeps = 12;                              ///< at most
 };
 
 /// The mesh after one sweep, with what is asked of it.

@@ -17,9 +17,9 @@ namespace {
 constexpr double kHalfDigits = 1e-5;        // where a minimum of three energies' sum is known to, of a side of 2
 constexpr double kGamma = 1, kShift = 0.3;  // of the pictures: γ and −h°
 
-EnergyModel model(EnergyKind kind, double softening) {
+EnergyModel model(EnergyKind kind, double length_parameter) {
   EnergyModel m = paper_model(kind);
-  m.gamma.value = m.h0.value = softening;
+  m.gamma.value = m.h0.value = length_parameter;
   return m;
 }
 
@@ -136,16 +136,16 @@ struct Apex {
 };
 Apex apex_by(EnergyKind kind, double times, std::size_t count) {
   Apex apex;
-  double before = 0, softening = 1e-3;
-  for (std::size_t k = 0; k < count; ++k, softening *= times) {
-    const Minimum2 m = best_position(model(kind, softening));
+  double before = 0, length_parameter = 1e-3;
+  for (std::size_t k = 0; k < count; ++k, length_parameter *= times) {
+    const Minimum2 m = best_position(model(kind, length_parameter));
     const double angle = apex_degrees(m.at);
     apex.isosceles = apex.isosceles && std::abs(m.at.x) < kHalfDigits;
     apex.rising = apex.rising && angle > before;
     if (k == 0) apex.first = angle;
     apex.last = before = angle;
     if (k % (count / 6) == 0)
-      apex.list += (apex.list.empty() ? "" : ", ") + digits(angle, 4) + "° at " + digits(softening, 2);
+      apex.list += (apex.list.empty() ? "" : ", ") + digits(angle, 4) + "° at " + digits(length_parameter, 2);
   }
   return apex;
 }
@@ -230,8 +230,8 @@ Page make(Effort effort) {
   Table table{.caption = "The best free vertex, its apex angle and its energy (★1)",
               .header = {"energy", "parameter", "free vertex", "apex angle", "E"},
               .rows = {}};
-  const auto add = [&](EnergyKind kind, const char* name, const std::string& parameter, double softening) {
-    const Minimum2 m = best_position(model(kind, softening));
+  const auto add = [&](EnergyKind kind, const char* name, const std::string& parameter, double length_parameter) {
+    const Minimum2 m = best_position(model(kind, length_parameter));
     table.rows.push_back({name, parameter, place(m.at), digits(apex_degrees(m.at), 4) + "°", digits(m.value, 5)});
   };
   add(EnergyKind::BH, "E_BH", "", 0);

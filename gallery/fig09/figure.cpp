@@ -193,9 +193,9 @@ struct Centering {
   std::size_t solved = 0, inside = 0;
   double mean_h = 0;
 };
-Centering centering(EnergyKind kind, double softening) {
+Centering centering(EnergyKind kind, double length_parameter) {
   EnergyModel model = paper_model(kind);
-  model.gamma.value = model.h0.value = softening;
+  model.gamma.value = model.h0.value = length_parameter;
   Centering c;
   for (int k = 1; k < 100; ++k) {
     const auto found = best_weight(model, k * kPi / 100);
@@ -214,12 +214,12 @@ Claim smaller_constants_center() {
   for (const EnergyKind kind : {EnergyKind::BP, EnergyKind::BHs}) {
     std::size_t before = 0;
     found += kind == EnergyKind::BP ? "E_BP: " : "; E_BHs: ";
-    for (const double softening : {1.0, 0.5, 0.15, 0.05}) {
-      const Centering c = centering(kind, softening);
+    for (const double length_parameter : {1.0, 0.5, 0.15, 0.05}) {
+      const Centering c = centering(kind, length_parameter);
       holds = holds && c.inside >= before;
       before = c.inside;
-      found +=
-          (softening < 1 ? ", " : "") + digits(c.inside) + " of " + digits(c.solved) + " at " + digits(softening, 2);
+      found += (length_parameter < 1 ? ", " : "") + digits(c.inside) + " of " + digits(c.solved) + " at " +
+               digits(length_parameter, 2);
     }
     holds = holds && before > centering(kind, 1).inside;
   }

@@ -65,10 +65,10 @@ std::string energy_plot() {
 }
 
 /// The places where p_4 ends, by γ or −h°.
-std::vector<Vec2> heights_by(std::string_view energy, const std::vector<double>& softenings) {
+std::vector<Vec2> heights_by(std::string_view energy, const std::vector<double>& length_parameters) {
   std::vector<Vec2> points;
-  for (const double s : softenings) {
-    points.push_back({s, run_sparse({.energy = energy, .softening = s}).last().p4.y});
+  for (const double s : length_parameters) {
+    points.push_back({s, run_sparse({.energy = energy, .length_parameter = s}).last().p4.y});
   }
   return points;
 }

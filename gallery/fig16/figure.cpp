@@ -168,10 +168,10 @@ Table by_order(int random) {
 }
 
 Claim gamma_as_shift(int random) {
-  const Softening shift = shift_beyond(dense_horseshoe());
+  const LengthParameter shift = shift_beyond(dense_horseshoe());
   std::size_t good = 0, all = 0;
   double ours = 0, shifted = 0, usual = 0;  // well-centered parts
-  const auto run = [&](std::string_view energy, const VertexOrder& order, std::optional<Softening> gamma) {
+  const auto run = [&](std::string_view energy, const VertexOrder& order, std::optional<LengthParameter> gamma) {
     OptimizeOptions options = dense_positions(energy, order);
     if (gamma) options.paper.gamma = *gamma;
     return before_flips(record(dense_horseshoe(), options, Keep::outer)).mesh;

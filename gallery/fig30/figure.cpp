@@ -134,7 +134,7 @@ void run_case(const Case& c, Validity& v) {
   OptimizeOptions options = immediate_options(c.unknowns, RemovalRule::patch);
   options.flips = c.timing;
   options.paper.removal_measure = c.measure;
-  options.paper.gamma = Softening{c.gamma, LengthScale::relative};
+  options.paper.gamma = LengthParameter{c.gamma, LengthScale::relative};
   visit_in(c.order, options);
   options.max_sweeps = 15;
   Mesh mesh = *c.mesh;

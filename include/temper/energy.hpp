@@ -57,10 +57,10 @@ enum class LengthScale {
 };
 
 /// A parameter of E_BP (γ > 0) or E_BHs (−h° ≥ 0).
-struct Softening {
+struct LengthParameter {
   double value = 0;
   LengthScale scale = LengthScale::relative;
-  friend bool operator==(const Softening&, const Softening&) = default;
+  friend bool operator==(const LengthParameter&, const LengthParameter&) = default;
 };
 
 /// One row of the registry.
@@ -72,7 +72,7 @@ struct EnergyInfo {
   bool barrier;                          ///< +∞ outside 0 < d < ℓ
   bool softened_by_gamma;                ///< has a γ
   bool softened_by_h0;                   ///< has an h°
-  int length_exponent;                   ///< E(s·mesh) = s^this · E(mesh) with relative softening
+  int length_exponent;                   ///< E(s·mesh) = s^this · E(mesh) with relative length_parameter
   bool signed_by_dual = false;           ///< the sign of an edge is that of its dual length
   bool normalized = false;               ///< each triangle over its squared area
   bool positions_alone = false;          ///< for meshes without weights, which stay so
@@ -90,8 +90,8 @@ struct EnergyModel {
   EnergyKind kind = EnergyKind::BP;
   Star star = Star::one;                                            ///< zero, one or two
   BoundaryTreatment boundary_treatment = BoundaryTreatment::as_is;  ///< of F and nF; the others define their own
-  Softening gamma = {1.0, LengthScale::absolute};  ///< γ of E_BP; the paper's examples use 1, absolute
-  Softening h0 = {0.0, LengthScale::absolute};     ///< −h° of E_BHs, ≥ 0
+  LengthParameter gamma = {1.0, LengthScale::absolute};  ///< γ of E_BP; the paper's examples use 1, absolute
+  LengthParameter h0 = {0.0, LengthScale::absolute};     ///< −h° of E_BHs, ≥ 0
   /// A barrier is +∞ on inverted triangles too. The paper's are not: E_BP has any h in its domain, E_BHs all h > h°.
   bool wall = false;
 };

@@ -179,10 +179,10 @@ struct PaperSwitches {
   /// γ of E_BP. Absent: relative to each edge, shrinking from 0.5, or from 1 where a quarter of 100 or more
   /// triangles is bad, to 0.003, there as soon as none is; when some stay bad, a second attempt from 2. Given:
   /// constant.
-  std::optional<Softening> gamma = {};
+  std::optional<LengthParameter> gamma = {};
   /// −h° of E_BHs. Absent: relative, just beyond the worst h/ℓ of the mesh, shrinking as that improves. Given:
   /// constant.
-  std::optional<Softening> h0 = {};
+  std::optional<LengthParameter> h0 = {};
   BoundaryTreatment boundary_treatment = BoundaryTreatment::as_is;  ///< of E_F only
 
   Solver solver = Solver::newton;

@@ -20,9 +20,9 @@ namespace temper {
 class Executor;
 
 struct QualityOptions {
-  Softening gamma = {1.0, LengthScale::absolute};  ///< for E_BP in the report
-  Softening h0 = {0.0, LengthScale::absolute};     ///< for E_BHs: −h°
-  std::size_t worst = 5;                           ///< how many of the worst triangles to list
+  LengthParameter gamma = {1.0, LengthScale::absolute};  ///< for E_BP in the report
+  LengthParameter h0 = {0.0, LengthScale::absolute};     ///< for E_BHs: −h°
+  std::size_t worst = 5;                                 ///< how many of the worst triangles to list
   Executor* executor = nullptr;
 };
 

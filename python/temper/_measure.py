@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._mesh import MeshLike, as_mesh
-from ._options import Softening, SofteningLike, _softening
+from ._options import LengthParameter, LengthParameterLike, _length_parameter
 from ._records import Record, merged, table
 
 
@@ -119,8 +119,8 @@ class Quality(Record):
 def quality(
     mesh: MeshLike,
     *,
-    gamma: SofteningLike = Softening(1.0, "absolute"),
-    h0: SofteningLike = Softening(0.0, "absolute"),
+    gamma: LengthParameterLike = LengthParameter(1.0, "absolute"),
+    h0: LengthParameterLike = LengthParameter(0.0, "absolute"),
     worst: int = 5,
     threads: int | None = None,
 ) -> Quality:
@@ -129,7 +129,7 @@ def quality(
     Parameters
     ----------
     mesh : Mesh or meshio.Mesh
-    gamma, h0 : Softening or float
+    gamma, h0 : LengthParameter or float
         γ of E_BP and −h° of E_BHs in the report; plain numbers are relative to each edge.
     worst : int
         How many of the worst triangles to list.
@@ -142,7 +142,7 @@ def quality(
     >>> temper.quality(temper.generate.horseshoe()).orthocenters_outside
     58
     """
-    d = _temper.quality(as_mesh(mesh)._handle, _softening("gamma", gamma), _softening("h0", h0), worst, threads)
+    d = _temper.quality(as_mesh(mesh)._handle, _length_parameter("gamma", gamma), _length_parameter("h0", h0), worst, threads)
     histograms = {name: Histogram(**d[name]) for name in ("angles", "h_over_l", "d_over_l")}
     return Quality(**merged(d, worst=[WorstTriangle(**w) for w in d["worst"]], **histograms))
 

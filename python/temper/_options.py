@@ -18,7 +18,7 @@ from ._errors import TemperWarning
 from ._records import Record
 
 @dataclasses.dataclass(frozen=True)
-class Softening:
+class LengthParameter:
     """A parameter of an energy: γ > 0 of E_BP, −h° ≥ 0 of E_BHs.
 
     ``scale`` says what ``value`` is measured by: ``"relative"``, times the length of each edge, which makes the energy
@@ -29,24 +29,24 @@ class Softening:
     scale: Literal["absolute", "relative"] = "relative"
 
 
-SofteningLike = Union[Softening, float]
+LengthParameterLike = Union[LengthParameter, float]
 
 
-def _softening(name: str, value: SofteningLike) -> tuple[float, str]:
-    length, scale = (value.value, value.scale) if isinstance(value, Softening) else (value, "relative")
+def _length_parameter(name: str, value: LengthParameterLike) -> tuple[float, str]:
+    length, scale = (value.value, value.scale) if isinstance(value, LengthParameter) else (value, "relative")
     if not isinstance(length, numbers.Real) or not isinstance(scale, str):
-        raise TypeError(f"{name}: expected a number or a Softening, found {value!r}")
+        raise TypeError(f"{name}: expected a number or a LengthParameter, found {value!r}")
     return float(length), scale
 
 
 TABLE: list[dict[str, Any]] = _temper.option_table()
 OPTION_NAMES = tuple(row["name"] for row in TABLE)
 EnergyName = Literal[tuple(next(row["choices"] for row in TABLE if row["name"] == "energy"))]
-_SOFTENINGS = [row["name"] for row in TABLE if row["type"].startswith("SofteningLike")]
+_SOFTENINGS = [row["name"] for row in TABLE if row["type"].startswith("LengthParameterLike")]
 
 
 def _from_plain(name: str, value: Any) -> Any:
-    return Softening(*value) if name in _SOFTENINGS and value is not None else value
+    return LengthParameter(*value) if name in _SOFTENINGS and value is not None else value
 
 
 def _description(row: dict[str, Any]) -> str:
@@ -75,7 +75,7 @@ def _plain(self: Any) -> dict[str, Any]:
     values = {name: getattr(self, name) for name in OPTION_NAMES}
     for name in _SOFTENINGS:
         if values[name] is not None:
-            values[name] = _softening(name, values[name])
+            values[name] = _length_parameter(name, values[name])
     return values
 
 

@@ -24,7 +24,7 @@ class SweepRecord(Record):
     """Triangles that are not well-centered."""
     flips: int
     """Edge flips of this sweep."""
-    softening: float
+    length_parameter: float
     """γ or −h° of this sweep, as used (relative to ℓ by default)."""
     seconds: float
     """Since the start of the optimisation."""

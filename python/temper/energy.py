@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._mesh import MeshLike, _doubles, as_mesh
-from ._options import EnergyName, Softening, SofteningLike, _softening
+from ._options import EnergyName, LengthParameter, LengthParameterLike, _length_parameter
 from ._records import Record
 from ._space import Space
 
@@ -34,7 +34,7 @@ class EnergyInfo(Record):
     softened_by_gamma: bool
     softened_by_h0: bool
     length_exponent: int
-    """E(s · mesh) = s^this · E(mesh) with relative softening."""
+    """E(s · mesh) = s^this · E(mesh) with relative length_parameter."""
     signed_by_dual: bool
     """The sign of an edge is that of its dual length."""
     normalized: bool
@@ -57,16 +57,16 @@ class EnergyModel(Record):
     star: Literal[0, 1, 2] = 1
     boundary_treatment: Literal["as_is", "absolute", "mirrored"] = "as_is"
     """Of F and nF; the others define their own."""
-    gamma: SofteningLike = Softening(1.0, "absolute")
+    gamma: LengthParameterLike = LengthParameter(1.0, "absolute")
     """γ of E_BP; the paper's examples use 1, absolute."""
-    h0: SofteningLike = Softening(0.0, "absolute")
+    h0: LengthParameterLike = LengthParameter(0.0, "absolute")
     """−h° of E_BHs, ≥ 0."""
     wall: bool = False
     """A barrier is infinite on inverted triangles too; the paper's E_BP and E_BHs are not."""
 
     def _plain(self) -> dict[str, Any]:
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
-        return {**values, "gamma": _softening("gamma", self.gamma), "h0": _softening("h0", self.h0)}
+        return {**values, "gamma": _length_parameter("gamma", self.gamma), "h0": _length_parameter("h0", self.h0)}
 
 
 def total_energy(mesh: MeshLike, model: EnergyModel = EnergyModel(), *, threads: int | None = None) -> float:

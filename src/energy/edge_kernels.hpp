@@ -274,7 +274,7 @@ struct EdgeFormula {
   EdgeFormula f{EdgeFormula::Form::hot, kAlpha[star], kBeta[star]};
   f.normalized = info.normalized;
   if (model.wall) f.least_area = 0;
-  const auto soften = [&f](const Softening& s, double value) {
+  const auto soften = [&f](const LengthParameter& s, double value) {
     (s.scale == LengthScale::absolute ? f.first : f.second) = value;
   };
   if (info.barrier) f.form = info.softened_by_gamma ? EdgeFormula::Form::smoothed : EdgeFormula::Form::shifted;

@@ -63,8 +63,8 @@ OptionValue some_value(const OptionRow& row, Choices& choices) {
       return number;
     case OptionKind::choice:
       return row.choices[choices.below(row.choices.size())];
-    case OptionKind::softening:
-      return Softening{std::max(number, 1e-3)};
+    case OptionKind::length_parameter:
+      return LengthParameter{std::max(number, 1e-3)};
     case OptionKind::vertex:
       return VertexId(choices.below(8));
   }

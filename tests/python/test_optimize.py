@@ -146,7 +146,7 @@ def test_every_choice_is_taken_and_every_range_is_checked(ring):
         for choice in row["choices"]:
             assert temper._temper.idle_options({row["name"]: choice}, []) == []
             choices += 1
-        wrong = {"int": -1, "float": -1.0, "SofteningLike": -1.0}.get(row["type"].removesuffix(" | None"))
+        wrong = {"int": -1, "float": -1.0, "LengthParameterLike": -1.0}.get(row["type"].removesuffix(" | None"))
         if wrong is None:
             continue
         with pytest.raises(temper.TemperError, match=f"^{row['name']} is -1; expected {row['range']}") as caught:
@@ -167,7 +167,7 @@ def test_stubs_have_every_option():
 
 def test_keywords_win_over_options_even_when_they_say_the_default(ring):
     options = temper.paper_method(max_sweeps=1)
-    assert options.solver == "golden" and options.gamma == temper.Softening(1.0, "absolute")
+    assert options.solver == "golden" and options.gamma == temper.LengthParameter(1.0, "absolute")
     a, b = ring.copy(), ring.copy()
     temper.optimize(a, options, max_sweeps=2, solver="newton", weight_updates="immediate", inversion="refuse")
     merged = dataclasses.replace(options, max_sweeps=2, solver="newton", weight_updates="immediate", inversion="refuse")
@@ -186,7 +186,7 @@ def test_keywords_win_over_options_even_when_they_say_the_default(ring):
         (dict(anchor=-2), "anchor"),
         (dict(threads=-1), "threads"),
         (dict(size_band=0.5), "band"),
-        (dict(gamma=temper.Softening(1.0, "metres")), "scale"),
+        (dict(gamma=temper.LengthParameter(1.0, "metres")), "scale"),
     ],
 )
 def test_options_that_make_no_sense_leave_the_mesh_alone(ring, options, says):
@@ -203,7 +203,7 @@ def test_options_that_make_no_sense_leave_the_mesh_alone(ring, options, says):
         ("threads", "2"),
         ("threads", 2**70),
         ("gamma", "x"),
-        ("h0", temper.Softening("x")),
+        ("h0", temper.LengthParameter("x")),
         ("solver", 3.0),
         ("observer", 3),
         ("tracer", "print"),

@@ -50,7 +50,7 @@ export function optionsSource(table) {
     return `  /** ${row.sentence}${range}${absent}. Default: ${JSON.stringify(row.default)}. */\n  ${row.name}?: ${row.type};`;
   });
   return `// Written by build.mjs --options from the table of options in the library. Not to be edited.
-import type { SofteningLike } from './records.ts';
+import type { LengthParameterLike } from './records.ts';
 
 /** The options of \`optimize\`. */
 export interface OptimizeOptions {

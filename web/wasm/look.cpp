@@ -21,8 +21,8 @@ TEMPER_EXPORT(mesh_quality) int mesh_quality(const HeldMesh* held, const char* o
     const Json given = parse({options, size});
     expect_names(given, kNames);
     QualityOptions how;
-    if (given.contains("gamma")) how.gamma = softening_from("gamma", given["gamma"]);
-    if (given.contains("h0")) how.h0 = softening_from("h0", given["h0"]);
+    if (given.contains("gamma")) how.gamma = length_parameter_from("gamma", given["gamma"]);
+    if (given.contains("h0")) how.h0 = length_parameter_from("h0", given["h0"]);
     take(given, "worst", how.worst);
     answer(to_json(quality(held->mesh, how)));
   });

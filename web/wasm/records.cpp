@@ -33,7 +33,7 @@ bool is_number(std::string_view text) {
 }
 Json choice(std::string_view name) { return is_number(name) ? Json(std::stoi(std::string(name))) : Json(name); }
 
-Json to_json(const Softening& s) {
+Json to_json(const LengthParameter& s) {
   return {{"value", number(s.value)}, {"scale", kScales[static_cast<std::size_t>(s.scale)]}};
 }
 
@@ -47,7 +47,7 @@ Json to_json(const OptionValue& value) {
           return number(v);
         } else if constexpr (std::is_same_v<T, std::string_view>) {
           return choice(v);
-        } else if constexpr (std::is_same_v<T, Softening>) {
+        } else if constexpr (std::is_same_v<T, LengthParameter>) {
           return to_json(v);
         } else {
           return v;
@@ -60,8 +60,8 @@ Json to_json(const OptionValue& value) {
 std::string type_of(const OptionRow& row) {
   const auto plain = [&row]() -> std::string {
     switch (row.kind) {
-      case OptionKind::softening:
-        return "SofteningLike";
+      case OptionKind::length_parameter:
+        return "LengthParameterLike";
       case OptionKind::choice: {
         std::string list;
         for (const std::string_view each : row.choices) list += (list.empty() ? "" : " | ") + choice(each).dump();
@@ -93,8 +93,8 @@ OptionValue value_from(const OptionRow& row, const Json& given, std::string& tex
     case OptionKind::choice:
       text = given.is_number() ? std::to_string(whole()) : given.get<std::string>();
       return std::string_view(text);
-    case OptionKind::softening:
-      return softening_from(row.name, given);
+    case OptionKind::length_parameter:
+      return length_parameter_from(row.name, given);
     case OptionKind::vertex: {
       const std::int64_t v = whole();
       return v < 0 ? OptionValue(v) : OptionValue(VertexId(static_cast<std::size_t>(v)));
@@ -147,7 +147,7 @@ VertexId vertex(const Json& given) {
 
 }  // namespace
 
-Softening softening_from(std::string_view name, const Json& given) {
+LengthParameter length_parameter_from(std::string_view name, const Json& given) {
   const Json plain = unmarked(given);
   if (plain.is_number()) return {plain.get<double>(), LengthScale::relative};
   if (!plain.is_object() || !plain.contains("value") || !plain.contains("scale")) throw WrongType{};
@@ -167,8 +167,8 @@ EnergyModel model_from(const Json& given) {
   if (star < 0 || star > 2) fail(ErrorCode::invalid_option, "star: expected 0, 1 or 2, found " + std::to_string(star));
   model.star = static_cast<Star>(star);
   model.boundary_treatment = from_name<BoundaryTreatment>("boundary_treatment", treatment, kTreatments);
-  if (given.contains("gamma")) model.gamma = softening_from("gamma", given["gamma"]);
-  if (given.contains("h0")) model.h0 = softening_from("h0", given["h0"]);
+  if (given.contains("gamma")) model.gamma = length_parameter_from("gamma", given["gamma"]);
+  if (given.contains("h0")) model.h0 = length_parameter_from("h0", given["h0"]);
   return model;
 }
 
@@ -235,7 +235,7 @@ Json to_json(const SweepRecord& r) {
           {"energy", number(r.energy)},
           {"bad", r.bad},
           {"flips", r.flips},
-          {"softening", number(r.softening)},
+          {"length_parameter", number(r.length_parameter)},
           {"seconds", r.seconds},
           {"objective", name(r.objective)}};
 }

@@ -10,7 +10,7 @@
 namespace temper::wasm {
 
 /// A number, relative to each edge, or {"value", "scale": "absolute" | "relative"}.
-[[nodiscard]] Softening softening_from(std::string_view name, const Json& given);
+[[nodiscard]] LengthParameter length_parameter_from(std::string_view name, const Json& given);
 /// The model of {"energy", "star", "boundary_treatment", "gamma", "h0", "wall"}, each of which may be left out.
 [[nodiscard]] EnergyModel model_from(const Json& given);
 [[nodiscard]] OptimizeOptions options_from(const Json& given);

@@ -153,20 +153,20 @@ Option& add_name(Command& command, const std::string& name, std::vector<std::str
   return command.add({.names = name, .value_name = join(names, "|"), .sentence = description, .take = take});
 }
 
-std::optional<Softening> SofteningOptions::value() const {
-  if (absolute) return Softening{*absolute, LengthScale::absolute};
-  if (relative) return Softening{*relative, LengthScale::relative};
+std::optional<LengthParameter> LengthParameterFlags::value() const {
+  if (absolute) return LengthParameter{*absolute, LengthScale::absolute};
+  if (relative) return LengthParameter{*relative, LengthScale::relative};
   return std::nullopt;
 }
 
-void add_gamma(Command& command, SofteningOptions& target, const std::string& default_text) {
+void add_gamma(Command& command, LengthParameterFlags& target, const std::string& default_text) {
   add_number(command, "--gamma", target.absolute, kPositive,
              "gamma of E_BP, as a length in the units of the mesh" + default_text);
   add_number(command, "--gamma-rel", target.relative, kPositive, "gamma of E_BP, as a multiple of each edge's length")
       .excludes = "--gamma";
 }
 
-void add_h0(Command& command, SofteningOptions& target, const std::string& default_text) {
+void add_h0(Command& command, LengthParameterFlags& target, const std::string& default_text) {
   add_number(command, "--h0", target.absolute, kNotNegative,
              "how far below zero E_BHs lets h go (-h0 of the paper, so >= 0), as a length" + default_text);
   add_number(command, "--h0-rel", target.relative, kNotNegative, "the same, as a multiple of each edge's length")

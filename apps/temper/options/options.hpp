@@ -111,12 +111,12 @@ Option& add_choice(Command& command, const std::string& name, const Choice<T> (&
 }
 
 /// γ and h°: the same pair of options for optimize and check.
-struct SofteningOptions {
+struct LengthParameterFlags {
   std::optional<double> absolute, relative;
-  [[nodiscard]] std::optional<Softening> value() const;
+  [[nodiscard]] std::optional<LengthParameter> value() const;
 };
-void add_gamma(Command& command, SofteningOptions& target, const std::string& default_text);
-void add_h0(Command& command, SofteningOptions& target, const std::string& default_text);
+void add_gamma(Command& command, LengthParameterFlags& target, const std::string& default_text);
+void add_h0(Command& command, LengthParameterFlags& target, const std::string& default_text);
 
 /// One option as it was used: given on the command line, or its default.
 struct UsedOption {

@@ -40,7 +40,7 @@ std::string relative_name(const OptionRow& row) { return name_of(row) + "-rel"; 
 
 std::vector<std::string> names_of(const OptionRow& row) {
   std::vector<std::string> names = {name_of(row)};
-  if (row.kind == OptionKind::softening) names.push_back(relative_name(row));
+  if (row.kind == OptionKind::length_parameter) names.push_back(relative_name(row));
   for (const Shorthand& s : kShorthands) {
     if (s.option == row.name) names.push_back(s.flag);
   }
@@ -80,15 +80,15 @@ std::string sentence_of(const OptionRow& row) {
 }
 
 /// γ and h°: one option for a length, one for a multiple of each edge's.
-void add_softening(Command& command, const OptionRow& row, OptimizeOptions& target) {
+void add_length_parameter(Command& command, const OptionRow& row, OptimizeOptions& target) {
   const auto add = [&](const std::string& name, LengthScale scale, const std::string& sentence) -> Option& {
     const auto take = [&row, &target, scale](const std::string& text) {
-      row.set(target, Softening{to_number(text, row.range), scale});
+      row.set(target, LengthParameter{to_number(text, row.range), scale});
     };
     const auto spell = [&row, &target, scale] {
       const OptionValue value = row.get(target);
-      const auto* softening = std::get_if<Softening>(&value);
-      return softening != nullptr && softening->scale == scale ? option_text(row, value) : std::string();
+      const auto* length_parameter = std::get_if<LengthParameter>(&value);
+      return length_parameter != nullptr && length_parameter->scale == scale ? option_text(row, value) : std::string();
     };
     return command.add(
         {.names = name, .value_name = "X", .sentence = sentence, .take = take, .spell = spell, .rare = !row.common});
@@ -101,7 +101,7 @@ void add_softening(Command& command, const OptionRow& row, OptimizeOptions& targ
 
 void add_row(Command& command, const OptionRow& row, TableOptions& target) {
   OptimizeOptions& options = target.options;
-  if (row.kind == OptionKind::softening) return add_softening(command, row, options);
+  if (row.kind == OptionKind::length_parameter) return add_length_parameter(command, row, options);
   Option option = {.names = name_of(row),
                    .value_name = value_name(row),
                    .sentence = sentence_of(row),

@@ -121,7 +121,7 @@ Json to_json(const SweepRecord& record) {
           {"energy", number_or_null(record.energy)},
           {"bad", record.bad},
           {"flips", record.flips},
-          {"softening", number_or_null(record.softening)},
+          {"length_parameter", number_or_null(record.length_parameter)},
           {"seconds", record.seconds},
           {"objective", name(record.objective)}};
 }
@@ -183,10 +183,10 @@ std::string optimize_json(const OptimizeRecord& record) {
 }
 
 std::string history_csv(const OptimizeReport& report) {
-  std::string csv = "sweep,energy,bad,flips,softening,seconds,objective\n";
+  std::string csv = "sweep,energy,bad,flips,length_parameter,seconds,objective\n";
   for (const SweepRecord& record : report.history) {
     csv += fmt::format("{},{},{},{},{},{},{}\n", record.sweep, record.energy, record.bad, record.flips,
-                       record.softening, record.seconds, name(record.objective));
+                       record.length_parameter, record.seconds, name(record.objective));
   }
   return csv;
 }

@@ -25,7 +25,7 @@ struct CheckSettings {
   std::vector<std::string> inputs;
   std::string html;
   std::vector<std::string> require;
-  SofteningOptions gamma, h0;
+  LengthParameterFlags gamma, h0;
   std::uint64_t worst = 5, threads = 0;
   bool json = false;
   std::optional<Metric> metric;

@@ -20,10 +20,10 @@
 
 namespace temper {
 
-enum class OptionKind { count, number, choice, softening, vertex };
+enum class OptionKind { count, number, choice, length_parameter, vertex };
 
 /// The value of any option. monostate: absent; text: the name of a choice.
-using OptionValue = std::variant<std::monostate, std::int64_t, double, std::string_view, Softening, VertexId>;
+using OptionValue = std::variant<std::monostate, std::int64_t, double, std::string_view, LengthParameter, VertexId>;
 
 /// Numbers from low to high; open: without these two.
 struct OptionRange {
@@ -44,7 +44,7 @@ struct OptionRow {
   std::string_view sentence = {};  ///< what it does, in ASCII
   OptionKind kind = OptionKind::number;
   std::span<const std::string_view> choices = {};  ///< of OptionKind::choice
-  OptionRange range = {};                          ///< of counts, numbers and softenings
+  OptionRange range = {};                          ///< of counts, numbers and length_parameters
   bool optional = false;                           ///< may be absent
   bool common = false;                             ///< one of the few that a first run may need
   std::string_view absent_name = "auto";           ///< how an absent value is written: "auto" is chosen by temper

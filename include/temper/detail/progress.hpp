@@ -24,8 +24,9 @@ struct SweepRecord {
   double energy = 0;      ///< total energy at the end of the sweep, at that sweep's γ
   std::size_t bad = 0;    ///< triangles that are not well-centered
   std::size_t flips = 0;  ///< edge flips of this sweep
-  double softening = 0;  ///< γ or −h° of this sweep, as used (relative to ℓ by default); 0 of sweeps for accuracy
-  double seconds = 0;    ///< since the start of the optimisation
+  double length_parameter =
+      0;               ///< γ or −h° of this sweep, as used (relative to ℓ by default); 0 of sweeps for accuracy
+  double seconds = 0;  ///< since the start of the optimisation
   Objective objective = Objective::energy;  ///< what the sweep lowered, and `energy` is of
 };
 

@@ -13,7 +13,7 @@ namespace {
 std::optional<double> number_of(const OptionValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
   if (const auto* real = std::get_if<double>(&value)) return *real;
-  if (const auto* softening = std::get_if<Softening>(&value)) return softening->value;
+  if (const auto* length_parameter = std::get_if<LengthParameter>(&value)) return length_parameter->value;
   return std::nullopt;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 InputError invalid(const std::string& message) { return {ErrorCode::invalid_option, {}, message}; }
 
-Softening in_frame(Softening s, const Frame& frame) {
+LengthParameter in_frame(LengthParameter s, const Frame& frame) {
   if (s.scale == LengthScale::absolute) s.value /= frame.scale;
   return s;
 }
@@ -219,7 +219,7 @@ bool wants_error_model(const OptimizeOptions& o, const Mesh& mesh) {
 
 OptimizeOptions paper_method() {
   PaperSwitches p;
-  p.gamma = Softening{1, LengthScale::absolute};
+  p.gamma = LengthParameter{1, LengthScale::absolute};
   p.solver = Solver::golden;
   p.inner = 0;
   p.flip_limit = FlipLimit::unlimited;
@@ -278,7 +278,7 @@ Unknowns unknowns_of_sweep(const Settings& s, const EnergyInfo& energy, int swee
 }
 
 EnergyModel in_user_units(EnergyModel model, const Frame& frame) {
-  for (Softening* s : {&model.gamma, &model.h0}) {
+  for (LengthParameter* s : {&model.gamma, &model.h0}) {
     if (s->scale == LengthScale::absolute) s->value *= frame.scale;
   }
   return model;

@@ -93,7 +93,7 @@ template <class T>
 constexpr OptionKind kind_of() {
   if (std::is_enum_v<T>) return OptionKind::choice;
   if (std::is_integral_v<T>) return OptionKind::count;
-  if (std::is_same_v<T, Softening>) return OptionKind::softening;
+  if (std::is_same_v<T, LengthParameter>) return OptionKind::length_parameter;
   return std::is_same_v<T, VertexId> ? OptionKind::vertex : OptionKind::number;
 }
 

@@ -85,7 +85,7 @@ Limits limits_of(std::span<const SweepRecord> history, const OptimizeOptions& o)
 }
 
 bool one_stage(const SweepRecord& a, const SweepRecord& b) {
-  return a.softening == b.softening && a.objective == b.objective;
+  return a.length_parameter == b.length_parameter && a.objective == b.objective;
 }
 
 }  // namespace

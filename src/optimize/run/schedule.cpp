@@ -77,13 +77,13 @@ std::span<const Attempt> attempts(const Settings& settings, const Mesh& mesh) {
   return many ? kManyBad : kFewBad;
 }
 
-void Softener::start(const Mesh& mesh, EnergyModel& model) {
+void GammaSchedule::start(const Mesh& mesh, EnergyModel& model) {
   if (gamma_shrinks_) model.gamma = {attempt_.start, LengthScale::relative};
   if (h0_shrinks_) model.h0 = {least_shift(mesh), LengthScale::relative};
   settled_ = !h0_shrinks_ && (!gamma_shrinks_ || model.gamma.value <= kFloor);
 }
 
-bool Softener::advance(const Mesh& mesh, double fall, std::size_t bad, EnergyModel& model) {
+bool GammaSchedule::advance(const Mesh& mesh, double fall, std::size_t bad, EnergyModel& model) {
   if (settled_) return false;
   if (h0_shrinks_) {
     constexpr double kFactor = 0.7;

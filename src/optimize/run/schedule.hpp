@@ -1,4 +1,4 @@
-// The schedule of softening: γ of E_BP and h° of E_BHs from sweep to sweep, as data.
+// The schedule of length_parameter: γ of E_BP and h° of E_BHs from sweep to sweep, as data.
 //
 // A small γ from the start pins every vertex to the few triangles that are bad, and prices out the flips that
 // would cure them; a large one does not see h < 0. So γ starts large and shrinks. Quickly at first, one sweep a
@@ -49,10 +49,10 @@ extern const Attempt kNearlyGood;
 [[nodiscard]] std::span<const Attempt> attempts(const Settings& settings, const Mesh& mesh);
 
 /// γ and h° of the sweeps of one attempt.
-class Softener {
+class GammaSchedule {
  public:
-  Softener() = default;
-  Softener(const Attempt& attempt, const EnergyInfo& energy, const Policy& policy)
+  GammaSchedule() = default;
+  GammaSchedule(const Attempt& attempt, const EnergyInfo& energy, const Policy& policy)
       : attempt_(attempt),
         gamma_shrinks_(energy.softened_by_gamma && !policy.gamma),
         h0_shrinks_(energy.softened_by_h0 && !policy.h0) {}

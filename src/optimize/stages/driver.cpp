@@ -378,7 +378,7 @@ void Driver::amend_record(const SweepRecord& measured) {
   SweepRecord& r = run_.report.history.back();
   const Flipper::Changes changes = flipper_.take_changes();
   r.energy = measured.energy;
-  r.softening = measured.softening;
+  r.length_parameter = measured.length_parameter;
   r.bad = measured.bad;
   r.objective = measured.objective;
   r.flips += changes.flips;

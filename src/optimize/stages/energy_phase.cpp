@@ -27,9 +27,9 @@ void EnergyPhase::begin() {
 
 void EnergyPhase::take_energy(EnergyKind kind) {
   state_.set_energy(kind, settings_.policy);
-  softener_ = Softener(attempt_, state_.energy, settings_.policy);
-  softener_.start(work_.mesh, state_.model);
-  state_.relaxation = settings_.policy.relaxation.value_or(softener_.relaxation());
+  gamma_schedule_ = GammaSchedule(attempt_, state_.energy, settings_.policy);
+  gamma_schedule_.start(work_.mesh, state_.model);
+  state_.relaxation = settings_.policy.relaxation.value_or(gamma_schedule_.relaxation());
   least_bad_ = work_.mesh.n_triangles();
   sweeps_since_fewer_bad_ = sweeps_since_lower_ = infinite_sweeps_ = 0;
   before_ = total();
@@ -51,8 +51,10 @@ SweepRecord EnergyPhase::measure() {
 }
 
 SweepRecord EnergyPhase::record_of(const EnergyAndBad& measured) const {
-  const double softening = state_.energy.softened_by_h0 ? state_.model.h0.value : state_.model.gamma.value;
-  return {.energy = state_.energy_unit(work_.frame) * measured.energy, .bad = measured.bad, .softening = softening};
+  const double length_parameter = state_.energy.softened_by_h0 ? state_.model.h0.value : state_.model.gamma.value;
+  return {.energy = state_.energy_unit(work_.frame) * measured.energy,
+          .bad = measured.bad,
+          .length_parameter = length_parameter};
 }
 
 /// Line 19 of Algorithm 1, and what a softened barrier or an infinite energy ask for besides.
@@ -72,7 +74,7 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
     compare_from_here();
     return Verdict::improving;
   }
-  if (softener_.settled() && !changed && converged(before_, after)) {
+  if (gamma_schedule_.settled() && !changed && converged(before_, after)) {
     if (before_switch_) {
       take_last_energy();
       return Verdict::restarted;
@@ -81,11 +83,11 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
     run_.report.stopped = Stopped::converged;
     return Verdict::settled;
   }
-  if (softener_.settled() && may_give_up_ && !before_switch_ && stagnates()) return Verdict::stopped;
+  if (gamma_schedule_.settled() && may_give_up_ && !before_switch_ && stagnates()) return Verdict::stopped;
   const double fall = (before_ - after) / std::abs(after);
-  const bool sharper = softener_.advance(work_.mesh, fall, run_.report.history.back().bad, state_.model);
-  state_.relaxation = settings_.policy.relaxation.value_or(softener_.relaxation());
-  before_ = !sharper ? after : softener_.compares_energies() ? total() : kInfinity;
+  const bool sharper = gamma_schedule_.advance(work_.mesh, fall, run_.report.history.back().bad, state_.model);
+  state_.relaxation = settings_.policy.relaxation.value_or(gamma_schedule_.relaxation());
+  before_ = !sharper ? after : gamma_schedule_.compares_energies() ? total() : kInfinity;
   return Verdict::improving;
 }
 

@@ -76,7 +76,7 @@ class EnergyPhase final : public Phase {
   Run& run_;
   Attempt attempt_;
   bool before_switch_ = false;  // from the first energy to that of the options
-  Softener softener_;
+  GammaSchedule gamma_schedule_;
   bool may_give_up_;
   double before_ = 0;          // energy at the start of the sweep
   std::size_t least_bad_ = 0;  // when they last were fewer, and for how many sweeps

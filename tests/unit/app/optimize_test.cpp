@@ -170,7 +170,7 @@ TEST_F(Optimize, TheReportHasBeforeAfterAndHistory) {
   EXPECT_EQ(report["history"][0]["sweep"], 0);
 
   const std::string csv = read("h.csv");
-  EXPECT_EQ(csv.rfind("sweep,energy,bad,flips,softening,seconds,objective\n0,", 0), 0u);
+  EXPECT_EQ(csv.rfind("sweep,energy,bad,flips,length_parameter,seconds,objective\n0,", 0), 0u);
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), sweeps + 2);
   EXPECT_TRUE(contains(read("p.svg"), "</svg>"));
 }

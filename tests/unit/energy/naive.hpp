@@ -56,7 +56,7 @@ inline Real naive_half(const EnergyModel& m, Real d, Real d_other, Real h, Real 
   const bool odt = m.kind == EnergyKind::ODT;  // of no star
   const Real alpha = odt ? Real(5) / 12 : alphas[static_cast<std::size_t>(m.star)];
   const Real beta = odt ? Real(1) / 4 : betas[static_cast<std::size_t>(m.star)];
-  const auto length_of = [&](const Softening& s) {
+  const auto length_of = [&](const LengthParameter& s) {
     return s.scale == LengthScale::relative ? s.value * l : Real(s.value);
   };
   const Real top = alpha * d * d + beta * h * h, chi = std::sqrt(d * d_other);
@@ -138,7 +138,7 @@ inline NaivePoint naive_step(const Mesh& mesh, VertexId v, Real x, Real y, Real 
   return {factor * q.x, factor * q.y, factor * q.w};
 }
 
-/// Every energy × star × boundary treatment or kind of softening, with γ and h° a fraction of `length`.
+/// Every energy × star × boundary treatment or kind of length_parameter, with γ and h° a fraction of `length`.
 inline std::vector<EnergyModel> all_models(double length) {
   std::vector<EnergyModel> models;
   for (const EnergyInfo& info : energies()) {

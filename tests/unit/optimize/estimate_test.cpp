@@ -44,7 +44,7 @@ TEST(Estimate, IsNoneWhereItCannotBeTold) {
   ASSERT_TRUE(estimate_sweeps_left(good, o));
   std::vector<SweepRecord> rising = good, staged = good;
   rising.back().energy = 2;
-  staged[4].softening = 0.1;
+  staged[4].length_parameter = 0.1;
   OptimizeOptions paper = o;
   paper.paper.stopping = StoppingRule::paper;
   EXPECT_FALSE(estimate_sweeps_left(std::span(good).first(4), o));

@@ -71,7 +71,7 @@ TEST(Optimize, KeepsInvariantsOnRandomMeshesWithRegionsAndFixedVertices) {
 
 TEST(Optimize, EnergyOfABarrierFallsInEverySweepAtOneGamma) {
   Mesh mesh = lattice({.n = 10, .jitter = 0.3, .weight = 0});
-  const auto report = optimize(mesh, {.paper = {.gamma = Softening{0.05}, .tolerance = 1e-12}});
+  const auto report = optimize(mesh, {.paper = {.gamma = LengthParameter{0.05}, .tolerance = 1e-12}});
   ASSERT_TRUE(report);
   ASSERT_GT(report->history.size(), 5u);
   for (std::size_t i = 1; i < report->history.size(); ++i) {
@@ -81,7 +81,7 @@ TEST(Optimize, EnergyOfABarrierFallsInEverySweepAtOneGamma) {
 
 TEST(Optimize, IsStationaryWhenConverged) {
   Mesh mesh = lattice({.n = 8, .jitter = 0.2, .weight = 0});
-  const Softening gamma{0.05};
+  const LengthParameter gamma{0.05};
   ASSERT_TRUE(optimize(mesh, {.max_sweeps = 5000, .paper = {.gamma = gamma, .tolerance = 0}}));
   const EnergyModel model{.kind = EnergyKind::BP, .gamma = gamma};
   const double total = total_energy(mesh, model);

@@ -268,7 +268,7 @@ TEST(Modes, TheTimeLimitIsOfTheEndTooWhichTakesAsLongAsTheBeginning) {
 TEST(Modes, ThePapersStoppingRuleLooksAtTheMeanEnergyOfATriangle) {
   Mesh mesh = lattice({.n = 8, .jitter = 0.2, .weight = 0});
   const auto report =
-      optimize(mesh, {.paper = {.gamma = Softening{0.1}, .tolerance = 1e-3, .stopping = StoppingRule::paper}});
+      optimize(mesh, {.paper = {.gamma = LengthParameter{0.1}, .tolerance = 1e-3, .stopping = StoppingRule::paper}});
   ASSERT_TRUE(report);
   ASSERT_EQ(report->stopped, Stopped::converged);
   ASSERT_GE(report->history.size(), 3u);

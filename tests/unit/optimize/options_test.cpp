@@ -25,8 +25,8 @@ std::string error_of(const OptimizeOptions& options) {
 TEST(OptimizeOptions, OutOfRangeAreRefusedByName) {
   EXPECT_EQ(error_of({.objective = Objective::energy, .star = Star::all}),
             "`star=all` is for `objective=accuracy`; of an energy expected 0, 1 or 2");
-  EXPECT_EQ(error_of({.paper = {.gamma = Softening{0}}}), "`gamma` is 0; expected more than 0, or auto");
-  EXPECT_EQ(error_of({.paper = {.gamma = Softening{NAN}}}), "`gamma` is nan; expected more than 0, or auto");
+  EXPECT_EQ(error_of({.paper = {.gamma = LengthParameter{0}}}), "`gamma` is 0; expected more than 0, or auto");
+  EXPECT_EQ(error_of({.paper = {.gamma = LengthParameter{NAN}}}), "`gamma` is nan; expected more than 0, or auto");
   EXPECT_EQ(error_of({.paper = {.overshoot = 0}}), "`overshoot` is 0; expected more than 0");
   EXPECT_EQ(error_of({.paper = {.relaxation = 2}}), "`relaxation` is 2; expected more than 0 and less than 2, or auto");
   EXPECT_EQ(error_of({.paper = {.anchor = VertexId(25)}}), "`anchor` is vertex 25, but the mesh has 25 vertices");
@@ -42,8 +42,8 @@ OptionValue wrong_value(const OptionRow& row) {
       return std::int64_t{-1};
     case OptionKind::number:
       return row.range.low - 1;
-    case OptionKind::softening:
-      return Softening{row.range.low - 1};
+    case OptionKind::length_parameter:
+      return LengthParameter{row.range.low - 1};
     case OptionKind::choice:
       return std::string_view("mirrored edges");
     case OptionKind::vertex:
@@ -82,7 +82,7 @@ TEST(TableOfOptions, SetsEachOptionAndNoOther) {
       for (const std::string_view choice : row.choices) values.emplace_back(choice);
       if (row.kind == OptionKind::count) values = {std::int64_t{3}};
       if (row.kind == OptionKind::number) values = {0.5 * (row.range.low + std::fmin(row.range.high, 9))};
-      if (row.kind == OptionKind::softening) values = {Softening{0.25, LengthScale::absolute}};
+      if (row.kind == OptionKind::length_parameter) values = {LengthParameter{0.25, LengthScale::absolute}};
       if (row.kind == OptionKind::vertex) values = {VertexId(7)};
       if (row.optional) values.emplace_back();
       for (const OptionValue& value : values) {

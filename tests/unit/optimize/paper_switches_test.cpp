@@ -159,7 +159,7 @@ TEST(PatchTest, SumGutsWhereMeanAndExcessSpare) {
   for (const RemovalMeasure measure : {RemovalMeasure::sum, RemovalMeasure::mean, RemovalMeasure::excess}) {
     Mesh mesh = three_hundred_points();
     const auto report = optimize(mesh, {.max_sweeps = 40,
-                                        .paper = {.gamma = Softening{1, LengthScale::relative},
+                                        .paper = {.gamma = LengthParameter{1, LengthScale::relative},
                                                   .removal = Removal::patch,
                                                   .removal_measure = measure,
                                                   .removal_from = 0}});
@@ -347,7 +347,7 @@ TEST(HiddenVertices, OfABarrierEndTheRunWithTheLastRoundThatWasRegular) {
   o.paper.hidden = HiddenPolicy::remove;
   all.paper.hidden = HiddenPolicy::undo;
   all.paper.position_updates = Updates::deferred;
-  all.paper.gamma = Softening{1, LengthScale::relative};
+  all.paper.gamma = LengthParameter{1, LengthScale::relative};
   for (const auto& [input, options] : {std::pair(sparse_horseshoe(), o), {dense(), all}}) {
     Mesh mesh = input;
     const auto report = optimize(mesh, options);

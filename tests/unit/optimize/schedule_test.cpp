@@ -20,35 +20,35 @@ TEST(Schedule, ShrinksGammaToItsFloorInEveryAttempt) {
   const auto tries = attempts_of("BP", {}, bad);
   ASSERT_GE(tries.size(), 2u);
   for (const Attempt& attempt : tries) {
-    Softener softener(attempt, row("BP"), Policy());
+    GammaSchedule gamma_schedule(attempt, row("BP"), Policy());
     EnergyModel model;
-    softener.start(bad, model);
-    EXPECT_EQ(model.gamma, (Softening{attempt.start, LengthScale::relative}));
+    gamma_schedule.start(bad, model);
+    EXPECT_EQ(model.gamma, (LengthParameter{attempt.start, LengthScale::relative}));
     double last = model.gamma.value;
     int sweeps = 0;
-    while (!softener.settled() && sweeps < 10000) {
-      softener.advance(bad, 1, 1, model);
+    while (!gamma_schedule.settled() && sweeps < 10000) {
+      gamma_schedule.advance(bad, 1, 1, model);
       EXPECT_LE(model.gamma.value, last);
       last = model.gamma.value;
       ++sweeps;
     }
-    EXPECT_TRUE(softener.settled());
-    EXPECT_FALSE(softener.advance(bad, 1, 1, model));
+    EXPECT_TRUE(gamma_schedule.settled());
+    EXPECT_FALSE(gamma_schedule.advance(bad, 1, 1, model));
     EXPECT_DOUBLE_EQ(last, 0.003);
   }
 }
 
 TEST(Schedule, IsAtTheFloorAsSoonAsNothingIsBad) {
   const Mesh bad = lattice({.jitter = 0.45, .weight = 0});
-  Softener softener(attempts_of("BP", {}, bad)[0], row("BP"), Policy());
+  GammaSchedule gamma_schedule(attempts_of("BP", {}, bad)[0], row("BP"), Policy());
   EnergyModel model;
-  softener.start(bad, model);
-  EXPECT_TRUE(softener.advance(bad, 1, 1, model));
-  EXPECT_FALSE(softener.settled());
-  EXPECT_TRUE(softener.advance(bad, 1, 0, model));
-  EXPECT_TRUE(softener.settled());
+  gamma_schedule.start(bad, model);
+  EXPECT_TRUE(gamma_schedule.advance(bad, 1, 1, model));
+  EXPECT_FALSE(gamma_schedule.settled());
+  EXPECT_TRUE(gamma_schedule.advance(bad, 1, 0, model));
+  EXPECT_TRUE(gamma_schedule.settled());
   EXPECT_DOUBLE_EQ(model.gamma.value, 0.003);
-  EXPECT_EQ(softener.relaxation(), kRelaxation);
+  EXPECT_EQ(gamma_schedule.relaxation(), kRelaxation);
 }
 
 TEST(Schedule, OfAWellCenteredMeshIsHardFromTheStart) {
@@ -60,26 +60,26 @@ TEST(Schedule, OfAWellCenteredMeshIsHardFromTheStart) {
 TEST(Schedule, LeavesTheUsersGammaAlone) {
   const Mesh bad = lattice({.jitter = 0.45, .weight = 0});
   OptimizeOptions options;
-  options.paper.gamma = Softening{0.25, LengthScale::absolute};
+  options.paper.gamma = LengthParameter{0.25, LengthScale::absolute};
   const auto tries = attempts_of("BP", options, bad);
   ASSERT_EQ(tries.size(), 1u);
-  Softener softener(tries[0], row("BP"), Policy(options));
+  GammaSchedule gamma_schedule(tries[0], row("BP"), Policy(options));
   EnergyModel model;
   model.gamma = *options.paper.gamma;
-  softener.start(bad, model);
-  EXPECT_TRUE(softener.settled());
+  gamma_schedule.start(bad, model);
+  EXPECT_TRUE(gamma_schedule.settled());
   EXPECT_EQ(model.gamma, *options.paper.gamma);
 }
 
 TEST(Schedule, KeepsTheShiftedBarrierFinite) {
   const Mesh bad = lattice({.jitter = 0.3, .weight = 0, .seed = 2});
-  Softener softener(attempts_of("BHs", {}, bad)[0], row("BHs"), Policy());
+  GammaSchedule gamma_schedule(attempts_of("BHs", {}, bad)[0], row("BHs"), Policy());
   EnergyModel model;
   model.kind = EnergyKind::BHs;
-  softener.start(bad, model);
+  gamma_schedule.start(bad, model);
   EXPECT_TRUE(std::isfinite(total_energy(bad, model)));
   for (int i = 0; i < 5; ++i) {
-    softener.advance(bad, 1, 1, model);
+    gamma_schedule.advance(bad, 1, 1, model);
     EXPECT_TRUE(std::isfinite(total_energy(bad, model)));
   }
 }

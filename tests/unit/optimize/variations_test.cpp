@@ -152,7 +152,7 @@ TEST(Visits, TwiceAreASweepOfPositionsAndOneOfWeights) {
   for (const Solver solver : {Solver::newton, Solver::golden}) {
     OptimizeOptions o{.energy = EnergyKind::BP, .repair = Repair::none, .max_sweeps = 1};
     o.paper.solver = solver;
-    o.paper.gamma = Softening{0.5};
+    o.paper.gamma = LengthParameter{0.5};
     o.paper.order = SweepOrder::input;
     const Mesh input = random_mesh();
     OptimizeOptions twice = o;
@@ -170,7 +170,7 @@ TEST(Visits, TwiceAreASweepOfPositionsAndOneOfWeights) {
 TEST(FirstEnergy, IsARunOfItsOwnBeforeTheOther) {
   constexpr int kFirst = 5, kThen = 4;
   OptimizeOptions o{.energy = EnergyKind::BP, .repair = Repair::none, .max_sweeps = kFirst + kThen};
-  o.paper.gamma = Softening{0.5};
+  o.paper.gamma = LengthParameter{0.5};
   o.paper.first_energy = EnergyKind::T;
   o.paper.switch_at = kFirst;
   o.paper.order = SweepOrder::input;
@@ -196,7 +196,7 @@ TEST(FirstEnergy, IsNotGivenUpBeforeTheOtherHasBeenTried) {
   Mesh mesh = *horseshoe();
   const auto report = optimize(mesh, o);
   ASSERT_TRUE(report);
-  EXPECT_LT(report->history.back().softening, 0.5);  // γ of E_BP, come down
+  EXPECT_LT(report->history.back().length_parameter, 0.5);  // γ of E_BP, come down
 }
 
 TEST(FirstEnergy, GivesWayWhenItHasConvergedOrTheRunEnds) {

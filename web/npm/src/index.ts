@@ -4,7 +4,7 @@ import { answer, answerBytes, answerText, call, type Files, fromJson, listening,
 import type { OptimizeOptions } from './options.ts';
 import type {
   DecComplex, DecSummary, DrawOptions, EnergyInfo, EnergyModel, Explanation, Format, IncidenceMatrix, OptimizeReport, OptionRow, Progress,
-  Quality, Restoration, Snapshot, SofteningLike, TraceEvent, VertexDerivatives,
+  Quality, Restoration, Snapshot, LengthParameterLike, TraceEvent, VertexDerivatives,
 } from './records.ts';
 import { loadSolver } from './solver.ts';
 
@@ -127,7 +127,7 @@ export function restore_regularity(mesh: Mesh): Restoration {
 // --- measures ----------------------------------------------------------------------------------------------------------
 
 /** Measures a mesh: is it valid, regular, well-centered, and with what margins? */
-export function quality(mesh: Mesh, options: { gamma?: SofteningLike; h0?: SofteningLike; worst?: number } = {}): Quality {
+export function quality(mesh: Mesh, options: { gamma?: LengthParameterLike; h0?: LengthParameterLike; worst?: number } = {}): Quality {
   call('mesh_quality', mesh.handle, toJson(options));
   return answer();
 }

@@ -1,5 +1,5 @@
 // Written by build.mjs --options from the table of options in the library. Not to be edited.
-import type { SofteningLike } from './records.ts';
+import type { LengthParameterLike } from './records.ts';
 
 /** The options of `optimize`. */
 export interface OptimizeOptions {
@@ -8,9 +8,9 @@ export interface OptimizeOptions {
   /** Hodge star whose error is to be small. all: the three at once, with objective: "accuracy", which begins with sweeps for star 1 whatever this is. Default: 1. */
   star?: 0 | 1 | 2 | "all";
   /** gamma of E_BP; more than 0; null: relative to each edge, shrinking from 0.5, or 1 where many triangles are bad, to 0.003. Default: null. */
-  gamma?: SofteningLike | null;
+  gamma?: LengthParameterLike | null;
   /** how far below zero E_BHs lets h go (-h0 of the paper, so >= 0); at least 0; null: just beyond the least h of the mesh, following it up. Default: null. */
-  h0?: SofteningLike | null;
+  h0?: LengthParameterLike | null;
   /** of energy F: the h of boundary edges as it is, |h|, or as if the mesh were mirrored there. Default: "as_is". */
   boundary_treatment?: "as_is" | "absolute" | "mirrored";
   /** what the first sweeps lower instead, before they switch to energy; null: energy from the first sweep on; ODT for ten sweeps target one scheme on a mesh of the plane without weights. Default: null. */

@@ -75,12 +75,12 @@ export type EnergyName = 'F' | 'T' | 'dT' | 'BH' | 'BHs' | 'BP' | 'nF' | 'nT' | 
 export type BoundaryTreatment = 'as_is' | 'absolute' | 'mirrored';
 
 /** A length: absolute, or relative to each edge. */
-export interface Softening {
+export interface LengthParameter {
   value: number;
   scale: 'absolute' | 'relative';
 }
 /** A plain number is relative to each edge. */
-export type SofteningLike = number | Softening;
+export type LengthParameterLike = number | LengthParameter;
 
 /** A row of the registry of energies. */
 export interface EnergyInfo {
@@ -102,8 +102,8 @@ export interface EnergyModel {
   energy?: EnergyName;
   star?: 0 | 1 | 2;
   boundary_treatment?: BoundaryTreatment;
-  gamma?: SofteningLike;
-  h0?: SofteningLike;
+  gamma?: LengthParameterLike;
+  h0?: LengthParameterLike;
   wall?: boolean;
 }
 
@@ -125,7 +125,7 @@ export interface SweepRecord {
   /** Triangles that are not well-centered. */
   bad: number;
   flips: number;
-  softening: number;
+  length_parameter: number;
   seconds: number;
   objective: 'energy' | 'accuracy' | 'error';
 }

@@ -46,7 +46,7 @@ export class OptionsForm {
   }
 }
 
-/** A softening is a number here, relative to each edge, as a plain number is in the library. */
+/** A length_parameter is a number here, relative to each edge, as a plain number is in the library. */
 function shown(value: unknown): string {
   if (value === null) return '';
   return String(typeof value === 'object' ? (value as { value: number }).value : value);
