@@ -32,7 +32,7 @@ constexpr double kKept = 1e-9;  // a margin is kept when no more than this is la
 constexpr double kDegrees = 57.29577951308232;
 
 /// A region that is done with: its change of weights, or the proof that there is none.
-struct Outcome {
+struct RegionResult {
   Region region;
   std::optional<RegionChange> change;
   Bound bound;  ///< without change
@@ -146,58 +146,58 @@ class WeightFinder {
 
   void attempt(double asked) {
     VertexMask mask = first_mask(asked);
-    outcomes_.clear();
+    results_.clear();
     for (bool grown = true; grown;) {
       grown = false;
-      std::vector<Outcome> next;
+      std::vector<RegionResult> next;
       for (Region& region : regions_of(mesh_, mask, demand_.has_duals())) {
-        if (std::optional<Outcome> known = take_outcome(region)) {
+        if (std::optional<RegionResult> known = take_result(region)) {
           next.push_back(*std::move(known));
-        } else if (std::optional<Outcome> found = solve(region, asked)) {
+        } else if (std::optional<RegionResult> found = solve(region, asked)) {
           next.push_back(*std::move(found));
         } else {
           grow(mesh_, mask, region.free, kMoreRings);
           grown = true;
         }
       }
-      outcomes_ = std::move(next);
+      results_ = std::move(next);
     }
   }
 
   /// That of the last round, when the region is the same. Free vertices only become more, so first and number decide.
-  std::optional<Outcome> take_outcome(const Region& region) {
-    for (Outcome& outcome : outcomes_) {
-      if (outcome.region.free.size() == region.free.size() && outcome.region.free.front() == region.free.front()) {
-        return std::move(outcome);
+  std::optional<RegionResult> take_result(const Region& region) {
+    for (RegionResult& result : results_) {
+      if (result.region.free.size() == region.free.size() && result.region.free.front() == region.free.front()) {
+        return std::move(result);
       }
     }
     return std::nullopt;
   }
 
   /// Nothing: the region must grow.
-  std::optional<Outcome> solve(Region& region, double asked) {
+  std::optional<RegionResult> solve(Region& region, double asked) {
     RegionChange change = least_change(problem(asked), region, solver_);
-    if (change.status == LpStatus::optimal) return Outcome{std::move(region), std::move(change), {}};
+    if (change.status == LpStatus::optimal) return RegionResult{std::move(region), std::move(change), {}};
     Bound bound = bound_of(region.triangles);
     const bool below = demand_.has_duals() ? is_hopeless(bound.best.margin) : bound.best.margin < asked;
     const bool proof = bound.best.status == LpStatus::optimal && below;
     if (!proof && region.has_rim) return std::nullopt;
-    return Outcome{std::move(region), std::nullopt, std::move(bound)};
+    return RegionResult{std::move(region), std::nullopt, std::move(bound)};
   }
 
   [[nodiscard]] std::size_t failures() const {
     return static_cast<std::size_t>(
-        std::count_if(outcomes_.begin(), outcomes_.end(), [](const Outcome& o) { return !o.change; }));
+        std::count_if(results_.begin(), results_.end(), [](const RegionResult& o) { return !o.change; }));
   }
 
   /// Keeps the least bound, and what it says of the margin that was asked for first.
   void note_bound(double asked) {
-    for (Outcome& outcome : outcomes_) {
-      if (outcome.change) continue;
-      if (outcome.bound.best.status != LpStatus::optimal) outcome.bound.best.margin = 0;
-      bound_is_exact_ = bound_is_exact_ && !outcome.region.has_rim;
-      if (bound_ && bound_->best.margin <= outcome.bound.best.margin) continue;
-      bound_ = outcome.bound;
+    for (RegionResult& result : results_) {
+      if (result.change) continue;
+      if (result.bound.best.status != LpStatus::optimal) result.bound.best.margin = 0;
+      bound_is_exact_ = bound_is_exact_ && !result.region.has_rim;
+      if (bound_ && bound_->best.margin <= result.bound.best.margin) continue;
+      bound_ = result.bound;
     }
     if (bound_->best.margin >= asked) bound_->best.margin = 0;  // the solver contradicts itself: nothing is known
     if (!refuted_) refuted_ = certify_bound(*bound_, bound_->best.margin < kNoMargin ? refuted_margin() : asked);
@@ -210,20 +210,20 @@ class WeightFinder {
 
   void relax(double asked) {
     note_bound(asked);
-    for (Outcome& outcome : outcomes_) {
-      if (outcome.change) continue;
-      RegionChange change = least_violation(problem(asked), outcome.region, solver_);
-      if (change.status == LpStatus::optimal) outcome.change = std::move(change);
+    for (RegionResult& result : results_) {
+      if (result.change) continue;
+      RegionChange change = least_violation(problem(asked), result.region, solver_);
+      if (change.status == LpStatus::optimal) result.change = std::move(change);
     }
   }
 
   [[nodiscard]] IdVector<VertexId, double> changed_weights() const {
     IdVector<VertexId, double> weights = start_;
-    for (const Outcome& outcome : outcomes_) {
-      if (!outcome.change) continue;
-      for (std::size_t i = 0; i < outcome.region.free.size(); ++i) {
-        const double change = outcome.change->change[i];
-        double& w = weights[outcome.region.free[i]];
+    for (const RegionResult& result : results_) {
+      if (!result.change) continue;
+      for (std::size_t i = 0; i < result.region.free.size(); ++i) {
+        const double change = result.change->change[i];
+        double& w = weights[result.region.free[i]];
         if (change != 0) w = changed_weight(mesh_.space(), w, change);
       }
     }
@@ -234,8 +234,8 @@ class WeightFinder {
     WeightReport r;
     r.asked = asked;
     r.weights = changed_weights();
-    r.programmes = outcomes_.size();
-    for (const Outcome& outcome : outcomes_) r.largest = std::max(r.largest, outcome.region.triangles.size());
+    r.programmes = results_.size();
+    for (const RegionResult& result : results_) r.largest = std::max(r.largest, result.region.triangles.size());
     measure(r);
     const bool all_good = std::all_of(mesh_.triangles().begin(), mesh_.triangles().end(),
                                       [&](TriangleId t) { return is_kept(t, r.weights); });
@@ -323,7 +323,7 @@ class WeightFinder {
 
   double small_margin_ = 1;  ///< least best margin of the components measured; 1: none was
   std::optional<Bound> worst_component_;
-  std::vector<Outcome> outcomes_;
+  std::vector<RegionResult> results_;
   std::optional<Bound> bound_;  ///< the least
   bool bound_is_exact_ = true;
   std::optional<Certificate> refuted_;

@@ -102,7 +102,7 @@ constexpr std::uint32_t kSidewaysChoice = 4;
 // What a linear programme takes, in trials of sweeps.
 constexpr int kTrialsOfAProgramme = 20;
 
-bool helps(const Standing& before, const Standing& after) {
+bool helps(const LocalDefect& before, const LocalDefect& after) {
   return after.bad < before.bad || (after.bad == before.bad && after.violation < (1 - kHelps) * before.violation);
 }
 
@@ -134,9 +134,9 @@ bool RepairSearch::improve_one_place() {
     const auto edit = choose(around, seed);
     if (run_.stopped_early()) return false;
     if (!edit) continue;
-    const Outcome outcome = try_edit(around, *edit, settings_, work_.frame, true);
-    TEMPER_ASSERT(outcome.valid);  // as it was without a listener
-    const std::vector<VertexId> there = splice(work_, flipper_, recorder_, around, outcome.events);
+    const TrialResult result = try_edit(around, *edit, settings_, work_.frame, true);
+    TEMPER_ASSERT(result.valid);  // as it was without a listener
+    const std::vector<VertexId> there = splice(work_, flipper_, recorder_, around, result.events);
     changed_.reset();
     if (!flipper_.has_removed()) changed_ = triangles_at(work_.mesh, there);
     std::erase_if(weighed_, [&](TriangleId t) { return !changed_ || is_changed(t); });
@@ -176,9 +176,9 @@ bool RepairSearch::assigns_weights(TriangleId seed) const {
 
 /// The edit after which the neighbourhood stands best, if that helps; of the least tier that has one.
 std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId seed) {
-  const Standing before = standing(around.mesh, settings_.accuracy);
+  const LocalDefect before = defect_of(around.mesh, settings_.accuracy);
   std::optional<Edit> best;
-  Standing least = before;
+  LocalDefect least = before;
   std::vector<Tried> tried;
   for (const auto& tier :
        edits_for(around, assigns_weights(seed), settings_.options.repair == Repair::vertices, rng_)) {
@@ -188,13 +188,13 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
         weighed_.push_back(seed);
         run_.repair_trials_left -= kTrialsOfAProgramme;
       }
-      const Outcome outcome = try_edit(around, edit, settings_, work_.frame, false);
-      if (!outcome.valid) continue;
-      tried.push_back({edit, outcome.standing});
-      if (!helps(least, outcome.standing)) continue;
+      const TrialResult result = try_edit(around, edit, settings_, work_.frame, false);
+      if (!result.valid) continue;
+      tried.push_back({edit, result.defect});
+      if (!helps(least, result.defect)) continue;
       best = edit;
-      least = outcome.standing;
-      if (least == Standing{}) break;
+      least = result.defect;
+      if (least == LocalDefect{}) break;
     }
     if (best) break;
   }
@@ -207,10 +207,10 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
 }
 
 /// One of the best few that leave no more triangles bad.
-std::optional<Edit> RepairSearch::sideways(std::vector<Tried> tried, Standing before) {
-  std::erase_if(tried, [&](const Tried& t) { return t.standing.bad > before.bad; });
+std::optional<Edit> RepairSearch::sideways(std::vector<Tried> tried, LocalDefect before) {
+  std::erase_if(tried, [&](const Tried& t) { return t.defect.bad > before.bad; });
   if (tried.empty()) return std::nullopt;
-  std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.standing < b.standing; });
+  std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.defect < b.defect; });
   const auto choice = std::min(kSidewaysChoice, static_cast<std::uint32_t>(tried.size()));
   return tried[rng_.below(choice)].edit;
 }

@@ -39,11 +39,11 @@ class RepairSearch {
  private:
   struct Tried {
     Edit edit;
-    Standing standing;
+    LocalDefect defect;
   };
   [[nodiscard]] bool assigns_weights(TriangleId seed) const;
   std::optional<Edit> choose(const Neighborhood& around, TriangleId seed);
-  std::optional<Edit> sideways(std::vector<Tried> tried, Standing before);
+  std::optional<Edit> sideways(std::vector<Tried> tried, LocalDefect before);
   void find_bad();
   [[nodiscard]] bool is_changed(TriangleId t) const {
     return std::binary_search(changed_->begin(), changed_->end(), t);

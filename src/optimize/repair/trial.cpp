@@ -170,14 +170,14 @@ class Trial {
   Trial& operator=(const Trial&) = delete;
   ~Trial() = default;
 
-  Outcome run(const Edit& edit) && {
+  TrialResult run(const Edit& edit) && {
     if (!apply(edit) || !flipper_.restore_all()) return {};
     if (edit.kind != Edit::assign_weights) sweep();  // whose first γ would take the weights back
-    Outcome outcome;
-    outcome.standing = standing(work_.mesh, settings_.accuracy);
-    outcome.valid = count_non_regular_edges(work_.mesh, false) == 0 && rim_is_regular(around_, work_.mesh);
-    outcome.events = std::move(events_);
-    return outcome;
+    TrialResult result;
+    result.defect = defect_of(work_.mesh, settings_.accuracy);
+    result.valid = count_non_regular_edges(work_.mesh, false) == 0 && rim_is_regular(around_, work_.mesh);
+    result.events = std::move(events_);
+    return result;
   }
 
  private:
@@ -349,8 +349,8 @@ bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, V
   return !mesh.is_fixed(v);
 }
 
-Standing standing(const Mesh& mesh, const AccuracyModel& model) {
-  Standing s;
+LocalDefect defect_of(const Mesh& mesh, const AccuracyModel& model) {
+  LocalDefect s;
   s.violation = missing_lengths(mesh, model);
   for (const TriangleId t : mesh.triangles()) {
     if (!is_bad(mesh, t)) continue;
@@ -360,8 +360,8 @@ Standing standing(const Mesh& mesh, const AccuracyModel& model) {
   return s;
 }
 
-Outcome try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings, const Frame& grid,
-                 bool with_events) {
+TrialResult try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings, const Frame& grid,
+                     bool with_events) {
   return Trial(around, settings, grid, with_events).run(edit);
 }
 

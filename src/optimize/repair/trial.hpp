@@ -33,27 +33,27 @@ struct Edit {
   std::uint64_t seed = 0;    ///< kick
 };
 
-/// The standing of a mesh, how far it is from well-centered: first the number of triangles that are not, then by how
+/// The defect of a mesh, how far it is from well-centered: first the number of triangles that are not, then by how
 /// much, and by what edges lack of their lengths (optimize/run/judge.hpp).
-struct Standing {
+struct LocalDefect {
   std::size_t bad = 0;
   double violation = 0;  ///< Σ over bad triangles of the worst of −h/ℓ, −d/ℓ and d/ℓ − 1, and over edges
-  friend auto operator<=>(const Standing&, const Standing&) = default;
+  friend auto operator<=>(const LocalDefect&, const LocalDefect&) = default;
 };
-[[nodiscard]] Standing standing(const Mesh& mesh, const AccuracyModel& model = {});
+[[nodiscard]] LocalDefect defect_of(const Mesh& mesh, const AccuracyModel& model = {});
 
 /// Says whether v is on no boundary, interface or rim and not fixed; plan_removal says whether it can go.
 [[nodiscard]] bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, VertexId v);
 
-/// The outcome of a trial.
-struct Outcome {
+/// The result of a trial.
+struct TrialResult {
   bool valid = false;  ///< all edges regular, those of the rim too, and nothing hidden
-  Standing standing;
+  LocalDefect defect;
   std::vector<TraceEvent> events;  ///< in the numbers of the neighbourhood, new vertices after its own; when asked for
 };
 
 /// Applies the edit to a copy of the neighbourhood and optimises that. `grid`: of the whole mesh, for positions.
-[[nodiscard]] Outcome try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings,
-                               const Frame& grid, bool with_events);
+[[nodiscard]] TrialResult try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings,
+                                   const Frame& grid, bool with_events);
 
 }  // namespace temper

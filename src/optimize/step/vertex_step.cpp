@@ -197,12 +197,12 @@ void VertexStep::newton_search(const Freedom& of) {
   for (double& s : newton.step) s *= relaxation;
   bool leaves_band = false;
   const auto attempt = [&](double& t, double shorter, bool) {
-    const Outcome outcome = try_step(newton.step, t);
-    const bool blocked = outcome == Outcome::blocked_by_flip;
-    const bool done = outcome == Outcome::accepted || outcome == Outcome::escaped;
+    const StepResult result = try_step(newton.step, t);
+    const bool blocked = result == StepResult::blocked_by_flip;
+    const bool done = result == StepResult::accepted || result == StepResult::escaped;
     t = blocked ? short_of_flip(newton.step, t) : shorter * t;
     const bool goes_on = !done && t > 0;
-    leaves_band = goes_on && (leaves_band || outcome == Outcome::out_of_band);
+    leaves_band = goes_on && (leaves_band || result == StepResult::out_of_band);
     return goes_on;
   };
   damped_search(relaxation, star_->trials, flip_limited(newton.step, farthest(newton.step)), true, attempt);
@@ -225,25 +225,25 @@ void VertexStep::golden_search(const Freedom& freedom) {
   const double limit = flip_limited(*direction, farthest(*direction));
   if (!(limit > 0)) return;
   double t = line_minimum(patch, state.model, origin_, *direction, limit);
-  Outcome outcome = try_step(*direction, t);
-  for (int trial = 1; outcome == Outcome::out_of_band && trial < kTrials; ++trial) {
+  StepResult result = try_step(*direction, t);
+  for (int trial = 1; result == StepResult::out_of_band && trial < kTrials; ++trial) {
     t *= 0.5;
-    outcome = try_step(*direction, t);
+    result = try_step(*direction, t);
   }
-  if (outcome == Outcome::blocked_by_flip) {
+  if (result == StepResult::blocked_by_flip) {
     const double threshold = flip_threshold(mesh, vertex_, *direction);
     if (threshold < t) try_step(*direction, kBeforeFlip * threshold);
   }
 }
 
-VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
+VertexStep::StepResult VertexStep::try_step(const Step& step, double t) {
   const WeightedPoint p = moved(step, t);
   const double energy = star_->value(p);
-  if (!(energy < energy_)) return Outcome::not_lower;
-  if (!settings.policy.allows_inversion() && !star_->is_valid(p)) return Outcome::inverted;
-  if (!keeps_size(p)) return Outcome::out_of_band;
-  if (place(p, energy, state.energy.barrier)) return Outcome::accepted;
-  return escapes_ ? Outcome::escaped : Outcome::blocked_by_flip;
+  if (!(energy < energy_)) return StepResult::not_lower;
+  if (!settings.policy.allows_inversion() && !star_->is_valid(p)) return StepResult::inverted;
+  if (!keeps_size(p)) return StepResult::out_of_band;
+  if (place(p, energy, state.energy.barrier)) return StepResult::accepted;
+  return escapes_ ? StepResult::escaped : StepResult::blocked_by_flip;
 }
 
 /// The vertex at p, where its patch has that energy, with what flips that needs; or where it was, and false: when a

@@ -94,7 +94,7 @@ class VertexStep : StepContext {
   [[nodiscard]] bool makes_newton_steps() const;
 
  private:
-  enum class Outcome { accepted, not_lower, inverted, out_of_band, blocked_by_flip, escaped };
+  enum class StepResult { accepted, not_lower, inverted, out_of_band, blocked_by_flip, escaped };
 
   bool collapse(VertexId v);
   void optimize_point(VertexId v);
@@ -114,7 +114,7 @@ class VertexStep : StepContext {
   [[nodiscard]] double flip_limited(const Step& step, double t) const;
   [[nodiscard]] double short_of_flip(const Step& step, double t) const;
   [[nodiscard]] WeightedPoint moved(const Step& step, double t) const;
-  Outcome try_step(const Step& step, double t);
+  StepResult try_step(const Step& step, double t);
   [[nodiscard]] bool keeps_size(const WeightedPoint& p);
   bool place(const WeightedPoint& p, double energy, bool must_pay);
   [[nodiscard]] bool keeps_connectivity() const;

@@ -20,8 +20,8 @@ TEST(RepairByProgramme, CuresWhatSweepsLeave) {
   Mesh swept = input, reweighted = input;
   const auto without = optimize(swept), with = optimize(reweighted, {}, {.solvers = solvers()});
   ASSERT_TRUE(without && with);
-  EXPECT_GT(standing(swept).bad, 0u);
-  EXPECT_EQ(standing(reweighted).bad, 0u);
+  EXPECT_GT(defect_of(swept).bad, 0u);
+  EXPECT_EQ(defect_of(reweighted).bad, 0u);
   EXPECT_EQ(count_non_regular_edges(reweighted), 0u);
   EXPECT_EQ(reweighted.validate(), std::nullopt);
   const auto says_so = [](const std::string& note) { return note.starts_with("repairs had no solver of linear"); };
@@ -50,10 +50,10 @@ TEST(RepairByProgramme, OfAPlaceChangesWeightsNearItAndNoneOfTheRim) {
   std::size_t cured = 0;
   for (std::size_t t = 0; t < mesh.n_triangles(); t += 37) {
     const Neighborhood around = neighborhood_of(mesh, TriangleId(t), 3);
-    const Outcome outcome = try_edit(around, {.kind = Edit::assign_weights}, *settings, Frame::of(mesh), true);
-    if (!outcome.valid) continue;
-    cured += outcome.standing < standing(around.mesh) ? 1 : 0;
-    for (const TraceEvent& e : outcome.events) {
+    const TrialResult result = try_edit(around, {.kind = Edit::assign_weights}, *settings, Frame::of(mesh), true);
+    if (!result.valid) continue;
+    cured += result.defect < defect_of(around.mesh) ? 1 : 0;
+    for (const TraceEvent& e : result.events) {
       if (e.kind != EventKind::weight) continue;
       EXPECT_EQ(around.frozen[e.vertex.index], 0);
       EXPECT_EQ(e.point.position(), around.mesh.position(e.vertex));

@@ -32,7 +32,7 @@ std::set<Edge> boundary(const Mesh& mesh) {
   return edges;
 }
 
-std::size_t n_bad(const Mesh& mesh) { return standing(mesh).bad; }
+std::size_t n_bad(const Mesh& mesh) { return defect_of(mesh).bad; }
 
 struct HardMesh {
   const char* name;
@@ -264,14 +264,14 @@ TEST(Trial, LeavesFrozenVerticesAndTellsWhatItDid) {
     const auto [a, b, c] = around.mesh.corners(TriangleId(0));
     const Vec2 middle = (1.0 / 3) * (around.mesh.position(a) + around.mesh.position(b) + around.mesh.position(c));
     const Edit edit{.kind = Edit::insert, .triangle = TriangleId(0), .place = {middle.x, middle.y}};
-    const Outcome quiet = try_edit(around, edit, settings, Frame(), false);
-    const Outcome told = try_edit(around, edit, settings, Frame(), true);
+    const TrialResult quiet = try_edit(around, edit, settings, Frame(), false);
+    const TrialResult told = try_edit(around, edit, settings, Frame(), true);
     EXPECT_EQ(quiet.valid, told.valid);
-    EXPECT_EQ(quiet.standing, told.standing);
+    EXPECT_EQ(quiet.defect, told.defect);
     if (!told.valid) continue;
     const auto local = replay(around.mesh, told.events);
     ASSERT_TRUE(local);
-    EXPECT_EQ(standing(*local), told.standing);
+    EXPECT_EQ(defect_of(*local), told.defect);
     for (const VertexId v : around.mesh.vertices()) {
       if (around.frozen[v.index] != 0) {
         EXPECT_EQ(local->point(v), around.mesh.point(v));

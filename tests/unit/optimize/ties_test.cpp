@@ -79,7 +79,7 @@ TEST(Ties, StripsEndWellCenteredAfterSweepsThatDoNotDependOnTheirLength) {
       Mesh mesh = squares(n, 1, place);
       const auto report = optimize(mesh);
       ASSERT_TRUE(report);
-      EXPECT_EQ(standing(mesh).bad, 0u);
+      EXPECT_EQ(defect_of(mesh).bad, 0u);
       EXPECT_EQ(count_non_regular_edges(mesh), 0u);
       EXPECT_LT(report->sweeps, kMostSweeps);
     }
@@ -89,7 +89,7 @@ TEST(Ties, StripsEndWellCenteredAfterSweepsThatDoNotDependOnTheirLength) {
 TEST(Ties, OfAGridAreCuredByWeightsAlone) {
   Mesh mesh = squares(40, 30, as_they_are);
   ASSERT_TRUE(optimize(mesh, {.unknowns = Unknowns::weights}));
-  EXPECT_EQ(standing(mesh).bad, 0u);
+  EXPECT_EQ(defect_of(mesh).bad, 0u);
   EXPECT_EQ(count_non_regular_edges(mesh), 0u);
 }
 
@@ -116,7 +116,7 @@ TEST(Ties, HeavierEndsMakeEveryDiagonalTheirs) {
   const std::vector<TieEnd> ends = heavier_ends_of_ties(mesh, weights_only);
   for (const TieEnd& end : ends) mesh.set_weight(end.vertex, 0.25 * end.shortest2);
   EXPECT_GT(restore_regularity(mesh).flips, 0u);
-  EXPECT_EQ(standing(mesh).bad, 0u);
+  EXPECT_EQ(defect_of(mesh).bad, 0u);
 }
 
 TEST(Ties, AreNotSoughtWhereVerticesMoveOrWeightsOrEdgesMayNotChange) {
