@@ -50,7 +50,7 @@ std::optional<Row> measured(const Mesh& input, const OptimizeOptions& options) {
   Mesh mesh = input;
   const auto report = optimize(mesh, options, {.solvers = solvers()});
   VerifyOptions verifying;
-  verifying.frame = verify_frame(input);
+  verifying.frame = field_frame(input);
   verifying.fields = {"held-back"};
   const auto before = verify(input, verifying), after = verify(mesh, verifying);
   if (!report || !before || !after) return std::nullopt;

@@ -243,9 +243,9 @@ py::dict system_to_dict(const VerifySystem& s) {
       .dict;
 }
 
-py::dict frame_to_dict(const VerifyFrame& f) { return Record()("center", f.center)("half_size", f.half_size).dict; }
+py::dict frame_to_dict(const FieldFrame& f) { return Record()("center", f.center)("half_size", f.half_size).dict; }
 
-VerifyFrame frame_from(const py::handle& frame) {
+FieldFrame frame_from(const py::handle& frame) {
   const auto f = frame.cast<py::tuple>();
   return {{f[0].cast<double>(), f[1].cast<double>()}, f[2].cast<double>()};
 }
@@ -302,7 +302,7 @@ void bind_verify(py::module_& m) {
     }
     return list;
   });
-  m.def("verify_frame", [](const PyMesh& self) { return frame_to_dict(verify_frame(*self.read())); });
+  m.def("field_frame", [](const PyMesh& self) { return frame_to_dict(field_frame(*self.read())); });
   m.def("verify_measures", [] {
     py::list list;
     for (const VerifyMeasure& measure : verify_measures()) {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "draw/frame.hpp"
+#include "draw/viewport.hpp"
 #include "plot/plot.hpp"
 #include "plot/ticks.hpp"
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "draw/frame.hpp"
 #include "draw/text.hpp"
+#include "draw/viewport.hpp"
 #include "plot/axes.hpp"
 #include "plot/contour.hpp"
 #include "plot/levels.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "draw/frame.hpp"
 #include "draw/text.hpp"
+#include "draw/viewport.hpp"
 #include "plot/axes.hpp"
 #include "plot/plot.hpp"
 

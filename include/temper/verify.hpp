@@ -48,22 +48,22 @@ struct VerifyField {
 [[nodiscard]] std::span<const VerifyField> verify_fields(SpaceKind space = SpaceKind::plane);
 
 /// The frame of the fields: they are functions of (p − center) / half_size.
-struct VerifyFrame {
+struct FieldFrame {
   Vec2 center;
   double half_size = 1;  ///< > 0 [length]
-  friend bool operator==(const VerifyFrame&, const VerifyFrame&) = default;
+  friend bool operator==(const FieldFrame&, const FieldFrame&) = default;
 };
 /// Around the bounding box of the vertices: its longer side goes from −1 to 1. On the sphere its radius; along a period
 /// the domain.
-[[nodiscard]] VerifyFrame verify_frame(const Mesh& mesh);
+[[nodiscard]] FieldFrame field_frame(const Mesh& mesh);
 
 struct VerifyOptions {
   /// Names of fields, or of groups ("chosen", "held-back"), or "all"; none: all.
   std::vector<std::string> fields = {};
-  std::optional<VerifyFrame> frame = {};  ///< none: verify_frame(mesh). Meshes are compared in one frame
-  int refine = 0;                         ///< so many times each triangle becomes four, and orders are measured
-  bool condition = false;                 ///< also estimate the condition of both matrices
-  bool local = false;                     ///< also list the errors of each vertex, edge and triangle
+  std::optional<FieldFrame> frame = {};  ///< none: field_frame(mesh). Meshes are compared in one frame
+  int refine = 0;                        ///< so many times each triangle becomes four, and orders are measured
+  bool condition = false;                ///< also estimate the condition of both matrices
+  bool local = false;                    ///< also list the errors of each vertex, edge and triangle
   Executor* executor = nullptr;
 };
 
@@ -111,7 +111,7 @@ struct VerifyReport {
   std::size_t negative_boundary_duals = 0;  ///< exact
   std::size_t negative_star0 = 0;
   std::size_t not_well_centered = 0;  ///< triangles, exact
-  VerifyFrame frame;
+  FieldFrame frame;
   VerifySystem poisson, flux;
   std::vector<FieldErrors> fields;
   /// The mesh itself and its refinements, coarsest first; empty without refine.

@@ -28,7 +28,7 @@ class VerifyField(Record):
 
 
 @dataclasses.dataclass(frozen=True)
-class VerifyFrame(Record):
+class FieldFrame(Record):
     """Where the fields lie: they are functions of (p − center) / half_size."""
 
     center: tuple[float, float]
@@ -115,7 +115,7 @@ class VerifyReport(Record):
     negative_boundary_duals: int
     negative_star0: int
     not_well_centered: int
-    frame: VerifyFrame
+    frame: FieldFrame
     poisson: VerifySystem
     flux: VerifySystem
     fields: list[FieldErrors]
@@ -146,9 +146,9 @@ def verify_fields(*, sphere: bool = False, periodic: bool = False) -> list[Verif
     return [VerifyField(**row) for row in _temper.verify_fields(sphere, periodic)]
 
 
-def verify_frame(mesh: MeshLike) -> VerifyFrame:
+def field_frame(mesh: MeshLike) -> FieldFrame:
     """Around the bounding box of the vertices: its longer side goes from −1 to 1. On a sphere its radius."""
-    return VerifyFrame(**_temper.verify_frame(as_mesh(mesh)._handle))
+    return FieldFrame(**_temper.field_frame(as_mesh(mesh)._handle))
 
 
 def verify_measures() -> list[tuple[str, str]]:
@@ -171,7 +171,7 @@ def verify(
     mesh: MeshLike,
     *,
     fields: Sequence[str] = (),
-    frame: VerifyFrame | None = None,
+    frame: FieldFrame | None = None,
     refine: int = 0,
     condition: bool = False,
     local: bool = False,
@@ -184,8 +184,8 @@ def verify(
     mesh : Mesh or meshio.Mesh
     fields : sequence of str
         Names of fields, or of groups (``"chosen"``, ``"held-back"``), or ``"all"``; none: all.
-    frame : VerifyFrame, optional
-        None: ``verify_frame(mesh)``. Meshes are compared in one frame.
+    frame : FieldFrame, optional
+        None: ``field_frame(mesh)``. Meshes are compared in one frame.
     refine : int
         So many times each triangle becomes four, and orders are measured.
     condition : bool
@@ -204,7 +204,7 @@ def verify(
     --------
     >>> import temper
     >>> before = temper.generate.annulus()
-    >>> frame = temper.verify_frame(before)
+    >>> frame = temper.field_frame(before)
     >>> a = temper.verify(before, fields=["held-back"], frame=frame)
     >>> after = before.copy()
     >>> report = temper.optimize(after)
@@ -217,7 +217,7 @@ def verify(
     d = _temper.verify(as_mesh(mesh)._handle, list(fields), plain_frame, refine, condition, local, threads)
     levels = [VerifyLevel(**merged(level, fields=_fields(level["fields"]))) for level in d["levels"]]
     changed = {
-        "frame": VerifyFrame(**d["frame"]),
+        "frame": FieldFrame(**d["frame"]),
         "poisson": VerifySystem(**d["poisson"]),
         "flux": VerifySystem(**d["flux"]),
         "fields": _fields(d["fields"]),

@@ -5,9 +5,9 @@
 #include <array>
 #include <string_view>
 
-#include "draw/frame.hpp"
 #include "draw/panel.hpp"
 #include "draw/text.hpp"
+#include "draw/viewport.hpp"
 #include "temper/detail/read_number.hpp"
 
 namespace temper {
@@ -67,7 +67,7 @@ Key scale_key(const TriangleColors& colors) {
 }
 
 // Only what some panel really shows.
-std::vector<Key> legend(std::span<const Shown> shown, const PageFrame& frame, const DrawOptions& options) {
+std::vector<Key> legend(std::span<const Shown> shown, const Viewport& viewport, const DrawOptions& options) {
   const auto any = [&](auto what) {
     return std::any_of(shown.begin(), shown.end(), [&](const Shown& s) { return what(s.panel); });
   };
@@ -75,7 +75,7 @@ std::vector<Key> legend(std::span<const Shown> shown, const PageFrame& frame, co
   if (options.colors) {
     keys.push_back(scale_key(*options.colors));
   } else if (options.bad_triangles && any([](const Panel& p) { return p.bad > 0; })) {
-    const char* color = frame.shows_detail() ? Palette::bad : Palette::bad_dense;
+    const char* color = viewport.shows_detail() ? Palette::bad : Palette::bad_dense;
     keys.push_back(
         {"not well-centered", std::string("<rect y=\"-6\" width=\"20\" height=\"12\" fill=\"") + color + "\"/>"});
   }
@@ -85,8 +85,8 @@ std::vector<Key> legend(std::span<const Shown> shown, const PageFrame& frame, co
     keys.push_back({"weight < 0", circle_mark(Palette::negative, "stroke-dasharray=\"4 2\"")});
   }
   if (any([](const Panel& p) { return p.rings; })) keys.push_back({"nearly coincident", circle_mark(Palette::ring)});
-  if (!frame.shows_detail() && (options.dual || options.weights)) {
-    keys.push_back({frame.shows_edges() ? "dual and weights: zoom in" : "edges, dual and weights: zoom in", ""});
+  if (!viewport.shows_detail() && (options.dual || options.weights)) {
+    keys.push_back({viewport.shows_edges() ? "dual and weights: zoom in" : "edges, dual and weights: zoom in", ""});
   }
   return keys;
 }
@@ -114,19 +114,19 @@ std::string legend_svg(const std::vector<Key>& keys, double left, double y) {
   return svg;
 }
 
-std::string document(std::span<const Shown> shown, const PageFrame& frame, const DrawOptions& options) {
+std::string document(std::span<const Shown> shown, const Viewport& viewport, const DrawOptions& options) {
   const double panels = static_cast<double>(shown.size());
-  const std::vector<Key> keys = legend(shown, frame, options);
-  const double width = panels * frame.width + (panels + 1) * kGap;
-  double y = kGap + frame.height;
+  const std::vector<Key> keys = legend(shown, viewport, options);
+  const double width = panels * viewport.width + (panels + 1) * kGap;
+  double y = kGap + viewport.height;
 
   std::string body;
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    const double x = kGap + static_cast<double>(i) * (frame.width + kGap);
+    const double x = kGap + static_cast<double>(i) * (viewport.width + kGap);
     body += "<g transform=\"translate(" + short_number(x) + " " + short_number(kGap) + ")\">\n" + shown[i].panel.svg +
             "</g>\n";
-    body += text_at(x + frame.width / 2, y + kLine, "middle",
-                    caption(shown[i], options.zoom.has_value() || !frame.view.is_flat()));
+    body += text_at(x + viewport.width / 2, y + kLine, "middle",
+                    caption(shown[i], options.zoom.has_value() || !viewport.view.is_flat()));
   }
   y += kLine;
   if (!options.title.empty()) body += text_at(width / 2, y += kLine, "middle", options.title);
@@ -143,17 +143,17 @@ std::string document(std::span<const Shown> shown, const PageFrame& frame, const
 
 std::string draw_svg(const Mesh& mesh, const DrawOptions& options) {
   const std::array<const Mesh*, 1> meshes = {&mesh};
-  const PageFrame frame = make_frame(meshes, options);
-  const std::array<Shown, 1> shown = {Shown{draw_panel(mesh, frame, options, 0, "panel"), ""}};
-  return document(shown, frame, options);
+  const Viewport viewport = make_viewport(meshes, options);
+  const std::array<Shown, 1> shown = {Shown{draw_panel(mesh, viewport, options, 0, "panel"), ""}};
+  return document(shown, viewport, options);
 }
 
 std::string draw_before_after_svg(const Mesh& before, const Mesh& after, const DrawOptions& options) {
   const std::array<const Mesh*, 2> meshes = {&before, &after};
-  const PageFrame frame = make_frame(meshes, options);
-  const std::array<Shown, 2> shown = {Shown{draw_panel(before, frame, options, 0, "before"), "before"},
-                                      Shown{draw_panel(after, frame, options, 1, "after"), "after"}};
-  return document(shown, frame, options);
+  const Viewport viewport = make_viewport(meshes, options);
+  const std::array<Shown, 2> shown = {Shown{draw_panel(before, viewport, options, 0, "before"), "before"},
+                                      Shown{draw_panel(after, viewport, options, 1, "after"), "after"}};
+  return document(shown, viewport, options);
 }
 
 // Several documents in one: nested <svg> elements, their ids told apart by a prefix.

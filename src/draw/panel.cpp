@@ -5,8 +5,8 @@
 #include <map>
 #include <optional>
 
-#include "draw/frame.hpp"
 #include "draw/text.hpp"
+#include "draw/viewport.hpp"
 #include "geometry/in_space.hpp"
 #include "temper/detail/geometry.hpp"
 
@@ -43,12 +43,12 @@ std::vector<Vec2> shifts_of(const Space& space) {
 
 class PanelPainter {
  public:
-  PanelPainter(const Mesh& mesh, const PageFrame& frame, const DrawOptions& options, std::size_t number)
+  PanelPainter(const Mesh& mesh, const Viewport& viewport, const DrawOptions& options, std::size_t number)
       : mesh_(mesh),
-        frame_(frame),
+        viewport_(viewport),
         options_(options),
         number_(number),
-        detailed_(frame.shows_detail()),
+        detailed_(viewport.shows_detail()),
         shifts_(shifts_of(mesh.space())) {}
 
   Panel paint() {
@@ -71,7 +71,7 @@ class PanelPainter {
 
  private:
   [[nodiscard]] double primal_width() const {
-    return detailed_ ? std::clamp(kPrimalWidth * frame_.edge, kLeastPrimal, kMostPrimal) : kDenseWidth;
+    return detailed_ ? std::clamp(kPrimalWidth * viewport_.edge, kLeastPrimal, kMostPrimal) : kDenseWidth;
   }
   [[nodiscard]] double edge_length(HalfedgeId h) const {
     const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h), a);
@@ -79,33 +79,33 @@ class PanelPainter {
   }
 
   void add_line(PathText& path, const WeightedPoint& p, const WeightedPoint& q) const {
-    const std::vector<Vec2> line = frame_.view.line(p, q);
+    const std::vector<Vec2> line = viewport_.view.line(p, q);
     for (const Vec2 shift : shifts_) {
       for (std::size_t i = 1; i < line.size(); ++i) {
-        const auto seen = clip(Segment{shift + line[i - 1], shift + line[i]}, frame_.clip);
-        if (seen) path.segment(frame_.grid(seen->from), frame_.grid(seen->to));
+        const auto seen = clip(Segment{shift + line[i - 1], shift + line[i]}, viewport_.clip);
+        if (seen) path.segment(viewport_.grid(seen->from), viewport_.grid(seen->to));
       }
     }
   }
   /// Images where they meet the box.
   void add_circle(PathText& path, const WeightedPoint& p, double radius) const {
     for (const Vec2 shift : shifts_) {
-      if (!frame_.view.is_flat() || !meets(shift + p.position(), radius, frame_.box)) continue;
-      path.circle(frame_.grid(shift + p.position()), frame_.steps(radius * frame_.scale));
+      if (!viewport_.view.is_flat() || !meets(shift + p.position(), radius, viewport_.box)) continue;
+      path.circle(viewport_.grid(shift + p.position()), viewport_.steps(radius * viewport_.scale));
     }
-    if (frame_.view.is_flat() || !seen(p, radius)) return;
-    const std::vector<WeightedPoint> around = frame_.view.circle(p, radius);
+    if (viewport_.view.is_flat() || !seen(p, radius)) return;
+    const std::vector<WeightedPoint> around = viewport_.view.circle(p, radius);
     for (std::size_t i = 0; i < around.size(); ++i) add_line(path, around[i], around[(i + 1) % around.size()]);
   }
   void add_triangle(PathText& path, TriangleId t) const {
-    const std::vector<Vec2> whole = frame_.view.polygon(mesh_.points(t));
+    const std::vector<Vec2> whole = viewport_.view.polygon(mesh_.points(t));
     for (const Vec2 shift : shifts_) {
       std::vector<Vec2> polygon = whole;
       for (Vec2& p : polygon) p = shift + p;
-      polygon = clip(std::move(polygon), frame_.clip);
+      polygon = clip(std::move(polygon), viewport_.clip);
       if (polygon.empty()) continue;
-      path.move_to(frame_.grid(polygon[0]));
-      for (std::size_t i = 1; i < polygon.size(); ++i) path.line_to(frame_.grid(polygon[i]));
+      path.move_to(viewport_.grid(polygon[0]));
+      for (std::size_t i = 1; i < polygon.size(); ++i) path.line_to(viewport_.grid(polygon[i]));
       path.close();
     }
   }
@@ -113,12 +113,13 @@ class PanelPainter {
   void stroke(const PathText& path, const char* name, const char* color, double width, const char* more = "") {
     if (path.empty()) return;
     panel_.svg += std::string("<path class=\"") + name + "\" fill=\"none\" stroke=\"" + color + "\" stroke-width=\"" +
-                  short_number(width / frame_.unit) + "\" " + more + "d=\"" + path.text() + "\"/>\n";
+                  short_number(width / viewport_.unit) + "\" " + more + "d=\"" + path.text() + "\"/>\n";
   }
   void fill(const PathText& path, const char* name, const char* color, double stroke_width = kSeam) {
     if (path.empty()) return;
     panel_.svg += std::string("<path class=\"") + name + "\" fill=\"" + color + "\" stroke=\"" + color +
-                  "\" stroke-width=\"" + short_number(stroke_width / frame_.unit) + "\" d=\"" + path.text() + "\"/>\n";
+                  "\" stroke-width=\"" + short_number(stroke_width / viewport_.unit) + "\" d=\"" + path.text() +
+                  "\"/>\n";
   }
 
   void tint_regions() {
@@ -156,8 +157,8 @@ class PanelPainter {
     if (!mesh_.space().is_periodic()) return;
     PathText path;
     const auto [x, y] = mesh_.space().period();
-    const Box& box = frame_.clip;
-    const auto line = [&](Vec2 a, Vec2 b) { path.segment(frame_.grid(a), frame_.grid(b)); };
+    const Box& box = viewport_.clip;
+    const auto line = [&](Vec2 a, Vec2 b) { path.segment(viewport_.grid(a), viewport_.grid(b)); };
     for (const double at : {0.0, x}) {
       if (x > 0) line({at, y > 0 ? 0 : box.low.y}, {at, y > 0 ? y : box.high.y});
     }
@@ -168,10 +169,10 @@ class PanelPainter {
   }
 
   void draw_limb() {
-    if (frame_.view.is_flat()) return;
+    if (viewport_.view.is_flat()) return;
     PathText path;
-    path.circle(frame_.grid({0, 0}), frame_.steps(frame_.view.radius() * frame_.scale));
-    stroke(path, "limb", Palette::frame, 1);
+    path.circle(viewport_.grid({0, 0}), viewport_.steps(viewport_.view.radius() * viewport_.scale));
+    stroke(path, "limb", Palette::viewport, 1);
   }
 
   // Domain boundary and constrained edges are thicker: they are what the optimiser keeps.
@@ -180,7 +181,7 @@ class PanelPainter {
     for (HalfedgeId h : mesh_.halfedges()) {
       if (!mesh_.is_edge_representative(h)) continue;
       const bool outline = mesh_.keeps_its_place(h);
-      if (!outline && !frame_.shows_edges()) continue;
+      if (!outline && !viewport_.shows_edges()) continue;
       const WeightedPoint from = mesh_.point(mesh_.origin(h));
       add_line(outline && options_.regions ? kept : plain, from, mesh_.point(mesh_.target(h), from));
     }
@@ -222,8 +223,8 @@ class PanelPainter {
   }
   /// The place in the picture of a point that is seen and within the box, or the box within `radius` of it.
   [[nodiscard]] std::optional<Vec2> seen(const WeightedPoint& p, double radius = 0) const {
-    const Vec2 at = frame_.view.at(p);
-    if (!frame_.view.shows(p) || !meets(at, radius, frame_.box)) return std::nullopt;
+    const Vec2 at = viewport_.view.at(p);
+    if (!viewport_.view.shows(p) || !meets(at, radius, viewport_.box)) return std::nullopt;
     return at;
   }
 
@@ -243,8 +244,8 @@ class PanelPainter {
 
   // Dashes tell the signs apart without colour.
   [[nodiscard]] std::string dashes(double width) const {
-    return "stroke-dasharray=\"" + short_number(4 * width / frame_.unit) + " " + short_number(2 * width / frame_.unit) +
-           "\" ";
+    return "stroke-dasharray=\"" + short_number(4 * width / viewport_.unit) + " " +
+           short_number(2 * width / viewport_.unit) + "\" ";
   }
 
   void ring_near_coincident() {
@@ -253,7 +254,7 @@ class PanelPainter {
       if (!mesh_.is_edge_representative(h) || !nearly_collapsed(h)) continue;
       const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h), a);
       if (const auto middle = seen({0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.w + b.w)})) {
-        path.circle(frame_.grid(*middle), frame_.steps(kRingRadius));
+        path.circle(viewport_.grid(*middle), viewport_.steps(kRingRadius));
       }
     }
     panel_.rings = !path.empty();
@@ -274,13 +275,13 @@ class PanelPainter {
   }
 
   void number_vertices() {
-    const double size = std::clamp(kFontPerEdge * frame_.edge, kLeastFont, kMostFont) / frame_.unit;
+    const double size = std::clamp(kFontPerEdge * viewport_.edge, kLeastFont, kMostFont) / viewport_.unit;
     panel_.svg += "<g class=\"numbers\" font-size=\"" + short_number(size) + "\" fill=\"#000000\" stroke=\"#ffffff\"" +
                   " stroke-width=\"" + short_number(size / 4) + "\" paint-order=\"stroke\">\n";
     for (VertexId v : mesh_.vertices()) {
       const auto place = seen(mesh_.point(v));
       if (!place) continue;
-      const GridPoint at = frame_.grid(*place);
+      const GridPoint at = viewport_.grid(*place);
       panel_.svg += "<text x=\"" + std::to_string(at.x + std::llround(size / 4)) + "\" y=\"" +
                     std::to_string(at.y - std::llround(size / 4)) + "\">" + std::to_string(v.index) + "</text>\n";
     }
@@ -288,7 +289,7 @@ class PanelPainter {
   }
 
   const Mesh& mesh_;
-  const PageFrame& frame_;
+  const Viewport& viewport_;
   const DrawOptions& options_;
   std::size_t number_;
   bool detailed_;
@@ -317,13 +318,14 @@ std::size_t ColorScale::color(double value) const {
   return std::min(static_cast<std::size_t>(at), kScaleColors.size() - 1);
 }
 
-Panel draw_panel(const Mesh& mesh, const PageFrame& frame, const DrawOptions& options, std::size_t number,
+Panel draw_panel(const Mesh& mesh, const Viewport& viewport, const DrawOptions& options, std::size_t number,
                  const std::string& id) {
-  Panel panel = PanelPainter(mesh, frame, options, number).paint();
-  const std::string size = "width=\"" + short_number(frame.width) + "\" height=\"" + short_number(frame.height) + "\"";
+  Panel panel = PanelPainter(mesh, viewport, options, number).paint();
+  const std::string size =
+      "width=\"" + short_number(viewport.width) + "\" height=\"" + short_number(viewport.height) + "\"";
   panel.svg = "<clipPath id=\"" + id + "\"><rect " + size + "/></clipPath>\n<g clip-path=\"url(#" + id +
-              ")\">\n<g transform=\"scale(" + short_number(frame.unit) + ")\" stroke-linejoin=\"round\">\n" +
-              panel.svg + "</g>\n</g>\n<rect " + size + " fill=\"none\" stroke=\"" + Palette::frame + "\"/>\n";
+              ")\">\n<g transform=\"scale(" + short_number(viewport.unit) + ")\" stroke-linejoin=\"round\">\n" +
+              panel.svg + "</g>\n</g>\n<rect " + size + " fill=\"none\" stroke=\"" + Palette::viewport + "\"/>\n";
   return panel;
 }
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "draw/frame.hpp"
+#include "draw/viewport.hpp"
 #include "temper/draw.hpp"
 #include "temper/mesh.hpp"
 
@@ -22,8 +22,8 @@ struct Panel {
 };
 
 /// `number`: of the panel, from 0. `id` names the clip path: unique in the document.
-[[nodiscard]] Panel draw_panel(const Mesh& mesh, const PageFrame& frame, const DrawOptions& options, std::size_t number,
-                               const std::string& id);
+[[nodiscard]] Panel draw_panel(const Mesh& mesh, const Viewport& viewport, const DrawOptions& options,
+                               std::size_t number, const std::string& id);
 
 /// Evenly growing lightness, for colour-blind readers and grey print: ten of Matplotlib's viridis.
 inline constexpr std::array<const char*, 10> kScaleColors = {"#440154", "#482878", "#3e4989", "#31688e", "#26828e",
@@ -45,7 +45,7 @@ struct Palette {
   static constexpr const char* positive = "#00845f";
   static constexpr const char* negative = "#c8320a";
   static constexpr const char* ring = "#b0389a";
-  static constexpr const char* frame = "#c8c8c8";
+  static constexpr const char* viewport = "#c8c8c8";
 };
 
 }  // namespace temper

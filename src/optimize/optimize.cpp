@@ -52,7 +52,7 @@ void improve(Candidate& best, const Settings& settings, Run& run, AccuracySizes&
 Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks) {
   if (auto error = expect_agreement(hooks, options, mesh)) return *std::move(error);
   Run run(options, hooks, mesh);
-  auto made = make_settings(options, mesh, Frame::of(mesh), hooks);
+  auto made = make_settings(options, mesh, WorkingUnits::of(mesh), hooks);
   if (!made) return made.error();
   made->size_field = field_of_band(mesh, options, hooks.executor);
   const Settings settings = *std::move(made);

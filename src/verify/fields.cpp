@@ -269,7 +269,7 @@ FieldSize size_of(const Field& field) {
   return field.space == SpaceKind::sphere ? size_on_sphere(field) : size_of_modes(field);
 }
 
-Vec2 first_waves(const Space& space, const VerifyFrame& frame) {
+Vec2 first_waves(const Space& space, const FieldFrame& frame) {
   const auto wave = [&](double period) {
     return period > 0 ? 2 * std::numbers::pi * frame.half_size / period : std::numbers::pi;
   };

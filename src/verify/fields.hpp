@@ -95,7 +95,7 @@ struct FieldSize {
 [[nodiscard]] FieldSize size_of(const Field& field);
 
 /// The wave numbers of the first Fourier modes; along an axis without a period those of a wave of about its length.
-[[nodiscard]] Vec2 first_waves(const Space& space, const VerifyFrame& frame);
+[[nodiscard]] Vec2 first_waves(const Space& space, const FieldFrame& frame);
 
 /// The fields that VerifyOptions::fields asks for, in the order of all_fields(), each once.
 [[nodiscard]] Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names,

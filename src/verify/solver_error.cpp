@@ -265,7 +265,7 @@ class SolverErrorModel final : public ErrorModel {
  private:
   [[nodiscard]] std::vector<double> measure(const Mesh& mesh, std::vector<Gradient>* gradients,
                                             Executor* executor) const {
-    const VerifyFrame frame = verify_frame(mesh);
+    const FieldFrame frame = field_frame(mesh);
     ErrorSubject subject{mesh, dec(mesh), {}, 0};
     for (const double area : subject.dec.areas) subject.area += area;
     for (const Wave& wave : waves_) {

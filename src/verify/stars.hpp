@@ -14,7 +14,7 @@ namespace temper::verify_detail {
 struct Setting {
   const Mesh& mesh;
   const DecComplex& dec;
-  VerifyFrame frame;
+  FieldFrame frame;
   double area = 0;  ///< of the domain, in the frame
   Executor* executor = nullptr;
   bool is_closed = false;  ///< without boundary: nothing is given on a boundary

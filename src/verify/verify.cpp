@@ -29,7 +29,7 @@ void root_of_means(LocalErrors& sums, std::size_t fields) {
   }
 }
 
-double domain_area(const DecComplex& dec, const VerifyFrame& frame) {
+double domain_area(const DecComplex& dec, const FieldFrame& frame) {
   double sum = 0;
   for (const double area : dec.areas) sum += area;
   return sum / frame.half_size / frame.half_size;
@@ -41,7 +41,7 @@ bool is_closed(const DecComplex& dec) {
 
 /// A mesh with its operators, and the setting that refers to both: not to be moved.
 struct Subject {
-  Subject(const Mesh& m, const VerifyFrame& frame, Executor* executor)
+  Subject(const Mesh& m, const FieldFrame& frame, Executor* executor)
       : mesh(m), operators(dec(mesh)), setting{mesh,     operators,           frame, domain_area(operators, frame),
                                                executor, is_closed(operators)} {}
   Subject(const Subject&) = delete;
@@ -137,7 +137,7 @@ Measured measure(const Setting& setting, const std::vector<Field>& fields, bool 
 
 }  // namespace verify_detail
 
-VerifyFrame verify_frame(const Mesh& mesh) {
+FieldFrame field_frame(const Mesh& mesh) {
   if (mesh.space().radius() > 0) return {{0, 0}, mesh.space().radius()};
   Box box;
   for (const VertexId v : mesh.vertices()) {
@@ -157,7 +157,7 @@ Expected<VerifyReport> verify(const Mesh& mesh, const VerifyOptions& options) {
   if (!fields) return fields.error();
   if (const auto checked = check(mesh, options); !checked) return checked.error();
 
-  const Subject subject(mesh, options.frame.value_or(verify_frame(mesh)), options.executor);
+  const Subject subject(mesh, options.frame.value_or(field_frame(mesh)), options.executor);
   for (Field& field : *fields) field.wave = first_waves(mesh.space(), subject.setting.frame);
   VerifyReport report = report_of(subject, measure(subject.setting, *fields, options.condition), options.local);
   if (options.refine == 0) return report;

@@ -163,7 +163,7 @@ def test_errors_fall_with_refinement_and_ratios_of_a_mesh_to_itself_are_one(ring
     assert len(report.levels) == 3 and report.levels[2].triangles == 16 * mesh.n_triangles
     assert temper.arithmetic_mean(report.orders).poisson.l2 > 1.5
     assert [len(values) for values in report.local] == [mesh.n_vertices, mesh.n_edges, mesh.n_triangles]
-    assert report.poisson.m_matrix and report.poisson.condition > 1 and report.frame == temper.verify_frame(mesh)
+    assert report.poisson.m_matrix and report.poisson.condition > 1 and report.frame == temper.field_frame(mesh)
     ratios = temper.error_ratios(report, report)
     assert temper.geometric_mean(ratios)._row() == [1.0] * 10
     keys = [key for key, _ in temper.verify_measures()]

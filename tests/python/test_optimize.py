@@ -307,7 +307,7 @@ def test_weights_alone_leave_positions(ring):
 
 def test_the_accuracy_objective_lowers_the_error_of_the_star_and_keeps_its_margin(ring):
     star1 = lambda mesh: temper.geometric_mean(temper.verify(mesh, fields=["held-back"], frame=frame).fields).star[1].l2
-    frame = temper.verify_frame(ring)
+    frame = temper.field_frame(ring)
     margin = lambda quality: min(quality.min_h_over_l, quality.min_d_over_l)
     plain = optimized(ring)
     accurate = ring.copy()

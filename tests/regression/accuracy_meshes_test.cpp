@@ -108,7 +108,7 @@ Errors improved_errors(const Mesh& input, const Promise& promise) {
   }
 
   VerifyOptions verifying;
-  verifying.frame = verify_frame(input);
+  verifying.frame = field_frame(input);
   verifying.fields = {"held-back"};
   const auto after = verify(mesh, verifying), before = verify(input, verifying);
   EXPECT_TRUE(after && before);

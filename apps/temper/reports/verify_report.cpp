@@ -248,7 +248,7 @@ std::string edge_errors_csv(const VerifyReport& report, const Input& input) {
 }
 
 SolverErrors::SolverErrors(const Mesh& input, Executor* executor) {
-  options_.frame = verify_frame(input);
+  options_.frame = field_frame(input);
   options_.executor = executor;
   before_ = after_ = measured(input);
 }

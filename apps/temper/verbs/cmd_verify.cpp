@@ -83,17 +83,17 @@ void check_fields(const VerifyOptions& options) {
   }
 }
 
-bool same_box(const VerifyFrame& a, const VerifyFrame& b) {
+bool same_box(const FieldFrame& a, const FieldFrame& b) {
   return std::abs(a.half_size - b.half_size) <= kSameBox * b.half_size &&
          length(a.center - b.center) <= kSameBox * b.half_size;
 }
 
 VerifyReference measure_reference(const VerifySettings& s, const std::string& projection, const VerifyOptions& options,
-                                  const VerifyFrame& frame) {
+                                  const FieldFrame& frame) {
   Input reference = read_input(s.against, {projection, {}, options.executor, true});
   print_warnings(reference.warnings());
   take_to_metric(reference, s.metric);
-  if (!same_box(frame, verify_frame(reference.mesh()))) {
+  if (!same_box(frame, field_frame(reference.mesh()))) {
     print_warnings(std::vector<std::string>{fmt::format(
         "{} and {} do not have the same bounding box: both are measured in that of {}", s.input, s.against, s.input)});
   }
@@ -127,7 +127,7 @@ Exit run_verify(const Arguments& arguments) {
   Input input = read_input(s.input, {s.projection, {}, threads.get(), true});
   print_warnings(input.warnings());
   take_to_metric(input, s.metric);
-  options.frame = verify_frame(input.mesh());
+  options.frame = field_frame(input.mesh());
   options.refine = s.refine;
   options.condition = s.condition;
   options.local = !s.edges.empty();

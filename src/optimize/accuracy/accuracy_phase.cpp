@@ -47,7 +47,7 @@ AccuracyTotal SizedPhase::sum(bool with_energy) const {
 AccuracyPhase::AccuracyPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)
     : SizedPhase(work, of_accuracy(settings), run, std::move(sizes)) {
   state_.flip_limit = FlipLimit::unlimited;
-  energy_unit_ = state_.energy_unit(work.frame);
+  energy_unit_ = state_.energy_unit(work.units);
 }
 
 void AccuracyPhase::begin() {

@@ -68,7 +68,7 @@ VertexSizes AccuracySizes::of(const WorkingCopy& work, Executor* executor) const
   for_each_index(sizes.size(), executor, [&](std::size_t i) {
     const VertexId v(i), number = work.order.vertices[v];
     // Both scales are powers of two, so exact.
-    sizes[v] = number.index < input_.size() ? input_[number] / work.frame.scale : local_size(work.mesh, v);
+    sizes[v] = number.index < input_.size() ? input_[number] / work.units.scale : local_size(work.mesh, v);
   });
   return sizes;
 }
@@ -83,13 +83,13 @@ void AccuracySizes::take_back(VertexSizes lent, const WorkingCopy& work, Executo
   if (!input_.empty()) return;
   input_.resize(lent.size());
   for_each_index(lent.size(), executor, [&](std::size_t i) {
-    input_[work.order.vertices[VertexId(i)]] = lent[VertexId(i)] * work.frame.scale;
+    input_[work.order.vertices[VertexId(i)]] = lent[VertexId(i)] * work.units.scale;
   });
 }
 
 VertexSizes AccuracySizes::in_user_units(const WorkingCopy& work, Executor* executor) const {
   VertexSizes sizes = of(work, executor);
-  for (double& size : sizes) size *= work.frame.scale;
+  for (double& size : sizes) size *= work.units.scale;
   return sizes;
 }
 

@@ -24,7 +24,7 @@ class AccuracySizes {
 
   /// The sizes of the input, in the user's units.
   [[nodiscard]] const VertexSizes& of_input() const { return input_; }
-  /// The sizes of a working copy of it, in the units of its frame.
+  /// The sizes of a working copy of it, in the units of its units.
   [[nodiscard]] VertexSizes of(const WorkingCopy& work, Executor* executor) const;
   /// The same, for a while: where the copy has all vertices of the input and no others, they are gone from here until
   /// they are given back. Both would count on the largest meshes.

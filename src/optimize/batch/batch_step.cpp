@@ -187,7 +187,7 @@ void BatchStep::step_and_settle() {
     batch_.triangles[lane] = 0;
     batch_.open[lane] = batch_.moves[lane] = batch_.changes_weight[lane] = 0;
   }
-  const Vec2 rounding = frame.rounding;
+  const Vec2 rounding = units.rounding;
   const StepParameters parameters{edge_formula(state.model), state.relaxation, rounding.x, rounding.y};
   const BatchSteps& steps = batch_steps(mesh.space());
   const bool lowers_accuracy = state.accuracy_domain != nullptr;

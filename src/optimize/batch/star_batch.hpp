@@ -43,7 +43,7 @@ struct alignas(64) StarBatch {
 struct StepParameters {
   EdgeFormula formula;  ///< of a barrier energy
   double relaxation = 1;
-  double rounding_x = 0, rounding_y = 0;  ///< Frame::rounding
+  double rounding_x = 0, rounding_y = 0;  ///< WorkingUnits::rounding
 };
 
 /// Bit i: lane i.

@@ -74,7 +74,7 @@ class SharpCorners {
     }
   }
 
-  /// Where to split the line instead of at split_at: a power of two, in the frame's unit, from a sharp end.
+  /// Where to split the line instead of at split_at: a power of two, in the units's unit, from a sharp end.
   [[nodiscard]] double split_at(const Mesh& mesh, const Line& line) const {
     if (line.splits < kSplitsToShells) return line.split_at;
     const bool from_u = is_sharp(line.u), from_v = is_sharp(line.v);
@@ -177,7 +177,7 @@ class BoundaryCutter {
     const Vec2 a = mesh_.position(edge.a), along = mesh_.position(edge.b) - a;
     VertexId last = edge.a;
     for (const double t : edge.at) {
-      const VertexId v = split(last, edge.b, work_.frame.snap(a + t * along));
+      const VertexId v = split(last, edge.b, work_.units.snap(a + t * along));
       if (v.valid()) last = v;
     }
   }
@@ -192,7 +192,7 @@ class BoundaryCutter {
       if (worst == nullptr) return;
       const Vec2 from = mesh_.position(worst->u), to = mesh_.position(worst->v);
       const VertexId fresh =
-          split(worst->u, worst->v, work_.frame.snap(from + corners.split_at(mesh_, *worst) * (to - from)));
+          split(worst->u, worst->v, work_.units.snap(from + corners.split_at(mesh_, *worst) * (to - from)));
       if (!fresh.valid()) {
         lines.give_up_worst();
         continue;
@@ -205,13 +205,13 @@ class BoundaryCutter {
     }
   }
 
-  void halve(VertexId a, VertexId b) { split(a, b, work_.frame.snap(0.5 * (mesh_.position(a) + mesh_.position(b)))); }
+  void halve(VertexId a, VertexId b) { split(a, b, work_.units.snap(0.5 * (mesh_.position(a) + mesh_.position(b)))); }
   [[nodiscard]] bool has_edge(VertexId a, VertexId b) const { return find_edge(a, b).valid(); }
   /// A vertex at the orthocenter of a triangle that has none free.
   void free(const std::array<VertexId, 3>& corners) {
     plan_ = plan_center(mesh_, corners, std::move(plan_));
     if (plan_.status != InsertionStatus::possible) return;
-    const Vec2 at = work_.frame.snap(plan_.point.position());
+    const Vec2 at = work_.units.snap(plan_.point.position());
     const double w = plan_.point.w;
     const TriangleId near = plan_.triangle;
     plan_ = plan_insertion(mesh_, {at.x, at.y, w}, near, std::move(plan_));

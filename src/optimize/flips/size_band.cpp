@@ -7,9 +7,9 @@
 
 namespace temper {
 
-SizeBand::SizeBand(const Mesh& mesh, const Frame& frame, const std::optional<SizeField>& field,
+SizeBand::SizeBand(const Mesh& mesh, const WorkingUnits& units, const std::optional<SizeField>& field,
                    std::optional<double> band)
-    : mesh_(mesh), frame_(frame) {
+    : mesh_(mesh), units_(units) {
   if (!field || !band) return;
   field_ = field;
   squared_band_ = *band * *band;
@@ -24,9 +24,9 @@ double SizeBand::excess(double squared_size, double squared_field) const {
 
 bool SizeBand::allows(const Patch& patch, Vec2 p) {
   const VertexId v = patch.center;
-  const WeightedPoint user = frame_.to_user({p.x, p.y, 0});
+  const WeightedPoint user = units_.to_user({p.x, p.y, 0});
   const SizeField::Sample sample = field_->at(user.position(), triangle_[v]);
-  const double field = sample.size / frame_.scale;
+  const double field = sample.size / units_.scale;
   there_ = sample.triangle;
   there_squared_ = field * field;
 
@@ -76,8 +76,8 @@ void SizeBand::grow() {
   triangle_.resize(mesh_.n_vertices());
   TriangleId hint = first.index > 0 ? triangle_[VertexId(first.index - 1)] : TriangleId();
   for (const VertexId v : IdRange<VertexId>(first, VertexId(mesh_.n_vertices()))) {
-    const SizeField::Sample sample = field_->at(frame_.to_user(mesh_.point(v)).position(), hint);
-    const double field = sample.size / frame_.scale;
+    const SizeField::Sample sample = field_->at(units_.to_user(mesh_.point(v)).position(), hint);
+    const double field = sample.size / units_.scale;
     squared_field_[v] = field * field;
     triangle_[v] = hint = sample.triangle;  // along the sweep's curve the next one is near
   }

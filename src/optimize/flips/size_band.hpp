@@ -11,15 +11,16 @@
 #include <vector>
 
 #include "energy/patch.hpp"
-#include "optimize/working/frame.hpp"
+#include "optimize/working/working_units.hpp"
 #include "temper/detail/size.hpp"
 
 namespace temper {
 
 class SizeBand {
  public:
-  /// The band of a mesh in the frame around a field in the user's units; switched off without either of field and band.
-  SizeBand(const Mesh& mesh, const Frame& frame, const std::optional<SizeField>& field, std::optional<double> band);
+  /// The band of a mesh in the units around a field in the user's units; switched off without either of field and band.
+  SizeBand(const Mesh& mesh, const WorkingUnits& units, const std::optional<SizeField>& field,
+           std::optional<double> band);
 
   [[nodiscard]] bool on() const { return squared_band_ > 0; }
 
@@ -44,10 +45,10 @@ class SizeBand {
   [[nodiscard]] double excess(VertexId v) const;
 
   const Mesh& mesh_;
-  const Frame& frame_;
+  const WorkingUnits& units_;
   std::optional<SizeField> field_;
   double squared_band_ = 0;                   // B², as squares of sizes are compared; 0: off
-  IdVector<VertexId, double> squared_field_;  // in the frame's units
+  IdVector<VertexId, double> squared_field_;  // in the units's units
   IdVector<VertexId, TriangleId> triangle_;   // of the field
   double there_squared_ = 0;                  // of the position asked about last
   TriangleId there_;

@@ -13,8 +13,8 @@ namespace {
 
 InputError invalid(const std::string& message) { return {ErrorCode::invalid_option, {}, message}; }
 
-LengthParameter in_frame(LengthParameter s, const Frame& frame) {
-  if (s.scale == LengthScale::absolute) s.value /= frame.scale;
+LengthParameter in_working_units(LengthParameter s, const WorkingUnits& units) {
+  if (s.scale == LengthScale::absolute) s.value /= units.scale;
   return s;
 }
 
@@ -266,9 +266,9 @@ void SweepState::set_energy(EnergyKind kind, const Policy& policy) {
   flip_limit = policy.flip_limit_for(energy);
 }
 
-double SweepState::energy_unit(const Frame& frame) const {
+double SweepState::energy_unit(const WorkingUnits& units) const {
   constexpr double kAccuracyExponent = 2;
-  return std::pow(frame.scale, accuracy_domain != nullptr ? kAccuracyExponent : energy.length_exponent);
+  return std::pow(units.scale, accuracy_domain != nullptr ? kAccuracyExponent : energy.length_exponent);
 }
 
 Unknowns unknowns_of_sweep(const Settings& s, const EnergyInfo& energy, int sweep) {
@@ -277,14 +277,14 @@ Unknowns unknowns_of_sweep(const Settings& s, const EnergyInfo& energy, int swee
   return waits ? Unknowns::positions : s.options.unknowns;
 }
 
-EnergyModel in_user_units(EnergyModel model, const Frame& frame) {
+EnergyModel in_user_units(EnergyModel model, const WorkingUnits& units) {
   for (LengthParameter* s : {&model.gamma, &model.h0}) {
-    if (s->scale == LengthScale::absolute) s->value *= frame.scale;
+    if (s->scale == LengthScale::absolute) s->value *= units.scale;
   }
   return model;
 }
 
-Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh, const Frame& frame,
+Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh, const WorkingUnits& units,
                                  const OptimizeHooks& hooks) {
   if (auto right = check_options(options); !right) return right.error();
   if (auto error = check_updates(options)) return *std::move(error);
@@ -309,8 +309,8 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   s.collapse_model = s.model;
   s.collapse_model.kind = p.collapse_energy;
   s.model.wall = !s.policy.allows_inversion();
-  if (p.gamma) s.model.gamma = in_frame(*p.gamma, frame);
-  if (p.h0) s.model.h0 = in_frame(*p.h0, frame);
+  if (p.gamma) s.model.gamma = in_working_units(*p.gamma, units);
+  if (p.h0) s.model.h0 = in_working_units(*p.h0, units);
   s.accuracy = accuracy_model(options.accuracy, options.target, options.star);
   if (hooks.solvers.lp) s.lp = hooks.solvers.lp();
   return with_error_model(std::move(s), mesh);

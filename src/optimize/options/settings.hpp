@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "energy/accuracy_energy.hpp"
-#include "optimize/working/frame.hpp"
+#include "optimize/working/working_units.hpp"
 #include "temper/feasibility.hpp"
 #include "temper/optimize.hpp"
 
@@ -58,7 +58,7 @@ struct Settings {
   OptimizeHooks hooks;
   Objective objective = Objective::accuracy;   ///< that this run lowers
   Policy policy;                               ///< the paper's switches
-  EnergyModel model;                           ///< of options.energy, in the frame's units, as sweeps begin
+  EnergyModel model;                           ///< of options.energy, in the units's units, as sweeps begin
   EnergyModel collapse_model;                  ///< E_c
   AccuracyModel accuracy;                      ///< of the accuracy objective; without unit
   std::shared_ptr<const ErrorModel> errors{};  ///< errors of the solver: lowered, or the judge of meshes; or null
@@ -73,7 +73,7 @@ struct Settings {
 /// What the sweep under way lowers, and how far its steps go.
 struct SweepState {
   EnergyInfo energy;      ///< that of `model`
-  EnergyModel model;      ///< in the frame's units, with γ and h° of the sweep
+  EnergyModel model;      ///< in the units's units, with γ and h° of the sweep
   double relaxation = 1;  ///< over-relaxation of Newton steps
   FlipLimit flip_limit = FlipLimit::unlimited;
   const AccuracyDomain* accuracy_domain = nullptr;  ///< if sweeps lower the accuracy objective: where it is finite
@@ -82,18 +82,18 @@ struct SweepState {
   explicit SweepState(const Settings& settings);
   /// Lowers that energy from now on.
   void set_energy(EnergyKind kind, const Policy& policy);
-  /// The user's energy of one unit in the frame.
-  [[nodiscard]] double energy_unit(const Frame& frame) const;
+  /// The user's energy of one unit in the units.
+  [[nodiscard]] double energy_unit(const WorkingUnits& units) const;
 };
 
 /// The unknowns that a sweep moves, counted from 0: weights from i_w on.
 [[nodiscard]] Unknowns unknowns_of_sweep(const Settings& settings, const EnergyInfo& energy, int sweep);
 
 /// The model with absolute γ and h° in the user's units of length.
-[[nodiscard]] EnergyModel in_user_units(EnergyModel model, const Frame& frame);
+[[nodiscard]] EnergyModel in_user_units(EnergyModel model, const WorkingUnits& units);
 
 /// Errors: values out of range, or that contradict each other.
-[[nodiscard]] Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh, const Frame& frame,
-                                               const OptimizeHooks& hooks = {});
+[[nodiscard]] Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh,
+                                               const WorkingUnits& units, const OptimizeHooks& hooks = {});
 
 }  // namespace temper

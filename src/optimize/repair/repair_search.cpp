@@ -134,7 +134,7 @@ bool RepairSearch::improve_one_place() {
     const auto edit = choose(around, seed);
     if (run_.stopped_early()) return false;
     if (!edit) continue;
-    const TrialResult result = try_edit(around, *edit, settings_, work_.frame, true);
+    const TrialResult result = try_edit(around, *edit, settings_, work_.units, true);
     TEMPER_ASSERT(result.valid);  // as it was without a listener
     const std::vector<VertexId> there = splice(work_, flipper_, recorder_, around, result.events);
     changed_.reset();
@@ -188,7 +188,7 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
         weighed_.push_back(seed);
         run_.repair_trials_left -= kTrialsOfAProgramme;
       }
-      const TrialResult result = try_edit(around, edit, settings_, work_.frame, false);
+      const TrialResult result = try_edit(around, edit, settings_, work_.units, false);
       if (!result.valid) continue;
       tried.push_back({edit, result.defect});
       if (!helps(least, result.defect)) continue;

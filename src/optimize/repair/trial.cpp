@@ -151,7 +151,7 @@ double violation_of(const Mesh& mesh, TriangleId t) {
 
 class Trial {
  public:
-  Trial(const Neighborhood& around, const Settings& settings, const Frame& grid, bool with_events)
+  Trial(const Neighborhood& around, const Settings& settings, const WorkingUnits& grid, bool with_events)
       : around_(around),
         settings_(
             of_trial(settings, with_events ? Tracer([this](const TraceEvent& e) { events_.push_back(e); }) : Tracer())),
@@ -330,7 +330,7 @@ class Trial {
   const Neighborhood& around_;
   std::vector<TraceEvent> events_;
   const Settings settings_;
-  const Frame& grid_;
+  const WorkingUnits& grid_;
   WorkingCopy work_;
   SweepState state_;
   Recorder recorder_;
@@ -360,7 +360,7 @@ LocalDefect defect_of(const Mesh& mesh, const AccuracyModel& model) {
   return s;
 }
 
-TrialResult try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings, const Frame& grid,
+TrialResult try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings, const WorkingUnits& grid,
                      bool with_events) {
   return Trial(around, settings, grid, with_events).run(edit);
 }

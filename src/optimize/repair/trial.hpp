@@ -54,6 +54,6 @@ struct TrialResult {
 
 /// Applies the edit to a copy of the neighbourhood and optimises that. `grid`: of the whole mesh, for positions.
 [[nodiscard]] TrialResult try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings,
-                                   const Frame& grid, bool with_events);
+                                   const WorkingUnits& grid, bool with_events);
 
 }  // namespace temper

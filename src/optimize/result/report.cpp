@@ -8,7 +8,7 @@
 #include "optimize/result/notes.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/stages/driver.hpp"
-#include "optimize/working/frame.hpp"
+#include "optimize/working/working_units.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
@@ -124,7 +124,7 @@ void give_back(Mesh& mesh, Candidate best, const Settings& settings, const Sweep
   report.objective = settings.objective;
   Recorder recorder(settings.hooks.tracer, best.work, 1);
   recorder.begin_sweep(run.next_sweep());
-  const EnergyModel model = in_user_units(state.model, best.work.frame);
+  const EnergyModel model = in_user_units(state.model, best.work.units);
   const bool for_accuracy = sizes.has_value();
   Result result = result_of(mesh, std::move(best.work), settings, model, std::move(sizes));
   const MeshScore before = of_input.score ? *of_input.score : score(mesh, of_input.counts, settings, model, nullptr);

@@ -11,7 +11,7 @@
 #include "base/rng.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "optimize/run/judge.hpp"
-#include "optimize/working/frame.hpp"
+#include "optimize/working/working_units.hpp"
 #include "temper/detail/optimize_table.hpp"
 #include "temper/detail/version.hpp"
 

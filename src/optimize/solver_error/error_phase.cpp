@@ -91,7 +91,7 @@ void Descent::learn(Vector step, Vector change) {
 }
 
 ErrorPhase::ErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)
-    : SizedPhase(work, of_errors(settings), run, std::move(sizes)), frame_(work.frame) {
+    : SizedPhase(work, of_errors(settings), run, std::move(sizes)), units_(work.units) {
   const auto mobility = mobilities(mesh_, settings_.options, settings_.executor());
   freedom_.resize(mesh_.n_vertices());
   for (const VertexId v : mesh_.vertices()) freedom_[v] = freedom(mesh_, v, mobility[v], settings_.options.unknowns);
@@ -214,7 +214,7 @@ void ErrorPhase::place(const IdVector<VertexId, WeightedPoint>& from, const Vect
     const double s = t * domain_.sizes[v];
     const double* by = &step[3 * std::size_t{v.index}];
     if (freedom_[v].moves()) {
-      const Vec2 to = frame_.snap(Vec2{p.x + s * by[0], p.y + s * by[1]});
+      const Vec2 to = units_.snap(Vec2{p.x + s * by[0], p.y + s * by[1]});
       p.x = to.x, p.y = to.y;
     }
     p.w += s * domain_.sizes[v] * by[2];

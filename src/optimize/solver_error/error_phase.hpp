@@ -67,7 +67,7 @@ class ErrorPhase final : public SizedPhase {
   void place(const IdVector<VertexId, WeightedPoint>& from, const Vector& step, double t);
   [[nodiscard]] Vector scaled(const IdVector<VertexId, WeightedPoint>& gradient) const;
 
-  const Frame& frame_;
+  const WorkingUnits& units_;
   IdVector<VertexId, Freedom> freedom_;
   std::vector<double> start_;  // the errors then
   Value now_;

@@ -19,7 +19,7 @@ Driver::Driver(WorkingCopy& work, const Settings& settings, SweepState& state, R
       settings_(settings),
       state_(state),
       run_(run),
-      recorder_(settings.hooks.tracer, work, state.energy_unit(work.frame)),
+      recorder_(settings.hooks.tracer, work, state.energy_unit(work.units)),
       flipper_(mesh_, settings, state, recorder_),
       sweeper_(work, settings, state, flipper_, recorder_, part_size) {
   recorder_.begin_sweep(run.next_sweep());
@@ -57,7 +57,7 @@ int Driver::run(Phase& phase, int first) {
 
 void Driver::begin(Phase& phase, int sweep) {
   phase.begin();
-  recorder_.set_energy_unit(state_.energy_unit(work_.frame));
+  recorder_.set_energy_unit(state_.energy_unit(work_.units));
   if (run_.report.history.empty()) record(phase.measure());
   best_energy_ = phase.total();
   if (phase.keeps() == Phase::Keeps::best_points) keep(phase, best_energy_, sweep);
@@ -90,7 +90,7 @@ Driver::Verdict Driver::sweep(Phase& phase) {
     best_.reset();
     best_points_ = {};
     best_energy_ = phase.total();
-    recorder_.set_energy_unit(state_.energy_unit(work_.frame));
+    recorder_.set_energy_unit(state_.energy_unit(work_.units));
     return Verdict::improving;
   }
   if (verdict != Verdict::infinite) return verdict;

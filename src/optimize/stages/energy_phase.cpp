@@ -43,7 +43,7 @@ void EnergyPhase::take_last_energy() {
 }
 
 double EnergyPhase::total() const {
-  return state_.energy_unit(work_.frame) * total_energy(work_.mesh, state_.model, settings_.executor());
+  return state_.energy_unit(work_.units) * total_energy(work_.mesh, state_.model, settings_.executor());
 }
 
 SweepRecord EnergyPhase::measure() {
@@ -52,7 +52,7 @@ SweepRecord EnergyPhase::measure() {
 
 SweepRecord EnergyPhase::record_of(const EnergyAndBad& measured) const {
   const double length_parameter = state_.energy.softened_by_h0 ? state_.model.h0.value : state_.model.gamma.value;
-  return {.energy = state_.energy_unit(work_.frame) * measured.energy,
+  return {.energy = state_.energy_unit(work_.units) * measured.energy,
           .bad = measured.bad,
           .length_parameter = length_parameter};
 }

@@ -169,7 +169,7 @@ double VertexStep::flip_limited(const Step& step, double t) const {
 WeightedPoint VertexStep::moved(const Step& step, double t) const {
   const WeightedPoint p = along(mesh.space(), origin_, step, t);
   if (!mesh.space().is_plane() || (step[0] == 0 && step[1] == 0)) return p;
-  const Vec2 x = frame.snap(p.position());
+  const Vec2 x = units.snap(p.position());
   return {x.x, x.y, p.w};
 }
 

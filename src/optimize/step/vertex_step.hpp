@@ -15,17 +15,17 @@
 #include "optimize/step/freedom.hpp"
 #include "optimize/step/star_objective.hpp"
 #include "optimize/trace/recorder.hpp"
-#include "optimize/working/frame.hpp"
 #include "optimize/working/working_copy.hpp"
+#include "optimize/working/working_units.hpp"
 
 namespace temper {
 
 /// The limits of each vertex: mobility and size band, shared by all that make steps on one mesh.
 struct VertexLimits {
-  VertexLimits(const Mesh& mesh, const Settings& settings, const Frame& frame)
+  VertexLimits(const Mesh& mesh, const Settings& settings, const WorkingUnits& units)
       : mobility(mobilities(mesh, settings.options, settings.executor())),
         degree(mesh.n_vertices(), 0),
-        band(mesh, frame, settings.size_field, settings.options.size_band),
+        band(mesh, units, settings.size_field, settings.options.size_band),
         mesh_(mesh),
         options_(settings.options) {}
 
@@ -60,7 +60,7 @@ struct StepContext {
   Mesh& mesh;
   const Settings& settings;
   const SweepState& state;
-  const Frame& frame;
+  const WorkingUnits& units;
   VertexLimits& limits;
   const Recorder& recorder;
 };

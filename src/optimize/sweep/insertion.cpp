@@ -28,9 +28,9 @@ double mean_energy(const Mesh& mesh, const EnergyModel& model) {
   return n == 0 ? 0 : sum / static_cast<double>(n);
 }
 
-InsertionPlan plan_at_orthocenter(const Mesh& mesh, const Frame& frame, TriangleId t) {
+InsertionPlan plan_at_orthocenter(const Mesh& mesh, const WorkingUnits& units, TriangleId t) {
   const auto [a, b, c] = mesh.points(t);
-  const Vec2 o = frame.snap(orthocenter(a, b, c));
+  const Vec2 o = units.snap(orthocenter(a, b, c));
   const Location at = std::isfinite(o.x) && std::isfinite(o.y) ? locate(mesh, o, t) : Location();
   if (at.kind != Location::Kind::in_triangle) return {};
   return plan_insertion(mesh, {o.x, o.y, interpolated_weight(mesh, at.triangle, o)}, at.triangle);
@@ -50,7 +50,7 @@ bool insert_where_energy_is_large(WorkingCopy& work, Flipper& flipper, const Set
   bool inserted = false;
   for (const auto& [energy_before, t] : large) {
     if (!(own_energy(mesh, model, t) > limit)) continue;  // what came before may have changed it
-    const InsertionPlan plan = plan_at_orthocenter(mesh, work.frame, t);
+    const InsertionPlan plan = plan_at_orthocenter(mesh, work.units, t);
     if (plan.status != InsertionStatus::possible) continue;
     const PatchComparison e = compare_patch(mesh, model, plan, settings.policy.removal_measure);
     if (!is_better(e.with, e.without, settings.policy.removal_margin)) continue;

@@ -111,8 +111,8 @@ void Improvers::begin_sweep(int iteration, Unknowns unknowns) {
 
 Sweeper::Sweeper(WorkingCopy& work, const Settings& settings, const SweepState& state, Flipper& flipper,
                  const Recorder& recorder, std::size_t part_size)
-    : limits_(work.mesh, settings, work.frame),
-      context_{work.mesh, settings, state, work.frame, limits_, recorder},
+    : limits_(work.mesh, settings, work.units),
+      context_{work.mesh, settings, state, work.units, limits_, recorder},
       flipper_(flipper),
       improvers_(context_),
       part_size_(part_size) {}

@@ -35,7 +35,7 @@ void Recorder::placed(VertexId v, const WeightedPoint& from, const WeightedPoint
         .vertex = v,
         .before = before,
         .after = after,
-        .point = work_.frame.to_user(to)});
+        .point = work_.units.to_user(to)});
 }
 
 void Recorder::flipped(std::span<const FlipRecord> flips) const {

@@ -22,7 +22,7 @@ struct FlipRecord {
 
 class Recorder {
  public:
-  /// `energy_unit`: the user's energy of one unit in the frame.
+  /// `energy_unit`: the user's energy of one unit in the units.
   Recorder(const Tracer& tracer, const WorkingCopy& work, double energy_unit)
       : tracer_(tracer), work_(work), energy_unit_(energy_unit) {}
 
@@ -52,9 +52,9 @@ class Recorder {
   }
 
  private:
-  /// `event`: with vertices in the numbers of the working copy, energies in the units of the frame, and no sweep.
+  /// `event`: with vertices in the numbers of the working copy, energies in the units of the units, and no sweep.
   void tell(TraceEvent event) const;
-  [[nodiscard]] WeightedPoint place(VertexId v) const { return work_.frame.to_user(work_.mesh.point(v)); }
+  [[nodiscard]] WeightedPoint place(VertexId v) const { return work_.units.to_user(work_.mesh.point(v)); }
 
   const Tracer& tracer_;
   const WorkingCopy& work_;

@@ -23,7 +23,7 @@ IdVector<IdType, IdType> ranks(const IdVector<IdType, IdType>& order) {
 
 }  // namespace
 
-WorkingCopy::WorkingCopy(const Mesh& user, SweepOrder sweeps, Executor* executor) : frame(Frame::of(user)) {
+WorkingCopy::WorkingCopy(const Mesh& user, SweepOrder sweeps, Executor* executor) : units(WorkingUnits::of(user)) {
   if (sweeps == SweepOrder::hilbert) {
     OrderedMesh ordered = hilbert_ordered(user, executor);
     mesh = std::move(ordered.mesh);
@@ -35,7 +35,7 @@ WorkingCopy::WorkingCopy(const Mesh& user, SweepOrder sweeps, Executor* executor
     name_new();
   }
   n_input_vertices = n_vertices_named;
-  frame.enter(mesh);
+  units.enter(mesh);
 }
 
 WorkingCopy WorkingCopy::part(const Mesh& part) {
@@ -75,9 +75,9 @@ Mesh WorkingCopy::in_user_terms(Executor* executor) && {
 }
 
 void WorkingCopy::leave_frame() {
-  frame.leave(mesh);
-  frame = {};
-  frame.space = mesh.space();
+  units.leave(mesh);
+  units = {};
+  units.space = mesh.space();
 }
 
 Mesh WorkingCopy::in_user_order(Executor* executor) && {

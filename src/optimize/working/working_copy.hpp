@@ -1,4 +1,4 @@
-// The mesh being worked on: a copy in its frame and in an order of its own, that knows every name of the user's.
+// The mesh being worked on: a copy in its units and in an order of its own, that knows every name of the user's.
 //
 // Vertices that are inserted, and triangles that come with them, get names as topology gives them slots: the next one
 // that was never used. A mesh that is never compacted, as in a replay, has them in the slots of these numbers.
@@ -6,7 +6,7 @@
 
 #include "mesh/mesh_editor.hpp"
 #include "mesh/twins.hpp"
-#include "optimize/working/frame.hpp"
+#include "optimize/working/working_units.hpp"
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
 
@@ -23,7 +23,7 @@ template <class Id, class T>
 
 struct WorkingCopy {
   Mesh mesh;
-  Frame frame;
+  WorkingUnits units;
   MeshOrder order;                    ///< the user's numbers, and those after them
   bool has_gaps = false;              ///< in them, once vertices have been removed
   std::size_t n_input_vertices = 0;   ///< in the user's mesh: from this number on vertices are inserted ones
@@ -33,7 +33,7 @@ struct WorkingCopy {
   /// Of no mesh.
   WorkingCopy() = default;
   WorkingCopy(const Mesh& user, SweepOrder sweeps, Executor* executor = nullptr);
-  /// The working copy of a part of a mesh that is in its frame already: every number and coordinate is its own name.
+  /// The working copy of a part of a mesh that is in its units already: every number and coordinate is its own name.
   [[nodiscard]] static WorkingCopy part(const Mesh& part);
 
   /// The vertex of that number in the user's mesh; invalid when it was removed. O(n).
@@ -43,7 +43,7 @@ struct WorkingCopy {
   [[nodiscard]] bool has_inserted() const { return n_vertices_named > n_input_vertices; }
   /// Drops erased triangles and removed vertices from mesh and order.
   Compaction compact();
-  /// Out of the frame, and in the user's order, then in the order of insertion; what was removed leaves no gap. The
+  /// Out of the units, and in the user's order, then in the order of insertion; what was removed leaves no gap. The
   /// copy stays as it is, or is used up.
   [[nodiscard]] Mesh in_user_terms(Executor* executor = nullptr) const&;
   [[nodiscard]] Mesh in_user_terms(Executor* executor = nullptr) &&;

@@ -1,6 +1,4 @@
 // The map to the page, and clipping: what is inside stays, what is outside goes, whatever lies far away.
-#include "draw/frame.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "draw/viewport.hpp"
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 
@@ -72,7 +71,7 @@ TEST(Frames, EveryVertexIsInsideThePanel) {
   for (const double scale : {1e-12, 1.0, 1e12}) {
     const Mesh mesh = test::lattice({.n = 8, .scale = scale, .offset = {1e6 * scale, -1e6 * scale}});
     const std::array<const Mesh*, 1> meshes = {&mesh};
-    const PageFrame frame = make_frame(meshes, {});
+    const Viewport frame = make_viewport(meshes, {});
     EXPECT_EQ(frame.width, 900);
     for (VertexId v : mesh.vertices()) {
       const GridPoint g = frame.grid(mesh.position(v));
@@ -88,7 +87,7 @@ TEST(Frames, TheGridIsFinerThanAHundredthOfAnEdge) {
   for (const int n : {4, 40}) {
     const Mesh mesh = test::lattice({.n = n});
     const std::array<const Mesh*, 1> meshes = {&mesh};
-    const PageFrame frame = make_frame(meshes, {});
+    const Viewport frame = make_viewport(meshes, {});
     EXPECT_LE(frame.unit * 100, frame.edge);
     EXPECT_TRUE(frame.shows_detail());
   }
@@ -99,15 +98,15 @@ TEST(Frames, AZoomBoxThatIsTurnedRoundOrEmptyStillMakesAPanel) {
   const std::array<const Mesh*, 1> meshes = {&mesh};
   DrawOptions options;
   options.zoom = Box{{2, 2}, {1, 1}};
-  const PageFrame turned = make_frame(meshes, options);
+  const Viewport turned = make_viewport(meshes, options);
   EXPECT_LE(turned.box.low.x, 1);
   EXPECT_GE(turned.box.high.x, 2);
   options.zoom = Box{{1, 1}, {1, 1}};
-  EXPECT_GT(make_frame(meshes, options).scale, 0);
-  EXPECT_TRUE(std::isfinite(make_frame(meshes, options).scale));
+  EXPECT_GT(make_viewport(meshes, options).scale, 0);
+  EXPECT_TRUE(std::isfinite(make_viewport(meshes, options).scale));
   const Mesh nothing;
   const std::array<const Mesh*, 1> none = {&nothing};
-  EXPECT_TRUE(std::isfinite(make_frame(none, {}).scale));
+  EXPECT_TRUE(std::isfinite(make_viewport(none, {}).scale));
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "draw/frame.hpp"
 #include "draw/text.hpp"
+#include "draw/viewport.hpp"
 #include "unit/draw/svg_reading.hpp"
 
 namespace temper {

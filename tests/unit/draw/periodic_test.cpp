@@ -1,7 +1,7 @@
 // Periodic planes in pictures: the domain and a margin, where everything goes on.
 #include <gtest/gtest.h>
 
-#include "draw/frame.hpp"
+#include "draw/viewport.hpp"
 #include "temper/draw.hpp"
 #include "temper/generate.hpp"
 #include "unit/draw/svg_reading.hpp"
@@ -15,7 +15,7 @@ TEST(DrawPeriodic, TheDomainIsShownAndItsEdgesAreMarked) {
   test::expect_well_formed(svg);
   EXPECT_NE(svg.find("class=\"period\""), std::string::npos);
   const std::array<const Mesh*, 1> meshes = {&mesh};
-  const PageFrame frame = make_frame(meshes, {});
+  const Viewport frame = make_viewport(meshes, {});
   EXPECT_LT(frame.box.low.x, 0);
   EXPECT_GT(frame.box.high.x, 2);
   EXPECT_LT(frame.box.high.x, 2.2);
@@ -27,7 +27,7 @@ TEST(DrawPeriodic, TheDomainIsShownAndItsEdgesAreMarked) {
 TEST(DrawPeriodic, TheMarginIsFull) {
   const Mesh mesh = *periodic_hexagons({.nx = 40, .ny = 40});
   const std::array<const Mesh*, 1> meshes = {&mesh};
-  const PageFrame frame = make_frame(meshes, {});
+  const Viewport frame = make_viewport(meshes, {});
   const Vec2 period = mesh.space().period(), shown = frame.clip.high - frame.clip.low;
   const double times = shown.x * shown.y / (period.x * period.y);
   EXPECT_GT(times, 1.2);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "draw/frame.hpp"
+#include "draw/viewport.hpp"
 #include "temper/draw.hpp"
 #include "temper/generate.hpp"
 #include "unit/draw/svg_reading.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "draw/frame.hpp"
+#include "draw/viewport.hpp"
 
 namespace temper::test {
 

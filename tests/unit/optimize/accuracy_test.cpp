@@ -275,7 +275,7 @@ TEST(Accuracy, HoldsASizeBand) {
 Mesh second_phase(const Mesh& input, const OptimizeOptions& options, std::size_t part_size,
                   const OptimizeHooks& hooks = {}) {
   WorkingCopy work(input, options.paper.order);
-  const Settings settings = *make_settings(options, work.mesh, work.frame, hooks);
+  const Settings settings = *make_settings(options, work.mesh, work.units, hooks);
   Run run(options, hooks, input);
   AccuracySizes sizes(NearbyCopy(input, hooks.executor), options.size_field, hooks.executor);
   AccuracyPhase phase(work, settings, run, sizes.lend(work, hooks.executor));
@@ -415,7 +415,7 @@ TEST(Accuracy, SizesAreSmoothedAndGoWithTheirVertices) {
   WorkingCopy work(mesh, SweepOrder::hilbert);
   const VertexSizes here = sizes.of(work, nullptr), back = sizes.in_user_terms(work, nullptr);
   for (const VertexId v : mesh.vertices()) {
-    EXPECT_EQ(here[v] * work.frame.scale, sizes.of_input()[work.order.vertices[v]]);
+    EXPECT_EQ(here[v] * work.units.scale, sizes.of_input()[work.order.vertices[v]]);
     EXPECT_EQ(back[v], sizes.of_input()[v]);
   }
   const AccuracySizes own(near, input_size_field(mesh), nullptr);

@@ -65,14 +65,14 @@ struct Alone {
         state(settings),
         recorder(settings.hooks.tracer, work, 1),
         flipper(work.mesh, settings, state, recorder),
-        limits(work.mesh, settings, work.frame),
-        step({work.mesh, settings, with_domain(state, task), work.frame, limits, recorder}, flipper) {}
+        limits(work.mesh, settings, work.units),
+        step({work.mesh, settings, with_domain(state, task), work.units, limits, recorder}, flipper) {}
 
   static Settings settings_of(const WorkingCopy& work, const EnergyModel& model, const AccuracyTask* task) {
     OptimizeOptions options;
     options.energy = model.kind;
     if (task != nullptr) options.flips = Flips::none;
-    Settings settings = *make_settings(options, work.mesh, work.frame);
+    Settings settings = *make_settings(options, work.mesh, work.units);
     settings.model = model;
     if (task != nullptr) settings.accuracy = task->model;
     return settings;

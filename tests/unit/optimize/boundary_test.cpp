@@ -79,7 +79,7 @@ class Actor {
     const auto corners = mesh().corners(any_triangle());
     const auto [a, b, c] = corners;
     const Vec2 sum = mesh().position(a) + mesh().position(b) + mesh().position(c);
-    const Vec2 p = work_.frame.snap((1.0 / 3) * sum);
+    const Vec2 p = work_.units.snap((1.0 / 3) * sum);
     if (!is_triangle(a, b, p) || !is_triangle(b, c, p) || !is_triangle(c, a, p)) return;
     const TriangleId t = Mesh::triangle(mesh().find_halfedge(a, b));
     const VertexId v = insert_in_triangle(mesh(), t, {p.x, p.y, rng_.uniform(-1, 1)});
@@ -91,7 +91,7 @@ class Actor {
     const VertexId a = mesh().origin(h), b = mesh().target(h), c = mesh().opposite(h);
     const VertexId d = twin.valid() ? mesh().opposite(twin) : VertexId();
     const double t = rng_.uniform(0.3, 0.7);
-    const Vec2 p = work_.frame.snap((1 - t) * mesh().position(a) + t * mesh().position(b));
+    const Vec2 p = work_.units.snap((1 - t) * mesh().position(a) + t * mesh().position(b));
     if (!is_triangle(b, c, p) || !is_triangle(c, a, p)) return;
     if (d.valid() && (!is_triangle(a, d, p) || !is_triangle(d, b, p))) return;
     const VertexId v = split_edge(mesh(), h, {p.x, p.y, rng_.uniform(-1, 1)});
@@ -406,7 +406,7 @@ TEST(Boundary, CutsWhereTrianglesAreBadAreAtTheirCornersAlone) {
   const Mesh input = uneven_strip();
   const OptimizeOptions options = {.boundary = BoundaryVertices::split};
   WorkingCopy work(input, options.paper.order);
-  auto settings = make_settings(options, input, Frame::of(input), {});
+  auto settings = make_settings(options, input, WorkingUnits::of(input), {});
   ASSERT_TRUE(settings);
   const Tracer nobody;
   const Recorder recorder(nobody, work, 1);

@@ -1,8 +1,7 @@
-// The optimiser's frame is left exactly as it was entered.
-#include "optimize/working/frame.hpp"
-
+// The optimiser's units is left exactly as it was entered.
 #include <gtest/gtest.h>
 
+#include "optimize/working/working_units.hpp"
 #include "support/lattice.hpp"
 
 namespace temper::test {
@@ -12,15 +11,15 @@ class FrameRoundTrip : public testing::TestWithParam<LatticeOptions> {};
 
 TEST_P(FrameRoundTrip, IsBitForBit) {
   const Mesh mesh = lattice(GetParam());
-  const Frame frame = Frame::of(mesh);
+  const WorkingUnits units = WorkingUnits::of(mesh);
   Mesh there = mesh;
-  frame.enter(there);
+  units.enter(there);
   for (const VertexId v : there.vertices()) {
     EXPECT_LE(std::abs(there.position(v).x), 16);
     EXPECT_LE(std::abs(there.position(v).y), 16);
-    EXPECT_EQ(frame.snap(there.position(v)), there.position(v));
+    EXPECT_EQ(units.snap(there.position(v)), there.position(v));
   }
-  frame.leave(there);
+  units.leave(there);
   EXPECT_EQ(there, mesh);
 }
 
@@ -31,24 +30,24 @@ INSTANTIATE_TEST_SUITE_P(Everywhere, FrameRoundTrip,
                                          LatticeOptions{.scale = 3, .offset = {1e9, 1e9}},
                                          LatticeOptions{.scale = 1e-3, .offset = {1, 0.001}}));
 
-TEST(Frame, KeepsTheSignOfAZero) {
+TEST(WorkingUnits, KeepsTheSignOfAZero) {
   Mesh mesh = lattice({});
   const VertexId v(0);
   mesh.set_point(v, {-0.0, -0.0, -0.0});
-  const Frame frame = Frame::of(mesh);
-  frame.enter(mesh);
-  frame.leave(mesh);
+  const WorkingUnits units = WorkingUnits::of(mesh);
+  units.enter(mesh);
+  units.leave(mesh);
   EXPECT_TRUE(std::signbit(mesh.position(v).x) && std::signbit(mesh.position(v).y) && std::signbit(mesh.weight(v)));
 }
 
-TEST(Frame, SnapsToWhatTheUsersCoordinatesCanHold) {
+TEST(WorkingUnits, SnapsToWhatTheUsersCoordinatesCanHold) {
   const Mesh mesh = lattice({.offset = {1e6, 1e6}});
-  const Frame frame = Frame::of(mesh);
+  const WorkingUnits units = WorkingUnits::of(mesh);
   Noise noise(5);
   for (int i = 0; i < 1000; ++i) {
-    const Vec2 p = frame.snap(Vec2{noise(), noise()});
-    const double user = p.x * frame.scale + frame.center.x;
-    EXPECT_EQ((user - frame.center.x) / frame.scale, p.x);
+    const Vec2 p = units.snap(Vec2{noise(), noise()});
+    const double user = p.x * units.scale + units.center.x;
+    EXPECT_EQ((user - units.center.x) / units.scale, p.x);
   }
 }
 

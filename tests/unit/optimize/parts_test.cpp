@@ -41,7 +41,7 @@ struct SweptMesh {
 SweptMesh swept(const Mesh& input, const OptimizeOptions& options, std::size_t part_size = kSmallPart,
                 const OptimizeHooks& hooks = {}) {
   WorkingCopy work(input, options.paper.order);
-  Settings settings = *make_settings(options, work.mesh, work.frame, hooks);
+  Settings settings = *make_settings(options, work.mesh, work.units, hooks);
   if (options.size_band) settings.size_field = input_size_field_of(input);
   SweepState state(settings);
   Run run(options, hooks, input);
@@ -326,8 +326,8 @@ bool has_corner_in(const Mesh& mesh, TriangleId t, const Part& part) {
 std::size_t improve_part(WorkingCopy& work, const Settings& settings, const Part& part) {
   const SweepState state(settings);
   const Recorder recorder(settings.hooks.tracer, work, 1);
-  VertexLimits limits(work.mesh, settings, work.frame);
-  Improver improver({work.mesh, settings, state, work.frame, limits, recorder});
+  VertexLimits limits(work.mesh, settings, work.units);
+  Improver improver({work.mesh, settings, state, work.units, limits, recorder});
   std::vector<VertexId> vertices, left;
   for (const VertexId v : work.mesh.vertices()) {
     if (part.contains(v)) vertices.push_back(v);
@@ -342,7 +342,7 @@ std::size_t improve_part(WorkingCopy& work, const Settings& settings, const Part
 
 struct OnePart {
   OnePart(const Mesh& input, const OptimizeOptions& options)
-      : work(input, SweepOrder::hilbert), settings(*make_settings(options, work.mesh, work.frame)) {
+      : work(input, SweepOrder::hilbert), settings(*make_settings(options, work.mesh, work.units)) {
     settings.model.gamma = {0.3, LengthScale::relative};
     SerialExecutor executor;
     cuts.cut(work.mesh, 3, executor);
@@ -405,9 +405,9 @@ TEST(OnePart, UndoesAStepWhoseFlipsWouldLeaveIt) {
               {.energy = EnergyKind::T, .paper = {.flip_limit = FlipLimit::unlimited}});
   Mesh& mesh = one.work.mesh;
   const Recorder recorder(one.settings.hooks.tracer, one.work, 1);
-  VertexLimits limits(mesh, one.settings, one.work.frame);
+  VertexLimits limits(mesh, one.settings, one.work.units);
   const SweepState state(one.settings);
-  Improver improver({mesh, one.settings, state, one.work.frame, limits, recorder});
+  Improver improver({mesh, one.settings, state, one.work.units, limits, recorder});
   improver.step().begin_sweep(0, one.settings.options.unknowns);
   std::size_t escapes = 0;
   for (std::size_t first = 0; first + kTiny <= mesh.n_vertices(); first += kTiny) {

@@ -45,12 +45,13 @@ TEST(RepairByProgramme, IsTracedLikeAllElse) {
 TEST(RepairByProgramme, OfAPlaceChangesWeightsNearItAndNoneOfTheRim) {
   const Mesh mesh = test::layers({.columns = 10, .rows = 20, .growth = 1.7});
   const OptimizeOptions options;
-  auto settings = make_settings(options, mesh, Frame::of(mesh), {.solvers = solvers()});
+  auto settings = make_settings(options, mesh, WorkingUnits::of(mesh), {.solvers = solvers()});
   ASSERT_TRUE(settings);
   std::size_t cured = 0;
   for (std::size_t t = 0; t < mesh.n_triangles(); t += 37) {
     const Neighborhood around = neighborhood_of(mesh, TriangleId(t), 3);
-    const TrialResult result = try_edit(around, {.kind = Edit::assign_weights}, *settings, Frame::of(mesh), true);
+    const TrialResult result =
+        try_edit(around, {.kind = Edit::assign_weights}, *settings, WorkingUnits::of(mesh), true);
     if (!result.valid) continue;
     cured += result.defect < defect_of(around.mesh) ? 1 : 0;
     for (const TraceEvent& e : result.events) {

@@ -105,7 +105,7 @@ TEST(Repair, OfOnePlaceInALargeMeshChangesNothingElsewhere) {
   const OptimizeOptions options;
   const OptimizeHooks nobody;
   temper::Run run(options, nobody, input);
-  auto settings = make_settings(options, input, Frame::of(input), {});
+  auto settings = make_settings(options, input, WorkingUnits::of(input), {});
   ASSERT_TRUE(settings);
   SweepState state(*settings);
   const Candidate mended = repaired({WorkingCopy(input, options.paper.order)}, *settings, state, run);
@@ -130,7 +130,7 @@ TEST(Repair, IsKeptWhereItIsNoWorseAndCameAndWentForSomething) {
   bad.set_point(moved, {from.x, from.y + 0.4, 0});
   ASSERT_GT(n_bad(bad), n_bad(good));
   const OptimizeOptions options;
-  const auto settings = make_settings(options, good, Frame::of(good), {});
+  const auto settings = make_settings(options, good, WorkingUnits::of(good), {});
   ASSERT_TRUE(settings);
   const Candidate cured = {WorkingCopy(good, options.paper.order)}, ill = {WorkingCopy(bad, options.paper.order)};
   EXPECT_TRUE(has_gained(cured, ill, *settings, settings->model));
@@ -257,15 +257,15 @@ TEST(Neighborhood, IsAValidPartWithItsRimFrozen) {
 TEST(Trial, LeavesFrozenVerticesAndTellsWhatItDid) {
   Mesh mesh = *horseshoe();
   ASSERT_TRUE(optimize(mesh, {.repair = Repair::none, .max_sweeps = 40}));
-  Settings settings = *make_settings({}, mesh, Frame());
+  Settings settings = *make_settings({}, mesh, WorkingUnits());
   std::size_t applied = 0;
   for (const TriangleId t : mesh.triangles()) {
     const Neighborhood around = neighborhood_of(mesh, t, 1);
     const auto [a, b, c] = around.mesh.corners(TriangleId(0));
     const Vec2 middle = (1.0 / 3) * (around.mesh.position(a) + around.mesh.position(b) + around.mesh.position(c));
     const Edit edit{.kind = Edit::insert, .triangle = TriangleId(0), .place = {middle.x, middle.y}};
-    const TrialResult quiet = try_edit(around, edit, settings, Frame(), false);
-    const TrialResult told = try_edit(around, edit, settings, Frame(), true);
+    const TrialResult quiet = try_edit(around, edit, settings, WorkingUnits(), false);
+    const TrialResult told = try_edit(around, edit, settings, WorkingUnits(), true);
     EXPECT_EQ(quiet.valid, told.valid);
     EXPECT_EQ(quiet.defect, told.defect);
     if (!told.valid) continue;

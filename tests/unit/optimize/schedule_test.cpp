@@ -12,7 +12,7 @@ EnergyInfo row(std::string_view name) { return *find_energy(name); }
 
 std::span<const Attempt> attempts_of(std::string_view energy, OptimizeOptions options, const Mesh& mesh) {
   options.energy = row(energy).kind;
-  return attempts(*make_settings(options, mesh, Frame::of(mesh)), mesh);
+  return attempts(*make_settings(options, mesh, WorkingUnits::of(mesh)), mesh);
 }
 
 TEST(Schedule, ShrinksGammaToItsFloorInEveryAttempt) {

@@ -104,7 +104,7 @@ TEST(VerifyLaws, ThreadsDoNotChangeAByte) {
 struct Naive {
   const Mesh& mesh;
   const Field& field;
-  VerifyFrame frame = verify_frame(mesh);
+  FieldFrame frame = field_frame(mesh);
   DecComplex complex = dec(mesh);
 
   Vec2 in_frame(Vec2 p) const { return (1 / frame.half_size) * (p - frame.center); }
@@ -381,7 +381,7 @@ TEST(VerifyComparison, RefusesOtherFieldsAndOtherFrames) {
   const Mesh mesh = lattice();
   const VerifyReport report = verified(mesh);
   EXPECT_FALSE(error_ratios(report, verified(mesh, {.fields = {"chosen"}})));
-  EXPECT_FALSE(error_ratios(report, verified(mesh, {.frame = VerifyFrame{{0, 0}, 3}})));
+  EXPECT_FALSE(error_ratios(report, verified(mesh, {.frame = FieldFrame{{0, 0}, 3}})));
   EXPECT_TRUE(error_ratios(report, verified(lattice({.seed = 4}), {.frame = report.frame})));
 }
 
@@ -394,8 +394,8 @@ TEST(VerifyOptionErrors, AreNamed) {
   EXPECT_TRUE(message(mesh, {.fields = {"sine"}}).starts_with("invalid_option: no field 'sine'"));
   EXPECT_EQ(message(mesh, {.refine = -1}), "invalid_option: refine is negative");
   EXPECT_EQ(message(mesh, {.refine = 100}), "invalid_option: refining 100 times makes more than 8000000 triangles");
-  EXPECT_TRUE(message(mesh, {.frame = VerifyFrame{{0, 0}, 0}}).starts_with("invalid_option: the frame"));
-  EXPECT_TRUE(message(mesh, {.frame = VerifyFrame{{NAN, 0}, 1}}).starts_with("invalid_option: the frame"));
+  EXPECT_TRUE(message(mesh, {.frame = FieldFrame{{0, 0}, 0}}).starts_with("invalid_option: the frame"));
+  EXPECT_TRUE(message(mesh, {.frame = FieldFrame{{NAN, 0}, 1}}).starts_with("invalid_option: the frame"));
   EXPECT_EQ(message(Mesh(), {}), "empty_input: the mesh has no triangles");
 }
 

@@ -23,7 +23,7 @@ VerifyReport report_of(const Mesh& mesh, const VerifyOptions& options = {}) {
 /// The fields of a plane with these periods.
 std::vector<verify_detail::Field> fourier_fields(Vec2 period) {
   auto fields = verify_detail::select_fields({}, SpaceKind::periodic_plane);
-  const VerifyFrame frame{{0, 0}, 0.5 * std::max(period.x, period.y)};
+  const FieldFrame frame{{0, 0}, 0.5 * std::max(period.x, period.y)};
   for (auto& field : *fields) field.wave = verify_detail::first_waves(Space::periodic(period), frame);
   return *fields;
 }

@@ -11,20 +11,20 @@
 
 namespace temper {
 
-struct Frame {
+struct WorkingUnits {
   Vec2 center;       ///< in the user's units; of the sphere 0
-  Vec2 rounding;     ///< what is added to a moved position and taken away again, in units of the frame
+  Vec2 rounding;     ///< what is added to a moved position and taken away again, in units of the units
   double scale = 1;  ///< user's length of one unit here; a power of two
   Space space;       ///< of the mesh, in the user's units
 
-  /// The frame of a mesh in the user's coordinates.
-  [[nodiscard]] static Frame of(const Mesh& mesh);
+  /// The units of a mesh in the user's coordinates.
+  [[nodiscard]] static WorkingUnits of(const Mesh& mesh);
 
-  /// Into the frame and back. Unmoved vertices come back bit for bit.
+  /// Into the units and back. Unmoved vertices come back bit for bit.
   void enter(Mesh& mesh) const;
   void leave(Mesh& mesh) const;
 
-  /// A point of the frame in the user's units, in the domain of periods, and back. Exact where the frame keeps to the
+  /// A point of the units in the user's units, in the domain of periods, and back. Exact where the units keeps to the
   /// user's grid, and the sign of a zero is kept: −0 + 0 would be +0.
   [[nodiscard]] WeightedPoint to_user(const WeightedPoint& p) const {
     const double x = p.x * scale, y = p.y * scale;

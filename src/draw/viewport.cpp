@@ -1,4 +1,4 @@
-#include "draw/frame.hpp"
+#include "draw/viewport.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -183,36 +183,37 @@ double grid_unit(double edge_pixels) {
 
 }  // namespace
 
-GridPoint PageFrame::grid(Vec2 p) const {
+GridPoint Viewport::grid(Vec2 p) const {
   const double steps = scale / unit;
   return {std::llround((p.x - box.low.x) * steps), std::llround((box.high.y - p.y) * steps)};
 }
 
-std::int64_t PageFrame::steps(double pixels) const { return std::llround(pixels / unit); }
+std::int64_t Viewport::steps(double pixels) const { return std::llround(pixels / unit); }
 
-PageFrame make_frame(std::span<const Mesh* const> meshes, const DrawOptions& options) {
-  PageFrame frame;
-  frame.view = make_view(meshes, options);
-  Box box = options.zoom ? ordered(*options.zoom) : bounding_box(meshes, frame.view);
+Viewport make_viewport(std::span<const Mesh* const> meshes, const DrawOptions& options) {
+  Viewport viewport;
+  viewport.view = make_view(meshes, options);
+  Box box = options.zoom ? ordered(*options.zoom) : bounding_box(meshes, viewport.view);
   double side = larger_side(box);
   if (!(side > 0) || !std::isfinite(side)) {
-    box = grown(bounding_box(meshes, frame.view), 0.5);
+    box = grown(bounding_box(meshes, viewport.view), 0.5);
     side = larger_side(box);
   }
   if (!options.zoom) box = grown(box, margin(meshes, options, side));
 
-  frame.width = options.width >= kLeastWidth ? options.width : kLeastWidth;
+  viewport.width = options.width >= kLeastWidth ? options.width : kLeastWidth;
   const double w = box.high.x - box.low.x, h = box.high.y - box.low.y;
   const double ratio = w > 0 ? std::clamp(h / w, kFlattest, kTallest) : kTallest;
-  frame.height = std::round(frame.width * ratio);
-  frame.scale = std::min(w > 0 ? frame.width / w : frame.height / h, h > 0 ? frame.height / h : frame.width / w);
+  viewport.height = std::round(viewport.width * ratio);
+  viewport.scale =
+      std::min(w > 0 ? viewport.width / w : viewport.height / h, h > 0 ? viewport.height / h : viewport.width / w);
   const Vec2 center = 0.5 * (box.low + box.high);
-  const Vec2 half = {frame.width / (2 * frame.scale), frame.height / (2 * frame.scale)};
-  frame.box = {center - half, center + half};
-  frame.clip = grown(frame.box, kClipMargin * larger_side(frame.box));
-  frame.edge = median_edge(meshes, frame.view, frame.clip) * frame.scale;
-  frame.unit = grid_unit(frame.edge);
-  return frame;
+  const Vec2 half = {viewport.width / (2 * viewport.scale), viewport.height / (2 * viewport.scale)};
+  viewport.box = {center - half, center + half};
+  viewport.clip = grown(viewport.box, kClipMargin * larger_side(viewport.box));
+  viewport.edge = median_edge(meshes, viewport.view, viewport.clip) * viewport.scale;
+  viewport.unit = grid_unit(viewport.edge);
+  return viewport;
 }
 
 std::optional<Segment> clip(const Segment& s, const Box& box) {

@@ -75,7 +75,7 @@ struct Segment {
   Vec2 from, to;
 };
 
-struct PageFrame {
+struct Viewport {
   static constexpr double kLeastDetail = 6;   ///< pixels of a median edge, for duals and weights
   static constexpr double kLeastEdges = 1.5;  ///< for the edges themselves: closer lines are one grey
 
@@ -94,8 +94,8 @@ struct PageFrame {
   [[nodiscard]] std::int64_t steps(double pixels) const;
 };
 
-/// One frame for all meshes: the zoom box, or what holds all their vertices that are seen.
-[[nodiscard]] PageFrame make_frame(std::span<const Mesh* const> meshes, const DrawOptions& options);
+/// One viewport for all meshes: the zoom box, or what holds all their vertices that are seen.
+[[nodiscard]] Viewport make_viewport(std::span<const Mesh* const> meshes, const DrawOptions& options);
 
 /// The part of a segment inside the box; nothing when it misses it or is not finite.
 [[nodiscard]] std::optional<Segment> clip(const Segment& segment, const Box& box);

@@ -1,4 +1,4 @@
-#include "optimize/working/frame.hpp"
+#include "optimize/working/working_units.hpp"
 
 #include <cmath>
 
@@ -15,32 +15,32 @@ double center_of(double low, double high) {
 
 }  // namespace
 
-Frame Frame::of(const Mesh& mesh) {
-  Frame frame;
-  frame.space = mesh.space();
+WorkingUnits WorkingUnits::of(const Mesh& mesh) {
+  WorkingUnits units;
+  units.space = mesh.space();
   if (!mesh.space().is_plane()) {
-    frame.scale = std::exp2(std::ilogb(mesh.space().radius()));
-    return frame;
+    units.scale = std::exp2(std::ilogb(mesh.space().radius()));
+    return units;
   }
   Box box;
   for (const VertexId v : mesh.vertices()) box.add(mesh.position(v));
   const auto& [low, high] = box;
   const Vec2 period = mesh.space().period();
-  frame.center = {period.x > 0 ? 0 : center_of(low.x, high.x), period.y > 0 ? 0 : center_of(low.y, high.y)};
-  frame.scale = std::exp2(std::ilogb(box.longer_side()));
+  units.center = {period.x > 0 ? 0 : center_of(low.x, high.x), period.y > 0 ? 0 : center_of(low.y, high.y)};
+  units.scale = std::exp2(std::ilogb(box.longer_side()));
   const auto rounding_of_axis = [&](double middle, double period_there) {
-    return period_there > 0 ? Space::rounding_of(period_there / frame.scale) : middle / frame.scale;
+    return period_there > 0 ? Space::rounding_of(period_there / units.scale) : middle / units.scale;
   };
-  frame.rounding = {rounding_of_axis(frame.center.x, period.x), rounding_of_axis(frame.center.y, period.y)};
-  return frame;
+  units.rounding = {rounding_of_axis(units.center.x, period.x), rounding_of_axis(units.center.y, period.y)};
+  return units;
 }
 
-void Frame::enter(Mesh& mesh) const {
+void WorkingUnits::enter(Mesh& mesh) const {
   mesh.set_space(space.in_units_of(scale));
   for (const VertexId v : mesh.vertices()) mesh.set_point(v, from_user(mesh.point(v)));
 }
 
-void Frame::leave(Mesh& mesh) const {
+void WorkingUnits::leave(Mesh& mesh) const {
   mesh.set_space(space);
   for (const VertexId v : mesh.vertices()) mesh.set_point(v, to_user(mesh.point(v)));
 }
