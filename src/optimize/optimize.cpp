@@ -66,12 +66,12 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
                    : best_attempt(input, settings, state, run);
   if (!found) return found.error();
   Candidate best = *std::move(found);
-  input.fold();
+  input.drop_twins();
   best = reweighted(std::move(best), input, settings, state, run);
   best = repaired(std::move(best), settings, state, run);
   if (sizes) improve<AccuracyPhase>(best, settings, run, *sizes);
   if (settings.objective == Objective::error) improve<ErrorPhase>(best, settings, run, *sizes);
-  give_back(input.whole(), std::move(best), settings, state, of_input, std::move(sizes), run);
+  give_back(input.restore_twins(), std::move(best), settings, state, of_input, std::move(sizes), run);
   return std::move(run.report);
 }
 

@@ -159,16 +159,17 @@ Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, Swe
     if (best && !may_gain(i)) continue;
     const BestBefore kept(run.best_before, best ? &best->work : nullptr);
     const bool goes_on = all[i].splitting == BoundarySplitting::where_bad;
-    Candidate now = goes_on ? *best : Candidate{WorkingCopy(input.whole(), settings.policy.order, settings.executor())};
+    Candidate now =
+        goes_on ? *best : Candidate{WorkingCopy(input.restore_twins(), settings.policy.order, settings.executor())};
     Driver driver(now.work, settings, state, run);
     if (best) driver.recorder().returned_to(goes_on ? best->sweep : -1);
-    if (auto error = prepare(driver, input.whole(), settings, all[i])) return *std::move(error);
+    if (auto error = prepare(driver, input.restore_twins(), settings, all[i])) return *std::move(error);
     if (!best) {
       if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
       all = attempts_for(now.work.mesh, settings);
       run.facts.input_flips = run.report.flips;
     }
-    input.fold();
+    input.drop_twins();
     const Attempt& attempt = all[i];
     now.sweep = driver.attempt(attempt, i + 1 < all.size() || repairs(settings));
     // The user asks for cuts: without them fewer triangles have to be bad.
@@ -198,12 +199,12 @@ Candidate reweighted(Candidate best, InputMesh& input, const Settings& settings,
   if (!may || !run.goes_on() || !has_bad(best, settings) || are_apart(best, settings)) return best;
   const BestBefore kept(run.best_before, &best.work);
   for (std::size_t i = 0; i < tries.size(); ++i) {
-    Candidate now{WorkingCopy(input.whole(), own.policy.order, own.executor())};
+    Candidate now{WorkingCopy(input.restore_twins(), own.policy.order, own.executor())};
     Driver driver(now.work, own, state, run);
     driver.recorder().returned_to(-1);
     driver.make_regular();  // it could be at the first attempt
     if (i == 0) tries = attempts_by_weights(now.work.mesh, own);
-    input.fold();
+    input.drop_twins();
     if (tries.empty()) {
       driver.recorder().returned_to(best.sweep);
       break;

@@ -69,16 +69,16 @@ class InputMesh {
   InputMesh(Mesh& mesh, bool may_fold, Executor* executor) : mesh_(mesh), may_fold_(may_fold), executor_(executor) {}
   InputMesh(const InputMesh&) = delete;
   InputMesh& operator=(const InputMesh&) = delete;
-  ~InputMesh() { whole(); }
+  ~InputMesh() { restore_twins(); }
 
   /// The mesh as the caller gave it.
-  Mesh& whole() {
+  Mesh& restore_twins() {
     if (folded_) find_twins(mesh_, executor_);
     folded_ = false;
     return mesh_;
   }
-  /// Nobody needs it until whole() is called.
-  void fold() {
+  /// Nobody needs it until restore_twins() is called.
+  void drop_twins() {
     if (!may_fold_) return;
     MeshEditor(mesh_).release_twins();
     folded_ = true;
