@@ -9,7 +9,7 @@
 #include "energy/whole_mesh.hpp"
 #include "mesh/predicates.hpp"
 #include "optimize/run/judge.hpp"
-#include "optimize/step/freedom.hpp"
+#include "optimize/step/dofs.hpp"
 #include "temper/detail/necessity.hpp"
 #include "temper/regularity.hpp"
 

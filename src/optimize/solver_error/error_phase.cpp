@@ -93,8 +93,8 @@ void Descent::learn(Vector step, Vector change) {
 ErrorPhase::ErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)
     : SizedPhase(work, of_errors(settings), run, std::move(sizes)), units_(work.units) {
   const auto mobility = mobilities(mesh_, settings_.options, settings_.executor());
-  freedom_.resize(mesh_.n_vertices());
-  for (const VertexId v : mesh_.vertices()) freedom_[v] = freedom(mesh_, v, mobility[v], settings_.options.unknowns);
+  dofs_.resize(mesh_.n_vertices());
+  for (const VertexId v : mesh_.vertices()) dofs_[v] = dofs(mesh_, v, mobility[v], settings_.options.unknowns);
 }
 
 void ErrorPhase::begin() {
@@ -213,7 +213,7 @@ void ErrorPhase::place(const IdVector<VertexId, WeightedPoint>& from, const Vect
     WeightedPoint p = from[v];
     const double s = t * domain_.sizes[v];
     const double* by = &step[3 * std::size_t{v.index}];
-    if (freedom_[v].moves()) {
+    if (dofs_[v].moves()) {
       const Vec2 to = units_.snap(Vec2{p.x + s * by[0], p.y + s * by[1]});
       p.x = to.x, p.y = to.y;
     }
@@ -226,7 +226,7 @@ void ErrorPhase::place(const IdVector<VertexId, WeightedPoint>& from, const Vect
 ErrorPhase::Vector ErrorPhase::scaled(const IdVector<VertexId, WeightedPoint>& gradient) const {
   Vector result(3 * mesh_.n_vertices(), 0.0);
   for (const VertexId v : mesh_.vertices()) {
-    const Freedom& free = freedom_[v];
+    const Dofs& free = dofs_[v];
     const double s = domain_.sizes[v];
     double* to = &result[3 * std::size_t{v.index}];
     if (free.moves()) to[0] = s * gradient[v].x, to[1] = s * gradient[v].y;

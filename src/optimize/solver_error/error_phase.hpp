@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "optimize/accuracy/accuracy_phase.hpp"
-#include "optimize/step/freedom.hpp"
+#include "optimize/step/dofs.hpp"
 
 namespace temper {
 
@@ -68,7 +68,7 @@ class ErrorPhase final : public SizedPhase {
   [[nodiscard]] Vector scaled(const IdVector<VertexId, WeightedPoint>& gradient) const;
 
   const WorkingUnits& units_;
-  IdVector<VertexId, Freedom> freedom_;
+  IdVector<VertexId, Dofs> dofs_;
   std::vector<double> start_;  // the errors then
   Value now_;
   Descent descent_;

@@ -68,15 +68,15 @@ Vector solve_absolute(int n, Matrix h, const Vector& minus_gradient) {
 
 }  // namespace
 
-NewtonStep newton_step(const VertexDerivatives& d, const Freedom& freedom, double radius) {
-  const int n = freedom.n;
+NewtonStep newton_step(const VertexDerivatives& d, const Dofs& dofs, double radius) {
+  const int n = dofs.n;
   const auto& [xx, xy, xw, yy, yw, ww] = d.hessian;
   const Matrix full = {{{xx, xy, xw}, {xy, yy, yw}, {xw, yw, ww}}};
   // Columns of the basis, scaled: unknown i moves the vertex by basis[i].
   Matrix basis = {};
   for (int i = 0; i < n; ++i) {
-    const double scale = freedom.axis[i][2] == 0 ? radius : radius * radius;
-    for (int k = 0; k < 3; ++k) basis[i][k] = scale * freedom.axis[i][k];
+    const double scale = dofs.axis[i][2] == 0 ? radius : radius * radius;
+    for (int k = 0; k < 3; ++k) basis[i][k] = scale * dofs.axis[i][k];
   }
   Matrix h = {};
   Vector g = {};
@@ -107,12 +107,12 @@ NewtonStep newton_step(const VertexDerivatives& d, const Freedom& freedom, doubl
 }
 
 std::optional<Step> steepest_descent(const Patch& patch, const EnergyModel& model, const WeightedPoint& p,
-                                     const Freedom& freedom, double reach) {
+                                     const Dofs& dofs, double reach) {
   Step direction = {};
   double norm2 = 0;
   const double h = kDifference * reach;
-  for (int i = 0; i < freedom.n; ++i) {
-    const Step& axis = freedom.axis[static_cast<std::size_t>(i)];
+  for (int i = 0; i < dofs.n; ++i) {
+    const Step& axis = dofs.axis[static_cast<std::size_t>(i)];
     const auto at = [&](double t) { return patch_energy(patch, model, along(patch.space, p, axis, t)); };
     const double slope = (at(h) - at(-h)) / (2 * h);
     if (!std::isfinite(slope)) return std::nullopt;

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "energy/patch.hpp"
-#include "optimize/step/freedom.hpp"
+#include "optimize/step/dofs.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {
@@ -22,7 +22,7 @@ struct NewtonStep {
 
 /// −|H|⁻¹ ∇E along the free directions, with unknowns scaled by (R, R, R²), eigenvalues taken absolute and floored,
 /// and the length limited to the trust radius R/2.
-[[nodiscard]] NewtonStep newton_step(const VertexDerivatives& d, const Freedom& freedom, double radius);
+[[nodiscard]] NewtonStep newton_step(const VertexDerivatives& d, const Dofs& dofs, double radius);
 
 /// The t in [0, limit] where f is least, up to `tolerance` × limit, when f has one minimum there; else a local one.
 /// f may be +∞. Costs 2 + log(1/tolerance)/log(1.618) evaluations.
@@ -49,7 +49,7 @@ double golden_section(Function&& f, double limit, double tolerance) {
 /// −∇E at p along the free directions, of length `reach`, R for positions, so many times R² for a weight. Nothing where
 /// E is infinite around p, or stationary.
 [[nodiscard]] std::optional<Step> steepest_descent(const Patch& patch, const EnergyModel& model, const WeightedPoint& p,
-                                                   const Freedom& freedom, double reach);
+                                                   const Dofs& dofs, double reach);
 
 /// The t in [0, limit] where E(p + t step) is least, by golden section.
 [[nodiscard]] double line_minimum(const Patch& patch, const EnergyModel& model, const WeightedPoint& p,

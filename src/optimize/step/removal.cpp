@@ -136,7 +136,7 @@ Filling replaced(const Mesh& mesh, const InsertionPlan& plan) {
 /// The point of least E_c that three line searches find.
 WeightedPoint best_position(const Patch& patch, const EnergyModel& model, WeightedPoint p,
                             const PaperSwitches& switches) {
-  const Freedom plane{2, {{{1, 0, 0}, {0, 1, 0}, {}}}};
+  const Dofs plane{2, {{{1, 0, 0}, {0, 1, 0}, {}}}};
   for (int i = 0; i < kPositionSearches; ++i) {
     const double energy = patch_energy(patch, model, p);
     const auto direction = steepest_descent(patch, model, p, plane, patch_radius(patch, p, switches.search_radius));

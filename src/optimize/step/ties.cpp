@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "mesh/edge_lengths.hpp"
-#include "optimize/step/freedom.hpp"
+#include "optimize/step/dofs.hpp"
 #include "topology/flip_inline.hpp"
 
 namespace temper {

@@ -110,12 +110,12 @@ void VertexStep::optimize_point(VertexId v) {
 
 void VertexStep::make_steps() {
   const Solver solver = settings.policy.solver;
-  const Freedom all = freedom_in(unknowns_);
+  const Dofs all = freedom_in(unknowns_);
   if (all.n == 0) return;
   if (solver == Solver::newton) return newton_search(all);
   const bool golden = solver == Solver::golden;
-  const auto search = [&](const Freedom& of) { golden ? golden_search(of) : newton_search(of); };
-  const Freedom positions = freedom_in(Unknowns::positions);
+  const auto search = [&](const Dofs& of) { golden ? golden_search(of) : newton_search(of); };
+  const Dofs positions = freedom_in(Unknowns::positions);
   for (int i = 0; i < (golden ? kPositionSearches : 1) && all.moves(); ++i) {
     search(positions);
     if (escapes_ || mesh.is_isolated(vertex_)) return;  // isolated: hidden, and removed
@@ -183,7 +183,7 @@ double VertexStep::short_of_flip(const Step& step, double t) const {
 
 /// One Newton step: over-relaxed, then plain, then halved until the energy falls. Where the size band holds the
 /// position, the weight alone.
-void VertexStep::newton_search(const Freedom& of) {
+void VertexStep::newton_search(const Dofs& of) {
   VertexDerivatives d = star_->derivatives(origin_);
   energy_ = d.value;
   if (!d.feasible) {
@@ -210,7 +210,7 @@ void VertexStep::newton_search(const Freedom& of) {
 }
 
 /// The paper's Algorithm 5: a finite-difference gradient, then golden section downhill within the patch radius.
-void VertexStep::golden_search(const Freedom& freedom) {
+void VertexStep::golden_search(const Dofs& dofs) {
   energy_ = star_->value(origin_);
   if (!std::isfinite(energy_)) {
     if (!enter_domain()) return;
@@ -219,8 +219,8 @@ void VertexStep::golden_search(const Freedom& freedom) {
   const Patch& patch = star_->patch();
   const Policy& o = settings.policy;
   const double r = patch_radius(patch, origin_, o.search_radius);
-  const double reach = freedom.moves() ? r : o.weight_search_radius * (r * r);
-  const auto direction = steepest_descent(patch, state.model, origin_, freedom, reach);
+  const double reach = dofs.moves() ? r : o.weight_search_radius * (r * r);
+  const auto direction = steepest_descent(patch, state.model, origin_, dofs, reach);
   if (!direction) return;
   const double limit = flip_limited(*direction, farthest(*direction));
   if (!(limit > 0)) return;

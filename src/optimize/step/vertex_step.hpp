@@ -12,7 +12,7 @@
 #include "optimize/flips/size_band.hpp"
 #include "optimize/options/settings.hpp"
 #include "optimize/step/descent.hpp"
-#include "optimize/step/freedom.hpp"
+#include "optimize/step/dofs.hpp"
 #include "optimize/step/star_objective.hpp"
 #include "optimize/trace/recorder.hpp"
 #include "optimize/working/working_copy.hpp"
@@ -100,13 +100,13 @@ class VertexStep : StepContext {
   void optimize_point(VertexId v);
   void remove_if_better(VertexId v);
   void make_steps();
-  [[nodiscard]] Freedom freedom_in(Unknowns unknowns) const {
-    return freedom(mesh, vertex_, limits.mobility[vertex_], unknowns);
+  [[nodiscard]] Dofs freedom_in(Unknowns unknowns) const {
+    return dofs(mesh, vertex_, limits.mobility[vertex_], unknowns);
   }
   [[nodiscard]] bool may_go(VertexId v) const { return limits.mobility[v] == Mobility::free; }
 
-  void newton_search(const Freedom& of);
-  void golden_search(const Freedom& freedom);
+  void newton_search(const Dofs& of);
+  void golden_search(const Dofs& dofs);
   bool gather(VertexId v);
   bool enter_domain();
 

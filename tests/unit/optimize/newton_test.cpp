@@ -9,8 +9,8 @@
 namespace temper::test {
 namespace {
 
-Freedom everything() {
-  Freedom f;
+Dofs everything() {
+  Dofs f;
   f.n = 3;
   f.axis = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   return f;
@@ -64,13 +64,13 @@ TEST(NewtonStep, GoesDownhillAndStaysInTheTrustRadiusWhateverTheCurvature) {
 
 TEST(NewtonStep, MovesOnlyAlongFreeDirections) {
   const VertexDerivatives d = quadratic({2, 0.3, 0.1, 1, 0.2, 3}, {0.1, -0.2, 0.1});
-  Freedom along;
+  Dofs along;
   along.n = 1;
   along.axis[0] = {0.6, 0.8, 0};
   const NewtonStep step = newton_step(d, along, 1);
   EXPECT_NEAR(step.step[0] * 0.8, step.step[1] * 0.6, 1e-15);
   EXPECT_EQ(step.step[2], 0);
-  const NewtonStep weight = newton_step(d, Freedom{1, {{{0, 0, 1}}}}, 1);
+  const NewtonStep weight = newton_step(d, Dofs{1, {{{0, 0, 1}}}}, 1);
   EXPECT_EQ(weight.step[0], 0);
   EXPECT_EQ(weight.step[1], 0);
   EXPECT_NEAR(weight.step[2], -d.gradient[2] / d.hessian[5], 1e-15);

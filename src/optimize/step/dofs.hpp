@@ -1,4 +1,4 @@
-// The freedom of a vertex: the directions in (x, y, w) that it may go; on the sphere in its chart.
+// The degrees of freedom of a vertex: the directions in (x, y, w) that it may go; on the sphere in its chart.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace temper {
 
-struct Freedom {
+struct Dofs {
   int n = 0;                                       ///< number of directions
   std::array<std::array<double, 3>, 3> axis = {};  ///< position directions are unit vectors; the weight's is (0, 0, 1)
   [[nodiscard]] bool moves() const { return n > 0 && axis[0][2] == 0; }
@@ -30,6 +30,6 @@ enum class Mobility : std::uint8_t {
                                                       Executor* executor = nullptr);
 
 /// The directions that a vertex of that mobility is optimised in.
-[[nodiscard]] Freedom freedom(const Mesh& mesh, VertexId v, Mobility mobility, Unknowns unknowns);
+[[nodiscard]] Dofs dofs(const Mesh& mesh, VertexId v, Mobility mobility, Unknowns unknowns);
 
 }  // namespace temper

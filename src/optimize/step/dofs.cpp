@@ -1,4 +1,4 @@
-#include "optimize/step/freedom.hpp"
+#include "optimize/step/dofs.hpp"
 
 #include <cmath>
 
@@ -38,7 +38,7 @@ FixedLine fixed_line(const Mesh& mesh, VertexId v) {
   return {FixedLine::straight, (1 / length(along)) * along};
 }
 
-void add_axis(Freedom& f, std::array<double, 3> axis) { f.axis[static_cast<std::size_t>(f.n++)] = axis; }
+void add_axis(Dofs& f, std::array<double, 3> axis) { f.axis[static_cast<std::size_t>(f.n++)] = axis; }
 
 }  // namespace
 
@@ -59,8 +59,8 @@ IdVector<VertexId, Mobility> mobilities(const Mesh& mesh, const OptimizeOptions&
   return result;
 }
 
-Freedom freedom(const Mesh& mesh, VertexId v, Mobility mobility, Unknowns unknowns) {
-  Freedom f;
+Dofs dofs(const Mesh& mesh, VertexId v, Mobility mobility, Unknowns unknowns) {
+  Dofs f;
   if (mobility == Mobility::frozen) return f;
   if (unknowns != Unknowns::weights) {
     if (mobility == Mobility::free) {
