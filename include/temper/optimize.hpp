@@ -177,7 +177,7 @@ struct ErrorOptions {
 /// defaults are the latter's, paper_method() has the paper's.
 struct PaperSwitches {
   /// γ of E_BP. Absent: relative to each edge, shrinking from 0.5, or from 1 where a quarter of 100 or more
-  /// triangles is bad, to 0.003, there as soon as none is; when some stay bad, a second attempt from 2. Given:
+  /// triangles is bad, to 0.003, there as soon as none is; when some stay bad, a second start from 2. Given:
   /// constant.
   std::optional<LengthParameter> gamma = {};
   /// −h° of E_BHs. Absent: relative, just beyond the worst h/ℓ of the mesh, shrinking as that improves. Given:

@@ -1,4 +1,4 @@
-// optimize(): attempts, repairs, and the phase of the accuracy objective, all on copies; the best mesh is given back.
+// optimize(): restarts, repairs, and the phase of the accuracy objective, all on copies; the best mesh is given back.
 #include "temper/optimize.hpp"
 
 #include <optional>
@@ -9,8 +9,8 @@
 #include "optimize/run/judge.hpp"
 #include "optimize/run/run.hpp"
 #include "optimize/solver_error/error_phase.hpp"
-#include "optimize/stages/attempts.hpp"
 #include "optimize/stages/driver.hpp"
+#include "optimize/stages/restarts.hpp"
 #include "optimize/working/working_copy.hpp"
 
 namespace temper {
@@ -63,7 +63,7 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   InputMesh input(mesh, hooks.exclusive && !options.size_band, hooks.executor);  // the band's field may look at it
   auto found = is_ready_for_accuracy(mesh, settings)
                    ? Candidate{WorkingCopy(mesh, settings.policy.order, hooks.executor)}
-                   : best_attempt(input, settings, state, run);
+                   : best_restart(input, settings, state, run);
   if (!found) return found.error();
   Candidate best = *std::move(found);
   input.drop_twins();

@@ -1,9 +1,9 @@
 // Local search where sweeps alone leave triangles that are not well-centered.
 //
 // Inside the well-centered set no edge can flip: h > 0 on both sides of it, so each connectivity is an island, and
-// sweeps, which go downhill, do not leave the one they are on. A repair takes a few rings around a bad triangle, tries
-// every edit that might help on a copy of them (trial.hpp), and does the best one to the mesh. When none
-// helps, now and then one that does no harm is done, so that the next try begins elsewhere.
+// sweeps, which go downhill, do not leave the one they are on. A repair takes a few rings around a bad triangle,
+// planned every edit that might help on a copy of them (trial.hpp), and does the best one to the mesh. When none helps,
+// now and then one that does no harm is done, so that the next try begins elsewhere.
 #pragma once
 
 #include <algorithm>

@@ -66,7 +66,7 @@ Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, 
   return result;
 }
 
-/// The input with its edges flipped as every attempt begins, for a run that found nothing better in so many sweeps.
+/// The input with its edges flipped as every restart begins, for a run that found nothing better in so many sweeps.
 WorkingCopy made_regular(const Mesh& mesh, const Settings& settings, SweepState state, int sweeps) {
   WorkingCopy work(mesh, settings.policy.order, settings.executor());
   const OptimizeHooks nobody;

@@ -23,14 +23,14 @@ namespace temper {
 struct RunFacts {
   std::size_t input_flips = 0;                 ///< that made the input regular
   std::optional<SplitCounts> boundary_splits;  ///< when they were asked for
-  SplitCounts splits_where_bad;                ///< before the last attempt that made some there
+  SplitCounts splits_where_bad;                ///< before the last restart that made some there
   bool stays_unsplit = false;                  ///< since cuts leave more triangles bad
   bool weights_shrunk = false;                 ///< all of them, since they left edges uncrossed
   bool energy_rose = false;                    ///< in the last sweeps, which were taken back
   bool lacks_programs = false;                 ///< of which a repair would have asked one
 };
 
-/// While it lives, this mesh is the best one so far, and a stage tries another.
+/// While it lives, this mesh is the best one so far, and a stage planned another.
 class BestBefore {
  public:
   BestBefore(const WorkingCopy*& place, const WorkingCopy* best) : place_(place) { place_ = best; }
@@ -82,7 +82,7 @@ class Run {
   OptimizeReport report;
   RunFacts facts;
   int repair_trials_left;
-  const WorkingCopy* best_before = nullptr;  ///< of the stages before, while a stage tries another mesh
+  const WorkingCopy* best_before = nullptr;  ///< of the stages before, while a stage planned another mesh
 
  private:
   using Clock = std::chrono::steady_clock;

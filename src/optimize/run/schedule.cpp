@@ -12,37 +12,37 @@ namespace {
 
 // Small enough that the least h/ℓ of a converged mesh is that of the hard barrier to three digits.
 constexpr double kFloor = 0.003;
-// On the 7 × 9 horseshoe the second attempt leaves 5 triangles bad where the first leaves 30; on 33 × 25, 0 and 6.
-constexpr Attempt kThorough = {
+// On the 7 × 9 horseshoe the second restart leaves 5 triangles bad where the first leaves 30; on 33 × 25, 0 and 6.
+constexpr Restart kThorough = {
     .start = 2, .factor = 0.5, .relaxation = kRelaxation, .level_sweeps = 30, .level_fall = 1e-4, .jitter = 0.02};
-// The attempts where most of the mesh has to change, the connectivity too; and where a few triangles have to.
-constexpr Attempt kFar = {.start = 1, .factor = 0.5, .relaxation = 1.97, .until_good = true};
-constexpr Attempt kNear = {.start = 0.5, .factor = 0.7, .relaxation = kRelaxation, .until_good = true};
-constexpr std::array<Attempt, 2> kManyBad = {kFar, kThorough};
-constexpr std::array<Attempt, 2> kFewBad = {kNear, kThorough};
+// The restarts where most of the mesh has to change, the connectivity too; and where a few triangles have to.
+constexpr Restart kFar = {.start = 1, .factor = 0.5, .relaxation = 1.97, .until_good = true};
+constexpr Restart kNear = {.start = 0.5, .factor = 0.7, .relaxation = kRelaxation, .until_good = true};
+constexpr std::array<Restart, 2> kManyBad = {kFar, kThorough};
+constexpr std::array<Restart, 2> kFewBad = {kNear, kThorough};
 // Between 0, where ties stay, and 1, where the shortest edge of a vertex is not crossed by its dual any more; in a
 // strip of squares it puts the orthocenters a quarter of the way from the diagonal to where they leave the triangle.
 constexpr double kTieWeight = 0.25;
-constexpr Attempt with_ties(Attempt attempt) {
-  attempt.tie_weight = kTieWeight;
-  return attempt;
+constexpr Restart with_ties(Restart restart) {
+  restart.tie_weight = kTieWeight;
+  return restart;
 }
-// Along a row of ties weights grow from its ends, some triangles a sweep: not to wait for, when another attempt chooses
+// Along a row of ties weights grow from its ends, some triangles a sweep: not to wait for, when another restart chooses
 // their diagonals.
 constexpr double kManyFewer = 0.75;
-constexpr Attempt without_ties(Attempt attempt) {
-  attempt.fewer = kManyFewer;
-  return attempt;
+constexpr Restart without_ties(Restart restart) {
+  restart.fewer = kManyFewer;
+  return restart;
 }
 // The same where ties cannot move.
-constexpr std::array<Attempt, 3> kManyBadAndTied = {without_ties(kFar), with_ties(kFar), with_ties(kThorough)};
-constexpr std::array<Attempt, 3> kFewBadAndTied = {without_ties(kNear), with_ties(kNear), with_ties(kThorough)};
+constexpr std::array<Restart, 3> kManyBadAndTied = {without_ties(kFar), with_ties(kFar), with_ties(kThorough)};
+constexpr std::array<Restart, 3> kFewBadAndTied = {without_ties(kNear), with_ties(kNear), with_ties(kThorough)};
 constexpr double kMany = 0.25;  // of the triangles
 // With fewer of them there are not enough flips for going far to pay: which ones is luck.
 constexpr std::size_t kLeastMany = 100;
 
 // Already inside, or nothing to soften.
-constexpr std::array<Attempt, 1> kHard = {{{.start = kFloor, .relaxation = kRelaxation}}};
+constexpr std::array<Restart, 1> kHard = {{{.start = kFloor, .relaxation = kRelaxation}}};
 // −h°/ℓ stays this factor beyond the worst h/ℓ of the mesh, so that every term is finite.
 constexpr double kBeyondWorst = 1.25;
 // A relative change of h° that moves no minimum by more than rounding in a picture.
@@ -64,10 +64,10 @@ double least_shift(const Mesh& mesh) { return std::max(kFloor, -kBeyondWorst * l
 
 }  // namespace
 
-const Attempt kPolish = kHard.front();
-const Attempt kNearlyGood = kNear;
+const Restart kPolish = kHard.front();
+const Restart kNearlyGood = kNear;
 
-std::span<const Attempt> attempts(const Settings& settings, const Mesh& mesh) {
+std::span<const Restart> restarts(const Settings& settings, const Mesh& mesh) {
   const bool softens = settings.energy().softened_by_gamma && !settings.policy.gamma;
   if (!softens || least_relative_height(mesh) > 0) return kHard;
   const std::size_t n = mesh.n_triangles();
@@ -78,7 +78,7 @@ std::span<const Attempt> attempts(const Settings& settings, const Mesh& mesh) {
 }
 
 void GammaSchedule::start(const Mesh& mesh, EnergyModel& model) {
-  if (gamma_shrinks_) model.gamma = {attempt_.start, LengthScale::relative};
+  if (gamma_shrinks_) model.gamma = {restart_.start, LengthScale::relative};
   if (h0_shrinks_) model.h0 = {least_shift(mesh), LengthScale::relative};
   settled_ = !h0_shrinks_ && (!gamma_shrinks_ || model.gamma.value <= kFloor);
 }
@@ -92,10 +92,10 @@ bool GammaSchedule::advance(const Mesh& mesh, double fall, std::size_t bad, Ener
     settled_ = model.h0.value >= (1 - kSettledShift) * last;
     return true;
   }
-  const bool last = attempt_.until_good && bad == 0;
-  if (!last && ++sweeps_at_level_ < attempt_.level_sweeps && fall > attempt_.level_fall) return false;
+  const bool last = restart_.until_good && bad == 0;
+  if (!last && ++sweeps_at_level_ < restart_.level_sweeps && fall > restart_.level_fall) return false;
   sweeps_at_level_ = 0;
-  model.gamma.value = last ? kFloor : std::max(kFloor, attempt_.factor * model.gamma.value);
+  model.gamma.value = last ? kFloor : std::max(kFloor, restart_.factor * model.gamma.value);
   settled_ = model.gamma.value <= kFloor;
   return true;
 }

@@ -16,15 +16,15 @@
 
 namespace temper {
 
-/// Where the boundary and lines are cut before an attempt, if the options ask for cuts.
+/// Where the boundary and lines are cut before a restart, if the options ask for cuts.
 enum class BoundarySplitting : std::uint8_t {
   graded,     ///< where long edges meet short ones, and where a dual has no place to cross
   none,       ///< nowhere
-  where_bad,  ///< where the best mesh so far has bad triangles; the attempt goes on with that mesh
+  where_bad,  ///< where the best mesh so far has bad triangles; the restart goes on with that mesh
 };
 
 /// One way from the input to a well-centered mesh.
-struct Attempt {
+struct Restart {
   double start = 0;         ///< first γ/ℓ
   double factor = 1;        ///< from level to level
   double relaxation = 0;    ///< while γ shrinks
@@ -38,22 +38,22 @@ struct Attempt {
   BoundarySplitting splitting = BoundarySplitting::graded;  ///< before it
 };
 
-/// The attempt for a mesh that is well-centered already, or as good as can be: the sharpest γ at once.
-extern const Attempt kPolish;
+/// The restart for a mesh that is well-centered already, or as good as can be: the sharpest γ at once.
+extern const Restart kPolish;
 
-/// The attempt for a mesh that is good but for a few places.
-extern const Attempt kNearlyGood;
+/// The restart for a mesh that is good but for a few places.
+extern const Restart kNearlyGood;
 
-/// The attempts for this mesh and these options, in order; at least one. A user's γ, or an energy without one, leaves
-/// a single attempt, and so does a mesh that is well-centered already.
-[[nodiscard]] std::span<const Attempt> attempts(const Settings& settings, const Mesh& mesh);
+/// The restarts for this mesh and these options, in order; at least one. A user's γ, or an energy without one, leaves
+/// a single restart, and so does a mesh that is well-centered already.
+[[nodiscard]] std::span<const Restart> restarts(const Settings& settings, const Mesh& mesh);
 
-/// γ and h° of the sweeps of one attempt.
+/// γ and h° of the sweeps of one restart.
 class GammaSchedule {
  public:
   GammaSchedule() = default;
-  GammaSchedule(const Attempt& attempt, const EnergyInfo& energy, const Policy& policy)
-      : attempt_(attempt),
+  GammaSchedule(const Restart& restart, const EnergyInfo& energy, const Policy& policy)
+      : restart_(restart),
         gamma_shrinks_(energy.softened_by_gamma && !policy.gamma),
         h0_shrinks_(energy.softened_by_h0 && !policy.h0) {}
 
@@ -63,14 +63,14 @@ class GammaSchedule {
   /// model changed: energies before and after do not compare.
   bool advance(const Mesh& mesh, double fall, std::size_t bad, EnergyModel& model);
   /// Over-relaxation of the next sweep, where the options name none.
-  [[nodiscard]] double relaxation() const { return settled_ ? kRelaxation : attempt_.relaxation; }
+  [[nodiscard]] double relaxation() const { return settled_ ? kRelaxation : restart_.relaxation; }
   /// Says whether advance will change the model no more: only then can a run converge.
   [[nodiscard]] bool settled() const { return settled_; }
   /// Says whether the energy before the next sweep will be asked for.
-  [[nodiscard]] bool compares_energies() const { return settled_ || (gamma_shrinks_ && attempt_.level_sweeps > 1); }
+  [[nodiscard]] bool compares_energies() const { return settled_ || (gamma_shrinks_ && restart_.level_sweeps > 1); }
 
  private:
-  Attempt attempt_;
+  Restart restart_;
   bool gamma_shrinks_ = false, h0_shrinks_ = false;
   bool settled_ = true;
   int sweeps_at_level_ = 0;

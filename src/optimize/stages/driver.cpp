@@ -242,7 +242,7 @@ void Driver::grade_boundary() {
   const SplitCounts cuts = split_boundary(work_, flipper_, settings_.options.boundary_ratio);
   grow();
   TEMPER_ASSERT_SLOW(settings_.policy.keeps_hidden() || count_non_regular_edges(mesh_, false) == 0);
-  run_.facts.boundary_splits = cuts;  // of each attempt the same
+  run_.facts.boundary_splits = cuts;  // of each restart the same
 }
 
 void Driver::split_where_bad() {
@@ -257,14 +257,14 @@ void Driver::jitter(double amount) {
   sweeper_.shake(amount, rng);
 }
 
-int Driver::attempt(const Attempt& attempt, bool may_give_up) {
-  if (reweight_ties(attempt.tie_weight)) return polish(run_.report.sweeps);
-  jitter(attempt.jitter);
+int Driver::restart(const Restart& restart, bool may_give_up) {
+  if (reweight_ties(restart.tie_weight)) return polish(run_.report.sweeps);
+  jitter(restart.jitter);
   const int first = run_.next_sweep();
-  const bool may_return_there = attempt.first_energy.has_value() || settings_.policy.defers_flips();
+  const bool may_return_there = restart.first_energy.has_value() || settings_.policy.defers_flips();
   // A trace says by sweeps where a run returns to.
   if (first > 0 && may_return_there) end_sweep_of_its_own();
-  EnergyPhase phase(work_, settings_, state_, run_, attempt, may_give_up);
+  EnergyPhase phase(work_, settings_, state_, run_, restart, may_give_up);
   const int last = run(phase, first);
   phase.take_last_energy();
   return last;

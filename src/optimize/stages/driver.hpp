@@ -21,12 +21,12 @@ class Driver {
   void grade_boundary();
   /// The same at bad triangles alone.
   void split_where_bad();
-  /// One attempt on the input. Returns the sweep whose mesh the working copy is then. `may_give_up`: as EnergyPhase.
-  int attempt(const Attempt& attempt, bool may_give_up);
+  /// One restart on the input. Returns the sweep whose mesh the working copy is then. `may_give_up`: as EnergyPhase.
+  int restart(const Restart& restart, bool may_give_up);
   /// Sweeps of one phase. `sweep`: whose mesh the working copy is. Returns as above.
   int run(Phase& phase, int sweep);
 
-  /// Local search for what all attempts have left bad. False when nothing was changed. `asks_programmes`: for weights.
+  /// Local search for what all restarts have left bad. False when nothing was changed. `asks_programmes`: for weights.
   bool repair(std::uint64_t seed, bool asks_programmes = false);
   /// Sweeps at the sharpest γ, after repairs; taken back when they lose triangles again. `sweep` as above.
   int polish(int sweep);

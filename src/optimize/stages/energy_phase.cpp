@@ -8,7 +8,7 @@
 namespace temper {
 namespace {
 
-// Sweeps at the last γ without fewer bad triangles, after which another attempt promises more; and without a lower
+// Sweeps at the last γ without fewer bad triangles, after which another restart promises more; and without a lower
 // energy, after which none will come.
 constexpr int kPatience = 25;
 // Sweeps in which vertices may bring a barrier's infinite energy down one by one, before all weights shrink.
@@ -17,17 +17,17 @@ constexpr int kInfinitePatience = 5;
 }  // namespace
 
 EnergyPhase::EnergyPhase(const WorkingCopy& work, const Settings& settings, SweepState& state, Run& run,
-                         const Attempt& attempt, bool may_give_up)
-    : work_(work), settings_(settings), state_(state), run_(run), attempt_(attempt), may_give_up_(may_give_up) {}
+                         const Restart& restart, bool may_give_up)
+    : work_(work), settings_(settings), state_(state), run_(run), restart_(restart), may_give_up_(may_give_up) {}
 
 void EnergyPhase::begin() {
-  before_switch_ = attempt_.first_energy.has_value();
-  take_energy(attempt_.first_energy.value_or(settings_.options.energy));
+  before_switch_ = restart_.first_energy.has_value();
+  take_energy(restart_.first_energy.value_or(settings_.options.energy));
 }
 
 void EnergyPhase::take_energy(EnergyKind kind) {
   state_.set_energy(kind, settings_.policy);
-  gamma_schedule_ = GammaSchedule(attempt_, state_.energy, settings_.policy);
+  gamma_schedule_ = GammaSchedule(restart_, state_.energy, settings_.policy);
   gamma_schedule_.start(work_.mesh, state_.model);
   state_.relaxation = settings_.policy.relaxation.value_or(gamma_schedule_.relaxation());
   least_bad_ = work_.mesh.n_triangles();
@@ -106,7 +106,7 @@ bool EnergyPhase::converged(double before, double after) {
 
 bool EnergyPhase::stagnates() {
   const std::size_t bad = run_.report.history.back().bad;
-  const bool fewer = static_cast<double>(bad) < attempt_.fewer * static_cast<double>(least_bad_);
+  const bool fewer = static_cast<double>(bad) < restart_.fewer * static_cast<double>(least_bad_);
   sweeps_since_fewer_bad_ = fewer ? 0 : sweeps_since_fewer_bad_ + 1;
   if (fewer) least_bad_ = bad;
   return bad > 0 && sweeps_since_fewer_bad_ >= kPatience;

@@ -45,11 +45,11 @@ class Phase {
   int iteration = 0;  ///< the paper's i: sweeps of this phase
 };
 
-/// Lowers an energy of the registry: one attempt, or a polish.
+/// Lowers an energy of the registry: one restart, or a polish.
 class EnergyPhase final : public Phase {
  public:
   /// `may_give_up`: the phase ends too when triangles stay bad for many sweeps.
-  EnergyPhase(const WorkingCopy& work, const Settings& settings, SweepState& state, Run& run, const Attempt& attempt,
+  EnergyPhase(const WorkingCopy& work, const Settings& settings, SweepState& state, Run& run, const Restart& restart,
               bool may_give_up);
 
   void begin() override;
@@ -62,7 +62,7 @@ class EnergyPhase final : public Phase {
   [[nodiscard]] Keeps keeps() const override { return state_.energy.barrier ? Keeps::last : Keeps::best_sweep; }
   /// What has been measured of the mesh as it is, for the history of the run.
   [[nodiscard]] SweepRecord record_of(const EnergyAndBad& measured) const;
-  /// From the attempt's first energy to that of the options, if it has not been reached.
+  /// From the restart's first energy to that of the options, if it has not been reached.
   void take_last_energy();
 
  private:
@@ -74,7 +74,7 @@ class EnergyPhase final : public Phase {
   const Settings& settings_;
   SweepState& state_;
   Run& run_;
-  Attempt attempt_;
+  Restart restart_;
   bool before_switch_ = false;  // from the first energy to that of the options
   GammaSchedule gamma_schedule_;
   bool may_give_up_;

@@ -131,7 +131,7 @@ TEST(Optimize, OfAMeshThatNobodyLooksAtIsTheSame) {
       {.objective = Objective::accuracy},
       {.max_sweeps = 1},                                         // left bad: repaired
       {.energy = EnergyKind::F, .unknowns = Unknowns::weights},  // may be no better: the input is given back
-      {.repair = Repair::none, .paper = {.tolerance = 1e-2}},    // more than one attempt
+      {.repair = Repair::none, .paper = {.tolerance = 1e-2}},    // more than one restart
       {.boundary = BoundaryVertices::split, .size_band = 1.5},   // the field of the band looks at it
   };
   for (const OptimizeOptions& options : cases) {

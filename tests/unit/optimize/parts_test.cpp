@@ -37,7 +37,7 @@ struct SweptMesh {
   OptimizeReport report;
 };
 
-/// One attempt with small parts, as optimize() makes it.
+/// One restart with small parts, as optimize() makes it.
 SweptMesh swept(const Mesh& input, const OptimizeOptions& options, std::size_t part_size = kSmallPart,
                 const OptimizeHooks& hooks = {}) {
   WorkingCopy work(input, options.paper.order);
@@ -48,7 +48,7 @@ SweptMesh swept(const Mesh& input, const OptimizeOptions& options, std::size_t p
   Driver driver(work, settings, state, run, part_size);
   EXPECT_TRUE(options.flips == Flips::none || driver.make_regular());
   driver.grade_boundary();
-  driver.attempt(attempts(settings, work.mesh).front(), false);
+  driver.restart(restarts(settings, work.mesh).front(), false);
   return {std::move(work).in_user_terms(), run.report};
 }
 

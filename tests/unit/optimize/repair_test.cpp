@@ -8,7 +8,7 @@
 
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/trial.hpp"
-#include "optimize/stages/attempts.hpp"
+#include "optimize/stages/restarts.hpp"
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/detail/geometry.hpp"
@@ -79,7 +79,7 @@ TEST(Repair, WithoutInsertionAndRemovalEveryVertexStays) {
   EXPECT_TRUE(report->vertices.empty());
 }
 
-TEST(Attempts, WithWeightsAloneCureLayersThatMovesDoNot) {
+TEST(Restarts, WithWeightsAloneCureLayersThatMovesDoNot) {
   const Mesh input = test::layers();
   EXPECT_EQ(n_bad(input), input.n_triangles());  // right angles
   Mesh moved = input, reweighted = input;

@@ -176,7 +176,7 @@ TEST(Replay, GoesOnAfterGoingBackAndBackAgain) {
   };
   EXPECT_EQ(weight_after({w(1, 1), w(2, 2), back_to(3, 1)}), 1);
   EXPECT_EQ(weight_after({w(1, 1), w(2, 2), back_to(3, -1), w(4, 4)}), 4);
-  EXPECT_EQ(weight_after({w(1, 1), w(2, 2), back_to(3, -1), w(4, 4), back_to(5, 1)}), 1) << "of the first attempt";
+  EXPECT_EQ(weight_after({w(1, 1), w(2, 2), back_to(3, -1), w(4, 4), back_to(5, 1)}), 1) << "of the first restart";
   EXPECT_EQ(weight_after({w(1, 1), w(2, 2), back_to(3, 1), w(4, 4), back_to(5, 1)}), 1);
   EXPECT_EQ(weight_after({w(1, 1), w(4, 4), back_to(5, 3)}), 1) << "a sweep without events ends as it begins";
   EXPECT_EQ(weight_after({w(2, 1), back_to(3, 0)}), input.weight(id(3)));

@@ -10,20 +10,20 @@ namespace {
 
 EnergyInfo row(std::string_view name) { return *find_energy(name); }
 
-std::span<const Attempt> attempts_of(std::string_view energy, OptimizeOptions options, const Mesh& mesh) {
+std::span<const Restart> restarts_of(std::string_view energy, OptimizeOptions options, const Mesh& mesh) {
   options.energy = row(energy).kind;
-  return attempts(*make_settings(options, mesh, WorkingUnits::of(mesh)), mesh);
+  return restarts(*make_settings(options, mesh, WorkingUnits::of(mesh)), mesh);
 }
 
-TEST(Schedule, ShrinksGammaToItsFloorInEveryAttempt) {
+TEST(Schedule, ShrinksGammaToItsFloorInEveryRestart) {
   const Mesh bad = lattice({.jitter = 0.45, .weight = 0});
-  const auto tries = attempts_of("BP", {}, bad);
-  ASSERT_GE(tries.size(), 2u);
-  for (const Attempt& attempt : tries) {
-    GammaSchedule gamma_schedule(attempt, row("BP"), Policy());
+  const auto planned = restarts_of("BP", {}, bad);
+  ASSERT_GE(planned.size(), 2u);
+  for (const Restart& restart : planned) {
+    GammaSchedule gamma_schedule(restart, row("BP"), Policy());
     EnergyModel model;
     gamma_schedule.start(bad, model);
-    EXPECT_EQ(model.gamma, (LengthParameter{attempt.start, LengthScale::relative}));
+    EXPECT_EQ(model.gamma, (LengthParameter{restart.start, LengthScale::relative}));
     double last = model.gamma.value;
     int sweeps = 0;
     while (!gamma_schedule.settled() && sweeps < 10000) {
@@ -40,7 +40,7 @@ TEST(Schedule, ShrinksGammaToItsFloorInEveryAttempt) {
 
 TEST(Schedule, IsAtTheFloorAsSoonAsNothingIsBad) {
   const Mesh bad = lattice({.jitter = 0.45, .weight = 0});
-  GammaSchedule gamma_schedule(attempts_of("BP", {}, bad)[0], row("BP"), Policy());
+  GammaSchedule gamma_schedule(restarts_of("BP", {}, bad)[0], row("BP"), Policy());
   EnergyModel model;
   gamma_schedule.start(bad, model);
   EXPECT_TRUE(gamma_schedule.advance(bad, 1, 1, model));
@@ -53,17 +53,17 @@ TEST(Schedule, IsAtTheFloorAsSoonAsNothingIsBad) {
 
 TEST(Schedule, OfAWellCenteredMeshIsHardFromTheStart) {
   const Mesh good = lattice({.jitter = 0.01, .weight = 0});
-  EXPECT_EQ(attempts_of("BP", {}, good).size(), 1u);
-  EXPECT_EQ(attempts_of("BP", {}, good)[0].start, 0.003);
+  EXPECT_EQ(restarts_of("BP", {}, good).size(), 1u);
+  EXPECT_EQ(restarts_of("BP", {}, good)[0].start, 0.003);
 }
 
 TEST(Schedule, LeavesTheUsersGammaAlone) {
   const Mesh bad = lattice({.jitter = 0.45, .weight = 0});
   OptimizeOptions options;
   options.paper.gamma = LengthParameter{0.25, LengthScale::absolute};
-  const auto tries = attempts_of("BP", options, bad);
-  ASSERT_EQ(tries.size(), 1u);
-  GammaSchedule gamma_schedule(tries[0], row("BP"), Policy(options));
+  const auto planned = restarts_of("BP", options, bad);
+  ASSERT_EQ(planned.size(), 1u);
+  GammaSchedule gamma_schedule(planned[0], row("BP"), Policy(options));
   EnergyModel model;
   model.gamma = *options.paper.gamma;
   gamma_schedule.start(bad, model);
@@ -73,7 +73,7 @@ TEST(Schedule, LeavesTheUsersGammaAlone) {
 
 TEST(Schedule, KeepsTheShiftedBarrierFinite) {
   const Mesh bad = lattice({.jitter = 0.3, .weight = 0, .seed = 2});
-  GammaSchedule gamma_schedule(attempts_of("BHs", {}, bad)[0], row("BHs"), Policy());
+  GammaSchedule gamma_schedule(restarts_of("BHs", {}, bad)[0], row("BHs"), Policy());
   EnergyModel model;
   model.kind = EnergyKind::BHs;
   gamma_schedule.start(bad, model);

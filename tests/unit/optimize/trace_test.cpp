@@ -82,7 +82,7 @@ std::vector<Case> cases() {
   add("positions only", {.energy = EnergyKind::dT, .unknowns = Unknowns::positions});
   add("anchor", {.paper = {.anchor = VertexId(5)}});
   add("frozen", {.flips = Flips::none});
-  add("two attempts", {.max_sweeps = 120});
+  add("two restarts", {.max_sweeps = 120});
   OptimizeOptions paper = paper_method();
   paper.max_sweeps = 6;
   paper.paper.inner = 2;
@@ -93,7 +93,7 @@ std::vector<Case> cases() {
     add("paper without inversion, " + energy, paper);
     paper.paper.inversion = Inversion::allow;
   }
-  for (Case& c : all) c.options.max_sweeps = c.title == "two attempts" ? 120 : c.options.max_sweeps;
+  for (Case& c : all) c.options.max_sweeps = c.title == "two restarts" ? 120 : c.options.max_sweeps;
   return all;
 }
 

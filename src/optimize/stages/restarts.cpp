@@ -1,4 +1,4 @@
-#include "optimize/stages/attempts.hpp"
+#include "optimize/stages/restarts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 // Each where the one before has made triangles good; more find little.
 constexpr std::size_t kRoundsWhereBad = 4;
-// Times as many bad triangles, which a more thorough attempt does not make up for.
+// Times as many bad triangles, which a more thorough restart does not make up for.
 constexpr std::size_t kFarMore = 2;
 // Weights alone are seldom enough: they have to get on fast.
 constexpr double kFewerByWeights = 0.75;
@@ -64,7 +64,7 @@ std::optional<InputError> outside_domain_error(const Mesh& mesh, const Settings&
 
 bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.executor()) > 0; }
 
-/// Says whether so few triangles of c are bad that each is a place of its own, far from all others. Another attempt
+/// Says whether so few triangles of c are bad that each is a place of its own, far from all others. Another restart
 /// would leave as many elsewhere, where a repair of each is a matter of moments; a search need not give up what it has
 /// cured to begin again with the others; and it needs no copy to return to, which the largest meshes have no room for:
 /// it leaves no more bad than there were, and trials have swept each place by itself.
@@ -80,58 +80,58 @@ bool needs_repair(const Candidate& c, const Settings& s) {
          (s.options.repair == Repair::vertices && missing_lengths(c.work.mesh, s.accuracy, s.executor()) > 0);
 }
 
-/// What to try, for the working copy as it is. Where all attempts with a cut boundary leave triangles bad, they are
+/// What to try, for the working copy as it is. Where all restarts with a cut boundary leave triangles bad, they are
 /// made again without: what lines leave no room for, cuts may make worse. After either there are cuts where triangles
 /// are still bad, and sweeps from there.
-std::vector<Attempt> attempts_for(const Mesh& mesh, const Settings& settings) {
-  const auto all = attempts(settings, mesh);
-  std::vector<Attempt> tries(all.begin(), all.end());
+std::vector<Restart> restarts_for(const Mesh& mesh, const Settings& settings) {
+  const auto all = restarts(settings, mesh);
+  std::vector<Restart> planned(all.begin(), all.end());
   const bool splits = settings.options.boundary == BoundaryVertices::split;
-  Attempt where_bad = kNearlyGood;
+  Restart where_bad = kNearlyGood;
   where_bad.splitting = BoundarySplitting::where_bad;
   if (splits) {
-    tries.insert(tries.end(), kRoundsWhereBad, where_bad);
-    for (Attempt unsplit : all) {
+    planned.insert(planned.end(), kRoundsWhereBad, where_bad);
+    for (Restart unsplit : all) {
       unsplit.splitting = BoundarySplitting::none;
-      tries.push_back(unsplit);
+      planned.push_back(unsplit);
     }
-    tries.insert(tries.end(), kRoundsWhereBad, where_bad);
+    planned.insert(planned.end(), kRoundsWhereBad, where_bad);
   }
-  for (Attempt& attempt : tries) attempt.first_energy = settings.policy.first_energy;
-  return tries;
+  for (Restart& restart : planned) restart.first_energy = settings.policy.first_energy;
+  return planned;
 }
 
 /// The quick ones of those for weights alone; none where nothing is softened.
-std::vector<Attempt> attempts_by_weights(const Mesh& mesh, const Settings& settings) {
-  std::vector<Attempt> tries;
-  for (Attempt attempt : attempts(settings, mesh)) {
-    if (!attempt.until_good) continue;
-    attempt.fewer = std::min(attempt.fewer, kFewerByWeights);
-    tries.push_back(attempt);
+std::vector<Restart> restarts_by_weights(const Mesh& mesh, const Settings& settings) {
+  std::vector<Restart> planned;
+  for (Restart restart : restarts(settings, mesh)) {
+    if (!restart.until_good) continue;
+    restart.fewer = std::min(restart.fewer, kFewerByWeights);
+    planned.push_back(restart);
   }
-  return tries;
+  return planned;
 }
 
-/// The input made regular, and its boundary cut, as an attempt begins; or the best mesh, cut where it is bad.
-std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Settings& settings, const Attempt& attempt) {
-  if (attempt.splitting == BoundarySplitting::where_bad) {
+/// The input made regular, and its boundary cut, as a restart begins; or the best mesh, cut where it is bad.
+std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Settings& settings, const Restart& restart) {
+  if (restart.splitting == BoundarySplitting::where_bad) {
     driver.split_where_bad();
     return std::nullopt;
   }
   if (!settings.policy.keeps_connectivity() && !driver.make_regular()) {
     return hidden_vertices_error(input, settings.hooks.names);
   }
-  if (attempt.splitting == BoundarySplitting::graded) driver.grade_boundary();
+  if (restart.splitting == BoundarySplitting::graded) driver.grade_boundary();
   return std::nullopt;
 }
 
-/// The cuts of the best mesh, which that attempt has made.
-void note_splits(const Attempt& attempt, RunFacts& facts) {
-  if (attempt.splitting == BoundarySplitting::where_bad) {
+/// The cuts of the best mesh, which that restart has made.
+void note_splits(const Restart& restart, RunFacts& facts) {
+  if (restart.splitting == BoundarySplitting::where_bad) {
     const bool on_unsplit = facts.stays_unsplit || !facts.boundary_splits;
     facts.boundary_splits = on_unsplit ? facts.splits_where_bad : *facts.boundary_splits + facts.splits_where_bad;
   }
-  facts.stays_unsplit = attempt.splitting == BoundarySplitting::none;
+  facts.stays_unsplit = restart.splitting == BoundarySplitting::none;
 }
 
 }  // namespace
@@ -143,12 +143,12 @@ bool has_gained(const Candidate& now, const Candidate& before, const Settings& s
                   settings, model);
 }
 
-Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, SweepState& state, Run& run) {
+Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, SweepState& state, Run& run) {
   std::optional<Candidate> best;
-  std::vector<Attempt> all(1);
-  std::size_t left = 0;  // bad triangles of the last attempt that was not kept
+  std::vector<Restart> all(1);
+  std::size_t left = 0;  // bad triangles of the last restart that was not kept
   bool renewed = false;  // the best mesh, since cuts where it is bad were of no use
-  // The second attempt from the same beginning is more thorough, and takes many sweeps: where the first left far more
+  // The second restart from the same beginning is more thorough, and takes many sweeps: where the first left far more
   // bad than there are in the best mesh it does not make up for that.
   const auto may_gain = [&](std::size_t i) {
     if (all[i].splitting == BoundarySplitting::where_bad) return renewed;
@@ -166,20 +166,20 @@ Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, Swe
     if (auto error = prepare(driver, input.restore_twins(), settings, all[i])) return *std::move(error);
     if (!best) {
       if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
-      all = attempts_for(now.work.mesh, settings);
+      all = restarts_for(now.work.mesh, settings);
       run.facts.input_flips = run.report.flips;
     }
     input.drop_twins();
-    const Attempt& attempt = all[i];
-    now.sweep = driver.attempt(attempt, i + 1 < all.size() || repairs(settings));
+    const Restart& restart = all[i];
+    now.sweep = driver.restart(restart, i + 1 < all.size() || repairs(settings));
     // The user asks for cuts: without them fewer triangles have to be bad.
     const Requirement required =
-        attempt.splitting == BoundarySplitting::graded ? Requirement::not_worse : Requirement::fewer_bad;
+        restart.splitting == BoundarySplitting::graded ? Requirement::not_worse : Requirement::fewer_bad;
     if (!best || replaces(now.work.mesh, best->work.mesh, required, settings, state.model)) {
       best = std::move(now);
       left = 0;
       renewed = true;
-      note_splits(attempt, run.facts);
+      note_splits(restart, run.facts);
     } else {
       driver.recorder().returned_to(best->sweep);
       left = count_bad(now.work.mesh, settings.executor());
@@ -193,23 +193,23 @@ Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, Swe
 Candidate reweighted(Candidate best, InputMesh& input, const Settings& settings, SweepState state, Run& run) {
   Settings own = settings;
   own.options.unknowns = Unknowns::weights;
-  std::vector<Attempt> tries(1);
+  std::vector<Restart> planned(1);
   const bool may = settings.options.unknowns == Unknowns::positions_and_weights && repairs(settings) &&
                    run.report.sweeps <= settings.options.max_sweeps / 2;  // repairs need those that are left
   if (!may || !run.goes_on() || !has_bad(best, settings) || are_apart(best, settings)) return best;
   const BestBefore kept(run.best_before, &best.work);
-  for (std::size_t i = 0; i < tries.size(); ++i) {
+  for (std::size_t i = 0; i < planned.size(); ++i) {
     Candidate now{WorkingCopy(input.restore_twins(), own.policy.order, own.executor())};
     Driver driver(now.work, own, state, run);
     driver.recorder().returned_to(-1);
-    driver.make_regular();  // it could be at the first attempt
-    if (i == 0) tries = attempts_by_weights(now.work.mesh, own);
+    driver.make_regular();  // it could be at the first restart
+    if (i == 0) planned = restarts_by_weights(now.work.mesh, own);
     input.drop_twins();
-    if (tries.empty()) {
+    if (planned.empty()) {
       driver.recorder().returned_to(best.sweep);
       break;
     }
-    now.sweep = driver.attempt(tries[i], true);
+    now.sweep = driver.restart(planned[i], true);
     if (replaces(now.work.mesh, best.work.mesh, Requirement::fewer_bad, settings, state.model)) {
       best = std::move(now);
       run.facts.stays_unsplit = settings.options.boundary == BoundaryVertices::split;

@@ -1,4 +1,4 @@
-// What a run tries, each time from the same beginning, until no triangle is bad.
+// What a run planned, each time from the same beginning, until no triangle is bad.
 #pragma once
 
 #include "optimize/run/run.hpp"
@@ -6,10 +6,10 @@
 
 namespace temper {
 
-/// Attempts from the input until one leaves nothing bad; the best of them.
-[[nodiscard]] Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, SweepState& state, Run& run);
+/// Restarts from the input until one leaves nothing bad; the best of them.
+[[nodiscard]] Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, SweepState& state, Run& run);
 
-/// Attempts from the input with weights alone, where that leaves fewer triangles bad: where they are thin as they have
+/// Restarts from the input with weights alone, where that leaves fewer triangles bad: where they are thin as they have
 /// to be, in layers, moves that lower the energy elsewhere may leave them no weights.
 [[nodiscard]] Candidate reweighted(Candidate best, InputMesh& input, const Settings& settings, SweepState state,
                                    Run& run);
