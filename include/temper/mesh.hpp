@@ -177,7 +177,7 @@ class Mesh {
   /// A region interface or a line of the user's: never flipped.
   [[nodiscard]] bool is_constrained(HalfedgeId h) const { return constrained_[h] != 0; }
   /// Says whether the edge of h is of the boundary or constrained: no flip ever takes it away.
-  [[nodiscard]] bool keeps_its_place(HalfedgeId h) const { return is_boundary(h) || is_constrained(h); }
+  [[nodiscard]] bool is_unflippable(HalfedgeId h) const { return is_boundary(h) || is_constrained(h); }
   /// Marks the edge of h, on both sides.
   void set_constrained(HalfedgeId h, bool constrained) {
     constrained_.set(h, constrained ? 1 : 0, n_halfedges());

@@ -180,7 +180,7 @@ class PanelPainter {
     PathText plain, kept;
     for (HalfedgeId h : mesh_.halfedges()) {
       if (!mesh_.is_edge_representative(h)) continue;
-      const bool outline = mesh_.keeps_its_place(h);
+      const bool outline = mesh_.is_unflippable(h);
       if (!outline && !viewport_.shows_edges()) continue;
       const WeightedPoint from = mesh_.point(mesh_.origin(h));
       add_line(outline && options_.regions ? kept : plain, from, mesh_.point(mesh_.target(h), from));

@@ -332,7 +332,7 @@ std::vector<EdgeConflict> edges_that_must_be_split(const Mesh& mesh, double up_t
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   std::vector<EdgeConflict> conflicts;
   for (const HalfedgeId h : mesh.halfedges()) {
-    if (!mesh.is_edge_representative(h) || !mesh.keeps_its_place(h)) continue;
+    if (!mesh.is_edge_representative(h) || !mesh.is_unflippable(h)) continue;
     if (const auto conflict = edge_conflict(mesh, h, up_to)) conflicts.push_back(*conflict);
   }
   const auto key = [&](const EdgeConflict& c) {

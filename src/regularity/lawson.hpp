@@ -181,7 +181,7 @@ class Lawson {
     std::sort(stuck_.begin(), stuck_.end());
     stuck_.erase(std::unique(stuck_.begin(), stuck_.end()), stuck_.end());
     std::erase_if(stuck_, [&](HalfedgeId h) {
-      return mesh.keeps_its_place(h) || test(mesh, inlined::quad(mesh, h)) != Sign::positive;
+      return mesh.is_unflippable(h) || test(mesh, inlined::quad(mesh, h)) != Sign::positive;
     });
     return stuck_;
   }

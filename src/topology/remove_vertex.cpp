@@ -167,7 +167,7 @@ bool is_inside_line(const Mesh& mesh, VertexId a, VertexId v, VertexId b) {
 /// Do all triangles around v have one region, except across constrained spokes?
 bool has_one_region_a_side(const Mesh& mesh, VertexId v) {
   for (const HalfedgeId h : mesh.star(v)) {
-    if (mesh.keeps_its_place(h)) continue;
+    if (mesh.is_unflippable(h)) continue;
     if (mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(mesh.twin(h)))) return false;
   }
   return true;

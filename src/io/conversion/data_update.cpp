@@ -264,7 +264,7 @@ struct Chain {
 std::vector<VertexId> along_lines(const Mesh& mesh, VertexId v) {
   std::vector<VertexId> ends;
   for (const HalfedgeId h : mesh.star(v)) {
-    if (mesh.keeps_its_place(h)) ends.push_back(mesh.target(h));
+    if (mesh.is_unflippable(h)) ends.push_back(mesh.target(h));
     if (mesh.is_boundary(Mesh::prev(h))) ends.push_back(mesh.opposite(h));
   }
   return ends;

@@ -108,7 +108,7 @@ class Lines {
     for (const HalfedgeId h : mesh.halfedges()) {
       if (mesh.is_erased(Mesh::triangle(h)) || !mesh.is_edge_representative(h)) continue;
       if (near != nullptr && (*near)[mesh.origin(h)] == 0 && (*near)[mesh.target(h)] == 0) continue;
-      if (mesh.keeps_its_place(h)) lines_.push_back(line_of(mesh, h, lines_.size()));
+      if (mesh.is_unflippable(h)) lines_.push_back(line_of(mesh, h, lines_.size()));
     }
     std::vector<BoundingBox> boxes;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -263,7 +263,7 @@ std::vector<Ends> lines_at(const Mesh& mesh, TriangleId t) {
   for (const VertexId v : mesh.corners(t)) {
     for (const HalfedgeId out : mesh.star(v)) {
       for (const HalfedgeId h : {out, Mesh::prev(out)}) {
-        if (mesh.keeps_its_place(h))
+        if (mesh.is_unflippable(h))
           found.emplace_back(-squared_length(mesh.position(mesh.target(h)) - mesh.position(mesh.origin(h))), h);
       }
     }

@@ -169,7 +169,7 @@ bool RepairSearch::assigns_weights(TriangleId seed) const {
     return false;
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(seed, k);
-    if (mesh.keeps_its_place(h) && edge_conflict(mesh, h)) return false;
+    if (mesh.is_unflippable(h) && edge_conflict(mesh, h)) return false;
   }
   return true;
 }

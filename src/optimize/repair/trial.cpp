@@ -48,7 +48,7 @@ class DelaunayRefinement {
     std::vector<double> sum(mesh.n_vertices(), 0);
     std::vector<int> count(mesh.n_vertices(), 0);
     for (const HalfedgeId h : mesh.halfedges()) {
-      if (mesh.is_erased(Mesh::triangle(h)) || !mesh.keeps_its_place(h) || !mesh.is_edge_representative(h)) continue;
+      if (mesh.is_erased(Mesh::triangle(h)) || !mesh.is_unflippable(h) || !mesh.is_edge_representative(h)) continue;
       const VertexId a = mesh.origin(h), b = mesh.target(h);
       segments_.push_back({place(a), place(b)});
       for (const VertexId v : {a, b}) {

@@ -27,7 +27,7 @@ FixedLine fixed_line(const Mesh& mesh, VertexId v) {
     ++count;
   };
   for (const HalfedgeId h : mesh.star(v)) {
-    if (mesh.keeps_its_place(h)) add(mesh.target(h));
+    if (mesh.is_unflippable(h)) add(mesh.target(h));
     if (mesh.is_boundary(Mesh::prev(h))) add(mesh.opposite(h));  // into v: the other end of a boundary vertex's star
   }
   if (count == 0) return {FixedLine::none, {}};

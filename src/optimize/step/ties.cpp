@@ -15,7 +15,7 @@ namespace {
 constexpr double kTiedDual = 1e-6;
 
 bool is_tie(const Mesh& mesh, HalfedgeId h) {
-  if (mesh.keeps_its_place(h)) return false;
+  if (mesh.is_unflippable(h)) return false;
   const auto [edge, dual] = edge_lengths(mesh, h);
   return std::abs(dual) < kTiedDual * edge;
 }
