@@ -11,7 +11,7 @@
 #include "base/assert.hpp"
 #include "base/median.hpp"
 #include "dec/accurate.hpp"
-#include "geometry/in_space.hpp"
+#include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/tensor.hpp"

@@ -7,7 +7,7 @@
 
 #include "draw/text.hpp"
 #include "draw/viewport.hpp"
-#include "geometry/in_space.hpp"
+#include "geometry/surface.hpp"
 #include "temper/detail/geometry.hpp"
 
 namespace temper {

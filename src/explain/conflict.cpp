@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "feasibility/constraints.hpp"
-#include "geometry/ground.hpp"
+#include "geometry/surface.hpp"
 #include "quality/measure.hpp"
 #include "temper/detail/geometry.hpp"
 
@@ -122,7 +122,7 @@ std::optional<Conflict> find_conflict(const Mesh& mesh, std::span<const Triangle
 }
 
 std::optional<FanCenter> fan_center(const Mesh& mesh, std::span<const TriangleId> triangles) {
-  const Ground ground(mesh.space());
+  const Surface surface(mesh.space());
   std::optional<FanCenter> center;
   double widest = -1;
   for (const VertexId v : mesh.corners(triangles.front())) {
@@ -140,7 +140,7 @@ std::optional<FanCenter> fan_center(const Mesh& mesh, std::span<const TriangleId
       const VertexId next = corners[(k + 1) % 3], last = corners[(k + 2) % 3];
       angle = std::max(angle, corner_angle(mesh.space(), mesh.point(v), mesh.point(next), mesh.point(last)));
       for (const VertexId u : {next, last}) {
-        const double l = ground.distance(ground.place(mesh.point(v)), ground.place(mesh.point(u)));
+        const double l = surface.distance(surface.place(mesh.point(v)), surface.place(mesh.point(u)));
         if (l < here.shortest_length) here.shortest_length = l, here.shortest = u;
         if (l > here.longest_length) here.longest_length = l, here.longest = u;
       }

@@ -14,7 +14,7 @@
 
 #include "feasibility/certify.hpp"
 #include "feasibility/constraints.hpp"
-#include "geometry/ground.hpp"
+#include "geometry/surface.hpp"
 #include "mesh/input_places.hpp"
 #include "quality/measure.hpp"
 #include "temper/detail/geometry.hpp"
@@ -112,9 +112,9 @@ Trial judge(const Mesh& mesh, const std::vector<Triple>& excused, LpSolver& solv
 }
 
 /// Directions at a place; both `along` a line.
-std::vector<Vec3> compass(const Ground& ground, Vec3 at, std::optional<Vec3> along) {
+std::vector<Vec3> compass(const Surface& surface, Vec3 at, std::optional<Vec3> along) {
   if (along) return {*along, -1.0 * *along};
-  const Vec3 ahead = ground.some_direction(at), left = ground.to_the_left(ahead, at);
+  const Vec3 ahead = surface.some_direction(at), left = surface.to_the_left(ahead, at);
   std::vector<Vec3> directions;
   directions.reserve(8);
   for (int i = 0; i < 8; ++i) {
@@ -123,7 +123,7 @@ std::vector<Vec3> compass(const Ground& ground, Vec3 at, std::optional<Vec3> alo
   return directions;
 }
 
-Vec3 place_at(const Mesh& mesh, VertexId v) { return Ground(mesh.space()).place(mesh.point(v)); }
+Vec3 place_at(const Mesh& mesh, VertexId v) { return Surface(mesh.space()).place(mesh.point(v)); }
 
 double distance_to_nearest(const Mesh& mesh, VertexId v) {
   double least = kUnbounded;
@@ -137,13 +137,13 @@ double distance_to_nearest(const Mesh& mesh, VertexId v) {
 
 Vec3 centroid(const Mesh& mesh, TriangleId t) {
   const auto [a, b, c] = mesh.corners(t);
-  return Ground(mesh.space()).below((1.0 / 3) * (place_at(mesh, a) + place_at(mesh, b) + place_at(mesh, c)));
+  return Surface(mesh.space()).below((1.0 / 3) * (place_at(mesh, a) + place_at(mesh, b) + place_at(mesh, c)));
 }
 
 TriangleId largest(const Mesh& mesh, std::span<const TriangleId> triangles) {
   const auto area = [&](TriangleId t) {
     const auto [p, q, r] = mesh.corners(t);
-    return Ground(mesh.space()).extent(mesh.point(p), mesh.point(q), mesh.point(r));
+    return Surface(mesh.space()).extent(mesh.point(p), mesh.point(q), mesh.point(r));
   };
   return *std::max_element(triangles.begin(), triangles.end(),
                            [&](TriangleId a, TriangleId b) { return area(a) < area(b); });
@@ -151,7 +151,8 @@ TriangleId largest(const Mesh& mesh, std::span<const TriangleId> triangles) {
 
 class CureFinder {
  public:
-  CureFinder(Patch patch, LpSolver& solver) : patch_(std::move(patch)), ground_(patch_.mesh.space()), solver_(solver) {}
+  CureFinder(Patch patch, LpSolver& solver)
+      : patch_(std::move(patch)), surface_(patch_.mesh.space()), solver_(solver) {}
 
   /// First with the whole neighbourhood; where that has more conflicts than this one, with what the change touches.
   std::vector<Cure> run() {
@@ -217,8 +218,8 @@ class CureFinder {
     Place best = tried(start);
     for (int round = 0; round < kCompassRounds && best.trial.margin < kComfortable; ++round, step /= 2) {
       const Vec3 from = best.at;
-      for (const Vec3 direction : compass(ground_, from, along)) {
-        const Place place = tried(ground_.below(from + step * direction));
+      for (const Vec3 direction : compass(surface_, from, along)) {
+        const Place place = tried(surface_.below(from + step * direction));
         if (place.trial.margin > best.trial.margin) best = place;
       }
     }
@@ -230,7 +231,7 @@ class CureFinder {
       if (has_comfortable(Action::move_vertex)) return;
       const auto moved = [&](Vec3 at) {
         Mesh mesh = patch_.mesh;
-        mesh.set_point(v, ground_.vertex(at));
+        mesh.set_point(v, surface_.vertex(at));
         return std::optional<Mesh>(std::move(mesh));
       };
       const double step = kFirstStep * distance_to_nearest(patch_.mesh, v);
@@ -238,7 +239,7 @@ class CureFinder {
       Cure cure;
       cure.action = Action::move_vertex;
       cure.vertex = patch_.in_mesh(v);
-      cure.at = ground_.space().as_shown(best.at);
+      cure.at = surface_.space().as_shown(best.at);
       offer(cure, best.trial);
     }
   }
@@ -266,7 +267,7 @@ class CureFinder {
       return mesh;
     };
     for (const Place& best : {search(insert, v, start, step, along), search(delaunay, v, start, step, along)}) {
-      cure.at = ground_.space().as_shown(best.at);
+      cure.at = surface_.space().as_shown(best.at);
       offer(cure, best.trial);
     }
   }
@@ -276,12 +277,12 @@ class CureFinder {
       if (has_comfortable(Action::insert_vertex)) return;
       const auto [a, b, c] = patch_.mesh.corners(t);
       const Vec3 p = place_at(patch_.mesh, a), q = place_at(patch_.mesh, b), r = place_at(patch_.mesh, c);
-      const auto is_left = [&](Vec3 x, Vec3 y, Vec3 z) { return ground_.orientation(x, y, z) == Sign::positive; };
+      const auto is_left = [&](Vec3 x, Vec3 y, Vec3 z) { return surface_.orientation(x, y, z) == Sign::positive; };
       const auto inserted = [&](Vec3 at) {
         std::optional<Mesh> mesh;
         if (is_left(p, q, at) && is_left(q, r, at) && is_left(r, p, at)) {
           mesh = patch_.mesh;
-          insert_in_triangle(*mesh, t, ground_.vertex(at));
+          insert_in_triangle(*mesh, t, surface_.vertex(at));
         }
         return mesh;
       };
@@ -298,17 +299,17 @@ class CureFinder {
   [[nodiscard]] std::vector<Vec3> places_on(HalfedgeId h) const {
     const Mesh& mesh = patch_.mesh;
     const Vec3 p = place_at(mesh, mesh.origin(h)), q = place_at(mesh, mesh.target(h));
-    std::vector<Vec3> places = {ground_.between(p, q, 0.5)};
+    std::vector<Vec3> places = {surface_.between(p, q, 0.5)};
     for (const HalfedgeId side : {h, mesh.twin(h)}) {
       if (!side.valid()) continue;
-      const double s = ground_.part_below(p, q, place_at(mesh, mesh.opposite(side)));
-      if (s > 0.1 && s < 0.9) places.push_back(ground_.between(p, q, s));
+      const double s = surface_.part_below(p, q, place_at(mesh, mesh.opposite(side)));
+      if (s > 0.1 && s < 0.9) places.push_back(surface_.between(p, q, s));
     }
     return places;
   }
   [[nodiscard]] bool can_split(HalfedgeId h, Vec3 at) const {
     const Mesh& mesh = patch_.mesh;
-    const auto is_left = [&](Vec3 x, Vec3 y, Vec3 z) { return ground_.orientation(x, y, z) == Sign::positive; };
+    const auto is_left = [&](Vec3 x, Vec3 y, Vec3 z) { return surface_.orientation(x, y, z) == Sign::positive; };
     for (const HalfedgeId side : {h, mesh.twin(h)}) {
       if (!side.valid()) continue;
       const Vec3 p = place_at(mesh, mesh.origin(side)), q = place_at(mesh, mesh.target(side));
@@ -329,7 +330,7 @@ class CureFinder {
           std::optional<Mesh> mesh;
           if (can_split(h, place)) {
             mesh = patch_.mesh;
-            split_edge(*mesh, h, ground_.vertex(place));
+            split_edge(*mesh, h, surface_.vertex(place));
           }
           return mesh;
         };
@@ -337,13 +338,13 @@ class CureFinder {
         cure.action = action;
         cure.edge = edge_of(h);
         offer_inserted(cure, split, at, kFreshStep * std::min(length(at - p), length(q - at)),
-                       ground_.direction(at, q));
+                       surface_.direction(at, q));
       }
     }
   }
 
   Patch patch_;
-  Ground ground_;
+  Surface surface_;
   LpSolver& solver_;
   bool conflict_only_ = false;
   std::map<Action, Cure> best_;  // in the order of the enumeration: what changes least comes first
@@ -383,7 +384,7 @@ std::vector<Cure> suggested_cures(const Mesh& mesh, const Conflict& conflict) {
     Cure cure;
     cure.action = Cure::Action::split_boundary;
     cure.edge = {mesh.origin(longest), mesh.target(longest)};
-    const Vec3 middle = Ground(mesh.space()).between(place_at(mesh, cure.edge[0]), place_at(mesh, cure.edge[1]), 0.5);
+    const Vec3 middle = Surface(mesh.space()).between(place_at(mesh, cure.edge[0]), place_at(mesh, cure.edge[1]), 0.5);
     cure.at = mesh.space().as_shown(middle);
     cures.push_back(cure);
   }

@@ -20,7 +20,7 @@
 #include "explain/conflict.hpp"
 #include "explain/cures.hpp"
 #include "feasibility/region.hpp"
-#include "geometry/ground.hpp"
+#include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "quality/measure.hpp"
 #include "temper/topology.hpp"
@@ -132,9 +132,10 @@ class Explainer {
   }
 
   [[nodiscard]] Vec2 split_point(const EdgeConflict& c) const {
-    const Ground ground(mesh_.space());
-    const Vec3 u = ground.place(mesh_.point(mesh_.origin(c.edge))), v = ground.place(mesh_.point(mesh_.target(c.edge)));
-    return mesh_.space().as_shown(ground.between(u, v, c.split_at));
+    const Surface surface(mesh_.space());
+    const Vec3 u = surface.place(mesh_.point(mesh_.origin(c.edge))),
+               v = surface.place(mesh_.point(mesh_.target(c.edge)));
+    return mesh_.space().as_shown(surface.between(u, v, c.split_at));
   }
 
   void add_split(Reason& reason, bool checked) const {
@@ -155,7 +156,7 @@ class Explainer {
           return !edge_conflict(split, h.valid() ? h : split.find_halfedge(q, p));
         };
         cure.ends_conflict = is_free(u, middle) && is_free(middle, v);
-        cure.at = split.space().as_shown(Ground(split.space()).place(split.point(middle)));
+        cure.at = split.space().as_shown(Surface(split.space()).place(split.point(middle)));
       }
     }
     reason.cures.push_back(cure);

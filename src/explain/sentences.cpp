@@ -3,7 +3,7 @@
 #include <array>
 
 #include "feasibility/constraints.hpp"
-#include "geometry/ground.hpp"
+#include "geometry/surface.hpp"
 #include "quality/measure.hpp"
 #include "temper/explain.hpp"
 
@@ -84,8 +84,8 @@ class Speaker {
   [[nodiscard]] std::string must_split(const Reason& r) const {
     const EdgeConflict& c = *r.must_split;
     const VertexId u = mesh_.origin(c.edge), v = mesh_.target(c.edge);
-    const Ground ground(mesh_.space());
-    const double l = ground.distance(ground.place(mesh_.point(u)), ground.place(mesh_.point(v)));
+    const Surface surface(mesh_.space());
+    const double l = surface.distance(surface.place(mesh_.point(u)), surface.place(mesh_.point(v)));
     std::string text = edge(u, v);
     text.front() = text.front() == 'b' ? 'B' : 'E';
     text += " must be split, whatever is done inside. It is " + rounded(l) +

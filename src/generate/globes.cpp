@@ -21,16 +21,16 @@ using Corners = std::array<std::int32_t, 3>;
 constexpr int kMostLevels = 13;  // 671 million vertices
 constexpr std::size_t kMostOnGlobe = 500'000'000;
 
-struct Surface {
+struct Globe {
   std::vector<Vec3> points;  // of the unit sphere
   std::vector<Corners> triangles;
 };
 
 Vec3 unit(Vec3 p) { return (1 / length(p)) * p; }
 
-Surface icosahedron() {
+Globe icosahedron() {
   const double golden = (1 + std::sqrt(5.0)) / 2;
-  Surface s;
+  Globe s;
   for (const double a : {1.0, -1.0}) {
     for (const double b : {golden, -golden}) {
       s.points.push_back(unit({0, a, b}));
@@ -58,7 +58,7 @@ Surface icosahedron() {
 //      ca --- bc
 //     /   \ /   \ .
 //    a --- ab --- b
-Surface bisected(Surface coarse) {
+Globe bisected(Globe coarse) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
   const auto middle = [&](std::int32_t a, std::int32_t b) {
     const auto [at, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(coarse.points.size()));
@@ -106,7 +106,7 @@ Expected<Mesh> icosahedral(const Icosahedral& shape) {
   if (shape.level < 0 || shape.level > kMostLevels)
     return invalid("an icosahedron is bisected from 0 to " + std::to_string(kMostLevels) + " times");
   if (auto error = check_radius(shape.radius)) return *error;
-  Surface s = icosahedron();
+  Globe s = icosahedron();
   for (int i = 0; i < shape.level; ++i) s = bisected(std::move(s));
   for (Vec3& p : s.points) p = shape.radius * p;
   MeshInput input;

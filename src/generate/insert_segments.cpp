@@ -16,7 +16,7 @@
 #include <unordered_map>
 
 #include "generate/triangulation.hpp"
-#include "geometry/in_space.hpp"
+#include "geometry/surface.hpp"
 #include "mesh/mesh_editor.hpp"
 #include "mesh/predicates.hpp"
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/in_space.hpp"
+#include "geometry/surface.hpp"
 #include "temper/detail/geometry.hpp"
 
 namespace temper {

@@ -5,8 +5,8 @@
 #include <set>
 #include <vector>
 
-#include "geometry/in_space.hpp"
 #include "geometry/predicates_inline.hpp"
+#include "geometry/surface.hpp"
 #include "mesh/predicates.hpp"
 
 namespace temper {

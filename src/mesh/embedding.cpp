@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "geometry/in_space.hpp"
+#include "geometry/surface.hpp"
 #include "mesh/blocks.hpp"
 #include "mesh/boundary_sweep.hpp"
 #include "mesh/predicates.hpp"

@@ -46,16 +46,16 @@ Expected<Mesh> delaunay_of_sphere(const Space& sphere, const std::vector<Vec3>& 
   return generate::in_input_order(*std::move(triangulation));
 }
 
-Expected<Hull> triangulate_hull(const Ground& ground, const std::vector<Vec3>& points, const std::vector<Piece>& pieces,
-                                Deadline& deadline) {
+Expected<Hull> triangulate_hull(const Surface& surface, const std::vector<Vec3>& points,
+                                const std::vector<Piece>& pieces, Deadline& deadline) {
   std::vector<std::array<std::int32_t, 2>> segments;
   segments.reserve(pieces.size());
   for (const Piece& p : pieces) {
     segments.push_back({static_cast<std::int32_t>(p.ends[0]), static_cast<std::int32_t>(p.ends[1])});
   }
   const auto stop = [&] { return deadline.asked_to_stop(); };
-  Expected<Mesh> mesh = ground.space().is_closed() ? delaunay_of_sphere(ground.space(), points, segments, stop)
-                                                   : delaunay_of_plane(points, segments, stop);
+  Expected<Mesh> mesh = surface.space().is_closed() ? delaunay_of_sphere(surface.space(), points, segments, stop)
+                                                    : delaunay_of_plane(points, segments, stop);
   if (!mesh) return mesh.error();
   Hull hull{*std::move(mesh), {}};
   hull.piece.resize(hull.mesh.n_halfedges(), kNone);
@@ -76,9 +76,9 @@ void each_halfedge(TriangleId t, const F& f) {
 
 class AreaFinder {
  public:
-  AreaFinder(const Ground& ground, const Outline& outline, const std::vector<Vec3>& places,
+  AreaFinder(const Surface& surface, const Outline& outline, const std::vector<Vec3>& places,
              const std::vector<OutlineEdge>& edges, const MesherOptions& options, double largest, Deadline& deadline)
-      : ground_(ground),
+      : surface_(surface),
         outline_(outline),
         places_(places),
         names_(names_of(outline)),
@@ -94,7 +94,7 @@ class AreaFinder {
       pieces.push_back(
           {{static_cast<std::uint32_t>(ends[0]), static_cast<std::uint32_t>(ends[1])}, static_cast<std::uint32_t>(i)});
     }
-    Expected<Hull> hull = triangulate_hull(ground_, places_, pieces, deadline_);
+    Expected<Hull> hull = triangulate_hull(surface_, places_, pieces, deadline_);
     if (!hull) return hull.error();
     hull_ = *std::move(hull);
     find_components();
@@ -108,7 +108,7 @@ class AreaFinder {
   using Error = std::optional<InputError>;
 
   Error take_by_rule() {
-    if (ground_.space().is_closed()) return take_smaller_sides();
+    if (surface_.space().is_closed()) return take_smaller_sides();
     if (!outline_.parts.empty()) return take_parts();
     return takes_turns() ? take_turns() : take_all();
   }
@@ -314,7 +314,7 @@ class AreaFinder {
   [[nodiscard]] std::string near(std::size_t c) const {
     for (const TriangleId t : hull_.mesh.triangles()) {
       if (component_[t] != c) continue;
-      const Vec2 p = ground_.space().as_shown(ground_.place(hull_.mesh.point(hull_.mesh.corners(t)[0])));
+      const Vec2 p = surface_.space().as_shown(surface_.place(hull_.mesh.point(hull_.mesh.corners(t)[0])));
       return " near (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
     }
     return {};
@@ -347,7 +347,7 @@ class AreaFinder {
   /// The component of a place, or none outside the hull. A place on an edge belongs to one of its sides. Looked for
   /// from the last one.
   [[nodiscard]] std::uint32_t locate(Vec2 p) {
-    const WeightedPoint vertex = ground_.space().is_closed() ? as_point(direction_of(p)) : WeightedPoint{p.x, p.y, 0};
+    const WeightedPoint vertex = surface_.space().is_closed() ? as_point(direction_of(p)) : WeightedPoint{p.x, p.y, 0};
     const Location at = temper::locate(hull_.mesh, vertex, located_);
     if (at.kind == Location::Kind::outside) return kNone;
     located_ = at.triangle;
@@ -355,7 +355,7 @@ class AreaFinder {
   }
 
   [[nodiscard]] InputError nothing_enclosed() const {
-    if (ground_.space().is_closed()) return {ErrorCode::empty_input, "", "nothing of the sphere is left to mesh"};
+    if (surface_.space().is_closed()) return {ErrorCode::empty_input, "", "nothing of the sphere is left to mesh"};
     std::vector<std::uint32_t> degree(outline_.points.size(), 0);
     for (const OutlineEdge& e : edges_) {
       for (const std::int32_t end : e.ends) ++degree[static_cast<std::size_t>(end)];
@@ -388,7 +388,7 @@ class AreaFinder {
     return result;
   }
 
-  const Ground& ground_;
+  const Surface& surface_;
   const Outline& outline_;
   const std::vector<Vec3>& places_;
   const OutlineNames& names_;
@@ -409,17 +409,17 @@ class AreaFinder {
 
 }  // namespace
 
-Expected<Areas> find_areas(const Ground& ground, const Outline& outline, const std::vector<Vec3>& places,
+Expected<Areas> find_areas(const Surface& surface, const Outline& outline, const std::vector<Vec3>& places,
                            const std::vector<OutlineEdge>& edges, const MesherOptions& options, double largest,
                            Deadline& deadline) {
-  return AreaFinder(ground, outline, places, edges, options, largest, deadline).run();
+  return AreaFinder(surface, outline, places, edges, options, largest, deadline).run();
 }
 
-Expected<Triangulated> triangulate(const Ground& ground, const DividedOutline& divided,
+Expected<Triangulated> triangulate(const Surface& surface, const DividedOutline& divided,
                                    const std::vector<Vec3>& further, const Areas& areas, Deadline& deadline) {
   std::vector<Vec3> points = divided.points;
   points.insert(points.end(), further.begin(), further.end());
-  Expected<Hull> hull = triangulate_hull(ground, points, divided.pieces, deadline);
+  Expected<Hull> hull = triangulate_hull(surface, points, divided.pieces, deadline);
   if (!hull) return hull.error();
   Triangulated result{std::move(hull->mesh), {}, std::move(hull->piece)};
   const Mesh& mesh = result.mesh;

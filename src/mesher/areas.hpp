@@ -30,9 +30,9 @@ struct Areas {
 /// What the outline encloses, or on the sphere what its parts say; a whole sphere without any. `largest`: size of areas
 /// that have none of their own. Errors: nothing enclosed, hole and region points on an edge or outside, parts that
 /// overlap; on the sphere parts that enclose half of it, holes.
-[[nodiscard]] Expected<Areas> find_areas(const Ground& ground, const Outline& outline, const std::vector<Vec3>& places,
-                                         const std::vector<OutlineEdge>& edges, const MesherOptions& options,
-                                         double largest, Deadline& deadline);
+[[nodiscard]] Expected<Areas> find_areas(const Surface& surface, const Outline& outline,
+                                         const std::vector<Vec3>& places, const std::vector<OutlineEdge>& edges,
+                                         const MesherOptions& options, double largest, Deadline& deadline);
 
 /// The triangulation of points and pieces over their convex hull, and what belongs to each triangle and halfedge. On
 /// the sphere it has further vertices where the points leave half of it empty, after all others.
@@ -43,7 +43,7 @@ struct Triangulated {
   IdVector<HalfedgeId, std::uint32_t> piece;  ///< or kNoPiece
 };
 /// Further points come after those of the divided outline. ErrorCode::stopped when it is time to stop.
-[[nodiscard]] Expected<Triangulated> triangulate(const Ground& ground, const DividedOutline& divided,
+[[nodiscard]] Expected<Triangulated> triangulate(const Surface& surface, const DividedOutline& divided,
                                                  const std::vector<Vec3>& further, const Areas& areas,
                                                  Deadline& deadline);
 

@@ -18,8 +18,8 @@ std::string coordinates(Vec2 p) { return "(" + std::to_string(p.x) + ", " + std:
 
 class Arranger {
  public:
-  Arranger(const Ground& ground, const Outline& outline, const std::vector<Vec3>& places)
-      : ground_(ground), o_(outline), places_(places), names_(names_of(outline)) {}
+  Arranger(const Surface& surface, const Outline& outline, const std::vector<Vec3>& places)
+      : surface_(surface), o_(outline), places_(places), names_(names_of(outline)) {}
 
   Expected<std::vector<OutlineEdge>> run() {
     for (const auto check : {&Arranger::check_points, &Arranger::check_segments, &Arranger::check_places,
@@ -39,7 +39,7 @@ class Arranger {
   }
 
   Error check_points() {
-    if (!ground_.space().is_closed() && (o_.points.empty() || o_.segments.empty())) {
+    if (!surface_.space().is_closed() && (o_.points.empty() || o_.segments.empty())) {
       return InputError{ErrorCode::empty_input, "",
                         "the outline has no " + std::string(o_.points.empty() ? "points" : "segments")};
     }
@@ -107,7 +107,7 @@ class Arranger {
   }
 
   [[nodiscard]] bool strictly_inside(Vec3 p, Vec3 a, Vec3 b) const {
-    return ground_.orientation(a, b, p) == Sign::zero && ground_.is_between(p, a, b);
+    return surface_.orientation(a, b, p) == Sign::zero && surface_.is_between(p, a, b);
   }
 
   void note_meeting(std::size_t segment, std::int32_t p) {
@@ -121,7 +121,7 @@ class Arranger {
     const auto [a, b] = o_.segments[i].ends;
     const auto [c, d] = o_.segments[j].ends;
     const auto side = [&](std::int32_t p, std::int32_t q, std::int32_t r) {
-      return ground_.orientation(point(p), point(q), point(r));
+      return surface_.orientation(point(p), point(q), point(r));
     };
     // Two great circles meet twice: c and a are on opposite sides of each other's segment where the segments do.
     const Sign of_c = side(a, b, c), of_a = side(c, d, a);
@@ -141,7 +141,7 @@ class Arranger {
     std::vector<BoundingBox> boxes;
     std::vector<std::uint8_t> used(o_.points.size(), 0);
     for (const OutlineSegment& s : o_.segments) {
-      boxes.push_back(box_around(ground_, point(s.ends[0]), point(s.ends[1])));
+      boxes.push_back(box_around(surface_, point(s.ends[0]), point(s.ends[1])));
       for (const std::int32_t end : s.ends) used[static_cast<std::size_t>(end)] = 1;
     }
     const BoundingBoxTree tree(boxes);
@@ -232,7 +232,7 @@ class Arranger {
     values.resize(kept);
   }
 
-  const Ground& ground_;
+  const Surface& surface_;
   const Outline& o_;
   const std::vector<Vec3>& places_;
   const OutlineNames& names_;
@@ -246,9 +246,9 @@ const OutlineNames& names_of(const Outline& outline) {
   return outline.names ? *outline.names : from_zero;
 }
 
-Expected<std::vector<OutlineEdge>> arrange(const Ground& ground, const Outline& outline,
+Expected<std::vector<OutlineEdge>> arrange(const Surface& surface, const Outline& outline,
                                            const std::vector<Vec3>& places) {
-  return Arranger(ground, outline, places).run();
+  return Arranger(surface, outline, places).run();
 }
 
 }  // namespace temper::mesher

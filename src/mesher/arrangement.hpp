@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/ground.hpp"
+#include "geometry/surface.hpp"
 #include "temper/detail/error.hpp"
 #include "temper/detail/outline.hpp"
 
@@ -22,7 +22,7 @@ struct OutlineEdge {
 /// The edges, in the order of the segments. Errors: everything that makes segments no planar graph. Whether points lie
 /// on segments and segments cross is decided exactly. O(n log n) where segments do not lie across each other's boxes.
 /// `places`: of the points. A whole sphere needs no segments.
-[[nodiscard]] Expected<std::vector<OutlineEdge>> arrange(const Ground& ground, const Outline& outline,
+[[nodiscard]] Expected<std::vector<OutlineEdge>> arrange(const Surface& surface, const Outline& outline,
                                                          const std::vector<Vec3>& places);
 
 /// The names of the outline, or those that count from 0.

@@ -18,9 +18,9 @@ constexpr std::size_t kLeaf = 8;  // sources tested one by one
 
 }  // namespace
 
-GradedSize::GradedSize(const Ground& ground, std::span<const SizeSource> sources, const WantedSize& wanted,
+GradedSize::GradedSize(const Surface& surface, std::span<const SizeSource> sources, const WantedSize& wanted,
                        double grade)
-    : ground_(ground), wanted_(wanted), grade_(grade) {
+    : surface_(surface), wanted_(wanted), grade_(grade) {
   for (const SizeSource& source : sources) {
     if (source.size < wanted.most) sources_.push_back(source);
   }
@@ -77,7 +77,7 @@ void GradedSize::lower(std::uint32_t at, Vec3 x, double& best) const {
 }
 
 double GradedSize::operator()(Vec3 x) const {
-  double best = wanted_.at(x, ground_);
+  double best = wanted_.at(x, surface_);
   if (!nodes_.empty() && bound(nodes_[0], x) < best) lower(0, x, best);
   return best;
 }
@@ -85,7 +85,7 @@ double GradedSize::operator()(Vec3 x) const {
 namespace {
 
 /// Distances along a segment of given length where it is to be divided: equal parts of the integral of 1/size.
-std::vector<double> divisions(const GroundPath& path, const GradedSize& size, Deadline& deadline) {
+std::vector<double> divisions(const SurfacePath& path, const GradedSize& size, Deadline& deadline) {
   constexpr double kStep = 0.125;      // of the local size: the integrand changes by less than grade/8 in a step
   constexpr double kStretch = 0.25;    // a piece may be longer than its size by this part, rather than be halved
   constexpr double kLeastStep = 1e-7;  // of the segment: what is finer takes fewer samples, not all memory
@@ -114,7 +114,7 @@ std::vector<double> divisions(const GroundPath& path, const GradedSize& size, De
 }
 
 /// The other ends of the edges at each point, sorted by direction.
-std::vector<std::vector<std::int32_t>> neighbours(const Ground& ground, const std::vector<Vec3>& points,
+std::vector<std::vector<std::int32_t>> neighbours(const Surface& surface, const std::vector<Vec3>& points,
                                                   const std::vector<OutlineEdge>& edges) {
   std::vector<std::vector<std::int32_t>> result(points.size());
   for (const OutlineEdge& e : edges) {
@@ -122,7 +122,7 @@ std::vector<std::vector<std::int32_t>> neighbours(const Ground& ground, const st
     result[static_cast<std::size_t>(e.ends[1])].push_back(e.ends[0]);
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3 first = ground.some_direction(points[i]), second = ground.to_the_left(first, points[i]);
+    const Vec3 first = surface.some_direction(points[i]), second = surface.to_the_left(first, points[i]);
     const auto angle = [&](std::int32_t j) {
       const Vec3 d = points[static_cast<std::size_t>(j)] - points[i];
       return std::atan2(dot(d, second), dot(d, first));
@@ -133,10 +133,10 @@ std::vector<std::vector<std::int32_t>> neighbours(const Ground& ground, const st
   return result;
 }
 
-bool is_sharp(const Ground& ground, const std::vector<Vec3>& points, std::size_t apex,
+bool is_sharp(const Surface& surface, const std::vector<Vec3>& points, std::size_t apex,
               const std::vector<std::int32_t>& around) {
   const auto direction = [&](std::size_t k) {
-    return ground.direction(points[apex], points[static_cast<std::size_t>(around[k % around.size()])]);
+    return surface.direction(points[apex], points[static_cast<std::size_t>(around[k % around.size()])]);
   };
   for (std::size_t k = 0; around.size() > 1 && k < around.size(); ++k) {
     if (dot(direction(k), direction(k + 1)) > kSharpCosine) return true;
@@ -145,7 +145,7 @@ bool is_sharp(const Ground& ground, const std::vector<Vec3>& points, std::size_t
 }
 
 /// The nearest edge that does not end at the point, or `within`.
-double clearance(const Ground& ground, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
+double clearance(const Surface& surface, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
                  const BoundingBoxTree& tree, std::size_t apex, double within) {
   double least = within * within;
   const Vec3 p = points[apex];
@@ -153,7 +153,7 @@ double clearance(const Ground& ground, const std::vector<Vec3>& points, const st
     const auto [a, b] = edges[i].ends;
     if (static_cast<std::size_t>(a) != apex && static_cast<std::size_t>(b) != apex) {
       least = std::min(
-          least, ground.squared_distance(p, points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]));
+          least, surface.squared_distance(p, points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]));
     }
     return true;
   });
@@ -162,16 +162,16 @@ double clearance(const Ground& ground, const std::vector<Vec3>& points, const st
 
 }  // namespace
 
-CornerRadii corner_radii(const Ground& ground, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
+CornerRadii corner_radii(const Surface& surface, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
                          double largest) {
-  const auto around = neighbours(ground, points, edges);
+  const auto around = neighbours(surface, points, edges);
   std::vector<std::uint8_t> sharp(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) sharp[i] = is_sharp(ground, points, i, around[i]) ? 1 : 0;
+  for (std::size_t i = 0; i < points.size(); ++i) sharp[i] = is_sharp(surface, points, i, around[i]) ? 1 : 0;
   std::vector<BoundingBox> boxes;
   boxes.reserve(edges.size());
   for (const OutlineEdge& e : edges) {
     boxes.push_back(
-        box_around(ground, points[static_cast<std::size_t>(e.ends[0])], points[static_cast<std::size_t>(e.ends[1])]));
+        box_around(surface, points[static_cast<std::size_t>(e.ends[0])], points[static_cast<std::size_t>(e.ends[1])]));
   }
   const BoundingBoxTree tree(boxes);
   CornerRadii radii(points.size(), 0);
@@ -180,25 +180,25 @@ CornerRadii corner_radii(const Ground& ground, const std::vector<Vec3>& points, 
     double radius = largest;
     for (const std::int32_t j : around[i]) {
       const double reach = sharp[static_cast<std::size_t>(j)] != 0 ? 1.0 / 3 : 0.5;
-      radius = std::min(radius, reach * ground.distance(points[i], points[static_cast<std::size_t>(j)]));
+      radius = std::min(radius, reach * surface.distance(points[i], points[static_cast<std::size_t>(j)]));
     }
     constexpr double kApart = 0.5;  // of the way to the next thing
-    radii[i] = std::min(radius, kApart * clearance(ground, points, edges, tree, i, radius / kApart));
+    radii[i] = std::min(radius, kApart * clearance(surface, points, edges, tree, i, radius / kApart));
   }
   return radii;
 }
 
-DividedOutline divide(const Ground& ground, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
+DividedOutline divide(const Surface& surface, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
                       const GradedSize& size, const CornerRadii& corners, Deadline& deadline) {
   DividedOutline divided{points, {}};
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto a = static_cast<std::uint32_t>(edges[e].ends[0]), b = static_cast<std::uint32_t>(edges[e].ends[1]);
-    const GroundPath path(ground, points[a], points[b]);
+    const SurfacePath path(surface, points[a], points[b]);
     const double whole = path.length();
     const double first = corners[a], last = whole - corners[b];
     std::vector<double> at;
     if (first > 0) at.push_back(first);
-    for (const double t : divisions(GroundPath(ground, path.at(first), path.at(last)), size, deadline)) {
+    for (const double t : divisions(SurfacePath(surface, path.at(first), path.at(last)), size, deadline)) {
       at.push_back(first + t);
     }
     if (last < whole) at.push_back(last);
@@ -214,12 +214,12 @@ DividedOutline divide(const Ground& ground, const std::vector<Vec3>& points, con
   return divided;
 }
 
-double count_pieces(const Ground& ground, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
+double count_pieces(const Surface& surface, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
                     double size) {
   double pieces = 0;
   for (const OutlineEdge& e : edges) {
     const double whole =
-        ground.distance(points[static_cast<std::size_t>(e.ends[0])], points[static_cast<std::size_t>(e.ends[1])]);
+        surface.distance(points[static_cast<std::size_t>(e.ends[0])], points[static_cast<std::size_t>(e.ends[1])]);
     pieces += std::max(1.0, std::ceil(whole / size));
   }
   return pieces;

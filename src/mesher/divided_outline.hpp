@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/ground.hpp"
+#include "geometry/surface.hpp"
 #include "mesher/arrangement.hpp"
 #include "mesher/deadline.hpp"
 #include "temper/detail/size.hpp"
@@ -30,14 +30,14 @@ struct WantedSize {
   double most = 0;
   const SizeField* field = nullptr;  ///< or none
 
-  [[nodiscard]] double at(Vec3 x, const Ground& ground) const {
-    return field == nullptr ? most : std::min(most, field->at(ground.vertex(x)).size);
+  [[nodiscard]] double at(Vec3 x, const Surface& surface) const {
+    return field == nullptr ? most : std::min(most, field->at(surface.vertex(x)).size);
   }
 };
 
 class GradedSize {
  public:
-  GradedSize(const Ground& ground, std::span<const SizeSource> sources, const WantedSize& wanted, double grade);
+  GradedSize(const Surface& surface, std::span<const SizeSource> sources, const WantedSize& wanted, double grade);
   /// O(log n) where sources are spread evenly.
   [[nodiscard]] double operator()(Vec3 x) const;
 
@@ -54,7 +54,7 @@ class GradedSize {
 
   std::vector<SizeSource> sources_;
   std::vector<Node> nodes_;
-  const Ground& ground_;
+  const Surface& surface_;
   WantedSize wanted_;
   double grade_;
 };
@@ -79,17 +79,17 @@ struct DividedOutline {
 using CornerRadii = std::vector<double>;
 
 /// Divides every edge so that its pieces follow the size. What is left when it is time to stop is divided less.
-[[nodiscard]] DividedOutline divide(const Ground& ground, const std::vector<Vec3>& points,
+[[nodiscard]] DividedOutline divide(const Surface& surface, const std::vector<Vec3>& points,
                                     const std::vector<OutlineEdge>& edges, const GradedSize& size,
                                     const CornerRadii& corners, Deadline& deadline);
 
 /// About how many pieces that makes.
-[[nodiscard]] double count_pieces(const Ground& ground, const std::vector<Vec3>& points,
+[[nodiscard]] double count_pieces(const Surface& surface, const std::vector<Vec3>& points,
                                   const std::vector<OutlineEdge>& edges, double size);
 
 /// Corners of the outline sharper than kSharpCosine, and how far they reach: to a half of their shortest edge (a third
 /// when that has a sharp corner at its other end too), and never near anything that does not belong to the corner.
-[[nodiscard]] CornerRadii corner_radii(const Ground& ground, const std::vector<Vec3>& points,
+[[nodiscard]] CornerRadii corner_radii(const Surface& surface, const std::vector<Vec3>& points,
                                        const std::vector<OutlineEdge>& edges, double largest);
 
 }  // namespace temper::mesher

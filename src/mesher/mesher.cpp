@@ -78,7 +78,7 @@ class Mesher {
   /// `places`: of the points of the outline.
   Mesher(const Space& space, const Outline& outline, std::vector<Vec3> places, const MesherOptions& options,
          const OptimizeHooks& hooks)
-      : ground_(space),
+      : surface_(space),
         outline_(outline),
         places_(std::move(places)),
         options_(options),
@@ -86,12 +86,12 @@ class Mesher {
         deadline_(options.time_limit, hooks_.observer) {}
 
   Expected<OutlineMesh> run() {
-    if (auto error = check(options_, ground_.space())) return *error;
+    if (auto error = check(options_, surface_.space())) return *error;
     wanted_ = wanted();
-    Expected<std::vector<OutlineEdge>> edges = arrange(ground_, outline_, places_);
+    Expected<std::vector<OutlineEdge>> edges = arrange(surface_, outline_, places_);
     if (!edges) return edges.error();
     edges_ = *std::move(edges);
-    Expected<Areas> areas = find_areas(ground_, outline_, places_, edges_, options_, wanted_.most, deadline_);
+    Expected<Areas> areas = find_areas(surface_, outline_, places_, edges_, options_, wanted_.most, deadline_);
     if (!areas) return areas.error();
     areas_ = *std::move(areas);
     if (auto error = check_count()) return *error;
@@ -111,7 +111,7 @@ class Mesher {
 
   /// Refuses what would take all memory, by the area inside.
   [[nodiscard]] std::optional<InputError> check_count() const {
-    const double triangles = 2 * count_pieces(ground_, places_, edges_, wanted_.most) + count_inside();
+    const double triangles = 2 * count_pieces(surface_, places_, edges_, wanted_.most) + count_inside();
     if (triangles <= static_cast<double>(options_.most_triangles)) return {};
     return invalid((options_.field ? std::string("the size field") : "a size of " + std::to_string(options_.size)) +
                    " would make about " + std::to_string(static_cast<long long>(std::min(triangles, 9e18))) +
@@ -128,7 +128,8 @@ class Mesher {
     const Mesh& mesh = options_.field->mesh();
     for (const TriangleId t : mesh.triangles()) {
       const auto [a, b, c] = mesh.corners(t);
-      const Vec3 p = ground_.place(mesh.point(a)), q = ground_.place(mesh.point(b)), r = ground_.place(mesh.point(c));
+      const Vec3 p = surface_.place(mesh.point(a)), q = surface_.place(mesh.point(b)),
+                 r = surface_.place(mesh.point(c));
       const double size = (options_.field->at(a) + options_.field->at(b) + options_.field->at(c)) / 3;
       triangles += count(0.5 * length(cross(q - p, r - p)), std::min(size, wanted_.most));
       least = std::min(least, size);
@@ -142,8 +143,8 @@ class Mesher {
       if (area == kOutside) return;
       triangles += count(extent, std::min(most, areas_.areas[static_cast<std::size_t>(area)].size));
     };
-    if (ground_.space().is_closed()) {
-      const double radius = ground_.space().radius(), whole = 4 * std::numbers::pi * radius * radius;
+    if (surface_.space().is_closed()) {
+      const double radius = surface_.space().radius(), whole = 4 * std::numbers::pi * radius * radius;
       for (std::size_t i = 0; i < areas_.areas.size(); ++i) {
         add(static_cast<std::int32_t>(i), areas_.areas[i].extent * whole);
       }
@@ -162,28 +163,28 @@ class Mesher {
   void start_sources() {
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       const Vec3 a = point(edges_[i].ends[0]), b = point(edges_[i].ends[1]);
-      const double whole = ground_.distance(a, b);
+      const double whole = surface_.distance(a, b);
       for (const Vec3 end : {a, b}) sources_.push_back({end, whole});
       for (const std::int32_t area : areas_.sides[i]) {
         const double size = area == kOutside ? wanted_.most : areas_.areas[static_cast<std::size_t>(area)].size;
         if (size >= wanted_.most) continue;
         const auto n = static_cast<std::size_t>(std::ceil(whole / size));
         for (std::size_t k = 0; k <= n; ++k) {
-          sources_.push_back({ground_.between(a, b, static_cast<double>(k) / static_cast<double>(n)), size});
+          sources_.push_back({surface_.between(a, b, static_cast<double>(k) / static_cast<double>(n)), size});
         }
       }
     }
     if (options_.field) grade_field(*options_.field);
-    corners_ = corner_radii(ground_, places_, edges_, wanted_.most);
+    corners_ = corner_radii(surface_, places_, edges_, wanted_.most);
   }
 
   void grade_field(const SizeField& field) {
     const Mesh& mesh = field.mesh();
     for (const VertexId v : mesh.vertices()) {
-      const Vec3 p = ground_.place(mesh.point(v));
+      const Vec3 p = surface_.place(mesh.point(v));
       const double here = field.at(v);
       const auto is_steep = [&](VertexId u) {
-        return field.at(u) > here + options_.grade * length(ground_.place(mesh.point(u)) - p);
+        return field.at(u) > here + options_.grade * length(surface_.place(mesh.point(u)) - p);
       };
       bool steep = false;
       for (const HalfedgeId h : mesh.star(v)) steep = steep || is_steep(mesh.target(h)) || is_steep(mesh.opposite(h));
@@ -193,30 +194,30 @@ class Mesher {
 
   /// Where the front begins on a sphere without an outline: at the least size.
   [[nodiscard]] Vec3 start() const {
-    if (!options_.field) return {ground_.space().radius(), 0, 0};
+    if (!options_.field) return {surface_.space().radius(), 0, 0};
     VertexId least(0);
     for (const VertexId v : options_.field->mesh().vertices()) {
       if (options_.field->at(v) < options_.field->at(least)) least = v;
     }
-    return ground_.place(options_.field->mesh().point(least));
+    return surface_.place(options_.field->mesh().point(least));
   }
 
-  [[nodiscard]] GradedSize size() const { return {ground_, sources_, wanted_, options_.grade}; }
+  [[nodiscard]] GradedSize size() const { return {surface_, sources_, wanted_, options_.grade}; }
 
   /// Divides the outline, finer where that shows pieces that face each other, until nothing changes.
   Expected<DividedOutline> resolve() {
     constexpr int kRounds = 20;  // each finds what the last one's longer pieces hid; three or four do nearly always
-    DividedOutline divided = divide(ground_, places_, edges_, size(), corners_, deadline_);
+    DividedOutline divided = divide(surface_, places_, edges_, size(), corners_, deadline_);
     if (deadline_.stopped()) return stopped("divided");
     if (divided.pieces.size() > options_.most_triangles) return too_many();
     for (int round = 0; round < kRounds; ++round) {
-      const Expected<Triangulated> triangulated = triangulate(ground_, divided, {}, areas_, deadline_);
+      const Expected<Triangulated> triangulated = triangulate(surface_, divided, {}, areas_, deadline_);
       if (deadline_.stopped()) return stopped("divided");
       if (!triangulated) return too_fine(triangulated.error());
       const std::vector<SizeSource> narrow = narrow_places(divided, *triangulated, size(), deadline_);
       if (narrow.empty()) break;
       sources_.insert(sources_.end(), narrow.begin(), narrow.end());
-      divided = divide(ground_, places_, edges_, size(), corners_, deadline_);
+      divided = divide(surface_, places_, edges_, size(), corners_, deadline_);
       if (deadline_.stopped()) return stopped("divided");
       if (divided.pieces.size() > options_.most_triangles) return too_many();
     }
@@ -236,7 +237,7 @@ class Mesher {
   }
   [[nodiscard]] InputError too_coarse() const {
     return invalid("edges of " + to_text(wanted_.most) + " are too long for a sphere of radius " +
-                   to_text(ground_.space().radius()));
+                   to_text(surface_.space().radius()));
   }
   [[nodiscard]] InputError too_many() const {
     return invalid("short edges and narrow places of the outline, with this grade, would make more than " +
@@ -245,9 +246,9 @@ class Mesher {
 
   Expected<OutlineMesh> make(const DividedOutline& divided) {
     const std::size_t most_points = options_.most_triangles / 2;  // two triangles a vertex
-    const std::vector<Vec3> placed = place_points(ground_, divided, areas_, size(), start(), most_points, deadline_);
+    const std::vector<Vec3> placed = place_points(surface_, divided, areas_, size(), start(), most_points, deadline_);
     if (placed.size() >= most_points) return too_many();
-    const Expected<Triangulated> triangulated = triangulate(ground_, divided, placed, areas_, deadline_);
+    const Expected<Triangulated> triangulated = triangulate(surface_, divided, placed, areas_, deadline_);
     if (deadline_.stopped()) return stopped("filled with points");
     if (!triangulated) return too_fine(triangulated.error());
     return build(divided, placed, *triangulated);
@@ -305,7 +306,7 @@ class Mesher {
           {VertexId(static_cast<std::size_t>(a)), VertexId(static_cast<std::size_t>(b)), edges_[piece.edge].tag});
     }
     const MeshNames names(names_of(outline_), inside->outline_points);
-    InputPlaces places(ground_.space());
+    InputPlaces places(surface_.space());
     for (const Vec3 p : inside->places) places.add(p);
     MeshInput input = places.input();
     input.triangles = triangles;
@@ -388,7 +389,7 @@ class Mesher {
     const GradedSize now = size();
     for (const TriangleId t : bad_triangles(mesh)) {
       for (const VertexId v : mesh.corners(t)) {
-        const Vec3 p = ground_.place(mesh.point(v));
+        const Vec3 p = surface_.place(mesh.point(v));
         sources_.push_back({p, kSmaller * now(p)});
       }
     }
@@ -420,7 +421,7 @@ class Mesher {
     return best;
   }
 
-  Ground ground_;
+  Surface surface_;
   const Outline& outline_;
   std::vector<Vec3> places_;
   const MesherOptions& options_;

@@ -218,18 +218,18 @@ struct Front {
 
 class Placement {
  public:
-  Placement(const Ground& ground, const DividedOutline& divided, const Areas& areas, const GradedSize& size,
+  Placement(const Surface& surface, const DividedOutline& divided, const Areas& areas, const GradedSize& size,
             Deadline& deadline)
-      : ground_(ground),
+      : surface_(surface),
         divided_(divided),
         areas_(areas),
         size_(size),
         deadline_(deadline),
-        grid_(ground.space().dimension() == 2) {
+        grid_(surface.space().dimension() == 2) {
     std::vector<BoundingBox> boxes;
     boxes.reserve(divided.pieces.size());
     for (const Piece& p : divided.pieces)
-      boxes.push_back(box_around(ground, divided.points[p.ends[0]], divided.points[p.ends[1]]));
+      boxes.push_back(box_around(surface, divided.points[p.ends[0]], divided.points[p.ends[1]]));
     tree_ = BoundingBoxTree(boxes);
     for (const Vec3 p : divided.points) grid_.add(p, size(p));
   }
@@ -243,9 +243,9 @@ class Placement {
       for (int k = 0; k < 6; ++k) {
         const double angle = k * std::numbers::pi / 3;
         const double c = std::cos(angle), s = std::sin(angle);
-        const Vec3 d = c * from.direction + s * ground_.to_the_left(from.direction, from.at);
-        const double there = size_at(ground_.below(from.at + here * d), from.area);
-        take(ground_.below(from.at + 0.5 * (here + there) * d), from.at, from.area, kNoPiece);
+        const Vec3 d = c * from.direction + s * surface_.to_the_left(from.direction, from.at);
+        const double there = size_at(surface_.below(from.at + here * d), from.area);
+        take(surface_.below(from.at + 0.5 * (here + there) * d), from.at, from.area, kNoPiece);
       }
     }
     std::vector<Vec3> points;
@@ -265,25 +265,25 @@ class Placement {
   void start_from(std::size_t i) {
     const Piece& piece = divided_.pieces[i];
     const Vec3 a = divided_.points[piece.ends[0]], b = divided_.points[piece.ends[1]];
-    const Vec3 middle = ground_.below(0.5 * (a + b)),
-               normal = ground_.to_the_left((1 / length(b - a)) * (b - a), middle);
+    const Vec3 middle = surface_.below(0.5 * (a + b)),
+               normal = surface_.to_the_left((1 / length(b - a)) * (b - a), middle);
     for (const int side : {0, 1}) {
       const std::int32_t area = areas_.sides[piece.edge][static_cast<std::size_t>(side)];
       if (area == kOutside) continue;
       const Vec3 inwards = side == 0 ? normal : -1.0 * normal;
       const double size = size_at(middle, area);
       for (const double height : kHeights) {
-        if (take(ground_.below(middle + (height * size) * inwards), middle, area, i)) break;
+        if (take(surface_.below(middle + (height * size) * inwards), middle, area, i)) break;
       }
     }
   }
 
   /// Returns how many points of the front are there already.
   std::size_t start_without_pieces(Vec3 start) {
-    for (const Vec3 p : divided_.points) front_.push_back({p, ground_.some_direction(p), 0});
+    for (const Vec3 p : divided_.points) front_.push_back({p, surface_.some_direction(p), 0});
     if (front_.empty()) {
       grid_.add(start, size_at(start, 0));
-      front_.push_back({start, ground_.some_direction(start), 0});
+      front_.push_back({start, surface_.some_direction(start), 0});
     }
     return divided_.points.size();
   }
@@ -292,22 +292,22 @@ class Placement {
     const double size = size_at(p, area);
     if (grid_.any_within(p, kApart * size) || !is_clear(p, from, kClear * size, own_piece)) return false;
     grid_.add(p, size);
-    front_.push_back({p, -1.0 * ground_.direction(p, from), area});
+    front_.push_back({p, -1.0 * surface_.direction(p, from), area});
     return true;
   }
 
   /// No piece is within the distance of p, or between p and where it comes from.
   [[nodiscard]] bool is_clear(Vec3 p, Vec3 from, double distance, std::size_t own_piece) const {
-    const BoundingBox box = united(BoundingBox{p, p}.grown(distance), box_around(ground_, p, from));
+    const BoundingBox box = united(BoundingBox{p, p}.grown(distance), box_around(surface_, p, from));
     return tree_.visit(box, [&](std::size_t i) {
       const Vec3 a = divided_.points[divided_.pieces[i].ends[0]], b = divided_.points[divided_.pieces[i].ends[1]];
-      if (ground_.squared_distance(p, a, b) < distance * distance) return false;
-      return i == own_piece || !(ground_.orientation(a, b, p) != ground_.orientation(a, b, from) &&
-                                 ground_.orientation(p, from, a) != ground_.orientation(p, from, b));
+      if (surface_.squared_distance(p, a, b) < distance * distance) return false;
+      return i == own_piece || !(surface_.orientation(a, b, p) != surface_.orientation(a, b, from) &&
+                                 surface_.orientation(p, from, a) != surface_.orientation(p, from, b));
     });
   }
 
-  const Ground& ground_;
+  const Surface& surface_;
   const DividedOutline& divided_;
   const Areas& areas_;
   const GradedSize& size_;
@@ -319,9 +319,9 @@ class Placement {
 
 }  // namespace
 
-std::vector<Vec3> place_points(const Ground& ground, const DividedOutline& divided, const Areas& areas,
+std::vector<Vec3> place_points(const Surface& surface, const DividedOutline& divided, const Areas& areas,
                                const GradedSize& size, Vec3 start, std::size_t most, Deadline& deadline) {
-  return Placement(ground, divided, areas, size, deadline).run(start, most);
+  return Placement(surface, divided, areas, size, deadline).run(start, most);
 }
 
 }  // namespace temper::mesher

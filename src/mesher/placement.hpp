@@ -18,7 +18,7 @@ namespace temper::mesher {
 /// too near and no piece lies between. The order is that of the pieces, then of the points: deterministic. Ends when
 /// there are `most`, or when it is time to stop. A whole sphere without pieces is filled from its isolated points, or
 /// from `start`. O(n log n).
-[[nodiscard]] std::vector<Vec3> place_points(const Ground& ground, const DividedOutline& divided, const Areas& areas,
+[[nodiscard]] std::vector<Vec3> place_points(const Surface& surface, const DividedOutline& divided, const Areas& areas,
                                              const GradedSize& size, Vec3 start, std::size_t most, Deadline& deadline);
 
 }  // namespace temper::mesher

@@ -13,7 +13,7 @@
 #include "base/assert.hpp"
 #include "base/median.hpp"
 #include "energy/whole_mesh.hpp"
-#include "geometry/in_space.hpp"
+#include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "mesh/blocks.hpp"
 #include "mesh/curve.hpp"

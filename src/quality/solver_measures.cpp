@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/median.hpp"
-#include "geometry/in_space.hpp"
+#include "geometry/surface.hpp"
 #include "mesh/blocks.hpp"
 #include "quality/measure.hpp"
 #include "size/star_area.hpp"
@@ -171,7 +171,7 @@ double centroid_offset(const Space& space, const Ring& ring) {
   if (!(doubled > 0)) return std::numeric_limits<double>::infinity();
   const Vec3 offset = (1 / doubled) * moment;
   const double height = dot(up, offset), across = length(offset - height * up);
-  return space.along_ground(across, height);
+  return space.along_surface(across, height);
 }
 
 /// Precondition: the ring is closed, the vertex not on the boundary.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/in_space.hpp"
+#include "geometry/surface.hpp"
 #include "mesh/curve.hpp"
 #include "temper/detail/size.hpp"
 #include "temper/mesh.hpp"

@@ -17,8 +17,8 @@
 #include <utility>
 
 #include "base/assert.hpp"
-#include "geometry/ground.hpp"
 #include "geometry/predicates_inline.hpp"
+#include "geometry/surface.hpp"
 #include "temper/detail/space.hpp"
 #include "temper/topology.hpp"
 #include "topology/locate.hpp"
@@ -43,8 +43,8 @@ WeightedPoint split_point(const Space& space, const WeightedPoint& a, const Weig
     const Vec2 step = b.position() - a.position(), p = a.position() + t * step;
     return {p.x, p.y, split_weight(a.w, b.w, squared_length(step), t)};
   }
-  const Ground ground(space);
-  const Vec3 from = ground.place(a), to = ground.place(b), p = ground.between(from, to, t);
+  const Surface surface(space);
+  const Vec3 from = surface.place(a), to = surface.place(b), p = surface.between(from, to, t);
   // The piece ap has both d inside when σ is between σ_a cos(ap) and σ_a / cos(ap), σ = R/|P|, and the other likewise.
   const double r = space.radius(), r2 = r * r;
   const double sigma_a = r / length(as_vector(a)), sigma_b = r / length(as_vector(b));

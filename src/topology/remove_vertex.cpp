@@ -34,7 +34,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/in_space.hpp"
+#include "geometry/surface.hpp"
 #include "mesh/predicates.hpp"
 #include "temper/mesh.hpp"
 #include "temper/topology.hpp"

@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "geometry/in_space.hpp"
+#include "geometry/surface.hpp"
 #include "mesh/input_places.hpp"
 #include "temper/dec.hpp"
 #include "temper/regularity.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/sum.hpp"
-#include "geometry/in_space.hpp"
+#include "geometry/surface.hpp"
 #include "mesh/blocks.hpp"
 #include "verify/fields.hpp"
 

@@ -132,7 +132,7 @@ class Space {
     return is_plane() ? Vec3{0, 0, 1} : (1 / length(as_vector(p))) * as_vector(p);
   }
   /// How far along the ground what is `across` and this high from a point is [length]. Across is a tangent.
-  [[nodiscard]] double along_ground(double across, double height) const {
+  [[nodiscard]] double along_surface(double across, double height) const {
     return is_plane() ? across : radius_ * std::atan2(across, radius_ + height);
   }
   /// A place as users see it: x and y, or longitude and latitude [degrees].

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/assert.hpp"
-#include "geometry/in_space.hpp"
+#include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/run/judge.hpp"
