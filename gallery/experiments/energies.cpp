@@ -11,7 +11,7 @@ std::string subscript(std::string_view energy) { return energy == "dT" ? "∂T" 
 
 }  // namespace
 
-std::size_t place_of(std::string_view energy) {
+std::size_t position_of(std::string_view energy) {
   return static_cast<std::size_t>(std::ranges::find(kFiveEnergies, energy) - kFiveEnergies.begin());
 }
 

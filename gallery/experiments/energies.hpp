@@ -16,7 +16,7 @@ inline constexpr std::array<std::string_view, 3> kHotEnergies = {"F", "dT", "T"}
 inline constexpr std::array<std::string_view, 2> kBarriers = {"BP", "BHs"};
 inline constexpr std::array<std::string_view, 5> kFiveEnergies = {"F", "dT", "T", "BP", "BHs"};
 /// The index of an energy among the five.
-[[nodiscard]] std::size_t place_of(std::string_view energy);
+[[nodiscard]] std::size_t position_of(std::string_view energy);
 
 /// "E_∂T" of "dT", for prose.
 [[nodiscard]] std::string symbol(std::string_view energy);

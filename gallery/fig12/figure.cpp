@@ -25,7 +25,7 @@ constexpr Vec2 kP1 = {0, 2};
 /// One run for each energy, positions only, no collapses.
 struct FiveRuns {
   std::array<SparseRun, kFiveEnergies.size()> runs;
-  [[nodiscard]] const SparseRun& of(std::string_view energy) const { return runs[place_of(energy)]; }
+  [[nodiscard]] const SparseRun& of(std::string_view energy) const { return runs[position_of(energy)]; }
 };
 FiveRuns position_runs() {
   FiveRuns five;

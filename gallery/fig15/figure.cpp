@@ -88,7 +88,7 @@ Claim immediate_weights_hot(const std::array<SequenceCount, 5>& immediate) {
 }
 
 Claim immediate_weights_bp(const std::array<SequenceCount, 5>& immediate) {
-  const SequenceCount& c = immediate[place_of("BP")];
+  const SequenceCount& c = immediate[position_of("BP")];
   const int now = run_sparse(with_collapses("BP", 0)).collapsed_in(),
             deferred = run_sparse(with_collapses("BP", 2)).collapsed_in();
   return {"15",

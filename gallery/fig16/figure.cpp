@@ -20,7 +20,7 @@ namespace {
 /// One run for each energy, vertices as numbered.
 struct FiveRuns {
   std::array<Recording, kFiveEnergies.size()> runs;
-  [[nodiscard]] const Recording& of(std::string_view energy) const { return runs[place_of(energy)]; }
+  [[nodiscard]] const Recording& of(std::string_view energy) const { return runs[position_of(energy)]; }
   [[nodiscard]] const Mesh& mesh(std::string_view energy) const { return before_flips(of(energy)).mesh; }
 };
 FiveRuns five_runs() {

@@ -42,7 +42,7 @@ class Projection(Record):
 def parse_projection(text: str, places: npt.ArrayLike | None = None) -> Projection:
     """Reads ``"stereographic"``, ``"mercator:lon"``, ``"transverse-mercator:lon,lat"``. Without a center, that of
     ``places``, (k, 2)."""
-    return Projection(*_temper.parse_projection(text, _doubles(places, 2, "places")))
+    return Projection(*_temper.parse_projection(text, _doubles(places, 2, "location")))
 
 
 def forward(projection: Projection, lon_lat: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -52,7 +52,7 @@ def forward(projection: Projection, lon_lat: npt.ArrayLike) -> npt.NDArray[np.fl
 
 def inverse(projection: Projection, places: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Longitudes, in [center − 180, center + 180], and latitudes [degrees], (k, 2), of (k, 2) places on the map."""
-    return _temper.inverse(*projection._plain(), _doubles(places, 2, "places"))
+    return _temper.inverse(*projection._plain(), _doubles(places, 2, "location"))
 
 
 def scale_factor(projection: Projection, lon_lat: npt.ArrayLike) -> npt.NDArray[np.float64]:

@@ -15,7 +15,7 @@
 #include "feasibility/certify.hpp"
 #include "feasibility/constraints.hpp"
 #include "geometry/surface.hpp"
-#include "mesh/input_places.hpp"
+#include "mesh/input_positions.hpp"
 #include "quality/measure.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/regularity.hpp"
@@ -55,7 +55,7 @@ std::optional<Patch> patch_of(const Mesh& mesh, const Conflict& conflict, std::s
   patch.slots = triangles_around(mesh, conflict.triangles);
   patch.original = vertices_of(mesh, patch.slots);
   std::map<VertexId, std::int32_t> number;
-  InputPlaces places(mesh.space());
+  InputPositions places(mesh.space());
   std::vector<std::int32_t> fixed, regions;
   for (const VertexId v : patch.original) {
     number[v] = static_cast<std::int32_t>(number.size());
@@ -123,13 +123,13 @@ std::vector<Vec3> compass(const Surface& surface, Vec3 at, std::optional<Vec3> a
   return directions;
 }
 
-Vec3 place_at(const Mesh& mesh, VertexId v) { return Surface(mesh.space()).place(mesh.point(v)); }
+Vec3 position_at(const Mesh& mesh, VertexId v) { return Surface(mesh.space()).place(mesh.point(v)); }
 
 double distance_to_nearest(const Mesh& mesh, VertexId v) {
   double least = kUnbounded;
   for (const HalfedgeId h : mesh.star(v)) {
     for (const VertexId u : {mesh.target(h), mesh.opposite(h)}) {
-      least = std::min(least, squared_length(place_at(mesh, u) - place_at(mesh, v)));
+      least = std::min(least, squared_length(position_at(mesh, u) - position_at(mesh, v)));
     }
   }
   return std::sqrt(least);
@@ -137,7 +137,7 @@ double distance_to_nearest(const Mesh& mesh, VertexId v) {
 
 Vec3 centroid(const Mesh& mesh, TriangleId t) {
   const auto [a, b, c] = mesh.corners(t);
-  return Surface(mesh.space()).below((1.0 / 3) * (place_at(mesh, a) + place_at(mesh, b) + place_at(mesh, c)));
+  return Surface(mesh.space()).below((1.0 / 3) * (position_at(mesh, a) + position_at(mesh, b) + position_at(mesh, c)));
 }
 
 TriangleId largest(const Mesh& mesh, std::span<const TriangleId> triangles) {
@@ -235,7 +235,7 @@ class CureFinder {
         return std::optional<Mesh>(std::move(mesh));
       };
       const double step = kFirstStep * distance_to_nearest(patch_.mesh, v);
-      const Place best = search(moved, v, place_at(patch_.mesh, v), step, std::nullopt);
+      const Place best = search(moved, v, position_at(patch_.mesh, v), step, std::nullopt);
       Cure cure;
       cure.action = Action::move_vertex;
       cure.vertex = patch_.in_mesh(v);
@@ -276,7 +276,7 @@ class CureFinder {
     for (const TriangleId t : patch_.conflict) {
       if (has_comfortable(Action::insert_vertex)) return;
       const auto [a, b, c] = patch_.mesh.corners(t);
-      const Vec3 p = place_at(patch_.mesh, a), q = place_at(patch_.mesh, b), r = place_at(patch_.mesh, c);
+      const Vec3 p = position_at(patch_.mesh, a), q = position_at(patch_.mesh, b), r = position_at(patch_.mesh, c);
       const auto is_left = [&](Vec3 x, Vec3 y, Vec3 z) { return surface_.orientation(x, y, z) == Sign::positive; };
       const auto inserted = [&](Vec3 at) {
         std::optional<Mesh> mesh;
@@ -298,11 +298,11 @@ class CureFinder {
   /// The places where the edge of h may be split: its middle, and below the corner across on either side.
   [[nodiscard]] std::vector<Vec3> places_on(HalfedgeId h) const {
     const Mesh& mesh = patch_.mesh;
-    const Vec3 p = place_at(mesh, mesh.origin(h)), q = place_at(mesh, mesh.target(h));
+    const Vec3 p = position_at(mesh, mesh.origin(h)), q = position_at(mesh, mesh.target(h));
     std::vector<Vec3> places = {surface_.between(p, q, 0.5)};
     for (const HalfedgeId side : {h, mesh.twin(h)}) {
       if (!side.valid()) continue;
-      const double s = surface_.part_below(p, q, place_at(mesh, mesh.opposite(side)));
+      const double s = surface_.part_below(p, q, position_at(mesh, mesh.opposite(side)));
       if (s > 0.1 && s < 0.9) places.push_back(surface_.between(p, q, s));
     }
     return places;
@@ -312,8 +312,8 @@ class CureFinder {
     const auto is_left = [&](Vec3 x, Vec3 y, Vec3 z) { return surface_.orientation(x, y, z) == Sign::positive; };
     for (const HalfedgeId side : {h, mesh.twin(h)}) {
       if (!side.valid()) continue;
-      const Vec3 p = place_at(mesh, mesh.origin(side)), q = place_at(mesh, mesh.target(side));
-      const Vec3 across = place_at(mesh, mesh.opposite(side));
+      const Vec3 p = position_at(mesh, mesh.origin(side)), q = position_at(mesh, mesh.target(side));
+      const Vec3 across = position_at(mesh, mesh.opposite(side));
       if (!is_left(p, at, across) || !is_left(at, q, across)) return false;
     }
     return true;
@@ -323,7 +323,8 @@ class CureFinder {
     for (const HalfedgeId h : edges_of(patch_.mesh, patch_.conflict)) {
       const bool boundary = patch_.mesh.is_boundary(h);
       const Action action = boundary ? Action::split_boundary : Action::split_edge;
-      const Vec3 p = place_at(patch_.mesh, patch_.mesh.origin(h)), q = place_at(patch_.mesh, patch_.mesh.target(h));
+      const Vec3 p = position_at(patch_.mesh, patch_.mesh.origin(h)),
+                 q = position_at(patch_.mesh, patch_.mesh.target(h));
       for (const Vec3 at : places_on(h)) {
         if (has_comfortable(action)) break;
         const auto split = [&](Vec3 place) {
@@ -376,7 +377,7 @@ std::vector<Cure> suggested_cures(const Mesh& mesh, const Conflict& conflict) {
   HalfedgeId longest;
   double most = 0;
   for (const HalfedgeId h : edges_of(mesh, conflict.triangles)) {
-    const double l = length(place_at(mesh, mesh.target(h)) - place_at(mesh, mesh.origin(h)));
+    const double l = length(position_at(mesh, mesh.target(h)) - position_at(mesh, mesh.origin(h)));
     if (!mesh.is_boundary(h) || l <= most) continue;
     most = l, longest = h;
   }
@@ -384,7 +385,8 @@ std::vector<Cure> suggested_cures(const Mesh& mesh, const Conflict& conflict) {
     Cure cure;
     cure.action = Cure::Action::split_boundary;
     cure.edge = {mesh.origin(longest), mesh.target(longest)};
-    const Vec3 middle = Surface(mesh.space()).between(place_at(mesh, cure.edge[0]), place_at(mesh, cure.edge[1]), 0.5);
+    const Vec3 middle =
+        Surface(mesh.space()).between(position_at(mesh, cure.edge[0]), position_at(mesh, cure.edge[1]), 0.5);
     cure.at = mesh.space().as_shown(middle);
     cures.push_back(cure);
   }

@@ -176,7 +176,7 @@ struct Scale {
 
 /// z is 0 in the plane.
 Vec3 place_in(const Mesh& mesh, VertexId v) {
-  if (!mesh.space().is_plane()) return place_of(mesh, v);
+  if (!mesh.space().is_plane()) return position_of(mesh, v);
   const Vec2 p = mesh.position(v);
   return {p.x, p.y, 0};
 }
@@ -311,7 +311,7 @@ class SphereTerms {
 
  private:
   [[nodiscard]] Vec3 at(VertexId v) const {
-    const Vec3 p = place_of(mesh_, v);
+    const Vec3 p = position_of(mesh_, v);
     return {scale_.coordinate(p.x), scale_.coordinate(p.y), scale_.coordinate(p.z)};
   }
   static std::optional<double> larger(std::optional<double> a, std::optional<double> b) {

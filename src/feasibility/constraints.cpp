@@ -31,12 +31,12 @@ LinearForm plane_form(const Mesh& mesh, const WeightConstraint& constraint) {
 LinearForm sphere_form(const Mesh& mesh, const WeightConstraint& constraint) {
   const auto [kind, vp, vq, vr, vs] = constraint;
   const double slope = slope_of_scale(mesh.space()), radius = mesh.space().radius();
-  const Vec3 p = place_of(mesh, vp), a = place_of(mesh, vq) - p;
+  const Vec3 p = position_of(mesh, vp), a = position_of(mesh, vq) - p;
   if (kind == WeightConstraint::Kind::crossing) {
     const double at_q = -0.5 / squared_length(a);  // slope · R²/ℓ²
     return {2, {vp, vq}, {-0.5 * slope - at_q, at_q}, 0.5, slope};
   }
-  const Vec3 b = place_of(mesh, vr) - p, pa = cross(p, a), pb = cross(p, b);
+  const Vec3 b = position_of(mesh, vr) - p, pa = cross(p, a), pb = cross(p, b);
   const double scale = radius * radius * radius / dot(p, cross(a, b)), pa2 = squared_length(pa);
   const double constant = scale * (dot(p, a) * dot(a, b) - dot(p, b) * squared_length(a)) / pa2;
   const double at_q = slope * scale * dot(pa, pb) / pa2, at_r = -slope * scale;
@@ -76,7 +76,7 @@ LinearForm beyond_margin(LinearForm form, double margin) {
 
 double squared_distance(const Mesh& mesh, VertexId p, VertexId q) {
   if (mesh.space().is_plane()) return squared_length(mesh.position(q) - mesh.position(p));
-  return squared_length(place_of(mesh, q) - place_of(mesh, p));
+  return squared_length(position_of(mesh, q) - position_of(mesh, p));
 }
 
 WeightConstraint height_constraint(const Mesh& mesh, HalfedgeId h) {

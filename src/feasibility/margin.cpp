@@ -68,9 +68,9 @@ MarginProgramme margin_programme(const Mesh& mesh, std::span<const TriangleId> t
 }
 
 double scale_on_sphere(const Mesh& mesh, const WeightConstraint& c) {
-  const Vec3 p = place_of(mesh, c.p), a = place_of(mesh, c.q) - p;
+  const Vec3 p = position_of(mesh, c.p), a = position_of(mesh, c.q) - p;
   const double cube = mesh.space().radius() * squared_length(p);
-  const auto volume = [&](VertexId v) { return std::abs(dot(p, cross(a, place_of(mesh, v) - p))); };
+  const auto volume = [&](VertexId v) { return std::abs(dot(p, cross(a, position_of(mesh, v) - p))); };
   switch (c.kind) {
     case WeightConstraint::Kind::height:
       return squared_length(cross(p, a)) * volume(c.r) / cube;

@@ -43,6 +43,6 @@ namespace temper {
 }
 
 /// Where a vertex is on the sphere, whatever its weight.
-[[nodiscard]] inline Vec3 place_of(const Mesh& mesh, VertexId v) { return mesh.space().place(mesh.point(v)); }
+[[nodiscard]] inline Vec3 position_of(const Mesh& mesh, VertexId v) { return mesh.space().place(mesh.point(v)); }
 
 }  // namespace temper

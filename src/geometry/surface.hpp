@@ -171,7 +171,7 @@ class SurfacePath {
 }
 
 /// The place in the coordinates of its space, without its weight: of the plane with z = 0.
-[[nodiscard]] inline Vec3 place_in_space(const Space& space, const WeightedPoint& p) {
+[[nodiscard]] inline Vec3 position_in_space(const Space& space, const WeightedPoint& p) {
   return space.is_plane() ? Vec3{p.x, p.y, 0} : as_vector(space.with_weight(p, 0));
 }
 

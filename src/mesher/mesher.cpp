@@ -10,7 +10,7 @@
 
 #include "base/text.hpp"
 #include "mesh/bad_triangles.hpp"
-#include "mesh/input_places.hpp"
+#include "mesh/input_positions.hpp"
 #include "mesher/areas.hpp"
 #include "mesher/placement.hpp"
 #include "mesher/sphere_outline.hpp"
@@ -306,7 +306,7 @@ class Mesher {
           {VertexId(static_cast<std::size_t>(a)), VertexId(static_cast<std::size_t>(b)), edges_[piece.edge].tag});
     }
     const MeshNames names(names_of(outline_), inside->outline_points);
-    InputPlaces places(surface_.space());
+    InputPositions places(surface_.space());
     for (const Vec3 p : inside->places) places.add(p);
     MeshInput input = places.input();
     input.triangles = triangles;

@@ -26,7 +26,7 @@ namespace {
 //         o
 
 /// Where a vertex is, without its weight; of images the one near a point.
-[[nodiscard]] inline Vec3 place_of(const Mesh& mesh, VertexId v, const WeightedPoint& near) {
+[[nodiscard]] inline Vec3 position_of(const Mesh& mesh, VertexId v, const WeightedPoint& near) {
   return mesh.space().place(mesh.point(v, near));
 }
 
@@ -75,7 +75,7 @@ void merge(SolverMeasures& into, const SolverMeasures& from) {
 
 FlowCell flow_cell_of(const Mesh& mesh, TriangleId t, const WeightedPoint& near) {
   const auto [a, b, c] = mesh.corners(t);
-  return flow_cell(place_of(mesh, a, near), place_of(mesh, b, near), place_of(mesh, c, near));
+  return flow_cell(position_of(mesh, a, near), position_of(mesh, b, near), position_of(mesh, c, near));
 }
 
 void add_flow_link(SolverMeasures& m, const Mesh& mesh, HalfedgeId h) {
@@ -84,7 +84,7 @@ void add_flow_link(SolverMeasures& m, const Mesh& mesh, HalfedgeId h) {
   const WeightedPoint from = mesh.point(mesh.origin(h));
   const FlowCell left = flow_cell_of(mesh, Mesh::triangle(h), from),
                  right = flow_cell_of(mesh, Mesh::triangle(mesh.twin(h)), from);
-  const Vec3 edge = place_of(mesh, mesh.target(h), from) - place_of(mesh, mesh.origin(h), from),
+  const Vec3 edge = position_of(mesh, mesh.target(h), from) - position_of(mesh, mesh.origin(h), from),
              link = right.center - left.center;
   const double edge_length = length(edge), link_length = length(link);
   if (link_length > kHasDirection * edge_length) {
@@ -110,8 +110,8 @@ bool is_obtuse(const Mesh& mesh, TriangleId t) {
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(t, k);
     const WeightedPoint from = mesh.point(mesh.origin(h));
-    const Vec3 a = place_of(mesh, mesh.origin(h), from), b = place_of(mesh, mesh.target(h), from),
-               c = place_of(mesh, mesh.opposite(h), from);
+    const Vec3 a = position_of(mesh, mesh.origin(h), from), b = position_of(mesh, mesh.target(h), from),
+               c = position_of(mesh, mesh.opposite(h), from);
     // Without weights the center is across from an obtuse angle.
     if (signed_height_sign(mesh.space(), as_point(a), as_point(b), as_point(c)) == Sign::negative) return true;
   }

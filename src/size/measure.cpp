@@ -15,7 +15,7 @@
 #include "mesh/blocks.hpp"
 #include "mesh/edge_lengths.hpp"
 #include "size/star_area.hpp"
-#include "temper/detail/places.hpp"
+#include "temper/detail/location.hpp"
 #include "temper/detail/size.hpp"
 
 namespace temper {
@@ -191,7 +191,7 @@ struct SizeField::Data {
   Mesh own;          // empty when the field looks at a mesh of the caller's
   const Mesh* mesh;  // own, or the caller's
   IdVector<VertexId, double> sizes;
-  PlaceFinder finder{*mesh};
+  PointLocator finder{*mesh};
 
   Data(Mesh copy, IdVector<VertexId, double> values) : own(std::move(copy)), mesh(&own), sizes(std::move(values)) {}
   Data(const Mesh* seen, IdVector<VertexId, double> values) : mesh(seen), sizes(std::move(values)) {}

@@ -1,7 +1,7 @@
 #include <utility>
 
 #include "geometry/surface.hpp"
-#include "mesh/input_places.hpp"
+#include "mesh/input_positions.hpp"
 #include "temper/dec.hpp"
 #include "temper/regularity.hpp"
 #include "verify/poisson.hpp"
@@ -10,7 +10,7 @@ namespace temper::verify_detail {
 namespace {
 
 struct Arrays {
-  InputPlaces places;
+  InputPositions places;
   std::vector<double> weights = {};
   std::vector<std::array<std::int32_t, 3>> triangles = {};
   std::vector<std::array<std::int32_t, 2>> constrained = {};
@@ -57,7 +57,7 @@ void add_constrained(const Mesh& mesh, const DecComplex& dec, Arrays& arrays) {
 
 Expected<Mesh> refined(const Mesh& mesh) {
   const DecComplex complex = dec(mesh);
-  Arrays arrays = {.places = InputPlaces(mesh.space())};
+  Arrays arrays = {.places = InputPositions(mesh.space())};
   add_points(mesh, complex, arrays);
   add_triangles(mesh, complex, arrays);
   add_constrained(mesh, complex, arrays);

@@ -31,7 +31,7 @@ Rational volume(const RationalVector& a, const RationalVector& b, const Rational
 }
 
 RationalVector place(const Mesh& mesh, VertexId v) {
-  const Vec3 p = place_of(mesh, v);
+  const Vec3 p = position_of(mesh, v);
   return {Rational(p.x), Rational(p.y), Rational(p.z)};
 }
 

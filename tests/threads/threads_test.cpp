@@ -17,7 +17,7 @@
 #include "support/shapes.hpp"
 #include "support/std_threads.hpp"
 #include "support/thread_communicator.hpp"
-#include "temper/detail/places.hpp"
+#include "temper/detail/location.hpp"
 #include "temper/detail/size.hpp"
 #include "temper/energy.hpp"
 #include "temper/generate.hpp"
@@ -118,9 +118,9 @@ constexpr Row kRows[] = {
        const SizeReport r = measure_size(m.moved, input_size_field_of(m.mesh, e), e);
        return bytes_of(r.over_field.min) + bytes_of(r.over_field.p95) + bytes_of(r.gradation.max);
      }},
-    {"places",
+    {"location",
      [](const Meshes& m, Executor* e) {
-       const auto places = places_of_vertices(m.mesh, m.moved, {}, e);
+       const auto places = positions_of_vertices(m.mesh, m.moved, {}, e);
        return bytes_of(sources_of_triangles(m.mesh, m.moved, places, e).raw());
      }},
     {"optimize", [](const Meshes& m, Executor* e) { return optimized(m.mesh, {}, e); }},

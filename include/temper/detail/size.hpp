@@ -25,8 +25,9 @@ class Executor;
 /// That of each vertex, 0 where it is isolated. O(n).
 [[nodiscard]] IdVector<VertexId, double> local_sizes(const Mesh& mesh, Executor* executor = nullptr);
 
-/// A length at every point of the plane or of the sphere: linear on each triangle of a mesh (temper/detail/places.hpp);
-/// beyond the mesh, that of its nearest point. An immutable value, cheap to copy, and safe to ask from several threads.
+/// A length at every point of the plane or of the sphere: linear on each triangle of a mesh
+/// (temper/detail/location.hpp); beyond the mesh, that of its nearest point. An immutable value, cheap to copy, and
+/// safe to ask from several threads.
 class SizeField {
  public:
   /// The field of these sizes at the vertices of the mesh, which is copied. Errors name the vertex in the user's

@@ -13,7 +13,7 @@
 #include "io/text/file_names.hpp"
 #include "io/text/values.hpp"
 #include "temper/detail/geometry.hpp"
-#include "temper/detail/places.hpp"
+#include "temper/detail/location.hpp"
 #include "temper/io.hpp"
 
 namespace temper::io {
@@ -90,7 +90,7 @@ class DataUpdater {
   [[nodiscard]] double distance_from_before(VertexId v) const {
     const std::size_t was = former(v).index;
     const Space& space = mesh_.space();
-    const WeightedPoint now = mesh_.point(v), before = as_point(place_of(file_, was));
+    const WeightedPoint now = mesh_.point(v), before = as_point(position_of(file_, was));
     return space.same_place(space.in_domain(before), now) ? 0 : distance(space, before, space.image(now, before));
   }
   /// Triangle t has the corners that the file's has, at the same places.
@@ -123,7 +123,7 @@ class DataUpdater {
     input.executor = options_.executor;
     const Expected<BuiltMesh> before = Mesh::build(input);
     if (!before) return before.error();
-    places_ = places_of_vertices(before->mesh, mesh_, former_, options_.executor);
+    places_ = positions_of_vertices(before->mesh, mesh_, former_, options_.executor);
     if (!file_.cell_data.empty()) sources_ = sources_of_triangles(before->mesh, mesh_, places_, options_.executor);
     return {};
   }

@@ -328,7 +328,7 @@ std::vector<Vec2> lon_lat_of_places(const MeshFile& file, const Mesh& mesh, std:
   }
   const std::vector<Vec2> corners = lon_lat_of_points(file).value_or(std::vector<Vec2>());
   const LongitudeTurn turn(corners);
-  const PlaceFinder finder(mesh);
+  const PointLocator finder(mesh);
   TriangleId near;
   for (const Vec2 p : places) {
     const Place place = finder.find(p, near);

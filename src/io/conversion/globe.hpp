@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "temper/detail/places.hpp"
+#include "temper/detail/location.hpp"
 #include "temper/detail/projection.hpp"
 #include "temper/detail/vec.hpp"
 #include "temper/io.hpp"
@@ -32,7 +32,7 @@ void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& n
 [[nodiscard]] std::optional<double> common_radius(const std::vector<Vec3>& points);
 
 /// Where a point is, in three coordinates.
-[[nodiscard]] inline Vec3 place_of(const MeshFile& file, std::size_t point) {
+[[nodiscard]] inline Vec3 position_of(const MeshFile& file, std::size_t point) {
   const Vec2 p = file.points[point];
   return file.sphere() != nullptr ? file.sphere()->places[point] : Vec3{p.x, p.y, file.z()};
 }

@@ -228,7 +228,7 @@ void write_jigsaw_mesh(const WriteJob& job) {
   out.put("MSHID=3;EUCLIDEAN-MESH\nNDIMS=", flat ? 2 : 3, "\nPOINT=", f.points.size(), '\n');
   const auto tags = one_tag_a_point(job);
   for (std::size_t i = 0; i < f.points.size(); ++i) {
-    const Vec3 p = place_of(f, i);
+    const Vec3 p = position_of(f, i);
     out.put(p.x, ';', p.y, ';');
     if (!flat) out.put(p.z, ';');
     out.put(tags[i], '\n');

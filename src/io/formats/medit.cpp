@@ -222,7 +222,7 @@ void write_medit(const WriteJob& job) {
   out.put("MeshVersionFormatted 2\nDimension ", flat ? 2 : 3, "\n\nVertices\n", f.points.size(), '\n');
   const auto references = one_tag_a_point(job);
   for (std::size_t i = 0; i < f.points.size(); ++i) {
-    const Vec3 p = place_of(f, i);
+    const Vec3 p = position_of(f, i);
     out.put(p.x, ' ', p.y, ' ');
     if (!flat) out.put(p.z, ' ');
     out.put(references[i], '\n');

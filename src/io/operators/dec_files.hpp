@@ -24,7 +24,7 @@ struct DecJob {
 };
 
 /// Places as the files have them: two coordinates in the plane, three on the sphere.
-struct DecPlaces {
+struct DecPositions {
   std::size_t coordinates = 2;
   std::vector<Vec3> at;  // z is 0 in the plane
 
@@ -34,10 +34,10 @@ struct DecPlaces {
   }
 };
 /// Of vertices on the sphere, without weights.
-[[nodiscard]] DecPlaces vertex_places(const Mesh& mesh);
-[[nodiscard]] DecPlaces orthocenter_places(const DecComplex& complex);
-[[nodiscard]] DecPlaces midpoint_places(const DecComplex& complex);
-[[nodiscard]] DecPlaces corner_places(const PowerCells& cells);
+[[nodiscard]] DecPositions vertex_positions(const Mesh& mesh);
+[[nodiscard]] DecPositions orthocenter_positions(const DecComplex& complex);
+[[nodiscard]] DecPositions midpoint_positions(const DecComplex& complex);
+[[nodiscard]] DecPositions corner_positions(const PowerCells& cells);
 
 void write_dec_npz(const DecJob& job);
 void write_dec_mtx(const DecJob& job);

@@ -38,7 +38,7 @@ void put_columns(Output& out, std::size_t rows, std::size_t columns, std::string
   }
 }
 
-void put_places(const DecJob& job, std::string_view name, const DecPlaces& places, std::string_view of_what) {
+void put_positions(const DecJob& job, std::string_view name, const DecPositions& places, std::string_view of_what) {
   const std::string_view axes = places.coordinates == 2 ? "x, y " : "x, y, z ";
   put_columns(job.open(name), places.size(), places.coordinates, text(axes, of_what),
               [&](std::size_t row, std::size_t column) { return places.coordinate(row, column); });
@@ -54,8 +54,8 @@ void write_dec_mtx(const DecJob& job) {
   put_diagonal(job.open("star1.mtx"), c.star1.raw(), "signed dual length over length of the edges");
   put_diagonal(job.open("star2.mtx"), c.star2.raw(), "1 / area of the triangles");
   put_diagonal(job.open("flux.mtx"), c.flux.raw(), "length over signed dual length of the edges");
-  put_places(job, "orthocenters.mtx", orthocenter_places(c), "of the orthocenters of the triangles");
-  put_places(job, "edge_midpoints.mtx", midpoint_places(c), "of the weighted midpoints of the edges");
+  put_positions(job, "orthocenters.mtx", orthocenter_positions(c), "of the orthocenters of the triangles");
+  put_positions(job, "edge_midpoints.mtx", midpoint_positions(c), "of the weighted midpoints of the edges");
 }
 
 }  // namespace temper::io

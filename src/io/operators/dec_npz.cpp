@@ -80,7 +80,7 @@ std::vector<T> of_edges(const DecComplex& c, std::size_t width, F value) {
 }
 
 /// Places as rows: x and y in the plane, x, y and z on the sphere.
-void add_places(NpzWriter& npz, std::string_view name, const DecPlaces& places) {
+void add_positions(NpzWriter& npz, std::string_view name, const DecPositions& places) {
   std::vector<double> values;
   values.reserve(places.coordinates * places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -102,7 +102,7 @@ void add_mesh(NpzWriter& npz, const DecJob& job) {
     for (const VertexId v : mesh.corners(t)) corners.push_back(static_cast<std::int32_t>(v.index));
     regions.push_back(mesh.region(t));
   }
-  add_places(npz, "vertices", vertex_places(mesh));
+  add_positions(npz, "vertices", vertex_positions(mesh));
   npz.add("weights", weights);
   npz.add("points", points);
   npz.add("triangles", corners, {mesh.n_triangles(), 3});
@@ -132,7 +132,7 @@ void add_edges(NpzWriter& npz, const DecComplex& c) {
       "edge_heights",
       of_edges<double>(c, 2, [](const DecEdge& e, std::size_t k) { return k == 0 ? e.left_height : e.right_height; }),
       {n, 2});
-  add_places(npz, "edge_midpoints", midpoint_places(c));
+  add_positions(npz, "edge_midpoints", midpoint_positions(c));
   npz.add("dual_lengths", of_edges<double>(c, 1, [](const DecEdge& e, std::size_t) { return e.dual_length; }));
 }
 
@@ -156,7 +156,7 @@ void add_cells(NpzWriter& npz, const PowerCells& cells) {
   for (const VertexId v : cells.vertices) owners.push_back(static_cast<std::int32_t>(v.index));
   npz.add("cell_vertices", owners);
   npz.add("cell_starts", std::vector<std::int64_t>(cells.starts.begin(), cells.starts.end()));
-  add_places(npz, "cell_corners", corner_places(cells));
+  add_positions(npz, "cell_corners", corner_positions(cells));
   npz.add("cell_polygon_areas", cells.polygon_areas);
   npz.add("cell_areas", cells.areas.raw());
 }
@@ -191,7 +191,7 @@ void write_dec_npz(const DecJob& job) {
   add_mesh(npz, job);
   add_edges(npz, c);
   add_matrices(npz, c);
-  add_places(npz, "orthocenters", orthocenter_places(c));
+  add_positions(npz, "orthocenters", orthocenter_positions(c));
   npz.add("triangle_areas", c.areas.raw());
   add_cells(npz, job.cells);
   npz.finish();

@@ -224,7 +224,7 @@ void write_vtu(const WriteJob& job) {
 }
 
 /// Three numbers a point; z is the mesh's in the plane.
-VtkArray dual_points(const DecPlaces& places, double z) {
+VtkArray dual_points(const DecPositions& places, double z) {
   return computed_vtk_array<double>(
       "Points", Scalar::f64, 3 * places.size(),
       [&places, z](std::size_t i) { return i % 3 < places.coordinates ? places.coordinate(i / 3, i % 3) : z; }, 3);
@@ -233,7 +233,7 @@ VtkArray dual_points(const DecPlaces& places, double z) {
 // A cell of several polygons has the same number, area and star on each of them.
 void write_cells(const DecJob& job) {
   const PowerCells& cells = job.cells;
-  const DecPlaces places = corner_places(cells);
+  const DecPositions places = corner_positions(cells);
   const std::size_t n = cells.n_polygons(), n_points = places.size();
   const auto owner = [&cells](std::size_t p) { return cells.vertices[p]; };
   VtuDocument vtu(job.open("dual.vtu"), Encoding::base64, job.options.executor);
@@ -256,9 +256,9 @@ void write_cells(const DecJob& job) {
 // edge to the one on the right, a boundary line from the orthocenter to the midpoint.
 void write_dual_edges(const DecJob& job) {
   const DecComplex& c = job.complex;
-  DecPlaces places = orthocenter_places(c);
+  DecPositions places = orthocenter_positions(c);
   const std::size_t n_triangles = places.size(), n = c.edges.size(), n_points = n_triangles + n;
-  const DecPlaces midpoints = midpoint_places(c);
+  const DecPositions midpoints = midpoint_positions(c);
   places.at.insert(places.at.end(), midpoints.at.begin(), midpoints.at.end());
   const auto edge = [&c](std::size_t i) -> const DecEdge& { return c.edges[EdgeId(i)]; };
   const auto end = [edge, n_triangles](std::size_t i) -> std::size_t {

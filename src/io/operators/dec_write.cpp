@@ -59,9 +59,9 @@ std::vector<std::string> write_dec_or_throw(const std::string& name, const Mesh&
   return written;
 }
 
-DecPlaces places_in(const std::vector<Vec2>& plane, const std::vector<Vec3>& sphere) {
+DecPositions positions_in(const std::vector<Vec2>& plane, const std::vector<Vec3>& sphere) {
   if (!sphere.empty()) return {3, sphere};
-  DecPlaces places;
+  DecPositions places;
   places.at.reserve(plane.size());
   for (const Vec2 p : plane) places.at.push_back({p.x, p.y, 0});
   return places;
@@ -109,22 +109,22 @@ Expected<std::vector<std::string>> write_dec(const std::string& folder, const Me
                                            [&] { return write_dec_or_throw(folder, mesh, complex, cells, options); });
 }
 
-DecPlaces vertex_places(const Mesh& mesh) {
-  DecPlaces places = {static_cast<std::size_t>(mesh.space().dimension()), {}};
+DecPositions vertex_positions(const Mesh& mesh) {
+  DecPositions places = {static_cast<std::size_t>(mesh.space().dimension()), {}};
   for (const VertexId v : mesh.vertices()) places.at.push_back(mesh.space().place(mesh.point(v)));
   return places;
 }
 
-DecPlaces orthocenter_places(const DecComplex& complex) {
-  return places_in(complex.orthocenters.raw(), complex.sphere_orthocenters.raw());
+DecPositions orthocenter_positions(const DecComplex& complex) {
+  return positions_in(complex.orthocenters.raw(), complex.sphere_orthocenters.raw());
 }
 
-DecPlaces midpoint_places(const DecComplex& complex) {
+DecPositions midpoint_positions(const DecComplex& complex) {
   std::vector<Vec2> midpoints;
   for (const DecEdge& edge : complex.edges) midpoints.push_back(edge.midpoint);
-  return places_in(midpoints, complex.sphere_midpoints.raw());
+  return positions_in(midpoints, complex.sphere_midpoints.raw());
 }
 
-DecPlaces corner_places(const PowerCells& cells) { return places_in(cells.corners, cells.sphere_corners); }
+DecPositions corner_positions(const PowerCells& cells) { return positions_in(cells.corners, cells.sphere_corners); }
 
 }  // namespace temper::io

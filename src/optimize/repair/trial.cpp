@@ -77,7 +77,7 @@ class DelaunayRefinement {
       const auto bare = [&](VertexId v) { return space.with_weight(mesh_.point(v), 0); };
       const WeightedPoint o = orthocenter(space, bare(a), bare(b), bare(c));
       if (!std::isfinite(o.x) || !std::isfinite(o.y) || !std::isfinite(o.w)) continue;
-      const Vec3 x = place_in_space(space, o);
+      const Vec3 x = position_in_space(space, o);
       const double relative = length(x - place(a)) / size(x);
       if (relative <= worst || refused_.count({o.x, o.y, o.w}) > 0) continue;
       const Location at = too_near_to_edges(x) ? Location() : locate(mesh_, o, t);
@@ -103,7 +103,7 @@ class DelaunayRefinement {
     Vec3 a, b;
   };
 
-  [[nodiscard]] Vec3 place(VertexId v) const { return place_in_space(mesh_.space(), mesh_.point(v)); }
+  [[nodiscard]] Vec3 place(VertexId v) const { return position_in_space(mesh_.space(), mesh_.point(v)); }
 
   [[nodiscard]] double size(Vec3 x) const {
     double least = std::numeric_limits<double>::infinity();

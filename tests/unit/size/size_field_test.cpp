@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "places/box_tree.hpp"
+#include "location/box_tree.hpp"
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/detail/geometry.hpp"

@@ -231,19 +231,19 @@ void write_mpas_angles(NetcdfWriter& out, const char* what, int dimension, std::
 }
 
 /// Cells, edges or vertices: where they are, and on the globe, if that is known.
-struct MpasPlaces {
+struct MpasPositions {
   std::vector<Vec3> at;
   std::vector<Vec2> lon_lat;
 };
 
-MpasPlaces on_sphere(std::vector<Vec3> at) {
-  MpasPlaces places = {std::move(at), {}};
+MpasPositions on_sphere(std::vector<Vec3> at) {
+  MpasPositions places = {std::move(at), {}};
   for (const Vec3 p : places.at) places.lon_lat.push_back(lon_lat_of(p));
   return places;
 }
 
-MpasPlaces in_plane(const NetcdfMesh& m, const std::vector<Vec2>& points) {
-  MpasPlaces places;
+MpasPositions in_plane(const NetcdfMesh& m, const std::vector<Vec2>& points) {
+  MpasPositions places;
   for (const Vec2 p : points) places.at.push_back({p.x, p.y, m.file.z()});
   const bool of_points = &points == &m.file.points;
   if (auto known = lon_lat_of_points(m.file))
@@ -257,22 +257,22 @@ std::vector<Vec2> in_domain(const NetcdfMesh& m, std::vector<Vec2> points) {
   return points;
 }
 
-MpasPlaces mpas_cells(const NetcdfMesh& m) {
+MpasPositions mpas_cells(const NetcdfMesh& m) {
   return m.file.sphere() != nullptr ? on_sphere(m.file.sphere()->places) : in_plane(m, m.file.points);
 }
-MpasPlaces mpas_edges(const NetcdfMesh& m) {
+MpasPositions mpas_edges(const NetcdfMesh& m) {
   if (m.file.sphere() != nullptr) return on_sphere(m.complex.sphere_midpoints.raw());
   std::vector<Vec2> midpoints;
   for (const DecEdge& edge : m.complex.edges) midpoints.push_back(edge.midpoint);
   return in_plane(m, in_domain(m, std::move(midpoints)));
 }
-MpasPlaces mpas_vertices(const NetcdfMesh& m) {
+MpasPositions mpas_vertices(const NetcdfMesh& m) {
   return m.file.sphere() != nullptr ? on_sphere(m.complex.sphere_orthocenters.raw())
                                     : in_plane(m, in_domain(m, m.complex.orthocenters.raw()));
 }
 
 /// x, y and z of cells, edges or vertices, latitudes and longitudes, and their numbers.
-void write_mpas_places(NetcdfWriter& out, const char* what, int dimension, const MpasPlaces& places) {
+void write_mpas_positions(NetcdfWriter& out, const char* what, int dimension, const MpasPositions& places) {
   const std::size_t n = places.at.size();
   std::vector<double> x(n), y(n), z(n);
   std::vector<std::int32_t> numbers(n);
@@ -366,9 +366,9 @@ void write_mpas(const WriteJob& job) {
     out.attribute(NetcdfWriter::kFile, "y_period", periodic->period.y);
   }
   out.attribute(NetcdfWriter::kFile, "source", "temper");
-  write_mpas_places(out, "Cell", cells, mpas_cells(m));
-  write_mpas_places(out, "Edge", edges, mpas_edges(m));
-  write_mpas_places(out, "Vertex", vertices, mpas_vertices(m));
+  write_mpas_positions(out, "Cell", cells, mpas_cells(m));
+  write_mpas_positions(out, "Edge", edges, mpas_edges(m));
+  write_mpas_positions(out, "Vertex", vertices, mpas_vertices(m));
   out.variable("cellsOnEdge", {edges, two}, std::move(a.cells_on_edge));
   out.variable("verticesOnEdge", {edges, two}, std::move(a.vertices_on_edge));
   out.variable("nEdgesOnCell", {cells}, std::move(a.n_edges_on_cell));

@@ -53,7 +53,7 @@ std::vector<std::int32_t> flattened(const std::vector<std::array<std::int32_t, n
 
 class ExtrasWriter {
  public:
-  ExtrasWriter(NetcdfWriter& out, const WriteJob& job, const MeshFile& file, const NetcdfPlaces& places)
+  ExtrasWriter(NetcdfWriter& out, const WriteJob& job, const MeshFile& file, const NetcdfPositions& places)
       : out_(out), job_(job), file_(file), places_(places) {}
 
   void write() {
@@ -112,7 +112,7 @@ class ExtrasWriter {
   NetcdfWriter& out_;
   const WriteJob& job_;
   const MeshFile& file_;
-  const NetcdfPlaces& places_;
+  const NetcdfPositions& places_;
   int lines_ = -1, marked_ = -1;
 };
 
@@ -155,7 +155,7 @@ void name_degrees(NetcdfWriter& out, int variable, std::string_view standard_nam
   out.attribute(variable, "units", standard_name == kLongitude ? "degrees_east" : "degrees_north");
 }
 
-void write_netcdf_extras(NetcdfWriter& out, const WriteJob& job, const MeshFile& file, const NetcdfPlaces& places) {
+void write_netcdf_extras(NetcdfWriter& out, const WriteJob& job, const MeshFile& file, const NetcdfPositions& places) {
   ExtrasWriter(out, job, file, places).write();
 }
 

@@ -13,11 +13,11 @@
 namespace temper::io {
 
 /// Dimensions of points and triangles, and what a convention wants to be said of each variable.
-struct NetcdfPlaces {
+struct NetcdfPositions {
   int points = -1, cells = -1;
   std::string mesh;  ///< UGRID: the name of the topology, for the attributes mesh and location; else empty
 };
-void write_netcdf_extras(NetcdfWriter& out, const WriteJob& job, const MeshFile& file, const NetcdfPlaces& places);
+void write_netcdf_extras(NetcdfWriter& out, const WriteJob& job, const MeshFile& file, const NetcdfPositions& places);
 
 /// Says by the names of CF that a variable is longitude or latitude, in degrees.
 void name_degrees(NetcdfWriter& out, int variable, std::string_view standard_name);

@@ -91,7 +91,7 @@ VtkArray vtk_points(const MeshFile& f) {
   return computed_vtk_array<double>(
       "Points", Scalar::f64, 3 * f.points.size(),
       [&f](std::size_t i) {
-        const Vec3 p = place_of(f, i / 3);
+        const Vec3 p = position_of(f, i / 3);
         return i % 3 == 0 ? p.x : i % 3 == 1 ? p.y : p.z;
       },
       3);
@@ -239,7 +239,7 @@ class Measurer {
  private:
   [[nodiscard]] WeightedPoint vertex(std::size_t point) const {
     const double w = file_.weights.empty() ? 0 : file_.weights[point];
-    return space_.vertex_at(place_of(file_, point), w);
+    return space_.vertex_at(position_of(file_, point), w);
   }
 
   const MeshFile& file_;

@@ -48,12 +48,12 @@ template <class ValueAt>
 }
 
 /// Finds places in a mesh, which it looks at: it must be there, and stay as it is. Safe to ask from several threads.
-class PlaceFinder {
+class PointLocator {
  public:
-  explicit PlaceFinder(const Mesh& mesh) : mesh_(mesh) {}
-  PlaceFinder(const PlaceFinder&) = delete;
-  PlaceFinder& operator=(const PlaceFinder&) = delete;
-  ~PlaceFinder();
+  explicit PointLocator(const Mesh& mesh) : mesh_(mesh) {}
+  PointLocator(const PointLocator&) = delete;
+  PointLocator& operator=(const PointLocator&) = delete;
+  ~PointLocator();
 
   /// The place of p, by exact tests; beyond the mesh, that of its nearest point. A function of p alone, whatever the
   /// triangle that it is looked for from. About O(distance from that one in triangles); O(log n) without or with a bad
@@ -74,13 +74,13 @@ class PlaceFinder {
 /// each vertex, invalid where there was none; empty: the same numbers. A vertex that is exactly where one of `before`
 /// was is at that vertex; one that is off an edge by no more than rounding is on it, as those are that slid on a
 /// boundary, so that what is across from the edge does not count. O(n log n), about O(n) where most have moved little.
-[[nodiscard]] IdVector<VertexId, Place> places_of_vertices(const Mesh& before, const Mesh& after,
-                                                           const IdVector<VertexId, VertexId>& vertices = {},
-                                                           Executor* executor = nullptr);
+[[nodiscard]] IdVector<VertexId, Place> positions_of_vertices(const Mesh& before, const Mesh& after,
+                                                              const IdVector<VertexId, VertexId>& vertices = {},
+                                                              Executor* executor = nullptr);
 
 /// The triangle of `before` that the middle of each triangle of `after` is in, within the same region where there is
 /// one around; exactly the same triangle, if `before` had it, its corners in the same places. `places`:
-/// places_of_vertices(). Costs the same.
+/// positions_of_vertices(). Costs the same.
 [[nodiscard]] IdVector<TriangleId, TriangleId> sources_of_triangles(const Mesh& before, const Mesh& after,
                                                                     const IdVector<VertexId, Place>& places,
                                                                     Executor* executor = nullptr);

@@ -7,19 +7,19 @@
 
 namespace temper {
 
-[[nodiscard]] inline Vec3 place_of(const Space& space, const WeightedPoint& p) {
+[[nodiscard]] inline Vec3 position_of(const Space& space, const WeightedPoint& p) {
   if (space.is_plane()) return {p.x, p.y, 0};
   return (1 / length(as_vector(p))) * as_vector(p);
 }
-[[nodiscard]] inline Vec3 place_of(const Mesh& mesh, VertexId v) { return place_of(mesh.space(), mesh.point(v)); }
+[[nodiscard]] inline Vec3 position_of(const Mesh& mesh, VertexId v) { return position_of(mesh.space(), mesh.point(v)); }
 /// Of images of a periodic plane the one nearest to a point.
-[[nodiscard]] inline Vec3 place_of(const Mesh& mesh, VertexId v, const WeightedPoint& near) {
-  return place_of(mesh.space(), mesh.point(v, near));
+[[nodiscard]] inline Vec3 position_of(const Mesh& mesh, VertexId v, const WeightedPoint& near) {
+  return position_of(mesh.space(), mesh.point(v, near));
 }
-[[nodiscard]] inline std::array<Vec3, 3> places_of(const Mesh& mesh, TriangleId t) {
+[[nodiscard]] inline std::array<Vec3, 3> positions_of(const Mesh& mesh, TriangleId t) {
   const auto [a, b, c] = mesh.points(t);
   const Space& space = mesh.space();
-  return {place_of(space, a), place_of(space, b), place_of(space, c)};
+  return {position_of(space, a), position_of(space, b), position_of(space, c)};
 }
 
 /// What the triangle of p and two others spans, which are `to_a` and `to_b` away from it or from each other: twice its

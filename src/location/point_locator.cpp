@@ -7,11 +7,11 @@
 
 #include "base/assert.hpp"
 #include "geometry/predicates_inline.hpp"
+#include "location/box_tree.hpp"
+#include "location/position_of.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "mesh/blocks.hpp"
-#include "places/box_tree.hpp"
-#include "places/place_of.hpp"
-#include "temper/detail/places.hpp"
+#include "temper/detail/location.hpp"
 
 namespace temper {
 namespace {
@@ -66,8 +66,9 @@ Place on_edge(TriangleId t, VertexId a, VertexId b, double along) {
 Place on_edge(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p) {
   VertexId a = mesh.origin(h), b = mesh.target(h);
   if (b < a) std::swap(a, b);
-  return on_edge(Mesh::triangle(h), a, b,
-                 part_of_edge(mesh.space(), place_of(mesh, a, p), place_of(mesh, b, p), place_of(mesh.space(), p)));
+  return on_edge(
+      Mesh::triangle(h), a, b,
+      part_of_edge(mesh.space(), position_of(mesh, a, p), position_of(mesh, b, p), position_of(mesh.space(), p)));
 }
 
 /// The place of p, which is in t or on its boundary.
@@ -76,13 +77,13 @@ Place inside(const Mesh& mesh, TriangleId t, const WeightedPoint& point) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (mesh.space().same_place(seen.corners[k], seen.point)) return Place::at(mesh.corners(t)[k], t);
   }
-  const Vec3 p = place_of(mesh.space(), seen.point);
+  const Vec3 p = position_of(mesh.space(), seen.point);
   Place place{t, 3, {}, {}, false};
   double area = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(t, static_cast<int>(k));
-    const Vec3 a = place_of(mesh.space(), seen.corners[k]),
-               b = place_of(mesh.space(), seen.corners[k == 2 ? 0 : k + 1]);
+    const Vec3 a = position_of(mesh.space(), seen.corners[k]),
+               b = position_of(mesh.space(), seen.corners[k == 2 ? 0 : k + 1]);
     place.corners[k] = mesh.opposite(h);
     place.shares[k] = spanned(mesh.space(), p, a - p, b - p);  // the area across from that corner
     // Far more than rounding makes of a zero: what is not this near needs no exact test.
@@ -97,11 +98,11 @@ Place inside(const Mesh& mesh, TriangleId t, const WeightedPoint& point) {
 
 }  // namespace
 
-PlaceFinder::~PlaceFinder() { delete made_tree_.load(); }
+PointLocator::~PointLocator() { delete made_tree_.load(); }
 
 /// Made when it is first asked: where every point has a good hint it never is, and it takes its time and memory.
 /// Threads that ask at once make one each, all alike, and the first one stays.
-const BoxTree& PlaceFinder::tree() const {
+const BoxTree& PointLocator::tree() const {
   const BoxTree* there = made_tree_.load(std::memory_order_acquire);
   if (there != nullptr) return *there;
   const auto* mine = new BoxTree(mesh_);
@@ -110,7 +111,7 @@ const BoxTree& PlaceFinder::tree() const {
   return *there;
 }
 
-Place PlaceFinder::find(const WeightedPoint& p, TriangleId near) const {
+Place PointLocator::find(const WeightedPoint& p, TriangleId near) const {
   if (near.valid()) {
     const TriangleId t = walk(mesh_, p, near);
     if (t.valid()) return inside(mesh_, t, p);
@@ -134,7 +135,7 @@ double largest_coordinate(Vec3 p) { return std::max({std::abs(p.x), std::abs(p.y
 
 /// p on the edge from a to b of triangle t, if rounding alone has put it off that.
 std::optional<Place> near_edge(const Mesh& mesh, TriangleId t, VertexId a, VertexId b, const WeightedPoint& point) {
-  const Vec3 from = place_of(mesh, a, point), to = place_of(mesh, b, point), p = place_of(mesh.space(), point);
+  const Vec3 from = position_of(mesh, a, point), to = position_of(mesh, b, point), p = position_of(mesh.space(), point);
   const double off = std::abs(spanned(mesh.space(), p, to - from, p - from)) / length(to - from);
   if (off > kOffEdge * std::max(largest_coordinate(from), largest_coordinate(to))) return {};
   const double along = std::clamp(part_of_edge(mesh.space(), from, to, p), 0.0, 1.0);
@@ -207,12 +208,12 @@ TriangleId same_triangle(const Mesh& before, const Mesh& after, TriangleId t, co
 
 }  // namespace
 
-IdVector<VertexId, Place> places_of_vertices(const Mesh& before, const Mesh& after,
-                                             const IdVector<VertexId, VertexId>& vertices, Executor* executor) {
+IdVector<VertexId, Place> positions_of_vertices(const Mesh& before, const Mesh& after,
+                                                const IdVector<VertexId, VertexId>& vertices, Executor* executor) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(before) && !has_erased_triangles(after));
   TEMPER_ASSERT(before.space().kind() == after.space().kind());
   TEMPER_ASSERT(vertices.empty() || vertices.size() == after.n_vertices());
-  const PlaceFinder finder(before);
+  const PointLocator finder(before);
   const FormerVertices former(before, after, vertices);
   IdVector<VertexId, Place> places(after.n_vertices());
   for_each_index(after.n_vertices(), executor, [&](std::size_t i) {
@@ -227,13 +228,13 @@ IdVector<VertexId, Place> places_of_vertices(const Mesh& before, const Mesh& aft
 
 IdVector<TriangleId, TriangleId> sources_of_triangles(const Mesh& before, const Mesh& after,
                                                       const IdVector<VertexId, Place>& places, Executor* executor) {
-  const PlaceFinder finder(before);
+  const PointLocator finder(before);
   IdVector<TriangleId, TriangleId> sources(after.n_triangles());
   for_each_index(after.n_triangles(), executor, [&](std::size_t i) {
     const TriangleId t(i);
     sources[t] = same_triangle(before, after, t, places);
     if (sources[t].valid()) return;
-    const auto [a, b, c] = places_of(after, t);
+    const auto [a, b, c] = positions_of(after, t);
     const Vec3 middle = (1.0 / 3) * (a + b + c);
     const TriangleId near = places[after.corners(t)[0]].triangle;
     sources[t] = of_region(before, finder.find(as_point(middle), near).triangle, after.region(t));

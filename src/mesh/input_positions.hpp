@@ -8,9 +8,9 @@
 namespace temper {
 
 /// Points of the plane, or places on the sphere. Must outlive its input.
-class InputPlaces {
+class InputPositions {
  public:
-  explicit InputPlaces(const Space& space) : space_(space) {}
+  explicit InputPositions(const Space& space) : space_(space) {}
   void add(Vec3 place) {
     if (space_.dimension() == 2) {
       points_.push_back({place.x, place.y});

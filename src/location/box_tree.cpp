@@ -1,4 +1,4 @@
-#include "places/box_tree.hpp"
+#include "location/box_tree.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "base/assert.hpp"
 #include "base/hilbert.hpp"
 #include "geometry/predicates_inline.hpp"
-#include "places/place_of.hpp"
+#include "location/position_of.hpp"
 
 namespace temper {
 namespace {
@@ -31,14 +31,14 @@ std::pair<double, double> nearest_on_segment(Vec3 a, Vec3 b, Vec3 p) {
 std::vector<TriangleId> along_curve(const Mesh& mesh) {
   Vec3 low{kInfinite, kInfinite, kInfinite}, high = -1 * low;
   for (const VertexId v : mesh.vertices()) {
-    low = min_of(low, place_of(mesh, v));
-    high = max_of(high, place_of(mesh, v));
+    low = min_of(low, position_of(mesh, v));
+    high = max_of(high, position_of(mesh, v));
   }
   const HilbertGrid curve(Box{{low.x, low.y}, {high.x, high.y}});
   std::vector<std::pair<std::uint64_t, TriangleId>> keyed;
   keyed.reserve(mesh.n_triangles());
   for (const TriangleId t : mesh.triangles()) {
-    const auto [a, b, c] = places_of(mesh, t);
+    const auto [a, b, c] = positions_of(mesh, t);
     const Vec3 third = (1.0 / 3) * a + (1.0 / 3) * b + (1.0 / 3) * c;
     const Vec3 inside = min_of(max_of(third, low), high);
     keyed.emplace_back(mesh.space().dimension() == 2 ? curve({inside.x, inside.y}) : cube_hilbert_index(third), t);
@@ -54,7 +54,7 @@ std::vector<TriangleId> along_curve(const Mesh& mesh) {
 
 /// On the sphere also of the part of it that is above the triangle.
 BoxTree::Box BoxTree::box_of(const Mesh& mesh, TriangleId t) {
-  const auto [a, b, c] = places_of(mesh, t);
+  const auto [a, b, c] = positions_of(mesh, t);
   Box box = {min_of(min_of(a, b), c), max_of(max_of(a, b), c)};
   if (mesh.space().dimension() == 2) return box;
   const Vec3 n = cross(b - a, c - a);
@@ -90,7 +90,7 @@ NearestPoint BoxTree::nearest_in(const Mesh& mesh, TriangleId t, const Asked& p)
   for (std::size_t k = 0; k < 3; ++k) {
     const WeightedPoint &a = corners[k], &b = corners[k == 2 ? 0 : k + 1];
     inside = inside && inlined::orientation(mesh.space(), a, b, p.point) != Sign::negative;
-    const auto [along, d2] = nearest_on_segment(place_of(mesh.space(), a), place_of(mesh.space(), b), p.place);
+    const auto [along, d2] = nearest_on_segment(position_of(mesh.space(), a), position_of(mesh.space(), b), p.place);
     if (d2 < best.distance2) best = {t, d2, Mesh::halfedge(t, static_cast<int>(k)), along};
   }
   if (inside) return {t, 0, {}, 0};
@@ -104,7 +104,7 @@ NearestPoint BoxTree::nearest(const Mesh& mesh, const WeightedPoint& p) const {
   NearestPoint best;
   best.distance2 = kInfinite;
   const auto look_for = [&](const WeightedPoint& q) {
-    search(mesh, {q, place_of(mesh.space(), q)}, levels_.size() - 1, 0, best);
+    search(mesh, {q, position_of(mesh.space(), q)}, levels_.size() - 1, 0, best);
   };
   if (!mesh.space().is_periodic()) {
     look_for(p);

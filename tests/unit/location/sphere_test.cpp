@@ -6,7 +6,7 @@
 
 #include "support/lattice.hpp"
 #include "temper/detail/geometry.hpp"
-#include "temper/detail/places.hpp"
+#include "temper/detail/location.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 
@@ -61,7 +61,7 @@ Mesh south_of(const Mesh& globe, double northernmost) {
 TEST(PlaceOnSphere, IsWhereTheRayMeetsTheTriangle) {
   for (const std::size_t vertices : {20, 50, 2000}) {  // coarse ones are far below the sphere
     const Mesh mesh = *random_sphere({.vertices = vertices, .radius = kRadius});
-    const PlaceFinder finder(mesh);
+    const PointLocator finder(mesh);
     Noise noise(3);
     for (int i = 0; i < 500; ++i) {
       const Vec3 p = on_unit_sphere({noise(), noise(), noise()});
@@ -77,7 +77,7 @@ TEST(PlaceOnSphere, IsWhereTheRayMeetsTheTriangle) {
 
 TEST(PlaceOnSphere, OfAVertexIsThatVertexAndOfTheMiddleOfAnEdgeIsNearThatEdge) {
   const Mesh mesh = *icosahedral({.level = 2, .radius = kRadius});
-  const PlaceFinder finder(mesh);
+  const PointLocator finder(mesh);
   for (const VertexId v : mesh.vertices()) {
     const Place place = finder.find(mesh.point(v));
     EXPECT_EQ(place.n, 1);
@@ -91,7 +91,7 @@ TEST(PlaceOnSphere, OfAVertexIsThatVertexAndOfTheMiddleOfAnEdgeIsNearThatEdge) {
 
 TEST(PlaceOnSphere, BeyondTheCoastIsTheNearestPointOfIt) {
   const Mesh ocean = south_of(*icosahedral({.level = 3, .radius = kRadius}), 0.3 * kRadius);
-  const PlaceFinder finder(ocean);
+  const PointLocator finder(ocean);
   int outside = 0;
   Noise noise(5);
   for (int i = 0; i < 300; ++i) {
@@ -116,7 +116,7 @@ TEST(PlacesOfVertices, OnTheSphereGiveSmoothDataWhereverAnOptimisationPutsVertic
     const Mesh before = whole ? globe : south_of(globe, 0.3 * kRadius);
     Mesh after = before;
     ASSERT_TRUE(optimize(after));
-    const auto places = places_of_vertices(before, after);
+    const auto places = positions_of_vertices(before, after);
     const auto sources = sources_of_triangles(before, after, places);
     std::size_t moved = 0;
     for (const VertexId v : after.vertices()) {

@@ -7,7 +7,7 @@
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/detail/geometry.hpp"
-#include "temper/detail/places.hpp"
+#include "temper/detail/location.hpp"
 #include "temper/generate.hpp"
 
 namespace temper::test {
@@ -38,7 +38,7 @@ bool is_in_some_triangle(const Mesh& mesh, Vec2 p) {
 
 TEST(Place, IsTheMeanOfItsCornersInAMeshWithAHole) {
   const Mesh mesh = *annulus();
-  const PlaceFinder finder(mesh);
+  const PointLocator finder(mesh);
   Noise noise(3);
   int inside = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -54,7 +54,7 @@ TEST(Place, IsTheMeanOfItsCornersInAMeshWithAHole) {
 
 TEST(Place, OfAVertexIsThatVertexAndOfTheMiddleOfAnEdgeIsThatEdge) {
   const Mesh mesh = *sheared_grid({.nx = 8, .ny = 8, .shear = 0.5});  // midpoints of edges are exact here
-  const PlaceFinder finder(mesh);
+  const PointLocator finder(mesh);
   for (const TriangleId near : {TriangleId(), TriangleId(0), TriangleId(77)}) {
     for (const VertexId v : mesh.vertices()) {
       const Place place = finder.find(mesh.position(v), near);
@@ -71,7 +71,7 @@ TEST(Place, OfAVertexIsThatVertexAndOfTheMiddleOfAnEdgeIsThatEdge) {
 
 TEST(Place, BeyondTheMeshIsTheNearestPointOfIt) {
   const Mesh mesh = mesh_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2}, {0, 2, 3}});
-  const PlaceFinder finder(mesh);
+  const PointLocator finder(mesh);
   EXPECT_EQ(mean_of(mesh, finder.find(Vec2{0.25, -3})), (Vec2{0.25, 0}));
   const Place corner = finder.find(Vec2{5, 7});
   EXPECT_EQ(corner.n, 1);
@@ -81,7 +81,7 @@ TEST(Place, BeyondTheMeshIsTheNearestPointOfIt) {
 
 TEST(Interpolated, KeepsToTheValuesOfTheCornersAndIsExactWhereTheyAgree) {
   const Mesh mesh = *random_points({100, 5, {}});
-  const PlaceFinder finder(mesh);
+  const PointLocator finder(mesh);
   Noise noise(9);
   std::vector<double> values;
   for (std::size_t v = 0; v < mesh.n_vertices(); ++v) values.push_back(1e3 * noise());

@@ -7,7 +7,7 @@
 #include "support/shapes.hpp"
 #include "support/std_threads.hpp"
 #include "temper/detail/geometry.hpp"
-#include "temper/detail/places.hpp"
+#include "temper/detail/location.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/topology.hpp"
@@ -41,7 +41,7 @@ TEST(PlacesOfVertices, ReproduceLinearDataWhereverAnOptimisationPutsVertices) {
   for (const OptimizeOptions& options : {OptimizeOptions(), splitting, removing, sliding}) {
     for (const Mesh& mesh : {*random_points({150, 4, {}}), *annulus(), *wedge()}) {
       const Optimized o = optimized_of(mesh, options);
-      const auto places = places_of_vertices(o.before, o.after, o.vertices);
+      const auto places = positions_of_vertices(o.before, o.after, o.vertices);
       ASSERT_EQ(places.size(), o.after.n_vertices());
       for (const VertexId v : o.after.vertices()) {
         const Vec2 p = o.after.position(v);
@@ -73,7 +73,7 @@ TEST(PlacesOfVertices, OnASlantedBoundaryDoNotAskWhatIsAcrossFromIt) {
     Mesh after = before;
     after.set_position(VertexId(1), points[1] + (i / 64.0) * direction);
     after.set_position(VertexId(2), points[2] + (i / 77.0) * direction);
-    const auto places = places_of_vertices(before, after);
+    const auto places = positions_of_vertices(before, after);
     for (const VertexId v : {VertexId(1), VertexId(2)}) {
       off += orient2d(points[0], points[3], after.position(v)) != Sign::zero ? 1 : 0;
       EXPECT_LE(places[v].n, 2) << i;
@@ -87,7 +87,7 @@ TEST(PlacesOfVertices, OnASlantedBoundaryDoNotAskWhatIsAcrossFromIt) {
 
 TEST(SourcesOfTriangles, AreTheTrianglesThatTheMiddlesAreIn) {
   const Optimized o = optimized_of(*random_points({150, 8, {}}));
-  const auto places = places_of_vertices(o.before, o.after);
+  const auto places = positions_of_vertices(o.before, o.after);
   const auto sources = sources_of_triangles(o.before, o.after, places);
   ASSERT_EQ(sources.size(), o.after.n_triangles());
   std::size_t others = 0;
@@ -108,7 +108,7 @@ TEST(SourcesOfTriangles, AreTheSameTrianglesWhereverTheyAreNumbered) {
   const Mesh before = *random_points({200, 2, {}});
   Mesh after = before;
   const MeshOrder order = hilbert_order(after);
-  const auto places = places_of_vertices(before, after, order.vertices);
+  const auto places = positions_of_vertices(before, after, order.vertices);
   const auto sources = sources_of_triangles(before, after, places);
   for (const VertexId v : after.vertices()) EXPECT_EQ(places[v].corners[0], order.vertices[v]);
   for (const TriangleId t : after.triangles()) EXPECT_EQ(sources[t], order.triangles[t]);
@@ -128,7 +128,7 @@ TEST(SourcesOfTriangles, StayInTheirRegion) {
   for (int i = -40; i < 40; ++i) {
     Mesh after = before;
     after.set_position(VertexId(1), b + (i / 97.0) * direction);
-    const auto sources = sources_of_triangles(before, after, places_of_vertices(before, after));
+    const auto sources = sources_of_triangles(before, after, positions_of_vertices(before, after));
     for (const TriangleId t : after.triangles()) EXPECT_EQ(before.region(sources[t]), after.region(t)) << i;
   }
 }
@@ -140,7 +140,8 @@ TEST(SourcesOfTriangles, DoNotDependOnThreads) {
     return few;
   }());
   StdThreads threads(4);
-  const auto one = places_of_vertices(o.before, o.after), four = places_of_vertices(o.before, o.after, {}, &threads);
+  const auto one = positions_of_vertices(o.before, o.after),
+             four = positions_of_vertices(o.before, o.after, {}, &threads);
   const auto of_one = sources_of_triangles(o.before, o.after, one),
              of_four = sources_of_triangles(o.before, o.after, four, &threads);
   EXPECT_GT(threads.runs(), 1u);
