@@ -9,7 +9,7 @@ namespace temper::bench {
 
 const Mesh& good_mesh() {
   static const Mesh mesh = [] {
-    Mesh m = *random_points({.vertices = kVertices, .seed = 1});
+    Mesh m = *random_mesh({.vertices = kVertices, .seed = 1});
     hilbert_order(m);
     if (!optimize(m, {.max_sweeps = 60})) std::abort();
     return m;

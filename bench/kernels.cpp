@@ -151,7 +151,7 @@ void whole_mesh_quality(benchmark::State& state) {
 BENCHMARK(whole_mesh_quality)->Unit(benchmark::kMicrosecond);
 
 void hilbert(benchmark::State& state) {
-  const Mesh original = *random_points({.vertices = kVertices, .seed = 1});
+  const Mesh original = *random_mesh({.vertices = kVertices, .seed = 1});
   for (auto _ : state) {
     Mesh mesh = original;
     benchmark::DoNotOptimize(hilbert_order(mesh));

@@ -44,7 +44,7 @@ void note_report(const OptimizeReport& report, FileRun& run) {
 
 void make_input(std::size_t vertices, const std::string& path) {
   const auto done = in_child([&] {
-    const auto written = io::write(path, io::from_mesh(random_mesh(vertices)));
+    const auto written = io::write(path, io::from_mesh(mesh_of_random_points(vertices)));
     if (!written) fail(written.error().what());
     return 0;
   });

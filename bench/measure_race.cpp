@@ -44,7 +44,7 @@ Race race_on(const Mesh& mesh, int rounds) {
 }  // namespace
 
 Races measure_races(std::size_t vertices, const Options& options) {
-  const Mesh mesh = random_mesh(vertices);
+  const Mesh mesh = mesh_of_random_points(vertices);
   return {race_on(mesh, options.rounds), race_on(well_centered_mesh(mesh), options.rounds)};
 }
 

@@ -216,7 +216,7 @@ class Comparison {
 
 SweepCosts measure_sweeps(std::size_t vertices, const Options& options) {
   SweepCosts costs;
-  const Mesh mesh = random_mesh(vertices);
+  const Mesh mesh = mesh_of_random_points(vertices);
   const Mesh settled = well_centered_mesh(mesh);
   std::optional<Comparison> comparison;
   if (vertices <= kMostCompared && !options.sweeps_alone) comparison.emplace(settled, mesh, options);

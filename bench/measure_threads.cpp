@@ -33,7 +33,7 @@ std::uint64_t result_with(const Mesh& mesh, std::size_t threads) {
 
 ThreadCosts measure_threads(std::size_t vertices, int rounds, const Options& options) {
   ThreadCosts costs;
-  const Mesh mesh = random_mesh(vertices);
+  const Mesh mesh = mesh_of_random_points(vertices);
   const std::uint64_t expected = result_with(mesh, 1);
   costs.same_instructions = 1;
   const InstructionSet fastest = instruction_set();

@@ -36,7 +36,7 @@ def plain_run(points, triangles, sweeps):
 
 
 def main(vertices=1_000_000, sweeps=4, repeats=5):
-    mesh = temper.generate.random_points(vertices)
+    mesh = temper.generate.random_mesh(vertices)
     points, triangles = np.array(mesh.points), np.array(mesh.triangles)
     del mesh
     ratios = []

@@ -41,7 +41,7 @@ class CountingCommunicator final : public Communicator {
 Mesh example(std::string_view space, std::size_t n) {
   if (space == "sphere") return *random_sphere({.vertices = n, .seed = 1});
   if (space == "periodic") return *random_periodic({.vertices = n, .seed = 1});
-  return *random_points({.vertices = n, .seed = 1});
+  return *random_mesh({.vertices = n, .seed = 1});
 }
 
 /// Of the calling thread.

@@ -9,8 +9,8 @@
 
 namespace temper::bench {
 
-Mesh random_mesh(std::size_t vertices) {
-  auto mesh = random_points({.vertices = vertices, .seed = 1});
+Mesh mesh_of_random_points(std::size_t vertices) {
+  auto mesh = random_mesh({.vertices = vertices, .seed = 1});
   if (!mesh) fail(mesh.error().what());
   return std::move(*mesh);
 }

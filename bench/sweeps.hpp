@@ -9,7 +9,7 @@
 namespace temper::bench {
 
 /// Delaunay triangulation of random points in a non-convex polygon, seed 1: about half of its triangles are bad.
-[[nodiscard]] Mesh random_mesh(std::size_t vertices);
+[[nodiscard]] Mesh mesh_of_random_points(std::size_t vertices);
 
 /// Before sweep `last.sweep + 1`.
 struct Mark {

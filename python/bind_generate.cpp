@@ -32,9 +32,9 @@ void bind_plane_examples(py::module_& m) {
     return made(horseshoe({a, b, {x0, x1}, {y0, y1}}));
   });
   m.def("single_triangle", [](double a, double b, double angle) { return made(single_triangle({a, b, angle})); });
-  m.def("random_points", [](std::size_t vertices, std::uint64_t seed, const Doubles& polygon) {
+  m.def("random_mesh", [](std::size_t vertices, std::uint64_t seed, const Doubles& polygon) {
     const auto corners = as_span<Vec2>(polygon);
-    return made(random_points({vertices, seed, {corners.begin(), corners.end()}}));
+    return made(random_mesh({vertices, seed, {corners.begin(), corners.end()}}));
   });
   m.def("sheared_grid", [](int nx, int ny, double shear) { return made(sheared_grid({nx, ny, shear})); });
   m.def("annulus", [](double inner, double outer, int around, int rings, double jitter, std::uint64_t seed) {
@@ -43,8 +43,8 @@ void bind_plane_examples(py::module_& m) {
   m.def("airfoil", [](int around, double growth, std::uint64_t seed) { return made(airfoil({around, growth, seed})); });
   m.def("regular_polygon", [](int corners) { return made(regular_polygon({corners})); });
   m.def("wedge", [](double angle, int pieces, std::uint64_t seed) { return made(wedge({angle, pieces, seed})); });
-  m.def("graded_points", [](double finest, double growth, std::uint64_t seed) {
-    return made(graded_points({finest, growth, seed}));
+  m.def("graded_mesh", [](double finest, double growth, std::uint64_t seed) {
+    return made(graded_mesh({finest, growth, seed}));
   });
 }
 

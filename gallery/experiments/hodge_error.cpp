@@ -177,7 +177,7 @@ std::vector<Mesh> weighted_meshes(Effort effort) {
   const std::size_t vertices = effort == Effort::full ? 400 : 80;
   std::vector<Mesh> meshes;
   for (auto& made :
-       {random_points({.vertices = vertices}), annulus({.around = 36, .rings = 5}), sheared_grid({12, 12, 0.4})}) {
+       {random_mesh({.vertices = vertices}), annulus({.around = 36, .rings = 5}), sheared_grid({12, 12, 0.4})}) {
     if (!made) continue;
     Mesh mesh = *made;
     double squares = 0, edges = 0;

@@ -272,7 +272,7 @@ Claim valence_and_weight(Effort effort) {
   bool holds = true;
   std::string found;
   for (const EnergyKind kind : {EnergyKind::BP, EnergyKind::T}) {
-    auto mesh = random_points({.vertices = effort == Effort::full ? 400U : 120U});
+    auto mesh = random_mesh({.vertices = effort == Effort::full ? 400U : 120U});
     OptimizeOptions options = kind == EnergyKind::T ? paper_method() : OptimizeOptions();
     options.objective = Objective::energy;
     options.energy = kind;

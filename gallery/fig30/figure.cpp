@@ -155,7 +155,7 @@ Validity survey_validity(Effort effort) {
   const bool full = effort == Effort::full;
   std::vector<Mesh> meshes = {dense_horseshoe()};
   if (auto ring = annulus({.around = full ? 24 : 16, .rings = 4})) meshes.push_back(*std::move(ring));
-  if (auto points = random_points({.vertices = full ? 80U : 40U})) meshes.push_back(*std::move(points));
+  if (auto points = random_mesh({.vertices = full ? 80U : 40U})) meshes.push_back(*std::move(points));
   std::vector<VertexOrder> orders = vertex_orders(0);
   if (!full) orders.resize(1);
   Validity v;

@@ -205,7 +205,7 @@ struct LargeRun {
 
 std::vector<LargeRun> large_runs(Effort effort) {
   std::vector<LargeRun> runs;
-  const auto input = random_points({.vertices = effort == Effort::full ? 2000U : 250U});
+  const auto input = random_mesh({.vertices = effort == Effort::full ? 2000U : 250U});
   if (!input) return runs;
   for (const Measure& m : kMeasures) {
     OptimizeOptions options;

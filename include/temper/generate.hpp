@@ -56,12 +56,12 @@ struct SingleTriangle {
 
 /// Uniformly random points in a polygon (default: a non-convex L shape with a notch), n vertices in all; the boundary
 /// is divided at the mean spacing and inner points keep half a spacing from it. About half of the triangles are bad.
-struct RandomPoints {
+struct RandomMesh {
   std::size_t vertices = 1000;
   std::uint64_t seed = 1;
   Polygon polygon = {};  ///< empty: the default
 };
-[[nodiscard]] Expected<Mesh> random_points(const RandomPoints& shape = {});
+[[nodiscard]] Expected<Mesh> random_mesh(const RandomMesh& shape = {});
 
 // --- the whole sphere
 // --------------------------------------------------------------------------------------------------
@@ -168,11 +168,11 @@ struct Wedge {
 [[nodiscard]] Expected<Mesh> wedge(const Wedge& shape = {});
 
 /// Random points in the unit square, whose size grows with the distance from a corner: finest + growth · distance.
-struct GradedPoints {
+struct GradedMesh {
   double finest = 1.0 / 64;
   double growth = 0.2;
   std::uint64_t seed = 1;
 };
-[[nodiscard]] Expected<Mesh> graded_points(const GradedPoints& shape = {});
+[[nodiscard]] Expected<Mesh> graded_mesh(const GradedMesh& shape = {});
 
 }  // namespace temper

@@ -30,7 +30,7 @@ def mapped(mesh: MeshLike, tensor: Sequence[float]) -> Mesh:
     Examples
     --------
     >>> import temper
-    >>> mesh = temper.generate.random_points(200)
+    >>> mesh = temper.generate.random_mesh(200)
     >>> report = temper.optimize(mesh, tensor=(1, 0, 100))
     >>> temper.quality(temper.mapped(mesh, (1, 0, 100))).well_centered_fraction
     1.0

@@ -15,9 +15,9 @@ from . import _temper
 from ._mesh import Mesh, _doubles, _ints
 
 __all__ = [
-    "airfoil", "annulus", "constrained_delaunay", "graded_points", "graded_sphere", "graded_sphere_size",
+    "airfoil", "annulus", "constrained_delaunay", "graded_mesh", "graded_sphere", "graded_sphere_size",
     "horseshoe", "icosahedral", "letter_a", "periodic_delaunay", "periodic_hexagons", "random_periodic",
-    "random_points", "random_sphere", "regular_polygon", "sheared_grid", "single_triangle", "sparse_horseshoe",
+    "random_mesh", "random_sphere", "regular_polygon", "sheared_grid", "single_triangle", "sparse_horseshoe",
     "spherical_delaunay", "wedge",
 ]  # fmt: skip
 
@@ -62,10 +62,10 @@ def single_triangle(a: float = 0.5, b: float = 1.0, angle_deg: float = 120.0) ->
     return Mesh._of(_temper.single_triangle(a, b, angle_deg))
 
 
-def random_points(vertices: int = 1000, seed: int = 1, polygon: npt.ArrayLike | None = None) -> Mesh:
+def random_mesh(vertices: int = 1000, seed: int = 1, polygon: npt.ArrayLike | None = None) -> Mesh:
     """Uniformly random points in a polygon, (k, 2), counter-clockwise (default: a non-convex L shape with a notch), so
     many vertices in all. About half of the triangles are bad."""
-    return Mesh._of(_temper.random_points(vertices, seed, _doubles(polygon, 2, "polygon")))
+    return Mesh._of(_temper.random_mesh(vertices, seed, _doubles(polygon, 2, "polygon")))
 
 
 def spherical_delaunay(points: npt.ArrayLike, radius: float = 1.0) -> Mesh:
@@ -173,7 +173,7 @@ def wedge(angle_deg: float = 5.0, pieces: int = 8, seed: int = 1) -> Mesh:
     return Mesh._of(_temper.wedge(angle_deg, pieces, seed))
 
 
-def graded_points(finest: float = 1.0 / 64, growth: float = 0.2, seed: int = 1) -> Mesh:
+def graded_mesh(finest: float = 1.0 / 64, growth: float = 0.2, seed: int = 1) -> Mesh:
     """Random points in the unit square, whose size grows with the distance from a corner: finest + growth ·
     distance."""
-    return Mesh._of(_temper.graded_points(finest, growth, seed))
+    return Mesh._of(_temper.graded_mesh(finest, growth, seed))

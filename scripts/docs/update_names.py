@@ -29,7 +29,7 @@ VERBS = {
     "dec": (["dec", "columns"], ["dec", "columns", "io::write_dec"]),
     "draw": (["draw_svg"], ["draw_svg", "draw_before_after_svg"]),
     "convert": (["read", "write"], ["io::read", "io::write"]),
-    "example": (["generate"], ["horseshoe", "random_points", "…"]),
+    "example": (["generate"], ["horseshoe", "random_mesh", "…"]),
     "replay": (["replay"], ["replay"]),
     "reproduce": ([], []),
 }  # fmt: skip

@@ -93,7 +93,7 @@ Expected<Mesh> wedge(const Wedge& shape) {
   return mesh_of({divided({{{0, 0}, shape.pieces}, {right, 1}, {left, shape.pieces}})}, inside);
 }
 
-Expected<Mesh> graded_points(const GradedPoints& shape) {
+Expected<Mesh> graded_mesh(const GradedMesh& shape) {
   if (!(shape.finest > 0 && shape.finest <= 0.25) || !(shape.growth >= 0 && shape.growth <= 1)) {
     return invalid("graded points need a finest size in (0, 0.25] and a growth in [0, 1]");
   }

@@ -6,7 +6,7 @@
 #include "temper/quality.hpp"
 
 int main() {
-  const auto mesh = temper::random_points({.vertices = 20000, .seed = 3});
+  const auto mesh = temper::random_mesh({.vertices = 20000, .seed = 3});
   if (!mesh) return 1;
   temper::TbbExecutor threads(2);
   temper::QualityOptions options;

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/rng.hpp"
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 #include "target.hpp"
 #include "temper/detail/optimize_table.hpp"
 #include "temper/detail/trace.hpp"

@@ -18,7 +18,7 @@ using app::Input;
 const Input& input() {
   static const Scratch scratch;
   static const Input kInput = [] {
-    const auto mesh = random_points({.vertices = 12, .seed = 3});
+    const auto mesh = random_mesh({.vertices = 12, .seed = 3});
     insist(mesh.has_value(), "an example is made");
     insist(io::write(scratch.path("m.vtu"), io::from_mesh(*mesh)).has_value(), "and written");
     return app::read_input(scratch.path("m.vtu"));

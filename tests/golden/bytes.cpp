@@ -41,13 +41,13 @@ std::vector<Example> examples() {
   return {{"sparse_horseshoe", rounded(sparse_horseshoe())},
           {"horseshoe", rounded(*horseshoe())},
           {"letter_a", rounded(letter_a())},
-          {"random_130", rounded(*random_points({.vertices = 130, .seed = 5}))},
-          {"random_1100", rounded(*random_points({.vertices = 1100, .seed = 2}))},
+          {"random_130", rounded(*random_mesh({.vertices = 130, .seed = 5}))},
+          {"random_1100", rounded(*random_mesh({.vertices = 1100, .seed = 2}))},
           {"sheared_grid", rounded(*sheared_grid())},
           {"annulus", rounded(*annulus())},
           {"airfoil", rounded(*airfoil())},
           {"wedge", rounded(*wedge())},
-          {"graded_points", rounded(*graded_points())}};
+          {"graded_mesh", rounded(*graded_mesh())}};
 }
 
 struct Options {

@@ -170,7 +170,7 @@ TEST(CertificateOracle, AgreesThatAcceptedCertificatesAreContradictions) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     check(jittered_lattice(seed, 5));
     Rng rng(seed);
-    check(random_mesh(rng, 8));
+    check(mesh_of_random_points(rng, 8));
   }
   EXPECT_GT(accepted[Conditions::well_centered], 20u);
   EXPECT_GT(accepted[Conditions::heights_only], 20u);
@@ -181,7 +181,7 @@ TEST(CertificateOracle, AgreesWhateverIsAcceptedAfterCorruption) {
   std::size_t accepted = 0, refused = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Rng rng(seed);
-    const Mesh mesh = random_mesh(rng, 6);
+    const Mesh mesh = mesh_of_random_points(rng, 6);
     const Certificate certificate = margin_of(mesh).certificate;
     for (std::size_t i = 0; i < certificate.terms.size(); ++i) {
       for (const double factor : {0.0, 0.5, 0.9, 1.1, 2.0, 10.0}) {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 #include "regularity/lawson.hpp"
 #include "unit/geometry/degenerate_families.hpp"
 
@@ -55,7 +55,7 @@ Oracle regular_triangulation(const Mesh& mesh) {
 
 /// Random weights of an amplitude relative to the mean squared spacing of n vertices in [−1, 1]².
 Mesh weighted_mesh(Rng& rng, int n, double amplitude) {
-  Mesh mesh = test::random_mesh(rng, n);
+  Mesh mesh = test::mesh_of_random_points(rng, n);
   for (const VertexId v : mesh.vertices()) mesh.set_weight(v, amplitude * 4 / n * rng.uniform(-1, 1));
   return mesh;
 }

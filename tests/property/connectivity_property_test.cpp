@@ -6,7 +6,7 @@
 #include <map>
 #include <tuple>
 
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
@@ -390,7 +390,7 @@ TEST(ConnectivityProperty, AnInsertionIntoARegularMeshIsWhatItsPlanSaysAndRegula
   std::size_t inserted = 0, flips = 0, hidden = 0, not_regular = 0;
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 25, seed % 3 == 0 ? 16 : 0);
+    Mesh mesh = test::mesh_of_random_points(rng, 25, seed % 3 == 0 ? 16 : 0);
     for (const HalfedgeId h : mesh.halfedges()) {
       if (!mesh.is_boundary(h) && rng.below(20) == 0) mesh.set_constrained(h, true);
     }

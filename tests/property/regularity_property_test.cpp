@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 #include "regularity/lawson.hpp"
 #include "temper/regularity.hpp"
 
@@ -76,7 +76,7 @@ TEST(RegularityProperty, EveryFlipLeavesAValidMeshAndTheLastOneARegularOne) {
   std::size_t flips = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 25, seed % 2 == 0 ? 16 : 0);
+    Mesh mesh = test::mesh_of_random_points(rng, 25, seed % 2 == 0 ? 16 : 0);
     set_random_weights(mesh, rng, 0.5 * weight_that_hides_none(mesh));
     Lawson lawson;
     lawson.push_all(mesh);
@@ -94,7 +94,7 @@ TEST(RegularityProperty, EveryFlipLeavesAValidMeshAndTheLastOneARegularOne) {
 TEST(RegularityProperty, TheResultDoesNotDependOnTheTriangulationItStartsFrom) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 30);
+    Mesh mesh = test::mesh_of_random_points(rng, 30);
     set_random_weights(mesh, rng, 0.5 * weight_that_hides_none(mesh));
     Mesh other = mesh;
     ASSERT_GT(test::shuffle_flips(other, rng, 300), 0u);
@@ -108,7 +108,7 @@ TEST(RegularityProperty, WithTiesByNumberTheResultIsUniqueOnALattice) {
   const PerturbedPowerTest test_by_number{[](VertexId v) { return v.index; }};
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 40, 6);
+    Mesh mesh = test::mesh_of_random_points(rng, 40, 6);
     Mesh other = mesh;
     ASSERT_GT(test::shuffle_flips(other, rng, 300), 0u);
     for (Mesh* m : {&mesh, &other}) {
@@ -125,7 +125,7 @@ TEST(RegularityProperty, AddingAnAffineFunctionToTheWeightsChangesNothing) {
   std::size_t flips = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 30, 16);
+    Mesh mesh = test::mesh_of_random_points(rng, 30, 16);
     set_dyadic_weights(mesh, rng, 0x1p-8);
     Mesh other = mesh;
     const double c = 3.5, ax = -0.75, ay = 2.25;
@@ -148,7 +148,7 @@ TEST(RegularityProperty, HiddenVerticesAreExactlyThoseWithoutPowerCell) {
   std::size_t hidden = 0, shown = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 14);
+    Mesh mesh = test::mesh_of_random_points(rng, 14);
     set_random_weights(mesh, rng, rng.uniform(0.02, 0.6));
     // The corners of the square can hide nowhere; make sure that they also show.
     for (std::size_t corner = 0; corner < 4; ++corner) mesh.set_weight(VertexId(corner), 0.5);
@@ -168,7 +168,7 @@ TEST(RegularityProperty, AHeavyNeighbourHidesAVertexAndItIsNamed) {
   int hid = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 20);
+    Mesh mesh = test::mesh_of_random_points(rng, 20);
     ASSERT_TRUE(restore_regularity(mesh).regular());
     const VertexId v(4 + rng.below(20));
     const VertexId heavy = mesh.target(mesh.outgoing(v));
@@ -186,7 +186,7 @@ TEST(RegularityProperty, AVertexStepWithFlipsIsRolledBackBitForBit) {
   Lawson lawson;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 30);
+    Mesh mesh = test::mesh_of_random_points(rng, 30);
     ASSERT_TRUE(restore_regularity(mesh).regular());
     for (const VertexId v : mesh.vertices()) {
       const Mesh before = mesh;
@@ -211,7 +211,7 @@ TEST(RegularityProperty, ConstrainedEdgesStayAndTheRestIsRegular) {
   std::size_t constrained = 0, flips = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 30, seed % 2 == 0 ? 16 : 0);
+    Mesh mesh = test::mesh_of_random_points(rng, 30, seed % 2 == 0 ? 16 : 0);
     std::vector<std::pair<VertexId, VertexId>> kept;
     for (const HalfedgeId h : mesh.halfedges()) {
       if (mesh.is_boundary(h) || rng.below(12) != 0) continue;
@@ -238,7 +238,7 @@ TEST(RegularityProperty, WithConstrainedEdgesTooTheResultDoesNotDependOnTheStart
   std::size_t constrained = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 40);
+    Mesh mesh = test::mesh_of_random_points(rng, 40);
     set_random_weights(mesh, rng, 0.5 * weight_that_hides_none(mesh));
     for (const HalfedgeId h : mesh.halfedges()) {
       if (mesh.is_boundary(h) || rng.below(12) != 0) continue;
@@ -263,7 +263,7 @@ TEST(RegularityProperty, LawsonEndsEvenAmongInvertedTriangles) {
   std::size_t inverted = 0, flips = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 30);
+    Mesh mesh = test::mesh_of_random_points(rng, 30);
     for (const VertexId v : mesh.vertices()) {
       if (rng.below(4) == 0) mesh.set_point(v, {rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-0.1, 0.1)});
     }
@@ -284,7 +284,7 @@ TEST(RegularityProperty, LawsonEndsEvenAmongInvertedTriangles) {
 TEST(RegularityProperty, RestoringTwiceIsRestoringOnce) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 40, 8);
+    Mesh mesh = test::mesh_of_random_points(rng, 40, 8);
     set_random_weights(mesh, rng, 0.05);
     restore_regularity(mesh);
     const Mesh once = mesh;

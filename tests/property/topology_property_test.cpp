@@ -1,7 +1,7 @@
 // Laws of any sequence of operations on connectivity: flips, insertions, splits and removals.
 #include <gtest/gtest.h>
 
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 #include "regularity/lawson.hpp"
 #include "support/shapes.hpp"
 #include "temper/regularity.hpp"
@@ -118,7 +118,7 @@ TEST(TopologyProperty, ARemovalFromARegularMeshLeavesARegularMesh) {
   Lawson lawson;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 60);
+    Mesh mesh = test::mesh_of_random_points(rng, 60);
     for (const VertexId v : mesh.vertices()) mesh.set_weight(v, 0.005 * rng.uniform(-1, 1));
     if (!restore_regularity(mesh).regular()) continue;
     RemovalPlan plan;
@@ -144,7 +144,7 @@ TEST(TopologyProperty, ARemovalAmongTiesNeedsLawsonOnTheNewEdgesAlone) {
   Lawson lawson;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 80, 10);
+    Mesh mesh = test::mesh_of_random_points(rng, 80, 10);
     for (const VertexId v : mesh.vertices()) mesh.set_point(v, {mesh.position(v).x / 3, mesh.position(v).y / 3, 0});
     if (mesh.validate() || !restore_regularity(mesh).regular()) continue;
     for (int i = 0; i < 30; ++i) {
@@ -184,7 +184,7 @@ TEST(TopologyProperty, ThePlanHasTheLeastVolumeOfAllTriangulations) {
   std::size_t planned = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 30);  // not regular: stars of any shape
+    Mesh mesh = test::mesh_of_random_points(rng, 30);  // not regular: stars of any shape
     for (const VertexId v : mesh.vertices()) mesh.set_weight(v, 0.3 * rng.uniform(-1, 1));
     for (const VertexId v : mesh.vertices()) {
       const RemovalPlan plan = plan_removal(mesh, v);

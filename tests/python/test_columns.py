@@ -14,7 +14,7 @@ SURFACES = [10.0, 7.0, 7.0, 2.0, 1.0]
 
 
 def good_mesh():
-    mesh = temper.generate.random_points(150)
+    mesh = temper.generate.random_mesh(150)
     temper.optimize(mesh)
     return mesh
 

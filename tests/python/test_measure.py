@@ -13,8 +13,8 @@ from temper import geometry, topology
 
 EVERY = [
     temper.generate.sparse_horseshoe(), temper.generate.horseshoe(), temper.generate.annulus(), temper.generate.airfoil(),
-    temper.generate.sheared_grid(), temper.generate.random_points(300), temper.generate.wedge(), temper.generate.letter_a(),
-    temper.generate.regular_polygon(), temper.generate.graded_points(finest=0.1), temper.generate.single_triangle(),
+    temper.generate.sheared_grid(), temper.generate.random_mesh(300), temper.generate.wedge(), temper.generate.letter_a(),
+    temper.generate.regular_polygon(), temper.generate.graded_mesh(finest=0.1), temper.generate.single_triangle(),
     temper.generate.constrained_delaunay(np.random.default_rng(0).uniform(size=(50, 2))),
 ]  # fmt: skip
 
@@ -232,7 +232,7 @@ def test_edges_are_prescribed_by_their_vertices():
 
 
 def test_the_search_over_connectivities_loses_nothing():
-    mesh = temper.generate.random_points(40)
+    mesh = temper.generate.random_mesh(40)
     before = mesh.copy()
     report = temper.best_connectivity(mesh, conditions="heights_only")
     assert mesh == before and np.array_equal(report.mesh.points, mesh.points)

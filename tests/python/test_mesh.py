@@ -301,13 +301,13 @@ def test_a_plan_is_for_one_state_of_the_mesh(ring):
 
 
 def test_a_plan_is_of_one_mesh_and_of_copies_of_its_state():
-    large, small = temper.generate.random_points(400, seed=1), temper.generate.random_points(40, seed=1)
+    large, small = temper.generate.random_mesh(400, seed=1), temper.generate.random_mesh(40, seed=1)
     removal = topology.plan_removal(large, 399)
     insertions = (topology.plan_center(large, triangle) for triangle in reversed(range(large.n_triangles)))
     insertion = next(plan for plan in insertions if plan.status == "possible")
     assert removal.status == "possible" and min(insertion.cavity) >= small.n_triangles
     same, before = large.copy(), small.copy()
-    for other in (small, temper.generate.random_points(400, seed=1)):  # an equal one is another one
+    for other in (small, temper.generate.random_mesh(400, seed=1)):  # an equal one is another one
         with pytest.raises(temper.TemperError, match="for another mesh"):
             topology.remove_vertex(other, removal)
         with pytest.raises(temper.TemperError, match="for another mesh"):
@@ -395,7 +395,7 @@ class Changing:
 
 
 def test_what_is_written_while_a_thread_changes_the_mesh_is_one_state(tmp_path):
-    temper.write(tmp_path / "in.vtu", temper.generate.random_points(2000))
+    temper.write(tmp_path / "in.vtu", temper.generate.random_mesh(2000))
     mesh = temper.read(tmp_path / "in.vtu")
     with Changing(mesh):
         for k in range(10):
@@ -405,7 +405,7 @@ def test_what_is_written_while_a_thread_changes_the_mesh_is_one_state(tmp_path):
 
 
 def test_data_of_a_mesh_that_a_thread_changes_meanwhile_are_refused():
-    mesh = temper.generate.random_points(5000)
+    mesh = temper.generate.random_mesh(5000)
     with Changing(mesh), pytest.raises(temper.TemperError, match="data 'u' are as they were: another thread"):
         for _ in range(1000):  # the first, unless nobody lets the thread run
             mesh.point_data["u"] = np.zeros(mesh.n_vertices)
@@ -414,7 +414,7 @@ def test_data_of_a_mesh_that_a_thread_changes_meanwhile_are_refused():
 
 
 def test_threads_of_python_may_read_while_a_mesh_is_optimized(ring):
-    mesh = temper.generate.random_points(4000)
+    mesh = temper.generate.random_mesh(4000)
     before = mesh.copy()
     seen = []
 

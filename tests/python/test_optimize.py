@@ -31,7 +31,7 @@ def test_it_makes_a_mesh_well_centered_and_keeps_the_boundary(ring):
 
 
 def test_the_same_bits_for_any_number_of_threads():
-    meshes = [temper.generate.random_points(3000) for _ in range(3)]
+    meshes = [temper.generate.random_mesh(3000) for _ in range(3)]
     for mesh, threads in zip(meshes, (1, 2, None)):
         temper.optimize(mesh, max_sweeps=8, threads=threads)
     assert meshes[0] == meshes[1] == meshes[2]
@@ -56,7 +56,7 @@ def at_once(*works):
 
 
 def test_two_threads_of_python_optimise_two_meshes_at_once():
-    alone = [temper.generate.random_points(3000, seed=seed) for seed in (1, 2)]
+    alone = [temper.generate.random_mesh(3000, seed=seed) for seed in (1, 2)]
     together = [mesh.copy() for mesh in alone]
     for mesh in alone:
         temper.optimize(mesh, max_sweeps=5, threads=1)
@@ -76,7 +76,7 @@ def test_two_threads_of_python_optimise_two_meshes_at_once():
 
 
 def test_two_threads_of_python_look_at_one_mesh():
-    mesh = temper.generate.random_points(5000)
+    mesh = temper.generate.random_mesh(5000)
     quality, energy = repr(temper.quality(mesh)), temper.energy.total_energy(mesh)
 
     def look():
@@ -89,7 +89,7 @@ def test_two_threads_of_python_look_at_one_mesh():
 
 
 def test_a_mesh_that_another_thread_optimises_shows_its_old_state_and_refuses_changes():
-    mesh = temper.generate.random_points(3000)
+    mesh = temper.generate.random_mesh(3000)
     before, seen, begun, looked = mesh.copy(), [], threading.Event(), threading.Event()
 
     def observer(_):
@@ -267,7 +267,7 @@ def test_an_exception_of_an_observer_comes_out_when_the_mesh_is_in_place(ring):
 
 
 def test_ctrl_c_stops_a_run_and_keeps_the_best_mesh():
-    mesh = temper.generate.random_points(30000)
+    mesh = temper.generate.random_mesh(30000)
     before = temper.quality(mesh).well_centered_fraction
     timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
@@ -279,7 +279,7 @@ def test_ctrl_c_stops_a_run_and_keeps_the_best_mesh():
 
 def test_a_trace_makes_the_mesh_again():
     events = []
-    mesh = temper.generate.random_points(300)
+    mesh = temper.generate.random_mesh(300)
     before = mesh.copy()
     report = temper.optimize(mesh, tracer=events.append, removal="patch", removal_from=1, max_sweeps=20)
     assert {e.kind for e in events} >= {"move", "flip"}
@@ -365,7 +365,7 @@ def test_an_outline_is_meshed_well_centered():
 PROGRAM = textwrap.dedent(
     """
     import temper
-    temper.optimize(temper.generate.random_points(2000), max_sweeps=10)
+    temper.optimize(temper.generate.random_mesh(2000), max_sweeps=10)
     """
 )
 
@@ -487,7 +487,7 @@ def test_rules_of_data_that_make_no_sense_leave_the_mesh_as_it_was(sea):
 
 
 def test_a_mesh_in_degrees_is_optimised_on_a_map_and_written_in_degrees(in_scratch):
-    mesh = temper.generate.random_points(200)
+    mesh = temper.generate.random_mesh(200)
     places = np.asarray(mesh.points) * (2, 1) + (-14, 55)
     nodes = [f"{i + 1} {x!r} {y!r} {3000.0 + y!r}" for i, (x, y) in enumerate(places.tolist())]
     triangles = [f"{i + 1} 3 {a + 1} {b + 1} {c + 1}" for i, (a, b, c) in enumerate(mesh.triangles.tolist())]

@@ -18,13 +18,13 @@ from mpi4py import MPI
 
 world, kind = MPI.COMM_WORLD, sys.argv[1]
 if kind == "differ":
-    mesh = temper.generate.random_points(200, seed=1 + world.rank // 2)  # rank 2 has another
+    mesh = temper.generate.random_mesh(200, seed=1 + world.rank // 2)  # rank 2 has another
     try:
         temper.optimize(mesh, communicator=world)
     except temper.TemperError as error:
         print(f" {world.rank} {error.code} ")
 else:
-    mesh = temper.generate.random_points(20_000, seed=4)  # of two parts
+    mesh = temper.generate.random_mesh(20_000, seed=4)  # of two parts
     seen = []
     report = temper.optimize(mesh, max_sweeps=6, communicator=world, threads=1, progress=False, observer=seen.append)
     np.savez(f"rank{world.rank}.npz", points=mesh.points, weights=mesh.weights, triangles=mesh.triangles,
@@ -53,7 +53,7 @@ def together(tmp_path):
 
 
 def test_ranks_get_the_bits_of_one_process(together, tmp_path):
-    alone = temper.generate.random_points(20_000, seed=4)
+    alone = temper.generate.random_mesh(20_000, seed=4)
     report = temper.optimize(alone, max_sweeps=6, threads=1)
     together(3, "run")
     for rank in range(3):

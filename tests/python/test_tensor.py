@@ -96,7 +96,7 @@ def order(errors):
 
 
 def test_there_and_back_keeps_what_stayed_bit_for_bit():
-    mesh = temper.generate.random_points(200)
+    mesh = temper.generate.random_mesh(200)
     tensor = (3.0, 1.1, 0.7)
     there = temper.mapped(mesh, tensor)
     assert np.array_equal(temper.mapped_back(there, mesh, tensor).points, mesh.points)
@@ -111,7 +111,7 @@ def test_there_and_back_keeps_what_stayed_bit_for_bit():
 
 
 def test_a_run_in_the_metric_is_the_run_of_the_mapped_mesh():
-    mesh = temper.generate.random_points(150)
+    mesh = temper.generate.random_mesh(150)
     there = temper.mapped(mesh, K)
     report = temper.optimize(there, boundary="split")
     better = mesh.copy()
@@ -132,7 +132,7 @@ def test_a_run_in_the_metric_is_the_run_of_the_mapped_mesh():
 
 def test_operators_of_a_tensor_are_k_orthogonal_and_have_its_energy():
     tensor = (3.0, 1.1, 0.7)
-    mesh = optimized(temper.generate.random_points(200), tensor)
+    mesh = optimized(temper.generate.random_mesh(200), tensor)
     c = temper.dec(mesh, tensor=tensor)
     points, edges = np.asarray(mesh.points), c.edges
     inner = ~edges.is_boundary
@@ -162,7 +162,7 @@ def test_fluxes_converge_with_orthocenters_of_the_metric_and_not_with_those_of_t
     pytest.importorskip("scipy")
     if name and not (PUBLIC_MESHES / name).exists():
         pytest.skip("public meshes are not here")
-    mesh = temper.read(PUBLIC_MESHES / name) if name else temper.generate.random_points(150)
+    mesh = temper.read(PUBLIC_MESHES / name) if name else temper.generate.random_mesh(150)
     of_one, of_k, of_plane = errors_of(mesh, ONE, ONE), errors_of(mesh, K, K), errors_of(mesh, K, ONE)
     assert order(of_one) > 1.7 and order(of_k) > 1.7, (of_one, of_k)
     assert order(of_plane) < 0.2 and of_plane[-1] > 10 * of_k[-1], (of_plane, of_k)

@@ -91,14 +91,14 @@ std::span<const Generator> generators() {
          take(given, "a", shape.a), take(given, "b", shape.b), take(given, "angle_deg", shape.angle_deg);
          return single_triangle(shape);
        }},
-      {"random_points",
+      {"random_mesh",
        {"vertices", "seed", "polygon"},
        [](const Json& given) {
-         RandomPoints shape;
+         RandomMesh shape;
          std::vector<std::array<double, 2>> polygon;
          take(given, "vertices", shape.vertices), take(given, "seed", shape.seed), take(given, "polygon", polygon);
          for (const auto& [x, y] : polygon) shape.polygon.push_back({x, y});
-         return random_points(shape);
+         return random_mesh(shape);
        }},
       {"sheared_grid",
        {"nx", "ny", "shear"},
@@ -138,12 +138,12 @@ std::span<const Generator> generators() {
          take(given, "seed", shape.seed);
          return wedge(shape);
        }},
-      {"graded_points",
+      {"graded_mesh",
        {"finest", "growth", "seed"},
        [](const Json& given) {
-         GradedPoints shape;
+         GradedMesh shape;
          take(given, "finest", shape.finest), take(given, "growth", shape.growth), take(given, "seed", shape.seed);
-         return graded_points(shape);
+         return graded_mesh(shape);
        }},
   };
   return rows;

@@ -18,8 +18,8 @@ struct ExampleSettings {
   bool list = false;
   Horseshoe horseshoe;
   SingleTriangle triangle;
-  std::uint64_t vertices = RandomPoints().vertices;
-  RandomPoints random;
+  std::uint64_t vertices = RandomMesh().vertices;
+  RandomMesh random;
   Icosahedral icosahedral;
   RandomSphere random_sphere;
   GradedSphere graded_sphere;
@@ -29,7 +29,7 @@ struct ExampleSettings {
   Airfoil airfoil;
   RegularPolygon polygon;
   Wedge wedge;
-  GradedPoints graded;
+  GradedMesh graded;
   RandomPeriodic random_periodic;
   PeriodicHexagons periodic_hexagons;
 };
@@ -177,7 +177,7 @@ double size_of_graded_sphere(const ExampleSettings& s, const Mesh& mesh, VertexI
 
 Expected<Mesh> make_random(ExampleSettings& s) {
   s.random.vertices = s.vertices;
-  return random_points(s.random);
+  return random_mesh(s.random);
 }
 
 struct Generator {
@@ -208,7 +208,7 @@ constexpr Generator kGenerators[] = {
     {"wedge", "a triangle with a sharp corner, and random points inside", add_wedge,
      [](ExampleSettings& s) { return wedge(s.wedge); }},
     {"graded", "random points in a square, finer towards one corner", add_graded,
-     [](ExampleSettings& s) { return graded_points(s.graded); }},
+     [](ExampleSettings& s) { return graded_mesh(s.graded); }},
     {"icosahedral", "the bisected icosahedron, a mesh of the sphere", add_icosahedral,
      [](ExampleSettings& s) { return icosahedral(s.icosahedral); }},
     {"random-sphere", "random points around the sphere, Delaunay: about half of the triangles are bad",

@@ -16,7 +16,7 @@ double depth(Vec2 p) { return 0.8 - 0.25 * ((p.x - 2) * (p.x - 2) + (p.y - 2) * 
 class Data : public Workshop {
  protected:
   static void write_bay(const std::string& path) {
-    io::MeshFile file = io::from_mesh(*random_points({.vertices = 400, .seed = 5}));
+    io::MeshFile file = io::from_mesh(*random_mesh({.vertices = 400, .seed = 5}));
     std::vector<double> depths;
     std::vector<std::int32_t> node, bottom;
     for (const Vec2 p : file.points) depths.push_back(depth(p)), node.push_back(static_cast<int>(node.size()));

@@ -12,7 +12,7 @@ class Degrees : public Workshop {
  protected:
   /// A sea of 8° × 4°, 3 km deep, as fort.14.
   static void write_sea(const std::string& path) {
-    io::MeshFile file = io::from_mesh(*random_points({.vertices = 300, .seed = 4}));
+    io::MeshFile file = io::from_mesh(*random_mesh({.vertices = 300, .seed = 4}));
     std::vector<double> depths;
     for (Vec2& p : file.points) {
       p = {2 * p.x - 14, p.y + 55};

@@ -17,7 +17,7 @@ class SaveEvery : public Workshop {
  protected:
   /// A mesh with data, far from well-centered.
   static void make_mesh_with_data() {
-    const Mesh mesh = *random_points({.vertices = 2000, .seed = 4});
+    const Mesh mesh = *random_mesh({.vertices = 2000, .seed = 4});
     io::MeshFile file = io::from_mesh(mesh);
     std::vector<double> depth;
     for (const Vec2 p : file.points) depth.push_back(p.x * p.y);

@@ -103,7 +103,7 @@ std::vector<double> numbers(const std::vector<io::DataArray>& arrays, const std:
 }
 
 TEST_F(Trace, PointsThatAreLeftKeepTheirDataWhenToldTo) {
-  const auto mesh = random_points({.vertices = 150});
+  const auto mesh = random_mesh({.vertices = 150});
   ASSERT_TRUE(mesh);
   io::MeshFile file = io::from_mesh(*mesh);
   std::vector<double> id(file.points.size()), one(file.triangles.size(), 1), number(file.triangles.size());

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/dec.hpp"
@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kRelative = 1e-12;
 
-Mesh delaunay(std::size_t vertices, std::uint64_t seed) { return *random_points({.vertices = vertices, .seed = seed}); }
+Mesh delaunay(std::size_t vertices, std::uint64_t seed) { return *random_mesh({.vertices = vertices, .seed = seed}); }
 
 /// Random weights of the size of edges: many obtuse triangles, edges not crossed, edges not regular.
 Mesh rough(std::uint64_t seed = 1) {
@@ -211,7 +211,7 @@ TEST(DecLaws, SignsAreThoseOfTheExactPredicates) {
   Rng rng(7);
   std::size_t zeros = 0, negative = 0;
   for (int round = 0; round < 20; ++round) {
-    Mesh mesh = test::random_mesh(rng, 40, 6);  // on a lattice: ties everywhere
+    Mesh mesh = test::mesh_of_random_points(rng, 40, 6);  // on a lattice: ties everywhere
     if (round % 4 > 1) {
       for (const VertexId v : mesh.vertices()) mesh.set_weight(v, 0.125 * rng.below(3));
     }

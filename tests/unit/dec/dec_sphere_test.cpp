@@ -257,7 +257,7 @@ TEST(DecSphere, AllPointsScaledChangeNothing) {
 
 /// A planar mesh in [−½, ½]², and the same around the pole of a sphere, weights included.
 double distance_to_plane(double radius) {
-  const auto planar = random_points({.vertices = 200, .seed = 4});
+  const auto planar = random_mesh({.vertices = 200, .seed = 4});
   EXPECT_TRUE(planar);
   Mesh plane = *planar;
   test::Noise noise(4);

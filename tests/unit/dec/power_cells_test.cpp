@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/dec.hpp"
@@ -114,7 +114,7 @@ TEST(PowerCells, AreHalfPlaneClippingInRegularTriangulationsOfAConvexDomain) {
   std::size_t compared = 0, away_from_home = 0;
   for (int round = 0; round < 60; ++round) {
     const int n = 4 + round;
-    Mesh mesh = test::random_mesh(rng, n);
+    Mesh mesh = test::mesh_of_random_points(rng, n);
     const double amplitude = round % 4 == 0 ? 0 : std::exp2(-round % 5) * 2.0 / n;
     for (const VertexId v : mesh.vertices()) mesh.set_weight(v, amplitude * rng.uniform(-1, 1));
     if (!restore_regularity(mesh).regular()) continue;
@@ -149,7 +149,7 @@ TEST(PowerCells, AreHalfPlaneClippingInRegularTriangulationsOfAConvexDomain) {
 TEST(PowerCells, OfCocircularPointsOnALatticeAreHalfPlaneClippingToo) {
   Rng rng(12);
   for (int round = 0; round < 15; ++round) {
-    Mesh mesh = test::random_mesh(rng, 30, 6);
+    Mesh mesh = test::mesh_of_random_points(rng, 30, 6);
     ASSERT_TRUE(restore_regularity(mesh).regular());
     const PowerCells cells = power_cells(mesh, dec(mesh));
     expect_partition(mesh, cells);
@@ -167,7 +167,7 @@ TEST(PowerCells, ShareFacesThatTogetherWithTheBoundaryAreAllTheirSides) {
   Rng rng(14);
   std::size_t compared = 0, beyond_edges = 0, closed = 0;
   for (int round = 0; round < 40; ++round) {
-    Mesh mesh = test::random_mesh(rng, 5 + round);
+    Mesh mesh = test::mesh_of_random_points(rng, 5 + round);
     for (const VertexId v : mesh.vertices()) mesh.set_weight(v, round % 3 * 0.5 / (5 + round) * rng.uniform(-1, 1));
     if (!restore_regularity(mesh).regular()) continue;
     ++compared;
@@ -296,7 +296,7 @@ TEST(PowerCells, CoverAnyDomainOnceWhateverTheWeights) {
   meshes.push_back(*sheared_grid({.nx = 5, .ny = 5}));
   meshes.push_back(*regular_polygon({.corners = 12}));
   meshes.push_back(*wedge({.pieces = 4}));
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) meshes.push_back(*random_points({.vertices = 60, .seed = seed}));
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) meshes.push_back(*random_mesh({.vertices = 60, .seed = seed}));
   for (const Mesh& mesh : meshes) {
     expect_partition(mesh, power_cells(mesh, dec(mesh)));
     for (const double amplitude : {0.1, 1.0}) {  // the second leaves many edges not regular

@@ -44,7 +44,7 @@ std::vector<Mesh> meshes() {
   std::vector<Mesh> all = {sparse_horseshoe(),
                            *horseshoe(),
                            *regular_polygon({.corners = 12}),
-                           *random_points({.vertices = 60}),
+                           *random_mesh({.vertices = 60}),
                            *sheared_grid({.nx = 4, .ny = 4, .shear = 0.7}),
                            one_triangle({0, 0}, {4, 0}, {2, 1})};
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -206,7 +206,7 @@ TEST(Explain, OfAFanAtABoundaryCornerNamesTheCornerAndItsEdges) {
 
 TEST(Explain, OfAConflictThatClosesNamesNoEdge) {
   std::size_t found = 0;
-  const Mesh mesh = *random_points({.vertices = 200});
+  const Mesh mesh = *random_mesh({.vertices = 200});
   for (const Reason& reason : why(mesh, {.cures = 0}).reasons) {
     if (!is_conflict(reason) || reason.crossing) continue;
     ++found;

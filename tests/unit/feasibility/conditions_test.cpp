@@ -117,7 +117,7 @@ TEST(Conditions, HaveMarginsThatDoNotDependOnPlaceTurnSizeOrAConstantOnAllWeight
 TEST(Conditions, RegularOfAllEdgesPrescribedAreThoseOfNone) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Rng rng(seed);
-    const Mesh mesh = random_mesh(rng, static_cast<int>(seed % 12));
+    const Mesh mesh = mesh_of_random_points(rng, static_cast<int>(seed % 12));
     const std::vector<HalfedgeId> all = inner_edges(mesh);
     if (all.empty()) continue;
     const BestMargin none = margin_of(mesh, Conditions::regular), each = margin_of(mesh, Conditions::regular, all);
@@ -184,7 +184,7 @@ TEST(FindWeights, AreRightUnderEveryConditionForTheWholeAndByNeighbourhoods) {
     Tally tally;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
       Rng rng(seed);
-      for (const Mesh& mesh : {random_mesh(rng, static_cast<int>(seed % 12)), jittered_lattice(seed)}) {
+      for (const Mesh& mesh : {mesh_of_random_points(rng, static_cast<int>(seed % 12)), jittered_lattice(seed)}) {
         WeightOptions options = {.conditions = row.conditions};
         const WeightReport whole = weights_of(mesh, options);
         expect_true(mesh, whole, options, tally);
@@ -208,7 +208,7 @@ TEST(FindWeights, AreRightForPrescribedEdgesOfRandomTriangulations) {
   Tally tally;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Rng rng(seed);
-    const Mesh mesh = random_mesh(rng, 12);
+    const Mesh mesh = mesh_of_random_points(rng, 12);
     WeightOptions options = {.conditions = Conditions::regular};
     for (const HalfedgeId h : inner_edges(mesh)) {
       if (rng.below(3) != 0) options.edges.push_back(h);

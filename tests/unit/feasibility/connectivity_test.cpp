@@ -105,7 +105,7 @@ TEST(BestConnectivity, IsNoBetterThanTheBestOfAllAndOftenThat) {
   std::size_t tried = 0, found = 0, better = 0, triangulations = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Rng rng(seed);
-    const Mesh mesh = random_mesh(rng, 3);
+    const Mesh mesh = mesh_of_random_points(rng, 3);
     if (mesh.n_triangles() > 10) continue;
     const ConnectivityReport report = search(mesh);
     const double best = best_of_all(mesh, Conditions::well_centered, triangulations);

@@ -50,7 +50,7 @@ TEST(FindWeights, AreRightOnRandomTriangulations) {
   std::size_t feasible = 0, infeasible = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Rng rng(seed);
-    const Mesh mesh = random_mesh(rng, static_cast<int>(seed % 12));
+    const Mesh mesh = mesh_of_random_points(rng, static_cast<int>(seed % 12));
     const WeightReport report = weights_of(mesh, {.goal = WeightGoal::feasible});
     expect_true_report(mesh, report, report.asked);
     EXPECT_EQ(report.margin_is, MarginIs::exact);

@@ -55,7 +55,7 @@ Mesh rectangle(double length) {
 TEST(Necessity, NoWellCenteredMeshHasAnEdgeThatMustBeSplit) {
   std::size_t edges = 0, meshes = 0, conflicts_before = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
-    Mesh mesh = seed % 3 == 0   ? *random_points({.vertices = 120, .seed = seed})
+    Mesh mesh = seed % 3 == 0   ? *random_mesh({.vertices = 120, .seed = seed})
                 : seed % 3 == 1 ? jittered_lattice(seed, 7)
                                 : *annulus({.around = 24, .rings = 4, .seed = seed});
     conflicts_before += edges_that_must_be_split(all_constrained(mesh)).size();

@@ -7,7 +7,7 @@
 
 #include "base/rng.hpp"
 #include "generate/triangulation.hpp"
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 #include "support/shapes.hpp"
 #include "temper/generate.hpp"
 #include "temper/regularity.hpp"

@@ -33,16 +33,16 @@ std::vector<Named> all_examples() {
        }},
       {"least horseshoe", [] { return horseshoe({.a = 3, .b = 2}); }},
       {"triangle", [] { return single_triangle(); }},
-      {"random points", [] { return random_points(); }},
-      {"few random points", [] { return random_points({.vertices = 9}); }},
-      {"more random points", [] { return random_points({.vertices = 5000, .seed = 4}); }},
+      {"random points", [] { return random_mesh(); }},
+      {"few random points", [] { return random_mesh({.vertices = 9}); }},
+      {"more random points", [] { return random_mesh({.vertices = 5000, .seed = 4}); }},
       {"clockwise triangle",
        [] {
-         return random_points({.vertices = 50, .polygon = {{0, 0}, {0, 1}, {1, 0}}});
+         return random_mesh({.vertices = 50, .polygon = {{0, 0}, {0, 1}, {1, 0}}});
        }},
       {"thin box",
        [] {
-         return random_points({.vertices = 500, .polygon = {{0, 0}, {99, 0}, {99, 1e-3}, {0, 1e-3}}});
+         return random_mesh({.vertices = 500, .polygon = {{0, 0}, {99, 0}, {99, 1e-3}, {0, 1e-3}}});
        }},
       {"sheared grid", [] { return sheared_grid(); }},
       {"one square", [] { return sheared_grid({.nx = 1, .ny = 1, .shear = -3}); }},
@@ -57,8 +57,8 @@ std::vector<Named> all_examples() {
       {"letter A", []() -> Expected<Mesh> { return letter_a(); }},
       {"wedge", [] { return wedge(); }},
       {"needle", [] { return wedge({.angle_deg = 0.1, .pieces = 1}); }},
-      {"graded", [] { return graded_points(); }},
-      {"even", [] { return graded_points({.finest = 0.1, .growth = 0}); }},
+      {"graded", [] { return graded_mesh(); }},
+      {"even", [] { return graded_mesh({.finest = 0.1, .growth = 0}); }},
   };
 }
 
@@ -108,7 +108,7 @@ TEST(Examples, AreValidMeshesWithoutWeightsAndTheSameEveryTime) {
 }
 
 TEST(Examples, WithSeedsDifferFromSeedToSeed) {
-  EXPECT_FALSE(*random_points({.seed = 1}) == *random_points({.seed = 2}));
+  EXPECT_FALSE(*random_mesh({.seed = 1}) == *random_mesh({.seed = 2}));
   EXPECT_FALSE(*annulus({.seed = 1}) == *annulus({.seed = 2}));
   EXPECT_FALSE(*airfoil({.seed = 1}) == *airfoil({.seed = 2}));
 }
@@ -172,9 +172,9 @@ TEST(SingleTriangleExample, HasTheSidesAndTheAngle) {
   EXPECT_NEAR(corner_angle(p, q, r), 75 * std::numbers::pi / 180, 1e-15);
 }
 
-TEST(RandomPointsExample, HasAsManyVerticesAsAskedAndFillsThePolygon) {
+TEST(RandomMeshExample, HasAsManyVerticesAsAskedAndFillsThePolygon) {
   for (const std::size_t n : {9u, 10u, 30u, 100u, 3000u}) {
-    const auto mesh = random_points({.vertices = n, .seed = n});
+    const auto mesh = random_mesh({.vertices = n, .seed = n});
     ASSERT_TRUE(mesh) << mesh.error().what();
     EXPECT_EQ(mesh->n_vertices(), n);
     EXPECT_NEAR(area(*mesh), 12 - 0.375, 1e-12);
@@ -183,9 +183,9 @@ TEST(RandomPointsExample, HasAsManyVerticesAsAskedAndFillsThePolygon) {
   }
 }
 
-TEST(RandomPointsExample, IsHalfBadButNotAtTheBoundary) {
+TEST(RandomMeshExample, IsHalfBadButNotAtTheBoundary) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const auto mesh = random_points({.vertices = 2000, .seed = seed});
+    const auto mesh = random_mesh({.vertices = 2000, .seed = seed});
     ASSERT_TRUE(mesh);
     const double part = static_cast<double>(not_acute(*mesh)) / static_cast<double>(mesh->n_triangles());
     EXPECT_GT(part, 0.45);
@@ -254,14 +254,14 @@ TEST(Examples, RefuseWhatMakesNoSense) {
       {"two corners", regular_polygon({.corners = 2})},
       {"wedge of angle 0", wedge({.angle_deg = 0})},
       {"wedge without edges", wedge({.pieces = 0})},
-      {"finest 0", graded_points({.finest = 0})},
-      {"growth NaN", graded_points({.growth = nan})},
-      {"fewer vertices than corners", random_points({.vertices = 8})},
-      {"two corners", random_points({.polygon = {{0, 0}, {1, 0}}})},
-      {"NaN corner", random_points({.polygon = {{0, 0}, {1, 0}, {nan, 1}}})},
-      {"double corner", random_points({.polygon = {{0, 0}, {1, 0}, {1, 0}, {0, 1}}})},
-      {"flat polygon", random_points({.polygon = {{0, 0}, {1, 0}, {2, 0}}})},
-      {"crossed polygon", random_points({.polygon = crossed})},
+      {"finest 0", graded_mesh({.finest = 0})},
+      {"growth NaN", graded_mesh({.growth = nan})},
+      {"fewer vertices than corners", random_mesh({.vertices = 8})},
+      {"two corners", random_mesh({.polygon = {{0, 0}, {1, 0}}})},
+      {"NaN corner", random_mesh({.polygon = {{0, 0}, {1, 0}, {nan, 1}}})},
+      {"double corner", random_mesh({.polygon = {{0, 0}, {1, 0}, {1, 0}, {0, 1}}})},
+      {"flat polygon", random_mesh({.polygon = {{0, 0}, {1, 0}, {2, 0}}})},
+      {"crossed polygon", random_mesh({.polygon = crossed})},
       {"no columns", sheared_grid({.nx = 0})},
       {"infinite shear", sheared_grid({.shear = inf})},
       {"huge grid", sheared_grid({.nx = 2000000000, .ny = 2000000000})},

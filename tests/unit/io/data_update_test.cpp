@@ -21,7 +21,7 @@ struct Changed {
   DataReport report;
 };
 
-MeshFile file_with_data(const Mesh& mesh = *random_points({.vertices = 150, .seed = 3})) {
+MeshFile file_with_data(const Mesh& mesh = *random_mesh({.vertices = 150, .seed = 3})) {
   MeshFile f = from_mesh(mesh);
   std::vector<double> depths, id;
   std::vector<float> coarse;

@@ -13,7 +13,7 @@ namespace {
 
 /// A sea of 8° × 4° west of Europe, with depths in metres.
 MeshFile sea(double west = -14) {
-  MeshFile f = from_mesh(*random_points({.vertices = 120, .seed = 2}));
+  MeshFile f = from_mesh(*random_mesh({.vertices = 120, .seed = 2}));
   std::vector<double> depths;
   for (Vec2& p : f.points) {
     p = {west + 2 * p.x, 47 + p.y};

@@ -656,7 +656,7 @@ TEST_F(NetcdfFormats, UgridSaysWhereOrthocentersAndEdgesAre) {
 
 TEST_F(NetcdfFormats, MpasHasLatitudesAndLongitudesOfAMeshThatKnowsThem) {
   constexpr double kRadians = std::numbers::pi / 180;
-  Mesh mesh = *random_points({.vertices = 60, .seed = 2});
+  Mesh mesh = *random_mesh({.vertices = 60, .seed = 2});
   ASSERT_TRUE(optimize(mesh));  // no orthocenter is beyond the mesh
   MeshFile on_map = from_mesh(mesh);
   const Projection about_greenwich = {ProjectionKind::stereographic, {0, 49}};

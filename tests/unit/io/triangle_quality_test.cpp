@@ -134,7 +134,7 @@ TEST_F(TriangleQualityOfFiles, IsOfLengthsAndSoNotOfPointsInDegrees) {
 }
 
 TEST_F(TriangleQualityOfFiles, DoesNotDependOnThreads) {
-  const MeshFile file = from_mesh(*random_points({.vertices = 9000}));
+  const MeshFile file = from_mesh(*random_mesh({.vertices = 9000}));
   ASSERT_TRUE(write(path("1.vtu"), file));
   test::StdThreads executor(3);
   ASSERT_TRUE(write(path("3.vtu"), file, {"", {}, &executor}));

@@ -130,7 +130,7 @@ TEST_F(Vtkhdf, TakesAnyNameOfAnArray) {
 
 // Blocks are smaller than the arrays, and the layout takes more than the first piece of memory.
 TEST_F(Vtkhdf, OfManyBlocksAndArraysComesBackWhole) {
-  MeshFile f = from_mesh(*random_points({.vertices = 20000, .seed = 1}));
+  MeshFile f = from_mesh(*random_mesh({.vertices = 20000, .seed = 1}));
   for (int k = 0; k < 60; ++k) {
     std::vector<double> values(f.points.size());
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = f.points[i].x * k;

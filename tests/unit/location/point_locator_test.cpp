@@ -80,7 +80,7 @@ TEST(Place, BeyondTheMeshIsTheNearestPointOfIt) {
 }
 
 TEST(Interpolated, KeepsToTheValuesOfTheCornersAndIsExactWhereTheyAgree) {
-  const Mesh mesh = *random_points({100, 5, {}});
+  const Mesh mesh = *random_mesh({100, 5, {}});
   const PointLocator finder(mesh);
   Noise noise(9);
   std::vector<double> values;

@@ -39,7 +39,7 @@ TEST(PlacesOfVertices, ReproduceLinearDataWhereverAnOptimisationPutsVertices) {
   sliding.boundary = BoundaryVertices::slide;
   int moved = 0, inserted = 0;
   for (const OptimizeOptions& options : {OptimizeOptions(), splitting, removing, sliding}) {
-    for (const Mesh& mesh : {*random_points({150, 4, {}}), *annulus(), *wedge()}) {
+    for (const Mesh& mesh : {*random_mesh({150, 4, {}}), *annulus(), *wedge()}) {
       const Optimized o = optimized_of(mesh, options);
       const auto places = positions_of_vertices(o.before, o.after, o.vertices);
       ASSERT_EQ(places.size(), o.after.n_vertices());
@@ -86,7 +86,7 @@ TEST(PlacesOfVertices, OnASlantedBoundaryDoNotAskWhatIsAcrossFromIt) {
 }
 
 TEST(SourcesOfTriangles, AreTheTrianglesThatTheMiddlesAreIn) {
-  const Optimized o = optimized_of(*random_points({150, 8, {}}));
+  const Optimized o = optimized_of(*random_mesh({150, 8, {}}));
   const auto places = positions_of_vertices(o.before, o.after);
   const auto sources = sources_of_triangles(o.before, o.after, places);
   ASSERT_EQ(sources.size(), o.after.n_triangles());
@@ -105,7 +105,7 @@ TEST(SourcesOfTriangles, AreTheTrianglesThatTheMiddlesAreIn) {
 }
 
 TEST(SourcesOfTriangles, AreTheSameTrianglesWhereverTheyAreNumbered) {
-  const Mesh before = *random_points({200, 2, {}});
+  const Mesh before = *random_mesh({200, 2, {}});
   Mesh after = before;
   const MeshOrder order = hilbert_order(after);
   const auto places = positions_of_vertices(before, after, order.vertices);
@@ -134,7 +134,7 @@ TEST(SourcesOfTriangles, StayInTheirRegion) {
 }
 
 TEST(SourcesOfTriangles, DoNotDependOnThreads) {
-  const Optimized o = optimized_of(*random_points({40000, 8, {}}), [] {
+  const Optimized o = optimized_of(*random_mesh({40000, 8, {}}), [] {
     OptimizeOptions few;
     few.max_sweeps = 2;
     return few;

@@ -188,7 +188,7 @@ TEST(HilbertOrder, BringsNeighboursTogether) {
 }
 
 TEST(Walk, SeesEachVertexOnceAndTakesTheCurveWhereStarsAreScattered) {
-  Mesh mesh = *random_points({.vertices = 100000, .seed = 3});  // more than a cache holds
+  Mesh mesh = *random_mesh({.vertices = 100000, .seed = 3});  // more than a cache holds
   const Walk scattered(mesh);
   EXPECT_FALSE(scattered.is_by_number());
   IdVector<VertexId, VertexId> seen(mesh.n_vertices());
@@ -199,7 +199,7 @@ TEST(Walk, SeesEachVertexOnceAndTakesTheCurveWhereStarsAreScattered) {
 }
 
 TEST(NearbyCopy, IsTheMeshItselfUnlessThatIsScattered) {
-  const Mesh scattered = *random_points({.vertices = 100000, .seed = 3});
+  const Mesh scattered = *random_mesh({.vertices = 100000, .seed = 3});
   const NearbyCopy copy(scattered, nullptr);
   ASSERT_FALSE(copy.is_original());
   for (const VertexId v : copy.mesh().vertices()) {

@@ -94,7 +94,7 @@ RelativeLengths least_lengths(const Mesh& mesh) {
 
 TEST(Accuracy, MakesEdgesAndDualsAsLongAsIsAskedFor) {
   constexpr double kEdge = 0.65, kDual = 0.25;
-  for (const Mesh& input : {*random_points({.vertices = 300, .seed = 2}), *annulus(), *airfoil()}) {
+  for (const Mesh& input : {*random_mesh({.vertices = 300, .seed = 2}), *annulus(), *airfoil()}) {
     for (const Scheme scheme : {Scheme::all, Scheme::vertex}) {
       OptimizeOptions o;
       o.target = scheme;
@@ -112,7 +112,7 @@ TEST(Accuracy, MakesEdgesAndDualsAsLongAsIsAskedFor) {
 }
 
 TEST(Accuracy, OfOneSchemeBeginsWithSweepsOfOdtWhereThereAreNoWeights) {
-  const Mesh input = *random_points({.vertices = 300, .seed = 2});
+  const Mesh input = *random_mesh({.vertices = 300, .seed = 2});
   const auto made_by = [](Mesh mesh, OptimizeOptions o) {
     o.objective = Objective::accuracy;
     improved(mesh, o);
@@ -134,7 +134,7 @@ TEST(Accuracy, OfOneSchemeBeginsWithSweepsOfOdtWhereThereAreNoWeights) {
 }
 
 TEST(Accuracy, KeepsMarginsAfterEverySweepAndTheBoundaryBitForBit) {
-  Mesh mesh = *random_points({.vertices = 300, .seed = 2});
+  Mesh mesh = *random_mesh({.vertices = 300, .seed = 2});
   const Mesh before = mesh;
   int looks = 0;
   OptimizeOptions o = for_accuracy();
@@ -320,7 +320,7 @@ TEST(Accuracy, HasTheSameBytesForAnyNumberOfThreads) {
 
 TEST(Accuracy, IsReplayedByItsTrace) {
   for (const bool ready : {true, false}) {
-    const Mesh input = ready ? ready_mesh() : *random_points({.vertices = 120, .seed = 6});
+    const Mesh input = ready ? ready_mesh() : *random_mesh({.vertices = 120, .seed = 6});
     Mesh mesh = input;
     OptimizeOptions o = for_accuracy();
     std::vector<TraceEvent> events;
@@ -334,7 +334,7 @@ TEST(Accuracy, IsReplayedByItsTrace) {
 }
 
 TEST(Accuracy, CountsSweepsOfBothPhasesAndStopsWhereItIsTold) {
-  const Mesh input = *random_points({.vertices = 200, .seed = 8});
+  const Mesh input = *random_mesh({.vertices = 200, .seed = 8});
   OptimizeOptions o = for_accuracy();
   Mesh mesh = input;
   const OptimizeReport whole = improved(mesh, o);
@@ -400,7 +400,7 @@ TEST(Accuracy, WorksAroundWhatCannotBeWellCentered) {
 }
 
 TEST(Accuracy, SizesAreSmoothedAndGoWithTheirVertices) {
-  const Mesh mesh = *graded_points({.finest = 1.0 / 16});
+  const Mesh mesh = *graded_mesh({.finest = 1.0 / 16});
   const NearbyCopy near(mesh, nullptr);
   const AccuracySizes sizes(near, {}, nullptr);
   ASSERT_EQ(sizes.of_input().size(), mesh.n_vertices());
@@ -436,7 +436,7 @@ std::string refusal_of(OptimizeOptions options) {
 }
 
 TEST(Accuracy, SizesThatWereLentAreWhatTheyWere) {
-  const auto mesh = random_points({.vertices = 500, .seed = 3});
+  const auto mesh = random_mesh({.vertices = 500, .seed = 3});
   ASSERT_TRUE(mesh);
   AccuracySizes sizes(NearbyCopy(*mesh, nullptr), {}, nullptr);
   const VertexSizes before = sizes.of_input();

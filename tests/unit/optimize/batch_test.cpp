@@ -36,7 +36,7 @@ class KeepInstructionSet {
 
 /// Weighted, and with triangles that are not well-centered, when few sweeps have been made.
 Mesh swept_mesh(int sweeps, std::uint64_t seed = 1) {
-  Mesh mesh = *random_points({.vertices = kBatchVertices, .seed = seed});
+  Mesh mesh = *random_mesh({.vertices = kBatchVertices, .seed = seed});
   EXPECT_TRUE(optimize(mesh, {.repair = Repair::none, .max_sweeps = sweeps}));
   return mesh;
 }
@@ -318,7 +318,7 @@ TEST(InstructionSets, RunsOfEveryEnergyGiveTheSameBytes) {
 
 TEST(InstructionSets, RandomPointsBecomeWellCenteredWithTheSameBytes) {
   const KeepInstructionSet keep;
-  const Mesh start = *random_points({.vertices = 3000, .seed = 5});
+  const Mesh start = *random_mesh({.vertices = 3000, .seed = 5});
   std::optional<Mesh> first;
   for (const InstructionSet set : instruction_sets()) {
     ASSERT_TRUE(use_instruction_set(set));
@@ -335,7 +335,7 @@ TEST(InstructionSets, RandomPointsBecomeWellCenteredWithTheSameBytes) {
 
 TEST(InstructionSets, RunsForAccuracyGiveTheSameBytes) {
   const KeepInstructionSet keep;
-  Mesh start = *random_points({.vertices = kBatchVertices, .seed = 3});
+  Mesh start = *random_mesh({.vertices = kBatchVertices, .seed = 3});
   ASSERT_TRUE(optimize(start));
   OptimizeOptions options;
   options.objective = Objective::accuracy;
@@ -354,7 +354,7 @@ TEST(InstructionSets, RunsForAccuracyGiveTheSameBytes) {
 
 TEST(InstructionSets, BadTrianglesAreCountedAsExactPredicatesDo) {
   const KeepInstructionSet keep;
-  for (const Mesh& mesh : {swept_mesh(0), swept_mesh(2), *random_points({.vertices = 300, .seed = 3})}) {
+  for (const Mesh& mesh : {swept_mesh(0), swept_mesh(2), *random_mesh({.vertices = 300, .seed = 3})}) {
     std::size_t expected = 0;
     for (const TriangleId t : mesh.triangles()) {
       const auto [p, q, r] = mesh.corners(t);

@@ -137,7 +137,7 @@ TEST(Insertions, ReplayToTheSameBitsSlotsAndNumbersInAnyOrderOfWork) {
   std::map<EventKind, std::size_t> seen;
   int compactions = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    Mesh input = *random_points({.vertices = 60, .seed = seed});
+    Mesh input = *random_mesh({.vertices = 60, .seed = seed});
     if (seed % 2 == 0) input = displaced(std::move(input));
     Actor actor(input, seed % 4 < 2 ? SweepOrder::hilbert : SweepOrder::input, seed);
     for (int i = 0; i < 300; ++i) actor.act();
@@ -158,7 +158,7 @@ TEST(Insertions, ReplayToTheSameBitsSlotsAndNumbersInAnyOrderOfWork) {
 }
 
 TEST(Insertions, KeptVerticesComeFirstInTheirOrderAndNumbersAreNeverGivenTwice) {
-  const Mesh input = *random_points({.vertices = 60});
+  const Mesh input = *random_mesh({.vertices = 60});
   Actor actor(input, SweepOrder::hilbert, 7);
   for (int i = 0; i < 400; ++i) actor.act();
   actor.compact();

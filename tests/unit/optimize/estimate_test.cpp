@@ -55,9 +55,9 @@ TEST(Estimate, IsNoneWhereItCannotBeTold) {
 }
 
 TEST(Estimate, OfARunIsNearItsEnd) {
-  RandomPoints points;
+  RandomMesh points;
   points.vertices = 2000;
-  const Mesh mesh = *random_points(points);
+  const Mesh mesh = *random_mesh(points);
   std::vector<std::pair<int, double>> estimates;
   OptimizeHooks hooks;
   hooks.observer = [&](const Progress& p) {

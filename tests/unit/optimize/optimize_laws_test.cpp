@@ -113,7 +113,7 @@ TEST(Optimize, GivesTheSameBytesTwiceAndForAnyExecutor) {
       for (std::size_t i = n; i > 0; --i) block(i - 1);
     }
   } backwards;
-  const auto made = random_points({.vertices = 3000, .seed = 4});
+  const auto made = random_mesh({.vertices = 3000, .seed = 4});
   ASSERT_TRUE(made);
   Mesh first = *made, second = *made, third = *made;
   ASSERT_TRUE(optimize(first, {.max_sweeps = 20}));
@@ -124,7 +124,7 @@ TEST(Optimize, GivesTheSameBytesTwiceAndForAnyExecutor) {
 }
 
 TEST(Optimize, OfAMeshThatNobodyLooksAtIsTheSame) {
-  const auto made = random_points({.vertices = 400, .seed = 4});
+  const auto made = random_mesh({.vertices = 400, .seed = 4});
   ASSERT_TRUE(made);
   const OptimizeOptions cases[] = {
       {},

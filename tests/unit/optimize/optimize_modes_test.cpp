@@ -18,8 +18,8 @@
 namespace temper::test {
 namespace {
 
-Mesh random_mesh(std::uint64_t seed = 1) {
-  auto mesh = random_points({.vertices = 300, .seed = seed});
+Mesh mesh_of_random_points(std::uint64_t seed = 1) {
+  auto mesh = random_mesh({.vertices = 300, .seed = seed});
   EXPECT_TRUE(mesh);
   return *std::move(mesh);
 }
@@ -31,7 +31,7 @@ std::vector<std::array<VertexId, 3>> connectivity(const Mesh& mesh) {
 }
 
 TEST(Modes, PositionsOnlyKeepsWeights) {
-  Mesh mesh = random_mesh();
+  Mesh mesh = mesh_of_random_points();
   const Mesh before = mesh;
   const auto report = optimize(mesh, {.unknowns = Unknowns::positions, .max_sweeps = 30});
   ASSERT_TRUE(report);
@@ -54,7 +54,7 @@ TEST(Modes, WeightsOnlyKeepsPositions) {
 }
 
 TEST(Modes, WeightsWaitForTheirSweep) {
-  Mesh mesh = random_mesh();
+  Mesh mesh = mesh_of_random_points();
   ASSERT_TRUE(optimize(mesh, {.max_sweeps = 5, .paper = {.weights_from = 5}}));
   for (const VertexId v : mesh.vertices()) EXPECT_EQ(mesh.weight(v), 0);
   ASSERT_TRUE(optimize(mesh, {.max_sweeps = 7, .paper = {.weights_from = 5}}));
@@ -64,7 +64,7 @@ TEST(Modes, WeightsWaitForTheirSweep) {
 
 TEST(Modes, FrozenConnectivityIsKeptAndStaysRegular) {
   for (const Solver solver : {Solver::newton, Solver::alternating, Solver::golden}) {
-    Mesh mesh = random_mesh();
+    Mesh mesh = mesh_of_random_points();
     const auto before = connectivity(mesh);
     const auto report = optimize(mesh, {.flips = Flips::none, .max_sweeps = 12, .paper = {.solver = solver}});
     ASSERT_TRUE(report);
@@ -203,27 +203,27 @@ TEST(Modes, InterfaceVerticesStayOrSlideAlongTheirLine) {
 }
 
 TEST(Modes, AnchorHasWeightZeroAtTheEnd) {
-  Mesh mesh = random_mesh();
+  Mesh mesh = mesh_of_random_points();
   ASSERT_TRUE(optimize(mesh, {.max_sweeps = 10, .paper = {.anchor = VertexId(17)}}));
   EXPECT_EQ(mesh.weight(VertexId(17)), 0);
   EXPECT_EQ(count_non_regular_edges(mesh), 0u);
 }
 
 TEST(Modes, StopsAtTheSweepLimitTheTimeLimitAndWhenAsked) {
-  Mesh mesh = random_mesh();
+  Mesh mesh = mesh_of_random_points();
   const auto limited = optimize(mesh, {.max_sweeps = 3});
   ASSERT_TRUE(limited);
   EXPECT_EQ(limited->stopped, Stopped::max_sweeps);
   EXPECT_EQ(limited->sweeps, 3);
   EXPECT_EQ(limited->history.size(), 4u);
 
-  Mesh timed = random_mesh();
+  Mesh timed = mesh_of_random_points();
   const auto late = optimize(timed, {.time_limit = 1e-9});
   ASSERT_TRUE(late);
   EXPECT_EQ(late->stopped, Stopped::time_limit);
   EXPECT_EQ(timed.validate(), std::nullopt);
 
-  Mesh asked = random_mesh();
+  Mesh asked = mesh_of_random_points();
   int calls = 0;
   OptimizeHooks hooks;
   hooks.observer = [&](const Progress& p) {

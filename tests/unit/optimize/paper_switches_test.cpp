@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/generate.hpp"
@@ -19,7 +19,7 @@ namespace temper::test {
 namespace {
 
 Mesh three_hundred_points(std::uint64_t seed = 1) {
-  auto mesh = random_points({.vertices = 300, .seed = seed});
+  auto mesh = random_mesh({.vertices = 300, .seed = seed});
   EXPECT_TRUE(mesh);
   return *std::move(mesh);
 }
@@ -278,7 +278,7 @@ std::vector<Mesh> meshes_to_hide_in() {
 
 // HOT energies are lowered, whatever that does to triangles and, where hidden vertices stay, to edges.
 TEST(PaperMethod, SaysWhenMoreTrianglesAreBadOrEdgesNotRegular) {
-  Mesh mesh = *random_points({.vertices = 130, .seed = 5});
+  Mesh mesh = *random_mesh({.vertices = 130, .seed = 5});
   OptimizeOptions o = paper_method();
   o.energy = EnergyKind::dT;
   o.paper.inversion = Inversion::refuse;
@@ -511,7 +511,7 @@ TEST(PaperMethod, GivesAnInputBackRegularWhateverIsCutOrKeptHidden) {
   std::size_t given_back = 0, cut = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     Rng rng(seed);
-    Mesh input = test::random_mesh(rng, 10, 16);
+    Mesh input = test::mesh_of_random_points(rng, 10, 16);
     if (seed % 2 == 1) input.set_weight(VertexId(6), -0.2);
     for (const HiddenPolicy policy : {HiddenPolicy::undo, HiddenPolicy::remove, HiddenPolicy::keep}) {
       for (const BoundaryVertices boundary : {BoundaryVertices::keep, BoundaryVertices::split}) {

@@ -143,14 +143,14 @@ TEST(Parts, LeaveOtherOrdersAlone) {
 }
 
 TEST(Parts, ReachAsLowAnEnergyAsTheWhole) {
-  const Mesh input = *random_points({.vertices = 2500, .seed = 8});
+  const Mesh input = *random_mesh({.vertices = 2500, .seed = 8});
   const SweptMesh whole = swept(input, {.max_sweeps = 40}, 2500), parts = swept(input, {.max_sweeps = 40});
   EXPECT_EQ(parts.report.history.back().bad, 0u);
   EXPECT_LT(parts.report.history.back().energy, 1.01 * whole.report.history.back().energy);
 }
 
 TEST(Parts, AskTheObserverInTheCallersThreadAndStopWhenToldTo) {
-  const Mesh input = *random_points({.vertices = 2500, .seed = 9});
+  const Mesh input = *random_mesh({.vertices = 2500, .seed = 9});
   StdThreads crew(3);
   const auto caller = std::this_thread::get_id();
   int calls = 0;
@@ -191,7 +191,7 @@ TEST_P(Together, RanksEndWithTheBytesOfOneAlone) {
   }
 }
 
-Mesh plane_of_two_parts() { return *random_points({.vertices = 17000, .seed = 4}); }
+Mesh plane_of_two_parts() { return *random_mesh({.vertices = 17000, .seed = 4}); }
 Mesh sphere_of_two_parts() { return *random_sphere({.vertices = 17000, .seed = 4}); }
 Mesh periodic_of_two_parts() { return *random_periodic({.vertices = 17000, .seed = 4, .period = {2, 1}}); }
 
@@ -206,7 +206,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& one) { return std::string(one.param.name); });
 
 TEST(Together, RanksStopWhenTheFirstIsToldTo) {
-  const Mesh input = *random_points({.vertices = 2500, .seed = 9});
+  const Mesh input = *random_mesh({.vertices = 2500, .seed = 9});
   std::array<Mesh, 3> ends;
   on_ranks(ends.size(), [&](Communicator& all) {
     StdThreads crew(2);
@@ -296,8 +296,8 @@ TEST_P(Partitions, LeaveNoneOrFewVerticesOutsideOfAllParts) {
   EXPECT_FALSE(cuts.are_of(mesh));
 }
 
-Mesh points_in_plane() { return *random_points({.vertices = 24000, .seed = 4}); }
-Mesh points_of_many_sizes() { return *graded_points({.finest = 0.002, .growth = 0.03, .seed = 4}); }
+Mesh points_in_plane() { return *random_mesh({.vertices = 24000, .seed = 4}); }
+Mesh points_of_many_sizes() { return *graded_mesh({.finest = 0.002, .growth = 0.03, .seed = 4}); }
 Mesh points_on_sphere() { return *random_sphere({.vertices = 24000, .seed = 4}); }
 Mesh points_around_both_ways() { return *random_periodic({.vertices = 24000, .seed = 4, .period = {2, 1}}); }
 Mesh channel() { return *periodic_hexagons({.nx = 160, .ny = 150, .channel = true}); }
@@ -401,7 +401,7 @@ TEST(OnePart, ChangesNothingOutside) {
 
 TEST(OnePart, UndoesAStepWhoseFlipsWouldLeaveIt) {
   constexpr std::size_t kTiny = 60;  // vertices: cascades of flips come to its rim
-  OnePart one(*random_points({.vertices = 3000, .seed = 13}),
+  OnePart one(*random_mesh({.vertices = 3000, .seed = 13}),
               {.energy = EnergyKind::T, .paper = {.flip_limit = FlipLimit::unlimited}});
   Mesh& mesh = one.work.mesh;
   const Recorder recorder(one.settings.hooks.tracer, one.work, 1);

@@ -46,7 +46,7 @@ std::vector<HardMesh> hard_meshes() {
           {"60-gon", *regular_polygon(), 2},
           {"letter A", letter_a(), 10},
           {"wedge of 5 degrees", *wedge(), 3},
-          {"graded random points", *graded_points(), 1}};
+          {"graded random points", *graded_mesh(), 1}};
 }
 
 TEST(Repair, HardMeshesEndWellCenteredWithTheirBoundaryBitForBit) {

@@ -101,7 +101,7 @@ TEST(Replay, OfNothingIsTheInput) {
 
 TEST(Replay, OfRandomChangesGivesTheSameMeshAndTheNumbersOfItsVertices) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Mesh input = *random_points({.vertices = 80, .seed = seed});
+    const Mesh input = *random_mesh({.vertices = 80, .seed = seed});
     Actor actor(input, seed);
     for (int i = 0; i < 300; ++i) actor.act();
     for (const EventKind kind : {EventKind::move, EventKind::weight, EventKind::flip, EventKind::collapse,
@@ -124,7 +124,7 @@ TEST(Replay, OfRandomChangesGivesTheSameMeshAndTheNumbersOfItsVertices) {
 // does not matter to a replay.
 TEST(Replay, InAnyOrderOfSlotsGivesTheSameMesh) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const Mesh input = *random_points({.vertices = 60, .seed = seed});
+    const Mesh input = *random_mesh({.vertices = 60, .seed = seed});
     Mesh ordered = input;
     const MeshOrder order = hilbert_order(ordered);
     Actor actor(ordered, seed);
@@ -146,7 +146,7 @@ TEST(Replay, InAnyOrderOfSlotsGivesTheSameMesh) {
 }
 
 TEST(Replay, GoesBackToTheEndOfAnySweep) {
-  const Mesh input = *random_points({.vertices = 60});
+  const Mesh input = *random_mesh({.vertices = 60});
   Actor actor(input);
   std::vector<Mesh> ends;  // of sweeps 0, 1, …
   for (; actor.sweep < 6; ++actor.sweep) {
@@ -262,7 +262,7 @@ TEST(Replay, RefusesAFlipToAnEdgeThatIsThere) {
 }
 
 TEST(Replay, RefusesRemovalsThatDoNotFillTheCavity) {
-  const Mesh input = *random_points({.vertices = 60});
+  const Mesh input = *random_mesh({.vertices = 60});
   int tried = 0;
   for (const VertexId v : input.vertices()) {
     const RemovalPlan plan = plan_removal(input, v);

@@ -109,8 +109,8 @@ Mesh displaced(Mesh mesh) {
 std::vector<std::pair<std::string, Mesh>> meshes() {
   return {{"sparse horseshoe", sparse_horseshoe()},
           {"horseshoe", *horseshoe()},
-          {"random", *random_points({.vertices = 70})},
-          {"displaced", displaced(*random_points({.vertices = 60, .seed = 3}))},
+          {"random", *random_mesh({.vertices = 70})},
+          {"displaced", displaced(*random_mesh({.vertices = 60, .seed = 3}))},
           {"annulus", *annulus({.around = 16, .rings = 3})}};
 }
 
@@ -151,7 +151,7 @@ TEST(Trace, OfEveryRunReplaysToTheSameMesh) {
 
 TEST(Trace, ChangesNothing) {
   for (const auto& [title, options] : cases()) {
-    Mesh traced = *random_points({.vertices = 80}), silent = traced;
+    Mesh traced = *random_mesh({.vertices = 80}), silent = traced;
     OptimizeHooks hooks;
     hooks.tracer = [](const TraceEvent&) {};
     const auto a = optimize(traced, options, hooks), b = optimize(silent, options, hooks);

@@ -19,8 +19,8 @@
 namespace temper::test {
 namespace {
 
-Mesh random_mesh() {
-  auto mesh = random_points({.vertices = 150, .seed = 4});
+Mesh mesh_of_random_points() {
+  auto mesh = random_mesh({.vertices = 150, .seed = 4});
   EXPECT_TRUE(mesh);
   return *std::move(mesh);
 }
@@ -65,7 +65,7 @@ TEST(SearchRadius, IsTheRootMeanSquareTheFarthestOrTheNearest) {
 
 // One search for a weight a sweep: no weight goes farther, and some go nearly as far.
 TEST(SearchRadius, BoundsTheWayOfAWeight) {
-  const Mesh input = random_mesh();
+  const Mesh input = mesh_of_random_points();
   Patch patch;
   for (const SearchRadius radius : {SearchRadius::min, SearchRadius::rms, SearchRadius::max}) {
     for (const double reach : {0.001, 0.1}) {
@@ -125,7 +125,7 @@ TEST(PositionUpdates, DeferredAreThoseOfEachVertexAlone) {
 
 TEST(PositionUpdates, DeferredKeepTrianglesUprightWhereInversionsAreRefused) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    Mesh mesh = *random_points({.vertices = 200, .seed = seed});
+    Mesh mesh = *random_mesh({.vertices = 200, .seed = seed});
     OptimizeOptions o{.energy = EnergyKind::F, .unknowns = Unknowns::positions, .max_sweeps = 10};
     o.paper.position_updates = Updates::deferred;
     bool inverted = false;
@@ -154,7 +154,7 @@ TEST(Visits, TwiceAreASweepOfPositionsAndOneOfWeights) {
     o.paper.solver = solver;
     o.paper.gamma = LengthParameter{0.5};
     o.paper.order = SweepOrder::input;
-    const Mesh input = random_mesh();
+    const Mesh input = mesh_of_random_points();
     OptimizeOptions twice = o;
     twice.paper.visits = Visits::twice;
     const Mesh result = after(input, twice);
@@ -174,7 +174,7 @@ TEST(FirstEnergy, IsARunOfItsOwnBeforeTheOther) {
   o.paper.first_energy = EnergyKind::T;
   o.paper.switch_at = kFirst;
   o.paper.order = SweepOrder::input;
-  const Mesh input = random_mesh();
+  const Mesh input = mesh_of_random_points();
   Mesh both = input;
   const auto report = optimize(both, o);
   ASSERT_TRUE(report);
@@ -203,20 +203,20 @@ TEST(FirstEnergy, GivesWayWhenItHasConvergedOrTheRunEnds) {
   OptimizeOptions o{.energy = EnergyKind::BP, .max_sweeps = 400};
   o.paper.first_energy = EnergyKind::T;
   o.paper.switch_at = 1000;
-  Mesh mesh = random_mesh();
+  Mesh mesh = mesh_of_random_points();
   const auto report = optimize(mesh, o);
   ASSERT_TRUE(report);
   EXPECT_EQ(report->stopped, Stopped::converged);
   EXPECT_EQ(report->history.back().bad, 0u);
   o.max_sweeps = 2;
-  Mesh early = random_mesh();
+  Mesh early = mesh_of_random_points();
   const auto cut = optimize(early, o);
   ASSERT_TRUE(cut);
   EXPECT_EQ(early.validate(), std::nullopt);
 }
 
 TEST(Overshoot, BelowOneNeverFlipsAsLongAsItIsConstant) {
-  const Mesh input = random_mesh();
+  const Mesh input = mesh_of_random_points();
   for (const double factor : {1.0, 0.1, 0.0}) {
     OptimizeOptions o{.energy = EnergyKind::T, .max_sweeps = 8};
     o.paper.flip_limit = FlipLimit::after;
@@ -266,7 +266,7 @@ TEST(Insertion, BreaksUpTrianglesOfLargeEnergy) {
     o.paper.insertion_ratio = 1.2;
     o.paper.removal_measure = energy == EnergyKind::BP ? RemovalMeasure::mean : RemovalMeasure::sum;
     o.paper.removal_margin = 0;
-    const Mesh input = random_mesh();
+    const Mesh input = mesh_of_random_points();
     Mesh mesh = input, without = input;
     const auto report = optimize(mesh, o);
     ASSERT_TRUE(report);
@@ -294,7 +294,7 @@ TEST(Insertion, GoesWithRemovalsAndWaitsWhereTrianglesAreInverted) {
   o.paper.removal_measure = RemovalMeasure::sum;
   o.max_sweeps = 12;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    Mesh mesh = *random_points({.vertices = 80, .seed = seed});
+    Mesh mesh = *random_mesh({.vertices = 80, .seed = seed});
     ASSERT_TRUE(optimize(mesh, o));
     EXPECT_EQ(mesh.validate(), std::nullopt);
   }

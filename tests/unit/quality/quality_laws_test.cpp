@@ -207,7 +207,7 @@ TEST(QualityLaws, OtherNumbersForVerticesAndTrianglesChangeNothing) {
 
 // Large enough to be looked at along a curve: the worst triangles have the numbers of the mesh that was given.
 TEST(QualityLaws, ScatteredNumbersChangeNothingEither) {
-  const Mesh scattered = *random_points({.vertices = 60000, .seed = 4});
+  const Mesh scattered = *random_mesh({.vertices = 60000, .seed = 4});
   const OrderedMesh ordered = hilbert_ordered(scattered);
   const Quality of_scattered = quality(scattered), of_ordered = quality(ordered.mesh);
   expect_same_shape(of_scattered, of_ordered);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 #include "temper/generate.hpp"
 #include "temper/regularity.hpp"
 
@@ -16,7 +16,7 @@ struct RegularMesh {
   bool shows_all = false;
 };
 RegularMesh regular_mesh(Rng& rng, int n, double amplitude) {
-  RegularMesh result{test::random_mesh(rng, n)};
+  RegularMesh result{test::mesh_of_random_points(rng, n)};
   Mesh& mesh = result.mesh;
   for (int i = 0; i < n / 3; ++i) {
     const double s = rng.uniform(-1, 1), side = i % 2 == 0 ? -1 : 1;

@@ -1,7 +1,7 @@
 // The fate of hidden vertices under each policy, and what an observer sees of it.
 #include <gtest/gtest.h>
 
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 #include "support/shapes.hpp"
 #include "temper/regularity.hpp"
 
@@ -11,7 +11,7 @@ namespace {
 /// Triangulations of the square, with points on its sides; weights that hide several vertices.
 Mesh weighted_mesh(std::uint64_t seed) {
   Rng rng(seed);
-  Mesh mesh = test::random_mesh(rng, 40);
+  Mesh mesh = test::mesh_of_random_points(rng, 40);
   for (int i = 0; i < 8; ++i) test::insert_anywhere(mesh, {rng.uniform(-1, 1), i % 2 == 0 ? -1.0 : 1.0, 0});
   for (const VertexId v : mesh.vertices()) mesh.set_weight(v, 0.15 * rng.uniform(-1, 1));
   for (std::size_t corner = 0; corner < 4; ++corner) mesh.set_weight(VertexId(corner), 0);

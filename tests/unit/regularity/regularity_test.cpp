@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 #include "regularity/hidden.hpp"
 #include "regularity/lawson.hpp"
 
@@ -92,7 +92,7 @@ TEST(Regularity, AReflexCornerWithoutPowerCellIsNamed) {
 
 TEST(Lawson, StopsAtTheCapAndGoesOn) {
   Rng rng(3);
-  Mesh mesh = test::random_mesh(rng, 200);
+  Mesh mesh = test::mesh_of_random_points(rng, 200);
   Mesh whole = mesh;
   const std::size_t all = restore_regularity(whole).flips;
   ASSERT_GT(all, 20u);

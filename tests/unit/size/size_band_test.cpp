@@ -39,7 +39,7 @@ OptimizeOptions in_band(double band) {
 }
 
 TEST(SizeBand, IsKeptOnRandomAndGradedMeshes) {
-  const std::vector<Mesh> meshes = {*random_points({300, 1, {}}), *random_points({300, 2, {}}), *airfoil(), *annulus(),
+  const std::vector<Mesh> meshes = {*random_mesh({300, 1, {}}), *random_mesh({300, 2, {}}), *airfoil(), *annulus(),
                                     *horseshoe()};
   for (const Mesh& mesh : meshes) {
     const double without = optimized(mesh, {}).report.size.after.band();
@@ -56,7 +56,7 @@ TEST(SizeBand, IsKeptOnRandomAndGradedMeshes) {
 }
 
 TEST(SizeBand, IsKeptByEverySolver) {
-  const Mesh mesh = *random_points({200, 5, {}});
+  const Mesh mesh = *random_mesh({200, 5, {}});
   for (const Solver solver : {Solver::newton, Solver::golden, Solver::alternating}) {
     OptimizeOptions options = in_band(1.3);
     options.paper.solver = solver;
@@ -68,7 +68,7 @@ TEST(SizeBand, IsKeptByEverySolver) {
 }
 
 TEST(SizeBand, ThatNeverBindsChangesNoByteOfSweepsVertexByVertex) {
-  const Mesh mesh = *random_points({300, 3, {}});
+  const Mesh mesh = *random_mesh({300, 3, {}});
   const Optimized without = optimized(mesh, {});
   ASSERT_NE(without.mesh, mesh);
   for (const double band : {1e6, std::numeric_limits<double>::max()}) {
@@ -80,14 +80,14 @@ TEST(SizeBand, ThatNeverBindsChangesNoByteOfSweepsVertexByVertex) {
 
 TEST(SizeBand, CuresWhatCanBeCuredWithinIt) {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const Optimized result = optimized(*random_points({400, seed, {}}), in_band(2));
+    const Optimized result = optimized(*random_mesh({400, seed, {}}), in_band(2));
     EXPECT_EQ(quality(result.mesh).well_centered_fraction, 1);
   }
 }
 
 /// A vertex that is out of the band of a user's field may come nearer, and never goes further away.
 TEST(SizeBand, OfAFieldThatTheMeshDoesNotFollowIsNotLeftFurther) {
-  const Mesh mesh = *random_points({300, 4, {}});
+  const Mesh mesh = *random_mesh({300, 4, {}});
   std::vector<double> sizes;
   for (const VertexId v : mesh.vertices()) sizes.push_back(0.02 + 0.1 * std::abs(mesh.position(v).x));
   OptimizeOptions options = in_band(1.2);
@@ -102,7 +102,7 @@ TEST(SizeBand, OfAFieldThatTheMeshDoesNotFollowIsNotLeftFurther) {
 }
 
 TEST(SizeChange, IsReportedWithoutABand) {
-  const Mesh mesh = *random_points({200, 6, {}});
+  const Mesh mesh = *random_mesh({200, 6, {}});
   const Optimized result = optimized(mesh, {});
   EXPECT_EQ(result.report.size.before.band(), 1);
   const SizeReport after = measure_size(result.mesh, input_size_field(mesh));
@@ -112,7 +112,7 @@ TEST(SizeChange, IsReportedWithoutABand) {
 }
 
 TEST(SizeBand, BelowOneIsRefused) {
-  Mesh mesh = *random_points({100, 1, {}});
+  Mesh mesh = *random_mesh({100, 1, {}});
   for (const double band : {0.5, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
     const auto report = optimize(mesh, in_band(band));
     ASSERT_FALSE(report.has_value());

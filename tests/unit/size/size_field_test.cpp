@@ -54,7 +54,7 @@ TEST(SizeField, OfASphereIsExactAtItsVerticesAndWhatSizesAreComparedWith) {
 }
 
 TEST(SizeField, IsExactAtTheVerticesFromAnyHint) {
-  const Mesh mesh = *random_points({200, 3, {}});
+  const Mesh mesh = *random_mesh({200, 3, {}});
   Noise noise(1);
   std::vector<double> sizes;
   for (std::size_t i = 0; i < mesh.n_vertices(); ++i) sizes.push_back(std::exp(5 * noise()));  // nothing cancels
@@ -69,7 +69,7 @@ TEST(SizeField, IsExactAtTheVerticesFromAnyHint) {
 }
 
 TEST(SizeField, ReproducesLinearFieldsBetweenTheVertices) {
-  const Mesh mesh = *random_points({200, 4, {}});
+  const Mesh mesh = *random_mesh({200, 4, {}});
   const SizeField field = field_of(mesh, linear);
   Noise noise(5);
   int asked = 0;

@@ -44,7 +44,7 @@ TEST(Spread, IsByNearestRank) {
 }
 
 TEST(MeasureSize, IsOneForAMeshAndItsOwnField) {
-  const Mesh mesh = *random_points({300, 1, {}});
+  const Mesh mesh = *random_mesh({300, 1, {}});
   const SizeReport report = measure_size(mesh, input_size_field(mesh));
   EXPECT_EQ(report.over_field.min, 1);
   EXPECT_EQ(report.over_field.max, 1);
@@ -104,7 +104,7 @@ class Backwards : public Executor {
 };
 
 TEST(MeasureSize, DoesNotDependOnTheOrderOfThreads) {
-  const Mesh mesh = *random_points({9000, 1, {}});  // more than one block
+  const Mesh mesh = *random_mesh({9000, 1, {}});  // more than one block
   Mesh moved = mesh;
   for (const VertexId v : mesh.vertices()) {
     if (!mesh.is_boundary(v)) moved.set_position(v, mesh.position(v) + Vec2{1e-4, -1e-4});
@@ -120,7 +120,7 @@ TEST(MeasureSize, DoesNotDependOnTheOrderOfThreads) {
 }
 
 TEST(LocalSizes, OfScatteredVerticesAreThoseOfEachByItself) {
-  const Mesh mesh = *random_points({100000, 3, {}});  // so many that they are visited along a curve
+  const Mesh mesh = *random_mesh({100000, 3, {}});  // so many that they are visited along a curve
   Backwards backwards;
   const IdVector<VertexId, double> sizes = local_sizes(mesh), with_threads = local_sizes(mesh, &backwards);
   std::vector<double> each;
@@ -134,7 +134,7 @@ TEST(LocalSizes, OfScatteredVerticesAreThoseOfEachByItself) {
 // Gradation is found by counting, in slices that may run at once, or of small meshes by sorting.
 TEST(MeasureSize, FindsTheGradationThatSortingFinds) {
   for (const std::size_t n : {10u, 500u, 100000u}) {
-    const Mesh mesh = *random_points({n, 3, {}});
+    const Mesh mesh = *random_mesh({n, 3, {}});
     std::vector<double> ratios;
     for (const HalfedgeId h : mesh.halfedges()) {
       if (!mesh.is_edge_representative(h)) continue;

@@ -1,7 +1,7 @@
 // One flip, looked at closely: what moves, what stays, what is refused.
 #include <gtest/gtest.h>
 
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 
 namespace temper {
 namespace {
@@ -51,7 +51,7 @@ TEST(Flip, IsUndoneBitForBit) {
 
 TEST(Flip, MovesTheFlagsOfTheOuterEdgesWithThem) {
   Rng rng(7);
-  Mesh mesh = test::random_mesh(rng, 40);
+  Mesh mesh = test::mesh_of_random_points(rng, 40);
   std::vector<std::pair<VertexId, VertexId>> marked;
   for (const HalfedgeId h : mesh.halfedges()) {
     if (!mesh.is_edge_representative(h) || mesh.is_boundary(h) || rng.below(4) != 0) continue;

@@ -1,7 +1,7 @@
 // Boundary grading: the ratio that is promised, no more cuts than needed, and what stays.
 #include <gtest/gtest.h>
 
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 #include "support/shapes.hpp"
 #include "temper/regularity.hpp"
 

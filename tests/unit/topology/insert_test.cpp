@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "mesh/mesh_editor.hpp"
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 
 namespace temper {
 namespace {
@@ -113,7 +113,7 @@ TEST(Topology, InsertionsDoNotWalkAroundTheVerticesOfTheTriangle) {
 TEST(Topology, AnyMixOfInsertionsAndFlipsKeepsTheMeshValid) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Rng rng(seed);
-    const Mesh mesh = test::random_mesh(rng, 60, seed % 2 == 0 ? 16 : 0);
+    const Mesh mesh = test::mesh_of_random_points(rng, 60, seed % 2 == 0 ? 16 : 0);
     ASSERT_EQ(mesh.validate(), std::nullopt) << "seed " << seed;
     ASSERT_TRUE(test::has_canonical_outgoing(mesh)) << "seed " << seed;
     ASSERT_GT(mesh.n_vertices(), 40u);
@@ -126,7 +126,7 @@ TEST(Topology, UndoingFlipsInReverseRestoresEveryBit) {
   std::size_t flips = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 30, seed % 2 == 0 ? 8 : 0);
+    Mesh mesh = test::mesh_of_random_points(rng, 30, seed % 2 == 0 ? 8 : 0);
     const Mesh before = mesh;
     std::vector<HalfedgeId> journal;
     for (int i = 0; i < 200; ++i) {

@@ -2,7 +2,7 @@
 // of weights, flags and regions.
 #include <gtest/gtest.h>
 
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 #include "support/shapes.hpp"
 #include "temper/regularity.hpp"
 
@@ -82,7 +82,7 @@ TEST(PlanInsertion, ReusesStorage) {
 TEST(InterpolatedWeight, IsLinearAndNeverHides) {
   Rng rng(3);
   std::size_t inserted = 0;
-  Mesh mesh = test::random_mesh(rng, 40);
+  Mesh mesh = test::mesh_of_random_points(rng, 40);
   const auto linear = [](Vec2 p) { return 0.25 - 0.5 * p.x + 0.125 * p.y; };
   for (const VertexId v : mesh.vertices()) mesh.set_weight(v, linear(mesh.position(v)));
   ASSERT_TRUE(restore_regularity(mesh).regular());
@@ -122,7 +122,7 @@ TEST(SplitWeight, GivesBothPiecesACrossingInsideWheneverAnyWeightDoes) {
 
 TEST(PlanSplit, IsTheSameFromBothSides) {
   Rng rng(7);
-  const Mesh mesh = test::random_mesh(rng, 30);
+  const Mesh mesh = test::mesh_of_random_points(rng, 30);
   std::size_t edges = 0;
   for (const HalfedgeId h : mesh.halfedges()) {
     if (mesh.is_boundary(h)) continue;

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "mesh/mesh_editor.hpp"
-#include "property/random_mesh.hpp"
+#include "property/mesh_of_random_points.hpp"
 #include "support/shapes.hpp"
 #include "temper/regularity.hpp"
 
@@ -242,7 +242,7 @@ TEST(RemoveVertex, DoesTheSameWhateverTheSlots) {
   std::size_t removed = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     Rng rng(seed);
-    Mesh mesh = test::random_mesh(rng, 25, seed % 2 == 0 ? 8 : 0);
+    Mesh mesh = test::mesh_of_random_points(rng, 25, seed % 2 == 0 ? 8 : 0);
     std::vector<std::size_t> from(mesh.n_triangles());
     std::iota(from.begin(), from.end(), std::size_t{0});
     for (std::size_t i = from.size(); i > 1; --i)

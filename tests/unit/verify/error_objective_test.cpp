@@ -49,7 +49,7 @@ Improved improved(const Mesh& input, const OptimizeOptions& options, OptimizeHoo
 }
 
 TEST(ErrorObjective, LowersTheErrorsOfItsSchemeBelowThoseOfTheAccuracyObjective) {
-  const Mesh input = *random_points({.vertices = 150, .seed = 8});
+  const Mesh input = *random_mesh({.vertices = 150, .seed = 8});
   for (const Scheme scheme : {Scheme::vertex, Scheme::cell, Scheme::all}) {
     const OptimizeOptions options = options_for(scheme);
     const Improved error = improved(input, options);
@@ -88,7 +88,7 @@ TEST(ErrorObjective, IsNeverWorseThanAWellCenteredInput) {
 }
 
 TEST(ErrorObjective, IsTheSameForAnyThreadsAndReplayed) {
-  const Mesh input = *random_points({.vertices = 120, .seed = 2});
+  const Mesh input = *random_mesh({.vertices = 120, .seed = 2});
   const OptimizeOptions options = options_for(Scheme::vertex);
   std::vector<TraceEvent> events;
   OptimizeHooks hooks;
@@ -104,7 +104,7 @@ TEST(ErrorObjective, IsTheSameForAnyThreadsAndReplayed) {
 }
 
 TEST(ErrorObjective, StopsWhenItIsAsked) {
-  const Mesh input = *random_points({.vertices = 120, .seed = 2});
+  const Mesh input = *random_mesh({.vertices = 120, .seed = 2});
   const Improved cut = improved(input, options_for(Scheme::cell), {.observer = [](const Progress& progress) {
                                   return progress.last.objective == Objective::error ? Continue::no : Continue::yes;
                                 }});
@@ -114,7 +114,7 @@ TEST(ErrorObjective, StopsWhenItIsAsked) {
 }
 
 TEST(ErrorObjective, WithoutAModelLowersAccuracyAndSaysSo) {
-  const Mesh input = *random_points({.vertices = 60, .seed = 2});
+  const Mesh input = *random_mesh({.vertices = 60, .seed = 2});
   Mesh without = input, accuracy = input;
   const auto report = optimize(without, {.target = Scheme::vertex});
   ASSERT_TRUE(report);
@@ -126,7 +126,7 @@ TEST(ErrorObjective, WithoutAModelLowersAccuracyAndSaysSo) {
 }
 
 TEST(ErrorObjective, IsForSchemesAndEnergiesThatCenterTriangles) {
-  Mesh mesh = *random_points({.vertices = 20, .seed = 2});
+  Mesh mesh = *random_mesh({.vertices = 20, .seed = 2});
   const Mesh before = mesh;
   EXPECT_FALSE(wants_error_model({}, mesh));
   EXPECT_FALSE(wants_error_model({.target = Scheme::stars}, mesh));

@@ -19,7 +19,7 @@ namespace temper::test {
 namespace {
 
 Mesh well_centered_mesh(std::size_t vertices, std::uint64_t seed = 3) {
-  Mesh mesh = *random_points({.vertices = vertices, .seed = seed});
+  Mesh mesh = *random_mesh({.vertices = vertices, .seed = seed});
   EXPECT_TRUE(optimize(mesh));
   return mesh;
 }

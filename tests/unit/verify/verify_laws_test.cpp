@@ -28,7 +28,7 @@ VerifyReport verified(const Mesh& mesh, const VerifyOptions& options = {}) {
 
 /// About half of the triangles obtuse, and weights that are as wild as the mesh.
 Mesh wild_mesh(double weight) {
-  Mesh mesh = *random_points({.vertices = 150, .seed = 5});
+  Mesh mesh = *random_mesh({.vertices = 150, .seed = 5});
   Noise noise(11);
   for (const VertexId v : mesh.vertices()) mesh.set_weight(v, weight * noise());
   return mesh;
@@ -85,7 +85,7 @@ TEST(VerifyLaws, TheNumbersOfVerticesAndTrianglesDoNotMatter) {
 }
 
 TEST(VerifyLaws, ThreadsDoNotChangeAByte) {
-  const Mesh mesh = *random_points({.vertices = 12000, .seed = 2});  // more than one block of edges
+  const Mesh mesh = *random_mesh({.vertices = 12000, .seed = 2});  // more than one block of edges
   StdThreads threads(4);
   const VerifyOptions options = {.fields = {"bump"}, .local = true};
   VerifyOptions threaded = options;

@@ -282,7 +282,7 @@ export const generate = {
   /** Sides of length a and b from vertex 0, with an angle between them. */
   single_triangle: (p: { a?: number; b?: number; angle_deg?: number } = {}): Mesh => make('single_triangle', p),
   /** Random points in a polygon, counter-clockwise (default: an L with a notch). */
-  random_points: (p: { vertices?: number; seed?: number; polygon?: [number, number][] } = {}): Mesh => make('random_points', p),
+  random_mesh: (p: { vertices?: number; seed?: number; polygon?: [number, number][] } = {}): Mesh => make('random_mesh', p),
   /** nx × ny squares, each cut along the same diagonal, then sheared. */
   sheared_grid: (p: { nx?: number; ny?: number; shear?: number } = {}): Mesh => make('sheared_grid', p),
   /** Rings of points between two circles, the middle rings jittered. */
@@ -297,5 +297,5 @@ export const generate = {
   /** A triangle with a sharp corner. */
   wedge: (p: { angle_deg?: number; pieces?: number; seed?: number } = {}): Mesh => make('wedge', p),
   /** Random points in the unit square, finer towards a corner. */
-  graded_points: (p: { finest?: number; growth?: number; seed?: number } = {}): Mesh => make('graded_points', p),
+  graded_mesh: (p: { finest?: number; growth?: number; seed?: number } = {}): Mesh => make('graded_mesh', p),
 };

@@ -50,7 +50,7 @@ test('every kind of exception of the module comes through, and leaves it whole',
   ]) {
     for (let i = 0; i < 100; i++) assert.throws(() => temper.read('a.vtu', { files: text(content) }), { name: 'TemperError', code });
   }
-  assert.throws(() => temper.generate.random_points({ vertices: 4e8 }), /memory|vertices/);
+  assert.throws(() => temper.generate.random_mesh({ vertices: 4e8 }), /memory|vertices/);
   assert.equal(square().validate(), null);
 });
 
@@ -68,7 +68,7 @@ test('positions that turn a triangle over are refused, and nothing has changed',
 });
 
 test('an observer hears of sweeps and stops the run; what it throws is thrown when the mesh is in place', () => {
-  const mesh = temper.generate.random_points({ vertices: 400 });
+  const mesh = temper.generate.random_mesh({ vertices: 400 });
   const sweeps = [];
   const left = [];
   const report = temper.optimize(mesh, {
@@ -81,10 +81,10 @@ test('an observer hears of sweeps and stops the run; what it throws is thrown wh
   assert.equal(left[0], null);                             // nothing to go by yet
   assert(left.some((n) => n !== null && n >= 0 && n < 1000));
   assert(sweeps.length >= report.sweeps);
-  const stopped = temper.optimize(temper.generate.random_points({ vertices: 400 }), { observer: ({ last }) => last.sweep < 2 });
+  const stopped = temper.optimize(temper.generate.random_mesh({ vertices: 400 }), { observer: ({ last }) => last.sweep < 2 });
   assert.equal(stopped.stopped, 'cancelled');
   assert(stopped.sweeps <= 3);
-  const thrown = temper.generate.random_points({ vertices: 400 });
+  const thrown = temper.generate.random_mesh({ vertices: 400 });
   const before = temper.quality(thrown).orthocenters_outside;
   assert.throws(() => temper.optimize(thrown, { observer: ({ last }) => { if (last.sweep === 2) throw new RangeError('enough'); } }), /enough/);
   assert(temper.quality(thrown).orthocenters_outside < before);

@@ -125,7 +125,7 @@ test('a run of twenty thousand vertices ends with the bytes of the program', () 
 test('examples are those of the program but for the last bits of sines and cosines', () => {
   const generators = {
     sparse: 'sparse_horseshoe', horseshoe: 'horseshoe', triangle: 'single_triangle', grid: 'sheared_grid', annulus: 'annulus',
-    airfoil: 'airfoil', polygon: 'regular_polygon', letter: 'letter_a', wedge: 'wedge', graded: 'graded_points',
+    airfoil: 'airfoil', polygon: 'regular_polygon', letter: 'letter_a', wedge: 'wedge', graded: 'graded_mesh',
   };
   const exact = [];
   for (const [name, generator] of Object.entries(generators)) {

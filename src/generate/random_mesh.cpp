@@ -20,7 +20,7 @@ constexpr double kCornerGap = 0.6;
 /// An L with a notch in its base: reflex at the notch and at the elbow.
 Polygon default_polygon() { return {{0, 0}, {1.5, 0}, {2, 0.75}, {2.5, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 4}, {0, 4}}; }
 
-std::optional<InputError> check(const RandomPoints& shape, const Polygon& polygon) {
+std::optional<InputError> check(const RandomMesh& shape, const Polygon& polygon) {
   using generate::invalid;
   if (polygon.size() < 3)
     return invalid("a polygon needs three corners or more, not " + std::to_string(polygon.size()));
@@ -72,7 +72,7 @@ void fill(std::vector<Vec2>& points, std::size_t n, const Polygon& polygon, doub
 
 }  // namespace
 
-Expected<Mesh> random_points(const RandomPoints& shape) {
+Expected<Mesh> random_mesh(const RandomMesh& shape) {
   Polygon polygon = shape.polygon.empty() ? default_polygon() : shape.polygon;
   if (auto error = check(shape, polygon)) return *error;
   if (generate::signed_area(polygon) < 0) std::reverse(polygon.begin(), polygon.end());

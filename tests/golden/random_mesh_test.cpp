@@ -12,8 +12,8 @@ namespace {
 // Sanitizers make the run twenty times slower: what they look for shows in a smaller mesh.
 constexpr std::size_t kVertices = TEMPER_SANITIZED ? 4000 : 100000;
 
-TEST(RandomPoints, OfANonConvexPolygonEndWellCentered) {
-  auto mesh = random_points({.vertices = kVertices});
+TEST(RandomMesh, OfANonConvexPolygonEndWellCentered) {
+  auto mesh = random_mesh({.vertices = kVertices});
   ASSERT_TRUE(mesh);
   ASSERT_EQ(mesh->n_vertices(), kVertices);
   const Quality before = quality(*mesh);

@@ -71,7 +71,7 @@ inline std::size_t shuffle_flips(Mesh& mesh, Rng& rng, int n) {
 
 /// A triangulation of the square with `n` more vertices, on a lattice of 2/denominator when that is given: ties,
 /// points on edges and on the boundary then come up often. Nothing regular about it.
-inline Mesh random_mesh(Rng& rng, int n, int denominator = 0) {
+inline Mesh mesh_of_random_points(Rng& rng, int n, int denominator = 0) {
   Mesh mesh = square();
   const auto coordinate = [&] {
     if (denominator == 0) return rng.uniform(-1, 1);
