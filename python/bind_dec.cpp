@@ -93,8 +93,8 @@ py::dict dec_to_dict(const PyDec& d) {
                   c.edge_of_halfedge.raw().data(), owner))("d0", incidence_to_dict(owner, c.d0))(
              "d1", incidence_to_dict(owner, c.d1))("star0", whole(owner, c.star0.raw()))(
              "star1", whole(owner, c.star1.raw()))("star2", whole(owner, c.star2.raw()))(
-             "flux", whole(owner, c.flux.raw()))("orthocenters",
-                                                 places(owner, c.orthocenters.raw(), c.sphere_orthocenters.raw()))(
+             "transmissibility", whole(owner, c.transmissibility.raw()))(
+             "orthocenters", places(owner, c.orthocenters.raw(), c.sphere_orthocenters.raw()))(
              "areas", whole(owner, c.areas.raw()))
       .dict;
 }
@@ -105,8 +105,8 @@ py::dict summary_to_dict(const DecSummary& s) {
              "negative_star1", s.negative_star1)("zero_star1", s.zero_star1)(
              "negative_boundary_star1", s.negative_boundary_star1)("not_well_centered", s.not_well_centered)(
              "area", s.area)("star0_sum", s.star0_sum)("min_star0", s.min_star0)("min_star1", s.min_star1)(
-             "median_star1", s.median_star1)("max_star1", s.max_star1)("median_flux", s.median_flux)("max_flux",
-                                                                                                     s.max_flux)
+             "median_star1", s.median_star1)("max_star1", s.max_star1)(
+             "median_transmissibility", s.median_transmissibility)("max_transmissibility", s.max_transmissibility)
       .dict;
 }
 

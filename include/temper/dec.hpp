@@ -70,7 +70,7 @@ struct DecComplex {
   IdVector<TriangleId, double> star2;  ///< [length⁻²]
   /// [1]: the transmissibility of a two-point flux between orthocenters, ℓ / (h_k + h_l), on the boundary ℓ / h_k; it
   /// has the sign of ★1, and is +∞ where that is 0.
-  IdVector<EdgeId, double> flux;
+  IdVector<EdgeId, double> transmissibility;
   IdVector<TriangleId, Vec2> orthocenters;  ///< the dual vertices of the plane; of images that of `points(t)`
   IdVector<TriangleId, double> areas;       ///< of the triangles, > 0
   // On the sphere instead of midpoint and orthocenters, at its radius. Empty in the plane.
@@ -92,7 +92,8 @@ struct DecSummary {
   double star0_sum = 0;                            ///< equal to it but for rounding
   double min_star0 = 0, min_star1 = 0;
   double median_star1 = 0, max_star1 = 0;  ///< of |★1| of all edges
-  double median_flux = 0, max_flux = 0;    ///< of |flux| of interior edges; +∞ where a dual edge has length 0
+  double median_transmissibility = 0,
+         max_transmissibility = 0;  ///< of |transmissibility| of interior edges; +∞ where a dual edge has length 0
 };
 [[nodiscard]] DecSummary summarize(const Mesh& mesh, const DecComplex& complex);
 
@@ -134,9 +135,9 @@ struct PowerCells {
 // --- with a diffusion tensor (temper/detail/tensor.hpp): operators of a mapped mesh, in the plane that it comes from
 // ----------
 
-/// The operators for −div(K ∇u) of a mesh whose image, mapped by the metric of K, has these: ★1 and flux are times
-/// √(det K), orthocenters and midpoints are mapped back, areas are the same in both. Lengths, crossings and heights
-/// stay those of the metric.
+/// The operators for −div(K ∇u) of a mesh whose image, mapped by the metric of K, has these: ★1 and transmissibility
+/// are times √(det K), orthocenters and midpoints are mapped back, areas are the same in both. Lengths, crossings and
+/// heights stay those of the metric.
 [[nodiscard]] DecComplex mapped_back(DecComplex complex, const Metric& metric);
 /// The cells of a mapped mesh: their corners are mapped back. Faces keep their widths, of the metric.
 [[nodiscard]] PowerCells mapped_back(PowerCells cells, const Metric& metric);

@@ -99,9 +99,9 @@ class DecSummary(Record):
     median_star1: float
     """Of \\|★1\\| of all edges."""
     max_star1: float
-    median_flux: float
-    """Of \\|flux\\| of interior edges."""
-    max_flux: float
+    median_transmissibility: float
+    """Of \\|transmissibility\\| of interior edges."""
+    max_transmissibility: float
     """inf where a dual edge has length 0."""
 
 
@@ -149,7 +149,7 @@ class DecComplex(Record):
     """(e,) (h_k + h_l)/ℓ; on the boundary h_k/ℓ. The transmissibility of a vertex-centered scheme [1]."""
     star2: npt.NDArray[np.float64]
     """(m,) 1/area [length⁻²]."""
-    flux: npt.NDArray[np.float64]
+    transmissibility: npt.NDArray[np.float64]
     """(e,) ℓ/(h_k + h_l), on the boundary ℓ/h_k: the transmissibility of a two-point flux between orthocenters; inf
     where ★1 is 0 [1]."""
     orthocenters: npt.NDArray[np.float64]
@@ -204,7 +204,7 @@ def dec(mesh: MeshLike, *, tensor: Sequence[float] | None = None) -> DecComplex:
     ----------
     mesh : Mesh or meshio.Mesh
     tensor : sequence of float, optional
-        kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u): duals are those of its metric, ★1 and flux are times
+        kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u): duals are those of its metric, ★1 and transmissibility are times
         √(det K), and lengths are of the metric (docs/tensor.md).
 
     Returns

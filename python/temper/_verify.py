@@ -219,7 +219,7 @@ def verify(
     changed = {
         "frame": FieldFrame(**d["frame"]),
         "poisson": VerifySystem(**d["poisson"]),
-        "flux": VerifySystem(**d["flux"]),
+        "flux": VerifySystem(**d["transmissibility"]),
         "fields": _fields(d["fields"]),
         "orders": _fields(d["orders"]),
         "levels": levels,

@@ -161,7 +161,7 @@ DecComplex DecBuilder<Measures>::build() {
   const std::vector<HalfedgeId> edges = sorted_edges(mesh_);
   c_.edges.reserve(edges.size());
   c_.star1.reserve(edges.size());
-  c_.flux.reserve(edges.size());
+  c_.transmissibility.reserve(edges.size());
   c_.edge_of_halfedge.resize(mesh_.n_halfedges());
   for (const HalfedgeId h : edges) add_edge(h);
   incidence();
@@ -196,7 +196,7 @@ void DecBuilder<Measures>::add_edge(HalfedgeId h) {
   edge.dual_length = ratio * edge.length;
   c_.edges.push_back(edge);
   c_.star1.push_back(ratio);
-  c_.flux.push_back(ratio == 0 ? std::numeric_limits<double>::infinity() : 1 / ratio);
+  c_.transmissibility.push_back(ratio == 0 ? std::numeric_limits<double>::infinity() : 1 / ratio);
 }
 
 template <class Measures>
@@ -269,7 +269,7 @@ DecComplex mapped_back(DecComplex complex, const Metric& metric) {
   for (DecEdge& edge : complex.edges) edge.midpoint = metric.from_metric(edge.midpoint);
   for (Vec2& place : complex.orthocenters) place = metric.from_metric(place);
   for (double& value : complex.star1) value *= metric.strength();
-  for (double& value : complex.flux) value *= metric.strength();
+  for (double& value : complex.transmissibility) value *= metric.strength();
   return complex;
 }
 
@@ -302,20 +302,20 @@ void count_signs(DecSummary& s, const DecComplex& complex) {
 }
 
 void find_extremes(DecSummary& s, const DecComplex& complex) {
-  std::vector<double> stars, fluxes;
+  std::vector<double> stars, transmissibilities;
   stars.reserve(complex.edges.size());
-  fluxes.reserve(complex.edges.size());
+  transmissibilities.reserve(complex.edges.size());
   for (std::size_t i = 0; i < complex.edges.size(); ++i) {
     const EdgeId e(i);
     stars.push_back(std::abs(complex.star1[e]));
-    if (!complex.edges[e].is_boundary()) fluxes.push_back(std::abs(complex.flux[e]));
+    if (!complex.edges[e].is_boundary()) transmissibilities.push_back(std::abs(complex.transmissibility[e]));
   }
   s.min_star0 = complex.star0.empty() ? 0 : *std::min_element(complex.star0.begin(), complex.star0.end());
   s.min_star1 = complex.star1.empty() ? 0 : *std::min_element(complex.star1.begin(), complex.star1.end());
   s.max_star1 = largest_of(stars);
-  s.max_flux = largest_of(fluxes);
+  s.max_transmissibility = largest_of(transmissibilities);
   s.median_star1 = median_of(std::move(stars));
-  s.median_flux = median_of(std::move(fluxes));
+  s.median_transmissibility = median_of(std::move(transmissibilities));
 }
 
 }  // namespace

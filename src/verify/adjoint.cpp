@@ -87,7 +87,7 @@ Adjoint::Adjoint(const Mesh& mesh, const DecComplex& dec)
     : vertex(mesh.n_vertices(), Vec2{}),
       star0(mesh.n_vertices(), 0.0),
       star1(dec.edges.size(), 0.0),
-      flux(dec.edges.size(), 0.0),
+      transmissibility(dec.edges.size(), 0.0),
       crossing(dec.edges.size(), 0.0),
       orthocenter(mesh.n_triangles(), Vec2{}),
       area(mesh.n_triangles(), 0.0) {}
@@ -96,7 +96,7 @@ void Adjoint::add(const Adjoint& other) {
   add_all(vertex, other.vertex);
   add_all(star0, other.star0);
   add_all(star1, other.star1);
-  add_all(flux, other.flux);
+  add_all(transmissibility, other.transmissibility);
   add_all(crossing, other.crossing);
   add_all(orthocenter, other.orthocenter);
   add_all(area, other.area);
@@ -109,7 +109,8 @@ Gradient pulled_back(const Mesh& mesh, const DecComplex& dec, const Adjoint& by)
   for (std::size_t i = 0; i < dec.edges.size(); ++i) {
     const EdgeId e(i);
     const DecEdge& edge = dec.edges[e];
-    EdgeAdjoint of_edge = of_operators(edge, by.star1[e], by.flux[e], by.star0[edge.from], by.star0[edge.to]);
+    EdgeAdjoint of_edge =
+        of_operators(edge, by.star1[e], by.transmissibility[e], by.star0[edge.from], by.star0[edge.to]);
     of_edge.crossing += by.crossing[e];
     pull_back_edge(mesh, dec, edge, of_edge, orthocenter, gradient);
   }

@@ -21,11 +21,11 @@ namespace temper::verify_detail {
 struct Adjoint {
   explicit Adjoint(const Mesh& mesh, const DecComplex& dec);
 
-  IdVector<VertexId, Vec2> vertex;         ///< by the place itself, all else kept
-  IdVector<VertexId, double> star0;        ///< by the area of the dual cell
-  IdVector<EdgeId, double> star1, flux;    ///< by D/ℓ and ℓ/D
-  IdVector<EdgeId, double> crossing;       ///< by d itself
-  IdVector<TriangleId, Vec2> orthocenter;  ///< by its place
+  IdVector<VertexId, Vec2> vertex;                   ///< by the place itself, all else kept
+  IdVector<VertexId, double> star0;                  ///< by the area of the dual cell
+  IdVector<EdgeId, double> star1, transmissibility;  ///< by D/ℓ and ℓ/D
+  IdVector<EdgeId, double> crossing;                 ///< by d itself
+  IdVector<TriangleId, Vec2> orthocenter;            ///< by its place
   IdVector<TriangleId, double> area;
 
   void add(const Adjoint& other);

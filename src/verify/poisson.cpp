@@ -191,7 +191,7 @@ void FluxScheme::assemble() {
   const auto& dec = setting_.dec;
   for (std::size_t e = 0; e < dec.edges.size(); ++e) {
     const DecEdge& edge = dec.edges[EdgeId(e)];
-    const double flux = dec.flux[EdgeId(e)];
+    const double flux = dec.transmissibility[EdgeId(e)];
     if (!edge.is_boundary()) inside.push_back(std::abs(flux));
     if (flux < 0) ++system_.negative;
     if (coincident(edge)) continue;
@@ -221,7 +221,7 @@ void FluxScheme::add_field(const Field& field, const IdVector<EdgeId, EdgeMeans>
     if (edge.left.valid()) add(edge.left, flow);
     if (edge.right.valid()) add(edge.right, -flow);
     if (coincident(edge)) continue;
-    const double coefficient = setting_.dec.flux[EdgeId(e)];
+    const double coefficient = setting_.dec.transmissibility[EdgeId(e)];
     if (edge.is_boundary()) {
       add(inner_triangle(edge), coefficient * field.at(setting_.midpoint(EdgeId(e))).u);
       continue;

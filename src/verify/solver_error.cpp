@@ -163,7 +163,7 @@ class CellSolver final : public Solver {
     std::vector<MatrixEntry> lower;
     for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
       const DecEdge& edge = s.dec.edges[EdgeId(e)];
-      const double flux = s.dec.flux[EdgeId(e)];
+      const double flux = s.dec.transmissibility[EdgeId(e)];
       const std::size_t k = edge.left.index, l = edge.right.index;
       if (edge.left.valid()) lower.push_back({k, k, flux});
       if (edge.right.valid()) lower.push_back({l, l, flux});
@@ -204,7 +204,7 @@ class CellSolver final : public Solver {
       const double flow = wave.flow_to_left(mesh.position(edge.from), mesh.position(edge.to));
       if (edge.left.valid()) right[edge.left.index] += flow;
       if (edge.right.valid()) right[edge.right.index] -= flow;
-      if (edge.is_boundary()) right[inner(edge).index] += dec.flux[EdgeId(i)] * wave.at(edge.midpoint);
+      if (edge.is_boundary()) right[inner(edge).index] += dec.transmissibility[EdgeId(i)] * wave.at(edge.midpoint);
     }
     return right;
   }
@@ -218,12 +218,12 @@ class CellSolver final : public Solver {
     const Vec2 a = mesh.position(edge.from), b = mesh.position(edge.to), e = b - a;
     if (edge.is_boundary()) {
       const std::size_t k = inner(edge).index;
-      by.flux[id] -= lambda[k] * (solution[k] - wave.at(edge.midpoint));
-      by.crossing[id] += lambda[k] * dec.flux[id] * dot(wave.gradient(edge.midpoint), e) / edge.length;
+      by.transmissibility[id] -= lambda[k] * (solution[k] - wave.at(edge.midpoint));
+      by.crossing[id] += lambda[k] * dec.transmissibility[id] * dot(wave.gradient(edge.midpoint), e) / edge.length;
       return;
     }
     const double difference = lambda[edge.left.index] - lambda[edge.right.index];
-    by.flux[id] -= difference * (solution[edge.left.index] - solution[edge.right.index]);
+    by.transmissibility[id] -= difference * (solution[edge.left.index] - solution[edge.right.index]);
     // ∫ f over the triangle on the left grows where the edge goes to the right, by f times the way.
     const Vec2 right = difference * Vec2{e.y, -e.x};
     along_segment(a, b, [&](Vec2 p, double weight) {

@@ -38,7 +38,7 @@ def check_formats_agree(folder, arrays):
             check((from_npz != scipy.sparse.csr_matrix(parts, shape=from_npz.shape)).nnz == 0, f"{name}: matrix and arrays")
     check((scipy.io.mmread(f"{folder}/orthocenters.mtx") == arrays["orthocenters"]).all(), "orthocenters.mtx")
     check((scipy.io.mmread(f"{folder}/edge_midpoints.mtx") == arrays["edge_midpoints"]).all(), "edge_midpoints.mtx")
-    check((scipy.io.mmread(f"{folder}/flux.mtx").diagonal() == arrays["flux"]).all(), "flux.mtx")
+    check((scipy.io.mmread(f"{folder}/transmissibility.mtx").diagonal() == arrays["transmissibility"]).all(), "transmissibility.mtx")
 
 
 def check_laws(folder, a):

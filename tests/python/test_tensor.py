@@ -55,7 +55,7 @@ def flux_error(mesh, tensor, dual):
     ends, sides = complex.edges.vertices, complex.edges.triangles
     along = points[ends[:, 1]] - points[ends[:, 0]]
     normal = np.column_stack([along[:, 1], -along[:, 0]])  # to the right, times the length
-    flux = np.clip(complex.flux, -1e9, 1e9)  # orthocenters that coincide have one value
+    flux = np.clip(complex.transmissibility, -1e9, 1e9)  # orthocenters that coincide have one value
     if tuple(dual) != tuple(tensor):
         flux = flux * ((normal @ matrix(tensor)) * normal).sum(axis=1) / (normal**2).sum(axis=1)
     flow = np.zeros(len(ends))  # of K ∇u to the right, by Gauss

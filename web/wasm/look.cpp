@@ -103,7 +103,7 @@ const std::map<std::string_view, AnswerArray>& dec_arrays() {
       {"star0", [](const DecComplex& c) { answer_all(c.star0.raw()); }},
       {"star1", [](const DecComplex& c) { answer_all(c.star1.raw()); }},
       {"star2", [](const DecComplex& c) { answer_all(c.star2.raw()); }},
-      {"flux", [](const DecComplex& c) { answer_all(c.flux.raw()); }},
+      {"transmissibility", [](const DecComplex& c) { answer_all(c.transmissibility.raw()); }},
       {"areas", [](const DecComplex& c) { answer_all(c.areas.raw()); }},
       {"orthocenters", [](const DecComplex& c) { answer_all(c.orthocenters.raw()); }},
       {"edge_of_halfedge", [](const DecComplex& c) { answer_all(c.edge_of_halfedge.raw()); }},
@@ -166,8 +166,8 @@ TEMPER_EXPORT(dec_summary) int dec_summary(const HeldMesh* held, const DecComple
                 {"min_star1", number(s.min_star1)},
                 {"median_star1", number(s.median_star1)},
                 {"max_star1", number(s.max_star1)},
-                {"median_flux", number(s.median_flux)},
-                {"max_flux", number(s.max_flux)}});
+                {"median_transmissibility", number(s.median_transmissibility)},
+                {"max_transmissibility", number(s.max_transmissibility)}});
   });
 }
 

@@ -99,8 +99,8 @@ std::string dec_text(const DecRecord& record) {
           line("zero star1, interior edges", s.zero_star1);
   text += line("least star0", s.min_star0) + line("least star1", s.min_star1) + line("median |star1|", s.median_star1) +
           line("largest |star1|", s.max_star1) + line("  over the median", over_median(s.max_star1, s.median_star1)) +
-          line("largest |two-point flux|", s.max_flux) +
-          line("  over the median", over_median(s.max_flux, s.median_flux));
+          line("largest |transmissibility|", s.max_transmissibility) +
+          line("  over the median", over_median(s.max_transmissibility, s.median_transmissibility));
   text += line("polygons of power cells", record.cells.n_polygons()) + line("  cells of several", cells.divided) +
           line("  cells outside of the domain", cells.empty);
   if (record.columns != nullptr) text += columns_text(*record.columns);
@@ -129,9 +129,10 @@ std::string dec_json(const DecRecord& record) {
   json["median_star1"] = s.median_star1;
   json["max_star1"] = s.max_star1;
   json["max_star1_over_median"] = finite_or_null(over_median(s.max_star1, s.median_star1));
-  json["median_flux"] = finite_or_null(s.median_flux);
-  json["max_flux"] = finite_or_null(s.max_flux);
-  json["max_flux_over_median"] = finite_or_null(over_median(s.max_flux, s.median_flux));
+  json["median_transmissibility"] = finite_or_null(s.median_transmissibility);
+  json["max_transmissibility"] = finite_or_null(s.max_transmissibility);
+  json["max_transmissibility_over_median"] =
+      finite_or_null(over_median(s.max_transmissibility, s.median_transmissibility));
   json["cell_polygons"] = record.cells.n_polygons();
   json["divided_cells"] = cells.divided;
   json["empty_cells"] = cells.empty;

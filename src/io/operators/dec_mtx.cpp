@@ -53,7 +53,8 @@ void write_dec_mtx(const DecJob& job) {
   put_diagonal(job.open("star0.mtx"), c.star0.raw(), "signed areas of the dual cells of the vertices");
   put_diagonal(job.open("star1.mtx"), c.star1.raw(), "signed dual length over length of the edges");
   put_diagonal(job.open("star2.mtx"), c.star2.raw(), "1 / area of the triangles");
-  put_diagonal(job.open("flux.mtx"), c.flux.raw(), "length over signed dual length of the edges");
+  put_diagonal(job.open("transmissibility.mtx"), c.transmissibility.raw(),
+               "length over signed dual length of the edges");
   put_positions(job, "orthocenters.mtx", orthocenter_positions(c), "of the orthocenters of the triangles");
   put_positions(job, "edge_midpoints.mtx", midpoint_positions(c), "of the weighted midpoints of the edges");
 }

@@ -148,7 +148,7 @@ void add_matrices(NpzWriter& npz, const DecComplex& c) {
   npz.add("star0", c.star0.raw());
   npz.add("star1", c.star1.raw());
   npz.add("star2", c.star2.raw());
-  npz.add("flux", c.flux.raw());
+  npz.add("transmissibility", c.transmissibility.raw());
 }
 
 void add_cells(NpzWriter& npz, const PowerCells& cells) {

@@ -76,8 +76,10 @@ bool needs_columns(DecFormat format) {
 std::span<const std::string_view> dec_file_names(DecFormat format, bool has_columns) {
   static constexpr std::string_view kNpz[] = {"operators.npz", "d0.npz",    "d1.npz",
                                               "star0.npz",     "star1.npz", "star2.npz"};
-  static constexpr std::string_view kMtx[] = {"d0.mtx",    "d1.mtx",   "star0.mtx",        "star1.mtx",
-                                              "star2.mtx", "flux.mtx", "orthocenters.mtx", "edge_midpoints.mtx"};
+  static constexpr std::string_view kMtx[] = {"d0.mtx",           "d1.mtx",
+                                              "star0.mtx",        "star1.mtx",
+                                              "star2.mtx",        "transmissibility.mtx",
+                                              "orthocenters.mtx", "edge_midpoints.mtx"};
   static constexpr std::string_view kVtu[] = {"dual.vtu", "dual_edges.vtu", "columns.vtu"};
   static constexpr std::string_view kDisv[] = {"mesh.disv"}, kDisu[] = {"mesh.disu"}, kTough[] = {"MESH"};
   switch (format) {

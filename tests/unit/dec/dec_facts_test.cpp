@@ -60,11 +60,11 @@ TEST(DecFacts, CocircularPointsHaveADualEdgeOfLengthZeroExactly) {
     EXPECT_EQ(c.star1[diagonal], 0);
     EXPECT_FALSE(std::signbit(c.star1[diagonal]));
     EXPECT_EQ(c.edges[diagonal].dual_length, 0);
-    EXPECT_EQ(c.flux[diagonal], std::numeric_limits<double>::infinity());
+    EXPECT_EQ(c.transmissibility[diagonal], std::numeric_limits<double>::infinity());
     const DecSummary s = summarize(mesh, c);
     EXPECT_EQ(s.zero_star1, 1u);
     EXPECT_EQ(s.negative_star1, 0u);
-    EXPECT_EQ(s.max_flux, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(s.max_transmissibility, std::numeric_limits<double>::infinity());
   }
 }
 

@@ -164,9 +164,9 @@ TEST(DecLaws, LinearFunctionsAreHarmonicWhateverTheWeights) {
   IdVector<VertexId, double> laplacian(mesh.n_vertices(), 0.0), size(mesh.n_vertices(), 0.0);
   for (std::size_t i = 0; i < c.edges.size(); ++i) {
     const DecEdge& e = c.edges[EdgeId(i)];
-    const double flux = c.star1[EdgeId(i)] * (u(e.to) - u(e.from));
-    laplacian[e.from] -= flux, laplacian[e.to] += flux;
-    size[e.from] += std::abs(flux), size[e.to] += std::abs(flux);
+    const double transmissibility = c.star1[EdgeId(i)] * (u(e.to) - u(e.from));
+    laplacian[e.from] -= transmissibility, laplacian[e.to] += transmissibility;
+    size[e.from] += std::abs(transmissibility), size[e.to] += std::abs(transmissibility);
   }
   std::size_t inner = 0;
   for (const VertexId v : mesh.vertices()) {
@@ -203,7 +203,7 @@ TEST(DecLaws, DualVerticesHaveEqualPowerAndDualEdgesAreWhatLiesBetweenThem) {
     EXPECT_NEAR(e.right_height, -right, 1e-10 * size);
     EXPECT_NEAR(e.dual_length, e.left_height + e.right_height, kRelative * size);
     EXPECT_NEAR(c.star1[EdgeId(i)] * e.length, e.dual_length, kRelative * size);
-    EXPECT_NEAR(c.flux[EdgeId(i)] * c.star1[EdgeId(i)], 1, kRelative);
+    EXPECT_NEAR(c.transmissibility[EdgeId(i)] * c.star1[EdgeId(i)], 1, kRelative);
   }
 }
 
@@ -242,7 +242,7 @@ TEST(DecLaws, AConstantAddedToAllWeightsChangesNothing) {
   expect_scaled(a.star0, b.star0, 1);
   expect_scaled(a.star1, b.star1, 1);
   expect_scaled(a.star2, b.star2, 1);
-  expect_scaled(a.flux, b.flux, 1);
+  expect_scaled(a.transmissibility, b.transmissibility, 1);
   EXPECT_EQ(a.orthocenters, b.orthocenters);
 }
 
@@ -280,7 +280,7 @@ TEST(DecLaws, UnitsOfLengthScaleStars) {
   expect_scaled(a.star0, b.star0, 64);
   expect_scaled(a.star1, b.star1, 1);
   expect_scaled(a.star2, b.star2, 1.0 / 64);
-  expect_scaled(a.flux, b.flux, 1);
+  expect_scaled(a.transmissibility, b.transmissibility, 1);
 }
 
 TEST(DecLaws, TurningAndShiftingTheDomainKeepsStars) {

@@ -118,7 +118,7 @@ TEST(DecSphere, DualVerticesHaveEqualPowerAndDualArcsAreWhatLiesBetweenThem) {
     EXPECT_NEAR(radius * std::asin(dot(c.sphere_orthocenters[e.right], pole) / radius), -e.right_height, 1e-9);
     EXPECT_NEAR(e.left_height + e.right_height, e.dual_length, 1e-10);
     EXPECT_NEAR(c.star1[id] * e.length, e.dual_length, 1e-10);
-    EXPECT_NEAR(c.flux[id] * c.star1[id], 1, kOnSphere);
+    EXPECT_NEAR(c.transmissibility[id] * c.star1[id], 1, kOnSphere);
   }
 }
 
@@ -242,7 +242,7 @@ TEST(DecSphere, UnitsOfLengthScaleStars) {
   expect_close(a.star0, b.star0, 64, 0);
   expect_close(a.star1, b.star1, 1, 0);
   expect_close(a.star2, b.star2, 1.0 / 64, 0);
-  expect_close(a.flux, b.flux, 1, 0);
+  expect_close(a.transmissibility, b.transmissibility, 1, 0);
 }
 
 TEST(DecSphere, AllPointsScaledChangeNothing) {

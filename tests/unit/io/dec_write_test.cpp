@@ -149,7 +149,7 @@ TEST_F(DecFiles, MatrixMarketHoldsZerosAndWhatIsInfinite) {
   EXPECT_EQ(slurp(path("a/d0.mtx")).substr(0, 55), "%%MatrixMarket matrix coordinate real general\n% edges x");
   EXPECT_NE(slurp(path("a/star1.mtx")).find("\n5 5 5\n1 1 0.5\n2 2 0\n3 3 0.5\n"), std::string::npos)
       << slurp(path("a/star1.mtx"));
-  EXPECT_NE(slurp(path("a/flux.mtx")).find("\n2 2 inf\n"), std::string::npos);
+  EXPECT_NE(slurp(path("a/transmissibility.mtx")).find("\n2 2 inf\n"), std::string::npos);
 }
 
 TEST_F(DecFiles, OnAnErrorNothingHasChanged) {

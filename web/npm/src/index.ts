@@ -212,7 +212,7 @@ export function dec(mesh: Mesh): DecComplex {
       star0: reals('star0'),
       star1: reals('star1'),
       star2: reals('star2'),
-      flux: reals('flux'),
+      transmissibility: reals('transmissibility'),
       orthocenters: reals('orthocenters'),
       areas: reals('areas'),
       summary,

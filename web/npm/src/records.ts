@@ -262,8 +262,8 @@ export interface DecSummary {
   min_star1: number;
   median_star1: number;
   max_star1: number;
-  median_flux: number;
-  max_flux: number;
+  median_transmissibility: number;
+  max_transmissibility: number;
 }
 
 /** A sparse matrix of entries ±1, in compressed rows. */
@@ -302,7 +302,7 @@ export interface DecComplex {
   star1: Float64Array;
   star2: Float64Array;
   /** Transmissibility of a two-point flux between orthocenters; Infinity where a dual edge has no length. */
-  flux: Float64Array;
+  transmissibility: Float64Array;
   /** x, y of each triangle's. */
   orthocenters: Float64Array;
   areas: Float64Array;
