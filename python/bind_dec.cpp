@@ -76,12 +76,12 @@ PyDec make_dec(const PyMesh& self, const py::object& tensor) {
   const auto mesh = self.read();
   if (tensor.is_none()) {
     const py::gil_scoped_release release;
-    return {mesh, mesh, {}, std::make_shared<const DecComplex>(dec(*mesh))};
+    return {mesh, mesh, {}, std::make_shared<const DecComplex>(dec_operators(*mesh))};
   }
   const Metric metric = metric_from(tensor);
   const py::gil_scoped_release release;
   auto measured = std::make_shared<const Mesh>(or_raise(mapped(*mesh, metric)));
-  return {mesh, measured, metric, std::make_shared<const DecComplex>(mapped_back(dec(*measured), metric))};
+  return {mesh, measured, metric, std::make_shared<const DecComplex>(mapped_back(dec_operators(*measured), metric))};
 }
 
 py::dict dec_to_dict(const PyDec& d) {
@@ -176,7 +176,7 @@ std::shared_ptr<const PyColumns> make_columns(const PyMesh& self, std::size_t n_
   const auto mesh = self.read();
   require_plane(*mesh, "columns()");
   const py::gil_scoped_release release;
-  DecComplex complex = dec(*mesh);
+  DecComplex complex = dec_operators(*mesh);
   PowerCells cells = power_cells(*mesh, complex);
   Columns made = or_raise(columns(*mesh, complex, cells, layers, {pinch_out, nullptr}));
   return std::make_shared<const PyColumns>(PyColumns{mesh, std::move(complex), std::move(cells), std::move(made)});

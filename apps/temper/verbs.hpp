@@ -16,7 +16,7 @@ using Arguments = std::vector<std::string>;
 Exit run_mesh(const Arguments& arguments);
 Exit run_optimize(const Arguments& arguments);
 Exit run_check(const Arguments& arguments);
-Exit run_dec(const Arguments& arguments);
+Exit run_operators(const Arguments& arguments);
 Exit run_draw(const Arguments& arguments);
 Exit run_convert(const Arguments& arguments);
 Exit run_example(const Arguments& arguments);

@@ -17,7 +17,7 @@ if len(sys.argv) == 1:
     temper.optimize(mesh)
 folder = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else "dual")
 folder.mkdir(exist_ok=True)
-operators = temper.dec(mesh)
+operators = temper.dec_operators(mesh)
 
 
 def save(name, header, *columns):

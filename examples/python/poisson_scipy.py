@@ -21,7 +21,7 @@ def source(p):  # −Δ of it
 
 def vertex_centered(mesh):
     """u at the vertices."""
-    c = temper.dec(mesh)
+    c = temper.dec_operators(mesh)
     points = np.asarray(mesh.points)
     boundary = np.unique(mesh.boundary_edges)
     inner = np.setdiff1d(np.arange(mesh.n_vertices), boundary)
@@ -34,7 +34,7 @@ def vertex_centered(mesh):
 
 def cell_centered(mesh):
     """u at the orthocenters."""
-    c = temper.dec(mesh)
+    c = temper.dec_operators(mesh)
     d1, flux = c.d1.tocsr(), np.asarray(c.flux)
     on_boundary = np.where(c.edges.is_boundary, exact(np.asarray(c.edges.midpoint)), 0)
     matrix = d1 @ sparse.diags(flux) @ d1.T
@@ -49,7 +49,7 @@ def relative(error, measure, values):
 
 mesh = temper.generate.annulus(around=96, rings=12)
 temper.optimize(mesh)
-operators = temper.dec(mesh)
+operators = temper.dec_operators(mesh)
 assert (operators.star1 > 0).all() and (operators.flux > 0).all()  # well-centered: both matrices are M-matrices
 
 at_vertices = exact(np.asarray(mesh.points))

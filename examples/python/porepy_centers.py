@@ -18,7 +18,7 @@ import temper
 
 mesh = temper.generate.annulus()
 temper.optimize(mesh)
-operators = temper.dec(mesh)
+operators = temper.dec_operators(mesh)
 edges = operators.edges
 
 

@@ -17,7 +17,7 @@ import temper
 
 mesh = temper.generate.annulus()
 temper.optimize(mesh)
-operators = temper.dec(mesh)
+operators = temper.dec_operators(mesh)
 
 
 def lowest_modes(d0, star0, star1, count=5):

@@ -79,7 +79,7 @@ struct DecComplex {
 };
 
 /// The operators of a mesh. Precondition: no erased triangles; fewer than 2³¹ edges. O(n).
-[[nodiscard]] DecComplex dec(const Mesh& mesh);
+[[nodiscard]] DecComplex dec_operators(const Mesh& mesh);
 
 /// A summary of the operators, to be read before a solver uses them.
 struct DecSummary {
@@ -128,8 +128,8 @@ struct PowerCells {
 /// On the sphere that is so of its power diagram: the flat faces with the weights |P|² are divided, and seen from 0.
 /// In a periodic plane corners are where they are seen from the vertex, beyond the domain's edge where the cell is; a
 /// cell must be narrower than half a period.
-/// Precondition: no erased triangles, and `complex` is dec(mesh). O(n) where triangles are well-centered, and about ten
-/// microseconds for each that is not.
+/// Precondition: no erased triangles, and `complex` is dec_operators(mesh). O(n) where triangles are well-centered, and
+/// about ten microseconds for each that is not.
 [[nodiscard]] PowerCells power_cells(const Mesh& mesh, const DecComplex& complex);
 
 // --- with a diffusion tensor (temper/detail/tensor.hpp): operators of a mapped mesh, in the plane that it comes from

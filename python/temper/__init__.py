@@ -9,7 +9,7 @@ wherever a mesh is.
 >>> report = temper.optimize(mesh)
 >>> temper.quality(mesh).well_centered_fraction
 1.0
->>> operators = temper.dec(mesh)
+>>> operators = temper.dec_operators(mesh)
 >>> bool((operators.star1 > 0).all())
 True
 
@@ -28,7 +28,7 @@ except ImportError as error:
     ) from None
 
 from . import energy, generate, geometry, projection, size, topology, types
-from ._dec import columns, dec
+from ._dec import columns, dec_operators
 from ._draw import draw_svg, grid_svg, html_report
 from ._errors import TemperError, TemperWarning
 from ._explain import explain

@@ -194,10 +194,10 @@ class DecComplex(Record):
 
 
 def _dec_of(mesh: Mesh, tensor: tuple[float, float, float] | None) -> DecComplex:
-    return dec(mesh, tensor=tensor)
+    return dec_operators(mesh, tensor=tensor)
 
 
-def dec(mesh: MeshLike, *, tensor: Sequence[float] | None = None) -> DecComplex:
+def dec_operators(mesh: MeshLike, *, tensor: Sequence[float] | None = None) -> DecComplex:
     """The operators of a mesh, as exact as doubles are.
 
     Parameters
@@ -220,7 +220,7 @@ def dec(mesh: MeshLike, *, tensor: Sequence[float] | None = None) -> DecComplex:
     Examples
     --------
     >>> import temper
-    >>> complex = temper.dec(temper.generate.sheared_grid())
+    >>> complex = temper.dec_operators(temper.generate.sheared_grid())
     >>> abs(complex.star0.sum() - complex.areas.sum()) < 1e-12
     True
     >>> complex.d0.shape

@@ -17,7 +17,7 @@ _DUAL = "#0072b2"
 
 def _dual_segments(mesh: Mesh) -> npt.NDArray[np.float64]:
     """From orthocenter to orthocenter, on the boundary from orthocenter to weighted midpoint; (e, 2, 2)."""
-    complex = dec(mesh)
+    complex = dec_operators(mesh)
     left, right = complex.edges.triangles.T
     ends = np.empty((len(complex.edges), 2, 2))
     for side, triangles in enumerate((left, right)):
@@ -121,7 +121,7 @@ def plot(
     if dual:
         ax.add_collection(LineCollection(_dual_segments(mesh), colors=_DUAL, linewidths=width, zorder=2.5))
     if orthocenters:
-        centers = np.asarray(dec(mesh).orthocenters)
+        centers = np.asarray(dec_operators(mesh).orthocenters)
         ax.plot(*centers.T, ".", color=_DUAL, markersize=4 * width + 1, zorder=2.6)
     if weights:
         _circles(ax, points, np.asarray(mesh.weights), width)

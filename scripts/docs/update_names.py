@@ -26,7 +26,7 @@ VERBS = {
     "explain": (["explain"], ["explain"]),
     "check": (["quality"], ["quality"]),
     "verify": (["verify"], ["verify"]),
-    "dec": (["dec", "columns"], ["dec", "columns", "io::write_dec"]),
+    "dec": (["operators", "columns"], ["operators", "columns", "io::write_dec"]),
     "draw": (["draw_svg"], ["draw_svg", "draw_before_after_svg"]),
     "convert": (["read", "write"], ["io::read", "io::write"]),
     "example": (["generate"], ["horseshoe", "random_mesh", "…"]),

@@ -260,7 +260,7 @@ void DecBuilder<Measures>::dual_areas() {
 
 }  // namespace
 
-DecComplex dec(const Mesh& mesh) {
+DecComplex dec_operators(const Mesh& mesh) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   return mesh.space().is_plane() ? DecBuilder<PlaneMeasures>(mesh).build() : DecBuilder<SphereMeasures>(mesh).build();
 }

@@ -56,7 +56,7 @@ void add_constrained(const Mesh& mesh, const DecComplex& dec, Arrays& arrays) {
 }  // namespace
 
 Expected<Mesh> refined(const Mesh& mesh) {
-  const DecComplex complex = dec(mesh);
+  const DecComplex complex = dec_operators(mesh);
   Arrays arrays = {.places = InputPositions(mesh.space())};
   add_points(mesh, complex, arrays);
   add_triangles(mesh, complex, arrays);

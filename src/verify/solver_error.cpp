@@ -266,7 +266,7 @@ class SolverErrorModel final : public ErrorModel {
   [[nodiscard]] std::vector<double> measure(const Mesh& mesh, std::vector<Gradient>* gradients,
                                             Executor* executor) const {
     const FieldFrame frame = field_frame(mesh);
-    ErrorSubject subject{mesh, dec(mesh), {}, 0};
+    ErrorSubject subject{mesh, dec_operators(mesh), {}, 0};
     for (const double area : subject.dec.areas) subject.area += area;
     for (const Wave& wave : waves_) {
       const Vec2 k = (1 / frame.half_size) * wave.k;

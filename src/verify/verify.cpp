@@ -42,8 +42,9 @@ bool is_closed(const DecComplex& dec) {
 /// A mesh with its operators, and the setting that refers to both: not to be moved.
 struct Subject {
   Subject(const Mesh& m, const FieldFrame& frame, Executor* executor)
-      : mesh(m), operators(dec(mesh)), setting{mesh,     operators,           frame, domain_area(operators, frame),
-                                               executor, is_closed(operators)} {}
+      : mesh(m), operators(dec_operators(mesh)), setting{mesh,     operators,
+                                                         frame,    domain_area(operators, frame),
+                                                         executor, is_closed(operators)} {}
   Subject(const Subject&) = delete;
   Subject& operator=(const Subject&) = delete;
   ~Subject() = default;

@@ -59,7 +59,7 @@ void read_trace(std::string_view bytes) {
 void read_layers(std::string_view bytes) {
   static const Scratch scratch;
   const Mesh& mesh = input().mesh();
-  static const DecComplex complex = dec(mesh);
+  static const DecComplex complex = dec_operators(mesh);
   static const PowerCells cells = power_cells(mesh, complex);
   const auto layers = io::read_layers(scratch.make("l.csv", bytes), input().file, input().loaded);
   if (!layers) return insist(!layers.error().message.empty(), "an error has a message");

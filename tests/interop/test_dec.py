@@ -1,4 +1,4 @@
-"""What `temper dec` writes, read by NumPy, SciPy and meshio: the same numbers in every format, and the laws of operators.
+"""What `temper operators` writes, read by NumPy, SciPy and meshio: the same numbers in every format, and the laws of operators.
 
 test_dec.py TEMPER
 """
@@ -99,7 +99,7 @@ def main():
         os.chdir(folder)
         for example in ["horseshoe", "airfoil", "random"]:
             run("example", example, "-o", f"{example}.vtu")
-            run("dec", f"{example}.vtu", "-o", example)
+            run("operators", f"{example}.vtu", "-o", example)
             arrays = numpy.load(f"{example}/operators.npz", allow_pickle=False)
             arrays = {name: arrays[name] for name in arrays.files}
             check_formats_agree(example, arrays)

@@ -58,7 +58,7 @@ TEST(DecOracle, EveryStarHasASmallRelativeErrorOnDegenerateFamilies) {
       const auto built = Mesh::build({.points = points, .weights = weights, .triangles = triangles});
       if (!built) continue;  // flat, or both on one side
       const Mesh& mesh = built->mesh;
-      const DecComplex c = dec(mesh);
+      const DecComplex c = dec_operators(mesh);
       const RationalVector a = rational_center(quad[0], quad[1], quad[2]),
                            b = rational_center(quad[0], quad[1], quad[3]);
       const HalfedgeId shared = mesh.find_halfedge(VertexId(0), VertexId(1));

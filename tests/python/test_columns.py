@@ -155,7 +155,7 @@ def test_arrays_have_their_shapes_and_add_up(columns):
     active = c.states == 1
     assert active.any(axis=1).all() and (c.states == -1).sum() > 20 and (c.states == 0).sum() == 1
     assert np.allclose(c.volumes, np.where(active, (c.tops - c.bottoms) * c.areas, 0))
-    assert np.isclose(c.areas.sum(), temper.dec(mesh).areas.sum())
+    assert np.isclose(c.areas.sum(), temper.dec_operators(mesh).areas.sum())
     assert (c.cells[:, 0] < c.cells[:, 1]).all() and len(np.unique(c.cells, axis=0)) == len(c.cells)
     assert active.ravel()[c.cells].all() and (c.distances > 0).all() and (c.face_areas > 0).all()
     assert not c.tops.flags.writeable and c == pickle.loads(pickle.dumps(c))
@@ -261,7 +261,7 @@ def test_bad_input_is_told():
     with pytest.raises(temper.TemperError, match="sphere"):
         temper.columns(temper.generate.random_sphere(vertices=50), [1.0, 0.0])
     with pytest.raises(temper.TemperError, match="need layers"):
-        temper.dec(mesh).write("nowhere", formats=["disv"])
+        temper.dec_operators(mesh).write("nowhere", formats=["disv"])
 
 
 def test_the_program_writes_what_python_writes(in_scratch):
@@ -269,7 +269,7 @@ def test_the_program_writes_what_python_writes(in_scratch):
     temper.write("a.vtu", mesh)
     rows = [f"{v},,{7 + 0.1 * v!r},,," for v in range(mesh.n_vertices) if v % 3]
     pathlib.Path("layers.csv").write_text("\n".join(["vertex,top,bottom 1,bottom 2,bottom 3,bottom 4", "*,30,7,7,2,1", *rows]))
-    subprocess.run(["temper", "dec", "a.vtu", "-o", "program", "--layers", "layers.csv", "--format", "disv,disu,tough"],
+    subprocess.run(["temper", "operators", "a.vtu", "-o", "program", "--layers", "layers.csv", "--format", "disv,disu,tough"],
                    check=True, capture_output=True)  # fmt: skip
     surfaces = np.tile([30.0, 7, 7, 2, 1], (mesh.n_vertices, 1))
     for v in range(mesh.n_vertices):

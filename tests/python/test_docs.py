@@ -54,7 +54,7 @@ def test_what_the_example_for_julia_writes_is_the_dual(in_scratch):
 
     run([sys.executable, ROOT / "examples" / "python" / "combinatorial_spaces.py"])
     mesh = optimized(temper.generate.annulus())
-    operators = temper.dec(mesh)
+    operators = temper.dec_operators(mesh)
     tables = {name: np.loadtxt(f"dual/{name}.csv", delimiter=",", skiprows=1) for name in ("points", "edges", "triangles")}
     assert np.array_equal(tables["points"], mesh.points)
     assert np.array_equal(tables["triangles"][:, :3], mesh.triangles + 1)

@@ -22,7 +22,7 @@ EVERY = [
 def weighted(mesh):
     """The mesh with weights that are not zero."""
     mesh = mesh.copy()
-    mesh.weights = 1e-3 * np.sin(np.arange(mesh.n_vertices)) * temper.dec(mesh).areas.mean()
+    mesh.weights = 1e-3 * np.sin(np.arange(mesh.n_vertices)) * temper.dec_operators(mesh).areas.mean()
     return mesh
 
 
@@ -80,7 +80,7 @@ def test_the_gradient_of_an_energy_is_its_derivative(ring):
 @pytest.mark.parametrize("mesh", EVERY)
 def test_laws_of_the_operators_hold_for_any_weights(mesh):
     mesh = weighted(mesh)
-    c = temper.dec(mesh)
+    c = temper.dec_operators(mesh)
     d0, d1 = c.d0.toarray(), c.d1.toarray()
     assert d0.shape == (mesh.n_edges, mesh.n_vertices) and d1.shape == (mesh.n_triangles, mesh.n_edges)
     assert (d1 @ d0 == 0).all()
@@ -98,7 +98,7 @@ def test_laws_of_the_operators_hold_for_any_weights(mesh):
 
 
 def test_star1_is_the_cotangent_formula_without_weights(ring):
-    c = temper.dec(ring)
+    c = temper.dec_operators(ring)
     p, t = np.asarray(ring.points), np.asarray(ring.triangles)
     cotangents = np.zeros((ring.n_vertices,) * 2)
     for k in range(3):
@@ -112,7 +112,7 @@ def test_star1_is_the_cotangent_formula_without_weights(ring):
 
 
 def test_operators_are_views_on_one_value(ring):
-    c = temper.dec(ring)
+    c = temper.dec_operators(ring)
     arrays = [c.star0, c.star1, c.flux, c.orthocenters, c.edges.length, c.edges.midpoint, c.d0.columns]
     assert not any(a.flags.owndata or a.flags.writeable for a in arrays)
     kept = c.star1
@@ -123,7 +123,7 @@ def test_operators_are_views_on_one_value(ring):
 
 def test_scipy_gets_the_same_matrices(ring):
     pytest.importorskip("scipy")
-    c = temper.dec(optimized(ring))
+    c = temper.dec_operators(optimized(ring))
     assert np.array_equal(c.d0.tocsr().toarray(), c.d0.toarray())
     laplacian = c.laplacian()
     assert (laplacian - laplacian.T).nnz == 0 or abs(laplacian - laplacian.T).max() < 1e-12
@@ -133,7 +133,7 @@ def test_scipy_gets_the_same_matrices(ring):
 
 
 def test_operators_are_written_as_the_program_writes_them(ring, in_scratch):
-    c = temper.dec(ring)
+    c = temper.dec_operators(ring)
     paths = c.write("operators", formats=["npz"])
     assert sorted(p.split("/")[-1] for p in paths)[-1] == "star2.npz"
     arrays = np.load("operators/operators.npz")

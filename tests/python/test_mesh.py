@@ -100,7 +100,7 @@ def test_data_that_fit_no_mesh_are_refused(ring):
 
 
 def test_operators_can_be_pickled(ring):
-    operators = temper.dec(ring)
+    operators = temper.dec_operators(ring)
     again = pickle.loads(pickle.dumps(operators))
     assert again == operators and again.power_cells() == operators.power_cells()
 

@@ -52,7 +52,7 @@ def test_weights_survive_the_way_through_meshio(disc, in_scratch):
 def test_every_function_takes_them(disc):
     mesh = temper.from_meshio(disc)
     assert temper.quality(disc) == temper.quality(mesh)
-    assert np.array_equal(temper.dec(disc).star1, temper.dec(mesh).star1)
+    assert np.array_equal(temper.dec_operators(disc).star1, temper.dec_operators(mesh).star1)
     assert temper.draw_svg(disc) == temper.draw_svg(mesh)
     assert temper.find_weights(disc).verdict == temper.find_weights(mesh).verdict
     report = temper.optimize(disc)

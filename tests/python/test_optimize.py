@@ -351,7 +351,7 @@ def test_an_outline_is_meshed_well_centered():
     outline = temper.Outline(points, segments, segment_tags=[1] * 4 + [2] * 4, holes=[(1.5, 1.5)])
     made = temper.mesh_outline(outline, 0.4)
     assert made.bad == 0 and set(made.line_tags) == {1, 2}
-    assert temper.dec(made.mesh).areas.sum() == pytest.approx(11)
+    assert temper.dec_operators(made.mesh).areas.sum() == pytest.approx(11)
     assert np.array_equal(made.mesh.points[made.vertex_of_point], np.array(points, dtype=float))
     assert temper.mesh_outline(outline, 0.4, optimize=False).bad >= 0
     with pytest.raises(temper.TemperError, match="segment"):

@@ -35,7 +35,7 @@ def test_edges_are_shortest_ways(sea):
     assert sea.space == Space.periodic(2, 1)
     assert sea.n_vertices + sea.n_triangles == sea.n_edges
     assert len(sea.boundary_edges) == 0
-    complex = temper.dec(sea)
+    complex = temper.dec_operators(sea)
     lengths = np.linalg.norm(ways(sea, complex.edges.vertices), axis=1)
     np.testing.assert_allclose(complex.edges.length, lengths, rtol=1e-12)
     assert complex.star0.sum() == pytest.approx(2)

@@ -429,7 +429,7 @@ def test_a_sphere_is_drawn_from_where_one_looks(globe, ring):
 
 
 def test_operators_are_those_of_arcs(tempered):
-    complex = temper.dec(tempered)
+    complex = temper.dec_operators(tempered)
     whole = 4 * np.pi * EARTH**2
     for areas in (complex.star0, complex.areas):
         assert areas.sum() == pytest.approx(whole, rel=1e-12) and (areas > 0).all()
@@ -476,7 +476,7 @@ def test_an_ocean_is_meshed_well_centered():
     assert made.bad == 0 and set(made.line_tags) == {0, 4} and made.mesh.space == temper.Space.sphere(EARTH)
     places = temper.projection.lon_lat_of(made.mesh.weighted_vectors[made.vertex_of_point])
     assert np.allclose(places, [(170, -10), (-170, -12), (-175, -35), (0, 10), (10, 12), (15, 20)], rtol=0, atol=1e-9)
-    assert temper.dec(made.mesh).areas.sum() < 4 * np.pi * EARTH**2
+    assert temper.dec_operators(made.mesh).areas.sum() < 4 * np.pi * EARTH**2
     with pytest.raises(temper.TemperError, match="closed"):
         temper.mesh_sphere(8e5, coasts=river)
 

@@ -51,7 +51,7 @@ def flux_error(mesh, tensor, dual):
 
     points = np.asarray(mesh.points)
     size = np.ptp(points, axis=0).max() / 2
-    complex = temper.dec(mesh, tensor=dual)
+    complex = temper.dec_operators(mesh, tensor=dual)
     ends, sides = complex.edges.vertices, complex.edges.triangles
     along = points[ends[:, 1]] - points[ends[:, 0]]
     normal = np.column_stack([along[:, 1], -along[:, 0]])  # to the right, times the length
@@ -133,13 +133,13 @@ def test_a_run_in_the_metric_is_the_run_of_the_mapped_mesh():
 def test_operators_of_a_tensor_are_k_orthogonal_and_have_its_energy():
     tensor = (3.0, 1.1, 0.7)
     mesh = optimized(temper.generate.random_mesh(200), tensor)
-    c = temper.dec(mesh, tensor=tensor)
+    c = temper.dec_operators(mesh, tensor=tensor)
     points, edges = np.asarray(mesh.points), c.edges
     inner = ~edges.is_boundary
     along = (points[edges.vertices[:, 1]] - points[edges.vertices[:, 0]])[inner]
     dual = (c.orthocenters[edges.triangles[:, 0]] - c.orthocenters[edges.triangles[:, 1]])[inner]
     assert np.abs((along @ np.linalg.inv(matrix(tensor)) * dual).sum(axis=1)).max() < 1e-12
-    assert np.isclose(c.star0.sum(), temper.dec(mesh).areas.sum()) and np.allclose(c.areas, temper.dec(mesh).areas)
+    assert np.isclose(c.star0.sum(), temper.dec_operators(mesh).areas.sum()) and np.allclose(c.areas, temper.dec_operators(mesh).areas)
     assert np.isclose(c.power_cells().areas.sum(), c.areas.sum())
     slope = np.array([0.3, -0.8])
     u = points @ slope
@@ -148,10 +148,10 @@ def test_operators_of_a_tensor_are_k_orthogonal_and_have_its_energy():
     assert np.abs(residual[free]).max() < 1e-11, "linear functions are in the kernel"
     plain = mesh.copy()
     plain.weights = np.zeros(len(points))
-    energy = u @ (temper.dec(plain, tensor=tensor).laplacian() @ u)
+    energy = u @ (temper.dec_operators(plain, tensor=tensor).laplacian() @ u)
     assert np.isclose(energy, c.areas.sum() * slope @ matrix(tensor) @ slope), "u·Lu = ∫ ∇u·K∇u"
     with pytest.raises(temper.TemperError, match="sphere"):
-        temper.dec(temper.generate.random_sphere(vertices=50), tensor=tensor)
+        temper.dec_operators(temper.generate.random_sphere(vertices=50), tensor=tensor)
     for wrong in [(1, 2, 1), (-1, 0, 1), (1, 0, np.nan), (1, 0, 1e9)]:
         with pytest.raises(temper.TemperError, match="tensor: expected"):
             temper.mapped(mesh, wrong)

@@ -137,7 +137,7 @@ const std::map<std::string_view, AnswerArray>& dec_arrays() {
 }  // namespace
 
 TEMPER_EXPORT(dec_make) const DecComplex* dec_make(const HeldMesh* held) {
-  return guarded<const DecComplex*>(nullptr, [&] { return new DecComplex(dec(held->mesh)); });
+  return guarded<const DecComplex*>(nullptr, [&] { return new DecComplex(dec_operators(held->mesh)); });
 }
 TEMPER_EXPORT(dec_release) void dec_release(const DecComplex* complex) { delete complex; }
 /// The answer is the bytes of the array.

@@ -24,7 +24,7 @@
 
 namespace temper::app {
 
-// The reports of `temper dec` on the operators it wrote: as text, as JSON, and as warnings.
+// The reports of `temper operators` on the operators it wrote: as text, as JSON, and as warnings.
 
 struct DecRecord {
   std::string path;  ///< of the mesh

@@ -236,7 +236,7 @@ std::string verify_json(const VerifyRecord& record) {
 }
 
 std::string edge_errors_csv(const VerifyReport& report, const Input& input) {
-  const DecComplex complex = dec(input.mesh());
+  const DecComplex complex = dec_operators(input.mesh());
   const auto point = [&](VertexId v) { return input.points.empty() ? std::size_t{v.index} : input.points[v.index]; };
   std::string text = "from,to,star1,error\n";
   for (std::size_t e = 0; e < complex.edges.size(); ++e) {

@@ -36,7 +36,7 @@ std::span<const Verb> verbs() {
 #ifdef TEMPER_WITH_VERIFY
       {"verify", "measure the errors that solvers make on a mesh", run_verify},
 #endif
-      {"dec", "write the operators of a mesh, for solvers", run_dec},
+      {"operators", "write the operators of a mesh, for solvers", run_operators},
       {"draw", "draw triangles, dual and weights as SVG, PNG or PDF", run_draw},
       {"convert", "write a mesh in another file format", run_convert},
       {"example", "make an example mesh", run_example},

@@ -1,4 +1,4 @@
-// temper dec.
+// temper operators.
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -8,11 +8,12 @@ class Dec : public Workshop {};
 
 TEST_F(Dec, WritesTheFormatsAskedForAndSaysWhatItWrote) {
   make_input();
-  const auto all = temper_ok({"dec", "in.vtu", "-o", "all"});
+  const auto all = temper_ok({"operators", "in.vtu", "-o", "all"});
   EXPECT_TRUE(contains(all.out, "wrote all/operators.npz"));
   EXPECT_TRUE(contains(all.out, "wrote all/dual_edges.vtu"));
   EXPECT_TRUE(contains(all.err, "triangles are not well-centered"));
-  const auto json = nlohmann::json::parse(temper_ok({"dec", "in.vtu", "-o", "some", "--format", "vtu", "--json"}).out);
+  const auto json =
+      nlohmann::json::parse(temper_ok({"operators", "in.vtu", "-o", "some", "--format", "vtu", "--json"}).out);
   EXPECT_EQ(json.at("files"), nlohmann::json({"some/dual.vtu", "some/dual_edges.vtu"}));
   const auto check = nlohmann::json::parse(temper_ok({"check", "in.vtu", "--json"}).out);
   for (const char* key : {"vertices", "triangles", "edges", "boundary_edges"})
@@ -27,7 +28,7 @@ TEST_F(Dec, AWellCenteredMeshGivesNoWarning) {
   write("a.mesh",
         "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n1 0 0\n0.5 0.9 0\n1.5 0.8 0\n"
         "Triangles\n2\n1 2 3 0\n2 4 3 0\nEnd\n");
-  const auto outcome = temper_ok({"dec", "a.mesh", "-o", "out", "--format", "mtx"});
+  const auto outcome = temper_ok({"operators", "a.mesh", "-o", "out", "--format", "mtx"});
   EXPECT_EQ(outcome.err, "");
   EXPECT_EQ(read("out/d0.mtx"),
             "%%MatrixMarket matrix coordinate real general\n"
@@ -41,7 +42,7 @@ TEST_F(Dec, LayersMakeColumns) {
         "Triangles\n2\n1 2 3 0\n2 4 3 0\nEnd\n");
   write("l.csv", "vertex,top,bottom 1,bottom 2\n*,3,2,2\n4,3,2,1.5\n");
   const auto outcome =
-      temper_ok({"dec", "a.mesh", "-o", "out", "--layers", "l.csv", "--format", "disv,tough", "--json"});
+      temper_ok({"operators", "a.mesh", "-o", "out", "--layers", "l.csv", "--format", "disv,tough", "--json"});
   EXPECT_EQ(outcome.err, "");
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json.at("files"), nlohmann::json({"out/mesh.disv", "out/MESH"}));
@@ -51,17 +52,17 @@ TEST_F(Dec, LayersMakeColumns) {
   EXPECT_EQ(columns.at("horizontal_connections"), 5);
   EXPECT_EQ(columns.at("vertical_connections"), 1);
   EXPECT_NEAR(columns.at("volumes")[0].get<double>(), json.at("area").get<double>(), 1e-12);
-  EXPECT_TRUE(contains(temper_ok({"dec", "a.mesh", "-o", "out", "--layers", "l.csv", "--pinch-out", "0.5"}).out,
+  EXPECT_TRUE(contains(temper_ok({"operators", "a.mesh", "-o", "out", "--layers", "l.csv", "--pinch-out", "0.5"}).out,
                        "  pinched out                                    4"));
-  EXPECT_TRUE(
-      contains(temper_ok({"dec", "a.mesh", "-o", "out", "--pinch-out", "0.5"}).err, "no effect without --layers"));
+  EXPECT_TRUE(contains(temper_ok({"operators", "a.mesh", "-o", "out", "--pinch-out", "0.5"}).err,
+                       "no effect without --layers"));
   write("bad.csv", "vertex,top,bottom 1\n*,3,2\n7,3,2\n");
-  const auto bad = temper({"dec", "a.mesh", "-o", "new", "--layers", "bad.csv"});
+  const auto bad = temper({"operators", "a.mesh", "-o", "new", "--layers", "bad.csv"});
   EXPECT_EQ(bad.exit, 1);
   EXPECT_TRUE(contains(bad.err, "bad.csv:3: a.mesh has no vertex 7 in a triangle")) << bad.err;
   EXPECT_FALSE(std::filesystem::exists("new"));
   shell("mkdir here && cp l.csv here/MESH");
-  EXPECT_EQ(temper({"dec", "a.mesh", "-o", "here", "--layers", "here/MESH", "--format", "tough"}).exit, 2);
+  EXPECT_EQ(temper({"operators", "a.mesh", "-o", "here", "--layers", "here/MESH", "--format", "tough"}).exit, 2);
 }
 
 TEST_F(Dec, BadInputWritesNothing) {
@@ -76,19 +77,19 @@ TEST_F(Dec, BadInputWritesNothing) {
     EXPECT_EQ(outcome.out, "");
     EXPECT_EQ(names(), before);
   };
-  expect_failure({"dec", "bad.mesh", "-o", "out"}, 1, "bad.mesh:8: ");
-  expect_failure({"dec", "in.vtu", "-o", "file"}, 1, "file: is no folder; expected the name of one, or of none");
-  expect_failure({"dec", "in.vtu", "-o", "no/such"}, 1, "no/such: cannot be made: No such file or directory");
-  expect_failure({"dec", "in.vtu"}, 2, "--output");
-  expect_failure({"dec", "in.vtu", "-o", "out", "--format", "npz,vtk"}, 2,
+  expect_failure({"operators", "bad.mesh", "-o", "out"}, 1, "bad.mesh:8: ");
+  expect_failure({"operators", "in.vtu", "-o", "file"}, 1, "file: is no folder; expected the name of one, or of none");
+  expect_failure({"operators", "in.vtu", "-o", "no/such"}, 1, "no/such: cannot be made: No such file or directory");
+  expect_failure({"operators", "in.vtu"}, 2, "--output");
+  expect_failure({"operators", "in.vtu", "-o", "out", "--format", "npz,vtk"}, 2,
                  "'vtk' is none of npz, mtx, vtu, disv, disu, tough");
-  expect_failure({"dec", "in.vtu", "-o", "out", "--format", "npz,"}, 2,
+  expect_failure({"operators", "in.vtu", "-o", "out", "--format", "npz,"}, 2,
                  "'' is none of npz, mtx, vtu, disv, disu, tough");
-  expect_failure({"dec", "in.vtu", "-o", "out", "--format", "disv"}, 2, "disv, disu and tough need --layers");
-  expect_failure({"dec", "in.vtu", "-o", "out", "--layers", "no.csv"}, 1, "no.csv: ");
-  expect_failure({"dec", "in.vtu", "-o", "out", "--layers", "file"}, 1, "file: the file is empty");
+  expect_failure({"operators", "in.vtu", "-o", "out", "--format", "disv"}, 2, "disv, disu and tough need --layers");
+  expect_failure({"operators", "in.vtu", "-o", "out", "--layers", "no.csv"}, 1, "no.csv: ");
+  expect_failure({"operators", "in.vtu", "-o", "out", "--layers", "file"}, 1, "file: the file is empty");
   shell("cp in.vtu dual.vtu");
-  EXPECT_EQ(temper({"dec", "dual.vtu", "-o", "."}).exit, 2) << "it would be replaced";
+  EXPECT_EQ(temper({"operators", "dual.vtu", "-o", "."}).exit, 2) << "it would be replaced";
   EXPECT_EQ(read("dual.vtu"), read("in.vtu"));
 }
 

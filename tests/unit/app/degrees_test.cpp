@@ -33,7 +33,7 @@ TEST_F(Degrees, AreRefusedWithTheCureWhereAPlaneIsNeeded) {
                                              {"weights", "fort.14", "-o", "out.14"},
                                              {"explain", "fort.14"},
                                              {"verify", "fort.14"},
-                                             {"dec", "fort.14", "-o", "out"}}) {
+                                             {"operators", "fort.14", "-o", "out"}}) {
     const Outcome outcome = temper(arguments);
     EXPECT_EQ(outcome.exit, 2) << arguments[0];
     EXPECT_TRUE(contains(outcome.err, "fort.14: the points look like longitude and latitude"));

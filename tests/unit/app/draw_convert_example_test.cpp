@@ -171,7 +171,7 @@ TEST_F(Example, PeriodicPlanesGoThroughTheVerbsThatTakeThem) {
   temper_ok({"optimize", "in.vtu", "-o", "traced.vtu", "--trace", "t.jsonl", "--quiet"});
   temper_ok({"replay", "in.vtu", "t.jsonl", "-o", "again.vtu"});
   EXPECT_EQ(read("again.vtu"), read("traced.vtu"));
-  temper_ok({"dec", "out.vtu", "-o", "dec"});
+  temper_ok({"operators", "out.vtu", "-o", "operators"});
   temper_ok({"convert", "out.vtu", "-o", "out.mpas.nc"});
   EXPECT_EQ(temper({"check", "out.mpas.nc", "--require", "well_centered_fraction=1,boundary_edges=0"}).exit, 0);
   const Outcome off = temper({"convert", "out.vtu", "-o", "out.off"});

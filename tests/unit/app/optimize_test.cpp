@@ -97,7 +97,7 @@ TEST_F(Optimize, InTheMetricOfATensorAndNowhereElse) {
   EXPECT_FALSE(contains(read("out.vtu"), "min_h_over_l")) << "numbers of the plane";
   temper_ok(with({"optimize", "in.vtu", "-o", "again.vtu", "--quiet", "--save-every", "0"}));
   EXPECT_EQ(read("again.vtu"), read("out.vtu"));
-  const auto fluxes = nlohmann::json::parse(temper_ok(with({"dec", "out.vtu", "-o", "dec", "--json"})).out);
+  const auto fluxes = nlohmann::json::parse(temper_ok(with({"operators", "out.vtu", "-o", "operators", "--json"})).out);
   EXPECT_GT(fluxes.at("min_star1").get<double>(), 0);
   EXPECT_EQ(temper(with({"optimize", "in.vtu", "-o", "b.vtu", "--trace", "t.jsonl"})).exit, 2);
   EXPECT_EQ(temper(with({"check", "in.vtu", "--html", "t.html"})).exit, 2);

@@ -10,7 +10,7 @@
 namespace temper::test {
 namespace {
 
-const std::vector<std::string> kVerbs = {"optimize", "weights", "check",   "verify", "dec",
+const std::vector<std::string> kVerbs = {"optimize", "weights", "check",   "verify", "operators",
                                          "draw",     "convert", "example", "replay", "reproduce"};
 
 class Usage : public Workshop {};

@@ -21,7 +21,7 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Expected<Columns> columns_of(const Mesh& mesh, const Layers& layers, const ColumnOptions& options = {}) {
-  const DecComplex complex = dec(mesh);
+  const DecComplex complex = dec_operators(mesh);
   return columns(mesh, complex, power_cells(mesh, complex), layers, options);
 }
 

@@ -16,7 +16,7 @@ using test::one_triangle;
 TEST(DecFacts, AnObtuseTriangleHasItsOrthocenterOutsideAndANegativeStarThere) {
   // Circumcenter (2, −3/2), 3/2 below the long edge 0-1.
   const Mesh mesh = one_triangle({0, 0}, {4, 0}, {2, 1});
-  const DecComplex c = dec(mesh);
+  const DecComplex c = dec_operators(mesh);
   ASSERT_EQ(c.edges.size(), 3u);
   EXPECT_EQ(c.star1[EdgeId(0)], -0.375);
   EXPECT_EQ(c.edges[EdgeId(0)].left_height, -1.5);
@@ -43,7 +43,7 @@ TEST(DecFacts, AnObtuseTriangleHasItsOrthocenterOutsideAndANegativeStarThere) {
 
 TEST(DecFacts, AWeightMovesTheMidpointTowardsTheOther) {
   const Mesh mesh = one_triangle({0, 0}, {2, 0}, {1, 3}, {1, 0, 0});
-  const DecComplex c = dec(mesh);
+  const DecComplex c = dec_operators(mesh);
   EXPECT_EQ(c.edges[EdgeId(0)].crossing, 1.25) << "ℓ/2 + (w_0 − w_1)/(2ℓ)";
   EXPECT_EQ(c.edges[EdgeId(0)].midpoint, (Vec2{1.25, 0}));
 }
@@ -55,7 +55,7 @@ TEST(DecFacts, CocircularPointsHaveADualEdgeOfLengthZeroExactly) {
                                           std::vector<Vec2>{{1e6, 0}, {1e6 + 0.5, 0}, {1e6 + 0.5, 3}, {1e6, 3}},
                                           std::vector<Vec2>{{a, a}, {b, a}, {b, b}, {a, b}}}) {
     const Mesh mesh = mesh_of(square, {{0, 1, 2}, {0, 2, 3}});
-    const DecComplex c = dec(mesh);
+    const DecComplex c = dec_operators(mesh);
     const EdgeId diagonal = c.edge_of_halfedge[mesh.find_halfedge(VertexId(0), VertexId(2))];
     EXPECT_EQ(c.star1[diagonal], 0);
     EXPECT_FALSE(std::signbit(c.star1[diagonal]));
@@ -69,14 +69,14 @@ TEST(DecFacts, CocircularPointsHaveADualEdgeOfLengthZeroExactly) {
 }
 
 TEST(DecFacts, ARightAngleOnTheBoundaryHasAZeroThere) {
-  const DecComplex c = dec(one_triangle({0, 0}, {3, 0}, {0, 1}));
+  const DecComplex c = dec_operators(one_triangle({0, 0}, {3, 0}, {0, 1}));
   EXPECT_EQ(c.star1[EdgeId(2)], 0) << "the hypotenuse 1-2";
   EXPECT_EQ(c.star1[EdgeId(0)], 1.0 / 6);
 }
 
 TEST(DecFacts, AMeshOfNothingHasOperatorsOfNothing) {
   const Mesh mesh;
-  const DecComplex c = dec(mesh);
+  const DecComplex c = dec_operators(mesh);
   EXPECT_EQ(c.d0.n_rows(), 0u);
   EXPECT_EQ(c.d1.n_rows(), 0u);
   EXPECT_EQ(summarize(mesh, c).max_star1, 0);

@@ -71,7 +71,7 @@ void expect_close(const IdVector<Id, double>& a, const IdVector<Id, double>& b) 
 
 TEST(DecLaws, TheRoughMeshHasEverySign) {
   const Mesh mesh = rough();
-  const DecSummary s = summarize(mesh, dec(mesh));
+  const DecSummary s = summarize(mesh, dec_operators(mesh));
   EXPECT_GT(s.negative_star0, 0u);
   EXPECT_GT(s.negative_star1, 0u);
   EXPECT_GT(s.negative_boundary_star1, 0u);
@@ -81,7 +81,7 @@ TEST(DecLaws, TheRoughMeshHasEverySign) {
 
 TEST(DecLaws, TheBoundaryOfABoundaryIsNothing) {
   const Mesh mesh = rough();
-  const DecComplex c = dec(mesh);
+  const DecComplex c = dec_operators(mesh);
   ASSERT_EQ(c.d0.n_rows(), mesh.n_edges());
   ASSERT_EQ(c.d0.n_columns, mesh.n_vertices());
   ASSERT_EQ(c.d1.n_rows(), mesh.n_triangles());
@@ -102,7 +102,7 @@ TEST(DecLaws, TheBoundaryOfABoundaryIsNothing) {
 
 TEST(DecLaws, EdgesAreOrientedUpwardsAndSortedAndKnowTheirTriangles) {
   const Mesh mesh = rough();
-  const DecComplex c = dec(mesh);
+  const DecComplex c = dec_operators(mesh);
   for (std::size_t i = 0; i < c.edges.size(); ++i) {
     const DecEdge& e = c.edges[EdgeId(i)];
     EXPECT_LT(e.from, e.to);
@@ -131,7 +131,7 @@ TEST(DecLaws, EdgesAreOrientedUpwardsAndSortedAndKnowTheirTriangles) {
 TEST(DecLaws, WithoutWeightsStarOneIsTheCotangentFormula) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Mesh mesh = delaunay(400, seed);
-    const DecComplex c = dec(mesh);
+    const DecComplex c = dec_operators(mesh);
     IdVector<EdgeId, double> cotangents(c.edges.size(), 0.0), size(c.edges.size(), 1.0);
     for (const HalfedgeId h : mesh.halfedges()) {
       const Vec2 p = mesh.position(mesh.opposite(h));
@@ -150,7 +150,7 @@ TEST(DecLaws, WithoutWeightsStarOneIsTheCotangentFormula) {
 TEST(DecLaws, StarZeroSumsToTheAreaOfTheDomainWhateverTheWeights) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Mesh mesh = rough(seed);
-    const DecComplex c = dec(mesh);
+    const DecComplex c = dec_operators(mesh);
     const double area = test::area(mesh);
     EXPECT_NEAR(std::accumulate(c.star0.begin(), c.star0.end(), 0.0), area, kRelative * area);
     EXPECT_NEAR(summarize(mesh, c).area, area, kRelative * area);
@@ -159,7 +159,7 @@ TEST(DecLaws, StarZeroSumsToTheAreaOfTheDomainWhateverTheWeights) {
 
 TEST(DecLaws, LinearFunctionsAreHarmonicWhateverTheWeights) {
   const Mesh mesh = rough();
-  const DecComplex c = dec(mesh);
+  const DecComplex c = dec_operators(mesh);
   const auto u = [&](VertexId v) { return 3 * mesh.position(v).x - 2 * mesh.position(v).y + 5; };
   IdVector<VertexId, double> laplacian(mesh.n_vertices(), 0.0), size(mesh.n_vertices(), 0.0);
   for (std::size_t i = 0; i < c.edges.size(); ++i) {
@@ -179,7 +179,7 @@ TEST(DecLaws, LinearFunctionsAreHarmonicWhateverTheWeights) {
 
 TEST(DecLaws, DualVerticesHaveEqualPowerAndDualEdgesAreWhatLiesBetweenThem) {
   const Mesh mesh = rough();
-  const DecComplex c = dec(mesh);
+  const DecComplex c = dec_operators(mesh);
   const auto power = [&](Vec2 x, VertexId v) { return squared_length(x - mesh.position(v)) - mesh.weight(v); };
   for (const TriangleId t : mesh.triangles()) {
     const auto [i, j, k] = mesh.corners(t);
@@ -216,7 +216,7 @@ TEST(DecLaws, SignsAreThoseOfTheExactPredicates) {
       for (const VertexId v : mesh.vertices()) mesh.set_weight(v, 0.125 * rng.below(3));
     }
     if (round % 2 == 0) restore_regularity(mesh);
-    const DecComplex c = dec(mesh);
+    const DecComplex c = dec_operators(mesh);
     for (const HalfedgeId h : mesh.halfedges()) {
       const double star1 = c.star1[c.edge_of_halfedge[h]];
       const WeightedPoint p = mesh.point(mesh.origin(h)), q = mesh.point(mesh.target(h));
@@ -237,8 +237,8 @@ TEST(DecLaws, SignsAreThoseOfTheExactPredicates) {
 
 TEST(DecLaws, AConstantAddedToAllWeightsChangesNothing) {
   const Mesh mesh = dyadic(rough());
-  const DecComplex a = dec(mesh);
-  const DecComplex b = dec(changed(mesh, [](WeightedPoint p) { return WeightedPoint{p.x, p.y, p.w + 4}; }));
+  const DecComplex a = dec_operators(mesh);
+  const DecComplex b = dec_operators(changed(mesh, [](WeightedPoint p) { return WeightedPoint{p.x, p.y, p.w + 4}; }));
   expect_scaled(a.star0, b.star0, 1);
   expect_scaled(a.star1, b.star1, 1);
   expect_scaled(a.star2, b.star2, 1);
@@ -249,8 +249,8 @@ TEST(DecLaws, AConstantAddedToAllWeightsChangesNothing) {
 TEST(DecLaws, ALinearFunctionAddedToAllWeightsShiftsTheDualAndKeepsInnerDualEdges) {
   const Mesh mesh = dyadic(rough());
   const Vec2 slope = {0.25, -0.125};
-  const DecComplex a = dec(mesh);
-  const DecComplex b = dec(changed(mesh, [&](WeightedPoint p) {
+  const DecComplex a = dec_operators(mesh);
+  const DecComplex b = dec_operators(changed(mesh, [&](WeightedPoint p) {
     return WeightedPoint{p.x, p.y, p.w + dot(slope, p.position())};
   }));
   const double scale = largest(a.star1);
@@ -275,8 +275,10 @@ TEST(DecLaws, ALinearFunctionAddedToAllWeightsShiftsTheDualAndKeepsInnerDualEdge
 
 TEST(DecLaws, UnitsOfLengthScaleStars) {
   const Mesh mesh = rough();
-  const DecComplex a = dec(mesh);
-  const DecComplex b = dec(changed(mesh, [](WeightedPoint p) { return WeightedPoint{8 * p.x, 8 * p.y, 64 * p.w}; }));
+  const DecComplex a = dec_operators(mesh);
+  const DecComplex b = dec_operators(changed(mesh, [](WeightedPoint p) {
+    return WeightedPoint{8 * p.x, 8 * p.y, 64 * p.w};
+  }));
   expect_scaled(a.star0, b.star0, 64);
   expect_scaled(a.star1, b.star1, 1);
   expect_scaled(a.star2, b.star2, 1.0 / 64);
@@ -285,8 +287,10 @@ TEST(DecLaws, UnitsOfLengthScaleStars) {
 
 TEST(DecLaws, TurningAndShiftingTheDomainKeepsStars) {
   const Mesh mesh = dyadic(rough());
-  const DecComplex a = dec(mesh);
-  const DecComplex b = dec(changed(mesh, [](WeightedPoint p) { return WeightedPoint{16 - p.y, p.x + 4, p.w}; }));
+  const DecComplex a = dec_operators(mesh);
+  const DecComplex b = dec_operators(changed(mesh, [](WeightedPoint p) {
+    return WeightedPoint{16 - p.y, p.x + 4, p.w};
+  }));
   expect_close(a.star0, b.star0);
   expect_close(a.star1, b.star1);
   expect_close(a.star2, b.star2);
@@ -313,7 +317,7 @@ TEST(DecLaws, AnotherOrderOfVerticesAndTrianglesPermutesStars) {
   }
   const auto built = Mesh::build({.points = points, .weights = weights, .triangles = triangles});
   ASSERT_TRUE(built);
-  const DecComplex a = dec(mesh), b = dec(built->mesh);
+  const DecComplex a = dec_operators(mesh), b = dec_operators(built->mesh);
   std::map<std::pair<std::size_t, std::size_t>, double> star1;
   for (std::size_t i = 0; i < b.edges.size(); ++i) {
     star1[{b.edges[EdgeId(i)].from.index, b.edges[EdgeId(i)].to.index}] = b.star1[EdgeId(i)];

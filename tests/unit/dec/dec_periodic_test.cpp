@@ -30,7 +30,7 @@ double total_of(const Values& values) {
 TEST(DecPeriodic, CellsAndTrianglesCoverTheDomain) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     const Mesh mesh = rough_torus(seed);
-    const DecComplex c = dec(mesh);
+    const DecComplex c = dec_operators(mesh);
     EXPECT_GT(summarize(mesh, c).negative_star1, 0U);
     EXPECT_EQ(mesh.n_vertices() + mesh.n_triangles(), c.edges.size());  // Euler's number is 0
     EXPECT_NEAR(total_of(c.areas), 1.5, 1e-12);
@@ -41,7 +41,7 @@ TEST(DecPeriodic, CellsAndTrianglesCoverTheDomain) {
 
 TEST(DecPeriodic, CellsOfAWellCenteredMeshAreStar0) {
   const Mesh mesh = *periodic_hexagons({.nx = 7, .ny = 6, .distance = 2});
-  const DecComplex c = dec(mesh);
+  const DecComplex c = dec_operators(mesh);
   const PowerCells cells = power_cells(mesh, c);
   EXPECT_EQ(cells.faces.size(), c.edges.size());
   for (const VertexId v : mesh.vertices()) {
@@ -54,7 +54,7 @@ TEST(DecPeriodic, CellsOfAWellCenteredMeshAreStar0) {
 // Rows of the Laplacian of hexagons are those of the six neighbours: Fourier modes are its eigenfunctions exactly.
 TEST(DecPeriodic, FourierModesAreEigenfunctionsOfHexagons) {
   const Mesh mesh = *periodic_hexagons({.nx = 12, .ny = 10});
-  const DecComplex c = dec(mesh);
+  const DecComplex c = dec_operators(mesh);
   const Vec2 period = mesh.space().period();
   for (const Vec2 waves : {Vec2{1, 0}, Vec2{0, 1}, Vec2{2, -1}, Vec2{3, 2}}) {
     const Vec2 k = {2 * std::numbers::pi * waves.x / period.x, 2 * std::numbers::pi * waves.y / period.y};
@@ -82,7 +82,7 @@ TEST(DecPeriodic, TranslationsChangeNothing) {
     const WeightedPoint p = mesh.point(v);
     moved.set_point(v, mesh.space().in_domain({p.x + 0.375, p.y + 1.25, p.w}));
   }
-  const DecComplex a = dec(mesh), b = dec(moved);
+  const DecComplex a = dec_operators(mesh), b = dec_operators(moved);
   for (std::size_t i = 0; i < a.edges.size(); ++i) EXPECT_EQ(a.star1[EdgeId(i)], b.star1[EdgeId(i)]);
   for (const VertexId v : mesh.vertices()) EXPECT_EQ(a.star0[v], b.star0[v]);
 }

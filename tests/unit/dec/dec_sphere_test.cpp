@@ -46,7 +46,7 @@ void expect_close(const IdVector<Id, double>& a, const IdVector<Id, double>& b, 
 
 TEST(DecSphere, TheRoughGlobeHasEverySign) {
   const Mesh mesh = coasts();
-  const DecSummary s = summarize(mesh, dec(mesh));
+  const DecSummary s = summarize(mesh, dec_operators(mesh));
   EXPECT_GT(s.negative_star0, 0u);
   EXPECT_GT(s.negative_star1, 0u);
   EXPECT_GT(s.negative_boundary_star1, 0u);
@@ -58,7 +58,7 @@ TEST(DecSphere, CellsAndTrianglesOfAClosedMeshCoverTheSphere) {
   for (const double radius : {1.0, 6371220.0}) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       const Mesh mesh = rough_sphere(seed, radius);
-      const DecComplex c = dec(mesh);
+      const DecComplex c = dec_operators(mesh);
       const double whole = 4 * std::numbers::pi * radius * radius;
       EXPECT_NEAR(sum(c.star0), whole, kOnSphere * whole);
       EXPECT_NEAR(sum(c.areas), whole, kOnSphere * whole);
@@ -68,14 +68,14 @@ TEST(DecSphere, CellsAndTrianglesOfAClosedMeshCoverTheSphere) {
 
 TEST(DecSphere, CellsCoverADomainWithCoastsWhateverTheWeights) {
   const Mesh mesh = coasts();
-  const DecComplex c = dec(mesh);
+  const DecComplex c = dec_operators(mesh);
   EXPECT_GT(summarize(mesh, c).boundary_edges, 10u);
   EXPECT_NEAR(sum(c.star0), sum(c.areas), kOnSphere * sum(c.areas));
 }
 
 TEST(DecSphere, TheBoundaryOfABoundaryIsNothing) {
   const Mesh mesh = rough_sphere();
-  const DecComplex c = dec(mesh);
+  const DecComplex c = dec_operators(mesh);
   ASSERT_EQ(c.d0.n_rows(), mesh.n_edges());
   ASSERT_EQ(c.d1.n_rows(), mesh.n_triangles());
   for (std::size_t t = 0; t < c.d1.n_rows(); ++t) {
@@ -93,7 +93,7 @@ TEST(DecSphere, TheBoundaryOfABoundaryIsNothing) {
 TEST(DecSphere, DualVerticesHaveEqualPowerAndDualArcsAreWhatLiesBetweenThem) {
   const double radius = 3;
   const Mesh mesh = rough_sphere(1, radius);
-  const DecComplex c = dec(mesh);
+  const DecComplex c = dec_operators(mesh);
   ASSERT_EQ(c.sphere_orthocenters.size(), mesh.n_triangles());
   ASSERT_EQ(c.sphere_midpoints.size(), c.edges.size());
   EXPECT_TRUE(c.orthocenters.empty());
@@ -126,7 +126,7 @@ TEST(DecSphere, SignsAreThoseOfTheExactPredicates) {
   std::size_t zeros = 0, negative = 0;
   const auto icosahedron = icosahedral({.level = 3});
   for (const Mesh& mesh : {*icosahedron, rough_sphere(1), rough_sphere(2), coasts()}) {
-    const DecComplex c = dec(mesh);
+    const DecComplex c = dec_operators(mesh);
     for (const HalfedgeId h : mesh.halfedges()) {
       const double star1 = c.star1[c.edge_of_halfedge[h]];
       const Vec3 p = mesh.weighted_vector(mesh.origin(h)), q = mesh.weighted_vector(mesh.target(h));
@@ -150,7 +150,7 @@ TEST(DecSphere, CocircularPointsHaveADualEdgeOfNoLength) {
   for (int i = 0; i < 8; ++i) points.push_back({i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0});
   const auto mesh = spherical_delaunay(points, std::sqrt(3.0));
   ASSERT_TRUE(mesh) << mesh.error().what();
-  const DecSummary s = summarize(*mesh, dec(*mesh));
+  const DecSummary s = summarize(*mesh, dec_operators(*mesh));
   EXPECT_EQ(s.edges, 18u);
   EXPECT_EQ(s.zero_star1, 6u);
   EXPECT_EQ(s.negative_star1, 0u);
@@ -173,7 +173,7 @@ std::vector<double> minus_laplacian(const Mesh& mesh, const DecComplex& c, const
 
 TEST(DecSphere, ConstantsAreHarmonic) {
   const Mesh mesh = rough_sphere();
-  for (const double value : minus_laplacian(mesh, dec(mesh), [](Vec3) { return 7.0; })) EXPECT_EQ(value, 0);
+  for (const double value : minus_laplacian(mesh, dec_operators(mesh), [](Vec3) { return 7.0; })) EXPECT_EQ(value, 0);
 }
 
 /// Spherical harmonics of the degrees 1, 2 and 3 about a generic axis, as functions of the direction.
@@ -185,7 +185,7 @@ double harmonic(int degree, Vec3 p) {
 
 /// The error of the Laplacian of a harmonic, in L² of cells, relative.
 double eigenvalue_error(const Mesh& mesh, int degree) {
-  const DecComplex c = dec(mesh);
+  const DecComplex c = dec_operators(mesh);
   const double radius = mesh.space().radius(), eigenvalue = degree * (degree + 1) / (radius * radius);
   const auto found = minus_laplacian(mesh, c, [&](Vec3 p) { return harmonic(degree, p); });
   double error = 0, size = 0;
@@ -227,7 +227,7 @@ TEST(DecSphere, TurningTheSphereKeepsStars) {
     turned.set_point(v, as_point(p.x * a + p.y * b + p.z * c));
   }
   ASSERT_FALSE(turned.validate());
-  const DecComplex before = dec(mesh), after = dec(turned);
+  const DecComplex before = dec_operators(mesh), after = dec_operators(turned);
   expect_close(before.star0, after.star0, 1, 1e-10);
   expect_close(before.star1, after.star1, 1, 1e-10);
   expect_close(before.star2, after.star2, 1, 1e-10);
@@ -238,7 +238,7 @@ TEST(DecSphere, UnitsOfLengthScaleStars) {
   Mesh scaled = mesh;
   scaled.set_space(mesh.space().in_units_of(1.0 / 8));
   for (const VertexId v : mesh.vertices()) scaled.set_point(v, as_point(8.0 * mesh.weighted_vector(v)));
-  const DecComplex a = dec(mesh), b = dec(scaled);
+  const DecComplex a = dec_operators(mesh), b = dec_operators(scaled);
   expect_close(a.star0, b.star0, 64, 0);
   expect_close(a.star1, b.star1, 1, 0);
   expect_close(a.star2, b.star2, 1.0 / 64, 0);
@@ -249,7 +249,7 @@ TEST(DecSphere, AllPointsScaledChangeNothing) {
   const Mesh mesh = coasts();
   Mesh scaled = mesh;
   for (const VertexId v : mesh.vertices()) scaled.set_point(v, as_point(2.0 * mesh.weighted_vector(v)));
-  const DecComplex a = dec(mesh), b = dec(scaled);
+  const DecComplex a = dec_operators(mesh), b = dec_operators(scaled);
   expect_close(a.star0, b.star0, 1, 0);
   expect_close(a.star1, b.star1, 1, 0);
   expect_close(a.star2, b.star2, 1, 0);
@@ -277,7 +277,7 @@ double distance_to_plane(double radius) {
   const auto sphere = Mesh::build(
       {.weights = weights, .triangles = triangles, .space = Space::sphere(radius), .sphere_points = points});
   EXPECT_TRUE(sphere) << sphere.error().what();
-  const DecComplex a = dec(plane), b = dec(sphere->mesh);
+  const DecComplex a = dec_operators(plane), b = dec_operators(sphere->mesh);
   double most = 0, size = 0;
   for (const VertexId v : plane.vertices()) {
     most = std::max(most, std::abs(a.star0[v] - b.star0[v]));
@@ -316,7 +316,7 @@ bool inside(const std::vector<Vec3>& corners, Vec3 x) {
 /// A place in each triangle is in one cell only; in that of the greatest x·P where the mesh is regular and closed.
 void expect_partition(const Mesh& mesh, const PowerCells& cells, bool of_power_diagram) {
   double whole = 0;
-  for (const double area : dec(mesh).areas) whole += area;
+  for (const double area : dec_operators(mesh).areas) whole += area;
   EXPECT_NEAR(sum(cells.areas), whole, 1e-11 * whole);
   EXPECT_NEAR(sum(cells.polygon_areas), whole, 1e-11 * whole);
   Rng rng(5);
@@ -338,22 +338,22 @@ void expect_partition(const Mesh& mesh, const PowerCells& cells, bool of_power_d
 
 TEST(DecSphere, PowerCellsCoverTheDomainOnceWhateverTheWeights) {
   Mesh regular = rough_sphere();
-  expect_partition(regular, power_cells(regular, dec(regular)), false);
+  expect_partition(regular, power_cells(regular, dec_operators(regular)), false);
   restore_regularity(regular);
-  ASSERT_GT(summarize(regular, dec(regular)).not_well_centered, 0u);
-  expect_partition(regular, power_cells(regular, dec(regular)), true);
+  ASSERT_GT(summarize(regular, dec_operators(regular)).not_well_centered, 0u);
+  expect_partition(regular, power_cells(regular, dec_operators(regular)), true);
   const Mesh coast = coasts();
-  expect_partition(coast, power_cells(coast, dec(coast)), false);
+  expect_partition(coast, power_cells(coast, dec_operators(coast)), false);
   // Five points, whose cells reach far around.
   const std::vector<Vec3> points = {{1, 0, 0.1}, {-0.5, 0.8, 0}, {-0.6, -0.7, 0.1}, {0, 0.1, 1}, {0.1, 0, -1}};
   const auto few = spherical_delaunay(points);
   ASSERT_TRUE(few) << few.error().what();
-  expect_partition(*few, power_cells(*few, dec(*few)), true);
+  expect_partition(*few, power_cells(*few, dec_operators(*few)), true);
 }
 
 TEST(DecSphere, PowerCellsOfAWellCenteredMeshAreItsDualCells) {
   const auto mesh = icosahedral({.level = 2, .radius = 5});
-  const DecComplex c = dec(*mesh);
+  const DecComplex c = dec_operators(*mesh);
   const PowerCells cells = power_cells(*mesh, c);
   EXPECT_EQ(cells.n_polygons(), mesh->n_vertices());
   expect_close(cells.areas, c.star0, 1, kOnSphere);

@@ -119,7 +119,7 @@ TEST(PowerCells, AreHalfPlaneClippingInRegularTriangulationsOfAConvexDomain) {
     for (const VertexId v : mesh.vertices()) mesh.set_weight(v, amplitude * rng.uniform(-1, 1));
     if (!restore_regularity(mesh).regular()) continue;
     ++compared;
-    const DecComplex c = dec(mesh);
+    const DecComplex c = dec_operators(mesh);
     const PowerCells cells = power_cells(mesh, c);
     expect_partition(mesh, cells);
     for (const VertexId v : mesh.vertices()) {
@@ -151,7 +151,7 @@ TEST(PowerCells, OfCocircularPointsOnALatticeAreHalfPlaneClippingToo) {
   for (int round = 0; round < 15; ++round) {
     Mesh mesh = test::mesh_of_random_points(rng, 30, 6);
     ASSERT_TRUE(restore_regularity(mesh).regular());
-    const PowerCells cells = power_cells(mesh, dec(mesh));
+    const PowerCells cells = power_cells(mesh, dec_operators(mesh));
     expect_partition(mesh, cells);
     for (const VertexId v : mesh.vertices()) EXPECT_NEAR(cells.areas[v], area(clipped_square(mesh, v)), kAbsolute);
   }
@@ -171,7 +171,7 @@ TEST(PowerCells, ShareFacesThatTogetherWithTheBoundaryAreAllTheirSides) {
     for (const VertexId v : mesh.vertices()) mesh.set_weight(v, round % 3 * 0.5 / (5 + round) * rng.uniform(-1, 1));
     if (!restore_regularity(mesh).regular()) continue;
     ++compared;
-    const PowerCells cells = power_cells(mesh, dec(mesh));
+    const PowerCells cells = power_cells(mesh, dec_operators(mesh));
     double sides = 0, faces = 0, boundary = 8;
     for (std::size_t p = 0; p < cells.n_polygons(); ++p) sides += perimeter(polygon(cells, p));
     IdVector<VertexId, Vec2> outward(mesh.n_vertices());
@@ -239,7 +239,7 @@ Mesh holed_lattice() {
 
 TEST(PowerCells, OfAWellCenteredMeshAreItsDualCells) {
   const Mesh mesh = holed_lattice();
-  const DecComplex c = dec(mesh);
+  const DecComplex c = dec_operators(mesh);
   ASSERT_EQ(summarize(mesh, c).not_well_centered, 0u);
   const PowerCells cells = power_cells(mesh, c);
   expect_partition(mesh, cells);
@@ -269,7 +269,7 @@ Mesh cracked_disk() {
 
 TEST(PowerCells, DoNotReachThroughACrack) {
   const Mesh mesh = cracked_disk();
-  const DecComplex c = dec(mesh);
+  const DecComplex c = dec_operators(mesh);
   ASSERT_EQ(summarize(mesh, c).not_well_centered, 0u);
   const PowerCells cells = power_cells(mesh, c);
   expect_partition(mesh, cells);
@@ -280,8 +280,8 @@ TEST(PowerCells, DoNotReachThroughACrack) {
 
   Mesh weighted = mesh;  // no triangle plain any more: the same by division
   weighted.set_weight(VertexId(4), 0.5);
-  ASSERT_GT(summarize(weighted, dec(weighted)).not_well_centered, 0u);
-  const PowerCells divided = power_cells(weighted, dec(weighted));
+  ASSERT_GT(summarize(weighted, dec_operators(weighted)).not_well_centered, 0u);
+  const PowerCells divided = power_cells(weighted, dec_operators(weighted));
   expect_partition(weighted, divided);
   for (std::size_t p = 0; p < divided.n_polygons(); ++p) {
     EXPECT_EQ(inside(polygon(divided, p), {0.4, 0.02}), divided.vertices[p] == VertexId(0));
@@ -298,16 +298,16 @@ TEST(PowerCells, CoverAnyDomainOnceWhateverTheWeights) {
   meshes.push_back(*wedge({.pieces = 4}));
   for (std::uint64_t seed = 1; seed <= 4; ++seed) meshes.push_back(*random_mesh({.vertices = 60, .seed = seed}));
   for (const Mesh& mesh : meshes) {
-    expect_partition(mesh, power_cells(mesh, dec(mesh)));
+    expect_partition(mesh, power_cells(mesh, dec_operators(mesh)));
     for (const double amplitude : {0.1, 1.0}) {  // the second leaves many edges not regular
       Mesh weighted = mesh;
       for (const VertexId v : mesh.vertices()) {
         const double l2 = squared_length(mesh.position(mesh.target(mesh.outgoing(v))) - mesh.position(v));
         weighted.set_weight(v, amplitude * l2 * rng.uniform(-1, 1));
       }
-      expect_partition(weighted, power_cells(weighted, dec(weighted)));
+      expect_partition(weighted, power_cells(weighted, dec_operators(weighted)));
       restore_regularity(weighted);
-      expect_partition(weighted, power_cells(weighted, dec(weighted)));
+      expect_partition(weighted, power_cells(weighted, dec_operators(weighted)));
     }
   }
 }
@@ -320,7 +320,7 @@ TEST(PowerCells, ScaleWithTheDomainAndKeepTheirPlaceFarFromTheOrigin) {
     mesh.set_position(v, p);
     far.set_position(v, {4 * p.x + 0x1p20, 4 * p.y - 0x1p20});
   }
-  const PowerCells a = power_cells(mesh, dec(mesh)), b = power_cells(far, dec(far));
+  const PowerCells a = power_cells(mesh, dec_operators(mesh)), b = power_cells(far, dec_operators(far));
   ASSERT_EQ(a.vertices, b.vertices);
   for (const VertexId v : mesh.vertices()) EXPECT_NEAR(16 * a.areas[v], b.areas[v], kAbsolute);
 }

@@ -23,7 +23,7 @@ struct Operators {
     const std::vector<Vec2> points = {{0, 0}, {0.1, 0}, {0.1, 0.1}, {0, 0.1}};
     const std::vector<std::array<std::int32_t, 3>> triangles = {{0, 1, 2}, {0, 2, 3}};
     mesh = (*Mesh::build({.points = points, .triangles = triangles})).mesh;
-    complex = dec(mesh);
+    complex = dec_operators(mesh);
     cells = power_cells(mesh, complex);
   }
   [[nodiscard]] Expected<std::vector<std::string>> write(const std::string& folder,

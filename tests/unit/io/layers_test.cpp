@@ -27,7 +27,7 @@ class LayerFiles : public FileTest {
   [[nodiscard]] Expected<std::vector<std::string>> write(const Layers& layers,
                                                          const std::vector<DecFormat>& formats) const {
     const Mesh& mesh = loaded_->mesh;
-    const DecComplex complex = dec(mesh);
+    const DecComplex complex = dec_operators(mesh);
     const PowerCells cells = power_cells(mesh, complex);
     const auto made = columns(mesh, complex, cells, layers);
     if (!made) return made.error();
@@ -89,7 +89,7 @@ TEST_F(LayerFiles, ErrorsNameLineColumnAndVertex) {
 
 TEST_F(LayerFiles, FormatsOfColumnsWantColumnsAndWriteNothingWithout) {
   const Mesh& mesh = loaded_->mesh;
-  const DecComplex complex = dec(mesh);
+  const DecComplex complex = dec_operators(mesh);
   const auto written =
       write_dec(path("out"), mesh, complex, power_cells(mesh, complex), {.formats = {DecFormat::disv}});
   ASSERT_FALSE(written);
@@ -112,7 +112,7 @@ TEST_F(LayerFiles, AVertexWithoutACellHasNoneAndDisvNoPlaceForIt) {
   const std::vector<std::array<std::int32_t, 3>> triangles = {{0, 1, 2}};
   const std::vector<double> weights = {0, 1.2, 0.5};  // the cell of vertex 0 is outside of the triangle
   const Mesh mesh = Mesh::build({.points = points, .weights = weights, .triangles = triangles})->mesh;
-  const DecComplex complex = dec(mesh);
+  const DecComplex complex = dec_operators(mesh);
   const PowerCells cells = power_cells(mesh, complex);
   ASSERT_EQ(cells.areas[VertexId(0)], 0);
   const auto made = columns(mesh, complex, cells, {1, {1, 0, 1, 0, 1, 0}, {}});

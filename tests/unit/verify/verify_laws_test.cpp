@@ -105,7 +105,7 @@ struct Naive {
   const Mesh& mesh;
   const Field& field;
   FieldFrame frame = field_frame(mesh);
-  DecComplex complex = dec(mesh);
+  DecComplex complex = dec_operators(mesh);
 
   Vec2 in_frame(Vec2 p) const { return (1 / frame.half_size) * (p - frame.center); }
   static Vec2 at(Vec2 a, Vec2 b, double t) { return a + t * (b - a); }

@@ -49,7 +49,7 @@ TEST(VerifyRefine, KeepsTheDomainItsRegionsAndItsConstrainedEdges) {
 TEST(VerifyRefine, HalvesOfEdgesHaveHalfOfTheDualAndCornersAreSimilar) {
   const Mesh mesh = lattice({.n = 5, .jitter = 0.03, .weight = 0.04});  // acute: no flips
   const Mesh finer = *refined(mesh);
-  const DecComplex coarse = dec(mesh), fine = dec(finer);
+  const DecComplex coarse = dec_operators(mesh), fine = dec_operators(finer);
   const std::size_t n = mesh.n_vertices();
   for (std::size_t e = 0; e < coarse.edges.size(); ++e) {
     const DecEdge& edge = coarse.edges[EdgeId(e)];

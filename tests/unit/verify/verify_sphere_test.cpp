@@ -72,7 +72,7 @@ TEST(VerifySphere, TheRadiusAndOneScaleOfAllPointsChangeNothing) {
 TEST(VerifySphere, IntegralsAreFlows) {
   using namespace verify_detail;
   const auto mesh = icosahedral({.level = 1});
-  const DecComplex complex = dec(*mesh);
+  const DecComplex complex = dec_operators(*mesh);
   const Setting setting = {*mesh, complex, field_frame(*mesh), 0, nullptr, true};
   for (const Field& field : all_fields(SpaceKind::sphere)) {
     const auto means = edge_means(setting, field);

@@ -215,7 +215,7 @@ NetcdfMesh mesh_for_netcdf(const WriteJob& job, std::string_view format) {
   if (!weighted) result.file.weights.clear();
   for (const std::string& w : made->warnings) job.warnings.push_back(w);
   result.mesh = std::move(made->mesh);
-  result.complex = dec(result.mesh);
+  result.complex = dec_operators(result.mesh);
   return result;
 }
 

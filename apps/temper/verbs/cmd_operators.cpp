@@ -1,4 +1,4 @@
-// temper dec IN -o DIR: the operators of discrete exterior calculus and finite volumes, as files for solvers.
+// temper operators IN -o DIR: the operators of discrete exterior calculus and finite volumes, as files for solvers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -59,10 +59,10 @@ void add_options(Command& command, DecSettings& s) {
   add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
   command.group("Help");
   command.add_help({"IN -o DIR [options]",
-                    "  temper dec in.vtu -o operators\n"
-                    "  temper dec in.vtu -o operators --format npz --json\n"
+                    "  temper operators in.vtu -o operators\n"
+                    "  temper operators in.vtu -o operators --format npz --json\n"
                     "  temper optimize in.vtu -o out.vtu\n"
-                    "  temper dec out.vtu -o model --layers layers.csv --format disv,tough\n",
+                    "  temper operators out.vtu -o model --layers layers.csv --format disv,tough\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
@@ -74,7 +74,7 @@ std::vector<io::DecFormat> parse_formats(std::string_view list) {
     const auto known = std::find_if(std::begin(kDecFormats), std::end(kDecFormats),
                                     [&](const auto& choice) { return choice.name == name; });
     if (known == std::end(kDecFormats)) {
-      refuse_usage("dec", "--format: " + none_of(name, names));
+      refuse_usage("operators", "--format: " + none_of(name, names));
     }
     formats.push_back(known->value);
   }
@@ -84,7 +84,7 @@ std::vector<io::DecFormat> parse_formats(std::string_view list) {
 /// Formats of layers have these, and the other way around.
 void check_layers(const Command& command, const DecSettings& s, const std::vector<io::DecFormat>& formats) {
   const bool wanted = std::any_of(formats.begin(), formats.end(), io::needs_columns);
-  if (wanted && s.layers.empty()) refuse_usage("dec", "--format: disv, disu and tough need --layers");
+  if (wanted && s.layers.empty()) refuse_usage("operators", "--format: disv, disu and tough need --layers");
   if (s.layers.empty() && command.was_given("--pinch-out"))
     print_warnings(std::vector<std::string>{"--pinch-out has no effect without --layers"});
 }
@@ -123,8 +123,8 @@ std::optional<Columns> make_columns(const DecSettings& s, const Input& input, co
 
 }  // namespace
 
-Exit run_dec(const Arguments& arguments) {
-  Command command("dec",
+Exit run_operators(const Arguments& arguments) {
+  Command command("operators",
                   "Writes what a solver needs of a mesh: incidence d0 and d1, diagonal stars with signed power duals, "
                   "orthocenters, "
                   "weighted midpoints, transmissibilities, and power cells within the domain; with layers also the "
@@ -141,7 +141,7 @@ Exit run_dec(const Arguments& arguments) {
   Input input = read_input(s.input, {s.projection, {}, threads.get(), true});
   print_warnings(input.warnings());
   const std::optional<Mesh> plain = take_to_metric(input, s.metric);
-  DecComplex complex = dec(input.mesh());
+  DecComplex complex = dec_operators(input.mesh());
   PowerCells cells = power_cells(input.mesh(), complex);
   if (s.metric) {
     complex = mapped_back(std::move(complex), *s.metric);
