@@ -1,5 +1,5 @@
 // The tables of docs/accuracy.md: errors over those of the input, of E_BP alone and of the objectives after it, as
-// Markdown. The fields are the held-back ones of temper verify.
+// Markdown. The fields are the held-back ones of temper errors.
 //
 //     bench_accuracy_table FILE...                 one row a mesh and set of options, and their geometric means
 //     bench_accuracy_table --variants FILE...      the means alone, of other stars and weights
@@ -12,11 +12,11 @@
 #include <string_view>
 #include <vector>
 
+#include "temper/errors.hpp"
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 #include "temper/solvers.hpp"
-#include "temper/verify.hpp"
 
 namespace temper::bench {
 namespace {
@@ -49,14 +49,14 @@ void print(const std::string& name, const Row& row) {
 std::optional<Row> measured(const Mesh& input, const OptimizeOptions& options) {
   Mesh mesh = input;
   const auto report = optimize(mesh, options, {.solvers = solvers()});
-  VerifyOptions verifying;
+  MeasureErrorsOptions verifying;
   verifying.frame = field_frame(input);
   verifying.fields = {"held-back"};
-  const auto before = verify(input, verifying), after = verify(mesh, verifying);
+  const auto before = measure_errors(input, verifying), after = measure_errors(mesh, verifying);
   if (!report || !before || !after) return std::nullopt;
   const auto ratios = error_ratios(*after, *before);
   if (!ratios) return std::nullopt;
-  const VerifyErrors e = geometric_mean(*ratios);
+  const OperatorErrors e = geometric_mean(*ratios);
   const Quality q = quality(mesh);
   return Row{{e.star[0].l2, e.star[1].l2, e.star[1].max, e.star[2].l2, e.poisson.l2, e.poisson.max, e.flux.l2},
              q.min_h_over_l,

@@ -3,7 +3,7 @@
 
     bench/weights_table.py TEMPER MESH ...
 
-Each mesh is optimised with each set of unknowns; errors are those of temper verify on the held-back fields over those
+Each mesh is optimised with each set of unknowns; errors are those of temper errors on the held-back fields over those
 of the input, and each row gives geometric means over the meshes. Also counted: triangles that stay not well-centered,
 and meshes where the scheme's matrix is an M-matrix in the end.
 """
@@ -36,7 +36,7 @@ def run(*words):
 
 
 def measured(temper, mesh, before):
-    report = json.loads(run(temper, "verify", mesh, "--against", before, "--fields", "held-back", "--json"))
+    report = json.loads(run(temper, "errors", mesh, "--against", before, "--fields", "held-back", "--json"))
     mean = report["against"]["ratios"]["mean"]["held-back"]
     return {"bad": report["not_well_centered"], "triangles": report["triangles"],
             "poisson": report["matrices"]["poisson"]["m_matrix"], "flux": report["matrices"]["flux"]["m_matrix"],

@@ -1,4 +1,4 @@
-# Installs the libraries, and what find_package(temper COMPONENTS core io lp tbb mpi verify solvers) and pkg-config need. The flags of
+# Installs the libraries, and what find_package(temper COMPONENTS core io lp tbb mpi errors solvers) and pkg-config need. The flags of
 # temper's own code (temper_flags) stay here: they are linked for the build alone and are in no export.
 #
 # Components: `program` (apps/temper), `libraries` (shared ones, for programs to run), `development`, `python`.
@@ -55,11 +55,11 @@ if(TARGET temper_mpi)
   target_link_libraries(temper_mpi PRIVATE $<INSTALL_INTERFACE:MPI::MPI_CXX>)
   temper_install(temper_mpi mpi "temper's communicator, by MPI")
 endif()
-if(TARGET temper_verify)
-  temper_install(temper_verify verify "Errors of solvers on temper's meshes")
+if(TARGET temper_errors)
+  temper_install(temper_errors errors "Errors of solvers on temper's meshes")
 endif()
 set(requires)
-foreach(library lp verify)
+foreach(library lp errors)
   if(TARGET temper_${library})
     list(APPEND requires temper-${library})
   endif()

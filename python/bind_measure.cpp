@@ -7,8 +7,8 @@
 #include "temper/draw.hpp"
 #include "temper/energy.hpp"
 #include "temper/quality.hpp"
-#ifdef TEMPER_WITH_VERIFY
-#include "temper/verify.hpp"
+#ifdef TEMPER_WITH_ERRORS
+#include "temper/errors.hpp"
 #endif
 
 TEMPER_PYTHON_NAMES(temper::Better, "equal", "larger", "less");
@@ -199,23 +199,23 @@ void bind_draw(py::module_& m) {
 
 // --- verify -----------------------------------------------------------------------------------------------------
 
-#ifdef TEMPER_WITH_VERIFY
+#ifdef TEMPER_WITH_ERRORS
 
-/// The ten numbers of VerifyErrors, in the order of verify_measures().
+/// The ten numbers of OperatorErrors, in the order of error_measures().
 py::dict fields_to_dict(const std::vector<FieldErrors>& fields) {
   py::list names;
   std::vector<std::array<double, 10>> values;
   for (const FieldErrors& f : fields) {
     names.append(to_python(f.field.name));
     auto& row = values.emplace_back();
-    for (std::size_t i = 0; i < row.size(); ++i) row[i] = verify_measures()[i].of(f.errors);
+    for (std::size_t i = 0; i < row.size(); ++i) row[i] = error_measures()[i].of(f.errors);
   }
   return Record()("names", names)("values", rows_of<double>(std::span<const std::array<double, 10>>(values))).dict;
 }
 
-py::object errors_to_array(const VerifyErrors& errors) {
+py::object errors_to_array(const OperatorErrors& errors) {
   std::vector<double> values;
-  for (const VerifyMeasure& measure : verify_measures()) values.push_back(measure.of(errors));
+  for (const ErrorMeasure& measure : error_measures()) values.push_back(measure.of(errors));
   return to_python(values);
 }
 
@@ -227,16 +227,16 @@ std::vector<FieldErrors> fields_from(const py::sequence& names, const Doubles& v
     const auto wanted = names[i].cast<std::string>();
     FieldErrors& row = fields.emplace_back();
     for (const SpaceKind space : {SpaceKind::plane, SpaceKind::sphere, SpaceKind::periodic_plane}) {
-      for (const VerifyField& field : verify_fields(space)) {
+      for (const ErrorField& field : error_fields(space)) {
         if (field.name == wanted) row.field = field;
       }
     }
-    for (std::size_t k = 0; k < rows[i].size(); ++k) verify_measures()[k].at(row.errors) = rows[i][k];
+    for (std::size_t k = 0; k < rows[i].size(); ++k) error_measures()[k].at(row.errors) = rows[i][k];
   }
   return fields;
 }
 
-py::dict system_to_dict(const VerifySystem& s) {
+py::dict system_to_dict(const ErrorSystem& s) {
   return Record()("unknowns", s.unknowns)("m_matrix", s.m_matrix)("definite", s.definite)("singular", s.singular)(
              "negative", s.negative)("merged", s.merged)("largest_over_median", s.largest_over_median)("condition",
                                                                                                        s.condition)
@@ -250,9 +250,9 @@ FieldFrame frame_from(const py::handle& frame) {
   return {{f[0].cast<double>(), f[1].cast<double>()}, f[2].cast<double>()};
 }
 
-py::dict verify_to_dict(const VerifyReport& r) {
+py::dict errors_to_dict(const ErrorReport& r) {
   py::list levels, local;
-  for (const VerifyLevel& level : r.levels) {
+  for (const ErrorLevel& level : r.levels) {
     levels.append(Record()("vertices", level.vertices)("triangles", level.triangles)(
                       "non_regular_edges", level.non_regular_edges)("not_well_centered", level.not_well_centered)(
                       "fields", fields_to_dict(level.fields))
@@ -267,10 +267,10 @@ py::dict verify_to_dict(const VerifyReport& r) {
       .dict;
 }
 
-py::dict verify_mesh(const PyMesh& self, const py::sequence& fields, const py::object& frame, int refine,
-                     bool condition, bool local, const py::object& threads) {
+py::dict error_mesh(const PyMesh& self, const py::sequence& fields, const py::object& frame, int refine, bool condition,
+                    bool local, const py::object& threads) {
   const auto mesh = self.read();
-  VerifyOptions options;
+  MeasureErrorsOptions options;
   for (const auto& field : fields) options.fields.push_back(field.cast<std::string>());
   if (!frame.is_none()) options.frame = frame_from(frame);
   if (refine < 0) fail(ErrorCode::invalid_option, "refine: expected 0 or more, found " + std::to_string(refine));
@@ -281,9 +281,9 @@ py::dict verify_mesh(const PyMesh& self, const py::sequence& fields, const py::o
   auto report = aside([&] {
     const auto executor = make_threads(count);
     options.executor = executor.get();
-    return verify(*mesh, options);
+    return measure_errors(*mesh, options);
   });
-  return verify_to_dict(or_raise(std::move(report)));
+  return errors_to_dict(or_raise(std::move(report)));
 }
 
 std::optional<FieldGroup> group_from(const py::object& group) {
@@ -292,20 +292,20 @@ std::optional<FieldGroup> group_from(const py::object& group) {
   return static_cast<FieldGroup>(choose("group", group.cast<std::string>(), kNames));
 }
 
-void bind_verify(py::module_& m) {
-  m.def("verify", verify_mesh);
-  m.def("verify_fields", [](bool sphere, bool periodic) {
+void bind_errors(py::module_& m) {
+  m.def("measure_errors", error_mesh);
+  m.def("error_fields", [](bool sphere, bool periodic) {
     py::list list;
     const SpaceKind in_plane = periodic ? SpaceKind::periodic_plane : SpaceKind::plane;
-    for (const VerifyField& f : verify_fields(sphere ? SpaceKind::sphere : in_plane)) {
+    for (const ErrorField& f : error_fields(sphere ? SpaceKind::sphere : in_plane)) {
       list.append(Record()("name", f.name)("group", name(f.group))("formula", f.formula).dict);
     }
     return list;
   });
   m.def("field_frame", [](const PyMesh& self) { return frame_to_dict(field_frame(*self.read())); });
-  m.def("verify_measures", [] {
+  m.def("error_measures", [] {
     py::list list;
-    for (const VerifyMeasure& measure : verify_measures()) {
+    for (const ErrorMeasure& measure : error_measures()) {
       list.append(py::make_tuple(to_python(measure.key), to_python(measure.label)));
     }
     return list;
@@ -318,7 +318,7 @@ void bind_verify(py::module_& m) {
   });
   m.def("error_ratios", [](const py::sequence& after_names, const Doubles& after, const py::object& after_frame,
                            const py::sequence& before_names, const Doubles& before, const py::object& before_frame) {
-    VerifyReport a, b;
+    ErrorReport a, b;
     a.fields = fields_from(after_names, after);
     a.frame = frame_from(after_frame);
     b.fields = fields_from(before_names, before);
@@ -329,7 +329,7 @@ void bind_verify(py::module_& m) {
 
 #else
 
-void bind_verify(py::module_&) {}
+void bind_errors(py::module_&) {}
 
 #endif
 
@@ -338,7 +338,7 @@ void bind_verify(py::module_&) {}
 void bind_measure(py::module_& m) {
   bind_energy(m);
   bind_draw(m);
-  bind_verify(m);
+  bind_errors(m);
 }
 
 }  // namespace temper::python

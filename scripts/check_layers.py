@@ -45,11 +45,11 @@ LAYERS = {
     "lp": _BELOW + ["feasibility"],
     "tbb": ["base"],
     "mpi": ["base"],
-    "verify": _BELOW + ["energy", "regularity", "quality", "dec"],
-    "solvers": _BELOW + ["size", "energy", "regularity", "feasibility", "optimize", "quality", "lp", "verify", "io"],
+    "errors": _BELOW + ["energy", "regularity", "quality", "dec"],
+    "solvers": _BELOW + ["size", "energy", "regularity", "feasibility", "optimize", "quality", "lp", "errors", "io"],
     "build_info": ["base", "io"],
 }
-CORE = set(LAYERS) - {"io", "lp", "tbb", "mpi", "verify", "solvers", "build_info"}
+CORE = set(LAYERS) - {"io", "lp", "tbb", "mpi", "errors", "solvers", "build_info"}
 
 # Public headers whose name is not that of their layer.
 HEADER_LAYER = {name: "base" for name in ["ids", "vec", "space", "error", "progress", "executor", "instruction_set", "outline", "read_number", "version"]} | {"temper": "solvers", "trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "tbb_executor": "tbb", "mpi_communicator": "mpi", "columns": "dec", "tensor": "mesh", "error_model": "mesh", "dec_io": "io", "html": "io"}

@@ -24,7 +24,7 @@ Exit run_replay(const Arguments& arguments);
 Exit run_reproduce(const Arguments& arguments);
 Exit run_weights(const Arguments& arguments);
 Exit run_explain(const Arguments& arguments);
-Exit run_verify(const Arguments& arguments);  // only with temper::verify
+Exit run_errors(const Arguments& arguments);  // only with temper::errors
 
 struct Verb {
   std::string_view name;

@@ -18,7 +18,7 @@ class Temper(CMakePackage):
     variant("netcdf", default=False, description="Meshes of MPAS and UGRID")
     variant("hdf5", default=False, description="Meshes in VTKHDF")
     variant("tbb", default=True, description="Threads by oneTBB")
-    variant("verify", default=True, description="Errors of solvers on a mesh, by Eigen")
+    variant("errors", default=True, description="Errors of solvers on a mesh, by Eigen")
     variant("python", default=False, description="The Python module")
 
     depends_on("cxx", type="build")
@@ -30,7 +30,7 @@ class Temper(CMakePackage):
     depends_on("fmt")
     depends_on("pugixml")
     depends_on("zlib-api")
-    depends_on("eigen@3.3:", when="+verify", type="build")
+    depends_on("eigen@3.3:", when="+errors", type="build")
     depends_on("tbb", when="+tbb")
     depends_on("netcdf-c@4.6.2:", when="+netcdf")
     depends_on("hdf5@1.10:~mpi", when="+hdf5")
@@ -44,7 +44,7 @@ class Temper(CMakePackage):
         args = [
             self.define_from_variant("BUILD_SHARED_LIBS", "shared"),
             self.define_from_variant("TEMPER_BUILD_TBB", "tbb"),
-            self.define_from_variant("TEMPER_BUILD_VERIFY", "verify"),
+            self.define_from_variant("TEMPER_BUILD_ERRORS", "errors"),
             self.define_from_variant("TEMPER_BUILD_PYTHON", "python"),
         ]
         if self.spec.satisfies("+python"):

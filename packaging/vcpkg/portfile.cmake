@@ -13,7 +13,7 @@ vcpkg_check_features(
         io TEMPER_BUILD_IO
         lp TEMPER_BUILD_LP
         tbb TEMPER_BUILD_TBB
-        verify TEMPER_BUILD_VERIFY
+        errors TEMPER_BUILD_ERRORS
 )
 
 vcpkg_cmake_configure(

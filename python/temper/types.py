@@ -11,7 +11,7 @@ from ._measure import Histogram, Quality, QualityMeasure, TriangleQuality, Worst
 from ._optimize import DataReport, OptimizeReport, Replay, SizeChange, Snapshot, TraceEvent
 from ._outline import OutlineFile, OutlineMesh
 from ._progress import Progress, SweepRecord
-from ._verify import ErrorNorms, FieldErrors, VerifyErrors, VerifyField, FieldFrame, VerifyLevel, VerifyReport, VerifySystem
+from ._measure_errors import ErrorNorms, FieldErrors, OperatorErrors, ErrorField, FieldFrame, ErrorLevel, ErrorReport, ErrorSystem
 from ._weights import (
     BestMargin,
     Certificate,

@@ -25,7 +25,7 @@ VERBS = {
     "weights": (["find_weights", "best_margin", "best_connectivity", "check_certificate"], ["find_weights", "best_margin", "best_connectivity", "check_certificate"]),
     "explain": (["explain"], ["explain"]),
     "check": (["quality"], ["quality"]),
-    "verify": (["verify"], ["verify"]),
+    "errors": (["errors"], ["errors"]),
     "dec": (["operators", "columns"], ["operators", "columns", "io::write_dec"]),
     "draw": (["draw_svg"], ["draw_svg", "draw_before_after_svg"]),
     "convert": (["read", "write"], ["io::read", "io::write"]),

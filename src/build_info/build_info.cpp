@@ -53,10 +53,10 @@ std::string tbb_version() {
 }
 
 std::string eigen_version() {
-#ifdef TEMPER_WITH_VERIFY
+#ifdef TEMPER_WITH_ERRORS
   return TEMPER_EIGEN_VERSION;
 #else
-  return "none, so there is no verb verify";
+  return "none, so there is no verb errors";
 #endif
 }
 

@@ -3,8 +3,8 @@
 #ifdef TEMPER_WITH_LP
 #include "temper/detail/lp.hpp"
 #endif
-#ifdef TEMPER_WITH_VERIFY
-#include "temper/verify.hpp"
+#ifdef TEMPER_WITH_ERRORS
+#include "temper/errors.hpp"
 #endif
 
 namespace temper {
@@ -14,7 +14,7 @@ Solvers solvers() {
 #ifdef TEMPER_WITH_LP
   all.lp = [] { return clp_solver(); };
 #endif
-#ifdef TEMPER_WITH_VERIFY
+#ifdef TEMPER_WITH_ERRORS
   all.error_model = [](const Mesh& mesh, Scheme scheme) { return solver_error_model(mesh, {.scheme = scheme}); };
 #endif
   return all;

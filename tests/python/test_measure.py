@@ -145,35 +145,35 @@ def test_operators_are_written_as_the_program_writes_them(ring, in_scratch):
 
 # --- errors of solvers --------------------------------------------------------------------------------------------
 
-needs_verify = pytest.mark.skipif(not hasattr(temper._temper, "verify"), reason="built without Eigen")
+needs_errors = pytest.mark.skipif(not hasattr(temper._temper, "verify"), reason="built without Eigen")
 
 
-@needs_verify
+@needs_errors
 def test_linear_fields_are_exact_on_any_mesh(ring):
-    report = temper.verify(weighted(ring), fields="exact")
+    report = temper.measure_errors(weighted(ring), fields="exact")
     assert all(row.field.group == "exact" for row in report.fields)
     assert max(row.errors.poisson.max for row in report.fields) < 1e-9
     assert max(row.errors.flux.max for row in report.fields) < 1e-9
 
 
-@needs_verify
+@needs_errors
 def test_errors_fall_with_refinement_and_ratios_of_a_mesh_to_itself_are_one(ring):
     mesh = optimized(ring, objective="energy")
-    report = temper.verify(mesh, fields=["held-back"], refine=2, condition=True, local=True)
+    report = temper.measure_errors(mesh, fields=["held-back"], refine=2, condition=True, local=True)
     assert len(report.levels) == 3 and report.levels[2].triangles == 16 * mesh.n_triangles
     assert temper.arithmetic_mean(report.orders).poisson.l2 > 1.5
     assert [len(values) for values in report.local] == [mesh.n_vertices, mesh.n_edges, mesh.n_triangles]
     assert report.poisson.m_matrix and report.poisson.condition > 1 and report.frame == temper.field_frame(mesh)
     ratios = temper.error_ratios(report, report)
     assert temper.geometric_mean(ratios)._row() == [1.0] * 10
-    keys = [key for key, _ in temper.verify_measures()]
-    assert keys == temper._verify._KEYS
-    other = temper.verify(mesh, fields=["chosen"])
+    keys = [key for key, _ in temper.error_measures()]
+    assert keys == temper._measure_errors._KEYS
+    other = temper.measure_errors(mesh, fields=["chosen"])
     with pytest.raises(temper.TemperError):
         temper.error_ratios(report, other)
     with pytest.raises(temper.TemperError, match="held"):
-        temper.verify(mesh, fields=["no such field"])
-    assert {f.group for f in temper.verify_fields()} == {"chosen", "held-back", "exact"}
+        temper.measure_errors(mesh, fields=["no such field"])
+    assert {f.group for f in temper.error_fields()} == {"chosen", "held-back", "exact"}
 
 
 # --- weights, certificates, reasons ----------------------------------------------------------------------------------

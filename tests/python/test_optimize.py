@@ -225,7 +225,7 @@ def test_unknown_options_are_refused(ring):
 
 
 def test_threads_of_the_wrong_type_are_named_everywhere(ring):
-    for call in (temper.quality, topology.count_non_regular_edges, temper.verify):
+    for call in (temper.quality, topology.count_non_regular_edges, temper.measure_errors):
         with pytest.raises(TypeError, match="^threads: "):
             call(ring, threads="2")
 
@@ -306,7 +306,7 @@ def test_weights_alone_leave_positions(ring):
 
 
 def test_the_accuracy_objective_lowers_the_error_of_the_star_and_keeps_its_margin(ring):
-    star1 = lambda mesh: temper.geometric_mean(temper.verify(mesh, fields=["held-back"], frame=frame).fields).star[1].l2
+    star1 = lambda mesh: temper.geometric_mean(temper.measure_errors(mesh, fields=["held-back"], frame=frame).fields).star[1].l2
     frame = temper.field_frame(ring)
     margin = lambda quality: min(quality.min_h_over_l, quality.min_d_over_l)
     plain = optimized(ring)

@@ -55,11 +55,11 @@ def test_points_that_are_assigned_are_in_the_domain(sea):
 
 
 def test_optimised_and_verified(sea, tmp_path):
-    before = temper.verify(sea)
+    before = temper.measure_errors(sea)
     temper.optimize(sea)
     assert temper.quality(sea).well_centered_fraction == 1
-    after = temper.verify(sea)
-    assert [row.field for row in after.fields] == temper.verify_fields(periodic=True)
+    after = temper.measure_errors(sea)
+    assert [row.field for row in after.fields] == temper.error_fields(periodic=True)
     assert temper.geometric_mean(temper.error_ratios(after, before)).poisson.l2 < 0.8
     temper.write(tmp_path / "a.vtu", sea)
     assert temper.read(tmp_path / "a.vtu") == sea

@@ -448,15 +448,15 @@ def test_operators_are_those_of_arcs(tempered):
 
 
 def test_errors_of_solvers_on_a_closed_mesh(globe):
-    before = temper.verify(globe)
+    before = temper.measure_errors(globe)
     temper.optimize(globe)
-    after = temper.verify(globe, fields=["all"])
-    assert [row.field for row in after.fields] == temper.verify_fields(sphere=True)
+    after = temper.measure_errors(globe, fields=["all"])
+    assert [row.field for row in after.fields] == temper.error_fields(sphere=True)
     assert after.frame.half_size == EARTH and after.poisson.definite and after.flux.definite
     ratios = temper.geometric_mean(temper.error_ratios(after, before))
     assert ratios.star[1].l2 < 0.65 and ratios.poisson.l2 < 0.9 and ratios.flux.l2 < 0.6
     with pytest.raises(temper.TemperError, match="no field 'bump'"):
-        temper.verify(globe, fields=["bump"])
+        temper.measure_errors(globe, fields=["bump"])
 
 
 def test_graded_globes_are_fine_where_one_says():

@@ -10,11 +10,11 @@
 #include <string>
 
 #include "support/sanitizers.hpp"
+#include "temper/errors.hpp"
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 #include "temper/solvers.hpp"
-#include "temper/verify.hpp"
 
 namespace temper::test {
 namespace {
@@ -107,14 +107,14 @@ Errors improved_errors(const Mesh& input, const Promise& promise) {
     EXPECT_EQ(mesh.position(v), input.position(v));
   }
 
-  VerifyOptions verifying;
+  MeasureErrorsOptions verifying;
   verifying.frame = field_frame(input);
   verifying.fields = {"held-back"};
-  const auto after = verify(mesh, verifying), before = verify(input, verifying);
+  const auto after = measure_errors(mesh, verifying), before = measure_errors(input, verifying);
   EXPECT_TRUE(after && before);
   const auto ratios = error_ratios(*after, *before);
   EXPECT_TRUE(ratios);
-  const VerifyErrors mean = geometric_mean(*ratios);
+  const OperatorErrors mean = geometric_mean(*ratios);
   return {mean.star[1].l2, mean.poisson.l2, mean.poisson.max, mean.flux.l2};
 }
 

@@ -70,7 +70,7 @@ struct OptimizeRecord {
   const io::DataReport& data;
   std::span<const Outcome> outcomes;  ///< of --require, on `after`
   std::vector<std::string> warnings;
-  std::string solver_errors = {};  ///< JSON, of --verify; or nothing
+  std::string solver_errors = {};  ///< JSON, of --measure-errors; or nothing
 };
 [[nodiscard]] std::string optimize_json(const OptimizeRecord& record);
 

@@ -27,8 +27,8 @@
 #include "threads.hpp"
 #include "verbs/optimize_settings.hpp"
 #include "verbs/progress_line.hpp"
-#ifdef TEMPER_WITH_VERIFY
-#include "reports/verify_report.hpp"
+#ifdef TEMPER_WITH_ERRORS
+#include "reports/error_report.hpp"
 #endif
 
 namespace temper::app {
@@ -108,9 +108,9 @@ OptimizeReport run_library(const OptimizeSettings& s, const Input& input, Mesh& 
   return *std::move(report);
 }
 
-#ifdef TEMPER_WITH_VERIFY
-/// What --verify asks for.
-void verify_result(SolverErrors& errors, const Mesh& mesh, RunResults& results) {
+#ifdef TEMPER_WITH_ERRORS
+/// What --measure-errors asks for.
+void error_result(SolverErrors& errors, const Mesh& mesh, RunResults& results) {
   errors.measure_result(mesh);
   results.errors_text = errors.text(text_style());
   results.errors_json = errors.json();
@@ -163,7 +163,7 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
     flush_output();
   });
   const Tracer tracer = tracer_of(s, files, input);
-#ifdef TEMPER_WITH_VERIFY
+#ifdef TEMPER_WITH_ERRORS
   std::optional<SolverErrors> errors;
   on_first_rank([&] {
     if (s.verify) errors.emplace(*seen, files.threads);
@@ -171,8 +171,8 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
 #endif
   results.report = run_library(s, input, mesh, files, tracer);
   look_at();
-#ifdef TEMPER_WITH_VERIFY
-  if (errors) verify_result(*errors, *seen, results);
+#ifdef TEMPER_WITH_ERRORS
+  if (errors) error_result(*errors, *seen, results);
 #endif
   if (files.trace != nullptr) files.trace->stream.write(trace_end(files.trace->events, mesh, input));
   if (measured) results.after = quality(*seen, measuring);

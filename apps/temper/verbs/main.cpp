@@ -33,8 +33,8 @@ std::span<const Verb> verbs() {
       {"weights", "find weights for a mesh as it is, or prove that there are none", run_weights},
       {"explain", "say why triangles are not well-centered, and what would cure them", run_explain},
       {"check", "report on the quality of a mesh, and test requirements", run_check},
-#ifdef TEMPER_WITH_VERIFY
-      {"verify", "measure the errors that solvers make on a mesh", run_verify},
+#ifdef TEMPER_WITH_ERRORS
+      {"errors", "measure the errors that solvers make on a mesh", run_errors},
 #endif
       {"operators", "write the operators of a mesh, for solvers", run_operators},
       {"draw", "draw triangles, dual and weights as SVG, PNG or PDF", run_draw},

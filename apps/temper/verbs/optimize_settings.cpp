@@ -28,8 +28,9 @@ void add_files(Command& command, OptimizeSettings& s) {
   add_text(command, "--trace", "FILE", s.trace,
            "every move, flip and removal, one JSON object a line; see temper replay");
   add_text(command, "--draw", "FILE", s.picture, "a picture (.svg, .png, .pdf), before and after side by side");
-#ifdef TEMPER_WITH_VERIFY
-  command.add_flag("--verify", s.verify, "measure the errors of solvers, too, before and after: see temper verify");
+#ifdef TEMPER_WITH_ERRORS
+  command.add_flag("--measure-errors", s.verify,
+                   "measure the errors of solvers, too, before and after: see temper errors");
 #endif
   add_requirements(command, s.require).sentence =
       "outside=0,min_h=0.05,...: exit with 3 when the result is not so, with everything written; see temper check";
@@ -105,7 +106,7 @@ Command optimize_command(OptimizeSettings& settings) {
        "  temper optimize in.vtu -o out.vtu --weights-only --no-flips\n"
        "  temper optimize in.vtu -o out.vtu --energy F --star 1 --solver golden --max-sweeps 20\n"
        "  temper optimize in.vtu -o out.vtu --gamma-rel 0.1 --time-limit 60\n"
-       "  temper optimize in.vtu -o out.vtu --for vertex --verify\n"
+       "  temper optimize in.vtu -o out.vtu --for vertex --measure-errors\n"
        "  temper optimize in.vtu -o out.vtu --removal patch --trace trace.jsonl\n"
        "  temper optimize in.vtu -o out.vtu --method paper --energy dT --removal none\n"
        "  temper optimize in.vtu -o out.vtu --save-every 600\n",

@@ -1,5 +1,5 @@
 // The errors of a solver on a mesh, and their derivatives: what Objective::error lowers. An interface, since whoever
-// solves systems of equations needs a library for it: temper::verify has a model (solver_error_model).
+// solves systems of equations needs a library for it: temper::errors has a model (solver_error_model).
 #pragma once
 
 #include <vector>

@@ -32,7 +32,7 @@ TEST_F(Degrees, AreRefusedWithTheCureWhereAPlaneIsNeeded) {
                                              {"draw", "fort.14", "-o", "out.svg"},
                                              {"weights", "fort.14", "-o", "out.14"},
                                              {"explain", "fort.14"},
-                                             {"verify", "fort.14"},
+                                             {"errors", "fort.14"},
                                              {"operators", "fort.14", "-o", "out"}}) {
     const Outcome outcome = temper(arguments);
     EXPECT_EQ(outcome.exit, 2) << arguments[0];

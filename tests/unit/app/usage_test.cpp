@@ -10,7 +10,7 @@
 namespace temper::test {
 namespace {
 
-const std::vector<std::string> kVerbs = {"optimize", "weights", "check",   "verify", "operators",
+const std::vector<std::string> kVerbs = {"optimize", "weights", "check",   "errors", "operators",
                                          "draw",     "convert", "example", "replay", "reproduce"};
 
 class Usage : public Workshop {};
@@ -77,7 +77,7 @@ TEST_F(Usage, HelpMentionsEveryOption) {
       {"check",
        {"--json", "--html", "--gamma ", "--gamma-rel", "--h0 ", "--h0-rel", "--require", "--worst", "--threads",
         "--help"}},
-      {"verify", {"--json", "--against", "--edges", "--fields", "--refine", "--condition", "--threads", "--help"}},
+      {"errors", {"--json", "--against", "--edges", "--fields", "--refine", "--condition", "--threads", "--help"}},
       {"draw",
        {"--output", "--before", "--no-primal", "--no-dual", "--no-weights", "--no-bad", "--no-rings", "--no-regions",
         "--numbers", "--weight-scale", "--zoom", "--width", "--title", "--help"}},

@@ -1,0 +1,267 @@
+#include "reports/error_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "console.hpp"
+#include "exit.hpp"
+#include "temper/dec.hpp"
+
+namespace temper::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMeasureColumns = 34;
+constexpr std::size_t kColumns = 12;
+
+// --- text ------------------------------------------------------------------------------------------------------------
+
+enum class Shown { errors, ratios, orders };
+
+std::string number_text(double value, Shown shown, const TextStyle& style) {
+  if (std::isnan(value)) return "-";
+  if (std::isinf(value)) return style.utf8 ? "∞" : "inf";
+  switch (shown) {
+    case Shown::errors:
+      return fmt::format("{:.3e}", value);
+    case Shown::ratios:
+      return fmt::format("{:.4g}", value);
+    case Shown::orders:
+      return fmt::format("{:.2f}", value);
+  }
+  return "";
+}
+
+/// "★1, L2" as the terminal shows it.
+std::string label_of(const ErrorMeasure& measure, const TextStyle& style) {
+  std::string label(measure.label);
+  const std::string star = "★";
+  if (const std::size_t at = label.find(star); !style.utf8 && at != std::string::npos) {
+    label.replace(at, star.size(), "star ");
+  }
+  return label;
+}
+
+std::string row_text(const std::string& label, const std::vector<std::string>& cells) {
+  std::string text = pad_right(label, kMeasureColumns);
+  for (const std::string& cell : cells) text += pad_left(cell, kColumns);
+  return text + "\n";
+}
+
+/// The measures of one norm: all keys that end so.
+std::vector<ErrorMeasure> measures_of(std::string_view norm) {
+  std::vector<ErrorMeasure> chosen;
+  for (const ErrorMeasure& measure : error_measures()) {
+    if (measure.key.ends_with(norm)) chosen.push_back(measure);
+  }
+  return chosen;
+}
+
+OperatorErrors mean_of(const std::vector<FieldErrors>& fields, Shown shown, std::optional<FieldGroup> group) {
+  return shown == Shown::orders ? arithmetic_mean(fields, group) : geometric_mean(fields, group);
+}
+
+bool has_group(const std::vector<FieldErrors>& fields, FieldGroup group) {
+  for (const FieldErrors& row : fields) {
+    if (row.field.group == group) return true;
+  }
+  return false;
+}
+
+/// A line a field, then means.
+std::string table(const std::string& title, std::string_view norm, const std::vector<FieldErrors>& fields, Shown shown,
+                  const TextStyle& style) {
+  const std::string star = style.utf8 ? "★" : "star ";
+  const auto cells = [&](const OperatorErrors& errors) {
+    std::vector<std::string> texts;
+    for (const ErrorMeasure& measure : measures_of(norm)) {
+      texts.push_back(number_text(measure.of(errors), shown, style));
+    }
+    return texts;
+  };
+  std::string text = "\n" + row_text(title, {star + "0", star + "1", star + "2", "Poisson", "flux"});
+  for (const FieldErrors& row : fields) {
+    text += row_text(fmt::format("{} ({})", row.field.name, name(row.field.group)), cells(row.errors));
+  }
+  if (fields.size() < 2) return text;
+  for (const FieldGroup group : {FieldGroup::chosen, FieldGroup::held_back}) {
+    if (!has_group(fields, group)) continue;
+    text += row_text(fmt::format("mean, {}", name(group)), cells(mean_of(fields, shown, group)));
+  }
+  return text + row_text("mean", cells(mean_of(fields, shown, {})));
+}
+
+std::string yes_no(bool value) { return value ? "yes" : "no"; }
+
+std::string matrices_text(const ErrorReport& report, const TextStyle& style) {
+  const ErrorSystem &p = report.poisson, &f = report.flux;
+  const auto value = [&](double x) { return number_text(x, Shown::ratios, style); };
+  std::string text = "\n" + row_text("matrix", {"Poisson", "flux"});
+  text += row_text("unknowns", {std::to_string(p.unknowns), std::to_string(f.unknowns)});
+  text += row_text("M-matrix", {yes_no(p.m_matrix), yes_no(f.m_matrix)});
+  text += row_text("positive definite", {yes_no(p.definite), yes_no(f.definite)});
+  text += row_text("singular", {yes_no(p.singular), yes_no(f.singular)});
+  text += row_text("negative coefficients", {std::to_string(p.negative), std::to_string(f.negative)});
+  text += row_text("edges between merged cells", {"-", std::to_string(f.merged)});
+  text += row_text("largest coefficient over median", {value(p.largest_over_median), value(f.largest_over_median)});
+  if (p.condition && f.condition) text += row_text("condition, at least", {value(*p.condition), value(*f.condition)});
+  return text;
+}
+
+std::string levels_text(const ErrorReport& report) {
+  std::string text = "\n" + row_text("refined family", {"triangles", "not w.-c.", "not regular"});
+  for (std::size_t i = 0; i < report.levels.size(); ++i) {
+    const ErrorLevel& level = report.levels[i];
+    text +=
+        row_text(fmt::format("level {}", i), {std::to_string(level.triangles), std::to_string(level.not_well_centered),
+                                              std::to_string(level.non_regular_edges)});
+  }
+  return text;
+}
+
+// --- JSON ------------------------------------------------------------------------------------------------------------
+
+/// No number of JSON is infinite: null is +∞ of errors, and undefined of orders.
+Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json errors_json(const OperatorErrors& errors) {
+  Json json;
+  for (const ErrorMeasure& measure : error_measures()) {
+    const std::size_t dot = measure.key.find('.');
+    json[std::string(measure.key.substr(0, dot))][std::string(measure.key.substr(dot + 1))] =
+        number_json(measure.of(errors));
+  }
+  return json;
+}
+
+/// {"fields": […], "mean": {…}}
+Json fields_json(const std::vector<FieldErrors>& fields, Shown shown) {
+  Json list = Json::array();
+  for (const FieldErrors& row : fields) {
+    Json item = {{"name", row.field.name}, {"group", name(row.field.group)}};
+    item.update(errors_json(row.errors));
+    list.push_back(std::move(item));
+  }
+  Json means = {{"all", errors_json(mean_of(fields, shown, {}))}};
+  for (const FieldGroup group : {FieldGroup::chosen, FieldGroup::held_back}) {
+    if (has_group(fields, group)) means[std::string(name(group))] = errors_json(mean_of(fields, shown, group));
+  }
+  return {{"fields", std::move(list)}, {"mean", std::move(means)}};
+}
+
+Json system_json(const ErrorSystem& system) {
+  return {{"unknowns", system.unknowns},
+          {"m_matrix", system.m_matrix},
+          {"positive_definite", system.definite},
+          {"singular", system.singular},
+          {"negative", system.negative},
+          {"merged", system.merged},
+          {"largest_over_median", number_json(system.largest_over_median)},
+          {"condition", system.condition ? number_json(*system.condition) : Json(nullptr)}};
+}
+
+}  // namespace
+
+std::string error_text(const ErrorRecord& record, const TextStyle& style) {
+  const ErrorReport& report = record.report;
+  std::string text = fmt::format("{}: {} triangles, {} not well-centered; {} interior edges not regular\n", record.path,
+                                 report.triangles, report.not_well_centered, report.non_regular_edges);
+  text += table("relative error, L2", ".l2", report.fields, Shown::errors, style);
+  text += table("relative error, maximum", ".max", report.fields, Shown::errors, style);
+  text += matrices_text(report, style);
+  if (record.against) {
+    text += fmt::format("\nover the errors of {}:\n", record.against->path);
+    text += table("ratio, L2", ".l2", record.against->ratios, Shown::ratios, style);
+    text += table("ratio, maximum", ".max", record.against->ratios, Shown::ratios, style);
+  }
+  if (!report.levels.empty()) {
+    text += levels_text(report);
+    text += table("order, L2", ".l2", report.orders, Shown::orders, style);
+    text += table("order, maximum", ".max", report.orders, Shown::orders, style);
+  }
+  return text;
+}
+
+std::string error_comparison_text(const ErrorReport& before, const ErrorReport& after, const TextStyle& style) {
+  const auto ratios = error_ratios(after, before);
+  std::string text = row_text("mean relative error", {"before", "after", "ratio"});
+  for (const ErrorMeasure& measure : error_measures()) {
+    const double from = measure.of(geometric_mean(before.fields)), to = measure.of(geometric_mean(after.fields));
+    const std::string ratio =
+        ratios ? number_text(measure.of(geometric_mean(*ratios)), Shown::ratios, style) : std::string("-");
+    text += row_text(label_of(measure, style),
+                     {number_text(from, Shown::errors, style), number_text(to, Shown::errors, style), ratio});
+  }
+  return text;
+}
+
+Json error_report_json(const ErrorReport& report) {
+  Json json = {
+      {"vertices", report.vertices},
+      {"edges", report.edges},
+      {"triangles", report.triangles},
+      {"not_well_centered", report.not_well_centered},
+      {"non_regular_edges", report.non_regular_edges},
+      {"negative_boundary_duals", report.negative_boundary_duals},
+      {"negative_star0", report.negative_star0},
+      {"frame", {{"center", {report.frame.center.x, report.frame.center.y}}, {"half_size", report.frame.half_size}}},
+      {"matrices", {{"poisson", system_json(report.poisson)}, {"flux", system_json(report.flux)}}},
+      {"errors", fields_json(report.fields, Shown::errors)}};
+  if (report.levels.empty()) return json;
+  Json levels = Json::array();
+  for (const ErrorLevel& level : report.levels) {
+    Json item = {{"vertices", level.vertices},
+                 {"triangles", level.triangles},
+                 {"not_well_centered", level.not_well_centered},
+                 {"non_regular_edges", level.non_regular_edges}};
+    item.update(fields_json(level.fields, Shown::errors));
+    levels.push_back(std::move(item));
+  }
+  json["levels"] = std::move(levels);
+  json["orders"] = fields_json(report.orders, Shown::orders);
+  return json;
+}
+
+std::string error_json(const ErrorRecord& record) {
+  Json json = error_report_json(record.report);
+  if (record.against) {
+    json["against"] = {{"mesh", record.against->path},
+                       {"report", error_report_json(record.against->report)},
+                       {"ratios", fields_json(record.against->ratios, Shown::ratios)}};
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string edge_errors_csv(const ErrorReport& report, const Input& input) {
+  const DecComplex complex = dec_operators(input.mesh());
+  const auto point = [&](VertexId v) { return input.points.empty() ? std::size_t{v.index} : input.points[v.index]; };
+  std::string text = "from,to,star1,error\n";
+  for (std::size_t e = 0; e < complex.edges.size(); ++e) {
+    const DecEdge& edge = complex.edges[EdgeId(e)];
+    text +=
+        fmt::format("{},{},{},{}\n", point(edge.from), point(edge.to), complex.star1[EdgeId(e)], report.local[1][e]);
+  }
+  return text;
+}
+
+SolverErrors::SolverErrors(const Mesh& input, Executor* executor) {
+  options_.frame = field_frame(input);
+  options_.executor = executor;
+  before_ = after_ = measured(input);
+}
+
+ErrorReport SolverErrors::measured(const Mesh& mesh) const { return or_fail(measure_errors(mesh, options_)); }
+
+void SolverErrors::measure_result(const Mesh& result) { after_ = measured(result); }
+
+std::string SolverErrors::text(const TextStyle& style) const { return error_comparison_text(before_, after_, style); }
+
+std::string SolverErrors::json() const {
+  const nlohmann::ordered_json json = {{"before", error_report_json(before_)}, {"after", error_report_json(after_)}};
+  return json.dump();
+}
+
+}  // namespace temper::app

@@ -1,0 +1,57 @@
+// The errors that solvers make, as text and as JSON.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/quality_report.hpp"
+#include "temper/errors.hpp"
+
+namespace temper::app {
+
+/// The mesh that another one is measured against, in the same frame.
+struct ErrorReference {
+  std::string path;
+  ErrorReport report;
+  std::vector<FieldErrors> ratios;
+};
+
+struct ErrorRecord {
+  std::string path;
+  ErrorReport report;
+  std::optional<ErrorReference> against;
+};
+
+[[nodiscard]] std::string error_text(const ErrorRecord& record, const TextStyle& style);
+[[nodiscard]] std::string error_json(const ErrorRecord& record);
+
+/// Geometric means of the errors of two meshes, a line a measure: `temper optimize --measure-errors`.
+[[nodiscard]] std::string error_comparison_text(const ErrorReport& before, const ErrorReport& after,
+                                                const TextStyle& style);
+/// One report, for other reports to hold.
+[[nodiscard]] nlohmann::ordered_json error_report_json(const ErrorReport& report);
+
+/// A line an edge: from,to,star1,error. Points count from 0, in the order of the file's arrays.
+[[nodiscard]] std::string edge_errors_csv(const ErrorReport& report, const Input& input);
+
+/// The errors of solvers before and after a run: `temper optimize --measure-errors`.
+class SolverErrors {
+ public:
+  /// Measures the input, whose frame the result is measured in, too.
+  SolverErrors(const Mesh& input, Executor* executor);
+
+  void measure_result(const Mesh& result);
+
+  [[nodiscard]] std::string text(const TextStyle& style) const;
+  [[nodiscard]] std::string json() const;
+
+ private:
+  [[nodiscard]] ErrorReport measured(const Mesh& mesh) const;
+
+  MeasureErrorsOptions options_;
+  ErrorReport before_, after_;
+};
+
+}  // namespace temper::app

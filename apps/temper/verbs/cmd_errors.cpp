@@ -1,0 +1,144 @@
+// temper errors IN: the errors that solvers make on a mesh, measured with manufactured solutions.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "console.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "files/tensor_option.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "reports/error_report.hpp"
+#include "threads.hpp"
+
+namespace temper::app {
+namespace {
+
+struct ErrorSettings {
+  std::string projection;
+  std::string input, against, fields = "all", edges;
+  int refine = 0;
+  std::uint64_t threads = 0;
+  bool condition = false, json = false;
+  std::optional<Metric> metric;
+};
+
+// Relative to the size of the domain: what a text format may round coordinates by.
+constexpr double kSameBox = 1e-6;
+
+std::string field_names() {
+  std::string text;
+  for (const ErrorField& field : error_fields()) text += (text.empty() ? "" : ", ") + std::string(field.name);
+  text += "; on the sphere";
+  for (const ErrorField& field : error_fields(SpaceKind::sphere))
+    text += (text.ends_with("sphere") ? " " : ", ") + std::string(field.name);
+  text += "; in a periodic plane";
+  for (const ErrorField& field : error_fields(SpaceKind::periodic_plane))
+    text += (text.ends_with("plane") ? " " : ", ") + std::string(field.name);
+  return text;
+}
+
+void add_options(Command& command, ErrorSettings& s) {
+  command.group("Report");
+  add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_projection(command, s.projection);
+  command.add_flag("--json", s.json, "the report as JSON; null means infinite, or undefined for an order");
+  add_text(command, "--against", "MESH", s.against,
+           "another mesh of the same domain: also print the errors of IN over those of MESH, field by field");
+  add_text(command, "--edges", "FILE", s.edges,
+           "write the error of star 1 at each edge as CSV, with points counted from 0");
+  command.group("Measures");
+  add_text(command, "--fields", "LIST", s.fields,
+           "solutions to try, separated by commas: all, chosen, held-back, exact, or of " + field_names())
+      .defaults_to([&s] { return s.fields; });
+  add_count(command, "--refine", s.refine, 0,
+            "cut every triangle into four, this many times, and print orders of convergence");
+  add_tensor(command, s.metric, "solutions and errors are");
+  command.add_flag("--condition", s.condition, "also estimate the condition of both matrices");
+  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  command.group("Help");
+  command.add_help({"IN [options]",
+                    "  temper errors in.vtu\n"
+                    "  temper errors in.vtu --fields held-back --refine 2 --json\n"
+                    "  # what an optimisation has done to the errors\n"
+                    "  temper example annulus -o ring.vtu && temper optimize ring.vtu -o better.vtu --quiet\n"
+                    "  temper errors better.vtu --against ring.vtu\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+}
+
+/// Fields that are asked for by mistake are told of before a large mesh is read.
+void check_fields(const MeasureErrorsOptions& options) {
+  Mesh none;
+  const auto report = measure_errors(none, options);
+  const auto unknown = [&](const Space& space) {
+    none.set_space(space);
+    const auto tried = measure_errors(none, options);
+    return !tried && tried.error().code == ErrorCode::invalid_option;
+  };
+  if (unknown(Space()) && unknown(Space::sphere(1)) && unknown(Space::periodic({1, 1}))) {
+    throw Failure(Exit::bad_usage, "--fields: " + report.error().message + "\nSee temper errors --help");
+  }
+}
+
+bool same_box(const FieldFrame& a, const FieldFrame& b) {
+  return std::abs(a.half_size - b.half_size) <= kSameBox * b.half_size &&
+         length(a.center - b.center) <= kSameBox * b.half_size;
+}
+
+ErrorReference measure_reference(const ErrorSettings& s, const std::string& projection,
+                                 const MeasureErrorsOptions& options, const FieldFrame& frame) {
+  Input reference = read_input(s.against, {projection, {}, options.executor, true});
+  print_warnings(reference.warnings());
+  take_to_metric(reference, s.metric);
+  if (!same_box(frame, field_frame(reference.mesh()))) {
+    print_warnings(std::vector<std::string>{fmt::format(
+        "{} and {} do not have the same bounding box: both are measured in that of {}", s.input, s.against, s.input)});
+  }
+  MeasureErrorsOptions same = options;
+  same.refine = 0;
+  same.local = false;
+  return {s.against, or_fail(measure_errors(reference.mesh(), same)), {}};
+}
+
+}  // namespace
+
+Exit run_errors(const Arguments& arguments) {
+  Command command(
+      "errors",
+      "Measures the errors that solvers make on a mesh, with manufactured solutions: of the diagonal Hodge stars, "
+      "of a Poisson problem solved by discrete exterior calculus at the vertices, and of one solved by two-point "
+      "fluxes at the orthocenters. Also describes their matrices. docs/errors.md defines every number.");
+  ErrorSettings s;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
+  MeasureErrorsOptions options;
+  options.fields = separated(s.fields);
+  check_fields(options);
+  Outputs outputs("verify");
+  std::vector<std::string> inputs = {s.input};
+  if (!s.against.empty()) inputs.push_back(s.against);
+  outputs.expect_text("--edges", s.edges, inputs);
+
+  const std::unique_ptr<Executor> threads = make_threads(s.threads);
+  options.executor = threads.get();
+  Input input = read_input(s.input, {s.projection, {}, threads.get(), true});
+  print_warnings(input.warnings());
+  take_to_metric(input, s.metric);
+  options.frame = field_frame(input.mesh());
+  options.refine = s.refine;
+  options.condition = s.condition;
+  options.local = !s.edges.empty();
+  ErrorRecord record = {s.input, or_fail(measure_errors(input.mesh(), options)), {}};
+  if (!s.against.empty()) {
+    record.against = measure_reference(s, same_projection(input, s.projection), options, *options.frame);
+    record.against->ratios = or_fail(error_ratios(record.report, record.against->report));
+  }
+  if (!s.edges.empty()) outputs.write_text(s.edges, edge_errors_csv(record.report, input));
+  print(s.json ? error_json(record) : error_text(record, text_style()));
+  return Exit::done;
+}
+
+}  // namespace temper::app

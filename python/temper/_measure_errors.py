@@ -1,0 +1,244 @@
+"""What users' solvers feel: the errors that a mesh causes, measured with manufactured solutions."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any, Literal, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _temper
+from ._mesh import MeshLike, as_mesh
+from ._records import Record, merged
+
+FieldGroup = Literal["chosen", "held-back", "exact"]
+
+
+@dataclasses.dataclass(frozen=True)
+class ErrorField(Record):
+    """A manufactured solution."""
+
+    name: str
+    group: FieldGroup
+    """An objective may be tuned on the chosen ones; what it is worth, those held back tell. exact: linear, which both
+    schemes must reproduce on any mesh."""
+    formula: str
+    """In x and y of the frame."""
+
+
+@dataclasses.dataclass(frozen=True)
+class FieldFrame(Record):
+    """Where the fields lie: they are functions of (p − center) / half_size."""
+
+    center: tuple[float, float]
+    half_size: float
+    """> 0 [length]."""
+
+    def _plain(self) -> tuple[float, float, float]:
+        return (*self.center, self.half_size)
+
+
+@dataclasses.dataclass(frozen=True)
+class ErrorNorms(Record):
+    """Relative: l2 over the field's root mean square, and the maximum over it. inf where the system is singular."""
+
+    l2: float
+    max: float
+
+
+@dataclasses.dataclass(frozen=True)
+class OperatorErrors(Record):
+    """The errors of one field, or their means over fields, or ratios or orders of them."""
+
+    star: tuple[ErrorNorms, ErrorNorms, ErrorNorms]
+    """★0, ★1, ★2."""
+    poisson: ErrorNorms
+    """−Δu = f at the vertices: d0ᵀ ★1 d0 u = ★0 f."""
+    flux: ErrorNorms
+    """−Δu = f at the orthocenters: Σ T (u_k − u_l) = ∫ f."""
+
+    @classmethod
+    def _of(cls, row: npt.NDArray[np.float64]) -> OperatorErrors:
+        norms = [ErrorNorms(float(row[i]), float(row[i + 1])) for i in range(0, 10, 2)]
+        return cls((norms[0], norms[1], norms[2]), norms[3], norms[4])
+
+    def _row(self) -> list[float]:
+        return [value for norm in (*self.star, self.poisson, self.flux) for value in (norm.l2, norm.max)]
+
+
+@dataclasses.dataclass(frozen=True)
+class FieldErrors(Record):
+    field: ErrorField
+    errors: OperatorErrors
+
+
+@dataclasses.dataclass(frozen=True)
+class ErrorSystem(Record):
+    """The matrix of a scheme, without what the boundary fixes."""
+
+    unknowns: int
+    m_matrix: bool
+    """No positive entry off the diagonal, and diagonally dominant; decided by exact signs of the dual lengths."""
+    definite: bool
+    singular: bool
+    """Could not be solved: all errors are inf."""
+    negative: int
+    """Edges whose coefficient in it is < 0, exact."""
+    merged: int
+    """flux: edges whose orthocenters coincide, which makes them one unknown."""
+    largest_over_median: float
+    """Of the \\|coefficients\\| of interior edges; inf where one is."""
+    condition: float | None
+    """Spectral, a lower bound that is near; None when it was not asked for."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ErrorLevel(Record):
+    """One mesh of a refined family."""
+
+    vertices: int
+    triangles: int
+    non_regular_edges: int
+    not_well_centered: int
+    fields: list[FieldErrors]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ErrorReport(Record):
+    """What ``verify`` measured."""
+
+    vertices: int
+    edges: int
+    triangles: int
+    non_regular_edges: int
+    negative_boundary_duals: int
+    negative_star0: int
+    not_well_centered: int
+    frame: FieldFrame
+    poisson: ErrorSystem
+    flux: ErrorSystem
+    fields: list[FieldErrors]
+    levels: list[ErrorLevel]
+    """The mesh itself and its refinements, coarsest first; empty without refine."""
+    orders: list[FieldErrors]
+    """Of each field, how the errors go with the edge length: the slope by least squares in logarithms; NaN where it is
+    not defined. Empty without refine."""
+    local: list[npt.NDArray[np.float64]] = dataclasses.field(repr=False)
+    """With ``local=True``: of each vertex (★0), edge (★1, in the order of ``dec``) and triangle (★2) the relative error
+    of the mean over it, its root mean square over the fields."""
+
+    def _rows(self) -> list[tuple[str, str]]:
+        nested = ("frame", "poisson", "flux", "fields", "levels", "orders")
+        rows = [row for row in super()._rows() if row[0] not in nested]
+        mean = geometric_mean(self.fields)
+        for key, label in error_measures():
+            rows.append((label, f"{dict(zip(_KEYS, mean._row()))[key]:.4g}"))
+        rows.append(("Poisson, M-matrix", str(self.poisson.m_matrix)))
+        return rows
+
+
+_KEYS = [f"{name}.{norm}" for name in ("star0", "star1", "star2", "poisson", "flux") for norm in ("l2", "max")]
+
+
+def error_fields(*, sphere: bool = False, periodic: bool = False) -> list[ErrorField]:
+    """The manufactured solutions of the plane, or those of the sphere or of a periodic plane."""
+    return [ErrorField(**row) for row in _temper.error_fields(sphere, periodic)]
+
+
+def field_frame(mesh: MeshLike) -> FieldFrame:
+    """Around the bounding box of the vertices: its longer side goes from −1 to 1. On a sphere its radius."""
+    return FieldFrame(**_temper.field_frame(as_mesh(mesh)._handle))
+
+
+def error_measures() -> list[tuple[str, str]]:
+    """Key and label of the ten numbers of ``OperatorErrors``: ``("star1.l2", "★1, L2")``, …"""
+    return list(_temper.error_measures())
+
+
+def _fields(d: dict[str, Any]) -> list[FieldErrors]:
+    fields = error_fields() + error_fields(sphere=True) + error_fields(periodic=True)
+    known = {field.name: field for field in fields}
+    return [FieldErrors(known[name], OperatorErrors._of(row)) for name, row in zip(d["names"], d["values"])]
+
+
+def _plain(fields: Sequence[FieldErrors]) -> tuple[list[str], npt.NDArray[np.float64]]:
+    values = np.array([row.errors._row() for row in fields], dtype=np.float64).reshape(-1, 10)
+    return [row.field.name for row in fields], values
+
+
+def verify(
+    mesh: MeshLike,
+    *,
+    fields: Sequence[str] = (),
+    frame: FieldFrame | None = None,
+    refine: int = 0,
+    condition: bool = False,
+    local: bool = False,
+    threads: int | None = None,
+) -> ErrorReport:
+    """Measures the errors that solvers make on a mesh, with manufactured solutions (docs/errors.md defines every norm).
+
+    Parameters
+    ----------
+    mesh : Mesh or meshio.Mesh
+    fields : sequence of str
+        Names of fields, or of groups (``"chosen"``, ``"held-back"``), or ``"all"``; none: all.
+    frame : FieldFrame, optional
+        None: ``field_frame(mesh)``. Meshes are compared in one frame.
+    refine : int
+        So many times each triangle becomes four, and orders are measured.
+    condition : bool
+        Also estimate the condition of both matrices.
+    local : bool
+        Also list the errors of each vertex, edge and triangle.
+    threads : int, optional
+        The report does not depend on it.
+
+    Raises
+    ------
+    TemperError
+        Unknown fields, a frame of no size, more refinement than memory is meant for.
+
+    Examples
+    --------
+    >>> import temper
+    >>> before = temper.generate.annulus()
+    >>> frame = temper.field_frame(before)
+    >>> a = temper.measure_errors(before, fields=["held-back"], frame=frame)
+    >>> after = before.copy()
+    >>> report = temper.optimize(after)
+    >>> b = temper.measure_errors(after, fields=["held-back"], frame=frame)
+    >>> ratio = temper.geometric_mean(temper.error_ratios(b, a)).flux.l2
+    """
+    if isinstance(fields, str):
+        fields = [fields]
+    plain_frame = frame._plain() if frame is not None else None
+    d = _temper.measure_errors(as_mesh(mesh)._handle, list(fields), plain_frame, refine, condition, local, threads)
+    levels = [ErrorLevel(**merged(level, fields=_fields(level["fields"]))) for level in d["levels"]]
+    changed = {
+        "frame": FieldFrame(**d["frame"]),
+        "poisson": ErrorSystem(**d["poisson"]),
+        "flux": ErrorSystem(**d["transmissibility"]),
+        "fields": _fields(d["fields"]),
+        "orders": _fields(d["orders"]),
+        "levels": levels,
+    }
+    return ErrorReport(**merged(d, **changed))
+
+
+def geometric_mean(fields: Sequence[FieldErrors], group: FieldGroup | None = None) -> OperatorErrors:
+    """Over fields, of all of them or of one group; 1 of none."""
+    return OperatorErrors._of(_temper.geometric_mean(*_plain(fields), group))
+
+
+def arithmetic_mean(fields: Sequence[FieldErrors], group: FieldGroup | None = None) -> OperatorErrors:
+    """Over fields: the mean for orders; NaN where one is."""
+    return OperatorErrors._of(_temper.arithmetic_mean(*_plain(fields), group))
+
+
+def error_ratios(after: ErrorReport, before: ErrorReport) -> list[FieldErrors]:
+    """Errors over errors, field by field: below 1 where ``after`` is better. TemperError: not the same fields in the
+    same frame."""
+    d = _temper.error_ratios(*_plain(after.fields), after.frame._plain(), *_plain(before.fields), before.frame._plain())
+    return _fields(d)

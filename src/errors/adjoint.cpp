@@ -1,0 +1,123 @@
+#include "errors/adjoint.hpp"
+
+namespace temper::error_detail {
+namespace {
+
+using Gradient = IdVector<VertexId, WeightedPoint>;
+
+void add_place(Gradient& gradient, VertexId v, Vec2 by) {
+  gradient[v].x += by.x;
+  gradient[v].y += by.y;
+}
+
+template <class Values>
+void add_all(Values& to, const Values& from) {
+  for (std::size_t i = 0; i < to.size(); ++i) to.begin()[i] = to.begin()[i] + from.begin()[i];
+}
+
+/// The derivatives by length, crossing and the two heights of an edge.
+struct EdgeAdjoint {
+  double length = 0, crossing = 0, left = 0, right = 0;
+};
+
+/// ★0 of the ends is d D/2 and (ℓ − d) D/2, ★1 D/ℓ, the flux ℓ/D, D = h_left + h_right.
+EdgeAdjoint of_operators(const DecEdge& edge, double star1, double flux, double from, double to) {
+  const double l = edge.length, d = edge.crossing, dual = edge.dual_length;
+  EdgeAdjoint by;
+  by.length = -star1 * dual / (l * l) + 0.5 * dual * to;
+  by.crossing = 0.5 * dual * (from - to);
+  double by_dual = star1 / l + 0.5 * (d * from + (l - d) * to);
+  if (flux != 0) {
+    by.length += flux / dual;
+    by_dual -= flux * l / (dual * dual);
+  }
+  by.left = edge.left.valid() ? by_dual : 0;
+  by.right = edge.right.valid() ? by_dual : 0;
+  return by;
+}
+
+/// From an edge to its ends, and to the orthocenters on its sides.
+void pull_back_edge(const Mesh& mesh, const DecComplex& dec, const DecEdge& edge, EdgeAdjoint by,
+                    IdVector<TriangleId, Vec2>& orthocenter, Gradient& gradient) {
+  const Vec2 from = mesh.position(edge.from), e = mesh.position(edge.to) - from;
+  const double l = edge.length;
+  Vec2 by_e, by_from;
+  const auto height = [&](TriangleId t, double h, double by_h, double side) {
+    if (!t.valid()) return;
+    by.length -= by_h * h / l;
+    const double by_cross = side * by_h / l;  // of e × c
+    const Vec2 c = dec.orthocenters[t] - from, by_c = by_cross * Vec2{-e.y, e.x};
+    by_e = by_e + by_cross * Vec2{c.y, -c.x};
+    orthocenter[t] = orthocenter[t] + by_c;
+    by_from = by_from - by_c;
+  };
+  height(edge.left, edge.left_height, by.left, 1);
+  height(edge.right, edge.right_height, by.right, -1);
+  const double weights = by.crossing / (2 * l);
+  gradient[edge.from].w += weights;
+  gradient[edge.to].w -= weights;
+  by.length += by.crossing * (1 - edge.crossing / l);  // d = (ℓ² + w_i − w_j)/(2ℓ)
+  by_e = by_e + (by.length / l) * e;
+  add_place(gradient, edge.to, by_e);
+  add_place(gradient, edge.from, by_from - by_e);
+}
+
+/// From the orthocenter of a triangle, and its area, to its corners.
+void pull_back_triangle(const Mesh& mesh, const DecComplex& dec, TriangleId t, Vec2 by_orthocenter, double by_area,
+                        Gradient& gradient) {
+  const auto [i, j, k] = mesh.corners(t);
+  const Vec2 p = mesh.position(i), e = mesh.position(j) - p, f = mesh.position(k) - p;
+  const Vec2 c = dec.orthocenters[t] - p;
+  const double twice_area = cross(e, f);
+  // λ_1 e + λ_2 f = the derivative by c.
+  const double first = cross(by_orthocenter, f) / twice_area, second = cross(e, by_orthocenter) / twice_area;
+  const Vec2 by_e = first * (e - c) + 0.5 * by_area * Vec2{f.y, -f.x};
+  const Vec2 by_f = second * (f - c) + 0.5 * by_area * Vec2{-e.y, e.x};
+  gradient[i].w += 0.5 * (first + second);
+  gradient[j].w -= 0.5 * first;
+  gradient[k].w -= 0.5 * second;
+  add_place(gradient, j, by_e);
+  add_place(gradient, k, by_f);
+  add_place(gradient, i, by_orthocenter - by_e - by_f);
+}
+
+}  // namespace
+
+Adjoint::Adjoint(const Mesh& mesh, const DecComplex& dec)
+    : vertex(mesh.n_vertices(), Vec2{}),
+      star0(mesh.n_vertices(), 0.0),
+      star1(dec.edges.size(), 0.0),
+      transmissibility(dec.edges.size(), 0.0),
+      crossing(dec.edges.size(), 0.0),
+      orthocenter(mesh.n_triangles(), Vec2{}),
+      area(mesh.n_triangles(), 0.0) {}
+
+void Adjoint::add(const Adjoint& other) {
+  add_all(vertex, other.vertex);
+  add_all(star0, other.star0);
+  add_all(star1, other.star1);
+  add_all(transmissibility, other.transmissibility);
+  add_all(crossing, other.crossing);
+  add_all(orthocenter, other.orthocenter);
+  add_all(area, other.area);
+}
+
+Gradient pulled_back(const Mesh& mesh, const DecComplex& dec, const Adjoint& by) {
+  Gradient gradient(mesh.n_vertices(), WeightedPoint{});
+  for (const VertexId v : mesh.vertices()) add_place(gradient, v, by.vertex[v]);
+  IdVector<TriangleId, Vec2> orthocenter = by.orthocenter;
+  for (std::size_t i = 0; i < dec.edges.size(); ++i) {
+    const EdgeId e(i);
+    const DecEdge& edge = dec.edges[e];
+    EdgeAdjoint of_edge =
+        of_operators(edge, by.star1[e], by.transmissibility[e], by.star0[edge.from], by.star0[edge.to]);
+    of_edge.crossing += by.crossing[e];
+    pull_back_edge(mesh, dec, edge, of_edge, orthocenter, gradient);
+  }
+  for (const TriangleId t : mesh.triangles()) {
+    pull_back_triangle(mesh, dec, t, orthocenter[t], by.area[t], gradient);
+  }
+  return gradient;
+}
+
+}  // namespace temper::error_detail

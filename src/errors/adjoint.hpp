@@ -1,0 +1,37 @@
+// Derivatives of a number that depends on a mesh through its operators: from those by what schemes see (coefficients,
+// cells, places) to those by x, y and w of each vertex. In the plane.
+//
+// The chain begins at the places p and weights w. Of triangle (i, j, k) with e = p_j − p_i, f = p_k − p_i, the
+// orthocenter is o = p_i + c with
+//
+//     c · e = (e² + w_i − w_j)/2,   c · f = (f² + w_i − w_k)/2
+//
+// and of an edge with its triangle on the left  d = ℓ/2 + (w_i − w_j)/(2ℓ),  h = e × c / ℓ. Read backwards, a
+// derivative by c is λ_1 e + λ_2 f, and λ are those by the right sides.
+#pragma once
+
+#include <vector>
+
+#include "temper/dec.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper::error_detail {
+
+/// The derivatives by what a scheme is made of, in the units of the mesh; sized by the mesh, zeros at first.
+struct Adjoint {
+  explicit Adjoint(const Mesh& mesh, const DecComplex& dec);
+
+  IdVector<VertexId, Vec2> vertex;                   ///< by the place itself, all else kept
+  IdVector<VertexId, double> star0;                  ///< by the area of the dual cell
+  IdVector<EdgeId, double> star1, transmissibility;  ///< by D/ℓ and ℓ/D
+  IdVector<EdgeId, double> crossing;                 ///< by d itself
+  IdVector<TriangleId, Vec2> orthocenter;            ///< by its place
+  IdVector<TriangleId, double> area;
+
+  void add(const Adjoint& other);
+};
+
+/// The derivatives by the unknowns of each vertex. O(n).
+[[nodiscard]] IdVector<VertexId, WeightedPoint> pulled_back(const Mesh& mesh, const DecComplex& dec, const Adjoint& by);
+
+}  // namespace temper::error_detail

@@ -1,0 +1,139 @@
+// Errors as numbers in a row: means over fields, ratios of two meshes, orders over a family.
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "errors/poisson.hpp"
+
+namespace temper {
+namespace {
+
+template <std::size_t star>
+double& star_l2(OperatorErrors& e) {
+  return e.star[star].l2;
+}
+template <std::size_t star>
+double& star_max(OperatorErrors& e) {
+  return e.star[star].max;
+}
+double& poisson_l2(OperatorErrors& e) { return e.poisson.l2; }
+double& poisson_max(OperatorErrors& e) { return e.poisson.max; }
+double& flux_l2(OperatorErrors& e) { return e.flux.l2; }
+double& flux_max(OperatorErrors& e) { return e.flux.max; }
+
+/// The same of what is not to be changed: a copy, of ten numbers.
+template <double& (*at)(OperatorErrors&)>
+double value_of(const OperatorErrors& errors) {
+  OperatorErrors copy = errors;
+  return at(copy);
+}
+
+template <double& (*at)(OperatorErrors&)>
+constexpr ErrorMeasure measure_row(std::string_view key, std::string_view label) {
+  return {key, label, value_of<at>, at};
+}
+
+constexpr std::array<ErrorMeasure, 10> kMeasures = {{
+    measure_row<star_l2<0>>("star0.l2", "★0, L2"),
+    measure_row<star_max<0>>("star0.max", "★0, maximum"),
+    measure_row<star_l2<1>>("star1.l2", "★1, L2"),
+    measure_row<star_max<1>>("star1.max", "★1, maximum"),
+    measure_row<star_l2<2>>("star2.l2", "★2, L2"),
+    measure_row<star_max<2>>("star2.max", "★2, maximum"),
+    measure_row<poisson_l2>("poisson.l2", "Poisson at vertices, L2"),
+    measure_row<poisson_max>("poisson.max", "Poisson at vertices, maximum"),
+    measure_row<flux_l2>("flux.l2", "two-point flux, L2"),
+    measure_row<flux_max>("flux.max", "two-point flux, maximum"),
+}};
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+
+// Relative errors below are those of rounding: five-point stars are exact for quadratic fields.
+constexpr double kRounding = 1e-12;
+
+/// Slope of −log2(error) over the number of the level, which is that of error against edge length: each level halves
+/// it.
+double order_of(const std::vector<double>& errors) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (std::size_t level = 0; level < errors.size(); ++level) {
+    if (!(errors[level] > kRounding) || !std::isfinite(errors[level])) continue;
+    const double i = static_cast<double>(level), log = -std::log2(errors[level]);
+    n += 1, x += i, y += log, xx += i * i, xy += i * log;
+  }
+  return n < 2 ? kUndefined : (n * xy - x * y) / (n * xx - x * x);
+}
+
+double ratio(double after, double before) {
+  if (after == before) return 1;
+  if (before == 0) return kInfinity;
+  return std::isfinite(before) ? after / before : 0;
+}
+
+/// finish(Σ start(value), n) of each measure.
+template <class Start, class Finish>
+OperatorErrors mean(std::span<const FieldErrors> fields, std::optional<FieldGroup> group, const Start& start,
+                    const Finish& finish) {
+  OperatorErrors result;
+  for (const ErrorMeasure& measure : kMeasures) {
+    double sum = 0, n = 0;
+    for (const FieldErrors& row : fields) {
+      if (group && row.field.group != *group) continue;
+      sum += start(measure.of(row.errors));
+      n += 1;
+    }
+    measure.at(result) = finish(sum, n);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::span<const ErrorMeasure> error_measures() { return kMeasures; }
+
+OperatorErrors geometric_mean(std::span<const FieldErrors> fields, std::optional<FieldGroup> group) {
+  return mean(
+      fields, group, [](double value) { return std::log(value); },
+      [](double sum, double n) {
+        // An infinite error is not made good by one of zero.
+        return n == 0 ? 1 : std::isnan(sum) ? kInfinity : std::exp(sum / n);
+      });
+}
+
+OperatorErrors arithmetic_mean(std::span<const FieldErrors> fields, std::optional<FieldGroup> group) {
+  return mean(
+      fields, group, [](double value) { return value; },
+      [](double sum, double n) { return n == 0 ? kUndefined : sum / n; });
+}
+
+Expected<std::vector<FieldErrors>> error_ratios(const ErrorReport& after, const ErrorReport& before) {
+  bool same = after.fields.size() == before.fields.size() && after.frame == before.frame;
+  for (std::size_t i = 0; same && i < after.fields.size(); ++i) {
+    same = after.fields[i].field.name == before.fields[i].field.name;
+  }
+  if (!same) return InputError{ErrorCode::invalid_option, "", "errors of other fields, or of another frame"};
+  std::vector<FieldErrors> ratios = after.fields;
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    for (const ErrorMeasure& measure : kMeasures) {
+      measure.at(ratios[i].errors) = ratio(measure.of(after.fields[i].errors), measure.of(before.fields[i].errors));
+    }
+  }
+  return ratios;
+}
+
+namespace error_detail {
+
+std::vector<FieldErrors> convergence_orders(const std::vector<ErrorLevel>& levels) {
+  std::vector<FieldErrors> orders = levels.front().fields;
+  for (std::size_t field = 0; field < orders.size(); ++field) {
+    for (const ErrorMeasure& measure : kMeasures) {
+      std::vector<double> errors;
+      for (const ErrorLevel& level : levels) errors.push_back(measure.of(level.fields[field].errors));
+      measure.at(orders[field].errors) = order_of(errors);
+    }
+  }
+  return orders;
+}
+
+}  // namespace error_detail
+}  // namespace temper

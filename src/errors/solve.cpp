@@ -1,0 +1,216 @@
+#include "errors/solve.hpp"
+
+#define EIGEN_MPL2_ONLY
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+namespace temper::error_detail {
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+using Vector = Eigen::VectorXd;
+using Index = Eigen::Index;
+
+// The residual against |A| |x| + |b|: rounding leaves 1e-16 times a small power of n; a failed solution leaves 1.
+constexpr double kResidual = 1e-8;
+// Of the matrix scaled to a diagonal of ±1. Rounding of its entries alone turns a singular matrix into one of 1e16; a
+// million unknowns of a sound one make 1e7.
+constexpr double kSingularCondition = 1e13;
+constexpr int kSingularSteps = 8;
+constexpr int kPowerSteps = 200;  // largest and least eigenvalue to a few percent
+
+Vector to_vector(const std::vector<double>& values) {
+  return Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size()));
+}
+
+/// S with S A S of diagonal ±1: rows of very unlike size are no reason to call a matrix singular.
+Vector scaling_of(const LinearSystem& system) {
+  Vector diagonal = Vector::Zero(static_cast<Index>(system.unknowns));
+  for (const auto& [row, column, value] : system.lower) {
+    if (row == column) diagonal[static_cast<Index>(row)] += value;
+  }
+  return diagonal.unaryExpr([](double d) { return d == 0 ? 1.0 : 1 / std::sqrt(std::abs(d)); });
+}
+
+/// S A S, both triangles, so that a product and LU need not know of symmetry.
+Matrix scaled_matrix(const LinearSystem& system, const Vector& scaling) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(2 * system.lower.size());
+  for (const auto& [row, column, value] : system.lower) {
+    const int i = static_cast<int>(row), j = static_cast<int>(column);
+    const double scaled = value * scaling[i] * scaling[j];
+    entries.emplace_back(i, j, scaled);
+    if (i != j) entries.emplace_back(j, i, scaled);
+  }
+  Matrix matrix(scaling.size(), scaling.size());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+double norm_of(const Matrix& matrix) {
+  double most = 0;
+  for (Index k = 0; k < matrix.outerSize(); ++k) {
+    double sum = 0;
+    for (Matrix::InnerIterator entry(matrix, k); entry; ++entry) sum += std::abs(entry.value());
+    most = std::max(most, sum);
+  }
+  return most;
+}
+
+/// |λ| that repeated application tends to, from below; from a start that no symmetry of a mesh shares.
+template <class Apply>
+double power_iteration(Index n, int steps, const Apply& apply) {
+  Vector x(n);
+  for (Index i = 0; i < n; ++i) x[i] = 1 + 0.5 * std::sin(1.0 + 2.3 * static_cast<double>(i));
+  double value = 0;
+  for (int step = 0; step < steps; ++step) {
+    x /= x.norm();
+    x = apply(x);
+    value = x.norm();
+    if (!std::isfinite(value) || value == 0) return value;
+  }
+  return value;
+}
+
+/// A system with one factorisation of its scaled matrix.
+struct Scaled {
+  const LinearSystem& system;
+  Vector scaling;
+  Matrix matrix;
+};
+
+template <class Solver>
+bool is_singular(const Scaled& scaled, const Solver& solver) {
+  const auto apply = [&](const Vector& x) { return Vector(solver.solve(x)); };
+  const double inverse = power_iteration(scaled.matrix.rows(), kSingularSteps, apply);
+  return !(norm_of(scaled.matrix) * inverse <= kSingularCondition);
+}
+
+/// Every right side, or false when the factorisation does not solve them.
+template <class Solver>
+bool solve_all(const Scaled& scaled, const Solver& solver, LinearSolution& result) {
+  const double size = norm_of(scaled.matrix);
+  result.solutions.clear();
+  for (const std::vector<double>& right : scaled.system.right_sides) {
+    const Vector b = scaled.scaling.cwiseProduct(to_vector(right));
+    const Vector y = solver.solve(b);
+    const double rounding = size * y.template lpNorm<Eigen::Infinity>() + b.template lpNorm<Eigen::Infinity>();
+    const Vector residual = scaled.matrix * y - b;
+    // A right side that overflowed is no fault of the matrix: its solution overflows too.
+    const bool overflow = !b.allFinite();
+    if (!overflow && !(residual.template lpNorm<Eigen::Infinity>() <= kResidual * rounding)) return false;
+    const Vector x = scaled.scaling.cwiseProduct(y);
+    result.solutions.emplace_back(x.data(), x.data() + x.size());
+  }
+  return true;
+}
+
+/// The condition number of the matrix as it is, not of the scaled one: A x = S⁻¹ (S A S) S⁻¹ x.
+template <class Solver>
+double condition_of(const Scaled& scaled, const Solver& solver) {
+  const Vector& s = scaled.scaling;
+  const double largest = power_iteration(s.size(), kPowerSteps, [&](const Vector& x) {
+    const Vector product = scaled.matrix * x.cwiseQuotient(s);
+    return Vector(product.cwiseQuotient(s));
+  });
+  const double inverse = power_iteration(s.size(), kPowerSteps, [&](const Vector& x) {
+    const Vector solution = solver.solve(Vector(x.cwiseProduct(s)));
+    return Vector(solution.cwiseProduct(s));
+  });
+  const double condition = largest * inverse;
+  return std::isfinite(condition) ? condition : std::numeric_limits<double>::infinity();
+}
+
+template <class Solver>
+bool solve_with(const Scaled& scaled, const Solver& solver, bool with_condition, LinearSolution& result) {
+  if (is_singular(scaled, solver) || !solve_all(scaled, solver, result)) return false;
+  if (with_condition) result.condition = condition_of(scaled, solver);
+  return true;
+}
+
+bool all_finite(const LinearSystem& system) {
+  return std::all_of(system.lower.begin(), system.lower.end(),
+                     [](const MatrixEntry& entry) { return std::isfinite(entry.value); });
+}
+
+using Lu = Eigen::SparseLU<Matrix>;
+
+/// Eigen 3.4 gives back a vector's memory before it asks for more, and gives it back again in the destructor when there
+/// is no more. So what memory ran out for is left as it is, and never ends.
+std::unique_ptr<Lu> lu_of(const Matrix& matrix) {
+  auto lu = std::make_unique<Lu>();
+  try {
+    lu->compute(matrix);
+  } catch (...) {
+    static_cast<void>(lu.release());
+    throw;
+  }
+  return lu;
+}
+
+/// LDLᵀ, or LU: false when neither solves it.
+bool factor_and_solve(const LinearSystem& system, bool with_condition, LinearSolution& result) {
+  const Vector scaling = scaling_of(system);
+  const Scaled scaled = {system, scaling, scaled_matrix(system, scaling)};
+  const Eigen::SimplicialLDLT<Matrix> ldlt(scaled.matrix);
+  result.definite = ldlt.info() == Eigen::Success && (ldlt.vectorD().array() > 0).all();
+  if (result.definite) return solve_with(scaled, ldlt, with_condition, result);
+  const std::unique_ptr<Lu> lu = lu_of(scaled.matrix);
+  return lu->info() == Eigen::Success && solve_with(scaled, *lu, with_condition, result);
+}
+
+}  // namespace
+
+struct Cholesky::Factors {
+  Eigen::SimplicialLDLT<Matrix> ldlt;
+};
+
+std::optional<Cholesky> Cholesky::of(std::size_t unknowns, const std::vector<MatrixEntry>& lower) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(lower.size());
+  for (const auto& [row, column, value] : lower) {
+    if (!std::isfinite(value)) return std::nullopt;
+    entries.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
+  }
+  const auto n = static_cast<Index>(unknowns);
+  Matrix matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  auto factors = std::make_shared<Factors>();
+  factors->ldlt.compute(matrix);
+  const bool definite = factors->ldlt.info() == Eigen::Success && (factors->ldlt.vectorD().array() > 0).all();
+  if (!definite) return std::nullopt;
+  Cholesky cholesky;
+  cholesky.factors_ = std::move(factors);
+  return cholesky;
+}
+
+void Cholesky::solve(std::vector<double>& right) const {
+  if (right.empty()) return;
+  const Vector x = factors_->ldlt.solve(to_vector(right));
+  std::copy(x.begin(), x.end(), right.begin());
+}
+
+LinearSolution solve(const LinearSystem& system, bool with_condition) {
+  LinearSolution result;
+  if (system.unknowns == 0) {
+    result.definite = true;
+    result.solutions.resize(system.right_sides.size());
+    if (with_condition) result.condition = 1;
+    return result;
+  }
+  if (all_finite(system) && factor_and_solve(system, with_condition, result)) return result;
+  result.singular = true;
+  result.definite = false;
+  result.solutions.clear();
+  if (with_condition) result.condition = std::numeric_limits<double>::infinity();
+  return result;
+}
+
+}  // namespace temper::error_detail

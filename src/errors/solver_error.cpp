@@ -1,0 +1,331 @@
+// See solver_error_model() in temper/errors.hpp. The mean squared error of a scheme over many waves, and its
+// derivatives by the discrete adjoint.
+//
+// Of the system A v = b(u) that a scheme solves for a wave u, with the squared error J = c Σ m e², e = v − u at the
+// unknowns and m their areas: with the adjoint A λ = 2 c m e the derivative of J by anything in A, b, m or u, v being
+// whatever they make it, is that of J − λᵀ(A v − b) with v and λ kept.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "base/rng.hpp"
+#include "base/sine_cosine.hpp"
+#include "errors/adjoint.hpp"
+#include "errors/fields.hpp"
+#include "errors/solve.hpp"
+#include "temper/dec.hpp"
+#include "temper/detail/error_model.hpp"
+#include "temper/errors.hpp"
+
+namespace temper {
+namespace error_detail {
+namespace {
+
+constexpr double kLeastWaveNumber = 1, kMostWaveNumber = 4;
+constexpr std::size_t kBatch = 8;  // waves that a task takes: each has derivatives of its own to add up
+constexpr std::size_t kGivenValue = static_cast<std::size_t>(-1);
+
+/// sin(k · p + phase), in the coordinates of the mesh.
+struct Wave {
+  Vec2 k;
+  double phase = 0;
+
+  [[nodiscard]] double angle(Vec2 p) const { return dot(k, p) + phase; }
+  [[nodiscard]] double at(Vec2 p) const { return sine_cosine(angle(p)).sine; }
+  [[nodiscard]] Vec2 gradient(Vec2 p) const { return sine_cosine(angle(p)).cosine * k; }
+  /// −Δ of it.
+  [[nodiscard]] double source(Vec2 p) const { return squared_length(k) * at(p); }
+  /// ∫ ∇u · n over the segment, n to its left.
+  [[nodiscard]] double flow_to_left(Vec2 a, Vec2 b) const {
+    const Vec2 e = b - a;
+    const double half = 0.5 * dot(k, e);
+    const double sinc = std::abs(half) < 1e-4 ? 1 - half * half / 6 : sine_cosine(half).sine / half;
+    return (k.y * e.x - k.x * e.y) * sine_cosine(angle(0.5 * (a + b))).cosine * sinc;
+  }
+};
+
+/// A mesh with its operators, and the waves in its units.
+struct ErrorSubject {
+  const Mesh& mesh;
+  DecComplex dec;
+  std::vector<Wave> waves;
+  double area = 0;
+
+  /// c of J: relative to the wave's mean square ½, over the fourth power of its number in the frame, in the mean.
+  [[nodiscard]] double factor(const Wave& wave, double half_size) const {
+    const double k2 = squared_length(wave.k) * half_size * half_size;
+    return 2 / (area * k2 * k2 * static_cast<double>(waves.size()));
+  }
+};
+
+/// A scheme on a mesh, its matrix factored.
+class Solver {
+ public:
+  Solver(const ErrorSubject& subject, double half_size) : s_(subject), half_size_(half_size) {}
+  virtual ~Solver() = default;
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  [[nodiscard]] bool is_definite() const { return matrix_.has_value(); }
+  /// The squared error of one wave, and where `by` is not null its derivatives, added there.
+  [[nodiscard]] virtual double error(const Wave& wave, Adjoint* by) const = 0;
+
+ protected:
+  void factor(std::size_t unknowns, const std::vector<MatrixEntry>& lower) { matrix_ = Cholesky::of(unknowns, lower); }
+  [[nodiscard]] std::vector<double> solved(std::vector<double> right) const {
+    matrix_->solve(right);
+    return right;
+  }
+  [[nodiscard]] const ErrorSubject& subject() const { return s_; }
+  [[nodiscard]] double factor_of(const Wave& wave) const { return s_.factor(wave, half_size_); }
+
+ private:
+  const ErrorSubject& s_;
+  double half_size_;
+  std::optional<Cholesky> matrix_;
+};
+
+// --- unknowns at the vertices: d0ᵀ ★1 d0 u = ★0 f --------------------------------------------------------------------
+
+class VertexSolver final : public Solver {
+ public:
+  VertexSolver(const ErrorSubject& s, double half_size)
+      : Solver(s, half_size), unknown_(s.mesh.n_vertices(), kGivenValue) {
+    std::size_t n = 0;
+    for (const VertexId v : s.mesh.vertices()) {
+      if (!s.mesh.is_isolated(v) && !s.mesh.is_boundary(v)) unknown_[v] = n++, inner_.push_back(v);
+    }
+    std::vector<MatrixEntry> lower;
+    for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
+      const std::size_t i = unknown_[s.dec.edges[EdgeId(e)].from], j = unknown_[s.dec.edges[EdgeId(e)].to];
+      const double star1 = s.dec.star1[EdgeId(e)];
+      if (i != kGivenValue) lower.push_back({i, i, star1});
+      if (j != kGivenValue) lower.push_back({j, j, star1});
+      if (i != kGivenValue && j != kGivenValue) lower.push_back({std::max(i, j), std::min(i, j), -star1});
+    }
+    factor(n, lower);
+  }
+
+  [[nodiscard]] double error(const Wave& wave, Adjoint* by) const override {
+    const auto& [mesh, dec, waves, area] = subject();
+    std::vector<double> right(inner_.size());
+    for (std::size_t i = 0; i < inner_.size(); ++i) {
+      right[i] = dec.star0[inner_[i]] * wave.source(mesh.position(inner_[i]));
+    }
+    IdVector<VertexId, double> value(mesh.n_vertices(), 0.0), adjoint(mesh.n_vertices(), 0.0);
+    for (const VertexId v : mesh.vertices()) value[v] = unknown_[v] == kGivenValue ? wave.at(mesh.position(v)) : 0;
+    for (std::size_t e = 0; e < dec.edges.size(); ++e) {
+      const auto& [from, to] = std::pair(dec.edges[EdgeId(e)].from, dec.edges[EdgeId(e)].to);
+      const std::size_t i = unknown_[from], j = unknown_[to];
+      if (i != kGivenValue && j == kGivenValue) right[i] += dec.star1[EdgeId(e)] * value[to];
+      if (j != kGivenValue && i == kGivenValue) right[j] += dec.star1[EdgeId(e)] * value[from];
+    }
+    const std::vector<double> solution = solved(std::move(right));
+    const double c = factor_of(wave);
+    double sum = 0;
+    std::vector<double> force(inner_.size());
+    for (std::size_t i = 0; i < inner_.size(); ++i) {
+      const double e = solution[i] - wave.at(mesh.position(inner_[i])), m = dec.star0[inner_[i]];
+      sum += c * m * e * e;
+      force[i] = 2 * c * m * e;
+    }
+    if (by == nullptr) return sum;
+    const std::vector<double> lambda = solved(force);
+    for (std::size_t i = 0; i < inner_.size(); ++i) {
+      const VertexId v = inner_[i];
+      const Vec2 p = mesh.position(v);
+      const double k2 = squared_length(wave.k), u = wave.at(p), e = solution[i] - u;
+      by->star0[v] += c * e * e + lambda[i] * k2 * u;
+      by->vertex[v] = by->vertex[v] + (lambda[i] * dec.star0[v] * k2 - force[i]) * wave.gradient(p);
+      value[v] = solution[i];
+      adjoint[v] = lambda[i];
+    }
+    for (std::size_t e = 0; e < dec.edges.size(); ++e) {
+      const auto& [from, to] = std::pair(dec.edges[EdgeId(e)].from, dec.edges[EdgeId(e)].to);
+      by->star1[EdgeId(e)] -= (adjoint[from] - adjoint[to]) * (value[from] - value[to]);
+    }
+    return sum;
+  }
+
+ private:
+  IdVector<VertexId, std::size_t> unknown_;
+  std::vector<VertexId> inner_;
+};
+
+// --- unknowns at the orthocenters: Σ ℓ/D (u_k − u_l) = ∫ f -----------------------------------------------------------
+
+class CellSolver final : public Solver {
+ public:
+  CellSolver(const ErrorSubject& s, double half_size) : Solver(s, half_size) {
+    std::vector<MatrixEntry> lower;
+    for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
+      const DecEdge& edge = s.dec.edges[EdgeId(e)];
+      const double flux = s.dec.transmissibility[EdgeId(e)];
+      const std::size_t k = edge.left.index, l = edge.right.index;
+      if (edge.left.valid()) lower.push_back({k, k, flux});
+      if (edge.right.valid()) lower.push_back({l, l, flux});
+      if (!edge.is_boundary()) lower.push_back({std::max(k, l), std::min(k, l), -flux});
+    }
+    factor(s.mesh.n_triangles(), lower);
+  }
+
+  [[nodiscard]] double error(const Wave& wave, Adjoint* by) const override {
+    const auto& [mesh, dec, waves, area] = subject();
+    const std::vector<double> solution = solved(right_side(wave));
+    const double c = factor_of(wave);
+    double sum = 0;
+    std::vector<double> force(solution.size());
+    for (const TriangleId t : mesh.triangles()) {
+      const double e = solution[t.index] - wave.at(dec.orthocenters[t]), a = dec.areas[t];
+      sum += c * a * e * e;
+      force[t.index] = 2 * c * a * e;
+    }
+    if (by == nullptr) return sum;
+    const std::vector<double> lambda = solved(force);
+    for (const TriangleId t : mesh.triangles()) {
+      const Vec2 o = dec.orthocenters[t];
+      const double e = solution[t.index] - wave.at(o);
+      by->area[t] += c * e * e;
+      by->orthocenter[t] = by->orthocenter[t] - force[t.index] * wave.gradient(o);
+    }
+    for (std::size_t i = 0; i < dec.edges.size(); ++i) add_edge(EdgeId(i), wave, solution, lambda, *by);
+    return sum;
+  }
+
+ private:
+  [[nodiscard]] std::vector<double> right_side(const Wave& wave) const {
+    const auto& [mesh, dec, waves, area] = subject();
+    std::vector<double> right(mesh.n_triangles(), 0.0);
+    for (std::size_t i = 0; i < dec.edges.size(); ++i) {
+      const DecEdge& edge = dec.edges[EdgeId(i)];
+      const double flow = wave.flow_to_left(mesh.position(edge.from), mesh.position(edge.to));
+      if (edge.left.valid()) right[edge.left.index] += flow;
+      if (edge.right.valid()) right[edge.right.index] -= flow;
+      if (edge.is_boundary()) right[inner(edge).index] += dec.transmissibility[EdgeId(i)] * wave.at(edge.midpoint);
+    }
+    return right;
+  }
+
+  [[nodiscard]] static TriangleId inner(const DecEdge& edge) { return edge.left.valid() ? edge.left : edge.right; }
+
+  void add_edge(EdgeId id, const Wave& wave, const std::vector<double>& solution, const std::vector<double>& lambda,
+                Adjoint& by) const {
+    const auto& [mesh, dec, waves, area] = subject();
+    const DecEdge& edge = dec.edges[id];
+    const Vec2 a = mesh.position(edge.from), b = mesh.position(edge.to), e = b - a;
+    if (edge.is_boundary()) {
+      const std::size_t k = inner(edge).index;
+      by.transmissibility[id] -= lambda[k] * (solution[k] - wave.at(edge.midpoint));
+      by.crossing[id] += lambda[k] * dec.transmissibility[id] * dot(wave.gradient(edge.midpoint), e) / edge.length;
+      return;
+    }
+    const double difference = lambda[edge.left.index] - lambda[edge.right.index];
+    by.transmissibility[id] -= difference * (solution[edge.left.index] - solution[edge.right.index]);
+    // ∫ f over the triangle on the left grows where the edge goes to the right, by f times the way.
+    const Vec2 right = difference * Vec2{e.y, -e.x};
+    along_segment(a, b, [&](Vec2 p, double weight) {
+      const double t = dot(p - a, e) / squared_length(e), f = weight * wave.source(p);
+      by.vertex[edge.from] = by.vertex[edge.from] + (f * (1 - t)) * right;
+      by.vertex[edge.to] = by.vertex[edge.to] + (f * t) * right;
+    });
+  }
+};
+
+// --- the model -------------------------------------------------------------------------------------------------------
+
+/// In the frame: half the bounding box has length 1.
+std::vector<Wave> waves_of(const DiscretizationErrorOptions& options) {
+  Rng rng(options.seed);
+  std::vector<Wave> waves;
+  for (std::size_t i = 0; i < options.fields; ++i) {
+    const double turn = (static_cast<double>(i) + rng.uniform()) / static_cast<double>(options.fields);
+    const double k = rng.uniform(kLeastWaveNumber, kMostWaveNumber);
+    const auto [sine, cosine] = sine_cosine(std::numbers::pi * turn);
+    waves.push_back({{k * cosine, k * sine}, rng.uniform(0, 2 * std::numbers::pi)});
+  }
+  return waves;
+}
+
+class SolverErrorModel final : public ErrorModel {
+ public:
+  explicit SolverErrorModel(const DiscretizationErrorOptions& options)
+      : scheme_(options.scheme), waves_(waves_of(options)) {}
+
+  [[nodiscard]] std::vector<double> errors(const Mesh& mesh, Executor* executor) const override {
+    return measure(mesh, nullptr, executor);
+  }
+  [[nodiscard]] std::vector<double> errors(const Mesh& mesh, std::vector<Gradient>& gradients,
+                                           Executor* executor) const override {
+    gradients.clear();
+    return measure(mesh, &gradients, executor);
+  }
+
+ private:
+  [[nodiscard]] std::vector<double> measure(const Mesh& mesh, std::vector<Gradient>* gradients,
+                                            Executor* executor) const {
+    const FieldFrame frame = field_frame(mesh);
+    ErrorSubject subject{mesh, dec_operators(mesh), {}, 0};
+    for (const double area : subject.dec.areas) subject.area += area;
+    for (const Wave& wave : waves_) {
+      const Vec2 k = (1 / frame.half_size) * wave.k;
+      subject.waves.push_back({k, wave.phase - dot(k, frame.center)});
+    }
+    std::optional<VertexSolver> at_vertices;
+    std::optional<CellSolver> in_cells;
+    std::vector<const Solver*> solvers;
+    if (scheme_ != Scheme::cell) solvers.push_back(&at_vertices.emplace(subject, frame.half_size));
+    if (scheme_ != Scheme::vertex) solvers.push_back(&in_cells.emplace(subject, frame.half_size));
+    if (!std::all_of(solvers.begin(), solvers.end(), [](const Solver* s) { return s->is_definite(); })) return {};
+
+    std::vector<double> errors;
+    for (const Solver* solver : solvers) {
+      std::optional<Adjoint> by;
+      if (gradients != nullptr) by.emplace(mesh, subject.dec);
+      errors.push_back(mean_error(*solver, subject, by ? &*by : nullptr, executor));
+      if (by) gradients->push_back(pulled_back(mesh, subject.dec, *by));
+    }
+    return errors;
+  }
+
+  /// The sum over all waves, and of their derivatives, in an order that no number of threads changes.
+  static double mean_error(const Solver& solver, const ErrorSubject& subject, Adjoint* by, Executor* executor) {
+    const std::vector<Wave>& waves = subject.waves;
+    std::vector<double> sums((waves.size() + kBatch - 1) / kBatch, 0.0);
+    std::vector<std::optional<Adjoint>> parts(by != nullptr ? sums.size() : 0);
+    or_serial(executor).run(sums.size(), [&](std::size_t batch) {
+      Adjoint* part = by != nullptr ? &parts[batch].emplace(subject.mesh, subject.dec) : nullptr;
+      const std::size_t end = std::min(waves.size(), (batch + 1) * kBatch);
+      for (std::size_t i = batch * kBatch; i < end; ++i) sums[batch] += solver.error(waves[i], part);
+    });
+    double sum = 0;
+    for (const double part : sums) sum += part;
+    for (const std::optional<Adjoint>& part : parts) by->add(*part);
+    return sum;
+  }
+
+  Scheme scheme_;
+  std::vector<Wave> waves_;
+};
+
+}  // namespace
+}  // namespace error_detail
+
+Expected<std::shared_ptr<const ErrorModel>> solver_error_model(const Mesh& mesh,
+                                                               const DiscretizationErrorOptions& options) {
+  const auto refused = [](const std::string& message) { return InputError{ErrorCode::invalid_option, "", message}; };
+  if (mesh.space().kind() != SpaceKind::plane)
+    return refused("`objective=error` is for meshes of the plane; expected `objective=accuracy`");
+  if (options.scheme == Scheme::stars) {
+    return refused(
+        "`objective=error` is for a scheme that solves, and stars solve nothing; expected `target=vertex`, "
+        "`target=cell` "
+        "or `target=all`");
+  }
+  if (options.fields == 0) return refused("errors are averaged over no field; expected one at least");
+  return std::shared_ptr<const ErrorModel>(std::make_shared<error_detail::SolverErrorModel>(options));
+}
+
+}  // namespace temper

@@ -1,0 +1,169 @@
+// temper errors: tables, JSON, comparisons, and what is refused.
+#include "temper/errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "temper/io.hpp"
+#include "workshop.hpp"
+
+namespace temper::test {
+namespace {
+
+class Errors : public Workshop {};
+
+TEST_F(Errors, PrintsErrorsOfEveryFieldTheirMeansAndTheMatrices) {
+  make_input();
+  const std::string text = temper_ok({"errors", "in.vtu", "--condition"}).out;
+  for (const char* part : {"in.vtu: ", "relative error, L2", "relative error, maximum", "product (chosen)",
+                           "bump (held-back)", "mean, chosen", "mean, held-back", "M-matrix", "positive definite",
+                           "largest coefficient over median", "condition, at least"}) {
+    EXPECT_TRUE(contains(text, part));
+  }
+  EXPECT_FALSE(contains(text, "linear"));
+  EXPECT_FALSE(contains(text, "nan"));
+  const auto json = nlohmann::json::parse(temper_ok({"errors", "in.vtu", "--json"}).out);
+  for (const auto& field : json["errors"]["fields"]) {
+    for (const char* key : {"star0", "star1", "star2", "poisson", "flux"}) {
+      for (const char* norm : {"l2", "max"}) {
+        char number[32];
+        std::snprintf(number, sizeof number, " %.3e", field[key][norm].get<double>());
+        EXPECT_TRUE(contains(text, number)) << field["name"] << " " << key;
+      }
+    }
+  }
+}
+
+TEST_F(Errors, SaysTheSameAsJsonForAnyNumberOfThreads) {
+  make_input();
+  const std::string text = temper_ok({"errors", "in.vtu", "--json", "--threads", "1"}).out;
+  EXPECT_EQ(temper_ok({"errors", "in.vtu", "--json", "--threads", "3"}).out, text);
+  const auto json = nlohmann::json::parse(text);
+  const auto check = nlohmann::json::parse(temper_ok({"check", "in.vtu", "--json"}).out);
+  EXPECT_EQ(json["triangles"], check["triangles"]);
+  EXPECT_EQ(json["non_regular_edges"], check["non_regular_edges"]);
+  ASSERT_EQ(json["errors"]["fields"].size(), 9u);
+  double logs = 0;
+  for (const auto& field : json["errors"]["fields"]) {
+    for (const char* key : {"star0", "star1", "star2", "poisson", "flux"}) {
+      EXPECT_GT(field[key]["l2"], 0) << key;
+      EXPECT_GT(field[key]["max"], field[key]["l2"]) << key;
+    }
+    logs += std::log(field["poisson"]["l2"].get<double>()) / 9;
+  }
+  EXPECT_NEAR(json["errors"]["mean"]["all"]["poisson"]["l2"].get<double>(), std::exp(logs), 1e-12);
+  EXPECT_TRUE(json["matrices"]["flux"]["condition"].is_null());
+}
+
+TEST_F(Errors, ComparesWithAnotherMesh) {
+  temper_ok({"example", "annulus", "-o", "ring.vtu"});
+  temper_ok({"optimize", "ring.vtu", "-o", "better.vtu", "--max-sweeps", "5", "--quiet"});
+  const auto json = nlohmann::json::parse(temper_ok({"errors", "better.vtu", "--against", "ring.vtu", "--json"}).out);
+  const auto& ratios = json["against"]["ratios"]["fields"];
+  const auto& before = json["against"]["report"]["errors"]["fields"];
+  ASSERT_EQ(ratios.size(), 9u);
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    const double expected =
+        json["errors"]["fields"][i]["flux"]["l2"].get<double>() / before[i]["flux"]["l2"].get<double>();
+    EXPECT_NEAR(ratios[i]["flux"]["l2"], expected, 1e-12 * expected);
+  }
+  const Outcome same = temper_ok({"errors", "ring.vtu", "--against", "ring.vtu", "--fields", "chosen"});
+  EXPECT_TRUE(contains(same.out, "over the errors of ring.vtu:"));
+  EXPECT_EQ(same.err, "");
+  make_input();
+  const Outcome other = temper_ok({"errors", "ring.vtu", "--against", "in.vtu"});
+  EXPECT_TRUE(contains(other.err, "ring.vtu and in.vtu do not have the same bounding box"));
+}
+
+TEST_F(Errors, IsPartOfAnOptimisationWhenAskedFor) {
+  make_input();
+  const std::string text = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--objective", "accuracy",
+                                      "--measure-errors", "--report", "r.json"})
+                               .out;
+  EXPECT_TRUE(contains(text, "mean relative error"));
+  const auto report = nlohmann::json::parse(read("r.json"));
+  const auto against = nlohmann::json::parse(temper_ok({"errors", "out.vtu", "--against", "in.vtu", "--json"}).out);
+  EXPECT_EQ(report["verify"]["before"]["errors"], against["against"]["report"]["errors"]);
+  EXPECT_EQ(report["verify"]["after"]["errors"], against["errors"]);
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--report", "r.json", "--quiet"});
+  EXPECT_FALSE(nlohmann::json::parse(read("r.json")).contains("verify"));
+}
+
+// On even rings the errors of the Poisson problem cancel, and any change makes them larger.
+TEST_F(Errors, OfAnOptimizationOnlyMeasures) {
+  temper_ok({"example", "annulus", "--jitter", "0", "-o", "in.vtu"});
+  for (const auto& [out, more] :
+       {std::pair("plain.off", std::vector<std::string>()),
+        std::pair("measured.off", std::vector<std::string>{"--measure-errors", "--report", "r.json"})}) {
+    std::vector<std::string> words = {"optimize", "in.vtu", "-o", out, "--objective", "accuracy", "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    temper_ok(words);
+  }
+  EXPECT_EQ(read("measured.off"), read("plain.off"));
+  const auto report = nlohmann::json::parse(read("r.json"));
+  EXPECT_NE(report["verify"]["after"]["errors"], report["verify"]["before"]["errors"]);
+}
+
+TEST_F(Errors, MeasuresOrders) {
+  temper_ok({"example", "sheared-grid", "--nx", "6", "--ny", "6", "-o", "in.vtu"});
+  const std::string text = temper_ok({"errors", "in.vtu", "--refine", "2", "--fields", "bump,crossed"}).out;
+  EXPECT_TRUE(contains(text, "level 2"));
+  EXPECT_TRUE(contains(text, "order, L2"));
+  const auto json =
+      nlohmann::json::parse(temper_ok({"errors", "in.vtu", "--refine", "2", "--fields", "bump,exact", "--json"}).out);
+  ASSERT_EQ(json["levels"].size(), 3u);
+  EXPECT_EQ(json["levels"][2]["triangles"], 16 * json["triangles"].get<int>());
+  EXPECT_NEAR(json["orders"]["fields"][0]["poisson"]["l2"].get<double>(), 2, 0.3);
+  EXPECT_TRUE(json["orders"]["fields"][1]["poisson"]["l2"].is_null());  // linear: nothing but rounding
+}
+
+TEST_F(Errors, WritesTheErrorOfEachEdge) {
+  make_input();
+  const auto json = nlohmann::json::parse(temper_ok({"errors", "in.vtu", "--edges", "edges.csv", "--json"}).out);
+  std::istringstream csv(read("edges.csv"));
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "from,to,star1,error");
+  const Mesh mesh = io::make_mesh(*io::read("in.vtu"))->mesh;
+  const auto report = measure_errors(mesh, {.fields = {"all"}, .local = true});
+  ASSERT_TRUE(report);
+  const std::vector<double>& errors = report->local[1];
+  ASSERT_EQ(errors.size(), json["edges"].get<std::size_t>());
+  for (std::size_t e = 0; e < errors.size(); ++e) {
+    ASSERT_TRUE(std::getline(csv, line)) << "edge " << e;
+    EXPECT_GT(errors[e], 0) << "edge " << e;
+    EXPECT_NEAR(std::stod(line.substr(line.rfind(',') + 1)), errors[e], 1e-12 * errors[e]) << line;
+  }
+  EXPECT_FALSE(std::getline(csv, line)) << line;
+}
+
+TEST_F(Errors, BadUsageIsRefusedAndNothingIsWritten) {
+  make_input();
+  const Outcome field = temper({"errors", "in.vtu", "--fields", "chosen,sine", "--edges", "edges.csv"});
+  EXPECT_EQ(field.exit, 2);
+  EXPECT_TRUE(contains(field.err, "--fields: no field 'sine'; there are all, chosen, held-back, exact, product"));
+  EXPECT_EQ(temper({"errors"}).exit, 2);
+  EXPECT_EQ(temper({"errors", "in.vtu", "--fields", ""}).exit, 2);
+  EXPECT_EQ(temper({"errors", "in.vtu", "--refine", "-1"}).exit, 2);
+  EXPECT_EQ(temper({"errors", "in.vtu", "--refine", "30", "--edges", "edges.csv"}).exit, 2);
+  EXPECT_EQ(temper({"errors", "in.vtu", "--edges", "in.vtu"}).exit, 2);
+  EXPECT_EQ(temper({"errors", "nosuch.vtu"}).exit, 1);
+  EXPECT_EQ(temper({"errors", "in.vtu", "--against", "nosuch.vtu"}).exit, 1);
+  EXPECT_EQ(names(), std::vector<std::string>{"in.vtu"});
+}
+
+TEST_F(Errors, TheDocsListTheFieldsAndTheirGroups) {
+  make_input();
+  const std::string page = read(TEMPER_SOURCE_DIR "/docs/errors.md");
+  const auto json = nlohmann::json::parse(temper_ok({"errors", "in.vtu", "--fields", "all,exact", "--json"}).out);
+  ASSERT_EQ(json["errors"]["fields"].size(), 10u);
+  for (const auto& field : json["errors"]["fields"]) {
+    EXPECT_TRUE(
+        contains(page, "| `" + field["name"].get<std::string>() + "` | " + field["group"].get<std::string>() + " | "));
+  }
+}
+
+}  // namespace
+}  // namespace temper::test

@@ -1,0 +1,179 @@
+// Objective::error with the model of temper::verify: errors fall, what must stay stays, and a run is the same however
+// it is made.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "optimize/solver_error/error_phase.hpp"
+#include "support/std_threads.hpp"
+#include "temper/errors.hpp"
+#include "temper/generate.hpp"
+#include "temper/optimize.hpp"
+#include "temper/quality.hpp"
+#include "temper/solvers.hpp"
+
+namespace temper::test {
+namespace {
+
+constexpr double kMargin = 0.02;
+
+OptimizeOptions options_for(Scheme scheme) {
+  OptimizeOptions o;
+  o.target = scheme;
+  if (scheme == Scheme::all) o.objective = Objective::error;
+  o.error.steps = 40;
+  return o;
+}
+
+struct Improved {
+  Mesh mesh;
+  OptimizeReport report;
+};
+
+/// The mean squared errors of the schemes on `mesh`, in the measure of `input`.
+std::vector<double> errors_on(const Mesh& mesh, const Mesh& input, Scheme scheme) {
+  const auto model = solver_error_model(input, {.scheme = scheme});
+  EXPECT_TRUE(model);
+  return (*model)->errors(mesh);
+}
+
+Improved improved(const Mesh& input, const OptimizeOptions& options, OptimizeHooks hooks = {}) {
+  hooks.solvers = solvers();
+  Improved result{input, {}};
+  auto report = optimize(result.mesh, options, hooks);
+  EXPECT_TRUE(report) << report.error().what();
+  if (report) result.report = *std::move(report);
+  return result;
+}
+
+TEST(ErrorObjective, LowersTheErrorsOfItsSchemeBelowThoseOfTheAccuracyObjective) {
+  const Mesh input = *random_mesh({.vertices = 150, .seed = 8});
+  for (const Scheme scheme : {Scheme::vertex, Scheme::cell, Scheme::all}) {
+    const OptimizeOptions options = options_for(scheme);
+    const Improved error = improved(input, options);
+    const Improved accuracy = improved(input, {.objective = Objective::accuracy, .target = scheme});
+    const auto after = errors_on(error.mesh, input, scheme), before = errors_on(accuracy.mesh, input, scheme);
+    ASSERT_EQ(after.size(), before.size());
+    double product = 1;
+    for (std::size_t i = 0; i < after.size(); ++i) product *= after[i] / before[i];
+    EXPECT_LT(product, 1);
+    const Quality q = quality(error.mesh);
+    EXPECT_EQ(q.well_centered_fraction, 1);
+    EXPECT_EQ(q.non_regular_edges, 0u);
+    EXPECT_GT(q.min_h_over_l, 0.9 * kMargin);
+    EXPECT_EQ(error.mesh.validate(), std::nullopt);
+    EXPECT_EQ(error.report.history.back().objective, Objective::error);
+    for (const VertexId v : input.vertices()) {
+      if (!input.is_boundary(v)) continue;
+      EXPECT_EQ(error.mesh.position(v), input.position(v));
+    }
+  }
+}
+
+// On rings errors cancel from neighbour to neighbour, which all that moves single vertices ends (docs/accuracy.md).
+TEST(ErrorObjective, IsNeverWorseThanAWellCenteredInput) {
+  const Mesh ring = *annulus({.jitter = 0});
+  ASSERT_EQ(quality(ring).well_centered_fraction, 1);
+  for (const Objective objective : {Objective::accuracy, Objective::error}) {
+    for (const Scheme scheme : {Scheme::vertex, Scheme::cell}) {
+      OptimizeOptions options = options_for(scheme);
+      options.objective = objective;
+      const Improved result = improved(ring, options);
+      EXPECT_LE(errors_on(result.mesh, ring, scheme)[0], errors_on(ring, ring, scheme)[0]);
+      EXPECT_LE(result.report.final_energy, result.report.initial_energy);
+    }
+  }
+}
+
+TEST(ErrorObjective, IsTheSameForAnyThreadsAndReplayed) {
+  const Mesh input = *random_mesh({.vertices = 120, .seed = 2});
+  const OptimizeOptions options = options_for(Scheme::vertex);
+  std::vector<TraceEvent> events;
+  OptimizeHooks hooks;
+  hooks.tracer = [&](const TraceEvent& event) { events.push_back(event); };
+  const Improved whole = improved(input, options, hooks);
+  const auto again = replay(input, events);
+  ASSERT_TRUE(again) << again.error().what();
+  EXPECT_EQ(*again, whole.mesh);
+  for (const std::size_t threads : {2, 5}) {
+    StdThreads executor(threads);
+    EXPECT_EQ(improved(input, options, {.executor = &executor}).mesh, whole.mesh);
+  }
+}
+
+TEST(ErrorObjective, StopsWhenItIsAsked) {
+  const Mesh input = *random_mesh({.vertices = 120, .seed = 2});
+  const Improved cut = improved(input, options_for(Scheme::cell), {.observer = [](const Progress& progress) {
+                                  return progress.last.objective == Objective::error ? Continue::no : Continue::yes;
+                                }});
+  EXPECT_EQ(cut.report.stopped, Stopped::cancelled);
+  EXPECT_EQ(quality(cut.mesh).well_centered_fraction, 1);
+  EXPECT_EQ(cut.mesh.validate(), std::nullopt);
+}
+
+TEST(ErrorObjective, WithoutAModelLowersAccuracyAndSaysSo) {
+  const Mesh input = *random_mesh({.vertices = 60, .seed = 2});
+  Mesh without = input, accuracy = input;
+  const auto report = optimize(without, {.target = Scheme::vertex});
+  ASSERT_TRUE(report);
+  ASSERT_TRUE(optimize(accuracy, {.objective = Objective::accuracy, .target = Scheme::vertex}));
+  EXPECT_EQ(without, accuracy);
+  EXPECT_EQ(report->objective, Objective::accuracy);
+  EXPECT_NE(report->notes.front().find("the objective was accuracy, not the error"), std::string::npos);
+  EXPECT_EQ(improved(input, {.target = Scheme::vertex}).report.objective, Objective::error);
+}
+
+TEST(ErrorObjective, IsForSchemesAndEnergiesThatCenterTriangles) {
+  Mesh mesh = *random_mesh({.vertices = 20, .seed = 2});
+  const Mesh before = mesh;
+  EXPECT_FALSE(wants_error_model({}, mesh));
+  EXPECT_FALSE(wants_error_model({.target = Scheme::stars}, mesh));
+  EXPECT_FALSE(wants_error_model({.target = Scheme::cell, .energy = EnergyKind::T}, mesh));
+  EXPECT_TRUE(wants_error_model({.target = Scheme::cell}, mesh));
+  OptimizeOptions hot = options_for(Scheme::vertex);
+  hot.objective = Objective::error;
+  hot.energy = EnergyKind::T;
+  EXPECT_FALSE(optimize(mesh, hot));
+  EXPECT_EQ(mesh, before);
+}
+
+// --- L-BFGS ----------------------------------------------------------------------------------------------------------
+
+/// ½ xᵀ A x with A = diag(1, 2, …, n): the gradient.
+std::vector<double> gradient_at(const std::vector<double>& x) {
+  std::vector<double> g = x;
+  for (std::size_t i = 0; i < g.size(); ++i) g[i] *= static_cast<double>(i + 1);
+  return g;
+}
+
+TEST(Descent, WithExactSearchesEndsAQuadraticFunctionInAsManyStepsAsUnknowns) {
+  std::vector<double> x = {1, -2, 0.5, 3, -1};
+  Descent descent;
+  for (std::size_t step = 0; step < x.size(); ++step) {
+    const std::vector<double> g = gradient_at(x);
+    std::vector<double> d = descent.direction(g);
+    EXPECT_LT(dot(d, g), 0);
+    const double t = -dot(d, g) / dot(d, gradient_at(d));
+    for (std::size_t i = 0; i < x.size(); ++i) d[i] *= t, x[i] += d[i];
+    std::vector<double> change = gradient_at(x);
+    for (std::size_t i = 0; i < x.size(); ++i) change[i] -= g[i];
+    descent.learn(d, change);
+  }
+  EXPECT_LT(largest(x), 1e-10);
+}
+
+TEST(Descent, LearnsNothingFromStepsWithoutCurvature) {
+  Descent descent;
+  descent.learn({1, 0}, {-1, 0});
+  EXPECT_TRUE(descent.knows_nothing());
+  descent.learn({1, 0}, {2, 0});
+  EXPECT_FALSE(descent.knows_nothing());
+  EXPECT_EQ(descent.direction({2, 0}), (std::vector<double>{-1, 0}));
+  descent.forget();
+  EXPECT_TRUE(descent.knows_nothing());
+}
+
+}  // namespace
+}  // namespace temper::test
