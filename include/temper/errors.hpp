@@ -20,8 +20,8 @@
 #include <string_view>
 #include <vector>
 
+#include "temper/detail/discretization_error.hpp"
 #include "temper/detail/error.hpp"
-#include "temper/detail/error_model.hpp"
 #include "temper/detail/vec.hpp"
 #include "temper/mesh.hpp"
 
@@ -139,10 +139,10 @@ struct DiscretizationErrorOptions {
   std::uint64_t seed = 1;       ///< of their lengths and phases
 };
 /// The mean squared L2 errors of the schemes of this file over plane waves of 1 to 4 radians in half the bounding box,
-/// each over the fourth power of its wave number, as such errors grow: for OptimizeOptions::error_model. Derivatives by
-/// the discrete adjoint: one more solve each with the same factors. Errors: no field, Scheme::stars, a mesh of the
-/// sphere. O(n^1.5 + fields n log n).
-[[nodiscard]] Expected<std::shared_ptr<const ErrorModel>> solver_error_model(
+/// each over the fourth power of its wave number, as such errors grow: for OptimizeOptions::discretization_error.
+/// Derivatives by the discrete adjoint: one more solve each with the same factors. Errors: no field, Scheme::stars, a
+/// mesh of the sphere. O(n^1.5 + fields n log n).
+[[nodiscard]] Expected<std::shared_ptr<const DiscretizationError>> make_discretization_error(
     const Mesh& mesh, const DiscretizationErrorOptions& options = {});
 
 /// One number of OperatorErrors: what tables, JSON and comparisons are made of.

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "temper/detail/error_model.hpp"
+#include "temper/detail/discretization_error.hpp"
 #include "temper/detail/executor.hpp"
 #include "temper/detail/progress.hpp"
 #include "temper/detail/size.hpp"
@@ -165,9 +165,9 @@ struct SchemeWeights {
 /// By measurement, docs/accuracy.md.
 [[nodiscard]] SchemeWeights scheme_weights(Scheme scheme);
 
-/// Of Objective::error, which lowers  ln mean(errors over those at its start) + κ ln(E + barrier)  over all vertices at
-/// once, E and its barrier those of AccuracyOptions.
-struct ErrorOptions {
+/// Of Objective::solver_error, which lowers  ln mean(errors over those at its start) + κ ln(E + barrier)  over all
+/// vertices at once, E and its barrier those of AccuracyOptions.
+struct SolverErrorOptions {
   double offset_share = 1;  ///< κ ≥ 0: what keeps other errors from rising
   int steps = 200;          ///< at most; ≥ 0
   double tolerance = 0.01;  ///< ten steps that gain less than this of the sum of logarithms are the last. ≥ 0
@@ -242,7 +242,8 @@ struct Solvers {
   std::function<std::unique_ptr<LpSolver>()> lp = {};
   /// The model of the errors of a scheme on a mesh. Empty: accuracy is lowered instead of the error, and a note says
   /// so.
-  std::function<Expected<std::shared_ptr<const ErrorModel>>(const Mesh& mesh, Scheme scheme)> error_model = {};
+  std::function<Expected<std::shared_ptr<const DiscretizationError>>(const Mesh& mesh, Scheme scheme)>
+      discretization_error = {};
 };
 
 struct OptimizeOptions {
@@ -254,7 +255,7 @@ struct OptimizeOptions {
   std::optional<Objective> objective = {};
   Scheme target = Scheme::all;  ///< of Objective::accuracy and error
   AccuracyOptions accuracy = {};
-  ErrorOptions error = {};
+  SolverErrorOptions solver_error = {};
   EnergyKind energy = EnergyKind::BP;
   Star star = Star::one;  ///< whose error is to be small; sweeps before Objective::accuracy are for ★1
   Unknowns unknowns = Unknowns::positions_and_weights;
@@ -284,9 +285,9 @@ struct OptimizeOptions {
 /// switches other than `order` and `seed` are not the default ones.
 [[nodiscard]] Objective objective_of(const OptimizeOptions& options);
 
-/// Says whether a run asks for a model of errors: Objective::error lowers them. On a mesh of the plane for one scheme,
-/// of at most kMostJudged vertices, an absent objective is the error, and with accuracy the model is the judge: the
-/// mesh of least error is kept, the input too if it is well-centered.
+/// Says whether a run asks for a model of errors: Objective::solver_error lowers them. On a mesh of the plane for one
+/// scheme, of at most kMostJudged vertices, an absent objective is the error, and with accuracy the model is the judge:
+/// the mesh of least error is kept, the input too if it is well-centered.
 inline constexpr std::size_t kMostJudged = 20'000;
 [[nodiscard]] bool wants_error_model(const OptimizeOptions& options, const Mesh& mesh);
 
@@ -348,7 +349,7 @@ enum class Stopped {
   time_limit,
   cancelled,
   tangled,          ///< triangles are inverted (Inversion::allow): no flips can make the mesh regular
-  accuracy_sweeps,  ///< all sweeps of AccuracyOptions, or steps of ErrorOptions, are made: a normal end
+  accuracy_sweeps,  ///< all sweeps of AccuracyOptions, or steps of SolverErrorOptions, are made: a normal end
   hidden,           ///< deferred flips hid a vertex that may not be: the mesh is the last or best one that was regular
 };
 [[nodiscard]] std::string_view name(Stopped stopped);

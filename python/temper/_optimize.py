@@ -130,7 +130,7 @@ class OptimizeReport(Record):
     """Number in the input of each vertex; inserted ones follow, with −1. Empty when none was removed or inserted."""
     hidden: npt.NDArray[np.int32]
     """Vertices that ``hidden="keep"`` left without a power cell."""
-    objective: Literal["energy", "accuracy", "error"]
+    objective: Literal["energy", "accuracy", "solver_error"]
     """That the run lowered."""
     seconds: float
     """The optimisation alone."""

@@ -28,7 +28,7 @@ class SweepRecord(Record):
     """γ or −h° of this sweep, as used (relative to ℓ by default)."""
     seconds: float
     """Since the start of the optimisation."""
-    objective: Literal["energy", "accuracy", "error"] = "energy"
+    objective: Literal["energy", "accuracy", "solver_error"] = "energy"
     """What the sweep lowered."""
 
 

@@ -103,7 +103,7 @@ def options_table(program):
 
 def member_for(name):
     """The member of OptimizeOptions: accuracy_sweeps is that of AccuracyOptions."""
-    groups = [("OptimizeOptions", ""), ("PaperSwitches", "paper."), ("AccuracyOptions", "accuracy."), ("ErrorOptions", "error.")]
+    groups = [("OptimizeOptions", ""), ("PaperSwitches", "paper."), ("AccuracyOptions", "accuracy."), ("SolverErrorOptions", "error.")]
     for struct, place in groups:
         short = name.removeprefix(place.replace(".", "_")) if place else name
         if name in members_of(struct) or short in members_of(struct):

@@ -1,4 +1,4 @@
-// See solver_error_model() in temper/errors.hpp. The mean squared error of a scheme over many waves, and its
+// See make_discretization_error() in temper/errors.hpp. The mean squared error of a scheme over many waves, and its
 // derivatives by the discrete adjoint.
 //
 // Of the system A v = b(u) that a scheme solves for a wave u, with the squared error J = c Σ m e², e = v − u at the
@@ -17,7 +17,7 @@
 #include "errors/fields.hpp"
 #include "errors/solve.hpp"
 #include "temper/dec.hpp"
-#include "temper/detail/error_model.hpp"
+#include "temper/detail/discretization_error.hpp"
 #include "temper/errors.hpp"
 
 namespace temper {
@@ -249,7 +249,7 @@ std::vector<Wave> waves_of(const DiscretizationErrorOptions& options) {
   return waves;
 }
 
-class SolverErrorModel final : public ErrorModel {
+class SolverErrorModel final : public DiscretizationError {
  public:
   explicit SolverErrorModel(const DiscretizationErrorOptions& options)
       : scheme_(options.scheme), waves_(waves_of(options)) {}
@@ -313,19 +313,19 @@ class SolverErrorModel final : public ErrorModel {
 }  // namespace
 }  // namespace error_detail
 
-Expected<std::shared_ptr<const ErrorModel>> solver_error_model(const Mesh& mesh,
-                                                               const DiscretizationErrorOptions& options) {
+Expected<std::shared_ptr<const DiscretizationError>> make_discretization_error(
+    const Mesh& mesh, const DiscretizationErrorOptions& options) {
   const auto refused = [](const std::string& message) { return InputError{ErrorCode::invalid_option, "", message}; };
   if (mesh.space().kind() != SpaceKind::plane)
-    return refused("`objective=error` is for meshes of the plane; expected `objective=accuracy`");
+    return refused("`objective=solver_error` is for meshes of the plane; expected `objective=accuracy`");
   if (options.scheme == Scheme::stars) {
     return refused(
-        "`objective=error` is for a scheme that solves, and stars solve nothing; expected `target=vertex`, "
+        "`objective=solver_error` is for a scheme that solves, and stars solve nothing; expected `target=vertex`, "
         "`target=cell` "
         "or `target=all`");
   }
   if (options.fields == 0) return refused("errors are averaged over no field; expected one at least");
-  return std::shared_ptr<const ErrorModel>(std::make_shared<error_detail::SolverErrorModel>(options));
+  return std::shared_ptr<const DiscretizationError>(std::make_shared<error_detail::SolverErrorModel>(options));
 }
 
 }  // namespace temper

@@ -8,7 +8,7 @@
 #include "optimize/result/report.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/run/run.hpp"
-#include "optimize/solver_error/error_phase.hpp"
+#include "optimize/solver_error/solver_error_phase.hpp"
 #include "optimize/stages/driver.hpp"
 #include "optimize/stages/restarts.hpp"
 #include "optimize/working/working_copy.hpp"
@@ -70,7 +70,7 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   best = reweighted(std::move(best), input, settings, state, run);
   best = repaired(std::move(best), settings, state, run);
   if (sizes) improve<AccuracyPhase>(best, settings, run, *sizes);
-  if (settings.objective == Objective::error) improve<ErrorPhase>(best, settings, run, *sizes);
+  if (settings.objective == Objective::solver_error) improve<SolverErrorPhase>(best, settings, run, *sizes);
   give_back(input.restore_twins(), std::move(best), settings, state, of_input, std::move(sizes), run);
   return std::move(run.report);
 }

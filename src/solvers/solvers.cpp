@@ -15,7 +15,9 @@ Solvers solvers() {
   all.lp = [] { return clp_solver(); };
 #endif
 #ifdef TEMPER_WITH_ERRORS
-  all.error_model = [](const Mesh& mesh, Scheme scheme) { return solver_error_model(mesh, {.scheme = scheme}); };
+  all.discretization_error = [](const Mesh& mesh, Scheme scheme) {
+    return make_discretization_error(mesh, {.scheme = scheme});
+  };
 #endif
   return all;
 }

@@ -21,5 +21,5 @@ int main(int argc, char** argv) {
   temper::io::update(*file, *loaded, loaded->mesh, report->vertices);
   auto written = temper::io::write(argv[2], *file);
   if (!written) return fail(written.error().what());
-  return report->objective == temper::Objective::error ? 0 : 1;
+  return report->objective == temper::Objective::solver_error ? 0 : 1;
 }

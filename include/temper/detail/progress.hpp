@@ -10,12 +10,12 @@ namespace temper {
 
 /// The objective that a run lowers.
 enum class Objective {
-  energy,    ///< one of the registry's
-  accuracy,  ///< after it has made every triangle well-centered: what the errors of a solver are proportional to
-  error,     ///< after that: the errors of a solver themselves
+  energy,        ///< one of the registry's
+  accuracy,      ///< after it has made every triangle well-centered: what the errors of a solver are proportional to
+  solver_error,  ///< after that: the errors of a solver themselves
 };
 
-/// "energy", "accuracy", "error".
+/// "energy", "accuracy", "solver_error".
 [[nodiscard]] std::string_view name(Objective objective);
 
 /// One sweep over all vertices, as recorded in the history of a run.

@@ -154,7 +154,7 @@ std::optional<InputError> check_space(const OptimizeOptions& o, const Mesh& mesh
   if (o.paper.insertion_from) return not_there("insertion_from", "none");
   if (!mesh.space().is_periodic()) return std::nullopt;
   if (o.paper.inversion == Inversion::allow) return not_there("inversion=allow", "`inversion=refuse`");
-  if (objective_of(o) == Objective::error) return not_there("objective=error", "`objective=accuracy`");
+  if (objective_of(o) == Objective::solver_error) return not_there("objective=error", "`objective=accuracy`");
   return std::nullopt;
 }
 
@@ -173,14 +173,14 @@ AccuracyModel accuracy_model(const AccuracyOptions& a, Scheme scheme, Star star)
 Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
   const OptimizeOptions& o = s.options;
   const bool wants = wants_error_model(o, mesh);
-  if (wants && s.hooks.solvers.error_model) {
-    auto model = s.hooks.solvers.error_model(mesh, o.target);
+  if (wants && s.hooks.solvers.discretization_error) {
+    auto model = s.hooks.solvers.discretization_error(mesh, o.target);
     if (!model) return model.error();
     s.errors = *std::move(model);
   }
-  if (s.objective == Objective::accuracy && !o.objective && wants) s.objective = Objective::error;
-  s.lacks_error_model = wants && s.errors == nullptr;
-  if (s.lacks_error_model) s.objective = Objective::accuracy;
+  if (s.objective == Objective::accuracy && !o.objective && wants) s.objective = Objective::solver_error;
+  s.lacks_discretization_error = wants && s.errors == nullptr;
+  if (s.lacks_discretization_error) s.objective = Objective::accuracy;
   return s;
 }
 
@@ -214,7 +214,7 @@ bool wants_error_model(const OptimizeOptions& o, const Mesh& mesh) {
   const Objective objective = objective_of(o);
   const bool of_one = o.target == Scheme::vertex || o.target == Scheme::cell;
   const bool judges = of_one && mesh.space().kind() == SpaceKind::plane && mesh.n_vertices() <= kMostJudged;
-  return objective == Objective::error || (objective == Objective::accuracy && judges);
+  return objective == Objective::solver_error || (objective == Objective::accuracy && judges);
 }
 
 OptimizeOptions paper_method() {

@@ -56,15 +56,16 @@ inline constexpr double kRelaxation = 1.7;
 struct Settings {
   OptimizeOptions options;
   OptimizeHooks hooks;
-  Objective objective = Objective::accuracy;   ///< that this run lowers
-  Policy policy;                               ///< the paper's switches
-  EnergyModel model;                           ///< of options.energy, in the units's units, as sweeps begin
-  EnergyModel collapse_model;                  ///< E_c
-  AccuracyModel accuracy;                      ///< of the accuracy objective; without unit
-  std::shared_ptr<const ErrorModel> errors{};  ///< errors of the solver: lowered, or the judge of meshes; or null
-  bool lacks_error_model = false;              ///< the build has none, and the run would have used it
-  std::shared_ptr<LpSolver> lp{};              ///< for repairs, or null
-  std::optional<SizeField> size_field{};       ///< of the size band, in the user's units; absent without a band
+  Objective objective = Objective::accuracy;  ///< that this run lowers
+  Policy policy;                              ///< the paper's switches
+  EnergyModel model;                          ///< of options.energy, in the units's units, as sweeps begin
+  EnergyModel collapse_model;                 ///< E_c
+  AccuracyModel accuracy;                     ///< of the accuracy objective; without unit
+  std::shared_ptr<const DiscretizationError>
+      errors{};                             ///< errors of the solver: lowered, or the judge of meshes; or null
+  bool lacks_discretization_error = false;  ///< the build has none, and the run would have used it
+  std::shared_ptr<LpSolver> lp{};           ///< for repairs, or null
+  std::optional<SizeField> size_field{};    ///< of the size band, in the user's units; absent without a band
 
   [[nodiscard]] const EnergyInfo& energy() const { return energy_info(model.kind); }
   [[nodiscard]] Executor* executor() const { return hooks.executor; }

@@ -25,7 +25,7 @@ constexpr auto names_of(EnergyKind) {
 }
 constexpr auto names_of(Star) { return std::to_array<Name>({"0", "1", "2", "all"}); }
 constexpr auto names_of(BoundaryTreatment) { return std::to_array<Name>({"as_is", "absolute", "mirrored"}); }
-constexpr auto names_of(Objective) { return std::to_array<Name>({"energy", "accuracy", "error"}); }
+constexpr auto names_of(Objective) { return std::to_array<Name>({"energy", "accuracy", "solver_error"}); }
 constexpr auto names_of(Scheme) { return std::to_array<Name>({"all", "vertex", "cell", "stars"}); }
 constexpr auto names_of(Solver) { return std::to_array<Name>({"newton", "golden", "alternating"}); }
 constexpr auto names_of(Unknowns) { return std::to_array<Name>({"positions_and_weights", "positions", "weights"}); }
@@ -129,10 +129,10 @@ constexpr OptionRow row(Name name, Name sentence, OptionRow more = {}) {
 // --- the rows ----------------------------------------------------------------------------------------------
 
 using Accuracy = AccuracyOptions;
-using Error = ErrorOptions;
+using Error = SolverErrorOptions;
 using Paper = PaperSwitches;
 constexpr auto kAccuracy = &Options::accuracy;
-constexpr auto kError = &Options::error;
+constexpr auto kError = &Options::solver_error;
 constexpr auto kPaper = &Options::paper;
 
 constexpr OptionRange at_least(double low) { return {.low = low}; }
@@ -146,7 +146,7 @@ constexpr double kLeastBoundaryRatio = 2;             // a cut in the middle lea
 
 bool lowers_accuracy(const Options& o) { return objective_of(o) != Objective::energy; }
 constexpr OptionNeed kForAccuracy = {"objective", "accuracy", lowers_accuracy};
-constexpr OptionNeed kForError = {"objective", "error"};
+constexpr OptionNeed kForError = {"objective", "solver_error"};
 constexpr OptionNeed kBarrier = {"energy", "BH|BHs|BP"};
 constexpr OptionNeed kDeferredFlips = {"flips", "deferred"};
 constexpr OptionNeed kCollapses = {"collapse_from", ""};
@@ -231,9 +231,10 @@ constexpr OptionRow kAccuracyRows[] = {
     row<kError, &Error::offset_share>(
         "offset_share", "of error: how much the offset of the middles counts beside it, which other errors go with",
         {.range = at_least(0), .needs = {kForError}}),
-    row<kError, &Error::steps>("error_steps", "of error: at most this many, of all vertices at once, after the others",
+    row<kError, &Error::steps>("solver_error_steps",
+                               "of error: at most this many, of all vertices at once, after the others",
                                {.needs = {kForError}}),
-    row<kError, &Error::tolerance>("error_tolerance", "of error: stop when ten steps gain less than this part",
+    row<kError, &Error::tolerance>("solver_error_tolerance", "of error: stop when ten steps gain less than this part",
                                    {.range = at_least(0), .needs = {kForError}}),
 };
 

@@ -218,7 +218,7 @@ void tell(const Mesh& mesh, const Settings& settings, const RunFacts& facts, con
   notes.tell_energy();
   notes.tell_corners_that_stay(ending.bad);
   notes.tell_edges_that_must_be_split(ending.bad);
-  if (settings.lacks_error_model) {
+  if (settings.lacks_discretization_error) {
     notes.add(
         "the objective was accuracy, not the error of the solver: this run had no model of that error; builds with "
         "Eigen have one, temper::solvers() in C++");

@@ -76,9 +76,9 @@ Limits limits_of(std::span<const SweepRecord> history, const OptimizeOptions& o)
   if (history.back().objective == Objective::energy) {
     return {o.paper.tolerance, o.max_sweeps, objective_of(o) == Objective::energy ? 0 : o.accuracy.sweeps};
   }
-  if (history.back().objective == Objective::error) {
-    const auto first = std::ranges::find(history, Objective::error, &SweepRecord::objective);
-    return {o.error.tolerance, std::min(o.max_sweeps, first->sweep + o.error.steps)};
+  if (history.back().objective == Objective::solver_error) {
+    const auto first = std::ranges::find(history, Objective::solver_error, &SweepRecord::objective);
+    return {o.solver_error.tolerance, std::min(o.max_sweeps, first->sweep + o.solver_error.steps)};
   }
   const auto first = std::ranges::find(history, Objective::accuracy, &SweepRecord::objective);
   return {o.accuracy.tolerance, std::min(o.max_sweeps, first->sweep + o.accuracy.sweeps)};

@@ -1,12 +1,12 @@
-// Objective::error with the model of temper::verify: errors fall, what must stay stays, and a run is the same however
-// it is made.
+// Objective::solver_error with the model of temper::verify: errors fall, what must stay stays, and a run is the same
+// however it is made.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "optimize/solver_error/error_phase.hpp"
+#include "optimize/solver_error/solver_error_phase.hpp"
 #include "support/std_threads.hpp"
 #include "temper/errors.hpp"
 #include "temper/generate.hpp"
@@ -22,8 +22,8 @@ constexpr double kMargin = 0.02;
 OptimizeOptions options_for(Scheme scheme) {
   OptimizeOptions o;
   o.target = scheme;
-  if (scheme == Scheme::all) o.objective = Objective::error;
-  o.error.steps = 40;
+  if (scheme == Scheme::all) o.objective = Objective::solver_error;
+  o.solver_error.steps = 40;
   return o;
 }
 
@@ -34,7 +34,7 @@ struct Improved {
 
 /// The mean squared errors of the schemes on `mesh`, in the measure of `input`.
 std::vector<double> errors_on(const Mesh& mesh, const Mesh& input, Scheme scheme) {
-  const auto model = solver_error_model(input, {.scheme = scheme});
+  const auto model = make_discretization_error(input, {.scheme = scheme});
   EXPECT_TRUE(model);
   return (*model)->errors(mesh);
 }
@@ -64,7 +64,7 @@ TEST(ErrorObjective, LowersTheErrorsOfItsSchemeBelowThoseOfTheAccuracyObjective)
     EXPECT_EQ(q.non_regular_edges, 0u);
     EXPECT_GT(q.min_h_over_l, 0.9 * kMargin);
     EXPECT_EQ(error.mesh.validate(), std::nullopt);
-    EXPECT_EQ(error.report.history.back().objective, Objective::error);
+    EXPECT_EQ(error.report.history.back().objective, Objective::solver_error);
     for (const VertexId v : input.vertices()) {
       if (!input.is_boundary(v)) continue;
       EXPECT_EQ(error.mesh.position(v), input.position(v));
@@ -76,7 +76,7 @@ TEST(ErrorObjective, LowersTheErrorsOfItsSchemeBelowThoseOfTheAccuracyObjective)
 TEST(ErrorObjective, IsNeverWorseThanAWellCenteredInput) {
   const Mesh ring = *annulus({.jitter = 0});
   ASSERT_EQ(quality(ring).well_centered_fraction, 1);
-  for (const Objective objective : {Objective::accuracy, Objective::error}) {
+  for (const Objective objective : {Objective::accuracy, Objective::solver_error}) {
     for (const Scheme scheme : {Scheme::vertex, Scheme::cell}) {
       OptimizeOptions options = options_for(scheme);
       options.objective = objective;
@@ -105,9 +105,10 @@ TEST(ErrorObjective, IsTheSameForAnyThreadsAndReplayed) {
 
 TEST(ErrorObjective, StopsWhenItIsAsked) {
   const Mesh input = *random_mesh({.vertices = 120, .seed = 2});
-  const Improved cut = improved(input, options_for(Scheme::cell), {.observer = [](const Progress& progress) {
-                                  return progress.last.objective == Objective::error ? Continue::no : Continue::yes;
-                                }});
+  const Improved cut =
+      improved(input, options_for(Scheme::cell), {.observer = [](const Progress& progress) {
+                 return progress.last.objective == Objective::solver_error ? Continue::no : Continue::yes;
+               }});
   EXPECT_EQ(cut.report.stopped, Stopped::cancelled);
   EXPECT_EQ(quality(cut.mesh).well_centered_fraction, 1);
   EXPECT_EQ(cut.mesh.validate(), std::nullopt);
@@ -122,7 +123,7 @@ TEST(ErrorObjective, WithoutAModelLowersAccuracyAndSaysSo) {
   EXPECT_EQ(without, accuracy);
   EXPECT_EQ(report->objective, Objective::accuracy);
   EXPECT_NE(report->notes.front().find("the objective was accuracy, not the error"), std::string::npos);
-  EXPECT_EQ(improved(input, {.target = Scheme::vertex}).report.objective, Objective::error);
+  EXPECT_EQ(improved(input, {.target = Scheme::vertex}).report.objective, Objective::solver_error);
 }
 
 TEST(ErrorObjective, IsForSchemesAndEnergiesThatCenterTriangles) {
@@ -133,7 +134,7 @@ TEST(ErrorObjective, IsForSchemesAndEnergiesThatCenterTriangles) {
   EXPECT_FALSE(wants_error_model({.target = Scheme::cell, .energy = EnergyKind::T}, mesh));
   EXPECT_TRUE(wants_error_model({.target = Scheme::cell}, mesh));
   OptimizeOptions hot = options_for(Scheme::vertex);
-  hot.objective = Objective::error;
+  hot.objective = Objective::solver_error;
   hot.energy = EnergyKind::T;
   EXPECT_FALSE(optimize(mesh, hot));
   EXPECT_EQ(mesh, before);

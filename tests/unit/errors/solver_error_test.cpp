@@ -10,7 +10,7 @@
 #include "base/rng.hpp"
 #include "support/std_threads.hpp"
 #include "temper/detail/connectivity.hpp"
-#include "temper/detail/error_model.hpp"
+#include "temper/detail/discretization_error.hpp"
 #include "temper/errors.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
@@ -24,13 +24,13 @@ Mesh well_centered_mesh(std::size_t vertices, std::uint64_t seed = 3) {
   return mesh;
 }
 
-using Gradients = std::vector<ErrorModel::Gradient>;
+using Gradients = std::vector<DiscretizationError::Gradient>;
 
 double& unknown(WeightedPoint& p, int i) { return i == 0 ? p.x : i == 1 ? p.y : p.w; }
 
 TEST(SolverErrorModel, DerivativesAreThoseOfDifferencesAtSecondOrder) {
   const Mesh mesh = well_centered_mesh(60);
-  const auto model = *solver_error_model(mesh, {.fields = 5});
+  const auto model = *make_discretization_error(mesh, {.fields = 5});
   Gradients gradients;
   ASSERT_EQ(model->errors(mesh, gradients).size(), 2u);
   ASSERT_EQ(gradients.size(), 2u);
@@ -64,7 +64,7 @@ TEST(SolverErrorModel, DerivativesAreThoseOfDifferencesAtSecondOrder) {
 // Smooth fields are sums of waves: a mesh that is better for many of these is for the fields of measure_errors().
 TEST(SolverErrorModel, RanksRefinementAsVerifyDoes) {
   const Mesh coarse = well_centered_mesh(200), fine = well_centered_mesh(800);
-  const auto model = *solver_error_model(coarse);
+  const auto model = *make_discretization_error(coarse);
   const std::vector<double> before = model->errors(coarse), after = model->errors(fine);
   ASSERT_EQ(before.size(), 2u);
   const OperatorErrors a = geometric_mean(measure_errors(coarse)->fields),
@@ -80,7 +80,7 @@ TEST(SolverErrorModel, KnowsNoUnitAndNoPlace) {
     const WeightedPoint p = mesh.point(v);
     large.set_point(v, {1024 * p.x - 500, 1024 * p.y + 300, 1024 * 1024 * p.w + 7});
   }
-  const auto model = *solver_error_model(mesh);
+  const auto model = *make_discretization_error(mesh);
   const auto here = model->errors(mesh), there = model->errors(large);
   ASSERT_EQ(here.size(), there.size());
   for (std::size_t i = 0; i < here.size(); ++i) EXPECT_NEAR(there[i] / here[i], 1, 1e-6);
@@ -88,7 +88,7 @@ TEST(SolverErrorModel, KnowsNoUnitAndNoPlace) {
 
 TEST(SolverErrorModel, IsTheSameForAnyThreads) {
   const Mesh mesh = well_centered_mesh(150);
-  const auto model = *solver_error_model(mesh);
+  const auto model = *make_discretization_error(mesh);
   Gradients one, many;
   const auto alone = model->errors(mesh, one);
   ASSERT_EQ(alone, model->errors(mesh));
@@ -101,7 +101,7 @@ TEST(SolverErrorModel, IsTheSameForAnyThreads) {
 
 TEST(SolverErrorModel, HasNoErrorsWhereAMatrixIsNotDefinite) {
   Mesh mesh = well_centered_mesh(100);
-  const auto model = *solver_error_model(mesh);
+  const auto model = *make_discretization_error(mesh);
   for (const VertexId v : mesh.vertices()) {
     if (v.index % 3 == 0) mesh.set_weight(v, mesh.weight(v) + 1);
   }
@@ -110,9 +110,9 @@ TEST(SolverErrorModel, HasNoErrorsWhereAMatrixIsNotDefinite) {
 
 TEST(SolverErrorModel, RefusesWhatItIsNotFor) {
   const Mesh mesh = well_centered_mesh(20);
-  EXPECT_FALSE(solver_error_model(mesh, {.scheme = Scheme::stars}));
-  EXPECT_FALSE(solver_error_model(mesh, {.fields = 0}));
-  EXPECT_FALSE(solver_error_model(*icosahedral({.level = 1})));
+  EXPECT_FALSE(make_discretization_error(mesh, {.scheme = Scheme::stars}));
+  EXPECT_FALSE(make_discretization_error(mesh, {.fields = 0}));
+  EXPECT_FALSE(make_discretization_error(*icosahedral({.level = 1})));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ export interface OptimizeOptions {
   /** of first_energy: the first sweep that lowers energy, from 0; an earlier one when the first energy has converged; at least 0. Default: 20. */
   switch_at?: number;
   /** energy: the one of energy, to the end; accuracy: only until every triangle is well-centered with a margin, then how far the middles of edges and duals are apart, which a solver's error is proportional to; error: after that the errors of the schemes of target themselves, by adjoint solutions, which takes much longer; null: accuracy, but error target vertex or cell on a plane of no more than 20000 vertices; energy where energy is not BP, or has switches of its own. Default: null. */
-  objective?: "energy" | "accuracy" | "error" | null;
+  objective?: "energy" | "accuracy" | "solver_error" | null;
   /** of accuracy: what the mesh is for. vertex: unknowns at vertices (discrete exterior calculus); cell: at orthocenters (two-point flux); stars: the diagonal Hodge stars; all: something for each, and larger margins. Default: "all". */
   target?: "all" | "vertex" | "cell" | "stars";
   /** of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle; more than 0 and less than 0.25; null: 0.1, but 0.02 target one scheme. Default: null. */
@@ -40,9 +40,9 @@ export interface OptimizeOptions {
   /** of error: how much the offset of the middles counts beside it, which other errors go with; at least 0. Default: 1. */
   offset_share?: number;
   /** of error: at most this many, of all vertices at once, after the others; at least 0. Default: 200. */
-  error_steps?: number;
+  solver_error_steps?: number;
   /** of error: stop when ten steps gain less than this part; at least 0. Default: 0.01. */
-  error_tolerance?: number;
+  solver_error_tolerance?: number;
   /** Newton steps in position and weight together; the paper's golden section; Newton in position, then weight. Default: "newton". */
   solver?: "newton" | "golden" | "alternating";
   /** what steps may change; the others stay as they are. Default: "positions_and_weights". */

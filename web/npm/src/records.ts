@@ -127,7 +127,7 @@ export interface SweepRecord {
   flips: number;
   length_parameter: number;
   seconds: number;
-  objective: 'energy' | 'accuracy' | 'error';
+  objective: 'energy' | 'accuracy' | 'solver_error';
 }
 
 /** How far a run is. */
@@ -171,7 +171,7 @@ export interface OptimizeReport {
   vertices: number[];
   hidden: number[];
   /** That the run lowered. */
-  objective: 'energy' | 'accuracy' | 'error';
+  objective: 'energy' | 'accuracy' | 'solver_error';
   seconds: number;
   initial_energy: number;
   final_energy: number;

@@ -1,4 +1,4 @@
-#include "optimize/solver_error/error_phase.hpp"
+#include "optimize/solver_error/solver_error_phase.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "mesh/blocks.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/trace/recorder.hpp"
-#include "temper/detail/error_model.hpp"
+#include "temper/detail/discretization_error.hpp"
 
 namespace temper {
 namespace {
@@ -90,30 +90,30 @@ void Descent::learn(Vector step, Vector change) {
   pairs_.push_back({std::move(step), std::move(change), 1 / curvature});
 }
 
-ErrorPhase::ErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)
+SolverErrorPhase::SolverErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)
     : SizedPhase(work, of_errors(settings), run, std::move(sizes)), units_(work.units) {
   const auto mobility = mobilities(mesh_, settings_.options, settings_.executor());
   dofs_.resize(mesh_.n_vertices());
   for (const VertexId v : mesh_.vertices()) dofs_[v] = dofs(mesh_, v, mobility[v], settings_.options.unknowns);
 }
 
-void ErrorPhase::begin() {
+void SolverErrorPhase::begin() {
   raise_floors();
   start_ = settings_.errors->errors(mesh_, settings_.executor());
   now_ = value();
   history_ = {now_.lowered};
 }
 
-bool ErrorPhase::may_sweep() const {
+bool SolverErrorPhase::may_sweep() const {
   const bool can = bad_ == 0 && std::isfinite(now_.lowered);
-  const bool steps_left = iteration < settings_.options.error.steps;
+  const bool steps_left = iteration < settings_.options.solver_error.steps;
   if (!can) run_.report.stopped = Stopped::converged;
   if (can && !steps_left) run_.report.stopped = Stopped::accuracy_sweeps;
   return can && steps_left && run_.sweeps_left();
 }
 
 /// One step of L-BFGS, halved until it lowers what it should. False when the caller has stopped the run.
-std::optional<bool> ErrorPhase::move_all(const Recorder& recorder) {
+std::optional<bool> SolverErrorPhase::move_all(const Recorder& recorder) {
   IdVector<VertexId, WeightedPoint> before(mesh_.n_vertices());
   for (const VertexId v : mesh_.vertices()) before[v] = mesh_.point(v);
   Vector step = descent_.direction(now_.gradient);
@@ -150,33 +150,35 @@ std::optional<bool> ErrorPhase::move_all(const Recorder& recorder) {
   return !run_.stopped_early() && !run_.asked_to_stop(0);
 }
 
-SweepRecord ErrorPhase::measure() { return {.energy = now_.error, .bad = bad_, .objective = Objective::error}; }
+SweepRecord SolverErrorPhase::measure() {
+  return {.energy = now_.error, .bad = bad_, .objective = Objective::solver_error};
+}
 
-Phase::Verdict ErrorPhase::judge(bool /*changed*/) {
+Phase::Verdict SolverErrorPhase::judge(bool /*changed*/) {
   if (raise_floors()) {
     now_ = value();  // of another barrier
     descent_.forget();
   }
   history_.push_back(now_.lowered);
-  const bool slow = history_.size() > kStepsToGain &&
-                    history_[history_.size() - 1 - kStepsToGain] - now_.lowered < settings_.options.error.tolerance;
+  const bool slow = history_.size() > kStepsToGain && history_[history_.size() - 1 - kStepsToGain] - now_.lowered <
+                                                          settings_.options.solver_error.tolerance;
   if (!stuck_ && !slow) return Verdict::improving;
   run_.report.stopped = Stopped::converged;
   return Verdict::settled;
 }
 
-ErrorPhase::Value ErrorPhase::value() const {
+SolverErrorPhase::Value SolverErrorPhase::value() const {
   Executor* executor = settings_.executor();
   Value result;
   result.lowered = result.error = kInfinity;
   const auto [energy, barrier] = sum();
-  std::vector<ErrorModel::Gradient> gradients;
+  std::vector<DiscretizationError::Gradient> gradients;
   const std::vector<double> errors = settings_.errors->errors(mesh_, gradients, executor);
-  const double total = energy + barrier, share = settings_.options.error.offset_share;
+  const double total = energy + barrier, share = settings_.options.solver_error.offset_share;
   if (!std::isfinite(total) || !(total > 0) || errors.empty() || start_.size() != errors.size()) return result;
   result.error = root_mean_square(errors);
   result.lowered = std::log(mean_ratio(errors, start_)) + share * std::log(total);
-  ErrorModel::Gradient gradient(mesh_.n_vertices(), WeightedPoint{});
+  DiscretizationError::Gradient gradient(mesh_.n_vertices(), WeightedPoint{});
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const double factor = 1 / (static_cast<double>(errors.size()) * start_[i] * mean_ratio(errors, start_));
     for (const VertexId v : mesh_.vertices()) add(gradient[v], factor, gradients[i][v]);
@@ -187,7 +189,7 @@ ErrorPhase::Value ErrorPhase::value() const {
 }
 
 /// What depends on a vertex in E and B is its star.
-void ErrorPhase::add_gradient_of_energy(double factor, IdVector<VertexId, WeightedPoint>& gradient) const {
+void SolverErrorPhase::add_gradient_of_energy(double factor, IdVector<VertexId, WeightedPoint>& gradient) const {
   for_blocks(mesh_.n_vertices(), settings_.executor(), [&](std::size_t first, std::size_t last) {
     AccuracyPatch patch;
     for (std::size_t i = first; i < last; ++i) {
@@ -201,14 +203,14 @@ void ErrorPhase::add_gradient_of_energy(double factor, IdVector<VertexId, Weight
 }
 
 /// All triangles well-centered, exactly, with more than their floors.
-bool ErrorPhase::is_inside() const {
+bool SolverErrorPhase::is_inside() const {
   if (count_bad(mesh_, settings_.executor()) > bad_) return false;
   return std::all_of(mesh_.triangles().begin(), mesh_.triangles().end(), [this](TriangleId t) {
     return !domain_.floors.has(t) || triangle_margin(mesh_, t) > domain_.floors[t];
   });
 }
 
-void ErrorPhase::place(const IdVector<VertexId, WeightedPoint>& from, const Vector& step, double t) {
+void SolverErrorPhase::place(const IdVector<VertexId, WeightedPoint>& from, const Vector& step, double t) {
   for (const VertexId v : mesh_.vertices()) {
     WeightedPoint p = from[v];
     const double s = t * domain_.sizes[v];
@@ -223,7 +225,7 @@ void ErrorPhase::place(const IdVector<VertexId, WeightedPoint>& from, const Vect
 }
 
 /// By the unknowns over the local size, three a vertex; zero where one is none.
-ErrorPhase::Vector ErrorPhase::scaled(const IdVector<VertexId, WeightedPoint>& gradient) const {
+SolverErrorPhase::Vector SolverErrorPhase::scaled(const IdVector<VertexId, WeightedPoint>& gradient) const {
   Vector result(3 * mesh_.n_vertices(), 0.0);
   for (const VertexId v : mesh_.vertices()) {
     const Dofs& free = dofs_[v];

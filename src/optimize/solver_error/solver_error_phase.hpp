@@ -1,11 +1,11 @@
-// The phase of Objective::error: it lowers, over all vertices at once,
+// The phase of Objective::solver_error: it lowers, over all vertices at once,
 //
 //     ln mean(errors over those at the start) + κ ln(E + B)
 //
-// the errors those of the options' model (temper/detail/error_model.hpp), E and B energy and barrier of the accuracy
-// objective, which keep triangles well-centered with their margins, and other errors from rising. By L-BFGS in places
-// over the local size and weights over its square. Nothing where a triangle is not well-centered. The connectivity
-// stays.
+// the errors those of the options' model (temper/detail/discretization_error.hpp), E and B energy and barrier of the
+// accuracy objective, which keep triangles well-centered with their margins, and other errors from rising. By L-BFGS in
+// places over the local size and weights over its square. Nothing where a triangle is not well-centered. The
+// connectivity stays.
 #pragma once
 
 #include <vector>
@@ -40,9 +40,9 @@ class Descent {
 [[nodiscard]] double dot(const std::vector<double>& a, const std::vector<double>& b);
 [[nodiscard]] double largest(const std::vector<double>& a);
 
-class ErrorPhase final : public SizedPhase {
+class SolverErrorPhase final : public SizedPhase {
  public:
-  ErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes);
+  SolverErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes);
 
   void begin() override;
   [[nodiscard]] bool may_sweep() const override;

@@ -1,5 +1,5 @@
-// The errors of a solver on a mesh, and their derivatives: what Objective::error lowers. An interface, since whoever
-// solves systems of equations needs a library for it: temper::errors has a model (solver_error_model).
+// The errors of a solver on a mesh, and their derivatives: what Objective::solver_error lowers. An interface, since
+// whoever solves systems of equations needs a library for it: temper::errors has a model (make_discretization_error).
 #pragma once
 
 #include <vector>
@@ -17,11 +17,11 @@ enum class Scheme {
   stars,   ///< the diagonal Hodge stars
 };
 
-class ErrorModel {
+class DiscretizationError {
  public:
   using Gradient = IdVector<VertexId, WeightedPoint>;
 
-  virtual ~ErrorModel() = default;
+  virtual ~DiscretizationError() = default;
 
   /// The mean squared error of each scheme that counts, of no unit: meshes of one domain compare, in whatever units and
   /// order. Empty where a scheme's matrix is not positive definite, as it is where all triangles are well-centered.
