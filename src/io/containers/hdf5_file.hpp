@@ -167,7 +167,7 @@ class Hdf5Reader {
 
   const std::string& path_;
   std::string& bytes_;
-  Allowance& allowance_;
+  AllocationLimits& allocation_;
   const Hdf5Library& library_;
   std::unique_lock<std::mutex> turn_;
   QuietHdf5 quiet_;  // outlives what is open

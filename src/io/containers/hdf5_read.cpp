@@ -91,7 +91,7 @@ hid_t hdf5_type(const Hdf5Library& library, Scalar scalar) {
 Hdf5Reader::Hdf5Reader(Source& source)
     : path_(source.path),
       bytes_(source.bytes),
-      allowance_(source.allowance),
+      allocation_(source.allocation),
       library_(hdf5_library(path_)),
       turn_(foreign_tables()),
       quiet_(library_) {
@@ -211,10 +211,10 @@ std::size_t Hdf5Reader::allowed_values(const Hdf5Dataset& d) const {
   const std::string where = text(path_, ": the dataset ", in_quotes(d.name));
   std::uint64_t n = 1;
   for (const std::size_t size : d.sizes) {
-    allowance_.check(n, size, where);
+    allocation_.check(n, size, where);
     n *= size;
   }
-  allowance_.take(n, 1, where);
+  allocation_.take(n, 1, where);
   return static_cast<std::size_t>(n);
 }
 

@@ -91,7 +91,7 @@ NetcdfId::~NetcdfId() {
 NetcdfReader::NetcdfReader(Source& source)
     : path_(source.path),
       bytes_(source.bytes.size()),
-      allowance_(source.allowance),
+      allocation_(source.allocation),
       library_(netcdf_library(path_)),
       id_(library_) {
   check_netcdf_header(source);
@@ -150,10 +150,10 @@ Values NetcdfReader::values(const NetcdfVariable& v) const {
   const std::string where = text(path_, ": variable ", v.name);
   std::uint64_t rows = 1;
   for (const std::size_t size : v.sizes) {
-    allowance_.check(rows, size, where);
+    allocation_.check(rows, size, where);
     rows *= size;
   }
-  allowance_.take(rows, 1, where);
+  allocation_.take(rows, 1, where);
   Values result = zeros(*v.scalar, v.n_values());
   std::visit(
       [&](auto& values) { check(library_.nc_get_var(id_, v.id, values.data()), text("read variable ", v.name)); },

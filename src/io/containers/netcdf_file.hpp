@@ -102,7 +102,7 @@ class NetcdfReader {
 
   const std::string& path_;
   std::size_t bytes_;
-  Allowance& allowance_;
+  AllocationLimits& allocation_;
   const NetcdfLibrary& library_;
   NetcdfId id_;
   std::vector<NetcdfVariable> variables_;

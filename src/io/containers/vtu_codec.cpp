@@ -269,7 +269,7 @@ void resize(std::vector<T>& values, std::uint64_t n) {
 
 }  // namespace
 
-Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Allowance& allowance,
+Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, AllocationLimits& allocation,
               Executor* executor) {
   return with_scalar(scalar, [&](auto zero) -> Values {
     using T = decltype(zero);
@@ -277,7 +277,7 @@ Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Al
     if (packing.compressed) {
       const Blocks blocks = read_blocks(packed, packing);
       check_whole(blocks.total, sizeof(T), packing);
-      allowance.take(blocks.total / sizeof(T), 1, packing.where);
+      allocation.take(blocks.total / sizeof(T), 1, packing.where);
       resize(values, blocks.total / sizeof(T));
       inflate_blocks(blocks, reinterpret_cast<char*>(values.data()), packing, executor);
     } else {
@@ -288,7 +288,7 @@ Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Al
              " follow");
       }
       check_whole(bytes, sizeof(T), packing);
-      allowance.take(bytes / sizeof(T), 1, packing.where);
+      allocation.take(bytes / sizeof(T), 1, packing.where);
       resize(values, bytes / sizeof(T));
       if (bytes > 0) std::memcpy(values.data(), header.rest().data(), static_cast<std::size_t>(bytes));
     }

@@ -47,8 +47,8 @@ struct Packing {
   bool swap;  ///< byte order is not this machine's
 };
 /// The numbers of one packed array; blocks are inflated on the executor's threads when there is one.
-[[nodiscard]] Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Allowance& allowance,
-                            Executor* executor);
+[[nodiscard]] Values unpack(std::string_view packed, Scalar scalar, const Packing& packing,
+                            AllocationLimits& allocation, Executor* executor);
 
 /// The repetitions that zlib looks for: any string that was there before, or runs of one byte, which is far faster and
 /// loses little on the digits of measured coordinates.

@@ -65,7 +65,7 @@ Source load(const std::string& path) {
   }
   if (std::ferror(file.get())) fail(ErrorCode::not_found, path, "cannot be read: ", std::strerror(errno));
   if (source.bytes.empty()) fail(ErrorCode::empty_input, path, "the file is empty");
-  source.allowance = Allowance(source.bytes.size());
+  source.allocation = AllocationLimits(source.bytes.size());
   return source;
 }
 

@@ -39,7 +39,7 @@ struct Source {
   std::string path;   ///< as the user gave it
   std::string bytes;  ///< readers may overwrite it while they decode
   Executor* executor = nullptr;
-  Allowance allowance = {};
+  AllocationLimits allocation = {};
 };
 
 /// Reads a file, or says why not: missing, a directory, empty.

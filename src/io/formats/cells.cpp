@@ -91,7 +91,7 @@ void CellSorter::distribute(std::vector<DataArray>&& cell_data) {
     }
     // One cell may be many lines or points, and each gets its data.
     const auto part = [&](const RunLength& cells) {
-      allowance_.take(cells.size(), static_cast<std::uint64_t>(array.components), document_.names->path);
+      allocation_.take(cells.size(), static_cast<std::uint64_t>(array.components), document_.names->path);
       return DataArray{array.name, array.components, gather(array.values, array.components, cells)};
     };
     f.cell_data.push_back(part(triangle_cells_));

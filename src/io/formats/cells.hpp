@@ -20,7 +20,7 @@ inline constexpr std::string_view kPlanePeriod = "plane_period";
 class CellSorter {
  public:
   /// Both must outlive the sorter.
-  CellSorter(Document& document, Allowance& allowance) : document_(document), allowance_(allowance) {}
+  CellSorter(Document& document, AllocationLimits& allocation) : document_(document), allocation_(allocation) {}
   void reserve(std::size_t triangles) { document_.file.triangles.reserve(triangles); }
   /// The next cell of the file. `where`: for errors.
   void add(int type, const std::int32_t* points, std::size_t n, const std::string& where);
@@ -31,7 +31,7 @@ class CellSorter {
  private:
   void take_tags();
   Document& document_;
-  Allowance& allowance_;
+  AllocationLimits& allocation_;
   std::size_t n_cells_ = 0;
   RunLength triangle_cells_, line_cells_, point_cells_;  // which cell of the file each one was
 };

@@ -161,7 +161,8 @@ void write_side_file(const WriteJob& job) {
   job.warn("the format has no place for weights; they are in ", path);
 }
 
-// Warnings of losses: they name what a mesh file has and the format written has no place for, for all formats alike.
+// Warnings of unsupported_content: they name what a mesh file has and the format written has no place for, for all
+// formats alike.
 
 namespace {
 

@@ -87,7 +87,7 @@ void Elements<N>::sort_by_number() {
 class GmshReader {
  public:
   explicit GmshReader(Source& source)
-      : scanner_(source.path, source.bytes), document_(new_document(source.path)), allowance_(source.allowance) {}
+      : scanner_(source.path, source.bytes), document_(new_document(source.path)), allocation_(source.allocation) {}
   Document read() {
     while (!scanner_.at_end()) {
       if (scanner_.peek().starts_with('#')) {
@@ -328,7 +328,7 @@ class GmshReader {
   }
   void node_values(const std::string& name, std::size_t components, std::size_t entries) {
     MeshFile& f = document_.file;
-    allowance_.take(f.points.size(), components, where());
+    allocation_.take(f.points.size(), components, where());
     std::vector<double> values(f.points.size() * components, std::numeric_limits<double>::quiet_NaN());
     std::vector<bool> given(f.points.size());
     for (std::size_t i = 0; i < entries; ++i) {
@@ -388,7 +388,7 @@ class GmshReader {
              number, ", which is none");
       }
       if (target->values.empty()) {
-        allowance_.take(target->n, components, where());
+        allocation_.take(target->n, components, where());
         target->values.assign(target->n * components, std::numeric_limits<double>::quiet_NaN());
       }
       ++target->given;
@@ -559,7 +559,7 @@ class GmshReader {
 
   Scanner scanner_;
   Document document_;
-  Allowance& allowance_;
+  AllocationLimits& allocation_;
   bool binary_ = false, swap_ = false, version4_ = false, has_nodes_ = false, has_elements_ = false;
   std::optional<NumberLookup> lookup_;
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> physical_of_entity_;

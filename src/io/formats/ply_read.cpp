@@ -47,7 +47,7 @@ struct PlyJoined {
 class PlyReader {
  public:
   explicit PlyReader(Source& source)
-      : scanner_(source.path, source.bytes), document_(new_document(source.path)), allowance_(source.allowance) {}
+      : scanner_(source.path, source.bytes), document_(new_document(source.path)), allocation_(source.allocation) {}
   Document read() {
     header();
     for (PlyElement& e : elements_) body(e);
@@ -300,7 +300,7 @@ class PlyReader {
             text(scanner_.path(), ": lists ", in_quotes(p.name), " of faces are dropped"));
     }
     const auto tags = document_.file.point_tags;  // of vertices
-    CellSorter sorter(document_, allowance_);
+    CellSorter sorter(document_, allocation_);
     sorter.reserve(e.n);
     std::int32_t start = 0;
     for (std::size_t i = 0; i < e.n; ++i) {
@@ -343,7 +343,7 @@ class PlyReader {
 
   Scanner scanner_;
   Document document_;
-  Allowance& allowance_;
+  AllocationLimits& allocation_;
   bool binary_ = false;
   std::endian endian_ = std::endian::native;
   std::vector<PlyElement> elements_;

@@ -62,10 +62,11 @@ Expected<Result> guarded(const std::string& path, Work work) {
 // What a file may become in memory. Text and plain bytes are bound by the size of the file; packed, repeated and left
 // out numbers are not, and a few bytes could ask for all the memory there is.
 
-class Allowance {
+class AllocationLimits {
  public:
-  Allowance() : Allowance(0) {}
-  explicit Allowance(std::uint64_t file_bytes) : all_(kNumbersAByte * std::max(file_bytes, kLeastBytes)), left_(all_) {}
+  AllocationLimits() : AllocationLimits(0) {}
+  explicit AllocationLimits(std::uint64_t file_bytes)
+      : all_(kNumbersAByte * std::max(file_bytes, kLeastBytes)), left_(all_) {}
 
   /// Refuses rows × columns numbers when they are more than are left. `where`: the file, or the array in it.
   void check(std::uint64_t rows, std::uint64_t columns, const std::string& where) const {

@@ -282,9 +282,9 @@ TEST(Vtu, RefusesBlocksWhoseSizesWrapAround) {
   std::vector<std::uint64_t> words(3 + n, 0);
   words[0] = n, words[1] = std::uint64_t{1} << 40, words[2] = 72;
   const std::string_view packed(reinterpret_cast<const char*>(words.data()), 8 * words.size());
-  Allowance allowance(packed.size());
+  AllocationLimits allocation(packed.size());
   try {
-    static_cast<void>(unpack(packed, Scalar::f64, {"m.vtu: array 'Points'", 8, true, false}, allowance, nullptr));
+    static_cast<void>(unpack(packed, Scalar::f64, {"m.vtu: array 'Points'", 8, true, false}, allocation, nullptr));
     FAIL() << "was read";
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.error.code, ErrorCode::syntax);

@@ -74,7 +74,7 @@ std::string decoded(std::string_view name) {
 class LegacyVtkReader {
  public:
   explicit LegacyVtkReader(Source& source)
-      : scanner_(source.path, source.bytes), document_(new_document(source.path)), allowance_(source.allowance) {}
+      : scanner_(source.path, source.bytes), document_(new_document(source.path)), allocation_(source.allocation) {}
   Document read() {
     header();
     while (!scanner_.at_end()) keyword(lower(scanner_.word("a keyword")));
@@ -329,7 +329,7 @@ class LegacyVtkReader {
       fail(ErrorCode::size_mismatch, scanner_.path(), "has ", cells_.ends.size(), " CELLS and ", types_.size(),
            " CELL_TYPES");
     }
-    CellSorter sorter(document_, allowance_);
+    CellSorter sorter(document_, allocation_);
     RunLength triangle_lines, line_lines;
     const auto add_all = [&](const CellArray& array, auto type_of) {
       std::int32_t start = 0;
@@ -402,7 +402,7 @@ class LegacyVtkReader {
 
   Scanner scanner_;
   Document document_;
-  Allowance& allowance_;
+  AllocationLimits& allocation_;
   double version_ = 0;
   bool binary_ = false, poly_ = false, has_points_ = false;
   CellArray cells_;

@@ -145,7 +145,7 @@ class VtkhdfReader {
     if (several()) {
       if (const auto ghosts = take(data, kGhosts)) find_duplicates(*ghosts, n);
     }
-    CellSorter sorter(document_, source_.allowance);
+    CellSorter sorter(document_, source_.allocation);
     sorter.reserve(n);
     Start start;
     for (std::size_t piece = 0; piece < pieces; ++piece) {

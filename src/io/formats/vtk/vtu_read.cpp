@@ -167,7 +167,7 @@ class VtuReader {
   }
   void read_cells(const pugi::xml_node& piece) {
     const pugi::xml_node cells = piece.child("Cells");
-    CellSorter sorter(document_, source_.allowance);
+    CellSorter sorter(document_, source_.allocation);
     {
       const auto connectivity = integers(cells, "connectivity");
       DataArray offsets = array_of(cells, "offsets");
@@ -264,7 +264,7 @@ class VtuReader {
     char* out = buffer.data() + (packed.empty() ? 0 : packed.data() - buffer.data());
     const auto bytes = decode_base64(packed, out);
     if (!bytes) fail(ErrorCode::syntax, packing.where, "has a character that is not base64");
-    return unpack({out, *bytes}, scalar, packing, source_.allowance, source_.executor);
+    return unpack({out, *bytes}, scalar, packing, source_.allocation, source_.executor);
   }
   Values appended(const pugi::xml_node& node, Scalar scalar, const Packing& packing) {
     const std::string_view attribute = node.attribute("offset").value();
@@ -278,18 +278,18 @@ class VtuReader {
            appended_.size());
     }
     const std::string_view from = appended_.substr(static_cast<std::size_t>(offset));
-    if (!appended_is_base64_) return unpack(from, scalar, packing, source_.allowance, source_.executor);
+    if (!appended_is_base64_) return unpack(from, scalar, packing, source_.allocation, source_.executor);
     // Base64 ends where the next array starts; what follows it in the same text does no harm to a decoder that
     // knows the length from the header. Not in place: two arrays may share their bytes.
     const std::string_view only = from.substr(0, from.find('<'));
     const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), offset);
     const auto most = static_cast<std::size_t>(
         next == offsets_.end() ? only.size() : std::min<std::uint64_t>(only.size(), *next - offset));
-    source_.allowance.take(most, 1, packing.where);
+    source_.allocation.take(most, 1, packing.where);
     std::string bytes(most, '\0');
     const auto n = decode_base64(trimmed(only.substr(0, most)), bytes.data());
     if (!n) fail(ErrorCode::syntax, packing.where, "has a character that is not base64");
-    return unpack(std::string_view(bytes).substr(0, *n), scalar, packing, source_.allowance, source_.executor);
+    return unpack(std::string_view(bytes).substr(0, *n), scalar, packing, source_.allocation, source_.executor);
   }
   DataArray array_of(const pugi::xml_node& cells, const char* name) {
     const pugi::xml_node node = cells.find_child_by_attribute("DataArray", "Name", name);
