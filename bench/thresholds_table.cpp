@@ -43,7 +43,7 @@ std::vector<Run> runs() {
 void print_definitions() {
   std::printf("| `--require`, JSON | short | code | what | wanted |\n|-|-|-|-|-|\n");
   for (const QualityMeasure& m : quality_measures()) {
-    const char* sign = m.better == Better::equal ? "=" : m.better == Better::larger ? "≥" : "≤";
+    const char* sign = m.better == Preference::equal ? "=" : m.better == Preference::larger ? "≥" : "≤";
     const std::string alias = m.alias.empty() ? "" : "`" + std::string(m.alias) + "`";
     std::string definition;
     for (const char c : m.definition) definition += c == '|' ? std::string("\\|") : std::string(1, c);
@@ -54,9 +54,9 @@ void print_definitions() {
 }
 
 bool is_met(const QualityMeasure& m, double value) {
-  return !m.wanted || (m.better == Better::equal    ? value == *m.wanted
-                       : m.better == Better::larger ? value >= *m.wanted
-                                                    : value <= *m.wanted);
+  return !m.wanted || (m.better == Preference::equal    ? value == *m.wanted
+                       : m.better == Preference::larger ? value >= *m.wanted
+                                                        : value <= *m.wanted);
 }
 
 /// Bold where the mesh has not what is wanted.
@@ -65,7 +65,7 @@ void print_value(const QualityMeasure& m, double value) {
   if (m.count) {
     std::printf(" %s%.0f%s |", mark, value, mark);
   } else if (std::isinf(value)) {
-    std::printf(m.better == Better::larger ? " – |" : " %s∞%s |", mark, mark);  // the least over nothing
+    std::printf(m.better == Preference::larger ? " – |" : " %s∞%s |", mark, mark);  // the least over nothing
   } else {
     constexpr double kRounding = 1e-6;  // of what is 0 but for rounding
     std::printf(" %s%.2g%s |", mark, std::abs(value) < kRounding ? 0 : value, mark);

@@ -11,7 +11,7 @@
 #include "temper/errors.hpp"
 #endif
 
-TEMPER_PYTHON_NAMES(temper::Better, "equal", "larger", "less");
+TEMPER_PYTHON_NAMES(temper::Preference, "equal", "larger", "less");
 
 namespace temper::python {
 namespace {

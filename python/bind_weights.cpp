@@ -9,7 +9,7 @@
 
 TEMPER_PYTHON_NAMES(temper::LpStatus, "optimal", "infeasible", "unbounded", "failed");
 TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "crossing", "dual");
-TEMPER_PYTHON_NAMES(temper::Conditions, "well_centered", "heights_only", "regular");
+TEMPER_PYTHON_NAMES(temper::Constraints, "well_centered", "heights_only", "regular");
 TEMPER_PYTHON_NAMES(temper::WeightGoal, "feasible", "minimal", "elastic");
 
 namespace temper::python {
@@ -24,7 +24,7 @@ py::dict certificate_to_dict(const Certificate& certificate) {
   for (const auto& term : certificate.terms) {
     terms.append(py::make_tuple(constraint_to_tuple(term.constraint), term.multiplier));
   }
-  return Record()("margin", certificate.margin)("terms", terms)("conditions", name(certificate.conditions)).dict;
+  return Record()("margin", certificate.margin)("terms", terms)("constraints", name(certificate.constraints)).dict;
 }
 
 VertexId vertex_or_none(const py::handle& index) {
@@ -35,7 +35,7 @@ VertexId vertex_or_none(const py::handle& index) {
 Certificate certificate_from(const py::dict& d) {
   Certificate certificate;
   certificate.margin = d["margin"].cast<double>();
-  certificate.conditions = from_name<Conditions>("conditions", d["conditions"].cast<std::string>());
+  certificate.constraints = from_name<Constraints>("constraints", d["constraints"].cast<std::string>());
   for (const auto& item : d["terms"]) {
     const auto term = item.cast<py::tuple>();
     const auto c = term[0].cast<py::tuple>();
@@ -79,15 +79,15 @@ py::dict weight_report_to_dict(const WeightReport& r) {
                           "shortfall", v.shortfall)("angle_deg", v.angle_deg)
                           .dict);
   }
-  return Record()("verdict", name(r.verdict))("margin", r.margin)("margin_is", name(r.margin_is))("solved", r.solved)(
-             "asked", r.asked)("attained", r.attained)("moved", r.moved)("change", r.change)(
+  return Record()("verdict", name(r.verdict))("margin", r.margin)("margin_kind", name(r.margin_kind))(
+             "solved", r.solved)("asked", r.asked)("attained", r.attained)("moved", r.moved)("change", r.change)(
              "programmes", r.programmes)("largest", r.largest)("weights", r.weights)("violations", violations)(
              "certificate", certificate_to_dict(r.certificate))
       .dict;
 }
 
 py::dict find(const PyMesh& self, const std::string& goal, double margin, bool from_input, std::size_t whole, int rings,
-              const std::string& conditions, const py::object& edges) {
+              const std::string& constraints, const py::object& edges) {
   const auto mesh = self.read();
   WeightOptions options;
   options.goal = from_name<WeightGoal>("goal", goal);
@@ -95,14 +95,14 @@ py::dict find(const PyMesh& self, const std::string& goal, double margin, bool f
   options.from_input = from_input;
   options.whole = whole;
   options.rings = rings;
-  options.conditions = from_name<Conditions>("conditions", conditions);
+  options.constraints = from_name<Constraints>("constraints", constraints);
   options.edges = prescribed(*mesh, edges);
   return weight_report_to_dict(or_raise(aside([&] { return find_weights(*mesh, *clp_solver(), options); })));
 }
 
-py::dict search_connectivity(const PyMesh& self, const std::string& conditions, std::size_t programmes) {
+py::dict search_connectivity(const PyMesh& self, const std::string& constraints, std::size_t programmes) {
   const auto mesh = self.read();
-  const ConnectivityOptions options = {from_name<Conditions>("conditions", conditions), programmes};
+  const ConnectivityOptions options = {from_name<Constraints>("constraints", constraints), programmes};
   ConnectivityReport report = or_raise(aside([&] { return best_connectivity(*mesh, *clp_solver(), options); }));
   py::list steps;
   for (const ConnectivityStep& step : report.steps) {
@@ -117,21 +117,21 @@ py::dict search_connectivity(const PyMesh& self, const std::string& conditions, 
 
 py::list conditions_rows() {
   py::list rows;
-  for (const ConditionsInfo& row : conditions_table()) {
+  for (const ConstraintsInfo& row : constraints_table()) {
     rows.append(Record()("name", row.name)("keeps", row.keeps)("success", row.success)("failure", row.failure).dict);
   }
   return rows;
 }
 
 void bind_feasibility(py::module_& m) {
-  m.def("conditions_table", conditions_rows);
+  m.def("constraints_table", conditions_rows);
   m.def("best_connectivity", search_connectivity);
   m.def("find_weights", find);
   m.def("best_margin",
-        [](const PyMesh& self, const py::object& triangles, const std::string& conditions, const py::object& edges) {
+        [](const PyMesh& self, const py::object& triangles, const std::string& constraints, const py::object& edges) {
           const auto mesh = self.read();
           require_no_period(*mesh, "best_margin()");
-          const auto wanted = from_name<Conditions>("conditions", conditions);
+          const auto wanted = from_name<Constraints>("constraints", constraints);
           std::vector<TriangleId> ids;
           if (!triangles.is_none()) {
             const auto numbers = triangles.cast<Int64s>();
@@ -144,10 +144,10 @@ void bind_feasibility(py::module_& m) {
             return all ? best_margin(*mesh, *solver, wanted, chosen) : best_margin(*mesh, ids, *solver, wanted, chosen);
           }));
         });
-  m.def("weight_margin", [](const PyMesh& self, const std::string& conditions, const py::object& edges) {
+  m.def("weight_margin", [](const PyMesh& self, const std::string& constraints, const py::object& edges) {
     const auto mesh = self.read();
     require_no_period(*mesh, "weight_margin()");
-    return weight_margin(*mesh, from_name<Conditions>("conditions", conditions), prescribed(*mesh, edges));
+    return weight_margin(*mesh, from_name<Constraints>("constraints", constraints), prescribed(*mesh, edges));
   });
   m.def("weight_change", [](const PyMesh& self, const Doubles& before, const Doubles& after) {
     const auto mesh = self.read();

@@ -157,7 +157,7 @@ Claim coarse_but_good(Unknowns unknowns, const std::string& figure) {
               after.min_angle_deg > std::max(before.min_angle_deg, kept.min_angle_deg) &&
               after.well_centered_fraction > std::max(before.well_centered_fraction, kept.well_centered_fraction) &&
               e1 < std::min(e0, e_kept),
-          "Better than the input, and worse than without removals: where sums are compared a removal may raise the "
+          "Preference than the input, and worse than without removals: where sums are compared a removal may raise the "
           "energy a "
           "triangle. Asked for: a third of the vertices gone, no edge to flip, and a greater least angle, a greater "
           "part of "

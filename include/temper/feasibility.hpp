@@ -60,30 +60,30 @@ class LpSolver {
   [[nodiscard]] virtual LpSolution solve(const LpProblem& problem) = 0;
 };
 
-// --- conditions ---------------------------------------------------------------------------------------
+// --- constraints ---------------------------------------------------------------------------------------
 
 /// The inequalities that count.
-enum class Conditions {
+enum class Constraints {
   well_centered,  ///< heights and crossings
   heights_only,   ///< orthocenters inside their triangles; dual edges need not cross their own edges
   regular,        ///< dual lengths of edges inside the mesh: of all of them, or of those prescribed
 };
 
-/// A row of the table of conditions.
-struct ConditionsInfo {
-  Conditions conditions;
+/// A row of the table of constraints.
+struct ConstraintsInfo {
+  Constraints constraints;
   std::string_view name;     ///< "well_centered", …: stable across versions
   std::string_view keeps;    ///< the inequalities for a margin t
   std::string_view success;  ///< "weights make every triangle well-centered", a sentence of what was found
   std::string_view failure;  ///< "no weights make every triangle well-centered"
 };
-/// One row for each of Conditions, in their order.
-[[nodiscard]] std::span<const ConditionsInfo> conditions_table();
-[[nodiscard]] std::string_view name(Conditions conditions);
+/// One row for each of Constraints, in their order.
+[[nodiscard]] std::span<const ConstraintsInfo> constraints_table();
+[[nodiscard]] std::string_view name(Constraints constraints);
 
 // --- certificates -------------------------------------------------------------------------------------
 
-/// One inequality of some conditions.
+/// One inequality of some constraints.
 struct WeightConstraint {
   enum class Kind {
     height,    ///< h over edge pq of the triangle pqr, counter-clockwise
@@ -100,7 +100,7 @@ struct WeightConstraint {
 [[nodiscard]] std::string_view name(WeightConstraint::Kind kind);
 
 /// Certificates of `regular` speak of weights that differ by less than this many ℓ² along the edges of their triangles.
-/// (The other conditions bound these differences themselves.) With greater ones h would have lost 20 of its 53 bits.
+/// (The other constraints bound these differences themselves.) With greater ones h would have lost 20 of its 53 bits.
 inline constexpr double kWeightReach = 0x1p20;
 /// … and of margins no greater than this one: with w = |x|² − z all dual lengths are linear in z, so that who attains
 /// one margin attains any.
@@ -132,9 +132,9 @@ struct Certificate {
     double multiplier = 0;
     friend bool operator==(const Term&, const Term&) = default;
   };
-  double margin = 0;  ///< refuted: no weights keep the conditions with more than this margin
+  double margin = 0;  ///< refuted: no weights keep the constraints with more than this margin
   std::vector<Term> terms;
-  Conditions conditions = Conditions::well_centered;
+  Constraints constraints = Constraints::well_centered;
   friend bool operator==(const Certificate&, const Certificate&) = default;
 };
 
@@ -142,7 +142,7 @@ struct Certificate {
 enum class CertificateCheck {
   proves,            ///< no weights exist
   proves_nothing,    ///< the sum is not a contradiction
-  not_of_this_mesh,  ///< a constraint of a triangle or an edge that the mesh does not have, or not of the conditions
+  not_of_this_mesh,  ///< a constraint of a triangle or an edge that the mesh does not have, or not of the constraints
   bad_multiplier,    ///< not finite, negative, all of them zero, or a margin outside [0, 1/2)
   out_of_range,      ///< numbers so far apart that exact arithmetic could underflow
 };
@@ -150,10 +150,10 @@ enum class CertificateCheck {
 
 /// Verifies a certificate in exact arithmetic, from the positions alone. Multipliers are doubles, so the weights need
 /// not cancel quite: what is left of each is bounded by how much weights can differ. Along an edge pq of a triangle pqr
-/// that is |w_p − w_q| < ℓ² when the conditions have crossings; the greater of ℓ² and ||r − p|² − |r − q|²| when they
+/// that is |w_p − w_q| < ℓ² when the constraints have crossings; the greater of ℓ² and ||r − p|² − |r − q|²| when they
 /// have heights alone (the orthocenter is in the triangle, and both distances are squares minus weights); kWeightReach
 /// ℓ², without a reason, when they are dual lengths. On the sphere the bounds are of σ_q/σ_p: p·q/|p|² and |q|²/p·q
-/// when the conditions have crossings, and q·r/p·r when they have heights alone; of dual lengths |σ_q/σ_p − 1| < the
+/// when the constraints have crossings, and q·r/p·r when they have heights alone; of dual lengths |σ_q/σ_p − 1| < the
 /// lesser of 1 and kWeightReach (|q|²/p·q − 1). About O(n) for n terms, with a large factor.
 [[nodiscard]] CertificateCheck check_certificate(const Mesh& mesh, const Certificate& certificate);
 
@@ -163,10 +163,10 @@ enum class CertificateCheck {
 /// margin is this or 0; on the sphere one that is attained, above zero when any is.
 inline constexpr double kMostMargin = 0.5;
 
-/// The least h/ℓ, d/ℓ, 1 − d/ℓ or dual length/ℓ that the conditions have, of the mesh's own weights, in doubles;
+/// The least h/ℓ, d/ℓ, 1 − d/ℓ or dual length/ℓ that the constraints have, of the mesh's own weights, in doubles;
 /// kUnbounded when they have none. `edges`: of `regular`, by either of their halfedges; none: all. Those on the
 /// boundary are regular whatever the weights. O(n).
-[[nodiscard]] double weight_margin(const Mesh& mesh, Conditions conditions = Conditions::well_centered,
+[[nodiscard]] double weight_margin(const Mesh& mesh, Constraints constraints = Constraints::well_centered,
                                    std::span<const HalfedgeId> edges = {});
 
 struct BestMargin {
@@ -182,11 +182,11 @@ struct BestMargin {
 /// The best margin of some triangles, the rest of the mesh being left out: an upper bound for any set that has them.
 /// The largest margin makes a worse mesh than a small one: weights go far for its sake.
 [[nodiscard]] BestMargin best_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver,
-                                     Conditions conditions = Conditions::well_centered,
+                                     Constraints constraints = Constraints::well_centered,
                                      std::span<const HalfedgeId> edges = {});
 /// The best margin of the whole mesh: the least of its components.
 [[nodiscard]] BestMargin best_margin(const Mesh& mesh, LpSolver& solver,
-                                     Conditions conditions = Conditions::well_centered,
+                                     Constraints constraints = Constraints::well_centered,
                                      std::span<const HalfedgeId> edges = {});
 
 // --- weights ------------------------------------------------------------------------------------------
@@ -205,24 +205,24 @@ struct WeightOptions {
   /// triangles only, in neighbourhoods that grow until everything outside can stay as it is.
   std::size_t whole = 3000;
   int rings = 2;  ///< of vertices around bad triangles, at first
-  Conditions conditions = Conditions::well_centered;
+  Constraints constraints = Constraints::well_centered;
   std::vector<HalfedgeId> edges = {};  ///< of `regular`: those prescribed, by either of their halfedges; none: all
 };
 
 enum class Feasibility {
-  feasible,    ///< the weights found keep the conditions, by exact predicates
+  feasible,    ///< the weights found keep the constraints, by exact predicates
   infeasible,  ///< no weights do, by a certificate that the exact checker accepts
   undecided,   ///< the best margin is zero up to rounding, or the solver failed
 };
 [[nodiscard]] std::string_view name(Feasibility verdict);
 
 /// The meaning of a margin that is reported as the best of the mesh.
-enum class MarginIs {
+enum class MarginKind {
   exact,     ///< up to rounding
   at_least,  ///< attained; more was not tried
   at_most,   ///< of the worst neighbourhood
 };
-[[nodiscard]] std::string_view name(MarginIs is);
+[[nodiscard]] std::string_view name(MarginKind is);
 
 /// A constraint that elastic weights do not keep.
 struct Violation {
@@ -235,7 +235,7 @@ struct Violation {
 struct WeightReport {
   Feasibility verdict = Feasibility::undecided;
   double margin = 0;  ///< best margin
-  MarginIs margin_is = MarginIs::at_least;
+  MarginKind margin_kind = MarginKind::at_least;
   bool solved = false;                 ///< `weights` are an answer to what was asked
   double asked = 0;                    ///< margin that the weights were made for
   double attained = 0;                 ///< margin that they have: weight_margin

@@ -47,7 +47,7 @@ struct Histogram {
 };
 
 /// The total energies of a mesh: [EnergyKind, the row of energies()][star], +∞ outside the domain of the energy.
-using EnergyTable = std::array<std::array<double, 3>, kEnergyKinds>;
+using EnergiesByStar = std::array<std::array<double, 3>, kEnergyKinds>;
 
 /// What codes that run on meshes refuse or are slowed by: quality_measures() has the definition of each, and whose it
 /// is. A least over nothing is +∞, a largest 0. Interior edges have a triangle on both sides, closed cells are those of
@@ -85,7 +85,7 @@ struct Quality : SolverMeasures {
   /// edges.
   double max_transmissibility_over_median = 0;
   double transmissibility_ratio = 0;  ///< the largest over the least of them; 1 and +∞ as above
-  EnergyTable energy = {};
+  EnergiesByStar energy = {};
   std::vector<WorstTriangle> worst;  ///< worst first
   Histogram angles, h_over_l, d_over_l;
 };
@@ -102,7 +102,7 @@ struct TriangleQuality {
 [[nodiscard]] TriangleQuality triangle_quality(const Space& space, const std::array<WeightedPoint, 3>& corners);
 
 /// What one wants of a number.
-enum class Better : std::uint8_t {
+enum class Preference : std::uint8_t {
   equal,   ///< counts: the number
   larger,  ///< minima and fractions: at least
   less,    ///< maxima and energies: at most
@@ -115,7 +115,7 @@ struct QualityMeasure {
   std::string_view label;       ///< in tables
   std::string_view community;   ///< whose codes look at it; empty for those of primal-dual meshes as such
   std::string_view definition;  ///< of one line, with its source
-  Better better;
+  Preference better;
   bool count;                    ///< a whole number
   std::optional<double> wanted;  ///< what is asked for where nobody says more
   double (*of)(const Quality&);

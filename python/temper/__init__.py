@@ -47,7 +47,7 @@ from ._weights import (
     best_connectivity,
     best_margin,
     check_certificate,
-    conditions_table,
+    constraints_table,
     edge_conflict,
     edges_that_must_be_split,
     find_weights,

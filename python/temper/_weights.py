@@ -13,14 +13,14 @@ from . import _temper
 from ._mesh import Mesh, MeshLike, _ints, as_mesh
 from ._records import Record, merged
 
-Conditions = Literal["well_centered", "heights_only", "regular"]
+Constraints = Literal["well_centered", "heights_only", "regular"]
 
 
 @dataclasses.dataclass(frozen=True)
-class ConditionsInfo(Record):
-    """A row of the table of conditions: the inequalities that count."""
+class ConstraintsInfo(Record):
+    """A row of the table of constraints: the inequalities that count."""
 
-    name: Conditions
+    name: Constraints
     keeps: str
     """The inequalities for a margin t."""
     success: str
@@ -28,10 +28,10 @@ class ConditionsInfo(Record):
     failure: str
 
 
-def conditions_table() -> list[ConditionsInfo]:
+def constraints_table() -> list[ConstraintsInfo]:
     """well_centered: all h and d; heights_only: all h, so that orthocenters are inside their triangles; regular: the dual
     lengths of edges inside the mesh, of all of them or of those prescribed."""
-    return [ConditionsInfo(**row) for row in _temper.conditions_table()]
+    return [ConstraintsInfo(**row) for row in _temper.constraints_table()]
 
 
 def _edges(edges: npt.ArrayLike | None) -> npt.NDArray[np.int64] | None:
@@ -40,7 +40,7 @@ def _edges(edges: npt.ArrayLike | None) -> npt.NDArray[np.int64] | None:
 
 @dataclasses.dataclass(frozen=True)
 class WeightConstraint:
-    """One inequality of some conditions."""
+    """One inequality of some constraints."""
 
     kind: Literal["height", "crossing", "dual"]
     """height: h over edge pq of the triangle pqr, counter-clockwise; crossing: d from p towards q, for any edge pq; dual:
@@ -59,19 +59,19 @@ class Certificate(Record):
     in ``temper/feasibility.hpp`` and docs/weights.md."""
 
     margin: float
-    """Refuted: no weights keep the conditions with more than this margin."""
+    """Refuted: no weights keep the constraints with more than this margin."""
     terms: list[tuple[WeightConstraint, float]]
     """Constraints and their multipliers; none: no certificate."""
-    conditions: Conditions = "well_centered"
+    constraints: Constraints = "well_centered"
     """Those of ``regular`` speak of weights that differ by less than 2²⁰ ℓ² along edges."""
 
     def _plain(self) -> dict[str, Any]:
         terms = [((c.kind, c.p, c.q, c.r, c.s), float(m)) for c, m in self.terms]
-        return {"margin": self.margin, "terms": terms, "conditions": self.conditions}
+        return {"margin": self.margin, "terms": terms, "constraints": self.constraints}
 
     @classmethod
     def _of(cls, d: dict[str, Any]) -> Certificate:
-        return cls(d["margin"], [(WeightConstraint(*c), m) for c, m in d["terms"]], d["conditions"])
+        return cls(d["margin"], [(WeightConstraint(*c), m) for c, m in d["terms"]], d["constraints"])
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -109,11 +109,11 @@ class WeightReport(Record):
     """What ``find_weights`` found."""
 
     verdict: Literal["feasible", "infeasible", "undecided"]
-    """feasible: the weights found keep the conditions, by exact predicates; infeasible: no weights do, by a certificate
+    """feasible: the weights found keep the constraints, by exact predicates; infeasible: no weights do, by a certificate
     that the exact checker accepts."""
     margin: float
     """Best margin."""
-    margin_is: Literal["exact", "at_least", "at_most"]
+    margin_kind: Literal["exact", "at_least", "at_most"]
     """What is known of it: up to rounding; attained, more was not tried; of the worst neighbourhood."""
     solved: bool
     """``weights`` are an answer to what was asked."""
@@ -141,7 +141,7 @@ def find_weights(
     from_input: bool = False,
     whole: int = 3000,
     rings: int = 2,
-    conditions: Conditions = "well_centered",
+    constraints: Constraints = "well_centered",
     edges: npt.ArrayLike | None = None,
 ) -> WeightReport:
     """Finds weights for a mesh whose positions and connectivity stay, by linear programming (Clp). The mesh is not
@@ -154,7 +154,7 @@ def find_weights(
         The least change for the margin asked for; the best margin, and the least change for the margin asked for or for
         half of the best one; the least violation, and then the least change.
     margin : float
-        t in [0, 1/2): all h ≥ tℓ and tℓ ≤ d ≤ (1 − t)ℓ, or what the conditions are.
+        t in [0, 1/2): all h ≥ tℓ and tℓ ≤ d ≤ (1 − t)ℓ, or what the constraints are.
     from_input : bool
         Change is measured from the mesh's weights; else from zero.
     whole : int
@@ -162,8 +162,8 @@ def find_weights(
         triangles only.
     rings : int
         Of vertices around bad triangles, at first.
-    conditions : {"well_centered", "heights_only", "regular"}
-        What the weights have to keep: see ``conditions_table``.
+    constraints : {"well_centered", "heights_only", "regular"}
+        What the weights have to keep: see ``constraints_table``.
     edges : (k, 2) int, optional
         Of ``regular``: the edges prescribed, by their vertices; None: all. Those on the boundary always are regular.
 
@@ -179,11 +179,11 @@ def find_weights(
     ('infeasible', -0.0592592593)
     >>> temper.check_certificate(mesh, report.certificate)
     'proves'
-    >>> temper.find_weights(mesh, conditions="heights_only").verdict
+    >>> temper.find_weights(mesh, constraints="heights_only").verdict
     'feasible'
     """
     handle = as_mesh(mesh)._handle
-    d = _temper.find_weights(handle, goal, margin, from_input, whole, rings, conditions, _edges(edges))
+    d = _temper.find_weights(handle, goal, margin, from_input, whole, rings, constraints, _edges(edges))
     violations = [Violation(**merged(v, constraint=WeightConstraint(*v["constraint"]))) for v in d["violations"]]
     return WeightReport(**merged(d, violations=violations, certificate=Certificate._of(d["certificate"])))
 
@@ -192,24 +192,24 @@ def best_margin(
     mesh: MeshLike,
     triangles: npt.ArrayLike | None = None,
     *,
-    conditions: Conditions = "well_centered",
+    constraints: Constraints = "well_centered",
     edges: npt.ArrayLike | None = None,
 ) -> BestMargin:
     """The best margin of some triangles, (k,) int, the rest of the mesh being left out; None: of the whole mesh. An
     upper bound for any set that has them. ``edges`` as for ``find_weights``; of ``regular`` it is 1/2, where programmes
     stop, or 0."""
     chosen = None if triangles is None else _ints(triangles, 0, "triangles").astype(np.int64)
-    d = _temper.best_margin(as_mesh(mesh)._handle, chosen, conditions, _edges(edges))
+    d = _temper.best_margin(as_mesh(mesh)._handle, chosen, constraints, _edges(edges))
     tight = [WeightConstraint(*c) for c in d["tight"]]
     return BestMargin(**merged(d, tight=tight, certificate=Certificate._of(d["certificate"])))
 
 
 def weight_margin(
-    mesh: MeshLike, *, conditions: Conditions = "well_centered", edges: npt.ArrayLike | None = None
+    mesh: MeshLike, *, constraints: Constraints = "well_centered", edges: npt.ArrayLike | None = None
 ) -> float:
-    """The least h/ℓ, d/ℓ, 1 − d/ℓ or dual length/ℓ that the conditions have, of the mesh's own weights, in doubles;
+    """The least h/ℓ, d/ℓ, 1 − d/ℓ or dual length/ℓ that the constraints have, of the mesh's own weights, in doubles;
     infinite when they have none."""
-    return _temper.weight_margin(as_mesh(mesh)._handle, conditions, _edges(edges))
+    return _temper.weight_margin(as_mesh(mesh)._handle, constraints, _edges(edges))
 
 
 def weight_change(mesh: MeshLike, before: npt.ArrayLike, after: npt.ArrayLike) -> float:
@@ -258,7 +258,7 @@ class ConnectivityReport(Record):
 def best_connectivity(
     mesh: MeshLike,
     *,
-    conditions: Literal["well_centered", "heights_only"] = "well_centered",
+    constraints: Literal["well_centered", "heights_only"] = "well_centered",
     programmes: int = 10000,
 ) -> ConnectivityReport:
     """Looks for a connectivity with a greater best margin: from the best one so far, the regular triangulation of the
@@ -270,7 +270,7 @@ def best_connectivity(
     >>> report.end, len(report.steps), report.margin == report.before
     ('no_better_neighbour', 0, True)
     """
-    d = _temper.best_connectivity(as_mesh(mesh)._handle, conditions, programmes)
+    d = _temper.best_connectivity(as_mesh(mesh)._handle, constraints, programmes)
     steps = [ConnectivityStep(**step) for step in d["steps"]]
     return ConnectivityReport(**merged(d, mesh=Mesh._of(d["mesh"]), steps=steps))
 

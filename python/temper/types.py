@@ -15,7 +15,7 @@ from ._measure_errors import ErrorNorms, FieldErrors, OperatorErrors, ErrorField
 from ._weights import (
     BestMargin,
     Certificate,
-    ConditionsInfo,
+    ConstraintsInfo,
     ConnectivityReport,
     ConnectivityStep,
     EdgeConflict,

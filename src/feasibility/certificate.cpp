@@ -126,13 +126,13 @@ std::optional<double> distance_from_one(const Number& n, const Number& d) {
   return abs(n - d).approximation() / d.approximation() * kRoundedUp;
 }
 
-bool counts(Conditions conditions, Kind kind) {
-  switch (conditions) {
-    case Conditions::well_centered:
+bool counts(Constraints constraints, Kind kind) {
+  switch (constraints) {
+    case Constraints::well_centered:
       return kind == Kind::height || kind == Kind::crossing;
-    case Conditions::heights_only:
+    case Constraints::heights_only:
       return kind == Kind::height;
-    case Conditions::regular:
+    case Constraints::regular:
       return kind == Kind::dual;
   }
   return false;
@@ -221,8 +221,8 @@ Scale scale_of(const Mesh& mesh, const Certificate& certificate) {
 /// What the sum needs to know of the plane.
 class PlaneTerms {
  public:
-  PlaneTerms(const Mesh& mesh, const Scale& scale, Conditions conditions)
-      : mesh_(mesh), scale_(scale), conditions_(conditions) {}
+  PlaneTerms(const Mesh& mesh, const Scale& scale, Constraints constraints)
+      : mesh_(mesh), scale_(scale), constraints_(constraints) {}
 
   [[nodiscard]] Polynomial polynomial_of(const WeightConstraint& c, double margin) const {
     switch (c.kind) {
@@ -238,8 +238,8 @@ class PlaneTerms {
   /// b of an edge of a triangle whose third corner is r; of a crossing there is none.
   [[nodiscard]] std::optional<Number> bound(VertexId a, VertexId b, VertexId r) const {
     const Number length = squared_distance(a, b);
-    if (conditions_ == Conditions::regular) return Number(kWeightReach) * length;
-    if (conditions_ != Conditions::heights_only) return length;
+    if (constraints_ == Constraints::regular) return Number(kWeightReach) * length;
+    if (constraints_ != Constraints::heights_only) return length;
     Number across = abs(squared_distance(a, r) - squared_distance(b, r));
     return (across - length).sign() == Sign::positive ? across : length;
   }
@@ -261,14 +261,14 @@ class PlaneTerms {
 
   const Mesh& mesh_;
   const Scale& scale_;
-  Conditions conditions_;
+  Constraints constraints_;
 };
 
 /// What the sum needs to know of the sphere.
 class SphereTerms {
  public:
-  SphereTerms(const Mesh& mesh, const Scale& scale, Conditions conditions)
-      : mesh_(mesh), scale_(scale), conditions_(conditions), radius_(scale.coordinate(mesh.space().radius())) {}
+  SphereTerms(const Mesh& mesh, const Scale& scale, Constraints constraints)
+      : mesh_(mesh), scale_(scale), constraints_(constraints), radius_(scale.coordinate(mesh.space().radius())) {}
 
   [[nodiscard]] Polynomial polynomial_of(const WeightConstraint& c, double margin) const {
     switch (c.kind) {
@@ -288,8 +288,8 @@ class SphereTerms {
     const Vector3 p = exact_vector(at(a)), q = exact_vector(at(b));
     const Number pq = dot(p, q);
     std::optional<double> most = larger(distance_from_one(pq, dot(p, p)), distance_from_one(dot(q, q), pq));
-    if (most && conditions_ == Conditions::regular) return Number(std::min(kWeightReach * *most, 1.0));
-    if (conditions_ == Conditions::heights_only) {
+    if (most && constraints_ == Constraints::regular) return Number(std::min(kWeightReach * *most, 1.0));
+    if (constraints_ == Constraints::heights_only) {
       const Vector3 across = exact_vector(at(r));
       most = larger(most, distance_from_one(dot(across, q), dot(across, p)));
     }
@@ -321,7 +321,7 @@ class SphereTerms {
 
   const Mesh& mesh_;
   const Scale& scale_;
-  Conditions conditions_;
+  Constraints constraints_;
   double radius_;
 };
 
@@ -330,7 +330,7 @@ template <class Terms>
 class Sum {
  public:
   Sum(const Mesh& mesh, const Certificate& certificate, const Scale& scale)
-      : terms_(mesh, scale, certificate.conditions), scale_(scale) {
+      : terms_(mesh, scale, certificate.constraints), scale_(scale) {
     for (const auto& term : certificate.terms) {
       if (term.multiplier > 0) add(term, certificate.margin);
     }
@@ -422,7 +422,7 @@ std::string_view name(CertificateCheck check) {
 CertificateCheck check_certificate(const Mesh& mesh, const Certificate& certificate) {
   if (!has_good_multipliers(certificate)) return CertificateCheck::bad_multiplier;
   for (const auto& term : certificate.terms) {
-    if (!counts(certificate.conditions, term.constraint.kind) || !is_of(mesh, term.constraint)) {
+    if (!counts(certificate.constraints, term.constraint.kind) || !is_of(mesh, term.constraint)) {
       return CertificateCheck::not_of_this_mesh;
     }
   }

@@ -25,6 +25,6 @@ struct Bound {
                                  const Demand& demand);
 
 /// A certificate that refutes the margin, with as few terms as will do; without terms when the checker accepts none.
-[[nodiscard]] Certificate certify(const Mesh& mesh, const Bound& bound, Conditions conditions, double margin);
+[[nodiscard]] Certificate certify(const Mesh& mesh, const Bound& bound, Constraints constraints, double margin);
 
 }  // namespace temper

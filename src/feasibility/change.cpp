@@ -10,7 +10,7 @@
 //
 // On the sphere w is the potential, Δw that of σ = σ₀ (1 − Δw/(2R²)), relative to the start's, so that a factor of all
 // σ is the same Δw of all. Crossings are rows of their own. Without rim the Δw sum to zero: σ that tend to zero
-// together would keep all conditions and change by nothing. Elastic programmes have a column more for each height and
+// together would keep all constraints and change by nothing. Elastic programmes have a column more for each height and
 // dual length, and two for each edge that has crossings, which pay for what is lacking.
 #include "feasibility/change.hpp"
 

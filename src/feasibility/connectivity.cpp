@@ -36,7 +36,7 @@ struct Optimum {
 class ConnectivitySearch {
  public:
   ConnectivitySearch(const Mesh& mesh, LpSolver& solver, const ConnectivityOptions& options)
-      : solver_(solver), options_(options), demand_(mesh, options.conditions, {}) {
+      : solver_(solver), options_(options), demand_(mesh, options.constraints, {}) {
     report_.mesh = mesh;
   }
 
@@ -173,9 +173,9 @@ std::string_view name(SearchEnd end) {
 Expected<ConnectivityReport> best_connectivity(const Mesh& mesh, LpSolver& solver, const ConnectivityOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   if (auto error = expect_no_period(mesh, "best_connectivity()")) return *std::move(error);
-  if (options.conditions == Conditions::regular) {
+  if (options.constraints == Constraints::regular) {
     return InputError{ErrorCode::invalid_option, "",
-                      "conditions: expected well_centered or heights_only, found regular: every regular triangulation "
+                      "constraints: expected well_centered or heights_only, found regular: every regular triangulation "
                       "keeps them"};
   }
   return ConnectivitySearch(mesh, solver, options).run();

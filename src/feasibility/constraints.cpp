@@ -43,20 +43,20 @@ LinearForm sphere_form(const Mesh& mesh, const WeightConstraint& constraint) {
   return {3, {vp, vq, vr, {}}, {-slope * constant - at_q - at_r, at_q, at_r, 0}, constant, slope};
 }
 
-constexpr std::array<ConditionsInfo, 3> kConditions = {{
-    {Conditions::well_centered, "well_centered", "h >= t l and t l <= d <= (1 - t) l",
+constexpr std::array<ConstraintsInfo, 3> kConditions = {{
+    {Constraints::well_centered, "well_centered", "h >= t l and t l <= d <= (1 - t) l",
      "weights make every triangle well-centered", "no weights make every triangle well-centered"},
-    {Conditions::heights_only, "heights_only", "h >= t l", "weights bring every orthocenter inside its triangle",
+    {Constraints::heights_only, "heights_only", "h >= t l", "weights bring every orthocenter inside its triangle",
      "no weights bring every orthocenter inside its triangle"},
-    {Conditions::regular, "regular", "dual length >= t l", "weights make these edges regular",
+    {Constraints::regular, "regular", "dual length >= t l", "weights make these edges regular",
      "no weights make these edges regular (of those that differ by less than 2^20 l^2 along edges)"},
 }};
 
 }  // namespace
 
-std::span<const ConditionsInfo> conditions_table() { return kConditions; }
+std::span<const ConstraintsInfo> constraints_table() { return kConditions; }
 
-std::string_view name(Conditions conditions) { return kConditions[static_cast<std::size_t>(conditions)].name; }
+std::string_view name(Constraints constraints) { return kConditions[static_cast<std::size_t>(constraints)].name; }
 
 std::string_view name(WeightConstraint::Kind kind) {
   constexpr std::array<std::string_view, 3> kNames = {"height", "crossing", "dual"};
@@ -91,8 +91,8 @@ WeightConstraint dual_constraint(const Mesh& mesh, HalfedgeId h) {
   return {WeightConstraint::Kind::dual, mesh.origin(h), mesh.target(h), mesh.opposite(h), mesh.opposite(mesh.twin(h))};
 }
 
-Demand::Demand(const Mesh& mesh, Conditions conditions, std::span<const HalfedgeId> edges)
-    : conditions_(conditions), in_plane_(mesh.space().is_plane()) {
+Demand::Demand(const Mesh& mesh, Constraints constraints, std::span<const HalfedgeId> edges)
+    : constraints_(constraints), in_plane_(mesh.space().is_plane()) {
   if (edges.empty()) return;
   prescribed_ = IdVector<HalfedgeId, std::uint8_t>(mesh.n_halfedges(), 0);
   for (const HalfedgeId h : edges) {

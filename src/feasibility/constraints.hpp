@@ -81,16 +81,16 @@ double value_of(const LinearForm& form, const Potential& potential) {
 /// Precondition: h is inside the mesh.
 [[nodiscard]] WeightConstraint dual_constraint(const Mesh& mesh, HalfedgeId h);
 
-/// Conditions on a mesh, with the edges that they are about.
+/// Constraints on a mesh, with the edges that they are about.
 class Demand {
  public:
-  Demand(const Mesh& mesh, Conditions conditions, std::span<const HalfedgeId> edges);
+  Demand(const Mesh& mesh, Constraints constraints, std::span<const HalfedgeId> edges);
 
-  [[nodiscard]] Conditions conditions() const { return conditions_; }
-  [[nodiscard]] bool has_heights() const { return conditions_ != Conditions::regular; }
-  [[nodiscard]] bool has_crossings() const { return conditions_ == Conditions::well_centered; }
-  [[nodiscard]] bool has_duals() const { return conditions_ == Conditions::regular; }
-  /// The margin that is refuted when no weights keep the conditions; `duals`: of dual lengths, in the plane.
+  [[nodiscard]] Constraints constraints() const { return constraints_; }
+  [[nodiscard]] bool has_heights() const { return constraints_ != Constraints::regular; }
+  [[nodiscard]] bool has_crossings() const { return constraints_ == Constraints::well_centered; }
+  [[nodiscard]] bool has_duals() const { return constraints_ == Constraints::regular; }
+  /// The margin that is refuted when no weights keep the constraints; `duals`: of dual lengths, in the plane.
   [[nodiscard]] double refuted_margin(double duals) const {
     return !has_duals() ? 0 : in_plane_ ? duals : kLeastRefutedDual;
   }
@@ -133,7 +133,7 @@ class Demand {
   }
 
  private:
-  Conditions conditions_;
+  Constraints constraints_;
   bool in_plane_;
   IdVector<HalfedgeId, std::uint8_t> prescribed_;  ///< none: every edge is
 };

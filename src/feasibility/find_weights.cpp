@@ -44,7 +44,7 @@ class WeightFinder {
       : mesh_(mesh),
         solver_(solver),
         options_(options),
-        demand_(mesh, options.conditions, options.edges),
+        demand_(mesh, options.constraints, options.edges),
         start_(mesh.n_vertices(), 0.0),
         components_(components_of(mesh)) {
     if (!options.from_input) return;
@@ -89,7 +89,7 @@ class WeightFinder {
   [[nodiscard]] bool is_hopeless(double margin) const {
     return margin <= (demand_.has_duals() ? kNoMargin : -kNoMargin);
   }
-  /// The margin that is refuted when no weights keep the conditions.
+  /// The margin that is refuted when no weights keep the constraints.
   [[nodiscard]] double refuted_margin() const {
     return demand_.refuted_margin(std::clamp(options_.margin, kLeastRefutedDual, kRefutedDual));
   }
@@ -205,7 +205,7 @@ class WeightFinder {
 
   [[nodiscard]] Certificate certify_bound(const Bound& bound, double margin) const {
     if (bound.best.status != LpStatus::optimal) return {};
-    return certify(mesh_, bound, options_.conditions, margin);
+    return certify(mesh_, bound, options_.constraints, margin);
   }
 
   void relax(double asked) {
@@ -261,16 +261,16 @@ class WeightFinder {
                               });
     if (all_measured) {
       r.margin = small_margin_;
-      r.margin_is = demand_.has_duals() && small_margin_ > kNoMargin ? MarginIs::at_least : MarginIs::exact;
+      r.margin_kind = demand_.has_duals() && small_margin_ > kNoMargin ? MarginKind::at_least : MarginKind::exact;
     } else if (bound_) {
       r.margin = std::min(bound_->best.margin, small_margin_);
-      r.margin_is = bound_is_exact_ ? MarginIs::exact : MarginIs::at_most;
+      r.margin_kind = bound_is_exact_ ? MarginKind::exact : MarginKind::at_most;
     } else if (found) {
       r.margin = std::min(r.attained, small_margin_);
-      r.margin_is = MarginIs::at_least;
+      r.margin_kind = MarginKind::at_least;
     } else {  // a component that is one programme has no good weights; others were not tried
       r.margin = small_margin_;
-      r.margin_is = MarginIs::at_most;
+      r.margin_kind = MarginKind::at_most;
     }
   }
 
@@ -336,7 +336,7 @@ std::string_view name(Feasibility verdict) {
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
-std::string_view name(MarginIs is) {
+std::string_view name(MarginKind is) {
   constexpr std::array<std::string_view, 3> kNames = {"exact", "at_least", "at_most"};
   return kNames[static_cast<std::size_t>(is)];
 }
@@ -362,8 +362,8 @@ Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const We
                             std::to_string(h.index)};
     }
   }
-  if (!options.edges.empty() && options.conditions != Conditions::regular) {
-    return InputError{ErrorCode::invalid_option, "", "edges: only conditions regular are about some edges"};
+  if (!options.edges.empty() && options.constraints != Constraints::regular) {
+    return InputError{ErrorCode::invalid_option, "", "edges: only constraints regular are about some edges"};
   }
   const bool elastic = options.goal == WeightGoal::elastic;
   if (!(options.margin < 0.5) || !(elastic ? options.margin >= 0 : options.margin > 0)) {

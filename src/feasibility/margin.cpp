@@ -127,8 +127,8 @@ std::vector<double> weight_units(const Mesh& mesh, std::span<const VertexId> ver
   return sums;
 }
 
-double weight_margin(const Mesh& mesh, Conditions conditions, std::span<const HalfedgeId> edges) {
-  const Demand demand(mesh, conditions, edges);
+double weight_margin(const Mesh& mesh, Constraints constraints, std::span<const HalfedgeId> edges) {
+  const Demand demand(mesh, constraints, edges);
   double margin = kUnbounded;
   for (const TriangleId t : mesh.triangles()) {
     margin = std::min(margin, demand.margin_of(mesh, t, [&](VertexId v) { return mesh.weight(v); }));
@@ -136,7 +136,7 @@ double weight_margin(const Mesh& mesh, Conditions conditions, std::span<const Ha
   return margin;
 }
 
-Certificate certify(const Mesh& mesh, const Bound& bound, Conditions conditions, double margin) {
+Certificate certify(const Mesh& mesh, const Bound& bound, Constraints constraints, double margin) {
   const std::vector<double>& dual = bound.dual;
   double largest = 0;
   for (const double y : dual) largest = std::max(largest, std::abs(y));
@@ -144,7 +144,7 @@ Certificate certify(const Mesh& mesh, const Bound& bound, Conditions conditions,
   for (const double dropped : {1e-9, 1e-12, 1e-15}) {
     Certificate certificate;
     certificate.margin = margin;
-    certificate.conditions = conditions;
+    certificate.constraints = constraints;
     for (std::size_t i = 0; i < dual.size(); ++i) {
       if (!(dual[i] > dropped * largest)) continue;
       certificate.terms.push_back({bound.constraints[i], dual[i] / scale_of_polynomial(mesh, bound.constraints[i])});
@@ -153,7 +153,7 @@ Certificate certify(const Mesh& mesh, const Bound& bound, Conditions conditions,
   }
   Certificate nothing;
   nothing.margin = margin;
-  nothing.conditions = conditions;
+  nothing.constraints = constraints;
   return nothing;
 }
 
@@ -219,20 +219,20 @@ namespace {
 BestMargin best_of(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, const Demand& demand) {
   Bound bound = bound_margin(mesh, triangles, solver, demand);
   if (bound.best.status == LpStatus::optimal && bound.best.margin < kNoMargin) {
-    bound.best.certificate = certify(mesh, bound, demand.conditions(), demand.refuted_margin(kRefutedDual));
+    bound.best.certificate = certify(mesh, bound, demand.constraints(), demand.refuted_margin(kRefutedDual));
   }
   return std::move(bound.best);
 }
 
 }  // namespace
 
-BestMargin best_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, Conditions conditions,
-                       std::span<const HalfedgeId> edges) {
-  return best_of(mesh, sorted(triangles), solver, Demand(mesh, conditions, edges));
+BestMargin best_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver,
+                       Constraints constraints, std::span<const HalfedgeId> edges) {
+  return best_of(mesh, sorted(triangles), solver, Demand(mesh, constraints, edges));
 }
 
-BestMargin best_margin(const Mesh& mesh, LpSolver& solver, Conditions conditions, std::span<const HalfedgeId> edges) {
-  const Demand demand(mesh, conditions, edges);
+BestMargin best_margin(const Mesh& mesh, LpSolver& solver, Constraints constraints, std::span<const HalfedgeId> edges) {
+  const Demand demand(mesh, constraints, edges);
   BestMargin worst;
   worst.margin = kUnbounded;
   for (const Region& component : components_of(mesh)) {

@@ -1,6 +1,6 @@
-// What the conditions are linear in, for fixed places: the potential of a vertex [length²].
+// What the constraints are linear in, for fixed places: the potential of a vertex [length²].
 //
-// In the plane that is its weight. On the sphere the conditions on P = p R/σ, multiplied by the σ of the vertices that
+// In the plane that is its weight. On the sphere the constraints on P = p R/σ, multiplied by the σ of the vertices that
 // they are about, are linear in σ = R/|P|; its potential is 2 R² (1 − σ), the weight but for a part w/R² of it, so that
 // coefficients tend to the plane's where cells are small. All σ times a number changes nothing: a condition is the
 // ratio of a linear function and the mean σ of its edge (constraints.hpp), where a constant on all weights changes

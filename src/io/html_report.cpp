@@ -182,13 +182,13 @@ std::string escaped(std::string_view plain, std::string_view less, std::string_v
   return result;
 }
 
-std::string_view name_of(Better better) {
+std::string_view name_of(Preference better) {
   switch (better) {
-    case Better::larger:
+    case Preference::larger:
       return "larger";
-    case Better::less:
+    case Preference::less:
       return "less";
-    case Better::equal:
+    case Preference::equal:
       break;
   }
   return "equal";

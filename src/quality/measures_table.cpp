@@ -9,7 +9,7 @@ namespace {
 // Every member of Quality has the name of its key.
 #define TEMPER_OF(member) [](const Quality& q) { return static_cast<double>(q.member); }
 
-constexpr Better kEqual = Better::equal, kLarger = Better::larger, kLess = Better::less;
+constexpr Preference kEqual = Preference::equal, kLarger = Preference::larger, kLess = Preference::less;
 constexpr std::optional<double> kNothing;
 constexpr const char* kExplicit = "explicit schemes";
 constexpr const char* kFluxes = "two-point fluxes";

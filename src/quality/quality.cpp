@@ -183,8 +183,8 @@ Tally tally(const NearbyCopy& near, const QualityOptions& options) {
   return all;
 }
 
-EnergyTable all_energies(const Mesh& mesh, const QualityOptions& options) {
-  EnergyTable table = {};
+EnergiesByStar all_energies(const Mesh& mesh, const QualityOptions& options) {
+  EnergiesByStar table = {};
   std::vector<EnergyModel> models(table.size() * 3);
   for (std::size_t i = 0; i < models.size(); ++i) {
     models[i].kind = static_cast<EnergyKind>(i / 3);

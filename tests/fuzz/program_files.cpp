@@ -75,7 +75,7 @@ std::vector<std::string> certificates() {
   certificate.terms.push_back({{WeightConstraint::Kind::height, p, q, r}, 0.25});
   certificate.terms.push_back({{WeightConstraint::Kind::crossing, q, p, VertexId()}, 1.5});
   Certificate of_duals;
-  of_duals.conditions = Conditions::regular;
+  of_duals.constraints = Constraints::regular;
   of_duals.margin = kRefutedDual;
   for (const HalfedgeId h : mesh.halfedges()) {
     if (!mesh.is_edge_representative(h) || mesh.is_boundary(h)) continue;

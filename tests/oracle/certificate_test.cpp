@@ -2,7 +2,7 @@
 //
 // The oracle shares no formula with the library: h comes from the orthocenter by Cramer's rule, with unit weights put
 // on one vertex after the other, and the bounds on differences of weights are shortest paths over all edges of the
-// mesh, by the bounds of the conditions.
+// mesh, by the bounds of the constraints.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -60,18 +60,18 @@ Rational squared_distance(const Mesh& mesh, VertexId a, VertexId b) {
 }
 
 /// How much weights of the ends of h can differ: the triangle of h may be the one that the certificate names, or not.
-Rational most_difference(const Mesh& mesh, HalfedgeId h, Conditions conditions) {
+Rational most_difference(const Mesh& mesh, HalfedgeId h, Constraints constraints) {
   const VertexId p = mesh.origin(h), q = mesh.target(h), r = mesh.opposite(h);
   const Rational l2 = squared_distance(mesh, p, q);
-  if (conditions == Conditions::well_centered) return l2;
-  if (conditions == Conditions::regular) return Rational(kWeightReach) * l2;
+  if (constraints == Constraints::well_centered) return l2;
+  if (constraints == Constraints::regular) return Rational(kWeightReach) * l2;
   // Squares of distances of the orthocenter: their difference is linear, so greatest at a corner.
   const Rational at_r = abs(squared_distance(mesh, p, r) - squared_distance(mesh, q, r));
   return at_r > l2 ? at_r : l2;
 }
 
 /// Shortest paths by these bounds from a vertex (Bellman and Ford: the meshes are small).
-std::vector<Rational> reach(const Mesh& mesh, VertexId root, Conditions conditions) {
+std::vector<Rational> reach(const Mesh& mesh, VertexId root, Constraints constraints) {
   std::vector<Rational> distance(mesh.n_vertices(), Rational(-1));
   distance[root.index] = 0;
   for (bool changed = true; changed;) {
@@ -79,7 +79,7 @@ std::vector<Rational> reach(const Mesh& mesh, VertexId root, Conditions conditio
     for (const HalfedgeId h : mesh.halfedges()) {
       for (const auto& [from, to] : {std::pair(mesh.origin(h), mesh.target(h)), {mesh.target(h), mesh.origin(h)}}) {
         if (distance[from.index] < 0) continue;
-        const Rational there = distance[from.index] + most_difference(mesh, h, conditions);
+        const Rational there = distance[from.index] + most_difference(mesh, h, constraints);
         if (distance[to.index] >= 0 && distance[to.index] <= there) continue;
         distance[to.index] = there;
         changed = true;
@@ -117,11 +117,11 @@ std::map<VertexId, VertexId> parts_of(const Certificate& certificate) {
 
 /// Most that Σ R_v w_v can be when no weights differ by more than the way between their vertices: what is positive is
 /// carried to what is negative. Any plan is a bound, and none costs more than one that goes by way of a root.
-Rational carried(const Mesh& mesh, Conditions conditions, std::map<VertexId, Rational> residual) {
+Rational carried(const Mesh& mesh, Constraints constraints, std::map<VertexId, Rational> residual) {
   Rational bound = 0;
   for (auto& [from, surplus] : residual) {
     if (surplus <= 0) continue;
-    const std::vector<Rational> distance = reach(mesh, from, conditions);
+    const std::vector<Rational> distance = reach(mesh, from, constraints);
     for (auto& [to, lack] : residual) {
       if (lack >= 0 || surplus <= 0) continue;
       const Rational amount = surplus < -lack ? surplus : Rational(-lack);
@@ -134,7 +134,7 @@ Rational carried(const Mesh& mesh, Conditions conditions, std::map<VertexId, Rat
   return bound;
 }
 
-/// The largest that the sum of a certificate can be, over weights that differ no more than its conditions let them.
+/// The largest that the sum of a certificate can be, over weights that differ no more than its constraints let them.
 Rational upper_bound(const Mesh& mesh, const Certificate& certificate) {
   Rational bound = 0;
   const std::map<VertexId, VertexId> part = parts_of(certificate);
@@ -148,21 +148,21 @@ Rational upper_bound(const Mesh& mesh, const Certificate& certificate) {
       if (v.valid()) residuals[part.at(v)][v] += m * (value(mesh, c, t, v) - zero);
     }
   }
-  for (const auto& [least, residual] : residuals) bound += carried(mesh, certificate.conditions, residual);
+  for (const auto& [least, residual] : residuals) bound += carried(mesh, certificate.constraints, residual);
   return bound;
 }
 
 TEST(CertificateOracle, AgreesThatAcceptedCertificatesAreContradictions) {
-  std::map<Conditions, std::size_t> accepted;
-  const auto check_one = [&](const Mesh& mesh, Conditions conditions) {
-    const Certificate certificate = margin_of(mesh, conditions).certificate;
+  std::map<Constraints, std::size_t> accepted;
+  const auto check_one = [&](const Mesh& mesh, Constraints constraints) {
+    const Certificate certificate = margin_of(mesh, constraints).certificate;
     if (certificate.terms.empty()) return;
-    ++accepted[conditions];
+    ++accepted[constraints];
     ASSERT_EQ(check_certificate(mesh, certificate), CertificateCheck::proves);
     EXPECT_LE(upper_bound(mesh, certificate), 0);
   };
   const auto check = [&](const Mesh& mesh) {
-    for (const ConditionsInfo& row : conditions_table()) check_one(mesh, row.conditions);
+    for (const ConstraintsInfo& row : constraints_table()) check_one(mesh, row.constraints);
   };
   for (const double turn : {0.02, 0.1, 0.15}) check(pinwheel(turn));
   check(sparse_horseshoe());
@@ -172,9 +172,9 @@ TEST(CertificateOracle, AgreesThatAcceptedCertificatesAreContradictions) {
     Rng rng(seed);
     check(mesh_of_random_points(rng, 8));
   }
-  EXPECT_GT(accepted[Conditions::well_centered], 20u);
-  EXPECT_GT(accepted[Conditions::heights_only], 20u);
-  EXPECT_GE(accepted[Conditions::regular], 3u);
+  EXPECT_GT(accepted[Constraints::well_centered], 20u);
+  EXPECT_GT(accepted[Constraints::heights_only], 20u);
+  EXPECT_GE(accepted[Constraints::regular], 3u);
 }
 
 TEST(CertificateOracle, AgreesWhateverIsAcceptedAfterCorruption) {

@@ -57,17 +57,17 @@ Rational value_on_sphere(const Mesh& mesh, const WeightConstraint& c, const Rati
 }
 
 /// The most that σ of one end of h can be of the other's; 0: there is no bound.
-Rational most_ratio(const Mesh& mesh, HalfedgeId h, Conditions conditions) {
+Rational most_ratio(const Mesh& mesh, HalfedgeId h, Constraints constraints) {
   const RationalVector p = place(mesh, mesh.origin(h)), q = place(mesh, mesh.target(h)),
                        r = place(mesh, mesh.opposite(h));
   const Rational pq = dot(p, q), pr = dot(p, r), qr = dot(q, r);
   if (pq <= 0) return 0;
   Rational most = (dot(p, p) > dot(q, q) ? dot(p, p) : dot(q, q)) / pq;
-  if (conditions == Conditions::regular) {
+  if (constraints == Constraints::regular) {
     const Rational far = 1 + Rational(kWeightReach) * (most - 1) * 1.001;
     return far < 2 ? far : Rational(2);
   }
-  if (conditions == Conditions::heights_only) {
+  if (constraints == Constraints::heights_only) {
     if (pr <= 0 || qr <= 0) return 0;
     for (const Rational& ratio : {Rational(pr / qr), Rational(qr / pr)}) {
       if (ratio > most) most = ratio;
@@ -77,13 +77,13 @@ Rational most_ratio(const Mesh& mesh, HalfedgeId h, Conditions conditions) {
 }
 
 /// Greatest σ_v/σ_root by these bounds (Bellman and Ford: the meshes are small); 0: not reached.
-std::vector<Rational> reach_on_sphere(const Mesh& mesh, VertexId root, Conditions conditions) {
+std::vector<Rational> reach_on_sphere(const Mesh& mesh, VertexId root, Constraints constraints) {
   std::vector<Rational> most(mesh.n_vertices(), Rational(0));
   most[root.index] = 1;
   for (bool changed = true; changed;) {
     changed = false;
     for (const HalfedgeId h : mesh.halfedges()) {
-      const Rational ratio = most_ratio(mesh, h, conditions);
+      const Rational ratio = most_ratio(mesh, h, constraints);
       if (ratio == 0) continue;
       for (const auto& [from, to] : {std::pair(mesh.origin(h), mesh.target(h)), {mesh.target(h), mesh.origin(h)}}) {
         if (most[from.index] == 0) continue;
@@ -108,7 +108,7 @@ bool is_contradiction(const Mesh& mesh, const Certificate& certificate) {
     }
   }
   return std::any_of(residual.begin(), residual.end(), [&](const auto& root) {
-    const std::vector<Rational> most = reach_on_sphere(mesh, root.first, certificate.conditions);
+    const std::vector<Rational> most = reach_on_sphere(mesh, root.first, certificate.constraints);
     Rational bound = 0;
     for (const auto& [v, r] : residual) {
       if (r > 0 && most[v.index] == 0) return false;
@@ -119,19 +119,19 @@ bool is_contradiction(const Mesh& mesh, const Certificate& certificate) {
 }
 
 TEST(SphereCertificateOracle, AgreesThatAcceptedCertificatesAreContradictions) {
-  std::map<Conditions, std::size_t> accepted;
+  std::map<Constraints, std::size_t> accepted;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const Mesh mesh = globe(20 + 2 * seed, seed, seed % 2 == 0 ? 6371000 : 1);
-    for (const Conditions conditions : {Conditions::well_centered, Conditions::heights_only}) {
-      const Certificate certificate = margin_of(mesh, conditions).certificate;
+    for (const Constraints constraints : {Constraints::well_centered, Constraints::heights_only}) {
+      const Certificate certificate = margin_of(mesh, constraints).certificate;
       if (certificate.terms.empty()) continue;
-      ++accepted[conditions];
+      ++accepted[constraints];
       ASSERT_EQ(check_certificate(mesh, certificate), CertificateCheck::proves);
-      EXPECT_TRUE(is_contradiction(mesh, certificate)) << seed << " " << name(conditions);
+      EXPECT_TRUE(is_contradiction(mesh, certificate)) << seed << " " << name(constraints);
     }
   }
-  EXPECT_GE(accepted[Conditions::well_centered], 4u);
-  EXPECT_GE(accepted[Conditions::heights_only], 2u);
+  EXPECT_GE(accepted[Constraints::well_centered], 4u);
+  EXPECT_GE(accepted[Constraints::heights_only], 2u);
 }
 
 TEST(SphereCertificateOracle, AgreesWhateverIsAcceptedAfterCorruption) {

@@ -74,7 +74,7 @@ STRUCTS = {
     "IncidenceMatrix": (temper.types.IncidenceMatrix, set()),
     "WeightReport": (temper.types.WeightReport, set()),
     "BestMargin": (temper.types.BestMargin, set()),
-    "ConditionsInfo": (temper.types.ConditionsInfo, {"conditions"}),
+    "ConstraintsInfo": (temper.types.ConstraintsInfo, {"constraints"}),
     "ConnectivityReport": (temper.types.ConnectivityReport, set()),
     "ConnectivityStep": (temper.types.ConnectivityStep, set()),
     "Reason": (temper.types.Reason, set()),

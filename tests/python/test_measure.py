@@ -193,7 +193,7 @@ def test_weights_that_exist_are_found_and_others_refuted():
     hard = temper.generate.sparse_horseshoe()
     best = temper.best_margin(hard)
     assert best.margin == pytest.approx(-8 / 135, abs=1e-10)
-    assert temper.best_margin(hard, conditions="heights_only").margin == pytest.approx(0.05, abs=1e-9)
+    assert temper.best_margin(hard, constraints="heights_only").margin == pytest.approx(0.05, abs=1e-9)
     assert temper.check_certificate(hard, best.certificate) == "proves"
     nothing = temper.types.Certificate(0.0, [(c, 1.0) for c, _ in best.certificate.terms[:1]])
     assert temper.check_certificate(hard, nothing) != "proves"
@@ -202,46 +202,46 @@ def test_weights_that_exist_are_found_and_others_refuted():
         temper.find_weights(hard, margin=0.7)
 
 
-@pytest.mark.parametrize("conditions", [row.name for row in temper.conditions_table()])
-def test_verdicts_under_all_conditions_are_what_the_checker_and_the_margin_say(conditions):
+@pytest.mark.parametrize("constraints", [row.name for row in temper.constraints_table()])
+def test_verdicts_under_all_conditions_are_what_the_checker_and_the_margin_say(constraints):
     verdicts = set()
     for mesh in (temper.generate.sparse_horseshoe(), temper.generate.horseshoe(), temper.generate.annulus()):
-        report = temper.find_weights(mesh, conditions=conditions)
+        report = temper.find_weights(mesh, constraints=constraints)
         verdicts.add(report.verdict)
         if report.verdict == "infeasible":
-            assert report.certificate.conditions == conditions
+            assert report.certificate.constraints == constraints
             assert temper.check_certificate(mesh, report.certificate) == "proves"
         else:
             weighted = mesh.copy()
             weighted.weights = report.weights
             assert report.attained > 0
-            assert temper.weight_margin(weighted, conditions=conditions) == pytest.approx(report.attained)
+            assert temper.weight_margin(weighted, constraints=constraints) == pytest.approx(report.attained)
     assert "feasible" in verdicts
 
 
 def test_edges_are_prescribed_by_their_vertices():
     mesh = temper.generate.annulus(jitter=0.3)
     inner = np.array([e for e in mesh.edges if tuple(e) not in {tuple(sorted(b)) for b in mesh.boundary_edges.tolist()}])
-    every = temper.find_weights(mesh, conditions="regular")
-    assert np.array_equal(temper.find_weights(mesh, conditions="regular", edges=inner[:, ::-1]).weights, every.weights)
-    assert temper.best_margin(mesh, conditions="regular", edges=inner[:3]).margin == pytest.approx(0.5)
+    every = temper.find_weights(mesh, constraints="regular")
+    assert np.array_equal(temper.find_weights(mesh, constraints="regular", edges=inner[:, ::-1]).weights, every.weights)
+    assert temper.best_margin(mesh, constraints="regular", edges=inner[:3]).margin == pytest.approx(0.5)
     with pytest.raises(temper.TemperError, match="row 1: there is no edge between vertices 0 and 0"):
-        temper.find_weights(mesh, conditions="regular", edges=[inner[0], (0, 0)])
-    with pytest.raises(temper.TemperError, match="only conditions regular"):
+        temper.find_weights(mesh, constraints="regular", edges=[inner[0], (0, 0)])
+    with pytest.raises(temper.TemperError, match="only constraints regular"):
         temper.find_weights(mesh, edges=inner)
 
 
 def test_the_search_over_connectivities_loses_nothing():
     mesh = temper.generate.random_mesh(40)
     before = mesh.copy()
-    report = temper.best_connectivity(mesh, conditions="heights_only")
+    report = temper.best_connectivity(mesh, constraints="heights_only")
     assert mesh == before and np.array_equal(report.mesh.points, mesh.points)
     assert np.array_equal(np.sort(report.mesh.boundary_edges, axis=None), np.sort(mesh.boundary_edges, axis=None))
     margins = [report.before] + [step.margin for step in report.steps]
     assert margins == sorted(set(margins)) and report.margin == margins[-1] > report.before
-    assert temper.best_margin(report.mesh, conditions="heights_only").margin == pytest.approx(report.margin, abs=1e-7)
+    assert temper.best_margin(report.mesh, constraints="heights_only").margin == pytest.approx(report.margin, abs=1e-7)
     with pytest.raises(temper.TemperError, match="regular triangulation"):
-        temper.best_connectivity(mesh, conditions="regular")
+        temper.best_connectivity(mesh, constraints="regular")
 
 
 def test_reasons_name_every_bad_triangle_once():

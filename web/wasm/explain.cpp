@@ -68,7 +68,7 @@ Json to_json(const Certificate& certificate) {
         {"kind", name(c.kind)}, {"p", number(c.p)}, {"q", number(c.q)}, {"r", number(c.r)}, {"s", number(c.s)}};
     terms.push_back({constraint, number(multiplier)});
   }
-  return {{"margin", number(certificate.margin)}, {"terms", terms}, {"conditions", name(certificate.conditions)}};
+  return {{"margin", number(certificate.margin)}, {"terms", terms}, {"constraints", name(certificate.constraints)}};
 }
 
 Json to_json(const CrossingSide& side) {

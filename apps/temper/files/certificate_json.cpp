@@ -45,7 +45,7 @@ class Reader {
     }
     Certificate certificate;
     certificate.margin = number(json, "margin");
-    if (json.contains("conditions")) certificate.conditions = conditions(json["conditions"]);
+    if (json.contains("constraints")) certificate.constraints = constraints(json["constraints"]);
     const Json& terms = member(json, "terms");
     if (!terms.is_array()) fail("expected \"terms\" to be an array");
     for (const Json& term : terms) {
@@ -68,13 +68,13 @@ class Reader {
     if (!value.is_number()) fail(fmt::format("expected \"{}\" to be a number, found {}", key, value.dump()));
     return value.get<double>();
   }
-  Conditions conditions(const Json& value) const {
+  Constraints constraints(const Json& value) const {
     std::string names;
-    for (const ConditionsInfo& row : conditions_table()) {
-      if (value == row.name) return row.conditions;
+    for (const ConstraintsInfo& row : constraints_table()) {
+      if (value == row.name) return row.constraints;
       names += (names.empty() ? "" : ", ") + std::string(row.name);
     }
-    fail(fmt::format("expected \"conditions\" to be one of {}, found {}", names, value.dump()));
+    fail(fmt::format("expected \"constraints\" to be one of {}, found {}", names, value.dump()));
   }
   VertexId vertex(const Json& value) const {
     const auto& vertex_of_point = input_.loaded.vertex_of_point;
@@ -129,7 +129,7 @@ Json certificate_json(const Certificate& certificate, const Input& input) {
     terms.push_back(std::move(term));
   }
   return {{"temper_certificate", kVersion},
-          {"conditions", name(certificate.conditions)},
+          {"constraints", name(certificate.constraints)},
           {"margin", certificate.margin},
           {"terms", std::move(terms)}};
 }

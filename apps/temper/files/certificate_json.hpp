@@ -1,12 +1,12 @@
 // Certificates as JSON: why a mesh has no good weights, for people to keep and for others to verify.
 //
-//   {"temper_certificate": 1, "conditions": "well_centered", "margin": 0,
+//   {"temper_certificate": 1, "constraints": "well_centered", "margin": 0,
 //    "terms": [{"kind": "height", "triangle": [3, 9, 10], "edge": [3, 9], "multiplier": 0.25},
 //              {"kind": "crossing", "edge": [9, 3], "multiplier": 1.5}]}
 //
 // Points count from 0, in the order of the file's arrays. The edge of a height lies in its triangle, counter-clockwise;
 // that of a crossing is directed: d from its first point. A dual is as a height, with the corner on the other side of
-// the edge as "across". Files without "conditions" are of well_centered. docs/weights.md has what the multipliers
+// the edge as "across". Files without "constraints" are of well_centered. docs/weights.md has what the multipliers
 // multiply.
 #pragma once
 

@@ -77,9 +77,9 @@ Requirement parse_requirement(std::string_view text) {
   if (measure == nullptr && !is_energy_key(key)) refuse_key(key);
   requirement.key = measure != nullptr ? measure->key : key;
   if (two) {
-    requirement.better = text[at] == '<' ? Better::less : text[at] == '>' ? Better::larger : Better::equal;
+    requirement.better = text[at] == '<' ? Preference::less : text[at] == '>' ? Preference::larger : Preference::equal;
   } else {
-    requirement.better = measure != nullptr ? measure->better : Better::less;
+    requirement.better = measure != nullptr ? measure->better : Preference::less;
   }
   const std::string_view value = text.substr(at + (two ? 2 : 1));
   const std::optional<double> number = parse_number(value);
@@ -96,13 +96,13 @@ double value_of(const std::string& key, const Quality& quality) {
   return std::nan("");
 }
 
-bool holds(Better better, double found, double wanted) {
+bool holds(Preference better, double found, double wanted) {
   switch (better) {
-    case Better::equal:
+    case Preference::equal:
       return found == wanted;
-    case Better::larger:
+    case Preference::larger:
       return found >= wanted;
-    case Better::less:
+    case Preference::less:
       return found <= wanted;
   }
   return false;
@@ -142,7 +142,9 @@ std::vector<Requirement> parse_requirements(std::string_view verb, std::span<con
   return requirements;
 }
 
-std::string_view sign(Better better) { return better == Better::equal ? "=" : better == Better::larger ? ">=" : "<="; }
+std::string_view sign(Preference better) {
+  return better == Preference::equal ? "=" : better == Preference::larger ? ">=" : "<=";
+}
 
 std::vector<Outcome> judge(std::span<const Requirement> requirements, const Quality& quality) {
   std::vector<Outcome> outcomes;

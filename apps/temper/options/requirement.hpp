@@ -21,7 +21,7 @@ namespace temper::app {
 struct Requirement {
   std::string text;  ///< as the user wrote it
   std::string key;   ///< of the JSON report
-  Better better = Better::equal;
+  Preference better = Preference::equal;
   double value = 0;
 };
 
@@ -38,7 +38,7 @@ Option& add_requirements(Command& command, std::vector<std::string>& lists);
 [[nodiscard]] std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists);
 
 /// "=", ">=" or "<=".
-[[nodiscard]] std::string_view sign(Better better);
+[[nodiscard]] std::string_view sign(Preference better);
 [[nodiscard]] std::vector<Outcome> judge(std::span<const Requirement> requirements, const Quality& quality);
 /// Says on standard error which are not met; Exit::requirement when there are some.
 [[nodiscard]] Exit report_unmet(std::span<const Outcome> outcomes, const std::string& path);

@@ -29,7 +29,7 @@ std::string listed(const std::vector<std::string>& lines) {
 }
 
 std::string verdict_text(const WeightsRecord& r) {
-  const ConditionsInfo& row = conditions_table()[static_cast<std::size_t>(r.options.conditions)];
+  const ConstraintsInfo& row = constraints_table()[static_cast<std::size_t>(r.options.constraints)];
   switch (r.report.verdict) {
     case Feasibility::feasible:
       return fmt::format("feasible: {}", row.success);
@@ -42,12 +42,12 @@ std::string verdict_text(const WeightsRecord& r) {
 }
 
 std::string margin_text(const WeightReport& report) {
-  switch (report.margin_is) {
-    case MarginIs::exact:
+  switch (report.margin_kind) {
+    case MarginKind::exact:
       return fmt::format("best margin {:.10g}", report.margin);
-    case MarginIs::at_least:
+    case MarginKind::at_least:
       return fmt::format("best margin at least {:.10g}", report.margin);
-    case MarginIs::at_most:
+    case MarginKind::at_most:
       return fmt::format("best margin at most {:.10g}, that of the worst neighbourhood", report.margin);
   }
   return {};
@@ -85,7 +85,7 @@ std::string violations_text(const WeightsRecord& r) {
     total += v.shortfall;
   }
   return fmt::format("{} of the {} give way, by {:.6g} in all:\n", lines.size(),
-                     r.options.conditions == Conditions::regular ? "dual lengths/l" : "h/l and d/l", total) +
+                     r.options.constraints == Constraints::regular ? "dual lengths/l" : "h/l and d/l", total) +
          listed(lines);
 }
 
@@ -164,14 +164,14 @@ std::string weights_json(const WeightsRecord& r) {
   const WeightReport& report = r.report;
   Json json;
   json["mode"] = r.mode;
-  json["conditions"] = name(r.options.conditions);
-  json["edges"] = r.options.conditions == Conditions::regular ? Json(r.options.edges.size()) : Json(nullptr);
+  json["constraints"] = name(r.options.constraints);
+  json["edges"] = r.options.constraints == Constraints::regular ? Json(r.options.edges.size()) : Json(nullptr);
   json["search"] = search_json(r);
   json["verdict"] = name(report.verdict);
   json["feasible"] =
       report.verdict == Feasibility::undecided ? Json(nullptr) : Json(report.verdict == Feasibility::feasible);
   json["margin"] = report.margin;
-  json["margin_is"] = name(report.margin_is);
+  json["margin_kind"] = name(report.margin_kind);
   json["wanted"] = r.options.margin;
   json["solved"] = report.solved;
   json["attained"] = report.solved ? Json(report.attained) : Json(nullptr);

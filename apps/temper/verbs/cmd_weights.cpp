@@ -1,4 +1,4 @@
-// temper weights IN -o OUT: weights that make a mesh well-centered as it is, or that keep other conditions, or the
+// temper weights IN -o OUT: weights that make a mesh well-centered as it is, or that keep other constraints, or the
 // reason why there are none; and the search for a connectivity that has better ones.
 #include <fmt/format.h>
 
@@ -22,8 +22,8 @@ namespace temper::app {
 namespace {
 
 /// "well-centered" of well_centered.
-std::string option_name(Conditions conditions) {
-  std::string text(name(conditions));
+std::string option_name(Constraints constraints) {
+  std::string text(name(constraints));
   std::replace(text.begin(), text.end(), '_', '-');
   return text;
 }
@@ -56,19 +56,19 @@ struct WeightsSettings {
 void add_conditions(Command& command, WeightsSettings& s) {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> of_rows;
-    for (const ConditionsInfo& row : conditions_table()) of_rows.push_back(option_name(row.conditions));
+    for (const ConstraintsInfo& row : constraints_table()) of_rows.push_back(option_name(row.constraints));
     return of_rows;
   }();
   std::string text = "what weights have to keep, with margin t and edge length l";
-  for (const ConditionsInfo& row : conditions_table()) {
-    text += fmt::format("; {}: {}", option_name(row.conditions), row.keeps);
+  for (const ConstraintsInfo& row : constraints_table()) {
+    text += fmt::format("; {}: {}", option_name(row.constraints), row.keeps);
   }
   const auto use = [&s](std::string_view chosen) {
     const auto at = std::find(names.begin(), names.end(), chosen);
-    s.options.conditions = conditions_table()[static_cast<std::size_t>(at - names.begin())].conditions;
+    s.options.constraints = constraints_table()[static_cast<std::size_t>(at - names.begin())].constraints;
   };
-  add_name(command, "--conditions", {names.begin(), names.end()}, use, text).defaults_to([] {
-    return option_name(Conditions::well_centered);
+  add_name(command, "--constraints", {names.begin(), names.end()}, use, text).defaults_to([] {
+    return option_name(Constraints::well_centered);
   });
 }
 
@@ -94,11 +94,12 @@ void add_options(Command& command, WeightsSettings& s) {
   add_count(command, "--whole", s.whole, 0,
             "components of more triangles than this are solved around their bad triangles only, as far out as "
             "needed");
-  command.group("Conditions and connectivity");
+  command.group("Constraints and connectivity");
   add_conditions(command, s);
-  add_text(command, "--edges", "all|lines|FILE", s.edges,
-           "the edges of --conditions regular: all, those of tagged lines and between regions, or those of a file with "
-           "two vertices a line, as IN counts them");
+  add_text(
+      command, "--edges", "all|lines|FILE", s.edges,
+      "the edges of --constraints regular: all, those of tagged lines and between regions, or those of a file with "
+      "two vertices a line, as IN counts them");
   add_choice(command, "--connectivity", kConnectivities, s.connectivity,
              "fixed: that of IN; search: flip edges as long as that raises the best margin, and then find weights "
              "(a local search: there may be a better connectivity)");
@@ -107,7 +108,7 @@ void add_options(Command& command, WeightsSettings& s) {
   command.add_help({"IN -o OUT [options]",
                     "  temper example annulus -o ring.vtu && temper weights ring.vtu -o out.vtu\n"
                     "  temper weights ring.vtu -o least.vtu --mode barrier\n"
-                    "  temper weights ring.vtu -o inside.vtu --conditions heights-only\n"
+                    "  temper weights ring.vtu -o inside.vtu --constraints heights-only\n"
                     "  # a mesh that has none: the proof, its verification, and what gives way\n"
                     "  temper example sparse-horseshoe -o shoe.vtu\n"
                     "  temper weights shoe.vtu --mode feasible --certificate why.json; test $? = 6\n"
@@ -115,7 +116,7 @@ void add_options(Command& command, WeightsSettings& s) {
                     "  temper weights shoe.vtu -o out.vtu --mode elastic --json\n"
                     "  # orthocenters inside: not with these diagonals, but with others\n"
                     "  temper example random --vertices 40 -o random.vtu\n"
-                    "  temper weights random.vtu -o flipped.vtu --conditions heights-only --connectivity search\n",
+                    "  temper weights random.vtu -o flipped.vtu --constraints heights-only --connectivity search\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal, Exit::infeasible}});
 }
 
@@ -123,21 +124,21 @@ void check_usage(const Command& command, const WeightsSettings& s) {
   const auto fail = [](const std::string& message) { refuse_usage("weights", message); };
   if (!s.check.empty()) {
     for (const char* option : {"--output", "--certificate", "--mode", "--margin", "--from", "--energy", "--whole",
-                               "--conditions", "--edges", "--connectivity", "--programmes"}) {
+                               "--constraints", "--edges", "--connectivity", "--programmes"}) {
       if (command.was_given(option)) fail(fmt::format("--check-certificate takes no {}", option));
     }
   } else if (s.output.path.empty() && s.mode != Mode::feasible) {
     fail("--output is missing");
   }
-  const bool regular = s.options.conditions == Conditions::regular, search = s.connectivity == Connectivity::search;
-  if (!regular && command.was_given("--edges")) fail("--edges is of --conditions regular alone");
+  const bool regular = s.options.constraints == Constraints::regular, search = s.connectivity == Connectivity::search;
+  if (!regular && command.was_given("--edges")) fail("--edges is of --constraints regular alone");
   if (!search && command.was_given("--programmes")) fail("--programmes is of --connectivity search alone");
-  if (search && regular) fail("--connectivity search is of other conditions than regular, which flips alone keep");
+  if (search && regular) fail("--connectivity search is of other constraints than regular, which flips alone keep");
   if (search && !s.certificate.empty()) {
     fail("--certificate is about the connectivity of IN; --connectivity search leaves that");
   }
-  if (s.mode == Mode::barrier && s.options.conditions != Conditions::well_centered) {
-    fail("--mode barrier is of --conditions well-centered alone");
+  if (s.mode == Mode::barrier && s.options.constraints != Constraints::well_centered) {
+    fail("--mode barrier is of --constraints well-centered alone");
   }
   if (s.mode != Mode::barrier && command.was_given("--energy")) fail("--energy is of --mode barrier alone");
 }
@@ -149,8 +150,8 @@ Exit check(const WeightsSettings& s, const Input& input) {
   if (s.json) {
     print(fmt::format("{{\"proves\": {}, \"check\": \"{}\"}}\n", proves, name(result)));
   } else if (proves) {
-    const ConditionsInfo& row = conditions_table()[static_cast<std::size_t>(certificate.conditions)];
-    const bool none = certificate.margin == 0 || certificate.conditions == Conditions::regular;
+    const ConstraintsInfo& row = constraints_table()[static_cast<std::size_t>(certificate.constraints)];
+    const bool none = certificate.margin == 0 || certificate.constraints == Constraints::regular;
     const std::string what =
         none ? std::string() : fmt::format(" with a margin of {} ({})", certificate.margin, row.keeps);
     print(fmt::format("{} proves it for {}: {}{}\n", s.check, s.input, row.failure, what));
@@ -185,7 +186,7 @@ Mesh with_weights(Mesh mesh, const IdVector<VertexId, double>& weights) {
 /// The mesh of the input with the connectivity asked for.
 std::optional<ConnectivityReport> searched(const WeightsSettings& s, const Input& input, LpSolver& solver) {
   if (s.connectivity == Connectivity::fixed) return std::nullopt;
-  return or_fail(best_connectivity(input.mesh(), solver, {s.options.conditions, s.programmes}));
+  return or_fail(best_connectivity(input.mesh(), solver, {s.options.constraints, s.programmes}));
 }
 
 bool all_well_centered(const Mesh& mesh) {
@@ -267,7 +268,7 @@ Exit run_weights(const Arguments& arguments) {
   Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
   print_warnings(input.warnings());
   if (!s.check.empty()) return check(s, input);
-  if (s.options.conditions == Conditions::regular) s.options.edges = prescribed_edges(s.edges, input);
+  if (s.options.constraints == Constraints::regular) s.options.edges = prescribed_edges(s.edges, input);
   return find(s, input, outputs);
 }
 

@@ -15,8 +15,8 @@
 namespace temper {
 
 struct ConnectivityOptions {
-  Conditions conditions = Conditions::well_centered;  ///< or heights_only
-  std::size_t programmes = 10000;                     ///< of the whole mesh, at most
+  Constraints constraints = Constraints::well_centered;  ///< or heights_only
+  std::size_t programmes = 10000;                        ///< of the whole mesh, at most
 };
 
 /// A change of connectivity that made the best margin greater.
@@ -54,7 +54,7 @@ struct ConnectivityReport {
 /// greater are tried: with all its terms left, the same proof holds after the flip. Edges of the boundary and
 /// constrained ones stay. The margin grows with each step by more than rounding, so the search ends. A step costs a
 /// programme of the whole mesh for each flip that a programme of its neighbourhood does not rule out. Errors:
-/// conditions regular, which every regular triangulation keeps; a periodic plane. Precondition: no erased triangles.
+/// constraints regular, which every regular triangulation keeps; a periodic plane. Precondition: no erased triangles.
 [[nodiscard]] Expected<ConnectivityReport> best_connectivity(const Mesh& mesh, LpSolver& solver,
                                                              const ConnectivityOptions& options = {});
 

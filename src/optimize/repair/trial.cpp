@@ -238,7 +238,7 @@ class Trial {
       if (around_.frozen[v.index] != 0) free[v] = 0;
       weights[v] = mesh.weight(v);
     }
-    const Demand demand(mesh, Conditions::well_centered, {});
+    const Demand demand(mesh, Constraints::well_centered, {});
     for (const Region& region : regions_of(mesh, free)) {
       const RegionChange found = least_violation({mesh, demand, weights, kWeighedMargin}, region, *settings_.lp);
       if (found.status != LpStatus::optimal) continue;

@@ -144,21 +144,21 @@ TEST_F(Weights, EveryConditionHasAVerdictAndAProofThatIsReadAgain) {
   temper_ok({"example", "horseshoe", "-o", "dense.vtu"});
   make_pinwheel();
   make_feasible();
-  for (const ConditionsInfo& row : conditions_table()) {
+  for (const ConstraintsInfo& row : constraints_table()) {
     std::string name(row.name);
     std::replace(name.begin(), name.end(), '_', '-');
-    const std::string bad = row.conditions == Conditions::regular ? "pinwheel.mesh" : "dense.vtu";
-    const Outcome none = temper({"weights", bad, "-o", "none.vtu", "--conditions", name, "--certificate", "why.json"});
+    const std::string bad = row.constraints == Constraints::regular ? "pinwheel.mesh" : "dense.vtu";
+    const Outcome none = temper({"weights", bad, "-o", "none.vtu", "--constraints", name, "--certificate", "why.json"});
     EXPECT_EQ(none.exit, 6) << none.err;
     EXPECT_TRUE(contains(none.out, std::string("infeasible: ") + std::string(row.failure))) << none.out;
     EXPECT_FALSE(exists("none.vtu"));
-    EXPECT_EQ(read_json("why.json")["conditions"], row.name);
+    EXPECT_EQ(read_json("why.json")["constraints"], row.name);
     EXPECT_TRUE(contains(temper_ok({"weights", bad, "--check-certificate", "why.json"}).out, std::string(row.failure)));
-    const Outcome some = temper_ok({"weights", "in.mesh", "-o", "out.vtu", "--conditions", name});
+    const Outcome some = temper_ok({"weights", "in.mesh", "-o", "out.vtu", "--constraints", name});
     EXPECT_TRUE(contains(some.out, std::string("feasible: ") + std::string(row.success))) << some.out;
     const auto json = nlohmann::json::parse(
-        temper_ok({"weights", bad, "-o", "out.vtu", "--conditions", name, "--mode", "elastic", "--json"}).out);
-    EXPECT_EQ(json["conditions"], row.name);
+        temper_ok({"weights", bad, "-o", "out.vtu", "--constraints", name, "--mode", "elastic", "--json"}).out);
+    EXPECT_EQ(json["constraints"], row.name);
     EXPECT_GT(json["violations"].size(), 0u);
   }
 }
@@ -166,7 +166,8 @@ TEST_F(Weights, EveryConditionHasAVerdictAndAProofThatIsReadAgain) {
 TEST_F(Weights, PrescribedEdgesAreThoseOfTheFileOrTheLines) {
   make_pinwheel();
   const auto find = [](const std::string& edges) {
-    return temper({"weights", "pinwheel.mesh", "-o", "out.vtu", "--conditions", "regular", "--edges", edges, "--json"});
+    return temper(
+        {"weights", "pinwheel.mesh", "-o", "out.vtu", "--constraints", "regular", "--edges", edges, "--json"});
   };
   const Outcome all = find("all");
   EXPECT_EQ(all.exit, 6);
@@ -194,13 +195,13 @@ TEST_F(Weights, PrescribedEdgesAreThoseOfTheFileOrTheLines) {
   EXPECT_TRUE(contains(find(".").err, "cannot be read"));
   make_feasible();  // two regions
   const auto json = nlohmann::json::parse(
-      temper_ok({"weights", "in.mesh", "-o", "out.vtu", "--conditions", "regular", "--edges", "lines", "--json"}).out);
+      temper_ok({"weights", "in.mesh", "-o", "out.vtu", "--constraints", "regular", "--edges", "lines", "--json"}).out);
   EXPECT_EQ(json["edges"], 2);
 }
 
 TEST_F(Weights, TheSearchOverConnectivitiesWritesARegularMeshWithOtherEdges) {
   temper_ok({"example", "random", "--vertices", "40", "-o", "in.vtu"});
-  const std::vector<std::string> heights = {"weights",      "in.vtu", "-o",       "out.vtu", "--conditions",
+  const std::vector<std::string> heights = {"weights",      "in.vtu", "-o",       "out.vtu", "--constraints",
                                             "heights-only", "--mode", "feasible", "--json"};
   EXPECT_EQ(temper(heights).exit, 6);
   EXPECT_FALSE(exists("out.vtu"));
@@ -230,14 +231,14 @@ TEST_F(Weights, BadUsageIsRefused) {
       {"in.vtu", "-o", "out.vtu", "--energy", "BP"},
       {"in.vtu", "-o", "out.vtu", "--mode", "best"},
       {"in.vtu", "-o", "out.vtu", "--check-certificate", "why.json"},
-      {"in.vtu", "-o", "out.vtu", "--conditions", "both"},
+      {"in.vtu", "-o", "out.vtu", "--constraints", "both"},
       {"in.vtu", "-o", "out.vtu", "--edges", "lines"},
-      {"in.vtu", "-o", "out.vtu", "--conditions", "heights-only", "--mode", "barrier"},
+      {"in.vtu", "-o", "out.vtu", "--constraints", "heights-only", "--mode", "barrier"},
       {"in.vtu", "-o", "out.vtu", "--programmes", "10"},
       {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--programmes", "0"},
       {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--certificate", "why.json"},
-      {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--conditions", "regular"},
-      {"in.vtu", "--check-certificate", "why.json", "--conditions", "heights-only"}};
+      {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--constraints", "regular"},
+      {"in.vtu", "--check-certificate", "why.json", "--constraints", "heights-only"}};
   for (std::vector<std::string> arguments : mistakes) {
     arguments.insert(arguments.begin(), "weights");
     EXPECT_EQ(temper(arguments).exit, 2) << arguments.back();

@@ -1,4 +1,4 @@
-// Conditions other than well-centeredness: heights alone, and dual lengths of all edges or of prescribed ones.
+// Constraints other than well-centeredness: heights alone, and dual lengths of all edges or of prescribed ones.
 #include <map>
 
 #include "feasibility/constraints.hpp"
@@ -27,16 +27,16 @@ Mesh rotated(Mesh mesh, double angle) {
   return mesh;
 }
 
-bool keeps(const Mesh& mesh, Conditions conditions, const std::vector<HalfedgeId>& edges = {}) {
-  const Demand demand(mesh, conditions, edges);
+bool keeps(const Mesh& mesh, Constraints constraints, const std::vector<HalfedgeId>& edges = {}) {
+  const Demand demand(mesh, constraints, edges);
   return std::all_of(mesh.triangles().begin(), mesh.triangles().end(),
                      [&](TriangleId t) { return demand.is_kept(mesh, t, [&](VertexId v) { return mesh.weight(v); }); });
 }
 
 TEST(ConditionsTable, HasARowForEachWithANameOfItsOwn) {
   std::map<std::string_view, int> names;
-  for (const ConditionsInfo& row : conditions_table()) {
-    EXPECT_EQ(name(row.conditions), row.name);
+  for (const ConstraintsInfo& row : constraints_table()) {
+    EXPECT_EQ(name(row.constraints), row.name);
     EXPECT_EQ(names[row.name]++, 0);
     EXPECT_FALSE(row.keeps.empty() || row.success.empty() || row.failure.empty());
   }
@@ -69,34 +69,35 @@ TEST(Demand, IsKeptAsTheExactPredicatesSay) {
   std::size_t heights = 0, regular = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Mesh mesh = lattice({.n = 3, .jitter = 0.3, .weight = 0.1, .seed = seed});
-    EXPECT_EQ(keeps(mesh, Conditions::well_centered), bad_triangles(mesh) == 0);
-    EXPECT_EQ(keeps(mesh, Conditions::well_centered), weight_margin(mesh) > 0);
-    EXPECT_EQ(keeps(mesh, Conditions::heights_only), weight_margin(mesh, Conditions::heights_only) > 0);
-    EXPECT_EQ(keeps(mesh, Conditions::regular), count_non_regular_edges(mesh) == 0);
-    EXPECT_EQ(keeps(mesh, Conditions::regular), weight_margin(mesh, Conditions::regular) > 0);
-    heights += keeps(mesh, Conditions::heights_only) ? 1 : 0, regular += keeps(mesh, Conditions::regular) ? 1 : 0;
+    EXPECT_EQ(keeps(mesh, Constraints::well_centered), bad_triangles(mesh) == 0);
+    EXPECT_EQ(keeps(mesh, Constraints::well_centered), weight_margin(mesh) > 0);
+    EXPECT_EQ(keeps(mesh, Constraints::heights_only), weight_margin(mesh, Constraints::heights_only) > 0);
+    EXPECT_EQ(keeps(mesh, Constraints::regular), count_non_regular_edges(mesh) == 0);
+    EXPECT_EQ(keeps(mesh, Constraints::regular), weight_margin(mesh, Constraints::regular) > 0);
+    heights += keeps(mesh, Constraints::heights_only) ? 1 : 0, regular += keeps(mesh, Constraints::regular) ? 1 : 0;
   }
   EXPECT_TRUE(heights > 0 && heights < 20) << heights;
   EXPECT_GE(regular, heights);  // positive heights make positive dual lengths
 }
 
-TEST(Conditions, FewerAreNeverHarder) {
+TEST(Constraints, FewerAreNeverHarder) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Mesh mesh = jittered_lattice(seed);
-    const double both = margin_of(mesh).margin, heights = margin_of(mesh, Conditions::heights_only).margin;
+    const double both = margin_of(mesh).margin, heights = margin_of(mesh, Constraints::heights_only).margin;
     EXPECT_GE(heights, both - kSolved);
     if (heights > 1e-6) {
-      EXPECT_GT(margin_of(mesh, Conditions::regular).margin, 0.4);
+      EXPECT_GT(margin_of(mesh, Constraints::regular).margin, 0.4);
     }
     const std::vector<HalfedgeId> all = inner_edges(mesh), some(all.begin(), all.begin() + 5);
-    EXPECT_GE(margin_of(mesh, Conditions::regular, some).margin, margin_of(mesh, Conditions::regular).margin - kSolved);
+    EXPECT_GE(margin_of(mesh, Constraints::regular, some).margin,
+              margin_of(mesh, Constraints::regular).margin - kSolved);
   }
 }
 
-TEST(Conditions, HaveMarginsThatDoNotDependOnPlaceTurnSizeOrAConstantOnAllWeights) {
+TEST(Constraints, HaveMarginsThatDoNotDependOnPlaceTurnSizeOrAConstantOnAllWeights) {
   const auto all_margins = [](const Mesh& mesh) {
     std::vector<double> margins;
-    for (const ConditionsInfo& row : conditions_table()) margins.push_back(margin_of(mesh, row.conditions).margin);
+    for (const ConstraintsInfo& row : constraints_table()) margins.push_back(margin_of(mesh, row.constraints).margin);
     return margins;
   };
   for (const Mesh& mesh : {*horseshoe(), jittered_lattice(3), pinwheel()}) {
@@ -108,48 +109,48 @@ TEST(Conditions, HaveMarginsThatDoNotDependOnPlaceTurnSizeOrAConstantOnAllWeight
       const std::vector<double> margins = all_margins(other);
       for (std::size_t i = 0; i < margins.size(); ++i) EXPECT_NEAR(margins[i], expected[i], 1e-8) << i;
     }
-    for (const ConditionsInfo& row : conditions_table()) {
-      EXPECT_NEAR(weight_margin(raised, row.conditions), weight_margin(mesh, row.conditions), 1e-12);
+    for (const ConstraintsInfo& row : constraints_table()) {
+      EXPECT_NEAR(weight_margin(raised, row.constraints), weight_margin(mesh, row.constraints), 1e-12);
     }
   }
 }
 
-TEST(Conditions, RegularOfAllEdgesPrescribedAreThoseOfNone) {
+TEST(Constraints, RegularOfAllEdgesPrescribedAreThoseOfNone) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Rng rng(seed);
     const Mesh mesh = mesh_of_random_points(rng, static_cast<int>(seed % 12));
     const std::vector<HalfedgeId> all = inner_edges(mesh);
     if (all.empty()) continue;
-    const BestMargin none = margin_of(mesh, Conditions::regular), each = margin_of(mesh, Conditions::regular, all);
+    const BestMargin none = margin_of(mesh, Constraints::regular), each = margin_of(mesh, Constraints::regular, all);
     EXPECT_EQ(none.margin, each.margin);
     EXPECT_EQ(none.certificate, each.certificate);
-    const WeightReport a = weights_of(mesh, {.conditions = Conditions::regular});
-    const WeightReport b = weights_of(mesh, {.conditions = Conditions::regular, .edges = all});
+    const WeightReport a = weights_of(mesh, {.constraints = Constraints::regular});
+    const WeightReport b = weights_of(mesh, {.constraints = Constraints::regular, .edges = all});
     EXPECT_EQ(a.verdict, b.verdict);
     EXPECT_EQ(a.weights, b.weights);
   }
 }
 
-TEST(Conditions, RegularIsAllOrNothing) {
-  EXPECT_NEAR(margin_of(*horseshoe(), Conditions::regular).margin, kMostMargin, kSolved);  // Delaunay
-  const BestMargin none = margin_of(pinwheel(), Conditions::regular);
+TEST(Constraints, RegularIsAllOrNothing) {
+  EXPECT_NEAR(margin_of(*horseshoe(), Constraints::regular).margin, kMostMargin, kSolved);  // Delaunay
+  const BestMargin none = margin_of(pinwheel(), Constraints::regular);
   EXPECT_NEAR(none.margin, 0, kSolved);
   EXPECT_EQ(check_certificate(pinwheel(), none.certificate), CertificateCheck::proves);
-  EXPECT_EQ(none.certificate.conditions, Conditions::regular);
+  EXPECT_EQ(none.certificate.constraints, Constraints::regular);
 }
 
 // The certificate of a vertex of the dual has no term too many: the edges of the others alone can be regular.
-TEST(Conditions, RegularNeedsEveryEdgeOfTheCertificateOfThePinwheel) {
+TEST(Constraints, RegularNeedsEveryEdgeOfTheCertificateOfThePinwheel) {
   const Mesh mesh = pinwheel();
-  const Certificate certificate = margin_of(mesh, Conditions::regular).certificate;
+  const Certificate certificate = margin_of(mesh, Constraints::regular).certificate;
   ASSERT_GE(certificate.terms.size(), 3u);
   std::vector<HalfedgeId> edges;
   for (const auto& term : certificate.terms) edges.push_back(mesh.find_halfedge(term.constraint.p, term.constraint.q));
-  EXPECT_EQ(weights_of(mesh, {.conditions = Conditions::regular, .edges = edges}).verdict, Feasibility::infeasible);
+  EXPECT_EQ(weights_of(mesh, {.constraints = Constraints::regular, .edges = edges}).verdict, Feasibility::infeasible);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     std::vector<HalfedgeId> others = edges;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const WeightReport report = weights_of(mesh, {.conditions = Conditions::regular, .edges = others});
+    const WeightReport report = weights_of(mesh, {.constraints = Constraints::regular, .edges = others});
     EXPECT_EQ(report.verdict, Feasibility::feasible);
     const Mesh weighted = with_weights(mesh, report.weights);
     for (const HalfedgeId h : others) EXPECT_TRUE(is_regular(weighted, h));
@@ -164,28 +165,28 @@ struct Tally {
 /// Every verdict is what exact arithmetic says of it.
 void expect_true(const Mesh& mesh, const WeightReport& report, const WeightOptions& options, Tally& tally) {
   const Mesh weighted = with_weights(mesh, report.weights);
-  EXPECT_NEAR(report.attained, weight_margin(weighted, options.conditions, options.edges), 1e-12);
+  EXPECT_NEAR(report.attained, weight_margin(weighted, options.constraints, options.edges), 1e-12);
   EXPECT_NE(report.verdict, Feasibility::undecided) << report.margin;
   if (report.verdict == Feasibility::feasible) {
     ++tally.feasible;
-    EXPECT_TRUE(keeps(weighted, options.conditions, options.edges));
+    EXPECT_TRUE(keeps(weighted, options.constraints, options.edges));
     if (report.solved) {
       EXPECT_GE(report.attained, report.asked - 1e-7);
     }
   } else {
     ++tally.infeasible;
-    EXPECT_EQ(report.certificate.conditions, options.conditions);
+    EXPECT_EQ(report.certificate.constraints, options.constraints);
     EXPECT_EQ(check_certificate(mesh, report.certificate), CertificateCheck::proves);
   }
 }
 
 TEST(FindWeights, AreRightUnderEveryConditionForTheWholeAndByNeighbourhoods) {
-  for (const ConditionsInfo& row : conditions_table()) {
+  for (const ConstraintsInfo& row : constraints_table()) {
     Tally tally;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
       Rng rng(seed);
       for (const Mesh& mesh : {mesh_of_random_points(rng, static_cast<int>(seed % 12)), jittered_lattice(seed)}) {
-        WeightOptions options = {.conditions = row.conditions};
+        WeightOptions options = {.constraints = row.constraints};
         const WeightReport whole = weights_of(mesh, options);
         expect_true(mesh, whole, options, tally);
         options.whole = 0;
@@ -198,7 +199,7 @@ TEST(FindWeights, AreRightUnderEveryConditionForTheWholeAndByNeighbourhoods) {
       }
     }
     EXPECT_GT(tally.feasible, 20u) << row.name;
-    if (row.conditions != Conditions::regular) {
+    if (row.constraints != Constraints::regular) {
       EXPECT_GT(tally.infeasible, 20u) << row.name;
     }
   }
@@ -209,7 +210,7 @@ TEST(FindWeights, AreRightForPrescribedEdgesOfRandomTriangulations) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Rng rng(seed);
     const Mesh mesh = mesh_of_random_points(rng, 12);
-    WeightOptions options = {.conditions = Conditions::regular};
+    WeightOptions options = {.constraints = Constraints::regular};
     for (const HalfedgeId h : inner_edges(mesh)) {
       if (rng.below(3) != 0) options.edges.push_back(h);
     }
@@ -222,17 +223,17 @@ TEST(FindWeights, AreRightForPrescribedEdgesOfRandomTriangulations) {
 }
 
 TEST(FindWeights, ElasticViolationsAreOfTheConditionsAsked) {
-  for (const ConditionsInfo& row : conditions_table()) {
-    const Mesh mesh = row.conditions == Conditions::regular ? pinwheel() : *horseshoe();
-    const WeightReport report = weights_of(mesh, {.goal = WeightGoal::elastic, .conditions = row.conditions});
+  for (const ConstraintsInfo& row : constraints_table()) {
+    const Mesh mesh = row.constraints == Constraints::regular ? pinwheel() : *horseshoe();
+    const WeightReport report = weights_of(mesh, {.goal = WeightGoal::elastic, .constraints = row.constraints});
     EXPECT_EQ(report.verdict, Feasibility::infeasible) << row.name;
     EXPECT_TRUE(report.solved) << row.name;
     ASSERT_FALSE(report.violations.empty()) << row.name;
     for (const Violation& violation : report.violations) {
       using Kind = WeightConstraint::Kind;
       const Kind kind = violation.constraint.kind;
-      EXPECT_EQ(kind == Kind::dual, row.conditions == Conditions::regular);
-      if (row.conditions == Conditions::heights_only) {
+      EXPECT_EQ(kind == Kind::dual, row.constraints == Constraints::regular);
+      if (row.constraints == Constraints::heights_only) {
         EXPECT_EQ(kind, Kind::height);
       }
     }
@@ -245,9 +246,9 @@ TEST(FindWeights, RefuseEdgesThatAreNoneOrForOtherConditions) {
   const auto other = find_weights(mesh, *solver, {.edges = {HalfedgeId(std::size_t{0})}});
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().code, ErrorCode::invalid_option);
-  EXPECT_EQ(other.error().what(), "edges: only conditions regular are about some edges");
+  EXPECT_EQ(other.error().what(), "edges: only constraints regular are about some edges");
   const HalfedgeId end(mesh.n_halfedges());
-  const auto none = find_weights(mesh, *solver, {.conditions = Conditions::regular, .edges = {end}});
+  const auto none = find_weights(mesh, *solver, {.constraints = Constraints::regular, .edges = {end}});
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().code, ErrorCode::index_out_of_range);
   EXPECT_EQ(none.error().what(),
@@ -256,11 +257,11 @@ TEST(FindWeights, RefuseEdgesThatAreNoneOrForOtherConditions) {
 
 TEST(Certificate, OfHeightsAloneProvesAndIsOfHeightsAlone) {
   for (const Mesh& mesh : {*horseshoe(), scaled(*horseshoe(), 1e6), scaled(*horseshoe(), 1, {100, -1000})}) {
-    const BestMargin best = margin_of(mesh, Conditions::heights_only);
+    const BestMargin best = margin_of(mesh, Constraints::heights_only);
     ASSERT_FALSE(best.certificate.terms.empty());
     EXPECT_EQ(check_certificate(mesh, best.certificate), CertificateCheck::proves);
     Certificate other = best.certificate;
-    other.conditions = Conditions::regular;  // heights do not count there
+    other.constraints = Constraints::regular;  // heights do not count there
     EXPECT_EQ(check_certificate(mesh, other), CertificateCheck::not_of_this_mesh);
     other = best.certificate;
     other.terms.push_back(
@@ -276,7 +277,7 @@ TEST(Certificate, OfHeightsAloneProvesAndIsOfHeightsAlone) {
 
 TEST(Certificate, OfDualLengthsProvesNothingWhenAMultiplierOrAVertexIsChanged) {
   const Mesh mesh = pinwheel();
-  const Certificate certificate = margin_of(mesh, Conditions::regular).certificate;
+  const Certificate certificate = margin_of(mesh, Constraints::regular).certificate;
   ASSERT_FALSE(certificate.terms.empty());
   for (std::size_t i = 0; i < certificate.terms.size(); ++i) {
     Certificate corrupted = certificate;
@@ -290,7 +291,7 @@ TEST(Certificate, OfDualLengthsProvesNothingWhenAMultiplierOrAVertexIsChanged) {
   }
 }
 
-// The bound on what rounding leaves of the weights is that of the conditions: an orthocenter in its triangle.
+// The bound on what rounding leaves of the weights is that of the constraints: an orthocenter in its triangle.
 TEST(Certificate, OfHeightsAloneBoundsWeightsByTheirTriangle) {
   Rng rng(7);
   std::size_t beyond = 0, tried = 0;

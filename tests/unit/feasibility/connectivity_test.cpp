@@ -30,22 +30,22 @@ Edges edges_of(const Mesh& mesh, const Which& which) {
   return edges;
 }
 
-void expect_laws(const Mesh& mesh, Conditions conditions) {
-  const ConnectivityReport report = search(mesh, {.conditions = conditions});
-  SCOPED_TRACE(testing::Message() << name(conditions) << ", " << mesh.n_vertices() << " vertices, "
+void expect_laws(const Mesh& mesh, Constraints constraints) {
+  const ConnectivityReport report = search(mesh, {.constraints = constraints});
+  SCOPED_TRACE(testing::Message() << name(constraints) << ", " << mesh.n_vertices() << " vertices, "
                                   << report.steps.size() << " steps, " << report.before << " to " << report.margin);
   EXPECT_EQ(report.end, SearchEnd::no_better_neighbour);
   EXPECT_EQ(report.mesh.validate(), std::nullopt);
   double last = report.before;
-  EXPECT_NEAR(report.before, margin_of(mesh, conditions).margin, 1e-8);
+  EXPECT_NEAR(report.before, margin_of(mesh, constraints).margin, 1e-8);
   for (const ConnectivityStep& step : report.steps) {
     EXPECT_GT(step.margin, last);
     EXPECT_GT(step.flips, 0u);
     last = step.margin;
   }
   EXPECT_EQ(report.margin, last);
-  EXPECT_NEAR(report.margin, margin_of(report.mesh, conditions).margin, 1e-8);
-  EXPECT_NEAR(weight_margin(with_weights(report.mesh, report.weights), conditions), report.margin, 1e-7);
+  EXPECT_NEAR(report.margin, margin_of(report.mesh, constraints).margin, 1e-8);
+  EXPECT_NEAR(weight_margin(with_weights(report.mesh, report.weights), constraints), report.margin, 1e-7);
   if (report.margin > 1e-7) {
     EXPECT_EQ(count_non_regular_edges(with_weights(report.mesh, report.weights)), 0u);
   }
@@ -58,28 +58,28 @@ void expect_laws(const Mesh& mesh, Conditions conditions) {
 }
 
 TEST(BestConnectivity, NeverLosesMarginPointsBoundaryOrLines) {
-  for (const Conditions conditions : {Conditions::well_centered, Conditions::heights_only}) {
+  for (const Constraints constraints : {Constraints::well_centered, Constraints::heights_only}) {
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-      expect_laws(jittered_lattice(seed, 5), conditions);
+      expect_laws(jittered_lattice(seed, 5), constraints);
       Mesh lined = jittered_lattice(seed, 5);
       for (const HalfedgeId h : lined.halfedges()) {
         if (h.index % 5 == 0 && !lined.is_boundary(h)) lined.set_constrained(h, true);
       }
-      expect_laws(lined, conditions);
+      expect_laws(lined, constraints);
     }
-    expect_laws(sparse_horseshoe(), conditions);
+    expect_laws(sparse_horseshoe(), constraints);
   }
 }
 
 /// Every triangulation of the points with this boundary that flips reach: all of them, in the plane.
-double best_of_all(const Mesh& mesh, Conditions conditions, std::size_t& triangulations) {
+double best_of_all(const Mesh& mesh, Constraints constraints, std::size_t& triangulations) {
   const auto key = [](const Mesh& m) { return edges_of(m, [](HalfedgeId) { return true; }); };
   std::set<Edges> seen = {key(mesh)};
   std::vector<Mesh> queue = {mesh};
   double best = -kUnbounded;
   for (std::size_t i = 0; i < queue.size(); ++i) {
     const Mesh current = queue[i];
-    best = std::max(best, margin_of(current, conditions).margin);
+    best = std::max(best, margin_of(current, constraints).margin);
     for (const HalfedgeId h : current.halfedges()) {
       if (!current.is_edge_representative(h) || can_flip(current, h) != FlipStatus::possible) continue;
       Mesh other = current;
@@ -92,10 +92,10 @@ double best_of_all(const Mesh& mesh, Conditions conditions, std::size_t& triangu
 }
 
 TEST(BestConnectivity, OfTheSparseHorseshoeIsTheBestOfAllItsTriangulations) {
-  for (const Conditions conditions : {Conditions::well_centered, Conditions::heights_only}) {
+  for (const Constraints constraints : {Constraints::well_centered, Constraints::heights_only}) {
     std::size_t triangulations = 0;
-    const double best = best_of_all(sparse_horseshoe(), conditions, triangulations);
-    EXPECT_NEAR(search(sparse_horseshoe(), {.conditions = conditions}).margin, best, 1e-8) << name(conditions);
+    const double best = best_of_all(sparse_horseshoe(), constraints, triangulations);
+    EXPECT_NEAR(search(sparse_horseshoe(), {.constraints = constraints}).margin, best, 1e-8) << name(constraints);
     EXPECT_EQ(triangulations, 1u);  // none of its edges can be flipped
   }
 }
@@ -108,7 +108,7 @@ TEST(BestConnectivity, IsNoBetterThanTheBestOfAllAndOftenThat) {
     const Mesh mesh = mesh_of_random_points(rng, 3);
     if (mesh.n_triangles() > 10) continue;
     const ConnectivityReport report = search(mesh);
-    const double best = best_of_all(mesh, Conditions::well_centered, triangulations);
+    const double best = best_of_all(mesh, Constraints::well_centered, triangulations);
     EXPECT_LE(report.margin, best + 1e-8) << seed;
     ++tried, found += report.margin > best - 1e-6 ? 1 : 0, better += report.margin > report.before + 1e-6 ? 1 : 0;
   }
@@ -126,7 +126,7 @@ TEST(BestConnectivity, StopsWhereNothingIsAllowed) {
   EXPECT_EQ(one.programmes, 1u);
   EXPECT_EQ(one.before, one.margin);
   const auto solver = clp_solver();
-  EXPECT_FALSE(best_connectivity(sparse_horseshoe(), *solver, {.conditions = Conditions::regular}));
+  EXPECT_FALSE(best_connectivity(sparse_horseshoe(), *solver, {.constraints = Constraints::regular}));
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ TEST(FindWeights, AreRightOnRandomTriangulations) {
     const Mesh mesh = mesh_of_random_points(rng, static_cast<int>(seed % 12));
     const WeightReport report = weights_of(mesh, {.goal = WeightGoal::feasible});
     expect_true_report(mesh, report, report.asked);
-    EXPECT_EQ(report.margin_is, MarginIs::exact);
+    EXPECT_EQ(report.margin_kind, MarginKind::exact);
     (report.verdict == Feasibility::feasible ? feasible : infeasible) += 1;
   }
   EXPECT_GT(feasible, 0u);
@@ -192,7 +192,7 @@ TEST(FindWeights, ProveInfeasibilityFromANeighbourhood) {
   ASSERT_EQ(mesh.validate(), std::nullopt);
   const WeightReport report = weights_of(mesh, {.whole = 100});
   EXPECT_EQ(report.verdict, Feasibility::infeasible);
-  EXPECT_EQ(report.margin_is, MarginIs::at_most);
+  EXPECT_EQ(report.margin_kind, MarginKind::at_most);
   EXPECT_LT(report.largest, 400u);
   EXPECT_EQ(check_certificate(mesh, report.certificate), CertificateCheck::proves);
   EXPECT_GE(report.margin, margin_of(mesh).margin - 1e-8);

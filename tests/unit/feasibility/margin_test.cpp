@@ -31,13 +31,13 @@ TEST(BestMargin, OfOneTriangleIsPositiveWhateverItsAngles) {
 
 TEST(BestMargin, OfTheSparseHorseshoeIsMinusEightOver135) {
   EXPECT_NEAR(margin_of(sparse_horseshoe()).margin, -8.0 / 135, kSolvedMargin);
-  EXPECT_NEAR(margin_of(sparse_horseshoe(), Conditions::heights_only).margin, 0.05, kSolvedMargin);
+  EXPECT_NEAR(margin_of(sparse_horseshoe(), Constraints::heights_only).margin, 0.05, kSolvedMargin);
 }
 
 TEST(BestMargin, OfTheDenseHorseshoeIsWhatAnIndependentProgrammeFound) {
   const Mesh mesh = *horseshoe();
   EXPECT_NEAR(margin_of(mesh).margin, -0.3199381998, kSolvedMargin);
-  EXPECT_NEAR(margin_of(mesh, Conditions::heights_only).margin, -0.1046174535, kSolvedMargin);
+  EXPECT_NEAR(margin_of(mesh, Constraints::heights_only).margin, -0.1046174535, kSolvedMargin);
 }
 
 TEST(BestMargin, IsAttainedByItsWeightsAndByNoneBetter) {

@@ -40,7 +40,7 @@ TEST_P(PublicMeshWeights, ExistAndFewHaveToChange) {
   const WeightReport report = weights_of(mesh, {.goal = WeightGoal::feasible});
   EXPECT_EQ(report.verdict, Feasibility::feasible);
   EXPECT_TRUE(report.solved);
-  EXPECT_EQ(report.margin_is, MarginIs::exact);
+  EXPECT_EQ(report.margin_kind, MarginKind::exact);
   EXPECT_NEAR(report.margin, GetParam().margin, 1e-8);
   EXPECT_NEAR(report.attained, 0.01, 1e-7);
   EXPECT_LE(report.moved, GetParam().moved);

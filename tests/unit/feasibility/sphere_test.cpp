@@ -1,4 +1,4 @@
-// Weights alone on the sphere: the conditions are linear in σ = R/|P|, and all that the plane's programmes and
+// Weights alone on the sphere: the constraints are linear in σ = R/|P|, and all that the plane's programmes and
 // certificates promise holds there.
 #include <algorithm>
 #include <array>
@@ -87,8 +87,8 @@ Mesh on_cap(const Mesh& plane, double radius) {
   return mesh;
 }
 
-bool keeps_on_sphere(const Mesh& mesh, Conditions conditions) {
-  const Demand demand(mesh, conditions, {});
+bool keeps_on_sphere(const Mesh& mesh, Constraints constraints) {
+  const Demand demand(mesh, constraints, {});
   return std::all_of(mesh.triangles().begin(), mesh.triangles().end(),
                      [&](TriangleId t) { return demand.is_kept(mesh, t, [&](VertexId v) { return mesh.weight(v); }); });
 }
@@ -158,19 +158,19 @@ TEST(SpherePotential, IsTheWeightToFirstOrderAndBack) {
 TEST(SphereMargin, DoesNotDependOnTheFactorTheTurnTheSizeOrTheWeights) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Mesh mesh = jittered_globe(seed, 0.15 * static_cast<double>(seed));
-    for (const ConditionsInfo& row : conditions_table()) {
-      const double expected = margin_of(mesh, row.conditions).margin;
+    for (const ConstraintsInfo& row : constraints_table()) {
+      const double expected = margin_of(mesh, row.constraints).margin;
       const Mesh heavy = with_random_weights(mesh, seed, 0.01);
       for (const Mesh& other : {gauged(mesh, 1.3), turned(mesh, 0.7), heavy}) {
-        const double margin = margin_of(other, row.conditions).margin;
-        if (row.conditions == Conditions::regular) {
+        const double margin = margin_of(other, row.constraints).margin;
+        if (row.constraints == Constraints::regular) {
           EXPECT_EQ(margin > 1e-9, expected > 1e-9);
         } else {
           EXPECT_NEAR(margin, expected, 1e-6) << row.name;
         }
       }
       for (const double factor : {0.5, 1.001, 3.0}) {
-        EXPECT_NEAR(weight_margin(gauged(heavy, factor), row.conditions), weight_margin(heavy, row.conditions), 1e-9);
+        EXPECT_NEAR(weight_margin(gauged(heavy, factor), row.constraints), weight_margin(heavy, row.constraints), 1e-9);
       }
     }
   }
@@ -179,13 +179,13 @@ TEST(SphereMargin, DoesNotDependOnTheFactorTheTurnTheSizeOrTheWeights) {
 TEST(SphereMargin, IsAttainedByItsWeightsAndRefutedAbove) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const Mesh mesh = jittered_globe(seed, 0.1 * static_cast<double>(seed));
-    for (const ConditionsInfo& row : conditions_table()) {
-      const BestMargin best = margin_of(mesh, row.conditions);
+    for (const ConstraintsInfo& row : constraints_table()) {
+      const BestMargin best = margin_of(mesh, row.constraints);
       ASSERT_EQ(best.status, LpStatus::optimal);
       Mesh attained = mesh;
       for (std::size_t i = 0; i < best.vertices.size(); ++i) attained.set_weight(best.vertices[i], best.weights[i]);
-      EXPECT_NEAR(weight_margin(attained, row.conditions), best.margin, 1e-6) << row.name;
-      EXPECT_EQ(keeps_on_sphere(attained, row.conditions), best.margin > 1e-7) << row.name << " " << best.margin;
+      EXPECT_NEAR(weight_margin(attained, row.constraints), best.margin, 1e-6) << row.name;
+      EXPECT_EQ(keeps_on_sphere(attained, row.constraints), best.margin > 1e-7) << row.name << " " << best.margin;
     }
   }
 }
@@ -193,11 +193,11 @@ TEST(SphereMargin, IsAttainedByItsWeightsAndRefutedAbove) {
 // A cap of a sphere that grows is the plane, to second order.
 TEST(SphereMargin, OfACapThatShrinksIsThePlanesToSecondOrder) {
   for (const Mesh& plane : {*horseshoe(), jittered_lattice(4), jittered_lattice(5)}) {
-    for (const ConditionsInfo& row : conditions_table()) {
-      if (row.conditions == Conditions::regular) continue;  // capped in the plane
-      const double expected = margin_of(plane, row.conditions).margin;
-      const double coarse = std::abs(margin_of(on_cap(plane, 200), row.conditions).margin - expected);
-      const double fine = std::abs(margin_of(on_cap(plane, 2000), row.conditions).margin - expected);
+    for (const ConstraintsInfo& row : constraints_table()) {
+      if (row.constraints == Constraints::regular) continue;  // capped in the plane
+      const double expected = margin_of(plane, row.constraints).margin;
+      const double coarse = std::abs(margin_of(on_cap(plane, 200), row.constraints).margin - expected);
+      const double fine = std::abs(margin_of(on_cap(plane, 2000), row.constraints).margin - expected);
       EXPECT_LT(coarse, 0.01) << row.name;
       EXPECT_LT(fine, coarse / 50 + 1e-8) << row.name;
     }
@@ -208,11 +208,11 @@ TEST(SphereWeights, AreRightUnderEveryConditionForTheWholeAndByNeighbourhoods) {
   std::array<int, 3> verdicts = {};
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const Mesh mesh = jittered_globe(seed, 0.09 * static_cast<double>(seed));
-    for (const ConditionsInfo& row : conditions_table()) {
-      const double best = margin_of(mesh, row.conditions).margin;
+    for (const ConstraintsInfo& row : constraints_table()) {
+      const double best = margin_of(mesh, row.constraints).margin;
       for (const std::size_t whole : {std::size_t{3000}, std::size_t{0}}) {
         for (const WeightGoal goal : {WeightGoal::feasible, WeightGoal::minimal, WeightGoal::elastic}) {
-          WeightOptions options = {.goal = goal, .margin = 0.02, .conditions = row.conditions};
+          WeightOptions options = {.goal = goal, .margin = 0.02, .constraints = row.constraints};
           options.whole = whole;
           const WeightReport report = weights_of(mesh, options);
           ++verdicts[static_cast<std::size_t>(report.verdict)];
@@ -227,9 +227,9 @@ TEST(SphereWeights, AreRightUnderEveryConditionForTheWholeAndByNeighbourhoods) {
           }
           if (!report.solved) continue;
           const Mesh result = with_weights(mesh, report.weights);
-          EXPECT_NEAR(weight_margin(result, row.conditions), report.attained, 1e-9);
+          EXPECT_NEAR(weight_margin(result, row.constraints), report.attained, 1e-9);
           if (goal == WeightGoal::elastic) continue;
-          EXPECT_TRUE(keeps_on_sphere(result, row.conditions)) << row.name;
+          EXPECT_TRUE(keeps_on_sphere(result, row.constraints)) << row.name;
           EXPECT_GE(report.attained, report.asked - 1e-8) << row.name;
         }
       }
@@ -258,8 +258,8 @@ TEST(SphereCertificate, ProvesAndIsNoProofOnceAnythingIsChanged) {
   std::size_t proofs = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const Mesh mesh = jittered_globe(seed, 0.35);
-    for (const ConditionsInfo& row : conditions_table()) {
-      const Certificate certificate = margin_of(mesh, row.conditions).certificate;
+    for (const ConstraintsInfo& row : constraints_table()) {
+      const Certificate certificate = margin_of(mesh, row.constraints).certificate;
       if (certificate.terms.empty()) continue;
       ++proofs;
       EXPECT_EQ(check_certificate(mesh, certificate), CertificateCheck::proves);

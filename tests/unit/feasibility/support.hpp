@@ -66,10 +66,10 @@ inline WeightReport weights_of(const Mesh& mesh, const WeightOptions& options = 
   return *std::move(report);
 }
 
-inline BestMargin margin_of(const Mesh& mesh, Conditions conditions = Conditions::well_centered,
+inline BestMargin margin_of(const Mesh& mesh, Constraints constraints = Constraints::well_centered,
                             const std::vector<HalfedgeId>& edges = {}) {
   const auto solver = clp_solver();
-  return best_margin(mesh, *solver, conditions, edges);
+  return best_margin(mesh, *solver, constraints, edges);
 }
 
 }  // namespace temper::test

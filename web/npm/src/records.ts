@@ -336,11 +336,11 @@ export interface WeightConstraint {
 
 /** Why no weights exist (Farkas): constraints with multipliers ≥ 0 whose sum contradicts itself. */
 export interface Certificate {
-  /** Refuted: no weights keep the conditions with more than this margin. */
+  /** Refuted: no weights keep the constraints with more than this margin. */
   margin: number;
   /** None: no certificate. */
   terms: [WeightConstraint, number][];
-  conditions: 'well_centered' | 'heights_only' | 'regular';
+  constraints: 'well_centered' | 'heights_only' | 'regular';
 }
 
 /** An edge u → v whose dual must cross it near u for the sake of one vertex, and near v for the sake of another. */

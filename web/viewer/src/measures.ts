@@ -3,13 +3,13 @@ import { triangleNumbers, type TriangleNumbers, verdicts } from './geometry.ts';
 import { type MeshData, nTriangles } from './mesh.ts';
 
 /** The way from bad to good along the values of a measure. */
-export type Better = 'larger' | 'less' | 'neither';
+export type Preference = 'larger' | 'less' | 'neither';
 
 export interface Measure {
   key: string;
   label: string;
   unit: string;
-  better: Better;
+  better: Preference;
   /** Values that are kinds (regions), not amounts. */
   kinds?: boolean;
   /** Ends of the scale that do not depend on the mesh; the rest is taken from its values. */
