@@ -348,9 +348,9 @@ enum class Stopped {
   max_outer,
   time_limit,
   cancelled,
-  tangled,          ///< triangles are inverted (Inversion::allow): no flips can make the mesh regular
-  accuracy_sweeps,  ///< all sweeps of AccuracyOptions, or steps of SolverErrorOptions, are made: a normal end
-  hidden,           ///< deferred flips hid a vertex that may not be: the mesh is the last or best one that was regular
+  tangled,      ///< triangles are inverted (Inversion::allow): no flips can make the mesh regular
+  sweep_limit,  ///< all sweeps of AccuracyOptions, or steps of SolverErrorOptions, are made: a normal end
+  hidden,       ///< deferred flips hid a vertex that may not be: the mesh is the last or best one that was regular
 };
 [[nodiscard]] std::string_view name(Stopped stopped);
 /// Whether the caller ended the run, by its time limit or by its observer: a run with more time would have gone on.

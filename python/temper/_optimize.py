@@ -117,11 +117,11 @@ class OptimizeReport(Record):
     """What ``optimize`` did."""
 
     stopped: Literal[
-        "converged", "max_sweeps", "max_outer", "time_limit", "cancelled", "tangled", "hidden", "accuracy_sweeps"
+        "converged", "max_sweeps", "max_outer", "time_limit", "cancelled", "tangled", "hidden", "sweep_limit"
     ]
     """Why the run ended. ``tangled``: triangles are inverted (``inversion="allow"``) and no flips can make the mesh
     regular; ``hidden``: deferred flips hid a vertex that may not be, and the mesh is one of before;
-    ``accuracy_sweeps``: the second phase of the objective ``accuracy`` made all its sweeps, a normal end."""
+    ``sweep_limit``: the second phase of the objective ``accuracy`` made all its sweeps, a normal end."""
     sweeps: int
     flips: int
     vertices_removed: int

@@ -57,7 +57,7 @@ def test_every_function_takes_them(disc):
     assert temper.find_weights(disc).verdict == temper.find_weights(mesh).verdict
     report = temper.optimize(disc)
     temper.optimize(mesh)
-    assert report.stopped == "accuracy_sweeps" and np.array_equal(disc.point_data["weight"], mesh.weights)
+    assert report.stopped == "sweep_limit" and np.array_equal(disc.point_data["weight"], mesh.weights)
     assert np.array_equal(disc.points[:, :2], mesh.points) and (disc.points[:, 2] == 3).all()
 
 

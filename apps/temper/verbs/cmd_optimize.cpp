@@ -216,7 +216,7 @@ std::string ending(const OptimizeReport& report) {
       return "stopped by --max-sweeps after " + work;
     case Stopped::max_outer:
       return "stopped by --outer after " + work;
-    case Stopped::accuracy_sweeps:
+    case Stopped::sweep_limit:
       return "made all --accuracy-sweeps after " + work;
     case Stopped::tangled:
       return "stopped by inverted triangles, among which no edges can be flipped, after " + work;

@@ -58,7 +58,7 @@ void AccuracyPhase::begin() {
 bool AccuracyPhase::may_sweep() const {
   const int most = settings_.options.accuracy.sweeps * (settings_.accuracy.keeps_lengths() ? kSweepsForLengths : 1);
   const bool sweeps_left = iteration < most;
-  if (!sweeps_left) run_.report.stopped = Stopped::accuracy_sweeps;
+  if (!sweeps_left) run_.report.stopped = Stopped::sweep_limit;
   return sweeps_left && run_.sweeps_left();
 }
 

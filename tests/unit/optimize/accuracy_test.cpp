@@ -354,7 +354,7 @@ TEST(Accuracy, CountsSweepsOfBothPhasesAndStopsWhereItIsTold) {
   o = for_accuracy();
   o.accuracy.sweeps = 2;
   o.accuracy.tolerance = 0;
-  EXPECT_EQ(improved(mesh, o).stopped, Stopped::accuracy_sweeps);
+  EXPECT_EQ(improved(mesh, o).stopped, Stopped::sweep_limit);
 
   mesh = input;
   o = for_accuracy();

@@ -158,7 +158,7 @@ export interface SizeReport {
 }
 
 export type Stopped =
-  | 'converged' | 'max_sweeps' | 'max_outer' | 'time_limit' | 'cancelled' | 'tangled' | 'hidden' | 'accuracy_sweeps';
+  | 'converged' | 'max_sweeps' | 'max_outer' | 'time_limit' | 'cancelled' | 'tangled' | 'hidden' | 'sweep_limit';
 
 /** What `optimize` did. */
 export interface OptimizeReport {

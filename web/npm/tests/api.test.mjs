@@ -77,7 +77,7 @@ test('an observer hears of sweeps and stops the run; what it throws is thrown wh
       left.push(sweeps_left);
     },
   });
-  assert.equal(report.stopped, 'accuracy_sweeps');
+  assert.equal(report.stopped, 'sweep_limit');
   assert.equal(left[0], null);                             // nothing to go by yet
   assert(left.some((n) => n !== null && n >= 0 && n < 1000));
   assert(sweeps.length >= report.sweeps);
