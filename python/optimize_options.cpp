@@ -160,7 +160,7 @@ py::dict report_to_dict(const OptimizeReport& r) {
   return Record()("stopped", name(r.stopped))("sweeps", r.sweeps)("flips", r.flips)(
              "vertices_removed", r.vertices_removed)("vertices_inserted", r.vertices_inserted)("vertices", r.vertices)(
              "hidden", r.hidden)("objective", name(r.objective))("seconds", r.seconds)(
-             "initial_energy", r.initial_energy)("final_energy", r.final_energy)(
+             "objective_before", r.objective_before)("objective_after", r.objective_after)(
              "size_before", py::object(size_report_to_dict(r.size.before)))(
              "size_after", py::object(size_report_to_dict(r.size.after)))("history", py::object(history))(
              "notes", py::object(notes))

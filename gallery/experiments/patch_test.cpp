@@ -107,8 +107,8 @@ std::string removal_panels(const Recording& run, double weight_scale) {
     panels.push_back(mesh_picture_svg(m.mesh, picture));
   }
   MeshPicture last;
-  last.title =
-      "final mesh: " + std::to_string(run.result.n_vertices()) + " vertices, E_BP = " + digits(run.report.final_energy);
+  last.title = "final mesh: " + std::to_string(run.result.n_vertices()) +
+               " vertices, E_BP = " + digits(run.report.objective_after);
   last.weight_scale = weight_scale;
   panels.push_back(mesh_picture_svg(run.result, last));
   return grid_svg(panels, std::min(panels.size(), kColumns));

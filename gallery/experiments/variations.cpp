@@ -124,8 +124,8 @@ Claim flips_at_once_are_more_stable(Effort effort) {
     ++orders;
     deferred += late.report.stopped == Stopped::converged ? 1 : 0;
     at_once += soon.report.stopped == Stopped::converged ? 1 : 0;
-    energies_deferred.push_back(late.report.final_energy);
-    energies_at_once.push_back(soon.report.final_energy);
+    energies_deferred.push_back(late.report.objective_after);
+    energies_at_once.push_back(soon.report.objective_after);
   }
   return {
       "5.2",
@@ -150,7 +150,7 @@ End ending(const OptimizeOptions& options) {
   const Recording run = record(dense_horseshoe(), options, Keep::outer);
   if (!run.error.empty()) return {std::numeric_limits<double>::quiet_NaN(), 0, 0};  // for which no claim holds
   const Quality q = quality(run.result);
-  return {run.report.final_energy, q.well_centered_fraction, run.result.n_vertices()};
+  return {run.report.objective_after, q.well_centered_fraction, run.result.n_vertices()};
 }
 
 std::string told(const End& e) {

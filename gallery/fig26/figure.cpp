@@ -137,10 +137,10 @@ Claim combine_with_barriers() {
           "Collapses can be combined with barrier energies, although barriers by themselves prevent collapses.",
           "five collapses under E_BP",
           digits(described().size()) + " collapses; E_BP " + digits(run.report.history.front().energy) + " → " +
-              digits(run.report.final_energy) + ", inverted triangles " + digits(q.inverted_triangles) +
+              digits(run.report.objective_after) + ", inverted triangles " + digits(q.inverted_triangles) +
               ", non-regular edges " + digits(q.non_regular_edges),
           !described().empty() && q.inverted_triangles == 0 && q.non_regular_edges == 0 &&
-              run.report.final_energy < run.report.history.front().energy,
+              run.report.objective_after < run.report.history.front().energy,
           "The whole run, from the input to the outer iteration that needs no flips."};
 }
 

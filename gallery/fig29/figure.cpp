@@ -57,7 +57,7 @@ Table summary() {
     const Quality q = quality(f.run.result);
     t.rows.push_back({"E_" + f.name, digits(f.run.all(Snapshot::Moment::before_flips).size()),
                       std::to_string(f.run.report.sweeps), listed(collapses_by_outer(f.run)), digits(q.vertices),
-                      digits(f.run.report.final_energy), digits(q.well_centered_fraction, 3),
+                      digits(f.run.report.objective_after), digits(q.well_centered_fraction, 3),
                       digits(q.min_angle_deg, 3) + "°", digits(q.energy[0][1]), digits(q.energy[1][1])});
   }
   return t;

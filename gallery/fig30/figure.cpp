@@ -148,7 +148,7 @@ void run_case(const Case& c, Validity& v) {
   v.inverted += q.inverted_triangles;
   v.non_regular += q.non_regular_edges;
   v.removed += report->vertices_removed;
-  if (report->final_energy < report->initial_energy) ++v.improved;
+  if (report->objective_after < report->objective_before) ++v.improved;
 }
 
 Validity survey_validity(Effort effort) {

@@ -363,7 +363,7 @@ std::vector<Delay> delays(Effort effort, int sweeps) {
       options.max_sweeps = sweeps;
       Mesh mesh = dense_horseshoe();
       const auto report = optimize(mesh, as_read(options));
-      d.energies.push_back(report ? report->final_energy : std::numeric_limits<double>::infinity());
+      d.energies.push_back(report ? report->objective_after : std::numeric_limits<double>::infinity());
       d.collapses += report ? report->vertices_removed : 0;
     }
     all.push_back(d);

@@ -376,10 +376,10 @@ struct OptimizeReport {
   std::vector<VertexId> hidden;
   Objective objective = Objective::accuracy;  ///< that the run lowered
   double seconds = 0;                         ///< the optimisation alone
-  double initial_energy = 0;  ///< of the input, at the final γ; with Objective::accuracy that of AccuracyOptions,
-                              ///< its edges taken absolute, with the same sizes before and after; where there is an
-                              ///< error model the root mean square error
-  double final_energy = 0;
+  double objective_before = 0;  ///< of the input, at the final γ; with Objective::accuracy that of AccuracyOptions,
+                                ///< its edges taken absolute, with the same sizes before and after; where there is an
+                                ///< error model the root mean square error
+  double objective_after = 0;
   SizeChange size;
   std::vector<SweepRecord> history;  ///< history[0] is the input
   std::vector<std::string> notes;    ///< what the user should know, in sentences

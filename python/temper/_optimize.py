@@ -134,9 +134,9 @@ class OptimizeReport(Record):
     """That the run lowered."""
     seconds: float
     """The optimisation alone."""
-    initial_energy: float
+    objective_before: float
     """Of the input, at the final γ."""
-    final_energy: float
+    objective_after: float
     size: SizeChange
     data: DataReport | None
     """Of the data that came with the mesh; None without."""

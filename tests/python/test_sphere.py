@@ -161,7 +161,7 @@ def test_optimised_random_points_have_no_bad_triangle_and_stay_on_the_sphere(glo
     report = temper.optimize(globe)
     quality = temper.quality(globe)
     assert temper.triangle_quality(globe).well_centered.all() and quality.well_centered_fraction == 1
-    assert report.final_energy <= report.initial_energy and quality.non_regular_edges == 0
+    assert report.objective_after <= report.objective_before and quality.non_regular_edges == 0
     assert np.allclose(np.linalg.norm(globe.points, axis=1), EARTH, rtol=1e-15) and globe.validate() is None
 
 

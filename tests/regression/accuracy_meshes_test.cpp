@@ -100,7 +100,7 @@ Errors improved_errors(const Mesh& input, const Promise& promise) {
   EXPECT_LE(report->size.after.band(), promise.band);
   // A price in errors may have to be paid for good triangles, but not in the offsets that bound them.
   if (!wants_error_model(options, input)) {
-    EXPECT_LT(report->final_energy, report->initial_energy);
+    EXPECT_LT(report->objective_after, report->objective_before);
   }
   for (const VertexId v : input.vertices()) {
     if (!input.is_boundary(v)) continue;

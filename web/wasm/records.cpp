@@ -250,8 +250,8 @@ Json to_json(const OptimizeReport& r) {
                {"hidden", list(r.hidden)},
                {"objective", name(r.objective)},
                {"seconds", r.seconds},
-               {"initial_energy", number(r.initial_energy)},
-               {"final_energy", number(r.final_energy)},
+               {"objective_before", number(r.objective_before)},
+               {"objective_after", number(r.objective_after)},
                {"size", {{"before", to_json(r.size.before)}, {"after", to_json(r.size.after)}}},
                {"history", Json::array()},
                {"notes", Json::array()}};

@@ -165,8 +165,8 @@ std::string optimize_json(const OptimizeRecord& record) {
   json["seconds"] = record.report.seconds;
   json["stopped"] = name(record.report.stopped);
   json["objective"] = name(record.report.objective);
-  json["initial_energy"] = number_or_null(record.report.initial_energy);
-  json["final_energy"] = number_or_null(record.report.final_energy);
+  json["objective_before"] = number_or_null(record.report.objective_before);
+  json["objective_after"] = number_or_null(record.report.objective_after);
   json["vertices_removed"] = record.report.vertices_removed;
   json["hidden_vertices"] = Json::array();
   for (const VertexId v : record.report.hidden) json["hidden_vertices"].push_back(v.index);

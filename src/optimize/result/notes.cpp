@@ -77,11 +77,11 @@ class Notes {
   }
 
   void tell_energy() {
-    if (!std::isfinite(report_.final_energy)) {
+    if (!std::isfinite(report_.objective_after)) {
       add("the energy is infinite: on some edges weights differ by more than the squared length, and this run could "
           "not change that");
     }
-    if (report_.final_energy < 0) {
+    if (report_.objective_after < 0) {
       add("the energy is negative: HOT has no lower bound in the weights; energies T and BP have one");
     }
   }
@@ -143,11 +143,11 @@ class Notes {
           (options_.repair == Repair::vertices ? "" : ": `repair=vertices` may find other connectivities"));
     }
     if (settings_.errors == nullptr) {
-      add("energy of the accuracy objective, edges taken absolute: " + to_text(report_.initial_energy) + " before, " +
-          to_text(report_.final_energy) + " after");
-    } else if (std::isfinite(report_.initial_energy)) {
+      add("energy of the accuracy objective, edges taken absolute: " + to_text(report_.objective_before) + " before, " +
+          to_text(report_.objective_after) + " after");
+    } else if (std::isfinite(report_.objective_before)) {
       add("errors of what the mesh is for, over smooth fields: now " +
-          to_text(std::round(1000 * report_.final_energy / report_.initial_energy) / 1000) +
+          to_text(std::round(1000 * report_.objective_after / report_.objective_before) / 1000) +
           " times those of the input");
     } else {
       add("what the mesh is for could not be solved on the input: its matrix was not positive definite");

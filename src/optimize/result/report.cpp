@@ -129,7 +129,7 @@ void give_back(Mesh& mesh, Candidate best, const Settings& settings, const Sweep
   Result result = result_of(mesh, std::move(best.work), settings, model, std::move(sizes));
   const MeshScore before = of_input.score ? *of_input.score : score(mesh, of_input.counts, settings, model, nullptr);
   report.size.before = report.size.after = of_input.size;
-  report.initial_energy = before.energy;
+  report.objective_before = before.energy;
   const double bad_part_before = bad_part(mesh, of_input.counts.bad);
   // Flips that make the input regular come before all else that may be better or worse.
   const bool may_be_better = before < result.score || result.score.bad > 0 || result.score.non_regular > 0;
@@ -151,7 +151,7 @@ void give_back(Mesh& mesh, Candidate best, const Settings& settings, const Sweep
     result = std::move(input);
   }
   report.vertices = std::move(result.vertices);
-  report.final_energy = result.score.energy;
+  report.objective_after = result.score.energy;
   count_changes(mesh, report);
   if (!worse || flips) {
     report.size.after = result.size;

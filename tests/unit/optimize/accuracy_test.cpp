@@ -65,14 +65,14 @@ TEST(Accuracy, NeverRaisesTheEnergyOfAMeshWithAllMarginsAndKeepsItsEdges) {
     const Mesh before = mesh;
     ASSERT_TRUE(has_margins(mesh, *o.accuracy.margin));
     const OptimizeReport report = improved(mesh, o);
-    EXPECT_LT(report.final_energy, 0.99 * report.initial_energy);
+    EXPECT_LT(report.objective_after, 0.99 * report.objective_before);
     EXPECT_EQ(sweeps_for(report, Objective::energy), 0u);
     EXPECT_GT(sweeps_for(report, Objective::accuracy), 0u);
     EXPECT_EQ(report.history.front().objective, Objective::accuracy);
-    EXPECT_NEAR(report.history.front().energy / report.initial_energy, 1, 1e-12);
-    double least = report.initial_energy;  // near a minimum the energy may rise again, for the barrier
+    EXPECT_NEAR(report.history.front().energy / report.objective_before, 1, 1e-12);
+    double least = report.objective_before;  // near a minimum the energy may rise again, for the barrier
     for (const SweepRecord& record : report.history) least = std::min(least, record.energy);
-    EXPECT_NEAR(least / report.final_energy, 1, 1e-12);
+    EXPECT_NEAR(least / report.objective_after, 1, 1e-12);
     EXPECT_EQ(report.flips, 0u);
     for (const HalfedgeId h : mesh.halfedges()) EXPECT_EQ(mesh.origin(h), before.origin(h));
     expect_inside(mesh, *o.accuracy.margin);
@@ -175,7 +175,7 @@ TEST(Accuracy, LeavesAMinimumAsItIs) {
   EXPECT_EQ(first.stopped, Stopped::converged);
   const Mesh there = mesh;
   const OptimizeReport second = improved(mesh, o);
-  EXPECT_NEAR(second.final_energy / first.final_energy, 1, 1e-9);
+  EXPECT_NEAR(second.objective_after / first.objective_after, 1, 1e-9);
   for (const VertexId v : mesh.vertices()) {
     EXPECT_NEAR(mesh.point(v).x, there.point(v).x, 1e-4);
     EXPECT_NEAR(mesh.point(v).y, there.point(v).y, 1e-4);
@@ -190,7 +190,7 @@ TEST(Accuracy, KnowsNoUnitOfLength) {
     large.set_point(v, {0x1p10 * p.x, 0x1p10 * p.y, 0x1p20 * p.w});
   }
   const OptimizeReport a = improved(mesh, for_accuracy()), b = improved(large, for_accuracy());
-  EXPECT_EQ(0x1p20 * a.final_energy, b.final_energy);
+  EXPECT_EQ(0x1p20 * a.objective_after, b.objective_after);
   for (const VertexId v : mesh.vertices()) {
     const WeightedPoint p = mesh.point(v);
     EXPECT_TRUE(same_bits({0x1p10 * p.x, 0x1p10 * p.y, 0x1p20 * p.w}, large.point(v)));
@@ -215,14 +215,14 @@ TEST(Accuracy, MovesWhatItMayAndNothingElse) {
   Mesh mesh = before;
   o.unknowns = Unknowns::weights;
   const OptimizeReport by_weights = improved(mesh, o);
-  EXPECT_LT(by_weights.final_energy, by_weights.initial_energy);
+  EXPECT_LT(by_weights.objective_after, by_weights.objective_before);
   EXPECT_EQ(count(mesh).positions, 0);
   EXPECT_GT(count(mesh).weights, 0);
 
   mesh = before;
   o.unknowns = Unknowns::positions;
   const OptimizeReport by_positions = improved(mesh, o);
-  EXPECT_LT(by_positions.final_energy, by_positions.initial_energy);
+  EXPECT_LT(by_positions.objective_after, by_positions.objective_before);
   EXPECT_GT(count(mesh).positions, 0);
   EXPECT_EQ(count(mesh).weights, 0);
 
@@ -245,7 +245,7 @@ TEST(Accuracy, SlidesBoundaryVerticesAlongTheirLinesOnly) {
   OptimizeOptions o = for_accuracy();
   o.boundary = BoundaryVertices::slide;
   const OptimizeReport report = improved(mesh, o);
-  EXPECT_LT(report.final_energy, report.initial_energy);
+  EXPECT_LT(report.objective_after, report.objective_before);
   expect_inside(mesh, *o.accuracy.margin);
   int slid = 0;
   for (const VertexId v : mesh.vertices()) {
@@ -268,7 +268,7 @@ TEST(Accuracy, HoldsASizeBand) {
   o.size_band = 1.03;
   const OptimizeReport held = improved(mesh, o);
   EXPECT_LE(held.size.after.band(), 1.03 + 1e-12);
-  EXPECT_LT(held.final_energy, held.initial_energy);
+  EXPECT_LT(held.objective_after, held.objective_before);
 }
 
 /// The second phase alone, with small parts.

@@ -278,7 +278,7 @@ TEST(Insertion, BreaksUpTrianglesOfLargeEnergy) {
     const auto plain = optimize(without, o);
     ASSERT_TRUE(plain);
     const auto mean = [](const OptimizeReport& r, const Mesh& m, EnergyKind kind) {
-      return kind == EnergyKind::T ? r.final_energy : r.final_energy / double(m.n_triangles());
+      return kind == EnergyKind::T ? r.objective_after : r.objective_after / double(m.n_triangles());
     };
     EXPECT_LT(mean(*report, mesh, energy), mean(*plain, without, energy));
   }

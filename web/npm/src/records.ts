@@ -173,8 +173,8 @@ export interface OptimizeReport {
   /** That the run lowered. */
   objective: 'energy' | 'accuracy' | 'solver_error';
   seconds: number;
-  initial_energy: number;
-  final_energy: number;
+  objective_before: number;
+  objective_after: number;
   size: { before: SizeReport; after: SizeReport };
   /** history[0] is the input. */
   history: SweepRecord[];
