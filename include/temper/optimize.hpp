@@ -114,7 +114,7 @@ enum class Inversion {
 /// What is done, one neighbourhood at a time, about triangles that sweeps of a barrier leave not well-centered.
 enum class Repair {
   none,
-  moves,  ///< sweeps from a larger γ and random kicks; every vertex stays. Not where γ, h° or a solver is the user's
+  perturb,  ///< sweeps from a larger γ and random kicks; every vertex stays. Not where γ, h° or a solver is the user's
   vertices,  ///< the same, and vertices are removed and inserted
 };
 
@@ -270,7 +270,7 @@ struct OptimizeOptions {
   /// asks, but sees only the triangles of its neighbourhood. With a band sweeps go vertex by vertex, on one
   /// thread. Absent: no limit.
   std::optional<double> size_band = {};
-  Repair repair = Repair::moves;
+  Repair repair = Repair::perturb;
   int repair_trials = 20000;  ///< most edits that are tried, each on a copy of a neighbourhood; 1 to 3 ms each; a
                               ///< linear program counts as 20
   /// A constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/detail/tensor.hpp). The

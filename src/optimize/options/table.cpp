@@ -31,7 +31,7 @@ constexpr auto names_of(Solver) { return std::to_array<Name>({"newton", "golden"
 constexpr auto names_of(Unknowns) { return std::to_array<Name>({"positions_and_weights", "positions", "weights"}); }
 constexpr auto names_of(Flips) { return std::to_array<Name>({"immediate", "deferred", "none"}); }
 constexpr auto names_of(FlipLimit) { return std::to_array<Name>({"unlimited", "before", "at", "after"}); }
-constexpr auto names_of(Repair) { return std::to_array<Name>({"none", "moves", "vertices"}); }
+constexpr auto names_of(Repair) { return std::to_array<Name>({"none", "perturb", "vertices"}); }
 constexpr auto names_of(BoundaryVertices) { return std::to_array<Name>({"keep", "slide", "split"}); }
 constexpr auto names_of(InterfaceVertices) { return std::to_array<Name>({"fixed", "sliding"}); }
 constexpr auto names_of(Updates) { return std::to_array<Name>({"immediate", "deferred"}); }

@@ -67,8 +67,8 @@ export interface OptimizeOptions {
   overshoot?: number;
   /** by which what the overshoot is above or below 1 shrinks each sweep; 1: it is constant; at least 0 and at most 1. Default: 0.1. */
   overshoot_factor?: number;
-  /** where sweeps leave triangles bad: nothing; sweep again and kick vertices there, and find weights by a linear programme; remove and insert vertices there, too, and keep what cures most. Default: "moves". */
-  repair?: "none" | "moves" | "vertices";
+  /** where sweeps leave triangles bad: nothing; sweep again and kick vertices there, and find weights by a linear programme; remove and insert vertices there, too, and keep what cures most. Default: "perturb". */
+  repair?: "none" | "perturb" | "vertices";
   /** at most so many edits are tried, 1 to 3 ms each; a linear programme counts as 20; at least 0. Default: 20000. */
   repair_trials?: number;
   /** keep: the domain's boundary stays bit for bit; slide: vertices of its straight pieces, never corners, may move along them; split: edges of boundary and interfaces much longer than one they meet are cut before the sweeps, and the vertices that were there stay bit for bit. Default: "keep". */
