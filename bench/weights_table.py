@@ -17,10 +17,10 @@ import tempfile
 
 RUNS = {
     "input": None,
-    "E_BP, weights alone": ["--weights-only"],
-    "E_BP, positions alone": ["--positions-only"],
+    "E_BP, weights alone": ["--unknowns", "weights"],
+    "E_BP, positions alone": ["--unknowns", "positions"],
     "E_BP, both": [],
-    "accuracy, positions alone": ["--objective", "accuracy", "--positions-only"],
+    "accuracy, positions alone": ["--objective", "accuracy", "--unknowns", "positions"],
     "accuracy, both": ["--objective", "accuracy"],
 }
 ERRORS = [("★1, L2", "star1", "l2"), ("Poisson, L2", "poisson", "l2"), ("Poisson, max", "poisson", "max"),

@@ -18,8 +18,6 @@ struct Shorthand {
 };
 
 const Shorthand kShorthands[] = {
-    {"--positions-only", "unknowns", "positions", "leave the weights as they are", false},
-    {"--weights-only", "unknowns", "weights", "leave the positions as they are"},
     {"--no-flips", "flips", "none", "keep the connectivity"},
 };
 

@@ -205,9 +205,9 @@ TEST_F(Optimize, TheCommandInTheReportGivesTheSameBytes) {
   const std::vector<std::vector<std::string>> runs = {
       {},
       {"--energy", "F", "--solver", "alternating", "--max-sweeps", "5", "--flips", "deferred", "--stopping", "paper"},
-      {"--gamma", "0.25", "--positions-only", "--seed", "7", "--interfaces", "sliding", "--anchor", "3"},
-      {"--weights-only", "--no-flips", "--energy", "BHs", "--h0-rel", "20", "--overshoot", "1.05", "--flip-limit",
-       "at"},
+      {"--gamma", "0.25", "--unknowns", "positions", "--seed", "7", "--interfaces", "sliding", "--anchor", "3"},
+      {"--unknowns", "weights", "--no-flips", "--energy", "BHs", "--h0-rel", "20", "--overshoot", "1.05",
+       "--flip-limit", "at"},
       {"--objective", "accuracy", "--star", "all", "--accuracy-sweeps", "4", "--margin", "0.01"},
   };
   std::filesystem::rename("in.vtu", "it's a mesh.vtu");

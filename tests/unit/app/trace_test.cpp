@@ -45,10 +45,10 @@ TEST_F(Trace, ReplaysToTheSameBytes) {
       {"random", {"--solver", "golden", "--flips", "deferred", "--max-sweeps", "4"}},
       {"sheared-grid", {"--anchor", "3", "--order", "random", "--max-sweeps", "10"}},
       {"sheared-grid", {"--method", "paper", "--energy", "dT", "--max-sweeps", "6", "--inversion", "refuse"}},
-      {"airfoil", {"--weights-only", "--no-flips", "--max-sweeps", "5"}},
+      {"airfoil", {"--unknowns", "weights", "--no-flips", "--max-sweeps", "5"}},
       {"random-sphere", {"--max-sweeps", "10"}},
-      {"random-sphere", {"--weights-only", "--max-sweeps", "5"}},
-      {"random-sphere", {"--positions-only", "--max-sweeps", "5"}},
+      {"random-sphere", {"--unknowns", "weights", "--max-sweeps", "5"}},
+      {"random-sphere", {"--unknowns", "positions", "--max-sweeps", "5"}},
   };
   for (const Replayed& sample : samples) {
     SCOPED_TRACE(sample.example);

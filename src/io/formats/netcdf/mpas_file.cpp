@@ -335,7 +335,7 @@ void warn_of_offsets(const WriteJob& job, const NetcdfMesh& m) {
            " edges are crossed more than 1 % of dcEdge away from the middle of their cells, up to ",
            std::round(1000 * most) / 10,
            " %: models that take xEdge for the middle, as MPAS does, want a mesh without weights (temper optimize "
-           "--positions-only)");
+           "--unknowns positions)");
 }
 
 }  // namespace
