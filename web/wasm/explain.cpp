@@ -17,7 +17,7 @@ int solve_lp(std::size_t columns, std::size_t rows, std::size_t entries, const d
              const double* column_upper, const double* row_lower, const double* row_upper, const int* row_start,
              const int* column, const double* value, double* primal, double* dual);
 /// How many of the bad triangles are explained; 0 stops.
-TEMPER_IMPORT(explained) int tell_explained(std::size_t done, std::size_t all);
+TEMPER_IMPORT(explained) int report_explained(std::size_t done, std::size_t all);
 
 class SolverOutside final : public LpSolver {
  public:
@@ -145,7 +145,7 @@ TEMPER_EXPORT(mesh_explain) int mesh_explain(const HeldMesh* held, const char* g
     ExplainOptions options;
     take(wanted, "cures", options.cures), take(wanted, "whole", options.whole);
     options.progress = [](std::size_t done, std::size_t all) {
-      return tell_explained(done, all) != 0 ? Continue::yes : Continue::no;
+      return report_explained(done, all) != 0 ? Continue::yes : Continue::no;
     };
     SolverOutside solver;
     const Mesh& mesh = held->mesh;

@@ -10,9 +10,9 @@ namespace temper::wasm {
 namespace {
 
 /// How far the run is, as JSON; 0 stops it.
-TEMPER_IMPORT(progress) int tell_progress(const char* progress, std::size_t size);
+TEMPER_IMPORT(progress) int report_progress(const char* progress, std::size_t size);
 /// An event of the run, as JSON.
-TEMPER_IMPORT(trace) void tell_event(const char* event, std::size_t size);
+TEMPER_IMPORT(trace) void report_event(const char* event, std::size_t size);
 
 /// The mesh between two sweeps, to be looked at until the function returns.
 TEMPER_IMPORT(snapshot) void show_snapshot(const HeldMesh* mesh, int sweep);
@@ -22,7 +22,7 @@ Continue tell(const Progress& progress) {
   Json json = {{"last", to_json(last)}, {"fraction", fraction}, {"max_sweeps", max_sweeps}, {"sweeps_left", nullptr}};
   if (sweeps_left) json["sweeps_left"] = *sweeps_left;
   const std::string text = json.dump();
-  return tell_progress(text.data(), text.size()) != 0 ? Continue::yes : Continue::no;
+  return report_progress(text.data(), text.size()) != 0 ? Continue::yes : Continue::no;
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ int mesh_optimize(HeldMesh* held, const char* options, std::size_t size, int tra
     if (traced != 0) {
       hooks.tracer = [](const TraceEvent& event) {
         const std::string text = to_json(event).dump();
-        tell_event(text.data(), text.size());
+        report_event(text.data(), text.size());
       };
     }
     if (shown != 0) {

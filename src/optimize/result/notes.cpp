@@ -28,26 +28,26 @@ class Notes {
 
   void add(std::string note) { report_.notes.push_back(std::move(note)); }
 
-  void tell_facts(const RunFacts& facts) {
+  void note_facts(const RunFacts& facts) {
     if (facts.stays_unsplit) {
       add("the boundary and lines were not split: more triangles would be left that are not well-centered");
     } else if (facts.boundary_splits) {
       note_splits(*facts.boundary_splits);
     }
-    tell_input_flips(facts.input_flips);
+    note_input_flips(facts.input_flips);
     if (facts.weights_shrunk) add("weights left edges uncrossed that a barrier needs crossed: all were made smaller");
     if (facts.energy_rose) add("the energy rose in the last sweeps; the mesh with the least one is returned");
   }
 
   /// What else the run did is not in the mesh.
-  void tell_input_is_returned(const RunFacts& facts, bool flipped) {
-    if (flipped) tell_input_flips(facts.input_flips);
+  void note_input_is_returned(const RunFacts& facts, bool flipped) {
+    if (flipped) note_input_flips(facts.input_flips);
     add(flipped ? "no better mesh was found: the input is returned, its edges flipped to be regular"
                 : "no better mesh was found: the input is returned as it was");
   }
 
   /// HOT energies do not ask how many triangles are well-centered. `bad_before`: part of the input's.
-  void tell_if_more_are_bad(double bad_before) {
+  void note_if_more_are_bad(double bad_before) {
     const auto percent = [](double part) { return to_text(std::round(1000 * part) / 10) + " %"; };
     const double bad = bad_part(mesh_, count_bad(mesh_, settings_.executor()));
     if (bad > bad_before) {
@@ -57,14 +57,14 @@ class Notes {
   }
 
   /// Hidden vertices that are kept keep edges from being regular.
-  void tell_what_is_not_regular() {
+  void note_what_is_not_regular() {
     if (!settings_.policy.keeps_hidden()) return;
     const std::size_t edges = count_non_regular_edges(mesh_, false, settings_.executor());
     if (edges > 0)
       add(count_of(edges, "edge is", "edges are") + " not regular, since `hidden=keep` keeps hidden vertices");
   }
 
-  void tell_sizes() {
+  void note_sizes() {
     const SizeReport& before = report_.size.before;
     if (options_.size_band && before.band() > *options_.size_band) {
       add("the input is outside of its size band: sizes are up to " + to_text(before.band()) +
@@ -76,7 +76,7 @@ class Notes {
     }
   }
 
-  void tell_energy() {
+  void note_energy() {
     if (!std::isfinite(report_.objective_after)) {
       add("the energy is infinite: on some edges weights differ by more than the squared length, and this run could "
           "not change that");
@@ -87,7 +87,7 @@ class Notes {
   }
 
   /// Triangles that no optimiser can make well-centered, whatever it planned.
-  void tell_edges_that_must_be_split(std::size_t bad) {
+  void note_edges_that_must_be_split(std::size_t bad) {
     if (!settings_.energy().barrier || bad == 0 || mesh_.space().kind() != SpaceKind::plane) return;
     if (settings_.policy.allows_inversion() && count_inverted(mesh_) > 0) return;  // no inside to see through
     const std::vector<EdgeConflict> edges = edges_that_must_be_split(mesh_);
@@ -100,7 +100,7 @@ class Notes {
   }
 
   /// Bad triangles that nothing can reshape, where another option would let a corner move.
-  void tell_corners_that_stay(std::size_t bad) {
+  void note_corners_that_stay(std::size_t bad) {
     const bool moves = options_.unknowns != Unknowns::weights && settings_.energy().barrier;
     if (bad == 0 || !moves || mesh_.space().kind() != SpaceKind::plane) return;
     OptimizeOptions sliding = options_;
@@ -127,7 +127,7 @@ class Notes {
         " would let some of them move along straight lines");
   }
 
-  void tell_accuracy(std::size_t bad) {
+  void note_accuracy(std::size_t bad) {
     if (bad > 0) {
       add(count_of(bad, "triangle is", "triangles are") +
           " not well-centered: vertices there were not moved for accuracy");
@@ -155,7 +155,7 @@ class Notes {
   }
 
  private:
-  void tell_input_flips(std::size_t flips) {
+  void note_input_flips(std::size_t flips) {
     if (flips > 0) add(count_of(flips, "edge", "edges") + " of the input flipped to make it regular");
   }
 
@@ -203,21 +203,21 @@ class Notes {
 
 }  // namespace
 
-void tell(const Mesh& mesh, const Settings& settings, const RunFacts& facts, const Ending& ending,
-          OptimizeReport& report) {
+void add_notes(const Mesh& mesh, const Settings& settings, const RunFacts& facts, const Ending& ending,
+               OptimizeReport& report) {
   Notes notes(mesh, settings, report);
   if (ending.returns_input) {
-    notes.tell_input_is_returned(facts, ending.flips_input);
+    notes.note_input_is_returned(facts, ending.flips_input);
   } else {
-    notes.tell_facts(facts);
+    notes.note_facts(facts);
   }
   const bool barrier = settings.energy().barrier;
-  if (!barrier) notes.tell_if_more_are_bad(ending.bad_part_before);
-  notes.tell_what_is_not_regular();
-  notes.tell_sizes();
-  notes.tell_energy();
-  notes.tell_corners_that_stay(ending.bad);
-  notes.tell_edges_that_must_be_split(ending.bad);
+  if (!barrier) notes.note_if_more_are_bad(ending.bad_part_before);
+  notes.note_what_is_not_regular();
+  notes.note_sizes();
+  notes.note_energy();
+  notes.note_corners_that_stay(ending.bad);
+  notes.note_edges_that_must_be_split(ending.bad);
   if (settings.lacks_discretization_error) {
     notes.add(
         "the objective was accuracy, not the error of the solver: this run had no model of that error; builds with "
@@ -228,7 +228,7 @@ void tell(const Mesh& mesh, const Settings& settings, const RunFacts& facts, con
         "repairs had no solver of linear programs, which may find weights for triangles that are left; builds with Clp "
         "have one, temper::solvers() in C++");
   }
-  if (ending.for_accuracy) notes.tell_accuracy(barrier ? ending.bad : count_bad(mesh, settings.executor()));
+  if (ending.for_accuracy) notes.note_accuracy(barrier ? ending.bad : count_bad(mesh, settings.executor()));
 }
 
 }  // namespace temper

@@ -23,7 +23,7 @@ struct Ending {
 };
 
 /// Adds the sentences to the report, in the order in which they are told.
-void tell(const Mesh& mesh, const Settings& settings, const RunFacts& facts, const Ending& ending,
-          OptimizeReport& report);
+void add_notes(const Mesh& mesh, const Settings& settings, const RunFacts& facts, const Ending& ending,
+               OptimizeReport& report);
 
 }  // namespace temper

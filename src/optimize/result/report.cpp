@@ -159,7 +159,7 @@ void give_back(Mesh& mesh, Candidate best, const Settings& settings, const Sweep
   }
   report.hidden = hidden_vertices_of(mesh, settings);
 
-  tell(mesh, settings, run.facts, {worse, flips, for_accuracy, result.score.bad, bad_part_before}, report);
+  add_notes(mesh, settings, run.facts, {worse, flips, for_accuracy, result.score.bad, bad_part_before}, report);
   report.seconds = run.seconds();
 }
 

@@ -10,7 +10,7 @@ std::string_view name(EventKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-void Recorder::tell(TraceEvent e) const {
+void Recorder::record(TraceEvent e) const {
   if (!on()) return;
   e.sweep = sweep_;
   e.before *= energy_unit_;
@@ -31,39 +31,39 @@ void Recorder::placed(VertexId v, const WeightedPoint& from, const WeightedPoint
                       double after) const {
   if (!on()) return;
   const bool moves = !work_.mesh.space().is_plane() || from.x != to.x || from.y != to.y;
-  tell({.kind = moves ? EventKind::move : EventKind::weight,
-        .vertex = v,
-        .before = before,
-        .after = after,
-        .point = work_.units.to_user(to)});
+  record({.kind = moves ? EventKind::move : EventKind::weight,
+          .vertex = v,
+          .before = before,
+          .after = after,
+          .point = work_.units.to_user(to)});
 }
 
 void Recorder::flipped(std::span<const FlipRecord> flips) const {
   for (const auto& [a, b, c, d, before, after] : flips) {
-    tell({.kind = EventKind::flip, .before = before, .after = after, .quad = {a, b, c, d}});
+    record({.kind = EventKind::flip, .before = before, .after = after, .quad = {a, b, c, d}});
   }
 }
 
 void Recorder::removed(EventKind kind, const RemovalPlan& plan, double before, double after) const {
-  tell({.kind = kind,
-        .vertex = plan.vertex,
-        .before = before,
-        .after = after,
-        .link = plan.link,
-        .triangles = plan.triangles});
+  record({.kind = kind,
+          .vertex = plan.vertex,
+          .before = before,
+          .after = after,
+          .link = plan.link,
+          .triangles = plan.triangles});
 }
 
 void Recorder::inserted(VertexId v, const std::array<VertexId, 3>& triangle, double before, double after) const {
-  tell({.kind = EventKind::insertion,
-        .vertex = v,
-        .before = before,
-        .after = after,
-        .point = place(v),
-        .link = {triangle.begin(), triangle.end()}});
+  record({.kind = EventKind::insertion,
+          .vertex = v,
+          .before = before,
+          .after = after,
+          .point = place(v),
+          .link = {triangle.begin(), triangle.end()}});
 }
 
 void Recorder::split(VertexId v, const std::array<VertexId, 4>& quad, double before, double after) const {
-  tell({.kind = EventKind::split, .vertex = v, .before = before, .after = after, .point = place(v), .quad = quad});
+  record({.kind = EventKind::split, .vertex = v, .before = before, .after = after, .point = place(v), .quad = quad});
 }
 
 }  // namespace temper

@@ -41,19 +41,19 @@ class Recorder {
   /// invalid on the boundary.
   void split(VertexId v, const std::array<VertexId, 4>& quad, double before, double after) const;
   void hidden(VertexId v) const {
-    tell({.kind = EventKind::hidden, .vertex = v, .before = kNoEnergy, .after = kNoEnergy});
+    record({.kind = EventKind::hidden, .vertex = v, .before = kNoEnergy, .after = kNoEnergy});
   }
   void undone(VertexId v, double before, double after) const {
-    tell({.kind = EventKind::undo, .vertex = v, .before = before, .after = after});
+    record({.kind = EventKind::undo, .vertex = v, .before = before, .after = after});
   }
   /// Everything since the end of that sweep has been taken back; −1: since the input.
   void returned_to(int sweep) const {
-    tell({.kind = EventKind::undo, .before = kNoEnergy, .after = kNoEnergy, .to_sweep = sweep});
+    record({.kind = EventKind::undo, .before = kNoEnergy, .after = kNoEnergy, .to_sweep = sweep});
   }
 
  private:
   /// `event`: with vertices in the numbers of the working copy, energies in the units of the units, and no sweep.
-  void tell(TraceEvent event) const;
+  void record(TraceEvent event) const;
   [[nodiscard]] WeightedPoint place(VertexId v) const { return work_.units.to_user(work_.mesh.point(v)); }
 
   const Tracer& tracer_;
