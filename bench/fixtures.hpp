@@ -9,7 +9,7 @@ namespace temper::bench {
 
 inline constexpr std::size_t kVertices = 10000;
 
-/// In Hilbert order, as the optimiser has it, and well-centered, so that every energy is finite.
+/// In Hilbert order, as the optimizer has it, and well-centered, so that every energy is finite.
 [[nodiscard]] const Mesh& good_mesh();
 
 /// Those of inner vertices.

@@ -59,7 +59,7 @@ struct Stages {
   [[nodiscard]] double io_share() const { return (read + build + update + write) / total(); }
 };
 
-/// Read, optimise with no option, write.
+/// Read, optimize with no option, write.
 struct FileRun {
   Stages seconds;
   double sweeps = kNone, sweeps_to_good = kNone;

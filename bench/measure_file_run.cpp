@@ -62,7 +62,7 @@ FileRun measure_file_run(const std::string& input, const std::string& output, st
   if (!loaded) fail(loaded.error().what());
   io::release_geometry(*file, *loaded);
   const double built = now();
-  // The optimiser orders a copy of its own: this one is there for its time alone, and gone before that.
+  // The optimizer orders a copy of its own: this one is there for its time alone, and gone before that.
   static_cast<void>(hilbert_ordered(loaded->mesh, executor.get()));
   const double order = now() - built;
 

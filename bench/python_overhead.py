@@ -6,7 +6,7 @@
 C++ is timed by the compiled half's own clock around Mesh::build, optimize and a loop that copies points, weights and
 corners to vectors (bench/cpp_run.cpp, built beside the module with TEMPER_BUILD_BENCH); Python is everything that a user calls: temper.Mesh(points, triangles),
 temper.optimize, and packed copies of mesh.points, mesh.weights and mesh.triangles. Both get the same arrays and
-threads; runs take turns. Results must be the same bits. Printed are the ratios of neighbours, of wall-clock time and
+threads; runs take turns. Results must be the same bits. Printed are the ratios of neighbors, of wall-clock time and
 of the processors' time, which other programs on the machine disturb less, and their medians. Exit code 1 when that of
 the processors' time is 1.1 or more.
 """

@@ -1,4 +1,4 @@
-// Runs of the optimiser with the time of each sweep: every mark is a moment between two of them.
+// Runs of the optimizer with the time of each sweep: every mark is a moment between two of them.
 #pragma once
 
 #include <functional>

@@ -3,7 +3,7 @@
 
     bench/weights_table.py TEMPER MESH ...
 
-Each mesh is optimised with each set of unknowns; errors are those of temper errors on the held-back fields over those
+Each mesh is optimized with each set of unknowns; errors are those of temper errors on the held-back fields over those
 of the input, and each row gives geometric means over the meshes. Also counted: triangles that stay not well-centered,
 and meshes where the scheme's matrix is an M-matrix in the end.
 """

@@ -165,8 +165,8 @@ void print_runs(const std::vector<Row>& rows) {
                 100 * io_share(r));
   }
   std::printf(
-      "to all: sweeps until every triangle is well-centered. s: optimisation alone, one thread. B/v: peak bytes a\n"
-      "vertex of reading, optimising and writing.\n\n");
+      "to all: sweeps until every triangle is well-centered. s: optimization alone, one thread. B/v: peak bytes a\n"
+      "vertex of reading, optimizing and writing.\n\n");
 }
 
 void print_stages(const Row& r) {

@@ -26,7 +26,7 @@ constexpr Figure kFigures[] = {
      "shallow local minimum and falls without bound. Above, the triangles and their duals at that minimum and far out.",
      fig04::make},
     {5, "Distances of the barrier energies",
-     "The sub-triangle of an edge with legs d_ij and h_k, by whose area E_F is normalised to make a barrier.",
+     "The sub-triangle of an edge with legs d_ij and h_k, by whose area E_F is normalized to make a barrier.",
      fig05::make},
     {6, "Hard barrier energy of one edge",
      "Contours of E_BH for ★1 over (d, h): one minimum, at d = h = ℓ/2, and walls at h = 0, d = 0 and d = ℓ.",
@@ -48,7 +48,7 @@ constexpr Figure kFigures[] = {
     {11, "The two horseshoes",
      "The inputs: a sparse horseshoe of five vertices, one of them inside, and a dense one of 7 × 9.", fig11::make},
     {12, "Sparse horseshoe: positions",
-     "Positions alone are optimised. Without collapses E_F, E_∂T and E_T bring vertex 4 almost onto vertex 1, E_BP and "
+     "Positions alone are optimized. Without collapses E_F, E_∂T and E_T bring vertex 4 almost onto vertex 1, E_BP and "
      "E_BHs do not; with collapses every energy removes vertex 4.",
      fig12::make},
     {13, "Sparse horseshoe: weights from iteration 2",
@@ -88,7 +88,7 @@ constexpr Figure kFigures[] = {
      "The mesh that the oscillation gives way to when a search stops at the point of flipping, flips, and goes on.",
      fig22::make},
     {23, "Weights over the oscillating horseshoe: nine policies",
-     "Final meshes of optimising the weights under E_∂T: flips at once or deferred, weights at once or deferred, steps "
+     "Final meshes of optimizing the weights under E_∂T: flips at once or deferred, weights at once or deferred, steps "
      "unlimited, just after or before the flip.",
      fig23::make},
     {24, "Weights over the oscillating horseshoe: energies",

@@ -3,7 +3,7 @@
 
     gallery/readings.py PROGRAM DIR
 
-runs `temper reproduce` for figures 11 to 32, which are made by the optimiser, once as each figure has it and once for
+runs `temper reproduce` for figures 11 to 32, which are made by the optimizer, once as each figure has it and once for
 each reading below, into folders of DIR (one that has its gallery.json is not made again), and writes two tables into
 docs/paper.md: how many claims hold under each reading, and under which readings those hold that do not hold under all.
 Claims of a figure that cannot be made under a reading do not hold under it.
@@ -19,8 +19,8 @@ READINGS = [  # letter, name, options
     ("own", "as each figure has it", ""),
     ("r", "no step turns a triangle over", "--inversion refuse"),
     ("a", "steps may turn triangles over", "--inversion allow"),
-    ("f", "R is the distance to the farthest neighbour", "--search-radius max"),
-    ("n", "R is the distance to the nearest neighbour", "--search-radius min"),
+    ("f", "R is the distance to the farthest neighbor", "--search-radius max"),
+    ("n", "R is the distance to the nearest neighbor", "--search-radius min"),
     ("4", "weights are searched up to 4 R²", "--weight-search-radius 4"),
     ("i", "points are visited as numbered", "--order input"),
     ("v", "points are visited in reverse", "--order reverse"),

@@ -1,4 +1,4 @@
-// How the figures were read, as docs/paper.md has it: a row for each figure that made runs of the optimiser.
+// How the figures were read, as docs/paper.md has it: a row for each figure that made runs of the optimizer.
 #include <string>
 
 #include "reading.hpp"

@@ -108,7 +108,7 @@ void bind_removal(py::module_& m) {
       .def_property_readonly(
           "first", [](const PyRemoval& p) { return to_python(p.plan.first); }, "A halfedge out of vertex, to link[0].")
       .def_property_readonly(
-          "link", [](const PyRemoval& p) { return to_python(p.plan.link); }, "Its neighbours, counter-clockwise.")
+          "link", [](const PyRemoval& p) { return to_python(p.plan.link); }, "Its neighbors, counter-clockwise.")
       .def_property_readonly(
           "triangles", [](const PyRemoval& p) { return triangles_list(p.plan.triangles); },
           "The new triangles, counter-clockwise.");

@@ -81,7 +81,7 @@ py::dict weight_report_to_dict(const WeightReport& r) {
   }
   return Record()("verdict", name(r.verdict))("margin", r.margin)("margin_kind", name(r.margin_kind))(
              "solved", r.solved)("asked", r.asked)("attained", r.attained)("moved", r.moved)("change", r.change)(
-             "programmes", r.programmes)("largest", r.largest)("weights", r.weights)("violations", violations)(
+             "programs", r.programs)("largest", r.largest)("weights", r.weights)("violations", violations)(
              "certificate", certificate_to_dict(r.certificate))
       .dict;
 }
@@ -100,9 +100,9 @@ py::dict find(const PyMesh& self, const std::string& goal, double margin, bool f
   return weight_report_to_dict(or_raise(aside([&] { return find_weights(*mesh, *clp_solver(), options); })));
 }
 
-py::dict search_connectivity(const PyMesh& self, const std::string& constraints, std::size_t programmes) {
+py::dict search_connectivity(const PyMesh& self, const std::string& constraints, std::size_t programs) {
   const auto mesh = self.read();
-  const ConnectivityOptions options = {from_name<Constraints>("constraints", constraints), programmes};
+  const ConnectivityOptions options = {from_name<Constraints>("constraints", constraints), programs};
   ConnectivityReport report = or_raise(aside([&] { return best_connectivity(*mesh, *clp_solver(), options); }));
   py::list steps;
   for (const ConnectivityStep& step : report.steps) {
@@ -111,7 +111,7 @@ py::dict search_connectivity(const PyMesh& self, const std::string& constraints,
   PyMesh flipped = self.copy();
   flipped.replace(std::move(report.mesh), {});
   return Record()("mesh", py::cast(std::move(flipped)))("end", name(report.end))("before", report.before)(
-             "margin", report.margin)("steps", steps)("programmes", report.programmes)("weights", report.weights)
+             "margin", report.margin)("steps", steps)("programs", report.programs)("weights", report.weights)
       .dict;
 }
 

@@ -3,7 +3,7 @@
 # line says how many checks and tests passed and failed, in all builds together.
 #
 #   scripts/test.sh             all stages
-#   scripts/test.sh --quick     without the sanitizers, and so only with those tests that need an optimised library
+#   scripts/test.sh --quick     without the sanitizers, and so only with those tests that need an optimized library
 #
 # TEMPER_TEST_JOBS: parallel jobs, default all processors.
 set -uo pipefail
@@ -148,12 +148,12 @@ stage "bench: the comparison finds what it should" python3 bench/compare.py --se
 stage "bench: the rates are what they should be" python3 bench/rates.py --self-test
 stage "headers, each alone" tests/consumer/headers.sh
 stage "clang-tidy on what has changed" tidy
-# Those tests whose findings depend on how the library is optimised.
-if stage "build (optimised, -Werror)" configure_and_build dev --target optimised; then
+# Those tests whose findings depend on how the library is optimized.
+if stage "build (optimized, -Werror)" configure_and_build dev --target optimized; then
   stage "core without exceptions and RTTI" core_without_exceptions
   stage "instruction sets keep to themselves" python3 scripts/check_instruction_sets.py build/dev
   stage "the Python module is tested" grep -q 'add_test.*python.*pytest' build/dev/tests/python/CTestTestfile.cmake
-  suite "tests (optimised)" build/dev -L optimised
+  suite "tests (optimized)" build/dev -L optimized
   stage "consumer: install, find_package" consumer_find_package && suite "consumer: find_package runs" "$scratch/find_package"
 fi
 # All tests, by the other compiler.

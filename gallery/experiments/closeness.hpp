@@ -8,19 +8,19 @@
 
 namespace temper::gallery {
 
-/// Algorithm 2 removes a vertex whose E_c-optimal place is nearer than this to a neighbour.
+/// Algorithm 2 removes a vertex whose E_c-optimal place is nearer than this to a neighbor.
 inline constexpr double kCollapseRatio = 0.1;
-/// Half of that: of vertices where the optimiser left them. Barriers at γ = 1 stay above, HOT falls to 1e−3 and less.
+/// Half of that: of vertices where the optimizer left them. Barriers at γ = 1 stay above, HOT falls to 1e−3 and less.
 inline constexpr double kNearlyCoincident = 0.05;
 
-/// An interior vertex, a neighbour, and their distance over the shorter perimeter edge at the neighbour.
+/// An interior vertex, a neighbor, and their distance over the shorter perimeter edge at the neighbor.
 struct ClosePair {
-  VertexId vertex, neighbour;
+  VertexId vertex, neighbor;
   double ratio = 0;
 };
 
 /// The pair with the least ratio at that interior vertex.
-[[nodiscard]] ClosePair closest_neighbour(const Mesh& mesh, VertexId v);
+[[nodiscard]] ClosePair closest_neighbor(const Mesh& mesh, VertexId v);
 /// Pairs of lesser ratio, the nearest first, each once.
 [[nodiscard]] std::vector<ClosePair> close_pairs(const Mesh& mesh, double ratio = kNearlyCoincident);
 /// The least ratio of the mesh; +∞ without interior vertices.

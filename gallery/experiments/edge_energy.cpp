@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/minimise.hpp"
+#include "experiments/minimize.hpp"
 #include "experiments/numbers.hpp"
 #include "plot/plot.hpp"
 #include "temper/detail/geometry.hpp"
@@ -122,7 +122,7 @@ std::string edge_contours(const EdgeEnergy& e, const EdgeLandscape& landscape) {
   plot.y_range = {landscape.h_low, landscape.h_high};
   plot.nx = landscape.samples;
   plot.ny = static_cast<std::size_t>(std::lround((landscape.h_high - landscape.h_low) * static_cast<double>(plot.nx)));
-  // Beyond the last level the plot is one colour: the walls are cut off there, so that lines stay smooth.
+  // Beyond the last level the plot is one color: the walls are cut off there, so that lines stay smooth.
   const double cap = 4 * landscape.levels.back();
   for (std::size_t j = 0; j < plot.ny; ++j) {
     const double h = landscape.h_low +

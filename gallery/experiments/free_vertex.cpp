@@ -53,7 +53,7 @@ std::string position_contours(const EnergyModel& model, const PositionLandscape&
   };
   plot.nx = samples(landscape.x);
   plot.ny = samples(landscape.y);
-  // A few times beyond the outer levels: walls are one colour, and lines next to them stay smooth.
+  // A few times beyond the outer levels: walls are one color, and lines next to them stay smooth.
   const double span = landscape.levels.back() - landscape.levels.front();
   const double low = landscape.levels.front() - span, high = landscape.levels.back() + span;
   const double step = 1 / static_cast<double>(landscape.per_unit);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/minimise.hpp"
+#include "experiments/minimize.hpp"
 
 namespace temper::gallery {
 namespace {
@@ -28,8 +28,8 @@ double inversion_limit(const Mesh& mesh, VertexId v, Vec2 step) {
 double patch_radius(const Mesh& mesh, VertexId v, SearchRadius which) {
   double sum = 0, least = std::numeric_limits<double>::infinity(), largest = 0;
   std::size_t n = 0;
-  const auto add = [&](VertexId neighbour) {
-    const double l2 = squared_length(mesh.position(neighbour) - mesh.position(v));
+  const auto add = [&](VertexId neighbor) {
+    const double l2 = squared_length(mesh.position(neighbor) - mesh.position(v));
     sum += l2;
     least = std::min(least, l2);
     largest = std::max(largest, l2);
@@ -37,7 +37,7 @@ double patch_radius(const Mesh& mesh, VertexId v, SearchRadius which) {
   };
   for (const HalfedgeId h : mesh.star(v)) {
     add(mesh.target(h));
-    if (!mesh.rotate(h).valid()) add(mesh.opposite(h));  // the last neighbour along the boundary
+    if (!mesh.rotate(h).valid()) add(mesh.opposite(h));  // the last neighbor along the boundary
   }
   switch (which) {
     case SearchRadius::rms:

@@ -13,7 +13,7 @@ namespace temper::gallery {
 /// The tolerance of a search, relative to its interval: what golden section can tell apart in doubles.
 inline constexpr double kSearchTolerance = 1e-8;
 
-/// The root mean square of the distances to v's neighbours, or the greatest or least of them.
+/// The root mean square of the distances to v's neighbors, or the greatest or least of them.
 [[nodiscard]] double patch_radius(const Mesh& mesh, VertexId v, SearchRadius which = SearchRadius::rms);
 
 struct LineSearch {

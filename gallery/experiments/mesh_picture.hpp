@@ -17,7 +17,7 @@ struct Mark {
   std::string label = {};
 };
 
-/// A triangle filled with a colour.
+/// A triangle filled with a color.
 struct Shade {
   TriangleId triangle;
   std::string color;
@@ -35,7 +35,7 @@ struct MeshPicture {
   std::vector<Mark> marks = {};
 };
 
-/// Colours of marks, as in the paper where it names them.
+/// Colors of marks, as in the paper where it names them.
 struct MarkColor {
   static constexpr const char* removed = "#d62728";
   static constexpr const char* kept = "#7b3fa0";

@@ -161,7 +161,7 @@ Claim coarse_but_good(Unknowns unknowns, const std::string& figure) {
           "energy a "
           "triangle. Asked for: a third of the vertices gone, no edge to flip, and a greater least angle, a greater "
           "part of "
-          "triangles well-centered and less energy a triangle than in the input and than the same optimisation reaches "
+          "triangles well-centered and less energy a triangle than in the input and than the same optimization reaches "
           "without removals. The boundary vertices, which may not go, keep the angles at the feet sharp."};
 }
 

@@ -4,13 +4,13 @@
 #include <limits>
 #include <vector>
 
-#include "experiments/minimise.hpp"
+#include "experiments/minimize.hpp"
 #include "temper/topology.hpp"
 
 namespace temper::gallery {
 namespace {
 
-constexpr double kFirstStep = 0.1;  // of the nearest neighbour's distance: small enough to stay in the local minimum
+constexpr double kFirstStep = 0.1;  // of the nearest neighbor's distance: small enough to stay in the local minimum
 
 std::vector<VertexId> link_of(const Mesh& mesh, VertexId v) {
   std::vector<VertexId> link;

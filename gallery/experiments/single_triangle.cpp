@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/minimise.hpp"
+#include "experiments/minimize.hpp"
 #include "temper/detail/geometry.hpp"
 
 namespace temper::gallery {

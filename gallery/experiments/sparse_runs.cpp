@@ -68,7 +68,7 @@ SparseSweep sweep_of(const Moment& moment) {
     if (sweep.mesh.is_boundary(v)) continue;
     sweep.collapsed = false;
     sweep.p4 = sweep.mesh.position(v);
-    sweep.closeness = closest_neighbour(sweep.mesh, v).ratio;
+    sweep.closeness = closest_neighbor(sweep.mesh, v).ratio;
   }
   return sweep;
 }

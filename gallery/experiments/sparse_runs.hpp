@@ -40,7 +40,7 @@ struct SparseSweep {
   double largest_weight = 0;  ///< |w|
   bool collapsed = false;     ///< p_4 is gone
   Vec2 p4;                    ///< where it is
-  double closeness = 0;       ///< of p_4 to its nearest neighbour (closeness.hpp)
+  double closeness = 0;       ///< of p_4 to its nearest neighbor (closeness.hpp)
   Mesh mesh;
 };
 
@@ -60,12 +60,12 @@ struct SparseRun {
 /// Over vertex sequences: how runs of that setting end.
 struct SequenceCount {
   std::size_t all = 0;
-  std::size_t open = 0;                     ///< p_4 there, away from its neighbours
+  std::size_t open = 0;                     ///< p_4 there, away from its neighbors
   std::size_t open_bounded = 0;             ///< of these, with finite energy and weights
-  std::size_t near = 0;                     ///< nearly coincident with a neighbour
+  std::size_t near = 0;                     ///< nearly coincident with a neighbor
   std::size_t collapsed = 0;                ///< removed
   std::size_t collapsed_later = 0;          ///< of these, not in the first sweep
-  std::optional<VertexSequence> most_open;  ///< of these, where p_4 stays furthest from its neighbours
+  std::optional<VertexSequence> most_open;  ///< of these, where p_4 stays furthest from its neighbors
 };
 /// With reduced effort, 24 of the 120 sequences.
 inline constexpr std::size_t kReducedStride = 5;

@@ -74,7 +74,7 @@ Claim at_once_is_unstable() {
           digits(at_once.rises) + " against " + digits(in_turn.rises),
       at_once.inverted > in_turn.inverted && at_once.rises > in_turn.rises,
       "All unknowns at once against one vertex after the other, positions and weights of the dense horseshoe before "
-      "flips, inversions allowed. Where no step may turn a triangle over, and a vertex stays whose neighbours have "
+      "flips, inversions allowed. Where no step may turn a triangle over, and a vertex stays whose neighbors have "
       "moved "
       "so that it would, " +
           kept + "."};
@@ -200,7 +200,7 @@ Claim light_vertices_should_go(Effort effort) {
               digits(removed),
           removed < kept,
           "E_T, positions and weights, short-edge collapses, deferred flips; removed is what is more than R² below the "
-          "mean weight of its neighbours.",
+          "mean weight of its neighbors.",
           Author::temper};
 }
 

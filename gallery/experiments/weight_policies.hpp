@@ -30,7 +30,7 @@ inline constexpr std::size_t kPolicyColumns = 3;
 inline constexpr FlipLimit kPolicyRows[] = {FlipLimit::unlimited, FlipLimit::before, FlipLimit::after};
 
 /// What the paper leaves open: how far a search for a weight reaches, over r², the mean square distance to the
-/// neighbours; and whether it is E_∂T that is lowered, as the captions say, or "the normalized energy" of the text.
+/// neighbors; and whether it is E_∂T that is lowered, as the captions say, or "the normalized energy" of the text.
 struct WeightReading {
   double reach = 1;
   EnergyKind energy = EnergyKind::dT;
@@ -72,7 +72,7 @@ struct PolicyRun {
 /// One of the nine, by its place in figure 23.
 [[nodiscard]] const PolicyRun& policy_run(const std::vector<PolicyRun>& runs, FlipLimit limit, std::size_t column);
 
-/// The optimiser's options for the first sweep of a policy.
+/// The optimizer's options for the first sweep of a policy.
 [[nodiscard]] OptimizeOptions policy_options(const WeightPolicy& policy, const VertexOrder& order);
 
 }  // namespace temper::gallery

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiments/hodge_error.hpp"
-#include "experiments/labelled_triangle.hpp"
+#include "experiments/labeled_triangle.hpp"
 #include "experiments/single_triangle.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
@@ -243,9 +243,9 @@ Claim energy_bounds_error(const std::vector<Mesh>& meshes, std::size_t densities
 Page make(Effort effort) {
   const std::vector<Mesh> meshes = weighted_meshes(effort);
   const std::size_t tries = effort == Effort::full ? 20000 : 2000;
-  const LabelledTriangle drawing = {.corners = {WeightedPoint{0, 0, 0.5}, {4, 0, -0.25}, {1.5, 3.1, 0.15}}};
+  const LabeledTriangle drawing = {.corners = {WeightedPoint{0, 0, 0.5}, {4, 0, -0.25}, {1.5, 3.1, 0.15}}};
   return {
-      {{"fig01", labelled_triangle_svg(drawing),
+      {{"fig01", labeled_triangle_svg(drawing),
         "Triangle ijk, its orthocenter o and the weighted midpoints m, at distance d along the edges and h from them. "
         "Circles: radius √|w|, green positive, red dashed negative."}},
       {},

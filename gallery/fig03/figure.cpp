@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "experiments/free_vertex.hpp"
-#include "experiments/minimise.hpp"
+#include "experiments/minimize.hpp"
 #include "experiments/numbers.hpp"
 #include "experiments/single_triangle.hpp"
 #include "experiments/text.hpp"

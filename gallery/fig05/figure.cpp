@@ -6,8 +6,8 @@
 #include <string>
 
 #include "experiments/free_vertex.hpp"
-#include "experiments/labelled_triangle.hpp"
-#include "experiments/minimise.hpp"
+#include "experiments/labeled_triangle.hpp"
+#include "experiments/minimize.hpp"
 #include "experiments/single_triangle.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
@@ -153,9 +153,9 @@ Claim sub_triangles_tile(std::size_t tries) {
 
 Page make(Effort effort) {
   const std::size_t tries = effort == Effort::full ? 20000 : 2000;
-  const LabelledTriangle drawing = {.corners = {WeightedPoint{0, 0, 0.35}, {4, 0, 0}, {1.8, 3.4, -0.2}},
-                                    .sub_triangle = true};
-  return {{{"fig05", labelled_triangle_svg(drawing),
+  const LabeledTriangle drawing = {.corners = {WeightedPoint{0, 0, 0.35}, {4, 0, 0}, {1.8, 3.4, -0.2}},
+                                   .sub_triangle = true};
+  return {{{"fig05", labeled_triangle_svg(drawing),
             "The sub-triangle of the half-edge from i to j: its legs are d_ij and h_k, its area d_ij h_k / 2."}},
           {},
           {divided_by_the_sub_triangle(tries), chi_makes_the_barrier(), whole_area_is_no_barrier(),

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "experiments/edge_energy.hpp"
-#include "experiments/minimise.hpp"
+#include "experiments/minimize.hpp"
 #include "experiments/numbers.hpp"
 #include "experiments/single_triangle.hpp"
 #include "experiments/text.hpp"
@@ -138,7 +138,7 @@ Claim proof_step(std::size_t tries) {
               ") and √T is a norm of affine functions, so convex; E is the square of √T/√B"};
 }
 
-Claim shifted_minimiser(std::size_t starts) {
+Claim shifted_minimizer(std::size_t starts) {
   double worst = 0;
   bool inside = true;
   std::string found;
@@ -158,7 +158,7 @@ Claim shifted_minimiser(std::size_t starts) {
           digits(starts) + " random starts for each; all ended within " + digits(worst, 1) + " ℓ of the formula"};
 }
 
-// Eqs. 15 and 16 against geometry.hpp, and the weights that minimise the energy of one edge.
+// Eqs. 15 and 16 against geometry.hpp, and the weights that minimize the energy of one edge.
 struct WeightFormulas {
   double equation = 0;  // worst difference of eqs. 15 and 16, of ℓ
   double minimum = 0;   // worst distance of (d, h) from (ℓ/2, ℓ/2), of ℓ
@@ -354,7 +354,7 @@ Page make(Effort effort) {
                  not_convex(hard),
                  quasi_convex("E_BH^1", hard, "Proposition: quasi-convex"),
                  proof_step(full ? 200000 : 20000),
-                 shifted_minimiser(full ? 60 : 10),
+                 shifted_minimizer(full ? 60 : 10),
                  quasi_convex("E_BHs^1", shifted, "established to be quasi-convex"),
                  equations(weights),
                  best_weights(weights),

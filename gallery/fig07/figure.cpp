@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "experiments/edge_energy.hpp"
-#include "experiments/minimise.hpp"
+#include "experiments/minimize.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "experiments/energies.hpp"
 #include "experiments/free_vertex.hpp"
-#include "experiments/minimise.hpp"
+#include "experiments/minimize.hpp"
 #include "experiments/single_triangle.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"

@@ -231,7 +231,7 @@ Claim smaller_constants_center() {
           "99 angles, of which E_BHs has a solution where it is counted"};
 }
 
-/// Correlation of an inner vertex's valence with its weight less the mean of its neighbours', over the square of the
+/// Correlation of an inner vertex's valence with its weight less the mean of its neighbors', over the square of the
 /// mean distance to them.
 struct Correlation {
   double coefficient = 0;
@@ -293,11 +293,11 @@ Claim valence_and_weight(Effort effort) {
   }
   return {
       "6.2",
-      "On optimised meshes low-valence nodes have negative weights, high-valence nodes positive ones",
+      "On optimized meshes low-valence nodes have negative weights, high-valence nodes positive ones",
       "Engwirda's observation",
       found,
       holds,
-      "random points, positions and weights optimised without removals; weights less the mean of the neighbours', in "
+      "random points, positions and weights optimized without removals; weights less the mean of the neighbors', in "
       "units of the squared mean edge there"};
 }
 

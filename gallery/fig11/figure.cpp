@@ -191,17 +191,17 @@ Claim one_free_vertex(const Mesh& mesh) {
           "counted on the mesh"};
 }
 
-/// Each interior vertex goes to the mean of its neighbours.
+/// Each interior vertex goes to the mean of its neighbors.
 Claim laplacian_inverts(const Mesh& input) {
   Mesh mesh = input;
   const VertexId v(std::size_t{4});
   Vec2 sum;
-  double neighbours = 0;
+  double neighbors = 0;
   for (const HalfedgeId h : mesh.star(v)) {
     sum = sum + mesh.position(mesh.target(h));
-    neighbours += 1;
+    neighbors += 1;
   }
-  const Vec2 mean = (1 / neighbours) * sum;
+  const Vec2 mean = (1 / neighbors) * sum;
   mesh.set_point(v, {mean.x, mean.y, 0});
   const std::size_t inverted = quality(mesh).inverted_triangles;
   return {"11",
@@ -210,7 +210,7 @@ Claim laplacian_inverts(const Mesh& input) {
           "p_4 goes to (" + digits(mean.x, 3) + ", " + digits(mean.y, 3) + "), and " + digits(inverted) +
               " triangles turn over",
           inverted > 0,
-          "one step: p_4 to the mean of its neighbours, orientation by the exact test"};
+          "one step: p_4 to the mean of its neighbors, orientation by the exact test"};
 }
 
 std::string proof_text(const Certificate& c) { return c.terms + " = " + digits(static_cast<double>(c.constant)); }

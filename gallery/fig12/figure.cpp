@@ -238,7 +238,7 @@ Claim extrapolation_decides() {
   const SparseRun allowed = run_sparse({.energy = "dT", .inversion = Inversion::allow});
   return {
       "12",
-      "Depending on how inverted triangles are extrapolated, optimisation can send p_4's y to −∞",
+      "Depending on how inverted triangles are extrapolated, optimization can send p_4's y to −∞",
       "can send y → −∞",
       "E_F at y = −10, −100, −1000 with inverted triangles " + found,
       holds,

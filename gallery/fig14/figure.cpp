@@ -42,8 +42,8 @@ std::string panels(const Counts& counts) {
 
 Table outcomes(const Counts& counts) {
   Table table{
-      "How runs over all vertex orders end: p_4 away from its neighbours, with bounded weights or with weights "
-      "that run away, or nearly coincident with a neighbour.",
+      "How runs over all vertex orders end: p_4 away from its neighbors, with bounded weights or with weights "
+      "that run away, or nearly coincident with a neighbor.",
       {"energy", "i_w", "orders", "open, bounded", "open, weights run away", "nearly collapsed"},
       {}};
   for (std::size_t i = 0; i < kFiveEnergies.size(); ++i) {
@@ -72,7 +72,7 @@ Claim deters_near_collapses(const Counts& counts) {
       "orders that leave it open: " + found,
       holds,
       "each order of the five vertices; open means that p_4 is further than 0.05 of the shorter perimeter edge from "
-      "every neighbour, whether or not the weights stay bounded"};
+      "every neighbor, whether or not the weights stay bounded"};
 }
 
 Claim hot_weights_run_away(const Counts& counts) {
@@ -139,11 +139,10 @@ Page make(Effort effort) {
   const std::size_t stride = effort == Effort::full ? 1 : kReducedStride;
   const Counts counts = count_all(stride);
   Page page;
-  page.pictures.push_back(
-      {"fig14", panels(counts),
-       "Weights from iteration 0, circles at a quarter of their radius; for each energy the vertex "
-       "order that keeps p_4 furthest from its neighbours with bounded weights. When none does, the "
-       "input's order after one sweep."});
+  page.pictures.push_back({"fig14", panels(counts),
+                           "Weights from iteration 0, circles at a quarter of their radius; for each energy the vertex "
+                           "order that keeps p_4 furthest from its neighbors with bounded weights. When none does, the "
+                           "input's order after one sweep."});
   page.tables.push_back(outcomes(counts));
   page.claims = {deters_near_collapses(counts), hot_weights_run_away(counts), barriers_open(counts), t_like_dt()};
   return page;

@@ -98,7 +98,7 @@ Claim immediate_weights_bp(const std::array<SequenceCount, 5>& immediate) {
               std::to_string(deferred) + "; " + digits(c.collapsed) + " of " + digits(c.all) + " orders remove p_4, " +
               digits(c.collapsed_later) + " of them after sweep 1",
           now > deferred && deferred > 0 && 2 * c.collapsed > c.all,
-          "E_c = E_∂T; orders that visit p_4 before its neighbours' weights change remove it at once"};
+          "E_c = E_∂T; orders that visit p_4 before its neighbors' weights change remove it at once"};
 }
 
 }  // namespace

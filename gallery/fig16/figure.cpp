@@ -45,15 +45,15 @@ std::string panels(const FiveRuns& five, std::span<const std::string_view> energ
 std::string pair_names(const std::vector<ClosePair>& pairs) {
   std::string text;
   for (const ClosePair& p : pairs) {
-    text += (text.empty() ? "" : ", ") + std::to_string(std::min(p.vertex, p.neighbour).index) + "–" +
-            std::to_string(std::max(p.vertex, p.neighbour).index);
+    text += (text.empty() ? "" : ", ") + std::to_string(std::min(p.vertex, p.neighbor).index) + "–" +
+            std::to_string(std::max(p.vertex, p.neighbor).index);
   }
   return text;
 }
 
 bool contains(const std::vector<ClosePair>& pairs, const ClosePair& pair) {
   return std::ranges::any_of(pairs, [&](const ClosePair& p) {
-    return std::minmax(p.vertex, p.neighbour) == std::minmax(pair.vertex, pair.neighbour);
+    return std::minmax(p.vertex, p.neighbor) == std::minmax(pair.vertex, pair.neighbor);
   });
 }
 

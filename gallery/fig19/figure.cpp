@@ -1,4 +1,4 @@
-// Figure 19: the first inner iterations of the oscillating run: which vertices collapse, onto which neighbours, and how
+// Figure 19: the first inner iterations of the oscillating run: which vertices collapse, onto which neighbors, and how
 // little those move afterwards.
 #include <algorithm>
 #include <optional>
@@ -101,7 +101,7 @@ Picture panels() {
   return {
       "fig19", grid_svg(svgs, 2),
       "The meshes with which inner iterations 0 to 3 begin, and their duals. Red: vertices that the iteration "
-      "removes, because their E_F-optimal position nearly meets the purple neighbour. The purple vertex is green one "
+      "removes, because their E_F-optimal position nearly meets the purple neighbor. The purple vertex is green one "
       "iteration later and dark green after two."};
 }
 
@@ -217,8 +217,8 @@ Claim stable_in_any_order(const Stability& s) {
 Claim collapses_meet_the_rule(const Stability& s) {
   const double widest = s.gaps.empty() ? 1 : std::ranges::max(s.gaps);
   return {"19",
-          "A vertex is removed where its E_F-optimal position nearly meets a neighbour.",
-          "within 0.1 of the shorter edge beside that neighbour",
+          "A vertex is removed where its E_F-optimal position nearly meets a neighbor.",
+          "within 0.1 of the shorter edge beside that neighbor",
           digits(s.gaps.size()) + " collapses; the widest gap is " + digits(widest, 2),
           !s.gaps.empty() && widest < 0.1,
           "Each was repeated by line searches on the mesh as it was at that moment, which replaying the run up to it "

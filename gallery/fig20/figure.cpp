@@ -152,13 +152,13 @@ struct Extrapolations {
   std::vector<double> t, dt;  ///< E_T and E_∂T, of the same meshes
 };
 /// Of the outer iterations of runs under one of the two, positions alone.
-Extrapolations extrapolations(EnergyKind optimised, Effort effort) {
+Extrapolations extrapolations(EnergyKind optimized, Effort effort) {
   EnergyModel theory = energy_dt();
   theory.kind = EnergyKind::T;
   Extrapolations e;
   for (const VertexOrder& order : vertex_orders(effort == Effort::full ? 5 : 0)) {
     OptimizeOptions options = positions_and_collapses();
-    options.energy = optimised;
+    options.energy = optimized;
     options.paper.collapse_from = {};
     options.paper.outer = 4;
     visit_in(order, options);
@@ -180,7 +180,7 @@ Claim theory_extrapolates_better(const Extrapolations& under_t, const Extrapolat
   return {"2.3",
           "Under E_T the extrapolated energy is closer to the true one after flips than under the formula's, E_∂T.",
           "closer in the experiments",
-          "median error of the energy that is optimised: E_T " + percent(under_t.t) + " over " +
+          "median error of the energy that is optimized: E_T " + percent(under_t.t) + " over " +
               digits(under_t.t.size()) + " flips of whole meshes, E_∂T " + percent(under_dt.dt) + " over " +
               digits(under_dt.dt.size()),
           !under_t.t.empty() && !under_dt.dt.empty() && median(under_t.t) < median(under_dt.dt),

@@ -1,4 +1,4 @@
-// Figure 21: the energy around vertex a while it is optimised from either state of the oscillation, as the searches see
+// Figure 21: the energy around vertex a while it is optimized from either state of the oscillation, as the searches see
 // it (extrapolated beyond the flip) and as it is once the flips are carried out.
 #include <algorithm>
 #include <array>
@@ -52,7 +52,7 @@ struct Place {
   double exact = 0;         ///< after the flips that a's place asks for
 };
 
-/// One direction of the oscillation: a alone is optimised from a regular mesh.
+/// One direction of the oscillation: a alone is optimized from a regular mesh.
 class Direction {
  public:
   Direction(const Moment& start, VertexId a) : mesh_(start.mesh), a_(start.find(a)) {
@@ -164,7 +164,7 @@ void add_direction(const Direction& d, const std::string& name, const std::array
 Picture curves() {
   const auto& [there, back] = cycle();
   LinePlot plot;
-  plot.title = "Energy around a while a is optimised";
+  plot.title = "Energy around a while a is optimized";
   plot.x_label = "x of a";
   plot.y_label = "E_{∂T} of the region";
   plot.width = 760, plot.height = 460;
@@ -179,7 +179,7 @@ Picture curves() {
       "fig21", line_plot_svg(plot),
       "E_∂T of the region that the flips change, against the place of a along its line searches. Blue: outwards, from "
       "the state of lower energy; red: back. Both go on with the connectivity they began with; purple is the energy of "
-      "the first search with flips carried out. Dots: where the first edge must flip. Grey: what the flips at the end "
+      "the first search with flips carried out. Dots: where the first edge must flip. Gray: what the flips at the end "
       "add."};
 }
 
@@ -219,7 +219,7 @@ Claim energies_go_down_and_up() {
   const double flipped = cycle().there.last().exact, back = cycle().back.last().extrapolated;
   return {
       "21",
-      "Optimising a lowers the extrapolated energy, but flips raise the true one above that of the start; optimising "
+      "Optimizing a lowers the extrapolated energy, but flips raise the true one above that of the start; optimizing "
       "again leads back.",
       "1.14 → 0.986, 1.49 after flips; back to 1.09",
       digits(start, 3) + " → " + digits(end, 3) + ", " + digits(flipped, 3) + " after flips; back to " +
@@ -264,7 +264,7 @@ double extrapolated_part(const Direction& d) {
 Claim mostly_extrapolated() {
   const double there = extrapolated_part(cycle().there), back = extrapolated_part(cycle().back);
   return {"21",
-          "In each direction most of the optimisation is based on extrapolated energies.",
+          "In each direction most of the optimization is based on extrapolated energies.",
           "most, in each direction",
           digits(100 * there, 3) + " % of a's way outwards and " + digits(100 * back, 3) + " % inwards",
           there > 0.5 && back > 0.5,
@@ -295,13 +295,13 @@ Claim first_search_ends_at_its_limit() {
       "21",
       "Of the three searches for vertex a the first stops at its limit, the other two at minima.",
       "the first search stops at its limit",
-      "up to the nearest neighbour they end at " + both(SearchRadius::min) +
+      "up to the nearest neighbor they end at " + both(SearchRadius::min) +
           " of their limits; up to the root mean "
           "square distance at " +
           both(SearchRadius::rms),
       as_claimed(there) && as_claimed(back),
       "The limit is \"the patch radius\", which the paper does not define, cut at 0.9 of the way to an inversion. Up "
-      "to the farthest neighbour " +
+      "to the farthest neighbor " +
           both(SearchRadius::max) + "."};
 }
 

@@ -230,7 +230,7 @@ double longest_flipping_step(const Recording& run) {
   return longest;
 }
 
-/// The optimiser shrinks its overshoot sweep by sweep; runs of one sweep each begin with the full one.
+/// The optimizer shrinks its overshoot sweep by sweep; runs of one sweep each begin with the full one.
 void run_constant(Mesh mesh, OptimizeOptions options, Outcome& outcome) {
   constexpr int kMostSweeps = 60;
   options.max_sweeps = 1;

@@ -59,7 +59,7 @@ Orders with_orders(Effort effort, const WeightReading& reading = {}) {
   return all;
 }
 
-/// The same as the figure's, with searches as far as 4 r², and with the normalised energy.
+/// The same as the figure's, with searches as far as 4 r², and with the normalized energy.
 struct Readings {
   Orders shown, far, normalized;
 };
@@ -112,7 +112,7 @@ Claim unlimited_hides(const Readings& readings) {
           "searches up to 4 r²: " + far.text() + "; up to r²: " + near.text(),
           far.inside > 3 && far.on_boundary > 0,
           "Over " + digits(readings.shown.size()) + " vertex orders " + far.most() + " with 4 r², " + near.most() +
-              " with r², the mean square distance to the neighbours. " + kReach};
+              " with r², the mean square distance to the neighbors. " + kReach};
 }
 
 Claim before_never_flips() {
@@ -260,7 +260,7 @@ Claim after_is_best(const Readings& readings) {
           "Stopping after the threshold gives the mesh of lowest energy in all cases.",
           "in all cases",
           "searches up to 4 r²: " + far.text() + "; up to r²: " + near.text() +
-              "; with the normalised energy: " + after_best(readings.normalized).text(),
+              "; with the normalized energy: " + after_best(readings.normalized).text(),
           far.cases > 0 && far.best == far.cases,
           "Searches that reach only r² stay near the local minimum without any limit, and gain by not stopping: "
           "unlimited weights are then best in " +
@@ -313,7 +313,7 @@ Claim deferring_hides(const Readings& readings) {
           "With deferred weights stopping after or before reaches lower energy than with immediate updates, because "
           "vertices on the base of the arms are hidden.",
           "lower energy, hidden vertices",
-          shown.text() + "; with the normalised energy: " + deferral(readings.normalized).text(),
+          shown.text() + "; with the normalized energy: " + deferral(readings.normalized).text(),
           shown.cases > 0 && 2 * shown.lower > shown.cases && shown.more_hidden == shown.cases,
           "Stopping before and after with " + digits(readings.shown.size()) +
               " vertex orders; in most cases was asked "

@@ -210,7 +210,7 @@ Table table(const std::vector<Tally>& all) {
   Table t{
       "How often runs end as a mess (some triangle inverted), by the greatest change of a weight in one search, over "
       "r², "
-      "the mean square distance to the neighbours. The energy is the greatest that a run without a mess ends with.",
+      "the mean square distance to the neighbors. The energy is the greatest that a run without a mess ends with.",
       {"searches", "reach / r²", "runs", "messes", "not regular", "energy", "largest |w|"},
       {}};
   for (const Tally& tally : all) {

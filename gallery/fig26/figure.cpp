@@ -1,4 +1,4 @@
-// Figure 26: the collapses of the high-heat run. A vertex goes where E_F would put it onto a neighbour, although E_BP,
+// Figure 26: the collapses of the high-heat run. A vertex goes where E_F would put it onto a neighbor, although E_BP,
 // which moves it, keeps the two apart.
 #include <algorithm>
 #include <numeric>
@@ -78,7 +78,7 @@ Picture panels() {
   return {
       "fig26", grid_svg(svgs, sweeps.size()),
       "Above, the mesh with which an iteration with collapses begins: red vertices are removed in it, because their "
-      "E_F-optimal position nearly meets the purple neighbour. Below, the same iteration done, the kept vertices "
+      "E_F-optimal position nearly meets the purple neighbor. Below, the same iteration done, the kept vertices "
       "green. Weight circles at a quarter of their radius. Vertices visited as numbered, vertex 0 as anchor, γ = "
       "1, E_F for collapses, weights from iteration 40."};
 }
@@ -86,7 +86,7 @@ Picture panels() {
 Table table() {
   Table t{
       "The collapses. Gap: from the removed vertex's E_F-optimal position to the kept one, over the shorter of the two "
-      "edges beside it (the rule asks for less than 0.1). Distance: to the nearest neighbour, where E_BP had put the "
+      "edges beside it (the rule asks for less than 0.1). Distance: to the nearest neighbor, where E_BP had put the "
       "vertex and where E_F would.",
       {"outer iteration", "iteration", "after flips", "removed", "kept", "gap", "distance under E_BP", "under E_F"},
       {}};
@@ -154,7 +154,7 @@ Claim rule_confirmed() {
           "A vertex collapses where the E_F-optimal position brings two nodes together, not the E_BP-optimal one.",
           "the check by E_F, the move by E_BP",
           "widest gap " + digits(widest, 2) + " of the 0.1 allowed; E_BP had kept each at least " + digits(nearest, 2) +
-              " times as far from its nearest neighbour as E_F would",
+              " times as far from its nearest neighbor as E_F would",
           !described().empty() && widest < kCollapseRatio && nearest > 1,
           "Each collapse was judged again, by a simplex search on the mesh as it was in that instant (the run's events "
           "replayed up to it)."};

@@ -92,7 +92,7 @@ void add(Missed& m, const Mesh& mesh, const EnergyModel& model, VertexId v) {
   if (!rule.collapses()) ++m.not_by_rule;
   if (rule.distance > rule.distance_now) ++m.farther_apart;
   if (energy_change_without(mesh, model, v) < 0) ++m.by_patch_test;
-  m.numbers += (m.numbers.empty() ? "" : ", ") + ("nearest neighbour at " + digits(rule.distance_now, 3)) +
+  m.numbers += (m.numbers.empty() ? "" : ", ") + ("nearest neighbor at " + digits(rule.distance_now, 3)) +
                ", at the E_F-optimal place " + digits(rule.distance, 3);
 }
 
@@ -150,7 +150,7 @@ Claim pair_in_the_center(const Survey& s, Effort effort) {
 
 Claim rule_misses_them(const Missed& here, const Missed& m) {
   return {"29",
-          "The short-edge rule does not catch 4-valent nodes: E_F puts them farther from their neighbours.",
+          "The short-edge rule does not catch 4-valent nodes: E_F puts them farther from their neighbors.",
           "the E_F-optimal positions are farther apart",
           (here.numbers.empty() ? std::string("none in the final meshes") : "final mesh: " + here.numbers) +
               "; over vertex orders " + digits(m.farther_apart) + " of " + digits(m.vertices) + " farther apart",

@@ -246,7 +246,7 @@ Claim any_metric_with_patch_test(const Matrix& matrix) {
       "away where they may change."};
 }
 
-/// Vertices put into the triangles of an optimised mesh, one at a time: what each rule says of them.
+/// Vertices put into the triangles of an optimized mesh, one at a time: what each rule says of them.
 struct Inserted {
   std::size_t vertices = 0, by_short_edge = 0, by_patch = 0;
   [[nodiscard]] std::string text() const {

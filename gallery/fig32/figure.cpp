@@ -249,7 +249,7 @@ Claim positions_collapse(const Matrix& m) {
           t.text(),
           t.runs > 0 && 2 * t[Verdict::collapsed] > t.runs,
           std::string(kHow) + "Nearly coincident: nearer than " + digits(kNearlyCoincident, 2) +
-              " of the shorter edge beside the neighbour."};
+              " of the shorter edge beside the neighbor."};
 }
 
 Claim weights_mess(const Matrix& m, const Matrix& inverting) {

@@ -1,6 +1,6 @@
 // The rectangle of a plot, what it shows, and the thin axes around it: ticks outside, labels with units.
 //
-// Two steps, so that a legend or a colour key can ask for room: lay out, then draw.
+// Two steps, so that a legend or a color key can ask for room: lay out, then draw.
 #pragma once
 
 #include <string>

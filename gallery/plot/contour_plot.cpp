@@ -155,7 +155,7 @@ std::optional<LabelPlace> place_label(std::span<const Vec2> line, double width, 
 constexpr double kLine = 0.6, kZeroLine = 1.4, kOverlayLine = 1.6;  // widths, pixels
 constexpr double kDot = 3.5;                                        // radius
 constexpr double kSmooth = 0.08;  // pixels that a path may leave out of a line: less than is seen
-constexpr double kDark = 0.45;    // grey below which lines and text on a band are light
+constexpr double kDark = 0.45;    // gray below which lines and text on a band are light
 constexpr double kKeyWidth = 14, kKeyGap = 14, kKeyTick = 4;
 constexpr double kPerKeyLabel = 15;  // pixels between labels of the key, at least
 constexpr int kOverlayOwner = 63;    // in the Occupancy
@@ -268,7 +268,7 @@ class ContourPainter {
   }
 
   [[nodiscard]] bool on_dark(std::size_t level) const {
-    return 0.5 * (color(level).grey() + color(level + 1).grey()) < kDark;
+    return 0.5 * (color(level).gray() + color(level + 1).gray()) < kDark;
   }
 
   // Fills lines_ too, which the labels need.
@@ -333,7 +333,7 @@ class ContourPainter {
     return sum;
   }
 
-  // The line is interrupted by a halo in the mean colour of its two bands.
+  // The line is interrupted by a halo in the mean color of its two bands.
   [[nodiscard]] std::string label(const std::string& text, const LabelPlace& place, std::size_t level) const {
     const Rgb a = color(level), b = color(level + 1);
     const Rgb mean = {(a.r + b.r) / 2, (a.g + b.g) / 2, (a.b + b.b) / 2};

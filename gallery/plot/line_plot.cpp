@@ -1,4 +1,4 @@
-// Line plots: curves cut at the frame, told apart by dash and marker as well as by colour.
+// Line plots: curves cut at the frame, told apart by dash and marker as well as by color.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@ constexpr double kRow = kPlotFont + 5;                      // of a legend
 constexpr double kLegendGap = 8;                            // around it
 constexpr double kClipMargin = 4;                           // pixels beyond the frame that a curve is written
 
-// Dark enough for print, in an order in which neighbours differ in grey too; from the palette of meshes.
+// Dark enough for print, in an order in which neighbors differ in gray too; from the palette of meshes.
 constexpr std::array<const char*, 7> kColors = {"#005fa3", "#c8320a", "#222222", "#00845f",
                                                 "#b0389a", "#e88a00", "#4aa3df"};
 

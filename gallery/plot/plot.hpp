@@ -1,6 +1,6 @@
 // Line plots and contour plots as SVG text, for the landscapes of energies and the histories of runs.
 //
-// Made for print at 8 cm: series differ by dash and marker as well as by colour, bands of a contour plot by
+// Made for print at 8 cm: series differ by dash and marker as well as by color, bands of a contour plot by
 // lightness. The same input gives the same bytes.
 #pragma once
 
@@ -30,7 +30,7 @@ struct Series {
   std::string name = {};          ///< for the legend; an unnamed series is not in it
   std::vector<Vec2> points = {};  ///< in order; one that is not finite breaks the line
   SeriesStyle style = SeriesStyle::line;
-  std::optional<std::string> color = {};  ///< "#rrggbb"; else the next of a colour-blind safe list
+  std::optional<std::string> color = {};  ///< "#rrggbb"; else the next of a color-blind safe list
 };
 
 /// A point with a name beside it.
@@ -99,7 +99,7 @@ struct ContourPlot {
   double height = 0;          ///< 0: from the aspect, or 0.75 of the width
 };
 
-/// Filled bands between levels, light to dark upwards, with labelled contour lines, axes and a key.
+/// Filled bands between levels, light to dark upwards, with labeled contour lines, axes and a key.
 /// Marching squares on the bilinear surface through the samples. Precondition: values.size() = nx ny. O(values.size() ·
 /// levels crossed).
 [[nodiscard]] std::string contour_plot_svg(const ContourPlot& plot);

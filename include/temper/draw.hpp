@@ -28,7 +28,7 @@ struct DrawOptions {
   bool weights = true;          ///< circles of radius √|w|: green positive, red negative
   double weight_scale = 1;      ///< factor on the radius of weight circles
   bool bad_triangles = true;    ///< fill triangles that are not well-centered
-  bool near_coincident = true;  ///< ring vertices that nearly coincide with a neighbour
+  bool near_coincident = true;  ///< ring vertices that nearly coincide with a neighbor
   bool regions = true;          ///< tint regions, draw constrained edges thicker
   bool vertex_numbers = false;
   std::optional<TriangleColors> colors = {};  ///< instead of bad triangles and regions

@@ -126,7 +126,7 @@ struct ErrorReport {
 };
 
 /// Measures a mesh. The same report for any executor. Errors: no triangles, unknown fields, a frame of no size, more
-/// refinement than memory is meant for. Precondition: no erased triangles. O(n^1.5): two sparse factorisations.
+/// refinement than memory is meant for. Precondition: no erased triangles. O(n^1.5): two sparse factorizations.
 ///
 ///     const Expected<ErrorReport> report = measure_errors(mesh, {.fields = {"held-back"}});
 ///     if (report) use(geometric_mean(report->fields).poisson.l2);

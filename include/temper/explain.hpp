@@ -3,8 +3,8 @@
 // A reason is a smallest set of triangles that no weights suit all at once, with its certificate
 // (temper/feasibility.hpp), or that weights do exist and only have to be found. What forces a conflict is said in
 // lengths: each triangle lets its dual cross each of its edges in an interval only, and somewhere the intervals of the
-// two sides of an edge do not meet (docs/explain.md has the formulae). A cure is tried on a copy of the neighbourhood
-// and called verified only when the weights that the programme finds there make its every triangle well-centered, by
+// two sides of an edge do not meet (docs/explain.md has the formulae). A cure is tried on a copy of the neighborhood
+// and called verified only when the weights that the program finds there make its every triangle well-centered, by
 // the exact predicate.
 #pragma once
 
@@ -77,14 +77,14 @@ struct Cure {
   VertexId vertex;
   TriangleId triangle;
   Vec2 at;  ///< on the sphere longitude and latitude [degrees]
-  /// Tried: the `triangles` of the neighbourhood then have weights that make them well-centered, exactly checked.
+  /// Tried: the `triangles` of the neighborhood then have weights that make them well-centered, exactly checked.
   bool verified = false;
   /// Only the triangles of the conflict, and those that the change touches, were asked to be well-centered: no change
-  /// was found that suits all of the neighbourhood.
+  /// was found that suits all of the neighborhood.
   bool conflict_only = false;
   std::size_t triangles = 0;
   bool ends_conflict = false;  ///< split: neither half of the edge must be split again, exactly checked
-  std::size_t left_out = 0;  ///< bad triangles of the neighbourhood that belong to other conflicts, and were not asked
+  std::size_t left_out = 0;    ///< bad triangles of the neighborhood that belong to other conflicts, and were not asked
   double margin = 0;  ///< their best margin then, h/ℓ and d/ℓ; find_weights for the whole mesh: Explanation::margin
   std::size_t changed = 0;  ///< find_weights for the whole mesh: weights not zero around the bad triangles
 };
@@ -96,7 +96,7 @@ struct Reason {
   std::vector<TriangleId> conflict;  ///< edge, fan, patch: the smallest set that no weights suit; `bad` are of these
   std::optional<EdgeConflict> must_split;  ///< split
   Certificate certificate;                 ///< edge, fan, patch: the proof; check_certificate accepts it
-  /// edge, fan, patch: best margin of the conflict, at most 0. weights: of the neighbourhood, above 0.
+  /// edge, fan, patch: best margin of the conflict, at most 0. weights: of the neighborhood, above 0.
   double margin = 0;
   bool each = false;        ///< weights, undecided: `margin` is the least of each bad triangle with those that touch it
   std::size_t checked = 0;  ///< triangles that `margin` is of
@@ -112,7 +112,7 @@ struct Reason {
 struct ExplainOptions {
   std::size_t cures = 20;  ///< cures are searched for so many reasons, the worst
   /// Weights are asked of the whole mesh when it has at most so many triangles, or so many bad ones; else reasons of
-  /// the kind `weights` speak for their neighbourhood alone.
+  /// the kind `weights` speak for their neighborhood alone.
   std::size_t whole = 1000;
   /// Called now and then with how many of the bad triangles are explained; Continue::no stops, with an error.
   std::function<Continue(std::size_t done, std::size_t all)> progress = {};

@@ -1,7 +1,7 @@
 // Weights alone: can a mesh become well-centered when neither its positions nor its connectivity may change?
 //
 // For fixed positions and connectivity every h/ℓ and d/ℓ is linear in the weights, so that "all h ≥ tℓ and all
-// tℓ ≤ d ≤ (1 − t)ℓ" is a linear programme; so is "all h ≥ tℓ" alone, and "these edges have dual lengths ≥ tℓ". It
+// tℓ ≤ d ≤ (1 − t)ℓ" is a linear program; so is "all h ≥ tℓ" alone, and "these edges have dual lengths ≥ tℓ". It
 // finds the best margin t, the least change of weights that attains a given margin, or the least violation; and when no
 // weights exist it says why, with a certificate that exact arithmetic verifies without any linear programming. Solvers
 // come through one small interface (temper/detail/lp.hpp has Clp). Over connectivities: temper/detail/connectivity.hpp.
@@ -23,11 +23,11 @@
 
 namespace temper {
 
-// --- linear programmes --------------------------------------------------------------------------------
+// --- linear programs --------------------------------------------------------------------------------
 
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// Minimise cost · x with lower ≤ x ≤ upper for columns, and lower ≤ A x ≤ upper for rows; A by rows, compressed.
+/// Minimize cost · x with lower ≤ x ≤ upper for columns, and lower ≤ A x ≤ upper for rows; A by rows, compressed.
 struct LpProblem {
   std::vector<double> cost, column_lower, column_upper;
   std::vector<double> row_lower, row_upper;
@@ -53,7 +53,7 @@ struct LpSolution {
   double objective = 0;
 };
 
-/// Whoever solves linear programmes: once, with no memory of the last.
+/// Whoever solves linear programs: once, with no memory of the last.
 class LpSolver {
  public:
   virtual ~LpSolver() = default;
@@ -159,7 +159,7 @@ enum class CertificateCheck {
 
 // --- margins ------------------------------------------------------------------------------------------
 
-/// `regular`: in the plane any margin can be attained when one can, and this is what programmes stop at. Its best
+/// `regular`: in the plane any margin can be attained when one can, and this is what programs stop at. Its best
 /// margin is this or 0; on the sphere one that is attained, above zero when any is.
 inline constexpr double kMostMargin = 0.5;
 
@@ -201,8 +201,8 @@ struct WeightOptions {
   WeightGoal goal = WeightGoal::minimal;
   double margin = 0.01;     ///< t, in [0, 1/2)
   bool from_input = false;  ///< change is measured from the mesh's weights; else from zero
-  /// Components of at most this many triangles are one linear programme. Larger ones are solved around their bad
-  /// triangles only, in neighbourhoods that grow until everything outside can stay as it is.
+  /// Components of at most this many triangles are one linear program. Larger ones are solved around their bad
+  /// triangles only, in neighborhoods that grow until everything outside can stay as it is.
   std::size_t whole = 3000;
   int rings = 2;  ///< of vertices around bad triangles, at first
   Constraints constraints = Constraints::well_centered;
@@ -220,7 +220,7 @@ enum class Feasibility {
 enum class MarginKind {
   exact,     ///< up to rounding
   at_least,  ///< attained; more was not tried
-  at_most,   ///< of the worst neighbourhood
+  at_most,   ///< of the worst neighborhood
 };
 [[nodiscard]] std::string_view name(MarginKind is);
 
@@ -241,7 +241,7 @@ struct WeightReport {
   double attained = 0;                 ///< margin that they have: weight_margin
   std::size_t moved = 0;               ///< weights that differ from where change is measured from
   double change = 0;                   ///< weight_change [length]
-  std::size_t programmes = 0;          ///< regions, each with a linear programme of its own
+  std::size_t programs = 0;            ///< regions, each with a linear program of its own
   std::size_t largest = 0;             ///< triangles of the largest one
   IdVector<VertexId, double> weights;  ///< one a vertex of the mesh
   std::vector<Violation> violations;   ///< elastic: worst first

@@ -39,7 +39,7 @@ struct DelaunayInput {
 /// The paper's sparse horseshoe (fig. 11 left): 5 vertices, 4 triangles.
 [[nodiscard]] Mesh sparse_horseshoe();
 
-/// The parameterised horseshoe (§6.5): na × nb points, x and y the semi-axes at b = 0 and 1.
+/// The parameterized horseshoe (§6.5): na × nb points, x and y the semi-axes at b = 0 and 1.
 /// Constrained Delaunay of the points between the two arches.
 struct Horseshoe {
   int a = 7, b = 9;
@@ -115,7 +115,7 @@ struct RandomPeriodic {
 };
 [[nodiscard]] Expected<Mesh> random_periodic(const RandomPeriodic& shape = {});
 
-/// Rows of hexagons as power cells, around vertices at one distance from their neighbours: as MPAS-Tools' planar_hex
+/// Rows of hexagons as power cells, around vertices at one distance from their neighbors: as MPAS-Tools' planar_hex
 /// makes them. A channel has no period along y.
 struct PeriodicHexagons {
   int nx = 16, ny = 16;

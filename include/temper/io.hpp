@@ -2,7 +2,7 @@
 //
 // A MeshFile is what a file says, in neutral arrays: points, weights, triangles, lines, tags, names and
 // data. make_mesh builds the mesh from it (errors speak the file's own numbers and lines); update puts an
-// optimised mesh back, so that all else that was in the file is written again.
+// optimized mesh back, so that all else that was in the file is written again.
 #pragma once
 
 #include <array>
@@ -124,7 +124,7 @@ struct WriteOptions {
   /// appended, raw bytes after the XML: the fastest to write and to read, and about half as large again.
   std::optional<Encoding> encoding;
   Executor* executor = nullptr;  ///< threads that compress; the bytes written do not depend on them
-  /// VTU and VTKHDF have four arrays of cell data more, named as in TriangleQuality, for ParaView to colour: bytes and
+  /// VTU and VTKHDF have four arrays of cell data more, named as in TriangleQuality, for ParaView to color: bytes and
   /// floats.
   /// read() leaves them out, as they are made anew.
   bool triangle_quality = true;
@@ -221,7 +221,7 @@ inline constexpr std::string_view kOntoSphere = "sphere";
 [[nodiscard]] std::string needs_projection(bool guessed = false, std::string_view onto_sphere = kOntoSphere);
 /// The word that is no projection: coordinates are those of a plane, whatever they look like.
 inline constexpr std::string_view kNoProjection = "none";
-/// Puts the points of a file in degrees on a map, in metres, as parse_projection reads it; about the middle of its
+/// Puts the points of a file in degrees on a map, in meters, as parse_projection reads it; about the middle of its
 /// points when it says no center. write() takes them back: a point at the place of one that was read has its degrees
 /// bit for bit. kNoProjection: they are of a plane. Errors: those of project() for outlines; a text that is no
 /// projection.

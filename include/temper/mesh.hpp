@@ -312,8 +312,8 @@ struct MeshOrder {
   IdVector<TriangleId, TriangleId> triangles;
 };
 
-/// Relabels vertices and triangles along a Hilbert curve, so that neighbours in the plane are
-/// neighbours in memory. Returns the order, for restore_order. O(n).
+/// Relabels vertices and triangles along a Hilbert curve, so that neighbors in the plane are
+/// neighbors in memory. Returns the order, for restore_order. O(n).
 MeshOrder hilbert_order(Mesh& mesh);
 /// Undoes hilbert_order: every vertex has its former number again, and every triangle its former slot.
 void restore_order(Mesh& mesh, const MeshOrder& order, Executor* executor = nullptr);

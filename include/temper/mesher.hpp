@@ -1,7 +1,7 @@
 // From an outline to a mesh: its segments divided, points placed inside, a constrained Delaunay triangulation, and
-// that optimised until every triangle is well-centered.
+// that optimized until every triangle is well-centered.
 //
-// The boundary is what an optimisation cannot change, so it is divided for it: edges follow the size, change it slowly,
+// The boundary is what an optimization cannot change, so it is divided for it: edges follow the size, change it slowly,
 // and are short enough where two pieces of the outline face each other that a row of free vertices fits between. Where
 // triangles stay bad all the same, the outline is divided finer around them, and all is done again. On the sphere the
 // same is done with arcs of great circles; without an outline, points are placed all around it.
@@ -56,9 +56,9 @@ struct OutlineMesh {
   std::vector<MeshLine> lines;            ///< each edge on the outline once, in the order of the segments
   std::vector<VertexId> vertex_of_point;  ///< invalid for points outside
   std::size_t bad = 0;                    ///< triangles that are not well-centered
-  std::size_t delaunay_bad = 0;           ///< as many were before the optimisation
+  std::size_t delaunay_bad = 0;           ///< as many were before the optimization
   int attempts = 1;                       ///< divisions of the outline that were tried
-  OptimizeReport report;                  ///< of the optimisation, of the attempt that was kept
+  OptimizeReport report;                  ///< of the optimization, of the attempt that was kept
   std::vector<std::string> notes;         ///< what the user should know, in sentences
 };
 

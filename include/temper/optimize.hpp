@@ -70,10 +70,10 @@ enum class BoundaryVertices {
           ///< corners there get a vertex inside; the vertices that were there stay bit for bit
 };
 
-/// When a new position or weight is seen by the neighbours (§5.2, §6.6.2).
+/// When a new position or weight is seen by the neighbors (§5.2, §6.6.2).
 enum class Updates {
   immediate,  ///< at once
-  deferred,   ///< at the end of the sweep: each is optimised against those of the sweep before
+  deferred,   ///< at the end of the sweep: each is optimized against those of the sweep before
 };
 
 /// How often a sweep visits a vertex (§5.2).
@@ -84,7 +84,7 @@ enum class Visits {
 
 /// How far golden section searches for a position: the paper's "patch radius", which it does not define (§5.2).
 enum class SearchRadius {
-  rms,  ///< the root mean square distance to the neighbours
+  rms,  ///< the root mean square distance to the neighbors
   max,  ///< the distance to the farthest one
   min,  ///< to the nearest one
 };
@@ -93,7 +93,7 @@ enum class SearchRadius {
 enum class Removal {
   none,
   patch,   ///< those whose patch is better without them (Algorithm 1, line 15)
-  weight,  ///< those whose weight is so far below the mean of their neighbours' that they are on the way to be hidden
+  weight,  ///< those whose weight is so far below the mean of their neighbors' that they are on the way to be hidden
            ///< (§7)
 };
 
@@ -111,7 +111,7 @@ enum class Inversion {
   infinite,  ///< of barriers: their energy is +∞ there, so that searches step over such places, but never onto one
 };
 
-/// What is done, one neighbourhood at a time, about triangles that sweeps of a barrier leave not well-centered.
+/// What is done, one neighborhood at a time, about triangles that sweeps of a barrier leave not well-centered.
 enum class Repair {
   none,
   perturb,  ///< sweeps from a larger γ and random kicks; every vertex stays. Not where γ, h° or a solver is the user's
@@ -194,7 +194,7 @@ struct PaperSwitches {
   /// Deferred: not with Solver::newton, which is joint, unless positions are deferred too.
   Updates weight_updates = Updates::immediate;
   /// Deferred: all unknowns from the state at the beginning of the sweep (Jacobi instead of Gauss-Seidel); weights, if
-  /// they move, have to be deferred too. With Inversion::refuse a vertex stays whose neighbours have moved so that it
+  /// they move, have to be deferred too. With Inversion::refuse a vertex stays whose neighbors have moved so that it
   /// would turn a triangle over.
   Updates position_updates = Updates::immediate;
   Visits visits = Visits::once;
@@ -214,7 +214,7 @@ struct PaperSwitches {
   // Only with these are vertices removed: never on the boundary, on constrained edges or where fixed.
   std::optional<int> collapse_from = {};        ///< i_c: first sweep with short-edge collapses (Algorithm 2)
   EnergyKind collapse_energy = EnergyKind::dT;  ///< E_c: F, T or dT
-  double collapse_ratio = 0.1;  ///< of the distance to the nearest neighbour to that one's shorter edge on the link
+  double collapse_ratio = 0.1;  ///< of the distance to the nearest neighbor to that one's shorter edge on the link
   Removal removal = Removal::none;
   RemovalMeasure removal_measure = RemovalMeasure::mean;  ///< of insertions too
   double removal_margin = 0.1;                            ///< by which the patch must be better, relative
@@ -267,11 +267,11 @@ struct OptimizeOptions {
   std::optional<SizeField> size_field = {};  ///< that sizes are compared with; absent: the input's own
   /// B ≥ 1: no step or flip takes the local size of a vertex out of [s/B, B s], s the size field there, or further out
   /// than it is. Removals, insertions, deferred flips, and those that make the input regular are not asked; a repair
-  /// asks, but sees only the triangles of its neighbourhood. With a band sweeps go vertex by vertex, on one
+  /// asks, but sees only the triangles of its neighborhood. With a band sweeps go vertex by vertex, on one
   /// thread. Absent: no limit.
   std::optional<double> size_band = {};
   Repair repair = Repair::perturb;
-  int repair_trials = 20000;  ///< most edits that are tried, each on a copy of a neighbourhood; 1 to 3 ms each; a
+  int repair_trials = 20000;  ///< most edits that are tried, each on a copy of a neighborhood; 1 to 3 ms each; a
                               ///< linear program counts as 20
   /// A constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/detail/tensor.hpp). The
   /// report and snapshots are of that plane. Absent: K = 1.
@@ -347,7 +347,7 @@ enum class Stopped {
   max_sweeps,
   max_outer,
   time_limit,
-  cancelled,
+  canceled,
   tangled,      ///< triangles are inverted (Inversion::allow): no flips can make the mesh regular
   sweep_limit,  ///< all sweeps of AccuracyOptions, or steps of SolverErrorOptions, are made: a normal end
   hidden,       ///< deferred flips hid a vertex that may not be: the mesh is the last or best one that was regular
@@ -355,7 +355,7 @@ enum class Stopped {
 [[nodiscard]] std::string_view name(Stopped stopped);
 /// Whether the caller ended the run, by its time limit or by its observer: a run with more time would have gone on.
 [[nodiscard]] constexpr bool stopped_early(Stopped stopped) {
-  return stopped == Stopped::time_limit || stopped == Stopped::cancelled;
+  return stopped == Stopped::time_limit || stopped == Stopped::canceled;
 }
 
 /// What a run did to the sizes: both compared with the size field.
@@ -375,7 +375,7 @@ struct OptimizeReport {
   /// Vertices that HiddenPolicy::keep left without a power cell; none while triangles are inverted.
   std::vector<VertexId> hidden;
   Objective objective = Objective::accuracy;  ///< that the run lowered
-  double seconds = 0;                         ///< the optimisation alone
+  double seconds = 0;                         ///< the optimization alone
   double objective_before = 0;  ///< of the input, at the final γ; with Objective::accuracy that of AccuracyOptions,
                                 ///< its edges taken absolute, with the same sizes before and after; where there is an
                                 ///< error model the root mean square error

@@ -62,7 +62,7 @@ struct RestorationObserver {
 /// lifted surface). About n flips in practice, O(n²) at worst.
 ///
 ///     const Restoration restored = restore_regularity(mesh);
-///     if (!restored.regular()) { … }  // the weights of restored.hidden are too small, or a neighbour's too large
+///     if (!restored.regular()) { … }  // the weights of restored.hidden are too small, or a neighbor's too large
 Restoration restore_regularity(Mesh& mesh, HiddenPolicy policy = HiddenPolicy::keep,
                                const RestorationObserver* observer = nullptr);
 

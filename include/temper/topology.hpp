@@ -38,7 +38,7 @@ VertexId split_edge(Mesh& mesh, HalfedgeId h, WeightedPoint p);
 enum class RemovalStatus {
   possible,
   fixed,             ///< the user wants it to stay
-  boundary_corner,   ///< on the boundary, and not exactly on the line between its two neighbours there
+  boundary_corner,   ///< on the boundary, and not exactly on the line between its two neighbors there
   constrained,       ///< on constrained edges other than two in one straight line; or between regions not so parted
   no_triangulation,  ///< in no triangle, or the cavity has no triangulation whose edges are new to the mesh
 };
@@ -80,7 +80,7 @@ struct RemovalPlan {
 /// all other ids stay valid, until Mesh::compact() drops what is erased. O(k).
 void remove_vertex(Mesh& mesh, const RemovalPlan& plan);
 
-/// Plans to collapse the edge between v and its neighbour `into`: v is removed, and all new triangles have `into` as a
+/// Plans to collapse the edge between v and its neighbor `into`: v is removed, and all new triangles have `into` as a
 /// corner. It is a removal, so that remove_vertex commits it. The status is plan_removal's for v; constrained also when
 /// v is on a line inside the domain and `into` is not; no_triangulation when they have no edge, a new triangle would
 /// not be counter-clockwise, or a new edge is there already (the link condition). O(k²).
@@ -96,7 +96,7 @@ enum class InsertionStatus {
   on_boundary,     ///< exactly on a boundary edge, where plan_split is to be asked
   on_constrained,  ///< exactly on a constrained edge, where plan_split is to be asked
   hidden,          ///< its weight is too small: no regular triangulation would have it
-  not_regular,     ///< its weight hides a neighbour, or the edges around were not regular: the plan is whole and may be
+  not_regular,     ///< its weight hides a neighbor, or the edges around were not regular: the plan is whole and may be
                    ///< committed, but leaves an edge that is not regular
   inverted,        ///< of a split: the point is rounded so far off the edge that a new triangle turns over
 };
@@ -168,7 +168,7 @@ struct EdgeSplits {
   std::vector<double> at;  ///< fractions of the way from a to b, ascending, strictly between 0 and 1
 };
 
-/// A plan that cuts the edges of the boundary and of constrained lines so that neighbours are of like length.
+/// A plan that cuts the edges of the boundary and of constrained lines so that neighbors are of like length.
 struct GradingPlan {
   std::vector<EdgeSplits> cuts;  ///< by a, then b
   std::size_t vertices = 0;      ///< how many vertices that makes
@@ -205,7 +205,7 @@ struct Grading {
   std::size_t flips = 0;
   std::size_t refused = 0;  ///< cuts that cannot be made: rounding turns a triangle over there
 };
-/// Makes the boundary fit for optimisation: kGradingPasses times plan_boundary_grading(mesh, ratio,
+/// Makes the boundary fit for optimization: kGradingPasses times plan_boundary_grading(mesh, ratio,
 /// kWidestBoundaryAngle), committed by plan_split and insert_vertex, then plan_center in all triangles without free
 /// corner. Old vertices stay bit for bit. The mesh should be regular; then it stays so, but for splits that are
 /// not_regular.

@@ -1,6 +1,6 @@
 """temper: primal-dual triangle meshes that solvers can trust.
 
-A weighted triangulation and its power diagram, optimised until every triangle is well-centered: its orthocenter inside,
+A weighted triangulation and its power diagram, optimized until every triangle is well-centered: its orthocenter inside,
 every edge crossed by its dual. NumPy arrays in and out without copies where memory allows; ``meshio`` meshes are taken
 wherever a mesh is.
 

@@ -283,7 +283,7 @@ class Columns(Record):
 def columns(
     mesh: MeshLike, surfaces: npt.ArrayLike, active: npt.ArrayLike | None = None, pinch_out: float = 0.0
 ) -> Columns:
-    """The columns of a mesh: its power cells between the surfaces of layers, and which are neighbours.
+    """The columns of a mesh: its power cells between the surfaces of layers, and which are neighbors.
 
     Parameters
     ----------
@@ -296,7 +296,7 @@ def columns(
         (n_vertices, layers) or (layers,) of bool: where layers are active. By default everywhere.
     pinch_out : float
         A layer is pinched out where it is not thicker: it has no cell, and what is above and what is below it are
-        neighbours [length].
+        neighbors [length].
 
     Raises
     ------

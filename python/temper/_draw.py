@@ -69,7 +69,7 @@ def draw_svg(
     bad_triangles : bool
         Fill triangles that are not well-centered.
     near_coincident : bool
-        Ring vertices that nearly coincide with a neighbour.
+        Ring vertices that nearly coincide with a neighbor.
     regions : bool
         Tint regions, and draw constrained edges thicker.
     zoom : (x0, y0, x1, y1), optional

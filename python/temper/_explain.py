@@ -68,7 +68,7 @@ class Cure(Record):
     at: tuple[float, float]
     """Where; on the sphere longitude and latitude, in degrees."""
     verified: bool
-    """Tried: the triangles of the neighbourhood then have weights that make them well-centered, exactly checked."""
+    """Tried: the triangles of the neighborhood then have weights that make them well-centered, exactly checked."""
     conflict_only: bool
     triangles: int
     ends_conflict: bool
@@ -92,7 +92,7 @@ class Reason(Record):
     certificate: Certificate
     """edge, fan, patch: the proof; ``check_certificate`` accepts it."""
     margin: float
-    """edge, fan, patch: best margin of the conflict, at most 0. weights: of the neighbourhood, above 0."""
+    """edge, fan, patch: best margin of the conflict, at most 0. weights: of the neighborhood, above 0."""
     each: bool
     checked: int
     crossing: CrossingConflict | None

@@ -52,9 +52,9 @@ def read(
     fixed_tags : sequence of str or int
         Tags or physical names whose points must not move.
     projection : str, optional
-        The map for points in longitude and latitude, to metres: ``"stereographic"``, ``"mercator:lon"``,
+        The map for points in longitude and latitude, to meters: ``"stereographic"``, ``"mercator:lon"``,
         ``"transverse-mercator:lon,lat"`` (``temper.projection``); about the middle of the points without a center.
-        ``write`` gives degrees again, bit for bit where a point has not moved; weights are squared metres of the map.
+        ``write`` gives degrees again, bit for bit where a point has not moved; weights are squared meters of the map.
         ``"none"``: coordinates are those of a plane, whatever they look like.
     threads : int, optional
         Threads that unpack; None or 0: all of the machine. What is read does not depend on them.
@@ -102,7 +102,7 @@ def write(
     encoding : {"ascii", "base64", "appended"}, optional
         Of formats that have several. VTU: ``base64``, compressed, is its default; ``appended`` is the fastest.
     triangle_quality : bool
-        VTU and VTKHDF have the arrays of ``triangle_quality()`` as cell data, for ParaView to colour; ``read`` leaves
+        VTU and VTKHDF have the arrays of ``triangle_quality()`` as cell data, for ParaView to color; ``read`` leaves
         them out.
     threads : int, optional
         Threads that compress; the bytes written do not depend on them.

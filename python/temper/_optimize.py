@@ -43,7 +43,7 @@ class TraceEvent:
     quad: tuple[int, int, int, int]
     """flip: edge a→b, with c on its left and d on its right, becomes d→c; split: a→b was cut (d −1 on the boundary)."""
     link: npt.NDArray[np.int32]
-    """collapse, removal: neighbours, counter-clockwise; insertion: corners of the triangle."""
+    """collapse, removal: neighbors, counter-clockwise; insertion: corners of the triangle."""
     triangles: list[tuple[int, int, int]]
     """collapse, removal: that fill the cavity, in slot order."""
     to_sweep: int
@@ -117,7 +117,7 @@ class OptimizeReport(Record):
     """What ``optimize`` did."""
 
     stopped: Literal[
-        "converged", "max_sweeps", "max_outer", "time_limit", "cancelled", "tangled", "hidden", "sweep_limit"
+        "converged", "max_sweeps", "max_outer", "time_limit", "canceled", "tangled", "hidden", "sweep_limit"
     ]
     """Why the run ended. ``tangled``: triangles are inverted (``inversion="allow"``) and no flips can make the mesh
     regular; ``hidden``: deferred flips hid a vertex that may not be, and the mesh is one of before;
@@ -133,7 +133,7 @@ class OptimizeReport(Record):
     objective: Literal["energy", "accuracy", "solver_error"]
     """That the run lowered."""
     seconds: float
-    """The optimisation alone."""
+    """The optimization alone."""
     objective_before: float
     """Of the input, at the final γ."""
     objective_after: float

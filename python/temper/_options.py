@@ -1,4 +1,4 @@
-"""The options of an optimisation, from the library's table: names, types, defaults and what they are for.
+"""The options of an optimization, from the library's table: names, types, defaults and what they are for.
 
 What type checkers see is beside this file where the module was built: write_stubs.py makes it from the same table.
 """

@@ -99,11 +99,11 @@ class OutlineMesh(Record):
     bad: int
     """Triangles that are not well-centered."""
     delaunay_bad: int
-    """As many were before the optimisation."""
+    """As many were before the optimization."""
     attempts: int
     """Divisions of the outline that were tried."""
     report: OptimizeReport = dataclasses.field(repr=False)
-    """Of the optimisation, of the attempt that was kept."""
+    """Of the optimization, of the attempt that was kept."""
     notes: list[str]
 
 
@@ -122,7 +122,7 @@ def mesh_outline(
     observer: Callable[[Progress], Any] | None = None,
     progress: bool | None = None,
 ) -> OutlineMesh:
-    """Meshes the inside of an outline, and optimises that until every triangle is well-centered.
+    """Meshes the inside of an outline, and optimizes that until every triangle is well-centered.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ def mesh_outline(
         What an outline without parts encloses: ``all``: everything that segments enclose, but for the holes (Triangle's
         reading); ``alternate``: nested loops take turns; ``by_points``: ``all`` when it has hole or region points.
     optimize : OptimizeOptions or bool
-        Of the optimisation; False: the Delaunay mesh as it is.
+        Of the optimization; False: the Delaunay mesh as it is.
     attempts : int
         At most so many divisions of the outline while triangles stay bad.
     most_triangles : int
@@ -182,7 +182,7 @@ def mesh_sphere(
     observer: Callable[[Progress], Any] | None = None,
     progress: bool | None = None,
 ) -> OutlineMesh:
-    """Meshes a sphere, or what coasts leave of it, and optimises that until every triangle is well-centered.
+    """Meshes a sphere, or what coasts leave of it, and optimizes that until every triangle is well-centered.
 
     Points of outlines are longitude and latitude [degrees], their segments the shorter arcs of great circles. Of the two
     sides that a closed line leaves it encloses the smaller, whatever its direction.

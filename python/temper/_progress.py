@@ -27,7 +27,7 @@ class SweepRecord(Record):
     length_parameter: float
     """γ or −h° of this sweep, as used (relative to ℓ by default)."""
     seconds: float
-    """Since the start of the optimisation."""
+    """Since the start of the optimization."""
     objective: Literal["energy", "accuracy", "solver_error"] = "energy"
     """What the sweep lowered."""
 

@@ -114,7 +114,7 @@ class WeightReport(Record):
     margin: float
     """Best margin."""
     margin_kind: Literal["exact", "at_least", "at_most"]
-    """What is known of it: up to rounding; attained, more was not tried; of the worst neighbourhood."""
+    """What is known of it: up to rounding; attained, more was not tried; of the worst neighborhood."""
     solved: bool
     """``weights`` are an answer to what was asked."""
     asked: float
@@ -123,9 +123,9 @@ class WeightReport(Record):
     """Weights that differ from where change is measured from."""
     change: float
     """Σ over edges \\|Δw_i − Δw_j\\| / (2ℓ) [length]."""
-    programmes: int
+    programs: int
     largest: int
-    """Triangles of the largest programme."""
+    """Triangles of the largest program."""
     weights: npt.NDArray[np.float64]
     """One a vertex of the mesh [length²]: ``mesh.weights = report.weights``."""
     violations: list[Violation]
@@ -158,7 +158,7 @@ def find_weights(
     from_input : bool
         Change is measured from the mesh's weights; else from zero.
     whole : int
-        Components of at most this many triangles are one linear programme; larger ones are solved around their bad
+        Components of at most this many triangles are one linear program; larger ones are solved around their bad
         triangles only.
     rings : int
         Of vertices around bad triangles, at first.
@@ -196,7 +196,7 @@ def best_margin(
     edges: npt.ArrayLike | None = None,
 ) -> BestMargin:
     """The best margin of some triangles, (k,) int, the rest of the mesh being left out; None: of the whole mesh. An
-    upper bound for any set that has them. ``edges`` as for ``find_weights``; of ``regular`` it is 1/2, where programmes
+    upper bound for any set that has them. ``edges`` as for ``find_weights``; of ``regular`` it is 1/2, where programs
     stop, or 0."""
     chosen = None if triangles is None else _ints(triangles, 0, "triangles").astype(np.int64)
     d = _temper.best_margin(as_mesh(mesh)._handle, chosen, constraints, _edges(edges))
@@ -243,14 +243,14 @@ class ConnectivityReport(Record):
 
     mesh: Mesh
     """With the connectivity found; positions, weights and all else are the input's."""
-    end: Literal["no_better_neighbour", "limit", "failed"]
+    end: Literal["no_better_neighbor", "limit", "failed"]
     before: float
     """The best margin of the input's connectivity."""
     margin: float
     """That of the one found."""
     steps: list[ConnectivityStep]
     """Their margins grow."""
-    programmes: int
+    programs: int
     weights: npt.NDArray[np.float64]
     """With margin ``margin`` [length²]: for proofs, not for meshes."""
 
@@ -259,18 +259,18 @@ def best_connectivity(
     mesh: MeshLike,
     *,
     constraints: Literal["well_centered", "heights_only"] = "well_centered",
-    programmes: int = 10000,
+    programs: int = 10000,
 ) -> ConnectivityReport:
     """Looks for a connectivity with a greater best margin: from the best one so far, the regular triangulation of the
     weights of its best margin, else the one flip that raises it most. A local search: there may be better ones. The mesh
-    is not changed; ``programmes`` is the most linear programmes of the whole mesh.
+    is not changed; ``programs`` is the most linear programs of the whole mesh.
 
     >>> import temper
     >>> report = temper.best_connectivity(temper.generate.sparse_horseshoe())
     >>> report.end, len(report.steps), report.margin == report.before
-    ('no_better_neighbour', 0, True)
+    ('no_better_neighbor', 0, True)
     """
-    d = _temper.best_connectivity(as_mesh(mesh)._handle, constraints, programmes)
+    d = _temper.best_connectivity(as_mesh(mesh)._handle, constraints, programs)
     steps = [ConnectivityStep(**step) for step in d["steps"]]
     return ConnectivityReport(**merged(d, mesh=Mesh._of(d["mesh"]), steps=steps))
 

@@ -53,7 +53,7 @@ def sparse_horseshoe() -> Mesh:
 def horseshoe(
     a: int = 7, b: int = 9, x: tuple[float, float] = (1.0, 2.0), y: tuple[float, float] = (1.0, 4.0)
 ) -> Mesh:
-    """The parameterised horseshoe (§6.5): a × b points, x and y the semi-axes of the inner and the outer arch."""
+    """The parameterized horseshoe (§6.5): a × b points, x and y the semi-axes of the inner and the outer arch."""
     return Mesh._of(_temper.horseshoe(a, b, *x, *y))
 
 
@@ -104,7 +104,7 @@ def random_periodic(vertices: int = 1000, seed: int = 1, period: tuple[float, fl
 
 
 def periodic_hexagons(nx: int = 16, ny: int = 16, distance: float = 1.0, channel: bool = False) -> Mesh:
-    """``ny`` rows of ``nx`` hexagons as power cells, around vertices at one distance from their neighbours [length], in
+    """``ny`` rows of ``nx`` hexagons as power cells, around vertices at one distance from their neighbors [length], in
     a periodic plane; a channel has no period along y."""
     return Mesh._of(_temper.periodic_hexagons(nx, ny, distance, channel))
 

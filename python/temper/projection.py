@@ -26,7 +26,7 @@ __all__ = [
 
 @dataclasses.dataclass(frozen=True)
 class Projection(Record):
-    """Longitudes and latitudes are in degrees, x and y in metres from the center."""
+    """Longitudes and latitudes are in degrees, x and y in meters from the center."""
 
     kind: Literal["stereographic", "mercator", "transverse_mercator"] = "stereographic"
     """Best for round regions, poles included; for belts along the center's parallel; for strips along its meridian."""

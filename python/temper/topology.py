@@ -44,7 +44,7 @@ def plan_removal(mesh: Mesh, vertex: int) -> RemovalPlan:
 
 
 def plan_collapse(mesh: Mesh, vertex: int, into: int) -> RemovalPlan:
-    """How to collapse the edge between a vertex and its neighbour ``into``: the vertex is removed, and all new
+    """How to collapse the edge between a vertex and its neighbor ``into``: the vertex is removed, and all new
     triangles have ``into`` as a corner."""
     return _temper.plan_collapse(mesh._handle, vertex, into)
 
@@ -99,7 +99,7 @@ def split_weight(w_a: float, w_b: float, squared_length: float, t: float) -> flo
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class GradingPlan(Record):
-    """How to cut the edges of the boundary and of constrained lines so that neighbours are of like length."""
+    """How to cut the edges of the boundary and of constrained lines so that neighbors are of like length."""
 
     cuts: list[tuple[int, int, npt.NDArray[np.float64]]]
     """a < b, and fractions of the way from a to b, ascending."""
@@ -134,7 +134,7 @@ class Grading(Record):
 
 
 def grade_boundary(mesh: Mesh, ratio: float = 4.0) -> Grading:
-    """Makes the boundary fit for optimisation: cuts long edges beside short ones, and gives triangles without free
+    """Makes the boundary fit for optimization: cuts long edges beside short ones, and gives triangles without free
     corner a vertex inside. Old vertices stay bit for bit."""
     return Grading(**_temper.grade_boundary(mesh._handle, ratio))
 

@@ -26,7 +26,7 @@ LINK = re.compile(r"(\]\(\s*)([^()\s#]*)(#[^()\s]*)?(\s*\))")
 CODE = re.compile(r"`[^`\n]+`")
 FENCE = re.compile(r"^(```.*?^```\s*$)", re.M | re.S)
 # Names of pages of the Python reference that are not those of their modules.
-TITLES = {"_dec": "Operators", "_draw": "Pictures and reports", "_io": "Files", "_mesh": "Meshes", "_optimize": "Optimising",
+TITLES = {"_dec": "Operators", "_draw": "Pictures and reports", "_io": "Files", "_mesh": "Meshes", "_optimize": "Optimizing",
           "_options": "Options of optimize", "_measure": "Measures"}  # fmt: skip
 
 

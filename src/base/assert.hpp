@@ -15,7 +15,7 @@
 #endif
 
 #if TEMPER_ASSERT_LEVEL >= 1
-#ifdef NDEBUG  // the standard macro names file and line, but an optimised build turns it off
+#ifdef NDEBUG  // the standard macro names file and line, but an optimized build turns it off
 #define TEMPER_ASSERT(condition) ((condition) ? static_cast<void>(0) : std::abort())
 #else
 #define TEMPER_ASSERT(condition) assert(condition)

@@ -1,4 +1,4 @@
-// Columns: surfaces say which cells there are; the faces of the power cells, layer by layer, which are neighbours.
+// Columns: surfaces say which cells there are; the faces of the power cells, layer by layer, which are neighbors.
 #include "temper/detail/columns.hpp"
 
 #include <algorithm>

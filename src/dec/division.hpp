@@ -1,8 +1,8 @@
 // A triangle, divided among the vertices whose power cells meet it: the lower envelope of their power distances.
 //
-// Candidates are the corners of the triangle, then all neighbours of candidates that own some of it, until none is new.
-// In a regular triangulation of a convex domain that is enough: a vertex that no neighbour beats at a point is beaten
-// there by nobody. A neighbour that one gets to only around a reflex corner of the domain (more than half a turn in the
+// Candidates are the corners of the triangle, then all neighbors of candidates that own some of it, until none is new.
+// In a regular triangulation of a convex domain that is enough: a vertex that no neighbor beats at a point is beaten
+// there by nobody. A neighbor that one gets to only around a reflex corner of the domain (more than half a turn in the
 // fan of that corner) is left out: it lies behind a crack or a notch.
 #pragma once
 

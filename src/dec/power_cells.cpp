@@ -1,7 +1,7 @@
 // Power cells. Most of them are polygons of orthocenters; what is not is put together from the pieces of triangles.
 //
 // A triangle is plain when its corners surely own a quadrilateral each, of the corner, the weighted midpoints beside it
-// and the orthocenter: all h ≥ 0, also those of the neighbours over its edges, and at its corners no dual edge negative
+// and the orthocenter: all h ≥ 0, also those of the neighbors over its edges, and at its corners no dual edge negative
 // and no d < 0. (The dual edges around a corner are then a convex chain, with the quadrilateral on its inner side, and
 // the corner in its own cell.) A vertex is plain when its triangles are and it owns nothing else. Decided by exact
 // signs.

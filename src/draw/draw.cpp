@@ -222,7 +222,7 @@ std::string with_prefixed_ids(std::string_view svg, const std::string& prefix) {
   return result;
 }
 
-// The root tag at a place; whatever else it says (font, colours, box) stays.
+// The root tag at a place; whatever else it says (font, colors, box) stays.
 std::string placed(std::string_view root, Vec2 at) {
   std::string tag(root);
   const std::size_t name_end = std::string_view("<svg").size();

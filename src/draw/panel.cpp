@@ -20,7 +20,7 @@ constexpr double kConstrainedTimes = 2.5;
 constexpr double kDualTimes = 0.9;
 constexpr double kPeriodWidth = 2;        // pixels
 constexpr double kNearCoincident = 0.05;  // of the mean of the other edges around: nothing to see between the two ends
-constexpr double kSeam = 0.3;             // pixels: hides the hairlines between filled neighbours
+constexpr double kSeam = 0.3;             // pixels: hides the hairlines between filled neighbors
 constexpr double kSpot = 3;               // pixels added around bad triangles too small and too few to be seen
 constexpr double kFew = 0.02;             // of all triangles
 constexpr double kRingRadius = 5;         // pixels
@@ -175,7 +175,7 @@ class PanelPainter {
     stroke(path, "limb", Palette::viewport, 1);
   }
 
-  // Domain boundary and constrained edges are thicker: they are what the optimiser keeps.
+  // Domain boundary and constrained edges are thicker: they are what the optimizer keeps.
   void draw_edges() {
     PathText plain, kept;
     for (HalfedgeId h : mesh_.halfedges()) {
@@ -242,7 +242,7 @@ class PanelPainter {
     stroke(negative, "weight-negative", Palette::negative, width, dashes(width).c_str());
   }
 
-  // Dashes tell the signs apart without colour.
+  // Dashes tell the signs apart without color.
   [[nodiscard]] std::string dashes(double width) const {
     return "stroke-dasharray=\"" + short_number(4 * width / viewport_.unit) + " " +
            short_number(2 * width / viewport_.unit) + "\" ";

@@ -25,7 +25,7 @@ struct Panel {
 [[nodiscard]] Panel draw_panel(const Mesh& mesh, const Viewport& viewport, const DrawOptions& options,
                                std::size_t number, const std::string& id);
 
-/// Evenly growing lightness, for colour-blind readers and grey print: ten of Matplotlib's viridis.
+/// Evenly growing lightness, for color-blind readers and gray print: ten of Matplotlib's viridis.
 inline constexpr std::array<const char*, 10> kScaleColors = {"#440154", "#482878", "#3e4989", "#31688e", "#26828e",
                                                              "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"};
 struct ColorScale {
@@ -35,7 +35,7 @@ struct ColorScale {
 };
 [[nodiscard]] ColorScale scale_of(const TriangleColors& colors);
 
-/// Colours that differ for colour-blind readers and in grey print.
+/// Colors that differ for color-blind readers and in gray print.
 struct Palette {
   static constexpr const char* bad = "#f8c471";
   static constexpr const char* bad_dense = "#e88a00";

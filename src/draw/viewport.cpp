@@ -112,7 +112,7 @@ constexpr double kMostCircle = 0.08;               // more of it for weight circ
 constexpr double kClipMargin = 0.05;               // beyond the panel, so that strokes leave it without an end in sight
 constexpr double kLeastWidth = 50;                 // pixels; less cannot be read
 constexpr double kFlattest = 0.1;                  // height of a panel over its width, at least …
-constexpr double kTallest = 1.25;                  // … and at most; the mesh is centred in what is left
+constexpr double kTallest = 1.25;                  // … and at most; the mesh is centered in what is left
 constexpr double kStepsPerEdge = 100;              // grid steps on a median edge: its ends are then right to 1 %
 constexpr double kFinest = 1e-3, kCoarsest = 0.1;  // pixels per grid step
 

@@ -77,7 +77,7 @@ struct Segment {
 
 struct Viewport {
   static constexpr double kLeastDetail = 6;   ///< pixels of a median edge, for duals and weights
-  static constexpr double kLeastEdges = 1.5;  ///< for the edges themselves: closer lines are one grey
+  static constexpr double kLeastEdges = 1.5;  ///< for the edges themselves: closer lines are one gray
 
   View view;                     ///< from the mesh to the plane of the picture
   Box box;                       ///< what the panel shows, in this plane: of a mesh of the plane the user's coordinates

@@ -18,7 +18,7 @@ namespace {
 // What is shorter than it should be stays longer than this part of what it is.
 constexpr double kKeptLength = 0.9;
 // By so much its barrier is higher after each sweep, up to that: less, and it stays where the energy holds it; more,
-// and it pushes its neighbours below what they should have.
+// and it pushes its neighbors below what they should have.
 constexpr double kUrgency = 2, kMostUrgent = 100;
 // So much more than what is asked for is aimed at, since the last sweep changes local sizes once more.
 constexpr double kAim = 1.08;

@@ -79,7 +79,7 @@ double power_iteration(Index n, int steps, const Apply& apply) {
   return value;
 }
 
-/// A system with one factorisation of its scaled matrix.
+/// A system with one factorization of its scaled matrix.
 struct Scaled {
   const LinearSystem& system;
   Vector scaling;
@@ -93,7 +93,7 @@ bool is_singular(const Scaled& scaled, const Solver& solver) {
   return !(norm_of(scaled.matrix) * inverse <= kSingularCondition);
 }
 
-/// Every right side, or false when the factorisation does not solve them.
+/// Every right side, or false when the factorization does not solve them.
 template <class Solver>
 bool solve_all(const Scaled& scaled, const Solver& solver, LinearSolution& result) {
   const double size = norm_of(scaled.matrix);

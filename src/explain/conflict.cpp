@@ -15,7 +15,7 @@ namespace temper {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr std::size_t kFew = 60;  // a programme for each is well below a second
+constexpr std::size_t kFew = 60;  // a program for each is well below a second
 
 /// Those that are tried first to do without: good ones before bad ones, whatever their numbers.
 void sort_for_dropping(const Mesh& mesh, TriangleId kept, std::vector<TriangleId>& triangles) {

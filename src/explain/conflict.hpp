@@ -1,4 +1,4 @@
-// A smallest set of triangles that no weights suit: found by the programme, cut down by leaving out one at a time.
+// A smallest set of triangles that no weights suit: found by the program, cut down by leaving out one at a time.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ struct Conflict {
 };
 
 /// A conflict among these triangles, when the checker accepts a certificate of one. Of several, one with `kept` is
-/// preferred, when it is valid; then one whose triangles are bad now. O(k) programmes for k terms of the certificate.
+/// preferred, when it is valid; then one whose triangles are bad now. O(k) programs for k terms of the certificate.
 [[nodiscard]] std::optional<Conflict> find_conflict(const Mesh& mesh, std::span<const TriangleId> triangles,
                                                     TriangleId kept, LpSolver& solver);
 /// The same, from a certificate about the mesh that the checker has accepted.
@@ -30,7 +30,7 @@ struct Conflict {
 /// edge, fan or patch.
 [[nodiscard]] ReasonKind kind_of(const Conflict& conflict, bool has_center, bool has_crossing);
 
-/// The vertices of these triangles that an optimisation may move: inside, not fixed, on no constrained edge.
+/// The vertices of these triangles that an optimization may move: inside, not fixed, on no constrained edge.
 [[nodiscard]] std::vector<VertexId> free_vertices(const Mesh& mesh, std::span<const TriangleId> triangles);
 
 // The places where the dual may cross the edges of a triangle that is to be well-centered, for one triangle and for

@@ -1,7 +1,7 @@
-// The best margin of the neighbourhood is a continuous function of where a vertex stands, whether it was there before
+// The best margin of the neighborhood is a continuous function of where a vertex stands, whether it was there before
 // or has just been inserted: so places are first tried, and the best of them is improved by compass search. Changes
 // that insert a vertex are tried with the edges as the split leaves them and, flipped until it is Delaunay, as an
-// optimisation would; the outer edges of the neighbourhood stay.
+// optimization would; the outer edges of the neighborhood stay.
 #include "explain/cures.hpp"
 
 #include <algorithm>
@@ -25,10 +25,10 @@
 namespace temper {
 namespace {
 
-constexpr double kCured = 1e-6;        // of a best margin: clearly more than the programme's rounding
+constexpr double kCured = 1e-6;        // of a best margin: clearly more than the program's rounding
 constexpr double kComfortable = 0.03;  // of a best margin: no need to look for better
 constexpr int kCompassRounds = 5;      // the last step is 1/32 of the first
-constexpr double kFirstStep = 0.35;    // of the distance to the nearest neighbour
+constexpr double kFirstStep = 0.35;    // of the distance to the nearest neighbor
 constexpr double kFreshStep = 0.5;     // of a vertex just inserted, whose place is only a first try
 
 using Triple = std::array<VertexId, 3>;
@@ -77,7 +77,7 @@ std::optional<Patch> patch_of(const Mesh& mesh, const Conflict& conflict, std::s
   input.triangles = triangles, input.constrained_edges = constrained;
   input.regions = regions, input.fixed_vertices = fixed;
   auto built = Mesh::build(input);
-  if (!built) return std::nullopt;  // the neighbourhood touches itself at a vertex: it is no mesh of its own
+  if (!built) return std::nullopt;  // the neighborhood touches itself at a vertex: it is no mesh of its own
   patch.mesh = std::move(built->mesh);
   for (std::size_t i = 0; i < patch.slots.size(); ++i) {
     const TriangleId t = patch.slots[i];
@@ -154,7 +154,7 @@ class CureFinder {
   CureFinder(Patch patch, LpSolver& solver)
       : patch_(std::move(patch)), surface_(patch_.mesh.space()), solver_(solver) {}
 
-  /// First with the whole neighbourhood; where that has more conflicts than this one, with what the change touches.
+  /// First with the whole neighborhood; where that has more conflicts than this one, with what the change touches.
   std::vector<Cure> run() {
     for (const bool conflict_only : {false, true}) {
       conflict_only_ = conflict_only;

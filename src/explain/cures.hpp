@@ -1,4 +1,4 @@
-// Cures of a conflict: changes are tried one by one on a copy of its neighbourhood, and judged by the linear programme.
+// Cures of a conflict: changes are tried one by one on a copy of its neighborhood, and judged by the linear program.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ namespace temper {
 /// Cures that may help and need no search.
 [[nodiscard]] std::vector<Cure> suggested_cures(const Mesh& mesh, const Conflict& conflict);
 
-/// Do the weights of the solved programme make all these triangles well-centered? Exact.
+/// Do the weights of the solved program make all these triangles well-centered? Exact.
 [[nodiscard]] bool suits(const Mesh& mesh, std::span<const TriangleId> triangles, const BestMargin& best);
 
 }  // namespace temper

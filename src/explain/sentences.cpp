@@ -56,7 +56,7 @@ class Speaker {
         return worst(r) + weights_exist(r);
       case ReasonKind::undecided:
         return worst(r) +
-               "No weights were found for its neighbourhood, and no proof that there are none: the best margin "
+               "No weights were found for its neighborhood, and no proof that there are none: the best margin "
                "is zero up to rounding.";
     }
     return {};
@@ -186,7 +186,7 @@ class Speaker {
   [[nodiscard]] static std::string weights_exist(const Reason& r) {
     if (r.margin == kUnbounded || r.checked == 0) return "Weights that cure it have not been looked for.";
     if (r.each) {
-      return "With every vertex where it is, weights exist for each with its neighbours (" + std::to_string(r.checked) +
+      return "With every vertex where it is, weights exist for each with its neighbors (" + std::to_string(r.checked) +
              " triangles at most, best margin at least " + rounded(r.margin) + "); for all together was not asked.";
     }
     return "Nothing stands in the way: with every vertex where it is, weights exist that make all " +

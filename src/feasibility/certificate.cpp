@@ -1,4 +1,4 @@
-// The exact check of a certificate. It shares no code with what makes the programmes: from the positions it computes
+// The exact check of a certificate. It shares no code with what makes the programs: from the positions it computes
 // each N_c anew, as a polynomial (feasibility.hpp), adds them with their multipliers, and looks at what is left:
 //
 //   Σ m_c (N_c − t M_c)  =  C + Σ R_v w_v        C of degree 4 in the coordinates, R_v of degree 2
@@ -341,14 +341,14 @@ class Sum {
  private:
   struct Node {
     Number residual;
-    std::vector<std::pair<VertexId, Number>> neighbours;  ///< with b_pq
+    std::vector<std::pair<VertexId, Number>> neighbors;  ///< with b_pq
   };
 
   void join_edge(VertexId a, VertexId b, VertexId r) {
     const std::optional<Number> bound = terms_.bound(a, b, r);
     if (!bound) return;
-    nodes_[a].neighbours.emplace_back(b, *bound);
-    nodes_[b].neighbours.emplace_back(a, *bound);
+    nodes_[a].neighbors.emplace_back(b, *bound);
+    nodes_[b].neighbors.emplace_back(a, *bound);
   }
   void join_triangle(VertexId a, VertexId b, VertexId c) { join_edge(a, b, c), join_edge(b, c, a), join_edge(c, a, b); }
 
@@ -384,7 +384,7 @@ Number Sum<Terms>::part_bound(VertexId root, std::map<VertexId, Number>& reach) 
     const VertexId v = queue[i];
     const Node& node = nodes_.at(v);
     bound += Terms::most(node.residual, reach[v]);
-    for (const auto& [u, difference] : node.neighbours) {
+    for (const auto& [u, difference] : node.neighbors) {
       if (reach.count(u) > 0) continue;
       reach[u] = Terms::reach_beyond(reach[v], difference);
       queue.push_back(u);

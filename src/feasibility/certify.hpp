@@ -1,4 +1,4 @@
-// From the dual of the margin programme to a certificate that the exact checker accepts.
+// From the dual of the margin program to a certificate that the exact checker accepts.
 #pragma once
 
 #include <span>
@@ -10,10 +10,10 @@
 namespace temper {
 
 /// A best margin as small as this is taken for zero or less when it comes to looking for a certificate: the rounding of
-/// the programme. The certificate itself is judged exactly.
+/// the program. The certificate itself is judged exactly.
 inline constexpr double kNoMargin = 1e-9;
 
-/// The programme of best_margin, solved, with the constraints of its rows and their multipliers.
+/// The program of best_margin, solved, with the constraints of its rows and their multipliers.
 struct Bound {
   BestMargin best;  ///< without certificate
   std::vector<WeightConstraint> constraints;

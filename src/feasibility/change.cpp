@@ -1,4 +1,4 @@
-// The programme of a region: columns u⁺, u⁻ ≥ 0 of each free vertex, and e⁺, e⁻ ≥ 0 of each edge that has a free end.
+// The program of a region: columns u⁺, u⁻ ≥ 0 of each free vertex, and e⁺, e⁻ ≥ 0 of each edge that has a free end.
 //
 //   Δw_v = unit_v (u⁺ − u⁻)          cost (u⁺ + u⁻) · 10⁻⁴: without rim a constant on all Δw is free otherwise
 //   Δw_i − Δw_j = ℓ² (e⁺ − e⁻)       cost (e⁺ + e⁻) ℓ/2, the |Δw_i − Δw_j| / (2ℓ) of the edge
@@ -6,11 +6,11 @@
 //   heights, dual lengths            one row each
 //
 // Lengths are counted in the region's mean edge length. The sum of absolute differences is what makes few weights move:
-// all of a region but the neighbourhood of what is bad keeps its weights.
+// all of a region but the neighborhood of what is bad keeps its weights.
 //
 // On the sphere w is the potential, Δw that of σ = σ₀ (1 − Δw/(2R²)), relative to the start's, so that a factor of all
 // σ is the same Δw of all. Crossings are rows of their own. Without rim the Δw sum to zero: σ that tend to zero
-// together would keep all constraints and change by nothing. Elastic programmes have a column more for each height and
+// together would keep all constraints and change by nothing. Elastic programs have a column more for each height and
 // dual length, and two for each edge that has crossings, which pay for what is lacking.
 #include "feasibility/change.hpp"
 
@@ -28,19 +28,19 @@ constexpr double kNoChange = 1e-8;
 // The cost of a unit of u, where an edge's costs ℓ/2: so little that it decides only where the sum over the edges is
 // equal.
 constexpr double kTieBreak = 1e-4;
-// The second elastic programme may violate this much more than the least, relative and absolute: its own tolerance.
+// The second elastic program may violate this much more than the least, relative and absolute: its own tolerance.
 constexpr double kSameViolation = 1e-9;
 
-struct Programme {
+struct Program {
   LpBuilder lp;
   std::vector<double> units;                            ///< columns 2 i and 2 i + 1 are u⁺ and u⁻ of vertex i
   std::vector<std::pair<int, double>> change_costs;     ///< (column, cost)
   std::vector<std::pair<int, double>> violation_costs;  ///< none unless elastic
 };
 
-class ProgrammeBuilder {
+class ProgramBuilder {
  public:
-  ProgrammeBuilder(const RegionProblem& problem, const Region& region, bool elastic)
+  ProgramBuilder(const RegionProblem& problem, const Region& region, bool elastic)
       : mesh_(problem.mesh),
         region_(region),
         demand_(problem.demand),
@@ -48,7 +48,7 @@ class ProgrammeBuilder {
         margin_(problem.margin),
         elastic_(elastic) {}
 
-  Programme build() {
+  Program build() {
     const std::vector<HalfedgeId> edges = edges_of(mesh_, region_.triangles);
     p_.units = weight_units(mesh_, region_.free, edges);
     for (std::size_t i = 0; i < region_.free.size(); ++i) {
@@ -142,7 +142,7 @@ class ProgrammeBuilder {
   const IdVector<VertexId, double>& start_;
   double margin_;
   bool elastic_;
-  Programme p_;
+  Program p_;
 };
 
 /// Without rim a constant on all weights, or a factor of all σ, is free: the change that most vertices share.
@@ -183,13 +183,13 @@ RegionChange read_change(const RegionProblem& problem, const Region& region, con
 }  // namespace
 
 RegionChange least_change(const RegionProblem& problem, const Region& region, LpSolver& solver) {
-  Programme p = ProgrammeBuilder(problem, region, false).build();
+  Program p = ProgramBuilder(problem, region, false).build();
   for (const auto& [column, cost] : p.change_costs) p.lp.set_cost(column, cost);
   return read_change(problem, region, p.units, solver.solve(p.lp.problem()));
 }
 
 RegionChange least_violation(const RegionProblem& problem, const Region& region, LpSolver& solver) {
-  Programme p = ProgrammeBuilder(problem, region, true).build();
+  Program p = ProgramBuilder(problem, region, true).build();
   for (const auto& [column, cost] : p.violation_costs) p.lp.set_cost(column, cost);
   const LpSolution least = solver.solve(p.lp.problem());
   if (least.status != LpStatus::optimal) return read_change(problem, region, p.units, least);

@@ -23,10 +23,10 @@ struct RegionProblem {
   double margin = 0;
 };
 
-/// Minimises Σ |Δw_i − Δw_j| / (2ℓ) over the edges of the region, subject to the margin.
+/// Minimizes Σ |Δw_i − Δw_j| / (2ℓ) over the edges of the region, subject to the margin.
 [[nodiscard]] RegionChange least_change(const RegionProblem& problem, const Region& region, LpSolver& solver);
 
-/// Minimises what h/ℓ, d/ℓ, 1 − d/ℓ and dual length/ℓ lack of the margin, summed; of all such weights those that change
+/// Minimizes what h/ℓ, d/ℓ, 1 − d/ℓ and dual length/ℓ lack of the margin, summed; of all such weights those that change
 /// least.
 [[nodiscard]] RegionChange least_violation(const RegionProblem& problem, const Region& region, LpSolver& solver);
 

@@ -44,7 +44,7 @@ class ConnectivitySearch {
     if (auto first = optimum_of(report_.mesh)) {
       best_ = *std::move(first);
       report_.before = best_.margin;
-      report_.end = SearchEnd::no_better_neighbour;
+      report_.end = SearchEnd::no_better_neighbor;
       while (try_regular() || try_flips()) {
       }
       report_.margin = best_.margin;
@@ -56,11 +56,11 @@ class ConnectivitySearch {
  private:
   /// Of each component on its own; nothing when the solver fails, or may not be asked any more.
   std::optional<Optimum> optimum_of(const Mesh& mesh) {
-    if (report_.programmes == options_.programmes) {
+    if (report_.programs == options_.programs) {
       report_.end = SearchEnd::limit;
       return std::nullopt;
     }
-    ++report_.programmes;
+    ++report_.programs;
     Optimum optimum;
     optimum.weights = IdVector<VertexId, double>(mesh.n_vertices(), 0.0);
     for (const Region& component : components_of(mesh)) {
@@ -166,7 +166,7 @@ std::string_view name(ConnectivityStep::Kind kind) {
 }
 
 std::string_view name(SearchEnd end) {
-  constexpr std::array<std::string_view, 3> kNames = {"no_better_neighbour", "limit", "failed"};
+  constexpr std::array<std::string_view, 3> kNames = {"no_better_neighbor", "limit", "failed"};
   return kNames[static_cast<std::size_t>(end)];
 }
 

@@ -1,7 +1,7 @@
 // The whole mesh: regions that need weights, solved one by one, grown where the outside is in the way, and verdicts.
 //
 //   where the ring of one bad triangle is a proof already, nothing else is tried (but for elastic weights);
-//   free the neighbourhoods of bad triangles; until no region changes:
+//   free the neighborhoods of bad triangles; until no region changes:
 //     least change of each region                      solved: done with it
 //     else the region's own margin, the rest left out  below what is asked: that proves it, done with it
 //     else more rings, merging regions that meet
@@ -26,8 +26,8 @@
 namespace temper {
 namespace {
 
-constexpr int kMoreRings = 2;   // a ring more each time would solve each programme twice as often
-constexpr int kHalvings = 30;   // of the margin asked for: down to the rounding of the programmes
+constexpr int kMoreRings = 2;   // a ring more each time would solve each program twice as often
+constexpr int kHalvings = 30;   // of the margin asked for: down to the rounding of the programs
 constexpr double kKept = 1e-9;  // a margin is kept when no more than this is lacking: the solvers' tolerance
 constexpr double kDegrees = 57.29577951308232;
 
@@ -94,7 +94,7 @@ class WeightFinder {
     return demand_.refuted_margin(std::clamp(options_.margin, kLeastRefutedDual, kRefutedDual));
   }
 
-  /// The best margins of components that are one programme.
+  /// The best margins of components that are one program.
   void measure_components() {
     for (const Region& component : components_) {
       if (component.triangles.size() > options_.whole) continue;
@@ -110,7 +110,7 @@ class WeightFinder {
     return margin_of(t, start_) < asked || !is_kept(t, start_);
   }
 
-  /// The cheapest proof there can be, where programmes of regions may be large: the ring of one bad triangle.
+  /// The cheapest proof there can be, where programs of regions may be large: the ring of one bad triangle.
   bool refuted_by_a_ring(double asked) {
     for (const Region& component : components_) {
       if (component.triangles.size() <= options_.whole) continue;
@@ -234,7 +234,7 @@ class WeightFinder {
     WeightReport r;
     r.asked = asked;
     r.weights = changed_weights();
-    r.programmes = results_.size();
+    r.programs = results_.size();
     for (const RegionResult& result : results_) r.largest = std::max(r.largest, result.region.triangles.size());
     measure(r);
     const bool all_good = std::all_of(mesh_.triangles().begin(), mesh_.triangles().end(),
@@ -268,7 +268,7 @@ class WeightFinder {
     } else if (found) {
       r.margin = std::min(r.attained, small_margin_);
       r.margin_kind = MarginKind::at_least;
-    } else {  // a component that is one programme has no good weights; others were not tried
+    } else {  // a component that is one program has no good weights; others were not tried
       r.margin = small_margin_;
       r.margin_kind = MarginKind::at_most;
     }

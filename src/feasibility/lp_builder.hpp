@@ -1,4 +1,4 @@
-// A linear programme put together column by column and row by row.
+// A linear program put together column by column and row by row.
 #pragma once
 
 #include <span>

@@ -1,14 +1,14 @@
-// The best margin: maximise t ≤ 1/2 with every h/ℓ, d/ℓ and 1 − d/ℓ, or every dual length/ℓ, at least t.
+// The best margin: maximize t ≤ 1/2 with every h/ℓ, d/ℓ and 1 − d/ℓ, or every dual length/ℓ, at least t.
 //
-// The programme always has a solution, and an optimal one since t is bounded (by d/ℓ and 1 − d/ℓ, which sum to one, and
+// The program always has a solution, and an optimal one since t is bounded (by d/ℓ and 1 − d/ℓ, which sum to one, and
 // by the heights of one triangle before that). Its dual is the
 // certificate: multipliers y ≥ 0 that sum to one, in whose combination of the constraints the weights cancel, and whose
-// constant is t* (so no ray of an infeasible programme is needed). A weight is counted in units of the mean ℓ² around
+// constant is t* (so no ray of an infeasible program is needed). A weight is counted in units of the mean ℓ² around
 // its vertex: coefficients are then of the order of one on meshes of any size, and on graded ones.
 //
 // On the sphere a margin is a ratio of linear functions, N/m > t (constraints.hpp). With t as far as it is attained,
-// maximise s with every N − t m ≥ s; what the solution attains is the next t, until s is zero (Dinkelbach's method,
-// which converges faster than linearly). N > 0 alone is decided by the first programme, from t = 0: for dual lengths,
+// maximize s with every N − t m ≥ s; what the solution attains is the next t, until s is zero (Dinkelbach's method,
+// which converges faster than linearly). N > 0 alone is decided by the first program, from t = 0: for dual lengths,
 // which σ less a linear function of the places leave as they are, so that m can be made small, there is no second.
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@
 namespace temper {
 namespace {
 
-struct MarginProgramme {
+struct MarginProgram {
   std::vector<VertexId> vertices;  ///< a column each
   std::vector<double> units;
   std::vector<WeightConstraint> constraints;  ///< a row each
@@ -38,9 +38,9 @@ constexpr double kAttained = 1e-10;  // of s: a tenth of the solver's tolerance
 constexpr double kLeastScale = 0x1p-12;
 
 /// With margins counted from `from`.
-MarginProgramme margin_programme(const Mesh& mesh, std::span<const TriangleId> triangles, const Demand& demand,
-                                 double from) {
-  MarginProgramme p;
+MarginProgram margin_program(const Mesh& mesh, std::span<const TriangleId> triangles, const Demand& demand,
+                             double from) {
+  MarginProgram p;
   p.vertices = vertices_of(mesh, triangles);
   p.units = weight_units(mesh, p.vertices, edges_of(mesh, triangles));
   p.constraints = constraints_of(mesh, triangles, demand);
@@ -82,7 +82,7 @@ double scale_on_sphere(const Mesh& mesh, const WeightConstraint& c) {
   return 0;
 }
 
-/// N of a constraint (feasibility.hpp) over its value in the programme, h/ℓ, d/ℓ or dual length/ℓ.
+/// N of a constraint (feasibility.hpp) over its value in the program, h/ℓ, d/ℓ or dual length/ℓ.
 double scale_of_polynomial(const Mesh& mesh, const WeightConstraint& c) {
   if (!mesh.space().is_plane()) return scale_on_sphere(mesh, c);
   const Vec2 p = mesh.position(c.p), q = mesh.position(c.q);
@@ -159,21 +159,21 @@ Certificate certify(const Mesh& mesh, const Bound& bound, Constraints constraint
 
 namespace {
 
-/// The programme with margins counted from `from`, solved.
+/// The program with margins counted from `from`, solved.
 Bound bound_from(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, const Demand& demand,
                  double from) {
   Bound bound;
-  MarginProgramme programme = margin_programme(mesh, triangles, demand, from);
-  LpSolution solution = solver.solve(programme.problem);
-  bound.constraints = std::move(programme.constraints);
+  MarginProgram program = margin_program(mesh, triangles, demand, from);
+  LpSolution solution = solver.solve(program.problem);
+  bound.constraints = std::move(program.constraints);
   bound.best.status = solution.status;
-  bound.best.vertices = std::move(programme.vertices);
+  bound.best.vertices = std::move(program.vertices);
   if (solution.status != LpStatus::optimal) return bound;
   bound.best.margin = from + solution.primal.back();
   bound.dual = std::move(solution.dual);
   std::vector<double> potentials;
   for (std::size_t i = 0; i < bound.best.vertices.size(); ++i) {
-    potentials.push_back(programme.units[i] * solution.primal[i]);
+    potentials.push_back(program.units[i] * solution.primal[i]);
     bound.best.weights.push_back(weight_of_potential(mesh.space(), potentials.back()));
   }
   if (mesh.space().is_plane()) return bound;

@@ -138,7 +138,7 @@ std::optional<CrossingBound<Point>> bound_of(VertexId vertex, Point at, Point ne
   return bound;
 }
 
-/// A vertex that no optimisation takes away from its place, its line apart.
+/// A vertex that no optimization takes away from its place, its line apart.
 bool stays(const Mesh& mesh, VertexId v) {
   if (mesh.is_fixed(v) || mesh.is_boundary(v)) return true;
   for (const HalfedgeId h : mesh.star(v)) {

@@ -29,7 +29,7 @@ using VertexMask = IdVector<VertexId, std::uint8_t>;
 /// each other across an edge are one. O(n).
 [[nodiscard]] std::vector<Region> regions_of(const Mesh& mesh, const VertexMask& free, bool across_edges = false);
 
-/// Adds the neighbours of these vertices to the mask, so many times.
+/// Adds the neighbors of these vertices to the mask, so many times.
 void grow(const Mesh& mesh, VertexMask& mask, std::vector<VertexId> front, int rings);
 
 /// The triangles that touch t, and t itself; sorted.

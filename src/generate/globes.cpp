@@ -38,12 +38,12 @@ Globe icosahedron() {
       s.points.push_back(unit({b, 0, a}));
     }
   }
-  // Three vertices are a face where each two are neighbours: nearer than any others.
-  const auto neighbours = [&](std::size_t i, std::size_t j) { return dot(s.points[i], s.points[j]) > 0.4; };
+  // Three vertices are a face where each two are neighbors: nearer than any others.
+  const auto neighbors = [&](std::size_t i, std::size_t j) { return dot(s.points[i], s.points[j]) > 0.4; };
   for (std::size_t i = 0; i < 12; ++i) {
     for (std::size_t j = i + 1; j < 12; ++j) {
       for (std::size_t k = j + 1; k < 12; ++k) {
-        if (!neighbours(i, j) || !neighbours(j, k) || !neighbours(k, i)) continue;
+        if (!neighbors(i, j) || !neighbors(j, k) || !neighbors(k, i)) continue;
         const bool left = dot(s.points[i], cross(s.points[j], s.points[k])) > 0;
         const auto at = [](std::size_t x) { return static_cast<std::int32_t>(x); };
         s.triangles.push_back(left ? Corners{at(i), at(j), at(k)} : Corners{at(i), at(k), at(j)});

@@ -60,7 +60,7 @@ Expected<Mesh> annulus(const Annulus& shape) {
   if (1.0 * shape.around * shape.rings > kMostVertices)
     return invalid("more than 500,000,000 vertices are out of reach");
   if (!(shape.jitter >= 0 && shape.jitter <= 1)) return invalid("the jitter of an annulus is between 0 and 1");
-  // Middle rings lie inside the outer polygon, whose sides come nearer to the centre than its corners.
+  // Middle rings lie inside the outer polygon, whose sides come nearer to the center than its corners.
   const double apothem = shape.outer * std::cos(std::numbers::pi / shape.around);
   if (!(shape.inner > 0 && shape.inner < apothem && std::isfinite(shape.outer))) {
     return invalid("an annulus of " + std::to_string(shape.around) +

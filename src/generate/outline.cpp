@@ -76,7 +76,7 @@ double squared_distance(const Polygon& polygon, Vec2 p) {
 }
 
 std::vector<Vec2> corner_points(const Polygon& polygon, double distance) {
-  // Beyond 150° the circle of a corner and its neighbours is so large that other points are in it anyway.
+  // Beyond 150° the circle of a corner and its neighbors is so large that other points are in it anyway.
   constexpr double kWidestCosine = -0.8660254037844386;
   std::vector<Vec2> points;
   const std::size_t n = polygon.size();

@@ -32,7 +32,7 @@ struct Outline {
 [[nodiscard]] bool contains(const Polygon& polygon, Vec2 p);
 [[nodiscard]] double squared_distance(const Polygon& polygon, Vec2 p);
 /// A point on the bisector of each convex corner of a counter-clockwise polygon, at `distance` from it. It keeps the
-/// corner and its two neighbours from being a triangle of three boundary vertices, which no fixed boundary can cure.
+/// corner and its two neighbors from being a triangle of three boundary vertices, which no fixed boundary can cure.
 [[nodiscard]] std::vector<Vec2> corner_points(const Polygon& polygon, double distance);
 
 [[nodiscard]] inline InputError invalid(std::string message) {

@@ -1,4 +1,4 @@
-// The meshes of the paper: a single triangle (§3.1.2), the sparse (§6.4) and the parameterised horseshoe (§6.5).
+// The meshes of the paper: a single triangle (§3.1.2), the sparse (§6.4) and the parameterized horseshoe (§6.5).
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -91,7 +91,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr Complex kCentre = {-0.12, 0.08};  // thickness and camber of about a tenth of the chord, which is about 4
+constexpr Complex kCenter = {-0.12, 0.08};  // thickness and camber of about a tenth of the chord, which is about 4
 constexpr double kHalfBox = 10;             // two and a half chords to each side
 constexpr double kRowHeight = 0.8660254037844386;  // of a row of equilateral triangles
 constexpr double kJitter = 0.15;                   // of the spacing: enough to break the symmetry of rings
@@ -118,12 +118,12 @@ Expected<Mesh> airfoil(const Airfoil& shape) {
     return generate::invalid("an airfoil mesh of that many points and so little growth is out of reach");
   }
   Rng rng(shape.seed);
-  const double radius = std::abs(1.0 - kCentre), start = std::arg(1.0 - kCentre);
+  const double radius = std::abs(1.0 - kCenter), start = std::arg(1.0 - kCenter);
   std::vector<Vec2> foil;
   for (int i = 0; i < shape.around; ++i) {
     // The first point is the cusp itself: exactly (2, 0).
     const double angle = start + 2 * std::numbers::pi * i / shape.around;
-    foil.push_back(i == 0 ? Vec2{2, 0} : joukowski(kCentre + std::polar(radius, angle)));
+    foil.push_back(i == 0 ? Vec2{2, 0} : joukowski(kCenter + std::polar(radius, angle)));
   }
   std::vector<Vec2> inner;
   double spacing = 2 * std::numbers::pi * radius / shape.around;
@@ -134,7 +134,7 @@ Expected<Mesh> airfoil(const Airfoil& shape) {
     for (int i = 0; i < n; ++i) {
       const double outwards = kJitter * spacing * rng.uniform(-1, 1);
       const double angle = start + 2 * std::numbers::pi * (i + phase + kJitter * rng.uniform(-1, 1)) / n;
-      const Vec2 p = joukowski(kCentre + std::polar(at + outwards, angle));
+      const Vec2 p = joukowski(kCenter + std::polar(at + outwards, angle));
       if (std::abs(p.x) < limit && std::abs(p.y) < limit) inner.push_back(p);
     }
   }

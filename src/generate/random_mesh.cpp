@@ -13,8 +13,8 @@ namespace {
 
 // Points keep this part of the mean spacing from the boundary, so that no boundary triangle is a sliver.
 constexpr double kBoundaryGap = 0.5;
-// A corner point at this part of the spacing lies inside the circle of a right corner and its neighbours (whose
-// centre is at 0.71 of the spacing, with that radius), and still well away from both sides.
+// A corner point at this part of the spacing lies inside the circle of a right corner and its neighbors (whose
+// center is at 0.71 of the spacing, with that radius), and still well away from both sides.
 constexpr double kCornerGap = 0.6;
 
 /// An L with a notch in its base: reflex at the notch and at the elbow.

@@ -18,7 +18,7 @@
 
 namespace temper::generate {
 
-// Biased randomised insertion order: see Amenta, Choi and Rote, "Incremental constructions con BRIO", 2003.
+// Biased randomized insertion order: see Amenta, Choi and Rote, "Incremental constructions con BRIO", 2003.
 
 namespace {
 

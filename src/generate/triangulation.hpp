@@ -1,6 +1,6 @@
 // The stages of a constrained Delaunay triangulation: points, segments, carving, numbering.
 //
-// While it is built, vertices are numbered in the order of their insertion, which keeps neighbours near in memory;
+// While it is built, vertices are numbered in the order of their insertion, which keeps neighbors near in memory;
 // `number` leads back to the user's. All ties are broken by the user's numbers, so that the triangulation depends
 // on the points and the segments alone.
 #pragma once

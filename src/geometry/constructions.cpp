@@ -1,6 +1,6 @@
 // Orthocenters, heights and crossings in doubles.
 //
-// Everything starts from differences of positions and of weights, which are nearly exact for neighbours in a mesh
+// Everything starts from differences of positions and of weights, which are nearly exact for neighbors in a mesh
 // however far they are from the origin and however large a constant all weights share.
 #include <array>
 #include <cmath>
@@ -49,7 +49,7 @@ std::array<double, 3> scaled_heights(const WeightedPoint& p, const WeightedPoint
 
 double doubled_area(Vec2 p, Vec2 q, Vec2 r) { return cross(q - p, r - p); }
 
-// atan2 keeps its digits for angles near 0 and π, where acos of the normalised dot product has none.
+// atan2 keeps its digits for angles near 0 and π, where acos of the normalized dot product has none.
 double corner_angle(Vec2 p, Vec2 q, Vec2 r) {
   const Vec2 a = q - p;
   const Vec2 b = r - p;
@@ -58,7 +58,7 @@ double corner_angle(Vec2 p, Vec2 q, Vec2 r) {
 
 // --- on the sphere ----------------------------------------------------------------------------------------------
 //
-// Cross products of neighbours by their difference, P × Q = P × (Q − P), which keeps its digits where arcs are short.
+// Cross products of neighbors by their difference, P × Q = P × (Q − P), which keeps its digits where arcs are short.
 
 Vec3 orthocenter(Vec3 p, Vec3 q, Vec3 r) {
   const Vec3 n = cross(q - p, r - p);

@@ -170,7 +170,7 @@ TEMPER_INLINE auto filtered_dual_crossing(const Point& p, const Point& q) {
          inlined::crosses_edge(q, r) && inlined::crosses_edge(r, p);
 }
 
-// --- on the sphere: all from differences of neighbours, of which few digits cancel -------------------------------
+// --- on the sphere: all from differences of neighbors, of which few digits cancel -------------------------------
 
 /// det(P, Q, R) = P·((Q − P) × (R − P)).
 template <OnSphere Point>

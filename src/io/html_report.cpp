@@ -5,7 +5,7 @@
 //
 // and its text base64 of zlib's stream of planes: all first bytes of the little-endian numbers, then all second ones,
 // and so on, since bytes of one place resemble each other. With data-delta="k" each number is the difference to the one
-// k places before, in zigzag form: corners of neighbours are near each other.
+// k places before, in zigzag form: corners of neighbors are near each other.
 #include <bit>
 #include <charconv>
 #include <cstdint>

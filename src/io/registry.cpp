@@ -34,11 +34,11 @@ Files fesom_files, triangle_files, triangle_files_to_read, vtkhdf_files, netcdf_
 
 namespace {
 
-// Of two rows that recognise a file, or have its suffix, the first is taken.
+// Of two rows that recognize a file, or have its suffix, the first is taken.
 constexpr FormatRow kRows[] = {
     // clang-format off
     // name, description, suffixes, what a file holds,
-    // functions that recognise, read and write it, details
+    // functions that recognize, read and write it, details
     {"vtu", "VTK XML unstructured grid, temper's own", ".vtu", kAll | kSphere | kPeriod,
      sniff_vtu, read_vtu, write_vtu},
     {"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", (kAll & ~kFieldData) | kSphere,
@@ -97,10 +97,10 @@ const FormatRow* row_of(std::string_view head) {
   return row == std::end(kRows) ? nullptr : row;
 }
 
-const FormatRow& recognise(const Source& source) {
+const FormatRow& recognize(const Source& source) {
   const std::string_view head = std::string_view(source.bytes).substr(0, kSniffBytes);
   if (const FormatRow* const row = row_of(head)) return *row;
-  if (const std::string known = recognise_unsupported(source.bytes); !known.empty())
+  if (const std::string known = recognize_unsupported(source.bytes); !known.empty())
     fail(ErrorCode::unsupported, source.path, "is ", known);
   std::string names;
   for (const Format& format : kFormats) names += text(names.empty() ? "" : ", ", format.description);
@@ -126,7 +126,7 @@ void tidy_warnings(MeshFile& file) {
 MeshFile read_or_throw(const std::string& path, const ReadOptions& options) {
   Source source = load(path);
   source.executor = options.executor;
-  const FormatRow& row = recognise(source);
+  const FormatRow& row = recognize(source);
   Document document = row.read(source);
   std::string().swap(source.bytes);
   if (document.file.format.empty()) document.file.format = row.name;
@@ -254,7 +254,7 @@ void warn_of_weights_beside_degrees(const WriteJob& job, const MeshFile& on_map)
   if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; })) return;
   const std::string map = on_map.map() != nullptr
                               ? text(" on the map ", projection_text(on_map.map()->projection),
-                                     ", in metres: give this projection where the file is read again")
+                                     ", in meters: give this projection where the file is read again")
                               : std::string(" of the plane that the mesh was in");
   job.warn("points are longitude and latitude, but weights are squared lengths", map);
 }

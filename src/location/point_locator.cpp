@@ -160,7 +160,7 @@ class FormerVertices {
     const VertexId former = vertices_.empty() ? v : vertices_[v];
     return former.index < before_.n_vertices() ? former : VertexId();
   }
-  /// A triangle of `before` to look for v from: of its own, or of a neighbour's.
+  /// A triangle of `before` to look for v from: of its own, or of a neighbor's.
   [[nodiscard]] TriangleId near(VertexId v) const {
     if ((*this)[v].valid()) return Mesh::triangle(before_.outgoing((*this)[v]));
     for (const HalfedgeId h : after_.star(v)) {

@@ -1,6 +1,6 @@
 // Clp behind temper's LpSolver, by its C interface.
 //
-// The dual simplex method first: temper's programmes start dual feasible (costs are not negative, free columns cost
+// The dual simplex method first: temper's programs start dual feasible (costs are not negative, free columns cost
 // nothing), and it then works on violated rows alone, which are few where few triangles are bad. Solutions are looked
 // at before they are believed; what is not good is solved again by other means.
 #include <coin/Clp_C_Interface.h>

@@ -152,7 +152,7 @@ bool BoundarySweep::covers_twice(const Event& one, const Event& other) {
   return true;
 }
 
-/// Notes it when two neighbours meet. Edges at a common vertex do not count.
+/// Notes it when two neighbors meet. Edges at a common vertex do not count.
 bool BoundarySweep::meet(Line::const_iterator below, Line::const_iterator above) {
   const HalfedgeId g = below->halfedge, h = above->halfedge;
   if (mesh_.target(g) == mesh_.origin(h) || mesh_.target(h) == mesh_.origin(g)) return false;
@@ -201,7 +201,7 @@ bool arcs_meet(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
 
 bool meet(const Mesh& mesh, HalfedgeId g, HalfedgeId h) {
   const VertexId a = mesh.origin(g), b = mesh.target(g), c = mesh.origin(h), d = mesh.target(h);
-  if (b == c || d == a) return false;  // neighbours on their loop, which go different ways
+  if (b == c || d == a) return false;  // neighbors on their loop, which go different ways
   return arcs_meet(mesh.weighted_vector(a), mesh.weighted_vector(b), mesh.weighted_vector(c), mesh.weighted_vector(d));
 }
 

@@ -1,7 +1,7 @@
 // The boundary of a mesh from left to right: do its edges cross or touch, does a component lie on another one?
 //
 // A line sweeps over the boundary edges and keeps those that it crosses in their order on it. Two edges that meet are
-// neighbours on the line just before (Shamos and Hoey), so it suffices to look at neighbours. And while none meet,
+// neighbors on the line just before (Shamos and Hoey), so it suffices to look at neighbors. And while none meet,
 // each edge that has the mesh above it is followed by one that has it below. The leftmost point that is covered twice
 // is a vertex where triangles begin, and just below it the line crosses an edge that has the mesh above it.
 #pragma once

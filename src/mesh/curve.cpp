@@ -107,12 +107,12 @@ NearbyCopy::NearbyCopy(const Mesh& mesh, Executor* executor) : mesh_(&mesh) {
   if (is_scattered(mesh)) mesh_ = &copy_.emplace(hilbert_ordered(mesh, executor)).mesh;
 }
 
-// Hilbert order: neighbours in the plane, or on the sphere, become neighbours in memory.
+// Hilbert order: neighbors in the plane, or on the sphere, become neighbors in memory.
 
 namespace {
 
 /// Triangles by their least corner in the new numbering; equal ones by number. Each is found in the star of that
-/// corner, from vertex to vertex along the curve: neighbours of neighbours are in the cache.
+/// corner, from vertex to vertex along the curve: neighbors of neighbors are in the cache.
 IdVector<TriangleId, TriangleId> triangles_by_vertex(const Mesh& mesh, const IdVector<VertexId, VertexId>& order,
                                                      const IdVector<VertexId, VertexId>& new_vertex,
                                                      Executor* executor) {

@@ -16,7 +16,7 @@ class Executor;
 /// Says whether a mesh is large, and numbered so that stars are scattered over memory.
 [[nodiscard]] bool is_scattered(const Mesh& mesh);
 
-/// An order in which to look at each vertex once, with its star. Where the numbers of neighbours are far apart, as
+/// An order in which to look at each vertex once, with its star. Where the numbers of neighbors are far apart, as
 /// those of random points, it is that of the curve: what one star has brought into the cache serves the next ones, and
 /// looking at all of them is some four times faster. Else it is that of the numbers, and takes no room.
 class Walk {

@@ -26,7 +26,7 @@ class MeshEditor {
   /// Until find_twins() (twins.hpp) nobody may ask for one.
   void release_twins() { mesh_.twins_ = {}; }
   void set_outgoing(VertexId v, HalfedgeId h) { mesh_.record(v).outgoing = h.index; }
-  /// Marks a triangle for compact(). Its neighbours get a boundary there; the outgoing() of its corners is the caller's
+  /// Marks a triangle for compact(). Its neighbors get a boundary there; the outgoing() of its corners is the caller's
   /// to mend.
   void erase(TriangleId t);
 

@@ -143,12 +143,12 @@ class AreaFinder {
     region_.assign(n_components_, 0);
     size_.assign(n_components_, largest_);
     extent_.assign(n_components_, 0);
-    neighbours_.resize(n_components_);
+    neighbors_.resize(n_components_);
     for (const HalfedgeId h : mesh.halfedges()) {
       if (mesh.is_boundary(h)) {
         from_outside_.emplace_back(component(h), hull_.piece[h]);
       } else if (hull_.piece[h] != kNone) {
-        neighbours_[component(h)].emplace_back(component(mesh.twin(h)), hull_.piece[h]);
+        neighbors_[component(h)].emplace_back(component(mesh.twin(h)), hull_.piece[h]);
       }
     }
   }
@@ -164,7 +164,7 @@ class AreaFinder {
         here.pop_back();
         if (depth[c] != kNone) continue;
         depth[c] = level;
-        for (const auto& [next, piece] : neighbours_[c]) beyond.push_back(next);
+        for (const auto& [next, piece] : neighbors_[c]) beyond.push_back(next);
       }
       std::swap(here, beyond);
     }
@@ -208,7 +208,7 @@ class AreaFinder {
     for (const auto& [c, piece] : first) enter(c, {}, piece);
     for (std::size_t i = 0; i < queue.size(); ++i) {
       const std::uint32_t c = queue[i];
-      for (const auto& [next, piece] : neighbours_[c]) enter(next, parts[c], piece);
+      for (const auto& [next, piece] : neighbors_[c]) enter(next, parts[c], piece);
     }
     return parts;
   }
@@ -400,8 +400,8 @@ class AreaFinder {
   TriangleId located_ = TriangleId(0);
   IdVector<TriangleId, std::uint32_t> component_;
   std::uint32_t n_components_ = 0;
-  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> neighbours_;  // component, and the edge between
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> from_outside_;             // the same, from beyond the hull
+  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> neighbors_;  // component, and the edge between
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> from_outside_;            // the same, from beyond the hull
   std::vector<std::uint8_t> inside_;
   std::vector<std::int32_t> region_;
   std::vector<double> size_, extent_;

@@ -114,8 +114,8 @@ std::vector<double> divisions(const SurfacePath& path, const GradedSize& size, D
 }
 
 /// The other ends of the edges at each point, sorted by direction.
-std::vector<std::vector<std::int32_t>> neighbours(const Surface& surface, const std::vector<Vec3>& points,
-                                                  const std::vector<OutlineEdge>& edges) {
+std::vector<std::vector<std::int32_t>> neighbors(const Surface& surface, const std::vector<Vec3>& points,
+                                                 const std::vector<OutlineEdge>& edges) {
   std::vector<std::vector<std::int32_t>> result(points.size());
   for (const OutlineEdge& e : edges) {
     result[static_cast<std::size_t>(e.ends[0])].push_back(e.ends[1]);
@@ -164,7 +164,7 @@ double clearance(const Surface& surface, const std::vector<Vec3>& points, const 
 
 CornerRadii corner_radii(const Surface& surface, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
                          double largest) {
-  const auto around = neighbours(surface, points, edges);
+  const auto around = neighbors(surface, points, edges);
   std::vector<std::uint8_t> sharp(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) sharp[i] = is_sharp(surface, points, i, around[i]) ? 1 : 0;
   std::vector<BoundingBox> boxes;

@@ -1,4 +1,4 @@
-// The steps one after the other: arrange, divide until all narrow places are resolved, place, triangulate, optimise;
+// The steps one after the other: arrange, divide until all narrow places are resolved, place, triangulate, optimize;
 // and again with smaller sizes around what stays bad.
 #include "temper/mesher.hpp"
 
@@ -417,7 +417,7 @@ class Mesher {
       if (auto error = improve(*best, *options_.optimize)) return *error;
     }
     best->attempts = attempts;
-    if (deadline_.stopped()) best->report.stopped = deadline_.out_of_time() ? Stopped::time_limit : Stopped::cancelled;
+    if (deadline_.stopped()) best->report.stopped = deadline_.out_of_time() ? Stopped::time_limit : Stopped::canceled;
     return best;
   }
 

@@ -14,7 +14,7 @@
 namespace temper::mesher {
 
 // In the constrained Delaunay triangulation of the divided outline alone every edge inside spans a gap, and every
-// triangle on a piece measures the distance to what is across. Neighbours along the outline are no gap, unless their
+// triangle on a piece measures the distance to what is across. Neighbors along the outline are no gap, unless their
 // corner is sharp.
 
 namespace {
@@ -59,7 +59,7 @@ class Narrow {
   }
 
   /// Both are ends of pieces at one point, where those do not make a sharp corner.
-  [[nodiscard]] bool neighbours(VertexId a, VertexId b) const {
+  [[nodiscard]] bool neighbors(VertexId a, VertexId b) const {
     for (const std::uint32_t c : around_[a.index]) {
       for (const std::uint32_t d : around_[b.index]) {
         if (c != d) continue;
@@ -73,7 +73,7 @@ class Narrow {
   /// An edge from vertex to vertex through the inside.
   void along(HalfedgeId h) {
     const VertexId a = mesh_.origin(h), b = mesh_.target(h);
-    if (helps(a) || helps(b) || neighbours(a, b)) return;
+    if (helps(a) || helps(b) || neighbors(a, b)) return;
     const double gap = length(at(b) - at(a));
     const double size = isolated(a) || isolated(b) ? gap : kOfGap * gap;
     add(at(a), size);
@@ -84,7 +84,7 @@ class Narrow {
   void across(HalfedgeId h) {
     const VertexId a = mesh_.origin(h), b = mesh_.target(h), c = mesh_.opposite(h);
     if (helps(c) || triangulated_.piece[Mesh::next(h)] != Triangulated::kNoPiece ||
-        triangulated_.piece[Mesh::prev(h)] != Triangulated::kNoPiece || neighbours(a, c) || neighbours(b, c))
+        triangulated_.piece[Mesh::prev(h)] != Triangulated::kNoPiece || neighbors(a, c) || neighbors(b, c))
       return;
     const Vec3 ab = at(b) - at(a);
     const double part = dot(at(c) - at(a), ab) / squared_length(ab);
@@ -133,7 +133,7 @@ class PointGrid {
   }
 
   /// Looks at points whose size is between a quarter and four times the radius, and at all that are larger or smaller
-  /// in neighbouring levels of these.
+  /// in neighboring levels of these.
   [[nodiscard]] bool any_within(Vec3 p, double radius) const {
     const int level = std::ilogb(radius);
     const Vec3 reach = {radius, radius, flat_ ? 0 : radius};
@@ -203,13 +203,13 @@ class PointGrid {
   bool flat_;
 };
 
-// Parts of the local size. Neighbours in a perfect row are 1 apart, the first row 0.87 from the outline; what is taken
+// Parts of the local size. Neighbors in a perfect row are 1 apart, the first row 0.87 from the outline; what is taken
 // much nearer than that makes the short edges that a denser packing needs, what is refused leaves holes.
 constexpr double kApart = 0.72;
 constexpr double kClear = 0.5;
 constexpr std::array<double, 3> kHeights = {0.866, 0.7, 0.55};
 
-/// A point of the front: it proposes its six neighbours.
+/// A point of the front: it proposes its six neighbors.
 struct Front {
   Vec3 at;
   Vec3 direction;  // of the first proposal, of length 1

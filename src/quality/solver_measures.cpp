@@ -127,7 +127,7 @@ void add_triangle(SolverMeasures& m, const Mesh& mesh, TriangleId t) {
   m.obtuse_triangles += is_obtuse(mesh, t);
 }
 
-/// A vertex with its neighbours, counter-clockwise; one more than triangles on the boundary.
+/// A vertex with its neighbors, counter-clockwise; one more than triangles on the boundary.
 struct Ring {
   WeightedPoint center;
   std::vector<WeightedPoint> around;

@@ -2,7 +2,7 @@
 //
 // Everything is seen from p, so that F(0) = −A loses no digits to the origin, and each edge gives one quadratic g(t)
 // that is positive where the edge is not regular: −F for a link edge, regular while p does not conflict with the
-// triangle beyond, and F for a spoke to q, regular while p conflicts with the triangle of q and its two neighbours on
+// triangle beyond, and F for a spoke to q, regular while p conflicts with the triangle of q and its two neighbors on
 // the link.
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Lawson's algorithm on a queue of edges: the one engine behind restore_regularity, the optimiser's vertex step and
+// Lawson's algorithm on a queue of edges: the one engine behind restore_regularity, the optimizer's vertex step and
 // the Delaunay triangulations of generate.
 //
 // Why it ends. Lift every vertex to height |x|² − w. An edge is not regular when the lifted surface is concave

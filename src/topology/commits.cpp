@@ -42,7 +42,7 @@ VertexId insert_vertex(Mesh& mesh, const InsertionPlan& plan, const InsertionObs
 //            /|\              after:  abv in slot t; bcv and cav in two new slots
 //           / | \             keeps:  the 3 sides with their flags; the region, for all three
 //          /  v  \            needs:  v strictly inside (the three new triangles counter-clockwise)
-//         / /   \ \           cost:   O(1), amortised over the growth of the arrays
+//         / /   \ \           cost:   O(1), amortized over the growth of the arrays
 //        a ------- b
 
 VertexId insert_in_triangle(Mesh& mesh, TriangleId t, WeightedPoint point) {
@@ -81,7 +81,7 @@ VertexId insert_in_triangle(Mesh& mesh, TriangleId t, WeightedPoint point) {
 //           / | \             keeps:  the outer edges with their flags; the regions of both sides
 //          /  |  \            gives:  the flag of ab to av and vb; vc and vd are not constrained
 //         a --v-- b           needs:  v so that the new triangles are counter-clockwise; v on ab keeps the domain
-//          \  |  /            cost:   O(1), amortised over the growth of the arrays
+//          \  |  /            cost:   O(1), amortized over the growth of the arrays
 //           \ | /
 //            \|/
 //             d

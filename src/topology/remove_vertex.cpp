@@ -15,7 +15,7 @@
 //      /   \ /   \           /   \     \        interface: the same on both sides of the line; the first spoke is one
 //     3-----v-----0   →     3-----------0                 of its two, and the side on its left comes first
 //
-// An edge collapse fills the cavity with the fan of the neighbour that v goes into:
+// An edge collapse fills the cavity with the fan of the neighbor that v goes into:
 //
 //        3-----2               3-----2
 //       / \   / \             /  . / |
@@ -47,7 +47,7 @@ namespace {
 //        3-----2          Of all triangulations of the polygon 0 … k−1 whose triangles are counter-clockwise by the
 //       /       \         exact test, the one of least volume under the lifted surface z = |x|² − w. The volume over
 //      4         1        a triangle is area × the mean of its corners' heights, so the best triangulation of the
-//       \       /         part cut off by a diagonal ij does not depend on the rest: a dynamic programme,
+//       \       /         part cut off by a diagonal ij does not depend on the rest: a dynamic program,
 //        5-----0            V(i, j) = min over i < m < j of V(i, m) + V(m, j) + volume(i, m, j),   O(k³).
 //
 // Why least volume is regular: flipping an edge that is not regular takes the volume of a tetrahedron off (lawson.hpp),

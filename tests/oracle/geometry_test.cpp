@@ -92,7 +92,7 @@ Sign rational_perturbed_sign(const RationalQuad& q, const std::array<std::uint32
   return Sign::zero;
 }
 
-/// The power test as a programmer without exact arithmetic would write it.
+/// The power test as a programr without exact arithmetic would write it.
 Sign naive_power_test(const Quad& q) {
   const auto lift = [&](int i) { return squared_length(q[i].position() - q[3].position()) - (q[i].w - q[3].w); };
   const auto minor = [&](int i, int j) {

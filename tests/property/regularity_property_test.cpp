@@ -164,7 +164,7 @@ TEST(RegularityProperty, HiddenVerticesAreExactlyThoseWithoutPowerCell) {
   EXPECT_GT(shown, 1000u);
 }
 
-TEST(RegularityProperty, AHeavyNeighbourHidesAVertexAndItIsNamed) {
+TEST(RegularityProperty, AHeavyNeighborHidesAVertexAndItIsNamed) {
   int hid = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     Rng rng(seed);

@@ -68,7 +68,7 @@ def test_what_the_example_for_julia_writes_is_the_dual(in_scratch):
 def test_the_first_example_takes_public_meshes(mesh, in_scratch):
     if not (PUBLIC_MESHES / mesh).exists():
         pytest.skip("no such mesh here")
-    run([sys.executable, ROOT / "examples" / "python" / "optimise_meshio.py", PUBLIC_MESHES / mesh, "out.png"])
+    run([sys.executable, ROOT / "examples" / "python" / "optimize_meshio.py", PUBLIC_MESHES / mesh, "out.png"])
     assert (in_scratch / "out.png").stat().st_size > 10000
 
 

@@ -171,7 +171,7 @@ def test_setting_points_keeps_the_mesh_when_a_triangle_would_turn_over(ring):
     assert ring == before
 
 
-def test_constraints_and_fixed_vertices_are_kept_by_an_optimisation(ring):
+def test_constraints_and_fixed_vertices_are_kept_by_an_optimization(ring):
     inner = np.setdiff1d(np.arange(ring.n_vertices), ring.boundary_edges)[:5]
     edge = next(e for e in ring.edges if e[0] in inner and e[1] in inner)
     ring.fixed = inner

@@ -158,7 +158,7 @@ def test_points_at_one_distance_from_the_origin_are_a_sphere(in_scratch):
 
 
 @pytest.mark.filterwarnings("ignore::temper.TemperWarning")
-def test_a_sphere_is_optimised_in_place():
+def test_a_sphere_is_optimized_in_place():
     mesh, globe = globe_of_meshio()
     temper.optimize(mesh)
     temper.optimize(globe)

@@ -1,4 +1,4 @@
-"""Optimisation: the same as the program's, observed, interrupted, replayed."""
+"""Optimization: the same as the program's, observed, interrupted, replayed."""
 
 import ast
 import dataclasses
@@ -55,14 +55,14 @@ def at_once(*works):
     return results
 
 
-def test_two_threads_of_python_optimise_two_meshes_at_once():
+def test_two_threads_of_python_optimize_two_meshes_at_once():
     alone = [temper.generate.random_mesh(3000, seed=seed) for seed in (1, 2)]
     together = [mesh.copy() for mesh in alone]
     for mesh in alone:
         temper.optimize(mesh, max_sweeps=5, threads=1)
     both_run = threading.Barrier(2)  # breaks where one run waits for the end of the other: the GIL is not released
 
-    def optimised(mesh):
+    def optimized(mesh):
         waited = []
 
         def observer(_):
@@ -72,7 +72,7 @@ def test_two_threads_of_python_optimise_two_meshes_at_once():
         temper.optimize(mesh, max_sweeps=5, threads=1, observer=observer)
         return mesh
 
-    assert at_once(*[lambda mesh=mesh: optimised(mesh) for mesh in together]) == alone
+    assert at_once(*[lambda mesh=mesh: optimized(mesh) for mesh in together]) == alone
 
 
 def test_two_threads_of_python_look_at_one_mesh():
@@ -88,7 +88,7 @@ def test_two_threads_of_python_look_at_one_mesh():
     assert first == second and first != mesh
 
 
-def test_a_mesh_that_another_thread_optimises_shows_its_old_state_and_refuses_changes():
+def test_a_mesh_that_another_thread_optimizes_shows_its_old_state_and_refuses_changes():
     mesh = temper.generate.random_mesh(3000)
     before, seen, begun, looked = mesh.copy(), [], threading.Event(), threading.Event()
 
@@ -186,7 +186,7 @@ def test_keywords_win_over_options_even_when_they_say_the_default(ring):
         (dict(anchor=-2), "anchor"),
         (dict(threads=-1), "threads"),
         (dict(size_band=0.5), "band"),
-        (dict(gamma=temper.LengthParameter(1.0, "metres")), "scale"),
+        (dict(gamma=temper.LengthParameter(1.0, "meters")), "scale"),
     ],
 )
 def test_options_that_make_no_sense_leave_the_mesh_alone(ring, options, says):
@@ -249,7 +249,7 @@ def test_an_observer_sees_sweeps_and_may_stop(ring):
         return progress.last.sweep < 2
 
     report = temper.optimize(ring, observer=observe)
-    assert report.stopped == "cancelled" and seen[-1].last.sweep == 2 and seen[0].max_sweeps == 1000
+    assert report.stopped == "canceled" and seen[-1].last.sweep == 2 and seen[0].max_sweeps == 1000
 
 
 def test_an_exception_of_an_observer_comes_out_when_the_mesh_is_in_place(ring):
@@ -486,7 +486,7 @@ def test_rules_of_data_that_make_no_sense_leave_the_mesh_as_it_was(sea):
 # --- longitude and latitude -----------------------------------------------------------------------------------
 
 
-def test_a_mesh_in_degrees_is_optimised_on_a_map_and_written_in_degrees(in_scratch):
+def test_a_mesh_in_degrees_is_optimized_on_a_map_and_written_in_degrees(in_scratch):
     mesh = temper.generate.random_mesh(200)
     places = np.asarray(mesh.points) * (2, 1) + (-14, 55)
     nodes = [f"{i + 1} {x!r} {y!r} {3000.0 + y!r}" for i, (x, y) in enumerate(places.tolist())]
@@ -497,9 +497,9 @@ def test_a_mesh_in_degrees_is_optimised_on_a_map_and_written_in_degrees(in_scrat
         temper.read("fort.14")
     assert refused.value.code == "geographic"
     sea = temper.read("fort.14", projection="stereographic:-10,57")
-    assert np.ptp(np.asarray(sea.points)) > 1e5  # metres
+    assert np.ptp(np.asarray(sea.points)) > 1e5  # meters
     temper.optimize(sea)
-    with pytest.warns(temper.TemperWarning, match="stereographic:-10,57, in metres"):
+    with pytest.warns(temper.TemperWarning, match="stereographic:-10,57, in meters"):
         temper.write("out.14", sea)
     rows = [line.split() for line in (in_scratch / "out.14").read_text().splitlines()[2 : 2 + len(nodes)]]
     written = np.array([[float(x), float(y)] for _, x, y, _ in rows])

@@ -54,7 +54,7 @@ def test_points_that_are_assigned_are_in_the_domain(sea):
     assert np.all((sea.points >= 0) & (sea.points < sea.space.period))
 
 
-def test_optimised_and_verified(sea, tmp_path):
+def test_optimized_and_verified(sea, tmp_path):
     before = temper.measure_errors(sea)
     temper.optimize(sea)
     assert temper.quality(sea).well_centered_fraction == 1

@@ -156,7 +156,7 @@ def test_points_around_the_sphere_are_triangulated_by_their_hull():
         temper.generate.spherical_delaunay(directions[:, :2])
 
 
-def test_optimised_random_points_have_no_bad_triangle_and_stay_on_the_sphere(globe):
+def test_optimized_random_points_have_no_bad_triangle_and_stay_on_the_sphere(globe):
     assert not temper.triangle_quality(globe).well_centered.all()
     report = temper.optimize(globe)
     quality = temper.quality(globe)

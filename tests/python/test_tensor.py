@@ -82,7 +82,7 @@ def flux_error(mesh, tensor, dual):
 
 
 def errors_of(mesh, tensor, dual, levels=3):
-    """Of a mesh, and of its refinements, each optimised in the metric of `dual`."""
+    """Of a mesh, and of its refinements, each optimized in the metric of `dual`."""
     errors = []
     for level in range(levels):
         mesh = optimized(refined(mesh) if level else mesh, dual)

@@ -117,7 +117,7 @@ test('each control of a report of optimize does what it says', async () => {
   for (const option of await page.locator('#measure option:not([value=""])').all()) {
     const value = await option.getAttribute('value');
     await page.selectOption('#measure', '');
-    await changes(page, `colour ${value}`, () => page.selectOption('#measure', value));
+    await changes(page, `color ${value}`, () => page.selectOption('#measure', value));
     assert.ok((await page.textContent('#legend')).includes((await option.textContent()).trim()));
   }
   await page.selectOption('#measure', 'margin');

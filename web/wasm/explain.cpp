@@ -1,4 +1,4 @@
-// Explanations. The linear programmes are solved on the side of JavaScript, by a solver of its own.
+// Explanations. The linear programs are solved on the side of JavaScript, by a solver of its own.
 #include "temper/explain.hpp"
 
 #include <utility>

@@ -1,4 +1,4 @@
-// Optimisation and replay. JavaScript hears of progress and events by two functions that it gives to the module.
+// Optimization and replay. JavaScript hears of progress and events by two functions that it gives to the module.
 #include "answer.hpp"
 #include "held_mesh.hpp"
 #include "records.hpp"

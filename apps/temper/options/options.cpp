@@ -218,7 +218,7 @@ void add_projection(Command& command, std::string& target) {
   add_text(
       command, "--projection", "KIND[:lon,lat]|sphere[:radius=R]|none", target,
       "the map for points in longitude and latitude, a globe's too: stereographic, mercator or transverse-mercator "
-      "about this center (default: the middle of the points), to metres; a mesh that is written has degrees again; "
+      "about this center (default: the middle of the points), to meters; a mesh that is written has degrees again; "
       "sphere: a mesh of the sphere of this radius (default: 6371000), without a map; none: coordinates are those "
       "of a plane, whatever they look like");
 }

@@ -49,7 +49,7 @@ std::string mesh_text(const MeshRecord& r) {
                       plural(r.quality.triangles, "triangle", "triangles"),
                       plural(r.made.lines.size(), "edge", "edges"), r.made.delaunay_bad);
   if (r.made.report.sweeps > 0) {
-    text += fmt::format("optimised in {}, {:.3g} s\n", plural(std::size_t(r.made.report.sweeps), "sweep", "sweeps"),
+    text += fmt::format("optimized in {}, {:.3g} s\n", plural(std::size_t(r.made.report.sweeps), "sweep", "sweeps"),
                         r.made.report.seconds);
   }
   if (r.made.attempts > 1) {

@@ -48,7 +48,7 @@ std::string margin_text(const WeightReport& report) {
     case MarginKind::at_least:
       return fmt::format("best margin at least {:.10g}", report.margin);
     case MarginKind::at_most:
-      return fmt::format("best margin at most {:.10g}, that of the worst neighbourhood", report.margin);
+      return fmt::format("best margin at most {:.10g}, that of the worst neighborhood", report.margin);
   }
   return {};
 }
@@ -65,10 +65,10 @@ std::string certificate_text(const WeightsRecord& r) {
 
 std::string_view end_text(SearchEnd end) {
   switch (end) {
-    case SearchEnd::no_better_neighbour:
+    case SearchEnd::no_better_neighbor:
       return "no flip raises it further";
     case SearchEnd::limit:
-      return "stopped by --programmes";
+      return "stopped by --programs";
     case SearchEnd::failed:
       return "the solver failed";
   }
@@ -94,8 +94,8 @@ std::string search_text(const WeightsRecord& r) {
   std::size_t flips = 0;
   for (const ConnectivityStep& step : r.search->steps) flips += step.flips;
   return fmt::format(
-      "search over connectivities: best margin {:.10g} -> {:.10g}, {} steps, {} flips, {} programmes; {}\n",
-      r.search->before, r.search->margin, r.search->steps.size(), flips, r.search->programmes, end_text(r.search->end));
+      "search over connectivities: best margin {:.10g} -> {:.10g}, {} steps, {} flips, {} programs; {}\n",
+      r.search->before, r.search->margin, r.search->steps.size(), flips, r.search->programs, end_text(r.search->end));
 }
 
 Json search_json(const WeightsRecord& r) {
@@ -104,7 +104,7 @@ Json search_json(const WeightsRecord& r) {
   json["before"] = r.search->before;
   json["margin"] = r.search->margin;
   json["end"] = name(r.search->end);
-  json["programmes"] = r.search->programmes;
+  json["programs"] = r.search->programs;
   json["steps"] = Json::array();
   for (const ConnectivityStep& step : r.search->steps) {
     json["steps"].push_back({{"kind", name(step.kind)}, {"flips", step.flips}, {"margin", step.margin}});
@@ -178,8 +178,8 @@ std::string weights_json(const WeightsRecord& r) {
   json["weights"] = report.weights.size();
   json["moved"] = report.solved ? Json(report.moved) : Json(nullptr);
   json["change"] = report.solved ? Json(report.change) : Json(nullptr);
-  json["programmes"] = report.programmes;
-  json["largest_programme"] = report.largest;
+  json["programs"] = report.programs;
+  json["largest_program"] = report.largest;
   json["violations"] = Json::array();
   for (const Violation& v : report.violations) json["violations"].push_back(violation_json(v, r.input, r.mesh));
   json["certificate"] =

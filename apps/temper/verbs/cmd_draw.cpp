@@ -43,7 +43,7 @@ void add_options(Command& command, DrawSettings& s) {
   command.add_flag("--no-dual", s.no_dual, "without the dual edges, between orthocenters");
   command.add_flag("--no-weights", s.no_weights, "without the weight circles (green positive, red negative)");
   command.add_flag("--no-bad", s.no_bad, "do not fill triangles that are not well-centered");
-  command.add_flag("--no-rings", s.no_rings, "do not ring vertices that nearly coincide with a neighbour");
+  command.add_flag("--no-rings", s.no_rings, "do not ring vertices that nearly coincide with a neighbor");
   command.add_flag("--no-regions", s.no_regions, "do not tint regions");
   std::string colors;
   for (const TriangleValue& value : triangle_values()) colors += std::string(value.name) + "|";

@@ -63,7 +63,7 @@ void add_options(Command& command, ErrorSettings& s) {
   command.add_help({"IN [options]",
                     "  temper errors in.vtu\n"
                     "  temper errors in.vtu --fields held-back --refine 2 --json\n"
-                    "  # what an optimisation has done to the errors\n"
+                    "  # what an optimization has done to the errors\n"
                     "  temper example annulus -o ring.vtu && temper optimize ring.vtu -o better.vtu --quiet\n"
                     "  temper errors better.vtu --against ring.vtu\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});

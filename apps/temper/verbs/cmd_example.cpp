@@ -161,7 +161,7 @@ void add_random_periodic(Command& command, ExampleSettings& s) {
 void add_periodic_hexagons(Command& command, ExampleSettings& s) {
   add_count(command, "--nx", s.periodic_hexagons.nx, 3, "hexagons in a row");
   add_count(command, "--ny", s.periodic_hexagons.ny, 2, "rows, an even number where the plane is periodic along y");
-  add_number(command, "--distance", s.periodic_hexagons.distance, kPositive, "the distance of neighbours");
+  add_number(command, "--distance", s.periodic_hexagons.distance, kPositive, "the distance of neighbors");
   command.add_flag("--channel", s.periodic_hexagons.channel,
                    "no period along y: the first and the last row are shores");
 }
@@ -191,7 +191,7 @@ struct Generator {
 constexpr Generator kGenerators[] = {
     {"sparse-horseshoe", "the paper's horseshoe of 5 vertices and 4 triangles", [](Command&, ExampleSettings&) {},
      [](ExampleSettings&) -> Expected<Mesh> { return sparse_horseshoe(); }},
-    {"horseshoe", "the paper's parameterised horseshoe, constrained Delaunay", add_horseshoe,
+    {"horseshoe", "the paper's parameterized horseshoe, constrained Delaunay", add_horseshoe,
      [](ExampleSettings& s) { return horseshoe(s.horseshoe); }},
     {"triangle", "a single triangle", add_triangle, [](ExampleSettings& s) { return single_triangle(s.triangle); }},
     {"random", "random points in a polygon, Delaunay: about half of the triangles are bad", add_random, make_random},

@@ -1,4 +1,4 @@
-// temper mesh OUTLINE -o MESH --size h: divides the outline, places points inside, optimises, writes, reports. With
+// temper mesh OUTLINE -o MESH --size h: divides the outline, places points inside, optimizes, writes, reports. With
 // --sphere the same on the globe, or on the part of it that an outline and coasts leave.
 #include <fmt/format.h>
 
@@ -48,14 +48,14 @@ void add_files(Command& command, MeshSettings& s) {
                "it may be left out");
   add_mesh_output(command, s.output, "MESH");
   command.option("--output").require();
-  add_text(command, "--report", "FILE", s.report, "a JSON report: what was read and made, before and after optimising");
+  add_text(command, "--report", "FILE", s.report, "a JSON report: what was read and made, before and after optimizing");
   add_text(command, "--draw", "FILE", s.picture, "a picture (.svg, .png, .pdf) of the mesh and its dual");
   command.add_flag("--quiet", s.quiet, "print warnings and errors only");
 }
 
 void add_sizes(Command& command, MeshSettings& s) {
   add_text(command, "--size", "X|FILE", s.size,
-           "edge length wanted, in the units of the outline or in metres; or a mesh file with a size at each of its "
+           "edge length wanted, in the units of the outline or in meters; or a mesh file with a size at each of its "
            "points")
       .require();
   add_text(command, "--size-field-data", "NAME", s.size_data, "the point data of that file with the sizes")
@@ -71,7 +71,7 @@ void add_sizes(Command& command, MeshSettings& s) {
       .excludes = "--sphere";
   add_text(command, "--projection", "NAME[:lon,lat]", s.projection,
            "the map for points in longitude and latitude: stereographic, mercator or transverse-mercator about "
-           "this center (default: the middle of the points), to metres; none: treat degrees as coordinates of a "
+           "this center (default: the middle of the points), to meters; none: treat degrees as coordinates of a "
            "plane")
       .excludes = "--sphere";
 }
@@ -87,7 +87,7 @@ void add_sphere(Command& command, MeshSettings& s) {
              "the radius of the sphere (default: that of the size field, or 6371000)");
 }
 
-void add_optimisation(Command& command, MeshSettings& s) {
+void add_optimization(Command& command, MeshSettings& s) {
   command.add_flag("--no-optimize", s.no_optimize, "write the Delaunay mesh as it is");
   add_count(command, "--attempts", s.options.attempts, 1,
             "while triangles stay bad, divide the outline finer around them and mesh it again; at most this many "
@@ -104,8 +104,8 @@ void add_options(Command& command, MeshSettings& s) {
   add_sizes(command, s);
   command.group("Sphere");
   add_sphere(command, s);
-  command.group("Optimisation");
-  add_optimisation(command, s);
+  command.group("Optimization");
+  add_optimization(command, s);
   command.group("Help");
   command.add_help({"[OUTLINE] -o MESH --size h [options]",
                     "  temper mesh lake.poly -o lake.vtu --size 0.05\n"
@@ -341,7 +341,7 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
 Exit run_mesh(const Arguments& arguments) {
   Command command(
       "mesh",
-      "Meshes the inside of an outline and optimises that until every triangle is well-centered. Points of the outline "
+      "Meshes the inside of an outline and optimizes that until every triangle is well-centered. Points of the outline "
       "stay bit for bit; of one in longitude and latitude, these do. With --sphere, a globe and what coasts leave of "
       "it.");
   MeshSettings s;

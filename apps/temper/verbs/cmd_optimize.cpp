@@ -224,7 +224,7 @@ std::string ending(const OptimizeReport& report) {
       return "stopped by a vertex that the flips would hide, after " + work;
     case Stopped::time_limit:
       return "stopped early by --time-limit after " + work;
-    case Stopped::cancelled:
+    case Stopped::canceled:
       return "stopped early by a signal after " + work;
   }
   return work;

@@ -49,7 +49,7 @@ struct WeightsSettings {
   WeightOptions options;
   std::string edges = "all";
   Connectivity connectivity = Connectivity::fixed;
-  std::uint64_t whole = WeightOptions().whole, programmes = ConnectivityOptions().programmes;
+  std::uint64_t whole = WeightOptions().whole, programs = ConnectivityOptions().programs;
   bool json = false;
 };
 
@@ -103,7 +103,7 @@ void add_options(Command& command, WeightsSettings& s) {
   add_choice(command, "--connectivity", kConnectivities, s.connectivity,
              "fixed: that of IN; search: flip edges as long as that raises the best margin, and then find weights "
              "(a local search: there may be a better connectivity)");
-  add_count(command, "--programmes", s.programmes, 1, "linear programmes of the whole mesh that the search may take");
+  add_count(command, "--programs", s.programs, 1, "linear programs of the whole mesh that the search may take");
   command.group("Help");
   command.add_help({"IN -o OUT [options]",
                     "  temper example annulus -o ring.vtu && temper weights ring.vtu -o out.vtu\n"
@@ -124,7 +124,7 @@ void check_usage(const Command& command, const WeightsSettings& s) {
   const auto fail = [](const std::string& message) { refuse_usage("weights", message); };
   if (!s.check.empty()) {
     for (const char* option : {"--output", "--certificate", "--mode", "--margin", "--from", "--energy", "--whole",
-                               "--constraints", "--edges", "--connectivity", "--programmes"}) {
+                               "--constraints", "--edges", "--connectivity", "--programs"}) {
       if (command.was_given(option)) fail(fmt::format("--check-certificate takes no {}", option));
     }
   } else if (s.output.path.empty() && s.mode != Mode::feasible) {
@@ -132,7 +132,7 @@ void check_usage(const Command& command, const WeightsSettings& s) {
   }
   const bool regular = s.options.constraints == Constraints::regular, search = s.connectivity == Connectivity::search;
   if (!regular && command.was_given("--edges")) fail("--edges is of --constraints regular alone");
-  if (!search && command.was_given("--programmes")) fail("--programmes is of --connectivity search alone");
+  if (!search && command.was_given("--programs")) fail("--programs is of --connectivity search alone");
   if (search && regular) fail("--connectivity search is of other constraints than regular, which flips alone keep");
   if (search && !s.certificate.empty()) {
     fail("--certificate is about the connectivity of IN; --connectivity search leaves that");
@@ -186,7 +186,7 @@ Mesh with_weights(Mesh mesh, const IdVector<VertexId, double>& weights) {
 /// The mesh of the input with the connectivity asked for.
 std::optional<ConnectivityReport> searched(const WeightsSettings& s, const Input& input, LpSolver& solver) {
   if (s.connectivity == Connectivity::fixed) return std::nullopt;
-  return or_fail(best_connectivity(input.mesh(), solver, {s.options.constraints, s.programmes}));
+  return or_fail(best_connectivity(input.mesh(), solver, {s.options.constraints, s.programs}));
 }
 
 bool all_well_centered(const Mesh& mesh) {

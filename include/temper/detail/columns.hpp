@@ -8,7 +8,7 @@
 //    bottom ───────────────   surface 2
 //
 // A layer that has no thickness at a vertex is pinched out there: it has no cell, and what is above and what is below
-// it are neighbours. Where a layer is inactive there is no cell either, and nothing goes through.
+// it are neighbors. Where a layer is inactive there is no cell either, and nothing goes through.
 #pragma once
 
 #include <cstddef>

@@ -16,7 +16,7 @@ namespace temper {
 
 struct ConnectivityOptions {
   Constraints constraints = Constraints::well_centered;  ///< or heights_only
-  std::size_t programmes = 10000;                        ///< of the whole mesh, at most
+  std::size_t programs = 10000;                          ///< of the whole mesh, at most
 };
 
 /// A change of connectivity that made the best margin greater.
@@ -33,9 +33,9 @@ struct ConnectivityStep {
 
 /// How best_connectivity ended.
 enum class SearchEnd {
-  no_better_neighbour,  ///< neither kind of step makes the margin greater
-  limit,                ///< of programmes
-  failed,               ///< the solver gave up on the mesh as it was
+  no_better_neighbor,  ///< neither kind of step makes the margin greater
+  limit,               ///< of programs
+  failed,              ///< the solver gave up on the mesh as it was
 };
 [[nodiscard]] std::string_view name(SearchEnd end);
 
@@ -44,7 +44,7 @@ struct ConnectivityReport {
   SearchEnd end = SearchEnd::failed;
   double before = 0, margin = 0;        ///< best margins of the input's connectivity, and of the one found
   std::vector<ConnectivityStep> steps;  ///< their margins grow
-  std::size_t programmes = 0;           ///< of the whole mesh
+  std::size_t programs = 0;             ///< of the whole mesh
   IdVector<VertexId, double> weights;   ///< with margin `margin`: for proofs, not for meshes, as in BestMargin
 };
 
@@ -53,7 +53,7 @@ struct ConnectivityReport {
 /// margin, the one flip that raises it most. Only flips that take away a term of the proof that the margin is no
 /// greater are tried: with all its terms left, the same proof holds after the flip. Edges of the boundary and
 /// constrained ones stay. The margin grows with each step by more than rounding, so the search ends. A step costs a
-/// programme of the whole mesh for each flip that a programme of its neighbourhood does not rule out. Errors:
+/// program of the whole mesh for each flip that a program of its neighborhood does not rule out. Errors:
 /// constraints regular, which every regular triangulation keeps; a periodic plane. Precondition: no erased triangles.
 [[nodiscard]] Expected<ConnectivityReport> best_connectivity(const Mesh& mesh, LpSolver& solver,
                                                              const ConnectivityOptions& options = {});

@@ -1,4 +1,4 @@
-// Linear programmes by Clp (COIN-OR): what temper/feasibility.hpp needs, in a library of its own (temper::lp).
+// Linear programs by Clp (COIN-OR): what temper/feasibility.hpp needs, in a library of its own (temper::lp).
 #pragma once
 
 #include <memory>

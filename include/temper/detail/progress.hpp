@@ -26,7 +26,7 @@ struct SweepRecord {
   std::size_t flips = 0;  ///< edge flips of this sweep
   double length_parameter =
       0;               ///< γ or −h° of this sweep, as used (relative to ℓ by default); 0 of sweeps for accuracy
-  double seconds = 0;  ///< since the start of the optimisation
+  double seconds = 0;  ///< since the start of the optimization
   Objective objective = Objective::energy;  ///< what the sweep lowered, and `energy` is of
 };
 

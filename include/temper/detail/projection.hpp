@@ -31,7 +31,7 @@ enum class ProjectionKind {
 /// Longitude, above −180 and up to 180, and latitude of a direction [degrees].
 [[nodiscard]] Vec2 lon_lat_of(Vec3 direction);
 
-/// Longitudes and latitudes are in degrees, x and y in metres from the center.
+/// Longitudes and latitudes are in degrees, x and y in meters from the center.
 struct Projection {
   ProjectionKind kind = ProjectionKind::stereographic;
   Vec2 center = {};         ///< longitude and latitude

@@ -3,7 +3,7 @@
 // A size field gives a length at every point: linear on the triangles of a mesh, from values at its vertices. The
 // size of a mesh at a vertex is the edge of an equilateral triangle that has the mean area of the triangles there. So
 // it follows how densely vertices lie, and does not shrink, as the mean length of edges does, where badly shaped
-// triangles become better ones. A mesh has a size field of its own: its sizes at its vertices. What an optimisation
+// triangles become better ones. A mesh has a size field of its own: its sizes at its vertices. What an optimization
 // does to them is told by the ratio of local size to field, 1 everywhere before it, and by the gradation: how fast
 // sizes change from vertex to vertex.
 #pragma once

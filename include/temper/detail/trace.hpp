@@ -1,4 +1,4 @@
-// A trace records an optimisation event by event: enough to do it again, bit for bit, without any energy.
+// A trace records an optimization event by event: enough to do it again, bit for bit, without any energy.
 //
 //     std::vector<TraceEvent> events;
 //     const Mesh input = mesh;
@@ -44,7 +44,7 @@ struct TraceEvent {
   /// flip: halfedge a→b, with c on its left and d on its right, becomes d→c; split: a→b was cut, on the boundary with
   /// an invalid d.
   std::array<VertexId, 4> quad = {};
-  /// collapse, removal: neighbours, counter-clockwise from the first spoke; insertion: corners of the triangle.
+  /// collapse, removal: neighbors, counter-clockwise from the first spoke; insertion: corners of the triangle.
   std::vector<VertexId> link = {};
   std::vector<std::array<VertexId, 3>> triangles = {};  ///< collapse, removal: that fill the cavity, in slot order
   int to_sweep = 0;  ///< undo without a vertex: the sweep at whose end the mesh was so; −1: the input as given

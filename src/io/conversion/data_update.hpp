@@ -18,7 +18,7 @@ DataReport update_data(MeshFile& file, const Mesh& mesh, const Former& former, c
 
 /// Cuts the lines of the file, which are numbered as the mesh is, where the mesh has inserted vertices (`vertices`
 /// invalid) on them. In files where every boundary point carries a marker (Triangle, medit), a new point of the
-/// boundary gets that of its neighbours when it is the same.
+/// boundary gets that of its neighbors when it is the same.
 void split_lines(MeshFile& file, const Mesh& mesh, const IdVector<VertexId, VertexId>& vertices);
 
 // Lines that list the edges of a mesh, and no features of it.

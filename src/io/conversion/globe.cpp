@@ -347,12 +347,12 @@ MeshFile in_degrees(const MeshFile& file) {
 
 std::string needs_projection(bool guessed, std::string_view onto_sphere) {
   const std::string_view what =
-      guessed ? "the points look like longitude and latitude, for in metres the water would be deeper than the mesh is "
+      guessed ? "the points look like longitude and latitude, for in meters the water would be deeper than the mesh is "
                 "wide; in degrees angles and lengths are distorted"
               : "the points are longitude and latitude, in which angles and lengths are distorted";
   return text(what,
               "; choose a `projection`: stereographic, mercator or transverse-mercator (lengths are then in "
-              "metres); ",
+              "meters); ",
               onto_sphere, ", for a mesh of the sphere; or none, to take the coordinates for those of a plane");
 }
 

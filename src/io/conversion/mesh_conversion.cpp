@@ -173,7 +173,7 @@ bool contains(const std::vector<std::int32_t>& tags, std::int32_t tag) {
   return std::find(tags.begin(), tags.end(), tag) != tags.end();
 }
 
-// A turn of the boundary by more than this (radians) is a corner, which stays anyway; the optimiser's own measure of
+// A turn of the boundary by more than this (radians) is a corner, which stays anyway; the optimizer's own measure of
 // what is straight is far below.
 constexpr double kCorner = 1e-6;
 

@@ -189,7 +189,7 @@ class PlacesOnSphere {
 
  private:
   static constexpr double kRounded = 0x1p-46;       // more than same_place() allows, and than direction() rounds
-  static constexpr double kCellsOfRadius = 0x1p36;  // on the Earth a cell is a tenth of a millimetre wide
+  static constexpr double kCellsOfRadius = 0x1p36;  // on the Earth a cell is a tenth of a millimeter wide
   static Vec3 direction(const Vec3& p) { return (1 / length(p)) * p; }
   static Vec3 cell(const Vec3& p) {
     return {std::floor(kCellsOfRadius * p.x), std::floor(kCellsOfRadius * p.y), std::floor(kCellsOfRadius * p.z)};

@@ -133,9 +133,9 @@ void warn_of_names(const WriteJob& job, const std::vector<PhysicalName>& lost);
 /// The tag of each point, 0 where there is none, for formats that hold one: further tags are named in a warning.
 [[nodiscard]] std::vector<std::int32_t> one_tag_a_point(const WriteJob& job);
 
-/// "a Fluent mesh, which temper does not read; meshio converts it", of a file in a format that is recognised; else
+/// "a Fluent mesh, which temper does not read; meshio converts it", of a file in a format that is recognized; else
 /// empty.
-[[nodiscard]] std::string recognise_unsupported(std::string_view bytes);
+[[nodiscard]] std::string recognize_unsupported(std::string_view bytes);
 
 // --- weights of formats without a place for them ---------------------------------------------------
 /// PATH.weights.csv

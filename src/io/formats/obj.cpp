@@ -74,7 +74,7 @@ class ObjReader {
     document_.file.points.push_back({x, scanner_.real("the y coordinate of a vertex")});
     if (scanner_.more_on_line())
       plane_.add(document_.file.points.size() - 1, scanner_.real("the z coordinate of a vertex"));
-    while (scanner_.more_on_line()) scanner_.word("a colour");
+    while (scanner_.more_on_line()) scanner_.word("a color");
   }
   void face() {
     MeshFile& f = document_.file;

@@ -1,7 +1,7 @@
 // OFF (Geomview): the word OFF, the numbers of vertices, faces and edges, then "x y z" a vertex and "3 a b c" a face.
 //
-// Vertices count from 0. Words with letters before OFF announce more numbers a vertex (C colours, N normals, ST
-// texture); these, and the colours of faces, are dropped with a warning.
+// Vertices count from 0. Words with letters before OFF announce more numbers a vertex (C colors, N normals, ST
+// texture); these, and the colors of faces, are dropped with a warning.
 #include <algorithm>
 
 #include "io/conversion/globe.hpp"
@@ -37,8 +37,8 @@ class OffReader {
     }
     auto& warnings = document_.file.warnings;
     if (more_of_vertices_ > 0)
-      warnings.push_back(text(scanner_.path(), ": colours, normals or textures of vertices are dropped"));
-    if (more_of_faces_ > 0) warnings.push_back(text(scanner_.path(), ": colours of faces are dropped"));
+      warnings.push_back(text(scanner_.path(), ": colors, normals or textures of vertices are dropped"));
+    if (more_of_faces_ > 0) warnings.push_back(text(scanner_.path(), ": colors of faces are dropped"));
     document_.names->triangles = RunLength(0, document_.file.triangles.size());
     return std::move(document_);
   }

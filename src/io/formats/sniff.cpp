@@ -1,4 +1,4 @@
-// Formats that temper recognises and does not read, so that the error can name them, and what converts them.
+// Formats that temper recognizes and does not read, so that the error can name them, and what converts them.
 #include <algorithm>
 #include <cctype>
 #include <vector>
@@ -126,7 +126,7 @@ constexpr Known kKnown[] = {
 
 }  // namespace
 
-std::string recognise_unsupported(std::string_view bytes) {
+std::string recognize_unsupported(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, kSniffBytes);
   for (const Known& known : kKnown) {
     if (known.is(head)) return text(known.name, ", which temper does not read", known.advice);

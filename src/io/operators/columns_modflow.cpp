@@ -129,7 +129,7 @@ void put_cells(Output& out, const Mesh& mesh, const Columns& c, const SharedCorn
 
 int idomain(CellState state) { return static_cast<int>(state); }
 
-/// Connections in rows, of each cell itself, then its neighbours, ascending.
+/// Connections in rows, of each cell itself, then its neighbors, ascending.
 struct ConnectionRows {
   std::vector<std::size_t> starts;   // cells + 1
   std::vector<std::uint32_t> cells;  // one an entry
@@ -145,11 +145,11 @@ struct ConnectionRows {
     connections.resize(starts.back());
     std::vector<std::size_t> next(starts.begin(), starts.end() - 1);
     for (std::size_t i = 0; i < c.n_cells(); ++i) cells[next[i]++] = static_cast<std::uint32_t>(i);
-    const auto add = [&](std::uint32_t to, std::uint32_t neighbour, std::size_t connection) {
-      cells[next[to]] = neighbour;
+    const auto add = [&](std::uint32_t to, std::uint32_t neighbor, std::size_t connection) {
+      cells[next[to]] = neighbor;
       connections[next[to]++] = static_cast<std::uint32_t>(connection);
     };
-    // Ascending as they are: of each cell first all lower neighbours, then all higher ones.
+    // Ascending as they are: of each cell first all lower neighbors, then all higher ones.
     for (std::size_t i = 0; i < c.connections.size(); ++i) add(c.connections[i].second, c.connections[i].first, i);
     for (std::size_t i = 0; i < c.connections.size(); ++i) add(c.connections[i].first, c.connections[i].second, i);
   }

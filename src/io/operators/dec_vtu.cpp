@@ -294,7 +294,7 @@ void write_dec_vtu(const DecJob& job) {
 }
 
 // columns.vtu: each active cell as a prism over its power cell, a VTK polyhedron; over each of its polygons when these
-// are several. Prisms share no points: their tops and bottoms are flat, and at another height than their neighbours'.
+// are several. Prisms share no points: their tops and bottoms are flat, and at another height than their neighbors'.
 
 namespace {
 

@@ -7,10 +7,10 @@
 namespace temper {
 namespace {
 
-// Times that sizes are averaged with those of their neighbours: five are too few to quiet the noise of bad meshes, and
+// Times that sizes are averaged with those of their neighbors: five are too few to quiet the noise of bad meshes, and
 // twenty are no better.
 constexpr int kSmoothings = 10;
-// Neighbours that a vertex counts as by itself in an average.
+// Neighbors that a vertex counts as by itself in an average.
 constexpr double kOwnPart = 2;
 
 double averaged(const Mesh& mesh, const VertexSizes& sizes, VertexId v) {

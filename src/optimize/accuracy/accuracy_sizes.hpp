@@ -2,7 +2,7 @@
 // grading is kept.
 //
 // The size field where the vertex is in the input, or without one the input's own local size there; averaged with the
-// neighbours' ten times, since the sizes of badly shaped triangles are noise. A size belongs to its vertex and goes
+// neighbors' ten times, since the sizes of badly shaped triangles are noise. A size belongs to its vertex and goes
 // with it: looked up where the vertex has gone to, errors were larger. A vertex that was inserted has the local size
 // that it has.
 #pragma once

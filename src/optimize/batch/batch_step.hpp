@@ -33,7 +33,7 @@ class BatchStep : StepContext {
     // As gathered; the first of them, when alone.
     std::array<VertexId, StarBatch::kMostTriangles + 1> link;
     std::array<HalfedgeId, StarBatch::kMostTriangles> spokes;
-    bool alone = false;  // not for vectors: many neighbours, or on a line that it slides along
+    bool alone = false;  // not for vectors: many neighbors, or on a line that it slides along
   };
 
   [[nodiscard]] std::size_t kind_of(VertexId v) const;

@@ -1,4 +1,4 @@
-// Flips, and what else regularity asks for, as the optimiser wants them: priced, traced, undone whole, and with hidden
+// Flips, and what else regularity asks for, as the optimizer wants them: priced, traced, undone whole, and with hidden
 // vertices treated by the user's policy.
 #pragma once
 

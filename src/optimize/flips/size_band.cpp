@@ -38,7 +38,7 @@ bool SizeBand::allows(const Patch& patch, Vec2 p) {
   own = StarArea{own, static_cast<int>(patch.size())}.squared_size();
   if (excess(own, there_squared_) > excess(own, squared_field_[v])) return false;
 
-  // Triangle (v, q, r) gains cross(r − q, step) of doubled area; a neighbour has two of them, at the ends of an open
+  // Triangle (v, q, r) gains cross(r − q, step) of doubled area; a neighbor has two of them, at the ends of an open
   // patch one.
   const std::size_t n = patch.size();
   for (std::size_t i = 0; i < patch.link.size(); ++i) {

@@ -2,7 +2,7 @@
 //
 // A vertex is in the band B when its local size is within [s/B, B s], s the field where it is. What would take a
 // vertex out, or further out than it is, is not done. A step of v moves v itself in the field and changes the area of
-// the stars of its neighbours (that of its own star, whose outline stays, it does not change); a flip takes a
+// the stars of its neighbors (that of its own star, whose outline stays, it does not change); a flip takes a
 // triangle from two vertices and gives it to two others. All in squares: no step needs a root.
 #pragma once
 

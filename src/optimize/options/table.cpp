@@ -162,7 +162,7 @@ bool makes_golden_searches(const Options& o) { return o.paper.solver == Solver::
 
 constexpr OptionRow kEnergyRows[] = {
     row<&Options::energy>("energy",
-                          "what to minimise: a barrier (BH, BHs, BP), a HOT energy (F, T, dT), one of these over "
+                          "what to minimize: a barrier (BH, BHs, BP), a HOT energy (F, T, dT), one of these over "
                           "squared areas (nF, nT, ndT), or what optimal Delaunay triangulations do (ODT)"),
     row<&Options::star>("star",
                         "Hodge star whose error is to be small. all: the three at once, with `objective=accuracy`, "
@@ -251,7 +251,7 @@ constexpr OptionRow kMoveRows[] = {
                                      .needs = {{{"solver", "newton|alternating"}}}}),
     row<kPaper, &Paper::search_radius>("search_radius",
                                        "how far golden section searches for a position: the root mean square distance "
-                                       "to the neighbours, or that of the farthest or the nearest",
+                                       "to the neighbors, or that of the farthest or the nearest",
                                        {.needs = {{{"solver", "golden", makes_golden_searches}}}}),
     row<kPaper, &Paper::weight_search_radius>(
         "weight_search_radius", "how far golden section searches for a weight, relative to the search radius squared",
@@ -280,11 +280,11 @@ constexpr OptionRow kConnectivityRows[] = {
     row<&Options::repair>(
         "repair",
         "where sweeps leave triangles bad: nothing; sweep again and kick vertices there, and find weights by a linear "
-        "programme; remove and insert vertices there, too, and keep what cures most",
+        "program; remove and insert vertices there, too, and keep what cures most",
         {.common = true,
          .needs = {{kBarrier, {"unknowns", "positions_and_weights|positions"}, {"flips", "immediate|deferred"}}}}),
     row<&Options::repair_trials>("repair_trials",
-                                 "at most so many edits are tried, 1 to 3 ms each; a linear programme counts as 20",
+                                 "at most so many edits are tried, 1 to 3 ms each; a linear program counts as 20",
                                  {.needs = {{{"repair", "moves|vertices"}}}}),
     row<&Options::boundary>(
         "boundary",
@@ -314,7 +314,7 @@ constexpr OptionRow kPaperRows[] = {
         {.needs = {kDeferredFlips}}),
     row<kPaper, &Paper::weight_updates>(
         "weight_updates",
-        "a new weight is seen by its neighbours at once, or after the sweep (not with `solver=newton`)"),
+        "a new weight is seen by its neighbors at once, or after the sweep (not with `solver=newton`)"),
     row<kPaper, &Paper::position_updates>("position_updates",
                                           "the same of positions; deferred, with `weight_updates=deferred` where "
                                           "weights move: all unknowns are those of the sweep before"),
@@ -325,11 +325,11 @@ constexpr OptionRow kPaperRows[] = {
                                          {.choices = std::span(kNames<EnergyKind>).first<3>(), .needs = {kCollapses}}),
     row<kPaper, &Paper::collapse_ratio>(
         "collapse_ratio",
-        "collapse a vertex that E_c wants this near its neighbour, relative to that one's shorter edge beside",
+        "collapse a vertex that E_c wants this near its neighbor, relative to that one's shorter edge beside",
         {.range = inside(0, 1), .needs = {kCollapses}}),
     row<kPaper, &Paper::removal>("removal",
                                  "patch: remove a vertex when its patch is better without it (Algorithm 1, line 15); "
-                                 "weight: when its weight is far below its neighbours'"),
+                                 "weight: when its weight is far below its neighbors'"),
     row<kPaper, &Paper::removal_measure>(
         "removal_measure",
         "by what patches are compared: energy summed (the paper), per triangle, or above equilateral triangles",
@@ -338,7 +338,7 @@ constexpr OptionRow kPaperRows[] = {
                                         {.range = at_least(0), .needs = {{{"removal", "patch", compares_patches}}}}),
     row<kPaper, &Paper::hidden_threshold>(
         "hidden_threshold",
-        "of `removal=weight`: how far below the mean of its neighbours', relative to their mean squared distance",
+        "of `removal=weight`: how far below the mean of its neighbors', relative to their mean squared distance",
         {.range = more_than(0), .needs = {{{"removal", "weight"}}}}),
     row<kPaper, &Paper::removal_from>("removal_from", "first sweep with removals, from 0", {.needs = {kRemovals}}),
     row<kPaper, &Paper::insertion_from>("insertion_from",

@@ -125,7 +125,7 @@ std::vector<VertexId> splice(WorkingCopy& work, Flipper& flipper, const Recorder
     return around.mesh.point(v) == work.mesh.point(around.vertices[v.index]);
   }));
   Mesh& mesh = work.mesh;
-  std::vector<VertexId> vertices = around.vertices;  // by number in the neighbourhood
+  std::vector<VertexId> vertices = around.vertices;  // by number in the neighborhood
   const auto whole = [&](VertexId local) { return vertices[local.index]; };
   const auto edge = [&](VertexId a, VertexId b) { return mesh.find_halfedge(whole(a), whole(b)); };
   for (const TraceEvent& e : events) {

@@ -16,13 +16,13 @@ namespace temper {
 namespace {
 
 constexpr int kKicks = 3;
-// A neighbourhood with more bad triangles has more than one place to begin at.
+// A neighborhood with more bad triangles has more than one place to begin at.
 constexpr std::size_t kMostBad = 6;
 constexpr std::size_t kMostRemovals = 12;
 // Gradations of sizes, from such that hardly grow to such that double within their own length.
 constexpr double kGradations[] = {0.3, 0.6, 1};
 
-/// The one that the neighbourhood is around, and others.
+/// The one that the neighborhood is around, and others.
 std::vector<TriangleId> some_bad_triangles(const Neighborhood& around) {
   std::vector<TriangleId> bad = {around.seed};
   for (const TriangleId t : around.mesh.triangles()) {
@@ -46,7 +46,7 @@ void add_insertions(const Mesh& mesh, TriangleId t, std::vector<Edit>& edits) {
   }
 }
 
-/// The corners of these triangles and their neighbours, each once.
+/// The corners of these triangles and their neighbors, each once.
 std::vector<VertexId> vertices_near(const Mesh& mesh, const std::vector<TriangleId>& triangles) {
   std::vector<VertexId> near;
   for (const TriangleId t : triangles) {
@@ -71,7 +71,7 @@ void add_removals(const Neighborhood& around, const std::vector<TriangleId>& bad
 }
 
 /// The edits in tiers; a tier is tried when none of the one before helps. Those that change least come first: sweeps
-/// alone and kicks, which keep every vertex; with `assigns_weights` then weights by a linear programme. With `vertices`
+/// alone and kicks, which keep every vertex; with `assigns_weights` then weights by a linear program. With `vertices`
 /// also: one vertex less near a bad triangle, or one more in its middle, at its orthocenter or on an edge; then as many
 /// more as are missing; then all of them anew. Fixed, boundary and constrained vertices stay.
 std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool assigns_weights, bool vertices, Rng& rng) {
@@ -82,7 +82,7 @@ std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool assign
   const std::vector<TriangleId> bad = some_bad_triangles(around);
   add_removals(around, bad, one);
   for (const TriangleId t : bad) add_insertions(around.mesh, t, one);
-  if (around.mesh.space().is_periodic()) return {moves, weights, one};  // refinement measures across the neighbourhood
+  if (around.mesh.space().is_periodic()) return {moves, weights, one};  // refinement measures across the neighborhood
   for (const double gradation : kGradations) {
     many.push_back({.kind = Edit::refine, .gradation = gradation});
     anew.push_back({.kind = Edit::remesh, .gradation = gradation});
@@ -91,7 +91,7 @@ std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool assign
 }
 
 constexpr int kRings = 3;
-// After so many failures the neighbourhood has one ring more.
+// After so many failures the neighborhood has one ring more.
 constexpr int kFailuresBeforeWider = 6;
 constexpr int kFailuresBeforeSideways = 5;
 // Enough for the random walk of sideways edits to come around; hopeless places are left after that.
@@ -99,8 +99,8 @@ constexpr int kMostFailures = 60, kMostFailuresOfMoves = 10;
 // An edit that helps lowers the violation by this part, or the number of bad triangles.
 constexpr double kHelps = 0.01;
 constexpr std::uint32_t kSidewaysChoice = 4;
-// What a linear programme takes, in trials of sweeps.
-constexpr int kTrialsOfAProgramme = 20;
+// What a linear program takes, in trials of sweeps.
+constexpr int kTrialsOfAProgram = 20;
 
 bool helps(const LocalDefect& before, const LocalDefect& after) {
   return after.bad < before.bad || (after.bad == before.bad && after.violation < (1 - kHelps) * before.violation);
@@ -159,11 +159,11 @@ void RepairSearch::find_bad() {
   TEMPER_ASSERT_SLOW(bad_ == bad_triangles(work_.mesh));
 }
 
-/// Says whether a linear programme is asked for weights, which is of places that do not go round: not twice for the
+/// Says whether a linear program is asked for weights, which is of places that do not go round: not twice for the
 /// same ones, and not where no mesh with an edge of the triangle has any.
 bool RepairSearch::assigns_weights(TriangleId seed) const {
   const Mesh& mesh = work_.mesh;
-  if (!asks_programmes_ || run_.repair_trials_left < kTrialsOfAProgramme ||
+  if (!asks_programs_ || run_.repair_trials_left < kTrialsOfAProgram ||
       settings_.options.unknowns == Unknowns::positions || mesh.space().is_periodic() ||
       std::find(weighed_.begin(), weighed_.end(), seed) != weighed_.end())
     return false;
@@ -174,7 +174,7 @@ bool RepairSearch::assigns_weights(TriangleId seed) const {
   return true;
 }
 
-/// The edit after which the neighbourhood stands best, if that helps; of the least tier that has one.
+/// The edit after which the neighborhood stands best, if that helps; of the least tier that has one.
 std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId seed) {
   const LocalDefect before = defect_of(around.mesh, settings_.accuracy);
   std::optional<Edit> best;
@@ -186,7 +186,7 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
       if (run_.repair_trials_left-- <= 0 || run_.asked_to_stop(0)) return best;
       if (edit.kind == Edit::assign_weights) {
         weighed_.push_back(seed);
-        run_.repair_trials_left -= kTrialsOfAProgramme;
+        run_.repair_trials_left -= kTrialsOfAProgram;
       }
       const TrialResult result = try_edit(around, edit, settings_, work_.units, false);
       if (!result.valid) continue;

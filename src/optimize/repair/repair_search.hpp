@@ -19,16 +19,16 @@ namespace temper {
 
 class RepairSearch {
  public:
-  /// `seed`: of all that is random. `asks_programmes`: linear ones, for weights of places that nothing else cures.
+  /// `seed`: of all that is random. `asks_programs`: linear ones, for weights of places that nothing else cures.
   RepairSearch(WorkingCopy& work, const Settings& settings, Run& run, Flipper& flipper, const Recorder& recorder,
-               std::uint64_t seed, bool asks_programmes)
+               std::uint64_t seed, bool asks_programs)
       : work_(work),
         settings_(settings),
         run_(run),
         flipper_(flipper),
         recorder_(recorder),
         rng_(seed),
-        asks_programmes_(asks_programmes) {}
+        asks_programs_(asks_programs) {}
 
   /// Changes the mesh in one place: never to more bad triangles. False when none is left, none can be cured, or it was
   /// asked to stop. Removed vertices stay isolated until the caller compacts, which it must before the next call.
@@ -55,9 +55,9 @@ class RepairSearch {
   Flipper& flipper_;
   const Recorder& recorder_;
   Rng rng_;
-  const bool asks_programmes_;
+  const bool asks_programs_;
   int failures_ = 0;                 // places without an edit that helps, since the last one with
-  std::vector<TriangleId> weighed_;  // in vain, as their places are: a linear programme takes long
+  std::vector<TriangleId> weighed_;  // in vain, as their places are: a linear program takes long
   std::vector<TriangleId> bad_;      // when `changed_` was still to come
   std::optional<std::vector<TriangleId>> changed_;
 };

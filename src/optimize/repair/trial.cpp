@@ -134,9 +134,9 @@ constexpr double kSharp = 0.1;
 constexpr double kKick = 0.4;
 // Half of what `temper weights` asks for: more, and few triangles that have it would be paid for by one that turns bad.
 constexpr double kWeighedMargin = 0.005;
-// Programmes of one more take four times as long, and cure hardly more.
+// Programs of one more take four times as long, and cure hardly more.
 constexpr int kWeighedRings = 2;
-// More than a neighbourhood that lacks vertices ever needs.
+// More than a neighborhood that lacks vertices ever needs.
 constexpr int kMostInserted = 300;
 
 /// −h/ℓ, −d/ℓ or d/ℓ − 1, whichever is the worst; zero or less inside.

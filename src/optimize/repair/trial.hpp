@@ -1,4 +1,4 @@
-// One idea for a repair, tried out on a copy of a neighbourhood: an edit, then sweeps of E_BP with a shrinking γ.
+// One idea for a repair, tried out on a copy of a neighborhood: an edit, then sweeps of E_BP with a shrinking γ.
 //
 // A trial changes nothing outside of itself. Run again with a listener, the same trial tells its events, and these are
 // what is then applied to the whole mesh (neighborhood.hpp).
@@ -13,12 +13,12 @@
 
 namespace temper {
 
-/// The edit that a trial begins with, in the numbers of the neighbourhood.
+/// The edit that a trial begins with, in the numbers of the neighborhood.
 struct Edit {
   enum Kind {
     nothing,         ///< only sweep again
     kick,            ///< all free vertices, at random, by part of their shortest edge
-    assign_weights,  ///< by the linear programme of the weights that lack least of a margin; positions stay
+    assign_weights,  ///< by the linear program of the weights that lack least of a margin; positions stay
     insert,          ///< a vertex in a triangle
     split,           ///< an inner edge in its middle
     remove,          ///< a vertex
@@ -49,10 +49,10 @@ struct LocalDefect {
 struct TrialResult {
   bool valid = false;  ///< all edges regular, those of the rim too, and nothing hidden
   LocalDefect defect;
-  std::vector<TraceEvent> events;  ///< in the numbers of the neighbourhood, new vertices after its own; when asked for
+  std::vector<TraceEvent> events;  ///< in the numbers of the neighborhood, new vertices after its own; when asked for
 };
 
-/// Applies the edit to a copy of the neighbourhood and optimises that. `grid`: of the whole mesh, for positions.
+/// Applies the edit to a copy of the neighborhood and optimizes that. `grid`: of the whole mesh, for positions.
 [[nodiscard]] TrialResult try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings,
                                    const WorkingUnits& grid, bool with_events);
 

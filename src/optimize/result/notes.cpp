@@ -86,7 +86,7 @@ class Notes {
     }
   }
 
-  /// Triangles that no optimiser can make well-centered, whatever it planned.
+  /// Triangles that no optimizer can make well-centered, whatever it planned.
   void note_edges_that_must_be_split(std::size_t bad) {
     if (!settings_.energy().barrier || bad == 0 || mesh_.space().kind() != SpaceKind::plane) return;
     if (settings_.policy.allows_inversion() && count_inverted(mesh_) > 0) return;  // no inside to see through

@@ -96,7 +96,7 @@ bool lacks_flips(const MeshScore& input, const Settings& settings, const RunFact
 
 std::string_view name(Stopped stopped) {
   constexpr std::string_view kNames[] = {"converged", "max_sweeps", "max_outer",   "time_limit",
-                                         "cancelled", "tangled",    "sweep_limit", "hidden"};
+                                         "canceled",  "tangled",    "sweep_limit", "hidden"};
   return kNames[static_cast<std::size_t>(stopped)];
 }
 

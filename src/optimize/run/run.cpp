@@ -130,7 +130,7 @@ void Run::ask(double fraction_of_sweep) {
   } else if (hooks_.observer) {
     const Progress progress = {report.history.back(), fraction_of_sweep, options_.max_sweeps,
                                estimate_sweeps_left(report.history, options_)};
-    if (hooks_.observer(progress) == Continue::no) report.stopped = Stopped::cancelled;
+    if (hooks_.observer(progress) == Continue::no) report.stopped = Stopped::canceled;
   }
 }
 

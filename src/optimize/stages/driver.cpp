@@ -290,9 +290,9 @@ void Driver::end_sweep_of_its_own() {
   record(EnergyPhase(work_, settings_, state_, run_, kPolish, false).measure());
 }
 
-bool Driver::repair(std::uint64_t seed, bool asks_programmes) {
+bool Driver::repair(std::uint64_t seed, bool asks_programs) {
   EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);  // what repairs are told by
-  RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed, asks_programmes);
+  RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed, asks_programs);
   bool changed = false;
   RunningEnergyAndBad totals;
   while (run_.sweeps_left() && search.improve_one_place()) {

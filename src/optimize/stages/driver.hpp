@@ -26,8 +26,8 @@ class Driver {
   /// Sweeps of one phase. `sweep`: whose mesh the working copy is. Returns as above.
   int run(Phase& phase, int sweep);
 
-  /// Local search for what all restarts have left bad. False when nothing was changed. `asks_programmes`: for weights.
-  bool repair(std::uint64_t seed, bool asks_programmes = false);
+  /// Local search for what all restarts have left bad. False when nothing was changed. `asks_programs`: for weights.
+  bool repair(std::uint64_t seed, bool asks_programs = false);
   /// Sweeps at the sharpest γ, after repairs; taken back when they lose triangles again. `sweep` as above.
   int polish(int sweep);
 

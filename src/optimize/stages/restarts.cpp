@@ -25,8 +25,8 @@ constexpr std::size_t kFarMore = 2;
 constexpr double kFewerByWeights = 0.75;
 // A search that ends with triangles bad may have gone astray early on.
 constexpr std::uint64_t kSearches = 4;
-// The one more, where linear programmes can be asked: from what the first has left.
-constexpr std::uint64_t kProgrammes = 1;
+// The one more, where linear programs can be asked: from what the first has left.
+constexpr std::uint64_t kPrograms = 1;
 
 /// Hidden vertices have no power cell, so no regular triangulation keeps them: the user must know which.
 InputError hidden_vertices_error(const Mesh& input, const InputNames* names) {
@@ -232,15 +232,15 @@ Candidate repaired(Candidate best, const Settings& settings, SweepState& state, 
   const bool in_place = settings.options.repair != Repair::vertices && are_apart(best, settings);
   for (std::uint64_t i = 0; i < searches && !is_done(best); ++i) {
     const BestBefore kept(run.best_before, in_place ? nullptr : &best.work);
-    const bool asks_programmes = i == kProgrammes && settings.lp != nullptr;
-    if (i == kProgrammes && settings.lp == nullptr) run.facts.lacks_programs = true;
-    if (asks_programmes) start.reset();  // they cost more than what is cured
+    const bool asks_programs = i == kPrograms && settings.lp != nullptr;
+    if (i == kPrograms && settings.lp == nullptr) run.facts.lacks_programs = true;
+    if (asks_programs) start.reset();  // they cost more than what is cured
     Candidate copy;
     if (!in_place) copy = start ? *start : best;
     Candidate& now = in_place ? best : copy;
     Driver driver(now.work, settings, state, run);
     if (start) driver.recorder().returned_to(start->sweep);
-    const bool changed = driver.repair(settings.policy.seed + i, asks_programmes);
+    const bool changed = driver.repair(settings.policy.seed + i, asks_programs);
     now.sweep = run.report.sweeps;
     if (in_place) continue;
     if (changed && has_gained(now, best, settings, state.model)) {

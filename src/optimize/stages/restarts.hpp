@@ -20,7 +20,7 @@ namespace temper {
                               const EnergyModel& model);
 
 /// Repairs, until a search leaves nothing bad: from the same beginning, on a copy; the best result is kept, and swept
-/// once more. One more search, after the first, asks linear programmes for weights, and goes on with what that has
+/// once more. One more search, after the first, asks linear programs for weights, and goes on with what that has
 /// left. Where bad triangles are far apart, from what the search before has left; and in place, without a sweep of the
 /// whole mesh, where they are so from the first.
 [[nodiscard]] Candidate repaired(Candidate best, const Settings& settings, SweepState& state, Run& run);

@@ -19,7 +19,7 @@ struct Dofs {
 /// The mobility that its place leaves a vertex, whatever the sweep. Decided once, since moves keep the lines of the
 /// boundary and of constrained edges.
 enum class Mobility : std::uint8_t {
-  frozen,  ///< neither position nor weight: the rim of a neighbourhood
+  frozen,  ///< neither position nor weight: the rim of a neighborhood
   fixed,   ///< where the user wants so; corners of the boundary, ends, bends and branches of constrained lines; and all
            ///< of a line that the options do not let slide
   sliding,  ///< along a straight piece of the boundary, or of a constrained line
@@ -29,7 +29,7 @@ enum class Mobility : std::uint8_t {
 [[nodiscard]] IdVector<VertexId, Mobility> mobilities(const Mesh& mesh, const OptimizeOptions& options,
                                                       Executor* executor = nullptr);
 
-/// The directions that a vertex of that mobility is optimised in.
+/// The directions that a vertex of that mobility is optimized in.
 [[nodiscard]] Dofs dofs(const Mesh& mesh, VertexId v, Mobility mobility, Unknowns unknowns);
 
 }  // namespace temper

@@ -29,7 +29,7 @@ namespace temper {
 [[nodiscard]] bool nearly_collapses(const Patch& patch, const EnergyModel& collapse_model, const WeightedPoint& p,
                                     const PaperSwitches& switches);
 
-/// How far the weight of p is below the mean of its neighbours', relative to R², the mean squared length of the spokes.
+/// How far the weight of p is below the mean of its neighbors', relative to R², the mean squared length of the spokes.
 [[nodiscard]] double relative_lightness(const Patch& patch, const WeightedPoint& p);
 
 /// The energies of P and of P∖p, as `measure` compares them.

@@ -21,7 +21,7 @@ namespace temper {
 /// Says whether the mesh has such a quad. O(n).
 [[nodiscard]] bool has_tied_quads(const Mesh& mesh, const OptimizeOptions& options);
 
-/// An end of ties that is to be heavier than its neighbours.
+/// An end of ties that is to be heavier than its neighbors.
 struct TieEnd {
   VertexId vertex;
   double shortest2;  ///< squared length of its shortest edge: a difference of weights less than that hides no vertex

@@ -69,7 +69,7 @@ bool VertexStep::makes_newton_steps() const {
   return state.energy.barrier && settings.policy.makes_newton_steps() && state.flip_limit == FlipLimit::unlimited;
 }
 
-/// Algorithm 2: where E_c would put v onto a neighbour, the mesh is better without v.
+/// Algorithm 2: where E_c would put v onto a neighbor, the mesh is better without v.
 bool VertexStep::collapse(VertexId v) {
   if (!may_go(v)) return false;
   const EnergyModel& model = settings.collapse_model;
@@ -132,7 +132,7 @@ bool VertexStep::gather(VertexId v) {
 }
 
 /// A barrier is +∞ where some |Δw| ≥ ℓ² (weights of the input, or an unpriced flip). Puts the weight to the nearest
-/// value that satisfies the spokes, if there is one; what is left of the patch is up to the neighbours. True when
+/// value that satisfies the spokes, if there is one; what is left of the patch is up to the neighbors. True when
 /// the patch is finite then.
 bool VertexStep::enter_domain() {
   if (unknowns_ == Unknowns::positions || star_->keeps_edges_regular) return false;
@@ -304,7 +304,7 @@ void VertexStep::shake(double amount, Rng& rng) {
   }
 }
 
-/// Where triangles may not turn over, positions whose neighbours are no longer where the search has seen them are
+/// Where triangles may not turn over, positions whose neighbors are no longer where the search has seen them are
 /// tested once more.
 void VertexStep::end_sweep() {
   for (const auto& [v, old, to, before, after] : deferred_) {

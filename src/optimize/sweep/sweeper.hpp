@@ -26,7 +26,7 @@
 //  5. Slots that lie side by side are different objects: bytes, words and doubles, no bits. Regions do not change.
 //
 // So nothing that one part writes is read or written by another, each part does what it would do alone, and the order
-// of parts does not matter. Where more is read (size bands look at the stars of neighbours), or where events are told
+// of parts does not matter. Where more is read (size bands look at the stars of neighbors), or where events are told
 // in order, or vertices go, the parts run one after another: the same parts, the same order in each, the same bytes.
 #pragma once
 

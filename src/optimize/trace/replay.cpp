@@ -2,7 +2,7 @@
 //
 // No units and no Hilbert order here: a flip or a removal keeps to the slots of the triangles it touches, and an
 // insertion takes the next ones never used, so the same events in the same order leave the same slots in any numbering;
-// and the optimiser's units gives coordinates back bit for bit. Removed vertices keep their numbers until the end, when
+// and the optimizer's units gives coordinates back bit for bit. Removed vertices keep their numbers until the end, when
 // the mesh is compacted: the slot of an inserted vertex here is its number.
 //
 // A trace may come from anywhere, so every event is held against the mesh before it is applied. What is checked is

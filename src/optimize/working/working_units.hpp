@@ -1,6 +1,6 @@
-// The optimiser works on coordinates near the origin and of size about 1, and gives back the user's.
+// The optimizer works on coordinates near the origin and of size about 1, and gives back the user's.
 //
-// Scaling is by a power of two, so exact. An axis is centred only when every coordinate on it is within a factor
+// Scaling is by a power of two, so exact. An axis is centered only when every coordinate on it is within a factor
 // of two of the center c: then x − c is exact (Sterbenz), and so is the way back. Positions that move are
 // rounded to the user's grid, (x + c) − c, so that what was decided exactly here holds there. The sphere stays around
 // the origin. So does a periodic plane along its periods, where positions are rounded to the grid of images

@@ -101,7 +101,7 @@ TEST_F(BadInput, OptionsThatDoNotFitTheMeshAreBadUsage) {
   EXPECT_EQ(names(), std::vector<std::string>{"in.vtu"});
 }
 
-// Outputs are looked at before the input is read, let alone optimised: the input here does not even exist.
+// Outputs are looked at before the input is read, let alone optimized: the input here does not even exist.
 TEST_F(BadInput, OutputsAreTriedBeforeTheWork) {
   std::filesystem::create_directory("folder");
   write("file", "");

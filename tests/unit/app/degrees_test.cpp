@@ -38,7 +38,7 @@ TEST_F(Degrees, AreRefusedWithTheCureWhereAPlaneIsNeeded) {
     EXPECT_EQ(outcome.exit, 2) << arguments[0];
     EXPECT_TRUE(contains(outcome.err, "fort.14: the points look like longitude and latitude"));
     EXPECT_TRUE(contains(outcome.err, "choose a --projection: stereographic, mercator or transverse-mercator"));
-    EXPECT_TRUE(contains(outcome.err, "(lengths are then in metres); sphere, for a mesh of the sphere; or none, "));
+    EXPECT_TRUE(contains(outcome.err, "(lengths are then in meters); sphere, for a mesh of the sphere; or none, "));
   }
   EXPECT_EQ(names(), std::vector<std::string>{"fort.14"});
   EXPECT_EQ(temper({"convert", "fort.14", "-o", "m.ugrid.nc"}).err.find("`projection`"), std::string::npos);
@@ -46,10 +46,10 @@ TEST_F(Degrees, AreRefusedWithTheCureWhereAPlaneIsNeeded) {
   temper_ok({"optimize", "fort.14", "-o", "out.14", "--projection", "none", "--quiet"});
 }
 
-TEST_F(Degrees, AreOptimisedOnAMapAndWrittenAsTheyCame) {
+TEST_F(Degrees, AreOptimizedOnAMapAndWrittenAsTheyCame) {
   write_sea("fort.14");
   const Outcome run = temper_ok({"optimize", "fort.14", "-o", "out.14", "--projection", "stereographic:-10,57"});
-  EXPECT_TRUE(contains(run.err, "weights are squared lengths on the map stereographic:-10,57, in metres"));
+  EXPECT_TRUE(contains(run.err, "weights are squared lengths on the map stereographic:-10,57, in meters"));
   const auto before = io::read("fort.14"), after = io::read("out.14");
   ASSERT_TRUE(before && after);
   ASSERT_EQ(before->points.size(), after->points.size());

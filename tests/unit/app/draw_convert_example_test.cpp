@@ -82,10 +82,10 @@ TEST_F(Draw, ColorsAreMeasuresOrDataOfTheFile) {
     temper_ok({"draw", "a.vtu", "-o", "p.svg", "--color", std::string(value.name)});
     EXPECT_TRUE(contains(read("p.svg"), "class=\"value\"")) << value.name;
   }
-  const Outcome outcome = temper({"draw", "a.vtu", "-o", "q.svg", "--color", "colour"});
+  const Outcome outcome = temper({"draw", "a.vtu", "-o", "q.svg", "--color", "color"});
   EXPECT_EQ(outcome.exit, 2);
   EXPECT_TRUE(
-      contains(outcome.err, "a.vtu: --color: there is no number 'colour' of triangles; there are quality, angle"));
+      contains(outcome.err, "a.vtu: --color: there is no number 'color' of triangles; there are quality, angle"));
   EXPECT_FALSE(exists("q.svg"));
 }
 

@@ -77,7 +77,7 @@ TEST_F(Errors, ComparesWithAnotherMesh) {
   EXPECT_TRUE(contains(other.err, "ring.vtu and in.vtu do not have the same bounding box"));
 }
 
-TEST_F(Errors, IsPartOfAnOptimisationWhenAskedFor) {
+TEST_F(Errors, IsPartOfAnOptimizationWhenAskedFor) {
   make_input();
   const std::string text = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--objective", "accuracy",
                                       "--measure-errors", "--report", "r.json"})

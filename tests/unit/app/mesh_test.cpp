@@ -45,7 +45,7 @@ TEST_F(MeshVerb, OneCommandMakesAWellCenteredMeshThatKeepsTheOutline) {
   EXPECT_GT(constrained, 4u);
 }
 
-TEST_F(MeshVerb, WithoutOptimisationTheDelaunayMeshIsWritten) {
+TEST_F(MeshVerb, WithoutOptimizationTheDelaunayMeshIsWritten) {
   make_outline();
   temper_ok({"mesh", "in.poly", "-o", "out.vtu", "--size", "0.2", "--no-optimize", "--report", "r.json"});
   EXPECT_EQ(read_json("r.json")["sweeps"], 0);

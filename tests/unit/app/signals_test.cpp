@@ -42,7 +42,7 @@ TEST_F(Stopping, TheFirstSignalWritesTheBestMeshAndExitsWith4) {
     const pid_t process = start_long();
     kill(process, signal);
     EXPECT_EQ(wait_for(process), 4);
-    expect_stopped_early("cancelled");
+    expect_stopped_early("canceled");
     EXPECT_TRUE(contains(read("out.txt"), "stopped early by a signal"));
     for (const char* path : {"out.txt", "out.vtu", "r.json"}) std::filesystem::remove(path);
   }

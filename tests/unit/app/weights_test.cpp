@@ -208,7 +208,7 @@ TEST_F(Weights, TheSearchOverConnectivitiesWritesARegularMeshWithOtherEdges) {
   std::vector<std::string> searching = heights;
   searching.insert(searching.end(), {"--connectivity", "search"});
   const auto json = nlohmann::json::parse(temper_ok(searching).out);
-  EXPECT_EQ(json["search"]["end"], "no_better_neighbour");
+  EXPECT_EQ(json["search"]["end"], "no_better_neighbor");
   EXPECT_LT(json["search"]["before"].get<double>(), 0);
   EXPECT_GT(json["search"]["margin"].get<double>(), 0);
   EXPECT_EQ(json["search"]["steps"].back()["margin"], json["search"]["margin"]);
@@ -218,7 +218,7 @@ TEST_F(Weights, TheSearchOverConnectivitiesWritesARegularMeshWithOtherEdges) {
   ASSERT_TRUE(before && after);
   EXPECT_EQ(before->points, after->points);
   EXPECT_NE(before->triangles, after->triangles);
-  searching.insert(searching.end(), {"--programmes", "2"});
+  searching.insert(searching.end(), {"--programs", "2"});
   EXPECT_EQ(nlohmann::json::parse(temper(searching).out)["search"]["end"], "limit");
 }
 
@@ -234,8 +234,8 @@ TEST_F(Weights, BadUsageIsRefused) {
       {"in.vtu", "-o", "out.vtu", "--constraints", "both"},
       {"in.vtu", "-o", "out.vtu", "--edges", "lines"},
       {"in.vtu", "-o", "out.vtu", "--constraints", "heights-only", "--mode", "barrier"},
-      {"in.vtu", "-o", "out.vtu", "--programmes", "10"},
-      {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--programmes", "0"},
+      {"in.vtu", "-o", "out.vtu", "--programs", "10"},
+      {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--programs", "0"},
       {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--certificate", "why.json"},
       {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--constraints", "regular"},
       {"in.vtu", "--check-certificate", "why.json", "--constraints", "heights-only"}};

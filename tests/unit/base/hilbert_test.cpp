@@ -1,4 +1,4 @@
-// The Hilbert curve visits every cell once, and consecutive cells are neighbours.
+// The Hilbert curve visits every cell once, and consecutive cells are neighbors.
 #include "base/hilbert.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace temper {
 namespace {
 
-TEST(HilbertIndex, VisitsEveryCellOfACornerOnceFromNeighbourToNeighbour) {
+TEST(HilbertIndex, VisitsEveryCellOfACornerOnceFromNeighborToNeighbor) {
   // The 2^k × 2^k cells at the origin, k even, are the first 4^k of the curve (rotated for odd k, still the first).
   constexpr std::uint32_t kSide = 64;
   std::map<std::uint64_t, std::pair<int, int>> cell_at;

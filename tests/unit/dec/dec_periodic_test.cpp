@@ -51,7 +51,7 @@ TEST(DecPeriodic, CellsOfAWellCenteredMeshAreStar0) {
   for (const double ratio : c.star1) EXPECT_NEAR(ratio, 1 / std::sqrt(3.0), 1e-12);
 }
 
-// Rows of the Laplacian of hexagons are those of the six neighbours: Fourier modes are its eigenfunctions exactly.
+// Rows of the Laplacian of hexagons are those of the six neighbors: Fourier modes are its eigenfunctions exactly.
 TEST(DecPeriodic, FourierModesAreEigenfunctionsOfHexagons) {
   const Mesh mesh = *periodic_hexagons({.nx = 12, .ny = 10});
   const DecComplex c = dec_operators(mesh);

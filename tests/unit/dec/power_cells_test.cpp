@@ -203,7 +203,7 @@ TEST(PowerCells, ShareFacesThatTogetherWithTheBoundaryAreAllTheirSides) {
   }
   EXPECT_GT(compared, 20u);
   EXPECT_GT(closed, 50u);
-  EXPECT_EQ(beyond_edges, 0u) << "in a regular triangulation neighbours share an edge";
+  EXPECT_EQ(beyond_edges, 0u) << "in a regular triangulation neighbors share an edge";
 }
 
 // --- any domain -----------------------------------------------------------------------------------------------

@@ -72,7 +72,7 @@ TEST(ErrorObjective, LowersTheErrorsOfItsSchemeBelowThoseOfTheAccuracyObjective)
   }
 }
 
-// On rings errors cancel from neighbour to neighbour, which all that moves single vertices ends (docs/accuracy.md).
+// On rings errors cancel from neighbor to neighbor, which all that moves single vertices ends (docs/accuracy.md).
 TEST(ErrorObjective, IsNeverWorseThanAWellCenteredInput) {
   const Mesh ring = *annulus({.jitter = 0});
   ASSERT_EQ(quality(ring).well_centered_fraction, 1);
@@ -109,7 +109,7 @@ TEST(ErrorObjective, StopsWhenItIsAsked) {
       improved(input, options_for(Scheme::cell), {.observer = [](const Progress& progress) {
                  return progress.last.objective == Objective::solver_error ? Continue::no : Continue::yes;
                }});
-  EXPECT_EQ(cut.report.stopped, Stopped::cancelled);
+  EXPECT_EQ(cut.report.stopped, Stopped::canceled);
   EXPECT_EQ(quality(cut.mesh).well_centered_fraction, 1);
   EXPECT_EQ(cut.mesh.validate(), std::nullopt);
 }

@@ -293,7 +293,7 @@ TEST(ErrorMatrices, AreMMatricesExactlyWhenNoSignIsWrong) {
   EXPECT_GT(*good.flux.condition, 1);
 
   Mesh lifted = lattice({.n = 6});
-  lifted.set_weight(VertexId(std::size_t{14}), 1.2);  // in the middle: it hides its neighbours
+  lifted.set_weight(VertexId(std::size_t{14}), 1.2);  // in the middle: it hides its neighbors
   const ErrorReport bad = verified(lifted);
   const Quality measured = quality(lifted);
   EXPECT_GT(measured.non_regular_edges, 0u);

@@ -120,7 +120,7 @@ TEST(ErrorPeriodic, UnitsOfLengthChangeNothing) {
   }
 }
 
-TEST(ErrorPeriodic, OptimisedMeshesHaveASmallPartOfTheErrors) {
+TEST(ErrorPeriodic, OptimizedMeshesHaveASmallPartOfTheErrors) {
   const Mesh before = *random_periodic({.vertices = 600, .seed = 4});
   Mesh after = before;
   ASSERT_TRUE(optimize(after));

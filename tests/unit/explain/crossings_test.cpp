@@ -1,4 +1,4 @@
-// Crossing intervals: the closed formulae against sampled orthocenters, and against the linear programme.
+// Crossing intervals: the closed formulae against sampled orthocenters, and against the linear program.
 
 #include "explain/conflict.hpp"
 #include "temper/detail/geometry.hpp"
@@ -91,7 +91,7 @@ TEST(CrossingInterval, OfTwoTrianglesDecidesWhetherWeightsExist) {
   EXPECT_GT(infeasible, 20u);
 }
 
-TEST(CrossingConflict, OfAFanIsThereJustWhenTheProgrammeFindsOne) {
+TEST(CrossingConflict, OfAFanIsThereJustWhenTheProgramFindsOne) {
   const auto solver = clp_solver();
   std::size_t feasible = 0, large = 0;
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
@@ -114,7 +114,7 @@ TEST(CrossingConflict, OfAFanIsThereJustWhenTheProgrammeFindsOne) {
 /// At a corner, from one spoke to the next, the crossing shrinks at most by the cosine of the angle between them:
 /// d_i > d_{i-1} cos θ_i. So when the first must be beyond `from`, and the last within `to`, from · Π cos θ ≥ to proves
 /// it.
-TEST(CosineChain, ProvesOnlyWhatTheProgrammeFindsInfeasible) {
+TEST(CosineChain, ProvesOnlyWhatTheProgramFindsInfeasible) {
   const auto solver = clp_solver();
   std::size_t proved = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {

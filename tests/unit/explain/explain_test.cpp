@@ -146,7 +146,7 @@ TEST(Explain, ConflictsAreProvedAndSmallest) {
       EXPECT_TRUE(mesh.find_halfedge(c.p, c.q).valid());
       EXPECT_EQ(c.left.triangles.size() + c.right.triangles.size(), reason.conflict.size());
     }
-    // What weights cannot do, the programme for the whole mesh says too.
+    // What weights cannot do, the program for the whole mesh says too.
     const BestMargin whole = best_margin(mesh, *solver);
     EXPECT_EQ(infeasible, !whole.certificate.terms.empty());
     EXPECT_EQ(e.verdict, infeasible ? Feasibility::infeasible : Feasibility::feasible);
@@ -259,7 +259,7 @@ Mesh cured(Mesh mesh, const Cure& cure) {
   return mesh;
 }
 
-TEST(Explain, VerifiedCuresDoCureWhereTheMeshIsTheNeighbourhood) {
+TEST(Explain, VerifiedCuresDoCureWhereTheMeshIsTheNeighborhood) {
   const auto solver = clp_solver();
   std::set<Cure::Action> tried;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
@@ -288,7 +288,7 @@ TEST(Explain, VerifiedCuresDoCureWhereTheMeshIsTheNeighbourhood) {
   }
 }
 
-TEST(Explain, VerifiedMovesCureTheNeighbourhood) {
+TEST(Explain, VerifiedMovesCureTheNeighborhood) {
   const auto solver = clp_solver();
   std::size_t tried = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
@@ -400,7 +400,7 @@ TEST(Explain, OfGlobesEveryBadTriangleHasOneReasonAndConflictsAreProved) {
   EXPECT_GT(crossings, 5u);
 }
 
-/// Two triangles have weights just when their sides of the edge agree: the crossings are held against the programme.
+/// Two triangles have weights just when their sides of the edge agree: the crossings are held against the program.
 TEST(Explain, OnTheSphereTwoTrianglesExcludeEachOtherJustWhereTheirCrossingsDoNotMeet) {
   const auto solver = clp_solver();
   std::size_t with = 0, without = 0;
@@ -427,7 +427,7 @@ WeightedPoint vertex_at(const Mesh& mesh, Vec2 lon_lat) {
   return as_point(mesh.space().radius() * p);
 }
 
-TEST(Explain, VerifiedCuresOfTheSphereDoCureWhereTheMeshIsTheNeighbourhood) {
+TEST(Explain, VerifiedCuresOfTheSphereDoCureWhereTheMeshIsTheNeighborhood) {
   const auto solver = clp_solver();
   std::set<Cure::Action> tried;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {

@@ -8,7 +8,7 @@
 namespace temper::test {
 namespace {
 
-constexpr double kSolved = 1e-9;  // the solver's tolerance on well-scaled programmes of a hundred rows
+constexpr double kSolved = 1e-9;  // the solver's tolerance on well-scaled programs of a hundred rows
 
 std::vector<HalfedgeId> inner_edges(const Mesh& mesh) {
   std::vector<HalfedgeId> edges;
@@ -180,7 +180,7 @@ void expect_true(const Mesh& mesh, const WeightReport& report, const WeightOptio
   }
 }
 
-TEST(FindWeights, AreRightUnderEveryConditionForTheWholeAndByNeighbourhoods) {
+TEST(FindWeights, AreRightUnderEveryConditionForTheWholeAndByNeighborhoods) {
   for (const ConstraintsInfo& row : constraints_table()) {
     Tally tally;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {

@@ -34,7 +34,7 @@ void expect_laws(const Mesh& mesh, Constraints constraints) {
   const ConnectivityReport report = search(mesh, {.constraints = constraints});
   SCOPED_TRACE(testing::Message() << name(constraints) << ", " << mesh.n_vertices() << " vertices, "
                                   << report.steps.size() << " steps, " << report.before << " to " << report.margin);
-  EXPECT_EQ(report.end, SearchEnd::no_better_neighbour);
+  EXPECT_EQ(report.end, SearchEnd::no_better_neighbor);
   EXPECT_EQ(report.mesh.validate(), std::nullopt);
   double last = report.before;
   EXPECT_NEAR(report.before, margin_of(mesh, constraints).margin, 1e-8);
@@ -118,12 +118,12 @@ TEST(BestConnectivity, IsNoBetterThanTheBestOfAllAndOftenThat) {
 }
 
 TEST(BestConnectivity, StopsWhereNothingIsAllowed) {
-  const ConnectivityReport none = search(jittered_lattice(1, 5), {.programmes = 0});
+  const ConnectivityReport none = search(jittered_lattice(1, 5), {.programs = 0});
   EXPECT_TRUE(none.steps.empty());
   EXPECT_EQ(none.end, SearchEnd::limit);
-  const ConnectivityReport one = search(jittered_lattice(1, 5), {.programmes = 1});
+  const ConnectivityReport one = search(jittered_lattice(1, 5), {.programs = 1});
   EXPECT_EQ(one.end, SearchEnd::limit);
-  EXPECT_EQ(one.programmes, 1u);
+  EXPECT_EQ(one.programs, 1u);
   EXPECT_EQ(one.before, one.margin);
   const auto solver = clp_solver();
   EXPECT_FALSE(best_connectivity(sparse_horseshoe(), *solver, {.constraints = Constraints::regular}));

@@ -68,7 +68,7 @@ TEST(FindWeights, ChangeNothingWhereNothingIsBad) {
     EXPECT_EQ(report.verdict, Feasibility::feasible);
     EXPECT_EQ(report.moved, 0u);
     EXPECT_EQ(report.change, 0);
-    EXPECT_EQ(report.programmes, 0u);
+    EXPECT_EQ(report.programs, 0u);
   }
 }
 
@@ -165,7 +165,7 @@ TEST(FindWeights, ElasticNamesTheTrianglesThatGiveWay) {
   }
 }
 
-TEST(FindWeights, LocalProgrammesDoNotTouchWhatIsFarAway) {
+TEST(FindWeights, LocalProgramsDoNotTouchWhatIsFarAway) {
   // A large good lattice with one vertex pushed out of place.
   Mesh mesh = lattice({.n = 60, .jitter = 0, .weight = 0});
   const VertexId pushed(std::size_t{30 * 60 + 30});
@@ -173,7 +173,7 @@ TEST(FindWeights, LocalProgrammesDoNotTouchWhatIsFarAway) {
   ASSERT_GT(bad_triangles(mesh), 0u);
   const WeightReport report = weights_of(mesh, {.whole = 100});
   EXPECT_TRUE(report.solved);
-  EXPECT_EQ(report.programmes, 1u);
+  EXPECT_EQ(report.programs, 1u);
   EXPECT_LT(report.largest, 200u);
   EXPECT_GT(report.moved, 0u);
   EXPECT_EQ(bad_triangles(with_weights(mesh, report.weights)), 0u);
@@ -184,7 +184,7 @@ TEST(FindWeights, LocalProgrammesDoNotTouchWhatIsFarAway) {
   }
 }
 
-TEST(FindWeights, ProveInfeasibilityFromANeighbourhood) {
+TEST(FindWeights, ProveInfeasibilityFromANeighborhood) {
   // Pushed so far that its own triangles cannot be cured.
   Mesh mesh = lattice({.n = 40, .jitter = 0, .weight = 0});
   const VertexId pushed(std::size_t{20 * 40 + 20});

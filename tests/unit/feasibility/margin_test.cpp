@@ -4,7 +4,7 @@
 namespace temper::test {
 namespace {
 
-// An optimum of a well-scaled programme with a hundred rows: the solver's tolerance is 1e-9.
+// An optimum of a well-scaled program with a hundred rows: the solver's tolerance is 1e-9.
 constexpr double kSolvedMargin = 1e-9;
 
 TEST(BestMargin, OfTheEquilateralTriangleIsThatOfZeroWeights) {
@@ -34,7 +34,7 @@ TEST(BestMargin, OfTheSparseHorseshoeIsMinusEightOver135) {
   EXPECT_NEAR(margin_of(sparse_horseshoe(), Constraints::heights_only).margin, 0.05, kSolvedMargin);
 }
 
-TEST(BestMargin, OfTheDenseHorseshoeIsWhatAnIndependentProgrammeFound) {
+TEST(BestMargin, OfTheDenseHorseshoeIsWhatAnIndependentProgramFound) {
   const Mesh mesh = *horseshoe();
   EXPECT_NEAR(margin_of(mesh).margin, -0.3199381998, kSolvedMargin);
   EXPECT_NEAR(margin_of(mesh, Constraints::heights_only).margin, -0.1046174535, kSolvedMargin);

@@ -1,4 +1,4 @@
-// Weights alone on the sphere: the constraints are linear in σ = R/|P|, and all that the plane's programmes and
+// Weights alone on the sphere: the constraints are linear in σ = R/|P|, and all that the plane's programs and
 // certificates promise holds there.
 #include <algorithm>
 #include <array>
@@ -204,7 +204,7 @@ TEST(SphereMargin, OfACapThatShrinksIsThePlanesToSecondOrder) {
   }
 }
 
-TEST(SphereWeights, AreRightUnderEveryConditionForTheWholeAndByNeighbourhoods) {
+TEST(SphereWeights, AreRightUnderEveryConditionForTheWholeAndByNeighborhoods) {
   std::array<int, 3> verdicts = {};
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const Mesh mesh = jittered_globe(seed, 0.09 * static_cast<double>(seed));
@@ -297,7 +297,7 @@ TEST(SphereCertificate, NeverProvesAnythingOfAMeshThatHasGoodWeights) {
 
 TEST(SphereConnectivity, GrowsTheMarginAndKeepsPlacesAndWeights) {
   const Mesh mesh = jittered_globe(2, 0.4);
-  const auto report = best_connectivity(mesh, *clp_solver(), {.programmes = 30});
+  const auto report = best_connectivity(mesh, *clp_solver(), {.programs = 30});
   ASSERT_TRUE(report);
   EXPECT_FALSE(report->steps.empty());
   double margin = report->before;

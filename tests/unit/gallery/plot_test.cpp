@@ -206,7 +206,7 @@ TEST(Plot, AStepIsLevelUntilTheNextPoint) {
   for (std::size_t k = 1; k < 4; k += 2) EXPECT_EQ(segments[k].first.x, segments[k].second.x);
 }
 
-TEST(Plot, SeriesDifferByMoreThanColour) {
+TEST(Plot, SeriesDifferByMoreThanColor) {
   LinePlot plot;
   for (int s = 0; s < 6; ++s)
     plot.series.push_back({.name = std::to_string(s), .points = {{0, 0.0 + s}, {1, 1.0 + s}}});
@@ -243,7 +243,7 @@ TEST(Plot, BandsOfAPlaneAreDrawnAtTheirPlaces) {
 }
 
 TEST(Plot, BandsGrowDarkerInGreyPrint) {
-  for (int k = 1; k <= 20; ++k) EXPECT_LT(band_color(k / 20.0).grey(), band_color((k - 1) / 20.0).grey() - 0.01);
+  for (int k = 1; k <= 20; ++k) EXPECT_LT(band_color(k / 20.0).gray(), band_color((k - 1) / 20.0).gray() - 0.01);
   EXPECT_EQ(band_color(0).text().size(), 7u);
 }
 
@@ -356,7 +356,7 @@ TEST(Grid, CellsAreAsLargeAsTheLargestOfTheirRowAndColumn) {
   const std::vector<std::string> svgs = {line_plot_svg(small), line_plot_svg(wide), line_plot_svg(wide)};
   const std::string svg = grid_svg(svgs, 2);
   EXPECT_NE(svg.find("viewBox=\"0 0 1000 250\""), std::string::npos) << svg.substr(0, 200);
-  EXPECT_NE(svg.find("<svg x=\"150\" y=\"0\""), std::string::npos) << "centred in its column";
+  EXPECT_NE(svg.find("<svg x=\"150\" y=\"0\""), std::string::npos) << "centered in its column";
 }
 
 }  // namespace

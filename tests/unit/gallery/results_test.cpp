@@ -16,7 +16,7 @@ std::vector<Result> two_results() {
   Result first = {{6, "Edge <hard>", "walls & a minimum", nothing}, {}};
   first.page.pictures = {{"fig06", "<svg/>", "E_BH over (d, h)"}, {"fig06_zoom", "<svg/>", "closer"}};
   first.page.tables = {{"Minima", {"energy", "value", "where"}, {{"BH", "1.333", "d = h"}, {"BP", "−2", ""}}}};
-  first.page.claims = {{"6", "the minimum is 4/3", "4", "1.3333", true, "minimised from 20 starts"},
+  first.page.claims = {{"6", "the minimum is 4/3", "4", "1.3333", true, "minimized from 20 starts"},
                        {"4", "B is \"concave\"", "yes", "no", false, "midpoint below"}};
   Result second = {{8, "Six energies", "landscapes", nothing}, {}};
   second.page.claims = {{"2.4", "thresholds", "", "", true, "", Author::temper}};
@@ -86,7 +86,7 @@ TEST(IndexHtml, ShowsPicturesTablesAndClaimsOfEachFigure) {
        {"<img src=\"fig06.svg\" alt=\"E_BH over (d, h)\">", "<img src=\"fig06_zoom.svg\"", "Edge &lt;hard&gt;",
         "walls &amp; a minimum", "<i>E</i><sub>BH</sub> over (d, h)</figcaption>", "<p class=\"caption\">Minima</p>",
         "<th class=\"n\">value</th>", "<td class=\"n\">1.333</td>", "<td>d = h</td>",
-        "<b>1 of 2 claims of the paper hold, and 1 of 1 of ours.</b>", "minimised from 20 starts", "temper 1.2.3",
+        "<b>1 of 2 claims of the paper hold, and 1 of 1 of ours.</b>", "minimized from 20 starts", "temper 1.2.3",
         "id=\"fig8\"", "href=\"#fig8\"", "§2.4"}) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
   }

@@ -28,7 +28,7 @@ inline int integer(Random& random, int n) {
 /// A double in (−1, 1) with all 53 bits in use.
 inline double real(Random& random) { return static_cast<double>(static_cast<std::int64_t>(random()) >> 10) * 0x1p-53; }
 
-/// One unit in the last place up or down, or none. Zero, whose neighbours are out of range, moves by 2^-200.
+/// One unit in the last place up or down, or none. Zero, whose neighbors are out of range, moves by 2^-200.
 inline double nudge(Random& random, double x) {
   const int direction = integer(random, 1);
   if (direction == 0) return x;

@@ -1,5 +1,5 @@
 // Damaged files: every reader returns a mesh or an error, whatever the bytes are. Deterministic: the seeds are fixed.
-// Run under the address and undefined-behaviour sanitizers, this is where a reader that trusts a file shows.
+// Run under the address and undefined-behavior sanitizers, this is where a reader that trusts a file shows.
 #include <random>
 
 #include "support.hpp"

@@ -13,7 +13,7 @@ constexpr double kRounding = 1e-13, kFloatRounding = 1e-6;  // coordinates are u
 
 double depth(Vec2 p) { return 100 + 40 * p.x - 25 * p.y; }
 
-/// Random points with data of several kinds, and what they are after an optimisation.
+/// Random points with data of several kinds, and what they are after an optimization.
 struct Changed {
   MeshFile before, after;
   Mesh mesh;

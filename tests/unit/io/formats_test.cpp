@@ -56,7 +56,7 @@ TEST_F(FileTest, TheContentDecidesTheFormatAndNotTheSuffix) {
   }
 }
 
-TEST_F(FileTest, FormatsThatAreRecognisedButNotReadAreNamed) {
+TEST_F(FileTest, FormatsThatAreRecognizedButNotReadAreNamed) {
   const std::pair<const char*, const char*> kCases[] = {
       {"(0 \"made by someone\")\n(2 2)\n", "a Fluent mesh, which temper does not read; meshio converts it"},
       {"4 2 4\n0 0 1\n1 0 1\n", "a FreeFem mesh, which temper does not read"},

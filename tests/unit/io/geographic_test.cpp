@@ -11,7 +11,7 @@
 namespace temper::io {
 namespace {
 
-/// A sea of 8° × 4° west of Europe, with depths in metres.
+/// A sea of 8° × 4° west of Europe, with depths in meters.
 MeshFile sea(double west = -14) {
   MeshFile f = from_mesh(*random_mesh({.vertices = 120, .seed = 2}));
   std::vector<double> depths;
@@ -38,9 +38,9 @@ TEST_F(FileTest, Fort14IsInDegreesWhereItsWaterWouldBeDeeperThanItIsWide) {
   EXPECT_FALSE(read_sea(path("plain.14"), square).degrees() != nullptr) << "no depths";
   square.point_data = {{"depth", 1, std::vector<double>(square.points.size(), 0.5)}};
   EXPECT_FALSE(read_sea(path("shallow.14"), square).degrees() != nullptr);
-  MeshFile metres = sea();
-  for (Vec2& p : metres.points) p = 1000.0 * p;
-  EXPECT_FALSE(read_sea(path("metres.14"), metres).degrees() != nullptr);
+  MeshFile meters = sea();
+  for (Vec2& p : meters.points) p = 1000.0 * p;
+  EXPECT_FALSE(read_sea(path("meters.14"), meters).degrees() != nullptr);
 }
 
 TEST_F(FileTest, AMeshInDegreesIsRefusedUntilItIsOnAMapOrCalledPlane) {
@@ -92,7 +92,7 @@ TEST_F(FileTest, DegreesComeBackBitForBitWhereNothingHasMovedInEveryFormat) {
         if (same) {
           EXPECT_EQ(again->points[p], degrees[p]) << format.name;
         } else {
-          EXPECT_LT(length(forward(f.map()->projection, again->points[p]) - places[p]), 1e-6) << "a micrometre";
+          EXPECT_LT(length(forward(f.map()->projection, again->points[p]) - places[p]), 1e-6) << "a micrometer";
           EXPECT_LT(std::abs(again->points[p].x - west), 20) << "on the same turn of the globe";
         }
       }

@@ -13,7 +13,7 @@
 namespace temper::io {
 namespace {
 
-// What they hold to is measured on files of nearly a megabyte, in the optimised build. Sanitizers, which take ten times
+// What they hold to is measured on files of nearly a megabyte, in the optimized build. Sanitizers, which take ten times
 // as long, look for other things, and find them in a small part of that.
 constexpr std::size_t kShare = TEMPER_SANITIZED ? 256 : 1;
 constexpr int kSeconds = TEMPER_SANITIZED ? 40 : 5;

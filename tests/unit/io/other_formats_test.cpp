@@ -101,9 +101,9 @@ TEST_F(OtherFormats, ObjWithARegionOfTag0IsWrittenAsItWas) {
 
 // --- OFF -------------------------------------------------------------------------------------------------------
 
-TEST_F(OtherFormats, OffWithColoursAndCommentsIsReadAndSaysWhatItDrops) {
+TEST_F(OtherFormats, OffWithColorsAndCommentsIsReadAndSaysWhatItDrops) {
   const MeshFile f = read_ok("m.off",
-                             "COFF # colours\n4 2 0\n# points\n0 0 2 255 0 0 255\n1 0 2 0 0 0 255\n1 1 2 0 0 0 255\n"
+                             "COFF # colors\n4 2 0\n# points\n0 0 2 255 0 0 255\n1 0 2 0 0 0 255\n1 1 2 0 0 0 255\n"
                              "0 1 2 0 0 0 255\n3 0 1 2 0.5 0.5 0.5\n3 0 2 3\n");
   EXPECT_EQ(f.format, "off");
   EXPECT_EQ(f.z(), 2);

@@ -302,7 +302,7 @@ TEST_F(SphereFiles, PlanesOfSevenDigitsArePlanesWithAWarning) {
 }
 
 TEST_F(SphereFiles, SmallPiecesOfSpheresAreNoPlanes) {
-  // A metre on the Earth, about a pole: flat to a ten millionth of it, and on the sphere to the last digits.
+  // A meter on the Earth, about a pole: flat to a ten millionth of it, and on the sphere to the last digits.
   MeshFile f;
   for (const double lon : {0.0, 120.0, 240.0}) f.points.push_back({lon, 90 - 1e-5});
   f.triangles = {{0, 1, 2}};

@@ -47,7 +47,7 @@ TEST_F(TriangleFiles, UndeclaredAttributesAreDataAndAWarningSaysHowToMakeThemWei
 }
 
 // Found by fuzzing: the first point decides what a file is, and "inf" was no number to it.
-TEST_F(TriangleFiles, WithDataThatAreNotFiniteAreRecognised) {
+TEST_F(TriangleFiles, WithDataThatAreNotFiniteAreRecognized) {
   constexpr double kInf = std::numeric_limits<double>::infinity(), kNan = std::numeric_limits<double>::quiet_NaN();
   MeshFile file = sample();
   file.point_data = {{"depth", 1, std::vector<double>{-kInf, kInf, kNan, 0, 1, 2}}};

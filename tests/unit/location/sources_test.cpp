@@ -17,7 +17,7 @@ namespace {
 
 double linear(Vec2 p) { return 3 + 0.25 * p.x - 0.125 * p.y; }
 
-/// A mesh, optimised: its vertices have moved, its edges are flipped.
+/// A mesh, optimized: its vertices have moved, its edges are flipped.
 struct Optimized {
   Mesh before, after;
   IdVector<VertexId, VertexId> vertices;
@@ -30,7 +30,7 @@ Optimized optimized_of(Mesh mesh, const OptimizeOptions& options = {}) {
   return result;
 }
 
-TEST(PlacesOfVertices, ReproduceLinearDataWhereverAnOptimisationPutsVertices) {
+TEST(PlacesOfVertices, ReproduceLinearDataWhereverAnOptimizationPutsVertices) {
   OptimizeOptions splitting, removing;
   splitting.boundary = BoundaryVertices::split;
   removing.paper.removal = Removal::patch;

@@ -109,7 +109,7 @@ TEST(PlaceOnSphere, BeyondTheCoastIsTheNearestPointOfIt) {
   EXPECT_GT(outside, 100);
 }
 
-TEST(PlacesOfVertices, OnTheSphereGiveSmoothDataWhereverAnOptimisationPutsVertices) {
+TEST(PlacesOfVertices, OnTheSphereGiveSmoothDataWhereverAnOptimizationPutsVertices) {
   const auto field = [](Vec3 p) { return 1000 + 300 * p.x - 200 * p.y + 100 * p.z; };  // of the unit sphere
   for (const bool whole : {true, false}) {
     const Mesh globe = *random_sphere({.vertices = 1500, .seed = 4, .radius = kRadius});

@@ -1,4 +1,4 @@
-// hilbert_order: a relabelling that restore_order undoes bit for bit, and that brings neighbours together in memory.
+// hilbert_order: a relabelling that restore_order undoes bit for bit, and that brings neighbors together in memory.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -170,7 +170,7 @@ double share_within_page(const Mesh& mesh) {
   return static_cast<double>(near) / static_cast<double>(mesh.n_halfedges());
 }
 
-TEST(HilbertOrder, BringsNeighboursTogether) {
+TEST(HilbertOrder, BringsNeighborsTogether) {
   Rng rng(24);
   Mesh mesh = built(shuffled(test::squares(100), rng));
   EXPECT_LT(share_within_page(mesh), 0.05);

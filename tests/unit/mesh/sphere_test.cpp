@@ -204,7 +204,7 @@ TEST(SphereMesh, NamesDuplicatePoles) {
   expect_refused(a, ErrorCode::duplicate_point, "point 2 and point 6 are both at (0, 0, 1)");
 }
 
-TEST(SphereMesh, KeepsItsNeighboursTogetherInHilbertOrder) {
+TEST(SphereMesh, KeepsItsNeighborsTogetherInHilbertOrder) {
   const auto globe = random_sphere({.vertices = 3000});
   ASSERT_TRUE(globe) << globe.error().what();
   Mesh ordered = *globe;

@@ -209,7 +209,7 @@ TEST(Mesher, SegmentsMayMeetOnOneAnother) {
   EXPECT_NEAR(mesh_area(made.mesh), 1, 1e-12);
 }
 
-TEST(Mesher, WithoutOptimisationTheMeshIsConstrainedDelaunay) {
+TEST(Mesher, WithoutOptimizationTheMeshIsConstrainedDelaunay) {
   MesherOptions options = sized(0.1);
   options.optimize.reset();
   for (const Outline& outline : {slits(), comb()}) {
@@ -233,7 +233,7 @@ TEST(Mesher, StoppingEarlyStillGivesAMesh) {
   const auto stop = [](const Progress&) { return Continue::no; };
   const Expected<OutlineMesh> made = mesh_outline(comb(), sized(0.1), {.observer = stop});
   ASSERT_TRUE(made.has_value());
-  EXPECT_EQ(made->report.stopped, Stopped::cancelled);
+  EXPECT_EQ(made->report.stopped, Stopped::canceled);
   EXPECT_EQ(made->mesh.validate(), std::nullopt);
 }
 

@@ -297,7 +297,7 @@ TEST(SphereMesher, PointsOfNoSegmentBecomeFixedVertices) {
   for (const VertexId v : made.vertex_of_point) EXPECT_TRUE(made.mesh.is_fixed(v));
 }
 
-TEST(SphereMesher, WithoutOptimisationTheMeshIsDelaunay) {
+TEST(SphereMesher, WithoutOptimizationTheMeshIsDelaunay) {
   MesherOptions options = globe_sized(5e5);
   options.optimize.reset();
   const OutlineMesh made = globe_of(islands_and_rivers(), options);

@@ -358,12 +358,12 @@ TEST(Accuracy, CountsSweepsOfBothPhasesAndStopsWhereItIsTold) {
 
   mesh = input;
   o = for_accuracy();
-  const OptimizeReport cancelled =
+  const OptimizeReport canceled =
       improved(mesh, o, {.observer = [](const Progress& progress) {
                  return progress.last.objective == Objective::accuracy ? Continue::no : Continue::yes;
                }});
-  EXPECT_EQ(cancelled.stopped, Stopped::cancelled);
-  EXPECT_LE(sweeps_for(cancelled, Objective::accuracy), 2u);
+  EXPECT_EQ(canceled.stopped, Stopped::canceled);
+  EXPECT_LE(sweeps_for(canceled, Objective::accuracy), 2u);
   expect_inside(mesh, *o.accuracy.margin);
 }
 

@@ -30,7 +30,7 @@ namespace {
 
 using Events = std::vector<TraceEvent>;
 
-/// Does at random, in a working copy, all that an optimiser can do, and has it written down.
+/// Does at random, in a working copy, all that an optimizer can do, and has it written down.
 class Actor {
  public:
   Actor(const Mesh& input, SweepOrder order, std::uint64_t seed)

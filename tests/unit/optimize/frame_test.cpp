@@ -1,4 +1,4 @@
-// The optimiser's units is left exactly as it was entered.
+// The optimizer's units is left exactly as it was entered.
 #include <gtest/gtest.h>
 
 #include "optimize/working/working_units.hpp"

@@ -1,4 +1,4 @@
-// Laws that hold for every optimisation, whatever the mesh.
+// Laws that hold for every optimization, whatever the mesh.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -222,7 +222,7 @@ TEST(Optimize, OfAMeshWithoutInteriorVerticesMovesWeightsOnly) {
 }
 
 TEST(Optimize, BringsWeightsThatViolateEdgesIntoTheBarriersDomain) {
-  // A few heavy vertices: their neighbours lie outside their own power cells, but have one.
+  // A few heavy vertices: their neighbors lie outside their own power cells, but have one.
   Mesh mesh = lattice({.n = 8, .jitter = 0.1, .weight = 0});
   for (const VertexId v : mesh.vertices()) {
     if (v.index % 3 == 1 && (v.index / 8) % 3 == 1) mesh.set_weight(v, 1.3);

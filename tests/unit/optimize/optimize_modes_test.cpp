@@ -1,4 +1,4 @@
-// Every switch of the optimiser does what it says.
+// Every switch of the optimizer does what it says.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -231,9 +231,9 @@ TEST(Modes, StopsAtTheSweepLimitTheTimeLimitAndWhenAsked) {
     EXPECT_EQ(p.last.sweep, calls);
     return ++calls > 4 ? Continue::no : Continue::yes;
   };
-  const auto cancelled = optimize(asked, {}, hooks);
-  ASSERT_TRUE(cancelled);
-  EXPECT_EQ(cancelled->stopped, Stopped::cancelled);
+  const auto canceled = optimize(asked, {}, hooks);
+  ASSERT_TRUE(canceled);
+  EXPECT_EQ(canceled->stopped, Stopped::canceled);
   EXPECT_EQ(calls, 5);
   EXPECT_EQ(asked.validate(), std::nullopt);
   EXPECT_EQ(count_non_regular_edges(asked), 0u);

@@ -162,7 +162,7 @@ TEST(Parts, AskTheObserverInTheCallersThreadAndStopWhenToldTo) {
   };
   const SweptMesh result = swept(input, {}, kSmallPart, {.executor = &crew, .observer = observer});
   EXPECT_EQ(calls, 10);
-  EXPECT_EQ(result.report.stopped, Stopped::cancelled);
+  EXPECT_EQ(result.report.stopped, Stopped::canceled);
   EXPECT_EQ(result.mesh.validate(), std::nullopt);
   EXPECT_EQ(count_non_regular_edges(result.mesh, false), 0u);
 }
@@ -218,7 +218,7 @@ TEST(Together, RanksStopWhenTheFirstIsToldTo) {
     const SweptMesh result =
         swept(input, {}, kSmallPart, {.executor = &crew, .communicator = &all, .observer = observer});
     EXPECT_EQ(calls, all.rank() == 0 ? 10 : 0);
-    EXPECT_EQ(result.report.stopped, Stopped::cancelled);
+    EXPECT_EQ(result.report.stopped, Stopped::canceled);
     EXPECT_EQ(result.mesh.validate(), std::nullopt);
     ends[all.rank()] = result.mesh;
   });

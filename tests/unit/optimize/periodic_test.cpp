@@ -1,4 +1,4 @@
-// Optimisation of periodic planes: the guarantees of the plane, and the laws that periods have of their own.
+// Optimization of periodic planes: the guarantees of the plane, and the laws that periods have of their own.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Repairs that ask a linear programme for weights: what sweeps leave bad, and weights can cure.
+// Repairs that ask a linear program for weights: what sweeps leave bad, and weights can cure.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace temper {
 namespace {
 
-TEST(RepairByProgramme, CuresWhatSweepsLeave) {
+TEST(RepairByProgram, CuresWhatSweepsLeave) {
   const Mesh input = *horseshoe({.a = 6, .b = 7});
   Mesh swept = input, reweighted = input;
   const auto without = optimize(swept), with = optimize(reweighted, {}, {.solvers = solvers()});
@@ -29,7 +29,7 @@ TEST(RepairByProgramme, CuresWhatSweepsLeave) {
   EXPECT_EQ(std::count_if(with->notes.begin(), with->notes.end(), says_so), 0);
 }
 
-TEST(RepairByProgramme, IsTracedLikeAllElse) {
+TEST(RepairByProgram, IsTracedLikeAllElse) {
   const Mesh input = *horseshoe({.a = 6, .b = 7});
   std::vector<TraceEvent> events;
   Mesh mesh = input;
@@ -42,7 +42,7 @@ TEST(RepairByProgramme, IsTracedLikeAllElse) {
   EXPECT_EQ(*again, mesh);
 }
 
-TEST(RepairByProgramme, OfAPlaceChangesWeightsNearItAndNoneOfTheRim) {
+TEST(RepairByProgram, OfAPlaceChangesWeightsNearItAndNoneOfTheRim) {
   const Mesh mesh = test::layers({.columns = 10, .rows = 20, .growth = 1.7});
   const OptimizeOptions options;
   auto settings = make_settings(options, mesh, WorkingUnits::of(mesh), {.solvers = solvers()});

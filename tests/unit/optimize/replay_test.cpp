@@ -1,4 +1,4 @@
-// Replay of events made here, without the optimiser: what each does, and what is refused.
+// Replay of events made here, without the optimizer: what each does, and what is refused.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -120,7 +120,7 @@ TEST(Replay, OfRandomChangesGivesTheSameMeshAndTheNumbersOfItsVertices) {
   }
 }
 
-// Slots and numbers of another order are the same mesh once the order is undone: why the optimiser's Hilbert order
+// Slots and numbers of another order are the same mesh once the order is undone: why the optimizer's Hilbert order
 // does not matter to a replay.
 TEST(Replay, InAnyOrderOfSlotsGivesTheSameMesh) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {

@@ -1,4 +1,4 @@
-// Optimisation on the sphere: the guarantees of the plane, and the laws that the sphere has of its own.
+// Optimization on the sphere: the guarantees of the plane, and the laws that the sphere has of its own.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -77,7 +77,7 @@ void expect_same_shape(const Quality& a, const Quality& b) {
   expect_close(a.min_d_over_l, b.min_d_over_l);
   expect_close(a.min_angle_deg, b.min_angle_deg);
   expect_close(a.max_angle_deg, b.max_angle_deg);
-  // A ratio of nearly cancelled lengths: the shortest dual of these meshes is 1e-4 of an edge.
+  // A ratio of nearly canceled lengths: the shortest dual of these meshes is 1e-4 of an edge.
   EXPECT_NEAR(a.max_transmissibility_over_median / b.max_transmissibility_over_median, 1, 1e-9);
   EXPECT_EQ(a.angles.counts, b.angles.counts);
   EXPECT_EQ(a.h_over_l.counts, b.h_over_l.counts);
@@ -164,7 +164,7 @@ TEST(QualityLaws, ScalingLeavesRatiosAndMultipliesEnergies) {
 }
 
 // The same mesh with vertices and triangles in another order, and other first corners.
-Mesh relabelled(const Mesh& mesh, std::uint64_t seed) {
+Mesh relabeled(const Mesh& mesh, std::uint64_t seed) {
   Noise noise(seed);
   const auto shuffled = [&](std::size_t n) {
     std::vector<std::int32_t> order(n);
@@ -194,7 +194,7 @@ TEST(QualityLaws, OtherNumbersForVerticesAndTrianglesChangeNothing) {
   const Mesh mesh = bad_mesh();
   const Quality before = quality(mesh);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const Quality after = quality(relabelled(mesh, seed));
+    const Quality after = quality(relabeled(mesh, seed));
     expect_same_shape(before, after);
     expect_same_energies(before, after);
     ASSERT_EQ(before.worst.size(), 5u);

@@ -193,7 +193,7 @@ TEST(FlipThreshold, NoVertexOfTheMeshIsHiddenBeforeIt) {
   EXPECT_GT(hidden_later, 500);
 }
 
-TEST(FlipThreshold, OfTheCentreOfAHexagonIsItsRadius) {
+TEST(FlipThreshold, OfTheCenterOfAHexagonIsItsRadius) {
   const double s = std::sqrt(0.75);
   Mesh mesh = test::build_or_die({{1, 0}, {0.5, s}, {-0.5, s}, {-1, 0}, {-0.5, -s}, {0.5, -s}, {0, 0}},
                                  {{6, 0, 1}, {6, 1, 2}, {6, 2, 3}, {6, 3, 4}, {6, 4, 5}, {6, 5, 0}});

@@ -1,4 +1,4 @@
-// A size band holds after optimisation, costs nothing where it does not bind, and is told in the report.
+// A size band holds after optimization, costs nothing where it does not bind, and is told in the report.
 #include <gtest/gtest.h>
 
 #include <algorithm>

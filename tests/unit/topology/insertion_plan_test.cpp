@@ -44,7 +44,7 @@ TEST(PlanInsertion, StopsAtConstrainedEdges) {
   EXPECT_EQ(plan_insertion(mesh, {0.5, 0.25, 0}, TriangleId(0)).cavity.size(), 1u);
 }
 
-TEST(PlanInsertion, AVertexThatWouldHideANeighbourIsPlannedAsNotRegular) {
+TEST(PlanInsertion, AVertexThatWouldHideANeighborIsPlannedAsNotRegular) {
   Mesh mesh = test::square();
   insert_in_triangle(mesh, TriangleId(0), {0.5, 0, 0});
   ASSERT_TRUE(restore_regularity(mesh).regular());
@@ -141,7 +141,7 @@ TEST(PlanSplit, RefusesAPointRoundedToAnEndOrOverATriangle) {
   EXPECT_EQ(plan_split(mesh, edge(mesh, 0, 1), 0.5).status, InsertionStatus::possible);
 }
 
-TEST(PlanCollapse, FansTheNeighbourAndKeepsTheLinkCondition) {
+TEST(PlanCollapse, FansTheNeighborAndKeepsTheLinkCondition) {
   // A hexagon around 6. Collapsed into 0 its triangles are those of vertex 0.
   Mesh mesh = test::build_or_die({{2, 0}, {1, 2}, {-1, 2}, {-2, 0}, {-1, -2}, {1, -2}, {0, 0}},
                                  {{6, 0, 1}, {6, 1, 2}, {6, 2, 3}, {6, 3, 4}, {6, 4, 5}, {6, 5, 0}});

@@ -44,7 +44,7 @@ void constrain(Mesh& mesh, std::size_t a, std::size_t b) {
   mesh.set_constrained(mesh.find_halfedge(VertexId(a), VertexId(b)), true);
 }
 
-TEST(PlanRemoval, OfAnInnerVertexFillsItsLinkFromTheSmallestNeighbourOn) {
+TEST(PlanRemoval, OfAnInnerVertexFillsItsLinkFromTheSmallestNeighborOn) {
   const RemovalPlan plan = plan_removal(hexagon(), kCenter);
   EXPECT_EQ(plan.status, RemovalStatus::possible);
   EXPECT_EQ(plan.vertex, kCenter);

@@ -59,7 +59,7 @@ export interface WriteOptions {
   format?: string;
   /** Of formats that have several. VTU: base64, compressed, is its default. */
   encoding?: 'ascii' | 'base64' | 'appended';
-  /** VTU has cell data for ParaView to colour: well_centered, min_h_over_l, min_d_over_l, min_angle_deg. By default true. */
+  /** VTU has cell data for ParaView to color: well_centered, min_h_over_l, min_d_over_l, min_angle_deg. By default true. */
   triangle_quality?: boolean;
 }
 
@@ -75,7 +75,7 @@ export function write(path: string, mesh: Mesh, options: WriteOptions = {}): str
   });
 }
 
-// --- optimisation ----------------------------------------------------------------------------------------------------
+// --- optimization ----------------------------------------------------------------------------------------------------
 
 export interface OptimizeHooks {
   /** Hears of the progress, a few times a sweep; false stops the run, with the best mesh so far. */
@@ -153,7 +153,7 @@ export interface ExplainOptions {
 }
 
 /** Explains each triangle that is not well-centered, by exactly one reason, with what would cure it. A promise, other than
- * in Python: the first call loads a solver of linear programmes, HiGHS. The mesh is taken as it is when that is there. */
+ * in Python: the first call loads a solver of linear programs, HiGHS. The mesh is taken as it is when that is there. */
 export async function explain(mesh: Mesh, { progress, ...given }: ExplainOptions = {}): Promise<Explanation> {
   await loadSolver();
   const explained = progress && ((done: number, all: number): boolean => progress(done, all) !== false);
@@ -277,7 +277,7 @@ const make = (name: string, parameters: object = {}): Mesh => Mesh.of(call('mesh
 export const generate = {
   /** The paper's sparse horseshoe: 5 vertices, 4 triangles. */
   sparse_horseshoe: (): Mesh => make('sparse_horseshoe'),
-  /** The paper's parameterised horseshoe: a × b points, x and y the semi-axes of the inner and the outer arch. */
+  /** The paper's parameterized horseshoe: a × b points, x and y the semi-axes of the inner and the outer arch. */
   horseshoe: (p: { a?: number; b?: number; x?: [number, number]; y?: [number, number] } = {}): Mesh => make('horseshoe', p),
   /** Sides of length a and b from vertex 0, with an angle between them. */
   single_triangle: (p: { a?: number; b?: number; angle_deg?: number } = {}): Mesh => make('single_triangle', p),

@@ -88,14 +88,14 @@ export async function start(source: WebAssembly.Module | Promise<WebAssembly.Mod
         });
       },
       explained: (done: number, all: number): number => (heard(() => listener.explained?.(done, all) ?? true) ? 1 : 0),
-      solve_lp: solveProgramme,
+      solve_lp: solveProgram,
     },
   });
   wasi.initialize(instance as Parameters<typeof wasi.initialize>[0]);
   wasm = instance.exports as Exports;
 }
 
-/** Who solves the module's linear programmes from now on. */
+/** Who solves the module's linear programs from now on. */
 export function useSolver(by: Solver): void {
   solver = by;
 }
@@ -103,14 +103,14 @@ export function useSolver(by: Solver): void {
 const kStatuses = ['optimal', 'infeasible', 'unbounded', 'failed']; // as LpStatus has them
 
 /** What the module asks for: arrays by their addresses, and where the answer goes. */
-function solveProgramme(
+function solveProgram(
   columns: number, rows: number, entries: number, cost: number, columnLower: number, columnUpper: number, rowLower: number,
   rowUpper: number, rowStart: number, column: number, value: number, primal: number, dual: number,
 ): number {
   const { buffer } = module().memory;
   const reals = (at: number, size: number): Float64Array => new Float64Array(buffer, at, size);
   const whole = (at: number, size: number): Int32Array => new Int32Array(buffer, at, size);
-  const programme = {
+  const program = {
     cost: reals(cost, columns),
     columnLower: reals(columnLower, columns),
     columnUpper: reals(columnUpper, columns),
@@ -122,7 +122,7 @@ function solveProgramme(
   };
   let status = 'failed';
   heard(() => {
-    const solved = solver!(programme);
+    const solved = solver!(program);
     if (solved.status === 'optimal') {
       reals(primal, columns).set(solved.primal);
       reals(dual, rows).set(solved.dual);

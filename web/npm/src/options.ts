@@ -3,7 +3,7 @@ import type { LengthParameterLike } from './records.ts';
 
 /** The options of `optimize`. */
 export interface OptimizeOptions {
-  /** what to minimise: a barrier (BH, BHs, BP), a HOT energy (F, T, dT), one of these over squared areas (nF, nT, ndT), or what optimal Delaunay triangulations do (ODT). Default: "BP". */
+  /** what to minimize: a barrier (BH, BHs, BP), a HOT energy (F, T, dT), one of these over squared areas (nF, nT, ndT), or what optimal Delaunay triangulations do (ODT). Default: "BP". */
   energy?: "F" | "T" | "dT" | "BH" | "BHs" | "BP" | "nF" | "nT" | "ndT" | "ODT";
   /** Hodge star whose error is to be small. all: the three at once, with objective: "accuracy", which begins with sweeps for star 1 whatever this is. Default: 1. */
   star?: 0 | 1 | 2 | "all";
@@ -51,7 +51,7 @@ export interface OptimizeOptions {
   weights_from?: number;
   /** over-relaxation of Newton steps; more than 0 and less than 2; null: 1.7, but 1.97 while gamma shrinks from 1. Default: null. */
   relaxation?: number | null;
-  /** how far golden section searches for a position: the root mean square distance to the neighbours, or that of the farthest or the nearest. Default: "rms". */
+  /** how far golden section searches for a position: the root mean square distance to the neighbors, or that of the farthest or the nearest. Default: "rms". */
   search_radius?: "rms" | "max" | "min";
   /** how far golden section searches for a weight, relative to the search radius squared; more than 0. Default: 1. */
   weight_search_radius?: number;
@@ -67,9 +67,9 @@ export interface OptimizeOptions {
   overshoot?: number;
   /** by which what the overshoot is above or below 1 shrinks each sweep; 1: it is constant; at least 0 and at most 1. Default: 0.1. */
   overshoot_factor?: number;
-  /** where sweeps leave triangles bad: nothing; sweep again and kick vertices there, and find weights by a linear programme; remove and insert vertices there, too, and keep what cures most. Default: "perturb". */
+  /** where sweeps leave triangles bad: nothing; sweep again and kick vertices there, and find weights by a linear program; remove and insert vertices there, too, and keep what cures most. Default: "perturb". */
   repair?: "none" | "perturb" | "vertices";
-  /** at most so many edits are tried, 1 to 3 ms each; a linear programme counts as 20; at least 0. Default: 20000. */
+  /** at most so many edits are tried, 1 to 3 ms each; a linear program counts as 20; at least 0. Default: 20000. */
   repair_trials?: number;
   /** keep: the domain's boundary stays bit for bit; slide: vertices of its straight pieces, never corners, may move along them; split: edges of boundary and interfaces much longer than one they meet are cut before the sweeps, and the vertices that were there stay bit for bit. Default: "keep". */
   boundary?: "keep" | "slide" | "split";
@@ -83,7 +83,7 @@ export interface OptimizeOptions {
   inner?: number;
   /** with deferred flips: at most so many rounds of sweeps and flips; 0: until no flips are needed; at least 0. Default: 0. */
   outer?: number;
-  /** a new weight is seen by its neighbours at once, or after the sweep (not with solver: "newton"). Default: "immediate". */
+  /** a new weight is seen by its neighbors at once, or after the sweep (not with solver: "newton"). Default: "immediate". */
   weight_updates?: "immediate" | "deferred";
   /** the same of positions; deferred, with weight_updates: "deferred" where weights move: all unknowns are those of the sweep before. Default: "immediate". */
   position_updates?: "immediate" | "deferred";
@@ -91,15 +91,15 @@ export interface OptimizeOptions {
   collapse_from?: number | null;
   /** E_c, which draws a vertex to an edge. Default: "dT". */
   collapse_energy?: "F" | "T" | "dT";
-  /** collapse a vertex that E_c wants this near its neighbour, relative to that one's shorter edge beside; more than 0 and less than 1. Default: 0.1. */
+  /** collapse a vertex that E_c wants this near its neighbor, relative to that one's shorter edge beside; more than 0 and less than 1. Default: 0.1. */
   collapse_ratio?: number;
-  /** patch: remove a vertex when its patch is better without it (Algorithm 1, line 15); weight: when its weight is far below its neighbours'. Default: "none". */
+  /** patch: remove a vertex when its patch is better without it (Algorithm 1, line 15); weight: when its weight is far below its neighbors'. Default: "none". */
   removal?: "none" | "patch" | "weight";
   /** by what patches are compared: energy summed (the paper), per triangle, or above equilateral triangles. Default: "mean". */
   removal_measure?: "sum" | "mean" | "excess";
   /** by which part the patch must be better; at least 0. Default: 0.1. */
   removal_margin?: number;
-  /** of removal: "weight": how far below the mean of its neighbours', relative to their mean squared distance; more than 0. Default: 1. */
+  /** of removal: "weight": how far below the mean of its neighbors', relative to their mean squared distance; more than 0. Default: 1. */
   hidden_threshold?: number;
   /** first sweep with removals, from 0; at least 0. Default: 10. */
   removal_from?: number;

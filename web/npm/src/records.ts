@@ -158,7 +158,7 @@ export interface SizeReport {
 }
 
 export type Stopped =
-  | 'converged' | 'max_sweeps' | 'max_outer' | 'time_limit' | 'cancelled' | 'tangled' | 'hidden' | 'sweep_limit';
+  | 'converged' | 'max_sweeps' | 'max_outer' | 'time_limit' | 'canceled' | 'tangled' | 'hidden' | 'sweep_limit';
 
 /** What `optimize` did. */
 export interface OptimizeReport {
@@ -403,7 +403,7 @@ export interface Cure {
   vertex: number;
   triangle: number;
   at: [number, number];
-  /** Tried: the triangles of the neighbourhood then have weights that make them well-centered, exactly checked. */
+  /** Tried: the triangles of the neighborhood then have weights that make them well-centered, exactly checked. */
   verified: boolean;
   conflict_only: boolean;
   triangles: number;
@@ -425,7 +425,7 @@ export interface Reason {
   must_split: EdgeConflict | null;
   /** edge, fan, patch: the proof. */
   certificate: Certificate;
-  /** edge, fan, patch: best margin of the conflict, at most 0. weights: of the neighbourhood, above 0. */
+  /** edge, fan, patch: best margin of the conflict, at most 0. weights: of the neighborhood, above 0. */
   margin: number;
   each: boolean;
   checked: number;

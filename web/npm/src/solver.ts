@@ -1,9 +1,9 @@
-// Linear programmes for the module: by HiGHS, another module, which is loaded when it is first asked for.
+// Linear programs for the module: by HiGHS, another module, which is loaded when it is first asked for.
 import type { Highs, Model, ModelData } from 'highs';
 import { useSolver } from './module.ts';
 
-/** A programme as temper has it, by rows; see LpProblem in temper/feasibility.hpp. */
-export interface Programme {
+/** A program as temper has it, by rows; see LpProblem in temper/feasibility.hpp. */
+export interface Program {
   cost: Float64Array;
   columnLower: Float64Array;
   columnUpper: Float64Array;
@@ -19,9 +19,9 @@ export interface Solution {
 }
 /** What the module takes for LpStatus, in its order, and the solution when it is optimal. */
 export type Solved = { status: 'infeasible' | 'unbounded' | 'failed' } | ({ status: 'optimal' } & Solution);
-export type Solver = (programme: Programme) => Solved;
+export type Solver = (program: Program) => Solved;
 
-// As the native program asks of Clp; entries of a programme may be small, and large where triangles are flat.
+// As the native program asks of Clp; entries of a program may be small, and large where triangles are flat.
 const kOptions = {
   output_flag: false,
   solver: 'simplex',
@@ -43,7 +43,7 @@ const kWays: Way[] = [
 
 function attempt(highs: Highs, model: Model, data: ModelData, how: Way): Solved {
   const { modelStatus } = highs.constants;
-  model.options.set(how); // before the programme, which they judge
+  model.options.set(how); // before the program, which they judge
   model.passModel(data);
   model.run();
   switch (model.getModelStatus()) {
@@ -60,7 +60,7 @@ function attempt(highs: Highs, model: Model, data: ModelData, how: Way): Solved 
   }
 }
 
-function dataOf(p: Programme): ModelData {
+function dataOf(p: Program): ModelData {
   const numCols = p.cost.length, numRows = p.rowLower.length;
   return {
     numCols,
@@ -75,10 +75,10 @@ function dataOf(p: Programme): ModelData {
 }
 
 function solverBy(highs: Highs): Solver {
-  const model = highs.createModel(); // for good: to make one takes longer than a small programme
+  const model = highs.createModel(); // for good: to make one takes longer than a small program
   model.options.set(kOptions);
-  return (programme) => {
-    const data = dataOf(programme);
+  return (program) => {
+    const data = dataOf(program);
     for (const how of kWays) {
       const solved = attempt(highs, model, data, how);
       if (solved.status !== 'failed') return solved;

@@ -82,7 +82,7 @@ test('an observer hears of sweeps and stops the run; what it throws is thrown wh
   assert(left.some((n) => n !== null && n >= 0 && n < 1000));
   assert(sweeps.length >= report.sweeps);
   const stopped = temper.optimize(temper.generate.random_mesh({ vertices: 400 }), { observer: ({ last }) => last.sweep < 2 });
-  assert.equal(stopped.stopped, 'cancelled');
+  assert.equal(stopped.stopped, 'canceled');
   assert(stopped.sweeps <= 3);
   const thrown = temper.generate.random_mesh({ vertices: 400 });
   const before = temper.quality(thrown).orthocenters_outside;
@@ -165,7 +165,7 @@ test('SVG is drawn, and options are those of the table', () => {
   temper.optimize(temper.generate.annulus(), { ...temper.paper_method(), max_sweeps: 1 });
 });
 
-test('a mesh that was optimised elsewhere takes the place of the one that has the file', () => {
+test('a mesh that was optimized elsewhere takes the place of the one that has the file', () => {
   const files = {};
   const original = temper.generate.letter_a();
   original.weights = original.weights.map((_, i) => i / 1000);

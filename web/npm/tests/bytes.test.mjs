@@ -1,4 +1,4 @@
-// The same bytes as the native program: every text format and VTU, and runs of all kinds, read, optimised and written by
+// The same bytes as the native program: every text format and VTU, and runs of all kinds, read, optimized and written by
 // both. TEMPER_PROGRAM names the program.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -62,7 +62,7 @@ for (const format of writable) {
   }
 }
 
-/** Fewer than what a linear programme counts as: repairs of the program ask one then, those of the module have none. */
+/** Fewer than what a linear program counts as: repairs of the program ask one then, those of the module have none. */
 const kTrials = 19;
 /** Sets of options: what the module and the program are told. */
 const runs = {
@@ -148,7 +148,7 @@ test('examples are those of the program but for the last bits of sines and cosin
   console.log(`the same bits: ${exact.join(', ')}`);
 });
 
-test('explanations have the verdicts of the program, whose programmes another solver solves', async () => {
+test('explanations have the verdicts of the program, whose programs another solver solves', async () => {
   for (const name of Object.keys(examples).filter((each) => each !== 'random')) {
     const theirs = JSON.parse(native('explain', `${name}.vtu`, '--json', '--limit', '0'));
     const ours = await temper.explain(temper.read(at(`${name}.vtu`)), { cures: 0 });

@@ -176,7 +176,7 @@ function showProgress(progress: Progress, mesh: Arrays | null): void {
   });
 }
 
-async function optimise(): Promise<void> {
+async function optimize(): Promise<void> {
   const traced = element<HTMLInputElement>('record').checked;
   const input = arraysOf(session.mesh);
   session.remember();
@@ -289,7 +289,7 @@ element('open').addEventListener('change', (event) => {
   const input = event.target as HTMLInputElement;
   if (input.files?.length) void open(input.files).then(() => (input.value = ''));
 });
-element('optimize').addEventListener('click', () => void optimise());
+element('optimize').addEventListener('click', () => void optimize());
 element('stop').addEventListener('click', () => runner.stop());
 element('undo').addEventListener('click', () => {
   session.undo();

@@ -49,7 +49,7 @@ const cell = async (title) => parseFloat(await page.locator('#quality tr', { has
 const bad = () => cell('not well-centered');
 const progress = () => page.innerText('#progress');
 
-async function optimise() {
+async function optimize() {
   await page.click('#optimize');
   await page.waitForSelector('#optimize:enabled', { timeout: 120_000 });
   assert.equal(await page.locator('#messages .error').count(), 0, await page.innerText('#messages'));
@@ -101,7 +101,7 @@ test('the page is ready within a second', async () => {
   await shot('start');
 });
 
-test('each example is shown, and optimised with the bytes of the program', async () => {
+test('each example is shown, and optimized with the bytes of the program', async () => {
   const names = await page.locator('#example option').evaluateAll((list) => list.map((option) => option.value));
   assert(names.length >= 12);
   await page.locator('summary').click();
@@ -110,7 +110,7 @@ test('each example is shown, and optimised with the bytes of the program', async
     await choose(name);
     const input = (await save('vtu'))[`${name}.vtu`];
     writeFileSync(join(folder, `${name}.vtu`), input);
-    const said = await optimise();
+    const said = await optimize();
     assert.match(said, /converged|(max|accuracy) sweeps/, `${name}: ${said}`);
     const ours = (await save('vtu'))[`${name}.vtu`];
     native('optimize', `${name}.vtu`, '-o', 'native.vtu', '--quiet', '--repair-trials', '200');
@@ -120,7 +120,7 @@ test('each example is shown, and optimised with the bytes of the program', async
   await page.locator('summary').click();
 });
 
-test('a file of each format is dropped, optimised, and saved with the bytes of the program', async () => {
+test('a file of each format is dropped, optimized, and saved with the bytes of the program', async () => {
   native('example', 'annulus', '-o', 'ring.vtu');
   const formats = await page.locator('#format option').evaluateAll((list) => list.map((option) => option.value));
   assert.equal(formats.length, 12);
@@ -132,7 +132,7 @@ test('a file of each format is dropped, optimised, and saved with the bytes of t
     await drop(...files);
     await page.waitForFunction((stem) => document.getElementById('name').textContent.startsWith(stem), `in-${format}.`);
     assert.equal(await cell('triangles'), 480);
-    await optimise();
+    await optimize();
     assert.equal(await bad(), 0, format);
     const name = await page.innerText('#name');
     const saved = await save(format);
@@ -239,7 +239,7 @@ test('accuracy and repair are options, and have the bytes of the program', async
   await page.selectOption('#option-objective', 'accuracy');
   await page.selectOption('#option-boundary', 'split');
   await page.selectOption('#option-repair', 'vertices');
-  await optimise();
+  await optimize();
   assert.equal(await bad(), 0);
   native('optimize', 'letter.vtu', '-o', 'native.vtu', '--quiet', '--objective', 'accuracy', '--boundary', 'split', '--repair', 'vertices');
   assert((await save('vtu'))['letter.vtu'].equals(readFileSync(join(folder, 'native.vtu'))));
@@ -261,7 +261,7 @@ test('a trace is stepped through from the input to the result', async () => {
   await choose('sparse');
   const start = await page.innerText('#energies');
   await page.check('#record');
-  await optimise();
+  await optimize();
   const end = await page.innerText('#energies');
   assert.match(await page.innerText('#event'), /^(\d+) of \1: /);
   await shot('trace');
@@ -287,7 +287,7 @@ test('the picture is that of the program', async () => {
 
 test('the report opens by itself, before and after, and asks for nothing', async () => {
   await choose('annulus');
-  await optimise();
+  await optimize();
   const [download] = await Promise.all([page.waitForEvent('download'), page.click('#report')]);
   assert.equal(download.suggestedFilename(), 'annulus.html');
   const path = join(folder, 'annulus.html');

@@ -1,4 +1,4 @@
-// Charts as SVG, so that they print and follow the colours of the page.
+// Charts as SVG, so that they print and follow the colors of the page.
 import { max } from 'd3-array';
 import { axisBottom, axisLeft } from 'd3-axis';
 import { scaleLinear, scaleLog, type ScaleLinear, type ScaleLogarithmic } from 'd3-scale';

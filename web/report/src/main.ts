@@ -63,7 +63,7 @@ class Page {
     return side === 'before' && this.shown.before ? this.shown.before : this.shown.after;
   }
 
-  // --- colours and layers ---------------------------------------------------------------------------------------
+  // --- colors and layers ---------------------------------------------------------------------------------------
 
   private addColors(): void {
     const select = byId('measure') as HTMLSelectElement;

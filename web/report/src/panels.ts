@@ -138,7 +138,7 @@ const kKeys: [string, string][] = [
   ['n p', 'next, previous of the worst'],
   ['b a s', 'before, after, both by the divider'],
   ['1 … 5', 'layers on and off'],
-  ['c', 'next colour'],
+  ['c', 'next color'],
 ];
 
 export function keys(compares: boolean): void {

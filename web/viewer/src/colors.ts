@@ -1,11 +1,11 @@
-// Colours: those of the layers in light and dark, and maps from values to colours. Amounts go by viridis, perceptually
-// uniform and the same to the colour-blind; kinds by the eight hues of Okabe and Ito, without the one of bad triangles.
+// Colors: those of the layers in light and dark, and maps from values to colors. Amounts go by viridis, perceptually
+// uniform and the same to the color-blind; kinds by the eight hues of Okabe and Ito, without the one of bad triangles.
 import { interpolateViridis } from 'd3-scale-chromatic';
 import { type Measure, quantiles } from './measures.ts';
 
 export interface Theme {
   background: string;
-  /** Triangles when they are not coloured by a measure. */
+  /** Triangles when they are not colored by a measure. */
   fill: string;
   primal: string;
   dual: string;
@@ -58,7 +58,7 @@ export function rgb(color: string): [number, number, number] {
   return [r / 255, g / 255, b / 255];
 }
 
-/** From values to colours. */
+/** From values to colors. */
 export interface ColorScale {
   measure: Measure;
   low: number;

@@ -1,4 +1,4 @@
-// What triangles can be coloured by: one row a measure.
+// What triangles can be colored by: one row a measure.
 import { triangleNumbers, type TriangleNumbers, verdicts } from './geometry.ts';
 import { type MeshData, nTriangles } from './mesh.ts';
 

@@ -1,5 +1,5 @@
-// A weighted triangle mesh as flat arrays, and what drawing needs besides: twins, edges, an order in which neighbours
-// in the plane are neighbours in memory.
+// A weighted triangle mesh as flat arrays, and what drawing needs besides: twins, edges, an order in which neighbors
+// in the plane are neighbors in memory.
 //
 // Halfedge 3 t + k runs from corner k to corner k + 1 of triangle t, as in temper itself.
 

@@ -171,7 +171,7 @@ export class Scene {
     this.bound(this.edgeChunks, (i) => this.edgeHalves[i], 1);
   }
 
-  /** Colours by rows of a table of colours; null: plain. */
+  /** Colors by rows of a table of colors; null: plain. */
   setColors(rows: Uint8Array | null, table: Uint8Array): void {
     this.colored = rows !== null;
     if (rows === null) return;

@@ -45,7 +45,7 @@ flat in uint row;
 out vec4 color;
 void main() { color = plain.a > 0.0 ? plain : vec4(texelFetch(table, ivec2(int(row), 0), 0).rgb, 1.0); }`;
 
-/** Bad triangles: striped, so that they are known without their colour; points where they are too small to be seen. */
+/** Bad triangles: striped, so that they are known without their color; points where they are too small to be seen. */
 export const badVertex = `${kVertex}
 uniform usampler2D corners;
 uniform usampler2D bad;      // places of bad triangles in drawing order

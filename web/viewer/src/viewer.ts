@@ -62,7 +62,7 @@ const kMargin = 24; // pixels around a mesh that fits
 
 export class Viewer {
   readonly canvas: HTMLCanvasElement;
-  /** The scale of the colours in use, for a legend; null: plain. */
+  /** The scale of the colors in use, for a legend; null: plain. */
   scale: ColorScale | null = null;
   readonly layers: Layers = { primal: true, dual: true, weights: true, orthocenters: false, bad: true };
 
@@ -167,7 +167,7 @@ export class Viewer {
     this.redraw();
   }
 
-  /** Colours triangles by a measure, or one of your own; null: plain. Returns the scale, for a legend. */
+  /** Colors triangles by a measure, or one of your own; null: plain. Returns the scale, for a legend. */
   colorBy(measure: string | Measure | null): ColorScale | null {
     this.measure = typeof measure === 'string' ? (findMeasure(measure) ?? null) : measure;
     this.recolor();

@@ -246,7 +246,7 @@ class LegacyVtkReader {
       const std::size_t n = scanner_.count("components", 1);
       if (n < 1 || n > kMostComponents)
         scanner_.fail_here(ErrorCode::syntax, "array ", in_quotes(name), " has ", n, " components");
-      // Colours are bytes in binary files and fractions in text.
+      // Colors are bytes in binary files and fractions in text.
       const Scalar scalar =
           word == "color_scalars" ? (binary_ ? Scalar::u8 : Scalar::f32) : type(scanner_.word("a type"), name);
       add_attribute({name, static_cast<int>(n), values(scalar, n_tuples_ * n, name)});
@@ -254,7 +254,7 @@ class LegacyVtkReader {
     }
     if (word == "lookup_table") {
       scanner_.word("a name");
-      const std::size_t n = scanner_.count("colours", 1);
+      const std::size_t n = scanner_.count("colors", 1);
       static_cast<void>(values(binary_ ? Scalar::u8 : Scalar::f32, 4 * n, "LOOKUP_TABLE"));
       return;
     }

@@ -40,7 +40,7 @@ void put_big_endian(Output& out, const VtkArray& array);
 // How well-centered each triangle is, as cell data of VTU and VTKHDF: made anew by every writing, and not a part of
 // what was read.
 
-/// One of the arrays: named as in Quality, of floats, which are enough for colours and half of what doubles take.
+/// One of the arrays: named as in Quality, of floats, which are enough for colors and half of what doubles take.
 struct TriangleQualityArray {
   std::string_view name;
   Scalar scalar;

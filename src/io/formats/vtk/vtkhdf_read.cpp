@@ -6,7 +6,7 @@
 //     PointData CellData FieldData                            groups of arrays, a row for each point, cell, tuple
 //
 // Each piece numbers its points from 0, and has one more offsets than cells, from 0. Points in which pieces meet are in
-// each of them, and become one; cells that a piece has from its neighbour (ghosts) are left out.
+// each of them, and become one; cells that a piece has from its neighbor (ghosts) are left out.
 #include <algorithm>
 #include <limits>
 #include <numeric>

@@ -36,7 +36,7 @@ template <class F>
   return fa <= fb ? Minimum1{a, fa} : Minimum1{b, fb};
 }
 
-/// The least of f at n + 1 equal steps, refined between its neighbours. With `inner`, minima at either end do not
+/// The least of f at n + 1 equal steps, refined between its neighbors. With `inner`, minima at either end do not
 /// count. Nothing when f is +∞ or NaN all over, or has no inner minimum.
 template <class F>
 [[nodiscard]] std::optional<Minimum1> scan_minimum(F&& f, double low, double high, int n, bool inner = false) {

@@ -1,6 +1,6 @@
-"""Optimises a mesh that meshio holds, and plots it before and after.
+"""Optimizes a mesh that meshio holds, and plots it before and after.
 
-    python3 optimise_meshio.py [IN [OUT.png]]     any file that meshio reads; without one, an example mesh
+    python3 optimize_meshio.py [IN [OUT.png]]     any file that meshio reads; without one, an example mesh
 """
 
 import sys
@@ -24,7 +24,7 @@ after = temper.quality(mesh)
 temper.plot(mesh, ax=axes[1], title="after")
 figure.savefig(picture, dpi=100)
 
-mesh.write("optimised.vtu")
+mesh.write("optimized.vtu")
 print(f"{report.sweeps} sweeps, {report.stopped}; well-centered: "
       f"{100 * before.well_centered_fraction:.1f} % before, {100 * after.well_centered_fraction:.1f} % after")
 if after.well_centered_fraction < 1:

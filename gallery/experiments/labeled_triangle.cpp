@@ -1,4 +1,4 @@
-#include "experiments/labelled_triangle.hpp"
+#include "experiments/labeled_triangle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ constexpr const char* kNames[3] = {"i", "j", "k"};
 
 class Drawing {
  public:
-  explicit Drawing(const LabelledTriangle& drawing) : p_(drawing.corners), center_(orthocenter(p_[0], p_[1], p_[2])) {
+  explicit Drawing(const LabeledTriangle& drawing) : p_(drawing.corners), center_(orthocenter(p_[0], p_[1], p_[2])) {
     low_ = high_ = center_;
     for (const WeightedPoint& v : p_) {
       const double r = std::sqrt(std::abs(v.w));
@@ -121,7 +121,7 @@ class Drawing {
 
 }  // namespace
 
-std::string labelled_triangle_svg(const LabelledTriangle& drawing) {
+std::string labeled_triangle_svg(const LabeledTriangle& drawing) {
   Drawing page(drawing);
   drawing.sub_triangle ? page.sub_triangle() : page.all_distances();
   return page.svg();

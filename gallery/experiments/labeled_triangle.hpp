@@ -9,11 +9,11 @@ namespace temper::gallery {
 
 /// Vertices i, j, k in counter-clockwise order. Every d and h is drawn where it is measured; with `sub_triangle` only
 /// d_ij and h_k are, and the right-angled triangle that has them as legs is filled.
-struct LabelledTriangle {
+struct LabeledTriangle {
   Corners corners;
   bool sub_triangle = false;
   double width = 460;  ///< pixels
 };
-[[nodiscard]] std::string labelled_triangle_svg(const LabelledTriangle& drawing);
+[[nodiscard]] std::string labeled_triangle_svg(const LabeledTriangle& drawing);
 
 }  // namespace temper::gallery
