@@ -25,8 +25,8 @@ VERBS = {
     "weights": (["find_weights", "best_margin", "best_connectivity", "check_certificate"], ["find_weights", "best_margin", "best_connectivity", "check_certificate"]),
     "explain": (["explain"], ["explain"]),
     "check": (["quality"], ["quality"]),
-    "errors": (["errors"], ["errors"]),
-    "dec": (["operators", "columns"], ["operators", "columns", "io::write_dec"]),
+    "errors": (["measure_errors"], ["measure_errors"]),
+    "operators": (["dec_operators", "columns"], ["dec_operators", "columns", "io::write_dec"]),
     "draw": (["draw_svg"], ["draw_svg", "draw_before_after_svg"]),
     "convert": (["read", "write"], ["io::read", "io::write"]),
     "example": (["generate"], ["horseshoe", "random_mesh", "…"]),
@@ -36,8 +36,7 @@ VERBS = {
 
 # Options of optimize that are another option's value, or two for one.
 SPELLED = {
-    "--gamma-rel": "gamma", "--h0-rel": "h0", "--positions-only": "unknowns", "--weights-only": "unknowns",
-    "--no-flips": "flips",
+    "--gamma-rel": "gamma", "--h0-rel": "h0", "--no-flips": "flips",
 }  # fmt: skip
 
 # Options that are no field of OptimizeOptions and no keyword of that name, of all verbs or of one: Python, C++.
@@ -46,12 +45,12 @@ OTHERS = {
     "--certificate": ("`WeightReport.certificate`", ""),
     "--connectivity": ("`best_connectivity`", ""),
     "--encoding": ("`write(encoding=…)`", "`io::WriteOptions::encoding`"),
-    "dec --format": ("`dec(…).write(formats=…)`", "`io::DecWriteOptions::formats`"),
+    "operators --format": ("`dec_operators(…).write(formats=…)`", "`io::DecWriteOptions::formats`"),
     "--layers": ("`columns(surfaces=…, active=…)`", "`io::read_layers`, `Layers`"),
     "--fix": ("`read(fixed_tags=…)`", "`io::make_mesh(file, fixed_tags)`"),
     "--format": ("`write(format=…)`", "`io::WriteOptions::format`"),
-    "--gamma-rel": ("`quality(gamma=Softening(…, 'relative'))`", "`Softening`"),
-    "--h0-rel": ("`quality(h0=Softening(…, 'relative'))`", "`Softening`"),
+    "--gamma-rel": ("`quality(gamma=LengthParameter(…, 'relative'))`", "`LengthParameter`"),
+    "--h0-rel": ("`quality(h0=LengthParameter(…, 'relative'))`", "`LengthParameter`"),
     "--html": ("`html_report`", "`io::html_report`"),
     "--method": ("`paper_method`, `odt_method`, `cvt_method`", "`methods`"),
     "--no-bad": ("`draw_svg(bad_triangles=False)`", ""),
@@ -65,7 +64,7 @@ OTHERS = {
     "--point-data": ("`optimize(point_data=…)`", "`io::UpdateOptions::rules`"),
     "--projection": ("`read(projection=…)`", "`io::project`"),
     "--size-field": ("`optimize(size_field=…)`", "`OptimizeOptions::size_field`"),
-    "--tensor": ("`optimize(tensor=…)`, `dec(tensor=…)`, `mapped`, `mapped_back`", "`Metric`, `mapped`, `mapped_back`"),
+    "--tensor": ("`optimize(tensor=…)`, `dec_operators(tensor=…)`, `mapped`, `mapped_back`", "`Metric`, `mapped`, `mapped_back`"),
     "--threads": ("`threads=…`", "`Executor`, `TbbExecutor`"),
     "--trace": ("`optimize(tracer=…)`", "`OptimizeHooks::tracer`"),
 }  # fmt: skip

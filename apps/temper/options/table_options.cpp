@@ -28,11 +28,8 @@ std::string with(char to, char from, std::string_view text) {
 }
 std::string dashed(std::string_view text) { return with('-', '_', text); }
 
-/// The _ at the end is there for languages where `for` is a keyword.
-std::string name_of(const OptionRow& row) {
-  const std::string_view name = row.name.ends_with('_') ? row.name.substr(0, row.name.size() - 1) : row.name;
-  return "--" + dashed(name);
-}
+/// `for` is short, and a keyword of C++, Python and JavaScript.
+std::string name_of(const OptionRow& row) { return row.name == "target" ? "--for" : "--" + dashed(row.name); }
 
 std::string relative_name(const OptionRow& row) { return name_of(row) + "-rel"; }
 

@@ -194,12 +194,13 @@ constexpr OptionRow kAccuracyRows[] = {
     row<&Options::objective>(
         "objective",
         "energy: the one of `energy`, to the end; accuracy: only until every triangle is well-centered with a margin, "
-        "then how far the middles of edges and duals are apart, which a solver's error is proportional to; error: "
+        "then how far the middles of edges and duals are apart, which a solver's error is proportional to; "
+        "solver_error: "
         "after that the errors of the schemes of `target` themselves, by adjoint solutions, which takes much longer",
         {.common = true,
-         .absent =
-             "accuracy, but error `target` vertex or cell on a plane of no more than 20000 vertices; energy where "
-             "`energy` is not BP, or has switches of its own"}),
+         .absent = "accuracy, but solver_error `target` vertex or cell on a plane of no more than 20000 vertices; "
+                   "energy where "
+                   "`energy` is not BP, or has switches of its own"}),
     row<&Options::target>(
         "target",
         "of accuracy: what the mesh is for. vertex: unknowns at vertices (discrete exterior calculus); cell: at "
@@ -242,7 +243,7 @@ constexpr OptionRow kMoveRows[] = {
     row<kPaper, &Paper::solver>(
         "solver",
         "Newton steps in position and weight together; the paper's golden section; Newton in position, then weight"),
-    row<&Options::unknowns>("unknowns", "what steps may change; the others stay as they are"),
+    row<&Options::unknowns>("unknowns", "what steps may change; the others stay as they are", {.common = true}),
     row<kPaper, &Paper::weights_from>("weights_from", "first sweep that changes weights, from 0",
                                       {.needs = {{{"unknowns", "positions_and_weights"}}}}),
     row<kPaper, &Paper::relaxation>("relaxation", "over-relaxation of Newton steps",
@@ -285,7 +286,7 @@ constexpr OptionRow kConnectivityRows[] = {
          .needs = {{kBarrier, {"unknowns", "positions_and_weights|positions"}, {"flips", "immediate|deferred"}}}}),
     row<&Options::repair_trials>("repair_trials",
                                  "at most so many edits are tried, 1 to 3 ms each; a linear program counts as 20",
-                                 {.needs = {{{"repair", "moves|vertices"}}}}),
+                                 {.needs = {{{"repair", "perturb|vertices"}}}}),
     row<&Options::boundary>(
         "boundary",
         "keep: the domain's boundary stays bit for bit; slide: vertices of its straight pieces, never corners, may "

@@ -71,8 +71,8 @@ TEST_F(Usage, HelpMentionsEveryOption) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> options = {
       {"optimize",
        {"--output", "--report", "--history", "--trace", "--draw", "--quiet", "--threads", "--method", "--fix",
-        "--save-every", "--size-field", "--size-field-data", "--positions-only", "--weights-only", "--no-flips",
-        "--gamma-rel", "--h0-rel", "--help"}},
+        "--save-every", "--size-field", "--size-field-data", "--unknowns", "--no-flips", "--gamma-rel", "--h0-rel",
+        "--help"}},
       {"replay", {"--output", "--sweeps", "--quiet", "--help"}},
       {"check",
        {"--json", "--html", "--gamma ", "--gamma-rel", "--h0 ", "--h0-rel", "--require", "--worst", "--threads",
@@ -128,7 +128,7 @@ TEST_F(Usage, HelpOfOptimizeLeavesOutWhatMostRunsDoWithout) {
   const std::string help = temper_ok({"optimize", "--help"}).out;
   EXPECT_LE(std::count(help.begin(), help.end(), '\n'), kMost);
   for (const char* name :
-       {"--output", "--for", "--objective", "--positions-only", "--repair", "--fix", "--require", "--help-all"})
+       {"--output", "--for", "--objective", "--unknowns", "--repair", "--fix", "--require", "--help-all"})
     EXPECT_TRUE(contains(help, name)) << name;
   for (const char* name : {"--gamma", "--solver", "--inner", "--encoding"}) EXPECT_FALSE(contains(help, name)) << name;
   for (const std::string& verb : kVerbs) {
@@ -274,8 +274,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"RelaxationTooLarge", {"optimize", "a.vtu", "-o", "b.vtu", "--relaxation", "2"}, "between 0 and 2"},
         Wrong{"NoValue", {"optimize", "a.vtu", "-o", "b.vtu", "--gamma"}, "--gamma needs a value, X"},
         Wrong{"BothOnly",
-              {"optimize", "a.vtu", "-o", "b.vtu", "--positions-only", "--weights-only"},
-              "--positions-only and --weights-only cannot"},
+              {"optimize", "a.vtu", "-o", "b.vtu", "--gamma", "1", "--gamma-rel", "1"},
+              "--gamma and --gamma-rel cannot be given together"},
         Wrong{"ReportIsOutput", {"optimize", "a.vtu", "-o", "b.vtu", "--report", "./b.vtu"}, "another output already"},
         Wrong{"ReportIsInput", {"optimize", "a.vtu", "-o", "b.vtu", "--report", "a.vtu"}, "is the input mesh"},
         Wrong{"UnknownMethod", {"optimize", "a.vtu", "-o", "b.vtu", "--method", "papr"}, "did you mean 'paper'?"},
