@@ -110,13 +110,13 @@ VERBS = {
     "check": "check {mesh}",
     "convert": "convert {mesh} -o {out}.vtu",
     "draw": "draw {mesh} -o {out}.svg",
-    "dec": "dec {mesh} -o {out}",
+    "operators": "operators {mesh} -o {out}",
     "explain": "explain {mesh}",
     "optimize": "optimize {mesh} -o {out}.vtu --quiet",
     "optimize --repair vertices": "optimize {mesh} -o {out}.vtu --quiet --repair vertices",
     "optimize --boundary split": "optimize {mesh} -o {out}.vtu --quiet --boundary split",
     "weights": "weights {mesh} -o {out}.vtu",
-    "verify": "verify {mesh}",
+    "errors": "errors {mesh}",
 }
 
 

@@ -78,7 +78,7 @@ MODULES = ["", ".geometry", "._mesh", "._optimize", "._options", "._measure", ".
 
 @pytest.mark.parametrize("name", MODULES)
 def test_examples_in_docstrings_are_right(name, in_scratch):
-    if name == "._measure_errors" and not hasattr(temper._temper, "verify"):
+    if name == "._measure_errors" and not hasattr(temper._temper, "measure_errors"):
         pytest.skip("built without Eigen")
     result = doctest.testmod(importlib.import_module("temper" + name))
     assert result.attempted > 0 and result.failed == 0

@@ -145,7 +145,7 @@ def test_operators_are_written_as_the_program_writes_them(ring, in_scratch):
 
 # --- errors of solvers --------------------------------------------------------------------------------------------
 
-needs_errors = pytest.mark.skipif(not hasattr(temper._temper, "verify"), reason="built without Eigen")
+needs_errors = pytest.mark.skipif(not hasattr(temper._temper, "measure_errors"), reason="built without Eigen")
 
 
 @needs_errors

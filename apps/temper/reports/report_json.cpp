@@ -174,7 +174,7 @@ std::string optimize_json(const OptimizeRecord& record) {
   json["flips"] = record.report.flips;
   json["size"] = {{"before", to_json(record.report.size.before)}, {"after", to_json(record.report.size.after)}};
   json["data"] = to_json(record.data);
-  if (!record.solver_errors.empty()) json["verify"] = Json::parse(record.solver_errors);
+  if (!record.solver_errors.empty()) json["errors"] = Json::parse(record.solver_errors);
   json["notes"] = record.report.notes;
   json["warnings"] = record.warnings;
   json["history"] = Json::array();

@@ -117,7 +117,7 @@ Exit run_errors(const Arguments& arguments) {
   MeasureErrorsOptions options;
   options.fields = separated(s.fields);
   check_fields(options);
-  Outputs outputs("verify");
+  Outputs outputs("errors");
   std::vector<std::string> inputs = {s.input};
   if (!s.against.empty()) inputs.push_back(s.against);
   outputs.expect_text("--edges", s.edges, inputs);

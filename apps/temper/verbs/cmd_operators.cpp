@@ -99,9 +99,9 @@ void check_folder(const DecSettings& s, const std::vector<io::DecFormat>& format
     for (const std::string_view name : io::dec_file_names(format, !s.layers.empty())) {
       const std::string path = (fs::path(s.output) / name).string();
       if (same_file(path, s.input))
-        throw Failure(Exit::bad_usage, fmt::format("dec: --output: {} is the input mesh", path));
+        throw Failure(Exit::bad_usage, fmt::format("operators: --output: {} is the input mesh", path));
       if (same_file(path, s.layers))
-        throw Failure(Exit::bad_usage, fmt::format("dec: --output: {} is the file of --layers", path));
+        throw Failure(Exit::bad_usage, fmt::format("operators: --output: {} is the file of --layers", path));
     }
   }
 }

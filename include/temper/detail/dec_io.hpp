@@ -22,7 +22,7 @@ namespace io {
 
 enum class DecFormat {
   npz,  ///< operators.npz, all arrays; d0.npz, d1.npz, star0.npz, star1.npz, star2.npz for scipy.sparse.load_npz
-  mtx,  ///< d0.mtx, d1.mtx, star0.mtx, star1.mtx, star2.mtx, flux.mtx, orthocenters.mtx, edge_midpoints.mtx
+  mtx,  ///< d0.mtx, d1.mtx, star0.mtx, star1.mtx, star2.mtx, transmissibility.mtx, orthocenters.mtx, edge_midpoints.mtx
   vtu,  ///< dual.vtu, the power cells as polygons; dual_edges.vtu, the dual edges as lines; columns.vtu, prisms
   // Of columns alone:
   disv,   ///< mesh.disv: MODFLOW 6's discretization by vertices
