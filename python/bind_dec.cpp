@@ -153,7 +153,7 @@ void bind_operators(py::module_& m) {
              const auto cells = [&d] { return d.cells(); };
              return to_python(write_files(folder, *d.mesh, *d.complex, cells, nullptr, formats, threads));
            });
-  m.def("dec", make_dec);
+  m.def("dec_operators", make_dec);
 }
 
 // --- columns ----------------------------------------------------------------------------------------------------

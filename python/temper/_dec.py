@@ -226,7 +226,7 @@ def dec_operators(mesh: MeshLike, *, tensor: Sequence[float] | None = None) -> D
     >>> complex.d0.shape
     (1240, 441)
     """
-    handle = _temper.dec(as_mesh(mesh)._handle, None if tensor is None else tuple(tensor))
+    handle = _temper.dec_operators(as_mesh(mesh)._handle, None if tensor is None else tuple(tensor))
     arrays = handle.arrays()
     edges = DecEdges(**arrays.pop("edges"))
     d0, d1 = IncidenceMatrix(**arrays.pop("d0")), IncidenceMatrix(**arrays.pop("d1"))

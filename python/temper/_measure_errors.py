@@ -106,7 +106,7 @@ class ErrorLevel(Record):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ErrorReport(Record):
-    """What ``verify`` measured."""
+    """What ``measure_errors`` measured."""
 
     vertices: int
     edges: int
@@ -167,7 +167,7 @@ def _plain(fields: Sequence[FieldErrors]) -> tuple[list[str], npt.NDArray[np.flo
     return [row.field.name for row in fields], values
 
 
-def verify(
+def measure_errors(
     mesh: MeshLike,
     *,
     fields: Sequence[str] = (),

@@ -7,7 +7,7 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from ._dec import dec
+from ._dec import dec_operators
 from ._mesh import Mesh, MeshLike, as_mesh
 from ._measure import triangle_quality
 

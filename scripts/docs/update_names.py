@@ -36,7 +36,7 @@ VERBS = {
 
 # Options of optimize that are another option's value, or two for one.
 SPELLED = {
-    "--gamma-rel": "gamma", "--h0-rel": "h0", "--no-flips": "flips",
+    "--gamma-rel": "gamma", "--h0-rel": "h0", "--no-flips": "flips", "--for": "target",
 }  # fmt: skip
 
 # Options that are no field of OptimizeOptions and no keyword of that name, of all verbs or of one: Python, C++.
@@ -93,7 +93,7 @@ def options_table(program):
         lines += ["", f"**{group}**", "", "| program | Python | C++: `OptimizeOptions` |", "|-|-|-|"]
         for row in rows:
             name = row["name"]
-            spellings = ["--" + name.removesuffix("_").replace("_", "-")] + [flag for flag, of in SPELLED.items() if of == name]
+            spellings = ["--" + name.replace("_", "-")] + [flag for flag, of in SPELLED.items() if of == name]
             shown = ", ".join(f"`{flag}`" for flag in spellings if flag in given)
             assert shown, f"no option of the program for {name}"
             lines.append(f"| {shown} | `{name}` | `{member_for(name)}` |")
@@ -101,8 +101,8 @@ def options_table(program):
 
 
 def member_for(name):
-    """The member of OptimizeOptions: accuracy_sweeps is that of AccuracyOptions."""
-    groups = [("OptimizeOptions", ""), ("PaperSwitches", "paper."), ("AccuracyOptions", "accuracy."), ("SolverErrorOptions", "error.")]
+    """The member of OptimizeOptions: accuracy_sweeps is AccuracyOptions::sweeps."""
+    groups = [("OptimizeOptions", ""), ("PaperSwitches", "paper."), ("AccuracyOptions", "accuracy."), ("SolverErrorOptions", "solver_error.")]
     for struct, place in groups:
         short = name.removeprefix(place.replace(".", "_")) if place else name
         if name in members_of(struct) or short in members_of(struct):

@@ -88,7 +88,7 @@ bool is_replaced(const std::string& path) {
 Command optimize_command(OptimizeSettings& settings) {
   Command command(
       "optimize",
-      "Moves vertices, weights them and flips edges until every triangle is well-centered: its orthocenter "
+      "Moves vertices, changes weights and flips edges until every triangle is well-centered: its orthocenter "
       "inside, every edge crossed by its dual. The boundary of the domain stays bit for bit, unless --boundary says "
       "otherwise.");
   add_files(command, settings);

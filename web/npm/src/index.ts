@@ -179,7 +179,7 @@ export function vertex_energy(mesh: Mesh, model: EnergyModel, vertex: number): V
 }
 
 /** The operators of discrete exterior calculus. */
-export function dec(mesh: Mesh): DecComplex {
+export function dec_operators(mesh: Mesh): DecComplex {
   const complex = call('dec_make', mesh.handle);
   const bytes = (name: string): ArrayBuffer => {
     call('dec_array', complex, name);

@@ -105,7 +105,7 @@ test('a trace replays to the same bits, and its beginning to a mesh', () => {
 test('operators fit together', () => {
   const mesh = temper.generate.annulus();
   temper.optimize(mesh);
-  const { d0, d1, star0, star1, star2, edges, areas, orthocenters, summary } = temper.dec(mesh);
+  const { d0, d1, star0, star1, star2, edges, areas, orthocenters, summary } = temper.dec_operators(mesh);
   const n = [star0, star1, star2].map((star) => star.length);
   assert.deepEqual(n, [mesh.n_vertices, mesh.n_edges, mesh.n_triangles]);
   assert.deepEqual([d0.starts.length, d1.starts.length, orthocenters.length], [n[1] + 1, n[2] + 1, 2 * n[2]]);
