@@ -60,7 +60,7 @@ if there zsh; then
   }
   expect "zsh: syntax" "" "$(zsh -n _temper 2>&1)"
   expect "zsh: verbs" "$(printf '%s\n' "${verbs[@]}" --help --version | sort)" "$(zsh_offers temper '')"
-  expect "zsh: options" "$(options_of dec)" "$(zsh_offers temper operators -)"
+  expect "zsh: options" "$(options_of operators)" "$(zsh_offers temper operators -)"
   expect "zsh: values with names" $'alternating\ngolden\nnewton' "$(zsh_offers temper optimize --solver '' | grep .)"
   expect "zsh: words beside files" $'all\nfiles\nlines' "$(zsh_offers temper weights in.vtu --edges '')"
   expect "zsh: folders" 'files -/' "$(zsh_offers temper operators in.vtu -o '' | grep .)"
@@ -70,7 +70,7 @@ if there fish; then
   fish_offers() { HOME=$scratch fish --no-config -c "source temper.fish; cd here; complete -C '$1'" 2>&1 | cut -f 1 | sort -u; }
   expect "fish: syntax" "" "$(fish -n temper.fish 2>&1)"
   expect "fish: verbs" "$(printf '%s\n' "${verbs[@]}" | sort)" "$(fish_offers 'temper ')"
-  expect "fish: options" "$(options_of dec | grep ^--)" "$(fish_offers 'temper operators --')"
+  expect "fish: options" "$(options_of operators | grep ^--)" "$(fish_offers 'temper operators --')"
   expect "fish: values with names" $'alternating\ngolden\nnewton' "$(fish_offers 'temper optimize --solver ')"
   expect "fish: files" $'folder/\nin.vtu' "$(fish_offers 'temper check ')"
 fi

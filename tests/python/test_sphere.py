@@ -67,20 +67,20 @@ def test_closed_meshes_go_in_and_out_unchanged():
 
 
 def test_places_are_on_the_sphere_and_weighted_vectors_are_weights_too(tempered):
-    places, lifted, weights = tempered.points, tempered.weighted_vectors, tempered.weights
-    assert places.shape == lifted.shape == (300, 3) and np.ptp(weights) > 0
+    places, vectors, weights = tempered.points, tempered.weighted_vectors, tempered.weights
+    assert places.shape == vectors.shape == (300, 3) and np.ptp(weights) > 0
     assert np.allclose(np.linalg.norm(places, axis=1), EARTH, rtol=1e-15)
-    assert np.allclose(np.sum(lifted**2, axis=1) - weights, EARTH**2, rtol=1e-15)
-    assert np.allclose(places, EARTH * unit(lifted), rtol=1e-15)
-    assert not any(array.flags.writeable for array in (places, lifted, weights))
-    assert without weights.flags.owndata and lifted.strides == (32, 8)
+    assert np.allclose(np.sum(vectors**2, axis=1) - weights, EARTH**2, rtol=1e-15)
+    assert np.allclose(places, EARTH * unit(vectors), rtol=1e-15)
+    assert not any(array.flags.writeable for array in (places, vectors, weights))
+    assert not vectors.flags.owndata and vectors.strides == (32, 8)
 
 
 def test_a_view_keeps_what_it_showed(globe):
-    lifted = globe.weighted_vectors
-    before = lifted.copy()
+    vectors = globe.weighted_vectors
+    before = vectors.copy()
     temper.optimize(globe, max_sweeps=2)
-    assert np.array_equal(lifted, before) and not np.array_equal(globe.weighted_vectors, before)
+    assert np.array_equal(vectors, before) and not np.array_equal(globe.weighted_vectors, before)
 
 
 def test_copies_are_meshes_of_their_own_bit_for_bit(tempered):
@@ -240,9 +240,9 @@ def test_arcs_crossings_and_heights_are_what_vectors_say(tempered):
 
 def test_power_tests_say_that_no_point_is_above_a_face(tempered):
     p, q, r = faces_of(tempered)
-    lifted, space = tempered.weighted_vectors, tempered.space
+    vectors, space = tempered.weighted_vectors, tempered.space
     twins = tempered.twins.reshape(-1, 3)[:, 0]
-    across = lifted[tempered.triangles.ravel()[3 * (twins // 3) + (twins + 2) % 3]]
+    across = vectors[tempered.triangles.ravel()[3 * (twins // 3) + (twins + 2) % 3]]
     assert (geometry.power_test(p, q, r, across, space=space) == -1).all()
     assert (geometry.power_test(p, q, r, 1.5 * across, space=space) == 1).all()
     a, b, c, d = OCTAHEDRON[[0, 1, 3, 4]]  # on the equator

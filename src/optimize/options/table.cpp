@@ -193,14 +193,14 @@ constexpr OptionRow kEnergyRows[] = {
 constexpr OptionRow kAccuracyRows[] = {
     row<&Options::objective>(
         "objective",
-        "energy: the one of `energy`, to the end; accuracy: only until every triangle is well-centered with a margin, "
-        "then how far the middles of edges and duals are apart, which a solver's error is proportional to; "
-        "solver_error: "
-        "after that the errors of the schemes of `target` themselves, by adjoint solutions, which takes much longer",
+        "energy: lowers `energy` to the end; accuracy: lowers the distances between the midpoints of edges and of "
+        "duals, "
+        "once all triangles are well-centered; solver_error: then lowers the error of the solver itself, and takes "
+        "longer",
         {.common = true,
-         .absent = "accuracy, but solver_error `target` vertex or cell on a plane of no more than 20000 vertices; "
-                   "energy where "
-                   "`energy` is not BP, or has switches of its own"}),
+         .absent =
+             "accuracy; solver_error with `target` vertex or cell on a plane of at most 20000 vertices; energy if "
+             "`energy` is not BP or has switches of its own"}),
     row<&Options::target>(
         "target",
         "of accuracy: what the mesh is for. vertex: unknowns at vertices (discrete exterior calculus); cell: at "

@@ -103,7 +103,7 @@ TEST_F(Errors, OfAnOptimizationOnlyMeasures) {
   }
   EXPECT_EQ(read("measured.off"), read("plain.off"));
   const auto report = nlohmann::json::parse(read("r.json"));
-  EXPECT_NE(report["errors"]["after"]["errors"], report["verify"]["before"]["errors"]);
+  EXPECT_NE(report["errors"]["after"]["errors"], report["errors"]["before"]["errors"]);
 }
 
 TEST_F(Errors, MeasuresOrders) {

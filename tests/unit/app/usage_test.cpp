@@ -251,7 +251,7 @@ TEST_P(BadUsage, ExitsWith2AndSaysWhatIsWrong) {
 INSTANTIATE_TEST_SUITE_P(
     Program, BadUsage,
     testing::Values(
-        Wrong{"UnknownVerb", {"optimize", "a.vtu"}, "did you mean 'optimize'?"},
+        Wrong{"UnknownVerb", {"optimise", "a.vtu"}, "did you mean 'optimize'?"},
         Wrong{"OptionInsteadOfVerb", {"--quiet"}, "expected a verb"},
         Wrong{"UnknownOption", {"optimize", "a.vtu", "-o", "b.vtu", "--gama", "1"}, "did you mean --gamma?"},
         Wrong{"NoInput", {"optimize", "-o", "b.vtu"}, "IN is missing"},
