@@ -48,9 +48,9 @@ class Metric {
 /// the sphere; a triangle that turns over by rounding. O(n).
 [[nodiscard]] Expected<Mesh> mapped(const Mesh& mesh, const Metric& metric, const InputNames& names = {});
 
-/// Maps a changed mesh back to the plane of `original`. Vertices at the same place as in `original`, such as boundary
-/// and fixed vertices, get their place from there, bit for bit. `vertices`: number of each vertex in `original`, as in
-/// OptimizeReport; empty: the same numbers. Errors as for mapped().
+/// Maps a changed mesh back to the plane of `original`. Vertices that have not moved since mapped(original), such
+/// as boundary and fixed vertices, get their place from there, bit for bit. `vertices`: number of each vertex in
+/// `original`, as in OptimizeReport; empty: the same numbers. Errors as for mapped().
 [[nodiscard]] Expected<Mesh> mapped_back(const Mesh& changed, const Mesh& original, const Metric& metric,
                                          const IdVector<VertexId, VertexId>& vertices = {});
 
