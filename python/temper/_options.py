@@ -62,8 +62,8 @@ def _description(row: dict[str, Any]) -> str:
 
 def _documentation() -> str:
     parts = [
-        "All options of ``optimize``, which takes each as a keyword, too.\n\n"
-        "``dataclasses.replace(options, star=0)`` makes others of them.\n\nParameters\n----------"
+        "All options of ``optimize``. Each is also a keyword of ``optimize``.\n\n"
+        "``dataclasses.replace(options, star=0)`` returns changed options.\n\nParameters\n----------"
     ]
     for title, rows in itertools.groupby(TABLE, lambda row: row["group"]):
         parts += [f"\n{title}\n", "\n".join(map(_description, rows))]
