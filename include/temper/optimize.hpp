@@ -220,7 +220,8 @@ struct PaperSwitches {
 
   int inner = 1;  ///< With deferred flips: largest number of sweeps before edges flip; 0: until the sweeps converge
   int outer = 0;  ///< With deferred flips: largest number of rounds of sweeps and flips; 0: until no edge must flip
-  /// Absent: unlimited for barriers (a flipping step must lower the energy), after for HOT.
+  /// Limit of a step beyond a flip. Absent: unlimited for barriers (a flipping step must lower the energy), after for
+  /// HOT.
   std::optional<FlipLimit> flip_limit = {};
   double overshoot = 1.1;         ///< Overshoot k of Algorithm 5, with FlipLimit::after; > 0
   double overshoot_factor = 0.1;  ///< Factor on k − 1 from sweep to sweep, down to ±1e-6; 1: k is constant. In [0, 1]

@@ -51,9 +51,9 @@ struct Histogram {
 /// energy.
 using EnergiesByStar = std::array<std::array<double, 3>, kEnergyKinds>;
 
-/// Measures of meshes that other codes refuse or run slowly on. quality_measures() defines each measure and names its
-/// code. The minimum over nothing is +∞, and the maximum is 0. An interior edge has a triangle on both sides. A closed
-/// cell is the cell of a vertex inside the domain.
+/// Measures for other codes, which refuse a mesh or run slowly if a value is bad. quality_measures() defines each
+/// measure and names its code. The minimum over nothing is +∞, and the maximum is 0. An interior edge has a triangle on
+/// both sides. A closed cell is the cell of a vertex inside the domain.
 struct SolverMeasures {
   double min_edge_over_size = std::numeric_limits<double>::infinity();  ///< Least relative_lengths() of interior edges
   /// Least relative dual length of interior edges.
