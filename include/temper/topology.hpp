@@ -115,9 +115,9 @@ struct InsertionPlan {
   HalfedgeId edge;      ///< Edge of this triangle, to be split, if the point is on it; else invalid
   /// The triangles to replace: `triangle`, the triangle across `edge`, then the triangles that the flips reach.
   std::vector<TriangleId> cavity;
-  /// The neighbors of the new vertex v, counter-clockwise. The new triangles are v, link[i], link[i + 1], and v, the
-  /// last, link[0]. This last triangle is absent if `edge` is a boundary edge; then the link runs from its target to
-  /// its origin.
+  /// The neighbors of the new vertex v, counter-clockwise. The new triangles are v, link[i], link[i + 1], and
+  /// v, link.back(), link[0]. This last triangle is absent if `edge` is a boundary edge; then the link runs from its
+  /// target to its origin.
   std::vector<VertexId> link;
   /// The cavity's outer edges, from inside it: link[i] → link[i + 1].
   std::vector<HalfedgeId> rim;
