@@ -1,4 +1,4 @@
-// The mesh as Python holds it, and what the files that bind it share.
+// The mesh as Python holds it, and the common parts of the binding files.
 #pragma once
 
 #include <chrono>
@@ -18,48 +18,47 @@
 
 namespace temper::python {
 
-/// The file that a mesh came from: all that is not in the mesh.
+/// The original file of a mesh: everything that is not in the mesh.
 struct Source {
   io::MeshFile file;
-  io::LoadedMesh loaded;  ///< its mesh is taken
+  io::LoadedMesh loaded;  ///< Loaded mesh, whose mesh has been moved out
 };
 
-/// A mesh that Python holds. The value is shared with arrays that look at it and with calls that run without the GIL,
-/// and is copied before it is changed when anybody does: arrays keep what they showed.
+/// A mesh that Python holds. The value is shared with arrays that view it and with calls that run without the GIL. If
+/// it is shared, it is copied before a change: arrays keep their values.
 class PyMesh {
  public:
   explicit PyMesh(Mesh mesh) : mesh_(std::make_shared<Mesh>(std::move(mesh))) {}
   PyMesh(Mesh mesh, std::shared_ptr<const Source> source)
       : mesh_(std::make_shared<Mesh>(std::move(mesh))), source_(std::move(source)) {}
 
-  /// For reading. Error: erased triangles, which only topology knows how to pass over.
+  /// The mesh for reading. Error: erased triangles, which only topology can skip.
   [[nodiscard]] std::shared_ptr<const Mesh> read() const;
   [[nodiscard]] std::shared_ptr<const Mesh> read_with_erased() const { return mesh_; }
-  /// For changes: not shared. Error: a run has not ended, which would overwrite them.
+  /// The mesh for changes, not shared. Error: a run has not ended; it would overwrite the changes.
   [[nodiscard]] Mesh& change();
-  /// Puts another mesh in place. `vertices`: former number of each vertex, empty when they are the same. Error as
-  /// above.
+  /// Replaces the mesh by another. `vertices`: former number of each vertex, empty if they are the same. Errors as for
+  /// changes.
   void replace(Mesh mesh, const IdVector<VertexId, VertexId>& vertices);
-  /// Becomes the other, with its file.
+  /// Becomes the other mesh, with its file.
   void assign(const PyMesh& other);
-  /// Has this file behind it. `origin`: see origin(); empty: its points in triangles are the vertices.
+  /// Attaches a file. `origin`: see origin(); empty: the points in triangles are the vertices.
   void set_source(std::shared_ptr<const Source> source, IdVector<VertexId, VertexId> origin = {});
   [[nodiscard]] PyMesh copy() const;
   void set_erased() { erased_ = true; }
-  /// Drops what is erased; the former numbers of vertices.
+  /// Drops everything that is erased. Returns the former numbers of the vertices.
   IdVector<VertexId, VertexId> compact();
 
   [[nodiscard]] const std::shared_ptr<const Source>& source() const { return source_; }
-  /// Number in the source of each vertex; empty: the same.
+  /// Number of each vertex in the source; empty: the same numbers.
   [[nodiscard]] IdVector<VertexId, VertexId> origin() const;
-  /// How data of its points follow the vertices.
+  /// Rules by which data of its points follow the vertices.
   [[nodiscard]] const io::DataRules& data_rules() const { return data_rules_; }
   void set_data_rules(io::DataRules rules) { data_rules_ = std::move(rules); }
-  /// The number of this state, which no other mesh has but copies of it: what was planned for one state does not fit
-  /// another.
+  /// The number of this state. Only copies of the mesh have the same number. A plan for one state does not fit another.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 
-  /// While it lives nothing else may change the mesh.
+  /// While it lives, nothing else may change the mesh.
   class Run {
    public:
     explicit Run(PyMesh& mesh);
@@ -85,31 +84,31 @@ class PyMesh {
   bool erased_ = false, running_ = false;
 };
 
-/// What `work` makes, while Python goes on.
+/// Returns the result of `work`, and releases the GIL meanwhile.
 template <class Work>
 auto aside(const Work& work) {
   const py::gil_scoped_release release;
   return work();
 }
 
-/// None: as many threads as the machine has. Null for one.
+/// The executor for a number of threads. None: as many as the machine has. Returns null for one thread.
 [[nodiscard]] std::unique_ptr<Executor> make_threads(const std::optional<std::size_t>& threads);
 [[nodiscard]] std::optional<std::size_t> threads_from(const py::handle& threads);
 
-/// Lets Python in while a call runs without the GIL: keyboard interrupts, and callbacks. The first exception stops the
-/// run, and is raised when the run has ended and its result is in place.
+/// Gives Python control from time to time while a call runs without the GIL: keyboard interrupts, and callbacks. The
+/// first exception stops the run. It is raised when the run has ended and its result is in place.
 class Visitor {
  public:
-  /// False: stop.
+  /// Returns false to stop.
   [[nodiscard]] bool check_signals();
-  /// Calls f with the GIL; false when it has raised, now or before, and when it has returned False.
+  /// Calls f with the GIL. Returns false if f raises, has raised before, or returns False.
   template <class F>
   bool call(const F& f) {
     if (stopped()) return false;
     const py::gil_scoped_acquire gil;
     try {
       return f();
-    } catch (...) {  // also what pybind11 throws: the library below is compiled without exceptions
+    } catch (...) {  // also exceptions of pybind11: the library below is compiled without exceptions
       error_ = std::current_exception();
       return false;
     }
@@ -124,13 +123,13 @@ class Visitor {
   std::chrono::steady_clock::time_point last_ = {};
 };
 
-/// Tells Python's observer, which may be None, and hears of Ctrl-C.
+/// Calls Python's observer, which may be None, and checks for Ctrl-C.
 Observer observer_of(Visitor& visitor, const py::object& observer);
 
-/// Of the three numbers of a diffusion tensor.
+/// The metric of the three numbers of a diffusion tensor.
 Metric metric_from(const py::handle& tensor);
 
-/// Raises unless the mesh is one of the plane, which `what` takes alone.
+/// Raises unless the mesh lies in the plane, which `what` requires.
 void require_plane(const Mesh& mesh, std::string_view what);
 /// Raises for meshes of periodic planes.
 void require_no_period(const Mesh& mesh, std::string_view what);

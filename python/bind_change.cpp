@@ -1,4 +1,5 @@
-// Bindings of what changes meshes, but for optimize (bind_optimize.cpp): regularity, topology, size, the mesher.
+// Bindings of functions that change meshes, except optimize (bind_optimize.cpp): regularity, topology, size, the
+// mesher.
 #include <limits>
 
 #include "bind.hpp"
@@ -64,7 +65,8 @@ void bind_regularity(py::module_& m) {
   });
 }
 
-// --- topology: plans know the state of the mesh that they are for ------------------------------------------------
+// --- topology: a plan remembers the state of the mesh that it is for
+// ----------------------------------------------------
 
 template <class Plan>
 struct PlanOf {
@@ -312,7 +314,7 @@ void bind_size(py::module_& m) {
 
 // --- the mesher -------------------------------------------------------------------------------------------------
 
-/// The names of a file, kept by an outline that came from it.
+/// The names of a file. An outline from that file keeps them.
 struct PyNames {
   std::shared_ptr<const OutlineNames> names;
 };
@@ -404,7 +406,7 @@ py::tuple outline_mesh_to_python(OutlineMesh result) {
                             .dict);
 }
 
-/// `mesh`: makes the mesh, while Python goes on.
+/// Makes a mesh by the function `mesh`, which runs without the GIL.
 template <class Mesher>
 py::tuple mesh_by(const Mesher& mesh, const py::object& threads, const py::object& observer) {
   const auto executor = make_threads(threads_from(threads));

@@ -1,4 +1,4 @@
-// Bindings of the operators, and of columns: cells under layers.
+// Bindings of the operators, and of columns (cells under layers).
 #include <utility>
 
 #include "bind.hpp"
@@ -11,7 +11,8 @@ TEMPER_PYTHON_NAMES(temper::io::DecFormat, "npz", "mtx", "vtu", "disv", "disu", 
 namespace temper::python {
 namespace {
 
-// --- dec: views on one value, which the arrays keep ---------------------------------------------------------------
+// --- dec: views on one value, which the arrays keep alive
+// -------------------------------------------------------------
 
 using Complex = std::shared_ptr<const DecComplex>;
 
@@ -29,7 +30,7 @@ py::array whole(const py::object& owner, const std::vector<T>& values) {
   return view(dtype_of<T>(), {static_cast<py::ssize_t>(values.size())}, {sizeof(T)}, values.data(), owner);
 }
 
-/// Places as rows: of two columns in the plane, of three on the sphere, where those of the plane are not.
+/// Places as rows: two columns in the plane, three columns on the sphere. One of the two arrays is empty.
 py::array places(const py::object& owner, const std::vector<Vec2>& plane, const std::vector<Vec3>& sphere) {
   const auto doubles = py::dtype::of<double>();
   if (sphere.empty()) return view(doubles, {static_cast<py::ssize_t>(plane.size()), 2}, {16, 8}, plane.data(), owner);
@@ -61,7 +62,7 @@ py::dict incidence_to_dict(const py::object& owner, const IncidenceMatrix& matri
 
 struct PyDec {
   std::shared_ptr<const Mesh> mesh;
-  std::shared_ptr<const Mesh> measured;  // in the metric of a tensor; else the same
+  std::shared_ptr<const Mesh> measured;  // mesh in the metric of a tensor; else the same mesh
   Metric metric;
   Complex complex;
 
@@ -120,7 +121,7 @@ py::dict cells_to_dict(const PyDec& d) {
       .dict;
 }
 
-/// `cells`: gives them, while Python goes on.
+/// Writes the files. `cells` is a function that makes the cells; it runs without the GIL.
 template <class Cells>
 std::vector<std::string> write_files(const std::string& folder, const Mesh& mesh, const DecComplex& complex,
                                      const Cells& cells, const Columns* columns, const py::sequence& formats,
@@ -165,7 +166,7 @@ struct PyColumns {
   Columns columns;
 };
 
-/// The Python package has seen to shapes.
+/// The Python package has checked the shapes.
 std::shared_ptr<const PyColumns> make_columns(const PyMesh& self, std::size_t n_layers, const Doubles& surfaces,
                                               const Int32s& active, double pinch_out) {
   Layers layers;
@@ -190,7 +191,7 @@ py::array of_cells(const py::object& owner, const Columns& c, const std::vector<
   return view(py::dtype::of<T>(), {static_cast<py::ssize_t>(c.n_layers), n}, {n * size, size}, values.data(), owner);
 }
 
-/// One member of each connection, or two that follow each other.
+/// One member of each connection, or two members in a row.
 template <class T>
 py::array of_connections(const py::object& owner, const Columns& c, T ColumnConnection::*first, py::ssize_t width = 1) {
   const ColumnConnection none;

@@ -1,4 +1,4 @@
-// Files of meshes, and what came with a mesh from one: data, lines, tags, names. See io.hpp.
+// Files of meshes, and the data, lines, tags and names that came with a mesh from a file. See io.hpp.
 #include <algorithm>
 #include <tuple>
 #include <type_traits>
@@ -35,7 +35,7 @@ bool take_values(io::DataArray& data, const py::array& array) {
   return true;
 }
 
-/// One- or two-dimensional arrays of the types that files have; the Python package has turned others into these.
+/// One- or two-dimensional arrays of the types in files. The Python package has converted other types to these.
 io::DataArray from_python_array(const std::string& name, const py::array& array) {
   io::DataArray data{name, array.ndim() > 1 ? static_cast<int>(array.shape(1)) : 1, {}};
   const bool taken = take_values<double>(data, array) || take_values<float>(data, array) ||
@@ -47,7 +47,7 @@ io::DataArray from_python_array(const std::string& name, const py::array& array)
   return data;
 }
 
-/// The same of so many rows.
+/// An array with the given number of rows.
 io::DataArray from_python_array(const std::string& name, const py::array& array, std::size_t size, const char* kind) {
   if (static_cast<std::size_t>(array.shape(0)) != size) {
     fail(ErrorCode::size_mismatch, std::string(kind) + " '" + name + "': expected " + std::to_string(size) +
@@ -69,7 +69,7 @@ std::vector<T> copy_of(const Array& array) {
   return {values.begin(), values.end()};
 }
 
-/// A file, on the map of the projection when one is named, and the mesh in it.
+/// A file, on the map of the projection if one is named, and its mesh.
 std::shared_ptr<Source> source_of(io::MeshFile file, const std::string& projection,
                                   const std::vector<std::string>& fixed_tags, Executor* executor) {
   auto source = std::make_shared<Source>();
@@ -79,11 +79,11 @@ std::shared_ptr<Source> source_of(io::MeshFile file, const std::string& projecti
   auto loaded = io::make_mesh(source->file, fixed_tags, executor);
   if (!loaded) throw BadInput{loaded.error()};
   source->loaded = *std::move(loaded);
-  io::release_geometry(source->file, source->loaded);  // else it would be held twice
+  io::release_geometry(source->file, source->loaded);  // else memory would hold it twice
   return source;
 }
 
-/// The mesh of a file, with the rest of the file behind it, and the warnings.
+/// The mesh of a file, with the other contents of the file, and the warnings.
 py::tuple load(io::MeshFile file, const std::string& projection, const std::vector<std::string>& fixed_tags,
                Executor* executor) {
   const auto source = source_of(std::move(file), projection, fixed_tags, executor);
@@ -101,14 +101,14 @@ std::vector<std::string> strings_from(const py::sequence& sequence) {
   return strings;
 }
 
-/// The file of a mesh, and what became of its data.
+/// The file of a mesh, and the report on its data.
 struct UpdatedFile {
   io::MeshFile file;
   io::DataReport data;
 };
 
-/// The one that the mesh came from, updated, or a new one. Without the GIL it takes a copy of the mesh that was made
-/// with it, which shares the memory: others may change the mesh meanwhile.
+/// The updated original file of the mesh, or a new one. Without the GIL it works on a copy of the mesh that was made
+/// with the GIL. The copy shares the memory, so other threads may change the mesh meanwhile.
 UpdatedFile updated_file_of(const PyMesh& self, Executor* executor) {
   const auto mesh = self.read();
   if (!self.source()) return {io::from_mesh(*mesh), {}};
@@ -119,7 +119,7 @@ UpdatedFile updated_file_of(const PyMesh& self, Executor* executor) {
 
 io::MeshFile file_of(const PyMesh& self, Executor* executor = nullptr) { return updated_file_of(self, executor).file; }
 
-/// Sets an array of point data or cell data, or with None takes it away: the mesh is as if it came from such a file.
+/// Sets an array of point data or cell data, or with None removes it. The mesh then has a file with this array.
 void set_data(PyMesh& self, bool of_points, const std::string& name, const py::object& values) {
   const std::uint64_t version = self.version();
   io::MeshFile file = file_of(self);
@@ -148,7 +148,7 @@ io::DataRules data_rules_from(const PyMesh& self, const py::sequence& words) {
   return *rules;
 }
 
-/// The words of the rules that a mesh has.
+/// The rules of a mesh, as words.
 std::vector<std::string> data_words(const PyMesh& self) {
   const auto spell = [](io::DataRule rule) { return std::string(rule == io::DataRule::keep ? "keep" : "interpolate"); };
   std::vector<std::string> words = {spell(self.data_rules().rule)};
@@ -167,7 +167,8 @@ py::dict data_report(const PyMesh& self, const py::object& threads) {
       .dict;
 }
 
-/// All of a file that Python has as it is: without its points, which are of a plane or a sphere.
+/// The contents of a file that Python gets unchanged. Points are not included, because they may be in the plane or on a
+/// sphere.
 Record arrays_of(const io::MeshFile& file) {
   py::list names;
   for (const io::PhysicalName& n : file.names) names.append(py::make_tuple(n.dimension, n.tag, n.name));
@@ -195,7 +196,7 @@ py::dict file_as_dict(const PyMesh& self) {
   return arrays_of(file)("points", rows_of<double>(std::span<const Vec3>(places))).dict;
 }
 
-/// Vertex of each point that the mesh was made of, -1 where it is gone; None for a mesh that no file is behind.
+/// Vertex of each original point of the mesh, -1 if it is gone; None for a mesh without a file.
 py::object vertices_of_points(const PyMesh& self) {
   if (!self.source()) return py::none();
   const auto origin = self.origin();
@@ -226,7 +227,7 @@ void check_range(const std::vector<std::array<std::int32_t, n>>& cells, std::siz
   }
 }
 
-/// A file of these arrays, without the points, of which there are so many.
+/// A file of these arrays, without the points; their number is given.
 io::MeshFile file_of_arrays(const py::dict& d, std::size_t n_points) {
   io::MeshFile file;
   file.weights = copy_of<double>(d["weights"].cast<Doubles>());
@@ -286,7 +287,7 @@ py::object write_file(const std::string& path, const PyMesh& self, const std::st
 
 // --- pickles ------------------------------------------------------------------------------------------------------
 
-/// The kind of the points, and all that there is of it.
+/// The kind of the points, with all its data.
 struct PointsToPython {
   py::tuple operator()(const io::PlanePoints& p) const { return py::make_tuple("plane", p.z); }
   py::tuple operator()(const io::PeriodicPoints& p) const {
@@ -317,7 +318,7 @@ io::PointsIn points_in_from(const py::tuple& t) {
   return io::MappedPoints{std::move(map), number(7)};
 }
 
-/// The file behind a mesh as it was read, and which of its points the vertices are; None where no file is behind it.
+/// The original file of a mesh, and the points that are its vertices; None for a mesh without a file.
 py::object source_as_dict(const PyMesh& self) {
   if (!self.source()) return py::none();
   const auto& [file, loaded] = *self.source();

@@ -1,4 +1,4 @@
-// Meshes that are made: of points, and the examples. See generate.hpp.
+// Generated meshes: triangulations of points, and the examples. See generate.hpp.
 #include "bind.hpp"
 #include "temper/generate.hpp"
 

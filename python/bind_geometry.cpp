@@ -1,4 +1,4 @@
-// Predicates and constructions, over arrays: geometry.hpp, and the maps of projection.hpp.
+// Predicates and constructions over arrays (geometry.hpp), and the maps of projection.hpp.
 #include <tuple>
 
 #include "bind.hpp"
@@ -20,7 +20,7 @@ std::array<Points, n> same_length(const std::array<Doubles, n>& arrays) {
   return points;
 }
 
-/// An array of f(a_i, b_i, …), whose values are one Value or several.
+/// An array of f(a_i, b_i, …). A result of f is one Value or several.
 template <class Value, std::size_t n, class F>
 py::array over(const std::array<Doubles, n>& arrays, const F& f) {
   const std::array<Points, n> points = same_length(arrays);
@@ -33,7 +33,7 @@ py::array over(const std::array<Doubles, n>& arrays, const F& f) {
   return result;
 }
 
-/// f(a_i, b_i, …) for points of the plane, or for weighted vectors of the sphere.
+/// Calls f(a_i, b_i, …) for points of the plane, or for weighted vectors of the sphere.
 template <class Value, std::size_t n, class F>
 py::array in_space(bool sphere, const std::array<Doubles, n>& arrays, const F& f) {
   if (sphere) {
@@ -50,7 +50,7 @@ std::int8_t as_number(Sign sign) { return static_cast<std::int8_t>(sign); }
 
 void bind_predicates(py::module_& m) {
   m.def("orientation", [](const Doubles& a, const Doubles& b, const Doubles& c, bool sphere) {
-    // Which sphere it is does not matter.
+    // Any sphere gives the same result.
     const Space space = sphere ? Space::sphere(1) : Space();
     return over<std::int8_t, 3>({a, b, c}, [space](const auto& p, std::size_t i) {
       return as_number(orientation(space, p[0][i], p[1][i], p[2][i]));

@@ -1,4 +1,4 @@
-// Bindings of all that only looks at meshes: quality, energy, draw, verify.
+// Bindings of functions that only read meshes: quality, energy, draw, measure_errors.
 #include <utility>
 
 #include "bind.hpp"
@@ -140,7 +140,7 @@ void bind_energy(py::module_& m) {
 
 // --- pictures ---------------------------------------------------------------------------------------------------
 
-/// Takes an option where it is given.
+/// Sets an option if it is given.
 template <class T>
 void take(const py::dict& given, const char* name, T& option) {
   if (given.contains(name)) option = given[name].cast<T>();
@@ -197,7 +197,7 @@ void bind_draw(py::module_& m) {
   });
 }
 
-// --- verify -----------------------------------------------------------------------------------------------------
+// --- measure_errors -------------------------------------------------------------------------------------------------
 
 #ifdef TEMPER_WITH_ERRORS
 

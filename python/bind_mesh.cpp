@@ -1,4 +1,4 @@
-// The mesh: made of arrays, looked at by them, changed by them. See mesh.hpp.
+// The mesh: made from arrays, shown as arrays, changed by arrays. See mesh.hpp.
 #include <algorithm>
 #include <cmath>
 
@@ -52,7 +52,7 @@ py::array vertex_view(const std::shared_ptr<const Mesh>& mesh, py::ssize_t per) 
               keep(mesh));
 }
 
-/// Nobody is to think that writing to a copy changes the mesh.
+/// Copies are read-only, so that nobody expects a write to change the mesh.
 py::array read_only(py::array array) {
   array.attr("setflags")(py::arg("write") = false);
   return array;
@@ -115,7 +115,7 @@ py::array fixed_of(const Mesh& mesh) {
   return array_of<VertexId>(fixed);
 }
 
-/// The edges that `wanted` says, each once, from the halfedge that stands for it.
+/// The edges that `wanted` accepts, each once, from its representative halfedge.
 template <class Wanted>
 py::array edges_of(const Mesh& mesh, const Wanted& wanted) {
   std::vector<std::array<std::int32_t, 2>> edges;
@@ -135,7 +135,7 @@ enum class Assigned { points, weights, weighted_vectors };
   fail(code, "point " + std::to_string(v.index) + ": " + message);
 }
 
-/// The vertex with these numbers of its own instead of those that it had.
+/// The vertex with these numbers instead of its old ones.
 WeightedPoint assigned(const Space& space, VertexId v, const WeightedPoint& former, Assigned what, const double* in) {
   if (what == Assigned::weights) {
     if (space.is_plane()) return {former.x, former.y, in[0]};
@@ -152,7 +152,7 @@ WeightedPoint assigned(const Space& space, VertexId v, const WeightedPoint& form
   return space.vertex_at(p, space.weight(former));
 }
 
-/// Sets all vertices at once; a mesh that is none then is left as it was.
+/// Sets all vertices at once. If the result is no mesh, the mesh is unchanged.
 void set_vertices(PyMesh& self, const Doubles& values, Assigned what) {
   const auto before = self.read();
   const Space& space = before->space();
@@ -288,7 +288,7 @@ void bind_state(py::class_<PyMesh>& type) {
 
 }  // namespace
 
-/// It has no file behind it: what is written of one is where its points were.
+/// The mesh in the metric, without a file. A file would write data at the points of the original mesh.
 std::unique_ptr<PyMesh> map_mesh(const PyMesh& self, const py::object& tensor) {
   const Metric metric = metric_from(tensor);
   const auto mesh = self.read();

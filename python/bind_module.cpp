@@ -1,5 +1,5 @@
-// The compiled half of the Python module: temper._temper. Its functions take and give plain values; signatures,
-// defaults and documentation are those of the Python package around it.
+// The compiled half of the Python module: temper._temper. Its functions take and give plain values. The Python package
+// around it has the signatures, defaults and documentation.
 #include <algorithm>
 #include <atomic>
 
@@ -78,7 +78,7 @@ void PyMesh::set_source(std::shared_ptr<const Source> source, IdVector<VertexId,
 }
 
 std::uint64_t PyMesh::new_version() {
-  static std::atomic<std::uint64_t> last = 0;  // meshes are made without the GIL, too
+  static std::atomic<std::uint64_t> last = 0;  // meshes are also made without the GIL
   return ++last;
 }
 
@@ -109,7 +109,7 @@ IdVector<VertexId, VertexId> PyMesh::origin() const {
   return origin;
 }
 
-/// Numbers in the former state become numbers in the source.
+/// Converts numbers in the former state to numbers in the source.
 void PyMesh::compose(const IdVector<VertexId, VertexId>& vertices) {
   if (vertices.empty() || !source_) return;
   const std::size_t known = origin_.empty() ? n_vertices_of_source() : origin_.size();
@@ -156,7 +156,7 @@ std::unique_ptr<Executor> make_threads([[maybe_unused]] const std::optional<std:
 
 bool Visitor::check_signals() {
   if (stopped()) return false;
-  constexpr std::chrono::milliseconds kInterval(20);  // nobody notices, and the GIL costs nothing
+  constexpr std::chrono::milliseconds kInterval(20);  // nobody notices it, and the GIL costs nothing
   const auto now = std::chrono::steady_clock::now();
   if (now - last_ < kInterval) return true;
   last_ = now;
@@ -239,7 +239,8 @@ HalfedgeId halfedge_id(const Mesh& mesh, std::int64_t index) {
 namespace temper::python {
 namespace {
 
-/// NumPy 2 lays types out in another way, which pybind11 knows from 2.12 on: arrays would silently be of zeros.
+/// NumPy 2 has another memory layout of types, which pybind11 supports from 2.12 on. Before, arrays would silently be
+/// zeros.
 constexpr bool kKnowsNumPy2 = PYBIND11_VERSION_HEX >= 0x020C0000;
 
 void refuse_unknown_numpy() {

@@ -1,4 +1,4 @@
-// Bindings of optimize and replay: options, who listens, the mesh in place whatever ended the run.
+// Bindings of optimize and replay: options and listeners. The mesh gets its new state, whatever ended the run.
 #include <cstdlib>
 #include <string>
 
@@ -17,7 +17,7 @@ namespace {
 
 class PythonCommunicator final : public Communicator {
  public:
-  /// `communicator` has what mpi4py's Comm has: Get_size, Get_rank, bcast, Bcast and Abort.
+  /// Uses an mpi4py Comm `communicator`: Get_size, Get_rank, bcast, Bcast and Abort.
   explicit PythonCommunicator(const py::object& communicator)
       : communicator_(communicator),
         size_(communicator.attr("Get_size")().cast<std::size_t>()),
@@ -26,7 +26,7 @@ class PythonCommunicator final : public Communicator {
   [[nodiscard]] std::size_t size() const override { return size_; }
   [[nodiscard]] std::size_t rank() const override { return rank_; }
 
-  /// What fails here leaves the other ranks waiting, and cannot be raised through the library: it ends them all.
+  /// If this fails, the other ranks would wait forever, and the library cannot pass exceptions. So it ends all ranks.
   void broadcast(std::string& bytes, std::size_t from) override {
     const py::gil_scoped_acquire gil;
     try {
@@ -44,7 +44,7 @@ class PythonCommunicator final : public Communicator {
   [[noreturn]] void end_all() const {
     try {
       communicator_.attr("Abort")(1);
-    } catch (...) {  // this process ends, and MPI the others
+    } catch (...) {  // this process ends, and MPI ends the others
     }
     std::abort();
   }
@@ -121,15 +121,15 @@ std::optional<SizeField> size_field_from(const py::object& field) {
   return field.cast<SizeField>();
 }
 
-/// What a run of Python's works with, besides mesh and options. Each may be None.
+/// The inputs of a run from Python, besides mesh and options. Each may be None.
 struct RunArguments {
   py::object size_field, threads;
   Callbacks callbacks;
-  py::object tensor;        ///< kxx, kxy, kyy
-  py::object communicator;  ///< a communicator of mpi4py
+  py::object tensor;        ///< Tensor kxx, kxy, kyy
+  py::object communicator;  ///< Communicator of mpi4py
 };
 
-/// The mesh takes its new state whatever ended the run; what Python raised on the way is raised after that.
+/// The mesh gets its new state, whatever ended the run. Exceptions of Python callbacks are raised after that.
 py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& arguments) {
   OptimizeOptions options = options_from(given);
   options.size_field = size_field_from(arguments.size_field);
@@ -140,7 +140,7 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
   const Observer observer = observer_of(visitor, arguments.callbacks.observer);
   OptimizeHooks hooks;
   hooks.observer = observer;
-  hooks.exclusive = true;  // the copy that becomes the mesh
+  hooks.exclusive = true;  // this copy becomes the mesh
   hooks.solvers = solvers();
   std::optional<PythonCommunicator> communicator;
   if (!arguments.communicator.is_none()) hooks.communicator = &communicator.emplace(arguments.communicator);

@@ -1,4 +1,4 @@
-// Weights by linear programming, certificates, and reasons: feasibility.hpp, connectivity.hpp, necessity.hpp,
+// Weights by linear programming, certificates, and reasons: feasibility.hpp, connectivity.hpp, necessity.hpp and
 // explain.hpp.
 #include "bind.hpp"
 #include "temper/detail/connectivity.hpp"
@@ -47,7 +47,7 @@ Certificate certificate_from(const py::dict& d) {
   return certificate;
 }
 
-/// Edges by their vertices; none: all.
+/// Edges by their vertices; empty: all.
 std::vector<HalfedgeId> prescribed(const Mesh& mesh, const py::object& edges) {
   std::vector<HalfedgeId> halfedges;
   if (edges.is_none()) return halfedges;

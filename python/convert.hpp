@@ -1,6 +1,6 @@
-// Between C++ values and Python's: arrays without copies where memory layout allows, enums as their C++ names, structs
-// as dictionaries that the Python package turns into dataclasses. Little of pybind11's own machinery, which is slow to
-// compile: every enum is a list of names, every struct a few lines.
+// Conversions between C++ values and Python values. Arrays are not copied if the memory layout allows it. Enums are
+// their C++ names. Structs become dictionaries, which the Python package turns into dataclasses. The code uses little
+// of pybind11's own machinery, which is slow to compile: every enum is a list of names, every struct a few lines.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -51,8 +51,8 @@ using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Int32s = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
 using Int64s = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 
-/// The values of an array whose last dimension is that of T, without a copy. The Python package sees to shapes; what
-/// comes here wrong is refused all the same.
+/// The values of an array whose last dimension is the dimension of T, without a copy. The Python package checks shapes;
+/// wrong shapes are refused here too.
 template <class T, class Array>
 std::span<const T> as_span(const Array& array) {
   using Value = typename Array::value_type;
@@ -63,8 +63,8 @@ std::span<const T> as_span(const Array& array) {
   return {reinterpret_cast<const T*>(array.data()), size / per};
 }
 
-/// Vertex numbers of 64 bits as the 32 bits of the library. Those that do not fit are of no vertex; the others are
-/// checked by whoever knows how many there are.
+/// Vertex numbers of 64 bits as the 32 bits of the library. A number that does not fit is an error. Callers check
+/// the others against the number of vertices.
 template <std::size_t n>
 std::vector<std::array<std::int32_t, n>> narrow(const Int64s& array, const char* kind) {
   const auto wide = as_span<std::array<std::int64_t, n>>(array);
@@ -85,7 +85,7 @@ using Shape = std::vector<py::ssize_t>;
 /// A read-only array on memory that `owner` keeps.
 py::array view(const py::dtype& type, Shape shape, Shape strides, const void* data, const py::object& owner);
 
-/// A capsule that keeps a value for views of it.
+/// A capsule that keeps a value alive for views on it.
 template <class T>
 py::capsule keep(T value) {
   auto owned = std::make_unique<T>(std::move(value));
@@ -94,7 +94,7 @@ py::capsule keep(T value) {
   return capsule;
 }
 
-/// Ids lie in memory as 32-bit numbers; an invalid one reads −1.
+/// Ids as 32-bit numbers in memory; an invalid id is −1.
 template <class T>
 py::dtype dtype_of() {
   if constexpr (std::is_same_v<T, VertexId> || std::is_same_v<T, TriangleId> || std::is_same_v<T, HalfedgeId>) {
@@ -178,7 +178,7 @@ struct Record {
   }
 };
 
-/// Numbers of Python's as ids; a negative one is invalid.
+/// Numbers from Python as ids; a negative number is invalid.
 template <class T, std::size_t n>
 std::array<T, n> ids_from(const py::handle& sequence) {
   const auto items = sequence.cast<py::sequence>();
@@ -193,7 +193,7 @@ std::array<T, n> ids_from(const py::handle& sequence) {
 
 // --- enums: their names in the order of their values -----------------------------------------------------
 
-/// The number of `text` among the names, or an error that lists them.
+/// The index of `text` in the names, or an error that lists them.
 std::size_t choose(std::string_view option, std::string_view text, std::span<const std::string_view> names);
 
 template <class Enum>
@@ -216,7 +216,7 @@ Enum from_name(std::string_view option, std::string_view text) {
 
 LengthParameter length_parameter_from(const py::handle& value);
 
-/// A text of the library with its options as Python's users write them.
+/// Spells the options in a text of the library as Python users do.
 std::string spelled(std::string_view text);
 
 }  // namespace temper::python

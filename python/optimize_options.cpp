@@ -3,7 +3,7 @@
 namespace temper::python {
 namespace {
 
-/// Choices that are numbers to Python's users: star=1.
+/// Choices that are numbers for Python users: star=1.
 bool is_number(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
@@ -30,7 +30,7 @@ py::object value_to_python(const OptionValue& value) {
       value);
 }
 
-/// Throws py::cast_error when the type is wrong. `text` keeps the name of a choice.
+/// Throws py::cast_error if the type is wrong. `text` keeps the name of a choice.
 OptionValue value_from_python(const OptionRow& row, const py::handle& value, std::string& text) {
   if (value.is_none()) return {};
   switch (row.kind) {

@@ -1,4 +1,4 @@
-// OptimizeOptions from and to dictionaries of Python's, by the library's table of options.
+// Conversion of OptimizeOptions from and to Python dictionaries, by the library's table of options.
 #pragma once
 
 #include "convert.hpp"
@@ -8,12 +8,12 @@ TEMPER_PYTHON_NAMES(temper::HiddenPolicy, "undo", "remove", "keep");
 
 namespace temper::python {
 
-/// The options, with those that the dictionary names.
+/// The options, with changes from the dictionary.
 OptimizeOptions options_from(const py::dict& dict);
 py::dict options_to_dict(const OptimizeOptions& options);
-/// One dictionary a row.
+/// One dictionary per row.
 py::list option_table();
-/// Of the options named, those that are not as usual and have no effect, in sentences.
+/// Sentences about the named options that differ from the default and have no effect.
 py::list idle_options(const py::dict& options, const py::list& names);
 
 py::dict report_to_dict(const OptimizeReport& report);

@@ -1,5 +1,6 @@
 #!python
-"""The script `temper` of a wheel: becomes the program in the package, which is not imported, so that it starts at once."""
+"""The script `temper` of a wheel: becomes the program in the package without importing the package, so that it starts
+fast."""
 
 import importlib.util
 import os

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes what type checkers see of the options: write_stubs.py FOLDER, where the compiled module was built.
+"""Usage: write_stubs.py FOLDER. It writes the stub of the options for type checkers. FOLDER has the compiled module.
 
-The module itself has the table; NumPy, and the package around it, need not be there.
+The module itself has the table. NumPy and the package are not needed.
 """
 import pathlib
 import sys

@@ -35,7 +35,7 @@ def vertex_centered(mesh):
 def cell_centered(mesh):
     """u at the orthocenters."""
     c = temper.dec_operators(mesh)
-    d1, flux = c.d1.tocsr(), np.asarray(c.flux)
+    d1, flux = c.d1.tocsr(), np.asarray(c.transmissibility)
     on_boundary = np.where(c.edges.is_boundary, exact(np.asarray(c.edges.midpoint)), 0)
     matrix = d1 @ sparse.diags(flux) @ d1.T
     # Of each boundary edge the value beyond it is given; its triangle sees it with the sign of the edge squared: 1.
@@ -50,7 +50,7 @@ def relative(error, measure, values):
 mesh = temper.generate.annulus(around=96, rings=12)
 temper.optimize(mesh)
 operators = temper.dec_operators(mesh)
-assert (operators.star1 > 0).all() and (operators.flux > 0).all()  # well-centered: both matrices are M-matrices
+assert (operators.star1 > 0).all() and (operators.transmissibility > 0).all()  # well-centered: both matrices are M-matrices
 
 at_vertices = exact(np.asarray(mesh.points))
 at_centers = exact(np.asarray(operators.orthocenters))

@@ -39,13 +39,13 @@ for side in range(2):
     half[side, there] = edges.length[there] / np.linalg.norm(vector, axis=1)
 inner = ~edges.is_boundary
 harmonic = 1 / (1 / half[0, inner] + 1 / half[1, inner])
-assert np.allclose(harmonic, operators.flux[inner], rtol=1e-10)  # what Tpfa computes is temper's flux
+assert np.allclose(harmonic, operators.transmissibility[inner], rtol=1e-10)  # what Tpfa computes is temper's flux
 
 # A linear pressure is exact.
 pressure_at = lambda p: 3 * p[0] - 2 * p[1]  # noqa: E731: a formula
 d1 = operators.d1.tocsr()
 given = np.where(edges.is_boundary, pressure_at(faces), 0)
-pressure = spsolve((d1 @ sparse.diags(operators.flux) @ d1.T).tocsc(), abs(d1) @ (operators.flux * given))
+pressure = spsolve((d1 @ sparse.diags(operators.transmissibility) @ d1.T).tocsc(), abs(d1) @ (operators.transmissibility * given))
 error = np.abs(pressure - pressure_at(cells)).max()
 print(f"linear pressure by two-point fluxes: largest error {error:.1e}")
 assert error < 1e-11

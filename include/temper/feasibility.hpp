@@ -1,14 +1,19 @@
-// Weights alone: can a mesh become well-centered when neither its positions nor its connectivity may change?
+// Weights alone: can a mesh become well-centered if neither its positions nor its connectivity may change?
 //
-// For fixed positions and connectivity every h/ℓ and d/ℓ is linear in the weights, so that "all h ≥ tℓ and all
-// tℓ ≤ d ≤ (1 − t)ℓ" is a linear program; so is "all h ≥ tℓ" alone, and "these edges have dual lengths ≥ tℓ". It
-// finds the best margin t, the least change of weights that attains a given margin, or the least violation; and when no
-// weights exist it says why, with a certificate that exact arithmetic verifies without any linear programming. Solvers
-// come through one small interface (temper/detail/lp.hpp has Clp). Over connectivities: temper/detail/connectivity.hpp.
+// For fixed positions and connectivity every h/ℓ and d/ℓ is linear in the weights. So these conditions are linear
+// programs:
+//   - all h ≥ tℓ and all tℓ ≤ d ≤ (1 − t)ℓ
+//   - all h ≥ tℓ
+//   - the dual lengths of given edges ≥ tℓ
 //
-// On the sphere all this is linear in σ = R/|P|, up to a factor of all σ (docs/sphere.md). Its h/ℓ and d/ℓ are ratios
-// of functions linear in σ that have the signs of h and d, do not change with that factor, and differ from the arcs' by
-// a part of (ℓ/R)².
+// A linear program finds the best margin t, the least change of weights for a given margin, or the least violation. If
+// no weights exist, a certificate proves it. Exact arithmetic verifies the certificate without linear programming.
+// Solvers have one small interface; temper/detail/lp.hpp has Clp. temper/detail/connectivity.hpp searches over
+// connectivities.
+//
+// On the sphere these conditions are linear in σ = R/|P|. A common factor of all σ changes nothing (docs/sphere.md).
+// There h/ℓ and d/ℓ are ratios of linear functions of σ. They have the signs of h and d, and differ from the values
+// along arcs by a relative error of order (ℓ/R)².
 #pragma once
 
 #include <cstddef>
@@ -27,7 +32,8 @@ namespace temper {
 
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// Minimize cost · x with lower ≤ x ≤ upper for columns, and lower ≤ A x ≤ upper for rows; A by rows, compressed.
+/// A linear program: minimize cost · x with lower ≤ x ≤ upper for columns and lower ≤ A x ≤ upper for rows. A is stored
+/// by rows, compressed.
 struct LpProblem {
   std::vector<double> cost, column_lower, column_upper;
   std::vector<double> row_lower, row_upper;
@@ -41,19 +47,19 @@ struct LpProblem {
 
 enum class LpStatus {
   optimal,
-  infeasible,  ///< no x keeps all bounds
+  infeasible,  ///< No x satisfies all bounds
   unbounded,
-  failed,  ///< the solver gave up
+  failed,  ///< The solver gave up
 };
 
 struct LpSolution {
   LpStatus status = LpStatus::failed;
-  std::vector<double> primal;  ///< x, when optimal
-  std::vector<double> dual;    ///< a multiplier a row, when optimal: how much the cost grows with the row's bound
+  std::vector<double> primal;  ///< Values of x, when optimal
+  std::vector<double> dual;    ///< One multiplier per row, when optimal: how fast the cost grows with the row's bound
   double objective = 0;
 };
 
-/// Whoever solves linear programs: once, with no memory of the last.
+/// The interface of solvers of linear programs. Each call is independent of the calls before.
 class LpSolver {
  public:
   virtual ~LpSolver() = default;
@@ -62,50 +68,52 @@ class LpSolver {
 
 // --- constraints ---------------------------------------------------------------------------------------
 
-/// The inequalities that count.
+/// The inequalities to satisfy.
 enum class Constraints {
-  well_centered,  ///< heights and crossings
-  heights_only,   ///< orthocenters inside their triangles; dual edges need not cross their own edges
-  regular,        ///< dual lengths of edges inside the mesh: of all of them, or of those prescribed
+  well_centered,  ///< Heights and crossings
+  heights_only,   ///< Orthocenters inside their triangles; dual edges need not cross their own edges
+  regular,        ///< Dual lengths of interior edges: all of them, or the prescribed ones
 };
 
 /// A row of the table of constraints.
 struct ConstraintsInfo {
   Constraints constraints;
   std::string_view name;     ///< "well_centered", …: stable across versions
-  std::string_view keeps;    ///< the inequalities for a margin t
-  std::string_view success;  ///< "weights make every triangle well-centered", a sentence of what was found
-  std::string_view failure;  ///< "no weights make every triangle well-centered"
+  std::string_view keeps;    ///< The inequalities for a margin t
+  std::string_view success;  ///< Sentence about success: "weights make every triangle well-centered"
+  std::string_view failure;  ///< Sentence about failure: "no weights make every triangle well-centered"
 };
-/// One row for each of Constraints, in their order.
+/// One row for each of Constraints, in the same order.
 [[nodiscard]] std::span<const ConstraintsInfo> constraints_table();
 [[nodiscard]] std::string_view name(Constraints constraints);
 
 // --- certificates -------------------------------------------------------------------------------------
 
-/// One inequality of some constraints.
+/// One inequality of the constraints.
 struct WeightConstraint {
   enum class Kind {
-    height,    ///< h over edge pq of the triangle pqr, counter-clockwise
-    crossing,  ///< d from p towards q, for any edge pq
-    dual,      ///< dual length of pq: h over it in the triangle pqr and in qps, both counter-clockwise
+    height,    ///< Height h over edge pq of the triangle pqr, counter-clockwise
+    crossing,  ///< Crossing d from p towards q, for any edge pq
+    dual,      ///< Dual length of pq: the sum of h over pq in the triangles pqr and qps, both counter-clockwise
   };
   Kind kind = Kind::height;
-  VertexId p, q, r;  ///< r is invalid for a crossing
-  VertexId s = {};   ///< of a dual only
+  VertexId p, q, r;  ///< Vertices; r is invalid for a crossing
+  VertexId s = {};   ///< Only for a dual
 
   friend bool operator==(const WeightConstraint&, const WeightConstraint&) = default;
 };
 /// "height", "crossing", "dual".
 [[nodiscard]] std::string_view name(WeightConstraint::Kind kind);
 
-/// Certificates of `regular` speak of weights that differ by less than this many ℓ² along the edges of their triangles.
-/// (The other constraints bound these differences themselves.) With greater ones h would have lost 20 of its 53 bits.
+/// Reach of certificates of `regular`: they assume that weights differ by less than this many ℓ² along the edges of
+/// their triangles. (The other constraints bound these differences themselves.) With larger differences h would lose 20
+/// of its 53 bits.
 inline constexpr double kWeightReach = 0x1p20;
-/// … and of margins no greater than this one: with w = |x|² − z all dual lengths are linear in z, so that who attains
-/// one margin attains any.
+/// Margin that certificates of `regular` refute in the plane. With w = |x|² − z all dual lengths are linear in z, so
+/// weights that attain one positive margin can be scaled to attain any.
 inline constexpr double kRefutedDual = 0x1p-10;
-/// On the sphere they do not: there margins above this one are refuted, what check_certificate has bits for.
+/// Least margin that certificates of `regular` refute on the sphere, where weights cannot be scaled this way.
+/// check_certificate has enough bits for this margin.
 inline constexpr double kLeastRefutedDual = 0x1p-20;
 
 /// A proof that no weights exist (Farkas). Each constraint c is a polynomial N_c > margin · M_c, linear in the weights:
@@ -114,25 +122,25 @@ inline constexpr double kLeastRefutedDual = 0x1p-20;
 ///   crossing   N = ℓ² + w_p − w_q                                = 2 d ℓ,                 M = 2 ℓ²
 ///   dual    N = λ_q (r × s) + λ_r (s × q) + λ_s (q × r)       = 2 (h_r + h_s) S T / ℓ, M = 2 S T
 ///
-/// with D_p = (q − p)·(r − p) and so on, and S twice the area of pqr; for a dual p is the origin, λ_v = |v|² − w_v +
-/// w_p, and T twice the area of qps. A sum of the constraints with multipliers ≥ 0 in which the weights cancel and the
-/// rest is ≤ 0 contradicts itself.
+/// with D_p = (q − p)·(r − p) and so on, and S twice the area of pqr. For a dual, p is the origin, λ_v = |v|² − w_v +
+/// w_p, and T is twice the area of qps. The proof is a sum of the constraints with multipliers ≥ 0. If the weights
+/// cancel in it and the rest is ≤ 0, it is a contradiction.
 ///
-/// On the sphere N and M are linear in σ, and N > margin · M (σ_p + σ_q)/2, with p, q, r the places and M a double:
+/// On the sphere N and M are linear in σ: N > margin · M (σ_p + σ_q)/2. Here p, q, r are the places and M is a double:
 ///
 ///   height  N = (p×q)·(q×r) σ_p + (p×q)·(r×p) σ_q + |p×q|² σ_r,      M = |p×q|² det(p, q, r)/R³
 ///   crossing   N = |p|² σ_q − p·q σ_p,                                  M = |p − q|²
 ///   dual    N = det(p, q, r) σ_s + det(q, p, s) σ_r + …,             M = det(p, q, r) det(q, p, s)/R³
 ///
-/// N of a dual is the determinant of the four (p, σ_p). A sum in which no σ has a coefficient above 0 contradicts
-/// itself.
+/// For a dual, N is the determinant of the four (p, σ_p). A sum in which no σ has a positive coefficient is a
+/// contradiction.
 struct Certificate {
   struct Term {
     WeightConstraint constraint;
     double multiplier = 0;
     friend bool operator==(const Term&, const Term&) = default;
   };
-  double margin = 0;  ///< refuted: no weights keep the constraints with more than this margin
+  double margin = 0;  ///< Refuted margin: no weights keep the constraints with more than this margin
   std::vector<Term> terms;
   Constraints constraints = Constraints::well_centered;
   friend bool operator==(const Certificate&, const Certificate&) = default;
@@ -140,51 +148,59 @@ struct Certificate {
 
 /// The verdicts of check_certificate.
 enum class CertificateCheck {
-  proves,            ///< no weights exist
-  proves_nothing,    ///< the sum is not a contradiction
-  not_of_this_mesh,  ///< a constraint of a triangle or an edge that the mesh does not have, or not of the constraints
-  bad_multiplier,    ///< not finite, negative, all of them zero, or a margin outside [0, 1/2)
-  out_of_range,      ///< numbers so far apart that exact arithmetic could underflow
+  proves,            ///< No weights exist
+  proves_nothing,    ///< The sum is not a contradiction
+  not_of_this_mesh,  ///< A triangle or an edge of a constraint is not in the mesh, or the kind of constraint is not one
+                     ///< of these constraints
+  bad_multiplier,  ///< A multiplier is not finite or negative, all of them are zero, or the margin is outside [0, 1/2)
+  out_of_range,    ///< Numbers are so far apart that exact arithmetic could underflow
 };
 [[nodiscard]] std::string_view name(CertificateCheck check);
 
-/// Verifies a certificate in exact arithmetic, from the positions alone. Multipliers are doubles, so the weights need
-/// not cancel quite: what is left of each is bounded by how much weights can differ. Along an edge pq of a triangle pqr
-/// that is |w_p − w_q| < ℓ² when the constraints have crossings; the greater of ℓ² and ||r − p|² − |r − q|²| when they
-/// have heights alone (the orthocenter is in the triangle, and both distances are squares minus weights); kWeightReach
-/// ℓ², without a reason, when they are dual lengths. On the sphere the bounds are of σ_q/σ_p: p·q/|p|² and |q|²/p·q
-/// when the constraints have crossings, and q·r/p·r when they have heights alone; of dual lengths |σ_q/σ_p − 1| < the
-/// lesser of 1 and kWeightReach (|q|²/p·q − 1). About O(n) for n terms, with a large factor.
+/// Verifies a certificate in exact arithmetic, from the positions alone. About O(n) for n terms, with a large factor.
+///
+/// Multipliers are doubles, so the weights cancel only nearly. The rest is bounded by how much weights can differ along
+/// an edge pq of a triangle pqr:
+///   - with crossings: |w_p − w_q| < ℓ²
+///   - with heights alone: the greater of ℓ² and ||r − p|² − |r − q|²|, because the orthocenter is in the triangle and
+///     both distances are squares minus weights
+///   - with dual lengths: kWeightReach ℓ², an assumption
+///
+/// On the sphere σ_q/σ_p is bounded:
+///   - with crossings: by p·q/|p|² and |q|²/p·q
+///   - with heights alone: by q·r/p·r
+///   - with dual lengths: |σ_q/σ_p − 1| < the lesser of 1 and kWeightReach (|q|²/p·q − 1)
 [[nodiscard]] CertificateCheck check_certificate(const Mesh& mesh, const Certificate& certificate);
 
 // --- margins ------------------------------------------------------------------------------------------
 
-/// `regular`: in the plane any margin can be attained when one can, and this is what programs stop at. Its best
-/// margin is this or 0; on the sphere one that is attained, above zero when any is.
+/// The margin at which linear programs for `regular` stop. In the plane any margin can be attained if one can, so the
+/// best margin is this value or 0. On the sphere it is an attained margin, above zero if any is.
 inline constexpr double kMostMargin = 0.5;
 
-/// The least h/ℓ, d/ℓ, 1 − d/ℓ or dual length/ℓ that the constraints have, of the mesh's own weights, in doubles;
-/// kUnbounded when they have none. `edges`: of `regular`, by either of their halfedges; none: all. Those on the
-/// boundary are regular whatever the weights. O(n).
+/// The margin of the mesh's own weights, in doubles: the least h/ℓ, d/ℓ, 1 − d/ℓ or dual length/ℓ that the constraints
+/// have. kUnbounded if they have none. `edges` selects edges of `regular`, each by either halfedge; empty: all.
+/// Boundary edges are always regular. O(n).
 [[nodiscard]] double weight_margin(const Mesh& mesh, Constraints constraints = Constraints::well_centered,
                                    std::span<const HalfedgeId> edges = {});
 
 struct BestMargin {
   LpStatus status = LpStatus::failed;
-  double margin = 0;                    ///< t*: the largest margin that any weights attain; negative: none are good
-  std::vector<WeightConstraint> tight;  ///< the constraints that keep it from being larger
-  Certificate certificate;         ///< refutes margin 0, of `regular` kRefutedDual; no terms unless t* ≤ 0 and the
-                                   ///< checker agrees
-  std::vector<VertexId> vertices;  ///< of the triangles asked about
-  std::vector<double> weights;     ///< of these vertices, with margin t*: for proofs, not for meshes (see below)
+  double margin = 0;  ///< Largest margin t* that any weights attain; negative: no weights satisfy the constraints
+  std::vector<WeightConstraint> tight;  ///< Constraints that keep the margin from being larger
+  Certificate certificate;  ///< Refutation of margin 0, for `regular` of kRefutedDual. It has terms only if t* ≤ 0 and
+                            ///< the checker agrees
+  std::vector<VertexId> vertices;  ///< Vertices of the selected triangles
+  std::vector<double> weights;     ///< Weights of these vertices with margin t*: for proofs, not for meshes (see below)
 };
 
-/// The best margin of some triangles, the rest of the mesh being left out: an upper bound for any set that has them.
-/// The largest margin makes a worse mesh than a small one: weights go far for its sake.
+/// Returns the best margin of the selected triangles, without the rest of the mesh. It is an upper bound for any larger
+/// set of triangles. Do not use its weights for meshes: they become extreme to gain the last bit of margin, and the
+/// mesh is worse than with a small margin.
 [[nodiscard]] BestMargin best_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver,
                                      Constraints constraints = Constraints::well_centered,
                                      std::span<const HalfedgeId> edges = {});
-/// The best margin of the whole mesh: the least of its components.
+/// Returns the best margin of the whole mesh: the least over its components.
 [[nodiscard]] BestMargin best_margin(const Mesh& mesh, LpSolver& solver,
                                      Constraints constraints = Constraints::well_centered,
                                      std::span<const HalfedgeId> edges = {});
@@ -192,71 +208,72 @@ struct BestMargin {
 // --- weights ------------------------------------------------------------------------------------------
 
 enum class WeightGoal {
-  feasible,  ///< the best margin, and the least change for the margin asked for, or for half of the best one
-  minimal,   ///< the least change for the margin asked for
-  elastic,   ///< the least violation of the margin asked for, and then the least change
+  feasible,  ///< Best margin, and the least change for the requested margin or for half of the best one
+  minimal,   ///< Least change for the requested margin
+  elastic,   ///< Least violation of the requested margin, then the least change
 };
 
 struct WeightOptions {
   WeightGoal goal = WeightGoal::minimal;
-  double margin = 0.01;     ///< t, in [0, 1/2)
-  bool from_input = false;  ///< change is measured from the mesh's weights; else from zero
-  /// Components of at most this many triangles are one linear program. Larger ones are solved around their bad
-  /// triangles only, in neighborhoods that grow until everything outside can stay as it is.
+  double margin = 0.01;     ///< Requested margin t, in [0, 1/2)
+  bool from_input = false;  ///< Measure change from the mesh's weights; else from zero
+  /// Components of at most this many triangles are one linear program. In larger components only the neighborhoods of
+  /// bad triangles are solved. They grow until everything outside can stay as it is.
   std::size_t whole = 3000;
-  int rings = 2;  ///< of vertices around bad triangles, at first
+  int rings = 2;  ///< Number of rings of vertices around bad triangles, at first
   Constraints constraints = Constraints::well_centered;
-  std::vector<HalfedgeId> edges = {};  ///< of `regular`: those prescribed, by either of their halfedges; none: all
+  std::vector<HalfedgeId> edges = {};  ///< Prescribed edges of `regular`, each by either halfedge; empty: all
 };
 
 enum class Feasibility {
-  feasible,    ///< the weights found keep the constraints, by exact predicates
-  infeasible,  ///< no weights do, by a certificate that the exact checker accepts
-  undecided,   ///< the best margin is zero up to rounding, or the solver failed
+  feasible,    ///< The weights satisfy the constraints, by exact predicates
+  infeasible,  ///< No weights exist: the exact checker accepts a certificate
+  undecided,   ///< The best margin is zero up to rounding, or the solver failed
 };
 [[nodiscard]] std::string_view name(Feasibility verdict);
 
-/// The meaning of a margin that is reported as the best of the mesh.
+/// The meaning of the reported best margin of the mesh.
 enum class MarginKind {
-  exact,     ///< up to rounding
-  at_least,  ///< attained; more was not tried
-  at_most,   ///< of the worst neighborhood
+  exact,     ///< The margin is the best one, up to rounding
+  at_least,  ///< The margin is attained; larger ones were not tried
+  at_most,   ///< The margin is the best one of the worst neighborhood
 };
 [[nodiscard]] std::string_view name(MarginKind is);
 
-/// A constraint that elastic weights do not keep.
+/// A constraint that elastic weights violate.
 struct Violation {
   WeightConstraint constraint;
-  double value = 0;      ///< h/ℓ, d/ℓ or dual length/ℓ that the weights give
-  double shortfall = 0;  ///< of the margin asked for
-  double angle_deg = 0;  ///< height: of the triangle at r, across from the edge
+  double value = 0;      ///< Value of h/ℓ, d/ℓ or dual length/ℓ with the weights
+  double shortfall = 0;  ///< Difference to the requested margin
+  double angle_deg = 0;  ///< For a height: angle of the triangle at r, opposite the edge
 };
 
 struct WeightReport {
   Feasibility verdict = Feasibility::undecided;
-  double margin = 0;  ///< best margin
+  double margin = 0;  ///< Best margin
   MarginKind margin_kind = MarginKind::at_least;
-  bool solved = false;                 ///< `weights` are an answer to what was asked
-  double asked = 0;                    ///< margin that the weights were made for
-  double attained = 0;                 ///< margin that they have: weight_margin
-  std::size_t moved = 0;               ///< weights that differ from where change is measured from
-  double change = 0;                   ///< weight_change [length]
-  std::size_t programs = 0;            ///< regions, each with a linear program of its own
-  std::size_t largest = 0;             ///< triangles of the largest one
-  IdVector<VertexId, double> weights;  ///< one a vertex of the mesh
-  std::vector<Violation> violations;   ///< elastic: worst first
-  /// Refutes margin 0 (of `regular`: kRefutedDual, or what was asked for when that is less; kLeastRefutedDual on the
-  /// sphere) when infeasible, or the
-  /// margin asked for when only that cannot be had. May have no terms.
+  bool solved = false;                 ///< `weights` satisfy the request
+  double asked = 0;                    ///< Margin that the weights were made for
+  double attained = 0;                 ///< Margin that the weights have: weight_margin
+  std::size_t moved = 0;               ///< Number of weights that differ from the reference (`from_input`)
+  double change = 0;                   ///< Value of weight_change [length]
+  std::size_t programs = 0;            ///< Number of regions, each with its own linear program
+  std::size_t largest = 0;             ///< Number of triangles of the largest region
+  IdVector<VertexId, double> weights;  ///< Weight of each vertex of the mesh
+  std::vector<Violation> violations;   ///< Violations of elastic weights, worst first
+  /// Certificate against the margin. It may have no terms. If infeasible, it refutes margin 0. For `regular` it refutes
+  /// kRefutedDual (kLeastRefutedDual on the sphere), or the requested margin if that is less. If only the requested
+  /// margin cannot be attained, it refutes that margin.
   Certificate certificate;
 };
 
-/// Σ over edges |Δw_i − Δw_j| / (2ℓ), of chords on the sphere: how far weighted midpoints are moved, in all.
+/// Σ over edges |Δw_i − Δw_j| / (2ℓ): the total shift of the weighted midpoints. On the sphere ℓ is the length of
+/// chords.
 [[nodiscard]] double weight_change(const Mesh& mesh, const IdVector<VertexId, double>& from,
                                    const IdVector<VertexId, double>& to);
 
-/// Finds weights for a mesh whose positions and connectivity stay. What solvers say is never believed: verdicts rest on
-/// exact predicates and on check_certificate. Errors: a margin out of range, a periodic plane. Precondition: no erased
+/// Finds weights for a mesh with fixed positions and connectivity. The answers of solvers are not trusted: exact
+/// predicates and check_certificate decide. Errors: a margin out of range, a periodic plane. Precondition: no erased
 /// triangles.
 [[nodiscard]] Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver,
                                                   const WeightOptions& options = {});

@@ -1,5 +1,5 @@
-// Example meshes: the paper's, and the classes a mesh method should be tried on. Each is made here, from
-// its parameters and a seed, by a constrained Delaunay triangulation on temper's own predicates.
+// Example meshes: the meshes of the paper, and the classes of meshes on which a method should be tested. Each is made
+// here from its parameters and a seed, by a constrained Delaunay triangulation with temper's own predicates.
 #pragma once
 
 #include <array>
@@ -15,32 +15,35 @@
 
 namespace temper {
 
-/// A closed polygon, counter-clockwise for an outline, either way for a hole.
+/// A closed polygon: counter-clockwise for an outline, in either direction for a hole.
 using Polygon = std::vector<Vec2>;
 
-/// Points and segments to triangulate. Spans are read during the call only.
+/// Points and segments to triangulate. The spans are read only during the call.
 struct DelaunayInput {
   std::span<const Vec2> points;
   /// Constrained edges, 0-based. A segment through other points becomes a chain of edges.
   std::span<const std::array<std::int32_t, 2>> segments = {};
   /// Drop the triangles outside the outermost closed segments, and inside holes (by parity). A segment that encloses
-  /// nothing stays as a constrained edge. false, or no segments at all: the convex hull.
+  /// nothing stays as a constrained edge. If false, or without segments, the result is the convex hull.
   bool carve = true;
-  /// Asked at each point and segment; true ends it with ErrorCode::stopped.
+  /// Function that is called at each point and segment; true ends the call with ErrorCode::stopped.
   std::function<bool()> stop = {};
 };
-/// The constrained Delaunay triangulation, all weights zero. Points keep their numbers, and ties are broken by them, so
-/// that the triangulation depends on points and segments alone. About O(n log n); a million points take 2 seconds.
-/// Errors, by number: fewer than three points, all on one line, not finite, out of the range of exact arithmetic, two
-/// at one place; segments out of range, of no length, crossing, enclosing nothing; points outside; a domain that
-/// touches itself at a point.
+/// Returns the constrained Delaunay triangulation, with all weights zero. Points keep their numbers. Ties are broken by
+/// number, so the result depends on points and segments alone. About O(n log n); a million points take 2 seconds.
+///
+/// Errors, with the number of the element:
+///   - fewer than three points, all points on one line, points not finite or out of the range of exact arithmetic, two
+///     points at one place, points outside
+///   - segments out of range, of zero length, crossing, or enclosing nothing
+///   - a domain that touches itself at a point
 [[nodiscard]] Expected<Mesh> constrained_delaunay(const DelaunayInput& input);
 
 /// The paper's sparse horseshoe (fig. 11 left): 5 vertices, 4 triangles.
 [[nodiscard]] Mesh sparse_horseshoe();
 
-/// The parameterized horseshoe (§6.5): na × nb points, x and y the semi-axes at b = 0 and 1.
-/// Constrained Delaunay of the points between the two arches.
+/// The parameterized horseshoe (§6.5) with na × nb points. x and y are the semi-axes at b = 0 and 1. It is the
+/// constrained Delaunay triangulation of the points between the two arches.
 struct Horseshoe {
   int a = 7, b = 9;
   std::array<double, 2> x = {1, 2};
@@ -48,37 +51,38 @@ struct Horseshoe {
 };
 [[nodiscard]] Expected<Mesh> horseshoe(const Horseshoe& shape = {});
 
-/// Sides of length a and b from vertex 0, with an angle in degrees between them (§3.1.2, fig. 9).
+/// Triangle with sides of length a and b from vertex 0, and an angle in degrees between them (§3.1.2, fig. 9).
 struct SingleTriangle {
   double a = 0.5, b = 1, angle_deg = 120;
 };
 [[nodiscard]] Expected<Mesh> single_triangle(const SingleTriangle& shape = {});
 
-/// Uniformly random points in a polygon (default: a non-convex L shape with a notch), n vertices in all; the boundary
-/// is divided at the mean spacing and inner points keep half a spacing from it. About half of the triangles are bad.
+/// Uniformly random points in a polygon, n vertices in all. The default polygon is a non-convex L shape with a notch.
+/// The boundary is divided at the mean spacing, and inner points keep half a spacing from it. About half of the
+/// triangles are bad.
 struct RandomMesh {
   std::size_t vertices = 1000;
   std::uint64_t seed = 1;
-  Polygon polygon = {};  ///< empty: the default
+  Polygon polygon = {};  ///< Outline; empty: the default polygon
 };
 [[nodiscard]] Expected<Mesh> random_mesh(const RandomMesh& shape = {});
 
 // --- the whole sphere
 // --------------------------------------------------------------------------------------------------
 
-/// The Delaunay triangulation of points around the sphere, given by their directions: the convex hull of the points at
-/// the radius, all weights zero. Points keep their numbers, and ties are broken by them. About O(n log n).
-/// Errors: a point without direction, two in one direction, points that leave half of the sphere empty.
+/// Returns the Delaunay triangulation of points around the sphere, given by their directions: the convex hull of the
+/// points at the radius. All weights are zero. Points keep their numbers, which also break ties. About O(n log n).
+/// Errors: a point without direction, two points in one direction, points that leave half of the sphere empty.
 [[nodiscard]] Expected<Mesh> spherical_delaunay(std::span<const Vec3> points, double radius = 1);
 
-/// The icosahedron, each triangle cut into four `level` times: 10 · 4^level + 2 vertices.
+/// The icosahedron with each triangle cut into four, `level` times: 10 · 4^level + 2 vertices.
 struct Icosahedral {
   int level = 4;
   double radius = 1;
 };
 [[nodiscard]] Expected<Mesh> icosahedral(const Icosahedral& shape = {});
 
-/// Uniformly random points around the sphere, Delaunay: about half of the triangles are bad.
+/// Delaunay triangulation of uniformly random points around the sphere: about half of the triangles are bad.
 struct RandomSphere {
   std::size_t vertices = 1000;
   std::uint64_t seed = 1;
@@ -86,28 +90,28 @@ struct RandomSphere {
 };
 [[nodiscard]] Expected<Mesh> random_sphere(const RandomSphere& shape = {});
 
-/// Random points around the sphere, Delaunay, whose sizes grow from a place to the opposite one by a ratio. About half
-/// of the triangles are bad.
+/// Delaunay triangulation of random points around the sphere. Their sizes grow from one place to the opposite place by
+/// a ratio. About half of the triangles are bad.
 struct GradedSphere {
   std::size_t vertices = 10000;
-  double ratio = 30;  ///< of the largest size to the least, ≥ 1
-  Vec2 at = {};       ///< of the least: longitude and latitude [degrees]
+  double ratio = 30;  ///< Ratio of the largest size to the least, ≥ 1
+  Vec2 at = {};       ///< Place of the least size: longitude and latitude [degrees]
   std::uint64_t seed = 1;
   double radius = 1;
 };
 [[nodiscard]] Expected<Mesh> graded_sphere(const GradedSphere& shape = {});
-/// The size that its points follow, in a direction from the center: that of equilateral triangles, as many. Its
-/// logarithm is linear in the distance along the axis through the place.
+/// The size that the points follow, in a direction from the center: the edge of equilateral triangles of the same
+/// number. Its logarithm is linear in the coordinate along the axis through the place.
 [[nodiscard]] double graded_sphere_size(const GradedSphere& shape, Vec3 direction);
 
 // --- periodic planes ----------------------------------------------------------------------------------------------
 
-/// The Delaunay triangulation of points in the plane that repeats itself along both axes, all weights zero. Points keep
-/// their numbers. About O(n log n).
-/// Errors: a point that is not finite, two at one place, too few for triangles that fit into half a period.
+/// Returns the Delaunay triangulation of points in a plane that is periodic along both axes, with all weights zero.
+/// Points keep their numbers. About O(n log n). Errors: a point that is not finite, two points at one place, too few
+/// points for triangles that fit into half a period.
 [[nodiscard]] Expected<Mesh> periodic_delaunay(std::span<const Vec2> points, Vec2 period);
 
-/// Uniformly random points in a periodic plane, Delaunay: about half of the triangles are bad.
+/// Delaunay triangulation of uniformly random points in a periodic plane: about half of the triangles are bad.
 struct RandomPeriodic {
   std::size_t vertices = 1000;
   std::uint64_t seed = 1;
@@ -115,8 +119,8 @@ struct RandomPeriodic {
 };
 [[nodiscard]] Expected<Mesh> random_periodic(const RandomPeriodic& shape = {});
 
-/// Rows of hexagons as power cells, around vertices at one distance from their neighbors: as MPAS-Tools' planar_hex
-/// makes them. A channel has no period along y.
+/// Rows of hexagons as power cells, with equal distances between neighboring vertices, like planar_hex of MPAS-Tools. A
+/// channel has no period along y.
 struct PeriodicHexagons {
   int nx = 16, ny = 16;
   double distance = 1;
@@ -131,7 +135,7 @@ struct ShearedGrid {
 };
 [[nodiscard]] Expected<Mesh> sheared_grid(const ShearedGrid& shape = {});
 
-/// Rings of points between two circles, the middle rings turned and jittered.
+/// Rings of points between two circles, with the middle rings turned and jittered.
 struct Annulus {
   double inner = 0.4, outer = 1;
   int around = 48, rings = 6;
@@ -140,15 +144,15 @@ struct Annulus {
 };
 [[nodiscard]] Expected<Mesh> annulus(const Annulus& shape = {});
 
-/// A box with an airfoil-like hole, graded from fine at the foil to coarse at the box.
+/// A box with a hole like an airfoil, graded from fine at the foil to coarse at the box.
 struct Airfoil {
-  int around = 80;       ///< points on the foil
-  double growth = 1.25;  ///< ratio of one layer's spacing to the one before
+  int around = 80;       ///< Number of points on the foil
+  double growth = 1.25;  ///< Ratio of the spacing of one layer to the layer before
   std::uint64_t seed = 1;
 };
 [[nodiscard]] Expected<Mesh> airfoil(const Airfoil& shape = {});
 
-// --- hard ones: what plain sweeps do not, or only just, make well-centered ------------------------------
+// --- hard meshes: plain sweeps do not make them well-centered, or only just -------------------------------------
 
 /// A regular polygon of radius 1 with no vertex inside.
 struct RegularPolygon {
@@ -159,7 +163,8 @@ struct RegularPolygon {
 /// A letter A: 29 vertices, 29 triangles, a hole, no vertex inside.
 [[nodiscard]] Mesh letter_a();
 
-/// A triangle with a sharp corner between sides of length 1, each of so many edges, and as many random points inside.
+/// A triangle with a sharp corner between two sides of length 1. Each of these sides has `pieces` edges, and there are
+/// as many random points inside.
 struct Wedge {
   double angle_deg = 5;
   int pieces = 8;
@@ -167,7 +172,7 @@ struct Wedge {
 };
 [[nodiscard]] Expected<Mesh> wedge(const Wedge& shape = {});
 
-/// Random points in the unit square, whose size grows with the distance from a corner: finest + growth · distance.
+/// Random points in the unit square. Their size grows with the distance from a corner: finest + growth · distance.
 struct GradedMesh {
   double finest = 1.0 / 64;
   double growth = 0.2;

@@ -1,8 +1,8 @@
-// Mesh files. Content decides the format; one source file a format; everything passes through.
+// Mesh files. The content of a file decides its format, each format has one source file, and all data pass through.
 //
-// A MeshFile is what a file says, in neutral arrays: points, weights, triangles, lines, tags, names and
-// data. make_mesh builds the mesh from it (errors speak the file's own numbers and lines); update puts an
-// optimized mesh back, so that all else that was in the file is written again.
+// A MeshFile holds the content of a file in neutral arrays: points, weights, triangles, lines, tags, names and data.
+// make_mesh() builds the mesh from it; errors use the file's own numbers and lines. update() puts an optimized mesh
+// back, so that everything else in the file is written again.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@
 
 namespace temper::io {
 
-/// Numbers of one kind. Files are written with the type they were read with.
+/// Numbers of one type. A file is written with the types that it was read with.
 using Values =
     std::variant<std::vector<double>, std::vector<float>, std::vector<std::int64_t>, std::vector<std::int32_t>,
                  std::vector<std::uint8_t>, std::vector<std::int8_t>, std::vector<std::int16_t>,
@@ -44,18 +44,18 @@ struct PhysicalName {
   std::string name;
 };
 
-/// Where the points of a file in degrees are on a map.
+/// A map on which the points of a file in degrees lie.
 struct GeographicMap {
   Projection projection;
-  std::vector<Vec2> lon_lat;  ///< as the file has them [degrees]
-  std::vector<Vec2> places;   ///< the same on the map [m]
+  std::vector<Vec2> lon_lat;  ///< Longitude and latitude, as in the file [degrees]
+  std::vector<Vec2> places;   ///< Positions of these points on the map [m]
 };
 
-/// What the points of a file are. Points of a plane have one z in common, which is written back.
+/// Points of a plane. They have a common z, which is written back.
 struct PlanePoints {
   double z = 0;
 };
-/// Of a plane with these periods along x and y, of which one may be 0: none.
+/// Points of a plane with these periods along x and y. A period of 0 means none along that axis; one of them may be 0.
 struct PeriodicPoints {
   Vec2 period;
   double z = 0;
@@ -63,40 +63,40 @@ struct PeriodicPoints {
 /// Longitude and latitude of places on a sphere around the origin.
 struct SpherePoints {
   double radius = 1;
-  std::vector<Vec3> places;  ///< one a point
+  std::vector<Vec3> places;  ///< One place per point
 };
 /// Longitude and latitude without a place in any space: see project().
 struct DegreePoints {
-  bool is_guessed = false;  ///< which the file does not say, but its depths
+  bool is_guessed = false;  ///< Degrees are guessed: the file does not say it, but it has depths
   double z = 0;
 };
-/// Of the plane of a map, and written in degrees.
+/// Points in the plane of a map; they are written in degrees.
 struct MappedPoints {
-  std::shared_ptr<const GeographicMap> map;  ///< never null
+  std::shared_ptr<const GeographicMap> map;  ///< Map of the points, never null
   double z = 0;
 };
 using PointsIn = std::variant<PlanePoints, PeriodicPoints, SpherePoints, DegreePoints, MappedPoints>;
 
 struct MeshFile {
-  std::vector<Vec2> points;                            ///< of the plane; or longitude and latitude [degrees]
-  PointsIn points_in;                                  ///< what they are
-  std::vector<double> weights;                         ///< empty, or one a point
-  std::vector<std::array<std::int32_t, 3>> triangles;  ///< 0-based
-  std::vector<std::int32_t> regions;  ///< empty, or one a triangle (medit reference, Gmsh physical tag, …)
-  std::vector<std::array<std::int32_t, 2>> lines;  ///< tagged lines: boundary or interior
-  std::vector<std::int32_t> line_tags;             ///< one a line
-  std::vector<std::int32_t> marked_points;         ///< points that carry a tag (Gmsh point elements, …)
-  std::vector<std::int32_t> point_tags;            ///< one a marked point
+  std::vector<Vec2> points;                            ///< Points of the plane, or longitude and latitude [degrees]
+  PointsIn points_in;                                  ///< Kind of the points
+  std::vector<double> weights;                         ///< One weight per point, or empty
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< Corners of each triangle, 0-based
+  std::vector<std::int32_t> regions;  ///< One region per triangle (medit reference, Gmsh physical tag, …), or empty
+  std::vector<std::array<std::int32_t, 2>> lines;  ///< Tagged lines, on the boundary or inside
+  std::vector<std::int32_t> line_tags;             ///< One tag per line
+  std::vector<std::int32_t> marked_points;         ///< Points that carry a tag (Gmsh point elements, …)
+  std::vector<std::int32_t> point_tags;            ///< One tag per marked point
   std::vector<PhysicalName> names;
-  std::vector<DataArray> point_data;            ///< one tuple a point
-  std::vector<DataArray> cell_data;             ///< one tuple a triangle
-  std::vector<DataArray> line_data;             ///< one tuple a line
-  std::vector<DataArray> marked_point_data;     ///< one tuple a marked point
-  std::vector<DataArray> field_data;            ///< of the file as a whole
-  std::string path;                             ///< where it was read from, for messages
-  std::string format;                           ///< "vtu", "gmsh41", …: the row of formats() it came from
-  std::vector<std::string> warnings;            ///< what was dropped or repaired in reading
-  std::shared_ptr<const InputNames> numbering;  ///< the file's own numbers and lines
+  std::vector<DataArray> point_data;         ///< Data with one tuple per point
+  std::vector<DataArray> cell_data;          ///< Data with one tuple per triangle
+  std::vector<DataArray> line_data;          ///< Data with one tuple per line
+  std::vector<DataArray> marked_point_data;  ///< Data with one tuple per marked point
+  std::vector<DataArray> field_data;         ///< Data of the file as a whole
+  std::string path;                          ///< Path of the file that was read, for messages
+  std::string format;                        ///< Name of the row of formats() that read the file: "vtu", "gmsh41", …
+  std::vector<std::string> warnings;         ///< Warnings about what was dropped or repaired in reading
+  std::shared_ptr<const InputNames> numbering;  ///< Numbers and lines of the file, for errors
 
   [[nodiscard]] const SpherePoints* sphere() const { return std::get_if<SpherePoints>(&points_in); }
   [[nodiscard]] const PeriodicPoints* periodic() const { return std::get_if<PeriodicPoints>(&points_in); }
@@ -105,73 +105,76 @@ struct MeshFile {
     const auto* mapped = std::get_if<MappedPoints>(&points_in);
     return mapped == nullptr ? nullptr : mapped->map.get();
   }
-  /// The space that a mesh of these points is in.
+  /// The space of a mesh of these points.
   [[nodiscard]] Space space() const;
-  /// Of the plane; 0 on a sphere.
+  /// The common z of the points of a plane; 0 on a sphere.
   [[nodiscard]] double z() const;
-  void set_z(double z);  ///< nothing on a sphere
+  void set_z(double z);  ///< Sets the common z; does nothing on a sphere
 };
 
 enum class Encoding { ascii, base64, appended };
 
 struct ReadOptions {
-  Executor* executor = nullptr;  ///< threads that unpack compressed data; what is read does not depend on them
+  Executor* executor = nullptr;  ///< Threads that unpack compressed data; the result does not depend on them
 };
 
 struct WriteOptions {
-  std::string format;  ///< row of formats(); empty: by the suffix of the path
-  /// The encoding, for formats that have several. VTU: ascii; base64, which is compressed by zlib, its default;
-  /// appended, raw bytes after the XML: the fastest to write and to read, and about half as large again.
+  std::string format;  ///< Name of a row of formats(); empty: by the suffix of the path
+  /// Encoding, for formats that have several. The choices of VTU are:
+  ///   - ascii
+  ///   - base64, compressed by zlib: the default
+  ///   - appended, raw bytes after the XML: fastest to write and to read, and about 1.5 times as large
   std::optional<Encoding> encoding;
-  Executor* executor = nullptr;  ///< threads that compress; the bytes written do not depend on them
-  /// VTU and VTKHDF have four arrays of cell data more, named as in TriangleQuality, for ParaView to color: bytes and
-  /// floats.
-  /// read() leaves them out, as they are made anew.
+  Executor* executor = nullptr;  ///< Threads that compress; the bytes written do not depend on them
+  /// Add four arrays of cell data to VTU and VTKHDF, for ParaView to color. They are bytes and floats, with the names
+  /// in TriangleQuality. read() leaves them out, because write() makes them again.
   bool triangle_quality = true;
 };
 
-/// A format temper knows. Adding one is one source file and one row.
+/// A format that temper knows. A new format is one source file and one row.
 struct Format {
-  std::string_view name;  ///< "vtu", "gmsh22", …: docs/formats.md lists them
+  std::string_view name;  ///< Name: "vtu", "gmsh22", …; docs/formats.md lists them
   std::string_view description;
-  std::string_view suffixes;  ///< ".vtu", ".msh", …, separated by spaces; first is the one written
-  bool writes;
-  bool holds_weights;  ///< else weights go to PATH.weights.csv, with a warning
-  bool holds_planes;   ///< meshes of the plane; else only such as were read in degrees
-  bool holds_spheres;  ///< meshes of the sphere
+  std::string_view suffixes;  ///< Suffixes ".vtu", ".msh", …, separated by spaces; files are written with the first one
+  bool writes;                ///< Format can be written
+  bool holds_weights;         ///< Format can hold weights; else weights go to PATH.weights.csv, with a warning
+  bool holds_planes;          ///< Format can hold any mesh of the plane; else only meshes that were read in degrees
+  bool holds_spheres;         ///< Format can hold meshes of the sphere
 };
 [[nodiscard]] std::span<const Format> formats();
-/// "4.9.0": of libnetcdf, which is loaded when a file needs it, or now; empty when there is none.
+/// The version of libnetcdf, such as "4.9.0"; empty if there is none. The library is loaded now, if no file has needed
+/// it before.
 [[nodiscard]] std::string netcdf_version();
-/// "1.10.8": of libhdf5, likewise.
+/// The version of libhdf5, such as "1.10.8"; loaded in the same way.
 [[nodiscard]] std::string hdf5_version();
 
-/// Reads any known format; a side file PATH.weights.csv, when there, gives the weights. From several threads at once,
-/// too. But libnetcdf and libhdf5 may be those of others in the process (h5py), of whom temper does not know: while it
-/// reads or writes NetCDF or VTKHDF, no other thread may call them.
+/// Reads any known format. Weights come from the side file PATH.weights.csv if it exists. Several threads may call it
+/// at once. However, other code in the process (h5py) may share libnetcdf and libhdf5, and temper cannot lock it out.
+/// While temper reads or writes NetCDF or VTKHDF, no other thread may call these libraries.
 [[nodiscard]] Expected<MeshFile> read(const std::string& path, const ReadOptions& options = {});
-/// Writes to a temporary file beside path and renames it: on any error what was at path is untouched. Of several files
-/// none is renamed before all are whole; then they are, one after the other: where one cannot be, those before it are
-/// new, and the error names them. Returns warnings (weights gone to a side file, data that the format cannot hold).
+/// Writes to a temporary file next to path and renames it. On an error the file at path is unchanged. If a mesh needs
+/// several files, they are renamed one after the other when all are complete. If one cannot be renamed, the files
+/// before it are new, and the error names them. Returns warnings (weights in a side file, data that the format cannot
+/// hold).
 [[nodiscard]] Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file,
                                                        const WriteOptions& options = {});
 
-/// The files that read() takes there: path, and those beside it that its format or its weights are in (m.ele of
-/// m.node). Path alone where there is none yet, or a pipe, which is left as it is.
+/// The files that read(path) takes: path, and further files of its format or its weights (m.ele for m.node). Returns
+/// path alone if it does not exist or is a pipe, which is not read.
 [[nodiscard]] std::vector<std::string> files_to_read(const std::string& path);
-/// The files that write() replaces or makes there, that of the weights included; or why it would write none.
+/// The files that write() would replace or make, the weights file included; or the error that it would return.
 [[nodiscard]] Expected<std::vector<std::string>> files_to_write(const std::string& path,
                                                                 const std::string& format = {});
 
-/// Any text to a file, by the same temporary-and-rename.
+/// Writes any text to a file, by way of a temporary file in the same way.
 [[nodiscard]] Expected<void> write_text(const std::string& path, std::string_view text);
 
-/// Removes the temporary files of all writes under way: for the handler of a signal that ends the program, in which it
-/// may be called. What is written meanwhile comes to nothing.
+/// Removes the temporary files of all unfinished writes. A handler of a signal that ends the program may call it.
+/// Writes under way then produce no file.
 void discard_unfinished() noexcept;
 
-/// Text too long to be held, written as it comes, by the same temporary-and-rename: nothing is at path before commit(),
-/// and nothing is left of it when there is none.
+/// A stream for text that is too long for memory. It writes to a temporary file and renames it: nothing is at path
+/// before commit(). Without commit() the temporary file is removed.
 class TextStream {
  public:
   [[nodiscard]] static Expected<TextStream> open(const std::string& path);
@@ -181,9 +184,9 @@ class TextStream {
   TextStream& operator=(const TextStream&) = delete;
   ~TextStream();
 
-  /// Once writing has failed the rest is ignored: commit() says why.
+  /// Writes text. After a failure further text is ignored, and commit() returns the error.
   void write(std::string_view text);
-  /// The last call. What was written takes its place, or there is an error and what was there before is unchanged.
+  /// Puts the file in its place; this is the last call. On an error the old file is unchanged.
   [[nodiscard]] Expected<void> commit();
 
  private:
@@ -192,7 +195,7 @@ class TextStream {
   std::unique_ptr<State> state_;
 };
 
-/// The vertex that each point of a file has become. Takes no room where all are kept.
+/// The vertex of each point of a file. It takes no memory if all points are kept.
 class VertexOfPoint {
  public:
   VertexOfPoint() = default;
@@ -203,7 +206,7 @@ class VertexOfPoint {
 
   [[nodiscard]] std::size_t size() const { return n_; }
   [[nodiscard]] std::size_t n_kept() const { return n_kept_; }
-  /// −1 for dropped points.
+  /// The vertex of a point; −1 for dropped points.
   [[nodiscard]] std::int32_t operator[](std::size_t point) const {
     return vertices_.empty() ? static_cast<std::int32_t>(point) : vertices_[point];
   }
@@ -213,115 +216,126 @@ class VertexOfPoint {
   std::vector<std::int32_t> vertices_;  // empty: all points are kept
 };
 
-/// The word for the sphere that longitude and latitude are of: its radius is the Earth's, 6371 km, or
-/// "sphere:radius=R".
+/// The word for the sphere of longitude and latitude, with the Earth's radius of 6371 km. "sphere:radius=R" sets
+/// another radius.
 inline constexpr std::string_view kOntoSphere = "sphere";
-/// Why points in longitude and latitude are refused where a plane is needed, and the cure. `guessed`: their format does
-/// not say what they are, as fort.14 does not. `onto_sphere`: what the user writes to have them on the sphere.
+/// The message that refuses points in longitude and latitude if a plane is needed, with the remedy. `guessed`: the
+/// format does not say what its points are (fort.14). `onto_sphere`: the text with which the user puts them on the
+/// sphere.
 [[nodiscard]] std::string needs_projection(bool guessed = false, std::string_view onto_sphere = kOntoSphere);
-/// The word that is no projection: coordinates are those of a plane, whatever they look like.
+/// The word for no projection: coordinates are in a plane, whatever their values.
 inline constexpr std::string_view kNoProjection = "none";
-/// Puts the points of a file in degrees on a map, in meters, as parse_projection reads it; about the middle of its
-/// points when it says no center. write() takes them back: a point at the place of one that was read has its degrees
-/// bit for bit. kNoProjection: they are of a plane. Errors: those of project() for outlines; a text that is no
+/// Puts the points of a file in degrees on a map, in meters. parse_projection() reads the text; without a center, the
+/// middle of the points is the center. write() maps points back: an unmoved point gets its degrees again, bit for bit.
+/// kNoProjection takes the coordinates as a plane's. Errors: the errors of project() for outlines; a text that is no
 /// projection.
 [[nodiscard]] Expected<void> project(MeshFile& file, std::string_view projection);
 
-/// Gives a file points with three coordinates: in a plane of constant z, to one part in a million of the extent, with a
-/// warning where it is not exact; or on a sphere around the origin where all are at one distance from it, to one part
-/// in a million. Points of none of the triangles that the file has may be anywhere. An error names a point that is in
-/// neither.
+/// Sets the points of a file from three coordinates. If z is constant to one part in a million of the extent, they are
+/// in a plane; a warning says so if z is not exactly constant. If all have the same distance from the origin, to one
+/// part in a million, they are on a sphere. Points that no triangle of the file uses may be anywhere. An error names a
+/// point that is in neither.
 [[nodiscard]] Expected<void> set_points(MeshFile& file, std::vector<Vec3> points);
 
-/// The mesh of a file, in a plane or on a sphere: of one in degrees only after project(). Points of no triangle are
-/// dropped with a warning that names them; clockwise triangles are reversed and counted in a warning. Interior tagged
-/// lines become constrained edges.
+/// The mesh of a file, in a plane or on a sphere. A file in degrees needs project() first. Points of no triangle are
+/// dropped, and a warning names them. Clockwise triangles are reversed and counted in a warning. Interior tagged lines
+/// become constrained edges.
 struct LoadedMesh {
   Mesh mesh;
   VertexOfPoint vertex_of_point;
   std::size_t reversed_triangles = 0;
-  /// Where all inner edges are lines of one tag, two or more: for each line of the file whose points are both in the
-  /// mesh whether it is one of these. They constrain nothing. Else empty.
+  /// Lines that only list the edges of the mesh. If all inner edges are lines with one common tag (at least two lines),
+  /// this marks them among the lines with both points in the mesh. Such lines constrain nothing.
+  /// Otherwise empty.
   std::vector<bool> edge_lines = {};
   std::vector<std::string> warnings;
 };
-/// `fixed_tags`: tags or physical names whose points must not move. Fixed, too, are points of straight pieces of the
-/// boundary where tagged lines end or change their tag.
+/// Makes the mesh of a file. `fixed_tags`: tags or physical names whose points must not move. Points on straight pieces
+/// of the boundary are also fixed if tagged lines end or change their tag there.
 [[nodiscard]] Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags = {},
                                              Executor* executor = nullptr);
 
-/// What floating point data of points do where vertices move. (Integers, and flags and tags, stay with their points.)
+/// The treatment of floating point data of points when vertices move. (Integers, flags and tags stay with their
+/// points.)
 enum class DataRule {
-  interpolate,  ///< are of the place: linear on the triangles of the input, so that a depth stays where it was measured
-  keep,         ///< are of the point: a load that it carries
+  interpolate,  ///< Data belong to the place: linear on the triangles of the input, so that a depth stays where it was
+                ///< measured
+  keep,         ///< Data belong to the point, such as a load on it
 };
 
-/// DataRules: a rule, and arrays for which another holds.
+/// The rules for all arrays: a default rule and exceptions.
 struct DataRules {
   DataRule rule = DataRule::interpolate;
-  std::map<std::string, DataRule> exceptions = {};  ///< by the array's name
+  std::map<std::string, DataRule> exceptions = {};  ///< Rules of single arrays, by name
 
-  /// The rule of an array of point data; keep for integers.
+  /// The rule of an array of point data; `keep` for integers.
   [[nodiscard]] DataRule of(const DataArray& array) const;
 };
-/// The rules that words say, of which each is interpolate or keep, or interpolate=NAME or keep=NAME for one array.
+/// Reads rules from words: `interpolate` or `keep` for all arrays, `interpolate=NAME` or `keep=NAME` for one array.
 [[nodiscard]] Expected<DataRules> parse_data_rules(std::span<const std::string> words);
-/// An error unless each exception names an array of point data, and one of floating point where it says interpolate.
+/// Returns an error if an exception names no array of point data, or interpolates an array of integers.
 [[nodiscard]] Expected<void> check_data_rules(const DataRules& rules, const MeshFile& file);
 
 struct UpdateOptions {
   DataRules rules = {};
-  Executor* executor = nullptr;  ///< threads that look for places; the result does not depend on them
+  Executor* executor = nullptr;  ///< Threads that look for places; the result does not depend on them
 };
 
-/// What update() did with data of points and triangles; all 0 for a file without.
+/// The effect of update() on data of points and triangles; all 0 for a file without data.
 struct DataReport {
-  std::size_t points = 0;             ///< of the file that are left
-  std::size_t points_moved = 0;       ///< of those, elsewhere than in the file
-  Spread distance = {};               ///< by which the moved ones are [length]
-  std::size_t points_inserted = 0;    ///< that the file did not have
-  std::size_t triangles = 0;          ///< of the mesh
-  std::size_t triangles_changed = 0;  ///< of those, that the file does not have at this number and these places
-  std::vector<std::string> interpolated, kept, dropped;  ///< names of point data, by what became of them
-  std::vector<std::string> of_triangles;                 ///< names of cell data
+  std::size_t points = 0;           ///< Points of the file that are still there
+  std::size_t points_moved = 0;     ///< Points among these that have moved
+  Spread distance = {};             ///< Distances that these have moved [length]
+  std::size_t points_inserted = 0;  ///< New points that the file did not have
+  std::size_t triangles = 0;        ///< Triangles of the mesh
+  /// Triangles among these that the file does not have at the same number and places.
+  std::size_t triangles_changed = 0;
+  std::vector<std::string> interpolated, kept, dropped;  ///< Names of point data, by their treatment
+  std::vector<std::string> of_triangles;                 ///< Names of cell data
 };
 
-/// Puts coordinates, weights, triangles and regions of the mesh back into the file it came from, whose dropped points
-/// go with their data. `vertices` is OptimizeReport::vertices: the number in `loaded` of each vertex of the mesh,
-/// invalid for one that was inserted. Empty: none was removed or inserted; or, where their number is another one than
-/// before, vertices are known by their place, on the sphere, too. (After release_geometry() no place is known.)
+/// Puts coordinates, weights, triangles and regions of the mesh back into the file that it came from. Dropped points
+/// disappear with their data. `vertices` is OptimizeReport::vertices: the number in `loaded` of each vertex of the
+/// mesh, invalid for inserted vertices. Empty means that no vertex was removed or inserted. If the number of vertices
+/// has changed nevertheless, vertices are identified by their place. (This is impossible after release_geometry().)
 ///
-/// Floating point data of points are interpolated on the triangles of the file, at the place where a vertex is now,
-/// unless the rules say that they stay with their point; bit for bit the same where a vertex is still at its place, or
-/// at that of another one. Integers stay with their point. Of inserted points they are what all corners around have in
-/// common; an array that has nothing in common somewhere is dropped. Cell data are those of the file's triangle that
-/// the middle of a triangle is in; nothing is averaged. Where a point is gone that two lines of one tag met at, one
-/// line is left; other lines and marked points go with their points. A line whose edge was split is two, with its tag
-/// and data on both. Lines that list all inner edges (LoadedMesh::edge_lines) list those of the mesh afterwards. What
-/// is lost is named in file.warnings.
+/// Data follow these rules:
+///   - Floating point data of points are interpolated on the triangles of the file, at the new place of the vertex,
+///     unless the rules keep them. At the place of an old point they are its data, bit for bit.
+///   - Integers stay with their point. An inserted point gets the value that all corners around it have in common. If
+///     they differ anywhere, the array is dropped.
+///   - Each triangle gets the cell data of the file's triangle that contains its middle. Nothing is averaged.
+///   - If a removed point joined two lines of one tag, one line replaces them. Other lines and marked points disappear
+///     with their points.
+///   - A line whose edge was split becomes two lines with the same tag and data.
+///   - Lines that list all inner edges (LoadedMesh::edge_lines) list the edges of the new mesh.
+///   - Warnings in file.warnings name everything that is lost.
 ///
-/// May be called again for a later state of the mesh, as long as no vertices are removed or inserted; data are then
-/// interpolated on what the last call has left. O(n log n) when there are data that move, else O(n).
+/// It may be called again for a later state of the mesh, if no vertices are removed or inserted. Then data are
+/// interpolated on the result of the last call. O(n log n) if data move, else O(n).
 DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
                   const IdVector<VertexId, VertexId>& vertices = {}, const UpdateOptions& options = {});
 
-/// Frees the points, weights and triangles of a file whose mesh has been made: update() writes them again. Nothing when
-/// points were dropped or are on a sphere, or there are data of points or triangles, which update() needs the former
-/// geometry for. What is free is given back to the system.
+/// Frees the points, weights and triangles of a file after make_mesh(); update() writes them again. It does nothing in
+/// these cases:
+///   - points were dropped or are on a sphere
+///   - points or triangles have data, because update() then needs the former geometry
+///
+/// The memory goes back to the system.
 void release_geometry(MeshFile& file, const LoadedMesh& loaded);
 
 /// An outline, as a file gives it.
 struct OutlineFile {
-  Outline outline;                    ///< its names are the file's own numbers and lines
-  std::string path;                   ///< where it was read from
-  std::string format;                 ///< "poly", "jigsaw" or "geojson"
-  bool geographic = false;            ///< points are longitude and latitude, in degrees
-  std::vector<std::string> warnings;  ///< what was dropped in reading
+  Outline outline;                    ///< Outline; its names are the file's own numbers and lines
+  std::string path;                   ///< Path of the file that was read
+  std::string format;                 ///< Format: "poly", "jigsaw" or "geojson"
+  bool geographic = false;            ///< Points are longitude and latitude [degrees]
+  std::vector<std::string> warnings;  ///< Warnings about what was dropped in reading
 };
-/// Reads an outline: Triangle's .poly (with its .node), JIGSAW's geometry, GeoJSON. Its content decides the format.
+/// Reads an outline: Triangle's .poly (with its .node), JIGSAW's geometry, or GeoJSON. The content decides the format.
 [[nodiscard]] Expected<OutlineFile> read_outline(const std::string& path);
 
-/// A file that holds just this mesh.
+/// A file that holds only this mesh.
 [[nodiscard]] MeshFile from_mesh(const Mesh& mesh);
 
 }  // namespace temper::io

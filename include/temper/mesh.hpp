@@ -1,8 +1,8 @@
 // The weighted triangle mesh: a copyable value of flat arrays.
 //
-// Triangle-based half-edges: halfedge 3 t + k runs from corner k to corner k + 1 of triangle t, so
-// next, previous and triangle are arithmetic and only the origin and the twin are stored. All triangles
-// are counter-clockwise. A halfedge without twin lies on the boundary, with the domain on its left.
+// Half-edges are based on triangles: halfedge 3 t + k runs from corner k to corner k + 1 of triangle t. So next,
+// previous and triangle are arithmetic, and only the origin and the twin are stored. All triangles are
+// counter-clockwise. A halfedge without twin lies on the boundary, with the domain on its left.
 //
 //            c                halfedge h: a → b        opposite(h) = c
 //          /   \              next(h):    b → c        prev(h):  c → a
@@ -29,35 +29,37 @@ namespace temper {
 
 class Executor;
 
-/// The user's numbers of points and triangles, so that errors speak them.
-/// The base class counts from 0 and knows no file. (Inline, so that classes derived from it find its type information
-/// wherever they are compiled: the library is built without.)
+/// The user's numbers of points and triangles, for errors. The base class counts from 0 and has no file. (It is
+/// inline, so that derived classes find its type information wherever they are compiled: the library is built without
+/// RTTI.)
 class InputNames {
  public:
   virtual ~InputNames() = default;
   [[nodiscard]] virtual std::string point(std::size_t index) const { return "point " + std::to_string(index); }
   [[nodiscard]] virtual std::string triangle(std::size_t index) const { return "triangle " + std::to_string(index); }
-  /// "coast.msh:7", the place of the point in its file, or nothing.
+  /// The place of the point in its file, such as "coast.msh:7", or nothing.
   [[nodiscard]] virtual std::string point_where(std::size_t /*index*/) const { return {}; }
   [[nodiscard]] virtual std::string triangle_where(std::size_t /*index*/) const { return {}; }
 };
 
-/// Arrays that make a mesh. Spans are read during Mesh::build only.
+/// Arrays that make a mesh. Mesh::build reads the spans only during the call.
 struct MeshInput {
-  std::span<const Vec2> points = {};                            ///< n points of the plane
-  std::span<const double> weights = {};                         ///< n weights [length²], or empty: all zero
-  std::span<const std::array<std::int32_t, 3>> triangles = {};  ///< m corner triples, 0-based, either orientation
-  std::span<const std::array<std::int32_t, 2>> constrained_edges = {};  ///< edges never to flip, 0-based
-  std::span<const std::int32_t> regions = {};                           ///< m region numbers, or empty: all zero
-  std::span<const std::int32_t> fixed_vertices = {};                    ///< vertices never to move, 0-based
-  const InputNames* names = nullptr;                                    ///< the user's numbering, for errors
-  Executor* executor = nullptr;              ///< threads for the checks; the result does not depend on them
-  Space space = {};                          ///< where the points are; of the periodic plane any image of each
-  std::span<const Vec3> sphere_points = {};  ///< n points of the sphere, instead of points; at its radius to 1 in 10⁶
+  std::span<const Vec2> points = {};     ///< Points of the plane, n of them
+  std::span<const double> weights = {};  ///< Weights of the points [length²]; empty: all zero
+  /// Corners of the m triangles, 0-based, in either orientation.
+  std::span<const std::array<std::int32_t, 3>> triangles = {};
+  std::span<const std::array<std::int32_t, 2>> constrained_edges = {};  ///< Edges that must never flip, 0-based
+  std::span<const std::int32_t> regions = {};         ///< Region numbers of the triangles; empty: all zero
+  std::span<const std::int32_t> fixed_vertices = {};  ///< Vertices that must never move, 0-based
+  const InputNames* names = nullptr;                  ///< Numbering of the user, for errors
+  Executor* executor = nullptr;                       ///< Threads for the checks; the result does not depend on them
+  Space space = {};  ///< Space of the points; for the periodic plane any image of each point
+  /// Points of the sphere, n of them, instead of points; at its radius to 1 in 10⁶.
+  std::span<const Vec3> sphere_points = {};
 };
 
-/// Numbers that are mostly all zero, one an id: the array is there once one of them is not. It does not know how many
-/// ids there are: whoever sets a number says so.
+/// One number per id, usually all zero: the array exists only after a number differs from zero. It does not store the
+/// number of ids, so the caller that sets a number passes it.
 template <class IdType, class T>
 class ZeroUntilSet {
  public:
@@ -69,7 +71,7 @@ class ZeroUntilSet {
     }
     values_[id.index] = value;
   }
-  /// Appends the number of one more id, after `size` of them.
+  /// Appends the number of the next id, after `size` others.
   void push_back(T value, std::size_t size) {
     if (values_.empty() && value == T()) return;
     values_.resize(size);
@@ -82,7 +84,7 @@ class ZeroUntilSet {
   [[nodiscard]] bool all_zero() const { return values_.empty(); }
   [[nodiscard]] bool has_size(std::size_t size) const { return values_.empty() || values_.size() == size; }
   [[nodiscard]] std::size_t memory_bytes() const { return values_.size() * sizeof(T); }
-  /// An array of zeros is equal to none.
+  /// An array of zeros equals no array.
   friend bool operator==(const ZeroUntilSet& a, const ZeroUntilSet& b) {
     if (a.values_.size() == b.values_.size()) return a.values_ == b.values_;
     return a.is_zero() && b.is_zero();
@@ -102,13 +104,16 @@ class Mesh {
  public:
   Mesh() = default;
 
-  /// Builds a mesh and checks everything that makes it one: finite coordinates, indices in range, no
-  /// duplicate or unused point, no zero-area triangle, at most two triangles an edge, one fan a vertex,
-  /// every interior star winding once, no crossing boundary, no component on top of another.
-  /// Clockwise triangles are reversed and counted. Edges between different regions become constrained.
-  /// Weights need not be regular. On the sphere a mesh may be closed; its edges are arcs of less than half a great
-  /// circle. So it may in the periodic plane, where its triangles fit into half a period along each axis, and it is of
-  /// one piece. O(n log n).
+  /// Builds a mesh and checks it. Clockwise triangles are reversed and counted. Edges between different regions become
+  /// constrained. Weights need not be regular. O(n log n).
+  ///
+  /// The checks are:
+  ///   - finite coordinates, indices in range, no duplicate or unused point, no triangle of zero area
+  ///   - at most two triangles per edge, one fan per vertex
+  ///   - every interior star winds once, no crossing boundary, no component on top of another
+  ///
+  /// On the sphere a mesh may be closed; its edges are arcs of less than half a great circle. In the periodic plane it
+  /// may be closed too. Its triangles then fit into half a period along each axis, and it is connected.
   [[nodiscard]] static Expected<struct BuiltMesh> build(const MeshInput& input);
 
   // --- sizes: of the arrays, erased triangles and isolated vertices included ------------------------
@@ -121,21 +126,21 @@ class Mesh {
 
   /// The space that the mesh lies in.
   [[nodiscard]] const Space& space() const { return space_; }
-  /// For other units of length: whoever calls it gives all points in these, by set_point().
+  /// Sets the space, for other units of length. The caller then sets all points in these units by set_point().
   void set_space(const Space& space) { space_ = space; }
 
   // --- vertices ----------------------------------------------------------------------------------
-  /// As the mesh has it: in the plane x, y, w, on the sphere X, Y, Z of the weighted vector (space.hpp).
+  /// The point as it is stored: x, y, w in the plane, and X, Y, Z of the weighted vector on the sphere (space.hpp).
   [[nodiscard]] WeightedPoint point(VertexId v) const { return {record(v).x, record(v).y, record(v).w}; }
   void set_point(VertexId v, WeightedPoint p) { record(v).x = p.x, record(v).y = p.y, record(v).w = p.w; }
   [[nodiscard]] double weight(VertexId v) const { return space_.weight(point(v)); }
   void set_weight(VertexId v, double w) { set_point(v, space_.with_weight(point(v), w)); }
-  /// The image of v that is nearest to a point; in spaces without images its point. Who puts points of the same mesh
-  /// into one formula fetches all but the first of them so.
+  /// The image of v that is nearest to a point. In spaces without images it is the point of v. If a formula takes
+  /// several points of one mesh, get all but the first this way.
   [[nodiscard]] WeightedPoint point(VertexId v, const WeightedPoint& near) const {
     return space_.is_periodic() ? space_.image(point(v), near) : point(v);
   }
-  /// Those of corners that are near each other, as seen from the first.
+  /// The images of the corners that are near each other, as seen from the first corner.
   [[nodiscard]] std::array<WeightedPoint, 3> points(VertexId a, VertexId b, VertexId c) const {
     const WeightedPoint p = point(a);
     return {p, point(b, p), point(c, p)};
@@ -144,17 +149,17 @@ class Mesh {
     const auto [a, b, c] = corners(t);
     return points(a, b, c);
   }
-  /// Precondition of these two: the mesh lies in the plane.
+  /// Precondition of the next two functions: the mesh lies in the plane.
   [[nodiscard]] Vec2 position(VertexId v) const { return {record(v).x, record(v).y}; }
   void set_position(VertexId v, Vec2 p) { record(v).x = p.x, record(v).y = p.y; }
-  /// P of a vertex. Precondition: the mesh lies on the sphere.
+  /// The weighted vector P of a vertex. Precondition: the mesh lies on the sphere.
   [[nodiscard]] Vec3 weighted_vector(VertexId v) const { return as_vector(point(v)); }
-  /// A vertex that the user wants to stay where it is. (Boundary vertices stay without being marked.)
+  /// Says whether the user fixed the vertex at its place. (Boundary vertices stay without this flag.)
   [[nodiscard]] bool is_fixed(VertexId v) const { return (record(v).flags & kFixed) != 0; }
   void set_fixed(VertexId v, bool fixed);
   /// Precondition: v is not isolated.
   [[nodiscard]] bool is_boundary(VertexId v) const { return !twin(outgoing(v)).valid(); }
-  /// Says whether v is in no triangle: just added, or removed and not yet dropped by compact().
+  /// Says whether v is in no triangle: just added, or removed and still there until compact().
   [[nodiscard]] bool is_isolated(VertexId v) const { return !outgoing(v).valid(); }
 
   // --- halfedges ---------------------------------------------------------------------------------
@@ -171,19 +176,19 @@ class Mesh {
   [[nodiscard]] HalfedgeId twin(HalfedgeId h) const { return twins_[h]; }
   [[nodiscard]] VertexId origin(HalfedgeId h) const { return corners_[h]; }
   [[nodiscard]] VertexId target(HalfedgeId h) const { return corners_[next(h)]; }
-  /// The corner across from h in its triangle.
+  /// The corner opposite h in its triangle.
   [[nodiscard]] VertexId opposite(HalfedgeId h) const { return corners_[prev(h)]; }
   [[nodiscard]] bool is_boundary(HalfedgeId h) const { return !twin(h).valid(); }
-  /// A region interface or a line of the user's: never flipped.
+  /// Says whether the edge is a region interface or a user's line: it never flips.
   [[nodiscard]] bool is_constrained(HalfedgeId h) const { return constrained_[h] != 0; }
-  /// Says whether the edge of h is of the boundary or constrained: no flip ever takes it away.
+  /// Says whether the edge of h is on the boundary or constrained: no flip ever removes it.
   [[nodiscard]] bool is_unflippable(HalfedgeId h) const { return is_boundary(h) || is_constrained(h); }
-  /// Marks the edge of h, on both sides.
+  /// Marks the edge of h on both sides.
   void set_constrained(HalfedgeId h, bool constrained) {
     constrained_.set(h, constrained ? 1 : 0, n_halfedges());
     if (twin(h).valid()) constrained_.set(twin(h), constrained ? 1 : 0, n_halfedges());
   }
-  /// Says whether h stands for its edge, as one halfedge of each edge does: the boundary one, or the smaller of two
+  /// Says whether h represents its edge. Each edge has one representative: the boundary halfedge, or the smaller of two
   /// twins.
   [[nodiscard]] bool is_edge_representative(HalfedgeId h) const { return !twin(h).valid() || h < twin(h); }
   [[nodiscard]] std::size_t n_edges() const;
@@ -196,26 +201,26 @@ class Mesh {
   void set_region(TriangleId t, std::int32_t region) { regions_.set(t, region, n_triangles()); }
 
   // --- around a vertex ---------------------------------------------------------------------------
-  /// One halfedge that leaves v; on the boundary, the boundary one, so that a walk sees the whole star.
+  /// One halfedge that leaves v. At a boundary vertex it is the boundary halfedge, so that a walk sees the whole star.
   [[nodiscard]] HalfedgeId outgoing(VertexId v) const { return HalfedgeId(std::size_t{record(v).outgoing}); }
-  /// The next halfedge out of origin(h), counter-clockwise; invalid past the last one of a boundary vertex.
+  /// The next halfedge out of origin(h), counter-clockwise; invalid after the last one of a boundary vertex.
   [[nodiscard]] HalfedgeId rotate(HalfedgeId h) const { return twin(prev(h)); }
-  /// The halfedges out of v, one a triangle, counter-clockwise. for (HalfedgeId h : mesh.star(v)) …
+  /// The halfedges out of v, one per triangle, counter-clockwise. for (HalfedgeId h : mesh.star(v)) …
   [[nodiscard]] auto star(VertexId v) const { return Star(this, outgoing(v)); }
   /// The halfedge from a to b, or invalid. O(the lesser degree).
   [[nodiscard]] HalfedgeId find_halfedge(VertexId a, VertexId b) const;
 
   // --- whole mesh --------------------------------------------------------------------------------
-  /// Everything that must hold of the arrays and the geometry: ids in range, twins mutual, stars whole,
-  /// flags equal on both sides, every triangle counter-clockwise (exact). Says the first thing that
-  /// does not, or nothing. Erased triangles, and vertices that became isolated with them, are passed over. O(n).
+  /// Checks the arrays and the geometry: ids in range, twins mutual, stars whole, flags equal on both sides, every
+  /// triangle counter-clockwise (exact). Returns the first fault, or nothing. It skips erased triangles, and vertices
+  /// that became isolated with them. O(n).
   [[nodiscard]] std::optional<std::string> validate() const;
 
-  /// Bytes of the arrays.
+  /// The size of the arrays in bytes.
   [[nodiscard]] std::size_t memory_bytes() const;
 
   // --- as it lies in memory, for views from other languages: valid until the mesh changes ------------
-  /// x, y, w of vertex 0; those of the next one are kVertexStride bytes on. Null without vertices.
+  /// x, y, w of vertex 0. The next vertex is kVertexStride bytes further. Null without vertices.
   static constexpr std::size_t kVertexStride = 32;
   [[nodiscard]] const double* vertex_data() const { return vertices_.empty() ? nullptr : &vertices_.raw().front().x; }
   /// The corners of the triangles, three each.
@@ -224,12 +229,12 @@ class Mesh {
   [[nodiscard]] std::span<const HalfedgeId> twin_data() const { return twins_.raw(); }
 
   // --- what removals leave behind (connectivity itself is changed by topology.hpp) -------------------
-  /// A triangle that a removal took and compact() has not dropped yet. Loops over triangles() meet it still: its
-  /// corners are invalid, its halfedges boundary ones without flags. n_edges(), regularity, flips and validate() pass
-  /// it over; other functions need compact() first.
+  /// Says whether a removal took the triangle and compact() has not dropped it yet. Loops over triangles() still see
+  /// it. Its corners are invalid, and its halfedges are boundary halfedges without flags. n_edges(), regularity, flips
+  /// and validate() skip it. Other functions need compact() first.
   [[nodiscard]] bool is_erased(TriangleId t) const { return !corners_[halfedge(t, 0)].valid(); }
-  /// Drops erased triangles and vertices of no triangle, keeps the order of the rest, and repairs
-  /// outgoing(). Returns the old ids of what is left.
+  /// Drops erased triangles and vertices of no triangle, keeps the order of the rest, and repairs outgoing(). Returns
+  /// the old ids of the remaining elements.
   struct Compaction compact();
 
   friend bool operator==(const Mesh&, const Mesh&) = default;
@@ -241,7 +246,7 @@ class Mesh {
 
   static constexpr std::uint32_t kFixed = 1;
 
-  // 32 bytes: a vertex is one half of a cache line and never straddles two.
+  // 32 bytes: a vertex is one half of a cache line and never lies in two.
   struct alignas(kVertexStride) VertexRecord {
     double x = 0, y = 0, w = 0;
     std::uint32_t outgoing = HalfedgeId::kInvalid;
@@ -283,21 +288,21 @@ class Mesh {
   IdVector<VertexId, VertexRecord> vertices_;
   IdVector<HalfedgeId, VertexId> corners_;  // origin of each halfedge
   IdVector<HalfedgeId, HalfedgeId> twins_;  // invalid on the boundary
-  // Most meshes have no constrained edge and a single region, 0: 14 bytes a vertex less.
+  // Most meshes have no constrained edge and a single region 0. This saves 14 bytes per vertex.
   ZeroUntilSet<HalfedgeId, std::uint8_t> constrained_;
   ZeroUntilSet<TriangleId, std::int32_t> regions_;
 };
 
-/// The result of Mesh::build, and what it had to repair.
+/// The result of Mesh::build, with its repairs.
 struct BuiltMesh {
   Mesh mesh;
-  std::size_t reversed_triangles = 0;  ///< clockwise in the input
+  std::size_t reversed_triangles = 0;  ///< Number of triangles that were clockwise in the input
 };
 
-/// The error of what takes meshes of the plane alone when the mesh is one of the sphere or of a periodic plane, else
-/// nothing. `what`: "explain()", as the user knows it.
+/// The error of functions for meshes of the plane only, if the mesh is on the sphere or in a periodic plane. Else
+/// nothing. `what`: name of the function for the user, such as "explain()".
 [[nodiscard]] std::optional<InputError> expect_plane(const Mesh& mesh, std::string_view what);
-/// The error of what takes meshes of the plane and of the sphere when the plane is periodic, else nothing.
+/// The error of functions for meshes of the plane and of the sphere, if the plane is periodic. Else nothing.
 [[nodiscard]] std::optional<InputError> expect_no_period(const Mesh& mesh, std::string_view what);
 
 /// The vertices and triangles that compact() kept: new id → old id.
@@ -306,24 +311,24 @@ struct Compaction {
   IdVector<TriangleId, TriangleId> triangles;
 };
 
-/// A relabelling: new id → old id.
+/// A new numbering: new id → old id.
 struct MeshOrder {
   IdVector<VertexId, VertexId> vertices;
   IdVector<TriangleId, TriangleId> triangles;
 };
 
-/// Relabels vertices and triangles along a Hilbert curve, so that neighbors in the plane are
-/// neighbors in memory. Returns the order, for restore_order. O(n).
+/// Renumbers vertices and triangles along a Hilbert curve, so that neighbors in the plane are neighbors in memory.
+/// Returns the order, for restore_order. O(n).
 MeshOrder hilbert_order(Mesh& mesh);
-/// Undoes hilbert_order: every vertex has its former number again, and every triangle its former slot.
+/// Undoes hilbert_order: every vertex gets its former number again, and every triangle its former slot.
 void restore_order(Mesh& mesh, const MeshOrder& order, Executor* executor = nullptr);
 
-/// A copy of a mesh along a Hilbert curve, and its order.
+/// A copy of a mesh in the order of a Hilbert curve, and its order.
 struct OrderedMesh {
   Mesh mesh;
   MeshOrder order;
 };
-/// The same mesh as hilbert_order makes of a copy.
+/// Copies the mesh and orders the copy as hilbert_order does.
 [[nodiscard]] OrderedMesh hilbert_ordered(const Mesh& mesh, Executor* executor = nullptr);
 
 }  // namespace temper

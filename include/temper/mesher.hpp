@@ -1,10 +1,10 @@
-// From an outline to a mesh: its segments divided, points placed inside, a constrained Delaunay triangulation, and
-// that optimized until every triangle is well-centered.
+// From an outline to a mesh. The mesher divides the segments, places points inside, makes a constrained Delaunay
+// triangulation, and optimizes it until every triangle is well-centered.
 //
-// The boundary is what an optimization cannot change, so it is divided for it: edges follow the size, change it slowly,
-// and are short enough where two pieces of the outline face each other that a row of free vertices fits between. Where
-// triangles stay bad all the same, the outline is divided finer around them, and all is done again. On the sphere the
-// same is done with arcs of great circles; without an outline, points are placed all around it.
+// An optimization cannot change the boundary, so the mesher divides the boundary with care. Edges follow the size and
+// change their length slowly. If two pieces of the outline face each other, the edges are so short that a row of free
+// vertices fits between them. If triangles stay bad, the mesher divides the outline finer around them and starts again.
+// On the sphere segments are arcs of great circles. Without an outline the mesher places points all around the sphere.
 #pragma once
 
 #include <cstddef>
@@ -21,11 +21,11 @@
 
 namespace temper {
 
-/// The meaning of the segments of an outline without parts: what they enclose.
+/// The area that the segments of an outline without parts enclose.
 enum class Enclosed {
-  by_points,  ///< like `all` when it has hole or region points, else like `alternate`
-  all,        ///< everything that segments enclose, but for the holes (Triangle's reading)
-  alternate,  ///< nested loops take turns: land, lake, island
+  by_points,  ///< `all` if the outline has hole or region points, else `alternate`
+  all,        ///< Everything that segments enclose, except the holes (as in Triangle)
+  alternate,  ///< Nested loops alternate: land, lake, island
 };
 
 struct RegionSize {
@@ -34,18 +34,19 @@ struct RegionSize {
 };
 
 struct MesherOptions {
-  double size = 0;     ///< edge length wanted, > 0; of the units of the points. With a field it may be 0: no bound
-  double grade = 0.3;  ///< how fast the size may grow with the distance from what is smaller, > 0
-  std::optional<SizeField> field = {};        ///< edge length wanted at each place, where it is less than `size`
-  std::vector<RegionSize> region_sizes = {};  ///< of these regions, when less than `size`
+  double size = 0;     ///< Desired edge length, > 0, in the units of the points. With a field it may be 0: no bound
+  double grade = 0.3;  ///< Growth rate of the size with the distance from smaller edges, > 0
+  std::optional<SizeField> field = {};        ///< Desired edge length at each place, if less than `size`
+  std::vector<RegionSize> region_sizes = {};  ///< Desired edge lengths of these regions, if less than `size`
   Enclosed enclosed = Enclosed::by_points;
-  std::optional<OptimizeOptions> optimize = OptimizeOptions();  ///< absent: the Delaunay mesh as it is
-  int attempts = 8;                          ///< at most so many divisions of the outline while triangles stay bad
-  std::size_t most_triangles = 200'000'000;  ///< sizes that would make more are refused
-  double time_limit = 0;                     ///< of all of it, seconds; 0: none
+  /// Options of the optimization; absent: the Delaunay mesh is returned.
+  std::optional<OptimizeOptions> optimize = OptimizeOptions();
+  int attempts = 8;                          ///< Largest number of divisions of the outline while triangles stay bad
+  std::size_t most_triangles = 200'000'000;  ///< Largest number of triangles; sizes that would make more are refused
+  double time_limit = 0;                     ///< Time limit of the whole call [s]; 0: none
 };
 
-/// An edge of the mesh that is part of a segment.
+/// A mesh edge that is part of a segment.
 struct MeshLine {
   VertexId a, b;
   std::int32_t tag = 0;
@@ -53,37 +54,41 @@ struct MeshLine {
 
 struct OutlineMesh {
   Mesh mesh;
-  std::vector<MeshLine> lines;            ///< each edge on the outline once, in the order of the segments
-  std::vector<VertexId> vertex_of_point;  ///< invalid for points outside
-  std::size_t bad = 0;                    ///< triangles that are not well-centered
-  std::size_t delaunay_bad = 0;           ///< as many were before the optimization
-  int attempts = 1;                       ///< divisions of the outline that were tried
-  OptimizeReport report;                  ///< of the optimization, of the attempt that was kept
-  std::vector<std::string> notes;         ///< what the user should know, in sentences
+  std::vector<MeshLine> lines;            ///< Each edge on the outline once, in the order of the segments
+  std::vector<VertexId> vertex_of_point;  ///< Vertex of each point of the outline; invalid if the point is outside
+  std::size_t bad = 0;                    ///< Number of triangles that are not well-centered
+  std::size_t delaunay_bad = 0;           ///< Number of such triangles before the optimization
+  int attempts = 1;                       ///< Number of divisions of the outline that were tried
+  OptimizeReport report;                  ///< Report of the optimization, from the attempt that was kept
+  std::vector<std::string> notes;         ///< Notes for the user, in sentences
 };
 
-/// Meshes the inside of an outline. The same outline and options give the same mesh, bit for bit. Points of the outline
-/// stay where they are; points of no segment become fixed vertices. Errors, by the outline's names: no points, ends of
-/// segments out of range, not finite, out of the range of exact arithmetic, two points at one place, segments of no
-/// length or crossing, nothing enclosed, holes and regions outside, parts that overlap, a domain that touches itself at
-/// a point; sizes that are not positive or would make too many triangles; stopped, when the time or the caller's
-/// patience ends before there is a mesh (later the best mesh so far is returned). About O(n log n) an attempt.
+/// Meshes the inside of an outline. Equal outlines and options give equal meshes, bit for bit. Points of the outline
+/// stay where they are. Points of no segment become fixed vertices. About O(n log n) per attempt.
+///
+/// Errors, with the outline's names:
+///   - no points, indices of segment ends out of range, coordinates not finite or out of the range of exact arithmetic
+///   - two points at one place, segments of zero length, segments that cross
+///   - nothing enclosed, holes or regions outside, parts that overlap, a domain that touches itself at a point
+///   - sizes that are not positive or would make too many triangles
+///   - stopped, if the time limit or the observer ends the run before there is a mesh; later the best mesh so far is
+///     returned
 [[nodiscard]] Expected<OutlineMesh> mesh_outline(const Outline& outline, const MesherOptions& options,
                                                  const OptimizeHooks& hooks = {});
 
-/// A sphere, or the part of it that is to be meshed. Points of the outlines are longitude and latitude [degrees], 180
-/// and -180 being the same; their segments are the shorter arcs of great circles. Of the two sides that a closed line
-/// leaves it encloses the smaller, whatever its direction; the segments of one part are one line.
+/// A sphere, or the part of it to mesh. Points of the outlines are longitude and latitude [degrees]; 180 and -180 are
+/// the same. Their segments are the shorter arcs of great circles. A closed line encloses the smaller of its two sides,
+/// in either direction. The segments of one part are one line.
 struct SphereOutline {
   double radius = 6371000;
-  Outline basins = {};  ///< closed: what they enclose is meshed; without any, the whole sphere
-  Outline coasts = {};  ///< closed: what they enclose is left out
-  Outline lines = {};   ///< of any shape: they become constrained edges
+  Outline basins = {};  ///< Closed lines around the area to mesh; none: the whole sphere
+  Outline coasts = {};  ///< Closed lines around areas to leave out
+  Outline lines = {};   ///< Lines of any shape that become constrained edges
 };
 
-/// Meshes a sphere by the same steps. `vertex_of_point` has the points of basins, coasts and lines, one after the
-/// other. Errors besides: what is no longitude and latitude, coasts that are not closed, that divide the sphere into
-/// halves, or leave nothing of it; a size field of another space.
+/// Meshes a sphere in the same steps as mesh_outline(). `vertex_of_point` has the points of basins, coasts and lines,
+/// in this order. Further errors: points that are no longitude and latitude; a size field of another space. Coasts must
+/// be closed, must not divide the sphere into halves, and must leave some of it.
 [[nodiscard]] Expected<OutlineMesh> mesh_sphere(const SphereOutline& outline, const MesherOptions& options,
                                                 const OptimizeHooks& hooks = {});
 

@@ -1,9 +1,11 @@
-// Algorithm 1 of the paper. By default in its production form: Gauss-Seidel over the vertices, each with its own
-// Newton step in (x, y, w), edges flipped as soon as they stop being regular. paper_method() gives the paper's own.
+// Algorithm 1 of the paper. By default it runs in its production form: Gauss-Seidel over the vertices. Each vertex
+// takes its own Newton step in (x, y, w), and edges flip as soon as they stop being regular. paper_method() gives the
+// paper's form.
 //
-// Options come in groups: OptimizeOptions are those of every run, AccuracyOptions those of its second objective,
-// PaperSwitches those of the algorithm. Each has a row in optimize_table.hpp, by which it is checked, and from which
-// the command line, Python and the documentation take it. Who listens to a run is apart from them, in OptimizeHooks.
+// Options come in groups. OptimizeOptions has the options of every run, AccuracyOptions the options of the accuracy
+// objective, and PaperSwitches the options of the algorithm. Each has a row in optimize_table.hpp. It defines the
+// checks, and the command line, Python and the documentation are made from it. OptimizeHooks has the listeners of a
+// run.
 #pragma once
 
 #include <chrono>
@@ -30,264 +32,287 @@ namespace temper {
 class Executor;
 class LpSolver;
 
-/// How one vertex is improved.
+/// The method that improves one vertex.
 enum class Solver {
-  newton,       ///< joint (x, y, w), analytic gradient and Hessian, one trial a step, over-relaxed
-  golden,       ///< the paper's Algorithm 5: finite differences and golden section; three position searches, one weight
-                ///< search
-  alternating,  ///< Newton in (x, y), then Newton in w
+  newton,  ///< Joint Newton step in (x, y, w): analytic gradient and Hessian, one trial per step, over-relaxed
+  golden,  ///< The paper's Algorithm 5: finite differences and golden section; three searches for position, one for
+           ///< weight
+  alternating,  ///< Newton step in (x, y), then Newton step in w
 };
 
-/// How far a step may go past the point where an edge must flip (§2.4).
+/// The limit of a step beyond the point where an edge must flip (§2.4).
 enum class FlipLimit {
-  unlimited,  ///< wherever the energy leads; edges are flipped afterwards
-  before,     ///< short of the first flip: the connectivity never changes
-  at,         ///< to the first flip
-  after,      ///< past it by an overshoot that shrinks each sweep: 1.1, 1.01, 1.001, …
+  unlimited,  ///< The energy alone decides; edges are flipped afterwards
+  before,     ///< The step ends before the first flip: the connectivity never changes
+  at,         ///< The step ends at the first flip
+  after,      ///< The step ends beyond it by an overshoot that shrinks each sweep: 1.1, 1.01, 1.001, …
 };
 
-/// When edges that have stopped being regular are flipped.
+/// The time at which edges flip after they stop being regular.
 enum class Flips {
-  immediate,  ///< at once
-  deferred,   ///< in rounds, after the inner sweeps; until then edges may be not regular
-  none,       ///< never: the connectivity is frozen, and no step may make an edge non-regular
+  immediate,  ///< At once
+  deferred,   ///< In rounds, after the inner sweeps; until then edges may be not regular
+  none,       ///< Never: the connectivity is frozen, and no step may make an edge non-regular
 };
 
-/// Which unknowns of a vertex move.
+/// The unknowns of a vertex that may change.
 enum class Unknowns { positions_and_weights, positions, weights };
 
-/// Vertices of constrained edges (region interfaces, tagged lines).
+/// The treatment of vertices of constrained edges (region interfaces, tagged lines).
 enum class InterfaceVertices {
-  fixed,    ///< stay where they are
-  sliding,  ///< move along the line when their two constrained edges are collinear
+  fixed,    ///< Stay at their place
+  sliding,  ///< Move along the line if their two constrained edges are collinear
 };
 
-/// What may become of the boundary of the domain. Its shape stays, whatever is chosen, and so do its corners.
+/// The treatment of the boundary of the domain. In all cases its shape and its corners stay.
 enum class BoundaryVertices {
-  keep,   ///< the same vertices, bit for bit
-  slide,  ///< a vertex whose two boundary edges are in one line may move along it; never corners, or ends of interfaces
-  split,  ///< long edges of boundary and lines beside short ones are cut before the sweeps, and triangles with all
-          ///< corners there get a vertex inside; the vertices that were there stay bit for bit
+  keep,   ///< Keep the same vertices, bit for bit
+  slide,  ///< Vertices whose two boundary edges are collinear may move along them; corners and ends of interfaces stay
+  split,  ///< Cut long edges of boundary and lines next to short ones before the sweeps, and insert a vertex in
+          ///< triangles with all corners there. The old vertices stay bit for bit
 };
 
-/// When a new position or weight is seen by the neighbors (§5.2, §6.6.2).
+/// The time at which neighbors see a new position or weight (§5.2, §6.6.2).
 enum class Updates {
-  immediate,  ///< at once
-  deferred,   ///< at the end of the sweep: each is optimized against those of the sweep before
+  immediate,  ///< At once
+  deferred,   ///< At the end of the sweep: each vertex uses the values of the sweep before
 };
 
-/// How often a sweep visits a vertex (§5.2).
+/// The number of visits to a vertex in one sweep (§5.2).
 enum class Visits {
-  once,   ///< for its position and its weight
-  twice,  ///< the positions of all vertices first, then the weights of all
+  once,   ///< One visit for its position and its weight
+  twice,  ///< The positions of all vertices first, then all weights
 };
 
-/// How far golden section searches for a position: the paper's "patch radius", which it does not define (§5.2).
+/// The radius in which golden section searches for a position: the paper's "patch radius", which it does not define
+/// (§5.2).
 enum class SearchRadius {
-  rms,  ///< the root mean square distance to the neighbors
-  max,  ///< the distance to the farthest one
-  min,  ///< to the nearest one
+  rms,  ///< Root mean square distance to the neighbors
+  max,  ///< Distance to the farthest neighbor
+  min,  ///< Distance to the nearest neighbor
 };
 
-/// Removing vertices besides the collapses of Algorithm 2.
+/// Removal of vertices in addition to the collapses of Algorithm 2.
 enum class Removal {
   none,
-  patch,   ///< those whose patch is better without them (Algorithm 1, line 15)
-  weight,  ///< those whose weight is so far below the mean of their neighbors' that they are on the way to be hidden
-           ///< (§7)
+  patch,   ///< Remove a vertex if its patch is better without it (Algorithm 1, line 15)
+  weight,  ///< Remove a vertex if its weight is far below the mean weight of its neighbors, so that it will soon be
+           ///< hidden (§7)
 };
 
-/// By what a patch with k triangles is compared with the k − 2 that fill it without its center.
+/// The measure that compares a patch of k triangles with the k − 2 triangles that fill it without its center.
 enum class RemovalMeasure {
-  sum,     ///< E(P∖p) < E(P), the paper's; for barriers any removal lowers it
-  mean,    ///< energy per triangle
-  excess,  ///< energy beyond that of equilateral triangles of the same areas
+  sum,     ///< The paper's test E(P∖p) < E(P); for barriers any removal lowers the sum
+  mean,    ///< Energy per triangle
+  excess,  ///< Energy beyond the energy of equilateral triangles of the same areas
 };
 
-/// Steps that would turn a triangle over.
+/// The treatment of steps that would turn a triangle over.
 enum class Inversion {
-  refuse,    ///< are not taken, and searches end at nine tenths of the way to the first of them
-  allow,     ///< are, as in the paper: energies extrapolate, and the mesh may end as a tangle (a "HOT mess")
-  infinite,  ///< of barriers: their energy is +∞ there, so that searches step over such places, but never onto one
+  refuse,    ///< Refuse them; searches end at nine tenths of the way to the first inversion
+  allow,     ///< Allow them, as in the paper: energies extrapolate, and the mesh may end as a tangle (a "HOT mess")
+  infinite,  ///< For barriers: the energy is +∞ there, so that searches pass over such places but never stop there
 };
 
-/// What is done, one neighborhood at a time, about triangles that sweeps of a barrier leave not well-centered.
+/// The treatment of triangles that are not well-centered after the sweeps of a barrier, one neighborhood at a time.
 enum class Repair {
   none,
-  perturb,  ///< sweeps from a larger γ and random kicks; every vertex stays. Not where γ, h° or a solver is the user's
-  vertices,  ///< the same, and vertices are removed and inserted
+  perturb,  ///< Sweep from a larger γ and perturb vertices randomly; every vertex stays. Not if the user sets γ, h° or
+            ///< a solver
+  vertices,  ///< Also remove and insert vertices
 };
 
-/// In which order a sweep visits the vertices.
+/// The order in which a sweep visits the vertices.
 enum class SweepOrder {
-  hilbert,  ///< along a Hilbert curve
-  input,    ///< as numbered
-  reverse,  ///< last number first
-  random,   ///< shuffled once by the seed
+  hilbert,  ///< Along a Hilbert curve
+  input,    ///< In the order of the input
+  reverse,  ///< The last number first
+  random,   ///< Shuffled once by the seed
 };
 
 enum class StoppingRule {
-  relative,  ///< E changed by less than tolerance × E in one sweep, or has not been lower for 25
-  paper,     ///< mean energy per triangle fell by less than tolerance, or rose
+  relative,  ///< Stop if E changed by less than tolerance × E in one sweep, or has not been lower for 25 sweeps
+  paper,     ///< Stop if the mean energy per triangle fell by less than tolerance, or rose
 };
 
-/// Of Objective::accuracy. With L the squared length of an edge, G that times its dual length over its length, H the
-/// difference where G is the sum of the heights times the length on its two sides, δw the difference of the weights of
-/// its ends and s the local size there, what is lowered is
+/// Options of Objective::accuracy. It lowers
 ///
 ///     E = Σ_edges s⁻² (G/L) [ (α L² + β G²)/4 + ¾ c (α δw² + β H²) ]
 ///
-/// which for c = 1 is E_F / s² (eq. 2 of the paper): a moment of edge and dual, which every mesh of this size has, and
-/// c times as much of the offset between their middles, which is what a diagonal ★ errs by at first order. The star
-/// picks α and β. docs/accuracy.md derives it. [length²]
+/// For each edge:
+///   - L is its squared length.
+///   - G is its length times its dual length. This is a sum: on each side, the height times the length.
+///   - H is the difference of these two products.
+///   - δw is the difference of the weights of its ends.
+///   - s is the local size.
+///
+/// The star sets α and β. For c = 1, E is E_F / s² (eq. 2 of the paper). The first term is a moment of edge and dual,
+/// which every mesh of this size has. The second is c times the offset between their midpoints, which is the
+/// first-order error of a diagonal ★. docs/accuracy.md derives it. [length²]
 struct AccuracyOptions {
-  std::optional<double> offset_factor = {};  ///< c ≥ 0: 1 is HOT itself. Absent: by the scheme
-  /// Of H² of edges on the boundary, which no mesh avoids: a smaller one is better for vertex-centered solvers, a
-  /// larger one for cell-centered ones. ≥ 0. Absent: by the scheme.
+  std::optional<double> offset_factor = {};  ///< Factor c ≥ 0 of the offset: 1 is HOT itself. Absent: set by the scheme
+  /// Factor of H² on the boundary, ≥ 0. No mesh avoids this term. A smaller factor is better for vertex-centered
+  /// solvers, a larger one for cell-centered solvers. Absent: set by the scheme.
   std::optional<double> boundary_offset_factor = {};
-  /// ε: all h/ℓ, d/ℓ and 1 − d/ℓ stay above it. 0 < ε < 1/4 (equilateral: h/ℓ = 0.289). Absent: by the scheme.
+  /// Margin ε: all h/ℓ, d/ℓ and 1 − d/ℓ stay above it. 0 < ε < 1/4 (equilateral: h/ℓ = 0.289). Absent: set by the
+  /// scheme.
   std::optional<double> margin = {};
-  /// Interior edges stay longer than so many times the local size, the mean of those at their ends, and where they are
-  /// shorter become longer, as far as the connectivity and what is fixed allow; Repair::vertices removes and inserts
-  /// vertices for them. In [0, 0.95]; equilateral triangles have 1. 0: no limit.
+  /// Least length of interior edges, as a multiple of the mean local size at their ends. Shorter edges are lengthened
+  /// as far as connectivity and fixed vertices allow. Repair::vertices removes and inserts vertices for this. In [0,
+  /// 0.95]; equilateral triangles have 1. 0: no limit.
   double min_edge = 0;
-  double min_dual = 0;     ///< the same of their dual edges; in [0, 0.55], of 1/√3
-  double barrier = 0.003;  ///< μ > 0 of the logarithms that keep them there, in units of s² a triangle
-  /// At most, after those that make every triangle well-centered; three times as many where lengths are asked for. ≥ 0
+  /// Least length of their dual edges in the same unit, in [0, 0.55]; equilateral triangles have 1/√3.
+  double min_dual = 0;
+  /// Factor μ > 0 of the logarithms that keep the margins and lengths, in units of s² per triangle.
+  double barrier = 0.003;
+  /// Largest number of sweeps, ≥ 0, after the sweeps that make every triangle well-centered. Three times as many if a
+  /// least length is set.
   int sweeps = 30;
-  double tolerance = 1e-5;  ///< a sweep that changes E and barrier by less than this part of E is the last. ≥ 0
+  double tolerance = 1e-5;  ///< Relative tolerance, ≥ 0: the run stops after a sweep that changes E and barrier by less
+                            ///< than this part of E
 };
 
-/// What AccuracyOptions are for a scheme where they are absent.
+/// The values of a scheme for absent AccuracyOptions.
 struct SchemeWeights {
   double offset_factor, boundary_offset_factor, margin;
 };
-/// By measurement, docs/accuracy.md.
+/// These values come from measurements: docs/accuracy.md.
 [[nodiscard]] SchemeWeights scheme_weights(Scheme scheme);
 
-/// Of Objective::solver_error, which lowers  ln mean(errors over those at its start) + κ ln(E + barrier)  over all
-/// vertices at once, E and its barrier those of AccuracyOptions.
+/// Options of Objective::solver_error. It lowers  ln mean(errors / initial errors) + κ ln(E + barrier)  over all
+/// vertices at once. E and its barrier are those in AccuracyOptions.
 struct SolverErrorOptions {
-  double offset_share = 1;  ///< κ ≥ 0: what keeps other errors from rising
-  int steps = 200;          ///< at most; ≥ 0
-  double tolerance = 0.01;  ///< ten steps that gain less than this of the sum of logarithms are the last. ≥ 0
+  double offset_share = 1;  ///< Factor κ ≥ 0, which keeps other errors from rising
+  int steps = 200;          ///< Largest number of steps, ≥ 0
+  double tolerance = 0.01;  ///< Tolerance ≥ 0: stop if ten steps lower the sum of logarithms by less than this
 };
 
-/// The switches of Algorithm 1: where the paper offers a choice, or does otherwise than the production form. The
-/// defaults are the latter's, paper_method() has the paper's.
+/// The switches of Algorithm 1, for choices in the paper and for differences from the production form. The defaults are
+/// the production form; paper_method() has the paper's values.
 struct PaperSwitches {
-  /// γ of E_BP. Absent: relative to each edge, shrinking from 0.5, or from 1 where a quarter of 100 or more
-  /// triangles is bad, to 0.003, there as soon as none is; when some stay bad, a second start from 2. Given:
-  /// constant.
+  /// Softening γ of E_BP. A given value is constant. Absent: relative to each edge and shrinking from 0.5 to 0.003 as
+  /// the mesh improves. It starts from 1 if there are 100 or more triangles and a quarter of them is bad. It becomes
+  /// 0.003 when no triangle is bad. If some stay bad, a second start begins from 2.
   std::optional<LengthParameter> gamma = {};
-  /// −h° of E_BHs. Absent: relative, just beyond the worst h/ℓ of the mesh, shrinking as that improves. Given:
-  /// constant.
+  /// Parameter −h° of E_BHs. A given value is constant. Absent: relative, just beyond the worst h/ℓ of the mesh, and
+  /// shrinking as that improves.
   std::optional<LengthParameter> h0 = {};
-  BoundaryTreatment boundary_treatment = BoundaryTreatment::as_is;  ///< of E_F only
+  BoundaryTreatment boundary_treatment = BoundaryTreatment::as_is;  ///< Boundary treatment, for E_F only
 
   Solver solver = Solver::newton;
-  /// Over-relaxation of Newton steps, in (0, 2). Absent: 1.7, but 1.97 while γ shrinks from 1. Given: constant.
+  /// Over-relaxation of Newton steps, in (0, 2). A given value is constant. Absent: 1.7, but 1.97 while γ shrinks from
+  /// 1.
   std::optional<double> relaxation = {};
   SweepOrder order = SweepOrder::hilbert;
-  std::uint64_t seed = 1;  ///< of SweepOrder::random, of the jitter that frees symmetric grids, and of repairs
-  int weights_from = 0;    ///< i_w: first sweep that changes weights
-  /// Deferred: not with Solver::newton, which is joint, unless positions are deferred too.
+  std::uint64_t seed = 1;  ///< Seed of SweepOrder::random, of the jitter that frees symmetric grids, and of repairs
+  int weights_from = 0;    ///< First sweep that changes weights (i_w)
+  /// Updates of weights. Deferred is not allowed with Solver::newton, which is joint, unless positions are deferred
+  /// too.
   Updates weight_updates = Updates::immediate;
-  /// Deferred: all unknowns from the state at the beginning of the sweep (Jacobi instead of Gauss-Seidel); weights, if
-  /// they move, have to be deferred too. With Inversion::refuse a vertex stays whose neighbors have moved so that it
-  /// would turn a triangle over.
+  /// Updates of positions. Deferred: all unknowns use the state at the beginning of the sweep (Jacobi instead of
+  /// Gauss-Seidel); weights that move must be deferred too. With Inversion::refuse a vertex stays if its neighbors have
+  /// moved so that it would turn a triangle over.
   Updates position_updates = Updates::immediate;
   Visits visits = Visits::once;
-  SearchRadius search_radius = SearchRadius::rms;  ///< R of Solver::golden, and of the search for E_c
-  double weight_search_radius = 1;  ///< Solver::golden searches for a weight as far as this times R². > 0
-  VertexId anchor = {};  ///< whose weight is shifted to 0 after each sweep (Algorithm 1, line 17); invalid: none
+  SearchRadius search_radius = SearchRadius::rms;  ///< Radius R of Solver::golden, and of the search for E_c
+  double weight_search_radius = 1;                 ///< Radius of Solver::golden for weights, relative to R². > 0
+  VertexId anchor = {};  ///< Vertex whose weight is shifted to 0 after each sweep (Algorithm 1, line 17); invalid: none
 
-  int inner = 1;  ///< with deferred flips: most sweeps before edges are flipped; 0: until they converge
-  int outer = 0;  ///< with deferred flips: most rounds of sweeps and flips; 0: until no flips are needed
-  std::optional<FlipLimit> flip_limit =
-      {};                         ///< absent: unlimited for barriers (a flipping step must pay), after for HOT
-  double overshoot = 1.1;         ///< k of Algorithm 5, with FlipLimit::after; > 0
-  double overshoot_factor = 0.1;  ///< by which k − 1 shrinks from sweep to sweep, to ±1e-6; 1: k is constant. In [0, 1]
+  int inner = 1;  ///< With deferred flips: largest number of sweeps before edges flip; 0: until the sweeps converge
+  int outer = 0;  ///< With deferred flips: largest number of rounds of sweeps and flips; 0: until no edge must flip
+  /// Limit of a step beyond a flip. Absent: unlimited for barriers (a flipping step must lower the energy), after for
+  /// HOT.
+  std::optional<FlipLimit> flip_limit = {};
+  double overshoot = 1.1;         ///< Overshoot k of Algorithm 5, with FlipLimit::after; > 0
+  double overshoot_factor = 0.1;  ///< Factor on k − 1 from sweep to sweep, down to ±1e-6; 1: k is constant. In [0, 1]
   Inversion inversion = Inversion::refuse;
   HiddenPolicy hidden = HiddenPolicy::undo;
 
-  // Only with these are vertices removed: never on the boundary, on constrained edges or where fixed.
-  std::optional<int> collapse_from = {};        ///< i_c: first sweep with short-edge collapses (Algorithm 2)
-  EnergyKind collapse_energy = EnergyKind::dT;  ///< E_c: F, T or dT
-  double collapse_ratio = 0.1;  ///< of the distance to the nearest neighbor to that one's shorter edge on the link
+  // Only these options remove vertices. Boundary vertices, fixed vertices and vertices of constrained edges stay.
+  std::optional<int> collapse_from = {};        ///< First sweep with short-edge collapses (Algorithm 2), i_c
+  EnergyKind collapse_energy = EnergyKind::dT;  ///< Energy E_c of collapses: F, T or dT
+  /// Ratio below which a vertex collapses: the distance to its nearest neighbor, over the shorter edge of that neighbor
+  /// on the link.
+  double collapse_ratio = 0.1;
   Removal removal = Removal::none;
-  RemovalMeasure removal_measure = RemovalMeasure::mean;  ///< of insertions too
-  double removal_margin = 0.1;                            ///< by which the patch must be better, relative
-  double hidden_threshold = 1;                            ///< Removal::weight: how far below, relative to R², rms. > 0
-  int removal_from = 10;                                  ///< first sweep with removals
-  /// First sweep after which vertices are inserted: at the orthocenters of triangles of large energy, where the mesh is
-  /// better with them (§7). Absent: never.
+  RemovalMeasure removal_measure = RemovalMeasure::mean;  ///< Measure of removals and insertions
+  double removal_margin = 0.1;                            ///< Relative gain that the patch must have
+  double hidden_threshold = 1;  ///< Distance below the mean weight for Removal::weight, relative to R² (rms). > 0
+  int removal_from = 10;        ///< First sweep with removals
+  /// First sweep after which vertices are inserted. They go to the orthocenters of triangles of large energy, if that
+  /// makes the mesh better (§7). Absent: never.
   std::optional<int> insertion_from = {};
-  double insertion_ratio = 4;  ///< an energy above so many times the mean is large; > 1
+  double insertion_ratio = 4;  ///< Ratio to the mean energy above which an energy is large; > 1
 
-  /// What the first sweeps lower, before `energy`: "E_∂T, then switching to E_BP" (§7). Absent: `energy` from the first
-  /// sweep on; but E_ODT for ten sweeps where the accuracy objective is for one scheme, the mesh in the plane and
-  /// without weights, and steps are Newton's with flips at once. The γ and h° of both are the same options.
+  /// Energy of the first sweeps, before `energy`: "E_∂T, then switching to E_BP" (§7). Both energies use the same γ and
+  /// h°. Absent: `energy` from the first sweep on, with one exception. Ten sweeps with E_ODT come first under these
+  /// conditions:
+  ///   - the accuracy objective is for one scheme
+  ///   - the mesh lies in the plane and has no weights
+  ///   - steps are Newton steps, with flips at once
   std::optional<EnergyKind> first_energy = {};
-  int switch_at = 20;  ///< the first sweep that lowers `energy`; an earlier one when the first energy has converged
+  int switch_at = 20;  ///< First sweep that lowers `energy`; earlier if the first energy has converged
   double tolerance = 1e-5;
   StoppingRule stopping = StoppingRule::relative;
 
   friend bool operator==(const PaperSwitches&, const PaperSwitches&) = default;
 };
 
-/// What other libraries bring: temper::solvers() has what this build has (temper/solvers.hpp).
+/// The solvers of other libraries. temper::solvers() returns the solvers of this build (temper/solvers.hpp).
 struct Solvers {
-  /// For repairs: solves for the weights of a place that sweeps leave bad. Empty: repairs do without.
+  /// Linear program solver for repairs. It finds weights for places that sweeps leave bad. Empty: repairs do not use
+  /// it.
   std::function<std::unique_ptr<LpSolver>()> lp = {};
-  /// The model of the errors of a scheme on a mesh. Empty: accuracy is lowered instead of the error, and a note says
-  /// so.
+  /// Model of the errors of a scheme on a mesh. Empty: accuracy is lowered instead of the error, and a note reports it.
   std::function<Expected<std::shared_ptr<const DiscretizationError>>(const Mesh& mesh, Scheme scheme)>
       discretization_error = {};
 };
 
 struct OptimizeOptions {
-  /// accuracy: the run lowers `energy`, which has to be a barrier, until all margins are above accuracy.margin, or it
-  /// ends; then E of AccuracyOptions, with the connectivity as it is; error: after that the errors of the solver. A
-  /// mesh that has all margins at first goes on to the second phase at once, unless its boundary is to be split.
-  /// `solver`, `order`, `tolerance` and `stopping` are of the first phase. energy: `energy` is lowered
-  /// to the end. Absent: objective_of().
+  /// Objective of the run. Absent: objective_of().
+  ///   - energy: the run lowers `energy` to the end.
+  ///   - accuracy: the run first lowers `energy`, which must be a barrier, until all margins are above accuracy.margin
+  ///     or the phase ends. Then it lowers E of AccuracyOptions with fixed connectivity. If all margins hold in the
+  ///     input, the second phase begins at once, unless the boundary is to be split.
+  ///   - error: a third phase lowers the errors of the solver.
+  ///
+  /// `solver`, `order`, `tolerance` and `stopping` apply to the first phase.
   std::optional<Objective> objective = {};
-  Scheme target = Scheme::all;  ///< of Objective::accuracy and error
+  Scheme target = Scheme::all;  ///< Scheme of Objective::accuracy and error
   AccuracyOptions accuracy = {};
   SolverErrorOptions solver_error = {};
   EnergyKind energy = EnergyKind::BP;
-  Star star = Star::one;  ///< whose error is to be small; sweeps before Objective::accuracy are for ★1
+  Star star = Star::one;  ///< Star whose error should be small; sweeps before Objective::accuracy use ★1
   Unknowns unknowns = Unknowns::positions_and_weights;
   Flips flips = Flips::immediate;
   BoundaryVertices boundary = BoundaryVertices::keep;
-  double boundary_ratio =
-      4;  ///< BoundaryVertices::split: most between the lengths of edges that meet there; at least 2
+  /// Largest ratio of the lengths of edges that meet there, with BoundaryVertices::split; at least 2.
+  double boundary_ratio = 4;
   InterfaceVertices interfaces = InterfaceVertices::fixed;
-  std::optional<SizeField> size_field = {};  ///< that sizes are compared with; absent: the input's own
-  /// B ≥ 1: no step or flip takes the local size of a vertex out of [s/B, B s], s the size field there, or further out
-  /// than it is. Removals, insertions, deferred flips, and those that make the input regular are not asked; a repair
-  /// asks, but sees only the triangles of its neighborhood. With a band sweeps go vertex by vertex, on one
+  std::optional<SizeField> size_field = {};  ///< Size field to compare sizes with; absent: the input's own sizes
+  /// Size band B ≥ 1. Let s be the size field at a vertex. No step or flip moves the local size out of [s/B, B s], or
+  /// further out if it is outside. Exceptions: removals, insertions, deferred flips, and the flips that make the input
+  /// regular. A repair checks only the triangles of its neighborhood. With a band, sweeps go vertex by vertex on one
   /// thread. Absent: no limit.
   std::optional<double> size_band = {};
   Repair repair = Repair::perturb;
-  int repair_trials = 20000;  ///< most edits that are tried, each on a copy of a neighborhood; 1 to 3 ms each; a
-                              ///< linear program counts as 20
-  /// A constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/detail/tensor.hpp). The
-  /// report and snapshots are of that plane. Absent: K = 1.
+  int repair_trials = 20000;  ///< Largest number of edits that repairs try, each on a copy of a neighborhood, 1 to 3 ms
+                              ///< each. A linear program counts as 20
+  /// Constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/detail/tensor.hpp). The
+  /// report and snapshots are in that plane. Absent: K = 1.
   std::optional<Tensor> tensor = {};
-  int max_sweeps = 1000;  ///< each repair counts as a sweep of its own
-  double time_limit = 0;  ///< of all of it, seconds; 0: none
+  int max_sweeps = 1000;  ///< Largest number of sweeps; each repair counts as a sweep
+  double time_limit = 0;  ///< Time limit of the whole run [s]; 0: none
   PaperSwitches paper = {};
 };
 
-/// What a run lowers: the objective of the options. If that is absent, accuracy; or `energy` alone if `energy` or
-/// switches other than `order` and `seed` are not the default ones.
+/// The objective that a run lowers. If the options have none, it is accuracy. It is `energy` alone if `energy` or
+/// switches other than `order` and `seed` differ from their defaults.
 [[nodiscard]] Objective objective_of(const OptimizeOptions& options);
 
-/// Says whether a run asks for a model of errors: Objective::solver_error lowers them. On a mesh of the plane for one
-/// scheme, of at most kMostJudged vertices, an absent objective is the error, and with accuracy the model is the judge:
-/// the mesh of least error is kept, the input too if it is well-centered.
+/// Says whether a run needs a model of errors. Objective::solver_error lowers these errors. An absent objective means
+/// the error if the mesh lies in the plane, is for one scheme, and has at most kMostJudged vertices. With accuracy the
+/// model selects the mesh of least error, or the input if that is well-centered and better.
 inline constexpr std::size_t kMostJudged = 20'000;
 [[nodiscard]] bool wants_error_model(const OptimizeOptions& options, const Mesh& mesh);
 
@@ -295,50 +320,52 @@ inline constexpr std::size_t kMostJudged = 20'000;
 /// converged, unlimited steps, inversions allowed, hidden vertices kept, collapses and the patch test from the first
 /// sweep, vertex 0 as anchor, γ = 1, vertices in their order, convergence by mean energy.
 [[nodiscard]] OptimizeOptions paper_method();
-/// The options of two older methods of §1.2, for comparison. Both move positions alone and keep edges Delaunay; the
-/// weights have to be equal.
-/// Optimal Delaunay triangulations (Chen and Xu 2004): E_ODT.
+/// Two older methods of §1.2, for comparison. Both move positions alone and keep edges Delaunay. All weights must be
+/// equal. This one makes optimal Delaunay triangulations (Chen and Xu 2004): E_ODT.
 [[nodiscard]] OptimizeOptions odt_method();
-/// Centroidal Voronoi tessellations (Du, Faber and Gunzburger 1999): E_F for ★0, the moment of the Voronoi cells about
-/// their vertices, which Lloyd's iterations lower.
+/// Centroidal Voronoi tessellations (Du, Faber and Gunzburger 1999). It lowers E_F for ★0, the moment of the Voronoi
+/// cells about their vertices. Lloyd's iterations lower the same energy.
 [[nodiscard]] OptimizeOptions cvt_method();
 
-/// The mesh as it is at one moment of a run.
+/// The mesh at one moment of a run.
 struct Snapshot {
   enum class Moment { start, after_sweep, before_flips, after_flips };
   Moment moment = Moment::start;
-  int sweep = 0;      ///< sweeps done
-  int outer = 0;      ///< rounds of deferred flips done
-  double energy = 0;  ///< of the mesh, at the γ of the sweep
-  const Mesh& mesh;   ///< in the user's units; may hold inverted triangles when those are allowed
-  const IdVector<VertexId, VertexId>& vertices;  ///< number in the input of each vertex; invalid: inserted
+  int sweep = 0;      ///< Number of sweeps done
+  int outer = 0;      ///< Number of rounds of deferred flips done
+  double energy = 0;  ///< Energy of the mesh, at the γ of the sweep
+  const Mesh& mesh;   ///< Mesh in the user's units; it may hold inverted triangles if they are allowed
+  const IdVector<VertexId, VertexId>& vertices;  ///< Number of each vertex in the input; invalid: inserted
 };
 
-/// The mesh that is worth keeping, should the run end now.
+/// The mesh to keep if the run ends now.
 struct BestSoFar {
-  const Mesh& mesh;                              ///< in the user's units
-  const IdVector<VertexId, VertexId>& vertices;  ///< as OptimizeReport::vertices
+  const Mesh& mesh;                              ///< Mesh in the user's units
+  const IdVector<VertexId, VertexId>& vertices;  ///< Numbers of the vertices, as in OptimizeReport::vertices
 };
-/// `best` passes the best valid mesh so far to its argument, and nothing if there is none yet. It copies the mesh.
+/// A function that can get the best mesh so far. `best` calls its argument with the best valid mesh, or does nothing if
+/// there is none yet. It copies the mesh.
 using BestListener = std::function<void(const std::function<void(const std::function<void(const BestSoFar&)>&)>& best)>;
 
-/// What a run works with, and who listens: the result does not depend on any of it, unless the observer stops the run.
+/// Tools and listeners of a run. The result does not depend on them, unless the observer stops the run.
 struct OptimizeHooks {
-  Executor* executor = nullptr;  ///< threads for sweeps and sums
-  /// Of the ranks that make this run together. All have the same mesh and options, and each gets the result.
-  /// The observer and the time limit are those of rank 0. Null: this process is alone.
+  Executor* executor = nullptr;  ///< Threads for sweeps and sums
+  /// Communicator of the ranks that make this run together. All ranks pass the same mesh and options, and each gets the
+  /// result. The observer and the time limit of rank 0 count. Null: this process is alone.
   Communicator* communicator = nullptr;
-  const InputNames* names = nullptr;                    ///< the user's numbering, for errors and notes
-  Observer observer = {};                               ///< hears of the progress, and may stop the run
-  Tracer tracer = {};                                   ///< sees every event of the run
-  std::function<void(const Snapshot&)> snapshots = {};  ///< sees the mesh between sweeps; a copy each time
-  BestListener best_so_far = {};  ///< may save the best mesh so far: called between sweeps and between repairs
-  /// Nobody looks at the mesh before optimize() has returned, observers neither: what it can be without meanwhile is
-  /// released, 24 bytes a vertex.
+  const InputNames* names = nullptr;  ///< Numbering of the user, for errors and notes
+  Observer observer = {};             ///< Observer of the progress, which may stop the run
+  Tracer tracer = {};                 ///< Tracer that receives every event of the run
+  /// Function that receives the mesh between sweeps, as a copy each time.
+  std::function<void(const Snapshot&)> snapshots = {};
+  /// Function that may save the best mesh so far; called between sweeps and between repairs.
+  BestListener best_so_far = {};
+  /// Nobody reads the mesh before optimize() returns, not even observers. Then memory of 24 bytes per vertex is freed
+  /// during the run.
   bool exclusive = false;
   Solvers solvers = {};
-  /// The moment from which the time limit counts: a program may have read files before, and writing them may take as
-  /// long. Absent: the call.
+  /// Start of the time limit. A program may have read files before, and may need as long to write them. Absent: the
+  /// time of the call.
   std::optional<std::chrono::steady_clock::time_point> started = {};
 };
 
@@ -348,17 +375,17 @@ enum class Stopped {
   max_outer,
   time_limit,
   canceled,
-  tangled,      ///< triangles are inverted (Inversion::allow): no flips can make the mesh regular
-  sweep_limit,  ///< all sweeps of AccuracyOptions, or steps of SolverErrorOptions, are made: a normal end
-  hidden,       ///< deferred flips hid a vertex that may not be: the mesh is the last or best one that was regular
+  tangled,      ///< Triangles are inverted (Inversion::allow), and no flips can make the mesh regular
+  sweep_limit,  ///< All sweeps of AccuracyOptions, or steps of SolverErrorOptions, are done: a normal end
+  hidden,       ///< Deferred flips hid a vertex against the policy: the mesh is the last or best regular one
 };
 [[nodiscard]] std::string_view name(Stopped stopped);
-/// Whether the caller ended the run, by its time limit or by its observer: a run with more time would have gone on.
+/// Says whether the time limit or the observer ended the run. With more time the run would have continued.
 [[nodiscard]] constexpr bool stopped_early(Stopped stopped) {
   return stopped == Stopped::time_limit || stopped == Stopped::canceled;
 }
 
-/// What a run did to the sizes: both compared with the size field.
+/// The change of the sizes: both meshes compared with the size field.
 struct SizeChange {
   SizeReport before, after;
 };
@@ -369,29 +396,35 @@ struct OptimizeReport {
   std::size_t flips = 0;
   std::size_t vertices_removed = 0;
   std::size_t vertices_inserted = 0;
-  /// Number in the input of each vertex, in its order. Inserted vertices follow, in the order in which they came, with
-  /// an invalid one. Empty when no vertex was removed or inserted.
+  /// Number of each vertex in the input, in the order of the result. Inserted vertices follow in the order of their
+  /// insertion, with an invalid number. Empty if no vertex was removed or inserted.
   IdVector<VertexId, VertexId> vertices;
-  /// Vertices that HiddenPolicy::keep left without a power cell; none while triangles are inverted.
+  /// Vertices without power cell that HiddenPolicy::keep left; empty while triangles are inverted.
   std::vector<VertexId> hidden;
-  Objective objective = Objective::accuracy;  ///< that the run lowered
-  double seconds = 0;                         ///< the optimization alone
-  double objective_before = 0;  ///< of the input, at the final γ; with Objective::accuracy that of AccuracyOptions,
-                                ///< its edges taken absolute, with the same sizes before and after; where there is an
-                                ///< error model the root mean square error
+  Objective objective = Objective::accuracy;  ///< Objective that the run lowered
+  double seconds = 0;                         ///< Time of the optimization alone [s]
+  double objective_before = 0;  ///< Objective of the input, at the final γ. For Objective::accuracy: E of
+                                ///< AccuracyOptions with absolute values for its edges, and with the same sizes before
+                                ///< and after. With an error model: the root mean square error
   double objective_after = 0;
   SizeChange size;
-  std::vector<SweepRecord> history;  ///< history[0] is the input
-  std::vector<std::string> notes;    ///< what the user should know, in sentences
+  std::vector<SweepRecord> history;  ///< History of the sweeps; history[0] is the input
+  std::vector<std::string> notes;    ///< Notes for the user, in sentences
 };
 
 /// Improves the mesh in place. The domain boundary, fixed vertices and constrained edges stay, bit for bit, unless
-/// `boundary` and `interfaces` say otherwise; every triangle stays counter-clockwise. Never returns a worse
-/// mesh than the input, its edges flipped to be regular where that can be. Compared are, in this order: inverted
-/// triangles; edges that are not regular, unless hidden vertices are kept; for barriers, triangles that are not
-/// well-centered; for accuracy, whether margins are kept; the energy. So a HOT energy may leave more triangles not
-/// well-centered, which a note says. Errors, which leave the mesh as it was: a value out of range; weights that hide a
-/// vertex; a mesh outside the barrier of E_BH or E_BHs. O(sweeps · n).
+/// `boundary` and `interfaces` allow changes. Every triangle stays counter-clockwise. O(sweeps · n).
+///
+/// The result is never worse than the input, whose edges are first flipped to be regular if possible. Meshes are
+/// compared by these criteria, in this order:
+///   - inverted triangles
+///   - edges that are not regular, unless hidden vertices are kept
+///   - for barriers, triangles that are not well-centered
+///   - for accuracy, whether margins are kept
+///   - the energy
+///
+/// So a HOT energy may leave more triangles that are not well-centered; a note then reports it. Errors leave the mesh
+/// unchanged: a value out of range; weights that hide a vertex; a mesh outside the barrier of E_BH or E_BHs.
 [[nodiscard]] Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options = {},
                                                 const OptimizeHooks& hooks = {});
 

@@ -20,119 +20,127 @@ namespace temper {
 class Executor;
 
 struct QualityOptions {
-  LengthParameter gamma = {1.0, LengthScale::absolute};  ///< for E_BP in the report
-  LengthParameter h0 = {0.0, LengthScale::absolute};     ///< for E_BHs: −h°
-  std::size_t worst = 5;                                 ///< how many of the worst triangles to list
+  LengthParameter gamma = {1.0, LengthScale::absolute};  ///< Parameter γ of E_BP in the report
+  LengthParameter h0 = {0.0, LengthScale::absolute};     ///< Parameter −h° of E_BHs in the report
+  std::size_t worst = 5;                                 ///< Number of the worst triangles to list
   Executor* executor = nullptr;
 };
 
-// On the sphere lengths and angles are those of arcs.
+// On the sphere all lengths and angles are measured along arcs.
 
-/// One of the triangles that are furthest from well-centered: those with the least h/ℓ or d/ℓ.
+/// A triangle that is far from well-centered: its least h/ℓ or d/ℓ is among the smallest of the mesh.
 struct WorstTriangle {
   TriangleId triangle;
   std::array<VertexId, 3> vertices;
-  Vec2 at;               ///< centroid; on the sphere its longitude and latitude [degrees]
-  double h_over_l = 0;   ///< least of its three
-  double angle_deg = 0;  ///< largest
+  Vec2 at;               ///< Centroid; on the sphere its longitude and latitude [degrees]
+  double h_over_l = 0;   ///< Least h/ℓ of its three edges
+  double angle_deg = 0;  ///< Largest of its three angles
   std::string why;       ///< "orthocenter outside across edge 3-9: angle of 138.3° at vertex 10"
 };
 
-/// Counts in equal bins over [low, high]: of all angles in degrees, of all h/ℓ of triangles and their edges, of the
-/// lesser of d/ℓ and 1 − d/ℓ of each edge. What lies outside goes to the end bins; each bin holds its lower end.
+/// Counts in equal bins over [low, high]. Each bin includes its lower end. Values outside go to the end bins. Reports
+/// have three histograms: the angles of all triangles in degrees, h/ℓ of each triangle and edge, and the lesser of d/ℓ
+/// and 1 − d/ℓ of each edge.
 struct Histogram {
   double low = 0;
   double high = 0;
   std::vector<std::size_t> counts;
 };
 
-/// The total energies of a mesh: [EnergyKind, the row of energies()][star], +∞ outside the domain of the energy.
+/// Total energies of a mesh, as [EnergyKind, the row of energies()][star]. A value is +∞ outside the domain of the
+/// energy.
 using EnergiesByStar = std::array<std::array<double, 3>, kEnergyKinds>;
 
-/// What codes that run on meshes refuse or are slowed by: quality_measures() has the definition of each, and whose it
-/// is. A least over nothing is +∞, a largest 0. Interior edges have a triangle on both sides, closed cells are those of
-/// vertices inside.
+/// Measures for other codes, which refuse a mesh or run slowly if a value is bad. quality_measures() defines each
+/// measure and names its code. The minimum over nothing is +∞, and the maximum is 0. An interior edge has a triangle on
+/// both sides. A closed cell is the cell of a vertex inside the domain.
 struct SolverMeasures {
-  double min_edge_over_size = std::numeric_limits<double>::infinity();  ///< relative_lengths() of interior edges
+  double min_edge_over_size = std::numeric_limits<double>::infinity();  ///< Least relative_lengths() of interior edges
+  /// Least relative dual length of interior edges.
   double min_dual_over_size = std::numeric_limits<double>::infinity();
-  double min_dual_over_cell_median = std::numeric_limits<double>::infinity();  ///< of closed cells
-  double max_orthogonality = 0;                                                ///< of interior edges, |cosine|
-  double max_smoothness = 0;                                                   ///< of interior edges, ≥ 1
-  double min_flow_link = std::numeric_limits<double>::infinity();              ///< of interior edges
-  std::size_t small_flow_links = 0;                                            ///< less than 0.1
-  double min_cell_quality = std::numeric_limits<double>::infinity();           ///< of closed cells
-  double min_grid_spacing = std::numeric_limits<double>::infinity();           ///< [length]
-  double max_grid_spacing = 0;                                                 ///< [length]
+  double min_dual_over_cell_median = std::numeric_limits<double>::infinity();  ///< Least over closed cells
+  double max_orthogonality = 0;                                                ///< Largest |cosine| over interior edges
+  double max_smoothness = 0;                                          ///< Largest over interior edges, at least 1
+  double min_flow_link = std::numeric_limits<double>::infinity();     ///< Least over interior edges
+  std::size_t small_flow_links = 0;                                   ///< Number of flow links less than 0.1
+  double min_cell_quality = std::numeric_limits<double>::infinity();  ///< Least over closed cells
+  double min_grid_spacing = std::numeric_limits<double>::infinity();  ///< [length]
+  double max_grid_spacing = 0;                                        ///< [length]
   double min_triangle_quality = std::numeric_limits<double>::infinity();
   double min_triangle_angle_quality = std::numeric_limits<double>::infinity();
-  std::size_t obtuse_triangles = 0;          ///< exact
-  double max_centroid_offset_over_size = 0;  ///< of closed cells
+  std::size_t obtuse_triangles = 0;          ///< Exact number
+  double max_centroid_offset_over_size = 0;  ///< Largest over closed cells
 };
 
 struct Quality : SolverMeasures {
   std::size_t vertices = 0, triangles = 0, edges = 0, boundary_edges = 0, regions = 0;
-  std::size_t inverted_triangles = 0;       ///< exact
-  std::size_t non_regular_edges = 0;        ///< interior edges with negative dual, exact
-  std::size_t negative_boundary_duals = 0;  ///< boundary edges with h < 0, exact
-  std::size_t orthocenters_outside = 0;     ///< triangles with some h ≤ 0, and inverted ones, exact
-  std::size_t edges_not_crossed = 0;        ///< edges without 0 < d < ℓ, exact
-  double well_centered_fraction = 0;        ///< triangles with all h > 0 and 0 < d < ℓ
-  double min_h_over_l = 0;                  ///< over triangles and their edges; −∞ for an inverted triangle
-  double min_d_over_l = 0;                  ///< over edges, the lesser of d/ℓ and 1 − d/ℓ
+  std::size_t inverted_triangles = 0;       ///< Exact number
+  std::size_t non_regular_edges = 0;        ///< Interior edges with negative dual, exact
+  std::size_t negative_boundary_duals = 0;  ///< Boundary edges with h < 0, exact
+  std::size_t orthocenters_outside = 0;     ///< Triangles with some h ≤ 0, and inverted triangles, exact
+  std::size_t edges_not_crossed = 0;        ///< Edges without 0 < d < ℓ, exact
+  double well_centered_fraction = 0;        ///< Fraction of triangles with all h > 0 and 0 < d < ℓ
+  double min_h_over_l = 0;                  ///< Least over triangles and their edges; −∞ for an inverted triangle
+  double min_d_over_l = 0;                  ///< Least of d/ℓ and 1 − d/ℓ over edges
   double min_angle_deg = 0, max_angle_deg = 0;
-  /// The largest over the median of the two-point-flux transmissibilities ℓ/|h_k + h_l| of interior edges (face length
-  /// over the distance between the orthocenters). +∞ when a dual edge has length zero, exactly; 1 without interior
-  /// edges.
+  /// Largest over median transmissibility. The transmissibility of an interior edge is ℓ/|h_k + h_l|, the length of the
+  /// face over the distance between the orthocenters (two-point flux). +∞ if a dual edge has exactly length zero; 1
+  /// without interior edges.
   double max_transmissibility_over_median = 0;
-  double transmissibility_ratio = 0;  ///< the largest over the least of them; 1 and +∞ as above
+  double transmissibility_ratio = 0;  ///< Largest over least transmissibility; 1 and +∞ as above
   EnergiesByStar energy = {};
-  std::vector<WorstTriangle> worst;  ///< worst first
+  std::vector<WorstTriangle> worst;  ///< Worst triangles, the worst first
   Histogram angles, h_over_l, d_over_l;
 };
 
-/// What Quality says of a mesh, of one triangle: for data of cells.
+/// Quality of one triangle, for cell data.
 struct TriangleQuality {
-  bool well_centered = false;  ///< all h > 0 and 0 < d < ℓ, exact
-  double min_h_over_l = 0;     ///< of its edges; −∞ for an inverted triangle
-  double min_d_over_l = 0;     ///< of its edges, the lesser of d/ℓ and 1 − d/ℓ
+  bool well_centered = false;  ///< All h > 0 and 0 < d < ℓ, exact
+  double min_h_over_l = 0;     ///< Least h/ℓ of its edges; −∞ for an inverted triangle
+  double min_d_over_l = 0;     ///< Least of d/ℓ and 1 − d/ℓ over its edges
   double min_angle_deg = 0;
 };
 [[nodiscard]] TriangleQuality triangle_quality(const Mesh& mesh, TriangleId t);
-/// The same of corners in a space, before there is a mesh.
+/// Quality of a triangle with these corners in a space, before there is a mesh.
 [[nodiscard]] TriangleQuality triangle_quality(const Space& space, const std::array<WeightedPoint, 3>& corners);
 
-/// What one wants of a number.
+/// The direction in which a number is better.
 enum class Preference : std::uint8_t {
-  equal,   ///< counts: the number
-  larger,  ///< minima and fractions: at least
-  less,    ///< maxima and energies: at most
+  equal,   ///< A count must be this number
+  larger,  ///< A minimum or fraction must be at least this number
+  less,    ///< A maximum or energy must be at most this number
 };
 
-/// A number of Quality, the energies aside: requirements, reports and tables are made from these rows.
+/// A row of the table of measures, for each number of Quality except energies. Requirements, reports and tables are
+/// made from these rows.
 struct QualityMeasure {
-  std::string_view key;         ///< of reports; a member of Quality has the same name
-  std::string_view alias;       ///< a short name, or the one that its community uses; or empty
-  std::string_view label;       ///< in tables
-  std::string_view community;   ///< whose codes look at it; empty for those of primal-dual meshes as such
-  std::string_view definition;  ///< of one line, with its source
+  std::string_view key;    ///< Key in reports, and name of the member of Quality
+  std::string_view alias;  ///< Short name, or the name that its community uses; or empty
+  std::string_view label;  ///< Label in tables
+  /// Community whose codes use the measure; empty for measures of primal-dual meshes in general.
+  std::string_view community;
+  std::string_view definition;  ///< Definition in one line, with its source
   Preference better;
-  bool count;                    ///< a whole number
-  std::optional<double> wanted;  ///< what is asked for where nobody says more
+  bool count;                    ///< Measure is a whole number
+  std::optional<double> wanted;  ///< Requirement by default, if the user gives no other
   double (*of)(const Quality&);
 };
 [[nodiscard]] std::span<const QualityMeasure> quality_measures();
 
-/// A number of each triangle, for pictures.
+/// A number per triangle, for pictures.
 struct TriangleValue {
   std::string_view name;   ///< "quality", "angle", …
-  std::string_view label;  ///< for legends, with its unit
+  std::string_view label;  ///< Label for legends, with the unit
   double (*of)(const Mesh& mesh, TriangleId t);
 };
-/// quality: the least of h/ℓ, d/ℓ and 1 − d/ℓ, −∞ for an inverted triangle: positive in well-centered ones; angle: the
-/// largest [degrees]; size: the mean length of the edges; region.
+/// Rows of the table of triangle values:
+///   - quality: the least of h/ℓ, d/ℓ and 1 − d/ℓ; positive in well-centered triangles, −∞ in inverted ones
+///   - angle: the largest angle [degrees]
+///   - size: the mean length of the edges
+///   - region: the region number
 [[nodiscard]] std::span<const TriangleValue> triangle_values();
 
-/// Measures a mesh. The same report for any executor. Precondition: no erased triangles. O(n).
+/// Measures a mesh. The report does not depend on the executor. Precondition: no erased triangles. O(n).
 [[nodiscard]] Quality quality(const Mesh& mesh, const QualityOptions& options = {});
 
 }  // namespace temper

@@ -1,4 +1,4 @@
-// All that a first program needs: read a mesh, improve it, look at it, write it.
+// All headers for a first program: read a mesh, improve it, look at it, write it.
 //
 //     auto file = temper::io::read("coast.msh");
 //     auto loaded = temper::io::make_mesh(*file);

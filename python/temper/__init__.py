@@ -1,8 +1,8 @@
 """temper: primal-dual triangle meshes that solvers can trust.
 
-A weighted triangulation and its power diagram, optimized until every triangle is well-centered: its orthocenter inside,
-every edge crossed by its dual. NumPy arrays in and out without copies where memory allows; ``meshio`` meshes are taken
-wherever a mesh is.
+A weighted triangulation and its power diagram are optimized until every triangle is well-centered: its orthocenter is
+inside, and its dual crosses every edge. Arrays are NumPy arrays, without copies if the memory allows. Every function
+that takes a mesh also takes a ``meshio`` mesh.
 
 >>> import temper
 >>> mesh = temper.generate.annulus()
@@ -13,9 +13,10 @@ wherever a mesh is.
 >>> bool((operators.star1 > 0).all())
 True
 
-Conventions: triangles are counter-clockwise; the power of a place p to vertex i is |x_i − p|² − w_i, so that are squared lengths, and a larger one makes a larger power cell. Vertices and triangles count from 0; −1 is none.
+Conventions: triangles are counter-clockwise. The power of a place p to vertex i is |x_i − p|² − w_i. So weights w are
+squared lengths, and a larger weight makes a larger power cell. Vertices and triangles count from 0; −1 means none.
 
-Functions and the classes that they take are here. ``temper.types`` has the classes of what they return.
+Functions and the classes that they take are here. ``temper.types`` has the classes that they return.
 """
 
 try:

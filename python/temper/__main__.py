@@ -1,4 +1,4 @@
-"""``python -m temper VERB …``: the command line program, as ``temper VERB …`` runs it."""
+"""``python -m temper VERB …``: runs the command line program, like ``temper VERB …``."""
 
 import os
 import pathlib
@@ -7,7 +7,7 @@ import sys
 
 
 def main() -> None:
-    """Becomes the program that came with the package, or else the one on the path."""
+    """Replaces this process by the program of the package, or else by the program on the path."""
     bundled = pathlib.Path(__file__).parent / "bin" / "temper"
     program = str(bundled) if bundled.exists() else shutil.which("temper")
     if program is None:

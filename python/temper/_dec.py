@@ -1,4 +1,5 @@
-"""Discrete exterior calculus: incidence, diagonal stars with signed power duals, the dual itself; columns under layers."""
+"""Discrete exterior calculus: incidence, diagonal stars with signed power duals, the dual itself; columns under
+layers."""
 
 from __future__ import annotations
 
@@ -16,8 +17,8 @@ from ._records import Record
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class IncidenceMatrix(Record):
-    """A sparse matrix of entries ±1, in compressed rows: row r has ``columns[starts[r]:starts[r + 1]]``, ascending, and
-    the ``signs`` beside them."""
+    """A sparse matrix with entries ±1 in compressed rows. Row r has ``columns[starts[r]:starts[r + 1]]``, ascending,
+    and the ``signs`` at the same positions."""
 
     n_columns: int
     starts: npt.NDArray[np.int64]
@@ -30,13 +31,13 @@ class IncidenceMatrix(Record):
         return len(self.starts) - 1, self.n_columns
 
     def tocsr(self) -> Any:
-        """As a ``scipy.sparse.csr_matrix`` of doubles. Needs SciPy."""
+        """Converts to a ``scipy.sparse.csr_matrix`` of doubles. Needs SciPy."""
         from scipy import sparse
 
         return sparse.csr_matrix((self.signs.astype(np.float64), self.columns.copy(), self.starts.copy()), self.shape)
 
     def toarray(self) -> npt.NDArray[np.float64]:
-        """As a full array: for small meshes."""
+        """Converts to a full array: for small meshes."""
         full = np.zeros(self.shape)
         rows = np.repeat(np.arange(self.shape[0]), np.diff(self.starts))
         full[rows, self.columns] = self.signs
@@ -45,37 +46,39 @@ class IncidenceMatrix(Record):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class DecEdges(Record):
-    """The edges, each once, from its lower vertex to its higher one, sorted by these. Arrays, one entry an edge."""
+    """The edges, each once, from its lower vertex to its higher one, sorted by these. Arrays have one entry per
+    edge."""
 
     vertices: npt.NDArray[np.int32]
-    """(e, 2): from, to."""
+    """Vertices from and to, (e, 2)."""
     triangles: npt.NDArray[np.int32]
-    """(e, 2): left and right of from → to; −1 for none."""
+    """Triangles on the left and right of from → to, (e, 2); −1 for none."""
     length: npt.NDArray[np.float64]
-    """ℓ [length]."""
+    """Length ℓ [length]."""
     crossing: npt.NDArray[np.float64]
-    """d, signed distance from ``from``, towards ``to``, of the weighted midpoint [length]."""
+    """Crossing d: signed distance of the weighted midpoint from ``from``, towards ``to`` [length]."""
     left_height: npt.NDArray[np.float64]
-    """h of the orthocenter of the left triangle over this edge, > 0 on its side; 0 without it [length]."""
+    """Height h of the orthocenter of the left triangle over this edge, > 0 on its side; 0 without it [length]."""
     right_height: npt.NDArray[np.float64]
-    """The same of the right triangle."""
+    """Height h of the orthocenter of the right triangle, > 0 on its side; 0 without it [length]."""
     dual_length: npt.NDArray[np.float64]
-    """left_height + right_height, with the exact sign, and accurate where they cancel [length]."""
+    """Sum left_height + right_height, with the exact sign; accurate even if they cancel [length]."""
     midpoint: npt.NDArray[np.float64]
-    """(e, 2): where the line of the dual edge crosses the line of the edge. On a sphere (e, 3), at its radius."""
+    """Point at which the line of the dual edge crosses the line of the edge, (e, 2). On a sphere (e, 3), at its
+    radius."""
 
     def __len__(self) -> int:
         return len(self.length)
 
     @property
     def is_boundary(self) -> npt.NDArray[np.bool_]:
-        """Edges of one triangle."""
+        """Says for each edge whether it has only one triangle."""
         return (self.triangles < 0).any(axis=1)
 
 
 @dataclasses.dataclass(frozen=True)
 class DecSummary(Record):
-    """What to know of the operators before a solver uses them."""
+    """A summary of the operators, for a check before a solver uses them."""
 
     vertices: int
     edges: int
@@ -83,79 +86,79 @@ class DecSummary(Record):
     boundary_edges: int
     negative_star0: int
     negative_star1: int
-    """Interior edges, exact: not regular."""
+    """Number of interior edges that are not regular, exact."""
     zero_star1: int
-    """Interior edges, exact: cocircular."""
+    """Number of interior edges that are cocircular, exact."""
     negative_boundary_star1: int
-    """Boundary edges, exact: orthocenter outside of the domain."""
+    """Number of boundary edges with the orthocenter outside the domain, exact."""
     not_well_centered: int
-    """Triangles, exact."""
+    """Number of triangles, exact."""
     area: float
-    """Of the domain [length²]."""
+    """Area of the domain [length²]."""
     star0_sum: float
-    """Equal to it but for rounding."""
+    """Sum of ★0: the area, except for rounding."""
     min_star0: float
     min_star1: float
     median_star1: float
-    """Of \\|★1\\| of all edges."""
+    """Median of \\|★1\\| over all edges."""
     max_star1: float
     median_transmissibility: float
-    """Of \\|transmissibility\\| of interior edges."""
+    """Median of \\|transmissibility\\| over interior edges."""
     max_transmissibility: float
-    """inf where a dual edge has length 0."""
+    """Maximum; inf if a dual edge has length 0."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class PowerCells(Record):
-    """Power cells within the domain, as simple polygons, counter-clockwise, ascending by vertex. A cell has one
-    polygon, or several that do not overlap, or none when it lies outside of the domain."""
+    """Power cells within the domain, as simple counter-clockwise polygons, ascending by vertex. A cell may have several
+    polygons that do not overlap. It has none if it lies outside the domain."""
 
     vertices: npt.NDArray[np.int32]
-    """The vertex of each polygon, (p,)."""
+    """Vertex of each polygon, (p,)."""
     starts: npt.NDArray[np.uint64]
-    """Polygon i has ``corners[starts[i]:starts[i + 1]]``; (p + 1,)."""
+    """Starts of the polygons, (p + 1,): polygon i has ``corners[starts[i]:starts[i + 1]]``."""
     corners: npt.NDArray[np.float64]
-    """(c, 2); on a sphere (c, 3), at its radius."""
+    """Corners, (c, 2); on a sphere (c, 3), at its radius."""
     polygon_areas: npt.NDArray[np.float64]
-    """Of each polygon, > 0 [length²]."""
+    """Area of each polygon, > 0 [length²]."""
     areas: npt.NDArray[np.float64]
-    """Of each vertex: of all its polygons. Sum: the area of the domain."""
+    """Area of all polygons of each vertex. Sum: the area of the domain."""
 
     def polygons(self) -> list[npt.NDArray[np.float64]]:
-        """The corners of each polygon, views."""
-        return np.crossing(self.corners, self.starts[1:-1].astype(np.int64)) if len(self.vertices) else []
+        """The corners of each polygon, as views."""
+        return np.split(self.corners, self.starts[1:-1].astype(np.int64)) if len(self.vertices) else []
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class DecComplex(Record):
-    """Operators and dual of a mesh; vertices and triangles have the numbers of the mesh. All arrays are read-only views
-    on one value, without copies.
+    """The operators and the dual of a mesh. Vertices and triangles have the numbers of the mesh. All arrays are
+    read-only views on one value, without copies.
 
-    On a sphere lengths are those of arcs, and areas spherical excess.
+    On a sphere lengths are measured along arcs, and areas are spherical excess.
 
-    Signs (docs/concepts.md): a dual length is negative where the edge is not regular, or, on the boundary, where the
-    orthocenter is outside; zero exactly where the four points are cocircular in the power sense.
+    Signs (docs/concepts.md): a dual length is negative if the edge is not regular. On the boundary it is negative if
+    the orthocenter is outside. It is zero exactly if the four points are cocircular in the power sense.
     """
 
     edges: DecEdges
     edge_of_halfedge: npt.NDArray[np.int32]
     d0: IncidenceMatrix
-    """edges × vertices: −1 at from, +1 at to."""
+    """Incidence of edges × vertices: −1 at from, +1 at to."""
     d1: IncidenceMatrix
-    """triangles × edges: +1 where the triangle is on the left of the edge, −1 where it is on the right."""
+    """Incidence of triangles × edges: +1 if the triangle is on the left of the edge, −1 if it is on the right."""
     star0: npt.NDArray[np.float64]
-    """(n,) signed area of the dual cell, Σ d_ij h_k / 2 [length²]."""
+    """Signed area of the dual cell, Σ d_ij h_k / 2, (n,) [length²]."""
     star1: npt.NDArray[np.float64]
-    """(e,) (h_k + h_l)/ℓ; on the boundary h_k/ℓ. The transmissibility of a vertex-centered scheme [1]."""
+    """Star (h_k + h_l)/ℓ, on the boundary h_k/ℓ, (e,) [1]. It is the transmissibility of a vertex-centered scheme."""
     star2: npt.NDArray[np.float64]
-    """(m,) 1/area [length⁻²]."""
+    """Star 1/area, (m,) [length⁻²]."""
     transmissibility: npt.NDArray[np.float64]
-    """(e,) ℓ/(h_k + h_l), on the boundary ℓ/h_k: the transmissibility of a two-point flux between orthocenters; inf
-    where ★1 is 0 [1]."""
+    """Transmissibility of a two-point flux between orthocenters, (e,) [1]: ℓ/(h_k + h_l), on the boundary ℓ/h_k; inf if
+    ★1 is 0."""
     orthocenters: npt.NDArray[np.float64]
-    """(m, 2) the dual vertices [length]. On a sphere (m, 3), at its radius."""
+    """Dual vertices, (m, 2) [length]. On a sphere (m, 3), at its radius."""
     areas: npt.NDArray[np.float64]
-    """(m,) of the triangles, > 0 [length²]."""
+    """Areas of the triangles, (m,), > 0 [length²]."""
     _handle: Any = dataclasses.field(repr=False, compare=False)
 
     def __reduce__(self) -> Any:
@@ -168,17 +171,18 @@ class DecComplex(Record):
         return sparse.diags([self.star0, self.star1, self.star2][s], format="csr")
 
     def laplacian(self) -> Any:
-        """d0ᵀ ★1 d0 as a ``scipy.sparse.csr_matrix``, (n, n): positive semi-definite on a regular mesh whose boundary
-        duals are not negative; an M-matrix then. Needs SciPy."""
+        """The matrix d0ᵀ ★1 d0 as a ``scipy.sparse.csr_matrix``, (n, n). On a regular mesh whose boundary duals are not
+        negative it is positive semi-definite and an M-matrix. Needs SciPy."""
         d0 = self.d0.tocsr()
         return (d0.T @ self.star(1) @ d0).tocsr()
 
     def summarize(self) -> DecSummary:
-        """Counts, signs and extremes."""
+        """Summarizes counts, signs and extremes."""
         return DecSummary(**self._handle.summarize())
 
     def power_cells(self) -> PowerCells:
-        """The power cell of each vertex, clipped to the domain; disjoint, and covering it, whatever the mesh."""
+        """The power cell of each vertex, clipped to the domain. In any mesh the cells are disjoint and cover the
+        domain."""
         return PowerCells(**self._handle.power_cells())
 
     def write(
@@ -188,8 +192,8 @@ class DecComplex(Record):
         formats: Sequence[Literal["npz", "mtx", "vtu"]] = ("npz", "mtx", "vtu"),
         threads: int | None = None,
     ) -> list[str]:
-        """Writes the operators into a folder (docs/operators.md names every file and array), all or none of the files.
-        Returns their paths."""
+        """Writes the operators into a folder (docs/operators.md names every file and array). On an error no file is
+        written. Returns the paths of the files."""
         return self._handle.write(os.fspath(folder), list(formats), threads)
 
 
@@ -198,24 +202,25 @@ def _dec_of(mesh: Mesh, tensor: tuple[float, float, float] | None) -> DecComplex
 
 
 def dec_operators(mesh: MeshLike, *, tensor: Sequence[float] | None = None) -> DecComplex:
-    """The operators of a mesh, as exact as doubles are.
+    """The operators of a mesh, as exact as doubles allow.
 
     Parameters
     ----------
     mesh : Mesh or meshio.Mesh
     tensor : sequence of float, optional
-        kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u): duals are those of its metric, ★1 and transmissibility are times
-        √(det K), and lengths are of the metric (docs/tensor.md).
+        kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u). Duals and lengths are measured in its metric. ★1
+        and transmissibility are multiplied by √(det K) (docs/tensor.md).
 
     Returns
     -------
     DecComplex
-        d0, d1, ★0, ★1, ★2, transmissibilities, orthocenters: NumPy arrays, and SciPy's sparse matrices on request.
+        Arrays d0, d1, ★0, ★1, ★2, transmissibilities and orthocenters, as NumPy arrays; methods make SciPy's sparse
+        matrices.
 
     Notes
     -----
-    Without weights ★1 is the cotangent formula; Σ★0 is the area of the domain; linear functions are harmonic,
-    (d0ᵀ ★1 d0 u)_i = 0 at interior vertices, for arbitrary weights. O(n).
+    Without weights ★1 is the cotangent formula. Σ★0 is the area of the domain. Linear functions are harmonic for any
+    weights: (d0ᵀ ★1 d0 u)_i = 0 at interior vertices. O(n).
 
     Examples
     --------
@@ -244,24 +249,25 @@ class Columns(Record):
     n_vertices: int
     n_layers: int
     states: npt.NDArray[np.int8]
-    """With the numbers of MODFLOW's IDOMAIN: 1 active, 0 inactive, −1 pinched out."""
+    """State of each cell, with the numbers of MODFLOW's IDOMAIN: 1 active, 0 inactive, −1 pinched out."""
     tops: npt.NDArray[np.float64]
-    """Numbers, also where a surface is not there [length]."""
+    """Top of each cell, also if its surface is missing [length]."""
     bottoms: npt.NDArray[np.float64]
     volumes: npt.NDArray[np.float64]
-    """Of active cells; 0 of others [length³]."""
+    """Volumes of active cells; 0 for others [length³]."""
     areas: npt.NDArray[np.float64]
-    """Of the power cells, (n_vertices,) [length²]."""
+    """Areas of the power cells, (n_vertices,) [length²]."""
     cells: npt.NDArray[np.uint32]
-    """(c, 2): the cells of each connection, the lower number first; ascending."""
+    """Cells of each connection, (c, 2), the lower number first; ascending."""
     is_vertical: npt.NDArray[np.bool_]
-    """(c,)"""
+    """Vertical connections, (c,)."""
     distances: npt.NDArray[np.float64]
-    """(c, 2): from the centers of the two cells to the face, > 0 [length]."""
+    """Distances from the centers of the two cells to the face, (c, 2), > 0 [length]."""
     widths: npt.NDArray[np.float64]
-    """(c,) of the face seen from above; 0 of vertical ones [length]."""
+    """Widths of the faces seen from above, (c,); 0 if vertical [length]."""
     face_areas: npt.NDArray[np.float64]
-    """(c,) [length²]. Of cells beside each other the thickness is linear between their centers."""
+    """Areas of the faces, (c,) [length²]. For cells next to each other the thickness is linear between their
+    centers."""
     _handle: Any = dataclasses.field(repr=False, compare=False)
     _arguments: Any = dataclasses.field(repr=False, compare=False)
 
@@ -275,28 +281,28 @@ class Columns(Record):
         formats: Sequence[Literal["npz", "mtx", "vtu", "disv", "disu", "tough"]] = ("disv", "disu", "tough", "vtu"),
         threads: int | None = None,
     ) -> list[str]:
-        """Writes ``mesh.disv`` and ``mesh.disu`` (MODFLOW 6), ``MESH`` (TOUGH), and for ParaView ``columns.vtu`` with
-        the dual, into a folder (docs/layers.md), all or none of the files. Returns their paths."""
+        """Writes ``mesh.disv`` and ``mesh.disu`` (MODFLOW 6), ``MESH`` (TOUGH), and for ParaView ``columns.vtu`` and
+        the dual, into a folder (docs/layers.md). On an error no file is written. Returns the paths of the files."""
         return self._handle.write(os.fspath(folder), list(formats), threads)
 
 
 def columns(
     mesh: MeshLike, surfaces: npt.ArrayLike, active: npt.ArrayLike | None = None, pinch_out: float = 0.0
 ) -> Columns:
-    """The columns of a mesh: its power cells between the surfaces of layers, and which are neighbors.
+    """The columns of a mesh: its power cells between the surfaces of layers, with their neighbors.
 
     Parameters
     ----------
     mesh : Mesh or meshio.Mesh
-        In the plane, and regular.
+        A regular mesh in the plane.
     surfaces : array_like
-        (n_vertices, layers + 1): the top and then the bottom of each layer, going down [length]; or (layers + 1,), the
-        same at all vertices. NaN: a surface that is not there; the layers above and below it are inactive.
+        Heights, (n_vertices, layers + 1): the top and then the bottom of each layer, going down [length]; or (layers +
+        1,), the same at all vertices. NaN means no surface; then the layers above and below it are inactive.
     active : array_like, optional
-        (n_vertices, layers) or (layers,) of bool: where layers are active. By default everywhere.
+        Activity of the layers, bool, (n_vertices, layers) or (layers,). By default all are active.
     pinch_out : float
-        A layer is pinched out where it is not thicker: it has no cell, and what is above and what is below it are
-        neighbors [length].
+        Least thickness [length]. A layer that is not thicker is pinched out: it has no cell, and the cells above and
+        below it are neighbors.
 
     Raises
     ------
@@ -330,7 +336,7 @@ def columns(
 
 
 def _for_all(values: npt.NDArray[Any], shape: tuple[int, int], name: str) -> npt.NDArray[Any]:
-    """The values of each vertex, of an array that may be of one for all."""
+    """The values of each vertex, from an array for each vertex or one for all."""
     if values.shape not in (shape, shape[1:]):
         raise ValueError(f"{name}: expected {shape} or {shape[1:]} numbers, found {values.shape}")
     return np.ascontiguousarray(np.broadcast_to(values, shape))

@@ -1,4 +1,4 @@
-"""How meshes and runs look: pictures as SVG, reports as HTML, and what notebooks show of both."""
+"""Pictures of meshes and runs as SVG, reports as HTML, and their display in notebooks."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from ._optimize import PAGE, OptimizeReport
 from ._records import Record, table
 from ._space import Space
 
-_EXPLAINED = 500  # bad triangles: a second or so, as in the program
+_EXPLAINED = 500  # bad triangles: about one second, as in the program
 
 
 class _Text(str):
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the text to a file: on any error what was there is untouched."""
+        """Writes the text to a file. An error leaves the old file unchanged."""
         _temper.write_text(os.fspath(path), self)
 
 
@@ -61,29 +61,30 @@ def draw_svg(
     ----------
     mesh : Mesh or meshio.Mesh
     before : Mesh or meshio.Mesh, optional
-        Drawn to the left of it, to one scale, in one view and one zoom box.
+        A mesh to draw on the left, with the same scale, view and zoom box.
     primal, dual : bool
-        Edges of the triangulation; edges of the power diagram, between orthocenters.
+        Draw the edges of the triangulation, and the edges of the power diagram between orthocenters.
     weights : bool
-        Circles of radius √\\|w\\| times ``weight_scale``: green positive, red negative.
+        Draw circles of radius √\\|w\\| times ``weight_scale``: green positive, red negative.
     bad_triangles : bool
         Fill triangles that are not well-centered.
     near_coincident : bool
-        Ring vertices that nearly coincide with a neighbor.
+        Draw rings around vertices that nearly coincide with a neighbor.
     regions : bool
         Tint regions, and draw constrained edges thicker.
     zoom : (x0, y0, x1, y1), optional
-        Draw only what meets this box. Of a sphere it is in the picture: [length], from its middle to the right and up.
+        Box that the picture shows. For a sphere it is in the plane of the picture [length], from its middle to the
+        right and up.
     view : (longitude, latitude), optional
-        Of a sphere [degrees]: the middle of the picture, whose near half is drawn. None: the middle of a mesh that is a
-        part of the sphere, else 0, 0.
+        Middle of the picture for a sphere [degrees]; its near half is drawn. None: the middle of a mesh that is a part
+        of the sphere, else 0, 0.
     width : float
-        Of each mesh, in CSS pixels.
+        Width of each mesh [CSS pixels].
 
     Returns
     -------
     Svg
-        A str; as the last value of a notebook's cell it is a picture. ``save`` writes it.
+        A str that notebooks show as a picture. ``save`` writes it.
     """
     options = _options(locals())
     after = as_mesh(mesh)._handle
@@ -112,7 +113,7 @@ def _options(values: dict[str, Any]) -> dict[str, Any]:
 
 
 def grid_svg(svgs: Sequence[str], columns: int, *, title: str = "") -> Svg:
-    """Puts SVG documents side by side in rows of ``columns``, under a title; each keeps its size."""
+    """Puts SVG documents next to each other in rows of ``columns``, under a title. Each keeps its size."""
     return Svg(_temper.grid_svg([str(svg) for svg in svgs], columns, title))
 
 
@@ -149,16 +150,16 @@ def html_report(
     ----------
     mesh : Mesh or meshio.Mesh
     before : Mesh or meshio.Mesh, optional
-        To compare it with.
+        A mesh for comparison.
     report : OptimizeReport, optional
-        Of the run that made the mesh: its history and notes are shown, too.
+        Report of the run that made the mesh; its history and notes are shown too.
     reasons : bool
-        Why triangles are not well-centered, by ``explain``, where they are not more than some hundreds.
+        Show why triangles are not well-centered, by ``explain``, if there are at most some hundreds.
 
     Returns
     -------
     Html
-        A str; as the last value of a notebook's cell it is the page. ``save`` writes it.
+        A str that notebooks show as a page. ``save`` writes it.
 
     >>> import temper
     >>> ring = temper.generate.annulus()

@@ -1,20 +1,20 @@
-"""What goes wrong, as exceptions and warnings."""
+"""Errors and warnings, as Python classes."""
 
 from __future__ import annotations
 
 
 class TemperError(ValueError):
-    """Bad input, or an option that makes no sense: what C++ returns as ``InputError``.
+    """Bad input, or an option that makes no sense. C++ returns it as ``InputError``.
 
     Attributes
     ----------
     code : str
         The kind of error, stable across versions: ``"duplicate_point"``, ``"not_finite"``, … (``temper::ErrorCode``).
     where : str
-        The place in the file, ``"coast.msh:41"``; empty when the input came as arrays.
+        The place in the file, such as ``"coast.msh:41"``; empty if the input was arrays.
     message : str
-        What is wrong: element, expected, found. In the file's own numbering for what was read from a file, else
-        counted from 0.
+        The message: element, expected and found value. Elements have the file's own numbering, or count from 0 for
+        arrays.
     """
 
     def __init__(self, code: str, where: str, message: str) -> None:
@@ -28,4 +28,4 @@ class TemperError(ValueError):
 
 
 class TemperWarning(UserWarning):
-    """What was repaired or dropped in reading or writing, in one sentence."""
+    """A repair or a loss in reading or writing, in one sentence."""

@@ -1,4 +1,4 @@
-"""Why not: for every triangle that is not well-centered, the reason and what would cure it."""
+"""For each triangle that is not well-centered, the reason and a cure."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from ._weights import Certificate, EdgeConflict
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class CrossingSide(Record):
-    """One side of the edge in a conflict: where its triangles let the dual cross, if they are to be well-centered."""
+    """One side of the edge of a conflict: the interval in which well-centered triangles let the dual cross the edge."""
 
     triangles: npt.NDArray[np.int32]
     from_: float
-    """Distances from the edge's first vertex, exclusive [length]."""
+    """Ends of the interval, as distances from the edge's first vertex, exclusive [length]."""
     to: float
     widest: int
-    """Where the largest angle of these triangles is,"""
+    """Vertex of the largest angle of these triangles."""
     angle_deg: float
-    """and that angle."""
+    """Largest angle of these triangles."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class CrossingConflict(Record):
-    """An edge whose sides cannot agree: left.to ≤ right.from_ or right.to ≤ left.from_."""
+    """An edge whose two sides have disjoint intervals: left.to ≤ right.from_ or right.to ≤ left.from_."""
 
     p: int
     q: int
@@ -41,12 +41,12 @@ class CrossingConflict(Record):
 
 @dataclasses.dataclass(frozen=True)
 class FanCenter(Record):
-    """The corner that the triangles of a fan go around."""
+    """The common corner of the triangles of a fan."""
 
     vertex: int
     on_boundary: bool
     angle_deg: float
-    """Of the domain there, when on the boundary; else 360."""
+    """Angle of the domain at a boundary vertex; else 360."""
     shortest: int
     longest: int
     shortest_length: float
@@ -55,20 +55,21 @@ class FanCenter(Record):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Cure(Record):
-    """What would cure a reason."""
+    """A change that would cure a reason."""
 
     action: str
-    """What to do; see ``text``."""
+    """Kind of the change; see ``text``."""
     text: str
-    """A sentence."""
+    """The cure in one sentence."""
     edge: npt.NDArray[np.int32]
     """Two vertices, or none."""
     vertex: int
     triangle: int
     at: tuple[float, float]
-    """Where; on the sphere longitude and latitude, in degrees."""
+    """Place of the change; on the sphere longitude and latitude, in degrees."""
     verified: bool
-    """Tried: the triangles of the neighborhood then have weights that make them well-centered, exactly checked."""
+    """A trial on a copy succeeded: the triangles of the neighborhood then have weights that make them well-centered,
+    checked exactly."""
     conflict_only: bool
     triangles: int
     ends_conflict: bool
@@ -79,20 +80,20 @@ class Cure(Record):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Reason(Record):
-    """Why triangles are not well-centered."""
+    """A reason why triangles are not well-centered."""
 
     kind: Literal["split", "edge", "fan", "patch", "weights", "undecided"]
     text: str
-    """What the reason says to people, with vertices counted from 0."""
+    """The reason in words, with vertices counted from 0."""
     bad: npt.NDArray[np.int32]
-    """Triangles not well-centered for this reason, worst first."""
+    """Triangles that are not well-centered for this reason, worst first."""
     conflict: npt.NDArray[np.int32]
-    """edge, fan, patch: the smallest set of triangles that no weights suit; ``bad`` are of these."""
+    """Smallest set of triangles for which no weights exist, for edge, fan, patch; ``bad`` is a part of it."""
     must_split: EdgeConflict | None
     certificate: Certificate
-    """edge, fan, patch: the proof; ``check_certificate`` accepts it."""
+    """Proof for edge, fan, patch; ``check_certificate`` accepts it."""
     margin: float
-    """edge, fan, patch: best margin of the conflict, at most 0. weights: of the neighborhood, above 0."""
+    """Best margin. For edge, fan, patch: of the conflict, at most 0. For weights: of the neighborhood, above 0."""
     each: bool
     checked: int
     crossing: CrossingConflict | None
@@ -102,24 +103,24 @@ class Reason(Record):
     least_margin: float
     """Least h/ℓ or d/ℓ of the bad triangles as they are."""
     at: tuple[float, float]
-    """Centroid of the worst of them; on the sphere its longitude and latitude, in degrees."""
+    """Centroid of the worst triangle; on the sphere its longitude and latitude, in degrees."""
     cures_searched: bool
     cures: list[Cure]
-    """Best first."""
+    """Cures, best first."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Explanation(Record):
-    """What ``explain`` found."""
+    """The result of ``explain``."""
 
     triangles: int
     bad: int
     verdict: Literal["feasible", "infeasible", "undecided"]
-    """Of the whole mesh, positions and connectivity as they are. Feasible when nothing is bad."""
+    """Verdict on the whole mesh with its positions and connectivity. Feasible if no triangle is bad."""
     changed: int
     margin: float
     reasons: list[Reason]
-    """Certified ones first, least margin first; then by least_margin."""
+    """Reasons: certified ones first, by least margin; then by least_margin."""
 
     def __str__(self) -> str:
         return "\n".join([super().__str__(), *(f"  {r.kind}: {r.text}" for r in self.reasons)])
@@ -154,23 +155,23 @@ def explain(
     whole: int = 1000,
     progress: Callable[[int, int], Any] | None = None,
 ) -> Explanation:
-    """Explains each triangle that is not well-centered, by exactly one reason (docs/explain.md).
+    """Explains each triangle that is not well-centered by exactly one reason (docs/explain.md).
 
     Parameters
     ----------
     mesh : Mesh or meshio.Mesh
     cures : int
-        Cures are searched for so many reasons, the worst.
+        Largest number of reasons, the worst, for which cures are searched.
     whole : int
-        Weights are asked of the whole mesh when it has at most so many triangles, or so many bad ones.
+        Size limit of the search for weights of the whole mesh: at most this many triangles, or this many bad ones.
     progress : callable, optional
-        Called now and then with how many of the bad triangles are explained, and how many there are; returning False
-        stops, with TemperError.
+        Function that is called now and then with the number of explained bad triangles, and the number of all. If it
+        returns False, the call stops with TemperError.
 
     Notes
     -----
-    Verdicts rest on exact predicates and on ``check_certificate``. About a millisecond a bad triangle, and some ten
-    more a reason whose cures are searched. Ctrl-C is honoured.
+    Verdicts rest on exact predicates and on ``check_certificate``. About 1 ms per bad triangle, and some 10 ms more per
+    reason whose cures are searched. Ctrl-C stops the call.
 
     >>> import temper
     >>> why = temper.explain(temper.generate.sparse_horseshoe())

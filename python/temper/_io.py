@@ -1,4 +1,4 @@
-"""Mesh files, by their content."""
+"""Mesh files. The content of a file decides its format."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ from ._records import Record
 
 @dataclasses.dataclass(frozen=True)
 class Format(Record):
-    """A file format that temper knows: a row of ``formats()``."""
+    """A file format of temper: a row of ``formats()``."""
 
     name: str
-    """``"vtu"``, ``"gmsh41"``, …"""
+    """Name of the format: ``"vtu"``, ``"gmsh41"``, …"""
     description: str
     suffixes: str
-    """``".vtu"``, …, separated by spaces; the first is the one written."""
+    """Suffixes ``".vtu"``, …, separated by spaces; files are written with the first one."""
     writes: bool
     holds_weights: bool
-    """Else weights go to ``PATH.weights.csv``, with a warning."""
+    """The format can hold weights; else weights go to ``PATH.weights.csv``, with a warning."""
     holds_planes: bool
-    """Meshes of the plane; else only such as were read in degrees."""
+    """The format can hold any mesh of the plane; else only meshes that were read in degrees."""
     holds_spheres: bool
 
 
 def formats() -> list[Format]:
-    """The file formats that ``read`` and ``write`` know (docs/formats.md says what each holds)."""
+    """The file formats of ``read`` and ``write`` (docs/formats.md describes the contents of each)."""
     return [Format(**row) for row in _temper.formats()]
 
 
@@ -42,33 +42,34 @@ def read(
     projection: str | None = None,
     threads: int | None = None,
 ) -> Mesh:
-    """Reads a mesh file; its content tells the format, never its name.
+    """Reads a mesh file. Its content decides the format, never its name.
 
     Parameters
     ----------
     path : path
-        VTU, legacy VTK, Gmsh, medit, Triangle, OBJ, MFEM, OFF, PLY, JIGSAW, ADCIRC, … (``formats()``). A side file
-        ``PATH.weights.csv``, when there, gives the weights [length²].
+        VTU, legacy VTK, Gmsh, medit, Triangle, OBJ, MFEM, OFF, PLY, JIGSAW, ADCIRC, … (``formats()``). If a side file
+        ``PATH.weights.csv`` exists, it gives the weights [length²].
     fixed_tags : sequence of str or int
         Tags or physical names whose points must not move.
     projection : str, optional
-        The map for points in longitude and latitude, to meters: ``"stereographic"``, ``"mercator:lon"``,
-        ``"transverse-mercator:lon,lat"`` (``temper.projection``); about the middle of the points without a center.
-        ``write`` gives degrees again, bit for bit where a point has not moved; weights are squared meters of the map.
-        ``"none"``: coordinates are those of a plane, whatever they look like.
+        Map from longitude and latitude to meters: ``"stereographic"``, ``"mercator:lon"`` or
+        ``"transverse-mercator:lon,lat"`` (``temper.projection``). Without a center, it is the middle of the points.
+        ``write`` returns to degrees, bit for bit if a point has not moved. Weights are squared meters of the map.
+        ``"none"``: coordinates are in a plane, whatever their values.
     threads : int, optional
-        Threads that unpack; None or 0: all of the machine. What is read does not depend on them.
+        Threads that unpack; None or 0: all of the machine. The result does not depend on them.
 
     Returns
     -------
     Mesh
-        With all else that is in the file behind it, for ``write``: data, tags, names. ``Mesh.warnings`` has what was
-        repaired or dropped.
+        The mesh, with all other contents of the file (data, tags, names) for ``write``. ``Mesh.warnings`` lists repairs
+        and losses.
 
     Raises
     ------
     TemperError
-        What is wrong with the file: file and line, element in the file's numbering, expected and found.
+        An error in the file. The message has file and line, the element in the file's numbering, and the value expected
+        and found.
 
     Warns
     -----
@@ -88,21 +89,22 @@ def write(
     triangle_quality: bool = True,
     threads: int | None = None,
 ) -> list[str]:
-    """Writes a mesh, with all else that was in the file it came from.
+    """Writes a mesh, with all other contents of its original file.
 
     Parameters
     ----------
     path : path
-        Written under a temporary name beside it first: on any error what was there is untouched. Of several files none
-        is renamed before all are whole; then they are, one after the other: where one cannot be, those before it are
-        new, and the error names them.
+        Path of the file. It is written under a temporary name first, so that an error leaves the old file unchanged. If
+        a mesh needs several files, they are renamed one after the other when all are complete. If one cannot be
+        renamed, the files before it are new, and the error names them.
     mesh : Mesh or meshio.Mesh
     format : str, optional
-        A name of ``formats()``; by default the suffix of the path tells it.
+        A name of ``formats()``; by default the suffix of the path decides.
     encoding : {"ascii", "base64", "appended"}, optional
-        Of formats that have several. VTU: ``base64``, compressed, is its default; ``appended`` is the fastest.
+        Encoding, for formats that have several. VTU: the default is ``base64``, compressed; ``appended`` is the
+        fastest.
     triangle_quality : bool
-        VTU and VTKHDF have the arrays of ``triangle_quality()`` as cell data, for ParaView to color; ``read`` leaves
+        Add the arrays of ``triangle_quality()`` as cell data to VTU and VTKHDF, for ParaView to color. ``read`` leaves
         them out.
     threads : int, optional
         Threads that compress; the bytes written do not depend on them.
@@ -115,7 +117,7 @@ def write(
     Raises
     ------
     TemperError
-        ``not_writable``, or ``invalid_option`` for a format that is not known.
+        The code is ``not_writable``, or ``invalid_option`` for an unknown format.
     """
     handle = as_mesh(mesh)._handle
     messages: list[str] = _temper.write(

@@ -16,7 +16,7 @@ from ._records import Record, merged, table
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Histogram(Record):
-    """Counts in equal bins over [low, high]. What lies outside goes to the end bins; each bin holds its lower end."""
+    """Counts in equal bins over [low, high]. Each bin includes its lower end. Values outside go to the end bins."""
 
     low: float
     high: float
@@ -24,29 +24,29 @@ class Histogram(Record):
 
     @property
     def edges(self) -> npt.NDArray[np.float64]:
-        """The ends of the bins, one more than bins, as ``matplotlib.pyplot.stairs`` takes them."""
+        """The ends of the bins for ``matplotlib.pyplot.stairs``, one more than bins."""
         return np.linspace(self.low, self.high, len(self.counts) + 1)
 
 
 @dataclasses.dataclass(frozen=True)
 class WorstTriangle(Record):
-    """One of the triangles with the least h/ℓ or d/ℓ."""
+    """A triangle whose least h/ℓ or d/ℓ is among the smallest of the mesh."""
 
     triangle: int
     vertices: tuple[int, int, int]
     at: tuple[float, float]
     """Centroid; on a sphere its longitude and latitude [degrees]."""
     h_over_l: float
-    """Least of its three."""
+    """Least h/ℓ of its three edges."""
     angle_deg: float
-    """Largest."""
+    """Largest of its three angles."""
     why: str
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Quality(Record):
-    """What ``quality`` measures: counts decided exactly, margins and energies in doubles. On a sphere lengths and
-    angles are those of arcs."""
+    """The result of ``quality``: counts decided exactly, margins and energies in doubles. On a sphere lengths and
+    angles are measured along arcs."""
 
     vertices: int
     triangles: int
@@ -59,35 +59,35 @@ class Quality(Record):
     negative_boundary_duals: int
     """Boundary edges with h < 0."""
     orthocenters_outside: int
-    """Triangles with some h ≤ 0, and inverted ones."""
+    """Triangles with some h ≤ 0, and inverted triangles."""
     edges_not_crossed: int
     """Edges without 0 < d < ℓ."""
     well_centered_fraction: float
-    """Triangles with all h > 0 and 0 < d < ℓ."""
+    """Fraction of triangles with all h > 0 and 0 < d < ℓ."""
     min_h_over_l: float
-    """Over triangles and their edges; −inf for an inverted triangle."""
+    """Least over triangles and their edges; −inf for an inverted triangle."""
     min_d_over_l: float
-    """Over edges, the lesser of d/ℓ and 1 − d/ℓ."""
+    """Least of d/ℓ and 1 − d/ℓ over edges."""
     min_angle_deg: float
     max_angle_deg: float
     max_transmissibility_over_median: float
-    """Of ℓ/\\|h_k + h_l\\| of interior edges. inf when a dual edge has length zero, exactly; 1 without interior
-    edges."""
+    """Largest over median transmissibility ℓ/\\|h_k + h_l\\| of interior edges. inf if a dual edge has exactly length
+    zero; 1 without interior edges."""
     transmissibility_ratio: float
-    """The largest over the least of them."""
+    """Largest over least transmissibility."""
     min_edge_over_size: float
-    """Of interior edges, over the mean of the local sizes at their ends."""
+    """Least length of interior edges, over the mean of the local sizes at their ends."""
     min_dual_over_size: float
     min_dual_over_cell_median: float
-    """Of each closed cell the least signed dual over the median of their lengths."""
+    """Least signed dual of a closed cell over the median of its dual lengths; the least over closed cells."""
     max_orthogonality: float
-    """D-Flow FM: \\|cosine\\| between an edge and the line of the circumcenters kept inside."""
+    """D-Flow FM: largest \\|cosine\\| between an edge and the line of the circumcenters on its sides, kept inside."""
     max_smoothness: float
-    """D-Flow FM: ratio of areas on the sides of an edge."""
+    """D-Flow FM: largest ratio of the areas on the two sides of an edge."""
     min_flow_link: float
-    """D-Flow FM: distance of these circumcenters over the mean root of their areas."""
+    """D-Flow FM: least distance of these circumcenters over the mean of the roots of both areas."""
     small_flow_links: int
-    """D-Flow FM: where that is below 0.1."""
+    """D-Flow FM: number of edges with a flow link below 0.1."""
     min_cell_quality: float
     """MPAS-Tools' cellQuality."""
     min_grid_spacing: float
@@ -100,13 +100,13 @@ class Quality(Record):
     obtuse_triangles: int
     """MPAS-Tools' obtuseTriangle."""
     max_centroid_offset_over_size: float
-    """Distance of a vertex from the centroid of its closed cell."""
+    """Largest distance of a vertex from the centroid of its closed cell, over local size."""
     energy: dict[str, tuple[float, float, float]]
-    """Of each energy the totals for ★0, ★1, ★2; inf outside its domain."""
+    """Total of each energy for ★0, ★1, ★2; inf outside its domain."""
     worst: list[WorstTriangle]
-    """Worst first."""
+    """Worst triangles, the worst first."""
     angles: Histogram = dataclasses.field(repr=False)
-    """Of all angles [degrees]."""
+    """Histogram of all angles [degrees]."""
     h_over_l: Histogram = dataclasses.field(repr=False)
     d_over_l: Histogram = dataclasses.field(repr=False)
 
@@ -130,11 +130,11 @@ def quality(
     ----------
     mesh : Mesh or meshio.Mesh
     gamma, h0 : LengthParameter or float
-        γ of E_BP and −h° of E_BHs in the report; plain numbers are relative to each edge.
+        Parameters γ of E_BP and −h° of E_BHs in the report; plain numbers are relative to each edge.
     worst : int
-        How many of the worst triangles to list.
+        Number of the worst triangles to list.
     threads : int, optional
-        None or 0: all of the machine. The report does not depend on it.
+        Number of threads; None or 0: all of the machine. The report does not depend on it.
 
     Examples
     --------
@@ -152,21 +152,21 @@ class QualityMeasure(Record):
     """A row of ``quality_measures``: a number of ``Quality``."""
 
     key: str
-    """Its name in ``Quality``, in reports and for ``--require``."""
+    """Name of the number in ``Quality``, in reports and for ``--require``."""
     alias: str
-    """A short name for ``--require``, or the one that its community uses; or empty."""
+    """Short name for ``--require``, or the name that its community uses; or empty."""
     label: str
     community: str
-    """Whose codes look at it; empty for those of primal-dual meshes as such."""
+    """Community whose codes use the measure; empty for measures of primal-dual meshes in general."""
     definition: str
     better: Literal["equal", "larger", "less"]
     count: bool
     wanted: float | None
-    """What is asked for where nobody says more."""
+    """Requirement by default, if the user gives no other."""
 
 
 def quality_measures() -> list[QualityMeasure]:
-    """All numbers of ``Quality``, the energies aside.
+    """All numbers of ``Quality`` except energies.
 
     >>> import temper
     >>> {row.key: row.wanted for row in temper.quality_measures() if row.community == "D-Flow FM"}
@@ -177,19 +177,19 @@ def quality_measures() -> list[QualityMeasure]:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class TriangleQuality(Record):
-    """What ``Quality`` says of a mesh, of each triangle: arrays (m,), which VTU files have as cell data."""
+    """Quality of each triangle: arrays (m,), which VTU files have as cell data."""
 
     well_centered: npt.NDArray[np.bool_]
     """All h > 0 and 0 < d < ℓ, exact."""
     min_h_over_l: npt.NDArray[np.float64]
     """−inf for an inverted triangle."""
     min_d_over_l: npt.NDArray[np.float64]
-    """Of each edge the lesser of d/ℓ and 1 − d/ℓ."""
+    """Lesser of d/ℓ and 1 − d/ℓ, least over the edges."""
     min_angle_deg: npt.NDArray[np.float64]
 
 
 def triangle_quality(mesh: MeshLike) -> TriangleQuality:
-    """Measures each triangle: arrays of what ``quality`` has the least of.
+    """Measures each triangle: arrays whose least values are in ``quality``.
 
     Examples
     --------

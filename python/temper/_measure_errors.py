@@ -1,4 +1,4 @@
-"""What users' solvers feel: the errors that a mesh causes, measured with manufactured solutions."""
+"""The errors that a mesh causes in users' solvers, measured with manufactured solutions."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ class ErrorField(Record):
 
     name: str
     group: FieldGroup
-    """An objective may be tuned on the chosen ones; what it is worth, those held back tell. exact: linear, which both
-    schemes must reproduce on any mesh."""
+    """Purpose of the field. An objective may be tuned on the chosen fields. The fields held back then show its true
+    value. exact: linear fields, which both schemes must reproduce on any mesh."""
     formula: str
-    """In x and y of the frame."""
+    """Formula in x and y of the frame."""
 
 
 @dataclasses.dataclass(frozen=True)
 class FieldFrame(Record):
-    """Where the fields lie: they are functions of (p − center) / half_size."""
+    """The frame of the fields, which are functions of (p − center) / half_size."""
 
     center: tuple[float, float]
     half_size: float
@@ -41,7 +41,7 @@ class FieldFrame(Record):
 
 @dataclasses.dataclass(frozen=True)
 class ErrorNorms(Record):
-    """Relative: l2 over the field's root mean square, and the maximum over it. inf where the system is singular."""
+    """Relative errors: l2 over the field's root mean square, and the maximum over it. inf if the system is singular."""
 
     l2: float
     max: float
@@ -49,7 +49,7 @@ class ErrorNorms(Record):
 
 @dataclasses.dataclass(frozen=True)
 class OperatorErrors(Record):
-    """The errors of one field, or their means over fields, or ratios or orders of them."""
+    """The errors of one field; also means over fields, ratios or orders."""
 
     star: tuple[ErrorNorms, ErrorNorms, ErrorNorms]
     """★0, ★1, ★2."""
@@ -75,22 +75,23 @@ class FieldErrors(Record):
 
 @dataclasses.dataclass(frozen=True)
 class ErrorSystem(Record):
-    """The matrix of a scheme, without what the boundary fixes."""
+    """The matrix of a scheme, without the unknowns that the boundary fixes."""
 
     unknowns: int
     m_matrix: bool
-    """No positive entry off the diagonal, and diagonally dominant; decided by exact signs of the dual lengths."""
+    """No positive entry is off the diagonal, and the matrix is diagonally dominant, by exact signs of the dual
+    lengths."""
     definite: bool
     singular: bool
-    """Could not be solved: all errors are inf."""
+    """The system could not be solved: all errors are inf."""
     negative: int
-    """Edges whose coefficient in it is < 0, exact."""
+    """Number of edges with a negative coefficient, exact."""
     merged: int
-    """flux: edges whose orthocenters coincide, which makes them one unknown."""
+    """For flux: number of edges whose two orthocenters coincide, so that they are one unknown."""
     largest_over_median: float
-    """Of the \\|coefficients\\| of interior edges; inf where one is."""
+    """Largest over median \\|coefficient\\| of interior edges; inf if one is inf."""
     condition: float | None
-    """Spectral, a lower bound that is near; None when it was not asked for."""
+    """Spectral condition, a lower bound near the true value; None if it was not requested."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -106,7 +107,7 @@ class ErrorLevel(Record):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ErrorReport(Record):
-    """What ``measure_errors`` measured."""
+    """The result of ``measure_errors``."""
 
     vertices: int
     edges: int
@@ -122,11 +123,12 @@ class ErrorReport(Record):
     levels: list[ErrorLevel]
     """The mesh itself and its refinements, coarsest first; empty without refine."""
     orders: list[FieldErrors]
-    """Of each field, how the errors go with the edge length: the slope by least squares in logarithms; NaN where it is
-    not defined. Empty without refine."""
+    """Order of the errors of each field in the edge length: the least-squares slope in logarithms; NaN if it is not
+    defined. Empty without refine."""
     local: list[npt.NDArray[np.float64]] = dataclasses.field(repr=False)
-    """With ``local=True``: of each vertex (★0), edge (★1, in the order of ``dec``) and triangle (★2) the relative error
-    of the mean over it, its root mean square over the fields."""
+    """Errors at single elements, with ``local=True``: the root mean square over the fields of the relative errors at
+    each vertex (★0), edge (★1, in the order of ``dec_operators``) and triangle (★2). Each is the error of the mean over
+    the element."""
 
     def _rows(self) -> list[tuple[str, str]]:
         nested = ("frame", "poisson", "flux", "fields", "levels", "orders")
@@ -142,12 +144,13 @@ _KEYS = [f"{name}.{norm}" for name in ("star0", "star1", "star2", "poisson", "fl
 
 
 def error_fields(*, sphere: bool = False, periodic: bool = False) -> list[ErrorField]:
-    """The manufactured solutions of the plane, or those of the sphere or of a periodic plane."""
+    """The manufactured solutions of the plane, the sphere or a periodic plane."""
     return [ErrorField(**row) for row in _temper.error_fields(sphere, periodic)]
 
 
 def field_frame(mesh: MeshLike) -> FieldFrame:
-    """Around the bounding box of the vertices: its longer side goes from −1 to 1. On a sphere its radius."""
+    """The frame of the bounding box of the vertices: its longer side goes from −1 to 1. On a sphere its radius
+    counts."""
     return FieldFrame(**_temper.field_frame(as_mesh(mesh)._handle))
 
 
@@ -183,22 +186,22 @@ def measure_errors(
     ----------
     mesh : Mesh or meshio.Mesh
     fields : sequence of str
-        Names of fields, or of groups (``"chosen"``, ``"held-back"``), or ``"all"``; none: all.
+        Names of fields or of groups (``"chosen"``, ``"held-back"``), or ``"all"``; empty: all.
     frame : FieldFrame, optional
-        None: ``field_frame(mesh)``. Meshes are compared in one frame.
+        Frame of the fields; None: ``field_frame(mesh)``. Use one frame to compare meshes.
     refine : int
-        So many times each triangle becomes four, and orders are measured.
+        Number of refinements, each triangle into four; then orders are measured too.
     condition : bool
         Also estimate the condition of both matrices.
     local : bool
         Also list the errors of each vertex, edge and triangle.
     threads : int, optional
-        The report does not depend on it.
+        Number of threads. The report does not depend on it.
 
     Raises
     ------
     TemperError
-        Unknown fields, a frame of no size, more refinement than memory is meant for.
+        Unknown fields, a frame of zero size, too many refinements for the memory.
 
     Examples
     --------
@@ -228,17 +231,16 @@ def measure_errors(
 
 
 def geometric_mean(fields: Sequence[FieldErrors], group: FieldGroup | None = None) -> OperatorErrors:
-    """Over fields, of all of them or of one group; 1 of none."""
+    """The geometric mean over all fields or over one group; 1 if there is none."""
     return OperatorErrors._of(_temper.geometric_mean(*_plain(fields), group))
 
 
 def arithmetic_mean(fields: Sequence[FieldErrors], group: FieldGroup | None = None) -> OperatorErrors:
-    """Over fields: the mean for orders; NaN where one is."""
+    """The arithmetic mean over fields, the right mean for orders; NaN if one is NaN."""
     return OperatorErrors._of(_temper.arithmetic_mean(*_plain(fields), group))
 
 
 def error_ratios(after: ErrorReport, before: ErrorReport) -> list[FieldErrors]:
-    """Errors over errors, field by field: below 1 where ``after`` is better. TemperError: not the same fields in the
-    same frame."""
+    """The ratio of errors, field by field: below 1 if ``after`` is better. TemperError if fields or frames differ."""
     d = _temper.error_ratios(*_plain(after.fields), after.frame._plain(), *_plain(before.fields), before.frame._plain())
     return _fields(d)

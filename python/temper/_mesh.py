@@ -13,11 +13,11 @@ from ._errors import TemperError, TemperWarning
 from ._meshio import data_of, handle_of, meshio_of
 from ._space import Space
 
-_PICTURE = 3000  # triangles of a mesh that is drawn in notebooks
+_PICTURE = 3000  # triangles: larger meshes are not drawn in notebooks
 
 
 def _ints(values: Any, columns: int, name: str) -> npt.NDArray[Any]:
-    """Whole numbers with so many columns (0: none), int32 as they are and all others as int64."""
+    """Whole numbers with the given number of columns (0: one dimension). int32 stays, all others become int64."""
     if values is None:
         return np.empty((0, columns) if columns else 0, dtype=np.int64)
     array = np.asarray(values)
@@ -32,7 +32,7 @@ def _ints(values: Any, columns: int, name: str) -> npt.NDArray[Any]:
 
 
 def _doubles(values: Any, columns: int, name: str) -> npt.NDArray[np.float64]:
-    """Doubles with so many columns (0: none), without a copy when they are so already."""
+    """Doubles with the given number of columns (0: one dimension), without a copy if they are doubles already."""
     if values is None:
         return np.empty((0, columns) if columns else 0)
     array = np.asarray(values)
@@ -47,11 +47,11 @@ def _doubles(values: Any, columns: int, name: str) -> npt.NDArray[np.float64]:
 
 
 DataRules = Union[str, Sequence[str]]
-"""What data do where vertices move: see ``Mesh.point_data_rules``."""
+"""The treatment of data when vertices move: see ``Mesh.point_data_rules``."""
 
 
 def data_rules(words: DataRules) -> tuple[str, ...]:
-    """One word or several as a tuple."""
+    """One or several words as a tuple."""
     rules = (words,) if isinstance(words, str) else tuple(words)
     if not all(isinstance(word, str) for word in rules):
         raise TypeError(f"point_data: expected a word or a sequence of words, found {words!r}")
@@ -59,7 +59,7 @@ def data_rules(words: DataRules) -> tuple[str, ...]:
 
 
 def _planar(points: Any) -> npt.NDArray[np.float64]:
-    """(n, 2) points, of (n, 3) ones that have one z."""
+    """Points as (n, 2). Points (n, 3) must have the same z."""
     array = np.asarray(points)
     if array.ndim != 2 or array.shape[1] != 3 or array.size == 0 or array.dtype.kind not in "iuf":
         return _doubles(points, 2, "points")
@@ -78,8 +78,8 @@ def _places(points: Any, space: Space) -> npt.NDArray[np.float64]:
 
 
 class Data(MutableMapping[str, npt.NDArray[Any]]):
-    """Named arrays of a mesh, a row for each point or triangle, as they are when asked for. Assigning an array, or
-    deleting one, changes the mesh; the arrays themselves are read-only copies."""
+    """Named arrays of a mesh, with a row for each point or triangle. They show the state of the mesh at the time of the
+    call. Assigning or deleting an array changes the mesh. The arrays themselves are read-only copies."""
 
     def __init__(self, mesh: Mesh, kind: Literal["point_data", "cell_data"]) -> None:
         self._mesh, self._kind = mesh, kind
@@ -120,37 +120,37 @@ class Mesh:
     Parameters
     ----------
     points : (n, 2) float64
-        Positions, in units of your choice; read without a copy when C-contiguous. Or (n, 3) with one z. On a sphere
+        Positions, in units of your choice; read without a copy if C-contiguous. Or (n, 3) with the same z. On a sphere
         (n, 3), at its radius to one part in a million.
     triangles : (m, 3) int32 or int64
         Corners, counted from 0. Clockwise triangles are reversed; ``reversed_triangles`` counts them.
     weights : (n,) float64, optional
-        Squared lengths: the power of a place p to vertex i is \\|x_i − p\\|² − w_i, so that a larger weight makes a
-        larger power cell. Default: all 0. On a sphere more than −R²: see ``Space``.
+        Squared lengths [length²]. The power of a place p to vertex i is \\|x_i − p\\|² − w_i, so a larger weight makes
+        a larger power cell. Default: all 0. On a sphere weights must be more than −R²: see ``Space``.
     constrained_edges : (k, 2) int, optional
-        Edges that must stay, as pairs of vertices: feature lines. Edges between regions are constrained anyway.
+        Edges that must stay, as pairs of vertices: feature lines. Edges between regions are always constrained.
     regions : (m,) int32, optional
         A number for each triangle. Default: all 0.
     fixed : (k,) int, optional
-        Vertices that must not move. (Those of the boundary stay without being named.)
+        Vertices that must not move. (Boundary vertices stay without being named.)
     space : Space
-        ``Space.sphere(radius)`` for a mesh of the sphere: of all of it, or of a part with a boundary; edges are arcs of
-        less than half a great circle. ``Space.periodic(x, y)``: points are any images. Default: the plane.
+        ``Space.sphere(radius)`` for a mesh of the whole sphere, or of a part with a boundary; edges are arcs of less
+        than half a great circle. ``Space.periodic(x, y)``: each point may be any of its images. Default: the plane.
     threads : int, optional
         Threads for the checks; None or 0: all of the machine.
 
     Raises
     ------
     TemperError
-        Arrays that make no mesh of the space: numbers out of range or not finite, points twice, in no triangle or not
-        on the sphere, triangles of no area or on top of another, edges with more than two triangles, vertices where the
-        mesh touches itself. The message names the element.
+        Arrays that make no mesh of the space; the message names the element. Numbers are out of range or not finite.
+        Points occur twice, are in no triangle or are not on the sphere. Triangles have no area or lie on top of
+        another. Edges have more than two triangles, or the mesh touches itself at a vertex.
 
     Notes
     -----
     ``points``, ``weights``, ``triangles`` and ``twins`` are read-only views on the mesh's own memory, without copies. A
-    view keeps what it shows: when the mesh changes afterwards, the mesh is given new memory and the view is that of
-    before. All other arrays are copies; on a sphere so are ``points`` and ``weights``, and ``weighted_vectors`` is the
+    view keeps its values: when the mesh changes, the mesh gets new memory, and the view shows the former state. All
+    other arrays are copies. On a sphere ``points`` and ``weights`` are copies too, and ``weighted_vectors`` is the
     view. To change a mesh, assign: ``mesh.weights = w``.
 
     Halfedge 3 t + k runs from corner k to corner k + 1 of triangle t. Triangles are counter-clockwise, on a sphere as
@@ -172,9 +172,9 @@ class Mesh:
 
     _handle: _temper.Mesh
     reversed_triangles: int
-    """Triangles that were clockwise in the input."""
+    """Number of triangles that were clockwise in the input."""
     warnings: list[str]
-    """What was repaired or dropped when the mesh was read, in sentences."""
+    """Repairs and losses when the mesh was read, in sentences."""
 
     def __init__(
         self,
@@ -233,7 +233,7 @@ class Mesh:
 
     @property
     def memory_bytes(self) -> int:
-        """Bytes of the mesh's arrays."""
+        """Size of the mesh's arrays in bytes."""
         return self._handle.memory_bytes()
 
     # --- arrays --------------------------------------------------------------------------------------------
@@ -245,11 +245,11 @@ class Mesh:
 
     @property
     def points(self) -> npt.NDArray[np.float64]:
-        """Positions, (n, 2) float64 [length]. A read-only view, rows 32 bytes apart. On a sphere the places of the
-        vertices on it, (n, 3), a copy.
+        """Positions, (n, 2) float64 [length]. A read-only view, rows 32 bytes apart. On a sphere a copy, (n, 3), of the
+        places of the vertices.
 
-        Assigning moves all vertices at once, with their weights; TemperError when a triangle would not be
-        counter-clockwise, or a point is off the sphere, and then nothing has changed. O(n).
+        Assigning moves all vertices at once and keeps their weights. TemperError if a triangle would not be
+        counter-clockwise, or a point is off the sphere; then nothing changes. O(n).
         """
         return self._handle.points()
 
@@ -269,9 +269,9 @@ class Mesh:
 
     @property
     def weighted_vectors(self) -> npt.NDArray[np.float64]:
-        """On a sphere: the weighted vector P of each vertex, (n, 3) float64 [length], whose direction is its place, and
-        \\|P\\|² = R² + w. A read-only view, rows 32 bytes apart; what ``temper.geometry`` takes. Assigning sets places
-        and weights at once, as for ``points``. TemperError in the plane."""
+        """Weighted vector P of each vertex on a sphere, (n, 3) float64 [length]. Its direction is the place, and
+        \\|P\\|² = R² + w. A read-only view, rows 32 bytes apart, for ``temper.geometry``. Assigning sets places and
+        weights at once, with the errors of ``points``. TemperError in the plane."""
         return self._handle.weighted_vectors()
 
     @weighted_vectors.setter
@@ -301,8 +301,8 @@ class Mesh:
 
     @property
     def edges(self) -> npt.NDArray[np.int32]:
-        """Each edge once, as two vertices, (e, 2) int32, in the order of the halfedges (not that of ``dec``). A
-        copy."""
+        """Each edge once, as two vertices, (e, 2) int32, in the order of the halfedges (``dec_operators`` has another
+        order). A copy."""
         return self._handle.edges()
 
     @property
@@ -312,12 +312,12 @@ class Mesh:
 
     @property
     def constrained_edges(self) -> npt.NDArray[np.int32]:
-        """Edges that are never flipped, (k, 2) int32: lines of yours, and interfaces of regions. A copy."""
+        """Edges that never flip, (k, 2) int32: your lines, and interfaces of regions. A copy."""
         return self._handle.constrained_edges()
 
     @property
     def fixed(self) -> npt.NDArray[np.int32]:
-        """Vertices that were marked never to move, (k,) int32, ascending. A copy. Assigning marks others."""
+        """Vertices that must never move, (k,) int32, ascending. A copy. Assigning replaces these marks."""
         return self._handle.fixed()
 
     @fixed.setter
@@ -327,7 +327,7 @@ class Mesh:
     # --- methods --------------------------------------------------------------------------------------------
 
     def set_constrained(self, edges: npt.ArrayLike, constrained: bool = True) -> None:
-        """Marks edges, (k, 2) pairs of vertices, never to be flipped, or takes the mark away. TemperError when the mesh
+        """Marks edges, (k, 2) pairs of vertices, so that they never flip, or removes the mark. TemperError if the mesh
         has no such edge."""
         self._handle.set_constrained(_ints(edges, 2, "edges").astype(np.int64), constrained)
 
@@ -340,16 +340,16 @@ class Mesh:
         return self._handle.star(vertex)
 
     def validate(self) -> str | None:
-        """Checks all that must hold of a mesh (every triangle counter-clockwise, exactly); says the first thing that
-        does not, or None. O(n)."""
+        """Checks the mesh, for example that every triangle is counter-clockwise (exact). Returns the first fault, or
+        None. O(n)."""
         return self._handle.validate()
 
     def compact(self) -> npt.NDArray[np.int32]:
-        """Drops what ``topology.remove_vertex`` erased. Returns the former number of each vertex."""
+        """Drops everything that ``topology.remove_vertex`` erased. Returns the former number of each vertex."""
         return self._handle.compact()
 
     def copy(self) -> Mesh:
-        """A mesh of its own; memory is shared until one of them changes."""
+        """An independent mesh; the memory is shared until one of the two changes."""
         mesh = Mesh._of(self._handle.copy())
         mesh.reversed_triangles = self.reversed_triangles
         mesh.warnings = list(self.warnings)
@@ -362,13 +362,13 @@ class Mesh:
         return self.copy()
 
     def __eq__(self, other: object) -> bool:
-        """The same numbers everywhere, bit for bit in the arrays."""
+        """Says whether all arrays are equal, bit for bit."""
         return isinstance(other, Mesh) and self._handle.equal(other._handle)
 
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> Any:
-        """All that ``copy`` keeps, for another process. To keep a mesh, write it."""
+        """Everything that ``copy`` keeps, for another process. To keep a mesh, write it."""
         vectors = None if self.space.is_plane else np.array(self.weighted_vectors)
         vertices = (self.space, np.array(self.points), np.array(self.weights), vectors, self.fixed)
         triangles = (np.array(self.triangles), self.constrained_edges, self.regions)
@@ -380,22 +380,23 @@ class Mesh:
 
     @property
     def point_data(self) -> Data:
-        """Data of the points that the mesh's file had, or that were assigned, as they are now (``point_data_rules``):
+        """Data of the points, from the mesh's file or assigned, in their current state (``point_data_rules``):
         ``mesh.point_data["depth"] = depth``."""
         return Data(self, "point_data")
 
     @property
     def cell_data(self) -> Data:
-        """Data of the triangles that the mesh's file had, or that were assigned: of each triangle those of the one there
-        that its middle is in."""
+        """Data of the triangles, from the mesh's file or assigned. Each triangle has the data of the original triangle
+        that contains its middle."""
         return Data(self, "cell_data")
 
     @property
     def point_data_rules(self) -> tuple[str, ...]:
-        """What floating point data of points do where vertices move, in words. ``"interpolate"`` (the default): they are
-        of the place, linear on the triangles that the mesh came with, so that a depth stays where it was measured.
-        ``"keep"``: they go with their point. ``"keep=NAME"`` and ``"interpolate=NAME"`` are for one array. Integers stay
-        with their points. Assigning one word or several sets all of them; TemperError when there is no such array."""
+        """Rules for floating point data of points when vertices move, in words. ``"interpolate"`` (the default): data
+        belong to the place and are linear on the original triangles, so that a depth stays where it was measured.
+        ``"keep"``: data stay with their point. ``"keep=NAME"`` and ``"interpolate=NAME"`` are for one array. Integers
+        always stay with their points. Assigning one word or several replaces all rules. TemperError if an array does
+        not exist."""
         return tuple(_temper.data_rules(self._handle))
 
     @point_data_rules.setter
@@ -405,9 +406,10 @@ class Mesh:
     def to_meshio(self) -> Any:
         """The mesh as a ``meshio.Mesh``, which meshio writes to any of its formats. Needs meshio.
 
-        Points are (n, 3) float64 (z as it was, or 0; of a sphere the places), with point data ``weight`` (float64,
-        [length²]). Triangles have cell data ``region``. Lines of the file and constrained edges are cells of type
-        ``line``, marked points of type ``vertex``; their ``region`` is their tag. What else came with the mesh follows.
+        Points are (n, 3) float64 (with the original z, or 0; on a sphere the places), with point data ``weight``
+        (float64, [length²]). Triangles have cell data ``region``. Lines of the file and constrained edges are cells of
+        type ``line``, marked points of type ``vertex``; their ``region`` is their tag. All other data of the mesh
+        follow.
         """
         return meshio_of(self._handle)
 
@@ -426,7 +428,7 @@ def _unpickle(vertices: tuple[Any, ...], triangles: tuple[Any, ...], source: tup
     corners, constrained, regions = triangles
     mesh = Mesh(points, corners, weights, constrained_edges=constrained, regions=regions, fixed=fixed, space=space)
     if vectors is not None:
-        mesh.weighted_vectors = vectors  # bit for bit: places and weights are rounded
+        mesh.weighted_vectors = vectors  # bit for bit, because points and weights are rounded
     file, rules = source
     if file is not None:
         _temper.set_source_from_dict(mesh._handle, file)
@@ -435,7 +437,7 @@ def _unpickle(vertices: tuple[Any, ...], triangles: tuple[Any, ...], source: tup
 
 
 MeshLike = Union[Mesh, Any]
-"""A ``temper.Mesh``, or a ``meshio.Mesh``, wherever a mesh is taken."""
+"""A ``temper.Mesh`` or a ``meshio.Mesh``, for every function that takes a mesh."""
 
 
 def as_mesh(mesh: MeshLike) -> Mesh:
@@ -449,7 +451,7 @@ def as_mesh(mesh: MeshLike) -> Mesh:
 
 
 def _warn(mesh: Mesh, messages: list[str], level: int) -> Mesh:
-    """The mesh, with its messages also as warnings at the line so many calls up."""
+    """The mesh, with its messages also as warnings at the line ``level`` calls up."""
     mesh.warnings = messages
     for message in messages:
         warnings.warn(message, TemperWarning, stacklevel=level + 1)
@@ -465,19 +467,19 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
     Parameters
     ----------
     mesh : meshio.Mesh
-        Its triangles become the mesh; lines inside the domain become constrained edges; vertex cells stay with their
-        points; other cells, and ``point_sets`` and ``cell_sets``, are left out, with a warning. Points may have a third
-        coordinate when it is the same for all; points that are all at one distance from the origin instead, to one part
-        in a million, are a mesh of the sphere. Point data ``weight`` are the weights [length²]; integer cell data
-        ``region``, ``gmsh:physical``, ``medit:ref`` or ``cell_tags`` (the first that is there) are the regions. All
-        point and cell data are kept: ``to_meshio`` and ``write`` give them back.
+        Its triangles become the mesh, and lines inside the domain become constrained edges. Vertex cells stay with
+        their points. Other cells, ``point_sets`` and ``cell_sets`` are left out, with a warning. Points may have a
+        third coordinate if it is the same for all. If all points have the same distance from the origin, to one part in
+        a million, they are a mesh of the sphere. Point data ``weight`` are the weights [length²]. The regions are the
+        integer cell data ``region``, ``gmsh:physical``, ``medit:ref`` or ``cell_tags``, the first that exists. All
+        point and cell data are kept: ``to_meshio`` and ``write`` return them.
     fixed_tags : sequence of str or int
-        Lines with these tags: their points must not move.
+        Tags of lines whose points must not move.
 
     Raises
     ------
     TemperError
-        As ``Mesh`` does; also without triangles, and for points in space that are on no sphere.
+        The errors of ``Mesh``; also no triangles, and points in space that are on no sphere.
 
     Warns
     -----
@@ -491,8 +493,8 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
 
 
 def put_back(mesh: Any, changed: Mesh) -> None:
-    """Writes a mesh that was changed in place into the ``meshio.Mesh`` that it was made of. Its sets of points stay,
-    with the numbers of now; sets of cells cannot, for flips change the triangles."""
+    """Writes a mesh that was changed in place into the ``meshio.Mesh`` that it came from. Sets of points stay, with
+    their new numbers. Sets of cells are lost, because flips change the triangles."""
     new = meshio_of(changed._handle)
     now = np.asarray(_temper.vertices_of_points(changed._handle))
     sets = {name: now[np.asarray(points, dtype=np.int64)] for name, points in mesh.point_sets.items()}

@@ -1,4 +1,4 @@
-"""Between ``meshio.Mesh`` and what the compiled half holds. What users call of it is in ``_mesh``."""
+"""Conversion between ``meshio.Mesh`` and the compiled module. The functions for users are in ``_mesh``."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _REGIONS = ("region", "gmsh:physical", "medit:ref", "cell_tags")
 
 
 def _points(values: Any) -> Any:
-    """Two or three coordinates a point. The library settles whether three are of a plane or of a sphere."""
+    """Two or three coordinates per point. The library decides whether three are in a plane or on a sphere."""
     points = np.asarray(values, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise TemperError("size_mismatch", "", f"points: expected shape (n, 2) or (n, 3), found {points.shape}")
@@ -25,7 +25,7 @@ _TYPES = {np.dtype(t) for t in ("f8", "f4", "i8", "i4", "u1", "i1", "i2", "u2", 
 
 
 def data_of(name: str, values: Any, dropped: list[str]) -> Any:
-    """The array as one of the types that files have, or None."""
+    """The array in one of the types of files, or None."""
     array = np.asarray(values)
     if array.dtype == bool:
         array = array.astype(np.uint8)
@@ -65,7 +65,7 @@ def _tags(data: dict[str, Any], size: int) -> tuple[Any, str | None]:
 
 
 def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, list[str]]:
-    """A handle of the ``meshio.Mesh``, and what was left out or changed."""
+    """A handle of the ``meshio.Mesh``, and messages about omissions and changes."""
     dropped: list[str] = []
     for block in mesh.cells:
         if block.type not in ("triangle", "line", "vertex"):
@@ -122,7 +122,7 @@ def meshio_of(handle: Any) -> Any:
     if len(file["marked_points"]):
         cells.append(("vertex", file["marked_points"].astype(np.int64).reshape(-1, 1)))
         blocks.append((len(file["marked_points"]), file["marked_point_data"], file["point_tags"]))
-    # meshio wants each array on every block: zeros where a block has none.
+    # meshio needs each array on every block: zeros if a block has none.
     cell_data: dict[str, list[Any]] = {"region": [tags for _, _, tags in blocks]}
     for name in dict.fromkeys(name for _, data, _ in blocks for name in data):
         like = next(data[name] for _, data, _ in blocks if name in data)

@@ -1,4 +1,4 @@
-"""Algorithm 1 of the paper: meshes made well-centered, in place."""
+"""Algorithm 1 of the paper: makes meshes well-centered, in place."""
 
 from __future__ import annotations
 
@@ -22,32 +22,33 @@ if TYPE_CHECKING:
     from ._options import OptionChanges
 
 
-PAGE = 20_000  # triangles of a mesh whose HTML report notebooks show, and keep
+PAGE = 20_000  # triangles: notebooks keep and show the HTML report only of smaller meshes
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class TraceEvent:
-    """Vertices are numbered as in the input, also after removals; new ones get the numbers after those of the input.
+    """An event of a run. Vertices are numbered as in the input, also after removals; new vertices get the next numbers.
     Coordinates and weights are in the user's units."""
 
     kind: Literal["move", "weight", "flip", "collapse", "removal", "insertion", "split", "hidden", "undo"]
     sweep: int
-    """0: making the input regular, and cutting its boundary."""
+    """Sweep of the event; 0: the input is made regular and its boundary cut."""
     vertex: int
-    """−1 for flip, and for undo of whole sweeps; insertion, split: the new one."""
+    """Vertex of the event; −1 for flip, and for undo of whole sweeps. For insertion and split, the new vertex."""
     before: float
-    """Energy of the vertex's patch, or of all edges that a flip changes, before the event; NaN where none belongs."""
+    """Energy before the event, of the vertex's patch or of all edges that a flip changes; NaN if the event has none."""
     after: float
     point: tuple[float, float, float]
-    """move, weight, insertion, split: x, y, w of the vertex now; on a sphere its weighted vector."""
+    """New x, y, w of the vertex for move, weight, insertion, split; on a sphere its weighted vector."""
     quad: tuple[int, int, int, int]
-    """flip: edge a→b, with c on its left and d on its right, becomes d→c; split: a→b was cut (d −1 on the boundary)."""
+    """For flip: edge a→b, with c on its left and d on its right, becomes d→c. For split: a→b was cut (d is −1 on the
+    boundary)."""
     link: npt.NDArray[np.int32]
-    """collapse, removal: neighbors, counter-clockwise; insertion: corners of the triangle."""
+    """Neighbors, counter-clockwise, for collapse and removal; corners of the triangle for insertion."""
     triangles: list[tuple[int, int, int]]
-    """collapse, removal: that fill the cavity, in slot order."""
+    """New triangles of the cavity, in slot order, for collapse and removal."""
     to_sweep: int
-    """undo without a vertex: the sweep at whose end the mesh was so; −1: the input as given."""
+    """For undo without a vertex: the sweep at whose end the mesh was the same; −1: the input as given."""
 
     def _plain(self) -> dict[str, Any]:
         return {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
@@ -55,19 +56,19 @@ class TraceEvent:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Snapshot:
-    """The mesh as it is at one moment of a run."""
+    """The mesh at one moment of a run."""
 
     moment: Literal["start", "after_sweep", "before_flips", "after_flips"]
     sweep: int
-    """Sweeps done."""
+    """Number of sweeps done."""
     outer: int
-    """Rounds of deferred flips done."""
+    """Number of rounds of deferred flips done."""
     energy: float
-    """Of the mesh, at the γ of the sweep."""
+    """Energy of the mesh, at the γ of the sweep."""
     mesh: Mesh
-    """A copy; may hold inverted triangles when those are allowed."""
+    """A copy; it may hold inverted triangles if they are allowed."""
     vertices: npt.NDArray[np.int32]
-    """Number in the input of each vertex; −1: inserted."""
+    """Number of each vertex in the input; −1: inserted."""
 
     @classmethod
     def _of(cls, d: dict[str, Any]) -> Snapshot:
@@ -77,26 +78,26 @@ class Snapshot:
 
 @dataclasses.dataclass(frozen=True)
 class DataReport(Record):
-    """Data of the points and triangles that came with a mesh, where it is another now. All 0 without such data."""
+    """The fate of the data of points and triangles after the mesh has changed. All 0 without such data."""
 
     points: int
-    """Of those that the mesh came with, that are left."""
+    """Original points that are still there."""
     points_moved: int
-    """Of those, elsewhere than they were."""
+    """Points among these that have moved."""
     distance: Spread
-    """By which the moved ones are [length]."""
+    """Distances that these have moved [length]."""
     points_inserted: int
     interpolated: list[str]
-    """Point data that are of the place: linear on the triangles that the mesh came with."""
+    """Point data that belong to the place: linear on the original triangles."""
     kept: list[str]
-    """Point data that went with their points."""
+    """Point data that stayed with their points."""
     dropped: list[str]
     """Integer point data that differ around an inserted point."""
     triangles: int
     triangles_changed: int
-    """Of those, with other corners or at other places than the mesh came with at this number."""
+    """Triangles among these whose corners or places differ from the original triangle of the same number."""
     of_triangles: list[str]
-    """Data of triangles: those of the triangle that the mesh came with where the middle of each is now."""
+    """Data of triangles: each triangle has the data of the original triangle that contains its middle."""
 
     @classmethod
     def _of(cls, mesh: Mesh, threads: int | None) -> DataReport:
@@ -106,7 +107,7 @@ class DataReport(Record):
 
 @dataclasses.dataclass(frozen=True)
 class SizeChange(Record):
-    """What a run did to the sizes: both compared with the size field."""
+    """The change of the sizes: both meshes compared with the size field."""
 
     before: SizeReport
     after: SizeReport
@@ -114,38 +115,38 @@ class SizeChange(Record):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class OptimizeReport(Record):
-    """What ``optimize`` did."""
+    """The result of ``optimize``."""
 
     stopped: Literal[
         "converged", "max_sweeps", "max_outer", "time_limit", "canceled", "tangled", "hidden", "sweep_limit"
     ]
-    """Why the run ended. ``tangled``: triangles are inverted (``inversion="allow"``) and no flips can make the mesh
-    regular; ``hidden``: deferred flips hid a vertex that may not be, and the mesh is one of before;
+    """Reason for the end of the run. ``tangled``: triangles are inverted (``inversion="allow"``) and no flips can make
+    the mesh regular. ``hidden``: deferred flips hid a vertex against the policy, and the mesh is an earlier one.
     ``sweep_limit``: the second phase of the objective ``accuracy`` made all its sweeps, a normal end."""
     sweeps: int
     flips: int
     vertices_removed: int
     vertices_inserted: int
     vertices: npt.NDArray[np.int32]
-    """Number in the input of each vertex; inserted ones follow, with −1. Empty when none was removed or inserted."""
+    """Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted."""
     hidden: npt.NDArray[np.int32]
-    """Vertices that ``hidden="keep"`` left without a power cell."""
+    """Vertices without a power cell that ``hidden="keep"`` left."""
     objective: Literal["energy", "accuracy", "solver_error"]
-    """That the run lowered."""
+    """Objective that the run lowered."""
     seconds: float
-    """The optimization alone."""
+    """Time of the optimization alone [s]."""
     objective_before: float
-    """Of the input, at the final γ."""
+    """Objective of the input, at the final γ."""
     objective_after: float
     size: SizeChange
     data: DataReport | None
-    """Of the data that came with the mesh; None without."""
+    """Report on the data of the mesh; None without data."""
     history: list[SweepRecord] = dataclasses.field(repr=False)
-    """``history[0]`` is the input."""
+    """One record per sweep; ``history[0]`` is the input."""
     notes: list[str]
-    """What the user should know, in sentences."""
+    """Notes for the user, in sentences."""
     _meshes: tuple[Mesh, Mesh] | None = dataclasses.field(default=None, repr=False, compare=False)
-    """Before and after, of meshes that notebooks show."""
+    """The mesh before and after, for notebooks."""
 
     def _rows(self) -> list[tuple[str, str]]:
         bad = [str(record.bad) for record in (self.history[:1] + self.history[-1:])]
@@ -158,7 +159,7 @@ class OptimizeReport(Record):
         return rows + [("note", note) for note in self.notes]
 
     def as_dict(self) -> dict[str, Any]:
-        """As ``Record.as_dict``, with the history."""
+        """Adds the history to ``Record.as_dict``."""
         return {**super().as_dict(), "history": [record.as_dict() for record in self.history]}
 
 
@@ -183,7 +184,7 @@ def _observer(line: Line, observer: Callable[[Progress], Any] | None) -> Callabl
 
 
 def _is_helper(communicator: Any) -> bool:
-    """Whether this process helps rank 0 with its run."""
+    """Says whether this process helps rank 0 with its run."""
     if communicator is None:
         return False
     if not all(callable(getattr(communicator, name, None)) for name in ("Get_size", "Get_rank", "bcast", "Bcast", "Abort")):
@@ -210,43 +211,43 @@ def optimize(
     """Improves a mesh in place: moves vertices, changes weights and flips edges until every triangle is well-centered.
 
     A triangle is well-centered when its orthocenter is strictly inside and each of its edges is crossed by its dual:
-    all h > 0 and all 0 < d < ℓ (docs/concepts.md). The domain boundary, fixed vertices and constrained edges stay, bit
-    for bit, unless ``boundary`` and ``interfaces`` say otherwise; every triangle stays counter-clockwise.
-    For barriers (``BP``, ``BHs``, ``BH``) the result never has more triangles that are not well-centered than the input.
-    HOT energies (``F``, ``T``, ``dT``) are lowered, whatever that does to them (docs/concepts.md). The same input,
-    options and seed give the same bits for any number of threads.
+    all h > 0 and all 0 < d < ℓ (docs/concepts.md). Every triangle stays counter-clockwise. The domain boundary, fixed
+    vertices and constrained edges stay, bit for bit, unless ``boundary`` and ``interfaces`` allow changes. For barriers
+    (``BP``, ``BHs``, ``BH``) the result never has more triangles that are not well-centered than the input. For HOT
+    energies (``F``, ``T``, ``dT``) it may have more (docs/concepts.md). Equal inputs, options and seeds give equal
+    bits for any number of threads.
 
     Parameters
     ----------
     mesh : Mesh or meshio.Mesh
-        Changed in place. To keep the mesh as it is, optimize ``mesh.copy()``.
+        The mesh, changed in place. To keep the original, optimize ``mesh.copy()``.
     options : OptimizeOptions, optional
         All options in one value, such as ``paper_method()``.
     **changes
-        Options by their names, ``energy="F", max_sweeps=20``, which win over those in ``options``.
-        ``help(temper.OptimizeOptions)`` says what each is for.
+        Options by name, such as ``energy="F", max_sweeps=20``. They override those in ``options``.
+        ``help(temper.OptimizeOptions)`` explains each.
     size_field : SizeField, optional
-        That sizes are compared with. None: the input's own.
+        Size field to compare sizes with. None: the input's own sizes.
     tensor : sequence of float, optional
-        kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u): triangles become well-centered in its metric, and
-        so is all that is reported, and what snapshots show (docs/tensor.md). Not with ``size_field`` and ``tracer``.
+        kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u). Triangles become well-centered in its metric.
+        The report and the snapshots are in this metric too (docs/tensor.md). Not with ``size_field`` and ``tracer``.
     point_data : str or sequence of str, optional
-        What floating point data of points do where vertices move: ``Mesh.point_data_rules``, which this sets.
+        Rules for floating point data of points when vertices move: sets ``Mesh.point_data_rules``.
     threads : int, optional
-        None or 0: as many as the machine has. The result does not depend on it.
+        Number of threads; None or 0: as many as the machine has. The result does not depend on it.
     observer : callable, optional
-        Called with a ``Progress`` at least once a sweep; returning False stops the run. An exception that it raises
-        stops the run too, and is raised again once the mesh has its best state.
+        Function that gets a ``Progress`` at least once per sweep; if it returns False, the run stops. An exception
+        stops the run too, and is raised again when the mesh has its best state.
     progress : bool, optional
-        None: one line on a terminal, and in notebooks; nothing in a pipe. False: never. True: lines in a pipe, too.
+        Progress line. None: on a terminal and in notebooks, but not in a pipe. False: never. True: lines in a pipe too.
     tracer : callable, optional
-        Called with each ``TraceEvent``; ``replay`` makes the mesh again from them.
+        Function that gets each ``TraceEvent``. ``replay`` makes the mesh again from them.
     snapshots : callable, optional
-        Called with a ``Snapshot`` between sweeps; a copy of the mesh each time.
+        Function that gets a ``Snapshot`` between sweeps, with a copy of the mesh each time.
     communicator : mpi4py.MPI.Comm, optional
-        Of the processes that make this run together, one on each machine (docs/ranks.md). All of them call with the
-        same mesh and options, and get the result. Its bits do not depend on their number. Progress, observer and time
-        limit are those of rank 0.
+        Communicator of the processes that make this run together, usually one per machine (docs/ranks.md). All call
+        ``optimize`` with the same mesh and options, and get the same result. Its bits do not depend on their number.
+        The progress, observer and time limit of rank 0 count.
 
     Returns
     -------
@@ -255,17 +256,17 @@ def optimize(
     Raises
     ------
     TypeError
-        An option of the wrong type. The mesh is then as it was.
+        An option of the wrong type. The mesh is unchanged.
     TemperError
-        An option out of range, options that contradict each other, weights that hide a vertex, a mesh outside the
-        barrier of BH or BHs; on all ranks, when one was given another mesh or other options (``rank_mismatch``). The
-        mesh is then as it was.
+        An option out of range, options that contradict each other, weights that hide a vertex, or a mesh outside the
+        barrier of BH or BHs. With ranks: on all ranks, if their meshes or options differ (``rank_mismatch``). The mesh
+        is unchanged.
     KeyboardInterrupt
-        After Ctrl-C: the run has stopped, and the mesh is the best valid one so far.
+        Ctrl-C stopped the run, and the mesh is the best valid one so far.
 
     Notes
     -----
-    O(sweeps · n). The GIL is released. While the run lasts, the mesh shows its former state, and must not be changed.
+    O(sweeps · n). The GIL is released. During the run the mesh shows its former state and must not be changed.
 
     References
     ----------
@@ -320,16 +321,16 @@ def optimize(
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Replay(Record):
-    """What ``replay`` made."""
+    """The result of ``replay``."""
 
     mesh: Mesh
-    """What ``optimize`` gave: the same bits, the same slots."""
+    """Mesh that ``optimize`` returned: the same bits, the same slots."""
     vertices: npt.NDArray[np.int32]
-    """Number in the input of each vertex, −1 for inserted ones; empty when none was removed or inserted."""
+    """Number of each vertex in the input, −1 for inserted ones; empty if none was removed or inserted."""
 
 
 def replay(input: MeshLike, events: Iterable[TraceEvent]) -> Replay:
-    """Applies the events of a run (``optimize(tracer=…)``) to its input, of which it makes another mesh. TemperError
-    ``trace_mismatch`` names the event, counted from 0, that does not fit."""
+    """Applies the events of a run (``optimize(tracer=…)``) to its input, and returns a new mesh. TemperError
+    ``trace_mismatch`` names the first event, counted from 0, that does not fit."""
     handle, vertices = _temper.replay(as_mesh(input)._handle, (event._plain() for event in events))
     return Replay(Mesh._of(handle), vertices)

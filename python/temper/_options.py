@@ -1,6 +1,6 @@
-"""The options of an optimization, from the library's table: names, types, defaults and what they are for.
+"""The options of an optimization from the library's table: names, types, defaults and meanings.
 
-What type checkers see is beside this file where the module was built: write_stubs.py makes it from the same table.
+Type checkers read a stub next to the compiled module, which write_stubs.py makes from the same table.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from ._records import Record
 class LengthParameter:
     """A parameter of an energy: γ > 0 of E_BP, −h° ≥ 0 of E_BHs.
 
-    ``scale`` says what ``value`` is measured by: ``"relative"``, times the length of each edge, which makes the energy
-    exactly scale-free; ``"absolute"``, a length. A plain number stands for a relative one.
+    ``scale`` is the unit of ``value``. ``"relative"``: a multiple of the length of each edge, which makes the energy
+    exactly scale-free. ``"absolute"``: a length. A plain number is relative.
     """
 
     value: float
@@ -50,7 +50,7 @@ def _from_plain(name: str, value: Any) -> Any:
 
 
 def _description(row: dict[str, Any]) -> str:
-    """A row as numpydoc has it."""
+    """A row in the format of numpydoc."""
     text = row["sentence"][0].upper() + row["sentence"][1:]
     if not row["choices"] and row["range"]:
         text += f"; {row['range']}"
@@ -62,8 +62,8 @@ def _description(row: dict[str, Any]) -> str:
 
 def _documentation() -> str:
     parts = [
-        "All options of ``optimize``, which takes each as a keyword, too.\n\n"
-        "``dataclasses.replace(options, star=0)`` makes others of them.\n\nParameters\n----------"
+        "All options of ``optimize``. Each is also a keyword of ``optimize``.\n\n"
+        "``dataclasses.replace(options, star=0)`` returns changed options.\n\nParameters\n----------"
     ]
     for title, rows in itertools.groupby(TABLE, lambda row: row["group"]):
         parts += [f"\n{title}\n", "\n".join(map(_description, rows))]
@@ -71,7 +71,7 @@ def _documentation() -> str:
 
 
 def _plain(self: Any) -> dict[str, Any]:
-    """As the compiled half takes them."""
+    """The values for the compiled module."""
     values = {name: getattr(self, name) for name in OPTION_NAMES}
     for name in _SOFTENINGS:
         if values[name] is not None:
@@ -89,7 +89,7 @@ OptimizeOptions = dataclasses.make_dataclass(
 
 
 def changed(options: Any, changes: dict[str, Any]) -> Any:
-    """The options, by default the usual ones, with some of them replaced. Warns of those without effect."""
+    """The options (by default the usual ones) with some of them replaced. Warns about options without effect."""
     if options is not None and not isinstance(options, OptimizeOptions):
         raise TypeError(f"options: expected OptimizeOptions, found {type(options).__name__}")
     for name in changes:
@@ -102,9 +102,10 @@ def changed(options: Any, changes: dict[str, Any]) -> Any:
 
 
 def paper_method(**changes: Any) -> Any:
-    """The options of the paper's Algorithm 1 with all its parts: golden section, flips after the inner iterations have
-    converged, unlimited steps, inversions allowed, hidden vertices kept, collapses and the patch test from the first
-    sweep, vertex 0 as anchor, γ = 1, vertices in their order, convergence by mean energy. ``changes`` replace some.
+    """The options of the paper's Algorithm 1 with all its parts. ``changes`` replace some. They are: golden section,
+    flips after the inner iterations have converged, unlimited steps, inversions allowed, hidden vertices kept,
+    collapses and the patch test from the first sweep, vertex 0 as anchor, γ = 1, vertices in their order, convergence
+    by mean energy.
 
     >>> import temper
     >>> temper.paper_method(max_sweeps=20).solver
@@ -114,8 +115,8 @@ def paper_method(**changes: Any) -> Any:
 
 
 def odt_method(**changes: Any) -> Any:
-    """The options of optimal Delaunay triangulations (Chen and Xu 2004), for comparison: the energy ``"ODT"``, whose
-    unknowns are positions alone. Weights have to be equal. ``changes`` replace some.
+    """The options of optimal Delaunay triangulations (Chen and Xu 2004), for comparison. Their energy is ``"ODT"``,
+    whose unknowns are positions alone. Weights must be equal. ``changes`` replace some options.
 
     >>> import temper
     >>> temper.odt_method().energy
@@ -125,9 +126,9 @@ def odt_method(**changes: Any) -> Any:
 
 
 def cvt_method(**changes: Any) -> Any:
-    """The options of centroidal Voronoi tessellations (Du, Faber and Gunzburger 1999), for comparison: the energy
-    ``"F"`` for ★0, the moment of the Voronoi cells about their vertices, which Lloyd's iterations lower. Unknowns are
-    positions alone. ``changes`` replace some.
+    """The options of centroidal Voronoi tessellations (Du, Faber and Gunzburger 1999), for comparison. Their energy is
+    ``"F"`` for ★0, the moment of the Voronoi cells about their vertices. Lloyd's iterations lower the same energy.
+    Unknowns are positions alone. ``changes`` replace some options.
 
     >>> import temper
     >>> temper.cvt_method().star
@@ -146,7 +147,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 def shows_options(function: F) -> F:
-    """Lets ``help`` and editors see each option in the place of ``**changes``."""
+    """Shows each option to ``help`` and editors instead of ``**changes``."""
     signature = inspect.signature(function)
     own = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
     options = [

@@ -1,4 +1,4 @@
-"""From an outline to a mesh whose every triangle is well-centered."""
+"""From an outline to a mesh with only well-centered triangles."""
 
 from __future__ import annotations
 
@@ -22,24 +22,24 @@ from .size import SizeField
 
 @dataclasses.dataclass
 class Outline:
-    """What is to be meshed: points, segments between them, and what they enclose.
+    """The area to mesh: points, segments between them, and the areas that they enclose.
 
-    Segments may be long or short, enclose holes and islands, separate regions, end anywhere inside or branch. Points
-    keep their place, bit for bit, in every mesh made of it; points of no segment become fixed vertices.
+    Segments may be long or short, enclose holes and islands, separate regions, end anywhere inside, or branch. Points
+    keep their place, bit for bit, in every mesh of the outline; points of no segment become fixed vertices.
     """
 
     points: npt.ArrayLike
-    """(n, 2) float64 [length]."""
+    """Coordinates, (n, 2) float64 [length]."""
     segments: npt.ArrayLike
-    """(k, 2) int: the points at their ends."""
+    """Numbers of the two end points, (k, 2) int."""
     segment_tags: npt.ArrayLike | None = None
-    """(k,) int32 boundary markers, which edges made of them carry; None: 0."""
+    """Boundary markers, (k,) int32, which the edges of each segment carry; None: 0."""
     holes: npt.ArrayLike | None = None
-    """(h, 2) a place in each hole."""
+    """A place in each hole, (h, 2)."""
     regions: Sequence[tuple[float, float, int, float | None]] = ()
-    """x, y, region number, and the edge length wanted there, or None: of what can be reached from (x, y)."""
+    """x, y, region number, and the desired edge length or None, for everything that can be reached from (x, y)."""
     parts: Sequence[tuple[int, Sequence[int], float | None]] = ()
-    """Region number, segments of its boundary, edge length or None. When there are any they alone say what is inside."""
+    """Region number, segments of its boundary, edge length or None. If there are any, they alone define the inside."""
     _names: Any = dataclasses.field(default=None, repr=False)
 
     def _plain(self) -> dict[str, Any]:
@@ -65,7 +65,7 @@ class Outline:
 
 @dataclasses.dataclass(frozen=True)
 class OutlineFile(Record):
-    """What ``read_outline`` read."""
+    """The result of ``read_outline``."""
 
     outline: Outline
     path: str
@@ -77,7 +77,7 @@ class OutlineFile(Record):
 
 
 def read_outline(path: str | os.PathLike[str]) -> OutlineFile:
-    """Reads an outline: Triangle's .poly (with its .node), JIGSAW's geometry, GeoJSON. Its content decides the
+    """Reads an outline: Triangle's .poly (with its .node), JIGSAW's geometry, or GeoJSON. Its content decides the
     format."""
     outline, rest = _temper.read_outline(os.fspath(path))
     for message in rest["warnings"]:
@@ -87,23 +87,23 @@ def read_outline(path: str | os.PathLike[str]) -> OutlineFile:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class OutlineMesh(Record):
-    """What ``mesh_outline`` or ``mesh_sphere`` made."""
+    """The result of ``mesh_outline`` or ``mesh_sphere``."""
 
     mesh: Mesh
     lines: npt.NDArray[np.int32]
-    """(k, 2) each edge on the outline once, in the order of the segments."""
+    """Each edge on the outline once, (k, 2), in the order of the segments."""
     line_tags: npt.NDArray[np.int32]
-    """(k,) the tag of its segment."""
+    """Tag of the segment of each line, (k,)."""
     vertex_of_point: npt.NDArray[np.int32]
-    """−1 for points outside."""
+    """Vertex of each point of the outline; −1 for points outside."""
     bad: int
-    """Triangles that are not well-centered."""
+    """Number of triangles that are not well-centered."""
     delaunay_bad: int
-    """As many were before the optimization."""
+    """Number of such triangles before the optimization."""
     attempts: int
-    """Divisions of the outline that were tried."""
+    """Number of divisions of the outline that were tried."""
     report: OptimizeReport = dataclasses.field(repr=False)
-    """Of the optimization, of the attempt that was kept."""
+    """Report of the optimization, from the attempt that was kept."""
     notes: list[str]
 
 
@@ -122,36 +122,37 @@ def mesh_outline(
     observer: Callable[[Progress], Any] | None = None,
     progress: bool | None = None,
 ) -> OutlineMesh:
-    """Meshes the inside of an outline, and optimizes that until every triangle is well-centered.
+    """Meshes the inside of an outline, and optimizes the mesh until every triangle is well-centered.
 
     Parameters
     ----------
     outline : Outline
     size : float or SizeField
-        Edge length wanted, > 0 [length].
+        Desired edge length, > 0 [length].
     grade : float
-        How fast the size may grow with the distance from what is smaller, > 0.
+        Growth rate of the size with the distance from smaller edges, > 0.
     region_sizes : mapping of region number to size, optional
-        Of these regions, when less than ``size``.
+        Desired edge lengths of these regions, if less than ``size``.
     enclosed : {"by_points", "all", "alternate"}
-        What an outline without parts encloses: ``all``: everything that segments enclose, but for the holes (Triangle's
-        reading); ``alternate``: nested loops take turns; ``by_points``: ``all`` when it has hole or region points.
+        Area that an outline without parts encloses. ``all``: everything that segments enclose, except the holes (as in
+        Triangle). ``alternate``: nested loops alternate. ``by_points``: ``all`` if there are hole or region points,
+        else ``alternate``.
     optimize : OptimizeOptions or bool
-        Of the optimization; False: the Delaunay mesh as it is.
+        Options of the optimization; False: the Delaunay mesh is returned.
     attempts : int
-        At most so many divisions of the outline while triangles stay bad.
+        Largest number of divisions of the outline while triangles stay bad.
     most_triangles : int
-        Sizes that would make more are refused.
+        Largest number of triangles; sizes that would make more are refused.
     time_limit : float
-        Of all of it [s]; 0: none.
+        Time limit of the whole call [s]; 0: none.
     threads, observer, progress
-        As of ``optimize``.
+        The same as in ``optimize``.
 
     Raises
     ------
     TemperError
-        What is wrong with the outline, by its names, or with the sizes; with ``code`` "stopped", that there was no mesh
-        yet when the time was over.
+        An error in the outline, by its names, or in the sizes. The ``code`` "stopped" means that there was no mesh yet
+        when the time limit was reached.
     KeyboardInterrupt
 
     Examples
@@ -182,35 +183,36 @@ def mesh_sphere(
     observer: Callable[[Progress], Any] | None = None,
     progress: bool | None = None,
 ) -> OutlineMesh:
-    """Meshes a sphere, or what coasts leave of it, and optimizes that until every triangle is well-centered.
+    """Meshes a sphere, or the part outside the coasts, and optimizes the mesh until every triangle is well-centered.
 
-    Points of outlines are longitude and latitude [degrees], their segments the shorter arcs of great circles. Of the two
-    sides that a closed line leaves it encloses the smaller, whatever its direction.
+    Points of outlines are longitude and latitude [degrees], and their segments are the shorter arcs of great circles. A
+    closed line encloses the smaller of its two sides, in either direction.
 
     Parameters
     ----------
     size : float or SizeField
-        Edge length wanted, > 0 [length].
+        Desired edge length, > 0 [length].
     basins : Outline, optional
-        Closed: what they enclose is meshed; without any, the whole sphere.
+        Closed lines around the area to mesh; None: the whole sphere.
     coasts : Outline, optional
-        Closed: what they enclose is left out.
+        Closed lines around areas to leave out.
     lines : Outline, optional
-        Rivers and others: they become constrained edges.
+        Rivers and other lines that become constrained edges.
     radius : float, optional
-        Of the sphere [length]; None: that of the size field, or 6371000.
+        Radius of the sphere [length]; None: the radius of the size field, or 6371000.
     grade, region_sizes, optimize, attempts, most_triangles, time_limit, threads, observer, progress
-        As of ``mesh_outline``.
+        The same as in ``mesh_outline``.
 
     Returns
     -------
     OutlineMesh
-        Its ``vertex_of_point`` has the points of basins, coasts and lines, one after the other.
+        The mesh. Its ``vertex_of_point`` has the points of basins, coasts and lines, in this order.
 
     Raises
     ------
     TemperError
-        As of ``mesh_outline``; coasts that are not closed, divide the sphere into halves, or leave nothing of it.
+        The errors of ``mesh_outline``; also coasts that are not closed, divide the sphere into halves, or leave nothing
+        of it.
     KeyboardInterrupt
 
     Examples

@@ -16,7 +16,7 @@ _DUAL = "#0072b2"
 
 
 def _dual_segments(mesh: Mesh) -> npt.NDArray[np.float64]:
-    """From orthocenter to orthocenter, on the boundary from orthocenter to weighted midpoint; (e, 2, 2)."""
+    """Dual edges, from orthocenter to orthocenter, on the boundary from orthocenter to weighted midpoint; (e, 2, 2)."""
     complex = dec_operators(mesh)
     left, right = complex.edges.triangles.T
     ends = np.empty((len(complex.edges), 2, 2))
@@ -67,23 +67,22 @@ def plot(
     ----------
     mesh : Mesh or meshio.Mesh
     ax : matplotlib.axes.Axes, optional
-        Where to draw; None: a new figure.
+        Axes to draw on; None: a new figure.
     primal, dual : bool
-        Edges of the triangulation; edges of the power diagram, between orthocenters.
+        Draw the edges of the triangulation, and the edges of the power diagram between orthocenters.
     orthocenters : bool
-        Dots at the orthocenters.
+        Draw dots at the orthocenters.
     bad_triangles : bool
-        Fill triangles that are not well-centered, exactly (not when ``color`` is given: then they have a thick
-        outline).
+        Fill triangles that are not well-centered, by exact tests. With ``color`` they get a thick outline instead.
     weights : bool
-        Circles of radius √\\|w\\|: green positive, red negative.
+        Draw circles of radius √\\|w\\|: green positive, red negative.
     color : {"quality", "angle", "region"} or (m,) array, optional
-        Fill triangles by their least h/ℓ and d/ℓ, by their largest angle, by region, or by numbers of yours.
+        Fill triangles by their least h/ℓ and d/ℓ, by their largest angle, by region, or by your own numbers.
     colorbar : bool
-        With ``color``: a key beside the axes.
+        With ``color``: draw a key next to the axes.
     cmap : matplotlib colormap, optional
     linewidth : float, optional
-        Of edges; by default it falls with the number of triangles.
+        Width of edges; by default it falls with the number of triangles.
     title : str, optional
 
     Returns
@@ -162,7 +161,7 @@ def _circles(ax: Any, points: Any, weights: Any, width: float) -> None:
 
 
 def _frame(ax: Any, points: Any, title: str | None) -> None:
-    """The mesh, and a little around it: orthocenters of bad triangles may be anywhere."""
+    """Shows the mesh and a small margin. Orthocenters of bad triangles may be far away."""
     low, high = points.min(axis=0), points.max(axis=0)
     margin = 0.03 * max(high - low)
     ax.set_xlim(low[0] - margin, high[0] + margin)
@@ -173,7 +172,7 @@ def _frame(ax: Any, points: Any, title: str | None) -> None:
 
 
 def plot_history(report: Any, *, ax: Any = None) -> Any:
-    """Bad triangles and energy against sweeps, of an ``OptimizeReport``. Returns the axes."""
+    """Plots bad triangles and energy against sweeps, from an ``OptimizeReport``. Returns the axes."""
     from matplotlib import pyplot
 
     if ax is None:

@@ -1,4 +1,4 @@
-"""Progress of long runs: a line on a terminal, the same line in a notebook, nothing in a pipe."""
+"""Progress of long runs: a line on a terminal or in a notebook, nothing in a pipe."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from ._records import Record
 
-_INTERVAL = 0.1  # seconds; faster than this nobody reads
+_INTERVAL = 0.1  # seconds; nobody can read faster
 
 
 @dataclasses.dataclass(frozen=True)
@@ -17,32 +17,32 @@ class SweepRecord(Record):
     """One sweep over all vertices."""
 
     sweep: int
-    """0 is the input."""
+    """Number of the sweep; 0 is the input."""
     energy: float
-    """Total energy at the end of the sweep, at that sweep's γ; with the objective ``accuracy`` see docs/accuracy.md."""
+    """Total energy at the end of the sweep, at its γ; for the objective ``accuracy`` see docs/accuracy.md."""
     bad: int
-    """Triangles that are not well-centered."""
+    """Number of triangles that are not well-centered."""
     flips: int
-    """Edge flips of this sweep."""
+    """Number of edge flips in this sweep."""
     length_parameter: float
-    """γ or −h° of this sweep, as used (relative to ℓ by default)."""
+    """Value of γ or −h° in this sweep (relative to ℓ by default)."""
     seconds: float
-    """Since the start of the optimization."""
+    """Time since the start of the optimization [s]."""
     objective: Literal["energy", "accuracy", "solver_error"] = "energy"
-    """What the sweep lowered."""
+    """Objective that the sweep lowered."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Progress(Record):
-    """What observers are told, at least once a sweep, and on large meshes more often."""
+    """Progress of a run. Observers get it at least once per sweep, and more often on large meshes."""
 
     last: SweepRecord
-    """The last whole sweep."""
+    """Last whole sweep."""
     fraction: float
-    """Of the sweep under way, in [0, 1)."""
+    """Fraction of the current sweep, in [0, 1)."""
     max_sweeps: int
     sweeps_left: float | None = None
-    """An estimate of the sweeps after the last one, while the energy converges; None in the first sweeps of a stage."""
+    """Estimate of the sweeps after the last one, while the energy converges; None in the first sweeps of a stage."""
 
 
 def _duration(seconds: float) -> str:
@@ -52,7 +52,7 @@ def _duration(seconds: float) -> str:
 
 
 def _in_notebook() -> bool:
-    """Whether this runs in the kernel of a notebook, which shows displays."""
+    """Says whether this runs in the kernel of a notebook, which shows displays."""
     if "IPython" not in sys.modules:
         return False
     shell = sys.modules["IPython"].get_ipython()
@@ -60,7 +60,7 @@ def _in_notebook() -> bool:
 
 
 class Line:
-    """The line that says how far a run is, and how long it will about take when that can be told."""
+    """The line that shows the progress of a run and, if known, the remaining time."""
 
     def __init__(self, wanted: bool | None) -> None:
         notebook = wanted is not False and _in_notebook()

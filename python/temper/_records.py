@@ -30,7 +30,7 @@ def show(value: Any) -> str:
 
 
 def table(title: str, rows: list[tuple[str, str]], after: str = "") -> str:
-    """Rows of names and values as HTML; ``after`` is HTML that follows."""
+    """Rows of names and values as HTML; the HTML in ``after`` follows."""
     body = "".join(
         f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
         f"<td style='text-align:left'>{html.escape(value)}</td></tr>"
@@ -40,7 +40,7 @@ def table(title: str, rows: list[tuple[str, str]], after: str = "") -> str:
 
 
 def same(a: Any, b: Any) -> bool:
-    """Whether two values of fields are equal."""
+    """Says whether two values of fields are equal."""
     if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
         return np.array_equal(a, b, equal_nan=np.asarray(a).dtype.kind == "f")
     if isinstance(a, float) and isinstance(b, float):
@@ -51,10 +51,10 @@ def same(a: Any, b: Any) -> bool:
 
 
 class Record:
-    """Base of the reports: text for ``print``, a table in notebooks, plain values by ``as_dict``."""
+    """Base of the reports: text for ``print``, a table in notebooks, plain values from ``as_dict``."""
 
     def __eq__(self, other: object) -> bool:
-        """The same numbers everywhere; NaN is equal to itself."""
+        """Says whether all values are equal; NaN is equal to itself."""
         names = [f.name for f in dataclasses.fields(self) if f.compare]  # type: ignore[arg-type]
         return type(other) is type(self) and all(same(getattr(self, n), getattr(other, n)) for n in names)
 
@@ -73,14 +73,14 @@ class Record:
         return table(type(self).__name__, self._rows())
 
     def as_dict(self) -> dict[str, Any]:
-        """Plain numbers, strings, lists and dictionaries, as ``json.dump`` takes them; infinite numbers and NaN are
-        None, as in the reports of the program."""
+        """Plain numbers, strings, lists and dictionaries for ``json.dump``. Infinite numbers and NaN become None, as in
+        the reports of the program."""
         fields = dataclasses.fields(self)  # type: ignore[arg-type]
         return {f.name: plain(getattr(self, f.name)) for f in fields if f.repr}
 
 
 def merged(values: dict[str, Any], **changes: Any) -> dict[str, Any]:
-    """The values, some of them replaced."""
+    """The values, with some of them replaced."""
     return {**values, **changes}
 
 

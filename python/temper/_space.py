@@ -1,4 +1,4 @@
-"""The space that a mesh lies in."""
+"""The space of a mesh."""
 
 from __future__ import annotations
 
@@ -11,16 +11,15 @@ from ._errors import TemperError
 
 @dataclasses.dataclass(frozen=True, repr=False)
 class Space:
-    """The plane, ``Space()``, a sphere around the origin, ``Space.sphere(radius)``, or a plane that repeats itself,
+    """The plane, ``Space()``, a sphere around the origin, ``Space.sphere(radius)``, or a periodic plane,
     ``Space.periodic(x, y)``. Immutable.
 
-    On the sphere of radius R a vertex at p, \\|p\\| = R, with weight w is the weighted vector P = p √(R² + w)/R: its
+    On the sphere of radius R a vertex at p, \\|p\\| = R, with weight w is the weighted vector P = p √(R² + w)/R. Its
     direction is the place, and \\|P\\|² = R² + w. The regular triangulation is the boundary of the convex hull of all
     P.
 
-    In a periodic plane a vertex has images, whole periods away, of which a mesh has the one in the domain, from 0 to
-    the period. An edge is the shortest way between images of its ends; triangles fit into half a period along each
-    axis.
+    In a periodic plane a vertex has images, whole periods away. A mesh has the image in the domain, from 0 to the
+    period. An edge is the shortest way between images of its ends; triangles fit into half a period along each axis.
 
     >>> from temper import Space
     >>> Space.sphere(6371e3), Space().is_plane
@@ -30,9 +29,9 @@ class Space:
     """
 
     radius: float = 0.0
-    """Of the sphere [length]; 0 of the plane."""
+    """Radius of the sphere [length]; 0 in the plane."""
     period: tuple[float, float] = (0.0, 0.0)
-    """Of a periodic plane, along x and y [length]; 0 where there is none."""
+    """Periods of a periodic plane along x and y [length]; 0 if there is none."""
 
     def __post_init__(self) -> None:
         x, y = (float(length) for length in self.period)
@@ -54,8 +53,8 @@ class Space:
 
     @classmethod
     def periodic(cls, x: float, y: float) -> Space:
-        """The plane with these periods along x and y, rounded to about 14 digits by a mesh; 0: none along that axis.
-        TemperError unless they are finite, none negative and one positive."""
+        """The plane with these periods along x and y, which a mesh rounds to about 14 digits. 0 means none along that
+        axis. TemperError unless they are finite, none is negative, and one is positive."""
         if x == 0 and y == 0:
             raise TemperError("invalid_option", "", "the periods of a plane are 0 and 0; expected one that is positive")
         return cls(period=(x, y))
@@ -67,12 +66,12 @@ class Space:
 
     @property
     def is_plane(self) -> bool:
-        """Whether it is the plane, periodic or not."""
+        """Says whether it is the plane, periodic or not."""
         return self.radius == 0
 
     @property
     def is_periodic(self) -> bool:
-        """Whether it is a periodic plane."""
+        """Says whether it is a periodic plane."""
         return self.period != (0.0, 0.0)
 
     def __repr__(self) -> str:

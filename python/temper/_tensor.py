@@ -12,20 +12,21 @@ from ._mesh import Mesh, MeshLike, as_mesh
 
 
 def mapped(mesh: MeshLike, tensor: Sequence[float]) -> Mesh:
-    """The mesh in the plane where a constant diffusion tensor K is a number: what is a right angle there is one in the
-    metric K⁻¹, as two-point fluxes of −div(K ∇u) need it.
+    """Maps a mesh to the plane in which a constant diffusion tensor K becomes a number. A right angle there is a right
+    angle in the metric K⁻¹, as two-point fluxes of −div(K ∇u) need it.
 
     Parameters
     ----------
     mesh : Mesh or meshio.Mesh
-        In the plane.
+        A mesh in the plane.
     tensor : sequence of float
         kxx, kxy, kyy: symmetric, positive definite.
 
     Returns
     -------
     Mesh
-        The same numbers, flags and weights, places times (det K)^¼ K^−½: areas are the same. Without the data of a file.
+        A mesh with the same numbers, flags and weights, and places times (det K)^¼ K^−½. Areas do not change. It is
+        without the data of a file.
 
     Examples
     --------
@@ -41,19 +42,19 @@ def mapped(mesh: MeshLike, tensor: Sequence[float]) -> Mesh:
 def mapped_back(
     changed: MeshLike, original: MeshLike, tensor: Sequence[float], vertices: npt.ArrayLike | None = None
 ) -> Mesh:
-    """A mesh that was ``mapped`` and changed, in the plane of the one that it comes from, with the data of its file.
+    """Maps a changed mesh back to the plane of ``original``, with the data of its file.
 
-    Vertices that are where ``original`` has them, as those of the boundary and fixed ones, get their places from there,
-    bit for bit.
+    Vertices at the same place as in ``mapped(original)``, such as boundary and fixed vertices, get their places from
+    ``original``, bit for bit.
 
     Parameters
     ----------
     changed, original : Mesh or meshio.Mesh
     tensor : sequence of float
-        That of ``mapped``.
+        The tensor of ``mapped``.
     vertices : array_like of int, optional
-        The number in ``original`` of each vertex, −1 for none: ``OptimizeReport.vertices``. By default, and when empty, the
-        same numbers.
+        Number of each vertex in ``original``, −1 for none: ``OptimizeReport.vertices``. None or empty: the same
+        numbers.
     """
     numbers = np.asarray([] if vertices is None else vertices, dtype=np.int64)
     return Mesh._of(_temper.mapped_back(as_mesh(changed)._handle, as_mesh(original)._handle, tuple(tensor), numbers))

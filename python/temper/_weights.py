@@ -1,5 +1,5 @@
-"""Weights alone: can a mesh become well-centered when neither its positions nor its connectivity may change? And with
-which connectivity does it have better weights?"""
+"""Weights alone: can a mesh become well-centered if neither its positions nor its connectivity may change? And which
+connectivity has better weights?"""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ Constraints = Literal["well_centered", "heights_only", "regular"]
 
 @dataclasses.dataclass(frozen=True)
 class ConstraintsInfo(Record):
-    """A row of the table of constraints: the inequalities that count."""
+    """A row of the table of constraints: the inequalities to satisfy."""
 
     name: Constraints
     keeps: str
     """The inequalities for a margin t."""
     success: str
-    """A sentence of what was found."""
+    """A sentence about success."""
     failure: str
 
 
 def constraints_table() -> list[ConstraintsInfo]:
-    """well_centered: all h and d; heights_only: all h, so that orthocenters are inside their triangles; regular: the dual
-    lengths of edges inside the mesh, of all of them or of those prescribed."""
+    """The kinds of constraints. well_centered: all h and d. heights_only: all h, so that orthocenters are inside their
+    triangles. regular: the dual lengths of interior edges, of all of them or of the prescribed ones."""
     return [ConstraintsInfo(**row) for row in _temper.constraints_table()]
 
 
@@ -40,30 +40,30 @@ def _edges(edges: npt.ArrayLike | None) -> npt.NDArray[np.int64] | None:
 
 @dataclasses.dataclass(frozen=True)
 class WeightConstraint:
-    """One inequality of some constraints."""
+    """One inequality of the constraints."""
 
     kind: Literal["height", "crossing", "dual"]
-    """height: h over edge pq of the triangle pqr, counter-clockwise; crossing: d from p towards q, for any edge pq; dual:
-    the dual length of pq between the triangles pqr and qps."""
+    """height: h over edge pq of the triangle pqr, counter-clockwise; crossing: d from p towards q, for any edge pq;
+    dual: dual length of pq between the triangles pqr and qps."""
     p: int
     q: int
     r: int
-    """−1 for a crossing."""
+    """Third vertex; −1 for a crossing."""
     s: int = -1
-    """Of a dual only, else −1."""
+    """Fourth vertex, only for a dual; else −1."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Certificate(Record):
-    """Why no weights exist (Farkas): constraints with multipliers ≥ 0 whose sum contradicts itself. The polynomials are
-    in ``temper/feasibility.hpp`` and docs/weights.md."""
+    """A proof that no weights exist (Farkas): constraints with multipliers ≥ 0 whose sum is a contradiction. The
+    polynomials are in ``temper/feasibility.hpp`` and docs/weights.md."""
 
     margin: float
-    """Refuted: no weights keep the constraints with more than this margin."""
+    """Refuted margin: no weights keep the constraints with more than this margin."""
     terms: list[tuple[WeightConstraint, float]]
-    """Constraints and their multipliers; none: no certificate."""
+    """Constraints and their multipliers; empty: no certificate."""
     constraints: Constraints = "well_centered"
-    """Those of ``regular`` speak of weights that differ by less than 2²⁰ ℓ² along edges."""
+    """Kind of constraints. For ``regular`` the proof assumes that weights differ by less than 2²⁰ ℓ² along edges."""
 
     def _plain(self) -> dict[str, Any]:
         terms = [((c.kind, c.p, c.q, c.r, c.s), float(m)) for c, m in self.terms]
@@ -80,56 +80,58 @@ class BestMargin(Record):
 
     status: Literal["optimal", "infeasible", "unbounded", "failed"]
     margin: float
-    """t*; negative: no weights are good."""
+    """Largest margin t*; negative: no weights satisfy the constraints."""
     tight: list[WeightConstraint]
-    """The constraints that keep it from being larger."""
+    """Constraints that keep the margin from being larger."""
     certificate: Certificate
-    """Refutes margin 0, of ``regular`` 2⁻¹⁰; no terms unless t* ≤ 0 and the checker agrees."""
+    """Proof against margin 0, for ``regular`` 2⁻¹⁰. It has terms only if t* ≤ 0 and the checker agrees."""
     vertices: npt.NDArray[np.int32]
-    """Of the triangles asked about."""
+    """Vertices of the selected triangles."""
     weights: npt.NDArray[np.float64]
-    """Of these vertices, with margin t* [length²]: for proofs, not for meshes, where weights go far for its sake."""
+    """Weights of these vertices with margin t* [length²]. They are for proofs, not for meshes, because they are
+    extreme."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Violation(Record):
-    """A constraint that elastic weights do not keep."""
+    """A constraint that elastic weights violate."""
 
     constraint: WeightConstraint
     value: float
-    """h/ℓ, d/ℓ or dual length/ℓ that the weights give."""
+    """Value of h/ℓ, d/ℓ or dual length/ℓ with the weights."""
     shortfall: float
-    """Of the margin asked for."""
+    """Difference to the requested margin."""
     angle_deg: float
-    """height: of the triangle at r, across from the edge."""
+    """For height: angle of the triangle at r, opposite the edge."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class WeightReport(Record):
-    """What ``find_weights`` found."""
+    """The result of ``find_weights``."""
 
     verdict: Literal["feasible", "infeasible", "undecided"]
-    """feasible: the weights found keep the constraints, by exact predicates; infeasible: no weights do, by a certificate
-    that the exact checker accepts."""
+    """feasible: the weights satisfy the constraints, by exact predicates. infeasible: no weights exist, and the exact
+    checker accepts a certificate."""
     margin: float
     """Best margin."""
     margin_kind: Literal["exact", "at_least", "at_most"]
-    """What is known of it: up to rounding; attained, more was not tried; of the worst neighborhood."""
+    """exact: the best margin, up to rounding; at_least: attained, larger ones were not tried; at_most: the best margin
+    of the worst neighborhood."""
     solved: bool
-    """``weights`` are an answer to what was asked."""
+    """The ``weights`` satisfy the request."""
     asked: float
     attained: float
     moved: int
-    """Weights that differ from where change is measured from."""
+    """Number of weights that differ from the reference (``from_input``)."""
     change: float
     """Σ over edges \\|Δw_i − Δw_j\\| / (2ℓ) [length]."""
     programs: int
     largest: int
-    """Triangles of the largest program."""
+    """Number of triangles of the largest program."""
     weights: npt.NDArray[np.float64]
-    """One a vertex of the mesh [length²]: ``mesh.weights = report.weights``."""
+    """Weight of each vertex of the mesh [length²]: ``mesh.weights = report.weights``."""
     violations: list[Violation]
-    """elastic: worst first."""
+    """Violations of elastic weights, worst first."""
     certificate: Certificate
 
 
@@ -144,33 +146,33 @@ def find_weights(
     constraints: Constraints = "well_centered",
     edges: npt.ArrayLike | None = None,
 ) -> WeightReport:
-    """Finds weights for a mesh whose positions and connectivity stay, by linear programming (Clp). The mesh is not
-    changed.
+    """Finds weights for a mesh with fixed positions and connectivity, by linear programming (Clp). The mesh does not
+    change.
 
     Parameters
     ----------
     mesh : Mesh or meshio.Mesh
     goal : {"minimal", "feasible", "elastic"}
-        The least change for the margin asked for; the best margin, and the least change for the margin asked for or for
-        half of the best one; the least violation, and then the least change.
+        minimal: the least change for the requested margin. feasible: the best margin, and the least change for the
+        requested margin or for half of the best one. elastic: the least violation, and then the least change.
     margin : float
-        t in [0, 1/2): all h ≥ tℓ and tℓ ≤ d ≤ (1 − t)ℓ, or what the constraints are.
+        Margin t in [0, 1/2): all h ≥ tℓ and tℓ ≤ d ≤ (1 − t)ℓ, or the inequalities of the other constraints.
     from_input : bool
-        Change is measured from the mesh's weights; else from zero.
+        Measure change from the mesh's weights; else from zero.
     whole : int
-        Components of at most this many triangles are one linear program; larger ones are solved around their bad
-        triangles only.
+        Components of at most this many triangles are one linear program. In larger components only the neighborhoods of
+        bad triangles are solved.
     rings : int
-        Of vertices around bad triangles, at first.
+        Number of rings of vertices around bad triangles, at first.
     constraints : {"well_centered", "heights_only", "regular"}
-        What the weights have to keep: see ``constraints_table``.
+        Constraints on the weights: see ``constraints_table``.
     edges : (k, 2) int, optional
-        Of ``regular``: the edges prescribed, by their vertices; None: all. Those on the boundary always are regular.
+        Prescribed edges for ``regular``, by their vertices; None: all. Boundary edges are always regular.
 
     Notes
     -----
-    For fixed positions and connectivity every h and d is linear in the weights. What the solver says is never believed:
-    verdicts rest on exact predicates and on ``check_certificate``.
+    For fixed positions and connectivity every h and d is linear in the weights. The answers of the solver are not
+    trusted: exact predicates and ``check_certificate`` decide.
 
     >>> import temper
     >>> mesh = temper.generate.sparse_horseshoe()
@@ -195,9 +197,9 @@ def best_margin(
     constraints: Constraints = "well_centered",
     edges: npt.ArrayLike | None = None,
 ) -> BestMargin:
-    """The best margin of some triangles, (k,) int, the rest of the mesh being left out; None: of the whole mesh. An
-    upper bound for any set that has them. ``edges`` as for ``find_weights``; of ``regular`` it is 1/2, where programs
-    stop, or 0."""
+    """The best margin of the selected triangles, (k,) int, without the rest of the mesh; None: of the whole mesh. It is
+    an upper bound for any larger set of triangles. ``edges`` as for ``find_weights``. For ``regular`` it is 1/2, where
+    programs stop, or 0."""
     chosen = None if triangles is None else _ints(triangles, 0, "triangles").astype(np.int64)
     d = _temper.best_margin(as_mesh(mesh)._handle, chosen, constraints, _edges(edges))
     tight = [WeightConstraint(*c) for c in d["tight"]]
@@ -207,19 +209,20 @@ def best_margin(
 def weight_margin(
     mesh: MeshLike, *, constraints: Constraints = "well_centered", edges: npt.ArrayLike | None = None
 ) -> float:
-    """The least h/ℓ, d/ℓ, 1 − d/ℓ or dual length/ℓ that the constraints have, of the mesh's own weights, in doubles;
-    infinite when they have none."""
+    """The margin of the mesh's own weights, in doubles: the least h/ℓ, d/ℓ, 1 − d/ℓ or dual length/ℓ that the
+    constraints have. Infinite if they have none."""
     return _temper.weight_margin(as_mesh(mesh)._handle, constraints, _edges(edges))
 
 
 def weight_change(mesh: MeshLike, before: npt.ArrayLike, after: npt.ArrayLike) -> float:
-    """Σ over edges |Δw_i − Δw_j| / (2ℓ), of chords on the sphere: how far weighted midpoints are moved, in all."""
+    """Σ over edges |Δw_i − Δw_j| / (2ℓ): the total shift of the weighted midpoints. On the sphere ℓ is the length of
+    chords."""
     return _temper.weight_change(as_mesh(mesh)._handle, before, after)
 
 
 def check_certificate(mesh: MeshLike, certificate: Certificate) -> str:
-    """Verifies a certificate in exact arithmetic, from the positions alone: ``"proves"`` when no weights exist, else
-    what is wrong with it."""
+    """Verifies a certificate in exact arithmetic, from the positions alone. Returns ``"proves"`` if no weights exist,
+    else the fault of the certificate."""
     return _temper.check_certificate(as_mesh(mesh)._handle, certificate._plain())
 
 
@@ -231,28 +234,28 @@ class ConnectivityStep(Record):
     """A change of connectivity that made the best margin greater."""
 
     kind: Literal["regular", "flip"]
-    """regular: to the regular triangulation of the weights that have the best margin; flip: of one edge."""
+    """regular: to the regular triangulation of the weights with the best margin; flip: a flip of one edge."""
     flips: int
     margin: float
-    """The best one, after it."""
+    """Best margin after the step."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ConnectivityReport(Record):
-    """What ``best_connectivity`` found."""
+    """The result of ``best_connectivity``."""
 
     mesh: Mesh
-    """With the connectivity found; positions, weights and all else are the input's."""
+    """Mesh with the connectivity found; positions, weights and all else are those in the input."""
     end: Literal["no_better_neighbor", "limit", "failed"]
     before: float
-    """The best margin of the input's connectivity."""
+    """Best margin of the input's connectivity."""
     margin: float
-    """That of the one found."""
+    """Best margin of the connectivity found."""
     steps: list[ConnectivityStep]
-    """Their margins grow."""
+    """Steps with growing margins."""
     programs: int
     weights: npt.NDArray[np.float64]
-    """With margin ``margin`` [length²]: for proofs, not for meshes."""
+    """Weights with margin ``margin`` [length²]: for proofs, not for meshes."""
 
 
 def best_connectivity(
@@ -261,9 +264,10 @@ def best_connectivity(
     constraints: Literal["well_centered", "heights_only"] = "well_centered",
     programs: int = 10000,
 ) -> ConnectivityReport:
-    """Looks for a connectivity with a greater best margin: from the best one so far, the regular triangulation of the
-    weights of its best margin, else the one flip that raises it most. A local search: there may be better ones. The mesh
-    is not changed; ``programs`` is the most linear programs of the whole mesh.
+    """Searches for a connectivity with a greater best margin. Each step takes the regular triangulation of the weights
+    with the best margin so far. If that is no better, it takes the flip that raises the margin most. This is a local
+    search: better ones may exist. The mesh does not change. ``programs`` is the largest number of linear programs of
+    the whole mesh.
 
     >>> import temper
     >>> report = temper.best_connectivity(temper.generate.sparse_horseshoe())
@@ -280,10 +284,10 @@ def best_connectivity(
 
 @dataclasses.dataclass(frozen=True)
 class EdgeConflict(Record):
-    """An edge u → v whose dual must cross it near u for the sake of one vertex, and near v for the sake of another."""
+    """An edge u → v with contradictory vertices: one requires that the dual crosses it near u, another near v."""
 
     edge: tuple[int, int]
-    """u, v."""
+    """Vertices u and v."""
     halfedge: int
     near_u: int
     near_v: int
@@ -291,19 +295,19 @@ class EdgeConflict(Record):
     """Parts of the edge's length."""
     b: float
     sum: float
-    """a + b: at most 1 when there is no place for the crossing."""
+    """Sum a + b: at most 1 if there is no place for the crossing."""
     split_at: float
-    """Part of the way from u: the middle of what is left out, but no closer to an end than 0.2."""
+    """Part of the way from u: the middle of the gap between a and b, but at least 0.2 from each end."""
 
 
 def edge_conflict(mesh: MeshLike, halfedge: int, *, up_to: float = 1.0) -> EdgeConflict | None:
-    """The conflict of one edge when a + b ≤ up_to, exactly: with up_to = 1, no well-centered mesh has this edge and
-    these two vertices (docs/explain.md)."""
+    """The conflict of one edge if a + b ≤ up_to, exactly. With up_to = 1, no well-centered mesh has this edge and these
+    two vertices (docs/explain.md)."""
     d = _temper.edge_conflict(as_mesh(mesh)._handle, halfedge, up_to)
     return None if d is None else EdgeConflict(**d)
 
 
 def edges_that_must_be_split(mesh: MeshLike, *, up_to: float = 1.0) -> list[EdgeConflict]:
-    """All edges of the boundary and of constrained lines with such a conflict, least sum first. None does not mean that
-    there is a well-centered mesh."""
+    """All edges of the boundary and of constrained lines with such a conflict, least sum first. An empty list does not
+    mean that a well-centered mesh exists."""
     return [EdgeConflict(**d) for d in _temper.edges_that_must_be_split(as_mesh(mesh)._handle, up_to)]

@@ -1,4 +1,4 @@
-"""The energies that a mesh method may lower: their table, and their values and derivatives on a mesh.
+"""The energies of mesh optimization: their table, and their values and derivatives on a mesh.
 
 >>> from temper import energy, generate
 >>> energy.total_energy(generate.annulus(), energy.EnergyModel("F")) > 0
@@ -23,24 +23,24 @@ __all__ = ["EnergyInfo", "EnergyModel", "VertexDerivatives", "energies", "total_
 
 @dataclasses.dataclass(frozen=True)
 class EnergyInfo(Record):
-    """One row of the registry of energies."""
+    """A row of the table of energies."""
 
     name: EnergyName
     formula: str
     boundary_treatment: Literal["as_is", "absolute", "mirrored"]
-    """The treatment of boundary duals that its definition asks for."""
+    """Treatment of boundary duals in its definition."""
     barrier: bool
-    """Infinite outside 0 < d < ℓ."""
+    """The energy is infinite outside 0 < d < ℓ."""
     softened_by_gamma: bool
     softened_by_h0: bool
     length_exponent: int
-    """E(s · mesh) = s^this · E(mesh) with relative length_parameter."""
+    """Exponent p: E(s · mesh) = s^p · E(mesh) with a relative length parameter."""
     signed_by_dual: bool
-    """The sign of an edge is that of its dual length."""
+    """The sign of an edge is the sign of its dual length."""
     normalized: bool
-    """Each triangle over its squared area."""
+    """The energy of each triangle is divided by its squared area."""
     positions_alone: bool
-    """For meshes without weights, which stay so."""
+    """The energy is for meshes without weights, which stay without."""
 
 
 def energies() -> list[EnergyInfo]:
@@ -51,18 +51,18 @@ def energies() -> list[EnergyInfo]:
 
 @dataclasses.dataclass(frozen=True)
 class EnergyModel(Record):
-    """An energy with everything it depends on."""
+    """An energy with all its parameters."""
 
     energy: EnergyName = "BP"
     star: Literal[0, 1, 2] = 1
     boundary_treatment: Literal["as_is", "absolute", "mirrored"] = "as_is"
-    """Of F and nF; the others define their own."""
+    """Boundary treatment of F and nF; the other energies define their own."""
     gamma: LengthParameterLike = LengthParameter(1.0, "absolute")
-    """γ of E_BP; the paper's examples use 1, absolute."""
+    """Parameter γ of E_BP; the paper's examples use 1, absolute."""
     h0: LengthParameterLike = LengthParameter(0.0, "absolute")
-    """−h° of E_BHs, ≥ 0."""
+    """Parameter −h° of E_BHs, ≥ 0."""
     wall: bool = False
-    """A barrier is infinite on inverted triangles too; the paper's E_BP and E_BHs are not."""
+    """Make a barrier infinite on inverted triangles too; the paper's E_BP and E_BHs are finite there."""
 
     def _plain(self) -> dict[str, Any]:
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
@@ -70,13 +70,14 @@ class EnergyModel(Record):
 
 
 def total_energy(mesh: MeshLike, model: EnergyModel = EnergyModel(), *, threads: int | None = None) -> float:
-    """The energy of a mesh; inf when any term is outside its domain. The same bits for any number of threads."""
+    """The energy of a mesh; inf if any term is outside its domain. Any number of threads gives the same bits."""
     return _temper.total_energy(as_mesh(mesh)._handle, model._plain(), threads)
 
 
 def triangle_energy(model: EnergyModel, corners: npt.ArrayLike, *, space: Space = Space()) -> float:
-    """The energy of one triangle alone, all its edges boundary edges: ``corners`` is (3, 3), rows x, y, w; on a sphere
-    weighted vectors. There this and all other energies are those of the flat triangles of the weighted vectors.
+    """The energy of one triangle alone, all its edges boundary edges. ``corners`` is (3, 3) with rows x, y, w; on a
+    sphere rows are weighted vectors. On a sphere all energies are computed on the flat triangles of the weighted
+    vectors.
 
     >>> from temper import energy
     >>> model = energy.EnergyModel("BH")
@@ -91,9 +92,9 @@ class VertexDerivatives(Record):
     """The energy as a function of one vertex."""
 
     value: float
-    """inf when not feasible."""
+    """Value; inf if not feasible."""
     feasible: bool
-    """Inside the domain of the energy; else the rest is zero."""
+    """The vertex is inside the domain of the energy; else the rest is zero."""
     gradient: tuple[float, float, float]
     """∂E/∂x, ∂E/∂y, ∂E/∂w; on a sphere x and y are along two unit vectors at right angles to P and each other."""
     hessian: tuple[float, float, float, float, float, float]

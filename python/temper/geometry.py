@@ -1,13 +1,13 @@
 """Triangle geometry of the power diagram, and the exact predicates, over arrays.
 
 Points are (…, 2), or (…, 3) with the weight last; two columns mean weight 0. Arguments are broadcast against each
-other, and results have the shape of what is left. Triangle ijk is counter-clockwise; h_k is positive on the left of i
-→ j; d_ij = ℓ/2 + (w_i − w_j)/(2ℓ) from i towards j (docs/concepts.md). Signs are −1, 0 or 1, int8, and right for all
-doubles in the range of ``is_exact_coordinate`` and ``is_exact_weight``.
+other, and results have the shape that remains. Triangle ijk is counter-clockwise. h_k is positive on the left of i → j.
+d_ij = ℓ/2 + (w_i − w_j)/(2ℓ) is measured from i towards j (docs/concepts.md). Signs are −1, 0 or 1, int8. They are
+right for all doubles in the range of ``is_exact_coordinate`` and ``is_exact_weight``.
 
-With ``space=mesh.space`` on a sphere points are ``mesh.weighted_vectors``, (…, 3): directions whose squared lengths are
-R² + w (``temper.Space``). Triangles are counter-clockwise as seen from outside, lengths and heights are arcs in
-radians, signed as in the plane, and only the directions and the ratios of lengths count, not the radius.
+On a sphere, with ``space=mesh.space``, points are ``mesh.weighted_vectors``, (…, 3): directions whose squared lengths
+are R² + w (``temper.Space``). Triangles are counter-clockwise as seen from outside. Lengths and heights are arcs in
+radians, signed as in the plane. Only the directions and the ratios of lengths count, not the radius.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _SPHERE = Space.sphere(1)  # any
 
 
 def _vertices(points: npt.ArrayLike, name: str, space: Space) -> npt.NDArray[np.float64]:
-    """Three numbers a vertex."""
+    """Three numbers per vertex."""
     array = np.asarray(points, dtype=np.float64)
     columns, shapes = ((2, 3), "(…, 2) or (…, 3)") if space.is_plane else ((3,), "(…, 3)")
     if array.ndim == 0 or array.shape[-1] not in columns:
@@ -50,12 +50,13 @@ def _over(function: Callable[..., Any], space: Space, *more: Any, **points: npt.
 
 
 def _in(space: Space, function: Callable[..., Any], **points: npt.ArrayLike) -> Any:
-    """For functions of either space."""
+    """Calls functions of either space."""
     return _over(function, space, not space.is_plane, **points)
 
 
 def orientation(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike, *, space: Space = _PLANE) -> Any:
-    """1 where p, q, r turn counter-clockwise; on a sphere as seen from outside, by the sign of det(P, Q, R). Exact.
+    """Returns 1 if p, q, r turn counter-clockwise; on a sphere as seen from outside, by the sign of det(P, Q, R).
+    Exact.
 
     >>> from temper import geometry
     >>> int(geometry.orientation((0, 0), (1, 0), (0, 1)))
@@ -67,8 +68,8 @@ def orientation(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike, *, space: 
 def power_test(
     a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayLike, *, space: Space = _PLANE
 ) -> Any:
-    """For a, b, c counter-clockwise: 1 where d conflicts, so that the edge between abc and d is not regular; 0 where
-    all four are cocircular in the power sense; −1 where regular (eq. 9 of the paper). Exact."""
+    """Power test for a, b, c counter-clockwise (eq. 9 of the paper). Exact. 1: d conflicts, so that the edge between
+    abc and d is not regular. 0: all four are cocircular in the power sense. −1: the edge is regular."""
     return _in(space, _temper.power_test, a=a, b=b, c=c, d=d)
 
 
@@ -81,8 +82,8 @@ def power_test_perturbed(
     *,
     space: Space = _PLANE,
 ) -> Any:
-    """``power_test`` with ties broken by the vertices' numbers, ``index`` (…, 4): 0 only when all four are collinear,
-    or on a great circle."""
+    """``power_test`` with ties broken by the vertices' numbers, ``index`` (…, 4). Returns 0 only if all four points are
+    collinear, or on a great circle."""
     arrays = [_vertices(p, name, space) for name, p in (("a", a), ("b", b), ("c", c), ("d", d))]
     shape = np.broadcast_shapes(*(array.shape for array in arrays))[:-1]
     numbers = np.broadcast_to(np.asarray(index), (*shape, 4)).reshape(-1, 4)
@@ -96,22 +97,22 @@ def signed_height_sign(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike, *, 
 
 
 def dual_crossing_sign(p: npt.ArrayLike, q: npt.ArrayLike, *, space: Space = _PLANE) -> Any:
-    """Sign of d_pq = (ℓ² + w_p − w_q)/(2ℓ); on a sphere of P · (P − Q). Exact."""
+    """Sign of d_pq = (ℓ² + w_p − w_q)/(2ℓ); on a sphere the sign of P · (P − Q). Exact."""
     return _in(space, _temper.dual_crossing_sign, p=p, q=q)
 
 
 def is_well_centered(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike, *, space: Space = _PLANE) -> Any:
-    """All h > 0 and all 0 < d < ℓ, and counter-clockwise. Exact."""
+    """Says whether all h > 0 and all 0 < d < ℓ, and the triangle is counter-clockwise. Exact."""
     return _in(space, _temper.is_well_centered, p=p, q=q, r=r)
 
 
 def is_exact_coordinate(x: float) -> bool:
-    """Whether predicates are exact with this coordinate: 0, or of magnitude 2^−214 to 2^250."""
+    """Says whether predicates are exact with this coordinate: 0, or of magnitude 2^−214 to 2^250."""
     return _temper.is_exact_coordinate(x)
 
 
 def is_exact_weight(w: float) -> bool:
-    """Whether predicates are exact with this weight: 0, or of magnitude 2^−428 to 2^500."""
+    """Says whether predicates are exact with this weight: 0, or of magnitude 2^−428 to 2^500."""
     return _temper.is_exact_weight(w)
 
 
@@ -126,13 +127,13 @@ def dual_crossing(p: npt.ArrayLike, q: npt.ArrayLike, *, space: Space = _PLANE) 
 
 
 def signed_height(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike, *, space: Space = _PLANE) -> Any:
-    """h: signed distance from edge pq to the orthocenter of pqr, positive on the left of p → q [length;
-    on a sphere radians]."""
+    """Signed distance h from edge pq to the orthocenter of pqr, positive on the left of p → q [length; on a sphere
+    radians]."""
     return _in(space, _temper.signed_height, p=p, q=q, r=r)
 
 
 def scaled_heights(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike) -> Any:
-    """h ℓ of the three edges qr, rp, pq, (…, 3) [length²]. They sum to twice the area."""
+    """The products h ℓ of the three edges qr, rp, pq, (…, 3) [length²]. Their sum is twice the area."""
     return _over(_temper.scaled_heights, _PLANE, p=p, q=q, r=r)
 
 
@@ -152,11 +153,11 @@ def arc_length(p: npt.ArrayLike, q: npt.ArrayLike) -> Any:
 
 
 def solid_angle(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike) -> Any:
-    """On a sphere: the solid angle of the triangle, its spherical excess [steradians]; positive where p, q, r turn
-    counter-clockwise, as seen from outside. Its area is R² times this."""
+    """The solid angle of a triangle on a sphere, its spherical excess [steradians]. It is positive if p, q, r turn
+    counter-clockwise as seen from outside. The area of the triangle is R² times this."""
     return _over(_temper.solid_angle, _SPHERE, p=p, q=q, r=r)
 
 
 def corner_angle(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike, *, space: Space = _PLANE) -> Any:
-    """The angle at p [radians], on a sphere between the arcs to q and to r."""
+    """The angle at p [radians]; on a sphere between the arcs to q and to r."""
     return _in(space, _temper.corner_angle, p=p, q=q, r=r)

@@ -1,7 +1,7 @@
-"""From longitude and latitude to the plane and back, by conformal maps of the sphere.
+"""Maps between longitude and latitude and the plane, by conformal maps of the sphere.
 
-Angles stay what they are, so a mesh that is well-centered on the map is so, up to the curvature of single triangles, on
-the globe. The Earth is taken as a sphere of 6371 km. Formulas: J. P. Snyder, Map Projections: A Working Manual, USGS
+They keep angles. So a mesh that is well-centered on the map is well-centered on the globe, up to the curvature of
+single triangles. The Earth is a sphere of 6371 km. Formulas: J. P. Snyder, Map Projections: A Working Manual, USGS
 Professional Paper 1395, 1987.
 """
 
@@ -29,29 +29,31 @@ class Projection(Record):
     """Longitudes and latitudes are in degrees, x and y in meters from the center."""
 
     kind: Literal["stereographic", "mercator", "transverse_mercator"] = "stereographic"
-    """Best for round regions, poles included; for belts along the center's parallel; for strips along its meridian."""
+    """Kind of the map. stereographic: best for round regions, poles included; mercator: for belts along the center's
+    parallel; transverse_mercator: for strips along its meridian."""
     center: tuple[float, float] = (0.0, 0.0)
     """Longitude and latitude."""
     radius: float = 6371000.0
-    """Of the sphere [m]."""
+    """Radius of the sphere [m]."""
 
     def _plain(self) -> tuple[str, float, float, float]:
         return self.kind, self.center[0], self.center[1], self.radius
 
 
 def parse_projection(text: str, places: npt.ArrayLike | None = None) -> Projection:
-    """Reads ``"stereographic"``, ``"mercator:lon"``, ``"transverse-mercator:lon,lat"``. Without a center, that of
-    ``places``, (k, 2)."""
+    """Reads ``"stereographic"``, ``"mercator:lon"``, ``"transverse-mercator:lon,lat"``. Without a center, it is the
+    center of ``places``, (k, 2)."""
     return Projection(*_temper.parse_projection(text, _doubles(places, 2, "location")))
 
 
 def forward(projection: Projection, lon_lat: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Places on the map, (k, 2) [m], of (k, 2) longitudes and latitudes [degrees]; inf where the map has no end."""
+    """Places on the map, (k, 2) [m], from (k, 2) longitudes and latitudes [degrees]; inf if the map has no end
+    there."""
     return _temper.forward(*projection._plain(), _doubles(lon_lat, 2, "lon_lat"))
 
 
 def inverse(projection: Projection, places: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Longitudes, in [center − 180, center + 180], and latitudes [degrees], (k, 2), of (k, 2) places on the map."""
+    """Longitudes, in [center − 180, center + 180], and latitudes [degrees], (k, 2), from (k, 2) places on the map."""
     return _temper.inverse(*projection._plain(), _doubles(places, 2, "location"))
 
 
@@ -61,12 +63,12 @@ def scale_factor(projection: Projection, lon_lat: npt.ArrayLike) -> npt.NDArray[
 
 
 def direction_of(lon_lat: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Unit vectors, (k, 3), of (k, 2) longitudes and latitudes [degrees]; exact on the axes."""
+    """Unit vectors, (k, 3), from (k, 2) longitudes and latitudes [degrees]; exact on the axes."""
     return _temper.direction_of(_doubles(lon_lat, 2, "lon_lat"))
 
 
 def lon_lat_of(directions: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Longitudes, above −180 and up to 180, and latitudes [degrees], (k, 2), of (k, 3) vectors of any length."""
+    """Longitudes, above −180 and up to 180, and latitudes [degrees], (k, 2), from (k, 3) vectors of any length."""
     return _temper.lon_lat_of(_doubles(directions, 3, "directions"))
 
 
@@ -76,6 +78,6 @@ def mean_place(lon_lat: npt.ArrayLike) -> tuple[float, float]:
 
 
 def project(outline: Outline, projection: Projection) -> Outline:
-    """The outline on the map. TemperError, by its names: latitudes beyond the poles, longitudes beyond ±360, places
-    that are infinitely far away, pieces that are torn apart because the map ends between their ends."""
+    """Maps an outline. TemperError, with its names: latitudes beyond the poles, longitudes beyond ±360, places that are
+    infinitely far away, segments that are torn apart because the map ends between their ends."""
     return Outline._of(_temper.project(outline._plain(), *projection._plain()))

@@ -1,4 +1,4 @@
-"""Size: how long edges are meant to be where, and how far those of a mesh are from that."""
+"""Size: the desired length of edges at each place, and how far the edges of a mesh differ from it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ["SizeReport", "Spread", "input_size_field", "local_size", "measure_si
 
 @dataclasses.dataclass(frozen=True)
 class Spread(Record):
-    """Of many numbers: percentiles by nearest rank. All 0 when there are none."""
+    """The distribution of many numbers: percentiles by nearest rank. All are 0 if there are no numbers."""
 
     min: float
     p05: float
@@ -28,18 +28,18 @@ class Spread(Record):
 
 @dataclasses.dataclass(frozen=True)
 class SizeReport(Record):
-    """One mesh, compared with a size field. No number depends on the unit of length."""
+    """The comparison of a mesh with a size field. No number depends on the unit of length."""
 
     over_field: Spread
-    """At each vertex, local size over field: the band that the sizes are in."""
+    """Local size over field at the vertices: the band that holds the sizes."""
     gradation: Spread
-    """At each edge, the greater over the smaller of the local sizes at its two ends."""
+    """Ratio of the greater to the smaller local size at the two ends of each edge."""
     largest_edge_ratio: float
-    """Over triangles, longest over shortest edge."""
+    """Largest ratio of the longest to the shortest edge of a triangle."""
     outside: int
-    """Vertices where the field was extended."""
+    """Number of vertices outside the field's mesh; there the field is extended."""
     band: float
-    """B of the least band [1/B, B] that holds all sizes over field."""
+    """B of the smallest band [1/B, B] that holds all ratios of size to field."""
 
 
 def _size_report(d: dict[str, Any]) -> SizeReport:
@@ -48,8 +48,8 @@ def _size_report(d: dict[str, Any]) -> SizeReport:
 
 
 class SizeField:
-    """A length at every point of the plane, or of a sphere: linear on each triangle of a mesh; beyond it, that of its
-    nearest point.
+    """A length at every point of the plane, or of a sphere. It is linear on each triangle of a mesh; outside the mesh
+    it is the value at the nearest point.
 
     >>> import numpy, temper
     >>> mesh = temper.generate.annulus()
@@ -66,16 +66,16 @@ class SizeField:
     @classmethod
     def from_values(cls, mesh: MeshLike, sizes: npt.ArrayLike) -> SizeField:
         """The field of these sizes, (n,) float64 > 0 [length], at the vertices of the mesh, which is copied.
-        TemperError names the vertex whose size makes no sense."""
+        TemperError names a vertex whose size is not finite and positive."""
         return cls(_temper.size_field_from_values(as_mesh(mesh)._handle, _doubles(sizes, 0, "sizes")))
 
     def at(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """The field at points, (k, 2), on a sphere (k, 3) of any length: (k,) float64 [length]. Exactly the given value
-        at a vertex."""
+        """The field at points, (k, 2), on a sphere (k, 3) of any length. Returns (k,) float64 [length]; at a vertex
+        exactly the given value."""
         return self._handle.at(self._points(points))[0]
 
     def outside(self, points: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-        """Whether points, as for ``at``, are beyond the mesh, where the field is extended."""
+        """Says for each point, as in ``at``, whether it is outside the mesh. There the field is extended."""
         return self._handle.at(self._points(points))[1]
 
     def _points(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -83,7 +83,7 @@ class SizeField:
 
     @property
     def mesh(self) -> Mesh:
-        """The mesh that it is linear on."""
+        """The mesh on which the field is linear."""
         return Mesh._of(self._handle.mesh())
 
     @property
@@ -98,14 +98,14 @@ def input_size_field(mesh: MeshLike) -> SizeField:
 
 
 def local_size(mesh: MeshLike) -> npt.NDArray[np.float64]:
-    """At each vertex √(4/√3 A), A the mean area of its triangles: the edge of an equilateral triangle of that area.
-    (n,) float64 [length]."""
+    """The local size √(4/√3 A) of each vertex, with A the mean area of its triangles: the edge of an equilateral
+    triangle of that area. (n,) float64 [length]."""
     return _temper.local_size(as_mesh(mesh)._handle)
 
 
 def relative_lengths(mesh: MeshLike) -> npt.NDArray[np.float64]:
-    """The length of each interior edge and that of its dual, over the mean of the local sizes at its ends: equilateral
-    triangles have 1 and 1/√3; the dual is negative where the dual edge is. (n_edges, 2) float64, in the order of
+    """The lengths of each interior edge and of its dual, over the mean of the local sizes at its ends. Equilateral
+    triangles have 1 and 1/√3. A negative dual edge has a negative value. (n_edges, 2) float64, in the order of
     Mesh.edges, NaN on the boundary."""
     return _temper.relative_lengths(as_mesh(mesh)._handle)
 

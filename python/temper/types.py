@@ -1,6 +1,7 @@
-"""What functions of ``temper`` return and hand to callbacks. Reports show themselves as text, and as tables in notebooks.
+"""The classes that functions of ``temper`` return and pass to callbacks. Reports show themselves as text, and as tables
+in notebooks.
 
-Submodules have such classes of their own: those that ``temper.topology`` returns are there.
+Submodules have such classes of their own, for example ``temper.topology``.
 """
 
 from ._dec import Columns, DecComplex, DecEdges, DecSummary, IncidenceMatrix, PowerCells

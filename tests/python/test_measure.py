@@ -113,7 +113,7 @@ def test_star1_is_the_cotangent_formula_without_weights(ring):
 
 def test_operators_are_views_on_one_value(ring):
     c = temper.dec_operators(ring)
-    arrays = [c.star0, c.star1, c.flux, c.orthocenters, c.edges.length, c.edges.midpoint, c.d0.columns]
+    arrays = [c.star0, c.star1, c.transmissibility, c.orthocenters, c.edges.length, c.edges.midpoint, c.d0.columns]
     assert not any(a.flags.owndata or a.flags.writeable for a in arrays)
     kept = c.star1
     copy = kept.copy()

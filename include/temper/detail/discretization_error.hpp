@@ -1,5 +1,5 @@
-// The errors of a solver on a mesh, and their derivatives: what Objective::solver_error lowers. An interface, since
-// whoever solves systems of equations needs a library for it: temper::errors has a model (make_discretization_error).
+// The errors of a solver on a mesh and their derivatives, which Objective::solver_error lowers. It is an interface,
+// because solvers of systems of equations need a library. temper::errors has a model (make_discretization_error).
 #pragma once
 
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace temper {
 
-/// For whose errors a mesh is meant: what Objective::accuracy weighs its terms by (scheme_weights()).
+/// The solver for which a mesh is meant. It sets the factors of Objective::accuracy (scheme_weights()).
 enum class Scheme {
-  all,     ///< for each something, and margins about as large as those of E_BP
-  vertex,  ///< unknowns at the vertices, as in discrete exterior calculus
-  cell,    ///< unknowns at the orthocenters, as in two-point flux finite volumes
-  stars,   ///< the diagonal Hodge stars
+  all,     ///< A compromise for all, with margins about as large as from E_BP
+  vertex,  ///< Unknowns at the vertices, as in discrete exterior calculus
+  cell,    ///< Unknowns at the orthocenters, as in two-point flux finite volumes
+  stars,   ///< The diagonal Hodge stars
 };
 
 class DiscretizationError {
@@ -23,12 +23,13 @@ class DiscretizationError {
 
   virtual ~DiscretizationError() = default;
 
-  /// The mean squared error of each scheme that counts, of no unit: meshes of one domain compare, in whatever units and
-  /// order. Empty where a scheme's matrix is not positive definite, as it is where all triangles are well-centered.
+  /// Returns the mean squared error of each selected scheme, without unit. Meshes of one domain can be compared in any
+  /// units and order. Empty if the matrix of a scheme is not positive definite. It is, if all triangles are
+  /// well-centered.
   [[nodiscard]] virtual std::vector<double> errors(const Mesh& mesh, Executor* executor = nullptr) const = 0;
 
-  /// The same, and of each the derivatives by x, y and w of every vertex, those by the places of vertices on the
-  /// boundary left out: they do not move.
+  /// Also returns the derivatives of each error by x, y and w of every vertex. The derivatives by the places of
+  /// boundary vertices are left out, because these do not move.
   [[nodiscard]] virtual std::vector<double> errors(const Mesh& mesh, std::vector<Gradient>& gradients,
                                                    Executor* executor = nullptr) const = 0;
 };

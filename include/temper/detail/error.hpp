@@ -1,7 +1,7 @@
-// Bad input comes back as a value: the library never prints, throws or exits.
+// Errors are values: for bad input the library never prints, throws or exits.
 //
-// Expected<T> has the interface of C++23's std::expected that temper needs. InputError says where the
-// bad input is in the user's own numbering, what was expected and what was found.
+// Expected<T> has the part of the interface of C++23's std::expected that temper needs. InputError names the place of
+// the bad input in the user's numbering, the expected value and the value found.
 #pragma once
 
 #include <string>
@@ -12,37 +12,37 @@
 namespace temper {
 
 enum class ErrorCode {
-  not_found,            ///< a file that does not exist or cannot be opened for reading
-  empty_input,          ///< no bytes, no points or no triangles
-  truncated,            ///< the file ends before what its header announces
-  syntax,               ///< bytes that do not follow the format
-  unsupported,          ///< a valid file that is not a planar triangle mesh, or a variant temper does not read
-  index_out_of_range,   ///< a negative or too large vertex number
-  size_mismatch,        ///< arrays of one mesh whose lengths disagree
+  not_found,            ///< A file that does not exist or cannot be opened for reading
+  empty_input,          ///< No bytes, no points or no triangles
+  truncated,            ///< The file ends before what its header announces
+  syntax,               ///< Bytes that do not follow the format
+  unsupported,          ///< A valid file that is not a planar triangle mesh, or a variant temper does not read
+  index_out_of_range,   ///< A negative or too large vertex number
+  size_mismatch,        ///< Arrays of one mesh whose lengths disagree
   not_finite,           ///< NaN or infinity
-  not_planar,           ///< z coordinates that are not all equal
-  not_on_sphere,        ///< a point of a sphere that is not at its radius
-  duplicate_point,      ///< two vertices at exactly the same place
-  unused_point,         ///< a point of no triangle
-  zero_area,            ///< a triangle with collinear corners or a repeated vertex
-  non_manifold_edge,    ///< an edge with more than two triangles
-  non_manifold_vertex,  ///< a vertex where the mesh touches itself (bow tie)
-  overlap,              ///< triangles that cover the same place twice
-  missing_edge,         ///< a constrained edge that is no edge of the mesh
-  geographic,           ///< longitude and latitude, where a plane is needed
-  out_of_scale,         ///< coordinates too large or too small for exact arithmetic
-  invalid_option,       ///< an option whose value makes no sense
-  hidden_vertex,        ///< weights that leave a vertex without power cell
-  stopped,              ///< by the caller or a time limit, before there was a result
-  trace_mismatch,       ///< an event of a trace that does not fit the mesh
-  rank_mismatch,        ///< ranks of one run that have different meshes or options
-  not_writable,         ///< an output that cannot be written; nothing was changed
+  not_planar,           ///< Z coordinates that are not all equal
+  not_on_sphere,        ///< A point of a sphere that is not at its radius
+  duplicate_point,      ///< Two vertices at exactly the same place
+  unused_point,         ///< A point of no triangle
+  zero_area,            ///< A triangle with collinear corners or a repeated vertex
+  non_manifold_edge,    ///< An edge with more than two triangles
+  non_manifold_vertex,  ///< A vertex where the mesh touches itself (bow tie)
+  overlap,              ///< Triangles that cover the same place twice
+  missing_edge,         ///< A constrained edge that is no edge of the mesh
+  geographic,           ///< Longitude and latitude, although a plane is needed
+  out_of_scale,         ///< Coordinates too large or too small for exact arithmetic
+  invalid_option,       ///< An option whose value makes no sense
+  hidden_vertex,        ///< Weights that leave a vertex without power cell
+  stopped,              ///< Stopped by the caller or a time limit before there was a result
+  trace_mismatch,       ///< An event of a trace that does not fit the mesh
+  rank_mismatch,        ///< Ranks of one run that have different meshes or options
+  not_writable,         ///< An output that cannot be written; nothing was changed
 };
 
-/// "duplicate_point", … : the name of the code, stable across versions.
+/// The name of the code, such as "duplicate_point"; stable across versions.
 [[nodiscard]] std::string_view name(ErrorCode code);
 
-/// An error in the input, told to a person: `where: message`.
+/// An error in the input, for a person to read: `where: message`.
 struct InputError {
   ErrorCode code = ErrorCode::syntax;
   std::string where;    ///< "coast.msh:41", or empty when the input came as arrays
@@ -51,11 +51,11 @@ struct InputError {
   [[nodiscard]] std::string what() const { return where.empty() ? message : where + ": " + message; }
 };
 
-/// Text that a terminal may show: control characters but newlines and tabs as `\x1b`, bytes that are no UTF-8 as the
-/// characters of Latin-1.
+/// Makes text safe for a terminal. Control characters except newlines and tabs become `\x1b` and the like. Bytes that
+/// are not UTF-8 become characters of Latin-1.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// A value or the reason why there is none.
+/// A value, or the reason why there is none.
 template <class T>
 class [[nodiscard]] Expected {
  public:
@@ -77,7 +77,7 @@ class [[nodiscard]] Expected {
   std::variant<T, InputError> state_;
 };
 
-/// Success, or the reason why not.
+/// Success, or the reason of the failure.
 template <>
 class [[nodiscard]] Expected<void> {
  public:

@@ -1,7 +1,7 @@
-// An executor runs work on threads: one small interface, so that the core itself starts none.
+// An executor runs work on threads. It is one small interface, so that the core itself starts no threads.
 //
-// Work is cut into blocks whose number does not depend on the number of threads, and every block writes
-// only its own results: the same bytes come out for any executor.
+// Work is cut into blocks. Their number does not depend on the number of threads, and every block writes only its own
+// results. So every executor gives the same bytes.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class Executor {
   virtual void run(std::size_t n, const std::function<void(std::size_t)>& block) = 0;
 };
 
-/// Block after block, in the thread that calls.
+/// Runs block after block in the calling thread.
 class SerialExecutor final : public Executor {
  public:
   void run(std::size_t n, const std::function<void(std::size_t)>& block) override {
@@ -28,16 +28,16 @@ class SerialExecutor final : public Executor {
   }
 };
 
-/// The executor that is given, or a serial one where there is none.
+/// The given executor, or a serial one if it is null.
 [[nodiscard]] inline Executor& or_serial(Executor* executor) {
   static SerialExecutor serial;
   return executor != nullptr ? *executor : serial;
 }
 
-// Ranks are processes that make one run together, one on each machine. A communicator passes bytes among them.
+// Ranks are processes that make one run together, usually one per machine. A communicator passes bytes among them.
 //
 // Each rank has the whole mesh and makes the same calls in the same order. A sweep divides its parts among the ranks,
-// and each sends the others what it changed. So all end with the same bytes, which are those of one process alone.
+// and each sends its changes to the others. So all end with the same bytes as a single process.
 
 class Communicator {
  public:
@@ -46,10 +46,10 @@ class Communicator {
   [[nodiscard]] virtual std::size_t size() const = 0;
   /// The number of this rank, from 0.
   [[nodiscard]] virtual std::size_t rank() const = 0;
-  /// Gives all ranks the bytes that rank `from` has. Collective: all ranks call it, in the same order.
+  /// Sends the bytes of rank `from` to all ranks. Collective: all ranks call it, in the same order.
   virtual void broadcast(std::string& bytes, std::size_t from) = 0;
 
-  /// Gives all ranks what each of them has, by rank. Collective.
+  /// Gives all ranks the bytes of each rank, sorted by rank. Collective.
   [[nodiscard]] std::vector<std::string> all_gather(std::string_view mine) {
     std::vector<std::string> all(size());
     all[rank()] = mine;
@@ -58,7 +58,8 @@ class Communicator {
   }
 
  protected:
-  /// Calls f(data, count) for one piece of the bytes after another. MPI counts in int: a message holds no more.
+  /// Calls f(data, count) for one piece of the bytes after another. MPI counts in int, which limits the size of a
+  /// message.
   template <class F>
   static void in_pieces(std::string& bytes, const F& f) {
     constexpr std::size_t kMostBytes = std::size_t{1} << 30;

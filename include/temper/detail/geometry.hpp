@@ -1,8 +1,8 @@
 // Triangle geometry of the power diagram, and the exact predicates that decide validity.
 //
-// Conventions (docs/concepts.md): triangle ijk counter-clockwise; orthocenter o has equal power to
-// i, j and k; h_k is the signed distance from edge ij to o, positive on the left of i → j (the side of k
-// in a counter-clockwise triangle); d_ij = ℓ/2 + (w_i − w_j)/(2ℓ) from i towards j, so d_ij + d_ji = ℓ.
+// Conventions (docs/concepts.md): triangle ijk is counter-clockwise. The orthocenter o has equal power to i, j and k.
+// h_k is the signed distance from edge ij to o, positive on the left of i → j, the side of k. d_ij = ℓ/2 + (w_i −
+// w_j)/(2ℓ) is measured from i towards j, so d_ij + d_ji = ℓ.
 #pragma once
 
 #include <array>
@@ -33,15 +33,14 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 /// Positive when a, b, c turn counter-clockwise. Sign of cross(b − a, c − a), exact.
 [[nodiscard]] Sign orient2d(Vec2 a, Vec2 b, Vec2 c);
 
-/// Power test (eq. 9 of the paper, oriented): for a, b, c counter-clockwise, positive when d conflicts,
-/// that is when d's power to the orthocenter of abc is less than theirs and the edge between abc and d
-/// is not regular; zero when all four are cocircular in the power sense; negative when regular. Exact.
+/// Power test (eq. 9 of the paper, oriented), for a, b, c counter-clockwise. Exact. Positive if d conflicts: its power
+/// to the orthocenter of abc is less than the power of a, b and c. Then the edge between abc and d is not regular. Zero
+/// if all four are cocircular in the power sense. Negative if the edge is regular.
 [[nodiscard]] Sign power_test(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
                               const WeightedPoint& d);
 
-/// power_test with ties broken by vertex index: the weights are thought to be w_i + ε^(i+1), ε → 0+, so
-/// that the regular triangulation is unique whatever the order of construction. Zero only when all
-/// four points are collinear.
+/// Power test with ties broken by vertex index. The weights are perturbed to w_i + ε^(i+1), ε → 0+, so that the regular
+/// triangulation is unique for any order of construction. Zero only if all four points are collinear.
 [[nodiscard]] Sign power_test_perturbed(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
                                         const WeightedPoint& d, const std::array<std::uint32_t, 4>& index);
 
@@ -62,15 +61,15 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 /// Positive when d conflicts with abc counter-clockwise: it lies above the plane of ABC, seen from the center. Exact.
 [[nodiscard]] Sign power_test(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
 
-/// power_test with ties broken by vertex index: the points are thought to be P_i (1 + ε_i), with ε_0 ≫ ε_1 ≫ … → 0+ of
-/// which none is less than the product of two. Zero only when all four points are on a great circle.
+/// Power test with ties broken by vertex index. The points are perturbed to P_i (1 + ε_i), with ε_0 ≫ ε_1 ≫ … → 0+,
+/// where no ε is less than the product of two others. Zero only if all four points are on a great circle.
 [[nodiscard]] Sign power_test_perturbed(Vec3 a, Vec3 b, Vec3 c, Vec3 d, const std::array<std::uint32_t, 4>& index);
 
-/// Sign of (P × Q)·n, n the normal of the face PQR counter-clockwise: of the height of its orthocenter over the arc pq.
-/// Exact.
+/// Sign of (P × Q)·n, with n the normal of the counter-clockwise face PQR. It is the sign of the height of the
+/// orthocenter over the arc pq. Exact.
 [[nodiscard]] Sign signed_height_sign(Vec3 p, Vec3 q, Vec3 r);
 
-/// Sign of P·(P − Q): of d_pq, the arc from p, towards q, of the weighted midpoint. Exact.
+/// Sign of P·(P − Q). It is the sign of d_pq, the arc from p, towards q, to the weighted midpoint. Exact.
 [[nodiscard]] Sign dual_crossing_sign(Vec3 p, Vec3 q);
 
 /// All heights > 0, all edges crossed by their duals, and counter-clockwise. Exact.
@@ -101,8 +100,8 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 /// h: signed distance from edge pq to the orthocenter of pqr, positive on the left of p → q.
 [[nodiscard]] double signed_height(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
 
-/// h ℓ of the three edges qr, rp, pq (the edge across from p, q, r). They sum to twice the area, and are
-/// rational in the coordinates and weights: what the energies are made of.
+/// h ℓ of the three edges qr, rp, pq (the edges opposite p, q, r). Their sum is twice the area. They are rational in
+/// the coordinates and weights, and the energies are computed from them.
 [[nodiscard]] std::array<double, 3> scaled_heights(const WeightedPoint& p, const WeightedPoint& q,
                                                    const WeightedPoint& r);
 
@@ -126,7 +125,7 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 /// The solid angle of the triangle, its spherical excess; signed.
 [[nodiscard]] double solid_angle(Vec3 p, Vec3 q, Vec3 r);
 
-/// Along the ground of a space, from one vertex to another [length].
+/// Distance along the ground of a space from one vertex to another [length].
 [[nodiscard]] double distance(const Space& space, const WeightedPoint& p, const WeightedPoint& q);
 /// The angle at p in the space of a mesh, in radians.
 [[nodiscard]] double corner_angle(const Space& space, const WeightedPoint& p, const WeightedPoint& q,

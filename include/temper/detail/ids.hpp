@@ -1,7 +1,7 @@
 // Strong four-byte ids and the arrays they index.
 //
-// A mesh is a set of flat arrays; what keeps a vertex number from being used as a triangle number is
-// the type. An id is a plain index with a tag: no reference count, no pointer to the mesh.
+// A mesh is a set of flat arrays. The type of an id prevents the use of a vertex number as a triangle number. An id is
+// a plain index with a tag: no reference count, no pointer to the mesh.
 #pragma once
 
 #include <compare>
@@ -31,7 +31,7 @@ using VertexId = Id<struct VertexTag>;
 using HalfedgeId = Id<struct HalfedgeTag>;
 using TriangleId = Id<struct TriangleTag>;
 
-/// The ids 0 … n − 1, or those from a first one to before a last, for range-based loops.
+/// The ids 0 … n − 1, or a range [first, last), for range-based loops.
 template <class IdType>
 class IdRange {
  public:
@@ -66,7 +66,7 @@ class IdRange {
   std::size_t first_ = 0, last_;
 };
 
-/// std::vector that only its own id type indexes.
+/// A std::vector that only its own id type can index.
 template <class IdType, class T>
 class IdVector {
  public:

@@ -1,5 +1,4 @@
-// The choice of the processor's instructions that energies are computed with. Results are the same for each, bit for
-// bit.
+// The choice of the processor's instructions for energies. All give the same results, bit for bit.
 #pragma once
 
 #include <span>
@@ -8,20 +7,20 @@
 namespace temper {
 
 enum class InstructionSet {
-  baseline,  ///< what every processor of the architecture has
-  avx2,      ///< four doubles at a time
-  avx512,    ///< eight
+  baseline,  ///< Instructions of every processor of the architecture
+  avx2,      ///< Four doubles at a time
+  avx512,    ///< Eight doubles at a time
 };
 [[nodiscard]] std::string_view name(InstructionSet set);
 
-/// The instruction sets that this build has code for, the slowest first.
+/// The instruction sets for which this build has code, the slowest first.
 [[nodiscard]] std::span<const InstructionSet> compiled_instruction_sets();
-/// The instruction sets that this processor has and this build has code for, the slowest first.
+/// The instruction sets for which this processor and this build have code, the slowest first.
 [[nodiscard]] std::span<const InstructionSet> instruction_sets();
-/// The one in use: at first the fastest.
+/// The instruction set in use: at first the fastest.
 [[nodiscard]] InstructionSet instruction_set();
-/// Makes the whole process use this set for what starts from now on; meant for comparisons. False, and nothing changes,
-/// where instruction_sets() does not have it.
+/// Sets the instruction set of the whole process for later calls; meant for comparisons. Returns false and changes
+/// nothing if instruction_sets() does not have it.
 bool use_instruction_set(InstructionSet set);
 
 }  // namespace temper

@@ -1,10 +1,10 @@
-// Places: where in a mesh a point is, and so what the data of the mesh are there.
+// Places: the position of a point in a mesh, and the data of the mesh there.
 //
-// Data at vertices are taken to be linear on triangles, data of triangles constant on each. That makes both functions
-// of the plane or the sphere, which do not care how a mesh is numbered. A mesh that has been changed gets its data from
-// them: each vertex those at the place in the former mesh where it is now, each triangle those of the one there that
-// its middle is in. On the sphere triangles are the flat ones between the places of their corners, whose weights do not
-// count, and a point is in the one that its ray from the center meets.
+// Data at vertices are linear on triangles; data of triangles are constant on each. So both are functions on the plane
+// or the sphere and do not depend on the numbering of a mesh. A changed mesh gets its data from them. Each vertex gets
+// the data at its new place in the former mesh. Each triangle gets the data of the former triangle that contains its
+// middle. On the sphere, triangles are flat between the places of their corners, without weights. A point is in the
+// triangle that its ray from the center meets.
 #pragma once
 
 #include <algorithm>
@@ -20,20 +20,20 @@ namespace temper {
 class BoxTree;
 class Executor;
 
-/// A point of a mesh: a mean of the corners around it.
+/// A point of a mesh as a weighted mean of the corners around it.
 struct Place {
-  TriangleId triangle;                    ///< that the point is in or on
-  int n = 0;                              ///< how many corners count: 1 at a vertex, 2 on an edge, 3 within a triangle
-  std::array<VertexId, 3> corners = {};   ///< the first n
-  std::array<double, 3> shares = {1, 0};  ///< of each: not negative, and 1 in all but for rounding
-  bool outside = false;                   ///< the point asked for is beyond the mesh, whose nearest point this is
+  TriangleId triangle;  ///< Triangle that the point is in or on
+  int n = 0;            ///< Number of corners that count: 1 at a vertex, 2 on an edge, 3 inside a triangle
+  std::array<VertexId, 3> corners = {};   ///< Corners; the first n count
+  std::array<double, 3> shares = {1, 0};  ///< Share of each corner: not negative, with the sum 1 except for rounding
+  bool outside = false;  ///< The requested point is outside the mesh, and this is the nearest point of the mesh
 
-  /// Exactly at a vertex.
+  /// The place exactly at a vertex.
   [[nodiscard]] static Place at(VertexId v, TriangleId t) { return {t, 1, {v}, {1}, false}; }
 };
 
-/// The value at a place of what is linear on triangles, and value_at(v) at vertices. Never beyond the values at the
-/// corners that count; exactly that of them all where they agree.
+/// The value at a place of the linear function with value_at(v) at vertices. It is never outside the range of the
+/// values at the corners that count. If they agree, it is exactly their value.
 template <class ValueAt>
 [[nodiscard]] double interpolated(const Place& place, const ValueAt& value_at) {
   const double first = value_at(place.corners[0]);
@@ -47,7 +47,7 @@ template <class ValueAt>
   return low == high ? first : std::clamp(value, low, high);
 }
 
-/// Finds places in a mesh, which it looks at: it must be there, and stay as it is. Safe to ask from several threads.
+/// Finds places in a mesh. It keeps a reference: the mesh must exist and not change. Several threads may use it.
 class PointLocator {
  public:
   explicit PointLocator(const Mesh& mesh) : mesh_(mesh) {}
@@ -55,12 +55,11 @@ class PointLocator {
   PointLocator& operator=(const PointLocator&) = delete;
   ~PointLocator();
 
-  /// The place of p, by exact tests; beyond the mesh, that of its nearest point. A function of p alone, whatever the
-  /// triangle that it is looked for from. About O(distance from that one in triangles); O(log n) without or with a bad
-  /// one. Precondition: the mesh has a triangle, and none that is erased. A point of the mesh's space: its weight does
-  /// not count.
+  /// Finds the place of p by exact tests. If p is outside the mesh, this is the place of the nearest point. It depends
+  /// on p alone, not on `near`. The weight of p does not count. Precondition: the mesh has a triangle, and none is
+  /// erased. About O(distance from `near` in triangles); O(log n) without a `near` or with a bad one.
   [[nodiscard]] Place find(const WeightedPoint& p, TriangleId near = {}) const;
-  /// Of a point of the plane.
+  /// Finds the place of a point of the plane.
   [[nodiscard]] Place find(Vec2 p, TriangleId near = {}) const { return find(WeightedPoint{p.x, p.y, 0}, near); }
 
  private:
@@ -70,17 +69,18 @@ class PointLocator {
   mutable std::atomic<const BoxTree*> made_tree_ = nullptr;
 };
 
-/// The place in `before` of each vertex of `after`, a mesh of the same domain. `vertices`: the number in `before` of
-/// each vertex, invalid where there was none; empty: the same numbers. A vertex that is exactly where one of `before`
-/// was is at that vertex; one that is off an edge by no more than rounding is on it, as those are that slid on a
-/// boundary, so that what is across from the edge does not count. O(n log n), about O(n) where most have moved little.
+/// Returns the place in `before` of each vertex of `after`, a mesh of the same domain. `vertices`: number of each
+/// vertex in `before`, invalid for new vertices; empty: the same numbers. If a vertex of `after` is exactly at a vertex
+/// of `before`, its place is that vertex. If it is off an edge only by rounding, as after sliding on a boundary, its
+/// place is on the edge. Then the corner opposite the edge does not count. O(n log n), about O(n) if most vertices have
+/// moved little.
 [[nodiscard]] IdVector<VertexId, Place> positions_of_vertices(const Mesh& before, const Mesh& after,
                                                               const IdVector<VertexId, VertexId>& vertices = {},
                                                               Executor* executor = nullptr);
 
-/// The triangle of `before` that the middle of each triangle of `after` is in, within the same region where there is
-/// one around; exactly the same triangle, if `before` had it, its corners in the same places. `places`:
-/// positions_of_vertices(). Costs the same.
+/// Returns, for each triangle of `after`, the triangle of `before` that contains its middle. It is in the same region
+/// if one around is. If `before` had the same triangle at the same places, it is exactly that triangle. `places`:
+/// positions_of_vertices(). The cost is the same.
 [[nodiscard]] IdVector<TriangleId, TriangleId> sources_of_triangles(const Mesh& before, const Mesh& after,
                                                                     const IdVector<VertexId, Place>& places,
                                                                     Executor* executor = nullptr);

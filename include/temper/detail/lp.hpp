@@ -1,4 +1,4 @@
-// Linear programs by Clp (COIN-OR): what temper/feasibility.hpp needs, in a library of its own (temper::lp).
+// Linear programs by Clp (COIN-OR), for temper/feasibility.hpp. It is a library of its own, temper::lp.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace temper {
 
-/// Clp's simplex methods. Deterministic; one solver may be used from one thread at a time.
+/// Returns Clp's simplex methods. Deterministic. Only one thread at a time may use one solver.
 [[nodiscard]] std::unique_ptr<LpSolver> clp_solver();
 
 }  // namespace temper

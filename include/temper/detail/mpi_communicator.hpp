@@ -14,9 +14,9 @@ namespace temper {
 /// The processes of MPI_COMM_WORLD. One thread of a process calls the functions.
 class MpiCommunicator final : public Communicator {
  public:
-  /// Begins MPI, unless the caller has. MPI begins once in a process.
+  /// Begins MPI, unless the caller has begun it. MPI can begin only once in a process.
   MpiCommunicator();
-  /// Ends MPI if the constructor began it, when all ranks are there.
+  /// Ends MPI if the constructor began it. It waits for all ranks.
   ~MpiCommunicator() override;
   MpiCommunicator(const MpiCommunicator&) = delete;
   MpiCommunicator& operator=(const MpiCommunicator&) = delete;
@@ -25,9 +25,9 @@ class MpiCommunicator final : public Communicator {
   [[nodiscard]] std::size_t rank() const override { return rank_; }
   /// MPI ends this process when another rank is lost.
   void broadcast(std::string& bytes, std::size_t from) override;
-  /// The number of ranks on the machine of this one. Collective.
+  /// Returns the number of ranks on this machine. Collective.
   [[nodiscard]] std::size_t ranks_on_machine() const;
-  /// Ends all processes on all machines, with this exit status.
+  /// Ends all processes on all machines with this exit status.
   [[noreturn]] void abort(int status);
 
   /// The name of the MPI library, such as "Open MPI v4.1.4".

@@ -1,9 +1,9 @@
-// The table of options: one row for each that a run may be given as a value. Range checks, the command line, what it
-// echoes in reports and warns of, Python and the documentation loop over it, so that a new option is a field of
-// OptimizeOptions or of one of its groups, and a row of src/optimize/options/table.cpp.
+// The table of options: one row for each option that can be given as a value. Range checks, the command line, reports,
+// warnings, Python and the documentation loop over it. So a new option is a field of OptimizeOptions or of one of its
+// groups, and a row of src/optimize/options/table.cpp.
 //
-// In sentences, notes and errors an option stands in back quotes, `boundary` or `boundary=split`: a front end spells it
-// as its users write it (spell_options).
+// In sentences, notes and errors an option is in back quotes: `boundary` or `boundary=split`. Each front end replaces
+// it by its own spelling (spell_options).
 #pragma once
 
 #include <array>
@@ -22,36 +22,38 @@ namespace temper {
 
 enum class OptionKind { count, number, choice, length_parameter, vertex };
 
-/// The value of any option. monostate: absent; text: the name of a choice.
+/// The value of any option. monostate means absent; text is the name of a choice.
 using OptionValue = std::variant<std::monostate, std::int64_t, double, std::string_view, LengthParameter, VertexId>;
 
-/// Numbers from low to high; open: without these two.
+/// Numbers from low to high. If open, these two are excluded.
 struct OptionRange {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool open = false;
 };
 
-/// Another option without which one has no effect.
+/// Another option that this option needs to have an effect.
 struct OptionNeed {
-  std::string_view option;  ///< its name; empty: nothing is needed
-  std::string_view values;  ///< that it must have one of, "newton|alternating"; empty: any but none
-  bool (*holds)(const OptimizeOptions&) = nullptr;  ///< where its value alone does not tell
+  std::string_view option;  ///< Name of the other option; empty: no need
+  /// Values of which it must have one, such as "newton|alternating"; empty: any value except none.
+  std::string_view values;
+  bool (*holds)(const OptimizeOptions&) = nullptr;  ///< Test for needs that the value alone does not decide
 };
 
 struct OptionRow {
-  std::string_view name = {};      ///< as in C++ and Python, but flat: accuracy.sweeps is accuracy_sweeps
-  std::string_view sentence = {};  ///< what it does, in ASCII
+  std::string_view name = {};      ///< Name as in C++ and Python, but flat: accuracy.sweeps is accuracy_sweeps
+  std::string_view sentence = {};  ///< Effect of the option, in ASCII
   OptionKind kind = OptionKind::number;
-  std::span<const std::string_view> choices = {};  ///< of OptionKind::choice
-  OptionRange range = {};                          ///< of counts, numbers and length_parameters
-  bool optional = false;                           ///< may be absent
-  bool common = false;                             ///< one of the few that a first run may need
-  std::string_view absent_name = "auto";           ///< how an absent value is written: "auto" is chosen by temper
-  std::string_view absent = {};                    ///< what it stands for
+  std::span<const std::string_view> choices = {};  ///< Names of the choices, for OptionKind::choice
+  OptionRange range = {};                          ///< Range of counts, numbers and length_parameters
+  bool optional = false;                           ///< Option may be absent
+  bool common = false;                             ///< Option is one of the few that a first run may need
+  std::string_view absent_name = "auto";           ///< Text for an absent value; "auto": temper chooses
+  std::string_view absent = {};                    ///< Meaning of an absent value
   std::array<OptionNeed, 3> needs = {};
   OptionValue (*get)(const OptimizeOptions&) = nullptr;
-  void (*set)(OptimizeOptions&, const OptionValue&) = nullptr;  ///< to a value that check_option() takes
+  void (*set)(OptimizeOptions&,
+              const OptionValue&) = nullptr;  ///< Sets the option to a value that check_option() accepts
 };
 
 struct OptionGroup {
@@ -59,7 +61,7 @@ struct OptionGroup {
   std::span<const OptionRow> rows;
 };
 
-/// A set of options that a run may start from.
+/// A set of options from which a run may start.
 struct Method {
   std::string_view name;
   std::string_view sentence;
@@ -69,26 +71,26 @@ struct Method {
 /// The methods; the first is the default.
 [[nodiscard]] std::span<const Method> methods();
 
-/// The table.
+/// Returns the table.
 [[nodiscard]] std::span<const OptionGroup> option_groups();
-/// The row of that name, or null.
+/// Returns the row with this name, or null.
 [[nodiscard]] const OptionRow* find_option(std::string_view name);
 
-/// An error unless the value is one that the option may have.
+/// Returns an error if the option may not have this value.
 [[nodiscard]] Expected<void> check_option(const OptionRow& row, const OptionValue& value);
-/// The first option that has a value it may not have.
+/// Returns an error for the first option with a value that it may not have.
 [[nodiscard]] Expected<void> check_options(const OptimizeOptions& options);
 
-/// "4", "newton", "auto".
+/// Returns the value as text: "4", "newton", "auto".
 [[nodiscard]] std::string option_text(const OptionRow& row, const OptionValue& value);
-/// What values it may have: "at least 2", "newton, golden or alternating".
+/// Returns the allowed values as text: "at least 2", "newton, golden or alternating".
 [[nodiscard]] std::string option_range_text(const OptionRow& row);
-/// What the options lack for this one to have an effect, as "`boundary=split`"; empty when it has one.
+/// Returns the need that the options do not satisfy, such as "`boundary=split`"; empty if this option has an effect.
 [[nodiscard]] std::string missing_need(const OptionRow& row, const OptimizeOptions& options);
 
-/// How a front end calls an option, and a value of it; the value may be empty.
+/// The spelling of an option and a value in a front end. The value may be empty.
 using OptionSpelling = std::function<std::string(const OptionRow& row, std::string_view value)>;
-/// The text with each option that stands in back quotes as the front end calls it.
+/// Replaces each option in back quotes by the front end's spelling.
 [[nodiscard]] std::string spell_options(std::string_view text, const OptionSpelling& spell);
 
 }  // namespace temper

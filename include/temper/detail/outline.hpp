@@ -1,8 +1,8 @@
-// An outline is the input of the mesher: a planar straight-line graph (PSLG), that is points and segments between them,
-// with what they enclose.
+// An outline is the input of the mesher: a planar straight-line graph (PSLG). It has points, segments between them, and
+// the areas that they enclose.
 //
-// Its segments may be long or short, enclose holes and islands, separate regions, end anywhere inside or branch. Points
-// keep their place bit for bit in every mesh made of it.
+// Segments may be long or short, enclose holes and islands, separate regions, end anywhere inside, or branch. Points
+// keep their place bit for bit in every mesh of the outline.
 #pragma once
 
 #include <array>
@@ -18,27 +18,27 @@
 namespace temper {
 
 struct OutlineSegment {
-  std::array<std::int32_t, 2> ends = {};  ///< points, from 0
-  std::int32_t tag = 0;                   ///< boundary marker; edges made of the segment carry it
+  std::array<std::int32_t, 2> ends = {};  ///< Numbers of its end points, from 0
+  std::int32_t tag = 0;                   ///< Boundary marker; edges of the segment carry it
 };
 
-/// A place, and what is said of all that can be reached from it without crossing a segment.
+/// A place in a region. Its data hold for everything that can be reached from it without crossing a segment.
 struct OutlineRegion {
   Vec2 at;
   std::int32_t region = 0;
-  std::optional<double> size = {};  ///< edge length wanted there, when less than elsewhere
+  std::optional<double> size = {};  ///< Desired edge length there, if less than elsewhere
 };
 
-/// An area given by its boundary: inside is what a ray leaves across an odd number of these segments. (On the sphere,
-/// which has no outside: the smaller of what they leave.)
+/// An area given by its boundary. A point is inside if a ray from it crosses an odd number of these segments. (The
+/// sphere has no outside: there the inside is the smaller side.)
 struct OutlinePart {
   std::int32_t region = 0;
   std::vector<std::int32_t> segments;
-  std::optional<double> size = {};  ///< edge length wanted inside, when less than elsewhere
-  bool cut = false;                 ///< what it encloses is left out: of parts on the sphere
+  std::optional<double> size = {};  ///< Desired edge length inside, if less than elsewhere
+  bool cut = false;                 ///< Leave out the area; only for parts on the sphere
 };
 
-/// The user's numbers of the elements of an outline, so that errors speak them. (Inline, as InputNames.)
+/// The user's numbers of the elements of an outline, for errors. (Inline, as InputNames.)
 class OutlineNames {
  public:
   virtual ~OutlineNames() = default;
@@ -47,7 +47,7 @@ class OutlineNames {
   [[nodiscard]] virtual std::string hole(std::size_t index) const { return "hole " + std::to_string(index); }
   [[nodiscard]] virtual std::string region(std::size_t index) const { return "region " + std::to_string(index); }
   [[nodiscard]] virtual std::string part(std::size_t index) const { return "part " + std::to_string(index); }
-  /// "lake.poly:7", the place of the element in its file, or nothing.
+  /// The place of the element in its file, such as "lake.poly:7", or nothing.
   [[nodiscard]] virtual std::string point_where(std::size_t /*index*/) const { return {}; }
   [[nodiscard]] virtual std::string segment_where(std::size_t /*index*/) const { return {}; }
   [[nodiscard]] virtual std::string hole_where(std::size_t /*index*/) const { return {}; }
@@ -57,10 +57,10 @@ class OutlineNames {
 struct Outline {
   std::vector<Vec2> points;
   std::vector<OutlineSegment> segments;
-  std::vector<Vec2> holes;  ///< a place in each hole
+  std::vector<Vec2> holes;  ///< A place in each hole
   std::vector<OutlineRegion> regions;
-  std::vector<OutlinePart> parts;             ///< when there are any they alone say what is inside
-  std::shared_ptr<const OutlineNames> names;  ///< null: counted from 0
+  std::vector<OutlinePart> parts;             ///< Parts; if there are any, they alone define the inside
+  std::shared_ptr<const OutlineNames> names;  ///< Names for errors; null: counted from 0
 };
 
 }  // namespace temper

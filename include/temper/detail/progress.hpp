@@ -1,4 +1,4 @@
-// Progress: a long computation tells its caller how far it is, and the caller may stop it.
+// Progress: a long computation reports its progress to the caller, and the caller may stop it.
 #pragma once
 
 #include <cstddef>
@@ -10,39 +10,38 @@ namespace temper {
 
 /// The objective that a run lowers.
 enum class Objective {
-  energy,        ///< one of the registry's
-  accuracy,      ///< after it has made every triangle well-centered: what the errors of a solver are proportional to
-  solver_error,  ///< after that: the errors of a solver themselves
+  energy,        ///< One energy of the registry
+  accuracy,      ///< After all triangles are well-centered: a measure proportional to the errors of a solver
+  solver_error,  ///< After that: the errors of a solver themselves
 };
 
 /// "energy", "accuracy", "solver_error".
 [[nodiscard]] std::string_view name(Objective objective);
 
-/// One sweep over all vertices, as recorded in the history of a run.
+/// One sweep over all vertices, in the history of a run.
 struct SweepRecord {
-  int sweep = 0;          ///< 0 is the input
-  double energy = 0;      ///< total energy at the end of the sweep, at that sweep's γ
-  std::size_t bad = 0;    ///< triangles that are not well-centered
-  std::size_t flips = 0;  ///< edge flips of this sweep
-  double length_parameter =
-      0;               ///< γ or −h° of this sweep, as used (relative to ℓ by default); 0 of sweeps for accuracy
-  double seconds = 0;  ///< since the start of the optimization
-  Objective objective = Objective::energy;  ///< what the sweep lowered, and `energy` is of
+  int sweep = 0;                ///< Number of the sweep; 0 is the input
+  double energy = 0;            ///< Total energy at the end of the sweep, at the γ of that sweep
+  std::size_t bad = 0;          ///< Number of triangles that are not well-centered
+  std::size_t flips = 0;        ///< Number of edge flips in this sweep
+  double length_parameter = 0;  ///< Value of γ or −h° in this sweep (relative to ℓ by default); 0 for accuracy sweeps
+  double seconds = 0;           ///< Time since the start of the optimization [s]
+  Objective objective = Objective::energy;  ///< Objective that the sweep lowered; `energy` is its value
 };
 
-/// Called now and then during a run (at least once a sweep, and on large meshes more often).
+/// Progress of a run. The observer gets it at least once per sweep, and more often on large meshes.
 struct Progress {
-  SweepRecord last;     ///< the last whole sweep
-  double fraction = 0;  ///< of the sweep under way, in [0, 1)
+  SweepRecord last;     ///< Last whole sweep
+  double fraction = 0;  ///< Fraction of the current sweep, in [0, 1)
   int max_sweeps = 0;
-  /// An estimate of the sweeps after the last one, while the energy converges: none in the first sweeps of a stage (one
+  /// Estimate of the sweeps after the last one, while the energy converges. Absent in the first sweeps of a stage (one
   /// objective, one γ). Repairs may follow.
   std::optional<double> sweeps_left = {};
 };
 
 enum class Continue { yes, no };
 
-/// Returns Continue::no to stop early: the mesh is then the best valid one so far.
+/// Function that returns Continue::no to stop early. The mesh is then the best valid one so far.
 using Observer = std::function<Continue(const Progress&)>;
 
 }  // namespace temper

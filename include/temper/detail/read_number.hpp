@@ -1,7 +1,7 @@
 // Numbers from text, as std::from_chars reads them: the nearest double or float, no blanks, no plus, no hexadecimals.
 //
-// libc++ 19, which the build for browsers has, leaves real numbers out. The strtod of its C library rounds as well, and
-// is held to the same texts here.
+// The build for browsers uses libc++ 19, whose from_chars reads no real numbers. There strtod of its C library reads
+// them. It rounds correctly too, and the code here restricts it to the same texts.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace temper {
 
-/// Real numbers by strtod: what read_number does where from_chars has none. A template, so that the tests have it too.
+/// Reads a real number by strtod, if from_chars cannot. It is a template, so that the tests can call it too.
 template <class T>
 std::from_chars_result read_by_strtod(const char* first, const char* last, T& value) {
   const std::string_view given(first, static_cast<std::size_t>(last - first));
@@ -25,7 +25,7 @@ std::from_chars_result read_by_strtod(const char* first, const char* last, T& va
   const bool is_word = !start.empty() && std::string_view("iInN").find(start) != std::string_view::npos;
   if (start.empty() || (!is_word && std::string_view("0123456789.").find(start) == std::string_view::npos))
     return {first, std::errc::invalid_argument};
-  // strtod wants a zero at the end, and would read 0x10 as 16.
+  // strtod needs a zero at the end, and would read 0x10 as 16.
   const std::string text(given.substr(0, is_word ? given.size() : given.find_first_not_of("0123456789+-.eE", sign)));
   char* end = nullptr;
   T read{};
@@ -44,7 +44,7 @@ std::from_chars_result read_by_strtod(const char* first, const char* last, T& va
   return {first + n, std::errc()};
 }
 
-/// The number at the beginning of the text, and where it ends.
+/// Reads the number at the beginning of the text, and returns where it ends.
 template <class T>
 std::from_chars_result read_number(const char* first, const char* last, T& value) {
 #ifndef __cpp_lib_to_chars

@@ -1,4 +1,4 @@
-// Threads by oneTBB, for whatever takes an Executor: in a library of its own (temper::tbb).
+// Threads by oneTBB, for all functions with an Executor. It is a library of its own, temper::tbb.
 //
 //   temper::TbbExecutor threads;
 //   temper::optimize(mesh, {}, {.executor = &threads});
@@ -12,16 +12,16 @@
 
 namespace temper {
 
-/// A task arena. Nothing is started before the first run(); threads are oneTBB's, shared with all else that uses it.
+/// A task arena. Nothing starts before the first run(). The threads are oneTBB's, shared with all its other users.
 class TbbExecutor final : public Executor {
  public:
-  /// `threads`: at most so many at once, the caller of run() among them; 0: as many as the machine has.
+  /// `threads`: largest number of threads at once, the caller of run() included; 0: as many as the machine has.
   explicit TbbExecutor(std::size_t threads = 0);
   ~TbbExecutor() override;
   TbbExecutor(const TbbExecutor&) = delete;
   TbbExecutor& operator=(const TbbExecutor&) = delete;
 
-  /// May be called from several threads at once, and from within a block.
+  /// May be called from several threads at once, and from inside a block.
   void run(std::size_t n, const std::function<void(std::size_t)>& block) override;
   [[nodiscard]] std::size_t threads() const;
 

@@ -1,13 +1,13 @@
-// A constant diffusion tensor K, and the plane in which it is a number.
+// A constant diffusion tensor K, and the plane in which it becomes a number.
 //
 // Two-point fluxes of −div(K ∇u) = f need dual edges at right angles to edges in the metric M = K⁻¹: e · K⁻¹ e* = 0.
-// With y = B x, B = (det K)^¼ K^−½, that is a right angle of the plane, and
+// With y = B x and B = (det K)^¼ K^−½, this is a right angle of the plane, and
 //
 //     −div_x(K ∇_x u) = −√(det K) div_y(∇_y u).
 //
-// So a mesh is mapped there, improved and measured by all that knows no tensor, and mapped back. B changes no area:
-// stars of vertices and triangles are those of the mesh as it was, and ★1 and fluxes want the factor √(det K) alone.
-// Weights are of the metric: they stay with their vertices on the way, as they are.
+// So a mesh is mapped to this plane, improved and measured there without any tensor, and mapped back. B changes no
+// area. The stars of vertices and triangles do not change, and ★1 and fluxes only need the factor √(det K). Weights
+// belong to the metric: mapping does not change them.
 #pragma once
 
 #include "temper/detail/error.hpp"
@@ -25,10 +25,10 @@ struct Tensor {
 
 class Metric {
  public:
-  /// That of K = 1.
+  /// The metric of K = 1.
   Metric() = default;
-  /// Error: a tensor that is not positive definite, or not finite, or whose eigenvalues are so far apart (10⁸) that
-  /// doubles have no room for it.
+  /// Makes the metric of a tensor. Error: the tensor is not positive definite, not finite, or the ratio of its
+  /// eigenvalues is too large for doubles (10⁸).
   [[nodiscard]] static Expected<Metric> of(const Tensor& tensor);
 
   [[nodiscard]] const Tensor& tensor() const { return tensor_; }
@@ -36,7 +36,7 @@ class Metric {
   [[nodiscard]] Vec2 from_metric(Vec2 y) const {
     return {from_.xx * y.x + from_.xy * y.y, from_.xy * y.x + from_.yy * y.y};
   }
-  /// √(det K): what ★1 and fluxes of the mapped mesh are times, in those of K.
+  /// The factor √(det K) between ★1 and fluxes of the mapped mesh and those for K.
   [[nodiscard]] double strength() const { return strength_; }
 
  private:
@@ -44,13 +44,13 @@ class Metric {
   double strength_ = 1;
 };
 
-/// The mesh in the plane of the metric: the same numbers, flags and weights. Errors: a mesh of the sphere; a triangle
-/// that turns over by rounding, in the user's numbers. O(n).
+/// Maps a mesh to the plane of the metric. Numbers, flags and weights stay. Errors, in the user's numbers: a mesh of
+/// the sphere; a triangle that turns over by rounding. O(n).
 [[nodiscard]] Expected<Mesh> mapped(const Mesh& mesh, const Metric& metric, const InputNames& names = {});
 
-/// A mesh that was mapped, and then changed, in the plane of the one that it comes from. Vertices that are where
-/// `original` has them, as those of the boundary and fixed ones, get their places from there, bit for bit. `vertices`:
-/// the number in `original` of each vertex, as OptimizeReport has it; empty: the same. Errors as above.
+/// Maps a changed mesh back to the plane of `original`. Vertices that have not moved since mapped(original), such
+/// as boundary and fixed vertices, get their place from there, bit for bit. `vertices`: number of each vertex in
+/// `original`, as in OptimizeReport; empty: the same numbers. Errors as for mapped().
 [[nodiscard]] Expected<Mesh> mapped_back(const Mesh& changed, const Mesh& original, const Metric& metric,
                                          const IdVector<VertexId, VertexId>& vertices = {});
 

@@ -1,4 +1,4 @@
-// A trace records an optimization event by event: enough to do it again, bit for bit, without any energy.
+// A trace records an optimization event by event. The events suffice to repeat it, bit for bit, without any energy.
 //
 //     std::vector<TraceEvent> events;
 //     const Mesh input = mesh;
@@ -18,53 +18,57 @@
 namespace temper {
 
 enum class EventKind {
-  move,       ///< a vertex has a new position, and with joint steps a new weight
-  weight,     ///< a vertex has a new weight
-  flip,       ///< an edge gave way to the other diagonal
-  collapse,   ///< a vertex was removed by the short-edge rule (Algorithm 2)
-  removal,    ///< a vertex was removed by the patch test, or because its weight hid it
-  insertion,  ///< a triangle was cut into three by a new vertex inside
-  split,      ///< an edge, and its one or two triangles, were cut in two by a new vertex on it
-  hidden,     ///< the weights hide a vertex, and it stays: nothing changes
-  undo,       ///< with a vertex: a step was taken back, nothing changes; without: the mesh is again that of a sweep
+  move,       ///< A vertex has a new position, and with joint steps a new weight
+  weight,     ///< A vertex has a new weight
+  flip,       ///< An edge gave way to the other diagonal
+  collapse,   ///< The short-edge rule removed a vertex (Algorithm 2)
+  removal,    ///< A vertex was removed by the patch test, or because its weight hid it
+  insertion,  ///< A new vertex inside a triangle cut it into three
+  split,      ///< A new vertex on an edge cut the edge and its one or two triangles in two
+  hidden,     ///< The weights hide a vertex, and it stays: nothing changes
+  undo,  ///< With a vertex: a step was taken back, nothing changes; without: the mesh of an earlier sweep is restored
 };
 [[nodiscard]] std::string_view name(EventKind kind);
 
-/// Vertices are numbered as in the input, also after removals; new ones get the numbers after those of the input, in
-/// the order in which they came, and the number of a removed vertex is not given again. (Where sweeps are taken back,
-/// so are the numbers that were given in them.) Coordinates and weights are in the user's units.
+/// Vertices are numbered as in the input, also after removals. New vertices get the next numbers, in the order in which
+/// they came. The number of a removed vertex is not used again. (If sweeps are taken back, their new numbers are free
+/// again.) Coordinates and weights are in the user's units.
 struct TraceEvent {
   EventKind kind = EventKind::move;
-  int sweep = 0;         ///< 0: making the input regular, and cutting its boundary
-  VertexId vertex = {};  ///< invalid for flip, and for undo of whole sweeps; insertion, split: the new one
-  /// Energy at the γ of the sweep, in repairs E_BP at theirs, before and after: of the vertex's patch, or of all edges
-  /// that a flip changes. NaN where none belongs to the event.
+  int sweep = 0;         ///< Sweep of the event; 0: the input is made regular and its boundary cut
+  VertexId vertex = {};  ///< Vertex of the event; invalid for flip, and for undo of whole sweeps. For insertion and
+                         ///< split, the new vertex
+  /// Energy before and after, at the γ of the sweep; in repairs, E_BP at their γ. It is the energy of the vertex's
+  /// patch, or of all edges that a flip changes. NaN if the event has no energy.
   double before = 0, after = 0;
-  WeightedPoint point = {};  ///< move, weight, insertion, split: where the vertex is now
-  /// flip: halfedge a→b, with c on its left and d on its right, becomes d→c; split: a→b was cut, on the boundary with
-  /// an invalid d.
+  WeightedPoint point = {};  ///< New place and weight of the vertex, for move, weight, insertion, split
+  /// For a flip, halfedge a→b with c on its left and d on its right becomes d→c. For a split, a→b was cut; d is invalid
+  /// on the boundary.
   std::array<VertexId, 4> quad = {};
-  /// collapse, removal: neighbors, counter-clockwise from the first spoke; insertion: corners of the triangle.
+  /// For collapse and removal, the neighbors counter-clockwise from the first spoke. For insertion, the corners of the
+  /// triangle.
   std::vector<VertexId> link = {};
-  std::vector<std::array<VertexId, 3>> triangles = {};  ///< collapse, removal: that fill the cavity, in slot order
-  int to_sweep = 0;  ///< undo without a vertex: the sweep at whose end the mesh was so; −1: the input as given
+  /// New triangles of the cavity for collapse and removal, in slot order.
+  std::vector<std::array<VertexId, 3>> triangles = {};
+  int to_sweep = 0;  ///< Sweep at whose end the mesh was the same, for undo without a vertex; −1: the input as given
   friend bool operator==(const TraceEvent&, const TraceEvent&) = default;
 };
 
-/// Called for each event, in the order in which they took place.
+/// Function that receives each event, in the order of the events.
 using Tracer = std::function<void(const TraceEvent&)>;
 
-/// Applies the events to the input. What optimize() returned comes out: the same bits, the same slots. Errors name
-/// the event, counted from 0, that does not fit the mesh. O(events + sweeps undone to × n).
+/// Applies the events to the input. The result is the mesh that optimize() returned, with the same bits and slots. An
+/// error names the first event, counted from 0, that does not fit the mesh. O(events + sweeps undone to × n).
 [[nodiscard]] Expected<Mesh> replay(const Mesh& input, std::span<const TraceEvent> events);
 
-/// The mesh, and the number in the input of each of its vertices, invalid for those that were inserted; empty when none
-/// was removed or inserted.
+/// The mesh, and the number of each vertex in the input, invalid for inserted vertices. `vertices` is empty if none was
+/// removed or inserted.
 struct Replay {
   Mesh mesh;
   IdVector<VertexId, VertexId> vertices;
 };
-/// The same, for files: with the numbers of the vertices that are left, and errors in the user's numbering.
+/// Replays a trace from a file: also returns the numbers of the remaining vertices, and errors use the user's
+/// numbering.
 [[nodiscard]] Expected<Replay> replay_with_vertices(const Mesh& input, std::span<const TraceEvent> events,
                                                     const InputNames* names = nullptr);
 

@@ -21,8 +21,8 @@ constexpr double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 constexpr double squared_length(Vec2 a) { return dot(a, a); }
 inline double length(Vec2 a) { return std::sqrt(squared_length(a)); }
 
-/// A point and its weight. The power distance to q is |(x, y) − q|² − w, so w has units of length²
-/// and a larger weight makes a larger power cell.
+/// A point and its weight. The power distance to q is |(x, y) − q|² − w. So w has units of length², and a larger weight
+/// makes a larger power cell.
 struct WeightedPoint {
   double x = 0;
   double y = 0;

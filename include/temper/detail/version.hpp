@@ -1,11 +1,11 @@
-// The version of the library that is linked.
+// The version of the linked library.
 #pragma once
 
 #include <string_view>
 
 namespace temper {
 
-/// "0.1.0"
+/// Returns "0.1.0".
 [[nodiscard]] std::string_view version();
 
 }  // namespace temper
