@@ -1,4 +1,4 @@
-// The terminal: errors and warnings in one form, what the terminal can show, text laid out in columns.
+// The terminal: errors and warnings in one form, the abilities of the terminal, and text in columns.
 #pragma once
 
 #include <cstddef>
@@ -9,24 +9,25 @@
 
 namespace temper::app {
 
-// What they print is printable: names and paths of others' making reach no terminal as they are.
+// They print printable text only: names and paths made by others reach no terminal unchanged.
 void print_error(std::string_view message);
 void print_warnings(std::span<const std::string> messages);
 
 /// Text to standard output. Throws Failure when it cannot be written.
 void print(std::string_view text);
-/// From now on print() does so there: standard output is taken by a mesh.
+/// From now on print() writes to standard error: a mesh takes standard output.
 void print_to_standard_error();
-/// Everything printed so far really is written, or Failure: a full disk behind a redirection.
+/// Makes sure that everything printed so far is written. Throws Failure, for example on a full disk behind a
+/// redirection.
 void flush_output();
 
 [[nodiscard]] bool error_is_terminal();
-/// The locale's character set is UTF-8, by the variables that decide it.
+/// Says whether the locale's character set is UTF-8, by the variables that decide it.
 [[nodiscard]] bool utf8_locale();
 /// Columns of the terminal on standard output; 100 when it is none.
 [[nodiscard]] std::size_t output_width();
 
-/// Columns that UTF-8 text takes, one a code point.
+/// Columns that UTF-8 text takes, one for each code point.
 [[nodiscard]] std::size_t display_width(std::string_view text);
 [[nodiscard]] std::string pad_left(std::string_view text, std::size_t width);
 [[nodiscard]] std::string pad_right(std::string_view text, std::size_t width);

@@ -1,7 +1,6 @@
-// How the program ends: its exit codes, the exception that carries one to main, and signals.
+// The end of the program: its exit codes, the exception that carries one to main, and signals.
 //
-// The library returns bad input as values; the program, which has nothing to do but report it and stop,
-// turns them into a Failure with or_fail.
+// The library returns bad input as values. The program can only report it and stop: or_fail turns it into a Failure.
 #pragma once
 
 #include <stdexcept>
@@ -40,7 +39,7 @@ inline Failure as_failure(const InputError& error) {
   return {exit, error.what()};
 }
 
-/// The value, or a Failure that says why there is none.
+/// The value, or a Failure with the reason why there is none.
 template <class T>
 T or_fail(Expected<T> expected) {
   if (!expected) throw as_failure(expected.error());
@@ -50,16 +49,16 @@ inline void or_fail(const Expected<void>& expected) {
   if (!expected) throw as_failure(expected.error());
 }
 
-// Ctrl-C and its like: SIGINT, SIGTERM and SIGHUP end the program at once, whatever it does, and leave every file as it
-// was or whole. A verb that has something to show for its time notes the first one instead, and stops.
+// SIGINT (Ctrl-C), SIGTERM and SIGHUP end the program at once, and leave every file unchanged or whole. A verb with a
+// partial result notes the first one instead, and stops.
 
-/// From here on a signal ends the program: what is being written is removed, a line says so, and whoever waits for the
-/// program sees the signal. (A signal that is ignored, as by nohup, stays so.)
+/// From here on a signal ends the program: it removes unfinished files, prints a line, and passes the signal on to the
+/// process that waits for it. (A signal that is ignored, as by nohup, stays ignored.)
 void end_on_signals();
-/// From here on the first SIGINT, SIGTERM or SIGUSR1, which mpirun hands on and job schedulers send when time is nearly
-/// up, is only noted; the second one ends the program.
+/// From here on the first SIGINT, SIGTERM or SIGUSR1 is only noted; the second one ends the program. The launcher
+/// mpirun hands these on, and job schedulers send them when time is nearly up.
 void catch_interrupts();
-/// One has been noted.
+/// Says whether a signal has been noted.
 [[nodiscard]] bool interrupted();
 
 }  // namespace temper::app

@@ -8,7 +8,7 @@
 
 namespace temper::app {
 
-/// As many threads as asked for (0: as the machine has). Null when that is one: then everything runs in the caller.
+/// As many threads as requested (0: as many as processors). Null for one thread: then everything runs in the caller.
 [[nodiscard]] std::unique_ptr<Executor> make_threads(std::size_t threads);
 
 }  // namespace temper::app

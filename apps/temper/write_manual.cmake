@@ -1,5 +1,5 @@
-# cmake -DPROGRAM=… -DFOLDER=… -P write_manual.cmake: has the program write its manual pages and completions, to
-# FOLDER/man1 and FOLDER/completions. -DGZIP=1: pages are packed, as Debian has them.
+# cmake -DPROGRAM=… -DFOLDER=… -P write_manual.cmake: runs the program, which writes its manual pages and completions to
+# FOLDER/man1 and FOLDER/completions. -DGZIP=1: pages are compressed, as in Debian.
 function(write_help file)
   execute_process(COMMAND ${PROGRAM} ${ARGN} OUTPUT_FILE ${FOLDER}/${file} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()

@@ -1,8 +1,8 @@
 // Assertions for bugs, in three levels. Bad input is never an assertion: it comes back as InputError.
 //
 //   TEMPER_ASSERT_LEVEL 0   nothing (the default of a release)
-//                       1   TEMPER_ASSERT: checks that cost no more than what they guard
-//                       2   also TEMPER_ASSERT_SLOW: exact predicates, walks around a vertex (presets dev and asan)
+//                       1   TEMPER_ASSERT: checks that cost at most as much as the code they guard
+//                       2   also TEMPER_ASSERT_SLOW: exact predicates, walks around a vertex (presets dev and asan).
 //
 // The level is one of the whole build, tests included: private headers with assertions are inlined on both sides.
 #pragma once

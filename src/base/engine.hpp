@@ -1,4 +1,4 @@
-// Who does work that is cut into parts: threads of this process, and other ranks where there are some.
+// Runs work that is cut into parts: on threads of this process, and on other ranks if there are any.
 #pragma once
 
 #include <cstddef>
@@ -20,15 +20,15 @@ class Engine {
   [[nodiscard]] std::size_t n_ranks() const { return has_ranks() ? ranks_->size() : 1; }
   [[nodiscard]] Executor& executor() const { return executor_; }
 
-  /// Runs part(i) for those of n parts that this rank does.
+  /// Runs part(i) for this rank's share of n parts.
   template <class Run>
   void run(std::size_t n, Run&& part) const {
     const std::size_t rank = has_ranks() ? ranks_->rank() : 0, first = first_of(rank, n);
     executor_.run(first_of(rank + 1, n) - first, [&](std::size_t i) { part(first + i); });
   }
 
-  /// After run(): write(writer, i) writes what part i has become, and on the other ranks read(reader, i) makes the same
-  /// of it. All ranks then have what one alone has. Collective.
+  /// After run(): write(writer, i) writes the result of part i, and read(reader, i) restores it on the other ranks.
+  /// Then all ranks have the results of a single one. Collective.
   template <class Write, class Read>
   void exchange(std::size_t n, Write&& write, Read&& read) const {
     for (std::size_t r = 0; has_ranks() && r < n_ranks(); ++r) {
@@ -45,7 +45,7 @@ class Engine {
   }
 
  private:
-  /// The first of n parts that this rank does.
+  /// The first of n parts that belongs to this rank.
   [[nodiscard]] std::size_t first_of(std::size_t rank, std::size_t n) const { return n * rank / n_ranks(); }
 
   Executor& executor_;

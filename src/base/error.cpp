@@ -60,12 +60,12 @@ std::string_view name(ErrorCode code) {
   return "unknown";
 }
 
-// Text from anywhere, made fit for a terminal: no byte of it moves the cursor, and all of it is UTF-8.
+// Makes text from anywhere safe for a terminal: no byte of it moves the cursor, and all of it is UTF-8.
 
 namespace {
 
-/// The bytes of the first character, or 0 when the text does not begin with one: it is cut off, longer than it must be,
-/// a surrogate, or beyond Unicode.
+/// The bytes of the first character, or 0 when the text begins with none. It may be cut off, longer than necessary, a
+/// surrogate, or beyond Unicode.
 std::size_t length_of_first(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned first = byte(0), second = byte(1);

@@ -50,7 +50,6 @@ inline std::uint64_t cube_hilbert_index(Vec3 p) {
   return (std::uint64_t{face} << (2 * kHilbertBits)) + hilbert_index(cell(u), cell(v));
 }
 
-/// The grid of cells over a box.
 class HilbertGrid {
  public:
   explicit HilbertGrid(std::span<const Vec2> points) {

@@ -1,4 +1,4 @@
-// A pointer to the function of the instruction set in use, of those that have one name in the namespaces of all sets.
+// A pointer to the function of the instruction set in use: all sets have one of this name in their namespaces.
 #pragma once
 
 #include "temper/detail/instruction_set.hpp"

@@ -1,4 +1,4 @@
-// Medians, and how far the largest is from them.
+// Medians, and the ratio of the largest value to the median.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace temper {
 
-/// The mean of the middle two for an even number; 0 of none. Not for NaN.
+/// The mean of the middle two for an even number; 0 without values. Precondition: no NaN.
 inline double median_of(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -18,8 +18,8 @@ inline double median_of(std::vector<double> values) {
   return *middle + (*std::max_element(values.begin(), middle) - *middle) / 2;
 }
 
-/// The largest of the values over their median; all are ≥ 0. Where there are none nothing differs: 1. A median of 0 or
-/// +∞ leaves nothing to compare with: +∞.
+/// The largest of the values over their median; all are ≥ 0. Without values the result is 1. If the median is 0 or +∞
+/// there is nothing to compare with, and the result is +∞.
 inline double largest_over_median(std::vector<double> values) {
   if (values.empty()) return 1;
   const double largest = *std::max_element(values.begin(), values.end());

@@ -1,9 +1,9 @@
-// Eight doubles that are computed with at once, whatever the machine: one register of AVX-512, two of AVX, four of
-// SSE2, NEON or WebAssembly.
+// Eight doubles in one operation, whatever the machine: one register of AVX-512, two of AVX, four of SSE2, NEON or
+// WebAssembly.
 //
-// Each operation is that of IEEE 754 on every lane, in the order written, never contracted: the same bits come out of
-// every instruction set. Sources that use packs are compiled once for each set. So that a linker can never give code
-// of one to another, everything here is inlined always and in a namespace of its set, and so must be what uses it.
+// Each operation is the IEEE 754 operation on every lane, in the order written, never contracted: every instruction set
+// gives the same bits. Sources that use packs are compiled once for each set. A linker must never give code of one set
+// to another. So everything here is always inlined, in a namespace of its set, and so must be all code that uses it.
 #pragma once
 
 #include <bit>
@@ -14,7 +14,7 @@
 #include <immintrin.h>
 #endif
 
-// The set is named by the build, not found out: whoever compiles all of it for a newer processor gets all sets still.
+// The build names the set; compilers do not choose it. So a build for a newer processor still contains all sets.
 #if defined(TEMPER_FOR_AVX512)
 #define TEMPER_INSTRUCTION_SET avx512
 #define TEMPER_REGISTER_BYTES 64
@@ -37,7 +37,7 @@ TEMPER_INLINE double square_root(double x) { return __builtin_sqrt(x); }
 TEMPER_INLINE double absolute(double x) { return __builtin_fabs(x); }
 TEMPER_INLINE double select(bool condition, double a, double b) { return condition ? a : b; }
 
-// A normal x > 0 is mantissa(x) 2^exponent(x) with a mantissa in [√½, √2): of bits, √½ and what is more than that.
+// A normal x > 0 is mantissa(x) 2^exponent(x) with mantissa in [√½, √2). In bits it is √½ plus the rest above it.
 inline constexpr std::uint64_t kHalfRoot = 0x3fe6'a09e'667f'3bcd, kFraction = 0x000f'ffff'ffff'ffff;
 // The exponent and 1023 in the last bits of 2^52 is that sum, as a double.
 inline constexpr std::uint64_t kBiased = std::uint64_t{1023} << 52, kTwo52 = 0x4330'0000'0000'0000;
@@ -69,7 +69,7 @@ struct Register {
   using Words [[gnu::vector_size(TEMPER_REGISTER_BYTES)]] = std::uint64_t;
 
 #if TEMPER_REGISTER_BYTES == 64
-  // A bit a lane: the processor has registers of their own for these.
+  // One bit per lane: the processor has registers of their own for these.
   struct Mask {
     __mmask8 m;
     TEMPER_INLINE static Mask load(const std::int64_t* p) { return {_mm512_movepi64_mask(_mm512_loadu_si512(p))}; }

@@ -1,7 +1,7 @@
 // Random numbers with the same bits on every platform (the distributions of <random> differ between libraries).
 //
-// splitmix64: a counter in steps of the golden ratio, mixed by two rounds of xor, shift and multiply. Any seed is a
-// good one, and a stream can be started anywhere, which is what seeded generators and per-vertex jitter need.
+// splitmix64: a counter in steps of the golden ratio, mixed by two rounds of xor, shift and multiply. Any seed is good,
+// and a stream can start anywhere. Seeded generators and per-vertex jitter need that.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class Rng {
   constexpr double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
   /// Uniform in [low, high), up to rounding.
   constexpr double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  /// Uniform in 0 … n − 1, n > 0; the bias of n / 2³² is far below what a seed matters.
+  /// Uniform in 0 … n − 1, n > 0; the bias of n / 2³² is far below the effect of a seed.
   constexpr std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(((next() >> 32) * n) >> 32); }
 
  private:

@@ -1,5 +1,5 @@
-// Sine and cosine of additions and multiplications alone. They have the same bits wherever they run: those of C
-// libraries have not.
+// Sine and cosine from additions and multiplications alone. They have the same bits on every machine, unlike the
+// functions of C libraries.
 #pragma once
 
 #include <cmath>
@@ -12,8 +12,8 @@ struct SineCosine {
   double sine = 0, cosine = 0;
 };
 
-/// Of radians, to 2e-16 where |x| < 1e6. Beyond, x is first taken modulo the double next to 2π: that is as far off as
-/// the rounding of x.
+/// Sine and cosine of x in radians, to 2e-16 where |x| < 1e6. Beyond, x is first taken modulo the double next to 2π,
+/// with an error as large as the rounding of x.
 inline SineCosine sine_cosine(double x) {
   constexpr double kRound = 0x1.8p52;  // added and taken away, it leaves a whole number
   constexpr double kQuarter[] = {0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a2e037073p-69};  // sum π/2; 33 bits each
@@ -23,7 +23,7 @@ inline SineCosine sine_cosine(double x) {
   }
   const double quarters = (x * (2 / std::numbers::pi) + kRound) - kRound;
   const double r = ((x - quarters * kQuarter[0]) - quarters * kQuarter[1]) - quarters * kQuarter[2];
-  // Taylor's series on [−π/4, π/4], whose first terms left out are below 3e-18.
+  // Taylor's series on [−π/4, π/4]; the first omitted terms are below 3e-18.
   constexpr double kSine[] = {-1.0 / 6,        1.0 / 120,        -1.0 / 5040,          1.0 / 362880,
                               -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000, 1.0 / 355687428096000};
   constexpr double kCosine[] = {-0.5,           1.0 / 24,        -1.0 / 720,         1.0 / 40320,

@@ -22,7 +22,7 @@ inline double pairwise_sum(std::vector<double>& values) {
   return values.empty() ? 0.0 : values[0];
 }
 
-/// Σ of what block(b) returns for each block of kBlockSize of n; on the executor's threads when there is one.
+/// Σ of the results of block(b) for each block of kBlockSize of n; on the executor's threads when there is one.
 template <class Block>
 double sum_of_blocks(std::size_t n, Executor* executor, Block&& block) {
   std::vector<double> sums((n + kBlockSize - 1) / kBlockSize, 0.0);
@@ -30,8 +30,8 @@ double sum_of_blocks(std::size_t n, Executor* executor, Block&& block) {
   return pairwise_sum(sums);
 }
 
-/// Several such sums in one walk, for each block: block(b, sums) adds to what begins as zeros, and changes nothing
-/// else, since each rank does some of the blocks. Result: n_sums numbers a block.
+/// Several such sums in one walk, for each block: block(b, sums) adds to zeros. It changes nothing else, since each
+/// rank does some of the blocks. Result: n_sums numbers for each block.
 template <class Block>
 std::vector<double> sums_by_block(std::size_t n, std::size_t n_sums, const Engine& engine, Block&& block) {
   const std::size_t blocks = (n + kBlockSize - 1) / kBlockSize;

@@ -1,4 +1,4 @@
-# cmake -DSOURCE=… -DOUTPUT=… -P commit.cmake: writes commit.cpp where it is not what it should be.
+# cmake -DSOURCE=… -DOUTPUT=… -P commit.cmake: writes commit.cpp if it is out of date.
 #
 # A folder within some other clone, such as an unpacked archive, has no commit of its own.
 find_program(git git)

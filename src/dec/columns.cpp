@@ -1,4 +1,4 @@
-// Columns: surfaces say which cells there are; the faces of the power cells, layer by layer, which are neighbors.
+// Columns: surfaces determine the cells; the faces of the power cells determine the neighbors, layer by layer.
 #include "temper/detail/columns.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMostCells = (std::size_t{1} << 31) - 1;  // codes count them in 32 bits
 
-/// "the top" or "bottom 2": surfaces as the title line of a file has them.
+/// "the top" or "bottom 2": names of surfaces as in the title line of a file.
 std::string surface_name(std::size_t surface) { return surface == 0 ? "the top" : "bottom " + std::to_string(surface); }
 
 class ColumnBuilder {
@@ -70,7 +70,7 @@ std::optional<InputError> ColumnBuilder::check_sizes() const {
   return {};
 }
 
-/// Fluxes between two vertices that stand for all of a face need it to be between them and at a right angle.
+/// A flux between two vertices is for a whole face: the face must be between them, at a right angle.
 std::optional<InputError> ColumnBuilder::check_faces(const DecComplex& complex) const {
   for (std::size_t e = 0; e < complex.edges.size(); ++e) {
     const DecEdge& edge = complex.edges[EdgeId(e)];
@@ -154,7 +154,7 @@ void ColumnBuilder::connect_beside(const PowerFace& face, std::size_t layer) {
   beside.area = face.width * thickness;
 }
 
-/// In ascending order: of each cell those beside it, which are in its layer, and then the one below.
+/// In ascending order: for each cell its neighbors in its layer, then the cell below.
 void ColumnBuilder::connect_layer(std::size_t layer) {
   auto face = cells_.faces.begin();
   for (const VertexId v : mesh_.vertices()) {
@@ -181,7 +181,7 @@ Columns ColumnBuilder::build() {
 
 std::optional<std::string> fault_of_surfaces(std::span<const double> surfaces) {
   constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  std::size_t above = kNone;  // the last that is there
+  std::size_t above = kNone;  // the last existing one
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     if (std::isnan(surfaces[i])) continue;
     if (std::isinf(surfaces[i])) return surface_name(i) + " is infinite, expected a height";

@@ -1,5 +1,5 @@
-// The operators: edges in the order of their vertices, then everything that belongs to a triangle or an edge, as the
-// space measures it.
+// The operators: first edges in the order of their vertices, then everything that belongs to a triangle or an edge,
+// with the measures of the space.
 #include "temper/dec.hpp"
 
 #include <algorithm>
@@ -19,12 +19,12 @@
 namespace temper {
 namespace {
 
-// What the operators are made of, in each space: lengths, heights and areas of one edge or one triangle, from quotients
-// of accurate determinants.
+// The parts of the operators in each space: lengths, heights and areas of one edge or one triangle, from quotients of
+// accurate determinants.
 
-/// With S_k, S_l twice the areas of the triangles of an edge and D the power determinant of their four corners, moving
-/// along the dual line from one orthocenter to the other changes the power of the fourth corner from −D / S_k to 0, at
-/// the rate 2 S_l / ℓ. So (h_k + h_l) / ℓ = −D / (2 S_k S_l): accurate where the two heights cancel, and 0 for
+/// Let S_k, S_l be twice the areas of the triangles of an edge, and D the power determinant of their four corners.
+/// Moving along the dual line from one orthocenter to the other changes the power of the fourth corner from −D / S_k to
+/// 0, at the rate 2 S_l / ℓ. So (h_k + h_l) / ℓ = −D / (2 S_k S_l): accurate when the two heights cancel, and 0 for
 /// cocircular points.
 class PlaneMeasures {
  public:
@@ -45,7 +45,7 @@ class PlaneMeasures {
     const double lower = accurate::doubled_crossing(from, to), upper = accurate::doubled_crossing(to, from);
     edge.length = std::sqrt(l2);
     edge.crossing = 0.5 * lower / edge.length;
-    // From the nearer end: the midpoint is then as accurate as its distance from it.
+    // From the nearer end: then the relative error of the distance from there is small.
     edge.midpoint = std::abs(lower) <= std::abs(upper) ? from.position() + (0.5 * lower / l2) * along
                                                        : to.position() - (0.5 * upper / l2) * along;
   }
@@ -68,9 +68,9 @@ class PlaneMeasures {
   const Mesh& mesh_;
 };
 
-/// The normals of the faces PQR and QPS are n_k × n_l = −D (Q − P), D their power determinant, so that the arc from one
-/// orthocenter to the other has tan(h_k + h_l) = −D |PQ| / (n_k·n_l): accurate where the two heights cancel, and 0 for
-/// cocircular points.
+/// The normals of the faces PQR and QPS satisfy n_k × n_l = −D (Q − P), D their power determinant. So the arc from one
+/// orthocenter to the other has tan(h_k + h_l) = −D |PQ| / (n_k·n_l). This is accurate when the two heights cancel, and
+/// 0 for cocircular points.
 class SphereMeasures {
  public:
   using Point = Vec3;
@@ -135,7 +135,7 @@ std::vector<HalfedgeId> sorted_edges(const Mesh& mesh) {
   return sorted;
 }
 
-/// Measures are those of a space.
+/// Builds the operators from the measures of one space.
 template <class Measures>
 class DecBuilder {
  public:

@@ -10,7 +10,7 @@
 namespace temper {
 namespace {
 
-// Pieces below this share of their triangle are rounding: of cells that touch it at a point or along a line.
+// Pieces below this share of their triangle are rounding: their cells touch it at a point or along a line.
 constexpr double kNegligible = 1e-15;
 
 /// The angle from a to b, counter-clockwise, in [0, 2π).
@@ -45,7 +45,7 @@ Fan fan_of(const Mesh& mesh, VertexId v) {
   return fan;
 }
 
-/// The angle of a direction in the fan of a boundary vertex, or that of the nearer end when it is outside.
+/// The angle of a direction in the fan of a boundary vertex; outside of the fan, the angle of the nearer end.
 double angle_in(const Fan& fan, Vec2 first, Vec2 direction) {
   const double angle = angle_between(first, direction), whole = fan.angles.back();
   if (angle <= whole) return angle;
@@ -81,7 +81,7 @@ std::vector<CellPiece> TriangleDivider::divide(TriangleId t) {
   return pieces;
 }
 
-/// Takes from the others what is nearer to v.
+/// Takes from the others the part that is nearer to v.
 void TriangleDivider::add(VertexId v) {
   for (std::size_t i = 0; i < n_candidates_; ++i) {
     if (candidates_[i].vertex == v) return;
@@ -105,8 +105,8 @@ void TriangleDivider::add(VertexId v) {
   }
 }
 
-/// Says whether the vertex added is nearer than the owner anywhere: at a corner of one of the pieces, since the
-/// difference is linear on each piece.
+/// Says whether the vertex added is nearer than the owner anywhere. The difference is linear on each piece, so the
+/// corners of the pieces decide.
 bool TriangleDivider::wins_anywhere(const Candidate& added, std::size_t others) const {
   for (std::size_t i = 0; i < others; ++i) {
     const Candidate& owner = candidates_[i];
@@ -137,8 +137,9 @@ void TriangleDivider::expand(std::size_t i) {
   }
 }
 
-/// Keeps where the power distance to `owner` is not above that to `other`: with y from the one and e from the one to
-/// the other, 2 y·e − |e|² + w_other − w_owner ≤ 0. Computed from the lower vertex, so that both get the same corners.
+/// Keeps the part where the power distance to `owner` is not above the power distance to `other`. Let y be the vector
+/// from one vertex and e the vector to the other: 2 y·e − |e|² + w_other − w_owner ≤ 0. Computed from the lower vertex,
+/// so that both get the same corners.
 void TriangleDivider::clip(std::vector<PieceCorner>& piece, const Candidate& owner, const Candidate& other) {
   const bool swapped = other.vertex < owner.vertex;
   const Candidate& low = swapped ? other : owner;
@@ -171,14 +172,14 @@ void TriangleDivider::clip(std::vector<PieceCorner>& piece, const Candidate& own
   piece.swap(scratch_);
 }
 
-// Every piece brings its corners as nodes and its sides as arcs. Where two pieces lie on the two sides of a mesh edge,
-// the two arcs go, and their ends become one node (union-find). The arcs that are left run around the union,
+// Every piece brings its corners as nodes and its sides as arcs. If two pieces lie on the two sides of a mesh edge, the
+// two arcs are removed, and their ends become one node (union-find). The remaining arcs run around the union,
 // counter-clockwise.
 
 namespace {
 
-// Corners that should be one differ by the rounding of two computations of them, amplified where a bisector meets the
-// edge at a small angle. Relative to the size of the cell; a wrong join would be seen in the area.
+// Coinciding corners are computed twice and differ by rounding, which is larger if a bisector meets the edge at a small
+// angle. Relative to the size of the cell; a wrong join would change the area.
 constexpr double kSamePlace = 1e-10;
 // The change that joining may make to the area of a cell.
 constexpr double kSameArea = 1e-12;
@@ -267,8 +268,8 @@ void PieceJoiner::cancel() {
   }
 }
 
-/// Takes from two arcs on the two sides of an edge what they share. It is all of both where the mesh is regular; else
-/// the ends that only one of them has stay as shorter arcs.
+/// Takes from two arcs on the two sides of an edge the part that they share. In a regular mesh it is all of both.
+/// Otherwise the ends that only one of them has stay as shorter arcs.
 void PieceJoiner::take_shared(std::size_t i, std::size_t j) {
   const Arc arc = arcs_[i], other = arcs_[j];  // copies: arcs_ grows
   const Vec2 along = places_[arc.to] - places_[arc.from];
@@ -286,8 +287,8 @@ void PieceJoiner::take_shared(std::size_t i, std::size_t j) {
   settle(arc.to, other.from, position(other.from) < length(along), false);
 }
 
-/// The arc that goes on from the end of another; the sharpest left turn where several do, so that polygons that touch
-/// at a corner stay apart. None: arcs_.size().
+/// The arc that continues from the end of another, with the sharpest left turn, so that polygons that touch at a corner
+/// stay apart. None: arcs_.size().
 std::size_t PieceJoiner::following(std::size_t arc) const {
   const auto first = std::lower_bound(arcs_.begin(), arcs_.end(), arcs_[arc].to,
                                       [](const Arc& a, std::size_t node) { return a.from < node; });
@@ -303,8 +304,8 @@ std::size_t PieceJoiner::following(std::size_t arc) const {
   return best;
 }
 
-/// The polygon that an arc is on, without the corners where a bisector only crosses from one triangle into the next.
-/// Empty when it does not close. Its arcs are gone then.
+/// The polygon of an arc, without the corners where a bisector only crosses from one triangle into the next. Empty when
+/// it does not close. Its arcs are removed.
 LocalPolygon PieceJoiner::trace(std::size_t first) {
   LocalPolygon polygon;
   for (std::size_t at = first;;) {

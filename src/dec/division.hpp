@@ -1,9 +1,9 @@
 // A triangle, divided among the vertices whose power cells meet it: the lower envelope of their power distances.
 //
 // Candidates are the corners of the triangle, then all neighbors of candidates that own some of it, until none is new.
-// In a regular triangulation of a convex domain that is enough: a vertex that no neighbor beats at a point is beaten
-// there by nobody. A neighbor that one gets to only around a reflex corner of the domain (more than half a turn in the
-// fan of that corner) is left out: it lies behind a crack or a notch.
+// In a regular triangulation of a convex domain that is enough: if no neighbor beats a vertex at a point, no vertex
+// does. A neighbor behind a reflex corner of the domain (more than half a turn in the fan of that corner) is left out.
+// It lies behind a crack or a notch.
 #pragma once
 
 #include <cmath>
@@ -14,15 +14,15 @@
 
 namespace temper {
 
-// A part of the mesh, seen as a plane near the origin. In the plane that is itself, moved, with the images nearest to
-// there; on the sphere it is another plane, beside it, and places go there and back on rays from the center, so that
+// A part of the mesh, seen as a plane near the origin. In the plane it is the part itself, moved, with the nearest
+// images. On the sphere it is another plane next to the part. Rays from the center map places there and back, so that
 // great circles are straight lines.
 
 class Chart {
  public:
   Chart() = default;
 
-  /// The plane of a triangle, from its corner 0. On the sphere that of the flat face PQR.
+  /// The plane of a triangle, from its corner 0. On the sphere it is the plane of the flat face PQR.
   [[nodiscard]] static Chart of_triangle(const Mesh& mesh, TriangleId t) {
     const auto [i, j, k] = mesh.corners(t);
     Chart chart(mesh, i);
@@ -32,7 +32,7 @@ class Chart {
     chart.turn(along, cross(along, mesh.weighted_vector(k) - mesh.weighted_vector(i)));
     return chart;
   }
-  /// From a vertex. On the sphere the plane that touches it there: it has the places less than a quarter turn away.
+  /// The plane around a vertex. On the sphere it touches there, and has the places less than a quarter turn away.
   [[nodiscard]] static Chart around(const Mesh& mesh, VertexId v) {
     Chart chart(mesh, v);
     if (mesh.space().is_plane()) return chart;
@@ -43,9 +43,9 @@ class Chart {
     return chart;
   }
 
-  /// A vertex as a weighted point of a triangle's plane: power distances differ by what they differ by in the space.
-  /// On the sphere x·P is greatest in the cell of P, and with P = O + e + n, n across the plane, −2 x·P is the power
-  /// distance to e with the weight |e|² + 2 O·(P − O), but for what all vertices share.
+  /// A vertex as a weighted point of a triangle's plane: differences of power distances are the same as in the space.
+  /// On the sphere x·P is greatest in the cell of P. Let P = O + e + n, n normal to the plane. Up to a term that all
+  /// vertices share, −2 x·P is the power distance to e with the weight |e|² + 2 O·(P − O).
   [[nodiscard]] WeightedPoint of(const Mesh& mesh, VertexId v) const {
     if (mesh.space().is_plane()) {
       const Vec2 at = mesh.point(v, origin_).position() - origin_.position();
@@ -91,7 +91,7 @@ class Chart {
   Vec3 weighted_origin_, e1_, e2_;
 };
 
-/// A corner of a piece, and what lies along the side from it to the next corner: one of the two.
+/// A corner of a piece, and one of two things along the side from it to the next corner.
 struct PieceCorner {
   Vec2 at;           ///< in the plane of the triangle, from its corner 0
   VertexId against;  ///< the side is where the power distances to this vertex and to the owner are equal
@@ -152,8 +152,8 @@ using LocalPolygon = std::vector<Vec2>;
 }
 
 /// The union of pieces of one owner, in a chart that has them all. Pieces that meet along a side of a triangle become
-/// one polygon; where that does not come out as simple polygons of the same area (a cell with a hole in it), the pieces
-/// as they are.
+/// one polygon. If this does not give simple polygons of the same area (a cell with a hole in it), the pieces stay as
+/// they are.
 [[nodiscard]] std::vector<LocalPolygon> join_pieces(const Mesh& mesh, const Chart& chart,
                                                     std::span<const CellPiece> pieces);
 

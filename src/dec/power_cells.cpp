@@ -1,10 +1,10 @@
-// Power cells. Most of them are polygons of orthocenters; what is not is put together from the pieces of triangles.
+// Power cells. Most are polygons of orthocenters; the others are put together from the pieces of triangles.
 //
-// A triangle is plain when its corners surely own a quadrilateral each, of the corner, the weighted midpoints beside it
-// and the orthocenter: all h ≥ 0, also those of the neighbors over its edges, and at its corners no dual edge negative
-// and no d < 0. (The dual edges around a corner are then a convex chain, with the quadrilateral on its inner side, and
-// the corner in its own cell.) A vertex is plain when its triangles are and it owns nothing else. Decided by exact
-// signs.
+// A triangle is plain when each corner surely owns the quadrilateral of the corner, the next weighted midpoints and the
+// orthocenter. Conditions: all its h ≥ 0, also all h of the neighbors across its edges. At its corners no dual edge is
+// negative and no d < 0. (Then the dual edges around a corner are a convex chain with the quadrilateral on its inner
+// side, and the corner is in its own cell.) A vertex is plain when its triangles are and it owns nothing else. Exact
+// signs decide all of this.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -19,7 +19,7 @@
 namespace temper {
 namespace {
 
-// Corners of one cell nearer to each other than this are one: the orthocenters of cocircular triangles.
+// Corners of one cell nearer to each other than this are merged: they are orthocenters of cocircular triangles.
 constexpr double kOnePlace = 1e-14;
 // A polygon whose width is this share of its coordinates is lost when they are rounded: four units in the last place.
 constexpr double kInvisible = 0x1p-50;
@@ -29,7 +29,7 @@ Sign crossing_sign(const Mesh& mesh, VertexId p, VertexId q) {
   return mesh.space().is_plane() ? dual_crossing_sign(from, to) : dual_crossing_sign(as_vector(from), as_vector(to));
 }
 
-/// From vertex to vertex, on the sphere along an arc.
+/// The distance from vertex to vertex, on the sphere along an arc.
 double length_between(const Mesh& mesh, VertexId p, VertexId q) {
   const WeightedPoint from = mesh.point(p);
   if (mesh.space().is_plane()) return length(mesh.point(q, from).position() - from.position());
@@ -142,7 +142,7 @@ LocalPolygon CellBuilder::orthocenters_around(VertexId v, const Chart& chart) co
   return polygon;
 }
 
-/// Where a cell reaches a quarter turn away from its vertex, in a mesh of few triangles, its pieces stay apart.
+/// If a cell reaches a quarter turn away from its vertex, in a mesh of few triangles, its pieces stay apart.
 void CellBuilder::emit_joined(VertexId v, std::span<const CellPiece> pieces) {
   const Chart chart = Chart::around(mesh_, v);
   const bool together = std::all_of(pieces.begin(), pieces.end(), [&](const CellPiece& piece) {
@@ -161,7 +161,7 @@ void CellBuilder::emit_joined(VertexId v, std::span<const CellPiece> pieces) {
   }
 }
 
-/// Of a polygon of great circles on the sphere: triangles from its first corner, signed.
+/// The signed area of a polygon of great circles on the sphere: triangles from its first corner.
 double CellBuilder::area_in_space(const Chart& chart, const LocalPolygon& polygon) const {
   if (mesh_.space().is_plane()) return area_of(polygon);
   double sum = 0;
@@ -197,7 +197,7 @@ void CellBuilder::emit(VertexId v, const Chart& chart, const LocalPolygon& polyg
   cells_.areas[v] += area;
 }
 
-/// The sides of a piece that other cells lie beyond. Of two pieces each has the side: the lower vertex brings it.
+/// The sides of a piece with other cells beyond. Two pieces have the side; the piece of the lower vertex adds it.
 void CellBuilder::add_faces(const CellPiece& piece) {
   const bool plane = mesh_.space().is_plane();
   const Chart chart = plane ? Chart() : Chart::of_triangle(mesh_, piece.triangle);
@@ -221,7 +221,7 @@ void CellBuilder::add_plain_faces() {
   }
 }
 
-/// Makes one face of what triangles have of it. Cells that only touch have none.
+/// Joins the parts that triangles have of a face. Cells that only touch have no face.
 void CellBuilder::join_faces() {
   std::vector<PowerFace>& faces = cells_.faces;
   const auto before = [](const PowerFace& a, const PowerFace& b) {

@@ -66,7 +66,7 @@ Key scale_key(const TriangleColors& colors) {
   return key;
 }
 
-// Only what some panel really shows.
+// The legend has only what some panel really shows.
 std::vector<Key> legend(std::span<const Shown> shown, const Viewport& viewport, const DrawOptions& options) {
   const auto any = [&](auto what) {
     return std::any_of(shown.begin(), shown.end(), [&](const Shown& s) { return what(s.panel); });
@@ -156,7 +156,7 @@ std::string draw_before_after_svg(const Mesh& before, const Mesh& after, const D
   return document(shown, viewport, options);
 }
 
-// Several documents in one: nested <svg> elements, their ids told apart by a prefix.
+// Several documents in one: nested <svg> elements, with a prefix that makes their ids distinct.
 
 namespace {
 
@@ -207,7 +207,7 @@ std::string prefixed(std::string_view tag, const std::string& prefix) {
   return result;
 }
 
-// Text between tags is left alone: it may look like an id.
+// Text between tags stays as it is: it may look like an id.
 std::string with_prefixed_ids(std::string_view svg, const std::string& prefix) {
   std::string result;
   while (!svg.empty()) {
@@ -222,7 +222,7 @@ std::string with_prefixed_ids(std::string_view svg, const std::string& prefix) {
   return result;
 }
 
-// The root tag at a place; whatever else it says (font, colors, box) stays.
+// The root tag at a place; its other attributes (font, colors, box) stay.
 std::string placed(std::string_view root, Vec2 at) {
   std::string tag(root);
   const std::size_t name_end = std::string_view("<svg").size();

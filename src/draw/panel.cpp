@@ -28,7 +28,7 @@ constexpr double kFontPerEdge = 0.22, kLeastFont = 3, kMostFont = 12;
 
 constexpr std::array<const char*, 6> kTints = {"#dceaf5", "#e6f1d9", "#efe2f0", "#f6efd6", "#dff0ee", "#ececec"};
 
-/// How far the images that a picture of the domain and its margin shows are from those of the mesh.
+/// The shifts from the mesh to its images that a picture of the domain and its margin shows.
 std::vector<Vec2> shifts_of(const Space& space) {
   const auto [x, y] = space.period();
   std::vector<Vec2> shifts = {{0, 0}};
@@ -87,7 +87,7 @@ class PanelPainter {
       }
     }
   }
-  /// Images where they meet the box.
+  /// Draws the images that meet the box.
   void add_circle(PathText& path, const WeightedPoint& p, double radius) const {
     for (const Vec2 shift : shifts_) {
       if (!viewport_.view.is_flat() || !meets(shift + p.position(), radius, viewport_.box)) continue;
@@ -152,7 +152,7 @@ class PanelPainter {
     fill(path, "bad", detailed_ ? Palette::bad : Palette::bad_dense, few && !detailed_ ? kSpot : kSeam);
   }
 
-  /// Where a period begins again.
+  /// Draws the lines at which a period begins again.
   void draw_periods() {
     if (!mesh_.space().is_periodic()) return;
     PathText path;
@@ -175,7 +175,7 @@ class PanelPainter {
     stroke(path, "limb", Palette::viewport, 1);
   }
 
-  // Domain boundary and constrained edges are thicker: they are what the optimizer keeps.
+  // Domain boundary and constrained edges are thicker, because the optimizer keeps them.
   void draw_edges() {
     PathText plain, kept;
     for (HalfedgeId h : mesh_.halfedges()) {
@@ -190,7 +190,8 @@ class PanelPainter {
            "stroke-linecap=\"round\" ");
   }
 
-  // Between the orthocenters on both sides, or from the one to the weighted midpoint of a boundary edge.
+  // Dual edges run between the orthocenters on both sides, or from an orthocenter to the weighted midpoint of a
+  // boundary edge.
   void draw_dual() {
     IdVector<TriangleId, WeightedPoint> centers(mesh_.n_triangles());
     for (TriangleId t : mesh_.triangles()) centers[t] = center(t);
@@ -206,12 +207,12 @@ class PanelPainter {
     stroke(path, "dual", Palette::dual, kDualTimes * primal_width());
   }
 
-  /// Orthocenter and weighted midpoint, as points of the space.
+  /// The orthocenter or the weighted midpoint, as a point of the space.
   [[nodiscard]] WeightedPoint center(TriangleId t) const {
     const auto [a, b, c] = mesh_.points(t);
     return orthocenter(mesh_.space(), a, b, c);
   }
-  /// The center of a triangle, of whose images the one is meant that has a corner near a point.
+  /// The center of a triangle: the image with a corner near a point.
   [[nodiscard]] WeightedPoint beside(const WeightedPoint& near, TriangleId t, const WeightedPoint& center) const {
     if (!mesh_.space().is_periodic()) return center;
     const WeightedPoint corner = mesh_.point(mesh_.corners(t)[0]), image = mesh_.space().image(corner, near);
@@ -221,7 +222,7 @@ class PanelPainter {
     const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h), a);
     return temper::weighted_midpoint(mesh_.space(), a, b);
   }
-  /// The place in the picture of a point that is seen and within the box, or the box within `radius` of it.
+  /// The place in the picture of a visible point that is in the box, or within `radius` of it.
   [[nodiscard]] std::optional<Vec2> seen(const WeightedPoint& p, double radius = 0) const {
     const Vec2 at = viewport_.view.at(p);
     if (!viewport_.view.shows(p) || !meets(at, radius, viewport_.box)) return std::nullopt;
@@ -242,7 +243,7 @@ class PanelPainter {
     stroke(negative, "weight-negative", Palette::negative, width, dashes(width).c_str());
   }
 
-  // Dashes tell the signs apart without color.
+  // Dashes distinguish the signs without color.
   [[nodiscard]] std::string dashes(double width) const {
     return "stroke-dasharray=\"" + short_number(4 * width / viewport_.unit) + " " +
            short_number(2 * width / viewport_.unit) + "\" ";

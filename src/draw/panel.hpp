@@ -12,7 +12,7 @@
 
 namespace temper {
 
-/// A panel of a picture, with what its caption and the legend need to know.
+/// A panel of a picture, with the data for its caption and the legend.
 struct Panel {
   std::string svg;            ///< a <g> element, its origin the upper left corner of the panel
   std::size_t triangles = 0;  ///< of the whole mesh

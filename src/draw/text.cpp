@@ -7,7 +7,7 @@
 namespace temper {
 namespace {
 
-// Bytes of the UTF-8 sequence at the start of text; 0 when it is none that XML allows.
+// Bytes of the UTF-8 sequence at the start of text; 0 when XML does not allow it.
 std::size_t sequence_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -81,7 +81,7 @@ void for_each_piece(std::string_view label, Piece&& piece) {
   if (from < label.size()) piece(label.substr(from), '\0');
 }
 
-// Relative to the font size.
+// Width of a letter relative to the font size.
 double letter_width(char c) {
   if (std::string_view("iIjl.,:;'|! ").find(c) != std::string_view::npos) return 0.3;
   if (std::string_view("ftr()[]-/\"").find(c) != std::string_view::npos) return 0.36;

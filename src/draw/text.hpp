@@ -1,7 +1,7 @@
 // Text of pictures: numbers for people, labels with raised and lowered parts, and their width.
 //
-// The width is an estimate from the classes of letters of the usual sans-serif fonts, a little on the generous
-// side: what is laid out with it does not overlap, whichever font the viewer has.
+// The width is an estimate from the classes of letters of the usual sans-serif fonts, and rather too large than too
+// small. So texts do not overlap, whichever font the viewer has.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace temper {
 
-/// Text for the content of an element: markup escaped, control characters dropped, bytes that are not UTF-8
-/// replaced by U+FFFD, so that any title makes a valid document.
+/// Text for the content of an element, so that any title makes a valid document. Markup is escaped, control characters
+/// are dropped, and bytes that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string xml_text(std::string_view text);
 
 /// A number with at most three digits after the point, without trailing zeros, never in scientific form.
@@ -24,12 +24,11 @@ inline constexpr const char* kPlotInk = "#222222";
 
 /// Label markup as SVG: "E_{F}^{1}" lowers F and raises 1; the rest is text.
 [[nodiscard]] std::string rich_text(std::string_view label);
-/// Width of a label in pixels at that font size, markup left out; never too small by much.
+/// Width of a label in pixels at that font size, without markup; never much too small.
 [[nodiscard]] double text_width(std::string_view label, double font_size);
 
 /// A number for people: four significant digits at most, a true minus sign, powers of ten raised (markup).
 [[nodiscard]] std::string number_label(double value);
-/// A number with this many digits after the point.
 [[nodiscard]] std::string fixed_label(double value, int decimals);
 
 struct TextLook {

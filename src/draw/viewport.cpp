@@ -16,7 +16,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 Vec3 unit(Vec3 p) { return (1 / length(p)) * p; }
 
-/// Where the arc between a point that is seen and one that is not meets the limb.
+/// The point on the limb of the arc between a visible and a hidden point.
 Vec3 on_limb(Vec3 a, Vec3 b) {
   const Vec3 p = a + (a.z / (a.z - b.z)) * (b - a);
   return unit({p.x, p.y, 0});
@@ -116,7 +116,8 @@ constexpr double kTallest = 1.25;                  // … and at most; the mesh 
 constexpr double kStepsPerEdge = 100;              // grid steps on a median edge: its ends are then right to 1 %
 constexpr double kFinest = 1e-3, kCoarsest = 0.1;  // pixels per grid step
 
-/// Of what is seen; of what goes on behind the limb the whole disc, along a period the domain.
+/// The box of the visible part. If a mesh continues behind the limb, the box of the whole disc; along a period the
+/// domain.
 Box bounding_box(std::span<const Mesh* const> meshes, const View& view) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Box box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
@@ -238,7 +239,7 @@ std::optional<Segment> clip(const Segment& s, const Box& box) {
 }
 
 std::vector<Vec2> clip(std::vector<Vec2> polygon, const Box& box) {
-  // Keeps what has positive room on one side after the other.
+  // Keeps the part with positive room, for one side after the other.
   for (int side = 0; side < 4 && !polygon.empty(); ++side) {
     const auto room = [&](Vec2 p) {
       switch (side) {

@@ -1,8 +1,8 @@
-// From the user's coordinates to the page: which box is drawn, at what scale, on what grid.
+// From the user's coordinates to the page: box, scale and grid of the picture.
 //
-// Points of long paths are integers on a grid fine enough for the mesh at hand, so that a path takes few bytes;
-// the group around the paths scales the grid to pixels. Everything is clipped to a little more than the box
-// before it is written: orthocenters of flat triangles lie anywhere.
+// Points of long paths are integers on a grid that is fine enough for the mesh, so that a path takes few bytes. The
+// group around the paths scales the grid to pixels. Everything is clipped to a little more than the box before it is
+// written, as orthocenters of flat triangles lie anywhere.
 #pragma once
 
 #include <array>
@@ -17,14 +17,14 @@
 
 namespace temper {
 
-// From a mesh to its flat picture: the plane as it is, or a sphere seen from far away, of which the near half shows.
+// From a mesh to its flat picture: the plane as it is, or the near half of a sphere seen from far away.
 //
 // A sphere is projected along parallel lines: a disc of its radius, north up. Arcs become chains of segments too short
 // to tell from curves, and end at the limb.
 //
 //        .-- y --.
 //      /     ^     \      the picture: x and y, in the unit of length of the mesh;
-//     |      +-> x  |     z: towards the viewer, in parts of the radius; what has z < 0 is behind the limb
+//     |      +-> x  |     z: towards the viewer, in parts of the radius; points with z < 0 are behind the limb.
 //      \           /
 //        '-------'  limb
 
@@ -32,23 +32,23 @@ class View {
  public:
   /// Of the plane.
   View() = default;
-  /// Of a sphere: longitude and latitude of the middle of the picture [degrees].
+  /// The view of a sphere, with longitude and latitude of the middle of the picture [degrees].
   View(double radius, Vec2 middle);
 
-  /// Of the plane, as it is.
+  /// True for the plane, which is shown as it is.
   [[nodiscard]] bool is_flat() const { return radius_ == 0; }
-  /// Of the disc that a sphere is; 0 of the plane.
+  /// The radius of the disc of a sphere; 0 in the plane.
   [[nodiscard]] double radius() const { return radius_; }
 
-  // Points are those of the mesh's space: of the sphere only the direction counts.
+  // Points are points of the mesh's space; on the sphere only the direction counts.
 
   /// The place of a point in the picture.
   [[nodiscard]] Vec2 at(const WeightedPoint& p) const;
   /// Says whether a point is not behind the limb.
   [[nodiscard]] bool shows(const WeightedPoint& p) const;
-  /// What is seen of the edge from p to q: a chain of points, empty when it is behind the limb.
+  /// The visible part of the edge from p to q: a chain of points, empty when it is behind the limb.
   [[nodiscard]] std::vector<Vec2> line(const WeightedPoint& p, const WeightedPoint& q) const;
-  /// What is seen of a triangle: a polygon, empty when it is behind the limb.
+  /// The visible part of a triangle: a polygon, empty when it is behind the limb.
   [[nodiscard]] std::vector<Vec2> polygon(const std::array<WeightedPoint, 3>& triangle) const;
   /// Points around one of the sphere, whose arcs are a circle of this radius [length]. Precondition: a sphere.
   [[nodiscard]] std::vector<WeightedPoint> circle(const WeightedPoint& p, double radius) const;
@@ -61,8 +61,8 @@ class View {
   Vec3 right_, up_, towards_;
 };
 
-/// The view of meshes of one space that the options ask for; by default on the middle of a mesh that is a part of the
-/// sphere, else on 0° E, 0° N.
+/// The requested view of meshes of one space. The default view of a sphere is centered on the middle of the mesh, or on
+/// 0° E, 0° N if the mesh covers all of it.
 [[nodiscard]] View make_view(std::span<const Mesh* const> meshes, const DrawOptions& options);
 
 /// A point of the grid, y down.
@@ -94,27 +94,25 @@ struct Viewport {
   [[nodiscard]] std::int64_t steps(double pixels) const;
 };
 
-/// One viewport for all meshes: the zoom box, or what holds all their vertices that are seen.
+/// One viewport for all meshes: the zoom box, or the box of all their visible vertices.
 [[nodiscard]] Viewport make_viewport(std::span<const Mesh* const> meshes, const DrawOptions& options);
 
 /// The part of a segment inside the box; nothing when it misses it or is not finite.
 [[nodiscard]] std::optional<Segment> clip(const Segment& segment, const Box& box);
 /// The part of a polygon inside the box, empty when it misses it.
 [[nodiscard]] std::vector<Vec2> clip(std::vector<Vec2> polygon, const Box& box);
-/// Does the disc meet the box?
 [[nodiscard]] bool meets(Vec2 center, double radius, const Box& box);
 
-// The d attribute of an SVG path in few bytes: relative integer coordinates, and no byte that SVG's grammar
-// can do without. "m3 4l-1-2 5 0z": a minus sign separates, a repeated l is left out.
+// The d attribute of an SVG path in few bytes: relative integer coordinates, and no byte that SVG's grammar does not
+// need. "m3 4l-1-2 5 0z": a minus sign separates numbers, and a repeated l is omitted.
 
 class PathText {
  public:
   void move_to(GridPoint p);
   void line_to(GridPoint p);
   void close();
-  /// A whole circle.
   void circle(GridPoint center, std::int64_t radius);
-  /// A separate segment, in whichever direction goes on from where the path is.
+  /// A separate segment, from the end that is nearer to the current point of the path.
   void segment(GridPoint a, GridPoint b);
 
   [[nodiscard]] bool empty() const { return text_.empty(); }
@@ -126,8 +124,8 @@ class PathText {
   void step_to(GridPoint p);
 
   std::string text_;
-  GridPoint at_;      // where the path is
-  GridPoint start_;   // where its subpath began
+  GridPoint at_;      // the current end of the path
+  GridPoint start_;   // the beginning of its subpath
   char last_ = '\0';  // the command that a bare pair of numbers would repeat
 };
 

@@ -1,5 +1,5 @@
-// The energy of one edge for the accuracy objective, the barrier behind it, and their derivatives, for one edge
-// (T = double) or for eight at once (T = Pack): see accuracy_energy.hpp.
+// The energy of one edge for the accuracy objective (accuracy_energy.hpp), the barrier behind it, and their
+// derivatives. Everything is for one edge (T = double) or for eight at once (T = Pack).
 //
 //     W(L, G, H, δw) = s_e⁻² (G/L) (a L² + b G² + p δw² + q H²) = s_e⁻² (a G L + K/L),    K = G (b G² + p δw² + q H²)
 //
@@ -27,7 +27,7 @@ struct AccuracyModel {
   [[nodiscard]] static AccuracyModel of(double alpha, double beta, double offset, double boundary_offset);
 };
 
-/// The barrier of an edge: its factor m, and what the squares of its length and of its dual's stay above.
+/// The barrier of an edge: its factor m, and the lower bounds of its squared length and its dual's squared length.
 template <class T>
 struct LengthBarrier {
   T factor, l2, dual2;
@@ -118,7 +118,7 @@ TEMPER_INLINE void add_crossing_barrier(const TriangleBarrier<T>& of, const T& l
   s.dw_dw = s.dw_dw + (0.25 * m_q + 2 * (m_qq * dw4 * dw4));
 }
 
-/// Adds − ½ m ln[(L − L₀)(G² − D₀ L)/L]: of an edge that is longer than √L₀, and its dual than √D₀.
+/// Adds − ½ m ln[(L − L₀)(G² − D₀ L)/L], for an edge longer than √L₀ whose dual is longer than √D₀.
 template <class T>
 TEMPER_INLINE void add_length_barrier(const LengthBarrier<T>& of, const AccuracyEdge<T>& e, EdgeSlopes<T>& s) {
   const T g = e.left + e.right;
@@ -142,11 +142,11 @@ template <class T>
   return most * most - 0.25 * y * y;
 }
 
-/// The natural logarithm of a normal x > 0, to 2⁻⁵¹ or so: with the same bits wherever IEEE arithmetic is, which those
-/// of C libraries do not have.
+/// The natural logarithm of a normal x > 0, to about 2⁻⁵¹. It has the same bits wherever IEEE arithmetic is; logarithms
+/// of C libraries do not.
 template <class T>
 [[nodiscard]] TEMPER_INLINE T portable_log(const T& x) {
-  // x = m 2^k with m in [√½, √2); ln m = 2 artanh z, z = (m − 1)/(m + 1), z² < 0.0295: eleven terms reach rounding.
+  // x = m 2^k, m in [√½, √2); ln m = 2 artanh z, z = (m − 1)/(m + 1), z² < 0.0295: eleven terms reach rounding.
   const T m = mantissa(x), one = all<T>(1), z = (m - one) / (m + one), z2 = z * z;
   constexpr double kTerms[] = {1.0 / 19, 1.0 / 17, 1.0 / 15, 1.0 / 13, 1.0 / 11, 1.0 / 9, 1.0 / 7, 1.0 / 5, 1.0 / 3};
   T series = all<T>(1.0 / 21);
@@ -154,7 +154,7 @@ template <class T>
   return std::numbers::ln2 * exponent(x) + 2 * (z + z * z2 * series);
 }
 
-/// The barrier of add_length_barrier(); +∞ out of it. Precondition: G > 0.
+/// The barrier of add_length_barrier(); +∞ outside its domain. Precondition: G > 0.
 template <class T>
 [[nodiscard]] TEMPER_INLINE T length_barrier(const LengthBarrier<T>& of, const AccuracyEdge<T>& e) {
   const T g = e.left + e.right, zero = all<T>(0);

@@ -15,21 +15,21 @@
 namespace temper {
 namespace {
 
-// What is shorter than it should be stays longer than this part of what it is.
+// An edge that is shorter than its floor stays longer than this part of its length.
 constexpr double kKeptLength = 0.9;
-// By so much its barrier is higher after each sweep, up to that: less, and it stays where the energy holds it; more,
-// and it pushes its neighbors below what they should have.
+// The barrier of such an edge rises by this factor with each sweep, up to a limit. A smaller factor leaves it where the
+// energy holds it; a larger factor pushes its neighbors below their floors.
 constexpr double kUrgency = 2, kMostUrgent = 100;
-// So much more than what is asked for is aimed at, since the last sweep changes local sizes once more.
+// The aim is this factor times the requested length, since the last sweep changes local sizes once more.
 constexpr double kAim = 1.08;
-// What has become longer by this part has gained.
+// An edge that has become longer by this part has gained.
 constexpr double kGain = 1e-3;
 
 double squared(double x) { return x * x; }
 
-// The part of its margin that a triangle with less than ε keeps at least: the barrier must be finite where it is.
+// A triangle with less than ε keeps at least this part of its margin: the barrier must be finite in the current mesh.
 constexpr double kKept = 0.9;
-// Below this part of ℓ a height is mostly rounding, and so would be its logarithm.
+// Below this part of ℓ a height is mostly rounding, and its logarithm, too.
 constexpr double kLeastMargin = 1e-9;
 
 template <class In>

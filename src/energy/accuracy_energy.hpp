@@ -1,25 +1,25 @@
-// The energy of the accuracy objective: HOT with its two parts told apart, over the local size, behind a barrier.
+// The energy of the accuracy objective: HOT split into its two parts, over the local size, behind a barrier.
 //
-// Of an interior edge of length ℓ between triangles with heights h_k and h_l, the four half-edge terms of
-// E_F = α d³h + β d h³ are, with D = h_k + h_l the dual length, δ = (w_i − w_j)/(2ℓ) the offset of the weighted
-// midpoint from the middle of the edge, and η = (h_k − h_l)/2 that of the edge from the middle of its dual,
+// Consider an interior edge of length ℓ between triangles with heights h_k and h_l. Its dual length is D = h_k + h_l.
+// The weighted midpoint is δ = (w_i − w_j)/(2ℓ) from the midpoint of the edge, and the edge is η = (h_k − h_l)/2 from
+// the midpoint of its dual. The four half-edge terms of E_F = α d³h + β d h³ are then
 //
 //     ℓD [ (α ℓ² + β D²)/4 + 3 (α δ² + β η²) ]
 //
-// (d = ℓ/2 ± δ, so Σ d³ = ℓ³/4 + 3ℓδ²; h = D/2 ± η likewise.) The first part is a moment that no mesh of this size
-// avoids; the second one is how far the middles of edge and dual are apart, which is what the error of a diagonal ★ is
-// proportional to at first order. So the offset counts c times as much as in HOT. On the boundary, where the dual ends
-// on the edge, D = h and η = h/2; that offset cannot be avoided, and counts c_b times. With the size s_e at the edge,
+// (d = ℓ/2 ± δ, so Σ d³ = ℓ³/4 + 3ℓδ²; likewise h = D/2 ± η.) The first part is a moment that no mesh of this size
+// avoids. The second part measures how far the midpoints of edge and dual are apart, which to first order gives the
+// error of a diagonal ★. So the offset counts c times as much as in HOT. On the boundary the dual ends on the edge:
+// D = h and η = h/2. That offset cannot be avoided, and counts c_b times. With the size s_e at the edge,
 //
 //     E = Σ_edges s_e⁻² ℓD [ (α ℓ² + β D²)/4 + 3 (c α δ² + (c or c_b) β η²) ],    c = c_b = 1: E_F / s_e²
 //
-// which is rational in positions and weights: with L = ℓ², δw = w_i − w_j, G = ℓD = g_k + g_l and H = g_k − g_l,
-// ℓD = G, D² = G²/L, δ² = δw²/(4L), η² = H²/(4L). Scaling exponent 2, with the sizes. Below zero only where a dual is;
-// its absolute value is meant where meshes are compared. (s⁻⁴, by the units of E_F, is not what is wanted: with sizes
-// tied to vertices its minimum has ℓ ~ s², so that grading grows; s⁻² is neutral.)
+// which is rational in positions and weights. Let L = ℓ², δw = w_i − w_j, G = g_k + g_l and H = g_k − g_l. Then ℓD = G,
+// D² = G²/L, δ² = δw²/(4L), η² = H²/(4L). Scaling exponent 2, with the sizes. It is below zero only if a dual is;
+// comparisons of meshes use its absolute value. (The units of E_F suggest s⁻⁴. But with sizes tied to vertices its
+// minimum has ℓ ~ s², so that grading grows; s⁻² is neutral.)
 //
-// Behind it stands the barrier − μ Σ_triangles s_t² Σ_edges [ln(h/ℓ − ε) + ½ ln(d_ij/ℓ − ε) + ½ ln(d_ji/ℓ − ε)], +∞
-// where a triangle is out of its margin ε: see AccuracyFloors.
+// Behind it stands the barrier − μ Σ_triangles s_t² Σ_edges [ln(h/ℓ − ε) + ½ ln(d_ij/ℓ − ε) + ½ ln(d_ji/ℓ − ε)]. It is
+// +∞ if a triangle is out of its margin ε: see AccuracyFloors.
 #pragma once
 
 #include <cstddef>
@@ -34,22 +34,22 @@
 
 namespace temper {
 
-// What edges and dual edges stay longer than, for the barrier of the accuracy objective: time steps of explicit schemes
-// are as short as the shortest of them.
+// Floors of the lengths of edges and dual edges, for the barrier of the accuracy objective: the shortest of them limits
+// the time step of explicit schemes.
 //
-// With s the mean of the local sizes at its ends, an interior edge stays longer than X s, and its dual longer than Y s,
-// where they are. What is shorter stays longer than a part of what it is, behind a barrier that is higher from sweep to
-// sweep, and so grows. Local sizes are those of the mesh as it is, but no floor falls when they do: else edges and
-// sizes chase each other.
+// Let s be the mean of the local sizes at its ends. An interior edge that is longer than X s stays so, and likewise a
+// dual longer than Y s. A shorter one stays longer than a part of its length, behind a barrier that rises from sweep to
+// sweep, and so grows. Local sizes are the sizes of the current mesh, but no floor falls when they do: otherwise edges
+// and sizes would chase each other.
 
 class LengthFloors {
  public:
-  /// Raises the floors to what the mesh has now; they never fall. Returns how many of the edges that lack length have
-  /// gained since the last call. `sizes`: local ones, of the mesh.
+  /// Raises the floors to the lengths of the mesh; they never fall. Returns the number of edges below their floors that
+  /// have gained since the last call. `sizes`: local ones, of the mesh.
   std::size_t raise(const Mesh& mesh, const IdVector<VertexId, double>& sizes, const AccuracyModel& model,
                     Executor* executor = nullptr);
 
-  /// Of an interior edge.
+  /// The barrier of an interior edge.
   [[nodiscard]] const LengthBarrier<double>& operator()(const Mesh& mesh, HalfedgeId h) const {
     return floors_[mesh.is_edge_representative(h) ? h : mesh.twin(h)];
   }
@@ -60,7 +60,7 @@ class LengthFloors {
 
 using VertexSizes = IdVector<VertexId, double>;
 
-/// Σ |E| over all edges, without barrier: defined for every mesh. The same for any executor. O(n).
+/// Σ |E| over all edges, without barrier: defined for every mesh, equal for any executor. O(n).
 [[nodiscard]] double accuracy_energy(const Mesh& mesh, const VertexSizes& sizes, const AccuracyModel& model,
                                      Executor* executor = nullptr);
 
@@ -70,25 +70,25 @@ using VertexSizes = IdVector<VertexId, double>;
 /// Says whether every triangle is well-centered, exactly, with a margin of more than `margin`.
 [[nodiscard]] bool has_margins(const Mesh& mesh, double margin, Executor* executor = nullptr);
 
-/// The ε of each triangle: that of the model where the triangle has more, else a little less than it has; none where it
-/// is not well-centered, or so hardly that its heights are made of rounding. Nearly all have that of the model: blocks
-/// of which all do take no room.
+/// The ε of each triangle. It is the model's ε if the triangle has more, else a little less than the triangle has. A
+/// triangle has none if it is not well-centered, or so barely that its heights are rounding. Nearly all triangles have
+/// the model's ε: blocks in which all do take no memory.
 class AccuracyFloors {
  public:
-  /// Raises the floor of each triangle that has got more room since, never lowers one. Returns how many it raised. The
-  /// margin is the same each time.
+  /// Raises the floor of each triangle whose margin has grown, never lowers one. Returns how many it raised. `margin`
+  /// is the same each time.
   std::size_t raise(const Mesh& mesh, double margin, Executor* executor = nullptr);
-  /// Says whether t has one. A triangle without is no part of the barrier, and must stay as it is.
+  /// Says whether t has a floor. A triangle without one is no part of the barrier, and must stay as it is.
   [[nodiscard]] bool has(TriangleId t) const { return (*this)[t] > 0; }
   [[nodiscard]] double operator[](TriangleId t) const {
     const auto& block = blocks_[t.index / kBlock];
     return block.empty() ? margin_ : block[t.index % kBlock];
   }
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// Bytes of the arrays, those of lengths left out.
+  /// Bytes of the arrays, without the lengths.
   [[nodiscard]] std::size_t memory_bytes() const;
 
-  LengthFloors lengths;  ///< where the model keeps them
+  LengthFloors lengths;  ///< if the model has floors of lengths
 
  private:
   static constexpr std::size_t kBlock = 128;  // few have less: each takes as much room as its block
@@ -106,7 +106,7 @@ struct AccuracyDomain {
   AccuracyFloors floors;
 };
 
-/// Energy, if it is asked for, and barrier of the whole mesh, the barrier over triangles that have a floor.
+/// Energy, if requested, and barrier of the whole mesh. The barrier is a sum over triangles that have a floor.
 struct AccuracyTotal {
   double energy = 0, barrier = 0;
 };
@@ -122,9 +122,9 @@ class AccuracyPatch {
               VertexId v);
 
   /// Energy and barrier of all that depends on the center, at p: total after − total before = value after − value
-  /// before. +∞ where a triangle turns over or has no more than its floor.
+  /// before. +∞ if a triangle turns over or is not above its floor.
   [[nodiscard]] double value(const WeightedPoint& p);
-  /// All derivatives where value() was asked for last, and was finite.
+  /// All derivatives at the point of the last call of value(), which was finite.
   [[nodiscard]] VertexDerivatives derivatives();
   /// Says whether all triangles of the star are well-centered with the center at p, exactly.
   [[nodiscard]] bool is_well_centered(const WeightedPoint& p) const;

@@ -1,12 +1,13 @@
-// Energy and barrier of the accuracy objective as a function of one vertex (T = double), or of eight (T = Pack), a lane
-// each, in the plane or on the sphere: In is InPlaneOf<T> or OnSphereOf<T>.
+// Energy and barrier of the accuracy objective as a function of one vertex (T = double), or of eight in lanes
+// (T = Pack). In is InPlaneOf<T> in the plane, or OnSphereOf<T> on the sphere.
 //
 //              q2 ------- q1            triangle i = (center, q_i, q_{i+1}), counter-clockwise
 //             /  \  t1  /   \           spoke i    = center → q_i, in triangle i on its left, in i − 1 on its right
 //            /  t2\    /  t0 \          link edge i = q_i → q_{i+1}; the height of its outer triangle stays
 //          q3 ---- center --- q0        closed: q_n is q_0 again, and spoke n is none
 //
-// Lanes may have different numbers of triangles: what a lane has no more is computed with all the same, and left out.
+// Lanes may have different numbers of triangles. Shorter lanes compute with missing triangles, too, and drop the
+// results.
 #pragma once
 
 #include "energy/accuracy_edge.hpp"
@@ -20,7 +21,7 @@ struct AccuracySpoke {
   using T = typename In::Scalar;
   typename In::Point q;
   T scale, height;                    ///< of its edge: s_e⁻², q
-  LengthBarrier<T> lengths;           ///< where the model keeps them
+  LengthBarrier<T> lengths;           ///< if the model has floors of lengths
   typename In::Spoke to;              ///< from here on: with the center where it was asked about last
   T inverse_l2;                       ///< 1/L
   T left, right;                      ///< g in the triangles on its two sides; 0 where there is none
@@ -79,7 +80,7 @@ struct SizedPoint {
   typename In::Scalar size;
 };
 
-/// Sets what spoke i is given; it leads to q. The ends of an open star are on the boundary.
+/// Sets the given values of spoke i, which leads to q. The ends of an open star are on the boundary.
 template <class In>
 TEMPER_INLINE void set_spoke(const AccuracyStarOf<In>& star, std::size_t i, const typename In::Scalar& size,
                              const SizedPoint<In>& q) {
@@ -91,7 +92,7 @@ TEMPER_INLINE void set_spoke(const AccuracyStarOf<In>& star, std::size_t i, cons
   s.height = select(is_end, all<T>(star.model.boundary_height), all<T>(star.model.height));
 }
 
-/// Sets what triangle i is given, with q and r. `inner`: there is o across its link edge.
+/// Sets the given values of triangle i, with q and r. `inner`: there is o across its link edge.
 template <class In, class Mask>
 TEMPER_INLINE void set_triangle(const AccuracyStarOf<In>& star, std::size_t i, const typename In::Scalar& size,
                                 const SizedPoint<In>& q, const SizedPoint<In>& r, const typename In::Scalar& floor,
@@ -137,7 +138,7 @@ template <class In>
   return select(inside, value, all<T>(kInfinity));
 }
 
-/// Energy and barrier with the center at p; +∞ where a triangle turns over or has no more than its floor.
+/// Energy and barrier with the center at p; +∞ if a triangle turns over or is not above its floor.
 template <class In>
 [[nodiscard]] TEMPER_INLINE auto accuracy_value(const AccuracyStarOf<In>& star, const typename In::Center& p) {
   using T = typename In::Scalar;
@@ -163,7 +164,7 @@ template <class In>
 }
 
 /// Finds the derivatives of all that belongs to spoke i in its own terms, with the barriers of the triangles on its
-/// sides. A factor of 0 is none, whatever the floor: one that is below.
+/// sides. A factor of 0 is no barrier, whatever the floor: such lengths are below it.
 template <class In, class T>
 TEMPER_INLINE void find_slopes(const AccuracyStarOf<In>& star, std::size_t i, const TriangleBarrier<T>& left,
                                const TriangleBarrier<T>& right) {
@@ -177,7 +178,7 @@ TEMPER_INLINE void find_slopes(const AccuracyStarOf<In>& star, std::size_t i, co
   if (star.model.keeps_lengths()) add_length_barrier(a.lengths, a.edge(), s);
 }
 
-/// Finds the gradients of the heights of triangle i; adds what their Hessians and the link edge give.
+/// Finds the gradients of the heights of triangle i; adds the terms of their Hessians and of the link edge.
 template <class In, class T>
 TEMPER_INLINE void add_triangle(const AccuracyStarOf<In>& star, std::size_t i, CornerDerivatives<T>& sum) {
   AccuracySpoke<In>&a = star.spokes[i], &b = star.spokes[i + 1];
@@ -187,7 +188,7 @@ TEMPER_INLINE void add_triangle(const AccuracyStarOf<In>& star, std::size_t i, C
   EdgeSlopes<T> link = edge_slopes(star.model, t.link);
   add_height_barrier(t.barrier, t.link.l2, t.link.inverse_l2, t.link.left, link, link.left);
   if (star.model.keeps_lengths()) add_length_barrier(t.link_lengths, t.link, link);
-  // Of a closed star, the last triangle has spoke 0 on its right.
+  // In a closed star the last triangle has spoke 0 on its right.
   const T right = select(star.has_spoke(i + 1), b.slopes.right.g, star.spokes[0].slopes.right.g);
   auto h = CornerMatrix<T>::product(g.qr, link.left.gg * g.qr);
   g.add_hessian(a.slopes.left.g, link.left.g, right, h);
@@ -215,7 +216,7 @@ TEMPER_INLINE void add_spoke(const AccuracyStarOf<In>& star, std::size_t i, Corn
   sum.add(star.has_spoke(i), by_l2_and_dw(s.l, to_l, s.dw) + (s.left.g * left + s.right.g * right), h);
 }
 
-/// All derivatives at p, where accuracy_value() was asked for last, and was finite.
+/// All derivatives at p, the point of the last call of accuracy_value(), which was finite.
 template <class In>
 [[nodiscard]] TEMPER_INLINE auto accuracy_derivatives(const AccuracyStarOf<In>& star, const typename In::Center& p) {
   using T = typename In::Scalar;

@@ -1,5 +1,5 @@
-// Energy and barrier of the accuracy objective on whole meshes: triangles and edges eight at a time, their terms added
-// up in the order of their numbers.
+// Energy and barrier of the accuracy objective on whole meshes. Triangles and edges are computed eight at a time; the
+// sum adds their terms in the order of their numbers.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,9 +13,8 @@
 namespace temper {
 namespace {
 
-/// Some triangles that follow each other, as many as the nearest cache has room for with all their edges. All lanes
-/// are filled before the first are computed with: reading eight numbers at once waits long for one that has only just
-/// been written.
+/// Some consecutive triangles, as many as fit into the nearest cache with all their edges. All lanes are filled before
+/// the first computation: reading eight numbers at once waits long for a number that has just been written.
 class Triangles {
  public:
   static constexpr std::size_t kMost = 4 * kLanes;
@@ -33,7 +32,7 @@ class Triangles {
     return shapes_[i / kLanes].edges[static_cast<std::size_t>(k)].at(i % kLanes);
   }
 
-  /// Calls visit(i, logarithm) for each triangle that has a floor: that of its barrier, without sign and factor μ s_t².
+  /// Calls visit(i, logarithm) for each triangle that has a floor: its barrier, without sign and factor μ s_t².
   template <class Visit>
   void for_logarithms(const AccuracyFloors& floors, Visit&& visit) const {
     const StarKernels& kernels = star_kernels(mesh_.space());

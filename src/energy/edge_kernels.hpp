@@ -61,14 +61,14 @@ struct EdgeTerm {
   T f, f_l, f_w, f_g, f_ll, f_lw, f_lg, f_ww, f_wg, f_gg;
 };
 
-/// E_F of one edge in one triangle. Odd in g; signs and boundary treatments are factors applied outside, and so is
-/// 1/area², of the whole triangle.
+/// E_F of one edge in one triangle. Odd in g. Factors outside are signs, boundary treatments, and 1/area² of the whole
+/// triangle.
 struct HotKernel {
   static constexpr bool kBarrier = false;
   double alpha, beta;
   bool normalized = false;
 
-  /// What the edges of a triangle count: 1, or 1/area².
+  /// The factor of all edges of a triangle: 1, or 1/area².
   template <class T>
   [[nodiscard]] TEMPER_INLINE T per_area(const T& doubled_area) const {
     return normalized ? 4.0 / (doubled_area * doubled_area) : all<T>(1);
@@ -150,7 +150,7 @@ struct ShiftedHeight {
   }
 };
 
-/// Φ = (g + R)/2, R = √(g² + M), M = m₁ L + m₂ L²: E_BP with m₁ = γ² or m₂ = (γ/ℓ)². Always positive.
+/// Φ = (g + R)/2, R = √(g² + M), M = m₁ L + m₂ L². E_BP has m₁ = γ² or m₂ = (γ/ℓ)². Always positive.
 struct SmoothedHeight {
   double m1 = 0, m2 = 0;
 
@@ -164,7 +164,7 @@ struct SmoothedHeight {
     return {(m1 + m2 * l2) * l2, m1 + 2 * m2 * l2};
   }
 
-  /// 1/Φ is 2/(R + |g|) above, 2 (R + |g|)/M below: no cancellation when g < 0.
+  /// 1/Φ is 2/(R + |g|) for g > 0, and 2 (R + |g|)/M below: no cancellation when g < 0.
   template <class T>
   [[nodiscard]] TEMPER_INLINE Fraction<T> inverse(const Base<T>& b, const T& g) const {
     const T sum = square_root(g * g + b.m) + absolute(g);
@@ -241,7 +241,7 @@ struct BarrierKernel {
     const Denominator<T> d = height.denominator(edge.height, g);
     // f = T Q^(−1/2) / Φ: ∂ ln f, then ∂²f = f (∂ ln f ∂ ln f + ∂² ln f).
     const T tl = 2 * alpha * (l * ti), tw = 2 * alpha * (w * ti), tg = 8 * beta * (g * ti);
-    const T ql = l * qi, qw = w * qi;  // of ln √Q, the latter with its sign turned
+    const T ql = l * qi, qw = w * qi;  // of ln √Q, qw with its sign turned
     const T fl = tl - ql - d.l, fw = tw + qw, fg = tg - d.g;
     EdgeTerm<T> term;
     term.f = t * edge.root * qi * d.inverse;

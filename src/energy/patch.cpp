@@ -1,5 +1,5 @@
-// Patch energies. Barriers are sums over triangles; the HOT energies carry a factor per edge that looks at
-// both its triangles (sign of the dual of E_T) and at the boundary.
+// Patch energies. Barriers are sums over triangles. The HOT energies carry a factor per edge, which depends on both its
+// triangles (sign of the dual in E_T) and on the boundary.
 #include "energy/patch.hpp"
 
 #include <array>
@@ -31,7 +31,7 @@ VertexDerivatives from_sums(const std::array<double, kStarSums>& s) {
   return {s[0], true, {s[1], s[2], s[3]}, {s[4], s[5], s[6], s[7], s[8], s[9]}};
 }
 
-/// Room for some numbers of each triangle of a star: on the stack, but for the largest of stars.
+/// Room for some numbers of each triangle of a star: on the stack, except for the largest stars.
 class StarScratch {
  public:
   explicit StarScratch(std::size_t triangles) {
@@ -47,9 +47,9 @@ class StarScratch {
   std::vector<double> elsewhere_;
 };
 
-/// The edges of a star in a HOT energy, and how often each counts: by its sign, which looks at both its triangles, the
-/// treatment of the boundary, and the sign that makes heights on the left of an inverted triangle's edges same-side
-/// ones.
+/// The edges of a star in a HOT energy, and the factor of each. It has three parts: a sign that depends on both
+/// triangles, the treatment of the boundary, and a sign for inverted triangles. The last makes heights on the left of
+/// edges same-side heights.
 class HotStar {
  public:
   HotStar(const Patch& patch, const EnergyModel& model, const EdgeFormula& formula, const WeightedPoint& p)

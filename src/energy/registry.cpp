@@ -1,4 +1,4 @@
-// The registry as users see it, whose table is in edge_kernels.hpp beside the formulas; and the kernels in use.
+// The registry for users, whose table is in edge_kernels.hpp next to the formulas; and the kernels in use.
 #include "base/instruction_set_choice.hpp"
 #include "energy/edge_kernels.hpp"
 #include "energy/star_kernels.hpp"

@@ -14,12 +14,12 @@
 
 namespace temper {
 
-// What goes into each lane of a pack, and comes out of it. Plain arrays, since what uses them is compiled for several
-// instruction sets: they come with no functions.
+// Input and output of each lane of a pack. Plain arrays without functions, since the code that uses them is compiled
+// for several instruction sets.
 
 /// A coordinate: one value for each lane.
 using Lane = double[kLanes];
-/// A mask: all bits of a lane are set where something holds.
+/// A mask: all bits of a lane are set if the condition holds.
 using LaneMask = std::int64_t[kLanes];
 
 struct LanePoints {
@@ -28,7 +28,7 @@ struct LanePoints {
   [[nodiscard]] WeightedPoint at(std::size_t lane) const { return {x[lane], y[lane], w[lane]}; }
 };
 
-/// Triangles, one a lane.
+/// Triangles, one for each lane.
 struct TriangleLanes {
   LanePoints p, q, r;
   void set(std::size_t lane, const std::array<WeightedPoint, 3>& corners) {
@@ -47,7 +47,7 @@ struct ShapeLanes {
   Edge edges[3];
 };
 
-/// Edges ab, one a lane, each seen from a triangle on its left, with d across where it is inner.
+/// Edges ab, one for each lane, each seen from a triangle on its left; inner edges have d across.
 struct alignas(64) EdgeLanes {
   Lane l2, dw, left;    ///< as that triangle has them
   Lane size_a, size_b;  ///< of the local sizes
@@ -62,30 +62,30 @@ struct LinkArrays {
   std::size_t size = 0;  ///< triangles
 };
 
-/// Value, gradient (x, y, w) and Hessian (xx, xy, xw, yy, yw, ww) of a star, in this order; on the sphere in the chart
-/// of its center (geometry/triangle_kernel.hpp).
+/// Value, gradient (x, y, w) and Hessian (xx, xy, xw, yy, yw, ww) of a star, in this order. On the sphere they are in
+/// the chart of its center (geometry/triangle_kernel.hpp).
 inline constexpr std::size_t kStarSums = 10;
 
-/// The results of hot_edges(), written to a multiple of kLanes: for the edges pq, qr, rp of each triangle h ℓ on their
-/// left, and E_F, or E_nF; and S.
+/// The results of hot_edges(), written to a multiple of kLanes. For the edges pq, qr, rp of each triangle: h ℓ on their
+/// left, and E_F or E_nF. Then S of the triangle.
 struct HotEdges {
   double* g[3];
   double* value[3];
   double* doubled_area;
 };
 
-/// The factors by which the edges of triangle i count; readable as far as the link.
+/// The factors of the edges of triangle i; readable as far as the link.
 struct EdgeFactors {
   const double *pq, *qr, *rp;
 };
 
-/// Bit i: triangle i certainly is well-centered, or certainly is not. The rest is for exact predicates.
+/// Bit i: triangle i certainly is well-centered, or certainly is not. Exact predicates decide the rest.
 struct WellCentered {
   unsigned yes, no;
 };
 
 struct StarKernels {
-  /// The sums of a barrier at p. False outside its domain, where they mean nothing.
+  /// The sums of a barrier at p. Returns false outside its domain, and then the sums mean nothing.
   bool (*barrier_derivatives)(const EdgeFormula& formula, const LinkArrays& link, const WeightedPoint& p, double* sums);
   /// The value alone; +∞ outside the domain.
   double (*barrier_value)(const EdgeFormula& formula, const LinkArrays& link, const WeightedPoint& p);
@@ -95,7 +95,7 @@ struct StarKernels {
   /// The values of a barrier of the first n triangles, summed; +∞ when one is outside the domain.
   double (*barrier_sum)(const EdgeFormula& formula, const TriangleLanes& triangles, std::size_t n);
   WellCentered (*well_centered)(const TriangleLanes& triangles);
-  /// Of the accuracy objective: what triangles are, the logarithms of their barriers, and the energies of edges.
+  /// For the accuracy objective: the shapes of triangles, the logarithms of their barriers, and the energies of edges.
   void (*triangle_shapes)(const TriangleLanes& triangles, ShapeLanes& shapes);
   void (*accuracy_logarithms)(const ShapeLanes& shapes, const Lane& floors, Lane& result);
   void (*accuracy_edges)(const AccuracyModel& model, const EdgeLanes& edges, Lane& result);

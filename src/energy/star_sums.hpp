@@ -1,8 +1,8 @@
 // The energy of triangles pqr as a function of their corner p, eight triangles at a time: value, gradient, Hessian.
 //
-// The energy of a triangle is F(pq) + F(qr) + F(rp), each a function of (ℓ², Δw, g): the chain rule, with the
-// derivatives of g from geometry/height_derivatives.hpp. With a = q − p, ∇ℓ² = (−2a, 0) and ∇Δw = (0, 0, 1) for pq, and
-// with b = r − p for rp; both are zero for qr.
+// The energy of a triangle is F(pq) + F(qr) + F(rp), each a function of (ℓ², Δw, g). The chain rule uses the
+// derivatives of g from geometry/height_derivatives.hpp. Edge pq has a = q − p, ∇ℓ² = (−2a, 0) and ∇Δw = (0, 0, 1).
+// Edge rp is likewise with b = r − p; both gradients are zero for qr.
 #pragma once
 
 #include "energy/star_kernels.hpp"
@@ -43,7 +43,7 @@ TEMPER_INLINE SpokeOf<In, Kernel> spoke_of(const Kernel& kernel, const typename 
   return {to, kernel.base(to.l2, to.dw)};
 }
 
-/// Gradient and Hessian of one triangle, edge by edge, so that little has to be kept at a time.
+/// Gradient and Hessian of one triangle, edge by edge, so that few numbers are kept at a time.
 template <class In>
 struct TriangleDerivatives {
   typename In::Heights g;
@@ -64,7 +64,7 @@ struct TriangleDerivatives {
     hessian.ww = hessian.ww + along_w(f.f_lw, dl, f.f_wg * dg.w + f.f_ww);
     add_curvature(to, f.f_l, f.f_w, hessian);
   }
-  /// The derivatives of 4 F/S² from those of F, with m = ∇S; in the plane S is linear in p, on the sphere ∇²S = κ n̂⊗n̂:
+  /// The derivatives of 4 F/S², by the derivatives of F and m = ∇S. In the plane ∇²S = 0, on the sphere ∇²S = κ n̂⊗n̂.
   ///
   ///   4/S² (∇F − 2 F m/S)      4/S² (∇²F − 2 (∇F⊗m + m⊗∇F)/S + 6 F m⊗m/S² − 2 F ∇²S/S)
   TEMPER_INLINE void divide_by_area2(const Pack& f, const SphereSpoke<Pack>&, const SphereSpoke<Pack>&,
@@ -94,7 +94,7 @@ struct TriangleDerivatives {
   }
 };
 
-/// Adds a triangle where `where` is set. The terms of its edges are asked for one after the other. With `over_area2`
+/// Adds a triangle where `where` is set. The terms of its edges are evaluated one after the other. With `over_area2`
 /// all of it is divided by the squared area.
 template <class In, class Mask, class OfQr, class OfPq, class OfRp>
 TEMPER_INLINE void add_triangle(const typename In::Spoke& a, const typename In::Spoke& b, const PackShape& shape,
@@ -121,7 +121,7 @@ TEMPER_INLINE void add_triangle(const typename In::Spoke& a, const typename In::
 /// The lanes where the term of a barrier is inside its domain: positive and finite.
 TEMPER_INLINE Pack::Mask is_inside(const PackTerm& t) { return (t.f > 0) & (t.f < kInfinity); }
 
-/// Adds a barrier. Returns where all is inside its domain, behind the wall if it has one.
+/// Adds a barrier. Returns the lanes where all is inside its domain, behind the wall if it has one.
 template <class In, class Kernel, class Mask>
 TEMPER_INLINE Mask add_barrier(const Kernel& kernel, const SpokeOf<In, Kernel>& a, const SpokeOf<In, Kernel>& b,
                                const typename In::Point& q, const typename In::Point& r, Mask where, StarSums& sum) {
@@ -137,7 +137,7 @@ TEMPER_INLINE Mask add_barrier(const Kernel& kernel, const SpokeOf<In, Kernel>& 
   return inside;
 }
 
-/// A term counted `factor` times.
+/// A term times a factor.
 TEMPER_INLINE PackTerm scaled(const PackTerm& t, Pack factor) {
   return {factor * t.f,    factor * t.f_l,  factor * t.f_w,  factor * t.f_g,  factor * t.f_ll,
           factor * t.f_lw, factor * t.f_lg, factor * t.f_ww, factor * t.f_wg, factor * t.f_gg};
@@ -171,7 +171,7 @@ TEMPER_INLINE TriangleValue triangle_value(const Kernel& kernel, const SpokeOf<I
   return {value, upright & (pq.y > 0) & (qr.y > 0) & (rp.y > 0) & (value < kInfinity)};
 }
 
-/// Adds the value alone. Returns where all is inside its domain.
+/// Adds the value alone. Returns the lanes where all is inside its domain.
 template <class In, class Kernel, class Mask>
 TEMPER_INLINE Mask add_barrier_value(const Kernel& kernel, const SpokeOf<In, Kernel>& a, const SpokeOf<In, Kernel>& b,
                                      const typename In::Point& q, const typename In::Point& r, Mask where, Pack& sum) {

@@ -20,8 +20,8 @@ struct Batch {
   std::size_t size = 0;
 };
 
-/// Calls visit with all triangles of a block that are not erased, in batches. Several of them are filled before the
-/// first is visited: reading eight numbers at once waits long for one that has only just been written.
+/// Calls visit with all triangles of a block that are not erased, in batches. Several are filled before the first is
+/// visited: reading eight numbers at once waits long for a number that has just been written.
 template <class Visit>
 void for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
   std::array<Batch, 4> batches;

@@ -1,4 +1,4 @@
-// Sums and counts over all triangles of a mesh, as they are wanted after every sweep.
+// Sums and counts over all triangles of a mesh, for use after every sweep.
 #pragma once
 
 #include <cstddef>
@@ -15,20 +15,20 @@ namespace temper {
 /// Triangles that are not well-centered, exact. Erased ones are not bad.
 [[nodiscard]] std::size_t count_bad(const Mesh& mesh, Executor* executor);
 
-/// The same of the first n lanes.
+/// The number of bad triangles among the first n lanes.
 [[nodiscard]] std::size_t count_bad(const Space& space, const TriangleLanes& triangles, std::size_t n);
 
 struct EnergyAndBad {
   double energy = 0;
   std::size_t bad = 0;
 };
-/// total_energy() and count_bad(), for the price of little more than one.
+/// The results of total_energy and count_bad, for the price of little more than one.
 [[nodiscard]] EnergyAndBad energy_and_bad(const Mesh& mesh, const EnergyModel& model, const Engine& engine);
 
-/// The same numbers, to the bit, of a mesh that changes in few triangles at a time, by one model.
+/// Computes the same numbers, to the bit, for a mesh that changes in few triangles at a time, by one model.
 class RunningEnergyAndBad {
  public:
-  /// `changed`: all triangles that are not what they were when it was measured last; none given: any may be.
+  /// `changed`: all triangles that have changed since the last measurement; without a list any may have changed.
   [[nodiscard]] EnergyAndBad measure(const Mesh& mesh, const EnergyModel& model,
                                      const std::optional<std::vector<TriangleId>>& changed, const Engine& engine);
 
@@ -36,7 +36,7 @@ class RunningEnergyAndBad {
   std::vector<double> of_blocks_;
 };
 
-/// total_energy() of each model, in one walk, which costs more than the terms.
+/// total_energy() of each model, in one walk, since the walk costs more than the terms.
 [[nodiscard]] std::vector<double> total_energies(const Mesh& mesh, std::span<const EnergyModel> models,
                                                  Executor* executor);
 

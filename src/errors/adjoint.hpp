@@ -1,13 +1,13 @@
-// Derivatives of a number that depends on a mesh through its operators: from those by what schemes see (coefficients,
-// cells, places) to those by x, y and w of each vertex. In the plane.
+// Derivatives of a number that depends on a mesh through its operators, in the plane. Input are derivatives by
+// coefficients, cells and places; output are derivatives by x, y and w of each vertex.
 //
-// The chain begins at the places p and weights w. Of triangle (i, j, k) with e = p_j − p_i, f = p_k − p_i, the
+// The chain begins at the places p and weights w. Let triangle (i, j, k) have e = p_j − p_i and f = p_k − p_i. Its
 // orthocenter is o = p_i + c with
 //
 //     c · e = (e² + w_i − w_j)/2,   c · f = (f² + w_i − w_k)/2
 //
-// and of an edge with its triangle on the left  d = ℓ/2 + (w_i − w_j)/(2ℓ),  h = e × c / ℓ. Read backwards, a
-// derivative by c is λ_1 e + λ_2 f, and λ are those by the right sides.
+// An edge with its triangle on the left has  d = ℓ/2 + (w_i − w_j)/(2ℓ),  h = e × c / ℓ. Read backwards, a derivative
+// by c is λ_1 e + λ_2 f, and λ are the derivatives by the right sides.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@
 
 namespace temper::error_detail {
 
-/// The derivatives by what a scheme is made of, in the units of the mesh; sized by the mesh, zeros at first.
+/// The derivatives by the input of a scheme, in the units of the mesh; sized by the mesh, zeros at first.
 struct Adjoint {
   explicit Adjoint(const Mesh& mesh, const DecComplex& dec);
 

@@ -21,7 +21,7 @@ double& poisson_max(OperatorErrors& e) { return e.poisson.max; }
 double& flux_l2(OperatorErrors& e) { return e.flux.l2; }
 double& flux_max(OperatorErrors& e) { return e.flux.max; }
 
-/// The same of what is not to be changed: a copy, of ten numbers.
+/// Reads a number of constant errors, from a copy of all ten.
 template <double& (*at)(OperatorErrors&)>
 double value_of(const OperatorErrors& errors) {
   OperatorErrors copy = errors;
@@ -49,11 +49,10 @@ constexpr std::array<ErrorMeasure, 10> kMeasures = {{
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
-// Relative errors below are those of rounding: five-point stars are exact for quadratic fields.
+// Relative errors below this are rounding: five-point stars are exact for quadratic fields.
 constexpr double kRounding = 1e-12;
 
-/// Slope of −log2(error) over the number of the level, which is that of error against edge length: each level halves
-/// it.
+/// Slope of −log2(error) over the number of the level. This is the order against edge length, which each level halves.
 double order_of(const std::vector<double>& errors) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (std::size_t level = 0; level < errors.size(); ++level) {
@@ -95,7 +94,7 @@ OperatorErrors geometric_mean(std::span<const FieldErrors> fields, std::optional
   return mean(
       fields, group, [](double value) { return std::log(value); },
       [](double sum, double n) {
-        // An infinite error is not made good by one of zero.
+        // An error of zero does not compensate an infinite one.
         return n == 0 ? 1 : std::isnan(sum) ? kInfinity : std::exp(sum / n);
       });
 }

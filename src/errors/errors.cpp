@@ -1,4 +1,4 @@
-// measure_errors(): the parts in order. Fields one after the other, so that the means of one only are in memory.
+// measure_errors(): the parts in order, one field after the other, so that only one field's means are in memory.
 #include "temper/errors.hpp"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ bool is_closed(const DecComplex& dec) {
   return std::none_of(dec.edges.begin(), dec.edges.end(), [](const DecEdge& edge) { return edge.is_boundary(); });
 }
 
-/// A mesh with its operators, and the setting that refers to both: not to be moved.
+/// A mesh with its operators, and the setting that refers to both: must not be moved.
 struct Subject {
   Subject(const Mesh& m, const FieldFrame& frame, Executor* executor)
       : mesh(m), operators(dec_operators(mesh)), setting{mesh,     operators,

@@ -86,11 +86,11 @@ struct Polynomial {
   Vec3 gradient;
 };
 
-/// Coordinates of a turned frame: by the quaternion 1 + 2i + 3j + 4k, so that no axis of a mesh is one of theirs.
+/// The axes of a turned frame, by the quaternion 1 + 2i + 3j + 4k: no axis of a mesh is one of them.
 constexpr std::array<Vec3, 3> kAxes = {
     {{-2.0 / 3, 2.0 / 15, 11.0 / 15}, {2.0 / 3, -1.0 / 3, 2.0 / 3}, {1.0 / 3, 14.0 / 15, 2.0 / 15}}};
 
-/// On the unit sphere the gradient of P is the part of ∇P that is tangent, ∇P − l P p, and ΔP = −l(l + 1) P: so the
+/// On the unit sphere the gradient of P is the part of ∇P that is tangent, ∇P − l P p. As ΔP = −l(l + 1) P, the
 /// divergence of −∇P/(l(l + 1)) is P.
 template <class... Polynomials>
 FieldValue harmonics(Place p, const Polynomials&... terms) {
@@ -186,7 +186,7 @@ constexpr std::array<Field, 8> kPeriodicFields = {{
     fourier("spectrum", FieldGroup::held_back, "sin(x + 0.7) + 0.5 cos(y + 0.1) + 0.25 sin(2 x - y)", kSpectrum),
 }};
 
-/// Of a mode the divergence of −cos(k · p + phase) k/|k|² is the mode.
+/// For a mode, the divergence of −cos(k · p + phase) k/|k|² is the mode.
 FieldValue value_of(const FourierMode& mode, Vec2 wave, Place p) {
   const Vec2 k = {mode.m * wave.x, mode.n * wave.y};
   const double angle = k.x * p.x + k.y * p.y + mode.phase, squared = squared_length(k);
@@ -218,7 +218,7 @@ std::string known_fields(SpaceKind space) {
   return text;
 }
 
-constexpr int kPieces = 8;  // of each side, so that the rule's error is that of rounding
+constexpr int kPieces = 8;  // of each side, so that the rule's error is rounding
 
 FieldSize size_in_plane(const Field& field) {
   FieldSize sum;
@@ -233,7 +233,7 @@ FieldSize size_in_plane(const Field& field) {
   return {std::sqrt(sum.value), std::sqrt(sum.gradient)};
 }
 
-/// Gauss in z, by which area is measured, and equal steps in longitude: exact, for they are polynomials.
+/// Gauss's rule in z, which measures area, and equal steps in longitude: exact for polynomials.
 FieldSize size_on_sphere(const Field& field) {
   constexpr int kSteps = 32;
   FieldSize sum;

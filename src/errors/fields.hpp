@@ -1,5 +1,5 @@
-// The manufactured solutions: in the plane functions of the frame's coordinates, of order 1 in [−1, 1]²; on the sphere
-// sums of spherical harmonics, of directions; in a periodic plane sums of Fourier modes.
+// The manufactured solutions. In the plane they are functions of the frame's coordinates, of order 1 in [−1, 1]². On
+// the sphere they are sums of spherical harmonics of directions, in a periodic plane sums of Fourier modes.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 
 namespace temper::error_detail {
 
-// Gauss quadrature with four points on equal pieces: exact for degree 7, and far below what it measures for smooth
-// fields, because pieces are short against their wave lengths.
+// Gauss quadrature with four points on equal pieces: exact for degree 7. For smooth fields its error is far below the
+// measured errors, because pieces are short against their wave lengths.
 
 struct GaussNode {
   double at = 0;      ///< in (0, 1)
@@ -40,7 +40,7 @@ inline std::vector<GaussNode> gauss_nodes(int pieces) {
 
 // Fields have wave numbers of at most 3 in the frame: over a quarter, the rule is right to 1e-10.
 inline constexpr double kPiece = 0.25;
-// Where triangles are so flat that orthocenters lie hundreds of domains away, time is bounded and not the error.
+// If triangles are so flat that orthocenters lie hundreds of domains away, this bounds the time, not the error.
 inline constexpr double kMostPieces = 4096;
 
 /// Calls sample(point, weight) over the segment from a to b; the weights sum to 1, also when a = b.
@@ -86,15 +86,15 @@ struct Field {
 };
 [[nodiscard]] std::span<const Field> all_fields(SpaceKind space = SpaceKind::plane);
 
-/// Root mean squares over [−1, 1]², or over the sphere or the domain of two periods, which errors are relative to: they
-/// do not depend on any mesh.
+/// Root mean squares over [−1, 1]², over the sphere, or over the domain of two periods. Errors are relative to them,
+/// and they do not depend on any mesh.
 struct FieldSize {
   double value = 0;
   double gradient = 0;
 };
 [[nodiscard]] FieldSize size_of(const Field& field);
 
-/// The wave numbers of the first Fourier modes; along an axis without a period those of a wave of about its length.
+/// The wave numbers of the first Fourier modes; along an axis without a period the wave is about as long as the frame.
 [[nodiscard]] Vec2 first_waves(const Space& space, const FieldFrame& frame);
 
 /// The fields that MeasureErrorsOptions::fields asks for, in the order of all_fields(), each once.

@@ -26,7 +26,7 @@ std::vector<std::size_t> number_inner_vertices(const Setting& s, std::size_t& co
   return unknowns;
 }
 
-/// What ★0 f lacks to sum to nothing, as it must on a closed mesh, for each area.
+/// The deficit of ★0 f per area: on a closed mesh the sum must be zero.
 double surplus(const Setting& s, const Field& field) {
   if (!s.is_closed) return 0;
   double sum = 0, area = 0;
@@ -118,17 +118,17 @@ SchemeErrors poisson_errors(const Setting& s, const std::vector<Field>& fields, 
   return result;
 }
 
-// Two-point flux between orthocenters. Of triangle k:  Σ ℓ / (h_k + h_l) (u_k − u_l) + Σ ℓ / h_k (u_k − u_b) = ∫ f,
-// where u_b is the solution at the weighted midpoint of a boundary edge and ∫ f is exact, −∮ ∇u · n.
+// Two-point flux between orthocenters. In triangle k:  Σ ℓ / (h_k + h_l) (u_k − u_l) + Σ ℓ / h_k (u_k − u_b) = ∫ f.
+// Here u_b is the solution at the weighted midpoint of a boundary edge, and ∫ f = −∮ ∇u · n is exact.
 //
-// Orthocenters that coincide (a dual edge of no length: cocircular points) have one value, to which the scheme tends as
-// the coefficient grows without bound; their triangles are one cell. An orthocenter on the boundary has the value
+// If orthocenters coincide (a dual edge of no length: cocircular points) they have one value, the limit of the scheme
+// as the coefficient grows without bound. Their triangles are one cell. An orthocenter on the boundary has the value
 // there.
 
 namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-// The dual length against the edge's: a coefficient beyond 1e10 would take as many digits from all others.
+// The dual length relative to the edge's: a coefficient beyond 1e10 would take as many digits from all others.
 constexpr double kCoincident = 1e-10;
 
 /// The least member of the set that i is in.

@@ -1,5 +1,5 @@
-// The two model problems, −Δu = f with u given on the boundary. On a closed mesh of the sphere there is none: u is
-// known but for a constant, so one unknown is given, and the mean of the error is taken from it.
+// The two model problems, −Δu = f with u given on the boundary. A closed mesh of the sphere has no boundary: u is known
+// up to a constant. So one unknown is given, and the mean of the error is subtracted.
 #pragma once
 
 #include <vector>
@@ -11,19 +11,19 @@
 
 namespace temper::error_detail {
 
-/// A scheme as a matrix, and what it does to each field in turn: made once, given the fields, solved once.
+/// A scheme as a matrix, with all its fields: made once, given the fields, solved once.
 struct SchemeErrors {
   ErrorSystem system;
   std::vector<ErrorNorms> fields;
 };
 
-/// Vertex-centered: d0ᵀ ★1 d0 u = ★0 f at inner vertices, f at the vertex; u given at those of the boundary.
+/// Vertex-centered: d0ᵀ ★1 d0 u = ★0 f at inner vertices, f at the vertex. u is given at boundary vertices.
 [[nodiscard]] SchemeErrors poisson_errors(const Setting& setting, const std::vector<Field>& fields, bool condition);
 
-/// Takes the weighted mean from errors of a mesh without boundary, in place.
+/// Subtracts the weighted mean from errors of a mesh without boundary, in place.
 void forget_constant(const std::vector<double>& weights, std::vector<double>& errors);
 
-/// The two-point flux: its matrix once, then a right side a field.
+/// The two-point flux: its matrix once, then one right side per field.
 class FluxScheme {
  public:
   explicit FluxScheme(const Setting& setting);
@@ -57,12 +57,11 @@ struct Measured {
 /// The orders of convergence of each field, by least squares. See ErrorReport::orders.
 [[nodiscard]] std::vector<FieldErrors> convergence_orders(const std::vector<ErrorLevel>& levels);
 
-/// Divides every triangle into four. Weights are w/2 at the vertices and linear between, (w_i + w_j)/4 at the
-/// midpoints. So each child at a corner is similar to its parent, orthocenter and all, and an edge's halves have half
-/// of its dual length. No weights would do that for the fourth, turned child as well: those that the three fix have the
-/// opposite sign there. Inside of a triangle these weights are linear, and the four are Delaunay among themselves
-/// unless the parent is obtuse; then edges are not regular any more, and flips restore that where the parent mesh was
-/// regular.
+/// Divides every triangle into four. Weights are w/2 at the vertices and linear between them: (w_i + w_j)/4 at the
+/// midpoints. So each child at a corner is similar to its parent, with its orthocenter, and half an edge has half its
+/// dual length. The fourth, turned child would need weights of the opposite sign, so it is not similar. Inside a
+/// triangle these weights are linear, and the four are Delaunay among themselves unless the parent is obtuse. Then
+/// edges are no longer regular, and flips restore that if the parent mesh was regular.
 [[nodiscard]] Expected<Mesh> refined(const Mesh& mesh);
 
 }  // namespace temper::error_detail

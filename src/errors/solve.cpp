@@ -20,8 +20,8 @@ using Index = Eigen::Index;
 
 // The residual against |A| |x| + |b|: rounding leaves 1e-16 times a small power of n; a failed solution leaves 1.
 constexpr double kResidual = 1e-8;
-// Of the matrix scaled to a diagonal of ±1. Rounding of its entries alone turns a singular matrix into one of 1e16; a
-// million unknowns of a sound one make 1e7.
+// The bound for the matrix scaled to a diagonal of ±1. Rounding of entries alone gives a singular matrix a condition of
+// 1e16; a million unknowns of a sound matrix give 1e7.
 constexpr double kSingularCondition = 1e13;
 constexpr int kSingularSteps = 8;
 constexpr int kPowerSteps = 200;  // largest and least eigenvalue to a few percent
@@ -30,7 +30,7 @@ Vector to_vector(const std::vector<double>& values) {
   return Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size()));
 }
 
-/// S with S A S of diagonal ±1: rows of very unlike size are no reason to call a matrix singular.
+/// S with S A S of diagonal ±1, so that a matrix is not called singular for rows of very different sizes.
 Vector scaling_of(const LinearSystem& system) {
   Vector diagonal = Vector::Zero(static_cast<Index>(system.unknowns));
   for (const auto& [row, column, value] : system.lower) {
@@ -39,7 +39,7 @@ Vector scaling_of(const LinearSystem& system) {
   return diagonal.unaryExpr([](double d) { return d == 0 ? 1.0 : 1 / std::sqrt(std::abs(d)); });
 }
 
-/// S A S, both triangles, so that a product and LU need not know of symmetry.
+/// S A S, both triangles: products and LU then do not depend on symmetry.
 Matrix scaled_matrix(const LinearSystem& system, const Vector& scaling) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(2 * system.lower.size());
@@ -64,7 +64,7 @@ double norm_of(const Matrix& matrix) {
   return most;
 }
 
-/// |λ| that repeated application tends to, from below; from a start that no symmetry of a mesh shares.
+/// The limit of |λ| under repeated application, from below. The start has no symmetry of a mesh.
 template <class Apply>
 double power_iteration(Index n, int steps, const Apply& apply) {
   Vector x(n);
@@ -103,7 +103,7 @@ bool solve_all(const Scaled& scaled, const Solver& solver, LinearSolution& resul
     const Vector y = solver.solve(b);
     const double rounding = size * y.template lpNorm<Eigen::Infinity>() + b.template lpNorm<Eigen::Infinity>();
     const Vector residual = scaled.matrix * y - b;
-    // A right side that overflowed is no fault of the matrix: its solution overflows too.
+    // If a right side overflowed, its solution does, too: the matrix is not at fault.
     const bool overflow = !b.allFinite();
     if (!overflow && !(residual.template lpNorm<Eigen::Infinity>() <= kResidual * rounding)) return false;
     const Vector x = scaled.scaling.cwiseProduct(y);
@@ -112,7 +112,7 @@ bool solve_all(const Scaled& scaled, const Solver& solver, LinearSolution& resul
   return true;
 }
 
-/// The condition number of the matrix as it is, not of the scaled one: A x = S⁻¹ (S A S) S⁻¹ x.
+/// The condition number of the unscaled matrix: A x = S⁻¹ (S A S) S⁻¹ x.
 template <class Solver>
 double condition_of(const Scaled& scaled, const Solver& solver) {
   const Vector& s = scaled.scaling;
@@ -142,8 +142,8 @@ bool all_finite(const LinearSystem& system) {
 
 using Lu = Eigen::SparseLU<Matrix>;
 
-/// Eigen 3.4 gives back a vector's memory before it asks for more, and gives it back again in the destructor when there
-/// is no more. So what memory ran out for is left as it is, and never ends.
+/// When memory runs out, Eigen 3.4 frees a vector twice: before it asks for more, and in the destructor. So a
+/// factorization that ran out of memory is never destroyed.
 std::unique_ptr<Lu> lu_of(const Matrix& matrix) {
   auto lu = std::make_unique<Lu>();
   try {

@@ -1,4 +1,4 @@
-// Sparse symmetric systems, by Eigen: the only file that knows of it is solve.cpp.
+// Sparse symmetric systems, by Eigen, which solve.cpp alone includes.
 #pragma once
 
 #include <cstddef>
@@ -23,18 +23,18 @@ struct LinearSystem {
 struct LinearSolution {
   bool definite = false;                       ///< all pivots of LDLᵀ positive
   bool singular = false;                       ///< then there are no solutions
-  std::vector<std::vector<double>> solutions;  ///< one a right side
+  std::vector<std::vector<double>> solutions;  ///< one for each right side
   std::optional<double> condition = {};        ///< |λ| largest over least, from below; +∞ when singular
 };
 
-/// LDLᵀ where the matrix is positive definite, LU with pivoting where it is not. A matrix is called singular when
-/// neither gives solutions whose residual is that of rounding.
+/// LDLᵀ for a positive definite matrix, else LU with pivoting. A matrix is called singular when neither gives solutions
+/// with a residual of the size of rounding.
 [[nodiscard]] LinearSolution solve(const LinearSystem& system, bool with_condition);
 
 /// A positive definite matrix, factored for many right sides.
 class Cholesky {
  public:
-  /// None where a pivot is not positive, or an entry not finite.
+  /// Nothing if a pivot is not positive, or an entry not finite.
   [[nodiscard]] static std::optional<Cholesky> of(std::size_t unknowns, const std::vector<MatrixEntry>& lower);
   /// Solves for the right side, in its place.
   void solve(std::vector<double>& right) const;

@@ -1,9 +1,9 @@
 // See make_discretization_error() in temper/errors.hpp. The mean squared error of a scheme over many waves, and its
 // derivatives by the discrete adjoint.
 //
-// Of the system A v = b(u) that a scheme solves for a wave u, with the squared error J = c Σ m e², e = v − u at the
-// unknowns and m their areas: with the adjoint A λ = 2 c m e the derivative of J by anything in A, b, m or u, v being
-// whatever they make it, is that of J − λᵀ(A v − b) with v and λ kept.
+// A scheme solves A v = b(u) for a wave u. The squared error is J = c Σ m e², e = v − u at the unknowns and m their
+// areas. The adjoint λ solves A λ = 2 c m e. Now v depends on A, b, m and u. The total derivative
+// of J by any of them is the derivative of J − λᵀ(A v − b) with v and λ kept.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -70,7 +70,7 @@ class Solver {
   Solver& operator=(const Solver&) = delete;
 
   [[nodiscard]] bool is_definite() const { return matrix_.has_value(); }
-  /// The squared error of one wave, and where `by` is not null its derivatives, added there.
+  /// The squared error of one wave. If `by` is not null, adds its derivatives there.
   [[nodiscard]] virtual double error(const Wave& wave, Adjoint* by) const = 0;
 
  protected:
@@ -224,7 +224,7 @@ class CellSolver final : public Solver {
     }
     const double difference = lambda[edge.left.index] - lambda[edge.right.index];
     by.transmissibility[id] -= difference * (solution[edge.left.index] - solution[edge.right.index]);
-    // ∫ f over the triangle on the left grows where the edge goes to the right, by f times the way.
+    // ∫ f over the triangle on the left grows by f times the way if the edge moves to the right.
     const Vec2 right = difference * Vec2{e.y, -e.x};
     along_segment(a, b, [&](Vec2 p, double weight) {
       const double t = dot(p - a, e) / squared_length(e), f = weight * wave.source(p);
@@ -290,7 +290,7 @@ class SolverErrorModel final : public DiscretizationError {
     return errors;
   }
 
-  /// The sum over all waves, and of their derivatives, in an order that no number of threads changes.
+  /// The sum over all waves, and over their derivatives, in an order independent of the number of threads.
   static double mean_error(const Solver& solver, const ErrorSubject& subject, Adjoint* by, Executor* executor) {
     const std::vector<Wave>& waves = subject.waves;
     std::vector<double> sums((waves.size() + kBatch - 1) / kBatch, 0.0);

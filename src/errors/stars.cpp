@@ -29,7 +29,7 @@ PathMean mean_along_segment(const Field& field, Vec2 a, Vec2 b) {
 EdgeMeans means_in_plane(const Setting& s, const Field& field, const DecEdge& edge) {
   const WeightedPoint p = s.mesh.point(edge.from), q = s.mesh.point(edge.to, p);
   const Vec2 from = s.in_frame(p.position()), to = s.in_frame(q.position()), middle = s.in_frame(edge.midpoint);
-  // The dual edge is straight: it runs along the normal from one orthocenter to the other, also where it runs back.
+  // The dual edge is straight: it runs along the normal from one orthocenter to the other, or back if it is negative.
   const Vec2 normal = turned_left(direction(s, edge));
   const Vec2 right = middle - s.length_in_frame(edge.right_height) * normal;
   const Vec2 left = middle + s.length_in_frame(edge.left_height) * normal;
@@ -42,8 +42,8 @@ EdgeMeans means_in_plane(const Setting& s, const Field& field, const DecEdge& ed
   return means;
 }
 
-/// The great circles of an edge and of its dual, which cross in its midpoint: places by their angle from there, along
-/// the one and to the left on the other.
+/// The great circles of an edge and of its dual, which cross in its midpoint. Places are angles from there, positive
+/// along the edge, and to the left on the dual.
 struct Cross {
   Vec3 middle, along, left;
 
@@ -116,7 +116,7 @@ std::vector<double> dual_cell_integrals(const Setting& s, const IdVector<EdgeId,
   return integrals;
 }
 
-/// ∫ u over each triangle, the same way.
+/// ∫ u over each triangle, by ∮ V · n around it.
 std::vector<double> triangle_integrals(const Setting& s, const IdVector<EdgeId, EdgeMeans>& means) {
   std::vector<double> integrals(s.mesh.n_triangles(), 0.0);
   for (std::size_t i = 0; i < means.size(); ++i) {

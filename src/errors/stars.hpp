@@ -43,26 +43,25 @@ struct Setting {
 /// +1 where the domain is on the left of a boundary edge, −1 where it is on the right.
 inline double inner_side(const DecEdge& edge) { return edge.left.valid() ? 1 : -1; }
 
-/// Unit vector from `from` to `to`, in the coordinates of the edge's means: those of the plane, or on the sphere along
-/// the edge and to the left of it.
+/// Unit vector from `from` to `to`, in the coordinates of the edge's means: x and y of the plane, or on the sphere
+/// along the edge and to its left.
 inline Vec2 direction(const Setting& setting, const DecEdge& edge) {
   if (!setting.is_plane()) return {1, 0};
   const WeightedPoint from = setting.mesh.point(edge.from), to = setting.mesh.point(edge.to, from);
   return (1 / edge.length) * (to.position() - from.position());
 }
-/// The same a quarter turn to the left.
+/// A vector turned a quarter turn to the left.
 inline Vec2 turned_left(Vec2 t) { return {-t.y, t.x}; }
-/// And to the right.
 inline Vec2 turned_right(Vec2 t) { return {t.y, -t.x}; }
 
 /// Errors are reported as +∞ and never as NaN.
 inline double finite_or_infinity(double value) { return std::isfinite(value) ? value : HUGE_VAL; }
 
-// Means of a field along each edge and its dual edge: all that the stars and the right-hand sides are made of. Areas
-// need no quadrature of their own: ∫ u = ∮ V · n with div V = u, and ∫ Δu = ∮ ∇u · n.
+// Means of a field along each edge and its dual edge: the stars and the right-hand sides are made of them. Areas need
+// no quadrature of their own: ∫ u = ∮ V · n with div V = u, and ∫ Δu = ∮ ∇u · n.
 
 /// Vectors in the coordinates of direction(): x, y of the plane, or along and to the left of the edge. (On the sphere
-/// these two turn on the way along an arc as it does.)
+/// these two directions turn along an arc.)
 struct EdgeMeans {
   Vec2 gradient;        ///< of ∇u, along the edge
   Vec2 dual_gradient;   ///< along the dual edge
@@ -72,18 +71,18 @@ struct EdgeMeans {
   Vec2 to_potential;    ///< and from there to `to`
 };
 
-/// The means over each edge, computed on the executor's threads; the same for any.
+/// The means over each edge, computed on the executor's threads; equal for any executor.
 [[nodiscard]] IdVector<EdgeId, EdgeMeans> edge_means(const Setting& setting, const Field& field);
 
-/// The error of the mean over each vertex, edge and triangle: what is left of the form's size.
+/// The error of the mean over each vertex, edge and triangle, relative to the form's size.
 using LocalErrors = std::array<std::vector<double>, 3>;
 
-/// Relative, of ★0, ★1, ★2: as ErrorReport::local has them.
+/// Relative errors of ★0, ★1, ★2: see ErrorReport::local.
 [[nodiscard]] LocalErrors local_star_errors(const Setting& setting, const Field& field,
                                             const IdVector<EdgeId, EdgeMeans>& means);
 
-/// |σ| |∗σ| of each vertex, edge and triangle, in the frame: what their errors weigh. Areas and lengths of the pieces,
-/// without their signs.
+/// |σ| |∗σ| of each vertex, edge and triangle, in the frame: the weights of their errors. These are areas and lengths
+/// of the pieces, without their signs.
 [[nodiscard]] LocalErrors star_weights(const Setting& setting);
 
 /// √(Σ weight · error² / (area · n)) and the largest error; n is 2 of ★1, whose weights make twice the area.

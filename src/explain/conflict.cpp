@@ -17,7 +17,7 @@ namespace {
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::size_t kFew = 60;  // a program for each is well below a second
 
-/// Those that are tried first to do without: good ones before bad ones, whatever their numbers.
+/// Sorts triangles by the order in which to drop them: good ones before bad ones, whatever their numbers.
 void sort_for_dropping(const Mesh& mesh, TriangleId kept, std::vector<TriangleId>& triangles) {
   struct Key {
     double margin;
@@ -57,8 +57,8 @@ std::optional<Conflict> drop_what_can_be(const Mesh& mesh, std::vector<TriangleI
   return Conflict{std::move(triangles), std::move(best)};
 }
 
-/// The triangles that the terms speak of; for a crossing both sides of its edge, unless a height has named one already.
-/// None but those `among`, when there are any.
+/// The triangles that the terms name. A crossing names both sides of its edge, unless a height has named one already.
+/// Only triangles of `among`, unless it is empty.
 std::vector<TriangleId> triangles_of(const Mesh& mesh, const Certificate& certificate,
                                      std::span<const TriangleId> among) {
   std::vector<TriangleId> triangles;
@@ -92,7 +92,7 @@ bool has_corner(const Mesh& mesh, TriangleId t, VertexId v) {
   return std::find(corners.begin(), corners.end(), v) != corners.end();
 }
 
-/// The angles of the domain at v, or of a full turn.
+/// The angle of the domain at v; a full turn inside.
 double angle_around(const Mesh& mesh, VertexId v) {
   if (!mesh.is_boundary(v)) return 360;
   double angle = 0;
@@ -116,7 +116,7 @@ std::optional<Conflict> find_conflict(const Mesh& mesh, std::span<const Triangle
   if (auto conflict = drop_what_can_be(mesh, triangles_of(mesh, best.certificate, triangles), kept, solver)) {
     return conflict;
   }
-  // The certificate leaned on triangles that it has no term of, to bound a residual.
+  // The certificate used triangles without a term, to bound a residual.
   if (triangles.size() > kFew) return std::nullopt;
   return drop_what_can_be(mesh, std::vector<TriangleId>(triangles.begin(), triangles.end()), kept, solver);
 }
@@ -145,7 +145,7 @@ std::optional<FanCenter> fan_center(const Mesh& mesh, std::span<const TriangleId
         if (l > here.longest_length) here.longest_length = l, here.longest = u;
       }
     }
-    // Of two common vertices the corner of the domain says more, then the larger angle.
+    // If there are two common vertices, a corner of the domain is preferred, then the larger angle.
     const double rank = angle + (here.on_boundary ? 10 : 0);
     if (rank <= widest) continue;
     widest = rank;
@@ -174,10 +174,10 @@ std::vector<VertexId> free_vertices(const Mesh& mesh, std::span<const TriangleId
 
 namespace {
 
-// Relative to the edge's length: less disagreement than this is rounding, and no sentence is made of it.
+// Relative to the edge's length: less disagreement than this is rounding, and no sentence mentions it.
 constexpr double kDisagreement = 1e-9;
 
-/// A half plane or a hemisphere: n · x > 0, for x = (x, y, 1) in the plane and directions x on the sphere.
+/// A half plane or a hemisphere: n · x > 0. Here x is (x, y, 1) in the plane, and a direction on the sphere.
 struct HalfSpace {
   Vec3 normal;
   [[nodiscard]] double height(Vec3 x) const { return dot(normal, x); }
@@ -197,7 +197,7 @@ Polygon clip(const Polygon& polygon, const HalfSpace& space) {
   return result;
 }
 
-/// The segment from p to q, and where feet on it are.
+/// The segment from p to q, and the interval of feet on it.
 class Segment {
  public:
   Segment(const Space& space, Vec3 p, Vec3 q) : space_(space), p_(p) {
@@ -215,7 +215,7 @@ class Segment {
     if (space_.is_plane()) return beyond(0).height(o);
     return space_.radius() * std::atan2(dot(o, along_), dot(o, p_));
   }
-  /// d grows along any way from one corner of a polygon to another, or falls.
+  /// d is monotone along every side of a polygon, so its range is between values at corners.
   [[nodiscard]] Interval feet(const Polygon& polygon) const {
     Interval interval = {kUnbounded, -kUnbounded};
     for (const Vec3 o : polygon) {
@@ -230,8 +230,8 @@ class Segment {
   Vec3 p_, along_;  // on the sphere of length 1
 };
 
-/// Passes intervals through a tree of triangles. Positions in the plane are taken from a corner of the first triangle
-/// on, so that far from the origin no digits are lost.
+/// Passes intervals through a tree of triangles. Positions in the plane are relative to a corner of the first triangle,
+/// so that no digits are lost far from the origin.
 class Tree {
  public:
   Tree(const Mesh& mesh, std::span<const TriangleId> triangles)
@@ -244,7 +244,7 @@ class Tree {
 
   [[nodiscard]] bool has(TriangleId t) const { return std::binary_search(triangles_.begin(), triangles_.end(), t); }
 
-  /// The halfedges with a triangle of the set on both sides, one an edge.
+  /// The halfedges with a triangle of the set on both sides, one for each edge.
   [[nodiscard]] std::vector<HalfedgeId> shared() const {
     std::vector<HalfedgeId> edges;
     for (const TriangleId t : triangles_) {
@@ -256,7 +256,7 @@ class Tree {
     return edges;
   }
 
-  /// Joined by shared edges, and by nothing else: each edge that is passed adds one triangle and one vertex.
+  /// Joined by shared edges, and by nothing else: each shared edge adds one triangle and one vertex.
   [[nodiscard]] bool is_tree() const {
     std::vector<TriangleId> reached = {triangles_.front()};
     for (std::size_t i = 0; i < reached.size(); ++i) {
@@ -277,7 +277,7 @@ class Tree {
     CrossingSide result;
     Polygon inside = region_of(h, result);
     const Interval interval = from_origin(h).feet(inside);
-    // Clipping leaves the last digits beyond the ends.
+    // Clipping moves the last digits beyond the ends.
     result.from = std::max(interval.from, 0.0), result.to = std::min(interval.to, length_of(h));
     return result;
   }

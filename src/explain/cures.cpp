@@ -1,7 +1,7 @@
-// The best margin of the neighborhood is a continuous function of where a vertex stands, whether it was there before
-// or has just been inserted: so places are first tried, and the best of them is improved by compass search. Changes
-// that insert a vertex are tried with the edges as the split leaves them and, flipped until it is Delaunay, as an
-// optimization would; the outer edges of the neighborhood stay.
+// The best margin of the neighborhood is a continuous function of the place of a vertex, old or newly inserted. So
+// places are first tried, and compass search improves the best of them. Changes that insert a vertex are tried twice:
+// with the edges as the split leaves them, and flipped until the patch is Delaunay, as an optimization would do. The
+// outer edges of the neighborhood stay.
 #include "explain/cures.hpp"
 
 #include <algorithm>
@@ -90,7 +90,7 @@ std::optional<Patch> patch_of(const Mesh& mesh, const Conflict& conflict, std::s
   return patch;
 }
 
-/// A change that was tried, and how good weights can make the patch after it.
+/// A trial of a change, and the best quality that weights can give the patch after it.
 struct Trial {
   double margin = -kUnbounded;
   std::size_t triangles = 0;
@@ -98,7 +98,7 @@ struct Trial {
   [[nodiscard]] bool cures() const { return exact && margin > kCured; }
 };
 
-/// Judges a mesh by all its triangles but the excused ones.
+/// Judges a mesh by all its triangles, except the excused ones.
 Trial judge(const Mesh& mesh, const std::vector<Triple>& excused, LpSolver& solver) {
   std::vector<TriangleId> asked;
   for (const TriangleId t : mesh.triangles()) {
@@ -154,7 +154,7 @@ class CureFinder {
   CureFinder(Patch patch, LpSolver& solver)
       : patch_(std::move(patch)), surface_(patch_.mesh.space()), solver_(solver) {}
 
-  /// First with the whole neighborhood; where that has more conflicts than this one, with what the change touches.
+  /// First with the whole neighborhood; if that has further conflicts, with the triangles that the change touches.
   std::vector<Cure> run() {
     for (const bool conflict_only : {false, true}) {
       conflict_only_ = conflict_only;
@@ -204,7 +204,7 @@ class CureFinder {
     return {patch_.in_mesh(patch_.mesh.origin(h)), patch_.in_mesh(patch_.mesh.target(h))};
   }
 
-  /// A place for vertex v, and how good the mesh is that make(place) gives: nothing where v cannot stand.
+  /// A place for vertex v, and the quality of the mesh that make(place) gives: nothing if v cannot be there.
   struct Place {
     Vec3 at;
     Trial trial;
@@ -257,7 +257,7 @@ class CureFinder {
     }
   }
 
-  /// insert(place) is the mesh with the new vertex, which is the last: with the edges as they then are, and Delaunay.
+  /// insert(place) is the mesh with the new vertex, which is the last. It is tried with these edges, and Delaunay.
   template <class Insert>
   void offer_inserted(Cure cure, const Insert& insert, Vec3 start, double step, std::optional<Vec3> along) {
     const VertexId v(patch_.mesh.n_vertices());
@@ -295,7 +295,7 @@ class CureFinder {
     }
   }
 
-  /// The places where the edge of h may be split: its middle, and below the corner across on either side.
+  /// The places where the edge of h may be split: its midpoint, and the foot of the opposite corner on either side.
   [[nodiscard]] std::vector<Vec3> places_on(HalfedgeId h) const {
     const Mesh& mesh = patch_.mesh;
     const Vec3 p = position_at(mesh, mesh.origin(h)), q = position_at(mesh, mesh.target(h));

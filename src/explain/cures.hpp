@@ -10,9 +10,9 @@
 
 namespace temper {
 
-/// Cures for a conflict: of each way to change the mesh the best that was found, those that leave the boundary and the
-/// vertices as they are first. `others` are bad triangles that other reasons own: they are not asked to be good.
-/// When none is verified: the cures that may help.
+/// Cures for a conflict, the best one for each way to change the mesh. Cures that keep the boundary and the vertices
+/// come first. `others` are bad triangles of other reasons, which may stay bad. If no cure is verified, these are the
+/// cures that may help.
 [[nodiscard]] std::vector<Cure> find_cures(const Mesh& mesh, const Conflict& conflict,
                                            std::span<const TriangleId> others, LpSolver& solver);
 

@@ -6,8 +6,8 @@
 //   nothing found, the mesh not too large: the whole mesh                                 edge, fan, patch
 //   what is left has weights                                                              weights
 //
-// A triangle that a reason owns is left out of all later questions. So conflicts have no bad triangle in common, each
-// has at least one (the present weights suit any set without), and each needs a cure of its own.
+// A triangle of one reason is left out of all later questions. So conflicts have no bad triangle in common, and each
+// needs a cure of its own. Each conflict has at least one bad triangle: the present weights suit any set without one.
 #include "temper/explain.hpp"
 
 #include <algorithm>
@@ -85,7 +85,7 @@ class Explainer {
     if (reason.kind == ReasonKind::split) return -1;
     return reason.kind == ReasonKind::weights ? 2 : reason.kind == ReasonKind::undecided ? 1 : 0;
   }
-  /// Rounded: twins of a symmetric mesh are told in the order of their places, whatever the last digits say.
+  /// Rounded: twins of a symmetric mesh are listed in the order of their places, whatever their last digits.
   [[nodiscard]] static double severity(const Reason& reason) {
     if (reason.must_split) return std::round(reason.must_split->sum / kSame);
     return std::round((rank(reason) == 0 ? reason.margin : reason.least_margin) / kSame);
@@ -107,7 +107,7 @@ class Explainer {
     reason.at = bad.front().at;
   }
 
-  /// The bad triangles at each edge that must be split; where these are good, the bad ones near.
+  /// The bad triangles at each edge that must be split; if these triangles are good, the bad ones near the edge.
   void own_edges_to_split() {
     if (bad_.empty()) return;
     for (const EdgeConflict& c : edges_that_must_be_split(mesh_)) {
@@ -182,7 +182,7 @@ class Explainer {
     result_.verdict = Feasibility::infeasible;
   }
 
-  /// Conflicts among these triangles, until there are none that need `seed`. Each owns a bad triangle at least.
+  /// Conflicts among these triangles, until none needs `seed`. Each owns at least one bad triangle.
   void find_conflicts(const std::vector<TriangleId>& region, TriangleId seed) {
     while (state_[seed] == kUnexplained) {
       std::optional<Conflict> conflict = find_conflict(mesh_, without_owned(region), seed, solver_);
@@ -271,7 +271,7 @@ class Explainer {
     }
   }
 
-  /// Says whether weights were found that suit these triangles, asked together; measures their margin.
+  /// Says whether weights exist that suit these triangles together; measures their margin.
   bool have_weights(Reason& reason, const std::vector<TriangleId>& triangles) {
     const BestMargin best = best_margin(mesh_, triangles, solver_);
     reason.margin = std::min(reason.margin, best.margin);
@@ -279,8 +279,8 @@ class Explainer {
     return best.status == LpStatus::optimal && suits(mesh_, triangles, best);
   }
 
-  /// Finds the margin of the region; where that is too large or close to a conflict, that of each bad triangle with
-  /// those that touch it.
+  /// Finds the margin of the region. If the region is too large or close to a conflict, finds the margins of each bad
+  /// triangle with the triangles that touch it.
   void find_margin(Reason& reason, const std::vector<TriangleId>& region) {
     reason.margin = kUnbounded;
     bool found = !region.empty() && have_weights(reason, region);

@@ -1,4 +1,4 @@
-// Reasons and cures in words. Vertices, edges and triangles are called as quality reports call them.
+// Reasons and cures in words. Vertices, edges and triangles have the names of quality reports.
 #include <algorithm>
 #include <array>
 
@@ -132,7 +132,7 @@ class Speaker {
     const bool left_is_near = c.left.to <= c.right.from;
     const CrossingSide& near = left_is_near ? c.left : c.right;
     const CrossingSide& far = left_is_near ? c.right : c.left;
-    // Told from the end that the tighter bound is next to.
+    // The sentence starts from the end next to the tighter bound.
     const bool from_p = near.to <= c.length - far.from;
     const VertexId from = from_p ? c.p : c.q, to = from_p ? c.q : c.p;
     const CrossingSide &less = from_p ? near : far, &more = from_p ? far : near;

@@ -1,19 +1,18 @@
-// The exact check of a certificate. It shares no code with what makes the programs: from the positions it computes
-// each N_c anew, as a polynomial (feasibility.hpp), adds them with their multipliers, and looks at what is left:
+// The exact check of a certificate. It shares no code with the solver of the programs. From the positions it computes
+// each N_c as a polynomial (feasibility.hpp), adds them with their multipliers, and examines the sum:
 //
 //   Σ m_c (N_c − t M_c)  =  C + Σ R_v w_v        C of degree 4 in the coordinates, R_v of degree 2
 //
-// The coefficients of each N_c sum to zero, so Σ R_v = 0 over each connected part of the certificate and R_v w_v may
-// be read as R_v (w_v − w_root). Along an edge weights differ by less than some b_pq (feasibility.hpp), hence
+// The coefficients of each N_c sum to zero, so Σ R_v = 0 over each connected part of the certificate, and R_v w_v can
+// be read as R_v (w_v − w_root). Along an edge weights differ by less than some b_pq (feasibility.hpp). Hence
 // |w_v − w_root| < W_v, the sum along a path from the root. If C + Σ |R_v| W_v ≤ 0, no weights make every summand
 // positive.
 //
-// On the sphere the same sum is Σ R_v σ_v, σ > 0 with a factor of its own for each connected part. Along an edge σ
-// differ by less than some part b_pq of either, so that σ_v < (1 + W_v) σ_root and σ_root < (1 + W_v) σ_v: no σ make
-// every summand positive if in each part Σ R_v (1 + W_v) over R_v > 0 and Σ R_v / (1 + W_v) over R_v < 0 are ≤ 0
-// together.
+// On the sphere the sum is Σ R_v σ_v; σ > 0 has a factor of its own for each connected part. Along an edge both σ
+// differ by less than some part b_pq, so that σ_v < (1 + W_v) σ_root and σ_root < (1 + W_v) σ_v. Add Σ R_v (1 + W_v)
+// over R_v > 0 and Σ R_v / (1 + W_v) over R_v < 0. If this is ≤ 0 in each part, no σ make every summand positive.
 //
-// Everything is exact, but for M, a double, and b and W, rounded up: coordinates are scaled by a power of two,
+// Everything is exact, except M, a double, and b and W, which are rounded up. Coordinates are scaled by a power of two,
 // differences are two-term sums, and the rest is arithmetic of expansions.
 #include <algorithm>
 #include <array>
@@ -33,9 +32,9 @@ namespace {
 using exact::Number;
 using Kind = WeightConstraint::Kind;
 
-// After scaling coordinates are below 1 and multiples of 2^-53 times the least of them; the product of four differences
-// and a multiplier must be a multiple of 2^-1074: 4 · (120 + 53) + 250 + 53 = 995 bits. On the sphere a
-// bound takes part, a double of 53 bits above 2^-106: 4 · (90 + 53) + 250 + 53 + 159 = 1034.
+// After scaling coordinates are below 1 and multiples of 2^-53 times the least of them. The product of four differences
+// and a multiplier must be a multiple of 2^-1074: 4 · (120 + 53) + 250 + 53 = 995 bits. On the sphere a bound is
+// another factor, a double of 53 bits above 2^-106: 4 · (90 + 53) + 250 + 53 + 159 = 1034.
 constexpr double kLeastCoordinate = 0x1p-120, kLeastOnSphere = 0x1p-90;
 constexpr double kLeastMultiplier = 0x1p-250;
 
@@ -91,7 +90,7 @@ Vector3 exact_vector(Vec3 p) { return {Number(p.x), Number(p.y), Number(p.z)}; }
 Number determinant(Vec3 p, Vec3 q, Vec3 r) { return dot(exact_vector(p), cross(exact_vector(q), exact_vector(r))); }
 double volume(Vec3 p, Vec3 q, Vec3 r) { return dot(p, cross(q - p, r - p)); }
 
-/// − t M σ, M (σ_p + σ_q)/2.
+/// The term − t M σ, with M (σ_p + σ_q)/2.
 void take_margin(Polynomial& polynomial, double margin, double m) {
   if (margin == 0) return;
   for (std::size_t k = 0; k < 2; ++k) polynomial.coefficients[k] += -(Number(margin) * Number(0.5 * m));
@@ -119,8 +118,8 @@ Polynomial dual_polynomial(Vec3 p, Vec3 q, Vec3 r, Vec3 s, double radius, double
   return polynomial;
 }
 
-constexpr double kRoundedUp = 1 + 0x1p-40;  // what approximation() and a quotient lose, many times over
-/// |n/d − 1|, rounded up; nothing where the fraction has no bound.
+constexpr double kRoundedUp = 1 + 0x1p-40;  // far above the rounding of approximation() and a quotient
+/// |n/d − 1|, rounded up; nothing if the fraction has no bound.
 std::optional<double> distance_from_one(const Number& n, const Number& d) {
   if (d.sign() != Sign::positive) return std::nullopt;
   return abs(n - d).approximation() / d.approximation() * kRoundedUp;
@@ -202,7 +201,7 @@ Scale scale_of(const Mesh& mesh, const Certificate& certificate) {
     });
   }
   std::frexp(largest, &scale.length);
-  // Exponents as integers: the shifted multipliers themselves might not be doubles.
+  // Exponents are integers, as the shifted multipliers themselves might not be doubles.
   int most = -100000, fewest = 100000;
   for (const auto& term : certificate.terms) {
     if (term.multiplier == 0) continue;
@@ -218,7 +217,7 @@ Scale scale_of(const Mesh& mesh, const Certificate& certificate) {
   return scale;
 }
 
-/// What the sum needs to know of the plane.
+/// The terms of the sum in the plane.
 class PlaneTerms {
  public:
   PlaneTerms(const Mesh& mesh, const Scale& scale, Constraints constraints)
@@ -235,7 +234,7 @@ class PlaneTerms {
     }
     return {};
   }
-  /// b of an edge of a triangle whose third corner is r; of a crossing there is none.
+  /// b of an edge of a triangle whose third corner is r; a crossing has no r.
   [[nodiscard]] std::optional<Number> bound(VertexId a, VertexId b, VertexId r) const {
     const Number length = squared_distance(a, b);
     if (constraints_ == Constraints::regular) return Number(kWeightReach) * length;
@@ -245,7 +244,7 @@ class PlaneTerms {
   }
   /// W beyond an edge.
   [[nodiscard]] static Number reach_beyond(const Number& reach, const Number& bound) { return reach + bound; }
-  /// The most that R w is, of w_root.
+  /// The greatest value of R w relative to w_root.
   [[nodiscard]] static Number most(const Number& residual, const Number& reach) { return abs(residual) * reach; }
   static constexpr bool kPartsHaveFactors = false;
 
@@ -264,7 +263,7 @@ class PlaneTerms {
   Constraints constraints_;
 };
 
-/// What the sum needs to know of the sphere.
+/// The terms of the sum on the sphere.
 class SphereTerms {
  public:
   SphereTerms(const Mesh& mesh, const Scale& scale, Constraints constraints)
@@ -281,9 +280,9 @@ class SphereTerms {
     }
     return {};
   }
-  /// b: crossings say p·q/|p|² < σ_q/σ_p < |q|²/p·q. With heights alone the orthocenter o is in the triangle, and
-  /// σ_q/σ_p = q·o/p·o is between the least and the greatest of these two and r·q/r·p. Nothing where cells are so large
-  /// that there is no bound.
+  /// The bound b. Crossings give p·q/|p|² < σ_q/σ_p < |q|²/p·q. With heights alone the orthocenter o is in the
+  /// triangle, and σ_q/σ_p = q·o/p·o is between the least and the greatest of these two and r·q/r·p. Returns nothing if
+  /// cells are so large that no bound exists.
   [[nodiscard]] std::optional<Number> bound(VertexId a, VertexId b, VertexId r) const {
     const Vector3 p = exact_vector(at(a)), q = exact_vector(at(b));
     const Number pq = dot(p, q);
@@ -299,7 +298,7 @@ class SphereTerms {
   [[nodiscard]] static Number reach_beyond(const Number& reach, const Number& bound) {
     return Number((reach + bound + bound * reach).approximation() * kRoundedUp);
   }
-  /// The most that R σ is, of σ_root. Near one 1/(1 + W) > 1 − W is exact enough.
+  /// The greatest value of R σ relative to σ_root. Near one 1/(1 + W) > 1 − W is exact enough.
   [[nodiscard]] static Number most(const Number& residual, const Number& reach) {
     constexpr double kNear = 0.5, kRoundedDown = 1 - 0x1p-40;
     if (residual.sign() == Sign::positive) return residual + residual * reach;
@@ -335,7 +334,7 @@ class Sum {
       if (term.multiplier > 0) add(term, certificate.margin);
     }
   }
-  /// C and the most of each part; where parts have factors of their own, the largest of them.
+  /// C plus the upper bound of each part; if parts have factors of their own, the largest of these sums.
   [[nodiscard]] Number upper_bound() const;
 
  private:
@@ -366,7 +365,7 @@ class Sum {
     if (kind == Kind::dual) join_triangle(q, p, s);
   }
 
-  /// The most of the part of the root, W_v along a breadth-first tree. Notes who is in it.
+  /// The upper bound of the root's part, W_v along a breadth-first tree. Notes the vertices in it.
   [[nodiscard]] Number part_bound(VertexId root, std::map<VertexId, Number>& reach) const;
 
   Terms terms_;

@@ -9,8 +9,8 @@
 
 namespace temper {
 
-/// A best margin as small as this is taken for zero or less when it comes to looking for a certificate: the rounding of
-/// the program. The certificate itself is judged exactly.
+/// The search for a certificate begins when the best margin is at most this: the rounding of the program. The
+/// certificate itself is checked exactly.
 inline constexpr double kNoMargin = 1e-9;
 
 /// The program of best_margin, solved, with the constraints of its rows and their multipliers.
@@ -18,13 +18,13 @@ struct Bound {
   BestMargin best;  ///< without certificate
   std::vector<WeightConstraint> constraints;
   std::vector<double> dual;
-  double attained = 0;  ///< sphere: the margin that the weights have, `best.margin` but for the last digits
+  double attained = 0;  ///< sphere: the margin of the weights; `best.margin`, except for the last digits
 };
 /// `triangles` is sorted.
 [[nodiscard]] Bound bound_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver,
                                  const Demand& demand);
 
-/// A certificate that refutes the margin, with as few terms as will do; without terms when the checker accepts none.
+/// A certificate that refutes the margin, with as few terms as possible; without terms when the checker accepts none.
 [[nodiscard]] Certificate certify(const Mesh& mesh, const Bound& bound, Constraints constraints, double margin);
 
 }  // namespace temper

@@ -5,13 +5,13 @@
 //   crossings                           bounds of e⁺ and e⁻, since one of them is zero in any optimum
 //   heights, dual lengths            one row each
 //
-// Lengths are counted in the region's mean edge length. The sum of absolute differences is what makes few weights move:
-// all of a region but the neighborhood of what is bad keeps its weights.
+// Lengths are in units of the region's mean edge length. The sum of absolute differences changes few weights: only the
+// neighborhood of bad triangles in a region gets other weights.
 //
-// On the sphere w is the potential, Δw that of σ = σ₀ (1 − Δw/(2R²)), relative to the start's, so that a factor of all
-// σ is the same Δw of all. Crossings are rows of their own. Without rim the Δw sum to zero: σ that tend to zero
-// together would keep all constraints and change by nothing. Elastic programs have a column more for each height and
-// dual length, and two for each edge that has crossings, which pay for what is lacking.
+// On the sphere w is the potential, and Δw belongs to σ = σ₀ (1 − Δw/(2R²)), relative to the start. So a factor of all
+// σ is the same Δw of all. Crossings are rows of their own. Without rim the Δw sum to zero: otherwise all σ could tend
+// to zero together, which keeps all constraints. Elastic programs have one column more for each height and dual length,
+// and two for each edge with crossings. These pay for violations.
 #include "feasibility/change.hpp"
 
 #include <algorithm>
@@ -23,10 +23,10 @@
 namespace temper {
 namespace {
 
-// Smaller changes, in their unit, are the solver's: ten times its tolerance on h/ℓ and d/ℓ, which are of that order.
+// Smaller changes, in their unit, are noise of the solver: ten times its tolerance on h/ℓ and d/ℓ, which are of that
+// order.
 constexpr double kNoChange = 1e-8;
-// The cost of a unit of u, where an edge's costs ℓ/2: so little that it decides only where the sum over the edges is
-// equal.
+// The cost of a unit of u, against ℓ/2 for an edge: so small that it decides only between equal sums over the edges.
 constexpr double kTieBreak = 1e-4;
 // The second elastic program may violate this much more than the least, relative and absolute: its own tolerance.
 constexpr double kSameViolation = 1e-9;
@@ -73,7 +73,7 @@ class ProgramBuilder {
   }
 
  private:
-  /// There are crossings, and they are bounds of the columns of edges.
+  /// Says whether there are crossings, as bounds of the columns of edges.
   [[nodiscard]] bool crossings_are_differences() const { return demand_.has_crossings() && mesh_.space().is_plane(); }
   [[nodiscard]] double length_of(HalfedgeId h) const { return std::sqrt(squared_length_of(mesh_, h)); }
   [[nodiscard]] double start(VertexId v) const { return potential_of(mesh_.space(), start_[v]); }
@@ -145,7 +145,7 @@ class ProgramBuilder {
   Program p_;
 };
 
-/// Without rim a constant on all weights, or a factor of all σ, is free: the change that most vertices share.
+/// Without rim a constant on all weights, or a factor of all σ, is free: returns the change that most vertices share.
 double common_change(std::vector<double> changes, double tolerance) {
   std::sort(changes.begin(), changes.end());
   std::size_t most = 0;

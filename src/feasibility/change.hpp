@@ -1,4 +1,4 @@
-// The weights of one region that change least, or that violate least, for a margin.
+// The weights of one region with the least change, or the least violation, for a margin.
 #pragma once
 
 #include <vector>
@@ -15,19 +15,19 @@ struct RegionChange {
       change;  ///< of the potential (potential.hpp) of each free vertex; exactly 0 where nothing has to change
 };
 
-/// What is asked of the weights of a region.
+/// The constraints on the weights of a region.
 struct RegionProblem {
   const Mesh& mesh;
   const Demand& demand;
-  const IdVector<VertexId, double>& start;  ///< weights that change is measured from; those of the rim stay
+  const IdVector<VertexId, double>& start;  ///< the weights before the change; the weights of the rim stay
   double margin = 0;
 };
 
 /// Minimizes Σ |Δw_i − Δw_j| / (2ℓ) over the edges of the region, subject to the margin.
 [[nodiscard]] RegionChange least_change(const RegionProblem& problem, const Region& region, LpSolver& solver);
 
-/// Minimizes what h/ℓ, d/ℓ, 1 − d/ℓ and dual length/ℓ lack of the margin, summed; of all such weights those that change
-/// least.
+/// Minimizes the violation of the margin, summed over h/ℓ, d/ℓ, 1 − d/ℓ and dual length/ℓ. Among these weights it takes
+/// the weights with the least change.
 [[nodiscard]] RegionChange least_violation(const RegionProblem& problem, const Region& region, LpSolver& solver);
 
 }  // namespace temper

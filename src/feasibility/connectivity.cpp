@@ -1,7 +1,7 @@
 // The search over connectivities: weights first, flips after, until the margin stops growing.
 //
-//   weights of the best margin → Lawson's flips → best margin     greater: that is the mesh now
-//   else for each flip that breaks the proof of the margin        the greatest, when it is greater: the same
+//   weights of the best margin → Lawson's flips → best margin     if greater: continue with this mesh
+//   else for each flip that breaks the proof of the margin        if the greatest is greater: continue with it
 //   else done
 #include "temper/detail/connectivity.hpp"
 
@@ -22,11 +22,11 @@
 namespace temper {
 namespace {
 
-// Margins that differ by less are one: ten times what the solver's tolerance on each row can add up to.
+// Margins that differ by less are equal: ten times the possible sum of the solver's tolerance on each row.
 constexpr double kGrowth = 1e-7;
 
-/// The best margin of a connectivity, the weights that attain it, and the constraints of the proof that there is no
-/// greater one.
+/// The best margin of a connectivity, the weights that attain it, and the constraints in the proof that it is the
+/// greatest.
 struct Optimum {
   double margin = kUnbounded;
   IdVector<VertexId, double> weights;
@@ -54,7 +54,7 @@ class ConnectivitySearch {
   }
 
  private:
-  /// Of each component on its own; nothing when the solver fails, or may not be asked any more.
+  /// The optimum, each component on its own. Nothing when the solver fails, or the limit of programs is reached.
   std::optional<Optimum> optimum_of(const Mesh& mesh) {
     if (report_.programs == options_.programs) {
       report_.end = SearchEnd::limit;
@@ -69,7 +69,8 @@ class ConnectivitySearch {
       for (std::size_t i = 0; i < bound.best.vertices.size(); ++i) {
         optimum.weights[bound.best.vertices[i]] = bound.best.weights[i];
       }
-      // A flip may make a triangle so flat that the solver's tolerance is all of its heights: what is attained counts.
+      // A flip may make a triangle so flat that its heights are below the solver's tolerance: the attained margin
+      // counts.
       const double margin = std::min(bound.best.margin, attained(mesh, component.triangles, optimum.weights));
       if (margin >= optimum.margin) continue;
       optimum.margin = margin;
@@ -125,7 +126,7 @@ class ConnectivitySearch {
     return true;
   }
 
-  /// The edges of the proof's triangles, and those of its crossings, that can be flipped; each once, by its vertices.
+  /// The edges that can be flipped, of the proof's triangles and of its crossings; each once, by its vertices.
   [[nodiscard]] std::vector<HalfedgeId> flips_that_break_the_proof() const {
     const Mesh& mesh = report_.mesh;
     std::vector<std::pair<std::array<VertexId, 2>, HalfedgeId>> edges;

@@ -26,8 +26,8 @@ LinearForm plane_form(const Mesh& mesh, const WeightConstraint& constraint) {
   return {3, {p, q, r, {}}, {-scale * dot(pq, qr) / l2, scale * dot(pq, pr) / l2, -scale, 0}, scale * dot(pr, qr)};
 }
 
-/// With a = q − p, b = r − p and n = a × b, so that little cancels: (p×q)·n = (p·a)(a·b) − (p·b)|a|² is the sum of the
-/// three, (p×q)·(r×p) = −(p×a)·(p×b).
+/// Let a = q − p, b = r − p and n = a × b, so that little cancels. Then (p×q)·n = (p·a)(a·b) − (p·b)|a|² is the sum of
+/// the three, and (p×q)·(r×p) = −(p×a)·(p×b).
 LinearForm sphere_form(const Mesh& mesh, const WeightConstraint& constraint) {
   const auto [kind, vp, vq, vr, vs] = constraint;
   const double slope = slope_of_scale(mesh.space()), radius = mesh.space().radius();

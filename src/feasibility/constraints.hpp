@@ -15,7 +15,8 @@
 //   crossing   (R² σ_q − p·q σ_p)/|p − q|² / m                                    1/2; the two of an edge sum to one
 //   dual    the sum of the heights over either side / m
 //
-// All have the signs of h, d and the dual length, do not change with σ times a number, and tend to the plane's values.
+// All have the signs of h, d and the dual length. They do not change with σ times a number, and tend to the plane's
+// values.
 #pragma once
 
 #include <algorithm>
@@ -41,15 +42,15 @@ struct LinearForm {
 };
 
 [[nodiscard]] LinearForm linear_form(const Mesh& mesh, const WeightConstraint& constraint);
-/// The form that is ≥ 0 where the value of this one is ≥ margin.
+/// The form that is ≥ 0 if and only if the value of this one is ≥ margin.
 [[nodiscard]] LinearForm beyond_margin(LinearForm form, double margin);
 
-/// m, where potential(v) are the potentials: one in the plane.
+/// m for the potentials potential(v): one in the plane.
 template <class Potential>
 double scale_of(const LinearForm& form, const Potential& potential) {
   return 1 - 0.5 * form.slope * (potential(form.vertices[0]) + potential(form.vertices[1]));
 }
-/// The linear function. By differences, so that a large potential common to all costs no digits.
+/// The linear function, by differences, so that a large potential common to all costs no digits.
 template <class Potential>
 double numerator_of(const LinearForm& form, const Potential& potential) {
   const double first = potential(form.vertices[0]);
@@ -69,7 +70,7 @@ double value_of(const LinearForm& form, const Potential& potential) {
   return squared_distance(mesh, mesh.origin(h), mesh.target(h));
 }
 
-/// The vertex with another weight: as it is where it has that.
+/// The vertex with another weight; unchanged if it has this weight.
 [[nodiscard]] inline WeightedPoint point_with_weight(const Mesh& mesh, VertexId v, double w) {
   const WeightedPoint p = mesh.point(v);
   return mesh.space().weight(p) == w ? p : mesh.space().with_weight(p, w);
@@ -81,7 +82,7 @@ double value_of(const LinearForm& form, const Potential& potential) {
 /// Precondition: h is inside the mesh.
 [[nodiscard]] WeightConstraint dual_constraint(const Mesh& mesh, HalfedgeId h);
 
-/// Constraints on a mesh, with the edges that they are about.
+/// Constraints on a mesh, with their edges.
 class Demand {
  public:
   Demand(const Mesh& mesh, Constraints constraints, std::span<const HalfedgeId> edges);
@@ -90,7 +91,7 @@ class Demand {
   [[nodiscard]] bool has_heights() const { return constraints_ != Constraints::regular; }
   [[nodiscard]] bool has_crossings() const { return constraints_ == Constraints::well_centered; }
   [[nodiscard]] bool has_duals() const { return constraints_ == Constraints::regular; }
-  /// The margin that is refuted when no weights keep the constraints; `duals`: of dual lengths, in the plane.
+  /// The margin that is refuted when no weights satisfy the constraints; `duals`: for dual lengths, in the plane.
   [[nodiscard]] double refuted_margin(double duals) const {
     return !has_duals() ? 0 : in_plane_ ? duals : kLeastRefutedDual;
   }
@@ -98,7 +99,7 @@ class Demand {
   [[nodiscard]] bool has_dual(const Mesh& mesh, HalfedgeId h) const {
     return has_duals() && !mesh.is_boundary(h) && (prescribed_.empty() || prescribed_[h] != 0);
   }
-  /// All that t has to keep, exactly, where weight_of(v) are the weights.
+  /// Says whether t satisfies all its constraints, exactly, with the weights weight_of(v).
   template <class WeightOf>
   [[nodiscard]] bool is_kept(const Mesh& mesh, TriangleId t, const WeightOf& weight_of) const {
     const auto at = [&](VertexId v) { return point_with_weight(mesh, v, weight_of(v)); };
@@ -114,7 +115,7 @@ class Demand {
     }
     return true;
   }
-  /// The least that t's constraints are with these weights, in doubles; kUnbounded when it has none.
+  /// The least value of t's constraints with these weights, in doubles; kUnbounded when it has none.
   template <class WeightOf>
   [[nodiscard]] double margin_of(const Mesh& mesh, TriangleId t, const WeightOf& weight_of) const {
     double margin = kUnbounded;
@@ -142,8 +143,8 @@ class Demand {
 [[nodiscard]] std::vector<HalfedgeId> edges_of(const Mesh& mesh, std::span<const TriangleId> triangles);
 /// The corners of these triangles, sorted, each once.
 [[nodiscard]] std::vector<VertexId> vertices_of(const Mesh& mesh, std::span<const TriangleId> triangles);
-/// The constraints of these triangles: three heights each, two crossings an edge, or one dual length an edge that has
-/// both its triangles among them.
+/// The constraints of these triangles that the demand has: three heights each, two crossings per edge, and a dual
+/// length per edge with both its triangles among them.
 [[nodiscard]] std::vector<WeightConstraint> constraints_of(const Mesh& mesh, std::span<const TriangleId> triangles,
                                                            const Demand& demand);
 

@@ -1,5 +1,5 @@
-// An exact number of any length: a sum of doubles that grows as needed, for sums too long for the fixed capacities of
-// geometry/expansion.hpp, whose error-free transformations it uses.
+// An exact number of any length: a sum of doubles that grows as needed. It is for sums too long for the fixed
+// capacities of geometry/expansion.hpp, whose error-free transformations it uses.
 //
 // The terms are nonoverlapping, smallest first and never zero (Shewchuk's expansions), so the last one has the sign.
 #pragma once
@@ -34,7 +34,7 @@ class Number {
     if (terms_.empty()) return Sign::zero;
     return terms_.back() > 0 ? Sign::positive : Sign::negative;
   }
-  /// The nearest double, but for a last bit or two.
+  /// The nearest double, up to one or two last bits.
   [[nodiscard]] double approximation() const {
     double sum = 0;
     for (const double term : terms_) sum += term;

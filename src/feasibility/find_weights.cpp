@@ -1,13 +1,14 @@
-// The whole mesh: regions that need weights, solved one by one, grown where the outside is in the way, and verdicts.
+// The whole mesh: solves regions that need weights one by one, grows a region if the outside is in the way, and
+// collects verdicts.
 //
-//   where the ring of one bad triangle is a proof already, nothing else is tried (but for elastic weights);
+//   if the ring of one bad triangle is a proof already, try nothing else (except for elastic weights);
 //   free the neighborhoods of bad triangles; until no region changes:
 //     least change of each region                      solved: done with it
-//     else the region's own margin, the rest left out  below what is asked: that proves it, done with it
+//     else the region's own margin, the rest left out  below the demand: proof found, done with it
 //     else more rings, merging regions that meet
 //
-// A region's own margin bounds that of the mesh from above, so the loop ends with an answer or a proof; at the latest
-// when a region is a whole component.
+// A region's own margin is an upper bound of the mesh's margin. So the loop ends with an answer or a proof, at the
+// latest when a region is a whole component.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,12 +27,12 @@
 namespace temper {
 namespace {
 
-constexpr int kMoreRings = 2;   // a ring more each time would solve each program twice as often
-constexpr int kHalvings = 30;   // of the margin asked for: down to the rounding of the programs
-constexpr double kKept = 1e-9;  // a margin is kept when no more than this is lacking: the solvers' tolerance
+constexpr int kMoreRings = 2;   // one ring each time would solve each program twice as often
+constexpr int kHalvings = 30;   // of the requested margin: down to the rounding of the programs
+constexpr double kKept = 1e-9;  // a margin is kept if at most this is lacking: the solvers' tolerance
 constexpr double kDegrees = 57.29577951308232;
 
-/// A region that is done with: its change of weights, or the proof that there is none.
+/// A finished region: its change of weights, or the proof that there is none.
 struct RegionResult {
   Region region;
   std::optional<RegionChange> change;
@@ -85,16 +86,17 @@ class WeightFinder {
   }
   [[nodiscard]] RegionProblem problem(double asked) const { return {mesh_, demand_, start_, asked}; }
 
-  /// A best margin that leaves no hope: of dual lengths, which are all zero where w = |x|², none is below zero.
+  /// A best margin that rules out all weights. Dual lengths are all zero for w = |x|², so their best margin is never
+  /// below zero.
   [[nodiscard]] bool is_hopeless(double margin) const {
     return margin <= (demand_.has_duals() ? kNoMargin : -kNoMargin);
   }
-  /// The margin that is refuted when no weights keep the constraints.
+  /// The margin that is refuted when no weights satisfy the constraints.
   [[nodiscard]] double refuted_margin() const {
     return demand_.refuted_margin(std::clamp(options_.margin, kLeastRefutedDual, kRefutedDual));
   }
 
-  /// The best margins of components that are one program.
+  /// The best margins of components that fit into one program.
   void measure_components() {
     for (const Region& component : components_) {
       if (component.triangles.size() > options_.whole) continue;
@@ -110,7 +112,7 @@ class WeightFinder {
     return margin_of(t, start_) < asked || !is_kept(t, start_);
   }
 
-  /// The cheapest proof there can be, where programs of regions may be large: the ring of one bad triangle.
+  /// The cheapest possible proof, when programs of regions may be large: the ring of one bad triangle.
   bool refuted_by_a_ring(double asked) {
     for (const Region& component : components_) {
       if (component.triangles.size() <= options_.whole) continue;
@@ -164,7 +166,8 @@ class WeightFinder {
     }
   }
 
-  /// That of the last round, when the region is the same. Free vertices only become more, so first and number decide.
+  /// The result of the last round, if the region has not changed. Free vertices only increase, so first and number
+  /// decide.
   std::optional<RegionResult> take_result(const Region& region) {
     for (RegionResult& result : results_) {
       if (result.region.free.size() == region.free.size() && result.region.free.front() == region.free.front()) {
@@ -190,7 +193,7 @@ class WeightFinder {
         std::count_if(results_.begin(), results_.end(), [](const RegionResult& o) { return !o.change; }));
   }
 
-  /// Keeps the least bound, and what it says of the margin that was asked for first.
+  /// Keeps the least bound, and its verdict on the first requested margin.
   void note_bound(double asked) {
     for (RegionResult& result : results_) {
       if (result.change) continue;

@@ -38,10 +38,10 @@ class LpBuilder {
   LpProblem problem_;
 };
 
-/// Position of v in a sorted list that has it; its size, or that of another, when it does not.
+/// The position of v in a sorted list that has it; otherwise the size of the list, or another position.
 [[nodiscard]] std::size_t index_of(std::span<const VertexId> sorted_vertices, VertexId v);
 
-/// One a vertex: the mean over those of the edges that end there. Each vertex must have one.
+/// For each vertex the mean over its edges among `edges`. Each vertex must have one.
 [[nodiscard]] std::vector<double> weight_units(const Mesh& mesh, std::span<const VertexId> vertices,
                                                std::span<const HalfedgeId> edges);
 

@@ -1,15 +1,15 @@
 // The best margin: maximize t ≤ 1/2 with every h/ℓ, d/ℓ and 1 − d/ℓ, or every dual length/ℓ, at least t.
 //
-// The program always has a solution, and an optimal one since t is bounded (by d/ℓ and 1 − d/ℓ, which sum to one, and
-// by the heights of one triangle before that). Its dual is the
-// certificate: multipliers y ≥ 0 that sum to one, in whose combination of the constraints the weights cancel, and whose
-// constant is t* (so no ray of an infeasible program is needed). A weight is counted in units of the mean ℓ² around
-// its vertex: coefficients are then of the order of one on meshes of any size, and on graded ones.
+// The program always has a solution, and an optimal one since t is bounded: d/ℓ and 1 − d/ℓ sum to one, and the heights
+// of one triangle bound it before that. Its dual is the certificate: multipliers y ≥ 0 that sum to one. In their
+// combination of the constraints the weights cancel, and the constant is t*. So no ray of an infeasible program is
+// needed. A weight is in units of the mean ℓ² around its vertex: then coefficients are of order one, also on graded
+// meshes.
 //
-// On the sphere a margin is a ratio of linear functions, N/m > t (constraints.hpp). With t as far as it is attained,
-// maximize s with every N − t m ≥ s; what the solution attains is the next t, until s is zero (Dinkelbach's method,
-// which converges faster than linearly). N > 0 alone is decided by the first program, from t = 0: for dual lengths,
-// which σ less a linear function of the places leave as they are, so that m can be made small, there is no second.
+// On the sphere a margin is a ratio of linear functions, N/m > t (constraints.hpp). Let t be the margin attained so
+// far: maximize s with every N − t m ≥ s. The margin of the solution is the next t, until s is zero (Dinkelbach's
+// method, which converges faster than linearly). For N > 0 alone, the first program from t = 0 is enough. Dual lengths
+// need no second one: σ less a linear function of the places leaves them unchanged, so that m can be made small.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,13 +31,13 @@ struct MarginProgram {
   LpProblem problem;
 };
 
-constexpr int kRounds = 12;          // two or three are enough; where σ differ much, a few more
+constexpr int kRounds = 12;          // two or three are enough; a few more if σ differ much
 constexpr double kAttained = 1e-10;  // of s: a tenth of the solver's tolerance
-// σ stays above it, so that m is positive. So far from where σ are that it does not take part in proofs: with 1/16 one
+// A lower bound of σ, so that m is positive. It is far below usual σ, so that it plays no part in proofs: with 1/16 one
 // of ten random globes had none for heights alone.
 constexpr double kLeastScale = 0x1p-12;
 
-/// With margins counted from `from`.
+/// The program whose margins count from `from`.
 MarginProgram margin_program(const Mesh& mesh, std::span<const TriangleId> triangles, const Demand& demand,
                              double from) {
   MarginProgram p;
@@ -45,8 +45,8 @@ MarginProgram margin_program(const Mesh& mesh, std::span<const TriangleId> trian
   p.units = weight_units(mesh, p.vertices, edges_of(mesh, triangles));
   p.constraints = constraints_of(mesh, triangles, demand);
   LpBuilder lp;
-  // One weight is zero, or a constant on all would be free: that of the smallest triangles, whose unit would feel it
-  // most.
+  // One weight is zero, since a constant on all would be free otherwise. It is a weight at the smallest triangles,
+  // whose unit is most sensitive to rounding.
   const auto anchor = std::min_element(p.units.begin(), p.units.end()) - p.units.begin();
   for (std::size_t i = 0; i < p.vertices.size(); ++i) {
     const double most = i == static_cast<std::size_t>(anchor) ? 0 : kUnbounded;
@@ -140,7 +140,7 @@ Certificate certify(const Mesh& mesh, const Bound& bound, Constraints constraint
   const std::vector<double>& dual = bound.dual;
   double largest = 0;
   for (const double y : dual) largest = std::max(largest, std::abs(y));
-  // Few terms are easier to read; what is dropped is paid for in the check, so each candidate is tried.
+  // Few terms are easier to read. Dropped terms weaken the check, so each candidate is tried.
   for (const double dropped : {1e-9, 1e-12, 1e-15}) {
     Certificate certificate;
     certificate.margin = margin;
@@ -159,7 +159,7 @@ Certificate certify(const Mesh& mesh, const Bound& bound, Constraints constraint
 
 namespace {
 
-/// The program with margins counted from `from`, solved.
+/// The solved program whose margins count from `from`.
 Bound bound_from(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, const Demand& demand,
                  double from) {
   Bound bound;

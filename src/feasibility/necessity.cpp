@@ -1,11 +1,11 @@
-// The two-disc condition of one edge: the vertices that stay and see the edge are found by a walk from its triangles,
-// then sorted by their bounds, exactly, and the first visible one on each end decides.
+// The two-disc condition of one edge. A walk from its triangles finds the vertices that stay and see the edge. They are
+// sorted by their bounds, exactly, and the first visible vertex on each end decides.
 //
-// With a + b ≤ S both bounds are below S, so that both vertices lie in the discs with diameters from u to u + S (v − u)
-// and from v to v + S (u − v). For S ≥ 1 so do the triangles u v X, and whatever hides X: all is found inside the
-// smallest disc around both, on the sphere inside a cap. There a point between u and v is the direction of
-// (1 − s) U + s V, U and V their weighted vectors, and what sees a diameter at a right angle is a cone of the second
-// order.
+// With a + b ≤ S both bounds are below S. So both vertices lie in the discs with diameters from u to u + S (v − u) and
+// from v to v + S (u − v). For S ≥ 1 the triangles u v X lie there, too, and all that hides X. So the smallest disc
+// around both discs contains everything; on the sphere it is a cap. There a point between u and v is the direction of
+// (1 − s) U + s V, U and V their weighted vectors. The points that see a diameter at a right angle form a cone of the
+// second order.
 #include "temper/detail/necessity.hpp"
 
 #include <algorithm>
@@ -28,15 +28,15 @@ namespace {
 
 using exact::Number;
 
-// Relative to the largest distance that enters: far more than the dozen roundings of a distance. The walk may go a bit
-// too far, never too short.
+// Relative to the largest distance involved: far more than the dozen roundings of a distance. The walk may go a bit too
+// far, never too short.
 constexpr double kWalkSlack = 1e-12;
 // Relative roundings of |X − u|² and of a quotient: below 8 units; of a product of vectors, relative to its permanent.
 constexpr double kRounding = 8 * 0x1p-53;
-// The same of two products of vectors that are multiplied, relative to the four lengths: below 40 units.
+// The bound for two products of vectors that are multiplied, relative to the four lengths: below 40 units.
 constexpr double kRoundingOnSphere = 64 * 0x1p-53;
 
-/// A double, and how far from it the number meant is at most.
+/// A double, and an upper bound of its distance from the exact number.
 struct Rounded {
   double value = 0, error = 0;
 };
@@ -59,7 +59,7 @@ Number product(Vec2 from, Vec2 a, Vec2 b) {
 Number exact_numerator_of(Vec2 near, Vec2 /*far*/, Vec2 at) { return product(near, at, at); }
 Number exact_denominator_of(Vec2 near, Vec2 far, Vec2 at) { return product(near, far, at); }
 
-// On the sphere |near × X|² / ((near × X)·((near − far) × X)). Products with X − near lose no digits where X is near.
+// On the sphere |near × X|² / ((near × X)·((near − far) × X)). Products with X − near lose no digits if X is near.
 
 Rounded numerator_of(Vec3 near, Vec3 /*far*/, Vec3 at) {
   const Vec3 to = at - near;
@@ -138,7 +138,7 @@ std::optional<CrossingBound<Point>> bound_of(VertexId vertex, Point at, Point ne
   return bound;
 }
 
-/// A vertex that no optimization takes away from its place, its line apart.
+/// A vertex that no optimization moves, except along its line.
 bool stays(const Mesh& mesh, VertexId v) {
   if (mesh.is_fixed(v) || mesh.is_boundary(v)) return true;
   for (const HalfedgeId h : mesh.star(v)) {
@@ -163,8 +163,8 @@ struct Segment {
   Point p, q;
 };
 
-/// Says whether pq meets the inside of the counter-clockwise triangle abc: no line along one of the four separates
-/// them.
+/// Says whether pq meets the inside of the counter-clockwise triangle abc. It does if no line along one of the four
+/// separates them.
 template <class Point>
 bool meets_inside(const Segment<Point>& s, Point a, Point b, Point c) {
   const auto side_separates = [&](Point x, Point y) { return !is_left(x, y, s.p) && !is_left(x, y, s.q); };
@@ -174,7 +174,7 @@ bool meets_inside(const Segment<Point>& s, Point a, Point b, Point c) {
   return any_left && any_right;
 }
 
-/// Around all that can bound the crossing of uv below up_to, from u or from v.
+/// A disc with everything that can bound the crossing of uv below up_to, from u or from v.
 class Disc {
  public:
   Disc(Vec2 u, Vec2 v, double up_to) : u_(u), along_(v - u), radius_((up_to - 0.5) * length(along_)) {}
@@ -191,14 +191,14 @@ class Disc {
   double radius_;
 };
 
-/// The same on the sphere; all of it where that is no cap of less than a hemisphere.
+/// The search region on the sphere, a cap; the whole sphere if the cap is not smaller than a hemisphere.
 class Cap {
  public:
   Cap(Vec3 u, Vec3 v, double up_to) : center_(middle(u, v)), radius_(kWalkSlack) {
     for (const auto& [near, far] : {std::pair(u, v), std::pair(v, u)}) {
       const Vec3 end = (1 - up_to) * near + up_to * far;
       const double diameter = arc_length(near, end);
-      // What sees the diameter at a right angle, or a wider one, is no further from its middle than this.
+      // Points that see the diameter at a right angle or a wider one are at most this far from its midpoint.
       const double reach =
           std::cos(diameter) > 0 ? std::atan(std::sin(diameter / 2) / std::sqrt(std::cos(diameter))) : std::numbers::pi;
       radius_ = std::max(radius_, arc_length(center_, middle(near, end)) + reach + kWalkSlack);
@@ -232,7 +232,7 @@ class Surroundings {
     walk(h);
   }
 
-  /// The least bound from u or from v that a vertex which sees the edge sets.
+  /// The least bound from u or from v by a vertex that sees the edge.
   [[nodiscard]] std::optional<CrossingBound<Point>> least(bool from_u) const {
     std::vector<CrossingBound<Point>> bounds;
     for (const VertexId x : vertices_) {
@@ -276,7 +276,7 @@ class Surroundings {
     return (is_left(u_, v_, p) || is_left(u_, v_, q)) && disc_.meets(p, q);
   }
 
-  /// The triangle u v x is in the domain: no edge of the boundary gets into it.
+  /// Says whether the triangle u v x is in the domain: no boundary edge enters it.
   [[nodiscard]] bool is_visible(Point x) const {
     return std::none_of(walls_.begin(), walls_.end(),
                         [&](const Segment<Point>& s) { return meets_inside(s, u_, v_, x); });

@@ -1,10 +1,9 @@
-// What the constraints are linear in, for fixed places: the potential of a vertex [length²].
+// The potential of a vertex [length²]: constraints are linear in it, for fixed places.
 //
-// In the plane that is its weight. On the sphere the constraints on P = p R/σ, multiplied by the σ of the vertices that
-// they are about, are linear in σ = R/|P|; its potential is 2 R² (1 − σ), the weight but for a part w/R² of it, so that
-// coefficients tend to the plane's where cells are small. All σ times a number changes nothing: a condition is the
-// ratio of a linear function and the mean σ of its edge (constraints.hpp), where a constant on all weights changes
-// nothing in the plane.
+// In the plane it is the weight. On the sphere, constraints on P = p R/σ become linear in σ = R/|P| when multiplied by
+// the σ of their vertices. The potential is 2 R² (1 − σ). This is the weight up to a relative difference w/R², so that
+// coefficients tend to the plane's for small cells. A factor on all σ changes nothing, as a constant on all weights in
+// the plane: a condition is the ratio of a linear function and the mean σ of its edge (constraints.hpp).
 #pragma once
 
 #include <cmath>
@@ -13,7 +12,7 @@
 
 namespace temper {
 
-/// 1/(2 R²): what a unit of the potential takes from σ; 0 in the plane.
+/// 1/(2 R²): the decrease of σ per unit of the potential; 0 in the plane.
 [[nodiscard]] inline double slope_of_scale(const Space& space) {
   return space.is_plane() ? 0 : 0.5 / (space.radius() * space.radius());
 }
@@ -32,7 +31,7 @@ namespace temper {
   return potential * (1 - 0.5 * taken) / (scale * scale);
 }
 
-/// The weight whose potential is more than that of w by so much.
+/// The weight whose potential is greater by `change` than the potential of w.
 [[nodiscard]] inline double changed_weight(const Space& space, double w, double change) {
   return weight_of_potential(space, potential_of(space, w) + change);
 }
@@ -42,7 +41,7 @@ namespace temper {
   return 1 - slope_of_scale(space) * potential_of(space, w);
 }
 
-/// Where a vertex is on the sphere, whatever its weight.
+/// The place of a vertex on the sphere, whatever its weight.
 [[nodiscard]] inline Vec3 position_of(const Mesh& mesh, VertexId v) { return mesh.space().place(mesh.point(v)); }
 
 }  // namespace temper

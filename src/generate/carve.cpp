@@ -1,8 +1,8 @@
 // Removes the triangles outside the segments. Inside and outside alternate, counted from the outside in.
 //
-// Level 0 is what can be reached from outside the convex hull without crossing a segment; level 1 what can be
-// reached from level 0 across one, and so on. Odd levels are inside. A segment that encloses nothing, or divides the
-// inside in two, has the same level on both sides and stays as a constrained edge.
+// Level 0 can be reached from outside the convex hull without crossing a segment, level 1 from level 0 across one
+// segment, and so on. Odd levels are inside. A segment that encloses nothing, or divides the inside in two, has the
+// same level on both sides and stays as a constrained edge.
 #include <algorithm>
 
 #include "generate/triangulation.hpp"

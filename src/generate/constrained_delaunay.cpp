@@ -1,4 +1,4 @@
-// The constrained Delaunay triangulation: points, segments, carving, numbering, one stage a file.
+// The constrained Delaunay triangulation: points, segments, carving and numbering, one stage per file.
 #include <utility>
 
 #include "generate/triangulation.hpp"

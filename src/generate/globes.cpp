@@ -1,4 +1,4 @@
-// Example meshes of the whole sphere: the bisected icosahedron, and random points, as many everywhere or graded.
+// Example meshes of the whole sphere: the bisected icosahedron, and random points, uniform or graded.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,7 +38,7 @@ Globe icosahedron() {
       s.points.push_back(unit({b, 0, a}));
     }
   }
-  // Three vertices are a face where each two are neighbors: nearer than any others.
+  // Three vertices are a face if each two are neighbors: the nearest pairs are.
   const auto neighbors = [&](std::size_t i, std::size_t j) { return dot(s.points[i], s.points[j]) > 0.4; };
   for (std::size_t i = 0; i < 12; ++i) {
     for (std::size_t j = i + 1; j < 12; ++j) {
@@ -53,7 +53,7 @@ Globe icosahedron() {
   return s;
 }
 
-//          c            Each edge gets the direction of its middle, once.
+//          c            Each edge gets the direction of its midpoint, once.
 //        /   \ .
 //      ca --- bc
 //     /   \ /   \ .
@@ -76,7 +76,7 @@ Globe bisected(Globe coarse) {
   return {std::move(coarse.points), std::move(fine)};
 }
 
-/// How far a unit vector is from a place, as a part of the way along the axis to the opposite one.
+/// The distance of a unit vector from a place, as a part of the axis from there to the opposite place.
 double part_of_axis(Vec3 p, Vec3 place) { return (1 - dot(p, place)) / 2; }
 
 /// Uniform, without functions whose last bits differ between libraries (Marsaglia, 1972).

@@ -85,8 +85,8 @@ Expected<Mesh> annulus(const Annulus& shape) {
   return outline.triangulate();
 }
 
-// Meshes of periodic planes: the Delaunay triangulation of points and of as many of their images as it takes, of which
-// one image of each triangle is kept; and rows of hexagons.
+// Meshes of periodic planes. A Delaunay triangulation of points and enough of their images keeps one image of each
+// triangle. Rows of hexagons are made directly.
 
 namespace {
 
@@ -101,7 +101,7 @@ bool are_periods(Vec2 period) {
   return std::isfinite(period.x) && std::isfinite(period.y) && period.x > 0 && period.y > 0;
 }
 
-/// Points of the domain, then their images up to `reach` around it, and of which point each of these is one.
+/// Points of the domain, then their images up to `reach` around it, and the number of each image's point.
 struct Images {
   std::vector<Vec2> points;
   std::vector<std::uint32_t> of;
@@ -123,7 +123,7 @@ Images images_around(const std::vector<Vec2>& points, Vec2 period, double reach)
   return images;
 }
 
-/// Of all images of a triangle the one whose corner of least number is in the domain.
+/// Keeps the image of each triangle whose corner of least number is in the domain.
 std::vector<Corners> triangles_of_domain(const generate::Triangulation& all, const std::vector<std::uint32_t>& of) {
   const std::size_t n = of.size();
   std::vector<Corners> triangles;

@@ -1,4 +1,4 @@
-// Meshes that plain sweeps do not, or only just, make well-centered: polygons without inner vertices, sharp corners,
+// Meshes that plain sweeps do not make well-centered, or only just: polygons without inner vertices, sharp corners,
 // strong grading.
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 using generate::invalid;
 
-/// Closed polygons, the first around all others, with what is inside as further points.
+/// Closed polygons, the first around all others, and further points inside.
 Expected<Mesh> mesh_of(const std::vector<Polygon>& polygons, const std::vector<Vec2>& inside = {}) {
   std::vector<Vec2> points;
   std::vector<std::array<std::int32_t, 2>> segments;
@@ -41,7 +41,7 @@ Polygon divided(const std::vector<Side>& sides) {
   return polygon;
 }
 
-/// Places from 0 to 1 whose distances grow as size says.
+/// Places from 0 to 1 whose distances follow size.
 template <class Size>
 std::vector<double> graded_steps(const Size& size) {
   std::vector<double> steps = {0};
@@ -106,7 +106,7 @@ Expected<Mesh> graded_mesh(const GradedMesh& shape) {
   for (auto s = steps.rbegin(); s + 1 != steps.rend(); ++s) square.push_back({0, *s});
   constexpr int kDarts = 20000;    // more than fit
   constexpr double kApart = 0.6;   // of the size: about as dense as darts get
-  constexpr double kMargin = 0.3;  // from the fine sides, where no boundary point may be near enough to count
+  constexpr double kMargin = 0.3;  // from the fine sides: boundary points are not near enough to count
   std::vector<Vec2> inside;
   Rng rng(shape.seed);
   for (int i = 0; i < kDarts; ++i) {

@@ -1,17 +1,17 @@
 // Segments into a Delaunay triangulation, of the plane or of the sphere.
 //
-// A segment is followed from vertex to vertex: a vertex that lies on it splits it. Between two such vertices u and w
-// it is an edge already, or it crosses a strip of triangles; these are replaced by triangulations of what is left
-// of uw and what is right of it, and Lawson's flips make the rest constrained Delaunay again.
+// A segment is followed from vertex to vertex: a vertex that lies on it splits it. Between two such vertices u and w it
+// may be an edge already, or it crosses a strip of triangles. Triangulations of the parts left and right of uw replace
+// these. Then Lawson's flips make the rest constrained Delaunay again.
 //
-//           l1---l2                         The chain u l1 l2 … w need not be a simple polygon: an edge that hangs
-//          / \  /  \      strip: the        into the strip is passed on both sides, and its end comes once while its
-//         u···\/····w     triangles that    foot comes twice. Triangles are therefore joined by the names of their
-//          \  /\   /      u···w enters      corners, not by their place in the chain.
+//           l1---l2                         The chain u l1 l2 … w need not be a simple polygon. An edge that hangs
+//          / \  /  \      strip: the        into the strip is passed on both sides; its end comes once, its foot
+//         u···\/····w     triangles that    comes twice. So triangles are joined by the names of their corners, not
+//          \  /\   /      u···w enters      by their place in the chain.
 //           r1--r2
 //
 // Rejected: flipping the crossed edges away one by one in a queue. It needs less code, but a flip may leave the new
-// edge crossing too, and no proof that the queue runs empty is known to us.
+// edge crossing, too. We found no proof that the queue runs empty.
 #include <algorithm>
 #include <unordered_map>
 
@@ -31,7 +31,7 @@ struct Strip {
   Chain left, right;  ///< from u to w, both included
 };
 
-/// The next part of a segment: an edge that is there, a strip to the next vertex, or a constrained edge in the way.
+/// The next part of a segment: an existing edge, a strip to the next vertex, or a constrained edge in the way.
 struct Step {
   enum class Kind { edge, strip, blocked } kind;
   HalfedgeId h;  ///< the edge from u; or the constrained one
@@ -67,7 +67,7 @@ class SegmentInserter {
     return (std::uint64_t{std::min(a, b).index} << 32) | std::max(a, b).index;
   }
   [[nodiscard]] Sign side(VertexId u, VertexId w, VertexId v) const { return inlined::orientation(mesh_, u, w, v); }
-  /// v is on the line of uw: is it on w's side of u?
+  /// For v on the line of uw: is it on w's side of u?
   [[nodiscard]] bool is_ahead(VertexId u, VertexId w, VertexId v) const {
     return temper::is_ahead(mesh_.space(), mesh_.point(u), mesh_.point(w), mesh_.point(v));
   }
@@ -84,7 +84,7 @@ class SegmentInserter {
     return follow(u, w, entry);
   }
 
-  /// Through the strip, starting across the halfedge from the right chain to the left one.
+  /// Follows the segment through the strip, starting across the halfedge from the right chain to the left one.
   Step follow(VertexId u, VertexId w, HalfedgeId across) const {
     Step step{Step::Kind::strip, {}, {}};
     Strip& strip = step.strip;
@@ -159,8 +159,8 @@ class SegmentInserter {
 
   static std::uint64_t directed(VertexId a, VertexId b) { return (std::uint64_t{a.index} << 32) | b.index; }
 
-  /// Triangles between the chord from front to back and the chain: each takes the vertex whose circle with the chord
-  /// contains no other of the chain (Anglada 1997).
+  /// Triangles between the chord from front to back and the chain. Each takes a vertex whose circle with the chord
+  /// contains no other vertex of the chain (Anglada 1997).
   void triangulate_chain(const Chain& chain, bool chain_is_left) {
     std::vector<std::pair<std::size_t, std::size_t>> chords = {{0, chain.size() - 1}};
     while (!chords.empty()) {
@@ -182,7 +182,7 @@ class SegmentInserter {
   }
 
   /// Is the candidate inside the circle of the chord uw and the best vertex so far? (The end of a hanging edge is
-  /// inside that of its foot, so the two places of a foot are never both left to choose from.)
+  /// inside its foot's circle, so the two places of a foot never both remain.)
   [[nodiscard]] bool is_nearer(VertexId u, VertexId w, VertexId best, VertexId candidate, bool left) const {
     if (candidate == best) return false;
     const inlined::Quad quad = left ? inlined::Quad{u, w, best, candidate} : inlined::Quad{w, u, best, candidate};

@@ -1,4 +1,4 @@
-// Plane geometry of example outlines, in doubles: it chooses where points go, never what is valid.
+// Plane geometry of example outlines, in doubles: it chooses the places of points, and never decides what is valid.
 #include "generate/outline.hpp"
 
 #include <algorithm>

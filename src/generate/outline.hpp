@@ -31,8 +31,8 @@ struct Outline {
 [[nodiscard]] std::size_t count_pieces(const Polygon& polygon, double spacing);
 [[nodiscard]] bool contains(const Polygon& polygon, Vec2 p);
 [[nodiscard]] double squared_distance(const Polygon& polygon, Vec2 p);
-/// A point on the bisector of each convex corner of a counter-clockwise polygon, at `distance` from it. It keeps the
-/// corner and its two neighbors from being a triangle of three boundary vertices, which no fixed boundary can cure.
+/// A point on the bisector of each convex corner of a counter-clockwise polygon, at `distance` from it. Without it the
+/// corner and its two neighbors could be a triangle of three boundary vertices, which no optimization can improve.
 [[nodiscard]] std::vector<Vec2> corner_points(const Polygon& polygon, double distance);
 
 [[nodiscard]] inline InputError invalid(std::string message) {

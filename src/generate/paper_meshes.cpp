@@ -15,8 +15,8 @@ using generate::invalid;
 
 bool is_positive(double x) { return std::isfinite(x) && x > 0; }
 
-/// cos and sin of π i / n, exactly symmetric about i = n/2, exact at both ends and in the middle: a foot that is
-/// level and an axis that is at 0 are what the example means (cos(π/2) is 6e-17 in doubles).
+/// cos and sin of π i / n, exactly symmetric about i = n/2, exact at both ends and in the middle. The example means a
+/// level foot and an axis at 0, but cos(π/2) is 6e-17 in doubles.
 Vec2 half_turn(int i, int n) {
   if (2 * i == n) return {0, 1};
   const int folded = 2 * i < n ? i : n - i;
@@ -84,8 +84,8 @@ Expected<Mesh> single_triangle(const SingleTriangle& shape) {
 // A box around a Joukowski airfoil, graded from the trailing edge to the far field.
 //
 // The foil is the image of a circle through ζ = 1 under z = ζ + 1/ζ, which sends ζ = 1 to a cusp. Rings of points
-// around the circle, their spacing growing from ring to ring, are mapped with it: the map is conformal, so that
-// triangles keep their angles while their sizes shrink towards the cusp, as around a real airfoil.
+// around the circle, whose spacing grows from ring to ring, are mapped with it. The map is conformal: triangles keep
+// their angles while their sizes shrink towards the cusp, as around a real airfoil.
 
 namespace {
 

@@ -1,5 +1,5 @@
-// Random points in a polygon: an unstructured mesh with about half of its triangles obtuse, as bad as a Delaunay
-// mesh of a sensible boundary gets, and yet one that a fixed boundary does not make hopeless.
+// Random points in a polygon: an unstructured mesh with about half of its triangles obtuse. A Delaunay mesh of a
+// sensible boundary gets no worse, and yet the fixed boundary does not make it hopeless.
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +13,8 @@ namespace {
 
 // Points keep this part of the mean spacing from the boundary, so that no boundary triangle is a sliver.
 constexpr double kBoundaryGap = 0.5;
-// A corner point at this part of the spacing lies inside the circle of a right corner and its neighbors (whose
-// center is at 0.71 of the spacing, with that radius), and still well away from both sides.
+// A corner point at this part of the spacing lies inside the circle of a right corner and its neighbors. (The center
+// and radius of the circle are 0.71 of the spacing.) It is still well away from both sides.
 constexpr double kCornerGap = 0.6;
 
 /// An L with a notch in its base: reflex at the notch and at the elbow.
@@ -44,7 +44,7 @@ std::optional<InputError> check(const RandomMesh& shape, const Polygon& polygon)
   return std::nullopt;
 }
 
-/// The mean spacing of n points in the polygon, or more, until the boundary alone does not take more than n.
+/// The mean spacing of n points in the polygon; more, if the boundary alone would take more than n points.
 double boundary_spacing(const Polygon& polygon, std::size_t n) {
   constexpr double kStep = 1.0625;
   double spacing = std::sqrt(generate::signed_area(polygon) / static_cast<double>(n));
@@ -52,7 +52,7 @@ double boundary_spacing(const Polygon& polygon, std::size_t n) {
   return spacing;
 }
 
-/// Adds uniformly random points up to n in all. Where the gap leaves no room, the gap is halved.
+/// Adds uniformly random points up to n in all. If the gap leaves no room, it is halved.
 void fill(std::vector<Vec2>& points, std::size_t n, const Polygon& polygon, double spacing, Rng& rng) {
   Box box;
   for (const Vec2 p : polygon) box.add(p);

@@ -1,8 +1,8 @@
 // Incremental Delaunay triangulation of points around the sphere: the hull of all points.
 //
-// It begins with a tetrahedron of four points of its own, around the center, so that the mesh is closed at all times
-// and every point is in a triangle, on an edge or at a vertex of it. They go at the end, but for those without which
-// half of the sphere would be empty.
+// It begins with a tetrahedron of four helper points around the center. So the mesh is closed at all times, and every
+// point is in a triangle, on an edge or at a vertex of it. The helpers are removed at the end, except those without
+// which half of the sphere would be empty.
 #include <algorithm>
 
 #include "base/text.hpp"
@@ -25,7 +25,7 @@ class SphereInserter {
     result_.vertex.resize(n_points);
   }
 
-  /// Inserts point i; or the vertex that is there already.
+  /// Inserts point i, or returns the vertex at its place.
   std::optional<VertexId> insert(std::uint32_t i, Vec3 p) {
     const Location at = locate(result_.mesh, as_point(p), last_);
     if (at.kind == Location::Kind::at_vertex) return vertex_at(at.triangle, p);
@@ -40,7 +40,7 @@ class SphereInserter {
     return std::nullopt;
   }
 
-  /// Those that are left have the numbers after those of the points.
+  /// Helpers that stay are numbered after the points.
   void remove_helpers() {
     for (std::size_t k = 0; k < kHelpers; ++k) {
       plan_ = plan_removal(result_.mesh, VertexId(k), std::move(plan_));

@@ -1,10 +1,10 @@
 // Incremental Delaunay triangulation of a growing convex hull.
 //
-// There is no enclosing triangle, neither of huge size (whose circumcircles would cut corners off the hull) nor
-// symbolic: the mesh is at all times the Delaunay triangulation of the convex hull of the points so far. A point
-// inside splits a triangle or an edge; a point outside is joined to every hull edge it sees, strictly, which leaves
-// the hull convex and complete. With points in random rounds few are outside. Lawson's flips follow each insertion;
-// every decision is an exact predicate, so offsets, scales and lattices make no difference.
+// There is no enclosing triangle, neither a huge one (whose circumcircles would cut corners off the hull) nor a
+// symbolic one. The mesh is at all times the Delaunay triangulation of the convex hull of the points so far. A point
+// inside splits a triangle or an edge. A point outside is joined to every hull edge it strictly sees, so that the hull
+// stays convex. With points in random rounds few are outside. Lawson's flips follow each insertion. Every decision is
+// an exact predicate, so offsets, scales and lattices make no difference.
 #include <algorithm>
 #include <bit>
 
@@ -28,7 +28,7 @@ struct Keyed {
   friend bool operator<(const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; }
 };
 
-/// `curve`: the place of a point along it, of so many bits.
+/// `curve`: the place of a point along it, in `bits` bits.
 template <class Point, class Curve>
 std::vector<std::uint32_t> order_along(std::span<const Point> points, int bits, const Curve& curve) {
   constexpr int kRounds = 24;  // a first round of one point or none up to 16 million points
@@ -74,7 +74,8 @@ class Inserter {
     result_.vertex.resize(points.size());
   }
 
-  /// The first triangle: the first points of the order that differ and turn. Returns their places in the order.
+  /// The first triangle: the first points of the order that are distinct and not collinear. Returns their places in the
+  /// order.
   std::optional<std::array<std::size_t, 3>> start(std::span<const std::uint32_t> order) {
     const Vec2 a = points_[order[0]];
     std::size_t i = 1;
@@ -96,7 +97,7 @@ class Inserter {
     return corners;
   }
 
-  /// Inserts point i; or the vertex that is there already.
+  /// Inserts point i, or returns the vertex at its place.
   std::optional<VertexId> insert(std::uint32_t i) {
     const Location at = locate(points_[i]);
     if (at.place == Place::vertex) return mesh().origin(at.h);
@@ -110,7 +111,7 @@ class Inserter {
       v = extend_hull(at.h, i);
     }
     record(v, i);
-    // The spokes of v are right: only the edges of its link can have become wrong.
+    // The spokes of v are regular: only the edges of its link may not be.
     for (const HalfedgeId h : mesh().star(v)) lawson_.push(Mesh::next(h));
     lawson_.run(mesh(), IgnoreFlips(), Lawson::kNoCap, result_.conflict_test());
     last_ = Mesh::triangle(mesh().outgoing(v));
@@ -131,7 +132,7 @@ class Inserter {
   }
 
   /// Walks from the last triangle, always across an edge that has p strictly on its other side. In a Delaunay
-  /// triangulation no triangle comes twice: the power of p to the circumcircles falls along the way.
+  /// triangulation no triangle comes twice: the power of p relative to the circumcircles falls along the way.
   Location locate(Vec2 p) {
     HalfedgeId entered;
     for (HalfedgeId h = Mesh::halfedge(last_, 0);;) {
@@ -154,7 +155,7 @@ class Inserter {
   Location settle(HalfedgeId h, const std::array<HalfedgeId, 2>& touching, int touched) const {
     if (touched == 0) return {Place::inside, h};
     if (touched == 1) return {Place::edge, touching[0]};
-    // On two sides at once: at the corner where one ends and the other starts.
+    // If p is on two sides at once, it is at their common corner.
     return {Place::vertex, Mesh::next(touching[0]) == touching[1] ? touching[1] : touching[0]};
   }
 

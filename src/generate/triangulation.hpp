@@ -1,8 +1,8 @@
 // The stages of a constrained Delaunay triangulation: points, segments, carving, numbering.
 //
-// While it is built, vertices are numbered in the order of their insertion, which keeps neighbors near in memory;
-// `number` leads back to the user's. All ties are broken by the user's numbers, so that the triangulation depends
-// on the points and the segments alone.
+// During construction vertices are numbered in the order of their insertion, which keeps neighbors near in memory.
+// `number` has the user's numbers, which break all ties. So the triangulation depends on the points and the segments
+// alone.
 #pragma once
 
 #include <array>
@@ -36,17 +36,17 @@ struct Triangulation {
 [[nodiscard]] std::vector<std::uint32_t> insertion_order(std::span<const Vec2> points);
 [[nodiscard]] std::vector<std::uint32_t> insertion_order(std::span<const Vec3> points);
 
-/// The error of what `stop` has ended.
+/// The error after `stop` has ended the work.
 [[nodiscard]] inline InputError stopped_error() {
   return {ErrorCode::stopped, "", "the triangulation was stopped before its end"};
 }
 
-/// The Delaunay triangulation of the convex hull. `stop`: asked at each point.
+/// The Delaunay triangulation of the convex hull. `stop` is called at each point.
 [[nodiscard]] Expected<Triangulation> triangulate_points(std::span<const Vec2> points,
                                                          const std::function<bool()>& stop = {});
 
-/// The Delaunay triangulation of points of the sphere of this radius. Where they leave half of it empty, up to four
-/// vertices of no point are added, whose numbers come after those of the points.
+/// The Delaunay triangulation of points of the sphere of this radius. If they leave half of it empty, up to four
+/// vertices without a point are added, numbered after the points.
 [[nodiscard]] Expected<Triangulation> triangulate_sphere(std::span<const Vec3> points, double radius,
                                                          const std::function<bool()>& stop = {});
 

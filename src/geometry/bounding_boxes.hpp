@@ -1,7 +1,7 @@
-// A static tree of bounding boxes: which of many segments, or other things, are near a place.
+// A static tree of bounding boxes: it finds the segments, or other things, near a place.
 //
-// Boxes are halved by count along the longest side of their union, down to a few a leaf; the tree is an implicit
-// array, so it costs one sort and no pointers.
+// Boxes are halved by count along the longest side of their union, down to leaves of a few boxes. The tree is an
+// implicit array, so it costs one sort and no pointers.
 #pragma once
 
 #include <algorithm>
@@ -49,7 +49,7 @@ class BoundingBoxTree {
     if (!boxes_.empty()) build(0, order_.size());
   }
 
-  /// Calls f(i) for every box i that meets `box`, until f returns false. Returns whether it never did.
+  /// Calls f(i) for every box i that meets `box`, until f returns false. Returns true if f never did.
   template <class F>
   bool visit(const BoundingBox& box, const F& f) const {
     return nodes_.empty() || visit(0, box, f);

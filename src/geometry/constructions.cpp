@@ -1,7 +1,7 @@
 // Orthocenters, heights and crossings in doubles.
 //
-// Everything starts from differences of positions and of weights, which are nearly exact for neighbors in a mesh
-// however far they are from the origin and however large a constant all weights share.
+// Everything starts from differences of positions and of weights. They are nearly exact for neighbors in a mesh,
+// however far these are from the origin, and however large a constant all weights share.
 #include <array>
 #include <cmath>
 
@@ -10,7 +10,7 @@
 
 namespace temper {
 
-// With a = q − p and b = r − p, o = p + c: 2 a·c = |a|² + w_p − w_q and 2 b·c = |b|² + w_p − w_r.
+// Let a = q − p, b = r − p and o = p + c. Then 2 a·c = |a|² + w_p − w_q and 2 b·c = |b|² + w_p − w_r.
 Vec2 orthocenter(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
   const Vec2 a = q.position() - p.position();
   const Vec2 b = r.position() - p.position();
@@ -29,9 +29,9 @@ double signed_height(const WeightedPoint& p, const WeightedPoint& q, const Weigh
   return scaled_heights(p, q, r)[2] / length(q.position() - p.position());
 }
 
-// With the dot products D_p = (q − p)·(r − p) and so on at the corners, and S twice the area,
-//   2 S h_pq ℓ_pq = D_p (D_r + w_q − w_r) + D_q (D_r + w_p − w_r),
-// and cyclically. The weights drop out of the sum over the edges: 2 (D_p D_q + D_q D_r + D_r D_p) = 2 S².
+// Let D_p = (q − p)·(r − p) and so on be dot products at the corners, and S twice the area. Then, cyclically,
+//   2 S h_pq ℓ_pq = D_p (D_r + w_q − w_r) + D_q (D_r + w_p − w_r).
+// The weights drop out of the sum over the edges, which is 2 (D_p D_q + D_q D_r + D_r D_p) = 2 S².
 std::array<double, 3> scaled_heights(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
   const Vec2 pq = q.position() - p.position();
   const Vec2 qr = r.position() - q.position();
@@ -49,7 +49,7 @@ std::array<double, 3> scaled_heights(const WeightedPoint& p, const WeightedPoint
 
 double doubled_area(Vec2 p, Vec2 q, Vec2 r) { return cross(q - p, r - p); }
 
-// atan2 keeps its digits for angles near 0 and π, where acos of the normalized dot product has none.
+// atan2 keeps its digits for angles near 0 and π, unlike acos of the normalized dot product.
 double corner_angle(Vec2 p, Vec2 q, Vec2 r) {
   const Vec2 a = q - p;
   const Vec2 b = r - p;

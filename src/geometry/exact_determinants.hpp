@@ -1,8 +1,8 @@
 // The determinants whose signs are the predicates, exactly, as expansions.
 //
-// Every determinant is a polynomial of differences of the inputs; a difference of two doubles is an expansion of
-// two terms, exactly, so nothing here ever rounds. On inputs whose differences are single doubles (lattices, where
-// ties are) the expansions stay a few terms long.
+// Every determinant is a polynomial of differences of the inputs. A difference of two doubles is exactly an expansion
+// of two terms, so nothing here ever rounds. If differences are single doubles (on lattices, which have the ties), the
+// expansions stay a few terms long.
 #pragma once
 
 #include "geometry/expansion.hpp"
@@ -52,8 +52,7 @@ inline auto doubled_crossing(const WeightedPoint& p, const WeightedPoint& q) {
   return dot(pq, pq) + difference(p.w, q.w);
 }
 
-// --- of weighted vectors
-// ----------------------------------------------------------------------------------------------
+// --- of weighted vectors --------------------------------------------------------------------------------------------
 
 struct ExactVector3 {
   Expansion<2> x, y, z;

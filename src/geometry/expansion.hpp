@@ -1,15 +1,15 @@
 // Exact arithmetic on doubles: a number is kept as an unevaluated sum of doubles, an expansion.
 //
-// Sums, differences and products of doubles have rounding errors that are doubles themselves (Dekker 1971, Knuth),
-// so polynomials of doubles can be computed without error and their signs read off the leading term (Shewchuk,
-// "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997). The terms are
-// nonoverlapping, smallest first, and never zero; the storage is on the stack and its capacity is in the type.
+// Sums, differences and products of doubles have rounding errors that are doubles themselves (Dekker 1971, Knuth). So
+// polynomials of doubles can be computed without error, and the leading term has their sign. (Shewchuk, "Adaptive
+// precision floating-point arithmetic and fast robust geometric predicates", 1997.) The terms are nonoverlapping,
+// smallest first, and never zero. The storage is on the stack, and its capacity is in the type.
 //
-// Everything here relies on each operation being rounded to double, to nearest even, exactly as written. So no
-// fast-math, no extended intermediate results, and -ffp-contract=off, given explicitly: g++ otherwise fuses a * b + c
-// into one rounding where the processor can, which the proofs do not allow for and which makes the bits depend on the
-// processor. Products are split by Dekker's method rather than by std::fma, which is slow or absent on some targets
-// (WebAssembly); every target then does the same operations.
+// All of this relies on each operation being rounded to double, to nearest even, exactly as written. So no fast-math,
+// no extended intermediate results, and -ffp-contract=off, given explicitly. Without it g++ fuses a * b + c into one
+// rounding if the processor can. The proofs do not allow that, and the bits would depend on the processor. Products are
+// split by Dekker's method, as std::fma is slow or absent on some targets (WebAssembly). So every target does the same
+// operations.
 #pragma once
 
 #include <array>

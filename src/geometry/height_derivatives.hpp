@@ -1,10 +1,10 @@
 // The derivatives of a triangle's scaled heights, for one triangle (T = double) or for eight at once (T = Pack).
 //
-// With a, b, S, u_a, u_b as in triangle_kernel.hpp, c = b − a and the orthocenter at p + ω,
+// Let a, b, S, u_a, u_b be as in triangle_kernel.hpp, c = b − a, and the orthocenter at p + ω. Then
 //
 //   a·ω = u_a    b·ω = u_b    g_pq = a × ω    g_rp = ω × b    g_qr = S − g_pq − g_rp
 //
-// so that all derivatives are those of ω. A step of the differences moves it by dω with
+// so that all derivatives follow from derivatives of ω. A step of the differences moves ω by dω with
 //
 //   a·dω = α = (a − ω)·da + dw_a/2    b·dω = β = (b − ω)·db + dw_b/2        w_a = w_p − w_q, w_b = w_p − w_r
 //   a × dω = (|a|² β − a·b α)/S       dω × b = (|b|² α − a·b β)/S
@@ -17,8 +17,8 @@
 
 namespace temper {
 
-// Vectors and matrices in (x, y, w) of one corner, on the sphere in its chart. What has no part in w is a PlaneVector:
-// no zeros are computed with.
+// Vectors and matrices in (x, y, w) of one corner, on the sphere in its chart. A PlaneVector is one whose part in w is
+// zero, so that zeros cost no operations.
 
 template <class T>
 struct PlaneVector {
@@ -42,7 +42,7 @@ TEMPER_INLINE CornerVector<T> select(Mask m, const CornerVector<T>& u, const Cor
   return {select(m, u.x, v.x), select(m, u.y, v.y), select(m, u.w, v.w)};
 }
 
-/// The upper half of a matrix that is symmetric when all is added up.
+/// The upper half of a matrix that becomes symmetric when all terms are added.
 template <class T>
 struct CornerMatrix {
   T xx, xy, xw, yy, yw, ww;
@@ -90,8 +90,8 @@ TEMPER_INLINE PlaneVector<T> orthocenter(const Spoke<T>& a, const Spoke<T>& b, c
   return {(a.u * b.y - b.u * a.y) * inverse_area, (b.u * a.x - a.u * b.x) * inverse_area};
 }
 
-/// The derivatives in p alone, where da = db = −dp and dw_a = dw_b = dw_p. With m = ∇S = (−c_y, c_x), ω̂ = (ω_x, ω_y,
-/// ½), k = a·c/S and κ = |c|²/S:
+/// The derivatives in p alone, where da = db = −dp and dw_a = dw_b = dw_p. Let m = ∇S = (−c_y, c_x),
+/// ω̂ = (ω_x, ω_y, ½), k = a·c/S and κ = |c|²/S. Then
 ///
 ///   ∇g_pq = (a_y − ω_y, ω_x − a_x, 0) − k ω̂    ∇²g_pq = k I + ω̂⊗(c + k m)/S + (c + k m)⊗ω̂/S
 ///   ∇g_qr = − κ ω̂                              ∇²g_qr = κ (I + ω̂⊗m/S + m⊗ω̂/S)
@@ -131,8 +131,8 @@ TEMPER_INLINE HeightsAtCorner<T> heights_at_corner(const Spoke<T>& a, const Spok
 
 // --- the squared length of an edge and its weight difference, as they depend on p ---------------------------------
 //
-// In the plane ∇ℓ² = (−2a, 0), ∇²ℓ² = 2 in the plane, and ∇Δw = (0, 0, 1). In a chart of the sphere ℓ² has a slope in w
-// too, and ∇²ℓ² = ∇²Δw = 2 (1, 1, σ²) on the diagonal.
+// In the plane ∇ℓ² = (−2a, 0), ∇²ℓ² = 2 in the plane, and ∇Δw = (0, 0, 1). In a chart of the sphere ℓ² depends on w,
+// too. There ∇²ℓ² = ∇²Δw = 2 (1, 1, σ²) on the diagonal.
 
 template <class T>
 TEMPER_INLINE PlaneVector<T> gradient_of_l2(const Spoke<T>& a) {
@@ -153,7 +153,7 @@ TEMPER_INLINE CornerVector<T> by_l2_and_dw(const T& f_l, const CornerVector<T>& 
   return {f_l * to_l2.x, f_l * to_l2.y, f_l * to_l2.w + f_w};
 }
 
-/// What ∇Δw has of f_lw (∇Δw⊗∇ℓ² + …) in the upper half: its part in w.
+/// The contribution of ∇Δw to f_lw (∇Δw⊗∇ℓ² + …) in the upper half: its part in w.
 template <class T>
 TEMPER_INLINE T along_w(const T& f_lw, const PlaneVector<T>&, const T& rest) {
   static_cast<void>(f_lw);
@@ -176,8 +176,8 @@ TEMPER_INLINE void add_curvature(const SphereSpoke<T>& a, const T& f_l, const T&
   sum.ww = sum.ww + f * (a.sigma * a.sigma);
 }
 
-/// Makes derivatives along straight steps of P those along the steps of its chart, whose second derivatives are − up/ρ
-/// in x and y, − up/(4ρ³) in w, and e₁/(2ρ²) in x and w.
+/// Turns derivatives along straight steps of P into derivatives along steps of its chart. The second derivatives of
+/// these steps are − up/ρ in x and y, − up/(4ρ³) in w, and e₁/(2ρ²) in x and w.
 template <class T>
 TEMPER_INLINE void bend(const PointOf<T>&, CornerDerivatives<T>&) {}
 template <class T>
@@ -191,8 +191,8 @@ TEMPER_INLINE void bend(const Chart<T>& chart, CornerDerivatives<T>& d) {
 
 // --- heights on the sphere -----------------------------------------------------------------------------------------
 
-/// The derivatives in P alone. With n̂ the unit normal of the triangle, c = b − a, g_pq = (P × Q)·n̂; a step dP turns n̂
-/// by − (n̂·dP/S) m, m = n̂ × c = ∇S, and with H = n̂·P, k = a·c/S and κ = |c|²/S
+/// The derivatives in P alone. Let n̂ be the unit normal of the triangle, c = b − a, and g_pq = (P × Q)·n̂. A step dP
+/// turns n̂ by − (n̂·dP/S) m, m = n̂ × c = ∇S. With H = n̂·P, k = a·c/S and κ = |c|²/S
 ///
 ///   ∇g_pq = − n̂ × Q − k H n̂     ∇²g_pq = (H/S) [c⊗n̂ + k m⊗n̂ + …ᵀ] − [c·Q/S + k (1 − m·P/S)] n̂⊗n̂
 ///   ∇g_qr = − κ H n̂             ∇²g_qr = (H/S) κ [m⊗n̂ + …ᵀ] − κ (1 − m·P/S) n̂⊗n̂
@@ -280,7 +280,7 @@ struct Symmetric6 {
     T& entry = v[i < j ? hessian_entry(j, i) : hessian_entry(i, j)];
     entry = entry + x;
   }
-  /// x⊗y + y⊗x, where x has just the entries first … first + n − 1. An entry on the diagonal gets both.
+  /// x⊗y + y⊗x, where x is zero outside the entries first … first + n − 1. An entry on the diagonal gets both.
   TEMPER_INLINE void add_sum_of_products(const T* x, std::size_t first, std::size_t n, const Vector6<T>& y) {
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < 6; ++j) {
@@ -289,7 +289,7 @@ struct Symmetric6 {
       }
     }
   }
-  /// x⊗y + y⊗x, where x has the entries first … first + 2, and y none of a weight.
+  /// x⊗y + y⊗x, where x is zero outside the entries first … first + 2, and y has no part in a weight.
   TEMPER_INLINE void add_sum_of_products(const T* x, std::size_t first, const PlaneVector<T>& y_a,
                                          const PlaneVector<T>& y_b) {
     const T y[4] = {y_a.x, y_a.y, y_b.x, y_b.y};
@@ -303,13 +303,13 @@ struct Symmetric6 {
   }
 };
 
-/// The derivatives in all three corners. With J (x, y) = (y, −x), A = (a − ω, −½) and B = (b − ω, −½), α is A·(da,
-/// dδ_a) for δ_a = w_q − w_p, and β so with B; the gradients, in these three numbers and in those of b, are
+/// The derivatives in all three corners. Let J (x, y) = (y, −x), A = (a − ω, −½) and B = (b − ω, −½). Then α is
+/// A·(da, dδ_a) for δ_a = w_q − w_p, and β likewise with B. The gradients in (da, dδ_a) and (db, dδ_b) are
 ///
 ///   ∇g_pq = (Jω − (a·b/S) A, (|a|²/S) B)    ∇g_rp = ((|b|²/S) A, − Jω − (a·b/S) B)    ∇S = (Jb, − Ja)
 ///
-/// and with k_a = (f_pq − f_qr)/S, k_b = (f_rp − f_qr)/S, m_a = k_b |b|² − k_a a·b, m_b = k_a |a|² − k_b a·b, the
-/// Hessian of f_pq g_pq + f_qr g_qr + f_rp g_rp is f_qr ∇²S + m_a I_a + m_b I_b + A⊗P + P⊗A + B⊗Q + Q⊗B where
+/// Let k_a = (f_pq − f_qr)/S, k_b = (f_rp − f_qr)/S, m_a = k_b |b|² − k_a a·b, m_b = k_a |a|² − k_b a·b. The Hessian of
+/// f_pq g_pq + f_qr g_qr + f_rp g_rp is then f_qr ∇²S + m_a I_a + m_b I_b + A⊗P + P⊗A + B⊗Q + Q⊗B where
 ///
 ///   P = (− (k_a + m_a J/S) b, (k_b − m_b J/S) b)    Q = ((k_a + m_a J/S) a, − (k_b − m_b J/S) a)
 template <class T>

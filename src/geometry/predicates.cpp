@@ -12,9 +12,9 @@ namespace {
 
 constexpr Sign operator*(Sign a, Sign b) { return static_cast<Sign>(static_cast<int>(a) * static_cast<int>(b)); }
 
-/// The sign of a tie of four vertices. The determinant of the power test is linear in what is perturbed of each, and
-/// the derivatives by it of a, b, c, d have the signs − o(b, c, d), + o(a, c, d), − o(a, b, d), + o(a, b, c), o their
-/// orientation; the lowest index whose derivative is not zero decides.
+/// The sign of a tie of four vertices. The determinant of the power test is linear in the perturbed quantity of each
+/// vertex. Its derivatives for a, b, c, d have the signs − o(b, c, d), + o(a, c, d), − o(a, b, d), + o(a, b, c), where
+/// o is the orientation. The vertex with the lowest index whose derivative is not zero decides.
 template <class Orientation>
 Sign perturbed_sign(const std::array<std::uint32_t, 4>& index, const Orientation& of) {
   std::array<int, 4> order = {0, 1, 2, 3};
@@ -89,8 +89,8 @@ Sign power_test(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   return inlined::sign_or(inlined::filtered_power_test(a, b, c, d), [&] { return exact::power_test(a, b, c, d); });
 }
 
-// The determinant of the four rows (P, 1) is linear in the scale of each P; the products of two scales are smaller than
-// every single one.
+// The determinant of the four rows (P, 1) is linear in the scale of each P. The products of two scales are smaller than
+// every single scale.
 Sign power_test_perturbed(Vec3 a, Vec3 b, Vec3 c, Vec3 d, const std::array<std::uint32_t, 4>& index) {
   const Sign unperturbed = power_test(a, b, c, d);
   if (unperturbed != Sign::zero) return unperturbed;

@@ -1,16 +1,16 @@
 // The fast paths of the exact predicates, for inlining into the loops that call them millions of times.
 //
-// Each computes its determinant in doubles together with the permanent, the same sum with every term taken
-// absolute. Rounding moves the determinant by at most a few u = 2⁻⁵³ times the permanent; beyond that bound its
-// sign is right, and what is not decided goes to the exact stage in predicates.cpp. The bounds count roundings
-// along the longest path from a coordinate to the result: n roundings give an error below n u (1 + 2nu) times
-// the exact permanent, and the computed permanent is too small by no more than another n u. Each constant is a
-// power of two above its n; multiplying by it is exact.
+// Each computes its determinant in doubles together with the permanent, the same sum of the terms' absolute values.
+// Rounding moves the determinant by at most a few u = 2⁻⁵³ times the permanent. Beyond that bound its sign is right;
+// otherwise the exact stage in predicates.cpp decides. The bounds count roundings along the longest path from a
+// coordinate to the result. For n roundings the error is below n u (1 + 2nu) times the exact permanent, and the
+// computed permanent is too small by at most another n u. Each constant is a power of two above its n; multiplying by
+// it is exact.
 //
-// Comparisons are strict: a permanent of zero (coincident or aligned points) decides nothing, nor does an infinite
-// one or a NaN. Nothing overflows or underflows in the range of is_exact_coordinate (geometry.hpp): differences are
-// multiples of 2^-266, so nonzero determinants are multiples of 2^-1064. Only the bound can underflow, where the
-// permanent is below 2^-1011; there 53 bits hold every such multiple, so that nothing was rounded at all.
+// Comparisons are strict: a permanent of zero (coincident or aligned points) decides nothing, nor does an infinite one
+// or a NaN. Nothing overflows or underflows in the range of is_exact_coordinate (geometry.hpp). Differences are
+// multiples of 2^-266, so nonzero determinants are multiples of 2^-1064. The bound alone can underflow, if the
+// permanent is below 2^-1011. Then 53 bits hold every such multiple, so that nothing was rounded at all.
 #pragma once
 
 #include <cmath>
@@ -56,14 +56,14 @@ inline constexpr double kSphereDualCrossingBound = 8 * kUnitRoundoff;
 // 11: dot product 4, dot product of differences 5, their product, one sum.
 inline constexpr double kSphereHeightBound = 16 * kUnitRoundoff;
 
-/// A value whose sign is a predicate, with a bound of its rounding: the sign is right where the value is beyond the
-/// bound. The functions that return it take points of doubles or of packs (base/pack.hpp).
+/// A value whose sign is a predicate, with a bound of its rounding: beyond the bound the sign is right. The functions
+/// that return it take points of doubles or of packs (base/pack.hpp).
 template <class T>
 struct Filtered {
   T value, bound;
 };
 
-/// A vertex as the plane has it, and as the sphere does: x, y, w, or x, y, z of the weighted vector.
+/// A vertex in coordinates of the plane, x, y, w, or of the sphere, x, y, z of the weighted vector.
 template <class Point>
 concept Planar = requires(const Point& p) {
   p.w;
@@ -73,7 +73,7 @@ concept OnSphere = requires(const Point& p) {
   p.z;
 };
 
-/// The sign of a filtered value, or what `exactly` finds where it is not decided.
+/// The sign of a filtered value, or the result of `exactly` if the filter does not decide.
 template <class Exactly>
 [[nodiscard]] inline Sign sign_or(const Filtered<double>& x, Exactly&& exactly) {
   if (x.value > x.bound) return Sign::positive;
@@ -120,8 +120,8 @@ TEMPER_INLINE auto filtered_power_test(const Point& a, const Point& b, const Poi
   return sign_or(filtered_power_test(a, b, c, d), [&] { return exact::power_test(a, b, c, d); });
 }
 
-/// Sign of 2 h ℓ S over edge pq, S twice the signed area. With the dot products D_p = (q − p)·(r − p) and so on,
-/// |q − p|² = D_p + D_q and 2 h ℓ S = D_p (D_r + w_q − w_r) + D_q (D_r + w_p − w_r).
+/// Sign of 2 h ℓ S over edge pq, where S is twice the signed area. Let D_p = (q − p)·(r − p) be the dot product at p,
+/// and so on. Then |q − p|² = D_p + D_q and 2 h ℓ S = D_p (D_r + w_q − w_r) + D_q (D_r + w_p − w_r).
 template <Planar Point>
 TEMPER_INLINE auto filtered_height_numerator(const Point& p, const Point& q, const Point& r) {
   using T = decltype(q.x - p.x);

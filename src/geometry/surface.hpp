@@ -1,5 +1,5 @@
-// The plane, or the sphere around the origin, as what is walked on. Places are points of space: those of the plane have
-// z = 0, those of the sphere are at its radius, and a step along a direction is followed by a step back onto it.
+// The plane, or the sphere around the origin, as a surface to walk on. Places are points of space. In the plane z = 0;
+// on the sphere each step along a direction ends with a step back onto the radius.
 #pragma once
 
 #include <algorithm>
@@ -43,9 +43,8 @@ class Surface {
   [[nodiscard]] Vec3 to_the_left(Vec3 direction, Vec3 at) const {
     return is_plane() ? Vec3{-direction.y, direction.x, 0} : cross((1 / length(at)) * at, direction);
   }
-  /// The place where a step from the surface ends.
+  /// The place on the surface for the end of a step.
   [[nodiscard]] Vec3 below(Vec3 p) const { return is_plane() ? p : (space_.radius() / length(p)) * p; }
-  /// Any direction at a place.
   [[nodiscard]] Vec3 some_direction(Vec3 at) const {
     if (is_plane()) return {1, 0, 0};
     const Vec3 axis = std::abs(at.z) < 0.5 * length(at) ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
@@ -60,7 +59,7 @@ class Surface {
     return below(std::cos(angle) * a + (std::sin(angle) * length(a)) * direction(a, b));
   }
 
-  /// Of p from the segment ab; beside long arcs that of their plane.
+  /// The squared distance of p from the segment ab; next to long arcs its distance from their plane.
   [[nodiscard]] double squared_distance(Vec3 p, Vec3 a, Vec3 b) const {
     if (is_plane()) {
       const double along = std::clamp(dot(p - a, b - a) / squared_length(b - a), 0.0, 1.0);
@@ -85,7 +84,7 @@ class Surface {
                       : solid_angle(as_vector(p), as_vector(q), as_vector(r));
   }
 
-  /// p on the line of ab: is it between them, neither of both?
+  /// For p on the line of ab: is it strictly between them?
   [[nodiscard]] bool is_between(Vec3 p, Vec3 a, Vec3 b) const {
     if (p == a || p == b) return false;
     const auto in_range = [](double x, double from, double to) {
@@ -102,11 +101,10 @@ class Surface {
   Space space_;
 };
 
-/// A box around the segment from a to b.
 [[nodiscard]] inline BoundingBox box_around(const Surface& surface, Vec3 a, Vec3 b) {
   const BoundingBox ends = box_of(a, b);
   if (surface.is_plane()) return ends;
-  // The arc is above its chord by no more than the radius less the distance of the chord; rounding doubles that.
+  // The distance from arc to chord is at most the radius less the distance of the chord; rounding doubles that.
   const double radius = surface.space().radius(), middle = 0.5 * length(a + b);
   constexpr double kChordRounding = 1e-12;  // of the radius: the middle of the chord is not known better
   return ends.grown(radius - std::min(radius, middle) + kChordRounding * radius);
@@ -132,8 +130,7 @@ class SurfacePath {
   Vec3 direction_;
 };
 
-// --- constructions; on the sphere a place is any point in its direction
-// -----------------------------------------------
+// --- constructions; on the sphere a place is any point in its direction ---------------------------------------------
 
 /// The places midway; their weights mean nothing.
 [[nodiscard]] inline WeightedPoint middle(const Space& space, const WeightedPoint& a, const WeightedPoint& b) {
@@ -156,8 +153,8 @@ class SurfacePath {
   return {o.x, o.y, 0};
 }
 
-/// The vertex at a place inside triangle abc with the weight that is linear between the corners': never hidden, since
-/// the plane through the weighted vectors of the corners is beyond.
+/// The vertex at a place inside triangle abc, its weight linear between the weights of the corners. It is never hidden,
+/// since the plane through the weighted vectors of the corners is beyond.
 [[nodiscard]] inline WeightedPoint with_interpolated_weight(const Space& space, const WeightedPoint& p,
                                                             const WeightedPoint& a, const WeightedPoint& b,
                                                             const WeightedPoint& c) {
@@ -192,15 +189,15 @@ class SurfacePath {
   return {a.x + part * along.x, a.y + part * along.y, 0};
 }
 
-/// Twice the area of a triangle, of which one corner is p; on the sphere of that of the weighted vectors.
+/// Twice the area of a triangle with corner p; on the sphere, of the flat triangle of its weighted vectors.
 [[nodiscard]] inline double unsigned_doubled_area(const Space& space, const WeightedPoint& p, const WeightedPoint& q,
                                                   const WeightedPoint& r) {
   const Vec3 across = cross(space.chord(p, q), space.chord(p, r));
   return space.is_plane() ? std::abs(across.z) : length(across);
 }
 
-/// Of three vertices on one line: is b on a's side of v? (On the sphere less than half the way around; the normals of
-/// both great circles are the same, or opposite.) Exact.
+/// For three vertices on one line: is b on a's side of v? On the sphere the three span less than half a great circle,
+/// and the normals of both arcs are equal or opposite. Exact.
 [[nodiscard]] inline bool is_ahead(const Space& space, const WeightedPoint& v, const WeightedPoint& a,
                                    const WeightedPoint& b) {
   if (!space.is_plane()) return dot(cross(as_vector(v), as_vector(a)), cross(as_vector(v), as_vector(b))) > 0;
@@ -214,22 +211,22 @@ class SurfacePath {
   return {x, y, space.is_plane() ? x * x + y * y - w : w};
 }
 /// Six times the volume between a triangle of such points and the plane z = 0. On the sphere the surface of least
-/// volume is the farthest out: minus that of the tetrahedron with the origin, which is no constant apart from that with
-/// the center of the sphere.
+/// volume is farthest out: so the result is minus the volume of the tetrahedron with the origin. Up to a constant it
+/// equals minus the volume with the center of the sphere.
 [[nodiscard]] inline double volume_under(const Space& space, Vec3 a, Vec3 b, Vec3 c) {
   if (!space.is_plane()) return -dot(a, cross(b, c));
   const double doubled_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   return doubled_area * (a.z + b.z + c.z);
 }
 
-/// The solid angle of PQR whose determinant is known, maybe more accurately than by differences. Van Oosterom and
-/// Strackee (1983): tan(E/2) = det(P, Q, R)/(|P||Q||R| + (P·Q)|R| + (Q·R)|P| + (R·P)|Q|).
+/// The solid angle of PQR with a given determinant, which may be more accurate than the determinant of differences. Van
+/// Oosterom and Strackee (1983): tan(E/2) = det(P, Q, R)/(|P||Q||R| + (P·Q)|R| + (Q·R)|P| + (R·P)|Q|).
 inline double solid_angle(double determinant, Vec3 p, Vec3 q, Vec3 r) {
   const double a = length(p), b = length(q), c = length(r);
   return 2 * std::atan2(determinant, a * b * c + dot(p, q) * c + dot(q, r) * a + dot(r, p) * b);
 }
 
-/// Of the right triangles on both sides of an edge, beside its end at distance d of the weighted midpoint.
+/// The areas of the right triangles on both sides of an edge, at its end at distance d from the weighted midpoint.
 inline double right_triangle_areas(const Space& space, double d, double left, double right) {
   if (space.is_plane()) return 0.5 * d * (left + right);
   return space.right_triangle_area(d, left) + space.right_triangle_area(d, right);
@@ -241,8 +238,9 @@ inline double right_triangle_areas(const Space& space, double d, double left, do
          p.y <= std::max(a.y, b.y);
 }
 
-/// Says whether the direction of p is on the closed arc from a to b, shorter than half a great circle, given that the
-/// three are on one. Exact: of the planes of two coordinates, in one they are not all on a line through 0.
+/// Says whether the direction of p is on the closed arc from a to b, which is shorter than half a great circle.
+/// Precondition: the three are on one great circle. Exact: in one of the coordinate planes they are not all on a line
+/// through 0.
 [[nodiscard]] inline bool is_between(Vec3 a, Vec3 b, Vec3 p) {
   constexpr Vec2 kOrigin = {0, 0};
   const auto from_a_to_b = [&](auto shadow) -> std::optional<bool> {
@@ -256,7 +254,7 @@ inline double right_triangle_areas(const Space& space, double d, double left, do
   return from_a_to_b([](Vec3 q) { return Vec2{q.z, q.x}; }).value_or(false);
 }
 
-/// The same in the space of a mesh.
+/// Is p on the closed segment ab, in the space of a mesh?
 [[nodiscard]] inline bool is_between(const Space& space, const WeightedPoint& a, const WeightedPoint& b,
                                      const WeightedPoint& p) {
   return space.is_plane() ? is_between(a.position(), b.position(), p.position())

@@ -1,21 +1,20 @@
-// The triangle pqr as a function of (x, y, w) of its corner p: what energies and their derivatives need, for one
-// triangle (T = double) or for eight at once (T = Pack).
+// The triangle pqr as a function of (x, y, w) of its corner p, for energies and their derivatives. It is one triangle
+// (T = double), or eight at once (T = Pack).
 //
-// With a = q − p, b = r − p, S = a × b, u_a = (|a|² + w_p − w_q)/2, u_b = (|b|² + w_p − w_r)/2, the scaled
+// Let a = q − p, b = r − p and S = a × b. Let u_a = (|a|² + w_p − w_q)/2, u_b = (|b|² + w_p − w_r)/2. The scaled
 // heights g = h ℓ are rational:
 //
 //   g_pq = (u_b |a|² − u_a a·b)/S     g_rp = (u_a |b|² − u_b a·b)/S     g_qr = S − g_pq − g_rp
 //
 // h is positive on the left of the directed edges pq, qr, rp, whatever the orientation of the triangle.
 //
-// On the sphere (temper/detail/space.hpp) the same holds of the flat triangle PQR with the weights |P|², |Q|², |R|²;
-// there u_a = P·(P − Q), and S has the sign of P·(a × b). Seen from P, in its chart:
+// On the sphere (temper/detail/space.hpp) this holds for the flat triangle PQR with the weights |P|², |Q|², |R|². There
+// u_a = P·(P − Q), and S has the sign of P·(a × b). Seen from P, in its chart:
 //
-//        up = P/ρ       A step (x, y, w) takes P, ρ = |P|, to the direction of P + x e₁ + y e₂ and the length √(ρ² +
-//        w):
-//          |            x and y change its place alone, and w its weight, as in the plane. To first order P moves by
-//        P +--- e₂      x e₁ + y e₂ + w/(2ρ) up. What is computed in the chart, derivatives too, has the plane's units,
-//         /             and the plane's formulas with a few terms more.
+//        up = P/ρ       ρ = |P|. A step (x, y, w) takes P to the direction of P + x e₁ + y e₂ and the length √(ρ² + w):
+//          |            x and y change its place alone, and w its weight, as in the plane.
+//        P +--- e₂      To first order P moves by x e₁ + y e₂ + w/(2ρ) up. Results in the chart, derivatives too, have
+//         /             the plane's units, and the plane's formulas with a few terms more.
 //        e₁
 #pragma once
 
@@ -69,7 +68,7 @@ struct Spoke {
   T u;     ///< u_a
 };
 
-/// Point: PointOf<T>, or what else has x, y, w.
+/// Point: PointOf<T>, or any type with x, y, w.
 template <class Point>
 [[gnu::always_inline]] inline auto spoke(const Point& p, const Point& q) {
   using T = decltype(p.x + p.x);
@@ -101,7 +100,7 @@ struct Chart {
   WeightedVectorOf<T> e1, e2, up;
   T rho, sigma;
 
-  /// The point that a step leads to; of no step P itself, bit for bit.
+  /// The point after a step; a step of zero gives P itself, bit for bit.
   TEMPER_INLINE WeightedVectorOf<T> moved(const T& x, const T& y, const T& w) const {
     // 1 + f is √((ρ² + w)/(ρ² + x² + y²)).
     const T rho2 = rho * rho, s2 = x * x + y * y, root = square_root((rho2 + w) / (rho2 + s2));
@@ -164,7 +163,7 @@ TEMPER_INLINE TriangleShapeOf<T> triangle_shape(const SphereSpoke<T>& a, const S
 struct EdgeMeasures {
   double l2, dw;
 };
-// What the sphere does is behind a call, with points by value: in the plane they stay in registers.
+// The case of the sphere is behind a call, with points by value: in the plane they stay in registers.
 [[gnu::noinline]] inline EdgeMeasures edge_measures_on_sphere(WeightedPoint p, WeightedPoint q) {
   const Vec3 c = as_vector(q) - as_vector(p);
   return {squared_length(c), -dot(c, as_vector(p) + as_vector(q))};
@@ -200,8 +199,8 @@ struct EdgeMeasures {
   return {q.x, q.y, q.z};
 }
 
-/// Where a vertex is seen from p, in the plane of steps: on the sphere projected from its center, so that arcs are
-/// straight and p goes straight.
+/// The direction from p to a vertex, in the plane of steps. The sphere is projected from its center, so that arcs are
+/// straight, and p moves along a straight line.
 [[nodiscard]] inline Vec2 direction_to(const Space& space, const WeightedPoint& p, const WeightedPoint& q) {
   if (space.is_plane()) [[likely]]
     return q.position() - p.position();

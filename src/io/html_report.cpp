@@ -1,11 +1,10 @@
-// The HTML report: the page that the build has put into the library, with data elements where it has its mark. An array
-// is
+// The HTML report: the page that the build has put into the library, with data elements at its mark. An array is
 //
 //   <script type="text/plain" id="after.points" data-type="float64" data-length="12" data-delta="0">…</script>
 //
-// and its text base64 of zlib's stream of planes: all first bytes of the little-endian numbers, then all second ones,
-// and so on, since bytes of one place resemble each other. With data-delta="k" each number is the difference to the one
-// k places before, in zigzag form: corners of neighbors are near each other.
+// and its text is base64 of zlib's stream of planes: all first bytes of the little-endian numbers, then all second
+// ones, and so on. Bytes of one place resemble each other. With data-delta="k" each number is the difference to the
+// number k places before, in zigzag form: corners of neighbors are near each other.
 #include <bit>
 #include <charconv>
 #include <cstdint>
@@ -49,7 +48,7 @@ std::string planes_of(std::span<const T> values) {
   return planes;
 }
 
-/// Differences to `delta` places before, wrapped around, small ones of either sign as small numbers.
+/// Differences to the number `delta` places before, wrapped around; small ones of either sign become small numbers.
 std::vector<std::uint32_t> differences(std::span<const std::int32_t> values, std::size_t delta) {
   std::vector<std::uint32_t> result(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -60,7 +59,6 @@ std::vector<std::uint32_t> differences(std::span<const std::int32_t> values, std
   return result;
 }
 
-/// The arrays of one mesh.
 class MeshArrays {
  public:
   MeshArrays(const HtmlMesh& from, std::string prefix)
@@ -109,7 +107,7 @@ class MeshArrays {
     if (lines) add("constrained", std::span<const std::uint8_t>(constrained));
   }
 
-  /// Bit k: the orthocenter is not inside across edge k; bit 3 + k: edge k is not crossed; bit 6: not
+  /// Bit k: the orthocenter is not inside across edge k. Bit 3 + k: edge k is not crossed. Bit 6: not
   /// counter-clockwise.
   [[nodiscard]] std::uint8_t verdict(const std::array<VertexId, 3>& corners) const {
     const std::array<WeightedPoint, 3> p = {mesh_.point(corners[0]), mesh_.point(corners[1]), mesh_.point(corners[2])};
@@ -129,7 +127,7 @@ class MeshArrays {
     add_numbers("triangle_numbers", mesh_.n_triangles(), [this](std::size_t i) { return names_->triangle(i); });
   }
 
-  /// The number that ends each name, unless they count from 0.
+  /// The number at the end of each name, unless they count from 0.
   template <class NameOf>
   void add_numbers(const char* what, std::size_t n, const NameOf& name_of) {
     std::vector<std::int32_t> numbers(n);
@@ -167,7 +165,7 @@ std::string element(const ArrayText& array) {
               "</script>\n");
 }
 
-/// What may stand in an element: `<` could end it.
+/// Text that may stand in an element: `<` could end it.
 std::string escaped(std::string_view plain, std::string_view less, std::string_view ampersand) {
   std::string result;
   for (const char c : plain) {
@@ -194,7 +192,7 @@ std::string_view name_of(Preference better) {
   return "equal";
 }
 
-/// The rows of quality_measures() as JSON: the page knows no measure by itself. No word of the table needs escapes.
+/// The rows of quality_measures() as JSON: the page itself has no list of measures. No word of the table needs escapes.
 std::string measures_json() {
   std::string json;
   for (const QualityMeasure& m : quality_measures()) {

@@ -1,4 +1,4 @@
-// The table of formats, and the two doors of io: read and write.
+// The table of formats, and the two entry points of io: read and write.
 //
 // A new format is one source file with a sniff, a read and maybe a write, declared here, and one row of the table.
 #include <algorithm>
@@ -34,7 +34,7 @@ Files fesom_files, triangle_files, triangle_files_to_read, vtkhdf_files, netcdf_
 
 namespace {
 
-// Of two rows that recognize a file, or have its suffix, the first is taken.
+// If two rows recognize a file, or have its suffix, temper takes the first.
 constexpr FormatRow kRows[] = {
     // clang-format off
     // name, description, suffixes, what a file holds,
@@ -53,8 +53,8 @@ constexpr FormatRow kRows[] = {
      sniff_ply, read_ply, write_ply},
     {"off", "OFF", ".off", kInSpace,
      sniff_off, read_off, write_off, {.first_point = 0}},
-    // Before those whose first word may be that of a title. Of tags and names it holds boundaries; its writer names the
-    // others.
+    // This row is before the formats whose first word may also be the first word of a title. It holds only those tags
+    // and names that are boundaries; its writer names the others.
     {"adcirc", "ADCIRC fort.14", ".14 .grd .gr3", kLines | kMarkedPoints | kNames,
      sniff_adcirc, read_adcirc, write_adcirc, {.keeps = adcirc_keeps, .degrees = Degrees::where_known}},
     {"obj", "Wavefront OBJ", ".obj", kInSpace | kAllTags | kNames,
@@ -71,7 +71,7 @@ constexpr FormatRow kRows[] = {
     {"triangle", "Triangle", ".node .ele", kAll & ~(kLineData | kMarkedPointData | kFieldData),
      sniff_triangle, read_triangle, write_triangle,
      {.files_to_write = triangle_files, .files_to_read = triangle_files_to_read}},
-    // Before those of NetCDF, which may be HDF5: it hands files of other contents on to them.
+    // This row is before the rows of NetCDF, which may be HDF5: it hands files of other contents on to them.
     {"vtkhdf", "VTKHDF unstructured grid (HDF5)", ".vtkhdf .hdf .hdf5", kAll | kSphere | kPeriod,
      sniff_vtkhdf, read_vtkhdf, write_vtkhdf, {.files_to_write = vtkhdf_files}},
     {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll | kSphere | kPeriod,
@@ -87,10 +87,10 @@ constexpr std::array<Format, sizeof...(I)> columns(std::index_sequence<I...>) {
                  (kRows[I].holds & kWeights) != 0, kRows[I].details.degrees != Degrees::always,
                  (kRows[I].holds & kSphere) != 0}...};
 }
-// Not constexpr: with its sanitizers GCC does not know that a function has an address.
+// Not constexpr: GCC with sanitizers does not take the address of a function for a constant.
 const auto kFormats = columns(std::make_index_sequence<std::size(kRows)>());
 
-/// The row whose file begins so, or null.
+/// The row of the format that begins this way, or null.
 const FormatRow* row_of(std::string_view head) {
   const auto* row =
       std::find_if(std::begin(kRows), std::end(kRows), [&](const FormatRow& each) { return each.sniff(head); });
@@ -107,14 +107,14 @@ const FormatRow& recognize(const Source& source) {
   fail(ErrorCode::syntax, source.path, "is none of the formats that temper reads: ", names);
 }
 
-/// Names of their own for all arrays of a kind, without what a terminal or a text file would take for more than a name.
+/// Makes the names of all arrays of a kind distinct, without characters that a terminal or a text file would interpret.
 void tidy_names(MeshFile& file) {
   make_names_plain(file);
   for (auto* arrays : {&file.point_data, &file.cell_data, &file.line_data, &file.marked_point_data, &file.field_data})
     make_names_unique(*arrays);
 }
 
-/// A file of a hundred thousand sections that temper drops needs no warning for each.
+/// A file with a hundred thousand sections that temper drops needs no warning for each.
 void tidy_warnings(MeshFile& file) {
   constexpr std::size_t kMost = 20;
   const std::size_t n = file.warnings.size();
@@ -175,7 +175,7 @@ const FormatRow& row_to_write(const std::string& path, const std::string& format
     if (row != nullptr && row->write != nullptr) return *row;
     fail(ErrorCode::invalid_option, path, "cannot be written as '", format, "'; expected one of ", writable_names());
   }
-  // .jigsaw.msh is more than .msh; of equals the first.
+  // .jigsaw.msh is a better match than .msh; the first of equals wins.
   const FormatRow* best = nullptr;
   std::size_t longest = 0;
   for (const FormatRow& row : kRows) {
@@ -248,7 +248,7 @@ bool goes_back_to_degrees(const FormatRow& row, const MeshFile& file) {
   return file.map() != nullptr || (row.details.degrees == Degrees::where_known && lon_lat_of_points(file));
 }
 
-/// Weights are lengths, squared: of the map, whatever the points beside them are.
+/// Warns that weights are squared lengths on the map, even if the points next to them are degrees.
 void warn_of_weights_beside_degrees(const WriteJob& job, const MeshFile& on_map) {
   const auto& weights = on_map.weights;
   if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; })) return;
@@ -281,7 +281,7 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
     std::vector<std::string> warnings;
     OutputSet outputs;
     const bool turned = goes_back_to_degrees(row, file);
-    // Who has degrees alone has the earth's radius.
+    // A file with degrees alone has the earth's radius.
     const double earth = Projection{}.radius;
     const bool always = row.details.degrees == Degrees::always;
     const bool resized = always && file.sphere() != nullptr && file.sphere()->radius != earth;

@@ -52,7 +52,7 @@ std::vector<TriangleId> along_curve(const Mesh& mesh) {
 
 }  // namespace
 
-/// On the sphere also of the part of it that is above the triangle.
+/// On the sphere the box also covers the part of the sphere above the triangle.
 BoxTree::Box BoxTree::box_of(const Mesh& mesh, TriangleId t) {
   const auto [a, b, c] = positions_of(mesh, t);
   Box box = {min_of(min_of(a, b), c), max_of(max_of(a, b), c)};
@@ -94,7 +94,7 @@ NearestPoint BoxTree::nearest_in(const Mesh& mesh, TriangleId t, const Asked& p)
     if (d2 < best.distance2) best = {t, d2, Mesh::halfedge(t, static_cast<int>(k)), along};
   }
   if (inside) return {t, 0, {}, 0};
-  // Outside by less than rounding is outside still.
+  // A point that is outside by less than rounding still is outside.
   best.distance2 = std::max(best.distance2, std::numeric_limits<double>::denorm_min());
   return best;
 }
@@ -126,7 +126,7 @@ double BoxTree::distance2(const Box& box, Vec3 p) {
   return dx * dx + dy * dy + dz * dz;
 }
 
-/// Nearer boxes first, so that most others need no look.
+/// Searches nearer boxes first, so that most others are skipped.
 void BoxTree::search(const Mesh& mesh, const Asked& p, std::size_t level, std::size_t box, NearestPoint& best) const {
   const std::size_t first = kFan * box;
   if (level == 0) {

@@ -1,5 +1,5 @@
-// A packed tree of boxes that finds the triangle of a mesh that a point is in, or nearest to. Boxes are in space: those
-// of a mesh of the plane are flat.
+// A packed tree of boxes that finds the triangle of a mesh that a point is in, or nearest to. Boxes are in space; for a
+// mesh of the plane they are flat.
 //
 // Triangles are sorted along a Hilbert curve; each box holds kFan consecutive ones of them, each box above kFan
 // consecutive boxes. The shape of the tree follows from the number of triangles, so nothing but the boxes is stored.
@@ -12,7 +12,7 @@
 
 namespace temper {
 
-/// The point of a triangle that is nearest to a point asked for.
+/// The point of a triangle that is nearest to a given point.
 struct NearestPoint {
   TriangleId triangle;
   double distance2 = 0;  ///< 0: the point asked for is in the triangle or on its boundary, decided exactly
@@ -25,15 +25,15 @@ class BoxTree {
   BoxTree() = default;
   explicit BoxTree(const Mesh& mesh);
 
-  /// The triangle nearest to p; of equally near ones always the same. Precondition: the mesh that the tree was made of,
-  /// with at least one triangle.
+  /// The triangle nearest to p; of equally near ones always the same. Precondition: `mesh` is the mesh that the tree
+  /// was made from, with at least one triangle.
   [[nodiscard]] NearestPoint nearest(const Mesh& mesh, const WeightedPoint& p) const;
 
  private:
   struct Box {
     Vec3 low, high;
   };
-  /// The point asked for, and where it is.
+  /// The given point, and its position.
   struct Asked {
     WeightedPoint point;
     Vec3 place;

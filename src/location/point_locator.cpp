@@ -1,4 +1,4 @@
-// A walk from a triangle nearby, or a search in a tree of boxes; then the corners that count, by exact tests.
+// A walk from a triangle nearby, or a search in a tree of boxes; exact tests then find the relevant corners.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,8 +16,8 @@
 namespace temper {
 namespace {
 
-// Triangles that a walk may cross before the tree is asked: a vertex step crosses one or two, and a walk that circles
-// (in meshes that are not Delaunay some do) must end.
+// The longest walk before the tree takes over. A vertex step crosses one or two triangles, and a walk that circles must
+// end: some do in meshes that are not Delaunay.
 constexpr int kLongestWalk = 32;
 
 /// A triangle and a point, as seen from its first corner.
@@ -35,7 +35,7 @@ struct Seen {
   WeightedPoint point;
 };
 
-/// Walks towards p, to the triangle that has it; invalid when the walk leaves the mesh.
+/// Walks towards p, to the triangle that contains it; invalid when the walk leaves the mesh.
 TriangleId walk(const Mesh& mesh, const WeightedPoint& p, TriangleId from) {
   TriangleId t = from;
   HalfedgeId entered;
@@ -49,7 +49,7 @@ TriangleId walk(const Mesh& mesh, const WeightedPoint& p, TriangleId from) {
     }
     if (!exit.valid()) return t;
     entered = mesh.twin(exit);
-    if (!entered.valid()) return {};  // the domain need not be convex: p may be inside all the same
+    if (!entered.valid()) return {};  // the domain need not be convex: p may still be inside
     t = Mesh::triangle(entered);
   }
   return {};
@@ -62,7 +62,7 @@ Place on_edge(TriangleId t, VertexId a, VertexId b, double along) {
   return {t, 2, {a, b}, {1 - along, along}, false};
 }
 
-/// Both triangles of an edge must say the same of a point on it: its lower vertex comes first.
+/// Both triangles of an edge must give the same place for a point on it: its lower vertex comes first.
 Place on_edge(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p) {
   VertexId a = mesh.origin(h), b = mesh.target(h);
   if (b < a) std::swap(a, b);
@@ -86,7 +86,7 @@ Place inside(const Mesh& mesh, TriangleId t, const WeightedPoint& point) {
                b = position_of(mesh.space(), seen.corners[k == 2 ? 0 : k + 1]);
     place.corners[k] = mesh.opposite(h);
     place.shares[k] = spanned(mesh.space(), p, a - p, b - p);  // the area across from that corner
-    // Far more than rounding makes of a zero: what is not this near needs no exact test.
+    // Far more than the rounding of a zero: beyond this distance no exact test is needed.
     const bool near_edge = std::abs(place.shares[k]) <= 0x1p-40 * squared_length(b - a);
     if (near_edge && seen.side(k) == Sign::zero) return on_edge(mesh, h, seen.point);
     area += place.shares[k] = std::max(place.shares[k], 0.0);
@@ -100,8 +100,8 @@ Place inside(const Mesh& mesh, TriangleId t, const WeightedPoint& point) {
 
 PointLocator::~PointLocator() { delete made_tree_.load(); }
 
-/// Made when it is first asked: where every point has a good hint it never is, and it takes its time and memory.
-/// Threads that ask at once make one each, all alike, and the first one stays.
+/// The tree takes time and memory, so it is made at its first use; if every point has a good hint, never. Threads that
+/// need it at once make one each, all equal, and the first one stays.
 const BoxTree& PointLocator::tree() const {
   const BoxTree* there = made_tree_.load(std::memory_order_acquire);
   if (there != nullptr) return *there;
@@ -123,17 +123,17 @@ Place PointLocator::find(const WeightedPoint& p, TriangleId near) const {
   return place;
 }
 
-// From which places of one mesh the vertices and triangles of another take their data.
+// The places of one mesh from which the vertices and triangles of another take their data.
 
 namespace {
 
-// What a vertex that slid along an edge, or splits it, may be off that by, in units of the last place of the largest
-// coordinate there: three where a split is rounded (plan_split), and as much again where a slide ends.
+// The largest distance from an edge of a vertex that slid along the edge or splits it, in units of the last place of
+// the largest coordinate there. Rounding a split takes three (plan_split), and the end of a slide as much again.
 constexpr double kOffEdge = 8 * std::numeric_limits<double>::epsilon();
 
 double largest_coordinate(Vec3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
-/// p on the edge from a to b of triangle t, if rounding alone has put it off that.
+/// p on the edge from a to b of triangle t, if only rounding separates p from it.
 std::optional<Place> near_edge(const Mesh& mesh, TriangleId t, VertexId a, VertexId b, const WeightedPoint& point) {
   const Vec3 from = position_of(mesh, a, point), to = position_of(mesh, b, point), p = position_of(mesh.space(), point);
   const double off = std::abs(spanned(mesh.space(), p, to - from, p - from)) / length(to - from);
@@ -150,7 +150,7 @@ Place without_rounding(const Mesh& mesh, const Place& place, const WeightedPoint
   return place;
 }
 
-/// The vertices of `before` that those of `after` were.
+/// For each vertex of `after` the vertex of `before` that it was.
 class FormerVertices {
  public:
   FormerVertices(const Mesh& before, const Mesh& after, const IdVector<VertexId, VertexId>& vertices)
@@ -160,7 +160,7 @@ class FormerVertices {
     const VertexId former = vertices_.empty() ? v : vertices_[v];
     return former.index < before_.n_vertices() ? former : VertexId();
   }
-  /// A triangle of `before` to look for v from: of its own, or of a neighbor's.
+  /// A triangle of `before` to start the search for v: of its own, or of a neighbor's.
   [[nodiscard]] TriangleId near(VertexId v) const {
     if ((*this)[v].valid()) return Mesh::triangle(before_.outgoing((*this)[v]));
     for (const HalfedgeId h : after_.star(v)) {
@@ -175,7 +175,7 @@ class FormerVertices {
   const IdVector<VertexId, VertexId>& vertices_;
 };
 
-/// The triangle of those corners, either way round, or none.
+/// The triangle with those corners, in either orientation, or none.
 TriangleId find_triangle(const Mesh& mesh, const std::array<VertexId, 3>& corners) {
   const auto [a, b, c] = corners;
   for (const HalfedgeId h : {mesh.find_halfedge(a, b), mesh.find_halfedge(b, a)}) {
@@ -184,7 +184,7 @@ TriangleId find_triangle(const Mesh& mesh, const std::array<VertexId, 3>& corner
   return {};
 }
 
-/// t, or else a triangle of the region next to it: an interface that rounding bends may leave the middle of a thin
+/// t, or else a triangle of the region next to it. An interface that rounding bends may leave the middle of a thin
 /// triangle on its other side.
 TriangleId of_region(const Mesh& mesh, TriangleId t, std::int32_t region) {
   if (mesh.region(t) == region) return t;
@@ -196,7 +196,7 @@ TriangleId of_region(const Mesh& mesh, TriangleId t, std::int32_t region) {
   return t;
 }
 
-/// The triangle of `before` that t of `after` is, at the same places; or none.
+/// The triangle of `before` with the corners of t of `after`, at the same places; or none.
 TriangleId same_triangle(const Mesh& before, const Mesh& after, TriangleId t, const IdVector<VertexId, Place>& places) {
   std::array<VertexId, 3> corners = after.corners(t);
   for (VertexId& v : corners) {

@@ -1,8 +1,8 @@
 // Clp behind temper's LpSolver, by its C interface.
 //
-// The dual simplex method first: temper's programs start dual feasible (costs are not negative, free columns cost
-// nothing), and it then works on violated rows alone, which are few where few triangles are bad. Solutions are looked
-// at before they are believed; what is not good is solved again by other means.
+// The dual simplex method comes first. temper's programs start dual feasible: costs are not negative, and free columns
+// cost nothing. It then works on violated rows alone, which are few if few triangles are bad. Solutions are checked
+// before they are used; bad ones are solved again by other means.
 #include <coin/Clp_C_Interface.h>
 
 #include <algorithm>
@@ -16,9 +16,9 @@
 namespace temper {
 namespace {
 
-// Rows are h/ℓ and d/ℓ: far below any margin worth asking for, far above the rounding of a few hundred terms.
+// Rows are h/ℓ and d/ℓ: this is far below any useful margin, far above the rounding of a few hundred terms.
 constexpr double kTolerance = 1e-9;
-// Ten times that, for what Clp's own scaling of rows and columns adds.
+// Ten times that, because Clp's own scaling of rows and columns adds an error.
 constexpr double kAccepted = 1e-8;
 
 constexpr int kOptimal = 0, kInfeasible = 1, kUnboundedStatus = 2;  // Clp_status
@@ -28,7 +28,7 @@ struct Delete {
 };
 using Model = std::unique_ptr<Clp_Simplex, Delete>;
 
-/// By columns, as Clp wants it.
+/// By columns, the input format of Clp.
 struct Columns {
   std::vector<CoinBigIndex> start;
   std::vector<int> row;
@@ -89,7 +89,7 @@ LpSolution result(Clp_Simplex* model, const LpProblem& problem) {
   return solution;
 }
 
-/// The most by which x breaks a bound of a column or a row.
+/// The largest violation of a bound of a column or a row by x.
 double violation_of(const LpProblem& problem, const std::vector<double>& x) {
   double worst = 0;
   const auto note = [&worst](double value, double low, double high) {
@@ -126,7 +126,7 @@ double gap_of(const LpProblem& problem, const LpSolution& solution) {
   return std::abs(solution.objective - bound) / (1 + std::abs(solution.objective));
 }
 
-/// Clp calls some solutions optimal that are off by 10⁻⁵: what it perturbed or scaled was not quite put right.
+/// Clp calls some solutions optimal that are off by 10⁻⁵, because it does not fully undo perturbation or scaling.
 bool is_good(const LpProblem& problem, const LpSolution& solution) {
   return violation_of(problem, solution.primal) <= kAccepted && gap_of(problem, solution) <= kAccepted;
 }
@@ -159,7 +159,7 @@ LpSolution solve_carefully(const LpProblem& problem) {
     LpSolution solution = attempt(problem, how);
     if (solution.status == LpStatus::optimal && is_good(problem, solution)) return solution;
     if (solution.status == LpStatus::unbounded) return solution;
-    // Two methods must agree that there is nothing.
+    // Two methods must agree that no solution exists.
     infeasible += solution.status == LpStatus::infeasible ? 1 : 0;
     if (infeasible == 2) return solution;
   }
@@ -169,7 +169,7 @@ LpSolution solve_carefully(const LpProblem& problem) {
 class ClpSolver final : public LpSolver {
  public:
   LpSolution solve(const LpProblem& problem) override {
-    // Clp throws CoinError on what it takes for misuse; to the caller it has then just failed.
+    // Clp throws CoinError on supposed misuse; for the caller it has just failed.
     try {
       return solve_carefully(problem);
     } catch (const std::bad_alloc&) {

@@ -1,5 +1,5 @@
-// The triangles that are not well-centered: what optimization repairs, explain explains and meshing counts.
-// And those that are erased, which whatever goes over all triangles must not meet.
+// The triangles that are not well-centered: optimization repairs them, explain explains them, and meshing counts them.
+// Also the erased triangles, which loops over all triangles must skip.
 #pragma once
 
 #include <vector>
@@ -23,7 +23,7 @@ namespace temper {
   return bad;
 }
 
-/// Whether a triangle of the mesh is erased, until Mesh::compact drops it. O(n).
+/// Returns true if a triangle of the mesh is erased: it stays until Mesh::compact drops it. O(n).
 [[nodiscard]] inline bool has_erased_triangles(const Mesh& mesh) {
   for (const TriangleId t : mesh.triangles()) {
     if (mesh.is_erased(t)) return true;

@@ -27,8 +27,7 @@ void for_each_index(std::size_t n, Executor* executor, Work&& work) {
   });
 }
 
-/// The least i with wrong(i), where make_test() gives each block a test of its own. Blocks beyond one that has been
-/// found are not asked.
+/// The least i with wrong(i); make_test() gives each block a test of its own. Blocks behind a found index are skipped.
 template <class MakeTest>
 std::optional<std::size_t> first_index_by(std::size_t n, Executor* executor, MakeTest&& make_test) {
   std::atomic<std::size_t> found = n;

@@ -12,7 +12,7 @@
 namespace temper {
 namespace {
 
-/// The order in which the line meets points: from left to right, and upwards where x is equal.
+/// The order in which the line meets points: from left to right, and upwards at equal x.
 bool is_before(Vec2 p, Vec2 q) { return p.x != q.x ? p.x < q.x : p.y < q.y; }
 
 bool segments_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
@@ -32,8 +32,7 @@ struct SweptEdge {
   bool mesh_above;
 };
 
-/// The order of edges on the line, from below; of such as do not meet. Those with a common left end count by their
-/// directions.
+/// The order on the line, from below, of edges that do not meet. Edges with a common left end are ordered by direction.
 struct IsBelow {
   bool operator()(const SweptEdge& e, const SweptEdge& f) const {
     const bool e_first = !is_before(f.left, e.left);
@@ -49,8 +48,8 @@ struct IsBelow {
   }
 };
 
-/// Edges begin in the domain and are shorter than half a period: of two that meet somewhere, an image of each is among
-/// those shifted by none or one.
+/// Edges begin in the domain and are shorter than half a period. So if two edges meet somewhere, two of their images
+/// meet that are shifted by at most one period.
 std::vector<Vec2> shifts_of_images(const Space& space) {
   const auto [x, y] = space.period();
   std::vector<Vec2> shifts = {{0, 0}};
@@ -69,7 +68,7 @@ class BoundarySweep {
  private:
   using Line = std::set<SweptEdge, IsBelow>;
 
-  /// An end of an edge. Those that end at a point go before those that begin there.
+  /// An end of an edge. Ends at a point come before beginnings there.
   struct Event {
     Vec2 at;
     std::uint32_t edge;
@@ -152,7 +151,7 @@ bool BoundarySweep::covers_twice(const Event& one, const Event& other) {
   return true;
 }
 
-/// Notes it when two neighbors meet. Edges at a common vertex do not count.
+/// Notes a clash when two neighbors meet. Edges at a common vertex do not count.
 bool BoundarySweep::meet(Line::const_iterator below, Line::const_iterator above) {
   const HalfedgeId g = below->halfedge, h = above->halfedge;
   if (mesh_.target(g) == mesh_.origin(h) || mesh_.target(h) == mesh_.origin(g)) return false;
@@ -195,7 +194,7 @@ bool arcs_meet(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   if (abd == Sign::zero && is_between(a, b, d)) return true;
   if (cda == Sign::zero && is_between(c, d, a)) return true;
   if (cdb == Sign::zero && is_between(c, d, b)) return true;
-  // The great circles cross in two points; both arcs go through the same one when they leave each other's side so.
+  // The great circles cross in two points; both arcs go through the same one exactly if these signs agree.
   return abc != Sign::zero && cda != Sign::zero && abc == -abd && cda == -cdb && abc == -cda;
 }
 
@@ -205,7 +204,7 @@ bool meet(const Mesh& mesh, HalfedgeId g, HalfedgeId h) {
   return arcs_meet(mesh.weighted_vector(a), mesh.weighted_vector(b), mesh.weighted_vector(c), mesh.weighted_vector(d));
 }
 
-/// From south to north: each arc with those that begin no farther north than it ends.
+/// From south to north: tests each arc with the arcs that begin no farther north than it ends.
 std::optional<BoundaryClash> find_meeting(const Mesh& mesh) {
   std::vector<Arc> arcs;
   for (const HalfedgeId h : mesh.halfedges()) {
@@ -230,7 +229,7 @@ bool is_inside(const Mesh& mesh, TriangleId t, VertexId v) {
   return on_left(a, b) && on_left(b, c) && on_left(c, a);
 }
 
-/// A component on the triangles of another one: all of it, since boundaries do not meet.
+/// Finds a component on the triangles of another one: all of it is there, since boundaries do not meet.
 std::optional<BoundaryClash> find_covered(const Mesh& mesh) {
   const MeshPieces components = pieces_of(mesh);
   if (components.first.size() < 2) return std::nullopt;

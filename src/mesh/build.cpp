@@ -1,4 +1,4 @@
-// Mesh::build: arrays in, a mesh or the first thing that is wrong with them out.
+// Mesh::build: from arrays to a mesh, or to the first error in them.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -18,8 +18,8 @@
 namespace temper {
 namespace {
 
-// Within these bounds nothing over- or underflows in the exact predicates (geometry.hpp), neither in the user's units
-// nor after scaling to an extent of about 1, whatever the other coordinates are. Far beyond any unit of length.
+// Within these bounds nothing over- or underflows in the exact predicates (geometry.hpp), in the user's units and after
+// scaling to an extent of about 1, whatever the other coordinates are. They are far beyond any unit of length.
 constexpr double kLargestCoordinate = 1e60;
 constexpr double kSmallestCoordinate = 1e-60;  // absolute, and relative to the largest coordinate
 constexpr double kSmallestExtent = 1e-60;
@@ -42,7 +42,7 @@ std::string coordinates(Vec3 p) { return "(" + to_text(p.x) + ", " + to_text(p.y
 
 bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// Points of the sphere may be off its radius by this part of it: what is left of coordinates with seven digits.
+// Points of the sphere may be off its radius by this part of it: the precision of coordinates with seven digits.
 constexpr double kOffRadius = 1e-6;
 
 }  // namespace
@@ -151,7 +151,7 @@ class MeshBuilder {
                                ", minus the square of the radius");
       }
     }
-    // Coordinates that are rounded zeros of a longitude or latitude would ask exact arithmetic for too many bits.
+    // Rounded zeros of a longitude or latitude would cost exact arithmetic too many bits.
     for (std::size_t i = 0; i < n_points(); ++i) {
       WeightedPoint p = mesh_.point(VertexId(i));
       for (double* x : {&p.x, &p.y, &p.w}) *x = std::abs(*x) < kSmallestCoordinate * radius ? 0 : *x;
@@ -220,7 +220,7 @@ class MeshBuilder {
     return std::nullopt;
   }
 
-  /// False when it cannot be one.
+  /// Adds a triangle. False when it cannot be one.
   bool add_triangle(std::size_t t) {
     auto corners = in_.triangles[t];
     for (const std::int32_t i : corners) {
@@ -258,9 +258,9 @@ class MeshBuilder {
     return std::nullopt;
   }
 
-  /// Checks that the mesh lies in the plane as it should. Where edges are manifold, stars whole and the mesh covers no
-  /// spot twice, no two points are at the same place: each is in the star of the other. So duplicate points are looked
-  /// for only when one of these fails, as the likely reason.
+  /// Checks that the mesh is embedded in the plane. If edges are manifold, stars whole and no spot is covered twice, no
+  /// two points are at the same place: each would be in the star of the other. So duplicate points are looked for only
+  /// when one of these conditions fails, as the likely reason.
   std::optional<InputError> embed() {
     auto error = link_twins();
     if (!error) error = check_stars();
@@ -347,7 +347,7 @@ class MeshBuilder {
     for (const HalfedgeId h : mesh_.halfedges()) {
       if (mesh_.is_boundary(h)) MeshEditor(mesh_).set_outgoing(mesh_.origin(h), h);
     }
-    // A star holds at most the triangles at its vertex: when all together hold all, each is whole.
+    // A star holds at most the triangles at its vertex. So if all stars together hold all corners, each is whole.
     const auto size = [&](std::size_t v) {
       double count = 0;
       for ([[maybe_unused]] const HalfedgeId h : mesh_.star(VertexId(v))) ++count;
@@ -420,7 +420,7 @@ class MeshBuilder {
 
   static VertexId id(std::int32_t i) { return VertexId(static_cast<std::size_t>(i)); }
 
-  /// What is too wide about a triangle of the periodic plane, or nothing.
+  /// A message on the width of a triangle in the periodic plane; empty if it is narrow enough.
   std::string why_wide(const std::array<std::int32_t, 3>& c) const {
     const auto [p, q, r] = mesh_.points(id(c[0]), id(c[1]), id(c[2]));
     if (in_.space.are_near(p, q) && in_.space.are_near(q, r) && in_.space.are_near(r, p)) return {};

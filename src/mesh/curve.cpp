@@ -40,7 +40,7 @@ constexpr std::size_t kLot = std::size_t{1} << 20;  // vertices that are dealt o
 
 }  // namespace
 
-// In a sample of the triangles, how often corners are too far apart.
+// Checks in a sample of the triangles how often corners are too far apart.
 bool is_scattered(const Mesh& mesh) {
   constexpr std::size_t kNear = std::size_t{1}
                                 << 15;  // vertices whose records and triangles a second-level cache holds
@@ -58,7 +58,7 @@ bool is_scattered(const Mesh& mesh) {
   return 4 * far > seen;
 }
 
-// Keys with their leading digits in common, as they come, then a sort of each such lot: both on all threads.
+// Splits keys into lots with common leading digits, then sorts each lot: both on all threads.
 IdVector<VertexId, VertexId> vertices_by_hilbert(const Mesh& mesh, Executor* executor) {
   constexpr int kFew = 8, kMostDigits = 12;  // of which lots have about 2⁸ keys, or more
   const auto [of, bits] =
@@ -111,8 +111,8 @@ NearbyCopy::NearbyCopy(const Mesh& mesh, Executor* executor) : mesh_(&mesh) {
 
 namespace {
 
-/// Triangles by their least corner in the new numbering; equal ones by number. Each is found in the star of that
-/// corner, from vertex to vertex along the curve: neighbors of neighbors are in the cache.
+/// Triangles by their least corner in the new numbering, then by number. Each is found in the star of that corner, from
+/// vertex to vertex along the curve: neighbors of neighbors are in the cache.
 IdVector<TriangleId, TriangleId> triangles_by_vertex(const Mesh& mesh, const IdVector<VertexId, VertexId>& order,
                                                      const IdVector<VertexId, VertexId>& new_vertex,
                                                      Executor* executor) {
@@ -154,7 +154,7 @@ HalfedgeId renumbered(HalfedgeId h, const IdVector<TriangleId, TriangleId>& new_
   return h.valid() ? Mesh::halfedge(new_triangle[Mesh::triangle(h)], static_cast<int>(h.index % 3)) : h;
 }
 
-/// The order along the curve, and the new number of every vertex, which finding it takes.
+/// The order along the curve, and the new number of every vertex, a by-product of the search.
 struct Found {
   MeshOrder order;
   IdVector<VertexId, VertexId> new_vertex;
@@ -169,15 +169,15 @@ Found find_order(const Mesh& mesh, Executor* executor) {
 
 }  // namespace
 
-/// Sees the arrays of meshes.
+/// Has access to the arrays of meshes.
 class MeshPermuter {
  public:
   static Mesh copy(const Mesh& mesh, Found& found, Executor* executor);
   static void restore(Mesh& mesh, const MeshOrder& order, Executor* executor);
 };
 
-/// One array after the other, and each renumbering gone before the next one is made: what is there at once counts on
-/// the largest meshes.
+/// Copies one array after the other, and drops each renumbering before it makes the next one: on the largest meshes the
+/// memory in use at once counts.
 Mesh MeshPermuter::copy(const Mesh& mesh, Found& found, Executor* executor) {
   Mesh result;
   result.space_ = mesh.space();
@@ -212,8 +212,8 @@ Mesh MeshPermuter::copy(const Mesh& mesh, Found& found, Executor* executor) {
   return result;
 }
 
-/// The halfedge that stands for a vertex depends on the numbering (Mesh::repair_outgoing): on the boundary the boundary
-/// one, else that of the greatest number. As in copy(), one array after the other.
+/// The halfedge that stands for a vertex depends on the numbering (Mesh::repair_outgoing): the boundary halfedge, or at
+/// an inner vertex the halfedge of the greatest number. As in copy(), one array after the other.
 void MeshPermuter::restore(Mesh& mesh, const MeshOrder& order, Executor* executor) {
   const std::size_t n = mesh.n_triangles();
   const auto former = [&](HalfedgeId h) { return renumbered(h, order.triangles); };

@@ -16,9 +16,9 @@ class Executor;
 /// Says whether a mesh is large, and numbered so that stars are scattered over memory.
 [[nodiscard]] bool is_scattered(const Mesh& mesh);
 
-/// An order in which to look at each vertex once, with its star. Where the numbers of neighbors are far apart, as
-/// those of random points, it is that of the curve: what one star has brought into the cache serves the next ones, and
-/// looking at all of them is some four times faster. Else it is that of the numbers, and takes no room.
+/// An order in which to look at each vertex once, with its star. If the numbers of neighbors are far apart, as with
+/// random points, the order is the curve's. Then one star brings the next ones into the cache, and looking at all stars
+/// is some four times faster. Otherwise it is the order of the numbers, and takes no memory.
 class Walk {
  public:
   explicit Walk(const Mesh& mesh, Executor* executor = nullptr);
@@ -31,7 +31,7 @@ class Walk {
   IdVector<VertexId, VertexId> order_;  // empty: by number
 };
 
-/// A mesh to be looked at many times: itself, or where it is scattered a copy along the curve, which soon pays.
+/// A mesh for many looks: itself, or if it is scattered a copy along the curve, which soon pays.
 class NearbyCopy {
  public:
   explicit NearbyCopy(const Mesh& mesh, Executor* executor);
@@ -40,7 +40,7 @@ class NearbyCopy {
   ~NearbyCopy() = default;
 
   [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
-  /// The ids in the original of what has these ids here.
+  /// The ids in the original for ids in this mesh.
   [[nodiscard]] VertexId original(VertexId v) const { return copy_ ? copy_->order.vertices[v] : v; }
   [[nodiscard]] TriangleId original(TriangleId t) const { return copy_ ? copy_->order.triangles[t] : t; }
   /// Says whether it is the original.

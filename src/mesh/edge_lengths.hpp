@@ -15,7 +15,7 @@ struct EdgeLengths {
   double dual = 0;  ///< negative where the orthocenters of the triangles on its sides have changed places
 };
 
-/// In doubles: a dual that is hardly one may have either sign. Precondition: h is not on the boundary.
+/// In doubles: a dual of nearly zero length may have either sign. Precondition: h is not on the boundary.
 [[nodiscard]] inline EdgeLengths edge_lengths(const Mesh& mesh, HalfedgeId h) {
   const auto side = [&](HalfedgeId s) {
     const auto [a, b, c] = mesh.points(mesh.origin(s), mesh.target(s), mesh.opposite(s));

@@ -1,4 +1,4 @@
-// Stars wind once, and the sweep over the boundary meets nothing that it should not. All exact.
+// Tests that stars wind once and that the sweep over the boundary meets no clash. All exact.
 
 #include <algorithm>
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace {
 /// Says whether the direction from v to p is in the upper half-plane, the positive x-axis included.
 bool is_upper(Vec2 v, Vec2 p) { return p.y > v.y || (p.y == v.y && p.x > v.x); }
 
-/// The same on the sphere: where det(V, e, P) > 0 for an axis e that V is not on, or P is on the side of e in their
-/// plane. Exact.
+/// Is P upper, seen from V on the sphere? It is if det(V, e, P) > 0 for an axis e that V is not on, or if P is on the
+/// side of e in their plane. Exact.
 bool is_upper(Vec3 v, Vec3 p) {
   // Turned so that e is the third axis: (x, y) of V is not 0.
   const bool on_third = v.x == 0 && v.y == 0;
@@ -25,7 +25,7 @@ bool is_upper(Vec3 v, Vec3 p) {
   const auto turn = [](double x1, double y1, double x2, double y2) { return orient2d({0, 0}, {x1, y1}, {x2, y2}); };
   const Sign side = turn(b.x, b.y, a.x, a.y);  // det(A, e, B) = A_y B_x − A_x B_y
   if (side != Sign::zero) return side == Sign::positive;
-  // B = α A + β e, β = (A_x B_z − A_z B_x)/A_x, or the same with y.
+  // B = α A + β e, β = (A_x B_z − A_z B_x)/A_x, or likewise with y.
   if (a.x != 0) return turn(a.x, a.z, b.x, b.z) == (a.x > 0 ? Sign::positive : Sign::negative);
   return turn(a.y, a.z, b.y, b.z) == (a.y > 0 ? Sign::positive : Sign::negative);
 }
@@ -36,8 +36,8 @@ bool is_upper(const Mesh& mesh, VertexId v, VertexId p) {
   return is_upper(from.position(), mesh.point(p, from).position());
 }
 
-/// Counts for each vertex how often its spokes, going round, enter the upper half-plane: once when an interior star
-/// winds once. Counted triangle by triangle, which asks for each position once and not through chains of twins.
+/// Counts for each vertex how often its spokes, in their cyclic order, enter the upper half-plane: once when an
+/// interior star winds once. Counting triangle by triangle reads each position once, and follows no chains of twins.
 IdVector<VertexId, std::uint32_t> entries_to_upper_half(const Mesh& mesh, Executor* executor) {
   IdVector<VertexId, std::uint32_t> entries(mesh.n_vertices(), 0);
   const auto count = [&](std::size_t t, auto&& add) {
@@ -69,11 +69,11 @@ bool boundary_star_overlaps(const Mesh& mesh, VertexId v) {
   return false;
 }
 
-/// More than one piece, or more area than the domain has. Of one piece whose boundary loops are simple and apart the
-/// parts covered d times satisfy 1 − g = Σ n_t over t = 1, 2, … with n_t the pieces of what is covered t times or more,
-/// less one where that goes around along both axes (Euler characteristics, as in boundary_sweep.hpp). So nothing is
-/// covered twice along one period. Along two it may where the mesh goes around both ways and on over itself: then, but
-/// for holes that are larger than what is covered twice, its area is more than the domain's.
+/// More than one piece, or more area than the domain has. Consider one piece whose boundary loops are simple and apart.
+/// Euler characteristics (as in boundary_sweep.hpp) give 1 − g = Σ n_t over t = 1, 2, …. Here n_t is the number of
+/// pieces of the part that is covered t times or more, less one if it goes around along both axes. So nothing is
+/// covered twice along one period. Along two periods a mesh that goes around both ways can go on over itself. Then its
+/// area is more than the domain's, unless its holes are larger than the part covered twice.
 std::optional<Overlap> find_more_than_the_domain(const Mesh& mesh) {
   const std::vector<HalfedgeId> pieces = pieces_of(mesh).first;
   if (pieces.size() > 1) {

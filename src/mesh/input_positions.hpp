@@ -1,4 +1,4 @@
-// Places of any space as what a mesh is built from.
+// Places of any space as input for building a mesh.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ class InputPositions {
       places_.push_back(place);
     }
   }
-  /// With these places, and nothing else yet.
+  /// An input with these places, and nothing else yet.
   [[nodiscard]] MeshInput input() const {
     MeshInput input;
     input.space = space_;

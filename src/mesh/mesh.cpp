@@ -13,7 +13,7 @@ std::size_t Mesh::n_edges() const {
   return count;
 }
 
-/// Walks around both ends at once: one of them may have as many triangles as the mesh. Both may be any numbers.
+/// Walks around both ends at once, as one of them may have as many triangles as the mesh. a and b may be any numbers.
 HalfedgeId Mesh::find_halfedge(VertexId a, VertexId b) const {
   if (a.index >= n_vertices() || b.index >= n_vertices()) return {};
   const Star around_a = star(a), around_b = star(b);
@@ -54,7 +54,7 @@ Compaction Mesh::compact() {
       const HalfedgeId other = twin(h);
       corners_[halfedge(to, k)] = new_vertex[corners_[h]];
       constrained_.set(halfedge(to, k), constrained_[h], n_halfedges());
-      // Twins of triangles that are still to move keep their old number's meaning: all go through new_triangle.
+      // Twins of triangles that have not moved yet keep their old numbers: all go through new_triangle.
       twins_[halfedge(to, k)] =
           other.valid() ? halfedge(new_triangle[triangle(other)], static_cast<int>(other.index % 3)) : HalfedgeId();
     }

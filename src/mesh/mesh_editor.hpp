@@ -6,7 +6,7 @@
 namespace temper {
 
 /// MeshEditor writes single entries of a mesh's arrays and checks nothing: between two of its calls the mesh may be
-/// broken. Whoever uses it leaves a mesh in which validate() finds nothing. It costs nothing to make one.
+/// broken. Its users must leave a mesh in which validate() finds nothing. Making one costs nothing.
 class MeshEditor {
  public:
   explicit MeshEditor(Mesh& mesh) : mesh_(mesh) {}
@@ -21,13 +21,13 @@ class MeshEditor {
     mesh_.twins_[a] = b;
     if (b.valid()) mesh_.twins_[b] = a;
   }
-  /// Every halfedge is a boundary one.
+  /// Makes every halfedge a boundary halfedge.
   void unlink_all() { mesh_.twins_.assign(mesh_.n_halfedges(), HalfedgeId()); }
-  /// Until find_twins() (twins.hpp) nobody may ask for one.
+  /// After this, twins must not be read until find_twins().
   void release_twins() { mesh_.twins_ = {}; }
   void set_outgoing(VertexId v, HalfedgeId h) { mesh_.record(v).outgoing = h.index; }
-  /// Marks a triangle for compact(). Its neighbors get a boundary there; the outgoing() of its corners is the caller's
-  /// to mend.
+  /// Marks a triangle for compact(). Its neighbors get a boundary there; the caller must repair outgoing() of its
+  /// corners.
   void erase(TriangleId t);
 
  private:

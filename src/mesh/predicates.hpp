@@ -6,7 +6,7 @@
 
 namespace temper::inlined {
 
-/// Zero where the corners do not fit into half a period along each axis: which triangle is theirs, nothing says then.
+/// Zero if the corners do not fit into half a period along each axis: then it is unknown which images are meant.
 [[gnu::noinline]] inline Sign orientation_of_images(const Mesh& mesh, VertexId a, VertexId b, VertexId c) {
   const auto [p, q, r] = mesh.points(a, b, c);
   const Space& space = mesh.space();
@@ -29,8 +29,8 @@ namespace temper::inlined {
                             mesh.weighted_vector(d));
 }
 
-/// Of the edge ab, with c on its left and d on its right. Which space it is, is asked before points are fetched: in the
-/// plane they never leave the registers.
+/// The power test of edge ab, with c on its left and d on its right. The space is checked before points are fetched: in
+/// the plane they never leave the registers.
 TEMPER_INLINE Sign power_test(const Mesh& mesh, VertexId a, VertexId b, VertexId c, VertexId d) {
   if (mesh.space().kind() == SpaceKind::plane) [[likely]]
     return inlined::power_test(mesh.point(a), mesh.point(b), mesh.point(c), mesh.point(d));

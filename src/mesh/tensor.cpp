@@ -10,11 +10,11 @@
 namespace temper {
 namespace {
 
-// Coordinates in the metric are apart by the square root of it, and a share of 10⁻⁴ of a double's digits is lost there
-// and back.
+// Distances in the metric differ by at most the square root of this ratio. Mapping there and back loses 10⁻⁴ of a
+// double's digits.
 constexpr double kFarthestApart = 1e8;
 
-/// The first triangle that is not counter-clockwise any more.
+/// The first triangle that is no longer counter-clockwise.
 Expected<void> expect_upright(const Mesh& mesh, const InputNames& names) {
   for (const TriangleId t : mesh.triangles()) {
     if (mesh.is_erased(t)) continue;
@@ -30,7 +30,7 @@ Expected<void> expect_upright(const Mesh& mesh, const InputNames& names) {
 
 }  // namespace
 
-/// With R = √K, which is (K + s)/√(tr K + 2 s) for s = √(det K): B = √s R⁻¹, and B⁻¹ = R/√s.
+/// Let s = √(det K) and R = √K, which is (K + s)/√(tr K + 2 s). Then B = √s R⁻¹, and B⁻¹ = R/√s.
 Expected<Metric> Metric::of(const Tensor& k) {
   const auto shown = [&k] { return to_text(k.xx) + ", " + to_text(k.xy) + ", " + to_text(k.yy); };
   const auto error = [&](const char* expected) {

@@ -1,4 +1,4 @@
-// Which halfedges are twins follows from the corners: found when a mesh is built, and again where a mesh was without.
+// The corners of triangles determine the twins. They are found when a mesh is built, and after they were released.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace temper {
 
 class Executor;
 
-/// The halfedges whose edges have their lesser vertex in a range, by that vertex (counting sort). O(n), whatever the
+/// The halfedges whose edges have their lesser vertex in a range, sorted by that vertex (counting sort). O(n) for any
 /// range.
 class EdgeBuckets {
  public:
@@ -26,7 +26,7 @@ class EdgeBuckets {
 
   EdgeBuckets(const Mesh& mesh, IdRange<VertexId> lesser);
 
-  /// The sides of the edges of a lesser vertex, sorted: those of one edge come one after the other.
+  /// The sides of the edges of a lesser vertex, sorted: the sides of one edge are next to each other.
   void collect(VertexId lesser, std::vector<Side>& sides) const;
 
  private:
@@ -36,8 +36,8 @@ class EdgeBuckets {
   std::vector<HalfedgeId> sorted_;
 };
 
-/// Twins of a mesh that has none stored, and whose edges have two sides at most. O(n), with 7 bytes a vertex besides
-/// them for each thread that works, at most 28.
+/// Twins of a mesh that has none stored, and whose edges have two sides at most. O(n). Besides the twins each thread
+/// takes 7 bytes per vertex, all together at most 28.
 void find_twins(Mesh& mesh, Executor* executor);
 
 }  // namespace temper

@@ -1,4 +1,4 @@
-// validate(): the invariants of the arrays, one sentence for the first that does not hold.
+// validate(): the invariants of the arrays, and a sentence for the first one that does not hold.
 #include <optional>
 #include <string>
 
@@ -34,13 +34,13 @@ std::optional<std::string> wrong_star(const Mesh& mesh, VertexId v, std::size_t 
     if (mesh.origin(h) != v) return text("vertex", v.index) + " has a foreign halfedge in its star";
     if (++size > incident) return text("vertex", v.index) + " has an endless star";
   }
-  // A walk that starts past the boundary halfedge, or a bow tie, sees fewer triangles than there are.
+  // A walk that starts past the boundary halfedge, or a bow tie, visits fewer triangles than there are.
   if (size != incident) return text("vertex", v.index) + " does not reach all its triangles";
   return std::nullopt;
 }
 
-/// The first thing that is wrong with ids, twins, stars and flags, or a point that is not finite; nothing when all is
-/// as it must be. Triangles may be inverted. Precondition: the arrays have lengths that fit. O(n).
+/// The first error in ids, twins, stars and flags, or a point that is not finite; nothing when all is right. Triangles
+/// may be inverted. Precondition: the arrays have lengths that fit. O(n).
 std::optional<std::string> broken_connectivity(const Mesh& mesh) {
   IdVector<VertexId, std::uint32_t> incident(mesh.n_vertices(), 0);
   bool any_erased = false;

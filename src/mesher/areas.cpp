@@ -1,4 +1,4 @@
-// Components of triangles between edges, by flooding; then one of four rules says which of them are inside.
+// Flooding finds components of triangles between edges; then one of four rules decides which of them are inside.
 #include "mesher/areas.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
 
-/// The triangulation of the convex hull, and the piece of every halfedge on one.
+/// The triangulation of the convex hull, and for every halfedge on a piece that piece.
 struct Hull {
   Mesh mesh;
   IdVector<HalfedgeId, std::uint32_t> piece;
@@ -193,8 +193,8 @@ class AreaFinder {
 
   using Parts = std::vector<std::vector<std::int32_t>>;
 
-  /// Each component's parts: those of the component beside it, but for the edge's. `from`: the first components, whose
-  /// parts are none but those of the edge before them.
+  /// Each component's parts. They differ from the parts of the next component by the parts of the edge between them.
+  /// `from`: the first components, whose parts are the parts of the edge before them.
   [[nodiscard]] Parts parts_from(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& first) const {
     Parts parts(n_components_);
     std::vector<std::uint8_t> known(n_components_, 0);
@@ -213,7 +213,7 @@ class AreaFinder {
     return parts;
   }
 
-  /// What is in one of two sorted lists.
+  /// The elements in exactly one of two sorted lists.
   [[nodiscard]] static std::vector<std::int32_t> odd_ones(const std::vector<std::int32_t>& one,
                                                           const std::vector<std::int32_t>& other) {
     std::vector<std::int32_t> result;
@@ -231,7 +231,7 @@ class AreaFinder {
     return {};
   }
 
-  /// A component is in one part and has what that says.
+  /// Puts a component into one part, with the properties of that part.
   Error take(std::size_t c, const std::vector<std::int32_t>& parts) {
     const OutlinePart& part = outline_.parts[static_cast<std::size_t>(parts[0])];
     inside_[c] = 1;
@@ -245,14 +245,14 @@ class AreaFinder {
     return {ErrorCode::overlap, part_where(parts[1]), name(0) + " and " + name(1) + " overlap" + near(c)};
   }
 
-  /// Where the first segment of a part is.
+  /// The place of the first segment of a part, for messages.
   [[nodiscard]] std::string part_where(std::int32_t part) const {
     const auto& segments = outline_.parts[static_cast<std::size_t>(part)].segments;
     return segments.empty() ? std::string() : names_.segment_where(static_cast<std::size_t>(segments[0]));
   }
 
-  /// The sphere has no outside: of the two sides that the segments of a part leave the smaller is in it. Inside is what
-  /// is in a part that is meshed, if there are any, and in none that is cut out.
+  /// The sphere has no outside: of the two sides that the segments of a part separate, the smaller one is in the part.
+  /// If parts are meshed, only they are inside; parts that are cut out never are.
   Error take_smaller_sides() {
     if (!outline_.holes.empty())
       return InputError{ErrorCode::unsupported, names_.hole_where(0),
@@ -276,7 +276,7 @@ class AreaFinder {
     return {};
   }
 
-  /// Of each component, as a part of the sphere.
+  /// The area of each component, as a part of the sphere.
   [[nodiscard]] std::vector<double> component_areas() const {
     std::vector<double> area(n_components_, 0);
     for (const TriangleId t : hull_.mesh.triangles()) {
@@ -344,8 +344,8 @@ class AreaFinder {
     return {};
   }
 
-  /// The component of a place, or none outside the hull. A place on an edge belongs to one of its sides. Looked for
-  /// from the last one.
+  /// The component of a place, or none outside the hull. A place on an edge belongs to one of its sides. The search
+  /// starts at the last one.
   [[nodiscard]] std::uint32_t locate(Vec2 p) {
     const WeightedPoint vertex = surface_.space().is_closed() ? as_point(direction_of(p)) : WeightedPoint{p.x, p.y, 0};
     const Location at = temper::locate(hull_.mesh, vertex, located_);

@@ -1,6 +1,6 @@
-// The areas inside the outline: those that its edges enclose, and the sides of each edge on which they lie.
+// The areas inside the outline, enclosed by its edges, and the sides of each edge on which they lie.
 //
-// Found once, on the triangulation of the outline itself; a triangulation of the divided outline, with whatever points
+// Found once, on the triangulation of the outline itself. A triangulation of the divided outline, with any points
 // inside, then gets its areas from its pieces.
 #pragma once
 
@@ -27,22 +27,22 @@ struct Areas {
   std::vector<std::array<std::int32_t, 2>> sides;  ///< of each edge: the area on its left and right, or kOutside
 };
 
-/// What the outline encloses, or on the sphere what its parts say; a whole sphere without any. `largest`: size of areas
-/// that have none of their own. Errors: nothing enclosed, hole and region points on an edge or outside, parts that
-/// overlap; on the sphere parts that enclose half of it, holes.
+/// The areas that the outline encloses, or on the sphere the areas of its parts; without any, the whole sphere.
+/// `largest`: size of areas that have none of their own. Errors: nothing enclosed, hole and region points on an edge or
+/// outside, parts that overlap. On the sphere also parts that enclose half of it, and holes.
 [[nodiscard]] Expected<Areas> find_areas(const Surface& surface, const Outline& outline,
                                          const std::vector<Vec3>& places, const std::vector<OutlineEdge>& edges,
                                          const MesherOptions& options, double largest, Deadline& deadline);
 
-/// The triangulation of points and pieces over their convex hull, and what belongs to each triangle and halfedge. On
-/// the sphere it has further vertices where the points leave half of it empty, after all others.
+/// The triangulation of points and pieces over their convex hull, with the area and piece of each triangle and
+/// halfedge. If the points leave half of a sphere empty, it has further vertices after all others.
 struct Triangulated {
   static constexpr std::uint32_t kNoPiece = 0xffffffffu;
   Mesh mesh;
   IdVector<TriangleId, std::int32_t> area;    ///< or kOutside
   IdVector<HalfedgeId, std::uint32_t> piece;  ///< or kNoPiece
 };
-/// Further points come after those of the divided outline. ErrorCode::stopped when it is time to stop.
+/// Further points are numbered after the points of the divided outline. ErrorCode::stopped when it is time to stop.
 [[nodiscard]] Expected<Triangulated> triangulate(const Surface& surface, const DividedOutline& divided,
                                                  const std::vector<Vec3>& further, const Areas& areas,
                                                  Deadline& deadline);

@@ -1,4 +1,4 @@
-// Checks in the order in which they make sense: numbers, indices, places, crossings; then cutting and merging.
+// Checks in a useful order: numbers, indices, places, crossings; then cutting and merging.
 #include "mesher/arrangement.hpp"
 
 #include <algorithm>
@@ -123,7 +123,7 @@ class Arranger {
     const auto side = [&](std::int32_t p, std::int32_t q, std::int32_t r) {
       return surface_.orientation(point(p), point(q), point(r));
     };
-    // Two great circles meet twice: c and a are on opposite sides of each other's segment where the segments do.
+    // Two great circles meet twice: the segments meet only if c and a are on opposite sides of each other's segment.
     const Sign of_c = side(a, b, c), of_a = side(c, d, a);
     if (of_c != Sign::zero && side(a, b, d) == -of_c && of_a == -of_c && side(c, d, b) == of_c) {
       const auto name = [&](std::int32_t p) { return names_.point(static_cast<std::size_t>(p)); };
@@ -194,7 +194,8 @@ class Arranger {
     return edges;
   }
 
-  /// Equal edges become the first of them: its tag, unless that is 0, and the parts that an odd number of them bound.
+  /// Merges equal edges into the first, with the first tag that is not 0, and the parts that an odd number of them
+  /// bound.
   std::vector<OutlineEdge> cut_and_merge() {
     const std::vector<OutlineEdge> edges = cut();
     std::vector<std::uint32_t> order(edges.size());
@@ -219,7 +220,7 @@ class Arranger {
     return merged;
   }
 
-  /// Keeps once each value that is there an odd number of times, sorted.
+  /// Keeps each value that occurs an odd number of times once, sorted.
   static void keep_odd(std::vector<std::int32_t>& values) {
     std::sort(values.begin(), values.end());
     std::size_t kept = 0;

@@ -19,13 +19,13 @@ struct OutlineEdge {
   std::vector<std::int32_t> parts;  ///< sorted: crossing the edge enters or leaves these
 };
 
-/// The edges, in the order of the segments. Errors: everything that makes segments no planar graph. Whether points lie
-/// on segments and segments cross is decided exactly. O(n log n) where segments do not lie across each other's boxes.
+/// The edges, in the order of the segments. Errors: everything that makes segments no planar graph. Exact predicates
+/// decide if points lie on segments and if segments cross. O(n log n) unless segments lie across each other's boxes.
 /// `places`: of the points. A whole sphere needs no segments.
 [[nodiscard]] Expected<std::vector<OutlineEdge>> arrange(const Surface& surface, const Outline& outline,
                                                          const std::vector<Vec3>& places);
 
-/// The names of the outline, or those that count from 0.
+/// The names of the outline, or names that count from 0.
 [[nodiscard]] const OutlineNames& names_of(const Outline& outline);
 
 }  // namespace temper::mesher

@@ -1,4 +1,4 @@
-// Division of edges by the integral of 1/size, and how far sharp corners reach.
+// Division of edges by the integral of 1/size, and the radii of sharp corners.
 #include "mesher/divided_outline.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace temper::mesher {
 
-// The graded size by a tree over its sources: branches that cannot lower the best value so far are left out.
+// The graded size by a tree over its sources: branches that cannot lower the best value so far are skipped.
 
 namespace {
 
@@ -84,7 +84,7 @@ double GradedSize::operator()(Vec3 x) const {
 
 namespace {
 
-/// Distances along a segment of given length where it is to be divided: equal parts of the integral of 1/size.
+/// Distances of the division points along a segment of given length: equal parts of the integral of 1/size.
 std::vector<double> divisions(const SurfacePath& path, const GradedSize& size, Deadline& deadline) {
   constexpr double kStep = 0.125;      // of the local size: the integrand changes by less than grade/8 in a step
   constexpr double kStretch = 0.25;    // a piece may be longer than its size by this part, rather than be halved

@@ -14,18 +14,18 @@
 
 namespace temper::mesher {
 
-// The edge length wanted at each place: size(x) = min(wanted(x), min over sources of s + grade · |x − p|).
+// The target edge length at each place: size(x) = min(wanted(x), min over sources of s + grade · |x − p|).
 //
-// Sources are the ends of short edges, places where two pieces of the outline face each other, corners. The minimum
-// over all of them is the largest function that is no more than s at each and grows no faster than `grade`. Where a
-// size field that is wanted grows faster, its vertices are sources.
+// Sources are the ends of short edges, places where two pieces of the outline face each other, and corners. The minimum
+// over all of them is the largest function that is at most s at each and grows no faster than `grade`. If a given size
+// field grows faster, its vertices are sources.
 
 struct SizeSource {
   Vec3 at;
   double size = 0;
 };
 
-/// The size before grading: of a field, and nowhere more than a number.
+/// The size before grading: the size of a field, with an upper bound.
 struct WantedSize {
   double most = 0;
   const SizeField* field = nullptr;  ///< or none
@@ -38,7 +38,7 @@ struct WantedSize {
 class GradedSize {
  public:
   GradedSize(const Surface& surface, std::span<const SizeSource> sources, const WantedSize& wanted, double grade);
-  /// O(log n) where sources are spread evenly.
+  /// O(log n) if sources are spread evenly.
   [[nodiscard]] double operator()(Vec3 x) const;
 
  private:
@@ -59,7 +59,7 @@ class GradedSize {
   double grade_;
 };
 
-/// Cosine of 59°: two edges that meet at less leave room for one triangle only between pieces of equal length.
+/// Cosine of 59°: between two edges that meet at less, pieces of equal length leave room for one triangle only.
 inline constexpr double kSharpCosine = 0.51;
 
 /// A piece of an edge of the outline, small enough to be an edge of the mesh.
@@ -68,27 +68,27 @@ struct Piece {
   std::uint32_t edge = 0;                  ///< of the arrangement
 };
 
-/// The outline after the division: its points and those of the division, and the pieces between them.
+/// The outline after the division: the points of the outline and of the division, and the pieces between them.
 struct DividedOutline {
-  std::vector<Vec3> points;  ///< those of the outline first, with their numbers
+  std::vector<Vec3> points;  ///< the points of the outline first, with their numbers
   std::vector<Piece> pieces;
 };
 
-/// The distance from each point of the outline at which its edges have their first division: positive at sharp corners
-/// only, 0 elsewhere. All edges of one corner are cut at one distance, so that the triangle in the corner is isosceles.
+/// The distance from each point of the outline to the first division of its edges: positive only at sharp corners. All
+/// edges of one corner are cut at one distance, so that the triangle in the corner is isosceles.
 using CornerRadii = std::vector<double>;
 
-/// Divides every edge so that its pieces follow the size. What is left when it is time to stop is divided less.
+/// Divides every edge so that its pieces follow the size. Edges that remain when it is time to stop are divided less.
 [[nodiscard]] DividedOutline divide(const Surface& surface, const std::vector<Vec3>& points,
                                     const std::vector<OutlineEdge>& edges, const GradedSize& size,
                                     const CornerRadii& corners, Deadline& deadline);
 
-/// About how many pieces that makes.
+/// An estimate of the number of pieces.
 [[nodiscard]] double count_pieces(const Surface& surface, const std::vector<Vec3>& points,
                                   const std::vector<OutlineEdge>& edges, double size);
 
-/// Corners of the outline sharper than kSharpCosine, and how far they reach: to a half of their shortest edge (a third
-/// when that has a sharp corner at its other end too), and never near anything that does not belong to the corner.
+/// Corners of the outline sharper than kSharpCosine, and their radii: half of their shortest edge, or a third when that
+/// has a sharp corner at its other end, too. They never come near anything that does not belong to the corner.
 [[nodiscard]] CornerRadii corner_radii(const Surface& surface, const std::vector<Vec3>& points,
                                        const std::vector<OutlineEdge>& edges, double largest);
 

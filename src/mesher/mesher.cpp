@@ -1,5 +1,5 @@
-// The steps one after the other: arrange, divide until all narrow places are resolved, place, triangulate, optimize;
-// and again with smaller sizes around what stays bad.
+// The steps of the mesher: arrange, divide until all narrow places are resolved, place, triangulate, optimize. Then it
+// repeats them with smaller sizes around triangles that stay bad.
 #include "temper/mesher.hpp"
 
 #include <algorithm>
@@ -109,7 +109,7 @@ class Mesher {
     return {options_.size > 0 ? std::min(options_.size, most) : most, &*options_.field};
   }
 
-  /// Refuses what would take all memory, by the area inside.
+  /// Refuses meshes that would take all memory, estimated from the area inside.
   [[nodiscard]] std::optional<InputError> check_count() const {
     const double triangles = 2 * count_pieces(surface_, places_, edges_, wanted_.most) + count_inside();
     if (triangles <= static_cast<double>(options_.most_triangles)) return {};
@@ -118,10 +118,11 @@ class Mesher {
                    " triangles; at most " + std::to_string(options_.most_triangles) + " are made");
   }
 
-  /// Triangles of a size in an area.
+  /// The number of triangles of a size in an area.
   [[nodiscard]] static double count(double area, double size) { return area / (std::sqrt(3.0) / 4 * size * size); }
 
-  /// Of the sizes of areas; where there is a field no more than that has everywhere, nor its least size inside.
+  /// The number of triangles by the sizes of areas. A field limits it: to its number everywhere, and by its least size
+  /// inside.
   [[nodiscard]] double count_inside() const {
     if (!options_.field) return count_in_areas(wanted_.most);
     double triangles = 0, least = wanted_.most;
@@ -159,7 +160,8 @@ class Mesher {
     return triangles;
   }
 
-  /// Short edges, areas of smaller size, and where the size field grows faster than the grade.
+  /// Adds sources for short edges, for areas of smaller size, and at places where the size field grows faster than the
+  /// grade.
   void start_sources() {
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       const Vec3 a = point(edges_[i].ends[0]), b = point(edges_[i].ends[1]);
@@ -192,7 +194,7 @@ class Mesher {
     }
   }
 
-  /// Where the front begins on a sphere without an outline: at the least size.
+  /// The beginning of the front on a sphere without an outline: at the least size.
   [[nodiscard]] Vec3 start() const {
     if (!options_.field) return {surface_.space().radius(), 0, 0};
     VertexId least(0);
@@ -204,7 +206,7 @@ class Mesher {
 
   [[nodiscard]] GradedSize size() const { return {surface_, sources_, wanted_, options_.grade}; }
 
-  /// Divides the outline, finer where that shows pieces that face each other, until nothing changes.
+  /// Divides the outline, finer at pieces that face each other, until nothing changes.
   Expected<DividedOutline> resolve() {
     constexpr int kRounds = 20;  // each finds what the last one's longer pieces hid; three or four do nearly always
     DividedOutline divided = divide(surface_, places_, edges_, size(), corners_, deadline_);
@@ -229,7 +231,7 @@ class Mesher {
             "there is no mesh yet: it was time to stop while the outline was " + doing +
                 "; sizes far below the outline's, and narrow places along its long edges, take many triangles"};
   }
-  /// Division points that meet or cross others: the outline is narrower there than its coordinates can say.
+  /// Division points meet or cross others: the outline is too narrow there for its coordinates.
   [[nodiscard]] static InputError too_fine(const InputError& error) {
     return {
         ErrorCode::out_of_scale, "",
@@ -261,7 +263,7 @@ class Mesher {
     std::vector<std::uint32_t> outline_points;  ///< of the vertices that are one, which come first
   };
 
-  /// Nothing where a vertex that surrounds the sphere is still needed.
+  /// Nothing if a vertex that surrounds the sphere is still needed.
   [[nodiscard]] std::optional<Inside> find_inside(const DividedOutline& divided, const std::vector<Vec3>& placed,
                                                   const Triangulated& all) const {
     const std::size_t n = divided.points.size() + placed.size();
@@ -332,7 +334,7 @@ class Mesher {
     }
   }
 
-  /// Points of no segment are the user's all the same.
+  /// Points of no segment stay, too: they are the user's.
   void fix_points(OutlineMesh& made) const {
     std::vector<std::uint8_t> on_edge(outline_.points.size(), 0);
     for (const OutlineEdge& e : edges_) {
@@ -350,7 +352,7 @@ class Mesher {
     if (!made) return made;
     made->delaunay_bad = made->bad = bad_triangles(made->mesh).size();
     if (!options_.optimize) return made;
-    // Another division of the outline is a better cure than repairs of this one: those are for the last.
+    // Another division of the outline cures more than repairs of this one: repairs are for the last.
     OptimizeOptions options = *options_.optimize;
     options.repair = Repair::none;
     if (auto error = improve(*made, options)) return *error;
@@ -368,7 +370,7 @@ class Mesher {
     return {};
   }
 
-  /// Lines and points of the outline after vertices were removed or inserted; theirs never are.
+  /// Renumbers lines and points of the outline after vertices were removed or inserted. Their own vertices never are.
   static void renumber(OutlineMesh& made, const IdVector<VertexId, VertexId>& old_numbers) {
     std::vector<VertexId> now;
     for (std::size_t v = 0; v < old_numbers.size(); ++v) {
@@ -383,7 +385,7 @@ class Mesher {
     }
   }
 
-  /// Sizes around the triangles that stay bad become smaller.
+  /// Makes sizes around the triangles that stay bad smaller.
   void refine_around_bad(const Mesh& mesh) {
     constexpr double kSmaller = 0.7;
     const GradedSize now = size();

@@ -13,15 +13,15 @@
 
 namespace temper::mesher {
 
-// In the constrained Delaunay triangulation of the divided outline alone every edge inside spans a gap, and every
-// triangle on a piece measures the distance to what is across. Neighbors along the outline are no gap, unless their
+// Consider the constrained Delaunay triangulation of the divided outline alone. Every inner edge spans a gap, and every
+// triangle on a piece measures the distance to the other side. Neighbors along the outline are no gap, unless their
 // corner is sharp.
 
 namespace {
 
 // Two rows of equilateral triangles across a gap have edges of 0.577 of it.
 constexpr double kOfGap = 0.6;
-// A size that is less than this part of the present one is new.
+// A size below this part of the present one is a new one.
 constexpr double kLess = 0.9;
 
 class Narrow {
@@ -49,7 +49,7 @@ class Narrow {
   }
 
  private:
-  /// Not one of the outline, but of the triangulation that surrounds a sphere.
+  /// Says whether v is a helper of the triangulation that surrounds a sphere, and no point of the outline.
   [[nodiscard]] bool helps(VertexId v) const { return v.index >= divided_.points.size(); }
   [[nodiscard]] Vec3 at(VertexId v) const { return divided_.points[v.index]; }
   [[nodiscard]] bool isolated(VertexId v) const { return around_[v.index].empty(); }
@@ -58,7 +58,7 @@ class Narrow {
     if (size < kLess * size_(p)) sources_.push_back({p, size});
   }
 
-  /// Both are ends of pieces at one point, where those do not make a sharp corner.
+  /// Both are ends of pieces at one point, and those do not make a sharp corner.
   [[nodiscard]] bool neighbors(VertexId a, VertexId b) const {
     for (const std::uint32_t c : around_[a.index]) {
       for (const std::uint32_t d : around_[b.index]) {
@@ -70,7 +70,7 @@ class Narrow {
     return false;
   }
 
-  /// An edge from vertex to vertex through the inside.
+  /// Visits an edge from vertex to vertex through the inside.
   void along(HalfedgeId h) {
     const VertexId a = mesh_.origin(h), b = mesh_.target(h);
     if (helps(a) || helps(b) || neighbors(a, b)) return;
@@ -80,7 +80,7 @@ class Narrow {
     add(at(b), size);
   }
 
-  /// A triangle on a piece: from the piece to what is across.
+  /// Visits a triangle on a piece: from the piece to the other side.
   void across(HalfedgeId h) {
     const VertexId a = mesh_.origin(h), b = mesh_.target(h), c = mesh_.opposite(h);
     if (helps(c) || triangulated_.piece[Mesh::next(h)] != Triangulated::kNoPiece ||
@@ -113,10 +113,10 @@ std::vector<SizeSource> narrow_places(const DividedOutline& divided, const Trian
 
 namespace {
 
-// Points with sizes, and whether one of them is near a place: a hashed grid with one level for each power of two.
+// A hashed grid of points with sizes, with one level for each power of two: is a point near a place?
 //
-// A point lies in the level of its size. A query looks at levels whose points may be that near: sizes grow no faster
-// than distances, so these are the levels around its radius.
+// A point lies in the level of its size. A query looks at the levels whose points may be near enough. Sizes grow no
+// faster than distances, so these are the levels around its radius.
 
 class PointGrid {
  public:
@@ -132,8 +132,8 @@ class PointGrid {
     insert(static_cast<std::uint32_t>(points_.size() - 1));
   }
 
-  /// Looks at points whose size is between a quarter and four times the radius, and at all that are larger or smaller
-  /// in neighboring levels of these.
+  /// Looks at all points whose size is between a quarter and four times the radius. In neighboring levels it also looks
+  /// at larger or smaller ones.
   [[nodiscard]] bool any_within(Vec3 p, double radius) const {
     const int level = std::ilogb(radius);
     const Vec3 reach = {radius, radius, flat_ ? 0 : radius};
@@ -178,7 +178,7 @@ class PointGrid {
     hash = (hash ^ (hash >> 32) ^ static_cast<std::uint64_t>(std::int64_t{c.level})) * 0x94d049bb133111ebu;
     return static_cast<std::size_t>(hash ^ (hash >> 31)) & (slots_.size() - 1);
   }
-  /// The slot of the cell: where its first point is, or the empty one where it would be.
+  /// The slot of the cell: it has its first point, or is the empty slot for it.
   [[nodiscard]] std::size_t find(const Cell& c) const {
     std::size_t s = slot(c);
     while (slots_[s] != kNone && !(cell(points_[slots_[s]].at, points_[slots_[s]].level) == c)) {
@@ -203,8 +203,8 @@ class PointGrid {
   bool flat_;
 };
 
-// Parts of the local size. Neighbors in a perfect row are 1 apart, the first row 0.87 from the outline; what is taken
-// much nearer than that makes the short edges that a denser packing needs, what is refused leaves holes.
+// Parts of the local size. Neighbors in a perfect row are 1 apart, the first row is 0.87 from the outline. Points that
+// are accepted much nearer make the short edges that a denser packing needs; points that are refused leave holes.
 constexpr double kApart = 0.72;
 constexpr double kClear = 0.5;
 constexpr std::array<double, 3> kHeights = {0.866, 0.7, 0.55};
@@ -278,7 +278,7 @@ class Placement {
     }
   }
 
-  /// Returns how many points of the front are there already.
+  /// Returns the number of points of the front that exist already.
   std::size_t start_without_pieces(Vec3 start) {
     for (const Vec3 p : divided_.points) front_.push_back({p, surface_.some_direction(p), 0});
     if (front_.empty()) {
@@ -296,7 +296,7 @@ class Placement {
     return true;
   }
 
-  /// No piece is within the distance of p, or between p and where it comes from.
+  /// Says whether no piece is within the distance of p, or between p and its origin.
   [[nodiscard]] bool is_clear(Vec3 p, Vec3 from, double distance, std::size_t own_piece) const {
     const BoundingBox box = united(BoundingBox{p, p}.grown(distance), box_around(surface_, p, from));
     return tree_.visit(box, [&](std::size_t i) {

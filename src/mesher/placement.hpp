@@ -9,15 +9,15 @@
 
 namespace temper::mesher {
 
-/// Sizes that leave room for a row of vertices between facing pieces; only those that are less than `size` by more
-/// than a tenth. Isolated points count as pieces of no length.
+/// Sizes that leave room for a row of vertices between facing pieces. Only sizes that are below `size` by more than a
+/// tenth. Isolated points count as pieces of no length.
 [[nodiscard]] std::vector<SizeSource> narrow_places(const DividedOutline& divided, const Triangulated& triangulated,
                                                     const GradedSize& size, Deadline& deadline);
 
-/// Places points. Each candidate is one size away from the point or piece it comes from; it is taken when nothing is
-/// too near and no piece lies between. The order is that of the pieces, then of the points: deterministic. Ends when
-/// there are `most`, or when it is time to stop. A whole sphere without pieces is filled from its isolated points, or
-/// from `start`. O(n log n).
+/// Places points. Each candidate is one size away from its point or piece. It is taken when nothing is too near and no
+/// piece lies between. The order is the order of the pieces, then of the points: deterministic. Ends when there are
+/// `most`, or when it is time to stop. A whole sphere without pieces is filled from its isolated points, or from
+/// `start`. O(n log n).
 [[nodiscard]] std::vector<Vec3> place_points(const Surface& surface, const DividedOutline& divided, const Areas& areas,
                                              const GradedSize& size, Vec3 start, std::size_t most, Deadline& deadline);
 

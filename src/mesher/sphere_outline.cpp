@@ -15,12 +15,12 @@
 namespace temper::mesher {
 namespace {
 
-// Of the radius: more than the rounding of degrees in another convention, less than any edge.
+// Relative to the radius: more than the rounding of degrees in another convention, less than any edge.
 constexpr double kSamePlace = 1e-13;
-// Of the radius: how far from opposite two ends are that have one shortest way between them.
+// Relative to the radius: two ends at least this far from opposite have one shortest way between them.
 constexpr double kOpposite = 1e-9;
 
-/// An element of the outline, and where it comes from.
+/// An element of the outline, and its source.
 struct Origin {
   std::size_t outline = 0, element = 0;
 };
@@ -90,7 +90,7 @@ class Joiner {
     return {code, names(k).segment_where(i), names(k).segment(i) + " " + what};
   }
 
-  /// Numbers that are degrees; segments between points that there are.
+  /// Checks that numbers are degrees, and that segments join existing points.
   Error check(std::size_t k) const {
     const Outline& o = *sources_[k];
     for (std::size_t i = 0; i < o.points.size(); ++i) {
@@ -115,7 +115,7 @@ class Joiner {
   [[nodiscard]] static bool is_place(Vec2 lon_lat) {
     return std::abs(lon_lat.y) <= 90 && std::abs(lon_lat.x) <= 720;  // false for NaN
   }
-  /// " (segment 3 of feature 1)": where in the file a point without a name of its own is.
+  /// " (segment 3 of feature 1)": the place in the file of a point without a name of its own.
   [[nodiscard]] std::string user_of(const Outline& o, std::size_t k, std::size_t point) const {
     const auto p = static_cast<std::int32_t>(point);
     const auto user = std::find_if(o.segments.begin(), o.segments.end(),
@@ -124,8 +124,8 @@ class Joiner {
     return " (" + names(k).segment(static_cast<std::size_t>(user - o.segments.begin())) + ")";
   }
 
-  /// With longitudes below 0 and above 180, a jump may be the way across the end of one convention, or an edge that
-  /// was taken from the other.
+  /// If longitudes are below 0 and above 180, a jump has two meanings. It is the way across the end of one convention,
+  /// or an edge from the other.
   Error check_conventions(std::size_t k) const {
     const Outline& o = *sources_[k];
     const auto any = [&](auto test) { return std::any_of(o.points.begin(), o.points.end(), test); };
@@ -142,7 +142,7 @@ class Joiner {
   }
   [[nodiscard]] static Vec2 point(const Outline& o, std::int32_t i) { return o.points[static_cast<std::size_t>(i)]; }
 
-  /// One point for each place, the first that was given.
+  /// Keeps one point for each place, the first given one.
   void join_points() {
     std::vector<Vec3> directions;
     std::vector<Origin> origins;
@@ -213,7 +213,7 @@ class Joiner {
   }
   [[nodiscard]] Vec3 place(std::int32_t i) const { return result_.places[static_cast<std::size_t>(i)]; }
 
-  /// The parts of an outline, and what its other segments enclose.
+  /// Adds the parts of an outline, and the part that its other segments enclose.
   Error add_parts(std::size_t k, const std::vector<std::int32_t>& now) {
     const Outline& o = *sources_[k];
     std::vector<std::uint8_t> loose(o.segments.size(), 1);

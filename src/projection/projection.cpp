@@ -174,7 +174,7 @@ Vec2 mean_place(std::span<const Vec2> lon_lat, std::span<const double> shares) {
 
 namespace {
 
-// Further away from the center than this the map is of no use, and soon infinite.
+// At larger scales, further away from the center, the map is useless and soon infinite.
 constexpr double kLargestScale = 1e3;
 
 /// The place on the map, if it has one.
@@ -190,7 +190,7 @@ InputError off_the_map(const std::string& where, const std::string& name, Vec2 p
               "; expected degrees on the globe, and not at the end of the map"};
 }
 
-/// Says whether the map ends between two places. Stereographic ones have their end at one point.
+/// Says whether the map ends between two places. A stereographic map ends at one point.
 bool is_torn(const Projection& projection, Vec2 a, Vec2 b) {
   if (projection.kind == ProjectionKind::stereographic) return false;
   return std::abs(from_center(projection, b.x) - from_center(projection, a.x)) > std::numbers::pi;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-// d/ℓ = 1/2 + (w_p − w_q) / (2 ℓ²), from the end where it is less. A collapsed edge is not crossed at all.
+// d/ℓ = 1/2 + (w_p − w_q) / (2 ℓ²), from the end with the lesser value. A collapsed edge is not crossed at all.
 double lesser_crossing(const WeightedPoint& p, const WeightedPoint& q) {
   const double squared = squared_length(q.position() - p.position());
   const double lean = std::abs(p.w - q.w);
@@ -199,7 +199,7 @@ std::string least_margin(const Subject& s) {
          degrees(s.m.angle_deg[across]) + " at vertex " + s.number(s.v[across]);
 }
 
-// The edge over which the exact sign is not positive, the one with the least h/ℓ first; −1 when there is none.
+// The edge over which the exact sign is not positive, with the least h/ℓ; −1 when there is none.
 int edge_of_outside(const TriangleMeasure& m) {
   int found = -1;
   for (int k = 0; k < 3; ++k) {

@@ -25,7 +25,7 @@ struct TriangleMeasure {
 
   [[nodiscard]] bool orthocenter_inside() const;
   [[nodiscard]] bool well_centered() const;
-  /// The least of all h/ℓ and d/ℓ: how far from well-centered, whatever the size of the triangle.
+  /// The least of all h/ℓ and d/ℓ: a distance from well-centered that does not depend on the size of the triangle.
   [[nodiscard]] double margin() const;
 };
 
@@ -36,10 +36,10 @@ struct TriangleMeasure {
 constexpr int corner_after(int k) { return k == 2 ? 0 : k + 1; }
 constexpr int corner_across(int k) { return k == 0 ? 2 : k - 1; }
 
-// The triangles that are furthest from well-centered, and a sentence on each that says why.
+// The triangles that are furthest from well-centered, with a sentence on each that gives the reason.
 //
-// Triangles are ranked by the least of their h/ℓ and d/ℓ, ties by number, so that the list does not depend
-// on how the mesh was cut into blocks.
+// Triangles are ranked by the least of their h/ℓ and d/ℓ, ties by number: the list does not depend on how the mesh was
+// cut into blocks.
 
 struct Ranked {
   double margin = 0;
@@ -62,20 +62,21 @@ class WorstList {
   std::vector<Ranked> heap_;  // the best ranked of the list on top
 };
 
-/// The entry of the report on one triangle; `why` in these numbers, or counted from 0.
+/// The entry of the report on one triangle; `why` uses these numbers, or counts from 0.
 [[nodiscard]] WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names = nullptr);
 
-/// The centroid of a triangle, as reports give it.
+/// The centroid of a triangle, for reports.
 [[nodiscard]] Vec2 middle_of(const Mesh& mesh, TriangleId t);
 
-/// The number by which reports call a vertex or a triangle: the last word of its name, "12" of "point 12".
+/// The number of a vertex or a triangle in reports: the last word of its name, "12" of "point 12".
 [[nodiscard]] std::string number_of(VertexId v, const InputNames* names);
 [[nodiscard]] std::string number_of(TriangleId t, const InputNames* names);
-/// "0.1234", and "138.3°": as many digits as people read.
+/// "0.1234", and "138.3°": numbers rounded for people.
 [[nodiscard]] std::string rounded(double value);
 [[nodiscard]] std::string degrees(double angle);
 
-/// Two passes, over triangles and over vertices. The same for any executor. Precondition: no erased triangles. O(n).
+/// Two passes, over triangles and over vertices. All executors give equal results. Precondition: no erased triangles.
+/// O(n).
 [[nodiscard]] SolverMeasures solver_measures(const Mesh& mesh, Executor* executor);
 
 }  // namespace temper

@@ -1,4 +1,4 @@
-// The numbers of a report, once: their names, their words for people, whose they are, and which way is better.
+// The table of the numbers of a report: their names, their words for people, their users, and the better direction.
 #include <array>
 
 #include "temper/quality.hpp"

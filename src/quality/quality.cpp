@@ -26,14 +26,14 @@
 namespace temper {
 namespace {
 
-/// Of ℓ / |dual| of all interior edges; 1 without any.
+/// Ratios of ℓ / |dual| over all interior edges; 1 without any.
 struct Transmissibilities {
   double max_over_median = 1;
   double max_over_min = 1;
 };
 
-// The length of the face over the distance between the orthocenters on its two sides. Doubles cannot tell a dual of
-// length zero from one of 1e-17, the exact test can.
+// The length of the face over the distance between the orthocenters on its two sides. Doubles cannot distinguish a dual
+// of length zero from one of 1e-17; the exact test can.
 double transmissibility(const Mesh& mesh, HalfedgeId h) {
   const auto [a, b, c] = mesh.points(mesh.origin(h), mesh.target(h), mesh.opposite(h));
   const WeightedPoint d = mesh.point(mesh.opposite(mesh.twin(h)), a);
@@ -41,7 +41,7 @@ double transmissibility(const Mesh& mesh, HalfedgeId h) {
   return distance(mesh.space(), a, b) / std::abs(dual_length(mesh.space(), a, b, c, d));
 }
 
-/// Those of all interior edges, in an array that is made once: lists that grow would take twice its room.
+/// The values of all interior edges, in an array that is made once: lists that grow would take twice its room.
 std::vector<double> transmissibilities(const Mesh& mesh, Executor* executor) {
   const std::size_t n = mesh.n_halfedges();
   const auto for_edges = [&](std::size_t first, std::size_t last, auto&& visit) {
@@ -64,7 +64,7 @@ std::vector<double> transmissibilities(const Mesh& mesh, Executor* executor) {
   return values;
 }
 
-/// O(n), with 8 bytes an edge while it lasts.
+/// O(n), with 8 bytes per edge while it lasts.
 Transmissibilities compare_transmissibilities(const Mesh& mesh, Executor* executor) {
   std::vector<double> values = transmissibilities(mesh, executor);
   if (values.empty()) return {};
@@ -75,9 +75,9 @@ Transmissibilities compare_transmissibilities(const Mesh& mesh, Executor* execut
   return all;
 }
 
-// The sums of the report over a run of triangles: one Tally a block, merged in the order of the blocks.
+// The sums of the report over a run of triangles: one Tally per block, merged in the order of the blocks.
 //
-// Everything here is a count, an extreme or a short list, so the merged result is the same whatever the blocks.
+// Everything here is a count, an extreme or a short list, so any division into blocks gives the same merged result.
 // Each edge is counted by the halfedge that stands for it, in the block of that halfedge's triangle.
 
 /// Bins of 10°; of 0.1 with a bin edge at h = 0; of 0.05 with a bin edge at d = 0.
@@ -107,7 +107,7 @@ struct Tally {
   Histogram h_over_l = empty_height_histogram();
   Histogram d_over_l = empty_crossing_histogram();
 
-  /// `original`: the number by which the triangle is told of.
+  /// `original`: the number of the triangle in messages.
   void add(const Mesh& mesh, TriangleId t, TriangleId original);
   void merge(const Tally& other);
 

@@ -16,16 +16,16 @@
 namespace temper {
 namespace {
 
-// Triangles as the finite volumes of D-Flow FM, by the definitions of MeshKernel, the library of its grid editor: it
-// knows no weights, and its centers of cells are circumcenters kept inside.
+// Triangles as the finite volumes of D-Flow FM, by the definitions of MeshKernel, the library of its grid editor. It
+// has no weights, and its centers of cells are circumcenters kept inside.
 //
-//        c            The circumcenter o of an obtuse triangle is outside. In its place D-Flow FM takes the point x
-//       / \           where the way from the centroid m to o leaves the triangle.
-//      / m \          On the sphere all this is of the flat triangle: MeshKernel itself has no circumcenters there but
-//     a--x--b         in longitude and latitude.
+//        c            The circumcenter o of an obtuse triangle is outside. In its place D-Flow FM takes the point x at
+//       / \           which the way from the centroid m to o leaves the triangle. On the sphere all this holds for the
+//      / m \          flat triangle. MeshKernel itself has no circumcenters there, except in longitude and latitude.
+//     a--x--b
 //         o
 
-/// Where a vertex is, without its weight; of images the one near a point.
+/// The place of a vertex, without its weight: of its images, the one near a point.
 [[nodiscard]] inline Vec3 position_of(const Mesh& mesh, VertexId v, const WeightedPoint& near) {
   return mesh.space().place(mesh.point(v, near));
 }
@@ -79,7 +79,7 @@ FlowCell flow_cell_of(const Mesh& mesh, TriangleId t, const WeightedPoint& near)
 }
 
 void add_flow_link(SolverMeasures& m, const Mesh& mesh, HalfedgeId h) {
-  // Of a shorter one rounding makes the direction. It is a small flow link anyway.
+  // Rounding determines the direction of a shorter edge. It is a small flow link anyway.
   constexpr double kHasDirection = 0x1p-40;  // of the edge
   const WeightedPoint from = mesh.point(mesh.origin(h));
   const FlowCell left = flow_cell_of(mesh, Mesh::triangle(h), from),
@@ -136,7 +136,7 @@ struct Ring {
   [[nodiscard]] const WeightedPoint& before(std::size_t k) const { return around[(k > 0 ? k : around.size()) - 1]; }
 };
 
-/// Into the list that `ring` has already.
+/// Fills the list that `ring` has already.
 void gather(Ring& ring, const Mesh& mesh, VertexId v) {
   ring.center = mesh.point(v);
   ring.around.clear();
@@ -154,8 +154,8 @@ void add_grid_spacing(SolverMeasures& m, const Space& space, const Ring& ring) {
   m.max_grid_spacing = std::max(m.max_grid_spacing, mean);
 }
 
-/// How far the centroid of the power cell is from the vertex, in the plane that touches the sphere there, and from
-/// there back to the sphere; +∞ for a cell that is not counter-clockwise.
+/// The distance of the centroid of the power cell from the vertex. It is measured in the plane that touches the sphere
+/// there, and mapped back to the sphere; +∞ for a cell that is not counter-clockwise.
 double centroid_offset(const Space& space, const Ring& ring) {
   const Vec3 at = space.place(ring.center), up = space.up(as_point(at));
   Vec3 moment = {0, 0, 0};

@@ -1,8 +1,8 @@
-// The flip thresholds of §2.4, both kinds of edges as one: how F(t) of temper/regularity.hpp is computed and crossed.
+// The flip thresholds of §2.4, for both kinds of edges: F(t) of temper/regularity.hpp and its first crossing.
 //
-// Everything is seen from p, so that F(0) = −A loses no digits to the origin, and each edge gives one quadratic g(t)
-// that is positive where the edge is not regular: −F for a link edge, regular while p does not conflict with the
-// triangle beyond, and F for a spoke to q, regular while p conflicts with the triangle of q and its two neighbors on
+// Everything is seen from p, so that F(0) = −A loses no digits to the origin. Each edge gives one quadratic g(t) that
+// is positive when the edge is not regular. A link edge has −F: it is regular while p does not conflict with the
+// triangle beyond. A spoke to q has F: it is regular while p conflicts with the triangle of q and its two neighbors on
 // the link.
 #include <algorithm>
 #include <cmath>
@@ -19,15 +19,15 @@ struct Quadratic {
   double c0, c1, c2;
 };
 
-/// −F(t) on the sphere: how far p(t) is above the plane of the face.
+/// −F(t) on the sphere: the height of p(t) above the plane of the face.
 Quadratic conflict_on_sphere(const WeightedPoint& p, const WeightedPoint& a, const WeightedPoint& b,
                              const WeightedPoint& c, const std::array<double, 3>& step) {
   const Vec3 from = as_vector(a), n = cross(as_vector(b) - from, as_vector(c) - from);
   return {dot(n, as_vector(p) - from), dot(n, {step[0], step[1], step[2]}), 0};
 }
 
-/// −F(t) in the plane, for the lifted points a, b, c seen from p: positive when p(t) conflicts with triangle abc
-/// counter-clockwise.
+/// −F(t) in the plane, for the lifted points a, b, c seen from p. Positive when p(t) conflicts with the
+/// counter-clockwise triangle abc.
 Quadratic conflict_in_plane(const WeightedPoint& p, const WeightedPoint& a, const WeightedPoint& b,
                             const WeightedPoint& c, const std::array<double, 3>& step) {
   const auto lift = [&](const WeightedPoint& q) {
@@ -46,7 +46,7 @@ Quadratic conflict_in_plane(const WeightedPoint& p, const WeightedPoint& a, cons
   return {f0, bx * sx + cy * sy - d * sw, d * (sx * sx + sy * sy)};
 }
 
-/// The least t ≥ 0 past which g is positive, given that exactly it is not at 0: a positive c₀ is a rounded zero.
+/// The least t ≥ 0 past which g is positive. The exact g is not positive at 0: a positive c₀ is a rounded zero.
 double first_crossing(Quadratic g) {
   if (g.c0 >= 0) {
     if (g.c1 < 0) return g.c2 > 0 ? -g.c1 / g.c2 : kNoThreshold;

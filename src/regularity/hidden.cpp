@@ -1,11 +1,10 @@
 // From stuck edges to hidden vertices.
 //
-// A stuck edge names the vertex at its reflex end, and rightly so (lawson.hpp). But a vertex can hide in the shadow
-// of another: next to a tall peak the surface may be convex around a vertex that is itself above the regular
-// surface. So the named vertices are taken out, Lawson runs again, and whatever is stuck then is hidden too. What was
-// hidden stays hidden when another hidden vertex goes, for the regular surface is the same without it. Only vertices
-// that plan_removal can take out of a mesh that must keep its domain are taken out; the others are named and their
-// stuck edges left.
+// A stuck edge names the vertex at its reflex end, which is hidden (lawson.hpp). But a vertex can hide in the shadow of
+// another. Next to a tall peak the surface may be convex around a vertex that is itself above the regular surface. So
+// the named vertices are removed, Lawson runs again, and vertices of edges that are stuck then are hidden, too. A
+// hidden vertex stays hidden when another hidden vertex goes, as the regular surface does not change. plan_removal must
+// be able to remove a vertex and keep the domain; other vertices are only named, and their stuck edges stay.
 #include "regularity/hidden.hpp"
 
 #include <algorithm>

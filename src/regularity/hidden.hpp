@@ -1,4 +1,4 @@
-// Hidden vertices: those whose power cell is empty in the regular triangulation of the constrained domain.
+// Hidden vertices: their power cell is empty in the regular triangulation of the constrained domain.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace temper {
 
-/// The hook that tells an observer of each flip, in the vertices' numbers.
+/// The hook that reports each flip to an observer, in the vertices' numbers.
 struct FlipObserver {
   const RestorationObserver* observer = nullptr;
   void before(const Mesh& mesh, HalfedgeId h) const {
@@ -24,15 +24,16 @@ struct FlipObserver {
 /// The end at which the quad of a stuck edge is not strictly convex. Exactly one of the two is.
 [[nodiscard]] VertexId reflex_end(const Mesh& mesh, HalfedgeId stuck);
 
-/// The result of remove_hidden: the vertices that it found, and what became of them.
+/// The result of remove_hidden: the vertices that it found, and their treatment.
 struct HiddenVertices {
   std::vector<VertexId> hidden;   ///< all, by number
   std::vector<VertexId> removed;  ///< those that could be, in this order
   std::size_t flips = 0;
 };
 
-/// Removes hidden vertices of a mesh on which `lawson` has run to its end, flips until it is regular again, and so on
-/// until nothing is stuck but at vertices that cannot be removed. A few removals and flips a hidden vertex.
+/// Removes hidden vertices of a mesh on which `lawson` has run to its end, then flips until the mesh is regular.
+/// Repeats until edges are stuck only at vertices that cannot be removed. Takes a few removals and flips per hidden
+/// vertex.
 HiddenVertices remove_hidden(Mesh& mesh, Lawson& lawson, const RestorationObserver* observer = nullptr);
 
 }  // namespace temper

@@ -1,28 +1,27 @@
 // Lawson's algorithm on a queue of edges: the one engine behind restore_regularity, the optimizer's vertex step and
 // the Delaunay triangulations of generate.
 //
-// Why it ends. Lift every vertex to height |x|² − w. An edge is not regular when the lifted surface is concave
-// across it; flipping it replaces the upper two faces of a tetrahedron by the lower two. The surface only ever goes
-// down, strictly at each flip, so no triangulation comes twice. (With ties by index the same holds of the perturbed
-// weights.) At most O(n²) flips; about as many as there are vertices in practice. The signed volume under the surface
-// falls by that tetrahedron's whatever the triangles' orientation, so it ends even where some are turned over; but
-// then a flip may join two vertices that have an edge already. All triangles counter-clockwise is a precondition.
-// On the sphere the surface is the polyhedron of the weighted vectors (space.hpp), below is farther from the center,
-// and all of this holds as it stands.
+// Why it ends. Lift every vertex to height |x|² − w. An edge is not regular when the lifted surface is concave across
+// it. Flipping it replaces the upper two faces of a tetrahedron by the lower two. The surface only ever goes down,
+// strictly at each flip, so no triangulation comes twice. (With ties by index this holds for the perturbed weights.) At
+// most O(n²) flips; in practice about as many as there are vertices. The signed volume under the surface falls by the
+// tetrahedron's volume for any orientation, so it ends even if some triangles are turned over. But then a flip may join
+// two vertices that have an edge already. So all triangles must be counter-clockwise. On the sphere the surface is the
+// polyhedron of the weighted vectors (space.hpp), below is farther from the center, and all of this holds unchanged.
 //
-// Which edges are queued. A flip can spoil, or free, only the four edges around it: it pushes those. The queue
-// holds halfedge slots, with no check when one is taken out. That is safe: a flip moves edges between slots of its
-// own two triangles alone, so an entry it displaces stood for one of five edges, and of these four have just been
-// pushed again and the fifth has just become regular. What a displaced entry now points to is tested for nothing,
-// which is cheaper than remembering vertex pairs and finding them again. For the same reason an entry pushed twice
-// is merely tested twice. Last in, first out: the quads it looks at are still in the cache.
+// Queued edges. A flip can spoil, or free, only the four edges around it: it pushes those. The queue holds halfedge
+// slots, with no check when one is taken out. That is safe, since a flip moves edges between slots of its own two
+// triangles alone. An entry that it displaces stood for one of five edges. Four of them have just been pushed again,
+// and the fifth has just become regular. The edge to which a displaced entry now points is tested for nothing. This is
+// cheaper than to remember vertex pairs and find them again. For the same reason an entry pushed twice is tested twice.
+// Last in, first out: the quads it looks at are still in the cache.
 //
 // Stuck edges: not regular, but their quad is not strictly convex at one end a, so that no flip exists now. A flip of
-// an edge around may free it; that flip pushes it again, so it needs no list of its own to be looked at again. What
-// is stuck at the end stays stuck, and a is hidden: with a inside triangle bcd of the quad and lifted above the
-// plane of bcd, scaled towards a the triangle fits into a's star, where the regular surface is convex and nowhere
-// above the present one; so it passes below a. (With a on the boundary or on constrained edges at a reflex corner, a
-// has no power cell on its side of the domain.)
+// an edge around it may free it; that flip pushes it again, so no list of stuck edges is needed. If it is still stuck
+// at the end, a is hidden. Then a is inside triangle bcd of the quad and lifted above the plane of bcd. Scaled towards
+// a, the triangle fits into a's star. The regular surface is convex there and nowhere above the present one, so it
+// passes below a. (If a is on the boundary or on constrained edges at a reflex corner, it has no power cell on its side
+// of the domain.)
 #pragma once
 
 #include <algorithm>
@@ -38,10 +37,11 @@
 
 namespace temper {
 
-// The local test of regularity, as Lawson's loop asks it: does the vertex across an inner edge conflict?
+// The local test of regularity for Lawson's loop: does the vertex across an inner edge conflict?
 //
-// Two rules for ties. PowerTest keeps an edge of a tie: nothing to gain, and no flip to undo. PerturbedPowerTest
-// decides ties by the vertices' numbers, which makes the triangulation unique whatever order it was built in.
+// Two rules for ties. PowerTest keeps an edge of a tie: a flip gains nothing, and might have to be undone.
+// PerturbedPowerTest decides ties by the vertices' numbers, so that the triangulation is unique for any order of
+// construction.
 
 /// Positive when the edge ab of the quad must flip.
 struct PowerTest {
@@ -50,7 +50,7 @@ struct PowerTest {
   }
 };
 
-/// The same, ties by rank: rank[v] is v's number where numbers must be the user's.
+/// The power test with ties by rank: rank[v] replaces v's number if numbers must be the user's.
 template <class Rank>
 struct PerturbedPowerTest {
   Rank rank;
@@ -66,8 +66,8 @@ struct PerturbedPowerTest {
 template <class Rank>
 PerturbedPowerTest(Rank) -> PerturbedPowerTest<Rank>;
 
-/// A hook that watches flips: before(mesh, h) sees the edge that goes, after(mesh, h) the edge that came, in the same
-/// slots. Between the two calls only the two triangles of h change. This one watches nothing.
+/// A hook that watches flips. before(mesh, h) sees the edge that goes, after(mesh, h) the new edge in the same slots.
+/// Between the two calls only the two triangles of h change. This one watches nothing.
 struct IgnoreFlips {
   void before(const Mesh&, HalfedgeId) {}
   void after(const Mesh&, HalfedgeId) {}
@@ -97,9 +97,9 @@ class Lawson {
     stuck_.clear();
   }
 
-  /// Queues the edge of h. Boundary and constrained edges may be pushed; they are passed over.
+  /// Queues the edge of h. Boundary and constrained edges may be pushed; they are skipped.
   void push(HalfedgeId h) { queue_.push_back(h); }
-  /// Queues what a change of v's position or weight can spoil: the edges of its star and of its link.
+  /// Queues the edges that a change of v's position or weight can spoil: the edges of its star and of its link.
   void push_star(const Mesh& mesh, VertexId v) {
     for (const HalfedgeId h : mesh.star(v)) {
       push(h);
@@ -123,8 +123,8 @@ class Lawson {
   }
 
   /// Flips until the queue is empty, or `max_flips` are done, or the next edge has a quad that is not all within.
-  /// Appends to the journal what each flip returned. Confined, it looks at the quads of constrained edges too, so that
-  /// when it is finished all edges of all triangles that it has touched have theirs within.
+  /// Appends the result of each flip to the journal. Confined, it looks at the quads of constrained edges, too. Then at
+  /// its end all edges of all triangles that it has touched have their quads within.
   template <class Hook = IgnoreFlips, class Test = PowerTest, class Within = Everywhere>
   LawsonRun run(Mesh& mesh, Hook&& hook = {}, std::size_t max_flips = kNoCap, const Test& test = {},
                 const Within& within = {}) {
@@ -159,8 +159,8 @@ class Lawson {
     return result;
   }
 
-  /// Undoes the flips of the journal, last first: the mesh is again what it was when the journal was empty, bit for
-  /// bit. Then clears everything.
+  /// Undoes the flips of the journal, last first: the mesh is bit for bit as it was when the journal was empty. Then
+  /// clears everything.
   void rollback(Mesh& mesh) {
     for (auto flipped = journal_.rbegin(); flipped != journal_.rend(); ++flipped) inlined::unflip(mesh, *flipped);
     clear();

@@ -1,4 +1,4 @@
-// restore_regularity: Lawson on all edges, then what the policy says of the vertices that stuck edges run into.
+// restore_regularity: Lawson on all edges, then the policy for the vertices at stuck edges.
 #include <utility>
 
 #include "base/sum.hpp"

@@ -21,7 +21,7 @@
 namespace temper {
 namespace {
 
-/// The rank of a percentile: that of the least value that at least `part` of all n do not exceed.
+/// The rank of a percentile: the least value that at least `part` of all n do not exceed.
 std::size_t rank_of(double part, std::size_t n) {
   return static_cast<std::size_t>(std::max(1.0, std::ceil(part * static_cast<double>(n)))) - 1;
 }
@@ -37,7 +37,7 @@ constexpr std::array<double, 5> kParts = {0, 0.05, 0.5, 0.95, 1};  // of a Sprea
 
 using BinCounts = std::vector<std::uint32_t>;
 
-/// The sum of what count(first, last, counts) counts in each of a few slices of 0 … n − 1, which run at once.
+/// The sum of the counts that count(first, last, counts) makes in each of a few slices of 0 … n − 1, which run at once.
 template <class Count>
 BinCounts counted(std::size_t n, std::size_t n_counts, Executor* executor, Count&& count) {
   constexpr std::size_t kSlices = 8;  // each has counts of its own
@@ -52,9 +52,9 @@ BinCounts counted(std::size_t n, std::size_t n_counts, Executor* executor, Count
   return std::move(slices[0]);
 }
 
-/// The spread of positive floats that each(first, last, take) hands to take, without keeping them: such floats are in
-/// the order of their bits, so the first pass counts the upper halves, and the second one the lower halves where a
-/// percentile lies. Few are kept: counts take longer.
+/// The spread of positive floats that each(first, last, take) hands to take, without keeping them. Such floats are in
+/// the order of their bits. So the first pass counts the upper halves, and the second one the lower halves next to a
+/// percentile. A small number of floats is kept instead: counting takes longer.
 template <class Each>
 Spread spread_of_floats(std::size_t n_items, Executor* executor, Each&& each) {
   constexpr std::size_t kHalf = std::size_t{1} << 16;
@@ -91,7 +91,7 @@ Spread spread_of_floats(std::size_t n_items, Executor* executor, Each&& each) {
   return {values[0], values[1], values[2], values[3], values[4]};
 }
 
-/// The field's triangle to look for v from.
+/// The triangle of the field from which the search for v starts.
 TriangleId start_for(VertexId v, const Mesh& mesh, const Mesh& of_field, const IdVector<VertexId, VertexId>& near) {
   VertexId there = v;
   if (near.size() == mesh.n_vertices()) {
@@ -174,7 +174,7 @@ SizeReport measure_size(const Mesh& mesh, const SizeField& field, Executor* exec
   std::vector<double> sizes(mesh.n_vertices());
   for_each_index(sizes.size(), executor, [&](std::size_t i) { sizes[walk[i].index] = local_size(mesh, walk[i]); });
   report.gradation = gradation(mesh, sizes, executor);
-  // In place: with another array a run would never need more memory than here.
+  // In place: a second array would raise the memory of a run, whose maximum is here.
   std::vector<double> ratios = std::move(sizes);
   report.outside = static_cast<std::size_t>(blockwise_sum(ratios.size(), executor, [&](std::size_t i) {
     const VertexId v = walk[i];

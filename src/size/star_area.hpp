@@ -1,4 +1,4 @@
-// The triangles around a vertex, as far as its size goes: how many, and how large together.
+// The triangles around a vertex, for its size: their number and total area.
 #pragma once
 
 #include <cmath>

@@ -13,7 +13,7 @@ namespace temper {
 
 struct TbbExecutor::Arena {
   explicit Arena(std::size_t n) : threads(n), arena(static_cast<int>(n)) {
-    // oneTBB has as many workers as the machine has processors, unless told otherwise for the whole program.
+    // oneTBB has as many workers as the machine has processors, unless the whole program has another limit.
     if (threads > static_cast<std::size_t>(tbb::info::default_concurrency())) {
       more.emplace(tbb::global_control::max_allowed_parallelism, threads);
     }
@@ -37,7 +37,7 @@ void TbbExecutor::run(std::size_t n, const std::function<void(std::size_t)>& blo
     return;
   }
   arena_->arena.execute([&] {
-    // Isolated: a thread that waits here for others takes no block of another run(), whose scratch it may be using.
+    // Isolated: a thread that waits here takes no block of another run(), whose scratch memory it may be using.
     tbb::this_task_arena::isolate(
         [&] { tbb::parallel_for(std::size_t{0}, n, std::size_t{1}, block, tbb::simple_partitioner()); });
   });

@@ -1,20 +1,20 @@
-// Grading of the boundary and of constrained lines: no edge much longer than the one it meets.
+// Grading of the boundary and of constrained lines: no edge is much longer than its neighbor.
 //
 //     |-|-----------------------------|        a short edge beside a long one, ratio 16
 //     |-|---|------|------------------|        pieces that grow by one factor q ≤ ratio: s q, s q², s q³ …
 //
 // Every vertex of a line has a size s: the shortest piece that meets it. An edge of length L between sizes s_a and s_b
-// stays whole when L ≤ r min(s_a, s_b), r the ratio. Otherwise it gets the least number k of pieces that can reach
-// along it when they grow by r from both ends,
+// stays whole when L ≤ r min(s_a, s_b), r the ratio. Otherwise it gets the least number k of pieces that can cover it
+// when they grow by r from both ends,
 //     Σ u_i(r) ≥ L,   u_i(q) = min(q^i s_a, q^(k+1−i) s_b),   i = 1 … k,
-// and then the least growth q for which that k suffices: Σ u_i(q) = L, pieces u_i(q). With r ≥ 2, k pieces of the
-// smaller size are shorter than L (k ≤ 2(k−1), and k − 1 pieces of r s did not reach), so q ≥ 1, and no piece is
-// shorter than the smaller of the two sizes. The piece at the other end may be shorter than what was there, and becomes
+// and then the least growth q for which k pieces suffice: Σ u_i(q) = L, pieces u_i(q). With r ≥ 2, k pieces of the
+// smaller size are shorter than L, since k ≤ 2(k−1) and k − 1 pieces of r s were too short. So q ≥ 1, and no piece is
+// shorter than the smaller of the two sizes. The piece at the other end may be shorter than its old size, and becomes
 // its size.
 //
-// So sizes spread from the smallest outwards as in Dijkstra's algorithm: a vertex taken from the queue has its final
-// size, because what is still to come is not smaller. It ends after one visit a vertex, and every piece p at a vertex
-// of size s has s ≤ p ≤ r s: any two of them are within r.
+// So sizes spread from the smallest outwards as in Dijkstra's algorithm. A vertex taken from the queue has its final
+// size, because all later vertices are at least as large. Each vertex is visited once, and every piece p at a vertex of
+// size s has s ≤ p ≤ r s: any two of them are within r.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -31,8 +31,8 @@ namespace temper {
 namespace {
 
 constexpr double kLeastRatio = 2;  // below, pieces could be shorter than what they grow from: see above
-// Pieces grow by this much less than the ratio, so that they are within it after their ends have been rounded to
-// doubles: to 2⁻⁵³ of the coordinates, which are up to a few million times the pieces.
+// Pieces grow by this much less than the ratio, so that they keep the ratio after their ends are rounded to doubles.
+// Rounding is 2⁻⁵³ of the coordinates, which are up to a few million times the pieces.
 constexpr double kRoomForRounding = 1 - 0x1p-30;
 
 struct LineEdge {
@@ -42,7 +42,7 @@ struct LineEdge {
   [[nodiscard]] VertexId other(VertexId v) const { return v == a ? b : a; }
 };
 
-/// Σ of min(q^i s_a, q^(k+1−i) s_b), i = 1 … k; the pieces themselves into `pieces` when that is wanted.
+/// Σ of min(q^i s_a, q^(k+1−i) s_b), i = 1 … k. The pieces themselves go into `pieces`, if given.
 double reach(double s_a, double s_b, std::size_t k, double q, std::vector<double>* pieces = nullptr) {
   std::vector<double> powers(k + 1, 1);
   for (std::size_t i = 1; i <= k; ++i) powers[i] = powers[i - 1] * q;
@@ -55,7 +55,7 @@ double reach(double s_a, double s_b, std::size_t k, double q, std::vector<double
   return sum;
 }
 
-/// The pieces of an edge between two sizes, from a to b: one where it may stay whole.
+/// The pieces of an edge between two sizes, from a to b: one piece if it may stay whole.
 std::vector<double> divide(const LineEdge& edge, double s_a, double s_b, double ratio) {
   const double length = edge.length;
   if (length <= ratio * std::min(s_a, s_b)) {
@@ -98,7 +98,7 @@ std::vector<LineEdge> line_edges(const Mesh& mesh, double widest_angle_deg) {
   return edges;
 }
 
-/// The edges at each vertex: those of v are entries[first[v] … first[v + 1]).
+/// The edges at each vertex; vertex v has entries[first[v] … first[v + 1]).
 class Incidence {
  public:
   Incidence(std::size_t n_vertices, const std::vector<LineEdge>& edges) : first_(n_vertices + 1, 0) {

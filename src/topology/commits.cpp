@@ -1,8 +1,7 @@
-// The commits: of an insertion or a split, of a removal, of a flip. Drawings that are not here are where these are
-// planned.
+// The commits of an insertion or a split, of a removal, and of a flip. Drawings that are not here are next to the
+// plans.
 //
-// The flips of an insertion are found by the vertices' numbers in the star of the new vertex, which is all that they
-// change.
+// The flips of an insertion change only the star of the new vertex. There they are found by the vertices' numbers.
 #include "base/assert.hpp"
 #include "mesh/predicates.hpp"
 #include "temper/topology.hpp"
@@ -130,19 +129,19 @@ VertexId split_edge(Mesh& mesh, HalfedgeId h, WeightedPoint point) {
 
 // The commit of a vertex removal. The drawing is in remove_vertex.cpp.
 //
-// Everything is addressed by the star's own order from the first spoke on, never by the numbers of slots: the same
+// Everything is addressed by the star's own order from the first spoke on, never by the numbers of slots. So the same
 // plan on the same mesh with its triangles in other slots gives the same mesh in those slots.
 
 namespace {
 
-/// One triangle of the star: its slot, and what lies beyond its link edge.
+/// One triangle of the star: its slot, and the outer side of its link edge.
 struct Rim {
   TriangleId slot;
   inlined::OuterSide outside;
   std::int32_t region;
 };
 
-/// The star as it was, and the line that gives its two edges' place to one.
+/// The former star, and the line whose two edges become one.
 struct Star {
   std::vector<Rim> rim;
   std::size_t line_end = 0;  ///< index in the link where the line from link[0] ends; 0: no line
@@ -173,7 +172,7 @@ HalfedgeId find_new(const Mesh& mesh, const std::vector<Rim>& rim, std::size_t n
   return {};
 }
 
-/// The region of new triangle i: of its side, on an interface, which has line_end − 1 of them on its first side.
+/// The region of new triangle i. On an interface the first side has line_end − 1 new triangles.
 std::int32_t new_region(const Star& star, std::size_t i) {
   const bool is_interface = 0 < star.line_end && star.line_end < star.rim.size();
   return star.rim[is_interface && i + 1 >= star.line_end ? star.line_end : 0].region;
@@ -228,8 +227,8 @@ void remove_vertex(Mesh& mesh, const RemovalPlan& plan) {
 
 // Ask and commit for one edge flip. The drawing and the body are in flip_inline.hpp.
 //
-// can_flip asks exactly what makes the two new triangles counter-clockwise, and no more: the quad adbc is strictly
-// convex when its diagonal dc leaves a on its left (triangle dca) and b on its right (triangle cdb).
+// can_flip tests exactly that the two new triangles are counter-clockwise. The quad adbc is strictly convex when its
+// diagonal dc leaves a on its left (triangle dca) and b on its right (triangle cdb).
 
 FlipStatus can_flip(const Mesh& mesh, HalfedgeId h) {
   if (mesh.is_boundary(h)) return FlipStatus::boundary;

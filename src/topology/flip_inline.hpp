@@ -63,7 +63,7 @@ inline HalfedgeId flip(Mesh& mesh, HalfedgeId h) {
   return h;
 }
 
-// One turn the other way: a → c, c → b, b → d, d → a, in the letters of the quad that it finds.
+// One turn the other way: a → c, c → b, b → d, d → a, with the letters of the quad before the call.
 inline void unflip(Mesh& mesh, HalfedgeId h) {
   TEMPER_ASSERT(!mesh.is_boundary(h) && !mesh.is_constrained(h));
   const HalfedgeId g = mesh.twin(h);

@@ -9,7 +9,7 @@
 namespace temper {
 namespace {
 
-/// On which side of each edge of t the point is.
+/// The side of each edge of t on which the point is.
 std::array<Sign, 3> sides(const Mesh& mesh, const WeightedPoint& p, TriangleId t) {
   const auto [a, b, c] = mesh.points(t);
   const Space& space = mesh.space();
@@ -20,11 +20,11 @@ std::array<Sign, 3> sides(const Mesh& mesh, const WeightedPoint& p, TriangleId t
 
 bool is_usable(const Mesh& mesh, TriangleId t) { return t.index < mesh.n_triangles() && !mesh.is_erased(t); }
 
-/// The triangle that the walk from `near` ends in, or an invalid one where it is stopped.
+/// The last triangle of the walk from `near`, or an invalid one if it is stopped.
 TriangleId walk(const Mesh& mesh, const WeightedPoint& p, TriangleId near) {
   TriangleId at = near;
   HalfedgeId entered;
-  // A walk that meets more triangles than there are goes in circles.
+  // A walk that visits more triangles than there are goes in circles.
   for (std::size_t step = 0; step <= mesh.n_triangles(); ++step) {
     const std::array<Sign, 3> side = sides(mesh, p, at);
     HalfedgeId across;

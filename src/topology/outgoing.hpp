@@ -1,8 +1,8 @@
 // outgoing(v), kept canonical: the boundary halfedge of a boundary vertex, the largest halfedge of an inner one.
 //
-// Any halfedge out of v would do for a walk. But a flip takes a halfedge from two vertices, and which one was the
-// outgoing one is then forgotten; a value that the rest of the mesh determines can be forgotten and found again,
-// which is what lets unflip restore a mesh bit for bit, without a journal entry larger than one halfedge.
+// For a walk, any halfedge out of v would do. But a flip takes a halfedge from two vertices, and forgets if it was
+// their outgoing one. A value that the rest of the mesh determines can be found again. So unflip restores a mesh bit
+// for bit, from journal entries of one halfedge each.
 #pragma once
 
 #include "base/assert.hpp"
@@ -26,8 +26,8 @@ inline HalfedgeId canonical_outgoing(const Mesh& mesh, HalfedgeId start) {
   return largest;
 }
 
-/// Brings outgoing(v) up to date after halfedges out of v have come and gone. `gained`: the largest of those that v
-/// has now and had not before. O(1), except when v has lost its outgoing halfedge, one chance in its degree.
+/// Updates outgoing(v) after halfedges out of v have come and gone. `gained`: the largest of the new ones. O(1), except
+/// when v has lost its outgoing halfedge, with a chance of one in its degree.
 inline void update_outgoing(Mesh& mesh, VertexId v, HalfedgeId gained) {
   TEMPER_ASSERT(mesh.origin(gained) == v);
   const HalfedgeId old = mesh.outgoing(v);

@@ -1,16 +1,16 @@
 // Insertion and split: ask and price.
 //
 //        d                        d              v is put into triangle abc (or on one of its edges) and joined to its
-//       / \                      /|\             corners. An edge of the link that conflicts with v, ab here with the
-//      /   \                    / | \            triangle bad beyond, is flipped to vd; then ad and db are asked. So
-//     a-----b        →         a  |  b           the cavity grows over the triangles whose power circle v conflicts
-//      \ v /                    \ | /            with, never across constrained edges, and stays star-shaped.
+//       / \                      /|\             corners. If an edge of the link (here ab) conflicts with v, it is
+//      /   \                    / | \            flipped to vd. Then ad and db are tested in the same way. So the
+//     a-----b        →         a  |  b           cavity grows over the triangles whose power circle conflicts with v.
+//      \ v /                    \ | /            It never crosses constrained edges, and stays star-shaped.
 //       \ /                      \|/
 //        c                        c              keeps: flags, regions, all old vertices
 //
-// Whether ab can be flipped depends on v, a, b and d alone, not on what has been flipped before. So one pass around the
-// link is enough, and which triangles are replaced does not depend on its order. Where ab conflicts and cannot be
-// flipped, an end of it has lost its power cell to v, or was hidden before.
+// If ab can be flipped depends on v, a, b and d alone, not on earlier flips. So one pass around the link is enough, and
+// its order does not matter for the set of replaced triangles. If ab conflicts and cannot be flipped, an end of it has
+// lost its power cell to v, or was hidden before.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,15 +28,15 @@ namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// `linear` when it is between low and high, or nothing is; else the nearest in the middle half.
+/// `linear` if it is between low and high, or the interval is empty; else the nearest number in its middle half.
 double in_middle_half(double linear, double low, double high) {
   if (low >= high || (low < linear && linear < high)) return linear;
   const double quarter = 0.25 * (high - low);
   return std::clamp(linear, low + quarter, high - quarter);
 }
 
-/// The vertex that divides the edge ab a part t of the way, 0 < t < 1: in the plane of split_weight(). On the sphere tℓ
-/// is an arc, and weights are compared as σ = R/|P|: what is |w − w_a| < t²ℓ² in the plane is there
+/// The vertex that divides the edge ab a part t of the way, 0 < t < 1; in the plane split_weight() gives its weight. On
+/// the sphere tℓ is an arc, and weights are compared as σ = R/|P|. The condition |w − w_a| < t²ℓ² of the plane becomes
 /// σ_a cos(tℓ) < σ < σ_a / cos(tℓ).
 WeightedPoint split_point(const Space& space, const WeightedPoint& a, const WeightedPoint& b, double t) {
   if (space.is_plane()) {
@@ -45,7 +45,7 @@ WeightedPoint split_point(const Space& space, const WeightedPoint& a, const Weig
   }
   const Surface surface(space);
   const Vec3 from = surface.place(a), to = surface.place(b), p = surface.between(from, to, t);
-  // The piece ap has both d inside when σ is between σ_a cos(ap) and σ_a / cos(ap), σ = R/|P|, and the other likewise.
+  // The piece ap has both d inside when σ_a cos(ap) < σ < σ_a / cos(ap), σ = R/|P|, and the other likewise.
   const double r = space.radius(), r2 = r * r;
   const double sigma_a = r / length(as_vector(a)), sigma_b = r / length(as_vector(b));
   const double cos_a = std::cos(arc_length(from, p)), cos_b = std::cos(arc_length(p, to));
@@ -148,7 +148,7 @@ bool spokes_are_regular(const Mesh& mesh, const InsertionPlan& plan) {
   return true;
 }
 
-/// From the first cavity to the whole plan. Precondition: the first triangles are counter-clockwise.
+/// Completes the plan from the first cavity. Precondition: the first triangles are counter-clockwise.
 void complete(const Mesh& mesh, InsertionPlan& plan) {
   const auto shows = [&](TriangleId t) { return conflicts(mesh, Mesh::halfedge(t, 0), plan.point); };
   if (!std::all_of(plan.cavity.begin(), plan.cavity.end(), shows)) {
@@ -209,7 +209,7 @@ InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p,
 }
 
 InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, double t, InsertionPlan storage) {
-  // From the end of smaller number: the same bits whichever side is asked.
+  // From the end of smaller number: both sides of the edge give the same bits.
   VertexId from = mesh.origin(h), to = mesh.target(h);
   if (to < from) std::swap(from, to), t = 1 - t;
   const WeightedPoint a = mesh.point(from), b = mesh.point(to, a);

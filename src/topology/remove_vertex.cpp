@@ -44,21 +44,21 @@ namespace {
 
 // The regular triangulation of a cavity: the polygon that the star of a removed vertex leaves.
 //
-//        3-----2          Of all triangulations of the polygon 0 … k−1 whose triangles are counter-clockwise by the
-//       /       \         exact test, the one of least volume under the lifted surface z = |x|² − w. The volume over
-//      4         1        a triangle is area × the mean of its corners' heights, so the best triangulation of the
-//       \       /         part cut off by a diagonal ij does not depend on the rest: a dynamic program,
+//        3-----2          Consider all triangulations of the polygon 0 … k−1 that are counter-clockwise by the exact
+//       /       \         test. The result has the least volume under the lifted surface z = |x|² − w. The volume over
+//      4         1        a triangle is its area × the mean of its corners' heights. So the best triangulation of the
+//       \       /         part that a diagonal ij cuts off does not depend on the rest. This gives a dynamic program,
 //        5-----0            V(i, j) = min over i < m < j of V(i, m) + V(m, j) + volume(i, m, j),   O(k³).
 //
-// Why least volume is regular: flipping an edge that is not regular takes the volume of a tetrahedron off (lawson.hpp),
-// so where the volume is least no such edge can be flipped. In doubles, relative to the removed vertex: the heights and
-// areas are then as small as the star, and what rounding gets wrong is a near tie, which Lawson mends.
+// Why is the least volume regular? To flip an edge that is not regular takes off the volume of a tetrahedron
+// (lawson.hpp). So no such edge can be flipped if the volume is least. Coordinates are doubles relative to the removed
+// vertex: heights and areas are then as small as the star. Rounding errs only in near ties, which Lawson repairs.
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 // Stars of more than a dozen triangles are rare; tables for twice that many fit into nine kilobytes of stack.
 constexpr std::size_t kSmall = 24;
 
-/// Is there an edge between a and b, either way round? O(degree).
+/// Is there an edge between a and b, in either direction? O(degree).
 bool has_edge(const Mesh& mesh, VertexId a, VertexId b) {
   return mesh.find_halfedge(a, b).valid() || mesh.find_halfedge(b, a).valid();
 }
@@ -109,7 +109,7 @@ class BestTriangulation {
  private:
   Part& part(std::size_t i, std::size_t j) { return parts_[i * n_ + j]; }
 
-  /// Ties go to the smallest apex: what is best then depends on the order of the polygon alone.
+  /// Ties go to the smallest apex: then the best one depends on the order of the polygon alone.
   Part best(std::size_t i, std::size_t j) {
     Part least = {kNone, i};
     const bool closes_polygon = i == 0 && j == n_ - 1;
@@ -134,9 +134,9 @@ class BestTriangulation {
   Scratch<Part, kSmall * kSmall> parts_;  // of i < j alone; the rest is never looked at
 };
 
-/// Appends the triangles of the best triangulation of a simple polygon, counter-clockwise, to `triangles`; or nothing,
-/// and returns false, when there is none whose diagonals are all new to the mesh. `origin`: what to measure from.
-/// Allocates nothing else for polygons of up to 24 corners.
+/// Appends the triangles of the best triangulation of a simple polygon, counter-clockwise, to `triangles`. Appends
+/// nothing and returns false when every triangulation has a diagonal that is already in the mesh. Heights are relative
+/// to `origin`. Allocates nothing else for polygons of up to 24 corners.
 bool triangulate_cavity(const Mesh& mesh, std::span<const VertexId> polygon, const WeightedPoint& origin,
                         std::vector<std::array<VertexId, 3>>& triangles) {
   if (polygon.size() < 3) return false;
@@ -148,7 +148,7 @@ bool triangulate_cavity(const Mesh& mesh, std::span<const VertexId> polygon, con
 
 using Corners = std::array<VertexId, 3>;
 
-/// The star of a vertex as a removal sees it.
+/// The star of a vertex, for a removal.
 struct StarShape {
   RemovalStatus status = RemovalStatus::possible;
   HalfedgeId first;              ///< the first spoke, as the numbers of the vertices decide it
@@ -282,8 +282,9 @@ std::size_t count_edge(std::span<const Corners> triangles, VertexId a, VertexId 
   return count;
 }
 
-/// n − 2 triangles fill a simple polygon of n corners exactly when all are counter-clockwise and their boundary is the
-/// polygon's: each side is there once, and each other edge once either way. Then they wind once around what is inside.
+/// Let n − 2 triangles have a simple polygon of n corners. They fill it exactly when all are counter-clockwise and
+/// their boundary is the polygon's: each side is there once, and each other edge once either way. Then they cover its
+/// inside once.
 bool fills(const Mesh& mesh, std::span<const VertexId> polygon, std::span<const Corners> triangles) {
   if (triangles.size() + 2 != polygon.size()) return false;
   for (const Corners& t : triangles) {
@@ -331,7 +332,7 @@ RemovalPlan removal_from_names(const Mesh& mesh, VertexId vertex, VertexId link_
   StarShape shape = star_shape(mesh, vertex);
   if (shape.status == RemovalStatus::possible) {
     const HalfedgeId first = mesh.find_halfedge(vertex, link_first);
-    // A line has two ends, and either may come first; without one any spoke may; the boundary has one beginning.
+    // A line has two ends, and either may come first. Without a line any spoke may. The boundary has one beginning.
     const bool is_other_end = shape.line_end.valid() && first == shape.line_end;
     if (is_other_end) std::swap(shape.first, shape.line_end);
     if (!first.valid() || (shape.on_line && first != shape.first)) shape.status = RemovalStatus::no_triangulation;

@@ -30,7 +30,7 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
-/// Reads members, and says which one of which term is not what it should be.
+/// Reads members; errors name the wrong member of the wrong term.
 class Reader {
  public:
   Reader(std::string path, const Input& input) : path_(std::move(path)), input_(input) {}

@@ -1,13 +1,13 @@
-// Certificates as JSON: why a mesh has no good weights, for people to keep and for others to verify.
+// Certificates as JSON: the reason why a mesh has no good weights, for people to keep and for others to verify.
 //
 //   {"temper_certificate": 1, "constraints": "well_centered", "margin": 0,
 //    "terms": [{"kind": "height", "triangle": [3, 9, 10], "edge": [3, 9], "multiplier": 0.25},
 //              {"kind": "crossing", "edge": [9, 3], "multiplier": 1.5}]}
 //
-// Points count from 0, in the order of the file's arrays. The edge of a height lies in its triangle, counter-clockwise;
-// that of a crossing is directed: d from its first point. A dual is as a height, with the corner on the other side of
-// the edge as "across". Files without "constraints" are of well_centered. docs/weights.md has what the multipliers
-// multiply.
+// Points count from 0, in the order of the file's arrays. The edge of a height lies in its triangle, counter-clockwise.
+// The edge of a crossing is directed: d is from its first point. A dual has the fields of a height, and "across": the
+// corner on the other side of the edge. Without "constraints" a file is of well_centered. docs/weights.md has the
+// expressions that the multipliers multiply.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -20,7 +20,7 @@ namespace temper::app {
 
 [[nodiscard]] nlohmann::ordered_json certificate_json(const Certificate& certificate, const Input& input);
 
-/// The same, as a file of its own.
+/// A certificate as a file of its own.
 [[nodiscard]] std::string certificate_text(const Certificate& certificate, const Input& input);
 
 /// Failure when the file cannot be read or is no certificate.

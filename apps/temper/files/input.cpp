@@ -101,7 +101,7 @@ VertexNames::VertexNames(std::shared_ptr<const InputNames> file, std::vector<std
 
 std::size_t VertexNames::in_file(std::size_t index) const { return index < points_.size() ? points_[index] : index; }
 
-/// The file may number its points as it likes, so new ones are counted by themselves, from 1.
+/// The file may number its points in any way, so new points count separately, from 1.
 std::string VertexNames::point(std::size_t index) const {
   if (index >= n_vertices_) return "new point " + std::to_string(index - n_vertices_ + 1);
   return file_->point(in_file(index));

@@ -1,4 +1,4 @@
-// A mesh that was read: the file, the mesh made of it, how to call its parts, and what a user names in it.
+// A mesh that was read: the file, its mesh, the names of its parts, and the parts that a user names.
 #pragma once
 
 #include <cstddef>
@@ -30,32 +30,33 @@ struct Input {
   [[nodiscard]] std::vector<std::string> warnings() const;
 };
 
-/// How a file is read.
+/// Options for reading a file.
 struct ReadingOptions {
   std::string projection = {};  ///< of points in degrees: as --projection has it
   std::vector<std::string> fixed_tags = {};
   Executor* executor = nullptr;
   bool spheres = false;  ///< meshes of the sphere are taken too
-  /// Where the file comes from; none: from the disk.
+  /// The source of the file; none: the disk.
   std::function<io::MeshFile(const std::string& path)> read = {};
 };
 /// Reads a file and builds its mesh; Failure when anything is wrong with it.
 [[nodiscard]] Input read_input(const std::string& path, const ReadingOptions& options = {});
 
-/// Failure when the mesh is one of the sphere, which `what` is not for.
+/// Failure when the mesh is one of the sphere, which `what` does not support.
 void expect_plane(const Mesh& mesh, const std::string& path, std::string_view what);
 
-/// The projection of another file that is to be on the same map: with the center that was chosen for this one.
+/// The projection of another file onto the same map: with the center that was chosen for this one.
 [[nodiscard]] std::string same_projection(const Input& input, const std::string& projection);
 
-/// The text with each vertex number in it ("vertex 3", "edge 3-9") called by another name.
+/// The text with another name for each vertex number in it ("vertex 3", "edge 3-9").
 [[nodiscard]] std::string renumber(const std::string& text, const std::function<std::string(VertexId)>& name);
 
-/// The file's own numbers for the vertices of a mesh, when points of the file that no triangle uses were dropped, and
+/// The file's own numbers for the vertices of a mesh, if points of the file that no triangle uses were dropped. Also
 /// names for vertices that the file does not have.
 class VertexNames final : public InputNames {
  public:
-  /// points: mesh vertex → point of the file; empty: the same. n_vertices: of the file's mesh; those after are new.
+  /// `points`: mesh vertex → point of the file; empty: equal numbers. `n_vertices`: of the file's mesh; later ones are
+  /// new.
   VertexNames(std::shared_ptr<const InputNames> file, std::vector<std::size_t> points, std::size_t n_vertices);
   [[nodiscard]] std::string point(std::size_t index) const override;
   [[nodiscard]] std::string triangle(std::size_t index) const override;
@@ -69,29 +70,29 @@ class VertexNames final : public InputNames {
   std::size_t n_vertices_;
 };
 
-/// The library's sentence with the option as it is called here.
+/// The library's sentence with the program's name of the option.
 [[nodiscard]] std::string spell_projection(std::string message);
 
-/// Failure, with the cure, where the points of an outline are in degrees and no projection is chosen.
+/// Failure, with the cure, if the points of an outline are in degrees and no projection is chosen.
 void expect_projection_of_outline(const std::string& path, bool geographic, const std::string& projection);
 
-/// The points of a mesh on the map that is chosen, or the sphere; as they are where none is needed. Failure, with the
-/// cure, where they are in degrees and none is chosen.
+/// The points of a mesh on the chosen map or the sphere; unchanged if none is needed. Failure, with the cure, if they
+/// are in degrees and none is chosen.
 void take_to_map(io::MeshFile& file, const std::string& path, const std::string& projection);
 
-/// Edges that a user names. "all": all inside the mesh; "lines": those on tagged lines and between regions; else a path
-/// of a file with two vertices a line, as the mesh file counts them. Failure when the file cannot be read or names
-/// something else than edges of the mesh, with its line; or when no edge is inside the mesh.
+/// Edges that a user names. "all": all inside the mesh; "lines": those on tagged lines and between regions. Otherwise
+/// the path of a file with two vertices per line, in the numbers of the mesh file. Failure when the file cannot be
+/// read, names something else than edges of the mesh (with its line), or when no edge is inside the mesh.
 [[nodiscard]] std::vector<HalfedgeId> prescribed_edges(const std::string& which, const Input& input);
 
-/// JSON from anywhere is nested deeper than whatever temper writes. Looked at before it is parsed: what prints or drops
-/// a value goes down into it, and a file must not decide how much of the stack that takes.
+/// temper writes no JSON deeper than this. JSON from anywhere may be deeper, and is checked before it is parsed.
+/// Printing or dropping a value recurses into it, and a file must not decide how much of the stack that takes.
 inline constexpr int kDeepestJson = 16;
 [[nodiscard]] bool is_too_deep(std::string_view json);
 
-/// io::read(), of a file of HDF5 (NetCDF-4, VTKHDF) first in a child process: on a damaged one libhdf5 may loop for
-/// ever or crash, and then only the child does. Failure when the file cannot be used, or does not get through the child
-/// under its budget of time and memory. What comes through a pipe can be read once only: it is read at once.
+/// io::read(), which reads a file of HDF5 (NetCDF-4, VTKHDF) first in a child process. On a damaged file libhdf5 may
+/// loop forever or crash, and then only the child does. Failure when the file cannot be used, or the child exceeds its
+/// budget of time and memory. A pipe can be read only once, and is read at once.
 [[nodiscard]] io::MeshFile read_tried(const std::string& path, Executor* executor);
 
 }  // namespace temper::app

@@ -30,7 +30,7 @@ void check_writable(const std::string& path) {
   if (there && access(path.c_str(), W_OK) != 0) not_writable(path, std::strerror(errno));
   if (there && !fs::is_regular_file(path, ignored)) return;  // a device is written in place
 
-  // A file is replaced by a new one beside it (beside what a link points to), so that folder must be writable.
+  // A new file next to a file replaces it (next to the target of a link), so that folder must be writable.
   const fs::path target = there ? fs::canonical(path, ignored) : fs::path(path);
   const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
   if (!fs::exists(parent, ignored)) not_writable(path, fmt::format("there is no directory {}", parent.string()));
@@ -40,7 +40,7 @@ void check_writable(const std::string& path) {
   }
 }
 
-/// The input that reading takes the file for, or null.
+/// The input that reads the file, or null.
 const std::string* input_with(const std::string& file, const std::vector<std::string>& inputs) {
   for (const std::string& input : inputs) {
     if (input.empty()) continue;
@@ -52,7 +52,7 @@ const std::string* input_with(const std::string& file, const std::vector<std::st
   return nullptr;
 }
 
-/// `what`: of the input, which the file is, or a part of.
+/// `what`: the name of the input. The file is this input, or a part of it.
 std::string what_it_is(const std::string& file, const std::string& input, std::string_view what) {
   return same_file(file, input) ? fmt::format("{} is {}", file, what)
                                 : fmt::format("{} is read with {}, {}", file, input, what);

@@ -1,5 +1,5 @@
-// Outputs: looked at before the work, so that an hour is not lost to a misspelt folder; written whole or not at
-// all; and when one fails, the message says which others were written.
+// Outputs are checked before the work, so that an hour is not lost to a misspelled folder. They are written whole or
+// not at all. When one fails, the message names the others that were written.
 #pragma once
 
 #include <string>
@@ -11,7 +11,6 @@
 
 namespace temper::app {
 
-/// A mesh file that a verb writes.
 struct MeshOutput {
   std::string path;  ///< empty: none
   io::WriteOptions options;
@@ -24,21 +23,21 @@ class Outputs {
  public:
   explicit Outputs(std::string verb) : verb_(std::move(verb)) {}
 
-  /// A mesh file. The format must be one that temper writes. Neither it nor what a format writes beside it (.node, .ele
-  /// and .poly of Triangle) may be another output, or one of the files of `others`, inputs that are to stay. What is
-  /// printed after this goes to standard error where the mesh itself goes to standard output.
+  /// A mesh file in a format that temper writes. The file, and its companions (.node, .ele and .poly of Triangle), may
+  /// not be another output, nor one of the files of `others`, which are inputs. If the mesh goes to standard output,
+  /// later messages go to standard error.
   void expect_mesh(const MeshOutput& output, const std::vector<std::string>& others = {});
-  /// A text file that must not be another output, or one of the files that these inputs are read from. An empty path:
-  /// not asked for.
+  /// A text file that must not be another output, or one of the files that these inputs are read from. An empty path
+  /// means no output.
   void expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
-  /// The same of a picture, whose suffix tells the format.
+  /// A picture, whose suffix gives the format. It has the conditions of a text file.
   void expect_picture(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
 
   /// The warnings of writing.
   std::vector<std::string> write_mesh(const MeshOutput& output, const io::MeshFile& file, Executor* executor = nullptr);
   void write_text(const std::string& path, std::string_view text);
   void write_picture(const std::string& path, std::string_view svg);
-  /// Text that comes bit by bit: opened before the work, put in its place after it.
+  /// Text that is written piece by piece: opened before the work, put in its place after it.
   [[nodiscard]] io::TextStream open(const std::string& path) const;
   void commit(const std::string& path, io::TextStream& stream);
 
@@ -58,14 +57,14 @@ class Outputs {
   std::vector<std::string> written_;
 };
 
-/// The two paths are the same file, by name or by inode.
+/// Says whether two paths are the same file, by name or by inode.
 [[nodiscard]] bool same_file(const std::string& a, const std::string& b);
 
 /// The suffixes of pictures that can be written: ".svg", ".png" and ".pdf". A path without a suffix is SVG.
 [[nodiscard]] bool is_picture_name(const std::string& path);
 
-/// The bytes of the picture in the format that the path's suffix names: PNG and PDF by rsvg-convert, of librsvg. PNG
-/// has two pixels for each of the SVG's. Failure (bad input) when rsvg-convert is not there, or fails.
+/// The bytes of the picture in the format of the path's suffix: PNG and PDF by rsvg-convert, of librsvg. PNG has two
+/// pixels for each of the SVG's. Failure (bad input) when rsvg-convert is missing or fails.
 [[nodiscard]] std::string picture_bytes(const std::string& path, std::string_view svg);
 
 }  // namespace temper::app

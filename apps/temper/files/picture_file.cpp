@@ -31,7 +31,7 @@ std::string suffix_of(const std::string& path) {
   throw Failure(Exit::bad_input, fmt::format("{}: cannot be written: {}", path, why));
 }
 
-/// A file without a name, which goes when it is closed.
+/// A file without a name, which disappears when it is closed.
 class Scratch {
  public:
   explicit Scratch(const std::string& path) : file_(std::tmpfile()) {
@@ -58,7 +58,7 @@ class Scratch {
   std::FILE* file_;
 };
 
-/// This process' environment; dates in PDF are of no picture's making, and would make other bytes each time.
+/// This process' environment, with a fixed date: dates in a PDF would change its bytes each time.
 std::vector<char*> environment_without_dates() {
   static char epoch[] = "SOURCE_DATE_EPOCH=0";
   std::vector<char*> variables;
@@ -68,7 +68,7 @@ std::vector<char*> environment_without_dates() {
   return variables;
 }
 
-/// Runs rsvg-convert from one file to another; what it says is an error.
+/// Runs rsvg-convert from one file to another; any output of it is an error.
 void convert(const std::string& path, std::vector<std::string> words, Scratch& in, Scratch& out) {
   Scratch said(path);
   posix_spawn_file_actions_t files;
@@ -108,7 +108,7 @@ std::string picture_bytes(const std::string& path, std::string_view svg) {
   if (suffix != ".png" && suffix != ".pdf") return std::string(svg);
   Scratch in(path), out(path);
   if (!in.write(svg)) fail(path, std::strerror(errno));
-  // Long paths are no attack here.
+  // The limit on long paths is against attacks, and not needed here.
   std::vector<std::string> words = {kProgram, "--unlimited", "--format", suffix.substr(1)};
   if (suffix == ".png") words.insert(words.end(), {"--zoom", "2"});
   convert(path, words, in, out);

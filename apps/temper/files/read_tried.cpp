@@ -1,4 +1,4 @@
-// See input.hpp. The child tells how it ended through a pipe: nothing but the end of the pipe when it died.
+// See input.hpp. The child reports its end through a pipe; if it died, the pipe just ends.
 #include "files/input.hpp"
 
 #ifdef __linux__
@@ -25,14 +25,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// What the child says; after kFailed the code of the error, its place, a zero, and its message.
+// The answer of the child; after kFailed the code of the error, its place, a zero, and its message.
 constexpr char kDone = 'd', kFailed = 'f';
 
 struct Budget {
   unsigned seconds = 0;     ///< of processor time
-  std::uint64_t bytes = 0;  ///< of memory, on top of what the process has; where the system tells how much that is
+  std::uint64_t bytes = 0;  ///< of memory, on top of the process, if the system gives its size
 };
-/// What reading and unpacking a file of that size takes, many times over, and the libraries that do it.
+/// Many times the need of reading and unpacking a file of that size, and of the libraries that do it.
 Budget budget_of(std::uint64_t file_bytes) {
   constexpr std::uint64_t kMegabyte = 1 << 20;
   return {static_cast<unsigned>(3 + file_bytes / kMegabyte), 768 * kMegabyte + 256 * file_bytes};
@@ -48,7 +48,7 @@ std::optional<std::uint64_t> size_of_hdf5(const std::string& path) {
   return std::filesystem::file_size(path, none);
 }
 
-/// Memory that the process has, or 0 when the system does not tell.
+/// Memory that the process has, or 0 if the system does not report it.
 std::uint64_t address_space() {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -84,7 +84,7 @@ void limit_this_process(const Budget& budget) {
   _exit(0);  // nothing of the parent's is flushed or torn down
 }
 
-/// All that comes through the pipe until its end, or nothing when that does not come in time.
+/// All that comes through the pipe until its end, or nothing when the end does not come in time.
 std::optional<std::string> listen(int pipe, Clock::time_point until) {
   std::string said;
   for (;;) {
@@ -108,7 +108,7 @@ int end_of(pid_t child) {
   return status;
 }
 
-/// Why the file is not to be read here; nothing when the child got through it.
+/// The reason not to read the file here; nothing when the child could read it.
 Expected<void> try_in_child(const std::string& path, const Budget& budget) {
   int ends[2];
   const pid_t child = pipe(ends) == 0 ? fork() : -1;
@@ -119,7 +119,7 @@ Expected<void> try_in_child(const std::string& path, const Budget& budget) {
   }
   if (child == 0) be_the_child(ends[1], budget, path);
   close(ends[1]);
-  // A child that waits for ever costs no processor time. On a busy machine it may have little of it.
+  // A child that waits forever takes no processor time. On a busy machine a healthy child may get little.
   const auto patience = std::chrono::seconds(20 + 10 * budget.seconds);
   const auto said = listen(ends[0], Clock::now() + patience);
   close(ends[0]);

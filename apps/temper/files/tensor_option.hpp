@@ -1,4 +1,4 @@
-// A diffusion tensor, in the metric of which a verb measures.
+// A diffusion tensor: a verb then measures in its metric.
 #pragma once
 
 #include <optional>
@@ -10,16 +10,16 @@
 
 namespace temper::app {
 
-/// --tensor; `what` it is for.
+/// Adds --tensor; `what` is its purpose.
 void add_tensor(Command& command, std::optional<Metric>& metric, const std::string& what);
 
-/// Failure when an option was given, too, that is of the plane of the file.
+/// Failure when an option for the plane of the file was given, too.
 void expect_without(const Command& command, const std::optional<Metric>& metric, const std::string& option);
 
 /// A mesh of that input, in the plane of the metric.
 [[nodiscard]] Mesh in_metric(const Mesh& mesh, const Metric& metric, const Input& input);
 
-/// Puts the mesh of the input into the plane of the metric, if there is one. Returns the mesh as it was, then.
+/// Puts the mesh of the input into the plane of the metric, if there is one. Then returns the former mesh.
 std::optional<Mesh> take_to_metric(Input& input, const std::optional<Metric>& metric);
 
 }  // namespace temper::app

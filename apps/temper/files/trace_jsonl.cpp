@@ -34,7 +34,7 @@ constexpr std::array kKinds = {EventKind::move,     EventKind::weight,  EventKin
 
 // --- out ------------------------------------------------------------------------------------------------------
 
-/// A hash of positions, weights and triangles, 64 bits (FNV-1a), so that a trace is not taken for another mesh's.
+/// A hash of positions, weights and triangles, 64 bits (FNV-1a), so that a trace is not used with another mesh.
 std::string checksum(const Mesh& mesh) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   const auto add = [&hash](std::uint64_t value) {
@@ -55,7 +55,7 @@ std::string checksum(const Mesh& mesh) {
   return fmt::format("{:016x}", hash);
 }
 
-/// Inserted vertices are numbered after all points of the file, also those of no triangle.
+/// Inserted vertices are numbered after all points of the file, including points of no triangle.
 std::size_t point_of(const Input& input, VertexId v) {
   const std::size_t n_vertices = input.n_vertices, n_points = input.loaded.vertex_of_point.size();
   if (v.index >= n_vertices) return n_points + (v.index - n_vertices);
@@ -71,7 +71,7 @@ class Line {
   void add(std::string_view key, int value) { add_raw(key, fmt::format("{}", value)); }
   void add(std::string_view key, double value) {
     if (!std::isfinite(value)) return add_raw(key, "null");
-    // JSON readers take -0 for an integer, which has no sign.
+    // JSON readers read -0 as an integer, which has no sign.
     add_raw(key, value == 0 && std::signbit(value) ? "-0.0" : fmt::format("{}", value));
   }
   void add(std::string_view key, std::size_t value) { add_raw(key, fmt::format("{}", value)); }
@@ -100,7 +100,7 @@ class Line {
 
 // --- in -------------------------------------------------------------------------------------------------------
 
-/// One line of a trace, and what is wrong with it.
+/// One line of a trace, and its errors.
 class Record {
  public:
   Record(const std::string& text, std::string where, const Input& input) : where_(std::move(where)), input_(input) {
@@ -115,7 +115,7 @@ class Record {
     if (!json_.is_object()) fail("is no JSON object");
   }
 
-  /// Vertices that this line may speak of besides those of the input: inserted by lines before, and by this one.
+  /// Vertices that this line may name besides the vertices of the input: inserted by this line or an earlier one.
   void allow_inserted(std::size_t n) { n_inserted_ = n; }
 
   [[noreturn]] void fail(const std::string& message) const { throw Failure(Exit::bad_input, where_ + ": " + message); }
@@ -147,7 +147,7 @@ class Record {
     if (!value.is_number()) expected(key, "a number", value);
     return value.get<double>();
   }
-  /// null, or nothing, is not a number.
+  /// null, or a missing member, is not a number.
   [[nodiscard]] double energy(const char* key) const {
     if (!has(key) || json_[key].is_null()) return std::numeric_limits<double>::quiet_NaN();
     return real(key);

@@ -84,7 +84,7 @@ class Command::Parser {
     fail(message);
   }
 
-  /// Writes what was given into the rows.
+  /// Writes the given values into the rows.
   void store(Command& command) const {
     store_given(command, app_);
     for (Command& inner : command.subcommands_) {
@@ -131,9 +131,9 @@ class Command::Parser {
 
   void use_value(const Option& option, const std::string& text, const CLI::App& app) {
     const std::string name = long_name(option.names);
-    // Of other options the parser sees that; these it forgets each time.
+    // The parser checks this for other options; it forgets options of this kind each time.
     if (option.at_once && !taken_at_once_.insert(&option).second) fail(name + " is given more than once");
-    // CLI11 gives an option the word after it, whatever it is: `-o --quiet` would write a file named --quiet.
+    // CLI11 gives an option the word after it, even another option: `-o --quiet` would write a file named --quiet.
     const std::string word = text.substr(0, text.find('='));
     if (option.values == Values::one && word.size() > 1 && word[0] == '-' && app.get_option_no_throw(word) != nullptr)
       throw CLI::ValidationError(name, "needs a value, found the option " + text);

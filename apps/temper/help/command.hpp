@@ -1,6 +1,6 @@
-// The command line of a verb as data: what it takes, what --help says of it and, once parsed, what was given.
+// The command line of a verb as data: its arguments, their help and, once parsed, their values.
 //
-// An option is a row. options.hpp makes rows of the usual kinds; whoever has a table of options loops over it:
+// An option is a row. options.hpp makes rows of the usual kinds. Code with a table of options loops over it:
 //
 //   for (const Row& row : kRows) {
 //     command.add({.names = row.name,
@@ -10,7 +10,7 @@
 //                  .spell = [&] { return row.text(settings); }});
 //   }
 //
-// command.cpp is the only source that knows the parser, whose headers take the compiler longer than all else here.
+// The parser is in command.cpp alone: its headers take longer to compile than everything else here.
 #pragma once
 
 #include <deque>
@@ -26,7 +26,8 @@
 
 namespace temper::app {
 
-/// BadValue: why the text of an option is none of its values. The message of the user starts with the option's name.
+/// BadValue: the reason why the text of an option is no value of it. The message of the user starts with the option's
+/// name.
 struct BadValue : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -58,7 +59,7 @@ struct Option {
   [[nodiscard]] bool is_argument() const { return !names.starts_with('-'); }
   [[nodiscard]] bool is_flag() const { return value_name.empty() && !is_argument(); }
   [[nodiscard]] bool is_help() const { return !take; }
-  /// Must be given, so the default is nobody's.
+  /// The option must be given, so it has no default.
   Option& require();
   /// Spells the default now, and again whenever Command::spell_defaults is called.
   Option& defaults_to(std::function<std::string()> spell);
@@ -66,7 +67,7 @@ struct Option {
 
 /// The words between commas, empty ones included; at least one: "-o,--output" as "-o" and "--output".
 [[nodiscard]] std::vector<std::string> separated(std::string_view list, char separator = ',');
-/// "--output" of "-o,--output": how messages call an option.
+/// "--output" of "-o,--output": the name of an option in messages.
 [[nodiscard]] std::string long_name(const std::string& names);
 
 /// The parts of --help besides the options.
@@ -83,15 +84,15 @@ class Command {
 
   /// The title of options that are added from here on.
   void group(std::string title) { group_ = std::move(title); }
-  /// The option as it is kept: what is changed there before parse counts.
+  /// Returns the option in the command: changes to it count until parse.
   Option& add(Option option);
   Option& add_flag(std::string name, bool& target, std::string sentence);
   /// Adds -h,--help, which prints this help.
   void add_help(VerbHelp help);
-  /// At most one of them can be given, and the options of the verb also after it.
+  /// At most one of them can be given. The options of the verb may also come after it.
   Command& add_subcommand(std::string name, std::string description);
 
-  /// Reads the arguments. False: help was asked for and printed. Bad usage is a Failure with a suggestion.
+  /// Reads the arguments. False: help was requested and printed. Bad usage is a Failure with a suggestion.
   [[nodiscard]] bool parse(const Arguments& arguments);
   /// After parse, when an option has changed the defaults of others.
   void spell_defaults();

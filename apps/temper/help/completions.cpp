@@ -1,5 +1,5 @@
-// Completions: the function of a shell asks `temper --help=words WORD...`, with the words up to the one that is typed,
-// and gets what may stand there: a word and its meaning a line, :file or :directory.
+// Completions. The function of a shell runs `temper --help=words WORD...`, with the words up to the unfinished one. The
+// answer lists the possible words: one per line with its meaning, :file or :directory.
 #include <algorithm>
 #include <array>
 
@@ -56,7 +56,7 @@ constexpr std::array<std::string_view, 4> kFormats = {"man", "bash", "zsh", "fis
 
 bool has(const auto& names, std::string_view name) { return std::ranges::find(names, name) != std::end(names); }
 
-/// A line: the word, and the first clause of what it means.
+/// A line: the word, and the first clause of its meaning.
 std::string offer(std::string_view word, std::string_view meaning) {
   constexpr std::size_t kLongest = 70;
   std::string_view clause = meaning.substr(0, meaning.find_first_of(";(:"));

@@ -24,7 +24,7 @@ std::string option_head(const Option& option) {
   return option.value_name.empty() ? text : text + " " + option.value_name;
 }
 
-/// The line of a head; alternatives (a|b|c) beyond the width go on below the first one.
+/// The line of a head; alternatives (a|b|c) beyond the width continue below the first one.
 std::string head_lines(const std::string& head) {
   std::string rest = "  " + head, lines;
   const std::size_t column = rest.rfind(' ') + 1;
@@ -37,7 +37,7 @@ std::string head_lines(const std::string& head) {
   return lines + rest;
 }
 
-/// A head, and what it means in the columns to its right; a head of more columns gets a line to itself.
+/// A head, with its meaning in the columns to its right; a longer head gets a line to itself.
 std::string beside(const HelpRow& row, std::size_t columns) {
   std::string text = head_lines(row.head);
   std::string gap = row.head.size() > columns ? "\n" + std::string(columns + 4, ' ')

@@ -1,6 +1,6 @@
-// The help of the program and of each verb: as data, as the text of --help, as a manual page, and as what shells offer.
-// All are made from the rows of Command. The text is plain ASCII and the same on every machine, because docs/cli.md
-// holds it word for word.
+// The help of the program and of each verb: as data, as the text of --help, as a manual page, and for completions of
+// shells. All are made from the rows of Command. The text is plain ASCII and equal on every machine, because
+// docs/cli.md contains it word for word.
 #pragma once
 
 #include <string>
@@ -32,21 +32,21 @@ struct HelpPage {
   std::vector<HelpPart> parts;
 };
 
-/// Of a verb: with all options, in groups, or without its rare ones.
+/// The help of a verb: with all options, in groups, or without its rare ones.
 [[nodiscard]] HelpPage help_of(const Command& command, bool all);
 [[nodiscard]] HelpPage help_of_program();
 
 /// What --help prints.
 [[nodiscard]] std::string text_of(const HelpPage& page);
-/// What `temper` alone prints.
+/// The text that `temper` alone prints.
 [[nodiscard]] std::string short_help();
-/// A manual page in the man macros of roff: temper(1), temper-optimize(1).
+/// A manual page in the man macros of roff, as temper(1) or temper-optimize(1).
 [[nodiscard]] std::string man_page(const HelpPage& page);
 
-/// The words ask for another form of help, `--help=FORMAT`, of the program or a verb; then it is printed. Failure where
-/// there is no such form.
+/// If the words request another form of help, `--help=FORMAT`, of the program or a verb, prints it and returns true.
+/// Failure if there is no such form.
 [[nodiscard]] bool print_other_help(const Arguments& words, const Command* verb = nullptr);
-/// With the words of a command line after it: what may stand in the place of the last one.
+/// With the words of a command line after it: lists the possible values of the last word.
 inline constexpr std::string_view kHelpWords = "--help=words";
 
 }  // namespace temper::app

@@ -11,7 +11,7 @@
 namespace temper::app {
 namespace {
 
-/// Text as roff shows it: a hyphen that can be copied, and no dot or quote that begins a line.
+/// Text for roff: a hyphen that can be copied, and no dot or quote at the beginning of a line.
 std::string roff(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -22,7 +22,7 @@ std::string roff(std::string_view text) {
   return result;
 }
 
-/// Text in lines that are short for whoever looks at the source: man fills them again.
+/// Text in short lines for readers of the source: man fills them again.
 std::string filled(std::string_view text) {
   constexpr std::size_t kColumns = 60;  // before hyphens become two characters
   std::string lines;
@@ -35,7 +35,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-/// The names of "-o, --output FILE" are bold, what follows them is in italics.
+/// The names of "-o, --output FILE" are bold, the rest is in italics.
 std::string item(const HelpRow& row) {
   std::string text = ".TP\n", gap;
   std::istringstream words(row.head);

@@ -1,7 +1,7 @@
-// The usual kinds of options: strict numbers, named choices, texts; and an echo of what was used.
+// The usual kinds of options: strict numbers, named choices, texts; and an echo of the used values.
 //
-// Every option has a value name ("X", "NAME", "newton|golden") and, when it has a default, spells it: help,
-// echo and report are made from what is declared here, so that none of them can forget an option.
+// Every option has a value name ("X", "NAME", "newton|golden") and, when it has a default, spells it. Help, echo and
+// report are made from these declarations, so that none of them can forget an option.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,6 @@
 
 namespace temper::app {
 
-/// The interval of numbers that an option takes.
 using Interval = OptionRange;
 inline constexpr Interval kAnyNumber = {};
 inline constexpr Interval kPositive = {0, std::numeric_limits<double>::infinity(), true};
@@ -31,19 +30,19 @@ inline constexpr Interval kNotNegative = {0, std::numeric_limits<double>::infini
 /// Numbers separated by commas, or nothing.
 [[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
-/// Values of rows that are made elsewhere: the text's value, or BadValue.
+/// The value of a text, for rows that are made elsewhere, or BadValue.
 [[nodiscard]] double to_number(const std::string& text, Interval allowed);
 template <class T>  // int, std::int64_t or std::uint64_t
 [[nodiscard]] T to_count(const std::string& text, T least);
 /// BadValue, with a suggestion, when the text is none of the names.
 void expect_name(const std::string& text, std::span<const std::string_view> names);
 
-/// The word that tells an option, which may have no value, that it has none.
+/// The word for no value, of an option that may have none.
 inline constexpr std::string_view kNone = "none";
 
 Option& add_number(Command& command, const std::string& name, double& target, Interval allowed,
                    const std::string& description);
-/// The same, without a default.
+/// A number without a default.
 Option& add_number(Command& command, const std::string& name, std::optional<double>& target, Interval allowed,
                    const std::string& description);
 /// A list "x,y,…" of `count` numbers (0: any even number of them, at least 6: a polygon).
@@ -54,14 +53,14 @@ Option& add_count(Command& command, const std::string& name, std::uint64_t& targ
                   const std::string& description);
 Option& add_count(Command& command, const std::string& name, int& target, int least, const std::string& description);
 
-/// The same, or "none".
+/// A count, or "none".
 Option& add_count(Command& command, const std::string& name, std::optional<int>& target, int least,
                   const std::string& description);
 
 Option& add_text(Command& command, const std::string& name, const std::string& value_name, std::string& target,
                  const std::string& description);
 
-/// What "-" stands for.
+/// The paths for "-".
 inline constexpr const char* kStandardInput = "/dev/stdin";
 inline constexpr const char* kStandardOutput = "/dev/stdout";
 
@@ -95,7 +94,7 @@ Option& add_choice(Command& command, const std::string& name, const Choice<T> (&
   return add_name(command, name, names, use_name, description);
 }
 
-/// The same, straight into a variable, whose value is the default.
+/// Sets a variable directly, whose value is the default.
 template <class T, std::size_t n>
 Option& add_choice(Command& command, const std::string& name, const Choice<T> (&choices)[n], T& target,
                    const std::string& description) {

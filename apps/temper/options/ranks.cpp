@@ -18,7 +18,7 @@
 namespace temper::app {
 namespace {
 
-/// The number of processes that the launchers of Open MPI, MPICH and Slurm say they have started; 0: none of them has.
+/// The number of processes that the launcher (Open MPI, MPICH or Slurm) has started; 0: no launcher.
 int launched() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
     if (const char* text = std::getenv(name)) return std::max(1, std::atoi(text));
@@ -28,7 +28,7 @@ int launched() {
 
 bool have_agreed = false;
 
-/// The failure of the first rank that has one, where this one has `mine`, or none (an empty message). Collective.
+/// The failure of the first rank that has one. `mine` is the failure of this rank, or empty. Collective.
 std::optional<Failure> first_failure(const std::string& mine, Exit exit) {
   have_agreed = true;
   const std::string message = mine.empty() ? std::string() : fmt::format("{}{}", static_cast<int>(exit), mine);
@@ -136,7 +136,7 @@ void agree_to_go_on() {
 
 std::optional<Failure> agreed(const Failure& failure) {
   if (communicator() == nullptr) return failure;
-  // After that what fails fails on all ranks alike, or is an output of the first one.
+  // After that, failures are equal on all ranks, or concern an output of the first one.
   std::optional<Failure> shown = failure;
   if (!have_agreed) shown = first_failure(failure.what(), failure.exit);
   return is_first_rank() ? shown : std::nullopt;

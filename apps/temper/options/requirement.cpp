@@ -11,7 +11,7 @@
 namespace temper::app {
 namespace {
 
-/// "energy.BP.1", and where that energy is.
+/// "energy.BP.1", and the place of that energy.
 struct EnergyKey {
   std::string key;
   std::size_t row, star;
@@ -54,7 +54,7 @@ bool is_energy_key(std::string_view key) {
                      guess.empty() ? "" : fmt::format(", did you mean '{}'?", guess), join(names)));
 }
 
-/// A key alone asks for what is usually wanted.
+/// A key alone stands for the usual requirement.
 Requirement usual_requirement(std::string_view key) {
   const QualityMeasure* measure = find_measure(key);
   if (measure == nullptr) refuse(fmt::format("'{}' is not key=value", key));

@@ -1,11 +1,11 @@
-// --require outside=0,min_h=0.05, of check and optimize: the grammar, and the judgement.
+// --require outside=0,min_h=0.05, of check and optimize: the grammar and the test.
 //
 //   list         requirement , requirement , …
 //   requirement  key | key = value | key <= value | key >= value | key == value
 //   key          a number of the JSON report, its short name, or energy.NAME.STAR
 //
-// A plain = asks what one wants of that number: counts equal, minima and fractions at least, maxima and
-// energies at most. A key alone asks for the usual value of its row.
+// A plain = stands for the useful comparison: counts are equal, minima and fractions at least, maxima and energies at
+// most. A key alone stands for the usual value of its row.
 #pragma once
 
 #include <span>
@@ -25,7 +25,7 @@ struct Requirement {
   double value = 0;
 };
 
-/// A requirement, and what was found.
+/// A requirement, and the value found.
 struct Outcome {
   Requirement requirement;
   double found = 0;
@@ -40,7 +40,7 @@ Option& add_requirements(Command& command, std::vector<std::string>& lists);
 /// "=", ">=" or "<=".
 [[nodiscard]] std::string_view sign(Preference better);
 [[nodiscard]] std::vector<Outcome> judge(std::span<const Requirement> requirements, const Quality& quality);
-/// Says on standard error which are not met; Exit::requirement when there are some.
+/// Lists on standard error the requirements that are not met; Exit::requirement when there are some.
 [[nodiscard]] Exit report_unmet(std::span<const Outcome> outcomes, const std::string& path);
 
 }  // namespace temper::app

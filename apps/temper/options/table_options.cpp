@@ -9,7 +9,7 @@
 namespace temper::app {
 namespace {
 
-/// A flag that is shorter than the option that it stands for.
+/// A flag that is a shorter form of an option.
 struct Shorthand {
   std::string flag;
   std::string_view option, value;
@@ -28,7 +28,7 @@ std::string with(char to, char from, std::string_view text) {
 }
 std::string dashed(std::string_view text) { return with('-', '_', text); }
 
-/// `for` is short, and a keyword of C++, Python and JavaScript.
+/// The program has `for`, which is short; in C++, Python and JavaScript it is a keyword.
 std::string name_of(const OptionRow& row) { return row.name == "target" ? "--for" : "--" + dashed(row.name); }
 
 std::string relative_name(const OptionRow& row) { return name_of(row) + "-rel"; }
@@ -42,7 +42,7 @@ std::vector<std::string> names_of(const OptionRow& row) {
   return names;
 }
 
-/// The name of a choice that is spelled so, as the library has it.
+/// The library's name of a choice with this spelling.
 std::string_view choice_of(const OptionRow& row, const std::string& text) {
   std::vector<std::string> names;
   for (const std::string_view choice : row.choices) names.push_back(dashed(choice));

@@ -35,7 +35,7 @@ std::string number_text(double value, Shown shown, const TextStyle& style) {
   return "";
 }
 
-/// "★1, L2" as the terminal shows it.
+/// "★1, L2" for the terminal.
 std::string label_of(const ErrorMeasure& measure, const TextStyle& style) {
   std::string label(measure.label);
   const std::string star = "★";
@@ -51,7 +51,7 @@ std::string row_text(const std::string& label, const std::vector<std::string>& c
   return text + "\n";
 }
 
-/// The measures of one norm: all keys that end so.
+/// The measures of one norm: all keys with this ending.
 std::vector<ErrorMeasure> measures_of(std::string_view norm) {
   std::vector<ErrorMeasure> chosen;
   for (const ErrorMeasure& measure : error_measures()) {
@@ -71,7 +71,7 @@ bool has_group(const std::vector<FieldErrors>& fields, FieldGroup group) {
   return false;
 }
 
-/// A line a field, then means.
+/// One line per field, then means.
 std::string table(const std::string& title, std::string_view norm, const std::vector<FieldErrors>& fields, Shown shown,
                   const TextStyle& style) {
   const std::string star = style.utf8 ? "★" : "star ";
@@ -124,7 +124,7 @@ std::string levels_text(const ErrorReport& report) {
 
 // --- JSON ------------------------------------------------------------------------------------------------------------
 
-/// No number of JSON is infinite: null is +∞ of errors, and undefined of orders.
+/// JSON has no infinite numbers: null means +∞ for errors, and undefined for orders.
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json errors_json(const OperatorErrors& errors) {

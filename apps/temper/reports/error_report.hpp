@@ -1,4 +1,4 @@
-// The errors that solvers make, as text and as JSON.
+// The errors of solvers, as text and as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -27,19 +27,19 @@ struct ErrorRecord {
 [[nodiscard]] std::string error_text(const ErrorRecord& record, const TextStyle& style);
 [[nodiscard]] std::string error_json(const ErrorRecord& record);
 
-/// Geometric means of the errors of two meshes, a line a measure: `temper optimize --measure-errors`.
+/// Geometric means of the errors of two meshes, one line per measure: `temper optimize --measure-errors`.
 [[nodiscard]] std::string error_comparison_text(const ErrorReport& before, const ErrorReport& after,
                                                 const TextStyle& style);
-/// One report, for other reports to hold.
+/// One report, as a part of other reports.
 [[nodiscard]] nlohmann::ordered_json error_report_json(const ErrorReport& report);
 
-/// A line an edge: from,to,star1,error. Points count from 0, in the order of the file's arrays.
+/// One line per edge: from,to,star1,error. Points count from 0, in the order of the file's arrays.
 [[nodiscard]] std::string edge_errors_csv(const ErrorReport& report, const Input& input);
 
 /// The errors of solvers before and after a run: `temper optimize --measure-errors`.
 class SolverErrors {
  public:
-  /// Measures the input, whose frame the result is measured in, too.
+  /// Measures the input; the result is measured in the frame of the input, too.
   SolverErrors(const Mesh& input, Executor* executor);
 
   void measure_result(const Mesh& result);

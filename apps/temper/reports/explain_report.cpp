@@ -88,10 +88,10 @@ std::string summary(const Explanation& e) {
   return text;
 }
 
-/// The command that does what the cure asks for, among other things; empty when there is none yet.
+/// The command that applies the cure, perhaps with other changes; empty when no command does.
 std::string command(const Mesh& mesh, const Cure& cure) {
   using Action = Cure::Action;
-  const auto on_line = [&] {  // inside the domain, where no repair splits
+  const auto on_line = [&] {  // inside the domain, but repairs do not split such edges
     const HalfedgeId h = mesh.find_halfedge(cure.edge[0], cure.edge[1]);
     return h.valid() && mesh.is_constrained(h);
   };
@@ -128,7 +128,7 @@ std::string paragraph(const Reason& reason, std::size_t number, const Input& inp
   return text;
 }
 
-/// A sort of reasons, and what a stranger needs to read them.
+/// A sort of reasons, and its introduction for new users.
 struct Section {
   std::string title, about;
 };

@@ -12,11 +12,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A bad triangle takes a millisecond to explain, and one whose cures are searched some ten: a second or so in all.
+// To explain a bad triangle takes a millisecond, to search for its cures some ten: all together about a second.
 constexpr std::size_t kMostExplained = 500;
 constexpr std::size_t kCures = 20;
 
-/// Why triangles are not well-centered, in the user's numbers. None where there are too many, or inverted ones.
+/// The reasons why triangles are not well-centered, in the user's numbers. None if too many are, or some are inverted.
 Json reasons_json(const Mesh& mesh, const Quality& quality, const InputNames* names) {
   Json json = Json::array();
   const std::size_t bad = bad_triangles(quality);
@@ -37,7 +37,7 @@ Json reasons_json(const Mesh& mesh, const Quality& quality, const InputNames* na
   return json;
 }
 
-/// The measures of a mesh, with sentences in the user's numbers: those of `json` count from 0.
+/// Puts sentences in the user's numbers into the measures of a mesh: numbers in `json` count from 0.
 void use_numbers(Json& json, const Quality& quality, const InputNames* names) {
   const auto number = [names](VertexId v) {
     const std::string word = names == nullptr ? std::to_string(v.index) : names->point(v.index);
@@ -47,7 +47,7 @@ void use_numbers(Json& json, const Quality& quality, const InputNames* names) {
     json["worst"][i]["why"] = renumber(quality.worst[i].why, number);
 }
 
-/// Takes out all seconds: the same run writes the same page.
+/// Removes all seconds: the same run writes the same page.
 void forget_time(Json& json) {
   if (json.is_object()) json.erase("seconds");
   for (Json& item : json) {

@@ -20,12 +20,12 @@ namespace temper::app {
 /// Columns of the tables of `temper check` and `temper optimize`.
 inline constexpr std::size_t kLabelColumns = 30, kNumberColumns = 14;
 
-/// The style of text that the terminal wants.
+/// The style of text that suits the terminal.
 struct TextStyle {
   bool utf8 = true;  ///< else bars and symbols in ASCII
   std::size_t columns = 100;
 };
-/// By the locale and the terminal.
+/// The style by the locale and the terminal.
 [[nodiscard]] TextStyle text_style();
 
 /// The library's sentences, for a terminal without UTF-8.
@@ -44,11 +44,10 @@ struct TextStyle {
 /// Triangles that are not well-centered.
 [[nodiscard]] std::size_t bad_triangles(const Quality& quality);
 
-// Reports as JSON, for programs. Infinite energies are null; vertices and triangles count from 0, in the order of
-// the file's arrays (points[i] of any reader), not in the numbers a format may give them.
+// Reports as JSON, for programs. Infinite energies are null. Vertices and triangles count from 0, in the order of the
+// file's arrays (points[i] of any reader), not in the numbers of a format.
 
-/// The first number of a report: another one when a key is gone or means something else. docs/schema says what there
-/// is.
+/// The first number of a report: it changes when a key is removed or its meaning changes. docs/schema has the keys.
 inline constexpr int kSchema = 1;
 
 /// The numbers of a mesh. `points`: mesh vertex → point of the file; empty when they are the same.
@@ -56,10 +55,10 @@ inline constexpr int kSchema = 1;
 /// `temper check --json`: these, and the outcomes of --require.
 [[nodiscard]] std::string check_json(const std::string& path, const Quality& quality,
                                      std::span<const std::size_t> points, std::span<const Outcome> outcomes);
-/// Such texts as one.
+/// One JSON text made of several.
 [[nodiscard]] std::string json_list(std::span<const std::string> reports);
 
-/// Everything `temper optimize --report` says.
+/// Everything in `temper optimize --report`.
 struct OptimizeRecord {
   std::string command;
   std::vector<UsedOption> options;
@@ -74,14 +73,14 @@ struct OptimizeRecord {
 };
 [[nodiscard]] std::string optimize_json(const OptimizeRecord& record);
 
-/// `temper optimize --history`: a header and one line a sweep.
+/// `temper optimize --history`: a header and one line per sweep.
 [[nodiscard]] std::string history_csv(const OptimizeReport& report);
 
-// What `--html` of check and optimize writes: the HTML report (temper/detail/html.hpp) with the numbers that --json and
-// --report have, the reasons of temper explain, and the command to run again. Nothing in it depends on the time a run
+// The output of `--html` of check and optimize: the HTML report (temper/detail/html.hpp). It has the numbers of --json
+// and --report, the reasons of temper explain, and the command to run again. Nothing in it depends on the time a run
 // took.
 
-/// `quality`: with what is worst listed as the page is to show it.
+/// `quality`: with the list of the worst triangles for the page.
 [[nodiscard]] std::string check_html(const std::string& command, const Input& input, const Quality& quality);
 
 /// `names`: of the vertices and triangles of the result; null: counted from 0. `before`, `mesh`: of record.before and

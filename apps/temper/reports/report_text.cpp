@@ -44,7 +44,7 @@ std::string energy_table(const Quality& quality, const TextStyle& style) {
   return text;
 }
 
-/// A bar of count / most of the full width; something is always seen of a count that is not 0.
+/// A bar of count / most of the full width; a count other than 0 always shows something.
 std::string bar(std::size_t count, std::size_t most, const TextStyle& style) {
   static constexpr std::array<const char*, 8> kEighths = {"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
   if (count == 0 || most == 0) return "";

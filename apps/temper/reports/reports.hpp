@@ -41,7 +41,7 @@ struct DecRecord {
 
 // The reports of `temper explain`: text for people, and JSON.
 
-/// Counts, then a paragraph a reason, at most `limit` conflicts and `limit` groups that only lack weights.
+/// Counts, then one paragraph per reason: at most `limit` conflicts, and `limit` groups that only lack weights.
 [[nodiscard]] std::string explanation_text(const Explanation& explanation, const Input& input, std::size_t limit,
                                            const TextStyle& style);
 /// All reasons. Vertices and triangles are counted from 0, in the texts too.
@@ -68,7 +68,7 @@ struct WeightsRecord {
 
 // The reports of `temper mesh` on the mesh it made: as text, and as JSON.
 
-/// Where points in longitude and latitude are: on a map, on the sphere, or there are none.
+/// The place of points in longitude and latitude: on a map, on the sphere, or none.
 struct MapUsed {
   std::optional<Projection> projection = {};
   double radius = 0;                          ///< of the sphere
@@ -77,7 +77,7 @@ struct MapUsed {
   double least_scale = 1, largest_scale = 1;  ///< length on the map over length on the globe, over all vertices
 };
 
-/// "outline", "coast" or "lines", and what was read.
+/// "outline", "coast" or "lines", and the outline itself.
 struct NamedOutline {
   const char* name;
   io::OutlineFile file;
@@ -98,7 +98,7 @@ struct MeshRecord {
 [[nodiscard]] std::string mesh_text(const MeshRecord& record);
 [[nodiscard]] std::string mesh_json(const MeshRecord& record);
 
-// Sizes, for optimize: the field that is given in a file, and what a run did to the sizes, for people.
+// Sizes, for optimize: the field in a file, and the changes of sizes by a run, for people.
 
 /// The size field of a mesh file's point data of that name; Failure when there is none, or it is no size everywhere.
 struct ReadSizeField {
@@ -108,10 +108,10 @@ struct ReadSizeField {
 [[nodiscard]] ReadSizeField read_size_field(const std::string& path, const std::string& data,
                                             const ReadingOptions& options);
 
-/// Rows of the table of `temper optimize`, below those of comparison_text.
+/// Rows of the table of `temper optimize`, below the rows of comparison_text.
 [[nodiscard]] std::string size_text(const SizeChange& size);
 
-// Data of points and triangles, for optimize and replay: the rules that are given, and what became of the data.
+// Data of points and triangles, for optimize and replay: the given rules, and the results for the data.
 
 /// --point-data, whose words are checked as they come.
 void add_point_data(Command& command, std::vector<std::string>& words);
@@ -119,7 +119,7 @@ void add_point_data(Command& command, std::vector<std::string>& words);
 /// The rules of those words, for the data of a file; Failure when it has no array of a name.
 [[nodiscard]] io::DataRules data_rules(const std::vector<std::string>& words, const io::MeshFile& file);
 
-/// Lines of `temper optimize`; none where nothing moved that data are on.
+/// Lines of `temper optimize`; none if nothing moved that carries data.
 [[nodiscard]] std::string data_text(const io::DataReport& report);
 
 }  // namespace temper::app

@@ -25,7 +25,7 @@ const io::DataArray& find_data(const Input& input, const std::string& name) {
                   input.path, name, others.empty() ? "none in this file" : others));
 }
 
-/// The numbers at the mesh's vertices: points of no triangle have no part in the field.
+/// The numbers at the mesh's vertices: points of no triangle are not part of the field.
 std::vector<double> at_vertices(const Input& input, const io::DataArray& array) {
   return std::visit(
       [&input](const auto& values) {

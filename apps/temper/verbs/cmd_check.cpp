@@ -58,7 +58,6 @@ void add_options(Command& command, CheckSettings& s) {
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
 }
 
-/// The meshes of one call.
 class Checks {
  public:
   Checks(const Command& command, const CheckSettings& settings, std::vector<Requirement> requirements)
@@ -100,7 +99,7 @@ class Checks {
     if (const Exit verdict = report_unmet(outcomes, path); exit_ == Exit::done) exit_ = verdict;
   }
 
-  /// What is wrong with one mesh keeps none of the others from being looked at.
+  /// An error in one mesh does not stop the check of the others.
   void add_of_several(const std::string& path) {
     try {
       add(path);

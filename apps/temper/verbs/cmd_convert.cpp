@@ -1,4 +1,5 @@
-// temper convert IN -o OUT: the same file in another format; what the format cannot hold is named.
+// temper convert IN -o OUT: the same file in another format, with warnings about everything that the format cannot
+// hold.
 #include <fmt/format.h>
 
 #include <memory>

@@ -1,4 +1,4 @@
-// temper errors IN: the errors that solvers make on a mesh, measured with manufactured solutions.
+// temper errors IN: the errors of solvers on a mesh, measured with manufactured solutions.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ struct ErrorSettings {
   std::optional<Metric> metric;
 };
 
-// Relative to the size of the domain: what a text format may round coordinates by.
+// Relative to the size of the domain: the rounding of coordinates by text formats.
 constexpr double kSameBox = 1e-6;
 
 std::string field_names() {
@@ -69,7 +69,7 @@ void add_options(Command& command, ErrorSettings& s) {
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
-/// Fields that are asked for by mistake are told of before a large mesh is read.
+/// Fails on unknown fields before a large mesh is read.
 void check_fields(const MeasureErrorsOptions& options) {
   Mesh none;
   const auto report = measure_errors(none, options);

@@ -245,7 +245,7 @@ const Generator& chosen(const Command& command) {
   refuse_usage("example", "NAME is missing: one of " + join(names));
 }
 
-/// The parser knows a misspelt name only as an unexpected argument: say what could have been meant.
+/// The parser reports a misspelled name only as an unexpected argument: suggest a similar name.
 void check_name(const Arguments& arguments) {
   if (arguments.empty() || arguments.front().starts_with("-")) return;
   std::vector<std::string_view> names;
@@ -254,7 +254,7 @@ void check_name(const Arguments& arguments) {
     refuse_usage("example", none_of(arguments.front(), names));
 }
 
-/// The mesh, with sizes as point data that `--size` and `--size-field` read.
+/// The mesh, with sizes as point data for `--size` and `--size-field`.
 io::MeshFile file_of(const Mesh& mesh, const Generator& generator, const ExampleSettings& s) {
   io::MeshFile file = io::from_mesh(mesh);
   if (generator.size == nullptr) return file;

@@ -1,4 +1,4 @@
-// temper explain IN: for every triangle that is not well-centered the reason, and what would cure it.
+// temper explain IN: the reason for every triangle that is not well-centered, and cures.
 #include <fmt/format.h>
 
 #include <cstdio>

@@ -1,5 +1,5 @@
 // temper mesh OUTLINE -o MESH --size h: divides the outline, places points inside, optimizes, writes, reports. With
-// --sphere the same on the globe, or on the part of it that an outline and coasts leave.
+// --sphere it meshes the globe, or the part of it that an outline and coasts leave.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -143,7 +143,7 @@ void check_usage(const Command& command, const MeshSettings& s) {
   }
 }
 
-/// The number that --size is, if it is one; else it is a file.
+/// The number given as --size; nothing if it is a file.
 std::optional<double> size_number(const MeshSettings& s) {
   const auto number = parse_number(s.size);
   if (number && !(*number > 0 && std::isfinite(*number)))
@@ -151,7 +151,7 @@ std::optional<double> size_number(const MeshSettings& s) {
   return number;
 }
 
-/// The sizes of a file; `degrees`: where its points go if they are longitude and latitude.
+/// The sizes of a file. `degrees`: the projection for its points if they are longitude and latitude.
 SizeField read_sizes(const MeshSettings& s, const std::string& degrees, Executor* executor) {
   io::MeshFile file = read_tried(s.size, executor);
   const std::string projection = file.degrees() != nullptr ? degrees : "";
@@ -165,8 +165,7 @@ SizeField read_sizes(const MeshSettings& s, const std::string& degrees, Executor
   throw Failure(Exit::bad_input, s.size + ": the sizes are on " + found + "; expected " + expected);
 }
 
-/// The outline in the plane, and how it got there. Longitude and latitude are no plane: nobody's angles are right
-/// there.
+/// The outline in the plane, and its map. Longitude and latitude are not used as a plane: angles are wrong there.
 MapUsed take_to_plane(const MeshSettings& s, io::OutlineFile& file) {
   expect_projection_of_outline(s.input, file.geographic, s.projection);
   if (s.projection.empty() || s.projection == io::kNoProjection) return {};
@@ -196,8 +195,8 @@ void measure_covered(MapUsed& map, const Mesh& mesh) {
   map.covered = covered / (4 * std::numbers::pi);
 }
 
-/// The mesh with the edges of the outline as tagged lines. Segments without a tag get one all the same, or they would
-/// be lost in a file: 1 on the boundary, as Triangle does, and the first number that is free inside.
+/// The mesh with the edges of the outline as tagged lines. Segments without a tag get one, or a file would lose them: 1
+/// on the boundary, as in Triangle, and the first free number inside.
 io::MeshFile file_of(const OutlineMesh& made, const MapUsed& map) {
   io::MeshFile file = io::from_mesh(made.mesh);
   file.lines.clear();
@@ -247,7 +246,7 @@ OutlineMesh run_library(const MeshSettings& s, MesherOptions options, Executor* 
   return or_fail(meshing(options, {.executor = executor, .observer = observer}));
 }
 
-/// What was read, where it is, and the mesh of it.
+/// The outlines, their map, and their mesh.
 struct Result {
   std::vector<NamedOutline> inputs;
   MapUsed map;
@@ -349,7 +348,7 @@ Exit run_mesh(const Arguments& arguments) {
   if (!command.parse(arguments)) return Exit::done;
   check_usage(command, s);
   Outputs outputs("mesh");
-  // The points of a .poly may be in the .node beside it.
+  // The points of a .poly may be in the .node next to it.
   const std::vector<std::string> inputs = {s.input, std::filesystem::path(s.input).replace_extension(".node").string(),
                                            s.coast, s.lines, s.size};
   outputs.expect_mesh(s.output, inputs);

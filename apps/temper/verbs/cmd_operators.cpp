@@ -81,7 +81,7 @@ std::vector<io::DecFormat> parse_formats(std::string_view list) {
   return formats;
 }
 
-/// Formats of layers have these, and the other way around.
+/// Checks that options which need layers have them.
 void check_layers(const Command& command, const DecSettings& s, const std::vector<io::DecFormat>& formats) {
   const bool wanted = std::any_of(formats.begin(), formats.end(), io::needs_columns);
   if (wanted && s.layers.empty()) refuse_usage("operators", "--format: disv, disu and tough need --layers");
@@ -89,7 +89,7 @@ void check_layers(const Command& command, const DecSettings& s, const std::vecto
     print_warnings(std::vector<std::string>{"--pinch-out has no effect without --layers"});
 }
 
-/// Before the work: a folder can be there, and no input is one of the files that will be replaced.
+/// Checks before the work that a folder can be made, and that no input is one of the files that will be replaced.
 void check_folder(const DecSettings& s, const std::vector<io::DecFormat>& formats) {
   std::error_code ignored;
   if (fs::exists(s.output, ignored) && !fs::is_directory(s.output, ignored)) {

@@ -34,7 +34,7 @@
 namespace temper::app {
 namespace {
 
-/// What a run made, apart from the mesh.
+/// The results of a run, apart from the mesh.
 struct RunResults {
   Quality before, after;
   Mesh original;  ///< when a picture or a page needs it
@@ -47,19 +47,18 @@ struct RunResults {
   std::vector<std::string> warnings;
 };
 
-/// A trace that is being written.
 struct TraceFile {
   io::TextStream stream;
   std::size_t events = 0;
 };
 
-/// All that a run works with, besides its settings. Null: there is none.
+/// The files and observers of a run, besides its settings. Null: there is none.
 struct RunFiles {
   Executor* threads = nullptr;
   TraceFile* trace = nullptr;
 };
 
-/// Writes the best mesh so far as the result will be written.
+/// Writes the best mesh so far in the form of the result.
 Expected<void> save(const OptimizeSettings& s, const Input& input, const RunFiles& files, const BestSoFar& best) {
   io::MeshFile file = input.file;
   io::update(file, input.loaded, best.mesh, best.vertices, {s.rules, files.threads});
@@ -70,7 +69,7 @@ Expected<void> save(const OptimizeSettings& s, const Input& input, const RunFile
   return {};
 }
 
-/// For --save-every. A run whose mesh cannot be written goes on, and says so once.
+/// For --save-every. A run whose mesh cannot be written goes on, and prints one warning.
 auto saver(const OptimizeSettings& s, const Input& input, const RunFiles& files) {
   using Clock = std::chrono::steady_clock;
   return [&, last = Clock::now(), warned = false](const auto& best) mutable {
@@ -109,7 +108,7 @@ OptimizeReport run_library(const OptimizeSettings& s, const Input& input, Mesh& 
 }
 
 #ifdef TEMPER_WITH_ERRORS
-/// What --measure-errors asks for.
+/// The results of --measure-errors.
 void error_result(SolverErrors& errors, const Mesh& mesh, RunResults& results) {
   errors.measure_result(mesh);
   results.errors_text = errors.text(text_style());
@@ -129,7 +128,7 @@ Tracer tracer_of(const OptimizeSettings& s, const RunFiles& files, const Input& 
   };
 }
 
-/// Says whether edges are not regular that should be: `after` counts those that may not be flipped, too.
+/// Says whether edges lack flips: `after` also counts edges that may not be flipped.
 bool lacks_flips(const OptimizeSettings& s, const Quality& after, const Mesh& mesh, Executor* executor) {
   const OptimizeOptions& o = s.options();
   return after.non_regular_edges > 0 && o.flips != Flips::none && o.paper.hidden != HiddenPolicy::keep &&
@@ -193,7 +192,7 @@ VertexId find_vertex(const Input& input, std::string_view option, const std::str
                                              spell_options(fmt::format("`{}`", option)), number));
 }
 
-/// Vertices have numbers now.
+/// Finds the vertices that options name, now that vertices have numbers.
 void find_vertices(TableOptions& table, const Input& input) {
   for (const auto& [name, number] : table.vertices) {
     const OptionValue value = number == kNone ? OptionValue() : OptionValue(find_vertex(input, name, number));
@@ -235,7 +234,7 @@ void warn(RunResults& results, std::span<const std::string> warnings) {
   results.warnings.insert(results.warnings.end(), warnings.begin(), warnings.end());
 }
 
-/// The mesh first: it is what the time went into.
+/// Writes the mesh first, as it took the most time.
 void write_all(const Command& command, const OptimizeSettings& s, Input& input, RunResults& results, Outputs& outputs,
                const RunFiles& files) {
   const std::size_t known = input.file.warnings.size();
@@ -258,7 +257,7 @@ void write_all(const Command& command, const OptimizeSettings& s, Input& input, 
   if (!s.picture.empty()) outputs.write_picture(s.picture, results.picture);
 }
 
-/// The row of energies that is of interest.
+/// The relevant row of energies.
 int star_shown(const OptimizeOptions& options) {
   return objective_of(options) == Objective::accuracy ? 1 : static_cast<int>(options.star);
 }
@@ -294,7 +293,7 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
     warn(results, sizes.warnings);
     s.table.options.size_field = std::move(sizes.field);
   }
-  // The mesh has its geometry now, and memory is dear on the largest ones.
+  // The mesh has its geometry now, and on the largest meshes memory is scarce.
   io::release_geometry(input.file, input.loaded);
   agree_to_go_on();
   warn(results, warnings_of_ranks());
@@ -307,7 +306,7 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   return stopped_early(results.report.stopped) || results.lacks_flips ? Exit::stopped_early : Exit::done;
 }
 
-/// What the first rank does for all.
+/// The outputs that the first rank writes for all.
 void leave_outputs_to_first_rank(OptimizeSettings& s) {
   for (std::string* output : {&s.output.path, &s.report, &s.html, &s.history, &s.picture, &s.trace}) {
     output->clear();

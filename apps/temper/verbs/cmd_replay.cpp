@@ -1,4 +1,4 @@
-// temper replay IN TRACE -o OUT: does again what a trace says, and writes what temper optimize wrote.
+// temper replay IN TRACE -o OUT: repeats the events of a trace, and writes the mesh that temper optimize wrote.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ void add_options(Command& command, ReplaySettings& s) {
   throw Failure(Exit::bad_input, trace_place(path, index) + ": " + error.message);
 }
 
-/// Events of the sweeps that are asked for: a prefix, because sweeps only go up.
+/// Events of the requested sweeps: a prefix, because sweeps only go up.
 std::span<const TraceEvent> wanted(const std::vector<TraceEvent>& events, std::optional<int> sweeps) {
   const auto past =
       std::find_if(events.begin(), events.end(), [&](const TraceEvent& e) { return sweeps && e.sweep > *sweeps; });

@@ -1,7 +1,7 @@
 // temper reproduce [FIG...] -o DIR: the figures and claims of the paper, made again; see gallery/.
 //
-// After each figure its pictures are written, then index.html, gallery.json, claims.md and settings.md of all figures
-// so far: whoever stops the run has a folder of whole files that fit together.
+// Each figure writes its pictures, then index.html, gallery.json, claims.md and settings.md of all figures so far. So a
+// run that is stopped leaves a folder of whole files that fit together.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -35,7 +35,7 @@ struct Settings {
   TableOptions readings;
 };
 
-/// One reading in the place of those of the figures: what is left open, as for optimize.
+/// Replaces one reading of the figures. Open readings are options, as in optimize.
 void add_readings(Command& command, TableOptions& target) {
   command.group("How the paper is read; what is not given is as each figure has it");
   for (const std::string_view name : gallery::kOpen) add_option(command, *find_option(name), target);
@@ -84,7 +84,7 @@ void make_folder(const std::string& path) {
   if (error) throw Failure(Exit::bad_input, path + ": cannot be written: " + error.message());
 }
 
-/// Ctrl-C and its like end the program when the files under way are whole.
+/// While it lives, signals such as Ctrl-C end the program only when the current files are whole.
 class SignalsHeld {
  public:
   SignalsHeld() {
@@ -101,7 +101,6 @@ class SignalsHeld {
   sigset_t before_;
 };
 
-/// The folder that a gallery goes to.
 class Folder {
  public:
   Folder(std::string path, Effort effort) : path_(std::move(path)), effort_(effort) {
@@ -112,7 +111,7 @@ class Folder {
 
   [[nodiscard]] std::string file(const std::string& name) const { return (fs::path(path_) / name).string(); }
 
-  /// The pictures of the last result, and what tells of all.
+  /// Writes the pictures of the last result, and the pages about all.
   void write(std::span<const Result> results) {
     const SignalsHeld until_whole;
     for (const gallery::Picture& picture : results.back().page.pictures)
@@ -129,7 +128,7 @@ class Folder {
   Outputs outputs_{"reproduce"};
 };
 
-/// On a terminal, which figure is being made.
+/// Shows on a terminal the figure in progress.
 void show_progress(const Figure& figure, std::size_t place, std::size_t count) {
   if (!error_is_terminal()) return;
   fmt::print(stderr, "\rfigure {} ({} of {}): {}\x1b[K", figure.number, place, count, figure.title);

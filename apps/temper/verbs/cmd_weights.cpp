@@ -1,5 +1,5 @@
-// temper weights IN -o OUT: weights that make a mesh well-centered as it is, or that keep other constraints, or the
-// reason why there are none; and the search for a connectivity that has better ones.
+// temper weights IN -o OUT: weights that make a mesh well-centered without other changes, or that satisfy other
+// constraints. If none exist, it gives the reason. It also searches for a connectivity with better weights.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -175,7 +175,7 @@ WeightGoal goal_of(Mode mode) {
   return WeightGoal::minimal;
 }
 
-/// On the sphere setting a weight rounds the place: only what changes is set.
+/// On the sphere setting a weight rounds the place: only changed weights are set.
 Mesh with_weights(Mesh mesh, const IdVector<VertexId, double>& weights) {
   for (const VertexId v : mesh.vertices()) {
     if (mesh.weight(v) != weights[v]) mesh.set_weight(v, weights[v]);
@@ -183,7 +183,7 @@ Mesh with_weights(Mesh mesh, const IdVector<VertexId, double>& weights) {
   return mesh;
 }
 
-/// The mesh of the input with the connectivity asked for.
+/// The mesh of the input with the requested connectivity.
 std::optional<ConnectivityReport> searched(const WeightsSettings& s, const Input& input, LpSolver& solver) {
   if (s.connectivity == Connectivity::fixed) return std::nullopt;
   return or_fail(best_connectivity(input.mesh(), solver, {s.options.constraints, s.programs}));
@@ -197,7 +197,7 @@ bool all_well_centered(const Mesh& mesh) {
   return true;
 }
 
-/// From good weights to those of least energy; the good ones stay when these are not good.
+/// Replaces good weights by weights of least energy, unless these are not good.
 void lower_energy(const WeightsSettings& s, const Input& input, const Mesh& mesh, WeightReport& report) {
   Mesh moving = with_weights(mesh, report.weights);
   OptimizeOptions options;

@@ -1,4 +1,4 @@
-// temper VERB …: finds the verb, and turns every way to fail into one line on standard error and an exit code.
+// temper VERB …: finds the verb, and turns every failure into one line on standard error and an exit code.
 #include <fmt/core.h>
 
 #ifdef __GLIBC__
@@ -100,8 +100,8 @@ int internal_error(std::string_view what) {
   return static_cast<int>(Exit::internal);
 }
 
-/// What is thrown where nothing may be, such as by an allocation that fails while something is destroyed: nothing more
-/// can be undone, but files that are not finished go, and the message is the same.
+/// Runs on an exception in a place that must not throw, for example a failed allocation in a destructor. Nothing can be
+/// undone any more. But unfinished files are removed, and the usual message is printed.
 [[noreturn]] void end_on_terminate() {
   io::discard_unfinished();
   const char* message = "temper: error: internal error, in a place that cannot fail; please report that\n";
@@ -117,7 +117,7 @@ int internal_error(std::string_view what) {
   std::_Exit(static_cast<int>(Exit::internal));
 }
 
-/// Runs the command line; its exit status.
+/// Runs the command line; returns its exit status.
 int run_program(int argc, char** argv) {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 1 << 20);  // arrays that are freed after reading go back to the system

@@ -60,7 +60,7 @@ void add_run(Command& command, OptimizeSettings& s) {
     names.push_back(method.name);
     help += fmt::format("; {}: {}", method.name, method.sentence);
   }
-  // At once, before all other options are taken: those given override the method's.
+  // At once, before all other options are taken: options that are given override the method's.
   const auto take = [&s](std::string_view name) {
     s.method = &*std::find_if(methods().begin(), methods().end(), [&](const Method& m) { return m.name == name; });
     s.table.options = s.method->options();
@@ -70,13 +70,13 @@ void add_run(Command& command, OptimizeSettings& s) {
   option.default_text = std::string(methods().front().name);
 }
 
-/// Of this verb's own options those that a first run does without; of the library's the table says it.
+/// Rare options of this verb's own, which a first run does not need. The library's table marks its own rare options.
 constexpr const char* kRare[] = {"--projection", "--format",     "--encoding",        "--point-data",
                                  "--history",    "--trace",      "--threads",         "--method",
                                  "--save-every", "--size-field", "--size-field-data", "--no-triangle-quality",
                                  "--tensor"};
 
-/// Says whether a write puts a new file there: not to standard output, a pipe or a device.
+/// Says whether writing puts a new file there: not on standard output, a pipe or a device.
 bool is_replaced(const std::string& path) {
   std::error_code ignored;
   return path != kStandardOutput &&

@@ -1,4 +1,4 @@
-// The options of temper optimize: what is given, and what it says to do.
+// The options of temper optimize, and the settings that follow from them.
 #pragma once
 
 #include <chrono>
@@ -25,10 +25,10 @@ struct OptimizeSettings {
   MeshOutput output;
   std::vector<std::string> fix, require;
   const Method* method = methods().data();
-  TableOptions table;  ///< first those of the method
+  TableOptions table;  ///< first the values of the method
   std::uint64_t threads = 0;
   bool quiet = false, verify = false;
-  bool traced = false;               ///< whoever writes the trace
+  bool traced = false;               ///< by any writer of the trace
   std::optional<double> save_every;  ///< seconds between two times that the best mesh so far is written
   std::vector<Requirement> requirements;
   std::string size_field, size_data;
@@ -42,11 +42,11 @@ struct OptimizeSettings {
 /// The verb, whose options go into `settings`.
 [[nodiscard]] Command optimize_command(OptimizeSettings& settings);
 
-/// `--fix 1 2 IN -o OUT`: --fix takes all words that follow, so the last one is the input when there is none. Failure
+/// `--fix 1 2 IN -o OUT`: --fix takes all words that follow, so without other input the last one is the input. Failure
 /// when there is still none, or no output.
 void take_input(Command& command, OptimizeSettings& settings);
 
-/// Options that were given and cannot have the effect one would expect.
+/// Options that were given and cannot have their usual effect.
 [[nodiscard]] std::vector<std::string> doubtful_options(const Command& command, const OptimizeSettings& settings);
 
 }  // namespace temper::app

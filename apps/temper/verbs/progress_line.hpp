@@ -1,4 +1,4 @@
-// One line on a terminal that says how far a long run is, and how long it will about take when that can be told.
+// One line on a terminal with the progress of a long run, and an estimate of its remaining time if there is one.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +29,8 @@ class ProgressLine {
 
 class TimeLimit {
  public:
-  /// Seconds of the limit that are left for the library, more than 0; 0: none was set. What has been read is written
-  /// again, in about the same time.
+  /// Seconds of the limit that are left for the library, more than 0; without a limit 0. It reserves the time that
+  /// reading took for writing.
   [[nodiscard]] double left(double limit) const {
     constexpr double kLeast = 1e-3;
     const double so_far = std::chrono::duration<double>(Clock::now() - began_).count();

@@ -15,8 +15,8 @@ bool load_foreign(const char* file, const std::function<bool(void*)>& take) {
   return handle != nullptr && take(handle);
 }
 
-/// Python packages bring libraries along, as netcdf4.libs/libnetcdf-HASH.so.22 among all packages. Where this code is
-/// in one of them, or the program in one, they are found: two or three folders above.
+/// Python packages bring libraries along, for example netcdf4.libs/libnetcdf-HASH.so.22 next to the packages. If a
+/// package holds this code or the program, the libraries are two or three folders above.
 void find_in_python_packages(const ForeignLibrary& library, const std::function<bool(void*)>& take) {
   namespace fs = std::filesystem;
   static const char here = 0;
@@ -36,7 +36,7 @@ void find_in_python_packages(const ForeignLibrary& library, const std::function<
   }
 }
 
-/// What the variable names, or null.
+/// The file that the variable names, or null.
 const char* chosen_file(const ForeignLibrary& library) {
   const char* const chosen = std::getenv(library.variable);
   return chosen != nullptr && *chosen != '\0' ? chosen : nullptr;

@@ -1,5 +1,5 @@
-// Libraries of others that are loaded when the first file needs them: whoever has no such files need neither install
-// them nor wait for them each time that the program starts.
+// Libraries of others, loaded when the first file needs them. Without such files nobody has to install them, and no
+// start of the program waits for them.
 #pragma once
 
 #include <functional>
@@ -11,27 +11,26 @@
 
 namespace temper::io {
 
-/// Where a library may be.
+/// The places of a library.
 struct ForeignLibrary {
   const char* variable;                   ///< of the environment: names the file, and no other is tried then
-  std::span<const char* const> files;     ///< as the loader knows them, the newest first
+  std::span<const char* const> files;     ///< as the loader finds them, the newest first
   std::span<const char* const> packages;  ///< folders of the libraries of Python packages that bring it along
   std::string_view file_in_package;       ///< how its name begins there
   std::string_view need;                  ///< "VTKHDF files need libhdf5 1.10 or later"
   std::string_view install;               ///< "apt: libhdf5-103-1; conda: …": the packages that have it
 };
 
-/// Calls take with the handle (of dlopen) of each file that can be loaded, until it says that it is the library. What
-/// is loaded stays to the end of the process.
+/// Calls take with the handle (of dlopen) of each file that can be loaded, until take accepts the library. A loaded
+/// file stays loaded to the end of the process.
 void find_library(const ForeignLibrary& library, const std::function<bool(void* handle)>& take);
 
-/// Held while a file of libnetcdf or libhdf5 is open: both keep tables that only one thread may touch at a time, and
-/// the one calls the other. It keeps temper's threads apart; who else calls the same library in this process (h5py)
-/// does not know of it.
+/// Held while a file of libnetcdf or libhdf5 is open. Both keep tables for one thread at a time, and libnetcdf calls
+/// libhdf5. It keeps temper's threads apart, but not other users of the library in this process (h5py).
 [[nodiscard]] std::mutex& foreign_tables();
 
-/// The functions of the library, which functions_of(handle) takes from it, or null. One that was not there may be there
-/// at the next call: a Python that runs for days. Takes foreign_tables().
+/// The functions of the library, which functions_of(handle) takes from it, or null. In a Python that runs for days a
+/// missing library may be there at the next call. Takes foreign_tables().
 template <class Functions>
 const Functions* find_functions(const ForeignLibrary& library, std::optional<Functions> (*functions_of)(void* handle)) {
   static std::optional<Functions> found;
@@ -45,9 +44,9 @@ const Functions* find_functions(const ForeignLibrary& library, std::optional<Fun
   return found ? &*found : nullptr;
 }
 
-/// What the library has under that name, or null.
+/// The symbol of that name in the library, or null.
 [[nodiscard]] void* symbol_of(void* handle, const char* name);
-/// Of a list of functions: takes that one into `library`, or returns nothing.
+/// Takes one of a list of functions into `library`, or returns nothing.
 #define TEMPER_FIND_FUNCTION(function)                                                           \
   library.function = reinterpret_cast<decltype(library.function)>(symbol_of(handle, #function)); \
   if (library.function == nullptr) return std::nullopt;

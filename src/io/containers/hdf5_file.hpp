@@ -1,7 +1,7 @@
-// HDF5 files in memory, by the C library: what can go wrong is an exception, and nothing is opened by name.
+// HDF5 files in memory, by the C library: failures are exceptions, and nothing is opened by name.
 //
-// What is written is laid out by the library without the numbers, so that it holds some kilobytes however large the
-// mesh is. They come from the mesh, block by block, where the library has left room for them.
+// The library lays a file out without the numbers, so that it holds some kilobytes however large the mesh is. The mesh
+// gives the numbers, block by block, for the room that the library has left.
 #pragma once
 
 #include <hdf5.h>
@@ -24,7 +24,7 @@ namespace temper::io {
 
 // libhdf5, 1.10 or later, loaded when the first file needs it.
 //
-// Called are functions that have been the same in all versions since: none of those that the headers choose by macro.
+// Only functions that are unchanged in all versions since are called: none of those that the headers choose by macro.
 
 static_assert(sizeof(hid_t) == 8, "the headers of HDF5 are those of 1.10 or later");
 
@@ -73,7 +73,7 @@ struct Hdf5Library {
 /// The library; a failure about the file `path` when there is none. From several threads at once, too.
 const Hdf5Library& hdf5_library(const std::string& path);
 
-/// An object of the library's, which is closed in the end.
+/// An object of the library, which is closed at the end.
 class Hdf5Id {
  public:
   using Close = herr_t (*)(hid_t);
@@ -91,7 +91,7 @@ class Hdf5Id {
   Hdf5Id& operator=(const Hdf5Id&) = delete;
 
   operator hid_t() const { return id_; }
-  /// What the library says to closing it; negative is a failure.
+  /// Closes it, and returns the answer of the library; negative is a failure.
   herr_t close() { return id_ < 0 ? 0 : close_(std::exchange(id_, -1)); }
 
  private:
@@ -99,8 +99,8 @@ class Hdf5Id {
   Close close_ = nullptr;
 };
 
-/// While it lives the library prints no errors; afterwards it does with them what it did before, which may be what
-/// another user of it has set. Whoever makes one holds foreign_tables().
+/// While it lives the library prints no errors. Afterwards the library handles them as before, perhaps by a function
+/// that another user has set. Precondition: the caller holds foreign_tables().
 class QuietHdf5 {
  public:
   explicit QuietHdf5(const Hdf5Library& library) : library_(library) {
@@ -133,24 +133,24 @@ class Hdf5Reader {
   ~Hdf5Reader() = default;
 
   [[nodiscard]] const Hdf5Id& root() const { return file_; }
-  /// The group of that name; nothing when there is no such name, or it is that of something else.
+  /// The group of that name; nothing when nothing has that name, or something else has it.
   [[nodiscard]] std::optional<Hdf5Id> group(const Hdf5Id& in, const std::string& name) const;
   [[nodiscard]] std::optional<Hdf5Dataset> find(const Hdf5Id& in, const std::string& name) const;
   /// Fails when there is none.
   [[nodiscard]] Hdf5Dataset dataset(const Hdf5Id& in, const std::string& name) const;
-  /// In the order in which they came to be, where the file has kept it.
+  /// In the order of creation if the file has kept it.
   [[nodiscard]] std::vector<std::string> names(const Hdf5Id& in) const;
 
   /// All its numbers, row by row. Failure, when it has none.
   [[nodiscard]] Values values(const Hdf5Dataset& dataset) const;
-  /// Those of any floating point type.
+  /// The numbers of any floating point type.
   [[nodiscard]] std::vector<double> reals(const Hdf5Dataset& dataset) const;
-  /// Those of any type of integers. Failure, when one is beyond 32 bits, as its least and greatest number are taken to
-  /// be.
+  /// The numbers of any type of integers. Fails when one is beyond 32 bits, judged by the least and the greatest
+  /// number.
   [[nodiscard]] std::vector<std::int32_t> integers(const Hdf5Dataset& dataset) const;
   [[nodiscard]] std::vector<std::int64_t> long_integers(const Hdf5Dataset& dataset) const;
 
-  /// Of an attribute; empty when there is none of that name and kind.
+  /// The value of an attribute; empty when none has that name and kind.
   [[nodiscard]] std::vector<std::int64_t> integer_attribute(const Hdf5Id& of, const char* name) const;
   [[nodiscard]] std::optional<std::string> text_attribute(const Hdf5Id& of, const char* name) const;
 
@@ -187,7 +187,7 @@ class Hdf5Writer {
   [[nodiscard]] Hdf5Id group(const Hdf5Id& in, const std::string& name) const;
   void attribute(const Hdf5Id& of, const char* name, const std::vector<std::int64_t>& values) const;
   void attribute(const Hdf5Id& of, const char* name, std::string_view value) const;
-  /// A new dataset, a row for each tuple; the numbers are written by finish(). What its array looks at must outlive
+  /// A new dataset, a row for each tuple; finish() writes the numbers. The memory that its array reads must outlive
   /// this.
   [[nodiscard]] Hdf5Id dataset(const Hdf5Id& in, const std::string& name, VtkArray array);
   void finish(Output& out);
@@ -197,14 +197,14 @@ class Hdf5Writer {
     std::uint64_t offset;
     VtkArray array;
   };
-  /// The file as the library has it in memory, which is all but the numbers.
+  /// The file in the memory of the library: everything except the numbers.
   struct Image {
     std::unique_ptr<char, void (*)(void*)> bytes{nullptr, std::free};
     std::size_t size = 0;
   };
   static H5FD_file_image_callbacks_t callbacks(Image* image);
   hid_t check(hid_t status, std::string_view doing) const;
-  /// Bytes of the layout: zeros where the library has not been.
+  /// Bytes of the layout: zeros where the library has written nothing.
   void put_layout(Output& out, std::uint64_t from, std::uint64_t to) const;
 
   std::string path_;

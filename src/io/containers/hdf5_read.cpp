@@ -13,7 +13,7 @@
 namespace temper::io {
 namespace {
 
-/// Of 2.0, 1.14, 1.12 and 1.10. Debian's have a name of their own, beside those of libraries with MPI.
+/// Names for HDF5 2.0, 1.14, 1.12 and 1.10. Debian's library has a name of its own, next to its libraries with MPI.
 #ifdef __APPLE__
 constexpr std::array kHdf5Files = {"libhdf5.320.dylib", "libhdf5.310.dylib", "libhdf5.200.dylib", "libhdf5.103.dylib",
                                    "libhdf5.dylib"};
@@ -30,7 +30,7 @@ constexpr ForeignLibrary kHdf5 = {.variable = "TEMPER_HDF5",
                                   .need = "VTKHDF files need libhdf5 1.10 or later",
                                   .install = "apt: libhdf5-103-1; conda: hdf5; pip: h5py or netCDF4"};
 
-/// All functions of the library, or nothing: also of one before 1.10, whose numbers have 32 bits.
+/// All functions of the library, or nothing. A library before 1.10, whose numbers have 32 bits, gives nothing.
 std::optional<Hdf5Library> hdf5_of(void* handle) {
   Hdf5Library library;
   TEMPER_HDF5_FUNCTIONS(TEMPER_FIND_FUNCTION)
@@ -66,7 +66,7 @@ std::string hdf5_version() {
 
 namespace {
 
-// The library makes copies of a file in memory by these; all of them are the one that there is.
+// The library copies a file in memory by these functions; here every copy is the one image itself.
 void* same_image(std::size_t /*size*/, H5FD_file_image_op_t /*what_for*/, void* bytes) { return bytes; }
 void* no_copy(void* to, const void* /*from*/, std::size_t /*size*/, H5FD_file_image_op_t, void*) { return to; }
 void* no_growth(void* /*bytes*/, std::size_t /*size*/, H5FD_file_image_op_t, void*) { return nullptr; }
@@ -105,7 +105,7 @@ Hdf5Reader::Hdf5Reader(Source& source)
   check(library_.H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "begin");
   check(library_.H5Pset_file_image_callbacks(access, &callbacks), "begin");
   check(library_.H5Pset_file_image(access, bytes_.data(), bytes_.size()), "begin");
-  // The library wants a name of which there is no file on disk.
+  // The library needs a name that no file on disk has.
   const std::string name = path_ + "/in memory";
   file_ = {check(library_.H5Fopen(name.c_str(), kHdf5ReadOnly, access), "read the file: it is cut off or damaged"),
            library_.H5Fclose};
@@ -204,7 +204,7 @@ void Hdf5Reader::expect_numbers_within(const Hdf5Dataset& d) const {
        " are in other files; temper reads one");
 }
 
-// Data may be larger than the file when they are compressed or left out, and several datasets may be one.
+// Data may be larger than the file when they are compressed or left out, and several datasets may share bytes.
 std::size_t Hdf5Reader::allowed_values(const Hdf5Dataset& d) const {
   if (!d.scalar) fail(ErrorCode::unsupported, path_, "the dataset ", in_quotes(d.name), " holds no numbers");
   if (std::find(d.sizes.begin(), d.sizes.end(), 0u) != d.sizes.end()) return 0;
@@ -247,7 +247,7 @@ void Hdf5Reader::expect_integers(const Hdf5Dataset& d) const {
     fail(ErrorCode::syntax, path_, "the dataset ", in_quotes(d.name), " holds no integers");
 }
 
-// The library converts block by block, and makes the nearest number of one that does not fit.
+// The library converts block by block, and replaces a number that does not fit by the nearest one.
 std::vector<std::int32_t> Hdf5Reader::integers(const Hdf5Dataset& d) const {
   expect_integers(d);
   auto result = values_as<std::int32_t>(d, Scalar::i32);

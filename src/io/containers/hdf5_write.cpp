@@ -3,9 +3,9 @@
 //   image   what the library writes to memory: headers of groups and datasets, names, attributes
 //   file    the image, and after it the numbers of one dataset after the other
 //
-// Datasets get their room in the file as soon as they are made, and nothing is put there. The blocks in which the
-// library takes room for headers are so large that the first one is enough: it is before all numbers. (Were it not,
-// the image would grow as far as the last header, and the file would be right all the same.)
+// Datasets get their room in the file as soon as they are made, and nothing is put there. The library takes room for
+// headers in blocks so large that the first one is enough: it is before all numbers. (If it were not enough, the image
+// would grow as far as the last header, and the file would still be right.)
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -16,7 +16,7 @@
 
 namespace temper::io {
 
-// For a library in C: no exception may pass.
+// For a library in C: no exception may get through.
 H5FD_file_image_callbacks_t Hdf5Writer::callbacks(Image* image) {
   const auto allocate = [](std::size_t size, H5FD_file_image_op_t, void*) { return std::malloc(size); };
   const auto copy = [](void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*) {
@@ -56,7 +56,8 @@ Hdf5Writer::Hdf5Writer(std::string path, std::size_t objects)
 
   const Hdf5Id access = properties(library_.H5P_CLS_FILE_ACCESS_ID_g);
   H5FD_file_image_callbacks_t own = callbacks(&image_);
-  // A dataset of temper's takes 300 bytes, its name and twice what its attributes take; lists of names some kilobytes.
+  // A dataset of temper's takes 300 bytes, its name, and twice the bytes of its attributes. Lists of names take
+  // kilobytes.
   constexpr std::size_t kIncrement = std::size_t{1} << 14, kOfLists = std::size_t{1} << 13, kEach = 1024;
   check(library_.H5Pset_fapl_core(access, kIncrement, false), "begin");
   check(library_.H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "begin");

@@ -95,7 +95,7 @@ NetcdfReader::NetcdfReader(Source& source)
       library_(netcdf_library(path_)),
       id_(library_) {
   check_netcdf_header(source);
-  // In memory libnetcdf 4.9 refuses a classic file whose header goes on where its last chunk would end after the file.
+  // In memory libnetcdf 4.9 refuses a classic file whose last chunk of the header would end after the file.
   constexpr std::size_t kChunk = 1 << 16;  // at least a page
   if (!is_hdf5(source.bytes)) source.bytes.resize(source.bytes.size() + kChunk);
   check(library_.nc_open_mem(path_.c_str(), NC_NOWRITE, source.bytes.size(), source.bytes.data(), id_.to_open()),
@@ -143,7 +143,7 @@ std::string NetcdfReader::dimension_name(int dimension) const {
   return name;
 }
 
-// Data may be larger than the file when they are compressed, and several variables may be the same bytes of it.
+// Data may be larger than the file when they are compressed, and several variables may share bytes.
 Values NetcdfReader::values(const NetcdfVariable& v) const {
   if (!v.scalar) fail(ErrorCode::unsupported, path_, "variable ", v.name, " holds no numbers");
   if (std::find(v.sizes.begin(), v.sizes.end(), 0u) != v.sizes.end()) return zeros(*v.scalar, 0);

@@ -1,7 +1,7 @@
-// NetCDF files in memory, by the C library: what can go wrong is an exception, and nothing is opened by name.
+// NetCDF files in memory, by the C library: failures are exceptions, and nothing is opened by name.
 //
-// Written are the classic formats: with 64-bit offsets, or CDF-5 when the types of some array need it. Read is all that
-// the library reads, NetCDF-4 (HDF5) included.
+// The writer makes classic files: with 64-bit offsets, or CDF-5 when the types of some array need it. The reader takes
+// all that the library reads, NetCDF-4 (HDF5) included.
 #pragma once
 
 #include <netcdf.h>
@@ -56,8 +56,8 @@ struct NetcdfVariable {
   [[nodiscard]] std::size_t n_values() const;
 };
 
-/// An open file of libnetcdf's, which is closed in the end. The library keeps a table of open files that only one
-/// thread may touch at a time: others wait until this one is closed.
+/// An open file of libnetcdf, which is closed at the end. The library keeps a table of open files for one thread at a
+/// time: other threads wait until this file is closed.
 class NetcdfId {
  public:
   explicit NetcdfId(const NetcdfLibrary& library);
@@ -91,7 +91,7 @@ class NetcdfReader {
   [[nodiscard]] const NetcdfVariable& variable(std::string_view name) const;
   [[nodiscard]] std::string dimension_name(int dimension) const;
   [[nodiscard]] Values values(const NetcdfVariable& variable) const;
-  /// Of floating types, too, where all values are whole; kNoInteger for those that are not a number.
+  /// Also floating types, if all values are whole. A value that is not a number becomes kNoInteger.
   [[nodiscard]] std::vector<std::int64_t> integers(const NetcdfVariable& variable) const;
   /// Text of an attribute of a variable, or of the file when it is null; empty when there is none.
   [[nodiscard]] std::string text_attribute(const NetcdfVariable* variable, const char* name) const;
@@ -136,8 +136,8 @@ class NetcdfWriter {
   std::vector<std::pair<int, Values>> waiting_;
 };
 
-/// Says whether a file with these data has to be CDF-5: for their types, or as a variable, of which the largest one
-/// besides them has so many values of eight bytes or fewer, is longer than those of 64-bit offsets may be.
+/// Says whether a file with these data has to be CDF-5. It has to be for their types, or when a variable is too long
+/// for 64-bit offsets. The largest other variable has `most_values` values of at most eight bytes.
 [[nodiscard]] bool needs_cdf5(const MeshFile& file, std::size_t most_values);
 
 }  // namespace temper::io

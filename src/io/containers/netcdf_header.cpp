@@ -1,10 +1,10 @@
-// The header of a classic NetCDF file (CDF-1, CDF-2 and CDF-5), looked over before the library sees it: given counts
-// and offsets that are wrong, libnetcdf 4.9 may read beyond its memory.
+// Checks the header of a classic NetCDF file (CDF-1, CDF-2 and CDF-5) before the library reads it. If counts or offsets
+// are wrong, libnetcdf 4.9 may read beyond its memory.
 //
 //   magic numrecs dimensions attributes variables      lists: tag, count, entries; both zero when there are none
 //   dimension: name length    attribute: name type count values    variable: name dimensions attributes type size begin
 //
-// Numbers are big-endian, of 4 bytes, or of 8 bytes in CDF-5; offsets have 8 bytes but in CDF-1; names and values are
+// Numbers are big-endian, of 4 bytes, or of 8 bytes in CDF-5. Offsets have 8 bytes, in CDF-1 4. Names and values are
 // filled up to multiples of 4. ("File Format Specifications", NetCDF documentation.)
 #include <array>
 #include <bit>
@@ -28,7 +28,7 @@ class ClassicHeader {
     offset_bytes_ = bytes_[3] == 1 ? 4 : 8;
     at_ = 4;
     records_ = number();
-    // All ones: a file that is still being written, whose size tells.
+    // All ones: a file that is still being written; its size gives the number.
     if (records_ == (large_ ? ~std::uint64_t{0} : 0xffffffffu)) refuse("has no number of records");
     for (std::uint64_t i = list(kDimensionTag, "dimensions"); i > 0; --i) {
       name();
@@ -117,7 +117,7 @@ class ClassicHeader {
     static_cast<void>(number());  // its size once more, which NetCDF itself does not trust
     const std::uint64_t begin = big_endian(offset_bytes_);
     if (rows > bytes_.size()) refuse(text("announces ", rows, " records in ", bytes_.size(), " bytes"));
-    // Records of all variables take turns: at least one row of this one a record.
+    // Records of all variables take turns: each record has at least one row of this variable.
     if (rows == 0) return;
     if (begin > bytes_.size() || each_row > (bytes_.size() - begin) / rows)
       fail(ErrorCode::truncated, path_, "the file ends within variable ", what);

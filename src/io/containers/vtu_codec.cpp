@@ -25,7 +25,7 @@ constexpr std::array<std::uint8_t, 256> decode_table() {
 }
 constexpr std::array<std::uint8_t, 256> kDecode = decode_table();
 
-/// Six bits a character, from one to three bytes a group; a group ends at padding, too.
+/// Six bits per character, one to three bytes per group. Padding ends a group, too.
 class Base64Decoder {
  public:
   explicit Base64Decoder(char* out) : begin_(out), at_(out) {}
@@ -221,9 +221,10 @@ Blocks read_blocks(std::string_view packed, const Packing& packing) {
     fail(ErrorCode::truncated, packing.where, "compressed blocks of ", sum, " bytes, but only ", blocks.data.size(),
          " follow");
   }
-  // zlib packs at most 1032 bytes into one: whoever announces more would make us allocate for nothing.
+  // zlib packs at most 1032 bytes into one. A file that announces more would make us allocate for nothing.
   constexpr std::uint64_t kBestRatio = 1032;
-  // Divided, not multiplied: a product of what a file says may wrap around. `most` is of what the file has.
+  // Divided, not multiplied: a product of numbers from a file may wrap around. `most` is computed from the size of the
+  // file.
   const std::uint64_t most = (sum + 64 * n) * kBestRatio;
   if (blocks.last > most || (n > 1 && blocks.block > most / (n - 1))) {
     fail(ErrorCode::syntax, packing.where, "announces ", n, " blocks of ", blocks.block,
@@ -260,7 +261,7 @@ void check_whole(std::uint64_t bytes, std::size_t each, const Packing& packing) 
   fail(ErrorCode::syntax, packing.where, "has ", bytes, " bytes, which is not a multiple of ", each);
 }
 
-/// Where the system has 32 bits a file may announce more than can be counted.
+/// On a system of 32 bits a file may announce more than can be counted.
 template <class T>
 void resize(std::vector<T>& values, std::uint64_t n) {
   if (n > values.max_size()) throw std::bad_alloc();
@@ -301,7 +302,7 @@ std::string compress_block(std::string_view bytes, Redundancy redundancy) {
   constexpr int kLevel = 1, kWindowBits = 15, kMemory = 8;  // fast; the rest as compress() has it
   z_stream stream{};
   const int strategy = redundancy == Redundancy::runs ? Z_RLE : Z_DEFAULT_STRATEGY;
-  // The only errors are wrong parameters and no memory.
+  // The only possible errors are wrong parameters and lack of memory.
   if (deflateInit2(&stream, kLevel, Z_DEFLATED, kWindowBits, kMemory, strategy) != Z_OK) throw std::bad_alloc();
   std::vector<Bytef> packed(deflateBound(&stream, bytes.size()));
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));

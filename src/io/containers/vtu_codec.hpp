@@ -19,7 +19,7 @@
 
 namespace temper::io {
 
-/// Decodes in place or elsewhere (out may be in.data()). Returns the bytes written; nothing when a character is not
+/// Decodes in place (`out` is in.data()) or elsewhere. Returns the bytes written; nothing when a character is not
 /// base64's.
 [[nodiscard]] std::optional<std::size_t> decode_base64(std::string_view in, char* out);
 /// Base64 of some bytes, padded.
@@ -50,12 +50,12 @@ struct Packing {
 [[nodiscard]] Values unpack(std::string_view packed, Scalar scalar, const Packing& packing,
                             AllocationLimits& allocation, Executor* executor);
 
-/// The repetitions that zlib looks for: any string that was there before, or runs of one byte, which is far faster and
-/// loses little on the digits of measured coordinates.
+/// The repetitions that zlib looks for: any earlier string, or only runs of one byte. Runs are far faster, and lose
+/// little on the digits of measured coordinates.
 enum class Redundancy { strings, runs };
 /// One block of numbers, compressed fast rather than small.
 [[nodiscard]] std::string compress_block(std::string_view bytes, Redundancy redundancy);
-/// Runs, when that makes a first block hardly larger.
+/// Returns runs, when they make a first block hardly larger.
 [[nodiscard]] Redundancy choose_redundancy(std::string_view bytes);
 
 }  // namespace temper::io

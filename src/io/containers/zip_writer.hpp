@@ -1,8 +1,7 @@
 // A zip archive of stored entries, written front to back (APPNOTE.TXT 6.3.9 of PKWARE, §4.3).
 //
-// Nothing is compressed, so that arrays inside can be read without unpacking. Times are the first that zip knows: the
-// same content makes the same bytes. Entries or archives of 4 GiB and more use the fields of zip64, smaller ones do
-// not.
+// Nothing is compressed, so that arrays inside can be read without unpacking. All times are the earliest of zip: equal
+// content makes equal bytes. Only entries or archives of 4 GiB and more use the fields of zip64.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +15,7 @@ namespace temper::io {
 
 class ZipWriter {
  public:
-  /// Numbers from `limit` on go into fields of zip64: what does not fit 32 bits, or less, for tests.
+  /// Numbers from `limit` on go into fields of zip64: numbers beyond 32 bits, or smaller ones for tests.
   explicit ZipWriter(Output& out, std::uint64_t limit = 0xffffffffu) : out_(out), limit_(limit) {}
   /// One entry: the bytes of all parts, one after the other.
   void add(std::string_view name, const std::vector<std::string_view>& parts);

@@ -1,9 +1,8 @@
 // The conventions that the reader and the writer of ADCIRC's fort.14 share.
 //
-// A boundary is lines of one tag, and its physical name says what it is: "open boundary 2", "land boundary 3, type 20".
-// So it survives in all formats that hold names, and comes back to fort.14. Rows of boundaries with levees (weirs) hold
-// more numbers: their nodes are marked points with that tag, a node and its partner across the levee one after the
-// other.
+// A boundary is lines of one tag, and its physical name is its kind: "open boundary 2", "land boundary 3, type 20". So
+// it survives in all formats that hold names, and comes back to fort.14. On boundaries with levees (weirs) a row holds
+// more numbers. Their nodes are marked points with the same tag: a node, then its partner across the levee.
 #pragma once
 
 #include <cstdint>

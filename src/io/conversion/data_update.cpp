@@ -19,10 +19,11 @@
 namespace temper::io {
 namespace {
 
-/// Flags of medit say what is special about a point of the user's: nothing is about a new one.
+/// Flags of medit mark special points of the user's: a new point has none.
 bool is_flag(const DataArray& a) { return a.name == "medit:corner" || a.name == "medit:required"; }
 
-/// At a place: of floating numbers the linear interpolation, of integers what all corners have in common, if anything.
+/// The value at a place: the linear interpolation of floating numbers; the common value of integers at all corners, if
+/// any.
 template <class T>
 std::optional<T> value_at(const std::vector<T>& values, std::size_t n, std::size_t component, const Place& place) {
   const auto at_corner = [&](VertexId v) { return values[n * v.index + component]; };
@@ -86,14 +87,14 @@ class DataUpdater {
     report_.triangles = mesh_.n_triangles();
     for (const TriangleId t : mesh_.triangles()) report_.triangles_changed += is_same(t) ? 0 : 1;
   }
-  /// Of a vertex that was there: from its place in the file.
+  /// The distance of an old vertex from its place in the file.
   [[nodiscard]] double distance_from_before(VertexId v) const {
     const std::size_t was = former(v).index;
     const Space& space = mesh_.space();
     const WeightedPoint now = mesh_.point(v), before = as_point(position_of(file_, was));
     return space.same_place(space.in_domain(before), now) ? 0 : distance(space, before, space.image(now, before));
   }
-  /// Triangle t has the corners that the file's has, at the same places.
+  /// Says whether triangle t has the same corners as in the file, at the same places.
   [[nodiscard]] bool is_same(TriangleId t) const {
     if (t.index >= file_.triangles.size()) return false;
     auto before = file_.triangles[t.index];
@@ -151,7 +152,7 @@ class DataUpdater {
     }
     warn_of_dropped(why);
   }
-  /// The array at the vertices of the mesh; nothing when integers around a new one have nothing in common.
+  /// The array at the vertices of the mesh; nothing when integers around a new vertex differ.
   [[nodiscard]] std::optional<Values> at_vertices(const DataArray& a) const {
     const bool stays = options_.rules.of(a) == DataRule::keep || places_.empty();
     const auto n = static_cast<std::size_t>(a.components);
@@ -183,8 +184,8 @@ class DataUpdater {
   const Mesh& mesh_;
   const Former& former_;
   const UpdateOptions& options_;
-  IdVector<VertexId, Place> places_;          // in the mesh of before; empty: not needed
-  IdVector<TriangleId, TriangleId> sources_;  // triangles of the mesh of before; empty: the same
+  IdVector<VertexId, Place> places_;          // in the former mesh; empty: not needed
+  IdVector<TriangleId, TriangleId> sources_;  // triangles of the former mesh; empty: unchanged
   DataReport report_;
 };
 
@@ -279,7 +280,7 @@ class Chains {
   }
 
   [[nodiscard]] const std::vector<Chain>& all() const { return chains_; }
-  /// The shortest one from a to b, from a on; empty when there is none.
+  /// The shortest chain from a to b, starting at a; empty when there is none.
   [[nodiscard]] std::vector<VertexId> between(VertexId a, VertexId b) const {
     const Chain* shortest = nullptr;
     double least = std::numeric_limits<double>::infinity();
@@ -312,7 +313,7 @@ class Chains {
     chains_.push_back(std::move(chain));
   }
 
-  /// Past `at`, coming from `from`, to the first vertex that is not an inserted one within a line.
+  /// Walks past `at`, coming from `from`, to the first vertex that is not inserted within a line.
   VertexId walk(VertexId from, VertexId at, std::vector<VertexId>& passed) {
     while (inserted(at) && seen_[at] == 0) {
       const std::vector<VertexId> ends = along_lines(mesh_, at);

@@ -1,4 +1,4 @@
-// What of a file follows a mesh that has changed: data of points and triangles, and lines.
+// The parts of a file that follow a changed mesh: data of points and triangles, and lines.
 #pragma once
 
 #include <cstdint>
@@ -9,23 +9,23 @@
 
 namespace temper::io {
 
-/// The point of a file that each vertex was, invalid for one that was none; empty: the same numbers.
+/// The former point of each vertex in a file, invalid for a new vertex; empty: equal numbers.
 using Former = IdVector<VertexId, VertexId>;
 
-/// Data of the file for the vertices and triangles of the mesh: see update(). Reads the points, triangles and regions
-/// of before, which the file still has.
+/// Data of the file for the vertices and triangles of the mesh: see update(). Reads the former points, triangles and
+/// regions, which the file still has.
 DataReport update_data(MeshFile& file, const Mesh& mesh, const Former& former, const UpdateOptions& options);
 
-/// Cuts the lines of the file, which are numbered as the mesh is, where the mesh has inserted vertices (`vertices`
-/// invalid) on them. In files where every boundary point carries a marker (Triangle, medit), a new point of the
-/// boundary gets that of its neighbors when it is the same.
+/// Cuts the lines of the file at vertices that the mesh has inserted on them (`vertices` invalid). The lines have the
+/// numbers of the mesh. In files with a marker for every boundary point (Triangle, medit), a new boundary point gets
+/// the marker of its neighbors if both have the same.
 void split_lines(MeshFile& file, const Mesh& mesh, const IdVector<VertexId, VertexId>& vertices);
 
 // Lines that list the edges of a mesh, and no features of it.
 //
 // Some programs (Fluidity, whose meshes come from Triangle's edges) write each edge of a mesh as a line of tag 0. If
-// these were constraints, nothing could flip. So where all inner edges are lines of one tag, these say no more than
-// the triangles do: they constrain nothing, and the file that is written has such a line for each inner edge again.
+// these were constraints, nothing could flip. So if all inner edges are lines of one tag, these constrain nothing. The
+// file that is written again has such a line for each inner edge.
 
 /// Lines on all inner edges of a mesh, of one tag.
 struct EdgeLines {
@@ -33,17 +33,17 @@ struct EdgeLines {
   std::int32_t tag = 0;
   std::size_t n_inner_edges = 0;  ///< of the mesh
 };
-/// The edge lines of a file; nothing where not all inner edges are lines of one tag, or there is but one. `edges` has
-/// the edge of each line, invalid where there is none. O(n).
+/// The edge lines of a file. Nothing if not all inner edges are lines of one tag, or there is only one. `edges` has the
+/// edge of each line, invalid if it has none. O(n).
 [[nodiscard]] std::optional<EdgeLines> find_edge_lines(const MeshFile& file, const VertexOfPoint& vertex_of_point,
                                                        const Mesh& mesh, const std::vector<HalfedgeId>& edges);
 
-/// Puts edges that flips have made into the place of those that are gone. The vertices are those of the lines, and
+/// Puts the edges that flips have made into the place of the edges that are gone. The vertices of the lines stay, and
 /// edge_lines stays right. O(n log n).
 void replace_edge_lines(MeshFile& file, const std::vector<bool>& edge_lines, const Mesh& mesh);
 
-/// For meshes whose vertices are others: the lines are taken out before the rest of the file follows, and put behind
-/// all other lines afterwards, one for each inner edge.
+/// For meshes with other vertices: takes the lines out before the rest of the file follows. Afterwards it puts them
+/// behind all other lines, one for each inner edge.
 class EdgeLinesTakenOut {
  public:
   EdgeLinesTakenOut(MeshFile& file, const std::vector<bool>& edge_lines);

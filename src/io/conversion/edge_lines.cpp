@@ -38,7 +38,7 @@ std::size_t first_of(const std::vector<bool>& edge_lines) {
   return static_cast<std::size_t>(std::find(edge_lines.begin(), edge_lines.end(), true) - edge_lines.begin());
 }
 
-/// Drops arrays that say different things of different edges: nothing says what they would be on a new one.
+/// Drops arrays that differ between edges: they have no value for a new edge.
 void drop_what_differs(MeshFile& file, const std::vector<bool>& edge_lines) {
   const std::size_t first = first_of(edge_lines);
   const auto differs = [&](const DataArray& array) {
@@ -103,13 +103,13 @@ void replace_edge_lines(MeshFile& file, const std::vector<bool>& edge_lines, con
   std::vector<EdgeEnds> gone, made;
   std::set_difference(listed.begin(), listed.end(), edges.begin(), edges.end(), std::back_inserter(gone));
   std::set_difference(edges.begin(), edges.end(), listed.begin(), listed.end(), std::back_inserter(made));
-  if (gone.empty() || gone.size() != made.size()) return;  // those of another mesh are not replaced
+  if (gone.empty() || gone.size() != made.size()) return;  // lines of another mesh are not replaced
   for (std::size_t i = 0; i < edge_lines.size(); ++i) {
     if (!edge_lines[i]) continue;
     const EdgeEnds ends = edge_ends(file.lines[i][0], file.lines[i][1]);
     const auto found = std::lower_bound(gone.begin(), gone.end(), ends);
     if (found == gone.end() || *found != ends) continue;
-    // Flips leave the number of edges as it is, so there is one for each.
+    // Flips keep the number of edges, so there is one for each.
     file.lines[i] = made[static_cast<std::size_t>(found - gone.begin())];
   }
   drop_what_differs(file, edge_lines);

@@ -13,7 +13,7 @@
 namespace temper::io {
 namespace {
 
-// Of the radius, or of the extent of a plane: what is left of coordinates with seven digits.
+// Relative to the radius, or to the extent of a plane: the precision of coordinates with seven digits.
 constexpr double kOff = 1e-6;
 
 bool is_off(double distance, double radius) { return !(std::abs(distance - radius) <= kOff * radius); }
@@ -65,7 +65,7 @@ double extent(const std::vector<Vec3>& points) {
 }
 
 struct PlaneFit {
-  std::size_t first = 0, worst = 0;  // points of triangles: that whose z is that of the plane, and that most off it
+  std::size_t first = 0, worst = 0;  // of triangles: one gives the plane its z, one is farthest off it
   double off = 0;                    // how far
   std::vector<std::size_t> unused;   // points of no triangle that are not in the plane
 };
@@ -227,7 +227,7 @@ std::optional<double> common_radius(const std::vector<Vec3>& points) {
   const double radius = median_distance(points);
   const auto off = [radius](Vec3 p) { return is_off(length(p), radius); };
   if (!(radius > 0) || std::any_of(points.begin(), points.end(), off)) return std::nullopt;
-  // A radius that somebody wrote down has few digits.
+  // A radius that a person wrote has few digits.
   const double places = 11 - std::floor(std::log10(radius)), power = std::pow(10, std::abs(places));
   const double rounded = places > 0 ? std::round(radius * power) / power : std::round(radius / power) * power;
   return std::abs(rounded - radius) < 1e-14 * radius ? rounded : radius;
@@ -358,7 +358,7 @@ std::string needs_projection(bool guessed, std::string_view onto_sphere) {
 
 namespace {
 
-/// The radius that "sphere" or "sphere:radius=R" says; nothing for other words.
+/// The radius in "sphere" or "sphere:radius=R"; nothing for other words.
 std::optional<Expected<double>> radius_of_sphere(std::string_view words) {
   if (words == kOntoSphere) return Projection{}.radius;
   constexpr std::string_view kRadius = ":radius=";

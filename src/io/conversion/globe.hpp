@@ -15,23 +15,23 @@
 
 namespace temper::io {
 
-/// The unit vector to the east, on the axis that of longitude 0.
+/// The unit vector to the east; on the axis, the east of longitude 0.
 [[nodiscard]] Vec3 east_of(Vec3 direction);
 
-/// Puts points, which are degrees, onto the sphere. Fails where a latitude or a longitude is none.
+/// Puts points in degrees onto the sphere. Fails if a latitude or a longitude is out of range.
 void put_on_sphere(MeshFile& file, double radius, const InputNames& names);
-/// Makes the sphere one of another radius, with weights that leave the power diagram as it is.
+/// Changes the radius of the sphere, with weights that keep the power diagram.
 void resize_sphere(MeshFile& file, double radius);
-/// Makes a file of points in space one of points on the sphere.
+/// Turns points in space into points on the sphere.
 void set_sphere(MeshFile& file, double radius, std::vector<Vec3> points);
 
 /// Gives a file points with three coordinates, as set_points() does, with these names in errors.
 void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& names);
 
-/// The radius that all points have, to one part in a million; nothing where they have none in common.
+/// The radius of all points, to one part in a million; nothing if they have none in common.
 [[nodiscard]] std::optional<double> common_radius(const std::vector<Vec3>& points);
 
-/// Where a point is, in three coordinates.
+/// The position of a point, in three coordinates.
 [[nodiscard]] inline Vec3 position_of(const MeshFile& file, std::size_t point) {
   const Vec2 p = file.points[point];
   return file.sphere() != nullptr ? file.sphere()->places[point] : Vec3{p.x, p.y, file.z()};
@@ -44,20 +44,20 @@ void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& n
 /// Says whether points are in the plane z = 0.
 [[nodiscard]] bool is_flat(const MeshFile& file);
 
-/// Which of the first n points are corners of triangles.
+/// For each of the first n points: is it the corner of a triangle?
 [[nodiscard]] std::vector<bool> points_of_triangles(const MeshFile& file, std::size_t n);
 
-/// Says whether points are degrees in a format that does not tell, of water with depths: they are in the range of
-/// longitude and latitude, and lengths would be less than depths. Models of shallow water make no sense there.
+/// Guesses whether points are degrees, in a format that does not say it, with depths of water. They are when they fit
+/// longitude and latitude, and as lengths would be less than the depths. Models of shallow water make no sense there.
 [[nodiscard]] bool look_like_degrees(std::span<const Vec2> points, std::span<const double> depths);
 
-/// Point data by which a mesh in the plane knows where on the globe it is: temper mesh writes them.
+/// Point data with the place on the globe of each point of a plane mesh: temper mesh writes them.
 inline constexpr std::string_view kLongitude = "longitude", kLatitude = "latitude";
 
-/// Longitude and latitude of the points of a file [degrees]; nothing when it has neither a map nor data that say it.
+/// Longitude and latitude of the points of a file [degrees]; nothing when it has neither a map nor such data.
 [[nodiscard]] std::optional<std::vector<Vec2>> lon_lat_of_points(const MeshFile& file);
-/// The same of any places of its mesh, where those of the points are known: by the map, or linear on the sphere between
-/// corners.
+/// Longitude and latitude of any places of its mesh, if the file has them for its points: by the map, or linear on the
+/// sphere between corners.
 [[nodiscard]] std::vector<Vec2> lon_lat_of_places(const MeshFile& file, const Mesh& mesh, std::span<const Vec2> places);
 
 /// The file with its points in degrees; those must be known.

@@ -1,7 +1,7 @@
 // From the arrays of a file to a mesh.
 //
-// Points of no triangle are left out of the mesh, tagged lines inside the domain become constrained edges unless they
-// list all edges of the mesh, points of fixed tags and those that medit calls required are fixed.
+// Points of no triangle are left out of the mesh. Tagged lines inside the domain become constrained edges, unless they
+// list all edges of the mesh. Points of fixed tags are fixed, and points that medit calls required.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -20,13 +20,13 @@
 namespace temper::io {
 namespace {
 
-// What is behind an error of the mesh, where the file shows it: meshes that are right where they come from, and that
-// temper has no place for.
+// The cause of an error of the mesh, if the file shows it: meshes that their program accepts, and temper does not
+// support.
 
 // ADCIRC's IBTYPE of vertical element walls: weirs without width, whose sides are nodes at one place.
 constexpr std::int32_t kVerticalElementWall = 64;
 
-/// Errors come before all numbers are known to be right, in a mesh that was made by hand.
+/// In a mesh that was made by hand, errors may come before all numbers are known to be right.
 bool numbers_are_right(const MeshFile& file) {
   const auto right = [&](std::int32_t p) { return p >= 0 && static_cast<std::size_t>(p) < file.points.size(); };
   return !file.points.empty() && file.point_tags.size() == file.marked_points.size() &&
@@ -35,7 +35,7 @@ bool numbers_are_right(const MeshFile& file) {
                      [&](const auto& triangle) { return std::all_of(triangle.begin(), triangle.end(), right); });
 }
 
-/// Names the first node of a levee or wall that is where its partner is.
+/// Names the first node of a levee or wall at the place of its partner.
 std::optional<InputError> sides_at_one_place(const MeshFile& file, const InputNames& names) {
   const DataArray* data = find(file.marked_point_data, kAdcircSide);
   const auto sides = data == nullptr ? std::nullopt : to_int32(data->values);
@@ -71,7 +71,8 @@ double width_in_degrees(const MeshFile& file, const Points& points) {
   return x(*east) - x(*west);
 }
 
-/// Triangles over more than half of a mesh that does not go around the globe join its ends, but for meshes of a few.
+/// If triangles span more than half of a mesh that does not go around the globe, they join its ends. Meshes of a few
+/// triangles are excepted.
 std::string cyclic_in_longitude(const MeshFile& file) {
   constexpr double kAround = 270;     // degrees: with wide triangles a mesh around the globe may look as narrow
   constexpr std::size_t kFewest = 4;  // times as many triangles as those that join
@@ -89,8 +90,8 @@ std::string cyclic_in_longitude(const MeshFile& file) {
               "periodic plane, of MPAS, VTU or VTKHDF files");
 }
 
-/// The error that a mesh of the file was refused with, in words of its format where the cause is known: sides of
-/// ADCIRC's vertical element walls, and meshes of FESOM that are cyclic in longitude.
+/// The error that a mesh of the file was refused with, in words of its format if the cause is known. Causes are the
+/// sides of ADCIRC's vertical element walls, and meshes of FESOM that are cyclic in longitude.
 InputError with_known_cause(InputError error, const MeshFile& file, const InputNames& names) {
   if (!numbers_are_right(file)) return error;
   if (error.code == ErrorCode::duplicate_point) {
@@ -173,8 +174,8 @@ bool contains(const std::vector<std::int32_t>& tags, std::int32_t tag) {
   return std::find(tags.begin(), tags.end(), tag) != tags.end();
 }
 
-// A turn of the boundary by more than this (radians) is a corner, which stays anyway; the optimizer's own measure of
-// what is straight is far below.
+// If the boundary turns by more than this (radians), the vertex is a corner, and stays anyway. The optimizer's own
+// bound of what is straight is far lower.
 constexpr double kCorner = 1e-6;
 
 bool is_corner(const Mesh& mesh, VertexId v) {
@@ -285,7 +286,7 @@ class MeshMaker {
     auto triangles = file_.triangles;
     for (auto& triangle : triangles) {
       for (std::int32_t& p : triangle) {
-        // Out of range numbers stay so, for Mesh::build to refuse.
+        // Numbers out of range stay, for Mesh::build to refuse.
         p = p >= 0 && static_cast<std::size_t>(p) < vertex.size() ? vertex[static_cast<std::size_t>(p)]
                                                                   : std::int32_t{-1};
       }
@@ -298,8 +299,8 @@ class MeshMaker {
     input.names = &kept;
     return Mesh::build(input);
   }
-  // All at once: around a vertex with very many lines, looking for one after the other would take the square of their
-  // number.
+  // Finds the edges of all lines together. At a vertex with very many lines, one search per line would take the square
+  // of their number.
   void find_edges() {
     const auto& vertex = loaded_.vertex_of_point;
     using Ends = std::pair<std::int32_t, std::int32_t>;
@@ -356,7 +357,7 @@ class MeshMaker {
                                  : "lines to points of no triangle are dropped with them",
                   dropped));
   }
-  /// Fixes the points of straight pieces of the boundary where tagged lines end or another tag begins: if such a point
+  /// Fixes points of straight pieces of the boundary if tagged lines end there or the tag changes. If such a point
   /// slid, the user's groups would change their shape.
   void fix_ends_of_tags() {
     if (file_.lines.empty()) return;

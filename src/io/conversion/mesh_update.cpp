@@ -1,7 +1,7 @@
 // From a mesh back to the arrays of the file that it came from.
 //
-// Coordinates, weights, triangles and regions are the mesh's; everything else is the file's and goes with its point,
-// its line or its triangle; data_update.cpp says how data of points and triangles follow.
+// Coordinates, weights, triangles and regions are the mesh's. Everything else is the file's, and goes with its point,
+// its line or its triangle. data_update.cpp moves data of points and triangles.
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -19,7 +19,7 @@
 namespace temper::io {
 namespace {
 
-/// Points of vertices that have not moved are the images that the file has; all others are in the domain.
+/// Vertices that have not moved keep the image that the file has; all others are in the domain.
 void copy_periodic(MeshFile& file, const Mesh& mesh, const Former& former) {
   const Space& space = mesh.space();
   if (!(file.space() == space)) file.points_in = PeriodicPoints{space.period(), file.z()};  // rounded, the file's
@@ -38,7 +38,7 @@ void copy_periodic(MeshFile& file, const Mesh& mesh, const Former& former) {
   file.points = std::move(points);
 }
 
-/// Copies what is on the mesh to arrays of its own vertices.
+/// Copies the mesh's data to arrays for its own vertices.
 void copy_plane(MeshFile& file, const Mesh& mesh) {
   file.points.resize(mesh.n_vertices());
   file.weights.resize(mesh.n_vertices());
@@ -48,7 +48,7 @@ void copy_plane(MeshFile& file, const Mesh& mesh) {
   }
 }
 
-/// Points and degrees of vertices that have not moved stay as they are, and weights that give the same vertex.
+/// Vertices that have not moved keep their points and degrees, and weights that give the same vertex.
 void copy_sphere(MeshFile& file, const Mesh& mesh, const Former& former) {
   const std::span<const Vec3> before = sphere_places(file);
   std::vector<Vec2> degrees;
@@ -67,7 +67,7 @@ void copy_sphere(MeshFile& file, const Mesh& mesh, const Former& former) {
     } else {
       places.push_back(mesh.space().place(as_point(p)));
       degrees.push_back(lon_lat_of(p));
-      // From −180 to 180, or from 0 to 360: as the file has it around there.
+      // From −180 to 180, or from 0 to 360: as in the file near this point.
       if (was < file.points.size()) {
         degrees.back().x += 360 * std::round((file.points[was].x - degrees.back().x) / 360);
       }
@@ -151,7 +151,7 @@ void drop_unused_points(MeshFile& file, const VertexOfPoint& vertex_of_point) {
   renumber(file, [&](std::int32_t p) { return vertex_of_point[static_cast<std::size_t>(p)]; });
 }
 
-/// The point whose place in the plane each vertex has, bit for bit.
+/// For each vertex the point at its place in the plane, bit for bit.
 Former vertices_by_place_in_plane(const std::vector<Vec2>& points, const Mesh& mesh) {
   std::unordered_map<Vec2, VertexId, PlaceHash> places;
   for (std::size_t p = 0; p < points.size(); ++p) {
@@ -165,13 +165,13 @@ Former vertices_by_place_in_plane(const std::vector<Vec2>& points, const Mesh& m
   return former;
 }
 
-/// Points of a sphere by their place. Weights round places, so they are looked for in cells far larger than that.
+/// Points of a sphere by their place. Weights round places, so the search uses cells much larger than this rounding.
 class PlacesOnSphere {
  public:
   PlacesOnSphere(std::span<const Vec3> points, const Space& space) : points_(points), space_(space) {
     for (std::size_t p = 0; p < points.size(); ++p) cells_.emplace(cell(direction(points[p])), VertexId(p));
   }
-  /// The point at the place of p, which is in its cell or just across the sides of that; invalid: there is none.
+  /// The point at the place of p, which is in its cell or just across a side of the cell; invalid: none.
   [[nodiscard]] VertexId find(const Vec3& p) const {
     const Vec3 middle = direction(p);
     for (const double x : {-kRounded, kRounded}) {
@@ -188,7 +188,7 @@ class PlacesOnSphere {
   }
 
  private:
-  static constexpr double kRounded = 0x1p-46;       // more than same_place() allows, and than direction() rounds
+  static constexpr double kRounded = 0x1p-46;       // above same_place()'s tolerance and direction()'s rounding
   static constexpr double kCellsOfRadius = 0x1p36;  // on the Earth a cell is a tenth of a millimeter wide
   static Vec3 direction(const Vec3& p) { return (1 / length(p)) * p; }
   static Vec3 cell(const Vec3& p) {
@@ -200,7 +200,7 @@ class PlacesOnSphere {
   std::unordered_multimap<Vec3, VertexId, PlaceHash> cells_;
 };
 
-/// The point that each vertex is at the place of.
+/// For each vertex the point at its place.
 Former vertices_by_place(const MeshFile& file, const Mesh& mesh) {
   if (file.sphere() == nullptr) return vertices_by_place_in_plane(file.points, mesh);
   const PlacesOnSphere places(file.sphere()->places, mesh.space());
@@ -213,7 +213,7 @@ Former vertices_by_place(const MeshFile& file, const Mesh& mesh) {
 
 using NewNumbers = std::vector<std::int32_t>;  // of the points before; −1: removed
 
-/// A vertex on a straight line may be removed: the two lines that met there are one.
+/// A vertex on a straight line may be removed: the two lines that met there become one.
 ///
 ///     a --i-- v --j-- b     becomes    a --i-- b
 class LineMerger {
@@ -225,7 +225,7 @@ class LineMerger {
       }
     }
   }
-  /// Lines that others stand for now. They are left with a removed vertex at both ends, for renumber() to drop.
+  /// Lines that were merged into others get a removed vertex at both ends, for renumber() to drop.
   std::size_t merge() {
     std::size_t merged = 0;
     for (std::size_t p = 0; p < new_index_.size(); ++p) merged += merge_at(static_cast<std::int32_t>(p)) ? 1 : 0;
@@ -253,7 +253,7 @@ class LineMerger {
   std::unordered_map<std::int32_t, std::vector<std::size_t>> lines_at_;  // of removed points
 };
 
-/// Lines and marked points of n points go on with the vertices that these have become.
+/// Lines and marked points of n points get the vertices that these points have become.
 void follow(MeshFile& file, std::size_t n, const Mesh& mesh, const Former& former) {
   NewNumbers new_index(n, -1);
   for (const VertexId v : mesh.vertices()) {
@@ -275,10 +275,10 @@ bool same_numbers(const Former& former, std::size_t n) {
   return former.size() == n;
 }
 
-/// Lines and marked points of n points become those of the mesh.
+/// Renumbers the lines and marked points of a file with n points for the mesh.
 void update_lines(MeshFile& file, std::size_t n, const LoadedMesh& loaded, const Mesh& mesh, const Former& former) {
   const std::vector<bool>& edge_lines = loaded.edge_lines;
-  // Of a file that was changed meanwhile nothing is known.
+  // If the file was changed meanwhile, nothing is known of its lines.
   const bool has_edge_lines = !edge_lines.empty() && edge_lines.size() == file.lines.size();
   if (has_edge_lines && same_numbers(former, n)) {
     replace_edge_lines(file, edge_lines, mesh);
@@ -310,7 +310,7 @@ DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
   update_lines(file, n_before, loaded, mesh, former);
   copy_vertices(file, mesh, former);
   copy_triangles(file, mesh);
-  if (has_unused || !former.empty()) file.numbering = nullptr;  // its numbers are no longer those of the points
+  if (has_unused || !former.empty()) file.numbering = nullptr;  // its numbers no longer fit the points
   return report;
 }
 
@@ -329,7 +329,7 @@ MeshFile from_mesh(const Mesh& mesh) {
   copy_triangles(file, mesh);
   for (const HalfedgeId h : mesh.halfedges()) {
     if (!mesh.is_constrained(h) || mesh.is_boundary(h) || !mesh.is_edge_representative(h)) continue;
-    // An interface between regions is constrained by them; any other line has to be written.
+    // An interface between regions is constrained by its regions; any other line has to be written.
     if (mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(mesh.twin(h)))) continue;
     file.lines.push_back(
         {static_cast<std::int32_t>(mesh.origin(h).index), static_cast<std::int32_t>(mesh.target(h).index)});

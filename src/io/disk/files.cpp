@@ -86,7 +86,7 @@ namespace {
 
 constexpr std::size_t kBuffer = std::size_t{1} << 18;
 
-/// False: errno says why.
+/// False: errno has the reason.
 bool write_all(int file, const char* bytes, std::size_t n) {
   while (n > 0) {
     const ssize_t written = ::write(file, bytes, n);
@@ -98,7 +98,7 @@ bool write_all(int file, const char* bytes, std::size_t n) {
   return true;
 }
 
-/// A disk that is full or broken may say so only now. Some file systems cannot be asked.
+/// Fails on a full or broken disk, which may become known only now. Some file systems do not support fsync.
 bool reach_disk(int file) { return fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS; }
 
 }  // namespace

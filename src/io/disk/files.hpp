@@ -1,4 +1,4 @@
-// What the disk has at a path, and files written whole or not at all. (By POSIX: libc++ for WebAssembly has no
+// The state of the disk at a path, and files written whole or not at all. (By POSIX: libc++ for WebAssembly has no
 // std::filesystem.)
 #pragma once
 
@@ -26,12 +26,12 @@ struct OnDisk {
   [[nodiscard]] bool exists() const { return kind != Kind::nothing; }
 };
 
-/// What cannot be looked at is nothing: whoever opens it hears why.
+/// A path that cannot be examined counts as nothing: opening it gives the reason.
 [[nodiscard]] OnDisk look_at(const std::string& path);
 
 [[nodiscard]] inline bool exists(const std::string& path) { return look_at(path).exists(); }
 
-/// Nothing can be put beside it: a pipe, a device, and standard output, even where it goes to a file.
+/// Says whether no file can be put next to it: a pipe, a device, and standard output, even if it goes to a file.
 [[nodiscard]] bool is_stream(const std::string& path);
 
 /// A whole file in memory.
@@ -42,32 +42,32 @@ struct Source {
   AllocationLimits allocation = {};
 };
 
-/// Reads a file, or says why not: missing, a directory, empty.
+/// Reads a file, or fails with the reason: missing, a directory, empty.
 [[nodiscard]] Source load(const std::string& path);
-/// At most n bytes that a file begins with; none where it cannot be read.
+/// At most the first n bytes of a file; none if it cannot be read.
 [[nodiscard]] std::string first_bytes(const std::string& path, std::size_t n);
 /// PATH without its last suffix, when that is `suffix`; else PATH.
 [[nodiscard]] std::string without_suffix(const std::string& path, std::string_view suffix);
 
-/// Lets the system have the memory that was freed between what is in use, where the C library keeps it: what reading a
-/// large file has left would count on top of all that comes after.
+/// Returns freed memory to the system if the C library keeps it between blocks in use. Otherwise the memory for reading
+/// a large file would add to all later memory.
 void give_memory_back();
 
-// Files written whole or not at all: everything goes to temporary files beside their targets, and only when all
-// of them are complete are they renamed. What is no regular file (a pipe, /dev/stdout) is written directly.
+// Files written whole or not at all. Everything goes to temporary files next to their targets, which are renamed only
+// when all are complete. A target that is no regular file (a pipe, /dev/stdout) is written directly.
 
-// Temporary files beside the files whose place they take, and what becomes of them when a run does not end well.
+// Temporary files next to their targets, and their fate when a run does not end well.
 //
 //   OUT.tmp0   new bytes, locked by the run that writes them; renamed to OUT when they are whole
 //
 // A run that fails removes its own, and so does a signal that ends the program (io::discard_unfinished). A run that is
-// killed leaves them. They are in nobody's way: the lock ended with its owner, so the next run that writes OUT removes
-// OUT.tmp0 and makes its own.
+// killed leaves them, without harm: the lock ended with its owner. So the next run that writes OUT removes OUT.tmp0 and
+// makes its own.
 
 class Temporary {
  public:
   Temporary() = default;
-  /// Made empty beside `target`, for this run alone. On failure there is none, and errno says why.
+  /// Makes an empty file next to `target`, for this run alone. On failure there is none, and errno has the reason.
   static Temporary beside(const std::string& target);
   Temporary(Temporary&& other) noexcept { *this = std::move(other); }
   Temporary& operator=(Temporary&& other) noexcept;
@@ -77,11 +77,11 @@ class Temporary {
 
   [[nodiscard]] bool exists() const { return !path_.empty(); }
   [[nodiscard]] const std::string& path() const { return path_; }
-  /// The file, open for writing, to be closed by the caller; −1: errno says why. (What holds the lock stays here.)
+  /// The file, open for writing, to be closed by the caller; −1: errno has the reason. (The lock stays here.)
   [[nodiscard]] int open() const;
-  /// Gives it the permissions of the file whose place it is to take, as far as it may have them.
+  /// Gives it the permissions of the target, as far as it may have them.
   void take_permissions(const std::string& target) const;
-  /// Puts it in the place of `target`. False: errno says why, and nothing has changed.
+  /// Puts it in the place of `target`. False: errno has the reason, and nothing has changed.
   bool rename_to(const std::string& target);
   void remove();
 
@@ -94,7 +94,7 @@ class Temporary {
   int lock_ = -1;          // the open file that has it
 };
 
-/// The path of the file itself, where links lead to it.
+/// The path of the file itself, if links lead to it.
 [[nodiscard]] std::string without_links(const std::string& path);
 
 class Output {
@@ -147,8 +147,8 @@ class Output {
   std::size_t used_ = 0;
 };
 
-/// The files of one write: renamed when all are whole, one after the other, so that an error or a kill just then leaves
-/// new ones beside old ones.
+/// The files of one write. They are renamed when all are whole, one after the other: an error or a kill just then
+/// leaves new files next to old ones.
 class OutputSet {
  public:
   Output& open(const std::string& path);

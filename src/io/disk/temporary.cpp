@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::size_t kEntries = 32, kNoEntry = kEntries;  // more at once than any format writes
 
-/// The list of what is to be removed when the program ends, where the handler of a signal may read it: no storage that
-/// is ever freed.
+/// The list of files to remove when the program ends. The handler of a signal may read it, so its storage is never
+/// freed.
 struct Entry {
   enum State : int { free, being_written, listed };
   std::atomic<int> state = free;
@@ -36,9 +36,9 @@ void strike(std::size_t entry) {
   if (entry != kNoEntry) entries[entry].state = Entry::free;
 }
 
-/// A place in the list for a file that is about to be made, and goes into it before any signal ends the program: this
-/// thread takes none so long, and the handler in another one waits. A path that the list has no room for stays where it
-/// is when the program ends: the next run takes it.
+/// A place in the list for a file that is about to be made; the file is in the list before any signal ends the program.
+/// This thread is always fast enough, and the handler in another thread waits. If the list is full, the file stays when
+/// the program ends, and the next run removes it.
 class Place {
  public:
   Place() {
@@ -70,7 +70,7 @@ class Place {
   std::size_t entry_ = kNoEntry;
 };
 
-/// Waits for the file that another thread is just making, a second at most.
+/// Waits at most a second for the file that another thread is making.
 void wait_for(const Entry& entry) {
   constexpr timespec kMillisecond = {0, 1000000};
   for (int i = 0; i < 1000 && entry.state == Entry::being_written; ++i) nanosleep(&kMillisecond, nullptr);
@@ -78,8 +78,8 @@ void wait_for(const Entry& entry) {
 
 bool lock(int file) { return flock(file, LOCK_EX | LOCK_NB) == 0; }
 
-/// Says whether the file that is open is the one of this name, and this user's own. Its owner may have renamed it just
-/// before the lock was ours.
+/// Says whether the open file is still the file of this name, and belongs to this user. Its owner may have renamed it
+/// just before we got the lock.
 bool is_ours(int file, const std::string& path) {
   struct stat opened, named;
   return fstat(file, &opened) == 0 && lstat(path.c_str(), &named) == 0 && S_ISREG(opened.st_mode) &&
@@ -87,7 +87,7 @@ bool is_ours(int file, const std::string& path) {
          opened.st_uid == geteuid();
 }
 
-/// Removes what a killed run has left. False when the file is not that.
+/// Removes a file that a killed run has left. False when the file is something else.
 bool remove_left_over(const std::string& path) {
   const int file = ::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return false;
@@ -96,11 +96,11 @@ bool remove_left_over(const std::string& path) {
   return removed;
 }
 
-/// A file that was not there, locked; −1 when there is none, with EEXIST when another run has this name.
+/// A new file, locked; −1 when there is none, with EEXIST when another run has this name.
 int create(const std::string& path) {
   constexpr mode_t kAsUsual = 0666;  // less what the user's mask takes away
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kAsUsual);
-  // A file system without locks has no run that takes it for left over, either.
+  // In a file system without locks no other run takes the file for left over, either.
   if (file < 0 || lock(file) || errno != EWOULDBLOCK) return file;
   close(file);
   errno = EEXIST;
@@ -165,7 +165,7 @@ void Temporary::remove() {
   end();
 }
 
-/// The file has gone, whichever way.
+/// The file no longer exists, renamed or removed.
 void Temporary::end() {
   path_.clear();
   strike(entry_);

@@ -1,5 +1,5 @@
-// Temporary files where the program is alone, in the browser's memory: no other run writes the same file or has left
-// one behind, and no signal ends this one. (temporary.cpp is for all other systems.)
+// Temporary files of a program that is alone, in the browser's memory. No other run writes the same file or leaves one
+// behind, and no signal ends this run. (temporary.cpp is for all other systems.)
 #include <fcntl.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 // ADCIRC's grid and boundary file, fort.14: a title, "NE NP", nodes "number x y depth", elements "number 3 a b c", then
-// strings of boundary nodes. What follows on a line is a comment.
+// strings of boundary nodes. The rest of a line is a comment.
 //
 //   NOPE, NETA, and for each open boundary   NVDLL IBTYPEE, then its nodes
 //   NBOU, NVEL, and for each land boundary   NVELL IBTYPE, then its nodes, with more numbers where there are levees:
@@ -8,7 +8,7 @@
 //     5 25          node partner height coefficient coefficient, height, coefficient and diameter of a pipe
 //
 // (ADCIRC users' manual, fort.14.) ADCIRC itself closes islands (types 1, 11, 21) whose last node is not their first.
-// SCHISM reads no types (hgrid.gr3), so its files may have none, and 1 for what is no island.
+// SCHISM reads no types (hgrid.gr3): its files may have none, or type 1 for boundaries that are no islands.
 #include <algorithm>
 #include <cctype>
 
@@ -129,7 +129,7 @@ class AdcircReader {
     scanner_.next_line();
     return n;
   }
-  // Old files end early: then there are no boundaries.
+  // Old files end early: they have no boundaries.
   void boundaries(bool open, const NumberLookup& lookup) {
     if (scanner_.at_end()) return;
     const std::size_t n = count_line(open ? "open boundaries" : "land boundaries", 2);
@@ -188,7 +188,7 @@ class AdcircReader {
     scanner_.fail_here(ErrorCode::index_out_of_range, element, " uses vertex ", number, ", but the file has ",
                        document_.file.points.size(), " vertices, numbered from ", document_.names->points[0]);
   }
-  /// Takes out the lines that close islands and are no edges of the mesh.
+  /// Removes the lines that close islands and are no edges of the mesh.
   void open_what_no_edge_closes() {
     MeshFile& f = document_.file;
     using Ends = std::pair<std::int32_t, std::int32_t>;
@@ -230,7 +230,7 @@ class AdcircReader {
 
 }  // namespace
 
-// The first line is a title, so the next two have to tell: two counts and no third number, then a node.
+// The first line is a title, so the next two lines decide: two counts and no third number, then a node.
 bool sniff_adcirc(std::string_view head) {
   const auto take_line = [&head] {
     const std::size_t end = std::min(head.find('\n'), head.size());

@@ -1,5 +1,5 @@
-// Writes ADCIRC's fort.14. Lines on the boundary become strings of nodes, with the domain on the left; those whose tag
-// has no name of a boundary become land boundaries of type 0 (mainland).
+// Writes ADCIRC's fort.14. Lines on the boundary become strings of nodes, with the domain on the left. If the name of
+// their tag is not the name of a boundary, they become land boundaries of type 0 (mainland).
 #include <algorithm>
 #include <array>
 #include <map>
@@ -15,7 +15,7 @@ namespace {
 using NodeString = std::vector<std::int32_t>;
 using DirectedEdge = std::array<std::int32_t, 2>;
 
-/// A boundary as it is written.
+/// A boundary in the form that is written.
 struct AdcircString {
   AdcircBoundary kind;
   std::int32_t tag = 0;
@@ -42,7 +42,7 @@ std::set<DirectedEdge> boundary_edges(const MeshFile& f) {
   return boundary;
 }
 
-/// The edges, each given once, as strings in the order in which they come.
+/// The edges, each given once, as strings in their given order.
 std::vector<NodeString> strings_of(const std::vector<DirectedEdge>& edges) {
   std::map<std::int32_t, std::int32_t> next;
   std::set<std::int32_t> targets;
@@ -193,7 +193,7 @@ class AdcircWriter {
       }
     }
   }
-  /// A boundary whose nodes have lost their levees is written as one that has none.
+  /// A boundary whose nodes have lost their levees is written without levees.
   void levee_string(AdcircString& string) {
     const AdcircRow row = adcirc_row(string.kind);
     if (row.numbers == 0) return;

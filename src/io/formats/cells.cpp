@@ -1,5 +1,5 @@
-// See cells.hpp. A region or tag is the first of these cell arrays that is there with one integer a cell:
-// region (temper's own), gmsh:physical and medit:ref (as meshio writes them), and what VTK users call it.
+// See cells.hpp. A region or tag is the first of these cell arrays that exists with one integer per cell. They are
+// region (temper's own), gmsh:physical and medit:ref (names of meshio), and the usual names among users of VTK.
 #include "io/formats/cells.hpp"
 
 #include <algorithm>
@@ -89,7 +89,7 @@ void CellSorter::distribute(std::vector<DataArray>&& cell_data) {
       f.cell_data.push_back(std::move(array));
       continue;
     }
-    // One cell may be many lines or points, and each gets its data.
+    // One cell may be many lines or points, and each gets the cell's data.
     const auto part = [&](const RunLength& cells) {
       allocation_.take(cells.size(), static_cast<std::uint64_t>(array.components), document_.names->path);
       return DataArray{array.name, array.components, gather(array.values, array.components, cells)};

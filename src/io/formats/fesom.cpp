@@ -1,5 +1,4 @@
-// Meshes of the ocean model FESOM: nod2d.out, elem2d.out, and aux3d.out where it is there (FESOM2 documentation,
-// "Mesh").
+// Meshes of the ocean model FESOM: nod2d.out, elem2d.out, and aux3d.out if it exists (FESOM2 documentation, "Mesh").
 //
 //   nod2d.out    points, then: number longitude latitude flag     degrees; flag 1 on the coast, kept as data `flag`
 //   elem2d.out   triangles, then: a b c                           numbers from 1
@@ -28,7 +27,7 @@ bool is_whole_number(std::string_view word) {
   return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// A number alone on its line, then four or three words a line: so begins no other format.
+/// A number alone on its line, then lines of four or three words: no other format begins this way.
 FesomFile kind_of_fesom(std::string_view head) {
   Scanner scanner("", head);
   std::array<std::vector<std::string_view>, 2> lines;
@@ -70,7 +69,7 @@ class FesomReader {
   }
 
  private:
-  /// Nothing in such a file is FESOM's alone: METIS has its triangles in the same way.
+  /// Nothing in such a file is FESOM's alone: METIS writes triangles in the same way.
   [[noreturn]] void refuse_other_name(bool is_points) const {
     fail(ErrorCode::unsupported, source_.path,
          is_points ? text("has points without triangles, as FESOM has them; expected a name that ends with ", kPoints,
@@ -128,13 +127,13 @@ class FesomReader {
 
 // --- writing ---------------------------------------------------------------------------------------------
 
-/// What stands before the names of the files; "NAME." of another NAME.
+/// The part before the names of the files; "NAME." for another NAME.
 std::string fesom_base(const std::string& path) {
   std::string base = without_suffix(without_suffix(path, kPoints), kTriangles);
   return base == path ? base + "." : base;
 }
 
-/// The flags that came with the points; or 1 for those on the boundary.
+/// The flags that came with the points; without them 1 for points on the boundary.
 std::vector<std::int32_t> flags_of(const MeshFile& f) {
   if (const DataArray* flags = find(f.point_data, kFlag); flags != nullptr && flags->components == 1) {
     if (auto known = to_int32(flags->values)) return *std::move(known);

@@ -1,7 +1,7 @@
 // PATH.weights.csv: the weights of a mesh whose own format has no place for them.
 //
 //   point,weight
-//   1,0.25          the file's own number of the point, and its weight: one row a point, in the order of the file
+//   1,0.25          the file's own number of the point, and its weight: one row per point, in the order of the file
 #include "io/formats/format.hpp"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ void check_ranges(const Document& d) {
   }
 }
 
-/// Points on one parallel of a sphere are in a plane, too: nothing in the file settles which is meant.
+/// Points on one parallel of a sphere are in a plane, too: nothing in the file decides between the two.
 void warn_of_parallel(Document& d) {
   std::vector<Vec3> places;
   for (const Vec2 p : d.file.points) places.push_back({p.x, p.y, d.z});
@@ -61,7 +61,7 @@ void check(Document& d) {
   const MeshFile& f = d.file;
   if (f.points.empty()) fail(ErrorCode::empty_input, d.names->path, "the file has no points");
   if (f.triangles.empty()) {
-    // Other programs call JIGSAW's outlines meshes, too.
+    // Other programs call JIGSAW's outlines meshes.
     const bool outline = f.format == "jigsaw" && !f.lines.empty();
     fail(ErrorCode::empty_input, d.names->path, "the file has no triangles",
          outline ? ": it is an outline, for `temper mesh` to mesh" : "");
@@ -150,7 +150,7 @@ void write_side_file(const WriteJob& job) {
       job.warn("the format has no place for weights, and no file can be beside a stream: they are left out");
     return;
   }
-  // An old side file would give its weights to this mesh: it has to be replaced.
+  // An old side file would give its weights to this mesh, so it has to be replaced.
   if (!weighted && !exists(path)) return;
   Output& out = job.outputs.open(path);
   out.put("point,weight\n", "");
@@ -161,8 +161,8 @@ void write_side_file(const WriteJob& job) {
   job.warn("the format has no place for weights; they are in ", path);
 }
 
-// Warnings of unsupported_content: they name what a mesh file has and the format written has no place for, for all
-// formats alike.
+// Warnings of unsupported_content, for all formats: they name the parts of a mesh file for which the written format has
+// no place.
 
 namespace {
 

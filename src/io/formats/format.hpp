@@ -1,4 +1,4 @@
-// A format, as the rest of io sees it: one row of the table in registry.cpp, and the functions of one source file.
+// A format for the rest of io: one row of the table in registry.cpp, and the functions of one source file.
 #pragma once
 
 #include <memory>
@@ -14,17 +14,17 @@
 
 namespace temper::io {
 
-/// The result of a reader: the arrays, and the numbers that the file has for them.
+/// The result of a reader: the arrays, and the file's own numbers for them.
 struct Document {
   MeshFile file;
   std::shared_ptr<FileNames> names;
   double z = 0;                      ///< of the first point
-  std::vector<double> heights = {};  ///< z of each point, once one is another than that of the first
+  std::vector<double> heights = {};  ///< z of each point; empty while all points have the z of the first
 };
 [[nodiscard]] Document new_document(const std::string& path);
 
-/// Checks what every format must fulfil once its arrays are read: points and triangles exist, numbers are in range,
-/// coordinates and weights finite, points in a plane or on a sphere around the origin.
+/// Checks what every format must satisfy once its arrays are read. Points and triangles exist, and numbers are in
+/// range. Coordinates and weights are finite. Points lie in a plane or on a sphere around the origin.
 void check(Document& document);
 
 /// Collects z, of one point after the other.
@@ -48,7 +48,7 @@ class PlaneCheck {
 struct WriteJob;
 using ArraysOf = std::vector<DataArray> MeshFile::*;
 
-/// The parts of a mesh file beyond triangles and points in the plane, which not every format has a place for.
+/// The parts of a mesh file beyond triangles and points in the plane. Not every format has a place for each.
 enum Content : unsigned {
   kZ = 1u << 0,
   kWeights = 1u << 1,
@@ -68,10 +68,10 @@ using Contents = unsigned;
 inline constexpr Contents kAllTags = kRegions | kLines | kMarkedPoints;
 inline constexpr Contents kAllData = kPointData | kCellData | kLineData | kMarkedPointData | kFieldData;
 inline constexpr Contents kAll = kZ | kWeights | kAllTags | kNames | kAllData;
-/// Of formats that are in space anyway.
+/// Contents of formats whose points are always in space.
 inline constexpr Contents kInSpace = kZ | kSphere;
 
-/// Which meshes are written in longitude and latitude.
+/// The meshes that a format writes in longitude and latitude.
 enum class Degrees {
   as_they_came,  ///< those that were read in degrees
   where_known,   ///< those in the plane, too, that have longitude and latitude as data
@@ -79,13 +79,13 @@ enum class Degrees {
   by_writer,     ///< the writer needs the plane for orthocenters, and sees to degrees itself
 };
 
-/// What is to be said of few formats.
+/// Properties that few formats have.
 struct FormatDetails {
-  /// Says of an array whose content is not in `holds` whether it has a place nevertheless. Null: none has.
+  /// Says whether the format has a place for an array whose content is not in `holds`. Null: for none.
   bool (*keeps)(ArraysOf of, const DataArray& array) = nullptr;
-  /// That are written, or why none can be; null: path alone.
+  /// The files that are written, or the reason why none can be; null: path alone.
   std::vector<std::string> (*files_to_write)(const std::string& path) = nullptr;
-  /// That are read where they are there, that of the points first; null: path alone.
+  /// The files that are read if they exist, the file of the points first; null: path alone.
   std::vector<std::string> (*files_to_read)(const std::string& path) = nullptr;
   std::int64_t first_point = 1;     ///< the number of the first point in a file
   std::string_view name_ends = {};  ///< characters that would end a name: written as %22
@@ -108,7 +108,7 @@ inline constexpr std::size_t kSniffBytes = 4096;
 struct WriteJob {
   const std::string& path;
   const MeshFile& file;      ///< as it is written: in degrees where it was read in degrees
-  const MeshFile& measured;  ///< the same where lengths are those of the mesh
+  const MeshFile& measured;  ///< the same file in lengths of the mesh
   const FormatRow& row;
   std::optional<Encoding> encoding;
   bool triangle_quality;
@@ -116,40 +116,39 @@ struct WriteJob {
   OutputSet& outputs;
   std::vector<std::string>& warnings;
 
-  /// The message in its parts, as text() takes them.
+  /// The message in parts, as for text().
   template <class... Parts>
   void warn(const Parts&... message) const {
     warnings.push_back(text(path, ": ", message...));
   }
-  /// The name as the format can hold it.
+  /// The name in a form that the format can hold.
   [[nodiscard]] std::string written(std::string_view name) const;
 };
 
-/// Warns of all that the file has and the row does not hold, but the weights, which go to the side file.
+/// Warns of all that the file has and the row does not hold, except the weights, which go to the side file.
 void warn_of_losses(const WriteJob& job);
-/// Warns of arrays or names that a writer found no place for.
+/// Warns of arrays or names without a place in the format.
 void warn_of_arrays(const WriteJob& job, std::string_view kind, const std::vector<std::string_view>& names);
 void warn_of_names(const WriteJob& job, const std::vector<PhysicalName>& lost);
-/// The tag of each point, 0 where there is none, for formats that hold one: further tags are named in a warning.
+/// The tag of each point, 0 without one, for formats that hold one tag: a warning names further tags.
 [[nodiscard]] std::vector<std::int32_t> one_tag_a_point(const WriteJob& job);
 
-/// "a Fluent mesh, which temper does not read; meshio converts it", of a file in a format that is recognized; else
-/// empty.
+/// "a Fluent mesh, which temper does not read; meshio converts it", for a file in a recognized format. Else empty.
 [[nodiscard]] std::string recognize_unsupported(std::string_view bytes);
 
 // --- weights of formats without a place for them ---------------------------------------------------
 /// PATH.weights.csv
 [[nodiscard]] std::string side_file_path(const std::string& path);
-/// Takes the weights from the side file when it is there and the file itself gives none.
+/// Takes the weights from the side file when it exists and the file itself has none.
 void read_side_file(Document& document);
-/// Writes the side file when there are weights, or one is there.
+/// Writes the side file when there are weights, or the side file exists.
 void write_side_file(const WriteJob& job);
 
-/// The reader of UGRID, which is also that of all NetCDF and HDF5 files that no other one takes.
+/// The reader of UGRID, which also takes all NetCDF and HDF5 files that no other reader takes.
 [[nodiscard]] Document read_ugrid(Source& source);
 
-/// Fails unless the arrays of the file fit each other: of one that was made by hand, or kept in another file, as
-/// writers would read past their ends.
+/// Fails unless the arrays of the file fit each other: a file made by hand, or kept in another file, may not. Writers
+/// would read past the ends.
 void check_sizes(const std::string& path, const MeshFile& file);
 
 }  // namespace temper::io

@@ -6,7 +6,6 @@
 
 namespace temper::io {
 
-// Element types of Gmsh.
 inline constexpr std::int32_t kGmshLine = 1, kGmshTriangle = 2, kGmshPoint = 15;
 /// Data array with the number of the geometric entity of each element, as meshio names it.
 inline constexpr std::string_view kGmshEntity = "gmsh:geometrical";

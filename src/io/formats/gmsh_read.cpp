@@ -1,8 +1,8 @@
 // Gmsh MSH 2 and 4.1, ASCII and binary, either byte order.
 //
-// Physical tag → region of a triangle, tag of a line or point. The number of the geometric entity is kept as data
-// gmsh:geometrical. NodeData and ElementData become data; the NodeData "weight" are the weights. Elements are put in
-// the order of their numbers, which is the order that Gmsh gave them and that other programs count by.
+// A physical tag is the region of a triangle, or the tag of a line or point. The number of the geometric entity is kept
+// as data gmsh:geometrical. NodeData and ElementData become data; the NodeData "weight" are the weights. Elements are
+// sorted by their numbers: Gmsh gave them in this order, and other programs count by it.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -34,7 +34,7 @@ std::string_view mesh_format_version(std::string_view head) {
   return first == std::string_view::npos ? std::string_view{} : rest.substr(first, 8);
 }
 
-// Of types from 3.
+// Names of the types from 3.
 constexpr std::array<std::string_view, 9> kElementNames = {"quadrilateral",
                                                            "tetrahedron",
                                                            "hexahedron",
@@ -165,7 +165,7 @@ class GmshReader {
       document_.file.names.push_back(std::move(name));
     }
   }
-  /// A name without a dimension is of all dimensions whose elements carry its tag.
+  /// A name without a dimension is for all dimensions whose elements carry its tag.
   void settle_names() {
     MeshFile& f = document_.file;
     const std::array<std::set<std::int32_t>, 3> tags = {std::set(f.point_tags.begin(), f.point_tags.end()),
@@ -309,7 +309,7 @@ class GmshReader {
       const std::int32_t value = scanner_.integer("an integer tag");
       if (i < 3) integers[i] = value;
     }
-    constexpr std::int32_t kMostComponents = 64;  // Gmsh itself knows 1, 3 and 9
+    constexpr std::int32_t kMostComponents = 64;  // Gmsh itself uses 1, 3 and 9
     if (integers[1] < 1 || integers[1] > kMostComponents || integers[2] < 0) {
       scanner_.fail_here(ErrorCode::syntax, "data ", in_quotes(name), " have ", integers[1], " components and ",
                          integers[2], " entries");
@@ -487,7 +487,7 @@ class GmshReader {
     fail(ErrorCode::index_out_of_range, where(), kind, " ", element, " uses vertex ", number, ", but the file has ",
          contiguous ? text(n, " vertices, numbered from 1") : "no vertex of that number");
   }
-  // In version 2 an element of several physical groups is there once for each.
+  // In version 2 an element with several physical groups is listed once for each.
   void keep_one_of_each_triangle() {
     const std::vector<std::int32_t>& physical = triangles_.physical;
     if (std::adjacent_find(physical.begin(), physical.end(), std::not_equal_to<>()) == physical.end()) return;
@@ -550,7 +550,7 @@ class GmshReader {
     std::memcpy(&value, copy.data(), sizeof(T));
     return value;
   }
-  /// Reads the number of things that follow, of at least so many bytes each as text and in binary.
+  /// Reads the number of items that follow. Each has at least `text_bytes` as text, and `binary_bytes` in binary.
   std::size_t get_count(std::string_view things, std::size_t text_bytes, std::size_t binary_bytes) {
     const auto n = get<std::uint64_t>(text("the number of ", things));
     scanner_.check_room(n, things, binary_ ? binary_bytes : text_bytes);

@@ -1,8 +1,8 @@
 // Writes Gmsh MSH 2.2 and 4.1, ASCII and binary.
 //
 // Elements are numbered points first, then lines, then triangles, so that the reader finds their order again. A Gmsh
-// entity has one physical group, so entities are the distinct pairs (entity, region): their numbers come from the data
-// gmsh:geometrical where there is one, else from the region. Doubles are all that NodeData and ElementData hold.
+// entity has one physical group, so entities are the distinct pairs (entity, region). Their numbers come from the data
+// gmsh:geometrical, or else from the region. NodeData and ElementData hold doubles alone.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,7 +37,7 @@ struct Kind {
   [[nodiscard]] std::int32_t entity(std::size_t i) const { return entities.empty() ? only_entity : entities[i]; }
 };
 
-/// The numbers of the entities that a file came with, if it did.
+/// The entity numbers that came with the file, if any.
 const std::vector<std::int32_t>* given_entities(const Kind& kind) {
   const DataArray* array = find(*kind.data, kGmshEntity);
   return array == nullptr || array->components != 1 ? nullptr : std::get_if<std::vector<std::int32_t>>(&array->values);
@@ -72,7 +72,7 @@ void number_entities(Kind& kind) {
   for (std::size_t i = 0; i < kind.n; ++i) kind.entities[i] = entity_of_pair[pair_of(i)];
 }
 
-/// Rows that are NaN throughout have no value: Gmsh leaves them out.
+/// Rows of NaN have no value: Gmsh omits them.
 bool has_value(const double* values, std::size_t components) {
   return !std::all_of(values, values + components, [](double v) { return std::isnan(v); });
 }
@@ -252,7 +252,7 @@ class GmshWriter {
         const int padded = components_in_gmsh(a, "cell data");
         if (padded == 0) continue;
         note_type(a, "cell data");
-        // The array of this name of all kinds of elements, as far as they have one with as many components.
+        // The array of this name for all kinds of elements that have one with as many components.
         std::vector<std::pair<const Kind*, std::vector<double>>> parts;
         std::size_t rows = 0;
         const auto c = static_cast<std::size_t>(a.components);
@@ -283,7 +283,7 @@ class GmshWriter {
     for (std::size_t k = 0; k < padded; ++k) put(k < components ? values[k] : 0.0);
     end_line();
   }
-  /// Gmsh knows scalars, vectors of 3 and tensors of 9.
+  /// Gmsh has scalars, vectors of 3 and tensors of 9.
   [[nodiscard]] int components_in_gmsh(const DataArray& array, std::string_view kind) const {
     const int c = array.components;
     if (c == 1 || c == 3 || c == 9) return c;

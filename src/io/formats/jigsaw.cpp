@@ -3,11 +3,11 @@
 //   NDIMS=2          3 when the plane of the mesh is not z = 0, and on a sphere
 //   POINT=n          x;y;tag               tag 0: none
 //   POWER=n;1        w                     weights, with the sign that temper has
-//   VALUE=n;k        k numbers a point     kept as data `value`, SLOPE as data `slope`
+//   VALUE=n;k        k numbers per point   kept as data `value`, SLOPE as data `slope`
 //   EDGE2=n          a;b;tag               TRIA3=n          a;b;c;tag
 //
-// ELLIPSOID-MESH is read, too: RADII=r;r;r of a sphere, and points as longitude and latitude in radians (NDIMS=2), or
-// in space. JIGSAW's POWER is of chords, and so temper's weight there.
+// ELLIPSOID-MESH is read, too: RADII=r;r;r of a sphere. Points are longitude and latitude in radians (NDIMS=2), or in
+// space. JIGSAW's POWER refers to chords, and so does temper's weight there.
 //
 // Points count from 0. Geometries of the same format (edges without triangles) are outlines: outline_jigsaw.cpp.
 #include <algorithm>
@@ -28,7 +28,7 @@ constexpr std::pair<std::string_view, std::string_view> kOtherJigsawCells[] = {
     {"WEDG6", "wedge"},         {"PYRA5", "pyramid"},
 };
 
-/// Sections of data of the points, and the arrays they become.
+/// Sections of point data, and the names of their arrays.
 constexpr std::pair<std::string_view, std::string_view> kJigsawData[] = {{"VALUE", "value"}, {"SLOPE", "slope"}};
 
 std::string upper_case(std::string_view s) {
@@ -85,7 +85,7 @@ class JigsawMeshReader {
     const auto version = scanner_.integer("the version of the format");
     if (version < 1 || version > 3)
       scanner_.fail_here(ErrorCode::unsupported, "is JIGSAW version ", version, "; temper reads 1 to 3");
-    // Version 1 had no kinds: all were meshes in the plane or in space.
+    // Version 1 had no kinds: all its files were meshes in the plane or in space.
     if (!scanner_.more_on_line()) return;
     const std::string found = upper_case(scanner_.word("the kind of file"));
     ellipsoid_ = found == "ELLIPSOID-MESH";
@@ -98,7 +98,7 @@ class JigsawMeshReader {
     if (dimension_ != 2 && dimension_ != 3)
       scanner_.fail_here(ErrorCode::unsupported, "has dimension ", dimension_, "; expected 2 or 3");
   }
-  /// One number, or three that are the same.
+  /// One number, or three equal ones.
   void radii() {
     while (scanner_.more_on_line()) {
       const double r = scanner_.real("a radius");

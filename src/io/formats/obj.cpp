@@ -1,6 +1,6 @@
-// Wavefront OBJ: v, f, l and p; everything about texture and shading is left aside.
+// Wavefront OBJ: v, f, l and p; everything about texture and shading is ignored.
 //
-// Vertices count from 1; negative numbers count back from the last one. A group line `g` starts a region or a tag:
+// Vertices count from 1; negative numbers count back from the last one. A group line `g` starts a region or a tag.
 //   g region_7 inlet     temper's own: the number, then its physical name if there is one (line_…, point_… likewise)
 //   g inlet              any other name: numbered from 1 in the order of appearance, the name becomes a physical name
 #include <algorithm>
@@ -135,7 +135,7 @@ class ObjReader {
     const std::int32_t tag = known != tag_of_name_.end() ? known->second : ++last_number_;
     tags_ = {tag, tag, tag};
   }
-  // 12, 12/3, 12//4, 12/3/4, or negative: only the vertex matters.
+  // An index is 12, 12/3, 12//4, 12/3/4, or negative: only the vertex matters.
   std::int32_t index() {
     const std::string_view word = scanner_.word("a vertex number");
     const std::string_view number = word.substr(0, word.find('/'));
@@ -206,7 +206,7 @@ class ObjWriter {
  private:
   using Group = std::pair<int, std::int32_t>;  // dimension and tag
 
-  /// The group line, when the element before was of another one.
+  /// The group line, when the previous element was in another group.
   void group(int dimension, std::int32_t tag) {
     const Group next(dimension, tag);
     if (last_ == next) return;

@@ -1,7 +1,7 @@
-// OFF (Geomview): the word OFF, the numbers of vertices, faces and edges, then "x y z" a vertex and "3 a b c" a face.
+// OFF (Geomview): the word OFF, the numbers of vertices, faces and edges, then vertices "x y z" and faces "3 a b c".
 //
-// Vertices count from 0. Words with letters before OFF announce more numbers a vertex (C colors, N normals, ST
-// texture); these, and the colors of faces, are dropped with a warning.
+// Vertices count from 0. Letters before the word OFF announce more numbers per vertex (C colors, N normals, ST
+// texture). These and the colors of faces are dropped with a warning.
 #include <algorithm>
 
 #include "io/conversion/globe.hpp"
@@ -72,7 +72,7 @@ class OffReader {
       skip_rest(more_of_faces_);
     }
   }
-  /// Numbers up to the end of the line.
+  /// Skips numbers up to the end of the line.
   void skip_rest(std::size_t& dropped) {
     while (scanner_.more_on_line()) {
       static_cast<void>(scanner_.real("a number"));
@@ -87,7 +87,7 @@ class OffReader {
 
 }  // namespace
 
-// The title of an ADCIRC grid may begin with any word, so numbers have to follow.
+// The title of an ADCIRC grid may begin with any word, so numbers have to follow OFF.
 bool sniff_off(std::string_view head) {
   Scanner scanner("", head, '#');
   if (!is_off_word(scanner.peek())) return false;

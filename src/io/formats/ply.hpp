@@ -1,4 +1,4 @@
-// The names that PLY's reader and writer share: of types, of properties, and of what temper says in comments.
+// The names that PLY's reader and writer share: of types, of properties, and in temper's comments.
 //
 //   comment temper array vertex 3 velocity    properties velocity_0, velocity_1 and velocity_2 are one array
 //   comment temper name 2 7 steel             physical name: dimension, tag, name
@@ -15,7 +15,7 @@ struct PlyType {
   std::string_view name, other_name;  ///< of the first description of the format, and with the number of bits
   Scalar scalar;
 };
-/// The first of each type is the one written. 64-bit integers are no types of PLY; meshio writes them all the same.
+/// Files are written with the first name of each type. PLY has no 64-bit integers, but meshio writes them.
 inline constexpr std::array<PlyType, 10> kPlyTypes = {{{"double", "float64", Scalar::f64},
                                                        {"float", "float32", Scalar::f32},
                                                        {"int", "int32", Scalar::i32},

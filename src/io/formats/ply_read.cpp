@@ -1,11 +1,11 @@
-// PLY (Stanford), ASCII and binary of both byte orders: elements with properties, as the header declares them.
+// PLY (Stanford), ASCII and binary of both byte orders. The header declares elements and their properties.
 //
 //   vertex   x y [z] (or X Y Z), weight, tag; all other numbers are point data
 //   face     vertex_indices (or vertex_index); region and all other numbers are cell data
 //   edge     vertex1 vertex2; region is the tag of the line, all other numbers are line data
 //
-// Faces of two corners or one are lines and marked points, as meshio has them. Lists, and elements of other names, are
-// dropped with a warning.
+// Faces of two corners or one are lines and marked points, as in meshio. Lists and other elements are dropped with a
+// warning.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -27,7 +27,7 @@ struct PlyProperty {
   std::string name;
   Scalar scalar = Scalar::f64;
   std::optional<Scalar> count;  // of a list
-  Values values;                // one an element; of a list none are kept
+  Values values;                // one for each element; the numbers of lists are not kept
 };
 
 struct PlyElement {
@@ -35,10 +35,10 @@ struct PlyElement {
   std::size_t n = 0;
   std::vector<PlyProperty> properties;
   RunLength text_lines;
-  std::vector<std::int32_t> corners, ends;  // of vertex_indices: ends[i] is where those of face i end
+  std::vector<std::int32_t> corners, ends;  // of vertex_indices: the corners of face i end at ends[i]
 };
 
-/// An array that is several properties: name_0, name_1, …
+/// An array that is stored as several properties: name_0, name_1, …
 struct PlyJoined {
   std::string name;
   std::size_t components = 1;
@@ -222,7 +222,7 @@ class PlyReader {
     e.properties.erase(it);
     return values;
   }
-  /// The properties that are left, those that are one array put together.
+  /// The remaining properties; properties of one array are joined.
   std::vector<DataArray> take_data(PlyElement& e) const {
     std::vector<DataArray> arrays;
     if (e.n == 0) return arrays;
@@ -246,7 +246,7 @@ class PlyReader {
     }
     return arrays;
   }
-  /// The array that begins with property i of the element, when its properties follow one another; else null.
+  /// The array that begins with property i of the element, when its properties are consecutive; else null.
   [[nodiscard]] const PlyJoined* joined_at(const PlyElement& e, std::size_t i) const {
     const auto it = joined_.find({e.name, e.properties[i].name});
     if (it == joined_.end()) return nullptr;

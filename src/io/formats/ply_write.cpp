@@ -54,7 +54,7 @@ class PlyWriter {
 
  private:
   using Arrays = std::vector<const DataArray*>;
-  /// Those of the arrays that PLY can hold beside the properties in `taken`; the others are named in warnings.
+  /// The arrays that PLY can hold next to the properties in `taken`; warnings name the others.
   Arrays choose(const std::vector<DataArray>& arrays, std::string_view element, std::set<std::string> taken) {
     Arrays chosen;
     std::vector<std::string_view> dropped;

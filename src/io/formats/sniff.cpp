@@ -1,4 +1,4 @@
-// Formats that temper recognizes and does not read, so that the error can name them, and what converts them.
+// Formats that temper recognizes and does not read. The error names the format, and a program that converts it.
 #include <algorithm>
 #include <cctype>
 #include <vector>
@@ -22,7 +22,7 @@ bool starts_with_any_case(std::string_view s, std::string_view upper) {
 }
 
 bool is_freefem(std::string_view head) {
-  // Three counts, then lines "x y label". Columns of x, y and z are none.
+  // Three counts, then lines "x y label". Columns of x, y and z do not count.
   const auto words = [](std::string_view line) {
     std::vector<std::string_view> all;
     for (line = skip_blanks(line); !line.empty(); line = skip_blanks(line)) {
@@ -44,7 +44,7 @@ bool is_freefem(std::string_view head) {
          std::all_of(point.begin(), point.end(), only("0123456789+-.eE")) && only("0123456789+-")(point[2]);
 }
 
-/// 80 bytes of any kind, the number of triangles, and 50 bytes for each: no more and no less.
+/// The size is exact: 80 bytes of any kind, the number of triangles, and 50 bytes for each.
 bool is_binary_stl(std::string_view bytes) {
   constexpr std::size_t kTitle = 80, kHeader = 84, kTriangleBytes = 50;
   if (bytes.size() < kHeader) return false;
@@ -77,7 +77,7 @@ struct Known {
   std::string_view advice = {};
 };
 
-// The Python package of that name reads these formats and writes those of temper.
+// The Python package meshio reads these formats, and writes formats of temper.
 constexpr std::string_view kMeshio = "; meshio converts it";
 
 constexpr Known kKnown[] = {

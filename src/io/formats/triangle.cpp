@@ -1,15 +1,15 @@
-// Triangle's .node and .ele (Shewchuk), and the segments of .poly and .edge where they are there.
+// Triangle's .node and .ele (Shewchuk), and the segments of .poly and .edge if these files exist.
 //
 //   NAME.node   points 2 attributes markers(0|1), then: number x y attributes… [marker]
 //   NAME.ele    triangles 3 attributes, then: number a b c attributes…
 //   NAME.poly   (points, none when they are in .node), segments markers, then: number a b [marker]
 //   NAME.edge   edges markers, then the same; only those with a marker other than 0 are lines
 //
-// Attributes have no names in this format, so temper declares them in comments, which Triangle skips:
+// Attributes have no names in this format, so temper declares them in comments, which Triangle skips.
 //   # temper attribute float64 1 weight        type, components, name: one line for each array, in order
 // Undeclared attributes of points are data attribute1, … (Triangle -w takes the first as weight: declare it to have it
-// read so). The last undeclared attribute of triangles, when it is integer throughout, is the region (Triangle -A).
-// A marker other than 0 is the tag of a point. Numbers start at 0 or 1, whatever the first point says.
+// read as weight). The last undeclared attribute of triangles is the region if it is integer throughout (Triangle -A).
+// A marker other than 0 is the tag of a point. Numbers start at 0 or 1, as the first point does.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,7 +26,7 @@ constexpr std::string_view kDeclaration = "# temper attribute ";
 constexpr std::string_view kDeclaredZ = "# temper z ";
 constexpr std::string_view kDeclaredName = "# temper name ";
 
-/// The numbers on the first lines that are no comments.
+/// The numbers on the first lines that are not comments.
 std::vector<std::vector<std::string_view>> first_lines(std::string_view head, std::size_t n) {
   std::vector<std::vector<std::string_view>> lines;
   Scanner scanner("", head, '#');
@@ -56,7 +56,7 @@ TriangleFile kind_of(std::string_view head) {
   const std::size_t columns = only_header ? 0 : lines[1].size();
   if (first[1] == "2" && first.size() != 3 && (only_header || columns >= 3)) return TriangleFile::node;
   if (first[1] == "2" && first.size() == 3 && columns >= 4) return TriangleFile::node;
-  // Of TetGen, for the reader to refuse.
+  // Files of TetGen, for the reader to refuse.
   if (first[1] == "3" && first.size() == 4 && columns >= 4) return TriangleFile::node;
   if ((first[1] == "4" || first[1] == "10") && first.size() <= 3 && columns >= 5) return TriangleFile::ele;
   if ((first[1] == "3" || first[1] == "6") && first.size() <= 3 && (only_header || columns >= 4))
@@ -81,7 +81,7 @@ Declarations declarations(std::string_view bytes) {
       try {
         use(scanner);
       } catch (const Failure&) {
-        // A comment that is none of ours after all.
+        // The comment is no declaration of temper's.
       }
     }
   };
@@ -100,7 +100,7 @@ Declarations declarations(std::string_view bytes) {
   return result;
 }
 
-/// The numbers of one point or triangle, which are on one line, as many as the header says.
+/// The numbers of one point or triangle. They are on one line, as many as in the header.
 class TriangleRow {
  public:
   TriangleRow(Scanner& scanner, std::string_view kind, std::size_t columns)
@@ -200,7 +200,7 @@ class TriangleReader {
   }
 
  private:
-  // Before the other file of the pair is asked for.
+  // This comes before the other file of the pair is opened.
   void refuse_tetrahedra(bool is_node) const {
     Scanner header(source_.path, source_.bytes, '#');
     static_cast<void>(header.count("rows", 1));
@@ -289,7 +289,7 @@ class TriangleReader {
     if (!edges) {
       const std::size_t n_points = scanner.count("points", 1);
       scanner.rest_of_line();
-      // An outline with points of its own is the input of Triangle, not the mesh: its numbers are not ours.
+      // An outline with points of its own is the input of Triangle, not the mesh: its numbers do not fit.
       if (n_points > 0) return;
     }
     MeshFile& f = document_.file;
@@ -392,7 +392,7 @@ void write_ele(const WriteJob& job, const std::string& base) {
 
 void write_poly(const WriteJob& job, const std::string& base) {
   const MeshFile& f = job.file;
-  // An old .poly would give its segments to this mesh: it has to be replaced.
+  // An old .poly would give its segments to this mesh, so it has to be replaced.
   if (f.lines.empty() && !exists(base + ".poly") && !exists(base + ".edge")) return;
   Output& out = job.outputs.open(base + ".poly");
   out.put("0 2 0 0\n", f.lines.size(), " 1\n");

@@ -1,6 +1,6 @@
-// Discretizations of MODFLOW 6: DISV, from which it computes connections itself, by corners that cells have in common;
-// and DISU, where connections are given. (Langevin et al.: Documentation for the MODFLOW 6 groundwater flow model, USGS
-// Techniques and Methods 6-A55; its input guide, mf6io.)
+// Discretizations of MODFLOW 6. From DISV it computes connections itself, by the common corners of cells. DISU has
+// explicit connections. (Langevin et al.: Documentation for the MODFLOW 6 groundwater flow model, USGS Techniques and
+// Methods 6-A55; its input guide, mf6io.)
 #include <cmath>
 #include <numbers>
 #include <unordered_map>
@@ -10,21 +10,21 @@
 namespace temper::io {
 namespace {
 
-// Corners that should be one differ by the rounding of computations in different cells. Relative to a cell's size, and
-// to its coordinates: some units in the last place.
+// Coinciding corners differ by the rounding in different cells. Relative to a cell's size, and to its coordinates: some
+// units in the last place.
 constexpr double kSameCorner = 1e-9, kRounding = 0x1p-48;
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// Corners of cells, each once, and of each vertex its polygon, clockwise as MODFLOW has it.
+/// Corners of cells, each once, and for each vertex its polygon, clockwise for MODFLOW.
 struct SharedCorners {
   std::vector<Vec2> corners;
   std::vector<std::vector<std::uint32_t>> polygons;
 };
 
-/// Numbers corners as they come; one that is near a former one is that one.
+/// Numbers corners in their order; a corner near an earlier one is merged with it.
 class CornerNumbers {
  public:
-  /// `reach`: at least every distance that add() is asked with.
+  /// `reach`: an upper bound of `near` in all calls of add().
   explicit CornerNumbers(double reach) : step_(4 * reach) {}
   std::uint32_t add(Vec2 at, double near) {
     const auto x = square(at.x), y = square(at.y);
@@ -92,7 +92,7 @@ std::optional<VertexId> not_one_polygon(const PowerCells& cells) {
   return {};
 }
 
-/// An array of the file, ten numbers a line.
+/// An array of the file, ten numbers per line.
 template <class F>
 void put_array(Output& out, std::size_t n, F value) {
   constexpr std::size_t kInLine = 10;
@@ -114,7 +114,7 @@ void put_vertices(Output& out, const SharedCorners& shared) {
   out.put("END VERTICES\n");
 }
 
-/// A row for each of n cells, of all layers or of one.
+/// One row for each of n cells, of all layers or of one.
 void put_cells(Output& out, const Mesh& mesh, const Columns& c, const SharedCorners& shared, std::size_t n) {
   out.put("BEGIN CELL2D\n");
   for (std::size_t cell = 0; cell < n; ++cell) {
@@ -129,7 +129,7 @@ void put_cells(Output& out, const Mesh& mesh, const Columns& c, const SharedCorn
 
 int idomain(CellState state) { return static_cast<int>(state); }
 
-/// Connections in rows, of each cell itself, then its neighbors, ascending.
+/// Connections in rows: for each cell itself, then its neighbors, ascending.
 struct ConnectionRows {
   std::vector<std::size_t> starts;   // cells + 1
   std::vector<std::uint32_t> cells;  // one an entry
@@ -149,13 +149,13 @@ struct ConnectionRows {
       cells[next[to]] = neighbor;
       connections[next[to]++] = static_cast<std::uint32_t>(connection);
     };
-    // Ascending as they are: of each cell first all lower neighbors, then all higher ones.
+    // Ascending in this order: for each cell first all lower neighbors, then all higher ones.
     for (std::size_t i = 0; i < c.connections.size(); ++i) add(c.connections[i].second, c.connections[i].first, i);
     for (std::size_t i = 0; i < c.connections.size(); ++i) add(c.connections[i].first, c.connections[i].second, i);
   }
 };
 
-/// What DISU has of an entry of a row; `of` is not asked for the cell itself.
+/// The entries of a row for DISU. `of` is not called for the cell itself.
 template <class F>
 void put_connection_array(Output& out, std::string_view name, const Columns& c, const ConnectionRows& rows, F of) {
   std::size_t row = 0;

@@ -1,5 +1,5 @@
-// MESH of TOUGH2, TOUGH3 and iTOUGH2: blocks ELEME and CONNE in fixed columns, each ended by an empty line. (Pruess,
-// Oldenburg, Moridis: TOUGH2 user's guide, LBNL-43134, chapter 8.)
+// MESH of TOUGH2, TOUGH3 and iTOUGH2. It has the blocks ELEME and CONNE in fixed columns, each ended by an empty line.
+// (Pruess, Oldenburg, Moridis: TOUGH2 user's guide, LBNL-43134, chapter 8.)
 //
 //   ELEME   name(5) NSEQ(5) NADD(5) rock(5) VOLX AHTX PMX X Y Z            ten columns each number
 //   CONNE   name(5) name(5) NSEQ NAD1 NAD2 ISOT(5 each) D1 D2 AREAX BETAX
@@ -17,7 +17,7 @@ constexpr std::size_t kLetters = 26, kNumbers = 90;  // 10 … 99: two digits fo
 constexpr std::size_t kMostNames = kLetters * kDigits.size() * kDigits.size() * kNumbers;
 constexpr std::size_t kMostRocks = 99;
 
-/// "AAA10", "AAA11", …: three letters or digits of which the first is a letter, and a number of two digits.
+/// "AAA10", "AAA11", …: three letters or digits, the first one a letter, and a number of two digits.
 std::string element_name(std::size_t cell) {
   const std::size_t word = cell / kNumbers, n = kDigits.size();
   std::string name = {kDigits[word / (n * n)], kDigits[word / n % n], kDigits[word % n]};
@@ -28,8 +28,8 @@ std::string right_aligned(const std::string& value, std::size_t columns) {
   return value.size() < columns ? std::string(columns - value.size(), ' ') + value : value;
 }
 
-/// The value with as many digits as there is room for, as Fortran reads it: with a point, for in E10.4 that of 12 is
-/// taken to be four digits from its end.
+/// The value with as many digits as there is room for, as Fortran reads it. It needs a point: E10.4 inserts one four
+/// digits before the end of a 12.
 std::string in_ten_columns(double value) {
   constexpr std::size_t kColumns = 10;
   constexpr int kMostDigits = 9;
@@ -61,11 +61,11 @@ std::string in_ten_columns(double value) {
   return right_aligned(best, kColumns);
 }
 
-/// The rock of a layer by its number, as the n-th of ROCKS; none beyond two digits, which is the first.
+/// The rock of a layer by its number, as the n-th of ROCKS. None beyond two digits: then TOUGH takes the first.
 std::string rock(std::size_t layer) { return right_aligned(layer < kMostRocks ? to_text(layer + 1) : "", 5); }
 
-/// The cosine of the angle between the connection, from its first element to the second, and gravity. Between cells
-/// beside each other at different heights it is the drop over the distance, with which water at rest stays at rest.
+/// The cosine of the angle between the connection, from its first element to the second, and gravity. For neighbors at
+/// different heights it is the drop over the distance: water at rest then stays at rest.
 double downward(const Columns& c, const ColumnConnection& connection) {
   if (connection.is_vertical) return 1;
   return (c.center(connection.first) - c.center(connection.second)) /

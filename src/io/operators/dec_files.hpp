@@ -19,11 +19,11 @@ struct DecJob {
   OutputSet& outputs;
   std::vector<std::string>& written;
 
-  /// A file of the folder.
+  /// Opens a file of the folder.
   [[nodiscard]] Output& open(std::string_view name) const;
 };
 
-/// Places as the files have them: two coordinates in the plane, three on the sphere.
+/// Places in the coordinates of the files: two in the plane, three on the sphere.
 struct DecPositions {
   std::size_t coordinates = 2;
   std::vector<Vec3> at;  // z is 0 in the plane
@@ -33,7 +33,7 @@ struct DecPositions {
     return k == 0 ? at[i].x : k == 1 ? at[i].y : at[i].z;
   }
 };
-/// Of vertices on the sphere, without weights.
+/// The positions of vertices; on the sphere without weights.
 [[nodiscard]] DecPositions vertex_positions(const Mesh& mesh);
 [[nodiscard]] DecPositions orthocenter_positions(const DecComplex& complex);
 [[nodiscard]] DecPositions midpoint_positions(const DecComplex& complex);
@@ -42,7 +42,7 @@ struct DecPositions {
 void write_dec_npz(const DecJob& job);
 void write_dec_mtx(const DecJob& job);
 void write_dec_vtu(const DecJob& job);
-// Preconditions of these: the job has columns.
+// Precondition of the functions below: the job has columns.
 void write_columns_vtu(const DecJob& job);
 void write_columns_disv(const DecJob& job);
 void write_columns_disu(const DecJob& job);

@@ -21,14 +21,14 @@ void put_matrix(Output& out, const IncidenceMatrix& matrix, std::string_view com
   }
 }
 
-/// The same, of a diagonal. Zeros are entries, too.
+/// Writes a diagonal matrix. Zeros are entries, too.
 void put_diagonal(Output& out, const std::vector<double>& diagonal, std::string_view comment) {
   out.put("%%MatrixMarket matrix coordinate real general\n% ", comment, '\n');
   out.put(diagonal.size(), ' ', diagonal.size(), ' ', diagonal.size(), '\n');
   for (std::size_t i = 0; i < diagonal.size(); ++i) out.put(i + 1, ' ', i + 1, ' ', diagonal[i], '\n');
 }
 
-/// `array real general`, which the format wants column after column.
+/// `array real general`, which has column after column.
 void put_columns(Output& out, std::size_t rows, std::size_t columns, std::string_view comment,
                  const std::function<double(std::size_t row, std::size_t column)>& at) {
   out.put("%%MatrixMarket matrix array real general\n% ", comment, '\n');

@@ -1,4 +1,4 @@
-// Operators for NumPy and SciPy: every array in operators.npz, and each matrix as scipy.sparse.save_npz would write it.
+// Operators for NumPy and SciPy: every array in operators.npz, and each matrix in the format of scipy.sparse.save_npz.
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace {
 class NpzWriter {
  public:
   explicit NpzWriter(Output& out) : zip_(out) {}
-  /// An array, rows first; `shape` has the product of its numbers many values.
+  /// An array, rows first; the number of values is the product of `shape`.
   template <class T>
   void add(std::string_view name, const std::vector<T>& values, const std::vector<std::size_t>& shape) {
     static_assert(std::is_arithmetic_v<T>);
@@ -44,7 +44,7 @@ std::string npy_header(char kind, std::size_t bytes_each, const std::vector<std:
   const char order = bytes_each == 1 || kind == 'S' ? '|' : std::endian::native == std::endian::little ? '<' : '>';
   std::string sizes;
   for (const std::size_t n : shape) sizes += text(n, ", ");
-  if (shape.size() > 1) sizes.resize(sizes.size() - 2);  // (3, 2), but (3, )
+  if (shape.size() > 1) sizes.resize(sizes.size() - 2);  // Python writes `(3, 2)`, but `(3, )`
   std::string dictionary = text("{'descr': '", std::string_view(&order, 1), std::string_view(&kind, 1), bytes_each,
                                 "', 'fortran_order': False, 'shape': (", sizes, "), }");
   constexpr std::size_t kStart = 10, kAlign = 64;
@@ -68,7 +68,7 @@ void NpzWriter::add_bytes(std::string_view name, char kind, std::size_t bytes_ea
 
 std::int32_t signed_index(std::uint32_t index, bool valid) { return valid ? static_cast<std::int32_t>(index) : -1; }
 
-/// Values of the edges, `width` a row.
+/// Values of the edges, `width` in each row.
 template <class T, class F>
 std::vector<T> of_edges(const DecComplex& c, std::size_t width, F value) {
   std::vector<T> result;

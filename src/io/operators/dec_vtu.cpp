@@ -1,4 +1,4 @@
-// The dual for ParaView and its like: power cells as polygons, dual edges as lines between orthocenters.
+// The dual for ParaView and similar programs: power cells as polygons, dual edges as lines between orthocenters.
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -15,7 +15,7 @@
 namespace temper::io {
 namespace {
 
-// A VTU file of one piece, section by section; every array is made block by block, and only the compressed blocks of
+// A VTU file of one piece, section by section. Every array is made block by block, and only the compressed blocks of
 // one array are kept until its header is known.
 //
 //   VtuDocument vtu(out, Encoding::base64, executor);
@@ -26,9 +26,9 @@ namespace {
 
 class VtuDocument {
  public:
-  /// Writes what comes before all arrays. The executor's threads compress, when there is one.
+  /// Writes the part before all arrays. The executor's threads compress, when there is one.
   VtuDocument(Output& out, Encoding encoding, Executor* executor);
-  /// Data of the file as a whole; nothing is written of none.
+  /// Data of the file as a whole; without arrays nothing is written.
   void fields(const std::vector<VtkArray>& arrays);
   void begin_piece(std::size_t n_points, std::size_t n_cells);
   void section(std::string_view name, const std::vector<VtkArray>& arrays);
@@ -64,13 +64,13 @@ template <class F>
                                           [value](std::size_t i) { return static_cast<std::int32_t>(value(i)); });
 }
 
-/// The types of cells that are all of one.
+/// The types of cells when all have the same type.
 [[nodiscard]] inline VtkArray one_type(std::size_t n, int type) {
   return computed_vtk_array<std::uint8_t>("types", Scalar::u8, n,
                                           [type](std::size_t) { return static_cast<std::uint8_t>(type); });
 }
 
-// A block is compressed on its own: what threads share out.
+// A block is compressed on its own, so that threads can share the work.
 constexpr std::size_t kBlockBytes = kVtkBlockBytes;
 
 std::string escaped(std::string_view name) {
@@ -161,7 +161,7 @@ std::string VtuDocument::packed_block(const VtkArray& a, std::size_t i, Redundan
   return compress_block({bytes.data(), bytes.size()}, redundancy);
 }
 
-/// Strings of bytes come again in numbers of points and in the coordinates of grids, but not in those of other meshes.
+/// Strings of bytes repeat in point numbers and in coordinates of grids, but not in coordinates of other meshes.
 Redundancy VtuDocument::redundancy_of(const VtkArray& a) {
   if (a.scalar != Scalar::f64 && a.scalar != Scalar::f32) return Redundancy::strings;
   const std::size_t each = info(a.scalar).bytes, n = std::min(kBlockBytes / each, a.n_values);
@@ -223,7 +223,7 @@ void write_vtu(const WriteJob& job) {
   vtu.finish();
 }
 
-/// Three numbers a point; z is the mesh's in the plane.
+/// Three numbers per point; in the plane z is the mesh's.
 VtkArray dual_points(const DecPositions& places, double z) {
   return computed_vtk_array<double>(
       "Points", Scalar::f64, 3 * places.size(),
@@ -253,7 +253,7 @@ void write_cells(const DecJob& job) {
 }
 
 // Points are the orthocenters, then the weighted midpoints. An interior line runs from the triangle on the left of its
-// edge to the one on the right, a boundary line from the orthocenter to the midpoint.
+// edge to the triangle on the right. A boundary line runs from the orthocenter to the midpoint.
 void write_dual_edges(const DecJob& job) {
   const DecComplex& c = job.complex;
   DecPositions places = orthocenter_positions(c);
@@ -293,8 +293,8 @@ void write_dec_vtu(const DecJob& job) {
   write_dual_edges(job);
 }
 
-// columns.vtu: each active cell as a prism over its power cell, a VTK polyhedron; over each of its polygons when these
-// are several. Prisms share no points: their tops and bottoms are flat, and at another height than their neighbors'.
+// columns.vtu: each active cell is a prism over its power cell, a VTK polyhedron; a cell of several polygons has one
+// prism over each. Prisms share no points: their tops and bottoms are flat, at different heights than their neighbors'.
 
 namespace {
 

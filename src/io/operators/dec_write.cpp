@@ -1,4 +1,5 @@
-// The door of write_dec: makes the folder, has every format write, and puts all files in their places at the end.
+// The implementation of write_dec: makes the folder, calls the writer of every format, and puts all files in place at
+// the end.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,7 +13,7 @@
 namespace temper::io {
 namespace {
 
-/// A folder that is there from now on, and goes again when nothing was put into it.
+/// A folder that exists from now on, and is removed if nothing was put into it.
 class Folder {
  public:
   explicit Folder(const std::string& path) : path_(path) {

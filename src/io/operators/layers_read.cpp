@@ -1,4 +1,4 @@
-// Layers as a CSV file: temper/detail/dec_io.hpp shows it.
+// Layers as a CSV file: temper/detail/dec_io.hpp has an example.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -149,7 +149,7 @@ class LayersReader {
     std::copy(heights.begin(), heights.end(), layers_.surfaces.begin() + offset(v, layers_.n_surfaces()));
     std::copy(active.begin(), active.end(), layers_.active.begin() + offset(v, has_active_ ? layers_.n_layers : 0));
   }
-  /// A number of the row, or that of the row *.
+  /// A number of the row, or of the row * if the field is empty.
   [[nodiscard]] double height(std::size_t column) const {
     const std::string_view field = fields_[column];
     if (field.empty()) {
@@ -185,7 +185,7 @@ class LayersReader {
     if (!v) fail_line(ErrorCode::index_out_of_range, mesh_path_, " has no vertex ", number, " in a triangle");
     return *v;
   }
-  /// Gives all vertices what the row * says, if there is one.
+  /// Gives all vertices the values of the row *, if there is one.
   void begin_rows() {
     begun_ = true;
     line_of_.assign(n_vertices_, 0);

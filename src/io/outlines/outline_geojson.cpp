@@ -1,9 +1,9 @@
 // GeoJSON (RFC 7946): polygons become parts, lines stay inside as constrained edges, points as fixed vertices.
 //
-// Equal positions are one point, so polygons that share a piece of boundary share its edges. Of a feature's properties
-// three mean something here: "region" (a number; without it features count from 1 when there are several), "size" (edge
-// length wanted inside) and "tag" (of the edges on its lines). Positions are longitude and latitude unless a crs
-// member, which older files have, names another system.
+// Equal positions are one point, so polygons that share a piece of boundary share its edges. The reader uses three
+// properties of a feature: "region" is a number (without it features count from 1 when there are several). "size" is
+// the edge length inside, "tag" the tag of the edges on its lines. Positions are longitude and latitude, unless a crs
+// member of an older file names another system.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,8 +20,8 @@ using Type = JsonValue::Type;
 
 constexpr std::array<std::string_view, 3> kProperties = {"region", "size", "tag"};
 
-/// The property that a name is a misspelling of: one letter is too many, missing or another, two
-/// are swapped, or some are capitals; else empty.
+/// The property that a name misspells: one letter is too many, missing or another, two are swapped, or some are
+/// capitals. Else empty.
 std::string_view meant_by(std::string_view name) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
   for (const std::string_view property : kProperties) {
@@ -122,7 +122,7 @@ class GeoJsonReader {
     document_.file.warnings.push_back(text(path_, ":", value.line, ": ", message));
   }
 
-  /// Numbers under a name that is nearly one of those with a meaning, and what is no number under one of those.
+  /// Warns of numbers under a name that nearly has a meaning, and of values that should be numbers and are not.
   void warn_of_misspelt(const JsonValue& properties, const std::string& feature) {
     for (std::size_t i = 0; i < properties.names.size(); ++i) {
       const std::string& name = properties.names[i];
@@ -140,7 +140,7 @@ class GeoJsonReader {
     }
   }
 
-  /// Properties of polygons on what is none.
+  /// Warns of properties of polygons on other geometries.
   void warn_of_idle(const JsonValue& shape, const Feature& about) {
     const std::string_view type = shape.text("type");
     const bool point = type == "Point" || type == "MultiPoint";
@@ -207,7 +207,7 @@ class GeoJsonReader {
     return value.items;
   }
 
-  /// All polygons of one geometry are one part: where they touch there is no interface between regions.
+  /// All polygons of one geometry are one part: no interface between regions lies between them.
   void polygons(const std::vector<const JsonValue*>& all, const Feature& about) {
     OutlinePart part;
     part.size = about.size;

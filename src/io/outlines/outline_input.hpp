@@ -13,7 +13,7 @@
 
 namespace temper::io {
 
-/// Elements in the numbers of their file, on their lines. Segments may be numbered anew in each group ("ring 1 of
+/// Elements in the numbers of their file, on their lines. Segments may be numbered from 1 in each group ("ring 1 of
 /// feature 2"): GeoJSON has no numbers of its own.
 class OutlineFileNames final : public OutlineNames {
  public:
@@ -41,7 +41,6 @@ class OutlineFileNames final : public OutlineNames {
   std::vector<std::string> parts;  ///< names
 };
 
-/// A file being read.
 struct OutlineDocument {
   OutlineFile file;
   std::shared_ptr<OutlineFileNames> names;
@@ -55,10 +54,10 @@ OutlineDocument read_geojson(Source& source);
 OutlineDocument read_jigsaw(Source& source);
 OutlineDocument read_poly(Source& source);
 
-// JSON (RFC 8259) as a tree whose values know their line.
+// JSON (RFC 8259) as a tree whose values have their line.
 //
-// Small on purpose: errors in coordinates need the line, which general readers do not keep, and arrays of numbers, of
-// which GeoJSON mostly consists, are kept flat.
+// Small on purpose. Errors in coordinates need the line, which general readers do not keep. GeoJSON consists mostly of
+// arrays of numbers, which are kept flat.
 
 struct JsonValue {
   enum class Type { null, boolean, number, string, numbers, array, object };

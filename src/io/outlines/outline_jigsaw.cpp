@@ -4,7 +4,7 @@
 //   EDGE2=n, then: a;b;tag        points from 0
 //   BOUND=n, then: part;edge;20   an edge (20: an EDGE2, from 0) of the boundary of a part
 //
-// Without BOUND nested loops take turns. Other sections are passed over.
+// Without BOUND nested loops take turns. Other sections are skipped.
 #include <algorithm>
 #include <array>
 #include <charconv>

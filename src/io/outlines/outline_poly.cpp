@@ -5,7 +5,7 @@
 //   holes, then: number x y
 //   regions, then: number x y attribute [largest area]
 //
-// Numbers start at 0 or 1, whatever the first point says. A largest area A stands for edges of length √(4A/√3).
+// Numbers start at 0 or 1, as the first point does. A largest area A stands for edges of length √(4A/√3).
 #include <algorithm>
 #include <cmath>
 

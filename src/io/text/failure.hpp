@@ -1,5 +1,5 @@
-// Inside io an error is an exception that carries the InputError; read and write, the only doors of the
-// library, turn it into a value.
+// Inside io an error is an exception that carries the InputError. The only entry points of the library, read and write,
+// turn it into a value.
 #pragma once
 
 #include <algorithm>
@@ -36,13 +36,13 @@ template <class... Parts>
   return joined;
 }
 
-/// The message in its parts, as text() takes them.
+/// The message in parts, as for text().
 template <class... Parts>
 [[noreturn]] void fail(ErrorCode code, std::string where, const Parts&... message) {
   throw Failure{InputError{code, std::move(where), text(message...)}};
 }
 
-/// Runs work; whatever stops it comes back as a value.
+/// Runs work; an exception in it comes back as a value.
 template <class Result, class Work>
 Expected<Result> guarded(const std::string& path, Work work) {
   try {
@@ -59,8 +59,8 @@ Expected<Result> guarded(const std::string& path, Work work) {
   }
 }
 
-// What a file may become in memory. Text and plain bytes are bound by the size of the file; packed, repeated and left
-// out numbers are not, and a few bytes could ask for all the memory there is.
+// Limits of the memory that a file may take. The size of the file limits text and plain bytes. Packed, repeated and
+// left out numbers have no such limit: a few bytes could ask for all the memory there is.
 
 class AllocationLimits {
  public:
@@ -68,22 +68,22 @@ class AllocationLimits {
   explicit AllocationLimits(std::uint64_t file_bytes)
       : all_(kNumbersAByte * std::max(file_bytes, kLeastBytes)), left_(all_) {}
 
-  /// Refuses rows × columns numbers when they are more than are left. `where`: the file, or the array in it.
+  /// Refuses rows × columns numbers when the limit has less left. `where`: the file, or the array in it.
   void check(std::uint64_t rows, std::uint64_t columns, const std::string& where) const {
     if (columns == 0 || rows <= left_ / columns) return;
     fail(ErrorCode::unsupported, where, "becomes more than ", all_, " numbers with these ", rows,
          columns == 1 ? std::string() : text(" times ", columns),
          ", all that temper unpacks from a file of this size; write it without compression, or with fewer arrays");
   }
-  /// Takes them from what is left.
+  /// Subtracts them from the limit.
   void take(std::uint64_t rows, std::uint64_t columns, const std::string& where) {
     check(rows, columns, where);
     left_ -= rows * columns;
   }
 
  private:
-  // What meshes need is below: a point compressed to two bytes has 3 coordinates and 12 numbers of triangles, and
-  // twenty arrays of data are more than files have.
+  // Meshes need less: a point compressed to two bytes has 3 coordinates and 12 numbers of triangles. Twenty arrays of
+  // data are more than files have.
   static constexpr std::uint64_t kNumbersAByte = 16;
   static constexpr std::uint64_t kLeastBytes = 1 << 20;  // small files of constant data may be packed better
   std::uint64_t all_, left_;

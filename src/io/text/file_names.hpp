@@ -1,4 +1,4 @@
-// The numbers and lines that a file gives its points and triangles, so that errors speak the user's numbers. Numbers
+// The numbers and lines that a file gives its points and triangles, so that errors use the user's numbers. Numbers
 // nearly always count up by one, so they are kept as runs: a few bytes, not eight for each of a million points.
 #pragma once
 
@@ -22,7 +22,7 @@ class RunLength {
   void push_back(std::int64_t value);
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
-  /// The value at an index. Past either end the nearest run goes on: what the number would be.
+  /// The value at an index. Past either end the nearest run continues.
   [[nodiscard]] std::int64_t operator[](std::int64_t index) const;
   /// Says whether the numbers are first, first + 1, …
   [[nodiscard]] bool counts_from(std::int64_t first) const;
@@ -37,7 +37,7 @@ class RunLength {
   std::size_t size_ = 0;
 };
 
-/// A lookup from a file's numbers to indices, in O(log runs), and O(1) for numbers asked in order.
+/// A lookup from a file's numbers to indices: O(log runs), and O(1) if calls follow the order of the file.
 class NumberLookup {
  public:
   explicit NumberLookup(const RunLength& numbers);
@@ -57,7 +57,7 @@ class NumberLookup {
   mutable std::size_t last_ = 0;
 };
 
-/// "coast.msh:41", of the line of an element; the path alone where lines are unknown.
+/// "coast.msh:41", for the line of an element; the path alone if lines are unknown.
 [[nodiscard]] std::string at_line(const std::string& path, const RunLength& lines, std::size_t index);
 
 class FileNames final : public InputNames {

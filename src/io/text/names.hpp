@@ -1,5 +1,5 @@
-// Names of arrays and groups: each once in a list, and none that a terminal or a text file would take for more than a
-// name.
+// Names of arrays and groups. Each is once in a list, and has no characters that a terminal or a text file would
+// interpret.
 #pragma once
 
 #include <map>
@@ -15,25 +15,25 @@ namespace temper::io {
 /// The names that are taken. A name costs O(log n), however often it comes.
 class TakenNames {
  public:
-  /// `name`, or when it is taken name_2, name_3, …: taken from now on.
+  /// Returns `name`, or when it is taken name_2, name_3, …; the result is taken from now on.
   [[nodiscard]] std::string take(std::string name);
 
  private:
   std::map<std::string, int> next_;  // the number that the next one of that name is tried with
 };
 
-/// Gives arrays whose name another one before them has a name of their own.
+/// Gives new names to arrays whose name an earlier array has.
 void make_names_unique(std::vector<DataArray>& arrays);
 
 /// Appends %20 for a blank.
 void append_percent(std::string& text, char c);
 
-/// "a, b, c"; of very many the first ones, and how many more there are.
+/// "a, b, c"; of a long list the first ones, and the number of the others.
 [[nodiscard]] std::string list_of(const std::vector<std::string_view>& names);
 
 /// The name with its control characters written out (\x0a), in UTF-8.
 [[nodiscard]] std::string plain_name(std::string_view name);
-/// Makes all names plain, and says so in a warning.
+/// Makes all names plain, with a warning.
 void make_names_plain(MeshFile& file);
 /// Refuses names that are not plain: files made by hand may have some.
 void check_names(const std::string& path, const MeshFile& file);

@@ -143,7 +143,7 @@ T Scanner::unusual_number(std::string_view w, std::string_view expected) const {
   if (end == plain.data() + plain.size()) {
     if (error == std::errc()) return value;
     if constexpr (std::is_floating_point_v<T>) {
-      // Out of range: too small is zero, too large is infinite and is refused as such later.
+      // Out of range: a number that is too small is zero, one that is too large is infinite and is refused later.
       const std::size_t exponent = plain.find_first_of("eE");
       const std::size_t digit = plain.find_first_of("123456789");
       const bool tiny = exponent == std::string::npos ? plain.find('.') < digit : plain[exponent + 1] == '-';

@@ -1,5 +1,5 @@
-// Words and numbers from text, with the line they are on. Every announced count is compared with what is
-// left of the file before anything is allocated.
+// Words and numbers from text, with their line. Every announced count is compared with the rest of the file before
+// anything is allocated.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace temper::io {
 
 class Scanner {
  public:
-  /// `comment`: what starts a comment that runs to the end of the line; '\0': nothing does.
+  /// `comment`: the character that starts a comment up to the end of the line; '\0': none does.
   Scanner(std::string path, std::string_view bytes, char comment = '\0')
       : path_(std::move(path)), begin_(bytes.data()), at_(begin_), end_(begin_ + bytes.size()), comment_(comment) {}
 
@@ -29,15 +29,15 @@ class Scanner {
   }
   [[noreturn]] void fail_truncated(std::string_view expected) const;
 
-  /// Skips blanks and comments; line() is then that of the next word.
+  /// Skips blanks and comments; line() is then the line of the next word.
   void skip_space();
   [[nodiscard]] bool at_end() {
     skip_space();
     return at_ == end_;
   }
-  /// The next word; `expected` says what it should have been when the file ends before it.
+  /// The next word; `expected` names the missing word when the file ends before it.
   std::string_view word(std::string_view expected);
-  /// The next word, left where it is; empty at the end.
+  /// The next word, without moving past it; empty at the end.
   [[nodiscard]] std::string_view peek();
   /// Returns the rest of this line, without blanks at its ends, and goes on to the next line.
   std::string_view rest_of_line();
@@ -65,7 +65,7 @@ class Scanner {
   std::string_view bytes(std::size_t n, std::string_view expected);
   /// Everything up to `mark`, which is skipped too; nothing when there is none.
   std::optional<std::string_view> until(std::string_view mark);
-  /// Past the end of this line.
+  /// Moves past the end of this line.
   void next_line();
   [[nodiscard]] const char* position() const { return at_; }
   [[nodiscard]] std::string_view tail() const { return {at_, remaining()}; }
@@ -83,8 +83,8 @@ class Scanner {
   char comment_;
 };
 
-/// Says whether a word may be a number, Fortran's and those of data that are not finite included: for guesses at
-/// formats.
+/// Says whether a word may be a number, for guesses at formats. Fortran's numbers count, and values that are not
+/// finite.
 [[nodiscard]] bool looks_like_number(std::string_view word);
 
 /// The text without blanks and ends of lines at its ends.

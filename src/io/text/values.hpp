@@ -1,4 +1,4 @@
-// The ten number types of Values: their names in VTU and legacy VTK, and what is done to arrays of any of them.
+// The ten number types of Values: their names in VTU and legacy VTK, and operations on arrays of any of them.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ struct ScalarInfo {
 [[nodiscard]] std::size_t size(const Values& values);
 [[nodiscard]] inline bool is_floating(const Values& values) { return scalar_of(values) <= Scalar::f32; }
 
-/// Calls f(T()) with a value of the type; all calls return the same type.
+/// Calls `f` with a default value of the type; all calls return the same type.
 template <std::size_t I = 0, class F>
 decltype(auto) with_scalar(Scalar scalar, F&& f) {
   if constexpr (I + 1 < std::variant_size_v<Values>) {
@@ -46,7 +46,6 @@ decltype(auto) with_scalar(Scalar scalar, F&& f) {
 template <class Vector>
 using ElementOf = typename std::remove_cvref_t<Vector>::value_type;
 
-/// An array of n zeros.
 [[nodiscard]] Values zeros(Scalar scalar, std::size_t n);
 /// The values as doubles; moved when they are doubles already.
 [[nodiscard]] std::vector<double> to_doubles(Values&& values);
@@ -61,7 +60,7 @@ void append(Values& values, const Values& more);
 
 /// The array of that name, or null.
 [[nodiscard]] const DataArray* find(const std::vector<DataArray>& arrays, std::string_view name);
-/// The same for many names: each costs O(log n).
+/// A lookup for many names: each costs O(log n).
 class ArraysByName {
  public:
   explicit ArraysByName(const std::vector<DataArray>& arrays) {

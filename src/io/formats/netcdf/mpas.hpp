@@ -1,5 +1,5 @@
-// The MPAS mesh of a triangulation, planar or spherical: cells are the power cells of its vertices, MPAS's vertices the
-// orthocenters.
+// The MPAS mesh of a triangulation, planar or spherical. Its cells are the power cells of the vertices, and its
+// vertices the orthocenters.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace temper::io {
 
-/// Arrays as MPAS has them, of one row after the other. Numbers count from 1; 0: none.
+/// Arrays in MPAS's order, one row after the other. Numbers count from 1; 0: none.
 struct MpasArrays {
   std::size_t max_edges = 0;
   std::vector<std::int32_t> cells_on_edge, vertices_on_edge;                                  // 2 an edge

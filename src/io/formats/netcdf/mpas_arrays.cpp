@@ -1,13 +1,13 @@
-// See mpas.hpp. The conventions are those of MPAS-Tools' mesh converter:
+// See mpas.hpp. The conventions are the same as in MPAS-Tools' mesh converter.
 //
 //   edge       cellsOnEdge(1) → cellsOnEdge(2) has verticesOnEdge(1) on its right and verticesOnEdge(2) on its left
 //   vertex     edgesOnVertex counter-clockwise; cellsOnVertex(i) is between edges i and i + 1
 //   cell       edgesOnCell counter-clockwise; cellsOnCell(i) across edge i; verticesOnCell(i) between edges i and i + 1
 //
-// On the boundary of the domain an edge has two cells and one vertex, verticesOnEdge(2) = 0, and its cells, cut off by
-// the boundary, have one vertex less than edges. dvEdge ends at the boundary there, and areaCell is what is inside: as
-// if the boundary were a wall. On a sphere left and counter-clockwise are as seen from outside, lengths those of arcs,
-// areas excess, and angleEdge is the angle from east to the normal of the edge, where it crosses.
+// At the boundary of the domain an edge has two cells and one vertex: verticesOnEdge(2) = 0. Its cells, cut off by the
+// boundary, have one vertex less than edges. dvEdge ends at the boundary, and areaCell is the area inside, as if the
+// boundary were a wall. On a sphere left and counter-clockwise are as seen from outside, lengths are lengths of arcs,
+// and areas are excess. angleEdge is the angle from east to the normal of the edge, at the point of crossing.
 #include <algorithm>
 #include <cmath>
 
@@ -37,7 +37,7 @@ class MpasBuilder {
     a_.vertices_on_edge.reserve(2 * n);
     for (std::size_t i = 0; i < n; ++i) {
       const DecEdge& e = complex_.edges[EdgeId(i)];
-      // With one triangle alone the edge turns so that it is on the right.
+      // An edge with one triangle is turned so that the triangle is on its right.
       const bool turned = !e.right.valid();
       const VertexId first = turned ? e.to : e.from, second = turned ? e.from : e.to;
       a_.cells_on_edge.push_back(from_one(first.index));
@@ -88,8 +88,8 @@ class MpasBuilder {
       a_.cells_on_cell[at] = from_one(mesh_.opposite(last).index);
     }
   }
-  // Thuburn, Ringler, Skamarock and Klemp 2009, eq. 33: from edge to edge, counter-clockwise around each cell of an
-  // edge, ±(1/2 − the part of the cell's area that was passed) dv' / dc. Along a wall nothing flows, and no area is
+  // Thuburn, Ringler, Skamarock and Klemp 2009, eq. 33. From edge to edge, counter-clockwise around each cell of an
+  // edge: ±(1/2 − the part of the cell's area passed so far) dv' / dc. Along a wall nothing flows, and no area is
   // passed.
   void weights() {
     const std::size_t n = complex_.edges.size(), width = 2 * a_.max_edges;

@@ -1,9 +1,9 @@
 // MPAS meshes of the plane, which may be periodic, and of the sphere (MPAS Mesh Specification 1.0): cells are points,
 // MPAS's vertices are triangles.
 //
-// Read are xCell, yCell, zCell and cellsOnVertex, and x_period and y_period where is_periodic is YES; vertices of fewer
-// than three cells, on a boundary, are no triangles. The variable weight, of cells, is temper's own; so is cullCell, 1
-// for cells at the boundary, which MPAS-Tools' culler removes.
+// The reader takes xCell, yCell, zCell and cellsOnVertex, and x_period and y_period if is_periodic is YES. Vertices of
+// fewer than three cells, on a boundary, are no triangles. The variables weight and cullCell of cells are temper's own.
+// MPAS-Tools' culler removes cells at the boundary, where cullCell is 1.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::string_view kMpasWeight = "weight";
 
-/// The variables that follow from the mesh and are computed anew.
+/// The variables that follow from the mesh; they are computed again.
 const std::set<std::string_view> kMpasDerived = {"latCell",        "lonCell",
                                                  "xCell",          "yCell",
                                                  "zCell",          "indexToCellID",
@@ -125,7 +125,7 @@ class MpasReader {
     }
   }
 
-  /// The radius is that of the file, which its points must have.
+  /// The file gives the radius, which its points must have.
   void points_on_sphere(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& z) {
     std::vector<Vec3> places;
     for (std::size_t i = 0; i < x.size(); ++i) places.push_back({x[i], y[i], z[i]});
@@ -133,7 +133,7 @@ class MpasReader {
     if (said) expect_radius(places, *said);
     settle_points(document_.file, places, *document_.names);
     if (document_.file.sphere() == nullptr) {
-      // On one parallel all have one z, as in a plane.
+      // Points on one parallel have one z, as in a plane.
       const auto common = common_radius(places);
       if (!common) {
         fail(ErrorCode::not_planar, document_.names->path,
@@ -230,7 +230,7 @@ void write_mpas_angles(NetcdfWriter& out, const char* what, int dimension, std::
   out.variable(text("lon", what), {dimension}, std::move(lon));
 }
 
-/// Cells, edges or vertices: where they are, and on the globe, if that is known.
+/// Positions of cells, edges or vertices, and their longitude and latitude if known.
 struct MpasPositions {
   std::vector<Vec3> at;
   std::vector<Vec2> lon_lat;
@@ -251,7 +251,7 @@ MpasPositions in_plane(const NetcdfMesh& m, const std::vector<Vec2>& points) {
   return places;
 }
 
-/// Where they are in the domain of a periodic plane; in the plane itself where they are.
+/// Their images in the domain of a periodic plane; unchanged in the plane itself.
 std::vector<Vec2> in_domain(const NetcdfMesh& m, std::vector<Vec2> points) {
   for (Vec2& p : points) p = m.mesh.space().in_domain({p.x, p.y, 0}).position();
   return points;
@@ -319,7 +319,7 @@ void refuse_too_wide(const WriteJob& job, const Mesh& mesh, std::size_t n_edges)
        " for each of ", n_edges, " edges: too many to be written");
 }
 
-/// With weights the edges do not cross midway between the cells.
+/// Warns that with weights the edges do not cross midway between the cells.
 void warn_of_offsets(const WriteJob& job, const NetcdfMesh& m) {
   constexpr double kVisible = 0.01;
   if (std::ranges::all_of(m.file.weights, [](double w) { return w == 0; })) return;

@@ -27,7 +27,7 @@ constexpr std::array<ExtraKind, 5> kExtraKinds = {{{"point", &MeshFile::point_da
                                                    {"marked", &MeshFile::marked_point_data, ""},
                                                    {"field", &MeshFile::field_data, ""}}};
 
-/// A name that NetCDF takes and that no variable has.
+/// A name that NetCDF accepts and no variable has.
 std::string free_name(const NetcdfWriter& out, const ExtraKind& kind, const std::string& name) {
   std::string plain;
   for (const char c : name) {
@@ -116,7 +116,7 @@ class ExtrasWriter {
   int lines_ = -1, marked_ = -1;
 };
 
-/// Variables of temper's own must have one row an element.
+/// Variables of temper's own must have one row for each element.
 void expect_rows(const Document& d, const NetcdfVariable& v, std::size_t rows) {
   if (!v.sizes.empty() && v.sizes[0] == rows) return;
   fail(ErrorCode::size_mismatch, d.names->path, "variable ", v.name, " has ", v.sizes.empty() ? 1 : v.sizes[0],

@@ -1,4 +1,4 @@
-// In place of NetCDF's formats where its headers were not there when temper was built.
+// Replaces NetCDF's formats if its headers were missing when temper was built.
 #include "io/containers/hdf5_magic.hpp"
 #include "io/formats/format.hpp"
 

@@ -1,4 +1,4 @@
-// UGRID 1.0 in NetCDF (CF conventions for unstructured grids): a topology variable names the others by its attributes.
+// UGRID 1.0 in NetCDF (CF conventions for unstructured grids): attributes of a topology variable name the others.
 //
 //   node_coordinates  face_node_connectivity     read; numbers from start_index, 0 unless it says 1; _FillValue
 //                                                or NaN: none
@@ -81,8 +81,8 @@ class UgridReader {
     }
   }
 
-  /// Longitude or latitude, by CF's standard names and units (degrees_east, degree_N, degreesE, …), or neither: those
-  /// of a rotated pole are plain degrees.
+  /// Longitude or latitude, by CF's standard names and units (degrees_east, degree_N, degreesE, …), or neither.
+  /// Coordinates of a rotated pole are plain degrees.
   std::string_view axis(const NetcdfVariable& v) const {
     const std::string name = in_.text_attribute(&v, "standard_name"), units = in_.text_attribute(&v, "units");
     const auto ends = [&](std::string_view word) { return units.starts_with("degree") && units.ends_with(word); };
@@ -96,7 +96,7 @@ class UgridReader {
     if (names.size() != 1) fail(ErrorCode::unsupported, path(), "has no face_node_connectivity");
     const NetcdfVariable& v = in_.variable(names[0]);
     expect(v.sizes.size() == 2, v.name);
-    // Rows are faces, unless face_dimension says that columns are.
+    // Rows are faces, unless face_dimension names the columns.
     const std::string face_dimension = in_.text_attribute(&topology_, "face_dimension");
     const bool turned = !face_dimension.empty() && in_.dimension_name(v.dimensions[1]) == face_dimension &&
                         in_.dimension_name(v.dimensions[0]) != face_dimension;
@@ -130,7 +130,7 @@ class UgridReader {
     }
   }
 
-  /// Other variables, as data of what they are on.
+  /// Other variables become data of their location.
   void data() {
     for (const char* attribute :
          {"edge_node_connectivity", "face_edge_connectivity", "edge_face_connectivity", "face_face_connectivity",
@@ -233,7 +233,7 @@ class UgridWriter {
     }
   }
 
-  /// Points of the plane as the file has them: on a map as longitude and latitude.
+  /// Points of the plane in the file's coordinates: on a map as longitude and latitude.
   [[nodiscard]] std::vector<Vec2> unmapped(const std::vector<Vec2>& points) const {
     return m_.file.map() != nullptr ? lon_lat_of_places(m_.file, m_.mesh, points) : points;
   }
@@ -292,7 +292,7 @@ class UgridWriter {
   int nodes_ = -1, faces_ = -1, edges_ = -1;
 };
 
-/// NetCDF of any kind whose first bytes do not tell: the variables do.
+/// NetCDF files of any kind: the first bytes do not determine the format, the variables do.
 Document read_ugrid_from(const NetcdfReader& in, const Source& source) {
   const std::string& path = source.path;
   if (in.find("cellsOnVertex") != nullptr && in.find("xCell") != nullptr) return read_mpas_from(in, path);
@@ -303,7 +303,7 @@ Document read_ugrid_from(const NetcdfReader& in, const Source& source) {
   }
   if (in.find("connect1") != nullptr)
     fail(ErrorCode::unsupported, path, "is an Exodus mesh, which temper does not read; meshio converts it");
-  // By the name of a group, which libnetcdf does not show among variables.
+  // Recognized by the name of a group, which libnetcdf does not show among variables.
   if (is_hdf5(source.bytes) && source.bytes.find("ENS_MAA") != std::string::npos)
     fail(ErrorCode::unsupported, path, "is a MED mesh, which temper does not read; meshio converts it");
   fail(ErrorCode::unsupported, path,

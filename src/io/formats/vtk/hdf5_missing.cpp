@@ -1,4 +1,4 @@
-// In place of VTKHDF where the headers of HDF5 were not there when temper was built.
+// Replaces VTKHDF if the headers of HDF5 were missing when temper was built.
 #include "io/containers/hdf5_magic.hpp"
 #include "io/formats/format.hpp"
 #include "io/formats/vtk/vtkhdf.hpp"

@@ -55,7 +55,7 @@ std::string lower(std::string_view s) {
   return result;
 }
 
-/// Names of arrays have their blanks and the like as %20.
+/// Names of arrays encode blanks and similar characters as %20.
 std::string decoded(std::string_view name) {
   std::string result;
   for (std::size_t i = 0; i < name.size(); ++i) {
@@ -86,7 +86,7 @@ class LegacyVtkReader {
   }
 
  private:
-  /// Points of cells, one after the other; ends[i] is where those of cell i end.
+  /// Points of cells, one after the other; the points of cell i end at ends[i].
   struct CellArray {
     std::vector<std::int32_t> points, ends;
     RunLength text_lines;
@@ -136,7 +136,7 @@ class LegacyVtkReader {
     }
   }
   void points() {
-    // Data may have been read already, one tuple a point.
+    // Data may have been read already, one tuple for each point.
     if (has_points_) scanner_.fail_here(ErrorCode::syntax, "has a second section POINTS");
     const std::size_t n = scanner_.count("points", 3);
     const Scalar scalar = type(scanner_.word("a type"), "POINTS");

@@ -1,7 +1,6 @@
-// Writes legacy VTK: an UNSTRUCTURED_GRID of triangles, lines and marked points, as VTU has it, with all data in
-// FIELDs.
+// Writes legacy VTK: an UNSTRUCTURED_GRID of triangles, lines and marked points, as in VTU, with all data in FIELDs.
 //
-// Version 3.0 is what every reader of the format takes: a cell is its number of points and the points. Version 5.1 has
+// Every reader of the format accepts version 3.0: a cell is its number of points and the points. Version 5.1 has
 // OFFSETS and CONNECTIVITY, and names for 64-bit integers that mean the same on every system.
 #include "io/formats/vtk/vtk_arrays.hpp"
 #include "io/text/names.hpp"
@@ -80,7 +79,7 @@ class LegacyVtkWriter {
   }
   void cells_with_offsets() {
     const VtkArray points = vtk_connectivity(file_);
-    // The first offset is that of the first cell; as in VTK there is one more than cells.
+    // The first offset belongs to the first cell; as in VTK there is one more than cells.
     const VtkArray offsets =
         computed_vtk_array<std::int64_t>("OFFSETS", Scalar::i64, n_vtk_cells(file_) + 1, [this](std::size_t i) {
           const std::size_t end = i == 0 ? 0 : vtk_cell_end(i - 1, file_.triangles.size(), file_.lines.size());

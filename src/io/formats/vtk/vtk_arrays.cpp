@@ -47,7 +47,7 @@ VtkArray joined(std::string name, Scalar scalar, int components, std::vector<Par
           }};
 }
 
-/// use(value, its index) for each value, of type T.
+/// Calls use(value, its index) for each value, of type T.
 template <class T, class F>
 void for_each_value(const VtkArray& a, F use) {
   constexpr std::size_t kBlock = kVtkBlockBytes / sizeof(T);
@@ -215,7 +215,7 @@ struct QualityColumns {
   std::array<std::vector<float>, 3> margins;  // h/l, d/l, angle
 };
 
-/// −∞, of triangles without area, is no number in text of VTK.
+/// VTK has no text for −∞, the value of triangles without area.
 float as_float(double value) {
   using Limits = std::numeric_limits<float>;
   if (!(value >= Limits::lowest())) return Limits::lowest();
@@ -265,7 +265,7 @@ QualityColumns measure_all(const MeshFile& file, Executor* executor) {
   return columns;
 }
 
-/// The name of one of the arrays that data of the file have, or nothing.
+/// The name of an array that data of the file already have, or nothing.
 std::string_view name_taken(const MeshFile& file) {
   for (const TriangleQualityArray& row : kTriangleQuality) {
     for (const auto* arrays : {&file.cell_data, &file.line_data, &file.marked_point_data}) {

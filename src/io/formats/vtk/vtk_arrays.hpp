@@ -1,5 +1,6 @@
-// The arrays of a mesh in a file of the VTK family (VTU and legacy): triangles first, then lines, then marked points,
-// so that cell i is triangle i. Cell data `region` is the region of a triangle, the tag of a line, the tag of a point.
+// The arrays of a mesh in a file of the VTK family (VTU and legacy). Triangles come first, then lines, then marked
+// points, so that cell i is triangle i. Cell data `region` is the region of a triangle, the tag of a line, the tag of a
+// point.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +16,9 @@
 
 namespace temper::io {
 
-/// The values as text, a tuple a line.
+/// The values as text, one tuple per line.
 void put_ascii(Output& out, const VtkArray& array);
-/// The bytes of the values, of the greatest weight first.
+/// The bytes of the values, most significant first.
 void put_big_endian(Output& out, const VtkArray& array);
 
 [[nodiscard]] inline std::size_t n_vtk_cells(const MeshFile& f) {
@@ -25,22 +26,23 @@ void put_big_endian(Output& out, const VtkArray& array);
 }
 [[nodiscard]] VtkArray vtk_points(const MeshFile& f);
 [[nodiscard]] VtkArray vtk_connectivity(const MeshFile& f);
-/// The index after the last point of cell i, of so many triangles, lines after them, and then points.
+/// The index after the last point of cell i. Triangles come first, then lines, then points.
 [[nodiscard]] inline std::size_t vtk_cell_end(std::size_t i, std::size_t triangles, std::size_t lines) {
   const std::size_t t = std::min(i + 1, triangles), l = std::min(i + 1 - t, lines);
   return 3 * t + 2 * l + (i + 1 - t - l);
 }
-/// Those of all cells: in 32 bits, and in 64 where the last one does not fit.
+/// The ends of all cells: in 32 bits, or in 64 if the last one does not fit.
 [[nodiscard]] VtkArray vtk_cell_ends(std::size_t triangles, std::size_t lines, std::size_t points);
 [[nodiscard]] VtkArray vtk_cell_types(const MeshFile& f);
 [[nodiscard]] std::vector<VtkArray> vtk_point_data(const WriteJob& job);
 [[nodiscard]] std::vector<VtkArray> vtk_cell_data(const WriteJob& job);
 [[nodiscard]] std::vector<VtkArray> vtk_field_data(const MeshFile& f);
 
-// How well-centered each triangle is, as cell data of VTU and VTKHDF: made anew by every writing, and not a part of
-// what was read.
+// Measures of well-centeredness for each triangle, as cell data of VTU and VTKHDF. Each writing computes them again;
+// they are no part of the file that was read.
 
-/// One of the arrays: named as in Quality, of floats, which are enough for colors and half of what doubles take.
+/// One of the arrays: its name is the one in Quality, its numbers are floats. They are enough for colors and take half
+/// of the room of doubles.
 struct TriangleQualityArray {
   std::string_view name;
   Scalar scalar;
@@ -56,13 +58,13 @@ struct TypeOfArray {
   Scalar scalar;
   int components;
 };
-/// Says whether the arrays are among cell data of these types, nothing being that of an array that is not there. They
-/// come together: one of their names alone is the user's.
+/// Says whether cell data of these types contain the arrays; the function returns nothing for an array that is not
+/// there. All of them must be there: a single one of these names is the user's own.
 [[nodiscard]] bool has_triangle_quality(
     const std::function<std::optional<TypeOfArray>(std::string_view name)>& type_of);
 
-/// The arrays of a mesh; zeros for lines and marked points. None where there are no triangles, lengths are unknown,
-/// points being degrees, or data of the file have one of the names, which a warning says.
+/// The arrays of a mesh; zeros for lines and marked points. None without triangles, or when points are degrees and
+/// lengths therefore unknown. None either when data of the file have one of the names, which a warning says.
 [[nodiscard]] std::vector<VtkArray> vtk_triangle_quality(const WriteJob& job);
 
 }  // namespace temper::io

@@ -1,4 +1,4 @@
-// Names in VTKHDF files that the reader looks for and the writer gives.
+// Names in VTKHDF files, for the reader and the writer.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace temper::io {
 
 inline constexpr std::string_view kVtkhdfGroup = "VTKHDF", kVtkhdfType = "UnstructuredGrid";
-/// An attribute of temper's, of arrays whose own name HDF5 does not take.
+/// An attribute of temper's own, for arrays whose name HDF5 does not accept.
 inline constexpr const char* kVtkhdfName = "temper_name";
 
 struct JoinedPoints {

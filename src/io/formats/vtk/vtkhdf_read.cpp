@@ -1,12 +1,12 @@
 // Reads VTKHDF, VTK's format for unstructured grids in HDF5: versions 1 and 2, of one time step.
 //
 //   /VTKHDF                      attributes Version and Type
-//     NumberOfPoints NumberOfCells NumberOfConnectivityIds    one number a piece
-//     Points Connectivity Offsets Types                       those of all pieces, one after the other
+//     NumberOfPoints NumberOfCells NumberOfConnectivityIds    one number per piece
+//     Points Connectivity Offsets Types                       of all pieces, one after the other
 //     PointData CellData FieldData                            groups of arrays, a row for each point, cell, tuple
 //
-// Each piece numbers its points from 0, and has one more offsets than cells, from 0. Points in which pieces meet are in
-// each of them, and become one; cells that a piece has from its neighbor (ghosts) are left out.
+// Each piece numbers its points from 0, and has one more offsets than cells, from 0. If pieces meet in a point, each
+// has it, and the copies become one. Cells that a piece has from its neighbor (ghosts) are left out.
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -51,7 +51,7 @@ class VtkhdfReader {
   }
 
  private:
-  /// Where a piece begins in the arrays of the file.
+  /// The start of a piece in the arrays of the file.
   struct Start {
     std::size_t piece = 0, points = 0, cells = 0, ids = 0;
   };
@@ -159,7 +159,7 @@ class VtkhdfReader {
     release(connectivity_), release(types_), release(offsets_);
     sorter.distribute(std::move(data));
   }
-  /// Ghost cells are told by bits, whatever integers hold these.
+  /// Bits mark ghost cells, in integers of any type.
   void find_duplicates(const DataArray& ghosts, std::size_t n) {
     const bool known = std::visit(
         [&](const auto& bits) {
@@ -274,8 +274,8 @@ class VtkhdfReader {
 
 }  // namespace
 
-// What other HDF5 files hold, NetCDF says. The name of a group is in plain bytes of its file, so that files without it
-// need no libhdf5.
+// All other HDF5 files go to the reader of NetCDF. The name of a group is in plain bytes of its file, so that files
+// without it need no libhdf5.
 Document read_vtkhdf(Source& source) {
   if (source.bytes.find(kVtkhdfGroup) != std::string::npos) {
     const Hdf5Reader in(source);

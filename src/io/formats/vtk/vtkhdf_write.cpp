@@ -11,7 +11,7 @@
 namespace temper::io {
 namespace {
 
-/// HDF5 takes a slash for a group within a group, and a point for the group itself.
+/// In HDF5 a slash means a group within a group, and a point the group itself.
 std::string hdf5_name(std::string_view name) {
   if (name.empty()) return "unnamed";
   std::string result;
@@ -30,7 +30,7 @@ VtkArray number_of(std::string name, std::size_t n) {
                                           [n](std::size_t) { return static_cast<std::int64_t>(n); });
 }
 
-/// 64 bits a number, which all versions of VTK expect.
+/// 64 bits per number, which all versions of VTK expect.
 VtkArray vtkhdf_connectivity(const MeshFile& f) {
   const VtkArray narrow = vtk_connectivity(f);
   return {"Connectivity", Scalar::i64, 1, narrow.n_values, [narrow](std::size_t first, std::size_t n, char* to) {

@@ -1,8 +1,8 @@
 // VTU, VTK's XML format for unstructured grids: the native format of temper.
 //
-// The file is parsed in place: one buffer holds the text, base64 is decoded over it, and each array is unpacked
-// once and freed as soon as its numbers are where they belong. All number types, ASCII, base64 and appended data
-// (raw or base64), with zlib or without, either byte order.
+// The file is parsed in place: one buffer holds the text, and base64 is decoded over it. Each array is unpacked once,
+// and freed as soon as its numbers are in their final place. The reader takes all number types, ASCII, base64 and
+// appended data (raw or base64), with zlib or without, in either byte order.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -25,7 +25,7 @@ bool sniff_vtu(std::string_view head) {
 
 namespace {
 
-/// Takes out the arrays that write_vtu makes of the mesh itself.
+/// Removes the arrays that write_vtu makes from the mesh itself.
 void forget_triangle_quality(pugi::xml_node cell_data) {
   const auto array_of = [&](std::string_view name) {
     return cell_data.find_child_by_attribute("DataArray", "Name", std::string(name).c_str());
@@ -279,8 +279,8 @@ class VtuReader {
     }
     const std::string_view from = appended_.substr(static_cast<std::size_t>(offset));
     if (!appended_is_base64_) return unpack(from, scalar, packing, source_.allocation, source_.executor);
-    // Base64 ends where the next array starts; what follows it in the same text does no harm to a decoder that
-    // knows the length from the header. Not in place: two arrays may share their bytes.
+    // Base64 ends at the start of the next array. More text behind it does no harm, as the header gives the decoder the
+    // length. Not in place: two arrays may share their bytes.
     const std::string_view only = from.substr(0, from.find('<'));
     const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), offset);
     const auto most = static_cast<std::size_t>(
@@ -306,7 +306,7 @@ class VtuReader {
     }
     return std::move(*converted);
   }
-  /// Three points a triangle are more than 32 bits count, long before there are as many triangles.
+  /// Three points per triangle overflow 32 bits long before the number of triangles does.
   template <class Integer>
   void sort_cells(CellSorter& sorter, const pugi::xml_node& cells, const std::vector<std::int32_t>& connectivity,
                   const std::vector<Integer>& ends) {
