@@ -222,7 +222,7 @@ def measure_errors(
     changed = {
         "frame": FieldFrame(**d["frame"]),
         "poisson": ErrorSystem(**d["poisson"]),
-        "flux": ErrorSystem(**d["transmissibility"]),
+        "flux": ErrorSystem(**d["flux"]),
         "fields": _fields(d["fields"]),
         "orders": _fields(d["orders"]),
         "levels": levels,

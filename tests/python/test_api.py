@@ -29,7 +29,7 @@ ELSEWHERE = {
     "missing_need": "optimize warns", "spell_options": "texts are spelled", "stopped_early": "OptimizeReport.stopped",
     "read_number": "float", "read_by_strtod": "float",
     "triangle_values": "NumPy, of mesh and dec", "spread": "NumPy", "orient2d": "geometry.orientation",
-    "lifted": "Mesh.weighted_vectors", "as_point": "arrays have three columns", "expect_plane": "functions do it",
+    "as_vector": "Mesh.weighted_vectors", "as_point": "arrays have three columns", "expect_plane": "functions do it",
     "expect_no_period": "functions do it",
     "local_sizes": "local_size",
     "dot": "NumPy", "cross": "NumPy", "length": "NumPy", "squared_length": "NumPy",
@@ -259,7 +259,7 @@ def test_the_names_of_energies_are_those_of_the_library():
 def test_a_wrong_type_is_told_what_is_expected(ring):
     with pytest.raises(TypeError, match=r"max_sweeps: expected int, found 'ten'"):
         temper.optimize(ring, max_sweeps="ten")
-    with pytest.raises(temper.TemperError, match=r"repair is True; expected none, moves or vertices"):
+    with pytest.raises(temper.TemperError, match=r"repair is True; expected none, perturb or vertices"):
         temper.optimize(ring, repair=True)
 
 

@@ -203,8 +203,8 @@ constexpr OptionRow kAccuracyRows[] = {
              "`energy` is not BP or has switches of its own"}),
     row<&Options::target>(
         "target",
-        "of accuracy: what the mesh is for. vertex: unknowns at vertices (discrete exterior calculus); cell: at "
-        "orthocenters (two-point flux); stars: the diagonal Hodge stars; all: something for each, and larger margins",
+        "what the mesh is for. vertex: unknowns at vertices; cell: unknowns at orthocenters (two-point flux); stars: "
+        "diagonal Hodge stars; all: each of them, with larger margins",
         {.common = true, .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::margin>(
         "margin", "of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle",

@@ -107,8 +107,7 @@ TEST_F(Usage, EveryOptionOfTheTableIsAnOptionOfOptimize) {
   for (const OptionGroup& group : option_groups()) {
     EXPECT_TRUE(contains(help, "\n" + std::string(group.title) + ":\n"));
     for (const OptionRow& row : group.rows) {
-      std::string name = "--" + std::string(row.name);
-      if (name.ends_with('_')) name.pop_back();  // target
+      std::string name = "--" + std::string(row.name == "target" ? "for" : row.name);
       std::replace(name.begin(), name.end(), '_', '-');
       EXPECT_TRUE(contains(help, "\n  " + name + " ")) << name;
       const bool bounded = row.range.low > -1 && row.kind != OptionKind::choice;
