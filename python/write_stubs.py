@@ -25,6 +25,7 @@ LengthParameterLike = LengthParameter | float
 TABLE: list[dict[str, Any]]
 OPTION_NAMES: tuple[str, ...]
 EnergyName = {energy}
+ObjectiveName = {objective}
 
 class OptionChanges(TypedDict, total=False):
 '''
@@ -53,9 +54,10 @@ def main(folder):
     import _temper
 
     fields = [(row["name"], row["type"]) for row in _temper.option_table()]
+    kinds = dict(fields)
     changes = "".join(f"    {name}: {kind}\n" for name, kind in fields)
     options = "".join(f"    {name}: {kind} = ...\n" for name, kind in fields)
-    text = HEAD.format(energy=dict(fields)["energy"]) + changes + OPTIONS + options + TAIL
+    text = HEAD.format(energy=kinds["energy"], objective=kinds["objective"].removesuffix(" | None")) + changes + OPTIONS + options + TAIL
     (folder / "_options.pyi").write_text(text, encoding="utf-8")
 
 

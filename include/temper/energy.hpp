@@ -76,6 +76,9 @@ struct EnergyInfo {
   bool signed_by_dual = false;           ///< Sign of an edge is the sign of its dual length
   bool normalized = false;               ///< Energy of each triangle is divided by its squared area
   bool positions_alone = false;          ///< Energy is for meshes without weights, which stay without
+
+  /// Says whether this is a barrier that nothing softens: a run has to begin inside it.
+  [[nodiscard]] constexpr bool is_hard() const { return barrier && !softened_by_gamma && !softened_by_h0; }
 };
 
 /// All energies, in the order of the table above.

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _temper
 from ._errors import TemperError, TemperWarning
 from ._mesh import DataRules, Mesh, MeshLike, as_mesh, data_rules, put_back
-from ._options import OptimizeOptions, changed, shows_options
+from ._options import ObjectiveName, OptimizeOptions, changed, shows_options
 from ._progress import Line, Progress, SweepRecord
 from ._records import Record
 from .size import SizeField, SizeReport, Spread, _size_report
@@ -131,7 +131,7 @@ class OptimizeReport(Record):
     """Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted."""
     hidden: npt.NDArray[np.int32]
     """Vertices without a power cell that ``hidden="keep"`` left."""
-    objective: Literal["energy", "accuracy", "solver_error"]
+    objective: ObjectiveName
     """Objective that the run lowered."""
     seconds: float
     """Time of the optimization alone [s]."""

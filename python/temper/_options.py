@@ -42,6 +42,7 @@ def _length_parameter(name: str, value: LengthParameterLike) -> tuple[float, str
 TABLE: list[dict[str, Any]] = _temper.option_table()
 OPTION_NAMES = tuple(row["name"] for row in TABLE)
 EnergyName = Literal[tuple(next(row["choices"] for row in TABLE if row["name"] == "energy"))]
+ObjectiveName = Literal[tuple(next(row["choices"] for row in TABLE if row["name"] == "objective"))]
 _SOFTENINGS = [row["name"] for row in TABLE if row["type"].startswith("LengthParameterLike")]
 
 

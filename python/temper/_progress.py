@@ -5,8 +5,9 @@ from __future__ import annotations
 import dataclasses
 import sys
 import time
-from typing import Any, Literal
+from typing import Any
 
+from ._options import ObjectiveName
 from ._records import Record
 
 _INTERVAL = 0.1  # seconds; nobody can read faster
@@ -28,7 +29,7 @@ class SweepRecord(Record):
     """Value of γ or −h° in this sweep (relative to ℓ by default)."""
     seconds: float
     """Time since the start of the optimization [s]."""
-    objective: Literal["energy", "accuracy", "solver_error"] = "energy"
+    objective: ObjectiveName = "energy"
     """Objective that the sweep lowered."""
 
 

@@ -290,8 +290,13 @@ TEMPER_INLINE HotKernel hot_kernel(const EdgeFormula& f) { return {f.alpha, f.be
 /// Calls visit with the kernel of a formula that is a barrier.
 template <class Visit>
 TEMPER_INLINE auto with_barrier(const EdgeFormula& f, Visit&& visit) {
-  if (f.form == EdgeFormula::Form::shifted) {
-    return visit(BarrierKernel<ShiftedHeight>{f.alpha, f.beta, {f.first, f.second}, f.least_area});
+  using enum EdgeFormula::Form;
+  switch (f.form) {
+    case shifted:
+      return visit(BarrierKernel<ShiftedHeight>{f.alpha, f.beta, {f.first, f.second}, f.least_area});
+    case smoothed:
+    case hot:  // is no barrier: callers have asked
+      break;
   }
   return visit(BarrierKernel<SmoothedHeight>{f.alpha, f.beta, {f.first, f.second}, f.least_area});
 }

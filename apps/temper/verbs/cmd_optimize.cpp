@@ -259,7 +259,7 @@ void write_all(const Command& command, const OptimizeSettings& s, Input& input, 
 
 /// The relevant row of energies.
 int star_shown(const OptimizeOptions& options) {
-  return objective_of(options) == Objective::accuracy ? 1 : static_cast<int>(options.star);
+  return objective_of(options) != Objective::energy ? 1 : static_cast<int>(options.star);
 }
 
 void print_result(const OptimizeSettings& s, const RunResults& results, const Outputs& outputs) {

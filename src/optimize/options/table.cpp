@@ -91,6 +91,7 @@ T field_of(const OptionValue& value) {
 
 template <class T>
 constexpr OptionKind kind_of() {
+  static_assert(!std::is_same_v<T, bool>, "a switch is an enum with two names");
   if (std::is_enum_v<T>) return OptionKind::choice;
   if (std::is_integral_v<T>) return OptionKind::count;
   if (std::is_same_v<T, LengthParameter>) return OptionKind::length_parameter;
@@ -144,10 +145,27 @@ constexpr double kMostMargin = 0.25;  // of h/ℓ an equilateral triangle has 0.
 constexpr double kMostEdge = 0.95, kMostDual = 0.55;  // of local sizes equilateral triangles have 1 and 0.577
 constexpr double kLeastBoundaryRatio = 2;             // a cut in the middle leaves edges of half the length
 
+/// "BH|BHs|BP": the energies that have the property.
+template <bool EnergyInfo::*property>
+constexpr auto kJoinedNames = [] {
+  struct {
+    std::array<char, 8 * kEnergyKinds> text{};
+    std::size_t size = 0;
+  } joined;
+  for (const EnergyInfo& energy : kEnergies) {
+    if (!(energy.*property)) continue;
+    if (joined.size > 0) joined.text[joined.size++] = '|';
+    for (const char c : energy.name) joined.text[joined.size++] = c;
+  }
+  return joined;
+}();
+template <bool EnergyInfo::*property>
+constexpr OptionNeed kEnergyThat = {"energy", {kJoinedNames<property>.text.data(), kJoinedNames<property>.size}};
+
 bool lowers_accuracy(const Options& o) { return objective_of(o) != Objective::energy; }
 constexpr OptionNeed kForAccuracy = {"objective", "accuracy", lowers_accuracy};
 constexpr OptionNeed kForError = {"objective", "solver_error"};
-constexpr OptionNeed kBarrier = {"energy", "BH|BHs|BP"};
+constexpr OptionNeed kBarrier = kEnergyThat<&EnergyInfo::barrier>;
 constexpr OptionNeed kDeferredFlips = {"flips", "deferred"};
 constexpr OptionNeed kCollapses = {"collapse_from", ""};
 constexpr OptionNeed kRemovals = {"removal", "patch|weight"};
@@ -171,11 +189,11 @@ constexpr OptionRow kEnergyRows[] = {
         "gamma", "gamma of E_BP",
         {.range = more_than(0),
          .absent = "relative to each edge, shrinking from 0.5, or 1 where many triangles are bad, to 0.003",
-         .needs = {{{"energy", "BP"}}}}),
+         .needs = {kEnergyThat<&EnergyInfo::softened_by_gamma>}}),
     row<kPaper, &Paper::h0>("h0", "how far below zero E_BHs lets h go (-h0 of the paper, so >= 0)",
                             {.range = at_least(0),
                              .absent = "just beyond the least h of the mesh, following it up",
-                             .needs = {{{"energy", "BHs"}}}}),
+                             .needs = {kEnergyThat<&EnergyInfo::softened_by_h0>}}),
     row<kPaper, &Paper::boundary_treatment>(
         "boundary_treatment",
         "of energy F: the h of boundary edges as it is, |h|, or as if the mesh were mirrored there",

@@ -175,6 +175,16 @@ TEST_F(Optimize, TheReportHasBeforeAfterAndHistory) {
   EXPECT_TRUE(contains(read("p.svg"), "</svg>"));
 }
 
+TEST_F(Optimize, ForAllStarsEachObjectiveComparesEnergiesOfStar1) {
+  make_input();
+  for (const char* objective : {"accuracy", "solver-error"}) {
+    const std::string out = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--objective", objective, "--star", "all",
+                                       "--max-sweeps", "5"})
+                                .out;
+    EXPECT_TRUE(contains(out, "E_BP, ★1")) << objective;
+  }
+}
+
 TEST_F(Optimize, ForAccuracyMarginsHoldAndTheHistorySaysWhatEachSweepWasFor) {
   const Outcome run = temper_ok(
       {"optimize", "in.vtu", "-o", "out.vtu", "--objective", "accuracy", "--margin", "0.02", "--report", "r.json"});

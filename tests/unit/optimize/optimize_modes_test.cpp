@@ -133,8 +133,7 @@ TEST(Modes, EverySolverLowersEveryEnergyAndKeepsTheMeshValid) {
   for (const EnergyInfo& info : energies()) {
     for (int star = 0; star < 3; ++star) {
       for (const Solver solver : {Solver::newton, Solver::alternating, Solver::golden}) {
-        Mesh mesh =
-            info.name == "BH" ? lattice({.n = 7, .jitter = 0.02}) : lattice({.n = 7, .jitter = 0.3, .weight = 0});
+        Mesh mesh = info.is_hard() ? lattice({.n = 7, .jitter = 0.02}) : lattice({.n = 7, .jitter = 0.3, .weight = 0});
         const auto report =
             optimize(mesh, {.energy = info.kind, .star = Star(star), .max_sweeps = 6, .paper = {.solver = solver}});
         ASSERT_TRUE(report) << info.name << ": " << report.error().what();

@@ -27,7 +27,7 @@ std::vector<Case> cases() {
     all.push_back({std::move(title), std::move(o)});
   };
   for (const EnergyInfo& energy : energies()) {
-    if (energy.name == "BH") continue;  // starts inside its barrier only
+    if (energy.is_hard()) continue;  // starts inside its barrier only
     const std::string name(energy.name);
     add(name, {.energy = energy.kind});
     add(name + " alternating", {.energy = energy.kind, .paper = {.solver = Solver::alternating}});

@@ -1,5 +1,6 @@
 // What functions give back, with the names that they have in Python and in reports.
 import type { Mesh } from './mesh.ts';
+import type { OptimizeOptions } from './options.ts';
 
 export interface Histogram {
   low: number;
@@ -71,7 +72,8 @@ export interface Quality {
   d_over_l: Histogram;
 }
 
-export type EnergyName = 'F' | 'T' | 'dT' | 'BH' | 'BHs' | 'BP' | 'nF' | 'nT' | 'ndT' | 'ODT';
+export type EnergyName = NonNullable<OptimizeOptions['energy']>;
+export type ObjectiveName = NonNullable<OptimizeOptions['objective']>;
 export type BoundaryTreatment = 'as_is' | 'absolute' | 'mirrored';
 
 /** A length: absolute, or relative to each edge. */
@@ -127,7 +129,7 @@ export interface SweepRecord {
   flips: number;
   length_parameter: number;
   seconds: number;
-  objective: 'energy' | 'accuracy' | 'solver_error';
+  objective: ObjectiveName;
 }
 
 /** How far a run is. */
@@ -171,7 +173,7 @@ export interface OptimizeReport {
   vertices: number[];
   hidden: number[];
   /** That the run lowered. */
-  objective: 'energy' | 'accuracy' | 'solver_error';
+  objective: ObjectiveName;
   seconds: number;
   objective_before: number;
   objective_after: number;
