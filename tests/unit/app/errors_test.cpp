@@ -87,6 +87,16 @@ TEST_F(Errors, IsPartOfAnOptimizationWhenAskedFor) {
   const auto against = nlohmann::json::parse(temper_ok({"errors", "out.vtu", "--against", "in.vtu", "--json"}).out);
   EXPECT_EQ(report["errors"]["before"]["errors"], against["against"]["report"]["errors"]);
   EXPECT_EQ(report["errors"]["after"]["errors"], against["errors"]);
+  for (const char* when : {"before", "after"}) {
+    const auto& mean = report["errors"][when]["errors"]["mean"]["all"];
+    for (const char* key : {"star0", "star1", "star2", "poisson", "flux"}) {
+      for (const char* norm : {"l2", "max"}) {
+        char number[32];
+        std::snprintf(number, sizeof number, " %.3e", mean[key][norm].get<double>());
+        EXPECT_TRUE(contains(text, number)) << when << " " << key;
+      }
+    }
+  }
   temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--report", "r.json", "--quiet"});
   EXPECT_FALSE(nlohmann::json::parse(read("r.json")).contains("errors"));
 }

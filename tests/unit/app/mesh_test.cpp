@@ -45,6 +45,21 @@ TEST_F(MeshVerb, OneCommandMakesAWellCenteredMeshThatKeepsTheOutline) {
   EXPECT_GT(constrained, 4u);
 }
 
+TEST_F(MeshVerb, ExitsWith4JustWhereTheTimeLimitEndsTheRun) {
+  make_outline();
+  int cut = 0;
+  for (const std::string limit : {"0.02", "0.1", "0.5", "1000"}) {
+    const Outcome outcome = temper(
+        {"mesh", "in.poly", "-o", "out.vtu", "--size", "0.05", "--quiet", "--time-limit", limit, "--report", "r.json"});
+    const bool has_mesh = exists("out.vtu");
+    const bool early = !has_mesh || read_json("r.json")["stopped"] == "time_limit";
+    EXPECT_EQ(outcome.exit, early ? 4 : 0) << limit;
+    cut += has_mesh && early ? 1 : 0;
+    std::filesystem::remove("out.vtu");
+  }
+  EXPECT_GT(cut, 0);
+}
+
 TEST_F(MeshVerb, WithoutOptimizationTheDelaunayMeshIsWritten) {
   make_outline();
   temper_ok({"mesh", "in.poly", "-o", "out.vtu", "--size", "0.2", "--no-optimize", "--report", "r.json"});

@@ -2,6 +2,7 @@
 // however it is made.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -112,6 +113,20 @@ TEST(ErrorObjective, StopsWhenItIsAsked) {
   EXPECT_EQ(cut.report.stopped, Stopped::canceled);
   EXPECT_EQ(quality(cut.mesh).well_centered_fraction, 1);
   EXPECT_EQ(cut.mesh.validate(), std::nullopt);
+}
+
+// A trial of a step solves all systems anew, which takes long in a large mesh.
+TEST(ErrorObjective, AsksAfterEachTrialOfAStep) {
+  const Mesh input = *random_mesh({.vertices = 60, .seed = 2});
+  std::size_t calls = 0;
+  const Improved whole = improved(input, options_for(Scheme::cell), {.observer = [&](const Progress& progress) {
+                                    calls += progress.last.objective == Objective::solver_error ? 1 : 0;
+                                    return Continue::yes;
+                                  }});
+  const auto steps = static_cast<std::size_t>(
+      std::ranges::count(whole.report.history, Objective::solver_error, &SweepRecord::objective));
+  ASSERT_GT(steps, 5u);
+  EXPECT_GE(calls, 2 * (steps - 2)) << "once after the trial, once after the step";
 }
 
 TEST(ErrorObjective, WithoutAModelLowersAccuracyAndSaysSo) {

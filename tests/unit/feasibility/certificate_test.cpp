@@ -1,4 +1,6 @@
 // The exact checker: it accepts what proves, and nothing else.
+#include <algorithm>
+
 #include "unit/feasibility/support.hpp"
 
 namespace temper::test {
@@ -114,6 +116,23 @@ TEST(Certificate, RefutesMarginsAboveTheBestOneAndNoneBelow) {
   if (best > 0) {
     EXPECT_EQ(check_certificate(mesh, certificate), CertificateCheck::proves_nothing);
   }
+}
+
+TEST(Certificate, RefutesMarginsOfCrossingsToo) {
+  std::size_t with_crossings = 0;
+  for (const double height : {0.05, 0.1, 0.2, 0.4, 0.8}) {  // of an obtuse triangle over its longest side
+    const Mesh mesh = build_or_die({{-1, 0}, {1, 0}, {0.25, height}}, {{0, 1, 2}});
+    const double best = margin_of(mesh).margin;
+    ASSERT_GT(best, 0);
+    Certificate certificate = weights_of(mesh, {.margin = best + 0.01}).certificate;
+    with_crossings += std::any_of(certificate.terms.begin(), certificate.terms.end(), [](const auto& term) {
+      return term.constraint.kind == WeightConstraint::Kind::crossing && term.multiplier > 0;
+    });
+    EXPECT_EQ(check_certificate(mesh, certificate), CertificateCheck::proves) << height;
+    certificate.margin = best - 1e-6;
+    EXPECT_EQ(check_certificate(mesh, certificate), CertificateCheck::proves_nothing) << height;
+  }
+  EXPECT_GT(with_crossings, 0u);
 }
 
 // The law that matters: where there are good weights, nothing proves that there are none.

@@ -83,6 +83,15 @@ inline Quad nearly_power_cocircular(Random& random, double offset) {
   return q;
 }
 
+/// Random points, with weights that bring the orthocenter of the first three to the first, as well as doubles can.
+inline Quad nearly_centered_at_a_corner(Random& random) {
+  Quad q = four(random, [](Random& r) -> WeightedPoint { return {real(r), real(r), 0.3 * real(r)}; });
+  for (const int i : {1, 2}) {
+    q[i].w = nudge(random, q[0].w + squared_length(q[i].position() - q[0].position()));
+  }
+  return q;
+}
+
 inline const std::vector<Family>& degenerate_families() {
   static const std::vector<Family> families = {
       {"small lattice",
@@ -192,6 +201,7 @@ inline const std::vector<Family>& degenerate_families() {
          for (WeightedPoint& p : q) p.w = nudge(r, p.w);
          return q;
        }},
+      {"nearly centered at a corner", nearly_centered_at_a_corner},
       {"coincident points",
        [](Random& r) {
          Quad q = four(r, [](Random& s) -> WeightedPoint { return {real(s), real(s), 0.1 * integer(s, 1)}; });

@@ -208,6 +208,19 @@ std::size_t index_of(const MeshFile& f, Vec2 p) {
   return static_cast<std::size_t>(found - f.points.begin());
 }
 
+Vec2 end_of(const MeshFile& f, std::int32_t p) { return f.points[static_cast<std::size_t>(p)]; }
+Vec2 middle_of(const MeshFile& f, const std::array<std::int32_t, 2>& line) {
+  return 0.5 * (end_of(f, line[0]) + end_of(f, line[1]));
+}
+/// Says whether the file has a line of that tag that the place is on.
+bool is_on_a_line_of_tag(const MeshFile& f, Vec2 at, std::int32_t tag) {
+  for (std::size_t i = 0; i < f.lines.size(); ++i) {
+    const Vec2 a = end_of(f, f.lines[i][0]), b = end_of(f, f.lines[i][1]);
+    if (f.line_tags[i] == tag && length(at - a) + length(b - at) < length(b - a) + 1e-12) return true;
+  }
+  return false;
+}
+
 class InsertedVertices : public FileTest, public ::testing::WithParamInterface<std::string> {};
 
 TEST_P(InsertedVertices, GetDataAndCutLinesKeepTheirTagOnAllPieces) {
@@ -258,6 +271,9 @@ TEST_P(InsertedVertices, GetDataAndCutLinesKeepTheirTagOnAllPieces) {
   EXPECT_EQ(tag_between(1, bottom), adcirc ? tagged_lines(before).at({place(before, 1), place(before, 2)}) : 4);
   EXPECT_EQ(tag_between(1, 2), -1);
   if (adcirc) return;
+  for (std::size_t i = 0; i < again->lines.size(); ++i) {
+    EXPECT_TRUE(is_on_a_line_of_tag(before, middle_of(*again, again->lines[i]), again->line_tags[i])) << "line " << i;
+  }
   constexpr std::size_t kRow = kSquares + 1, kHalf = kSquares / 2;
   EXPECT_EQ(tag_between(index_of(*again, before.points[2 * kRow + kHalf]), middle), 9);
   EXPECT_EQ(tag_between(middle, index_of(*again, before.points[3 * kRow + kHalf])), 9);

@@ -142,6 +142,36 @@ TEST(Repair, IsKeptWhereItIsNoWorseAndCameAndWentForSomething) {
   EXPECT_TRUE(has_gained(replaced, ill, *settings, settings->model));
 }
 
+TEST(Repair, StopsAtTheFirstTrialWhenItIsAskedAndAsksNoMore) {
+  Mesh input = test::lattice({.n = 6, .jitter = 0.02, .weight = 0});
+  const VertexId moved(14);
+  const WeightedPoint from = input.point(moved);
+  input.set_point(moved, {from.x, from.y + 0.4, 0});
+  ASSERT_GT(n_bad(input), 0u);
+  for (const Continue answer : {Continue::yes, Continue::no}) {
+    int calls = 0;
+    OptimizeHooks hooks;
+    hooks.observer = [&](const Progress&) {
+      ++calls;
+      return answer;
+    };
+    const OptimizeOptions options;
+    temper::Run run(options, hooks, input);
+    run.report.history.push_back({});
+    const auto settings = make_settings(options, input, WorkingUnits::of(input), hooks);
+    ASSERT_TRUE(settings);
+    SweepState state(*settings);
+    const Candidate mended = repaired({WorkingCopy(input, options.paper.order)}, *settings, state, run);
+    if (answer == Continue::yes) {
+      EXPECT_EQ(n_bad(mended.work.in_user_terms()), 0u);
+      continue;
+    }
+    EXPECT_EQ(calls, 1);
+    EXPECT_EQ(run.report.stopped, Stopped::canceled);
+    EXPECT_EQ(mended.work.in_user_terms(), input);
+  }
+}
+
 TEST(Repair, IsTracedLikeAllElse) {
   for (const Mesh& input : {*regular_polygon({.corners = 40}), *horseshoe()}) {
     std::vector<TraceEvent> events;
@@ -201,6 +231,29 @@ TEST(Repair, KeepsInterfacesRegionsAndFixedVertices) {
   EXPECT_NEAR(area_after[2], area_before[2], 1e-12);
 }
 
+TEST(Repair, LeavesFixedVerticesWhereTheyAre) {
+  Mesh input = *horseshoe();
+  std::vector<VertexId> fixed;
+  for (const VertexId v : input.vertices()) {
+    if (input.is_boundary(v) || v.index % 3 != 0) continue;
+    input.set_fixed(v, true);
+    fixed.push_back(v);
+  }
+  ASSERT_GT(fixed.size(), 3u);
+  Mesh mesh = input;
+  const auto report = optimize(mesh, {.repair = Repair::vertices, .repair_trials = 2000});
+  ASSERT_TRUE(report);
+  std::map<std::uint32_t, VertexId> now;
+  for (const VertexId v : mesh.vertices()) {
+    const VertexId was = report->vertices.empty() ? v : report->vertices[v];
+    if (was.valid()) now[was.index] = v;
+  }
+  for (const VertexId v : fixed) {
+    ASSERT_EQ(now.count(v.index), 1u) << v.index << " is gone";
+    EXPECT_EQ(mesh.position(now[v.index]), input.position(v)) << v.index;
+  }
+}
+
 TEST(Repair, NoTrialsMeansNoRepair) {
   Mesh none = *horseshoe(), no_trials = none;
   ASSERT_TRUE(optimize(none, {.repair = Repair::none, .max_sweeps = 60}));
@@ -232,7 +285,8 @@ TEST(Repair, SaysWhenAnEdgeMustBeSplitBeforeAnythingHelps) {
 // --- the parts ------------------------------------------------------------------------------------------
 
 TEST(Neighborhood, IsAValidPartWithItsRimFrozen) {
-  const Mesh mesh = *annulus({});
+  Mesh mesh = *annulus({});
+  for (std::size_t i = 0; i < mesh.n_vertices(); i += 5) mesh.set_fixed(VertexId(i), true);
   std::size_t frozen = 0;
   for (const int rings : {0, 1, 2, 3, 20}) {
     for (std::size_t i = 0; i < mesh.n_triangles(); i += 17) {
@@ -242,6 +296,7 @@ TEST(Neighborhood, IsAValidPartWithItsRimFrozen) {
       for (const VertexId v : around.mesh.vertices()) {
         const VertexId whole = around.vertices[v.index];
         ASSERT_EQ(around.mesh.point(v), mesh.point(whole));
+        ASSERT_EQ(around.mesh.is_fixed(v), mesh.is_fixed(whole));
         std::size_t here = 0, there = 0;
         for ([[maybe_unused]] const HalfedgeId h : around.mesh.star(v)) ++here;
         for ([[maybe_unused]] const HalfedgeId h : mesh.star(whole)) ++there;
@@ -252,6 +307,27 @@ TEST(Neighborhood, IsAValidPartWithItsRimFrozen) {
   }
   EXPECT_GT(frozen, 0u);
   EXPECT_EQ(neighborhood_of(mesh, TriangleId(0), 100).mesh.n_triangles(), mesh.n_triangles());
+}
+
+TEST(Trial, RemovesNoVertexThatIsFixedFrozenOfTheBoundaryOrOfALine) {
+  Mesh mesh = test::lattice({.n = 6, .jitter = 0.02, .weight = 0});
+  std::vector<std::uint8_t> frozen(mesh.n_vertices(), 0);
+  std::size_t inner = 0;
+  for (const VertexId v : mesh.vertices()) {
+    EXPECT_EQ(may_be_removed(mesh, frozen, v), !mesh.is_boundary(v)) << v.index;
+    if (mesh.is_boundary(v)) continue;
+    ++inner;
+    mesh.set_fixed(v, true);
+    EXPECT_FALSE(may_be_removed(mesh, frozen, v)) << "fixed";
+    mesh.set_fixed(v, false);
+    frozen[v.index] = 1;
+    EXPECT_FALSE(may_be_removed(mesh, frozen, v)) << "frozen";
+    frozen[v.index] = 0;
+    mesh.set_constrained(mesh.outgoing(v), true);
+    EXPECT_FALSE(may_be_removed(mesh, frozen, v)) << "of a line";
+    mesh.set_constrained(mesh.outgoing(v), false);
+  }
+  EXPECT_GT(inner, 5u);
 }
 
 TEST(Trial, LeavesFrozenVerticesAndTellsWhatItDid) {

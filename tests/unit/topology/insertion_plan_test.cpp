@@ -55,6 +55,29 @@ TEST(PlanInsertion, AVertexThatWouldHideANeighborIsPlannedAsNotRegular) {
   EXPECT_GT(count_non_regular_edges(mesh), 0u);
 }
 
+// Vertices of large weight hide their neighbors, those of small weight are hidden.
+TEST(PlanInsertion, IsPossibleJustWhereEveryEdgeIsRegularAfterIt) {
+  Rng rng(5);
+  Mesh mesh = test::mesh_of_random_points(rng, 20);
+  ASSERT_TRUE(restore_regularity(mesh).regular());
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_boundary(h) && rng.below(8) == 0) mesh.set_constrained(h, true);
+  }
+  std::size_t possible = 0, not_regular = 0;
+  for (int i = 0; i < 400; ++i) {
+    const WeightedPoint p = {rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-0.05, 0.5)};
+    const InsertionPlan plan = plan_insertion(mesh, p, TriangleId(0));
+    if (plan.status == InsertionStatus::hidden) continue;
+    Mesh after = mesh;
+    insert_vertex(after, plan);
+    const bool is_regular = count_non_regular_edges(after, false) == 0;
+    ASSERT_EQ(plan.status, is_regular ? InsertionStatus::possible : InsertionStatus::not_regular) << i;
+    ++(is_regular ? possible : not_regular);
+  }
+  EXPECT_GT(possible, 20u);
+  EXPECT_GT(not_regular, 20u);
+}
+
 TEST(PlanInsertion, LooksEverywhereWhenTheWayLeadsThroughAHole) {
   // A ring of eight triangles around a square hole.
   const Mesh mesh =
