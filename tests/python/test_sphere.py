@@ -440,7 +440,7 @@ def test_operators_are_those_of_arcs(tempered):
     assert np.allclose(complex.edges.length, EARTH * angle(p, q), rtol=1e-12)
     middle = complex.edges.midpoint
     assert np.allclose(np.linalg.norm(middle, axis=1), EARTH, rtol=1e-14)
-    assert np.allclose(complex.edges.split, EARTH * angle(p, middle), rtol=1e-9)
+    assert np.allclose(complex.edges.crossing, EARTH * angle(p, middle), rtol=1e-9)
     left, right = np.moveaxis(complex.orthocenters[complex.edges.triangles], 1, 0)
     assert np.allclose(complex.edges.dual_length, EARTH * angle(left, right), rtol=1e-6)
     cells = complex.power_cells()

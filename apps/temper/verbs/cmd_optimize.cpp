@@ -128,10 +128,9 @@ Tracer tracer_of(const OptimizeSettings& s, const RunFiles& files, const Input& 
   };
 }
 
-/// Says whether edges lack flips: `after` also counts edges that may not be flipped.
-bool lacks_flips(const OptimizeSettings& s, const Quality& after, const Mesh& mesh, Executor* executor) {
-  const OptimizeOptions& o = s.options();
-  return after.non_regular_edges > 0 && o.flips != Flips::none && o.paper.hidden != HiddenPolicy::keep &&
+/// Says whether edges lack flips. Edges that may not be flipped do not count.
+bool lacks_flips(const OptimizeOptions& o, const Mesh& mesh, Executor* executor) {
+  return o.flips != Flips::none && o.paper.hidden != HiddenPolicy::keep &&
          count_non_regular_edges(mesh, false, executor) > 0;
 }
 
@@ -175,7 +174,7 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
 #endif
   if (files.trace != nullptr) files.trace->stream.write(trace_end(files.trace->events, mesh, input));
   if (measured) results.after = quality(*seen, measuring);
-  results.lacks_flips = lacks_flips(s, results.after, *seen, files.threads);
+  results.lacks_flips = lacks_flips(s.options(), *seen, files.threads);
   results.outcomes = judge(s.requirements, results.after);
   if (!s.picture.empty()) {
     DrawOptions drawing;

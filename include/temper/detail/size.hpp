@@ -83,9 +83,9 @@ struct Spread {
 [[nodiscard]] Spread spread(std::vector<double> values);
 
 /// The comparison of a mesh with a size field. No number depends on the unit of length.
-struct SizeReport {               ///< Local size over field at the vertices: the band that holds the sizes
-  Spread over_field;              ///< Ratio of the greater to the smaller local size at the two ends of each edge
-  Spread gradation;               ///< Largest ratio of longest to shortest edge of a triangle
+struct SizeReport {
+  Spread over_field;              ///< Local size over field at the vertices: the band that holds the sizes
+  Spread gradation;               ///< Ratio of the greater to the smaller local size at the two ends of each edge
   double largest_edge_ratio = 1;  ///< Largest ratio of the longest to the shortest edge of a triangle
   std::size_t outside = 0;        ///< Number of vertices outside the field's mesh
 
