@@ -34,10 +34,10 @@ package_wheel() {
   rm -rf "$unpacked" build/package-wheel
   mkdir -p "$unpacked"
   "$tools/bin/python" -m build -q --sdist --outdir "$output" .
-  tar -xzf "$output"/temper-*.tar.gz -C "$unpacked" --strip-components=1
+  tar -xzf "$output"/temper_mesh-*.tar.gz -C "$unpacked" --strip-components=1
   "$tools/bin/python" -m pip wheel -q --no-deps --wheel-dir build/package-wheel \
     --config-settings build-dir="$PWD/build/package" "$unpacked"
-  PATH=$PWD/$tools/bin:$PATH "$tools/bin/auditwheel" repair -w "$output" build/package-wheel/temper-*.whl
+  PATH=$PWD/$tools/bin:$PATH "$tools/bin/auditwheel" repair -w "$output" build/package-wheel/temper_mesh-*.whl
 }
 
 package_debian() {

@@ -38,14 +38,14 @@ readme_commands() {
 
 try_wheel() {
   local venv=$scratch/venv wheel here=$scratch/wheel
-  wheel=$(ls "$packages"/temper-*manylinux*.whl)
+  wheel=$(ls "$packages"/temper_mesh-*manylinux*.whl)
   mkdir "$here"
   readme_commands >"$here/readme.sh"
   size "wheel: $(basename "$wheel")" "$wheel"
-  size "source distribution" "$(ls "$packages"/temper-*.tar.gz)"
+  size "source distribution" "$(ls "$packages"/temper_mesh-*.tar.gz)"
   python3 -m venv "$venv"
   timed "wheel: pip install, with NumPy" "$venv/bin/pip" install -q "$wheel"
-  row "wheel: installed, without NumPy" "$(du -sk "$venv"/lib/python3*/site-packages/temper{,.libs} | awk '{n += $1} END {print n " kB"}')"
+  row "wheel: installed, without NumPy" "$(du -sk "$venv"/lib/python3*/site-packages/temper{,_mesh.libs} | awk '{n += $1} END {print n " kB"}')"
   cd "$here"
   # A first time, for the byte code.
   "$venv/bin/python" -c 'import temper'
