@@ -8,6 +8,7 @@
 #include "temper/detail/size.hpp"
 #include "temper/mesher.hpp"
 #include "temper/regularity.hpp"
+#include "temper/solvers.hpp"
 #include "temper/topology.hpp"
 
 TEMPER_PYTHON_NAMES(temper::FlipStatus, "possible", "boundary", "constrained", "not_convex");
@@ -412,7 +413,7 @@ py::tuple mesh_by(const Mesher& mesh, const py::object& threads, const py::objec
   const auto executor = make_threads(threads_from(threads));
   Visitor visitor;
   const Observer watching = observer_of(visitor, observer);
-  auto made = aside([&] { return mesh(OptimizeHooks{.executor = executor.get(), .observer = watching}); });
+  auto made = aside([&] { return mesh(OptimizeHooks{.executor = executor.get(), .observer = watching, .solvers = solvers()}); });
   visitor.raise();
   return outline_mesh_to_python(or_raise(std::move(made)));
 }

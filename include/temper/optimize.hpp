@@ -190,7 +190,7 @@ struct SolverErrorOptions {
 /// The switches of Algorithm 1, for choices in the paper and for differences from the production form. The defaults are
 /// the production form; paper_method() has the paper's values.
 struct PaperSwitches {
-  /// Softening γ of E_BP. A given value is constant. Absent: relative to each edge and shrinking from 0.5 to 0.003 as
+  /// γ of E_BP. A given value is constant. Absent: relative to each edge and shrinking from 0.5 to 0.003 as
   /// the mesh improves. It starts from 1 if there are 100 or more triangles and a quarter of them is bad. It becomes
   /// 0.003 when no triangle is bad. If some stay bad, a second start begins from 2.
   std::optional<LengthParameter> gamma = {};

@@ -23,6 +23,7 @@
 #include "temper/draw.hpp"
 #include "temper/mesher.hpp"
 #include "temper/quality.hpp"
+#include "temper/solvers.hpp"
 #include "threads.hpp"
 #include "verbs/progress_line.hpp"
 
@@ -243,7 +244,7 @@ OutlineMesh run_library(const MeshSettings& s, MesherOptions options, Executor* 
   options.time_limit = s.since.left(options.time_limit);
   options.region_sizes = region_sizes(s.region_sizes);
   if (s.no_optimize) options.optimize.reset();
-  return or_fail(meshing(options, {.executor = executor, .observer = observer}));
+  return or_fail(meshing(options, {.executor = executor, .observer = observer, .solvers = solvers()}));
 }
 
 /// The outlines, their map, and their mesh.
