@@ -297,7 +297,7 @@ class EdgeConflict(Record):
     sum: float
     """Sum a + b: at most 1 if there is no place for the crossing."""
     split_at: float
-    """Part of the way from u: the middle of the gap between a and b, but at least 0.2 from each end."""
+    """Part of the way from u: the middle between a and 1 − b, but at least 0.2 from each end."""
 
 
 def edge_conflict(mesh: MeshLike, halfedge: int, *, up_to: float = 1.0) -> EdgeConflict | None:
