@@ -244,7 +244,7 @@ enum class MarginKind {
 struct Violation {
   WeightConstraint constraint;
   double value = 0;      ///< Value of h/ℓ, d/ℓ or dual length/ℓ with the weights
-  double shortfall = 0;  ///< Difference to the requested margin
+  double shortfall = 0;  ///< Requested margin minus `value`, > 0
   double angle_deg = 0;  ///< For a height: angle of the triangle at r, opposite the edge
 };
 
@@ -252,7 +252,7 @@ struct WeightReport {
   Feasibility verdict = Feasibility::undecided;
   double margin = 0;  ///< Best margin
   MarginKind margin_kind = MarginKind::at_least;
-  bool solved = false;                 ///< `weights` satisfy the request
+  bool solved = false;                 ///< `weights` answer the request; elastic ones may violate constraints
   double asked = 0;                    ///< Margin that the weights were made for
   double attained = 0;                 ///< Margin that the weights have: weight_margin
   std::size_t moved = 0;               ///< Number of weights that differ from the reference (`from_input`)

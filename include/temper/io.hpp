@@ -244,9 +244,9 @@ struct LoadedMesh {
   Mesh mesh;
   VertexOfPoint vertex_of_point;
   std::size_t reversed_triangles = 0;
-  /// Lines that only list the edges of the mesh. If all inner edges are lines with one common tag (at least two lines),
-  /// this marks them among the lines with both points in the mesh. Such lines constrain nothing.
-  /// Otherwise empty.
+  /// Lines that only list the edges of the mesh. If there are two or more inner edges, and all are lines with one
+  /// common tag, this marks them among the lines with both points in the mesh. Such lines constrain nothing. Otherwise
+  /// empty.
   std::vector<bool> edge_lines = {};
   std::vector<std::string> warnings;
 };
