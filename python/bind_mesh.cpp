@@ -288,7 +288,7 @@ void bind_state(py::class_<PyMesh>& type) {
 
 }  // namespace
 
-/// The mesh in the metric, without a file. A file would write data at the points of the original mesh.
+/// The mesh in the metric, without the file of the original, whose points and data belong to the original places.
 std::unique_ptr<PyMesh> map_mesh(const PyMesh& self, const py::object& tensor) {
   const Metric metric = metric_from(tensor);
   const auto mesh = self.read();

@@ -94,9 +94,8 @@ struct DecSummary {
   double star0_sum = 0;                            ///< Sum of ★0: the area, except for rounding
   double min_star0 = 0, min_star1 = 0;
   double median_star1 = 0, max_star1 = 0;  ///< Median and maximum of |★1| over all edges
-  double median_transmissibility = 0,
-         /// Median and maximum of |transmissibility| over interior edges; +∞ if a dual edge has length 0.
-      max_transmissibility = 0;
+  /// Median and maximum of |transmissibility| over interior edges; the maximum is +∞ if a dual edge has length 0.
+  double median_transmissibility = 0, max_transmissibility = 0;
 };
 [[nodiscard]] DecSummary summarize(const Mesh& mesh, const DecComplex& complex);
 

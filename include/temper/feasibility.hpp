@@ -152,7 +152,7 @@ enum class CertificateCheck {
   proves_nothing,    ///< The sum is not a contradiction
   not_of_this_mesh,  ///< A triangle or an edge of a constraint is not in the mesh, or the kind of constraint is not one
                      ///< of these constraints
-  bad_multiplier,  ///< A multiplier is not finite or negative, all of them are zero, or the margin is outside [0, 1/2)
+  bad_multiplier,  ///< A multiplier is negative or not finite, all of them are zero, or the margin is outside [0, 1/2)
   out_of_range,    ///< Numbers are so far apart that exact arithmetic could underflow
 };
 [[nodiscard]] std::string_view name(CertificateCheck check);
@@ -174,8 +174,8 @@ enum class CertificateCheck {
 
 // --- margins ------------------------------------------------------------------------------------------
 
-/// The margin at which linear programs for `regular` stop. In the plane any margin can be attained if one can, so the
-/// best margin is this value or 0. On the sphere it is an attained margin, above zero if any is.
+/// The margin at which linear programs for `regular` stop. In the plane any margin can be attained if one above 0
+/// can, so the best margin is this value or 0. On the sphere it is an attained margin, above zero if any is.
 inline constexpr double kMostMargin = 0.5;
 
 /// The margin of the mesh's own weights, in doubles: the least h/ℓ, d/ℓ, 1 − d/ℓ or dual length/ℓ that the constraints
@@ -244,7 +244,7 @@ enum class MarginKind {
 struct Violation {
   WeightConstraint constraint;
   double value = 0;      ///< Value of h/ℓ, d/ℓ or dual length/ℓ with the weights
-  double shortfall = 0;  ///< Difference to the requested margin
+  double shortfall = 0;  ///< Requested margin minus `value`, > 0
   double angle_deg = 0;  ///< For a height: angle of the triangle at r, opposite the edge
 };
 
@@ -252,7 +252,7 @@ struct WeightReport {
   Feasibility verdict = Feasibility::undecided;
   double margin = 0;  ///< Best margin
   MarginKind margin_kind = MarginKind::at_least;
-  bool solved = false;                 ///< `weights` satisfy the request
+  bool solved = false;                 ///< `weights` answer the request; elastic ones may violate constraints
   double asked = 0;                    ///< Margin that the weights were made for
   double attained = 0;                 ///< Margin that the weights have: weight_margin
   std::size_t moved = 0;               ///< Number of weights that differ from the reference (`from_input`)
@@ -262,8 +262,8 @@ struct WeightReport {
   IdVector<VertexId, double> weights;  ///< Weight of each vertex of the mesh
   std::vector<Violation> violations;   ///< Violations of elastic weights, worst first
   /// Certificate against the margin. It may have no terms. If infeasible, it refutes margin 0. For `regular` it refutes
-  /// kRefutedDual (kLeastRefutedDual on the sphere), or the requested margin if that is less. If only the requested
-  /// margin cannot be attained, it refutes that margin.
+  /// the requested margin in the plane, but at most kRefutedDual and at least kLeastRefutedDual; on the sphere
+  /// kLeastRefutedDual. If only the requested margin cannot be attained, it refutes that margin.
   Certificate certificate;
 };
 

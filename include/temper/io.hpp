@@ -123,7 +123,7 @@ struct WriteOptions {
   /// Encoding, for formats that have several. The choices of VTU are:
   ///   - ascii
   ///   - base64, compressed by zlib: the default
-  ///   - appended, raw bytes after the XML: fastest to write and to read, and about 1.5 times as large
+  ///   - appended, raw bytes after the XML: fastest to write and to read, but up to 1.6 times as large as base64
   std::optional<Encoding> encoding;
   Executor* executor = nullptr;  ///< Threads that compress; the bytes written do not depend on them
   /// Add four arrays of cell data to VTU and VTKHDF, for ParaView to color. They are bytes and floats, with the names
@@ -244,9 +244,9 @@ struct LoadedMesh {
   Mesh mesh;
   VertexOfPoint vertex_of_point;
   std::size_t reversed_triangles = 0;
-  /// Lines that only list the edges of the mesh. If all inner edges are lines with one common tag (at least two lines),
-  /// this marks them among the lines with both points in the mesh. Such lines constrain nothing.
-  /// Otherwise empty.
+  /// Lines that only list the edges of the mesh. If there are two or more inner edges, and all are lines with one
+  /// common tag, this marks them among the lines with both points in the mesh. Such lines constrain nothing. Otherwise
+  /// empty.
   std::vector<bool> edge_lines = {};
   std::vector<std::string> warnings;
 };

@@ -113,7 +113,7 @@ class Mesh {
   ///   - every interior star winds once, no crossing boundary, no component on top of another
   ///
   /// On the sphere a mesh may be closed; its edges are arcs of less than half a great circle. In the periodic plane it
-  /// may be closed too. Its triangles then fit into half a period along each axis, and it is connected.
+  /// may be closed too; there its triangles must fit into half a period along each axis, and it must be connected.
   [[nodiscard]] static Expected<struct BuiltMesh> build(const MeshInput& input);
 
   // --- sizes: of the arrays, erased triangles and isolated vertices included ------------------------

@@ -35,7 +35,7 @@ struct RegionSize {
 
 struct MesherOptions {
   double size = 0;     ///< Desired edge length, > 0, in the units of the points. With a field it may be 0: no bound
-  double grade = 0.3;  ///< Growth rate of the size with the distance from smaller edges, > 0
+  double grade = 0.3;  ///< Largest growth rate of the size with the distance from smaller edges, > 0
   std::optional<SizeField> field = {};        ///< Desired edge length at each place, if less than `size`
   std::vector<RegionSize> region_sizes = {};  ///< Desired edge lengths of these regions, if less than `size`
   Enclosed enclosed = Enclosed::by_points;

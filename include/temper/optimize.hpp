@@ -190,9 +190,10 @@ struct SolverErrorOptions {
 /// The switches of Algorithm 1, for choices in the paper and for differences from the production form. The defaults are
 /// the production form; paper_method() has the paper's values.
 struct PaperSwitches {
-  /// γ of E_BP. A given value is constant. Absent: relative to each edge and shrinking from 0.5 to 0.003 as
-  /// the mesh improves. It starts from 1 if there are 100 or more triangles and a quarter of them is bad. It becomes
-  /// 0.003 when no triangle is bad. If some stay bad, a second start begins from 2.
+  /// γ of E_BP. A given value is constant. Absent: relative to each edge and shrinking from sweep to sweep,
+  /// from 0.5 to 0.003. It starts from 1 if there are 100 or more triangles and at least a quarter of them is bad. As
+  /// soon as no triangle is bad, it becomes 0.003. If some stay bad, a later start begins from 2 and shrinks more
+  /// slowly.
   std::optional<LengthParameter> gamma = {};
   /// Parameter −h° of E_BHs. A given value is constant. Absent: relative, just beyond the worst h/ℓ of the mesh, and
   /// shrinking as that improves.
@@ -274,11 +275,11 @@ struct OptimizeOptions {
   ///   - accuracy: the run first lowers `energy`, which must be a barrier, until all margins are above accuracy.margin
   ///     or the phase ends. Then it lowers E of AccuracyOptions with fixed connectivity. If all margins hold in the
   ///     input, the second phase begins at once, unless the boundary is to be split.
-  ///   - error: a third phase lowers the errors of the solver.
+  ///   - solver_error: a third phase lowers the errors of the solver.
   ///
   /// `solver`, `order`, `tolerance` and `stopping` apply to the first phase.
   std::optional<Objective> objective = {};
-  Scheme target = Scheme::all;  ///< Scheme of Objective::accuracy and error
+  Scheme target = Scheme::all;  ///< Scheme of Objective::accuracy and solver_error
   AccuracyOptions accuracy = {};
   SolverErrorOptions solver_error = {};
   EnergyKind energy = EnergyKind::BP;
@@ -310,10 +311,12 @@ struct OptimizeOptions {
 /// switches other than `order` and `seed` differ from their defaults.
 [[nodiscard]] Objective objective_of(const OptimizeOptions& options);
 
-/// Says whether a run needs a model of errors. Objective::solver_error lowers these errors. An absent objective means
-/// the error if the mesh lies in the plane, is for one scheme, and has at most kMostJudged vertices. With accuracy the
-/// model selects the mesh of least error, or the input if that is well-centered and better.
+/// The largest number of vertices for which a model of errors is used, unless the objective is solver_error.
 inline constexpr std::size_t kMostJudged = 20'000;
+/// Says whether a run needs a model of errors. Objective::solver_error does, because it lowers these errors.
+/// Objective::accuracy does if `target` is vertex or cell and the mesh lies in the plane and has at most kMostJudged
+/// vertices. Then it becomes solver_error if the options have no objective. If they name accuracy, the model selects
+/// the mesh of least error; the input is compared too if it is well-centered.
 [[nodiscard]] bool wants_error_model(const OptimizeOptions& options, const Mesh& mesh);
 
 /// The options of the paper's Algorithm 1 with all its parts: golden section, flips after the inner iterations have

@@ -301,8 +301,8 @@ def columns(
     active : array_like, optional
         Activity of the layers, bool, (n_vertices, layers) or (layers,). By default all are active.
     pinch_out : float
-        Least thickness [length]. A layer that is not thicker is pinched out: it has no cell, and the cells above and
-        below it are neighbors.
+        Layers no thicker than this are pinched out [length]. Such a layer has no cell, and the cells above and below it
+        are neighbors.
 
     Raises
     ------

@@ -53,7 +53,7 @@ def read(
         Tags or physical names whose points must not move.
     projection : str, optional
         Map from longitude and latitude to meters: ``"stereographic"``, ``"mercator:lon"`` or
-        ``"transverse-mercator:lon,lat"`` (``temper.projection``). Without a center, it is the middle of the points.
+        ``"transverse-mercator:lon,lat"`` (``temper.projection``). Without a center, the middle of the points is used.
         ``write`` returns to degrees, bit for bit if a point has not moved. Weights are squared meters of the map.
         ``"none"``: coordinates are in a plane, whatever their values.
     threads : int, optional

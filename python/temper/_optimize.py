@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ._options import OptionChanges
 
 
-PAGE = 20_000  # triangles: notebooks keep and show the HTML report only of smaller meshes
+PAGE = 20_000  # triangles: notebooks keep and show no HTML report of larger meshes
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -103,10 +103,10 @@ def changed(options: Any, changes: dict[str, Any]) -> Any:
 
 
 def paper_method(**changes: Any) -> Any:
-    """The options of the paper's Algorithm 1 with all its parts. ``changes`` replace some. They are: golden section,
-    flips after the inner iterations have converged, unlimited steps, inversions allowed, hidden vertices kept,
-    collapses and the patch test from the first sweep, vertex 0 as anchor, γ = 1, vertices in their order, convergence
-    by mean energy.
+    """The options of the paper's Algorithm 1 with all its parts: golden section, flips after the inner iterations have
+    converged, unlimited steps, inversions allowed, hidden vertices kept, collapses and the patch test from the first
+    sweep, vertex 0 as anchor, γ = 1, vertices in their order, convergence by mean energy. ``changes`` replace some
+    options.
 
     >>> import temper
     >>> temper.paper_method(max_sweeps=20).solver

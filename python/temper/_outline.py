@@ -130,7 +130,7 @@ def mesh_outline(
     size : float or SizeField
         Desired edge length, > 0 [length].
     grade : float
-        Growth rate of the size with the distance from smaller edges, > 0.
+        Largest growth rate of the size with the distance from smaller edges, > 0.
     region_sizes : mapping of region number to size, optional
         Desired edge lengths of these regions, if less than ``size``.
     enclosed : {"by_points", "all", "alternate"}

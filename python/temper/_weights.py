@@ -100,7 +100,7 @@ class Violation(Record):
     value: float
     """Value of h/ℓ, d/ℓ or dual length/ℓ with the weights."""
     shortfall: float
-    """Difference to the requested margin."""
+    """Requested margin minus ``value``, > 0."""
     angle_deg: float
     """For height: angle of the triangle at r, opposite the edge."""
 
@@ -118,7 +118,7 @@ class WeightReport(Record):
     """exact: the best margin, up to rounding; at_least: attained, larger ones were not tried; at_most: the best margin
     of the worst neighborhood."""
     solved: bool
-    """The ``weights`` satisfy the request."""
+    """The ``weights`` answer the request; elastic ones may violate constraints."""
     asked: float
     attained: float
     moved: int
@@ -297,7 +297,7 @@ class EdgeConflict(Record):
     sum: float
     """Sum a + b: at most 1 if there is no place for the crossing."""
     split_at: float
-    """Part of the way from u: the middle of the gap between a and b, but at least 0.2 from each end."""
+    """Part of the way from u: the middle between a and 1 − b, but at least 0.2 from each end."""
 
 
 def edge_conflict(mesh: MeshLike, halfedge: int, *, up_to: float = 1.0) -> EdgeConflict | None:

@@ -41,8 +41,8 @@ class Projection(Record):
 
 
 def parse_projection(text: str, places: npt.ArrayLike | None = None) -> Projection:
-    """Reads ``"stereographic"``, ``"mercator:lon"``, ``"transverse-mercator:lon,lat"``. Without a center, it is the
-    center of ``places``, (k, 2)."""
+    """Reads ``"stereographic"``, ``"mercator:lon"``, ``"transverse-mercator:lon,lat"``. Without a center, the center
+    of ``places``, (k, 2), is used."""
     return Projection(*_temper.parse_projection(text, _doubles(places, 2, "location")))
 
 

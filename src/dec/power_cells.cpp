@@ -1,6 +1,6 @@
 // Power cells. Most are polygons of orthocenters; the others are put together from the pieces of triangles.
 //
-// A triangle is plain when each corner surely owns the quadrilateral of the corner, the next weighted midpoints and the
+// A triangle is plain when each corner surely owns the quadrilateral of the corner, its two weighted midpoints and the
 // orthocenter. Conditions: all its h ≥ 0, also all h of the neighbors across its edges. At its corners no dual edge is
 // negative and no d < 0. (Then the dual edges around a corner are a convex chain with the quadrilateral on its inner
 // side, and the corner is in its own cell.) A vertex is plain when its triangles are and it owns nothing else. Exact

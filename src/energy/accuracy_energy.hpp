@@ -7,9 +7,9 @@
 //     ℓD [ (α ℓ² + β D²)/4 + 3 (α δ² + β η²) ]
 //
 // (d = ℓ/2 ± δ, so Σ d³ = ℓ³/4 + 3ℓδ²; likewise h = D/2 ± η.) The first part is a moment that no mesh of this size
-// avoids. The second part measures how far the midpoints of edge and dual are apart, which to first order gives the
-// error of a diagonal ★. So the offset counts c times as much as in HOT. On the boundary the dual ends on the edge:
-// D = h and η = h/2. That offset cannot be avoided, and counts c_b times. With the size s_e at the edge,
+// avoids. The second part measures how far the midpoints of edge and dual are apart. To first order the error of a
+// diagonal ★ is proportional to that. So the offset counts c times as much as in HOT. On the boundary the dual ends on
+// the edge: D = h and η = h/2. That offset cannot be avoided, and counts c_b times. With the size s_e at the edge,
 //
 //     E = Σ_edges s_e⁻² ℓD [ (α ℓ² + β D²)/4 + 3 (c α δ² + (c or c_b) β η²) ],    c = c_b = 1: E_F / s_e²
 //

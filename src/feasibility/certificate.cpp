@@ -1,4 +1,4 @@
-// The exact check of a certificate. It shares no code with the solver of the programs. From the positions it computes
+// The exact check of a certificate. It shares no code with the builder of the programs. From the positions it computes
 // each N_c as a polynomial (feasibility.hpp), adds them with their multipliers, and examines the sum:
 //
 //   Σ m_c (N_c − t M_c)  =  C + Σ R_v w_v        C of degree 4 in the coordinates, R_v of degree 2
@@ -8,9 +8,10 @@
 // |w_v − w_root| < W_v, the sum along a path from the root. If C + Σ |R_v| W_v ≤ 0, no weights make every summand
 // positive.
 //
-// On the sphere the sum is Σ R_v σ_v; σ > 0 has a factor of its own for each connected part. Along an edge both σ
-// differ by less than some part b_pq, so that σ_v < (1 + W_v) σ_root and σ_root < (1 + W_v) σ_v. Add Σ R_v (1 + W_v)
-// over R_v > 0 and Σ R_v / (1 + W_v) over R_v < 0. If this is ≤ 0 in each part, no σ make every summand positive.
+// On the sphere the sum is Σ R_v σ_v; σ > 0 has a factor of its own for each connected part. Along an edge the two σ
+// differ by less than the part b_pq of either, so that σ_v < (1 + W_v) σ_root and σ_root < (1 + W_v) σ_v. Add
+// Σ R_v (1 + W_v) over R_v > 0 and Σ R_v / (1 + W_v) over R_v < 0. If this is ≤ 0 in each part, no σ make every summand
+// positive.
 //
 // Everything is exact, except M, a double, and b and W, which are rounded up. Coordinates are scaled by a power of two,
 // differences are two-term sums, and the rest is arithmetic of expansions.

@@ -211,8 +211,8 @@ class SurfacePath {
   return {x, y, space.is_plane() ? x * x + y * y - w : w};
 }
 /// Six times the volume between a triangle of such points and the plane z = 0. On the sphere the surface of least
-/// volume is farthest out: so the result is minus the volume of the tetrahedron with the origin. Up to a constant it
-/// equals minus the volume with the center of the sphere.
+/// volume is farthest out: so the result is minus the volume of the tetrahedron with the origin. In the sum over a
+/// cavity it differs only by a constant from minus the volume with the center of the sphere.
 [[nodiscard]] inline double volume_under(const Space& space, Vec3 a, Vec3 b, Vec3 c) {
   if (!space.is_plane()) return -dot(a, cross(b, c));
   const double doubled_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);

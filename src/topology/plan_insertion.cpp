@@ -8,9 +8,9 @@
 //       \ /                      \|/
 //        c                        c              keeps: flags, regions, all old vertices
 //
-// If ab can be flipped depends on v, a, b and d alone, not on earlier flips. So one pass around the link is enough, and
-// its order does not matter for the set of replaced triangles. If ab conflicts and cannot be flipped, an end of it has
-// lost its power cell to v, or was hidden before.
+// Whether ab can be flipped depends on v, a, b and d alone, not on earlier flips. So one pass around the link is
+// enough, and its order does not matter for the set of replaced triangles. If ab conflicts and cannot be flipped, an
+// end of it has lost its power cell to v, or was hidden before.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -43,7 +43,7 @@ struct Layers {
 enum class CellState : std::int8_t { pinched_out = -1, inactive = 0, active = 1 };
 
 struct ColumnOptions {
-  double pinch_out = 0;               ///< Least thickness [length]: layers that are not thicker are pinched out
+  double pinch_out = 0;               ///< Layers no thicker than this are pinched out [length]
   const InputNames* names = nullptr;  ///< Numbers of vertices for the user, for errors
 };
 

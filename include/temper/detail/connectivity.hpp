@@ -4,7 +4,6 @@
 // given weights the regular triangulation is known, and a mesh with only positive h is regular. For both together
 // nothing is proved here. This is a local search. It ends if neither the regular triangulation of the weights nor any
 // single flip has a greater best margin.
-// single flip has a greater best margin.
 #pragma once
 
 #include <cstddef>
@@ -54,9 +53,10 @@ struct ConnectivityReport {
 ///
 /// Each step starts from the best connectivity so far. First, edges that are not regular with the weights of its best
 /// margin flip, by Lawson's algorithm. If this does not raise the best margin, the single flip that raises it most is
-/// taken. Only flips that remove a term of the proof are tried: with all its terms, the same proof holds after the
-/// flip. Boundary and constrained edges stay. Each step raises the margin by more than rounding, so the search ends. A
-/// step costs one linear program of the whole mesh for each flip that a program of its neighborhood does not rule out.
+/// taken. Only flips that remove a term of the proof that the margin is no greater are tried: with all its terms, the
+/// same proof holds after the flip. Boundary and constrained edges stay. Each step raises the margin by more than
+/// rounding, so the search ends. A step costs one linear program of the whole mesh for each flip that a program of its
+/// neighborhood does not rule out.
 [[nodiscard]] Expected<ConnectivityReport> best_connectivity(const Mesh& mesh, LpSolver& solver,
                                                              const ConnectivityOptions& options = {});
 

@@ -24,8 +24,8 @@ class DiscretizationError {
   virtual ~DiscretizationError() = default;
 
   /// Returns the mean squared error of each selected scheme, without unit. Meshes of one domain can be compared in any
-  /// units and order. Empty if the matrix of a scheme is not positive definite. It is, if all triangles are
-  /// well-centered.
+  /// units and order. Empty if the matrix of a scheme is not positive definite. The matrices are positive definite if
+  /// all triangles are well-centered.
   [[nodiscard]] virtual std::vector<double> errors(const Mesh& mesh, Executor* executor = nullptr) const = 0;
 
   /// Also returns the derivatives of each error by x, y and w of every vertex. The derivatives by the places of

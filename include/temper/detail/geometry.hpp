@@ -62,7 +62,7 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 [[nodiscard]] Sign power_test(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
 
 /// Power test with ties broken by vertex index. The points are perturbed to P_i (1 + ε_i), with ε_0 ≫ ε_1 ≫ … → 0+,
-/// where no ε is less than the product of two others. Zero only if all four points are on a great circle.
+/// where no ε is less than the product of any two. Zero only if all four points are on a great circle.
 [[nodiscard]] Sign power_test_perturbed(Vec3 a, Vec3 b, Vec3 c, Vec3 d, const std::array<std::uint32_t, 4>& index);
 
 /// Sign of (P × Q)·n, with n the normal of the counter-clockwise face PQR. It is the sign of the height of the

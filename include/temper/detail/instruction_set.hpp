@@ -15,7 +15,7 @@ enum class InstructionSet {
 
 /// The instruction sets for which this build has code, the slowest first.
 [[nodiscard]] std::span<const InstructionSet> compiled_instruction_sets();
-/// The instruction sets for which this processor and this build have code, the slowest first.
+/// The instruction sets of this processor for which this build has code, the slowest first.
 [[nodiscard]] std::span<const InstructionSet> instruction_sets();
 /// The instruction set in use: at first the fastest.
 [[nodiscard]] InstructionSet instruction_set();

@@ -78,9 +78,10 @@ class PointLocator {
                                                               const IdVector<VertexId, VertexId>& vertices = {},
                                                               Executor* executor = nullptr);
 
-/// Returns, for each triangle of `after`, the triangle of `before` that contains its middle. It is in the same region
-/// if one around is. If `before` had the same triangle at the same places, it is exactly that triangle. `places`:
-/// positions_of_vertices(). The cost is the same.
+/// Returns, for each triangle of `after`, the triangle of `before` that contains its middle. If that is of
+/// another region, a triangle of the same region that touches it replaces it, if there is one. If `before` had the same
+/// triangle at the same places, the result is exactly that triangle. `places`: positions_of_vertices(). The cost is the
+/// same.
 [[nodiscard]] IdVector<TriangleId, TriangleId> sources_of_triangles(const Mesh& before, const Mesh& after,
                                                                     const IdVector<VertexId, Place>& places,
                                                                     Executor* executor = nullptr);

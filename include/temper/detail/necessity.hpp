@@ -34,7 +34,7 @@ struct EdgeConflict {
   VertexId near_v;      ///< Vertex that requires the crossing less than b ℓ from v
   double a = 0, b = 0;  ///< Parts of the length ℓ of the edge; on the sphere, of the arc
   double sum = 0;       ///< Sum a + b: at most 1 if there is no place for the crossing
-  /// Part of the way from u: the middle of the gap between a and b; each piece is at least kLeastPiece.
+  /// Part of the way from u: the middle between a and 1 − b; each piece is at least kLeastPiece.
   double split_at = 0.5;
 };
 

@@ -39,8 +39,8 @@ struct Projection {
   double radius = 6371000;  ///< Radius of the sphere [m]
 };
 
-/// Reads "stereographic", "mercator:lon" … "transverse-mercator:lon,lat". Without a center, it is the center of
-/// `places`.
+/// Reads "stereographic", "mercator:lon" … "transverse-mercator:lon,lat". Without a center, the center of `places`
+/// is used.
 [[nodiscard]] Expected<Projection> parse_projection(std::string_view text, std::span<const Vec2> places);
 
 /// The text that parse_projection reads as this projection, without its radius.

@@ -133,8 +133,8 @@ class Space {
   [[nodiscard]] Vec3 up(const WeightedPoint& p) const {
     return is_plane() ? Vec3{0, 0, 1} : (1 / length(as_vector(p))) * as_vector(p);
   }
-  /// The distance along the ground [length] of a point that is `across` (along a tangent) and `height` away from a
-  /// point.
+  /// The distance along the ground [length] of a place that is `across` from a point along a tangent, and `height`
+  /// above the point.
   [[nodiscard]] double along_surface(double across, double height) const {
     return is_plane() ? across : radius_ * std::atan2(across, radius_ + height);
   }
