@@ -49,10 +49,10 @@ void print(const std::string& name, const Row& row) {
 std::optional<Row> measured(const Mesh& input, const OptimizeOptions& options) {
   Mesh mesh = input;
   const auto report = optimize(mesh, options, {.solvers = solvers()});
-  MeasureErrorsOptions verifying;
-  verifying.frame = field_frame(input);
-  verifying.fields = {"held-back"};
-  const auto before = measure_errors(input, verifying), after = measure_errors(mesh, verifying);
+  MeasureErrorsOptions measuring;
+  measuring.frame = field_frame(input);
+  measuring.fields = {"held-back"};
+  const auto before = measure_errors(input, measuring), after = measure_errors(mesh, measuring);
   if (!report || !before || !after) return std::nullopt;
   const auto ratios = error_ratios(*after, *before);
   if (!ratios) return std::nullopt;

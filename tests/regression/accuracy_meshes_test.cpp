@@ -107,10 +107,10 @@ Errors improved_errors(const Mesh& input, const Promise& promise) {
     EXPECT_EQ(mesh.position(v), input.position(v));
   }
 
-  MeasureErrorsOptions verifying;
-  verifying.frame = field_frame(input);
-  verifying.fields = {"held-back"};
-  const auto after = measure_errors(mesh, verifying), before = measure_errors(input, verifying);
+  MeasureErrorsOptions measuring;
+  measuring.frame = field_frame(input);
+  measuring.fields = {"held-back"};
+  const auto after = measure_errors(mesh, measuring), before = measure_errors(input, measuring);
   EXPECT_TRUE(after && before);
   const auto ratios = error_ratios(*after, *before);
   EXPECT_TRUE(ratios);

@@ -164,7 +164,7 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
 #ifdef TEMPER_WITH_ERRORS
   std::optional<SolverErrors> errors;
   on_first_rank([&] {
-    if (s.verify) errors.emplace(*seen, files.threads);
+    if (s.measure_errors) errors.emplace(*seen, files.threads);
   });
 #endif
   results.report = run_library(s, input, mesh, files, tracer);
@@ -312,7 +312,7 @@ void leave_outputs_to_first_rank(OptimizeSettings& s) {
   }
   s.requirements.clear();
   s.save_every.reset();
-  s.verify = false;
+  s.measure_errors = false;
   s.quiet = true;
 }
 

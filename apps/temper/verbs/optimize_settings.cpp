@@ -29,7 +29,7 @@ void add_files(Command& command, OptimizeSettings& s) {
            "every move, flip and removal, one JSON object a line; see temper replay");
   add_text(command, "--draw", "FILE", s.picture, "a picture (.svg, .png, .pdf), before and after side by side");
 #ifdef TEMPER_WITH_ERRORS
-  command.add_flag("--measure-errors", s.verify,
+  command.add_flag("--measure-errors", s.measure_errors,
                    "measure the errors of solvers, too, before and after: see temper errors");
 #endif
   add_requirements(command, s.require).sentence =

@@ -27,7 +27,7 @@ struct OptimizeSettings {
   const Method* method = methods().data();
   TableOptions table;  ///< first the values of the method
   std::uint64_t threads = 0;
-  bool quiet = false, verify = false;
+  bool quiet = false, measure_errors = false;
   bool traced = false;               ///< by any writer of the trace
   std::optional<double> save_every;  ///< seconds between two times that the best mesh so far is written
   std::vector<Requirement> requirements;

@@ -1,4 +1,4 @@
-// Objective::solver_error with the model of temper::verify: errors fall, what must stay stays, and a run is the same
+// Objective::solver_error with the model of temper::errors: errors fall, what must stay stays, and a run is the same
 // however it is made.
 #include <gtest/gtest.h>
 

@@ -62,7 +62,7 @@ TEST(SolverErrorModel, DerivativesAreThoseOfDifferencesAtSecondOrder) {
 }
 
 // Smooth fields are sums of waves: a mesh that is better for many of these is for the fields of measure_errors().
-TEST(SolverErrorModel, RanksRefinementAsVerifyDoes) {
+TEST(SolverErrorModel, RanksRefinementAsMeasuredErrorsDo) {
   const Mesh coarse = well_centered_mesh(200), fine = well_centered_mesh(800);
   const auto model = *make_discretization_error(coarse);
   const std::vector<double> before = model->errors(coarse), after = model->errors(fine);

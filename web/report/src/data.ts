@@ -52,7 +52,7 @@ export interface Report {
   history?: Sweep[];
   stopped?: string;
   sweeps?: number;
-  verify?: { before: SolverReport; after: SolverReport };
+  errors?: { before: SolverReport; after: SolverReport };
   notes?: string[];
   warnings?: string[];
   reasons?: Reason[];

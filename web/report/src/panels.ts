@@ -88,7 +88,7 @@ export function sweeps(report: Report): void {
 }
 
 export function solverErrors(report: Report): void {
-  const before = report.verify?.before.errors?.mean?.all, after = report.verify?.after.errors?.mean?.all;
+  const before = report.errors?.before.errors?.mean?.all, after = report.errors?.after.errors?.mean?.all;
   if (!before || !after) return;
   const rows: (string | HTMLElement)[][] = [];
   for (const [solver, norms] of Object.entries(after as unknown as Record<string, Record<string, number | null>>)) {
