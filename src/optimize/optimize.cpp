@@ -1,4 +1,4 @@
-// optimize(): restarts, repairs, and the phase of the accuracy objective, all on copies; the best mesh is given back.
+// optimize(): restarts, repairs, and the phase of the accuracy objective work on copies. The user gets the best mesh.
 #include "temper/optimize.hpp"
 
 #include <optional>
@@ -22,13 +22,13 @@ bool is_ready_for_accuracy(const Mesh& mesh, const Settings& s) {
          has_all_for_accuracy(mesh, s);
 }
 
-/// The size field of a run with a band; the input's own is seen where it is, since the run works on copies.
+/// Returns the size field of a run with a band. It can refer to the input, since the run works on copies.
 std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& options, Executor* executor) {
   if (!options.size_band) return std::nullopt;
   return options.size_field ? options.size_field : input_size_field_of(mesh, executor);
 }
 
-/// One phase more. A model of errors says whether that was for the better; if not, it is taken back.
+/// Runs one more phase. If a model of errors says that the mesh is worse, the phase is undone.
 template <class Improving>
 void improve(Candidate& best, const Settings& settings, Run& run, AccuracySizes& sizes) {
   if (run.stopped_early() || run.report.stopped == Stopped::hidden) return;
@@ -48,7 +48,7 @@ void improve(Candidate& best, const Settings& settings, Run& run, AccuracySizes&
   driver.recorder().returned_to(best.sweep);
 }
 
-/// The run in the plane of the mesh.
+/// Runs in the plane of the mesh.
 Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks) {
   if (auto error = expect_agreement(hooks, options, mesh)) return *std::move(error);
   Run run(options, hooks, mesh);
@@ -60,7 +60,7 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
 
   std::optional<AccuracySizes> sizes;
   const InputMeasures of_input(mesh, settings, sizes);
-  InputMesh input(mesh, hooks.exclusive && !options.size_band, hooks.executor);  // the band's field may look at it
+  InputMesh input(mesh, hooks.exclusive && !options.size_band, hooks.executor);  // the band's field may refer to it
   auto found = is_ready_for_accuracy(mesh, settings)
                    ? Candidate{WorkingCopy(mesh, settings.policy.order, hooks.executor)}
                    : best_restart(input, settings, state, run);
@@ -75,7 +75,7 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   return std::move(run.report);
 }
 
-/// What only a mesh in its own plane can have.
+/// Refuses options that only a mesh in its own plane can have.
 std::optional<InputError> check_metric(const OptimizeOptions& options, const OptimizeHooks& hooks) {
   const auto refused = [](const char* what) {
     return InputError{ErrorCode::invalid_option, {}, std::string("a tensor cannot go with ") + what};
@@ -85,7 +85,7 @@ std::optional<InputError> check_metric(const OptimizeOptions& options, const Opt
   return std::nullopt;
 }
 
-/// The run in the plane of the tensor's metric, and back.
+/// Runs in the plane of the tensor's metric, and maps back.
 Expected<OptimizeReport> optimize_in_metric(Mesh& mesh, const OptimizeOptions& options, OptimizeHooks hooks) {
   if (auto error = check_metric(options, hooks)) return *std::move(error);
   const Expected<Metric> metric = Metric::of(*options.tensor);

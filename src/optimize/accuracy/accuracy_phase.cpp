@@ -9,10 +9,10 @@
 namespace temper {
 namespace {
 
-// Edges that have to become longer take so many times as many sweeps.
+// Edges that must become longer take this many times more sweeps.
 constexpr int kSweepsForLengths = 3;
 
-/// The settings of the second phase: Newton steps along the curve with all edges kept, whatever the first phase did.
+/// Returns the settings of the second phase: always Newton steps along the curve, which keep all edges.
 Settings of_accuracy(Settings s) {
   const OptimizeOptions first = std::exchange(s.options, {});
   s.options.accuracy = first.accuracy;
@@ -68,11 +68,11 @@ SweepRecord AccuracyPhase::measure() {
 }
 
 Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool changed) {
-  TEMPER_ASSERT(!changed && run_.report.history.back().flips == 0);  // the connectivity is what it was
+  TEMPER_ASSERT(!changed && run_.report.history.back().flips == 0);  // the connectivity has not changed
   TEMPER_ASSERT_SLOW(count_bad(mesh_, nullptr) == bad_);
   const bool raised = raise_floors();
   if (raised || settings_.accuracy.keeps_lengths()) {
-    now_.barrier = sum(false).barrier;  // the energy is what it was
+    now_.barrier = sum(false).barrier;  // the energy has not changed
     if (raised) return Verdict::improving;
   }
   const double change = (before_.energy + before_.barrier) - (now_.energy + now_.barrier);

@@ -1,5 +1,5 @@
-// The second phase of the accuracy objective: sweeps that lower the energy of accuracy_energy.hpp on a mesh whose
-// triangles are well-centered, as far as the first phase could make them so. The connectivity stays.
+// The second phase of the accuracy objective. Its sweeps lower the energy of accuracy_energy.hpp. The first phase has
+// made triangles well-centered, as far as it could. The connectivity stays.
 #pragma once
 
 #include <utility>
@@ -9,23 +9,23 @@
 
 namespace temper {
 
-/// A phase for accuracy, with settings of its own, on a mesh with a size at each vertex and a floor of each triangle.
+/// A phase for accuracy with its own settings. The mesh has a size at each vertex and a floor of each triangle.
 class SizedPhase : public Phase {
  public:
   SizedPhase(const SizedPhase&) = delete;
   SizedPhase& operator=(const SizedPhase&) = delete;
   ~SizedPhase() override = default;
 
-  /// For the driver's steps.
+  /// Settings and state for the driver's steps.
   [[nodiscard]] const Settings& settings() const { return settings_; }
   [[nodiscard]] SweepState& state() { return state_; }
-  /// What it was given, once it has ended.
+  /// Returns the sizes that the phase got, after its end.
   [[nodiscard]] VertexSizes take_sizes() { return std::move(domain_.sizes); }
 
  protected:
   SizedPhase(WorkingCopy& work, Settings settings, Run& run, VertexSizes sizes);
 
-  /// True when that changes the barrier.
+  /// Returns true if new floors change the barrier.
   bool raise_floors() { return temper::raise_floors(domain_, mesh_, settings_.accuracy, settings_.executor()); }
   [[nodiscard]] AccuracyTotal sum(bool with_energy = true) const;
 
@@ -34,12 +34,12 @@ class SizedPhase : public Phase {
   const Settings settings_;
   SweepState state_;
   Run& run_;
-  std::size_t bad_;  // all through the phase
+  std::size_t bad_;  // constant during the phase
 };
 
 class AccuracyPhase final : public SizedPhase {
  public:
-  /// `settings`: those of the first phase, of which this one keeps its own.
+  /// `settings`: the first phase's, from which this phase makes its own.
   AccuracyPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes);
 
   void begin() override;
@@ -53,7 +53,7 @@ class AccuracyPhase final : public SizedPhase {
 
  private:
   double energy_unit_ = 1;
-  AccuracyTotal before_, now_;  // the last sweep
+  AccuracyTotal before_, now_;  // before and after the last sweep
 };
 
 }  // namespace temper

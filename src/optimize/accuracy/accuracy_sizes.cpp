@@ -7,10 +7,10 @@
 namespace temper {
 namespace {
 
-// Times that sizes are averaged with those of their neighbors: five are too few to quiet the noise of bad meshes, and
-// twenty are no better.
+// Number of averages of each size with its neighbors' sizes. Five leave the noise of bad meshes, and twenty are not
+// better.
 constexpr int kSmoothings = 10;
-// Neighbors that a vertex counts as by itself in an average.
+// Weight of a vertex in an average, if each neighbor has weight 1.
 constexpr double kOwnPart = 2;
 
 double averaged(const Mesh& mesh, const VertexSizes& sizes, VertexId v) {
@@ -67,7 +67,7 @@ VertexSizes AccuracySizes::of(const WorkingCopy& work, Executor* executor) const
   VertexSizes sizes(work.mesh.n_vertices());
   for_each_index(sizes.size(), executor, [&](std::size_t i) {
     const VertexId v(i), number = work.order.vertices[v];
-    // Both scales are powers of two, so exact.
+    // Both scales are powers of two, so this is exact.
     sizes[v] = number.index < input_.size() ? input_[number] / work.units.scale : local_size(work.mesh, v);
   });
   return sizes;

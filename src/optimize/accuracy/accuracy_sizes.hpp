@@ -1,10 +1,8 @@
-// The size that edges at each vertex are meant to have, for the accuracy objective: what its energy is over, so that
-// grading is kept.
+// The target size of edges at each vertex. The accuracy objective divides its energy by it, so that the grading stays.
 //
-// The size field where the vertex is in the input, or without one the input's own local size there; averaged with the
-// neighbors' ten times, since the sizes of badly shaped triangles are noise. A size belongs to its vertex and goes
-// with it: looked up where the vertex has gone to, errors were larger. A vertex that was inserted has the local size
-// that it has.
+// It is the size field at the vertex's place in the input, or the input's local size without a field. It is averaged
+// with the neighbors' sizes ten times, since sizes of badly shaped triangles are noisy. A size moves with its vertex:
+// sizes taken at the new place give larger errors. An inserted vertex has its local size.
 #pragma once
 
 #include <optional>
@@ -19,28 +17,28 @@ namespace temper {
 
 class AccuracySizes {
  public:
-  /// The sizes of a mesh in the user's terms.
+  /// Computes the sizes of a mesh in the user's terms.
   AccuracySizes(const NearbyCopy& input, const std::optional<SizeField>& field, Executor* executor);
 
-  /// The sizes of the input, in the user's units.
+  /// Returns the sizes of the input in the user's units.
   [[nodiscard]] const VertexSizes& of_input() const { return input_; }
-  /// The sizes of a working copy of it, in the units of its units.
+  /// Returns the sizes of a working copy of the input, in working units.
   [[nodiscard]] VertexSizes of(const WorkingCopy& work, Executor* executor) const;
-  /// The same, for a while: where the copy has all vertices of the input and no others, they are gone from here until
-  /// they are given back. Both would count on the largest meshes.
+  /// Lends the sizes of a working copy. If the copy has exactly the vertices of the input, this object has no sizes
+  /// until take_back(). For the largest meshes, two copies would take too much memory.
   [[nodiscard]] VertexSizes lend(const WorkingCopy& work, Executor* executor);
-  /// `lent`: what lend() gave for this copy, whose vertices are still the same.
+  /// `lent`: the sizes that lend() gave for this copy, whose vertices have not changed.
   void take_back(VertexSizes lent, const WorkingCopy& work, Executor* executor);
-  /// The same in the user's units.
+  /// Returns the sizes of a working copy in the user's units.
   [[nodiscard]] VertexSizes in_user_units(const WorkingCopy& work, Executor* executor) const;
-  /// The sizes of work.in_user_terms(), in the user's units.
+  /// Returns the sizes of work.in_user_terms() in the user's units.
   [[nodiscard]] VertexSizes in_user_terms(const WorkingCopy& work, Executor* executor) const;
 
  private:
-  VertexSizes input_;  // by the user's numbers; none while they are lent
+  VertexSizes input_;  // by the user's numbers; empty while lent
 };
 
-/// Raises the floors of a domain to what the mesh has now. True when that changes the barrier.
+/// Raises the floors of a domain to the present values of the mesh. Returns true if the barrier changes.
 bool raise_floors(AccuracyDomain& domain, const Mesh& mesh, const AccuracyModel& model, Executor* executor);
 
 }  // namespace temper

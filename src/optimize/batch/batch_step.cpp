@@ -8,11 +8,11 @@
 namespace temper {
 namespace {
 
-// Vertices to choose from: a batch of eight blocks about a hundred around it, and takes a quarter of the rest.
+// Number of vertices to choose from. A batch of eight blocks about a hundred vertices, and takes a quarter of the rest.
 constexpr std::size_t kWindow = 256;
-// The distance, in numbers of vertices, from where the sweep is to where memory is asked for what comes.
+// Distance from the present vertex to the vertex whose memory is fetched in advance.
 constexpr std::size_t kAhead = 64;
-// With fewer left, what comes together matters less than that lanes are in use.
+// With fewer vertices left, full lanes matter more than similar stars.
 constexpr std::size_t kLastFew = 48;
 
 void prefetch_point(const Mesh& mesh, std::size_t v) {
@@ -54,7 +54,7 @@ void BatchStep::improve(std::span<const VertexId> vertices, const Part& part, st
   std::sort(left.begin() + static_cast<std::ptrdiff_t>(n_left), left.end());
 }
 
-/// Fills the batch from the front of a list. Returns how many have gone from there.
+/// Fills the batch from the front of a list. Returns the number of vertices that left the list.
 std::size_t BatchStep::take_from(std::vector<VertexId>& list) {
   auto kept = list.begin(), at = kept;
   for (; at != list.end() && batch_.lanes < kLanes; ++at) {
@@ -71,7 +71,7 @@ std::size_t BatchStep::kind_of(VertexId v) const {
   return std::clamp<std::size_t>(limits.degree[v], kSmall, kSmall + waiting_.size() - 1) - kSmall;
 }
 
-/// False when v has to wait; else it is in the batch, or there is nothing to be done here.
+/// Returns false if v has to wait. Otherwise v is in the batch, or needs nothing here.
 bool BatchStep::take(VertexId v) {
   if (mark(v) != Mark::none) return false;
   const Mobility mobility = limits.mobility[v];
@@ -102,7 +102,7 @@ void BatchStep::gather(VertexId v, Mobility mobility) {
   ++batch_.lanes;
 }
 
-/// The points that a vertex's step looks at, all marked. False when they are not all in the part.
+/// Gathers and marks the points that a vertex's step reads. Returns false if they are not all in the part.
 bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
   constexpr std::size_t kMost = StarBatch::kMostTriangles;
   const Part part = part_;
@@ -115,7 +115,7 @@ bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
   do {
     const HalfedgeId link = Mesh::next(h), back = Mesh::next(link);
     const VertexId r = mesh.origin(back);
-    // The twin, and who is across, may be read only when both ends of the link edge are in the part.
+    // The twin and the corner across may be read only if both ends of the link edge are in the part.
     if (!part.contains(q) || !part.contains(r)) return false;
     const HalfedgeId across = mesh.twin(link);
     const VertexId o = across.valid() ? mesh.opposite(across) : q;
@@ -145,7 +145,7 @@ bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
   return true;
 }
 
-/// Sizes and floors around an occupant. What touches a triangle without a floor stays.
+/// Gathers the sizes and floors around an occupant. A vertex at a triangle without a floor stays.
 void BatchStep::gather_domain(const Occupant& occupant, std::size_t lane) {
   if (occupant.alone) return;
   const auto& [sizes, floors] = *state.accuracy_domain;
@@ -165,7 +165,7 @@ void BatchStep::gather_domain(const Occupant& occupant, std::size_t lane) {
   accuracy_.link_size[triangles][lane] = sizes[occupant.link[triangles]];
 }
 
-/// What the edges of triangle i of a star, whose spoke is h, stay longer than.
+/// Gathers the least lengths of the edges of triangle i of a star, whose spoke is h.
 void BatchStep::gather_lengths(HalfedgeId h, std::size_t i, std::size_t lane) {
   const LengthFloors& lengths = state.accuracy_domain->floors.lengths;
   const auto of = [&](HalfedgeId edge) {
@@ -200,7 +200,7 @@ void BatchStep::step_and_settle() {
   }
 }
 
-/// Takes a step of the batch into the mesh. `flips`: edges have flipped, or vertices gone, since the batch was made.
+/// Applies a step of the batch to the mesh. `flips`: edges were flipped or vertices removed since the batch was made.
 void BatchStep::settle(const Occupant& occupant, std::size_t lane, const StepOutcome& outcome, bool flips) {
   const VertexId v = occupant.v;
   const auto has = [lane](unsigned lanes) { return (lanes >> lane & 1) != 0; };
@@ -233,7 +233,7 @@ void BatchStep::improve_alone(VertexId v) {
   if (!alone_.improve(v, part_)) left_->push_back(v);
 }
 
-/// Says whether edges to the link from there are shorter than half a period.
+/// Says whether the edges from `to` to the link are shorter than half a period.
 bool BatchStep::reaches_its_link(const Occupant& occupant, const WeightedPoint& to) const {
   const WeightedPoint from = mesh.point(occupant.v);
   return std::all_of(occupant.link.begin(), occupant.link.begin() + static_cast<std::ptrdiff_t>(occupant.n_link),

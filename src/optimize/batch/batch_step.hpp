@@ -1,9 +1,9 @@
-// Vertices in batches of eight: Newton's method for all of them at once (star_batch.hpp), then one after the other
-// into the mesh, by steps of single vertices where that is not enough.
+// Vertices in batches of eight. Newton's method runs for all of them at once (star_batch.hpp). Then the steps are
+// applied to the mesh one by one. If a batch step is not enough, its vertex makes a single step.
 //
-// The vertices of a batch are those that come next in the sweep with about as many triangles, but for any that a step
-// of another one in the batch looks at, or that looks at it: those wait for a later one. So nothing that a step reads
-// is changed by another's, unless edges flip: stars are looked at again then.
+// A batch takes the next vertices of the sweep with about equal numbers of triangles. If the step of one vertex reads
+// another vertex of the batch, one of them waits for a later batch. So no step changes what another one reads, unless
+// edges flip: then the batch checks the stars again.
 #pragma once
 
 #include <array>
@@ -21,8 +21,8 @@ class BatchStep : StepContext {
   BatchStep(const StepContext& context, Flipper& flipper, VertexStep& alone)
       : StepContext(context), flipper_(flipper), alone_(alone) {}
 
-  /// Improves those that are still there, each as VertexStep does, but that vertices wait for each other as described
-  /// above. Those that need another part are appended to `left`, in the order of their numbers.
+  /// Improves the vertices that still exist, each as VertexStep does, except that vertices wait for each other as
+  /// above. Vertices that need another part are appended to `left`, in the order of their numbers.
   void improve(std::span<const VertexId> vertices, const Part& part, std::vector<VertexId>& left);
 
  private:
@@ -30,10 +30,10 @@ class BatchStep : StepContext {
   struct Occupant {
     VertexId v;
     std::size_t n_link = 0;
-    // As gathered; the first of them, when alone.
+    // The star when it was gathered; only its first entries if `alone`.
     std::array<VertexId, StarBatch::kMostTriangles + 1> link;
     std::array<HalfedgeId, StarBatch::kMostTriangles> spokes;
-    bool alone = false;  // not for vectors: many neighbors, or on a line that it slides along
+    bool alone = false;  // makes a single step: has many neighbors, or slides along a line
   };
 
   [[nodiscard]] std::size_t kind_of(VertexId v) const;
@@ -53,17 +53,16 @@ class BatchStep : StepContext {
   Flipper& flipper_;
   VertexStep& alone_;
 
-  // Of the call under way.
+  // State of the present call.
   Unknowns unknowns_ = Unknowns::positions_and_weights;
   Part part_;
   std::vector<VertexId>* left_ = nullptr;
-  std::array<std::vector<VertexId>, 4> waiting_;  // with up to 5 triangles, 6, 7, and more
-  // Of the batch under way.
+  std::array<std::vector<VertexId>, 4> waiting_;  // with up to 5, 6, 7 and more triangles
+  // State of the present batch.
   StarBatch batch_;
   AccuracyLanes accuracy_;
   std::array<Occupant, kLanes> occupants_;
-  // Whether a vertex of the batch looks at one of these numbers, modulo kMarks: who shares a number with another waits
-  // sometimes for nothing.
+  // Marks vertices, by number modulo kMarks, that the batch's steps read. A shared mark may make a vertex wait in vain.
   static constexpr std::size_t kMarks = 2048;
   enum class Mark : std::uint8_t { none, looked_at };
   std::array<Mark, kMarks> marks_{};

@@ -7,9 +7,8 @@
 //          q3 --- p ---- q0           spokes p q_i and the link edges q_i q_{i+1} are still regular. Both depend on
 //            \  /   \   /             these points alone.
 //
-// What the lanes do is what the step of a single vertex does by Newton's method, operation by operation; what is rare
-// is left to that: a Hessian that is not positive definite, a barrier to get into, a filter that does not decide,
-// flips.
+// A lane does the same operations as the Newton step of a single vertex. Rare cases are left to the single step: a
+// Hessian that is not positive definite, a barrier to enter, a filter that does not decide, flips.
 #pragma once
 
 #include <cstddef>
@@ -21,22 +20,22 @@
 namespace temper {
 
 struct alignas(64) StarBatch {
-  static constexpr std::size_t kMostTriangles = 14;  // of a star; larger ones go alone
+  static constexpr std::size_t kMostTriangles = 14;  // of a star; larger stars make single steps
 
-  // What is given.
+  // Input.
   std::size_t lanes = 0;           ///< in use
   std::size_t most_triangles = 0;  ///< of a lane
   LanePoints p;
-  Lane triangles;                        ///< how many, as a double
-  LaneMask open;                         ///< a boundary vertex: one point more on the link than triangles
-  LaneMask moves, changes_weight;        ///< position and weight are unknowns; a lane without either is left as it is
+  Lane triangles;                        ///< number of triangles, as a double
+  LaneMask open;                         ///< a boundary vertex: the link has one point more than triangles
+  LaneMask moves, changes_weight;        ///< position and weight are unknowns; a lane without either stays as it is
   LanePoints link[kMostTriangles + 1];   ///< q_0 … q_n, where q_n is q_0 again in a closed star
-  LanePoints across[kMostTriangles];     ///< o_i, where link_flips
-  LaneMask spoke_flips[kMostTriangles];  ///< spoke i may flip: inside, and not constrained
-  LaneMask link_flips[kMostTriangles];   ///< the same of link edge i
+  LanePoints across[kMostTriangles];     ///< o_i, if link_flips
+  LaneMask spoke_flips[kMostTriangles];  ///< spoke i may flip: it is inside and not constrained
+  LaneMask link_flips[kMostTriangles];   ///< link edge i may flip
 
-  // What comes out.
-  LanePoints to;       ///< where a lane of `stepped` goes
+  // Output.
+  LanePoints to;       ///< new place of a lane in `stepped`
   Lane before, after;  ///< its energy
 };
 
@@ -48,8 +47,8 @@ struct StepParameters {
 
 /// Bit i: lane i.
 struct StepOutcome {
-  unsigned stepped = 0;  ///< has a place of lower energy, certainly without inverted triangles
-  unsigned regular = 0;  ///< and there certainly needs no flip
+  unsigned stepped = 0;  ///< has a place with lower energy, certainly without inverted triangles
+  unsigned regular = 0;  ///< and certainly needs no flip there
   unsigned alone = 0;    ///< needs the step of a single vertex
 };
 
@@ -58,7 +57,7 @@ struct alignas(64) AccuracyLanes {
   Lane size;                                      ///< s at p
   Lane link_size[StarBatch::kMostTriangles + 1];  ///< s at q_i
   Lane floor[StarBatch::kMostTriangles];          ///< ε of triangle i
-  LaneMask inner[StarBatch::kMostTriangles];      ///< there is a triangle across link edge i
+  LaneMask inner[StarBatch::kMostTriangles];      ///< link edge i has a triangle across it
 
   struct alignas(64) Lengths {
     Lane factor, l2, dual2;
@@ -66,7 +65,7 @@ struct alignas(64) AccuracyLanes {
       factor[lane] = of.factor, l2[lane] = of.l2, dual2[lane] = of.dual2;
     }
   };
-  // Where the model keeps them.
+  // Used if the model has floors of lengths.
   Lengths spoke[StarBatch::kMostTriangles + 1];
   Lengths link[StarBatch::kMostTriangles];
 };
@@ -75,12 +74,12 @@ struct alignas(64) AccuracyLanes {
 struct BatchSteps {
   /// A step that lowers a barrier energy.
   StepOutcome (*barrier)(const StepParameters& parameters, StarBatch& batch);
-  /// A step that lowers the energy of the accuracy objective. What steps is certainly well-centered, and so regular.
+  /// A step that lowers the accuracy energy. A star that steps is certainly well-centered, and so regular.
   StepOutcome (*accuracy)(const StepParameters& parameters, const AccuracyModel& model, const AccuracyLanes& lanes,
                           StarBatch& batch);
 };
 
-/// Those of the instruction set in use.
+/// Returns the steps of the instruction set in use.
 [[nodiscard]] const BatchSteps& batch_steps(const Space& space);
 
 namespace baseline {

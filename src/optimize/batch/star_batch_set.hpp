@@ -1,4 +1,4 @@
-// Included by one source for each instruction set, compiled for that set.
+// One source per instruction set includes this file, and is compiled for that set.
 #pragma once
 
 #include "energy/accuracy_star.hpp"
@@ -21,8 +21,8 @@ struct Derivatives {
   Mask feasible;
 };
 
-/// Calls visit(i, here, a, b, q, r) for triangle i of all stars with their centers at p: `here`, the lanes that have
-/// one, its spokes a = pq and b = pr, and the edge qr of the link.
+/// Calls visit(i, here, a, b, q, r) for triangle i of all stars with their centers at p. `here` are the lanes that have
+/// this triangle, a = pq and b = pr are its spokes, and qr is its link edge.
 template <class In, class Kernel, class Visit>
 TEMPER_INLINE void for_triangles(const Kernel& kernel, const StarBatch& batch, const typename In::Center& p,
                                  Visit visit) {
@@ -76,12 +76,12 @@ TEMPER_INLINE Derivatives derivatives(const AccuracyStarOf<In>& star, const Star
 
 using PackStep = NewtonStepOf<Pack>;
 
-/// newton_step of optimize/step/descent.hpp, for a positive definite Hessian.
+/// The newton_step of optimize/step/descent.hpp, for a positive definite Hessian.
 TEMPER_INLINE PackStep newton_step(const Derivatives& d, Mask moves, Mask changes_weight) {
   const Pack zero = Pack::all(0), r2 = d.squared_radius, r = square_root(r2);
   const auto& [gradient, hessian] = d.sums.derivatives;
   const Mask both = moves & changes_weight;
-  // Scaled by (R, R, R²). What is no unknown gets the curvature of what is, and no slope.
+  // Scaled by (R, R, R²). A coordinate that is no unknown gets the curvature of one that is, and no slope.
   const Pack xx = hessian.xx * r2, yy = hessian.yy * r2, ww = hessian.ww * (r2 * r2);
   const CornerMatrix<Pack> h = {
       select(moves, xx, ww), select(moves, hessian.xy * r2, zero),      select(both, hessian.xw * (r * r2), zero),
@@ -92,7 +92,7 @@ TEMPER_INLINE PackStep newton_step(const Derivatives& d, Mask moves, Mask change
   return {step.x * r, step.y * r, step.w * r2, step.predicted, step.definite};
 }
 
-/// Where q is seen from p, in the plane of steps: direction_to() of geometry/triangle_kernel.hpp.
+/// The direction from p to q in the plane of steps: direction_to() of geometry/triangle_kernel.hpp.
 struct PackDirection {
   Pack x, y;
 };
@@ -105,7 +105,7 @@ TEMPER_INLINE PackDirection direction_to(const Chart<Pack>& p, const WeightedVec
   return {projected * a.x, projected * a.y};
 }
 
-/// inversion_limit of optimize/step/descent.hpp.
+/// The inversion_limit of optimize/step/descent.hpp.
 template <class In>
 TEMPER_INLINE Pack inversion_limit(const StarBatch& batch, const typename In::Center& p, const PackStep& step) {
   const Pack triangles = Pack::load(batch.triangles);
@@ -119,7 +119,7 @@ TEMPER_INLINE Pack inversion_limit(const StarBatch& batch, const typename In::Ce
   return limit;
 }
 
-/// The place of t times a step. Positions of the plane are rounded to the user's grid, those that are no unknowns stay.
+/// Returns the place after t times a step. In the plane, new positions are rounded to the user's grid.
 TEMPER_INLINE PointOf<Pack> moved(const PointOf<Pack>& p, const PackStep& step, const Pack& t, Mask moves,
                                   const StepParameters& parameters) {
   const Pack cx = Pack::all(parameters.rounding_x), cy = Pack::all(parameters.rounding_y);
@@ -131,7 +131,7 @@ TEMPER_INLINE WeightedVectorOf<Pack> moved(const Chart<Pack>& p, const PackStep&
   return p.moved(t * step.x, t * step.y, t * step.w);
 }
 
-/// `there` where a mask is set, else `here`.
+/// Returns `there` in lanes in which the mask is set, else `here`.
 template <class Point>
 TEMPER_INLINE Point select(Mask m, const Point& there, const Point& here) {
   const auto& [x, y, third] = there;
@@ -139,7 +139,7 @@ TEMPER_INLINE Point select(Mask m, const Point& there, const Point& here) {
   return {select(m, x, x_here), select(m, y, y_here), select(m, third, third_here)};
 }
 
-/// The energy of all stars with their centers at p; `certain`: in the domain, and no triangle is inverted there.
+/// The energy of all stars with their centers at p. `certain`: p is in the domain and inverts no triangle.
 struct Trial {
   Pack value;
   Mask feasible, certain;
@@ -162,22 +162,22 @@ requires(Kernel::kBarrier) TEMPER_INLINE Trial
   return trial;
 }
 
-/// The accuracy energy of all stars with their centers at p. What is certain, well_centered_at() finds out in the end.
+/// Returns the accuracy energy of all stars with their centers at p. well_centered_at() decides later what is certain.
 template <class In>
 TEMPER_INLINE Trial energy_at(const AccuracyStarOf<In>& star, const StarBatch&, const typename In::Point& p) {
   const Pack value = accuracy_value(star, seen_from(p));
   return {value, value<kInfinity, value> - kInfinity};
 }
 
-/// A triangle's heights over a = pq, b = pr and qr are certainly positive: the triangle reaches to its orthocenter and
-/// beyond on that side.
+/// The lanes in which a triangle's heights over a = pq, b = pr and qr are certainly positive: on that side the triangle
+/// reaches beyond its orthocenter.
 struct CertainHeights {
   Mask over_a, over_b, over_qr;
 };
 
-/// h ℓ S over pq is N = u_b |a|² − u_a a·b, and so on (geometry/triangle_kernel.hpp). With m = |a|² + |b|² + |w_p −
-/// w_q| + |w_p − w_r|, none of its products is larger than m²/2, nor is S²; 35 roundings at most lie on the way to the
-/// last of the three, S² − N_a − N_b.
+/// h ℓ S over pq is N = u_b |a|² − u_a a·b, and so on (geometry/triangle_kernel.hpp). Let m = |a|² + |b|² + |w_p − w_q|
+/// + |w_p − w_r|. Then S² and all products are at most m²/2. The last of the three, S² − N_a − N_b, takes at most 35
+/// roundings.
 TEMPER_INLINE CertainHeights certain_heights(const Spoke<Pack>& a, const Spoke<Pack>& b) {
   constexpr double kBound = 64 * inlined::kUnitRoundoff;
   const Pack s = a.x * b.y - a.y * b.x, ab = a.x * b.x + a.y * b.y;
@@ -187,14 +187,14 @@ TEMPER_INLINE CertainHeights certain_heights(const Spoke<Pack>& a, const Spoke<P
   return {oriented & (na > bound), oriented & (nb > bound), oriented & (s * s - na - nb > bound)};
 }
 
-/// The lanes where edge ab, between triangles abc and adb, certainly is regular.
+/// Returns the lanes in which edge ab, between triangles abc and adb, certainly is regular.
 template <class Point>
 TEMPER_INLINE Mask certainly_regular(const Point& a, const Point& b, const Point& c, const Point& d) {
   const auto [determinant, bound] = inlined::filtered_power_test(a, b, c, d);
   return determinant < -bound;
 }
 
-/// The point before q_0 on a closed link: q_{n−1}, different from lane to lane.
+/// Returns the point before q_0 on a closed link: q_{n−1}, with n different from lane to lane.
 template <class In>
 TEMPER_INLINE typename In::Point before_first(const StarBatch& batch) {
   const Pack triangles = Pack::load(batch.triangles);
@@ -206,8 +206,7 @@ TEMPER_INLINE typename In::Point before_first(const StarBatch& batch) {
   return before;
 }
 
-/// The lanes where all spokes and link edges that may flip are certainly regular with the centers at p. On the sphere
-/// a power test is cheap.
+/// Returns the lanes in which all edges that may flip are certainly regular. On the sphere a power test is cheap.
 TEMPER_INLINE Mask regular_at(const StarBatch& batch, const OnSphere::Point& p) {
   using Point = OnSphere::Point;
   const Pack triangles = Pack::load(batch.triangles);
@@ -224,8 +223,7 @@ TEMPER_INLINE Mask regular_at(const StarBatch& batch, const OnSphere::Point& p) 
   return ~flips;
 }
 
-/// The same in the plane. An edge is regular whose two heights are positive; where they are not, the power test
-/// decides.
+/// In the plane, an edge with two positive heights is regular. The power test decides about other edges.
 TEMPER_INLINE Mask regular_at(const StarBatch& batch, const InPlane::Point& p) {
   using PackPoint = InPlane::Point;
   const Pack triangles = Pack::load(batch.triangles);
@@ -251,8 +249,7 @@ TEMPER_INLINE Mask regular_at(const StarBatch& batch, const InPlane::Point& p) {
   return ~flips;
 }
 
-/// The lanes where all triangles certainly are well-centered with the centers at p. Link edges have been crossed
-/// before, and are.
+/// Returns the lanes in which all triangles are certainly well-centered. Duals cross link edges as before.
 TEMPER_INLINE Mask well_centered_at(const StarBatch& batch, const InPlane::Point& p) {
   const Pack triangles = Pack::load(batch.triangles);
   const auto crossed = [](const Spoke<Pack>& a) {
@@ -306,8 +303,7 @@ struct Found {
   Mask stepped, alone;
 };
 
-/// VertexStep::newton_search. The energy of all stars: a barrier's kernel, or what the accuracy objective knows of
-/// them.
+/// VertexStep::newton_search for all stars. `energy`: a barrier's kernel, or the stars of the accuracy objective.
 template <class In, class Energy>
 TEMPER_INLINE Found<In> newton_search(const Energy& energy, int trials, const StepParameters& parameters,
                                       StarBatch& batch) {

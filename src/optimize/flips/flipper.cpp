@@ -11,14 +11,14 @@
 namespace temper {
 namespace {
 
-// Flips of one vertex step; more than a few are a cascade that rarely pays.
+// Largest number of flips in one vertex step. More than a few flips are a cascade that rarely pays.
 constexpr std::size_t kMostFlips = 64;
 
-/// What a run of Lawson's algorithm tells of its flips.
+/// Watches the flips of one run of Lawson's algorithm.
 struct FlipWatch {
   const EnergyModel& model;
-  std::optional<double>& change;     ///< grows by what they change of the energy, when there is one
-  std::vector<FlipRecord>* records;  ///< of a trace; null: there is none
+  std::optional<double>& change;     ///< if present, grows by the change of energy
+  std::vector<FlipRecord>* records;  ///< of the trace; null without one
   SizeBand* band;                    ///< or null
 
   void before(const Mesh& mesh, HalfedgeId h) {
@@ -40,7 +40,7 @@ struct FlipWatch {
 
 }  // namespace
 
-/// Lawson on what is queued. `change`, when there is one, grows by what the flips change of the energy.
+/// Runs Lawson's algorithm on the queued edges. If `change` is present, the flips' change of energy is added to it.
 LawsonRun Flipper::run(std::optional<double>& change, std::size_t max_flips, SizeBand* band, const Part& part) {
   if (band != nullptr) band->begin_flips();
   FlipWatch watch{state_.model, change, recorder_.on() ? &records_ : nullptr, band};
@@ -69,7 +69,7 @@ Flipper::Settled Flipper::settle(const Step& step) {
   const LawsonRun result = run(change, kMostFlips, step.band, step.part);
   const bool pays = !change || *change < 0;
   const WeightedPoint there = mesh_.point(step.v);
-  // What is stuck in an unfinished run may have a quad that is partly outside.
+  // In an unfinished run, the quad of a stuck edge may be partly outside.
   const bool hides = result.finished && !lawson_.stuck(mesh_).empty();
   const bool leaves_band = step.band != nullptr && !step.band->allow_flips();
   if (!result.finished || !pays || leaves_band || (hides && !accept_hidden())) {
@@ -86,7 +86,7 @@ Flipper::Settled Flipper::settle(const Step& step) {
   return Settled::done;
 }
 
-/// Says whether the policy lets the vertices at stuck edges be hidden.
+/// Says whether the policy lets flips hide the vertices at stuck edges.
 bool Flipper::accept_hidden() {
   if (!settings_.policy.removes_hidden()) return settings_.policy.keeps_hidden();
   for (const VertexId v : hidden_at_stuck_edges()) {
@@ -104,7 +104,7 @@ std::vector<VertexId> Flipper::hidden_at_stuck_edges() {
   return hidden;
 }
 
-/// Does what the policy asks for, once vertices are hidden and the flips that led there are done.
+/// Treats hidden vertices by the policy, after the flips that hide them.
 void Flipper::treat_hidden() {
   std::vector<VertexId> stay = hidden_at_stuck_edges();
   if (settings_.policy.removes_hidden()) {
@@ -124,8 +124,8 @@ void Flipper::treat_hidden() {
   for (const VertexId v : stay) recorder_.hidden(v);
 }
 
-/// Queues the edges that are not regular, in the order of push_all. The flips are the same as if all were queued: one
-/// that is regular now is passed over, or a flip that spoils it pushes it before.
+/// Queues the edges that are not regular, in the order of push_all. The flips are the same as if all edges were queued:
+/// Lawson skips regular edges, and queues an edge that a flip makes irregular.
 void Flipper::push_irregular() {
   const std::size_t n = mesh_.n_halfedges();
   std::vector<std::vector<HalfedgeId>> found((n + kLoopBlock - 1) / kLoopBlock);

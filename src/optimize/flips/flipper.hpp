@@ -1,5 +1,5 @@
-// Flips, and what else regularity asks for, as the optimizer wants them: priced, traced, undone whole, and with hidden
-// vertices treated by the user's policy.
+// Flips, and other changes that make edges regular. The flipper prices and traces them, and can undo all flips of a
+// step. It treats hidden vertices by the user's policy.
 #pragma once
 
 #include <cstddef>
@@ -21,36 +21,36 @@ class Flipper {
   Flipper(Mesh& mesh, const Settings& settings, const SweepState& state, const Recorder& recorder)
       : mesh_(mesh), settings_(settings), state_(state), recorder_(recorder) {}
 
-  /// A step of v from `origin`, already made.
+  /// A step of v from `origin`. v has moved already.
   struct Step {
     VertexId v;
     WeightedPoint origin;
     double before = 0, after = 0;  ///< energy of v's patch
-    bool must_pay = false;         ///< with what the flips change, the energy must fall
-    SizeBand* band = nullptr;      ///< of local sizes, which flips must not leave
-    Part part = {};                ///< that v is confined to, and flips too
+    bool must_pay = false;         ///< the energy must fall, flips included
+    SizeBand* band = nullptr;      ///< of local sizes; flips must not leave it
+    Part part = {};                ///< to which v and the flips are confined
   };
-  /// Undone is the step too: because flips do not pay, hide a vertex that may not be, or would escape from the part.
+  /// The step is undone, too, if flips do not pay, hide a vertex against the policy, or would leave the part.
   enum class Settled { done, undone, escaped };
-  /// Makes the edges around a step's vertex regular. When it is done, v is still confined to the part.
+  /// Makes the edges around a step's vertex regular. If the result is `done`, v is still confined to the part.
   Settled settle(const Step& step);
 
-  /// Line 20 of Algorithm 1. False when a vertex is hidden that may not be: where hidden vertices are removed, one that
-  /// cannot be; else all is undone.
+  /// Line 20 of Algorithm 1. Returns false if a vertex is hidden against the policy. If the policy removes hidden
+  /// vertices, this is a vertex that cannot be removed; otherwise all flips are undone.
   bool restore_all();
 
-  /// Removes the plan's vertex. The edges of what fills its place are left to the caller.
+  /// Removes the plan's vertex. The caller treats the edges of the triangles that fill its place.
   void remove(EventKind kind, const RemovalPlan& plan, double before, double after);
 
-  /// Replaces the edge of h by the other diagonal; whether that is a good idea is the caller's to know.
+  /// Replaces the edge of h by the other diagonal. The caller decides whether the flip is allowed.
   void flip(HalfedgeId h, double before, double after);
-  /// A new vertex in a triangle, or on an edge: named and told. The edges around it are left to the caller.
+  /// Insert a vertex in a triangle or on an edge, number it and record it. The caller treats the edges around it.
   VertexId insert(WorkingCopy& work, TriangleId t, const WeightedPoint& p, double before, double after);
   VertexId split(WorkingCopy& work, HalfedgeId h, const WeightedPoint& p, double before, double after);
-  /// The vertex of a plan, with the plan's flips.
+  /// Inserts the vertex of a plan and makes the plan's flips.
   VertexId commit(WorkingCopy& work, const InsertionPlan& plan, double before, double after);
 
-  /// Since the last call of this.
+  /// The changes since the last call of take_changes().
   struct Changes {
     std::size_t flips = 0, removed = 0, inserted = 0;
   };
@@ -62,9 +62,9 @@ class Flipper {
     changes_.inserted += more.inserted;
   }
   [[nodiscard]] const Changes& changes() const { return changes_; }
-  /// Appends to the log, from here on, the halfedges that steps flip, in order; null: no longer.
+  /// From now on, appends the halfedges that steps flip to the log, in order; null ends that.
   void log_flips(std::vector<HalfedgeId>* log) { log_ = log; }
-  /// Does again what another flipper logged, on a mesh as that one was.
+  /// Repeats the flips that another flipper logged on an equal mesh.
   void repeat(std::span<const HalfedgeId> flips);
   [[nodiscard]] bool has_removed() const { return changes_.removed > 0; }
 
@@ -80,7 +80,7 @@ class Flipper {
   const SweepState& state_;
   const Recorder& recorder_;
   Lawson lawson_;
-  std::vector<FlipRecord> records_;  // of the run under way, when traced
+  std::vector<FlipRecord> records_;  // of the present run, if traced
   RemovalPlan plan_;
   Changes changes_;
   std::vector<HalfedgeId>* log_ = nullptr;

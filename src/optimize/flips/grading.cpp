@@ -15,39 +15,39 @@
 namespace temper {
 namespace {
 
-// Edges whose bounds sum to 1 must be split; up to here they leave so little room that sweeps hardly find it. Measured
-// on the outline of a capital A, ratio 4: 1 leaves 5 triangles bad; 1.2 to 2 none, with 17 cuts at 1.3 and 27 at 2.
-// Above 1.46 the dense horseshoe, which needs none of these splits, loses margin by them.
+// Edges whose bounds sum to 1 must be split. Up to this sum they leave so little room that sweeps hardly find it. On
+// the outline of a capital A with ratio 4, the value 1 leaves 5 triangles bad. 1.2 to 2 leave none, with 17 cuts at 1.3
+// and 27 at 2. Above 1.46 the dense horseshoe, which needs none of these splits, loses margin by them.
 constexpr double kLittleRoom = 1.3;
 constexpr double kNoConflict = std::numeric_limits<double>::infinity();
-// Splits for each edge that there is: corners of few degrees could ask for more and more.
+// Largest number of splits per edge. Corners with few degrees could need more and more splits.
 constexpr std::size_t kMostSplits = 20;
 
 using VertexMarks = IdVector<VertexId, std::uint8_t>;
 
-/// The largest ratio of the lengths of two edges of the boundary or of lines that meet.
+/// Returns the largest ratio of the lengths of two edges of the boundary or of lines that meet.
 double length_ratio(const Mesh& mesh) {
   constexpr double kNoCuts = std::numeric_limits<double>::infinity();
   return plan_boundary_grading(mesh, kNoCuts).ratio_before;
 }
 
-/// An edge of the boundary or of a line, by its ends, which flips elsewhere do not change.
+/// An edge of the boundary or of a line, given by its ends, which flips do not change.
 struct Line {
   VertexId u, v;
-  std::size_t whole = 0;  ///< the number of the one that it is a piece of, before all splits
-  int splits = 0;         ///< that it is a piece of, one in another
+  std::size_t whole = 0;  ///< the number of the line before all splits that has this piece
+  int splits = 0;         ///< depth: how often its line was split to get this piece
   double sum = kNoConflict;
   double split_at = 0.5;
 };
 
-// Lines that meet at less than this angle cut each other into ever smaller pieces, unless their pieces begin at equal
-// distances from where they meet (J. Ruppert, "A Delaunay refinement algorithm for quality 2-dimensional mesh
+// Lines that meet at less than this angle cut each other into ever smaller pieces, unless they are cut at equal
+// distances from their common vertex (J. Ruppert, "A Delaunay refinement algorithm for quality 2-dimensional mesh
 // generation", 1995).
 constexpr double kSharpCosine = 0.5;  // of 60 degrees
-// After so many splits, one in another: corners where fewer do are left with wider margins by the best places.
+// Depth from which splits are at equal distances. If fewer splits are enough, the best places give wider margins.
 constexpr int kSplitsToShells = 2;
 
-/// The line along h, which is that piece.
+/// Returns the line along h, a piece of line `whole`.
 Line line_of(const Mesh& mesh, HalfedgeId h, std::size_t whole, int splits = 0) {
   if (const auto c = edge_conflict(mesh, h, kLittleRoom)) {
     return {mesh.origin(c->edge), mesh.target(c->edge), whole, splits, c->sum, c->split_at};
@@ -59,7 +59,7 @@ Line line_of(const Mesh& mesh, HalfedgeId h, std::size_t whole, int splits = 0) 
 class SharpCorners {
  public:
   SharpCorners(const Mesh& mesh, const std::vector<Line>& lines) : is_sharp_(mesh.n_vertices(), 0) {
-    std::vector<std::pair<VertexId, VertexId>> ends;  // and the other one
+    std::vector<std::pair<VertexId, VertexId>> ends;  // vertex, other end
     for (const Line& line : lines) {
       ends.emplace_back(line.u, line.v);
       ends.emplace_back(line.v, line.u);
@@ -74,7 +74,7 @@ class SharpCorners {
     }
   }
 
-  /// Where to split the line instead of at split_at: a power of two, in the units's unit, from a sharp end.
+  /// Returns the place of the split, instead of split_at: from a sharp end, a power of two in working units.
   [[nodiscard]] double split_at(const Mesh& mesh, const Line& line) const {
     if (line.splits < kSplitsToShells) return line.split_at;
     const bool from_u = is_sharp(line.u), from_v = is_sharp(line.v);
@@ -91,19 +91,19 @@ class SharpCorners {
  private:
   [[nodiscard]] bool is_sharp(VertexId v) const { return v.index < is_sharp_.size() && is_sharp_[v]; }
 
-  IdVector<VertexId, std::uint8_t> is_sharp_;  // of the vertices there were
+  IdVector<VertexId, std::uint8_t> is_sharp_;  // of the vertices before all splits
 };
 
-/// Says whether a new vertex at p can matter to the edge: the discs from its ends have diameters of kLittleRoom edges.
+/// Says whether a new vertex at p can matter to the edge: discs at its ends have diameters of kLittleRoom edges.
 bool is_near(const Mesh& mesh, const Line& line, Vec2 p) {
   const Vec2 u = mesh.position(line.u), v = mesh.position(line.v);
   return length(p - 0.5 * (u + v)) <= kLittleRoom * length(v - u);
 }
 
-/// The lines, worst first, and which of them are near a place.
+/// The lines, worst first. Finds lines near a place.
 class Lines {
  public:
-  /// `near`: those with an end that is marked; null: all.
+  /// `near`: marks of vertices; lines without a marked end are left out. Null: all lines.
   Lines(const Mesh& mesh, const VertexMarks* near) {
     for (const HalfedgeId h : mesh.halfedges()) {
       if (mesh.is_erased(Mesh::triangle(h)) || !mesh.is_edge_representative(h)) continue;
@@ -115,8 +115,8 @@ class Lines {
       const Line& line = lines_[i];
       if (std::isfinite(line.sum)) by_sum_.insert({line.sum, i});
       pieces_.push_back({i});
-      // What is within r l of the middle of a piece of length l ≤ L is within L/2 + (r − 1/2) l ≤ r L of the whole's,
-      // but for the rounding of places.
+      // Let r be at least 1/2, and a piece of a line of length L have the length l ≤ L. A place within r l of the
+      // piece's midpoint is within L/2 + (r − 1/2) l ≤ r L of the line's midpoint, up to rounding.
       const Vec2 u = mesh.position(line.u), v = mesh.position(line.v), middle = 0.5 * (u + v);
       const Vec3 center = {middle.x, middle.y, 0};
       boxes.push_back(box_of(center, center).grown(1.1 * kLittleRoom * length(v - u)));
@@ -125,12 +125,12 @@ class Lines {
   }
 
   [[nodiscard]] const std::vector<Line>& all() const { return lines_; }
-  /// That of the least sum, of several the first; none: no line has a conflict.
+  /// Returns the first line with the least sum, or null if no line has a conflict.
   [[nodiscard]] const Line* worst() const { return by_sum_.empty() ? nullptr : &lines_[by_sum_.begin()->second]; }
-  /// No split does away with the worst one's conflict.
+  /// Drops the worst line, whose conflict no split resolves.
   void give_up_worst() { by_sum_.erase(by_sum_.begin()); }
 
-  /// The worst one is split there. Conflicts are those before: renew_near() follows.
+  /// Replaces the worst line by its pieces at the new vertex. Their conflicts are out of date until renew_near().
   void split_worst(VertexId fresh) {
     const std::size_t i = by_sum_.begin()->second;
     Line first = lines_[i], second = first;
@@ -142,7 +142,7 @@ class Lines {
     lines_.push_back(second);
   }
 
-  /// The lines near p become what renewed(line) says.
+  /// Replaces each line near p by renewed(line).
   template <class Renewed>
   void renew_near(const Mesh& mesh, Vec2 p, const Renewed& renewed) {
     const Vec3 place = {p.x, p.y, 0};
@@ -162,9 +162,9 @@ class Lines {
   }
 
   std::vector<Line> lines_;
-  std::set<std::pair<double, std::size_t>> by_sum_;  // and number, of those with a conflict
+  std::set<std::pair<double, std::size_t>> by_sum_;  // sum and number of lines with a conflict
   std::vector<std::vector<std::size_t>> pieces_;     // by number of the line before all splits
-  BoundingBoxTree near_;                             // of these; a place near a piece is near them
+  BoundingBoxTree near_;  // of the lines before all splits; a place near a piece is near its line
 };
 
 class BoundaryCutter {
@@ -172,7 +172,7 @@ class BoundaryCutter {
   BoundaryCutter(WorkingCopy& work, Flipper& flipper)
       : work_(work), mesh_(work.mesh), flipper_(flipper), ratio_before_(length_ratio(work.mesh)) {}
 
-  /// BoundarySplitting the edge from a towards b, each time what is left of it.
+  /// Cuts the edge from a towards b. Each cut splits the rest of the edge.
   void cut(const EdgeSplits& edge) {
     const Vec2 a = mesh_.position(edge.a), along = mesh_.position(edge.b) - a;
     VertexId last = edge.a;
@@ -182,8 +182,8 @@ class BoundaryCutter {
     }
   }
 
-  /// Splits edges that leave their dual no room, or little (necessity.hpp), worst first, until none does.
-  /// `near`: of the edges with an end that is marked; null: of all.
+  /// Splits edges that leave their dual little or no room (necessity.hpp), worst first, until no such edge is left.
+  /// `near`: marks of vertices; edges without a marked end are left out. Null: all edges.
   void resolve_conflicts(const VertexMarks* near = nullptr) {
     Lines lines(mesh_, near);
     const SharpCorners corners(mesh_, lines.all());
@@ -207,7 +207,7 @@ class BoundaryCutter {
 
   void halve(VertexId a, VertexId b) { split(a, b, work_.units.snap(0.5 * (mesh_.position(a) + mesh_.position(b)))); }
   [[nodiscard]] bool has_edge(VertexId a, VertexId b) const { return find_edge(a, b).valid(); }
-  /// A vertex at the orthocenter of a triangle that has none free.
+  /// Inserts a vertex at the orthocenter of a triangle that has no free corner.
   void free(const std::array<VertexId, 3>& corners) {
     plan_ = plan_center(mesh_, corners, std::move(plan_));
     if (plan_.status != InsertionStatus::possible) return;
@@ -230,7 +230,7 @@ class BoundaryCutter {
     return h.valid() ? h : mesh_.find_halfedge(b, a);
   }
 
-  /// The new vertex on ab, or none.
+  /// Returns the new vertex on ab, or an invalid one.
   VertexId split(VertexId a, VertexId b, Vec2 at) {
     const Vec2 from = mesh_.position(a), along = mesh_.position(b) - from;
     const double l2 = squared_length(along), t = dot(at - from, along) / l2;
@@ -252,7 +252,7 @@ class BoundaryCutter {
   const double ratio_before_;
   InsertionPlan plan_;
   std::size_t vertices_ = 0, conflicts_ = 0, inside_ = 0;
-  std::set<std::pair<VertexId, VertexId>> refused_;  // edges as they are, that had to be split and could not
+  std::set<std::pair<VertexId, VertexId>> refused_;  // present edges that could not be split
 };
 
 using Ends = std::pair<VertexId, VertexId>;
@@ -303,7 +303,7 @@ SplitCounts split_where_bad(WorkingCopy& work, Flipper& flipper) {
 
 SplitCounts split_boundary(WorkingCopy& work, Flipper& flipper, double ratio) {
   BoundaryCutter cutter(work, flipper);
-  // First: after other cuts more splits are needed, and at sharp corners far more.
+  // Conflicts come first: after other cuts more splits are needed, and at sharp corners far more.
   cutter.resolve_conflicts();
   for (int pass = 0; pass < kGradingPasses; ++pass) {
     const GradingPlan plan = plan_boundary_grading(work.mesh, ratio, kWidestBoundaryAngle);

@@ -1,10 +1,10 @@
-// BoundaryVertices::split: long edges of the boundary and of constrained lines, where they meet short ones, are cut
-// before the sweeps. A long edge beside a short one is what plain sweeps cannot mend: no position of the vertices
-// inside gives both of their triangles an orthocenter of their own.
+// BoundaryVertices::split cuts long edges of the boundary and of constrained lines next to short ones, before the
+// sweeps. Sweeps cannot repair such a pair of edges: no position of the inner vertices puts orthocenters inside both
+// triangles.
 //
-// First come edges on which no dual can cross, or hardly (temper/detail/necessity.hpp): no mesh inside makes up for
-// them. The other cuts are those of plan_boundary_grading(), but at places that the user's coordinates can hold, and
-// told to the recorder one by one.
+// The first cuts are on edges that leave their dual little or no room to cross (temper/detail/necessity.hpp), since no
+// mesh inside can help there. plan_boundary_grading() plans the other cuts. Each cut is at a place that the user's
+// coordinates can hold, and goes to the recorder.
 #pragma once
 
 #include <cstddef>
@@ -15,19 +15,19 @@ namespace temper {
 
 struct SplitCounts {
   std::size_t vertices = 0;   ///< inserted on edges
-  std::size_t conflicts = 0;  ///< of these, on edges that left their dual no room or little
-  std::size_t inside = 0;     ///< inserted in triangles whose corners all are on the boundary or on lines
-  std::size_t refused = 0;    ///< edges not cut: a triangle would be turned over, by rounding, or a vertex hidden
-  double ratio_before = 1;    ///< of the lengths of two such edges that meet at a vertex
-  double ratio_after = 1;     ///< the same after all cuts
+  std::size_t conflicts = 0;  ///< of these, on edges that left their dual little or no room
+  std::size_t inside = 0;     ///< inserted in triangles with all corners on the boundary or on lines
+  std::size_t refused = 0;    ///< edges not cut, since rounding would turn over a triangle, or a vertex be hidden
+  double ratio_before = 1;    ///< largest ratio of lengths of two such edges that meet
+  double ratio_after = 1;     ///< this ratio after all cuts
 };
-/// Both together, those of b after those of a.
+/// Adds the counts of cuts a, and cuts b after them.
 [[nodiscard]] SplitCounts operator+(const SplitCounts& a, const SplitCounts& b);
 
-/// The mesh's unconstrained edges are regular, and so they are left.
+/// The mesh's unconstrained edges are regular, before and after.
 SplitCounts split_boundary(WorkingCopy& work, Flipper& flipper, double ratio);
-/// The same at the corners of bad triangles alone: of lines that leave a dual no room or little; else, at each triangle
-/// without such, the longest one is halved.
+/// Splits at the corners of bad triangles alone. There it splits lines that leave their dual little or no room. If a
+/// bad triangle has no such line, its longest line is halved.
 SplitCounts split_where_bad(WorkingCopy& work, Flipper& flipper);
 
 }  // namespace temper

@@ -11,7 +11,7 @@
 namespace temper {
 namespace {
 
-constexpr std::size_t kVerticesPerSample = 16;  // of those whose keys say where to cut
+constexpr std::size_t kVerticesPerSample = 16;  // the keys of the samples give the places of the cuts
 
 /// Keys along a curve whose grid is shifted by a part of the longer side of the box of the mesh, or of its cell.
 class ShiftedCurve {
@@ -24,7 +24,7 @@ class ShiftedCurve {
   }
 
  private:
-  // Around a period the curve begins elsewhere; its grid is that of the cell.
+  // Around a period the curve begins elsewhere, on the grid of the cell.
   ShiftedCurve(Vec2 period, const Box& box, double part, double side)
       : period_(period),
         low_(box.low),
@@ -43,7 +43,7 @@ class ShiftedCurve {
   HilbertGrid curve_;
 };
 
-/// Turned by a radian around an axis, another one for each cut: near one axis the other two turn.
+/// Turns p by a radian. Each cut has another axis, since places near one axis hardly turn around it.
 Vec3 turned(Vec3 p, std::size_t cut) {
   constexpr std::array<Vec3, ShiftedPartitions::kPartitions> kAxes = {
       {{2, 3, 6}, {6, 2, -3}, {3, -6, 2}}};  // of length 7

@@ -1,8 +1,8 @@
-// Parts of a mesh that sweeps improve at the same time: ranges of vertex numbers, which along a Hilbert curve are
-// compact pieces of the plane, and pieces of other cuts.
+// Parts of a mesh that sweeps improve at the same time. Ranges of vertex numbers are parts, since along a Hilbert curve
+// they are compact pieces of the plane. Other cuts give more parts.
 //
-// A vertex is confined to a part when all that its step looks at is in there: its star, its link, and the corners
-// across the link. Why confined steps of different parts may run at once is shown in sweeper.hpp.
+// A vertex is confined to a part if the part has all that its step reads: its star, its link, and the corners across
+// the link. sweeper.hpp proves that confined steps of different parts may run at once.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace temper {
 
 using PartNumber = std::uint16_t;
 
-/// The vertices first … last − 1, by default all of any mesh; or those v with part_of[v] = number.
+/// The vertices first … last − 1, by default all of any mesh; or all v with part_of[v] = number.
 struct Part {
   VertexId first = VertexId(0), last = {};
   const PartNumber* part_of = nullptr;
@@ -40,11 +40,11 @@ struct Partition {
   [[nodiscard]] VertexId bound(std::size_t i) const { return VertexId(i * n_vertices / count); }
 };
 
-/// Says whether v, which is in the part and not isolated, is confined to it. O(degree). Reads no coordinates.
+/// Says whether v, which is in the part and not isolated, is confined to the part. O(degree). Reads no coordinates.
 [[nodiscard]] inline bool is_confined(const Mesh& mesh, VertexId v, const Part& part) {
   if (part.is_whole()) return true;
   for (const HalfedgeId h : mesh.star(v)) {
-    // The order matters: who is across a link edge may be read only when both its ends are in the part.
+    // The order matters: the corner across a link edge may be read only if both ends of the edge are in the part.
     if (!part.contains(mesh.target(h)) || !part.contains(mesh.opposite(h))) return false;
     const HalfedgeId across = mesh.twin(Mesh::next(h));
     if (across.valid() && !part.contains(mesh.opposite(across))) return false;
@@ -52,24 +52,24 @@ struct Partition {
   return true;
 }
 
-/// Cuts of a mesh into compact parts, others than by its numbers.
+/// Cuts of a mesh into compact parts, other than ranges of numbers.
 ///
-///     ┌────┬────┬────┐      The numbers are along a Hilbert curve, a part is a run of them. What lies at its border is
-///     │  ┌─┼──┬─┼──┐ │      confined to no part. So more curves are laid through the mesh, on grids that are shifted
-///     by ├──┼─┼──┼─┼──┤ │      1/5, 2/5 and 3/5 of its extent. A place is near a line of the grid of one direction, at
-///     │  ├─┼──┼─┼──┤ │      whatever level, in one of the four shifts at most (T. M. Chan, "Approximate nearest
-///     └──┴─┴──┴─┴──┘ ┘      neighbor queries revisited", 1998), near a line of either in two: it is inside a part
-///                           of the others.
+///     ┌────┬────┬────┐      The numbers follow a Hilbert curve, and a part is a run of numbers. Vertices at its border
+///     │  ┌─┼──┬─┼──┐ │      are confined to no part. So more curves run through the mesh, on grids that are shifted by
+///     ├──┼─┼──┼─┼──┤ │      1/5, 2/5 and 3/5 of its extent. At any level, a place is near a grid line of one direction
+///     │  ├─┼──┼─┼──┤ │      in at most one of the four shifts (T. M. Chan, "Approximate nearest neighbor queries
+///     └──┴─┴──┴─┴──┘ ┘      revisited", 1998). It is near a line of either direction in at most two shifts, and
+///                           inside a part in the others.
 ///
-/// So nothing is left after three of the four, or little. On a sphere the curves are turned instead, around three axes;
-/// in a periodic plane they begin elsewhere.
+/// So little or nothing is left after three of the four. On a sphere the curves are turned instead, around three axes.
+/// In a periodic plane they begin elsewhere.
 class ShiftedPartitions {
  public:
   static constexpr std::size_t kPartitions = 3;
 
-  /// Each into about `count` parts of about the same size, by the vertices' places now. O(n log count).
+  /// Makes all cuts, each into about `count` parts of similar size, by the vertices' present places. O(n log count).
   void cut(const Mesh& mesh, std::size_t count, Executor& executor);
-  /// Says whether this is of a mesh that has so many vertices; after they were renumbered: call clear().
+  /// Says whether the cuts are of a mesh with this number of vertices. After a renumbering, call clear().
   [[nodiscard]] bool are_of(const Mesh& mesh) const { return part_of_[0].size() == mesh.n_vertices(); }
   void clear() { part_of_ = {}; }
 
@@ -82,7 +82,7 @@ class ShiftedPartitions {
 
  private:
   std::size_t n_parts_ = 0;
-  std::array<std::vector<PartNumber>, kPartitions> part_of_;  // by each vertex
+  std::array<std::vector<PartNumber>, kPartitions> part_of_;  // per cut, by vertex
 };
 
 }  // namespace temper

@@ -16,7 +16,7 @@ SizeBand::SizeBand(const Mesh& mesh, const WorkingUnits& units, const std::optio
   grow();
 }
 
-/// The factor by which a vertex is out of its band, squared, up or down; 1 inside.
+/// Returns the squared factor by which a vertex is above or below its band; 1 inside.
 double SizeBand::excess(double squared_size, double squared_field) const {
   const double ratio = squared_size / squared_field;
   return std::max({squared_band_, ratio, 1 / ratio});
@@ -38,8 +38,8 @@ bool SizeBand::allows(const Patch& patch, Vec2 p) {
   own = StarArea{own, static_cast<int>(patch.size())}.squared_size();
   if (excess(own, there_squared_) > excess(own, squared_field_[v])) return false;
 
-  // Triangle (v, q, r) gains cross(r − q, step) of doubled area; a neighbor has two of them, at the ends of an open
-  // patch one.
+  // The doubled area of triangle (v, q, r) grows by cross(r − q, step). A neighbor has two of these triangles, and one
+  // at the ends of an open patch.
   const std::size_t n = patch.size();
   for (std::size_t i = 0; i < patch.link.size(); ++i) {
     const Vec2 q = patch.q(i).position();
@@ -79,7 +79,7 @@ void SizeBand::grow() {
     const SizeField::Sample sample = field_->at(units_.to_user(mesh_.point(v)).position(), hint);
     const double field = sample.size / units_.scale;
     squared_field_[v] = field * field;
-    triangle_[v] = hint = sample.triangle;  // along the sweep's curve the next one is near
+    triangle_[v] = hint = sample.triangle;  // the next vertex on the curve is near
   }
 }
 

@@ -1,4 +1,4 @@
-// What is done with a row of the table of options, whichever it is.
+// Functions for all rows of the table of options.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -21,7 +21,7 @@ bool contains(const OptionRange& range, double x) {
   return std::isfinite(x) && (range.open ? x > range.low && x < range.high : x >= range.low && x <= range.high);
 }
 
-/// The alternatives of a value are none, then those of the kinds in their order.
+/// The first alternative of a value is none. The others follow the order of the kinds.
 bool has_kind(const OptionValue& value, OptionKind kind) { return value.index() == 1 + static_cast<std::size_t>(kind); }
 template <OptionKind kind>
 using ValueOf = std::variant_alternative_t<1 + static_cast<std::size_t>(kind), OptionValue>;
@@ -35,7 +35,7 @@ bool may_have(const OptionRow& row, const OptionValue& value) {
   return name == nullptr || std::find(row.choices.begin(), row.choices.end(), *name) != row.choices.end();
 }
 
-/// "a, b or c" of the words between bars, or of a list.
+/// Makes "a, b or c" from words between bars, or from a list.
 template <class Words>
 std::string list_of(const Words& words) {
   std::string text;
@@ -93,7 +93,7 @@ std::string option_range_text(const OptionRow& row) {
   if (row.kind == OptionKind::choice) return list_of(row.choices);
   if (row.kind == OptionKind::vertex) return "a vertex";
   const std::string low = bound("at least ", "more than ", row.range.low);
-  const bool any_count = row.kind == OptionKind::count;  // that an int holds: who would ask for more?
+  const bool any_count = row.kind == OptionKind::count;  // the largest int is no limit worth a word
   const std::string high = any_count ? "" : bound("at most ", "less than ", row.range.high);
   return low + (low.empty() || high.empty() ? "" : " and ") + high;
 }

@@ -18,7 +18,7 @@ LengthParameter in_working_units(LengthParameter s, const WorkingUnits& units) {
   return s;
 }
 
-/// What options must not ask for together, and the sentence that says so.
+/// A combination that options must not have, and the sentence of its error.
 struct Rule {
   bool broken;
   std::string sentence;
@@ -28,7 +28,7 @@ std::optional<InputError> first_broken(std::initializer_list<Rule> rules) {
   return rule == rules.end() ? std::nullopt : std::optional(invalid(rule->sentence));
 }
 
-/// Deferred updates, and what they contradict.
+/// Refuses options that contradict deferred updates.
 std::optional<InputError> check_updates(const OptimizeOptions& o) {
   const PaperSwitches& p = o.paper;
   const bool all_deferred = p.position_updates == Updates::deferred;
@@ -50,7 +50,7 @@ std::optional<InputError> check_updates(const OptimizeOptions& o) {
   });
 }
 
-/// Rules against inverted triangles, and what they contradict.
+/// Refuses options that contradict the rules against inverted triangles.
 std::optional<InputError> check_inversions(const OptimizeOptions& o) {
   const Inversion inversion = o.paper.inversion;
   const EnergyInfo& last = energy_info(o.energy);
@@ -70,7 +70,7 @@ std::optional<InputError> check_inversions(const OptimizeOptions& o) {
   });
 }
 
-/// Other options that contradict each other; and what the accuracy objective cannot do with.
+/// Refuses other options that contradict each other, or the accuracy objective.
 std::optional<InputError> check_combinations(const OptimizeOptions& o) {
   const bool for_accuracy = objective_of(o) != Objective::energy;
   const EnergyInfo& energy = energy_info(o.energy);
@@ -90,7 +90,7 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
   });
 }
 
-/// The first vertex with another weight than vertex 0, if there is one.
+/// Returns the first vertex with another weight than vertex 0, if there is one.
 VertexId first_of_other_weight(const Mesh& mesh) {
   for (const VertexId v : mesh.vertices()) {
     if (mesh.weight(v) != mesh.weight(VertexId(0))) return v;
@@ -98,8 +98,8 @@ VertexId first_of_other_weight(const Mesh& mesh) {
   return {};
 }
 
-/// For one scheme the first sweeps lower E_ODT, unless others are asked for: it flips what keeps errors large, which no
-/// sweep inside the well-centered set does. The best of 5, 10 and 50 sweeps by errors and by how little sizes change.
+/// For one scheme the first sweeps lower E_ODT, unless the user chose others. These sweeps flip edges that keep errors
+/// large; sweeps inside the well-centered set cannot. Among 5, 10 and 50, this number gives the best errors and sizes.
 constexpr int kSweepsOfOdt = 10;
 
 bool begins_with_odt(const Settings& s, const Mesh& mesh) {
@@ -110,7 +110,7 @@ bool begins_with_odt(const Settings& s, const Mesh& mesh) {
          !first_of_other_weight(mesh).valid();
 }
 
-/// The vertex that is the anchor; and weights, which some energies know nothing of.
+/// Checks the anchor vertex, and weights, which some energies do not use.
 std::optional<InputError> check_vertices(const OptimizeOptions& o, const Mesh& mesh) {
   if (o.paper.anchor.valid() && o.paper.anchor.index >= mesh.n_vertices()) {
     return invalid("`anchor` is vertex " + std::to_string(o.paper.anchor.index) + ", but the mesh has " +
@@ -131,7 +131,7 @@ std::optional<InputError> check_vertices(const OptimizeOptions& o, const Mesh& m
   return std::nullopt;
 }
 
-/// What the sphere and periodic planes do without.
+/// Refuses options that the sphere or periodic planes do not have.
 std::optional<InputError> check_space(const OptimizeOptions& o, const Mesh& mesh) {
   const auto name = [](const Mesh& m) {
     constexpr const char* kNames[] = {"the plane", "the sphere", "a periodic plane"};
@@ -169,7 +169,7 @@ AccuracyModel accuracy_model(const AccuracyOptions& a, Scheme scheme, Star star)
   return model;
 }
 
-/// The settings with the model that they ask for, if the build has one.
+/// Adds the model of errors that the options need, if the build has one.
 Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
   const OptimizeOptions& o = s.options;
   const bool wants = wants_error_model(o, mesh);
@@ -190,7 +190,7 @@ Policy::Policy(const OptimizeOptions& o) : PaperSwitches(o.paper), flips(o.flips
   if (switch_at == 0) first_energy.reset();
 }
 
-/// A barrier prices every flip, so it needs no limit; HOT is continuous at a flip and may be led past one, a little.
+/// A barrier prices every flip, so it needs no limit. HOT is continuous at a flip, so a step may go a little past it.
 FlipLimit Policy::flip_limit_for(const EnergyInfo& energy) const {
   if (keeps_connectivity()) return FlipLimit::before;
   return flip_limit.value_or(energy.barrier ? FlipLimit::unlimited : FlipLimit::after);

@@ -1,5 +1,4 @@
-// Options, checked and completed. Settings are constant once they are made; what changes from sweep to sweep is the
-// SweepState.
+// Options, checked and completed. Settings never change; SweepState has what changes from sweep to sweep.
 #pragma once
 
 #include <memory>
@@ -12,7 +11,7 @@
 
 namespace temper {
 
-/// The paper's switches of a run, and the questions about them that the driver and the steps ask.
+/// The paper's switches of a run, and what follows from them for the driver and the steps.
 struct Policy : PaperSwitches {
   Flips flips = Flips::immediate;
 
@@ -20,7 +19,7 @@ struct Policy : PaperSwitches {
   explicit Policy(const OptimizeOptions& options);
 
   [[nodiscard]] bool flips_at_once() const { return flips == Flips::immediate; }
-  /// They wait for the end of the inner iterations.
+  /// Flips wait for the end of the inner iterations.
   [[nodiscard]] bool defers_flips() const { return flips == Flips::deferred; }
   [[nodiscard]] bool keeps_connectivity() const { return flips == Flips::none; }
 
@@ -30,7 +29,7 @@ struct Policy : PaperSwitches {
 
   /// A step that hides a vertex is undone.
   [[nodiscard]] bool undoes_hidden() const { return hidden == HiddenPolicy::undo; }
-  /// Hidden vertices stay in the mesh, so edges around them may be not regular.
+  /// Hidden vertices stay in the mesh, so edges around them may not be regular.
   [[nodiscard]] bool keeps_hidden() const { return hidden == HiddenPolicy::keep; }
   [[nodiscard]] bool removes_hidden() const { return hidden == HiddenPolicy::remove; }
   /// Sweeps remove or insert vertices.
@@ -40,13 +39,13 @@ struct Policy : PaperSwitches {
   [[nodiscard]] bool defers_weights() const { return weight_updates == Updates::deferred; }
   [[nodiscard]] bool defers_updates() const { return defers_positions() || defers_weights(); }
 
-  /// Newton steps, each seen at once, without triangles turned over.
+  /// Newton steps take effect at once and turn no triangle over.
   [[nodiscard]] bool makes_newton_steps() const {
     return solver == Solver::newton && flips_at_once() && refuses_inversion() && !defers_positions();
   }
-  /// Every sweep leaves all edges regular that may be flipped.
+  /// After every sweep, all edges that may be flipped are regular.
   [[nodiscard]] bool keeps_regular() const { return flips_at_once() && !keeps_hidden(); }
-  /// A mesh with every triangle counter-clockwise and every free edge regular comes out of each sweep.
+  /// Returns how far a step may go past a flip when sweeps lower this energy.
   [[nodiscard]] FlipLimit flip_limit_for(const EnergyInfo& energy) const;
 };
 
@@ -56,14 +55,14 @@ inline constexpr double kRelaxation = 1.7;
 struct Settings {
   OptimizeOptions options;
   OptimizeHooks hooks;
-  Objective objective = Objective::accuracy;  ///< that this run lowers
+  Objective objective = Objective::accuracy;  ///< of this run
   Policy policy;                              ///< the paper's switches
-  EnergyModel model;                          ///< of options.energy, in the units's units, as sweeps begin
+  EnergyModel model;                          ///< of options.energy at the first sweep, in working units
   EnergyModel collapse_model;                 ///< E_c
-  AccuracyModel accuracy;                     ///< of the accuracy objective; without unit
+  AccuracyModel accuracy;                     ///< of the accuracy objective; has no unit
   std::shared_ptr<const DiscretizationError>
-      errors{};                             ///< errors of the solver: lowered, or the judge of meshes; or null
-  bool lacks_discretization_error = false;  ///< the build has none, and the run would have used it
+      errors{};                             ///< errors of the solver, to be lowered or to compare meshes; or null
+  bool lacks_discretization_error = false;  ///< the run would use `errors`, but the build has none
   std::shared_ptr<LpSolver> lp{};           ///< for repairs, or null
   std::optional<SizeField> size_field{};    ///< of the size band, in the user's units; absent without a band
 
@@ -71,29 +70,29 @@ struct Settings {
   [[nodiscard]] Executor* executor() const { return hooks.executor; }
 };
 
-/// What the sweep under way lowers, and how far its steps go.
+/// The energy that the present sweep lowers, and how far its steps go.
 struct SweepState {
-  EnergyInfo energy;      ///< that of `model`
-  EnergyModel model;      ///< in the units's units, with γ and h° of the sweep
+  EnergyInfo energy;      ///< the kind of `model`
+  EnergyModel model;      ///< in working units, with γ and h° of the sweep
   double relaxation = 1;  ///< over-relaxation of Newton steps
   FlipLimit flip_limit = FlipLimit::unlimited;
-  const AccuracyDomain* accuracy_domain = nullptr;  ///< if sweeps lower the accuracy objective: where it is finite
+  const AccuracyDomain* accuracy_domain = nullptr;  ///< domain of the accuracy objective, if sweeps lower it
 
-  /// Of the first sweep for options.energy.
+  /// The state of the first sweep for options.energy.
   explicit SweepState(const Settings& settings);
-  /// Lowers that energy from now on.
+  /// Makes later sweeps lower this energy.
   void set_energy(EnergyKind kind, const Policy& policy);
-  /// The user's energy of one unit in the units.
+  /// Returns one working unit of energy in the user's units.
   [[nodiscard]] double energy_unit(const WorkingUnits& units) const;
 };
 
-/// The unknowns that a sweep moves, counted from 0: weights from i_w on.
+/// Returns the unknowns of a sweep, counted from 0; weights are unknowns from sweep i_w on.
 [[nodiscard]] Unknowns unknowns_of_sweep(const Settings& settings, const EnergyInfo& energy, int sweep);
 
-/// The model with absolute γ and h° in the user's units of length.
+/// Returns the model with absolute γ and h° in the user's units of length.
 [[nodiscard]] EnergyModel in_user_units(EnergyModel model, const WorkingUnits& units);
 
-/// Errors: values out of range, or that contradict each other.
+/// It fails if values are out of range or contradict each other.
 [[nodiscard]] Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh,
                                                const WorkingUnits& units, const OptimizeHooks& hooks = {});
 

@@ -1,5 +1,4 @@
-// Each option once: its name, what it does, what values it may have, and what it needs to have an effect. Its default
-// is that of the field.
+// Each option once: name, effect, range, and options that it needs to have an effect. Its field has the default.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -49,7 +48,7 @@ constexpr auto kNames = names_of(Enum());
 // --- rows from fields ------------------------------------------------------------------------------------
 
 template <class T>
-struct Without {  // what is in an optional one
+struct Without {  // the type inside of an optional
   using Type = T;
   static constexpr bool optional = std::is_same_v<T, VertexId>;
 };
@@ -106,7 +105,7 @@ constexpr auto& field(auto& options) {
   // clang-format on
 }
 
-/// The row of that field.
+/// The row of the field at the end of a path.
 template <auto... path>
 constexpr OptionRow row(Name name, Name sentence, OptionRow more = {}) {
   using Field = std::remove_reference_t<decltype(field<path...>(std::declval<Options&>()))>;
@@ -141,8 +140,8 @@ constexpr OptionRange more_than(double low) { return {.low = low, .open = true};
 constexpr OptionRange inside(double low, double high) { return {low, high, true}; }
 constexpr OptionRange from_to(double low, double high) { return {low, high}; }
 
-constexpr double kMostMargin = 0.25;  // of h/ℓ an equilateral triangle has 0.289, and no other one as much
-constexpr double kMostEdge = 0.95, kMostDual = 0.55;  // of local sizes equilateral triangles have 1 and 0.577
+constexpr double kMostMargin = 0.25;                  // equilateral triangles have the largest h/ℓ, 0.289
+constexpr double kMostEdge = 0.95, kMostDual = 0.55;  // equilateral triangles have 1 and 0.577 local sizes
 constexpr double kLeastBoundaryRatio = 2;             // a cut in the middle leaves edges of half the length
 
 /// "BH|BHs|BP": the energies that have the property.

@@ -19,7 +19,7 @@ bool contains(const std::vector<TriangleId>& sorted, TriangleId t) {
   return std::binary_search(sorted.begin(), sorted.end(), t);
 }
 
-/// Vertices where the triangles meet in more than one fan.
+/// Returns the vertices at which the triangles meet in more than one fan.
 std::vector<VertexId> pinches(const Mesh& mesh, const std::vector<TriangleId>& triangles) {
   std::vector<VertexId> corners;
   for (const TriangleId t : triangles) {
@@ -28,7 +28,7 @@ std::vector<VertexId> pinches(const Mesh& mesh, const std::vector<TriangleId>& t
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   std::erase_if(corners, [&](VertexId v) {
-    int fans = 0;  // begin where the triangle clockwise of one inside is outside
+    int fans = 0;  // a fan begins after a triangle outside
     for (const HalfedgeId h : mesh.star(v)) {
       const bool inside = contains(triangles, Mesh::triangle(h));
       const bool before = !mesh.is_boundary(h) && contains(triangles, Mesh::triangle(mesh.twin(h)));
@@ -50,7 +50,7 @@ std::vector<TriangleId> rings_around(const Mesh& mesh, TriangleId seed, int ring
   return triangles;
 }
 
-/// The plan of a removal that a trial told of, in the numbers of the whole mesh.
+/// Returns the plan of a removal that a trial recorded, in the numbers of the whole mesh.
 template <class Whole>
 RemovalPlan removal_of(const Mesh& mesh, const TraceEvent& e, const Whole& whole) {
   std::vector<std::array<VertexId, 3>> triangles;
@@ -125,7 +125,7 @@ std::vector<VertexId> splice(WorkingCopy& work, Flipper& flipper, const Recorder
     return around.mesh.point(v) == work.mesh.point(around.vertices[v.index]);
   }));
   Mesh& mesh = work.mesh;
-  std::vector<VertexId> vertices = around.vertices;  // by number in the neighborhood
+  std::vector<VertexId> vertices = around.vertices;  // by local number
   const auto whole = [&](VertexId local) { return vertices[local.index]; };
   const auto edge = [&](VertexId a, VertexId b) { return mesh.find_halfedge(whole(a), whole(b)); };
   for (const TraceEvent& e : events) {

@@ -1,8 +1,8 @@
-// A few rings of triangles around a place, as a small mesh of its own: what a repair is tried on.
+// A few rings of triangles around a place, as a small mesh on which repairs are tried.
 //
-// What is outside stays as it is, so every vertex with a triangle outside is frozen, in position and weight. A triangle
-// is well-centered or not by its own corners alone; so what is found well-centered here is so in the whole mesh, and an
-// edge of the rim between two such triangles is regular.
+// Triangles outside stay, so every vertex with a triangle outside keeps its position and weight. Its corners alone
+// decide whether a triangle is well-centered. So triangles that are well-centered here are also well-centered in the
+// whole mesh, and a rim edge between two such triangles is regular.
 #pragma once
 
 #include <cstdint>
@@ -16,23 +16,22 @@ namespace temper {
 
 struct Neighborhood {
   Mesh mesh;
-  TriangleId seed;                           ///< that it was taken around, by local number
+  TriangleId seed;                           ///< the triangle at the center, by local number
   std::vector<VertexId> vertices;            ///< of the whole mesh, by local number
   std::vector<std::uint8_t> frozen;          ///< by local number
-  std::vector<WeightedPoint> beyond;         ///< across the rim: opposite corner of the triangle outside, by rim edge
-  std::vector<std::array<VertexId, 2>> rim;  ///< the rim's edges that have a triangle outside, local numbers
+  std::vector<WeightedPoint> beyond;         ///< by rim edge: opposite corner of the triangle outside
+  std::vector<std::array<VertexId, 2>> rim;  ///< edges of the rim that have a triangle outside, by local numbers
 };
 
-/// The triangles that share a vertex with the seed, `rings` times over, and what it takes to touch itself nowhere.
-/// O(its size).
+/// Returns `rings` rings of triangles around the seed, and further ones so that no vertex joins two fans. O(its size).
 [[nodiscard]] Neighborhood neighborhood_of(const Mesh& mesh, TriangleId seed, int rings);
 
-/// Are the rim's edges regular, seen from the local mesh as it is now? Exact; constrained ones do not count.
+/// Says exactly whether the unconstrained edges of the rim are regular with the present local mesh.
 [[nodiscard]] bool rim_is_regular(const Neighborhood& around, const Mesh& local);
 
-/// Applies the events of a trial on `around`, traced like all else, to the mesh that it was taken from, which must not
-/// have changed since. Removed vertices stay as isolated ones until the caller compacts. Returns the vertices of the
-/// place as it is then: every triangle that has changed has its corners among them.
+/// Applies the events of a trial on `around` to its mesh, which must not have changed since, and traces them. Removed
+/// vertices stay isolated until the caller compacts. Returns the new vertices of the place: they include all corners of
+/// changed triangles.
 std::vector<VertexId> splice(WorkingCopy& work, Flipper& flipper, const Recorder& recorder, const Neighborhood& around,
                              std::span<const TraceEvent> events);
 

@@ -16,13 +16,13 @@ namespace temper {
 namespace {
 
 constexpr int kKicks = 3;
-// A neighborhood with more bad triangles has more than one place to begin at.
+// Largest number of bad triangles of a neighborhood at which edits begin.
 constexpr std::size_t kMostBad = 6;
 constexpr std::size_t kMostRemovals = 12;
-// Gradations of sizes, from such that hardly grow to such that double within their own length.
+// Gradations of sizes: the first sizes hardly grow, the last ones double within their own length.
 constexpr double kGradations[] = {0.3, 0.6, 1};
 
-/// The one that the neighborhood is around, and others.
+/// Returns the seed of the neighborhood, and other bad triangles.
 std::vector<TriangleId> some_bad_triangles(const Neighborhood& around) {
   std::vector<TriangleId> bad = {around.seed};
   for (const TriangleId t : around.mesh.triangles()) {
@@ -46,7 +46,7 @@ void add_insertions(const Mesh& mesh, TriangleId t, std::vector<Edit>& edits) {
   }
 }
 
-/// The corners of these triangles and their neighbors, each once.
+/// Returns the corners of these triangles and their neighbors, each once.
 std::vector<VertexId> vertices_near(const Mesh& mesh, const std::vector<TriangleId>& triangles) {
   std::vector<VertexId> near;
   for (const TriangleId t : triangles) {
@@ -70,10 +70,11 @@ void add_removals(const Neighborhood& around, const std::vector<TriangleId>& bad
   }
 }
 
-/// The edits in tiers; a tier is tried when none of the one before helps. Those that change least come first: sweeps
-/// alone and kicks, which keep every vertex; with `assigns_weights` then weights by a linear program. With `vertices`
-/// also: one vertex less near a bad triangle, or one more in its middle, at its orthocenter or on an edge; then as many
-/// more as are missing; then all of them anew. Fixed, boundary and constrained vertices stay.
+/// Returns edits in tiers. A tier is tried if no edit of the tier before helps. The first tier changes least: sweeps
+/// alone, and random perturbations, which keep every vertex. With `assigns_weights`, weights by a linear program
+/// follow. With `vertices`, the next tier removes a vertex near a bad triangle, or inserts one at its centroid, at its
+/// orthocenter or on an edge. The next tier inserts all missing vertices, and the last one replaces all. Fixed,
+/// boundary and constrained vertices stay.
 std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool assigns_weights, bool vertices, Rng& rng) {
   std::vector<Edit> moves = {{.kind = Edit::nothing}}, weights, one, many, anew;
   for (int i = 0; i < kKicks; ++i) moves.push_back({.kind = Edit::kick, .seed = rng.next()});
@@ -91,15 +92,15 @@ std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool assign
 }
 
 constexpr int kRings = 3;
-// After so many failures the neighborhood has one ring more.
+// After this number of failures the neighborhood gets one more ring.
 constexpr int kFailuresBeforeWider = 6;
 constexpr int kFailuresBeforeSideways = 5;
-// Enough for the random walk of sideways edits to come around; hopeless places are left after that.
+// Enough for the random walk of sideways edits. After this number the search gives a place up.
 constexpr int kMostFailures = 60, kMostFailuresOfMoves = 10;
 // An edit that helps lowers the violation by this part, or the number of bad triangles.
 constexpr double kHelps = 0.01;
 constexpr std::uint32_t kSidewaysChoice = 4;
-// What a linear program takes, in trials of sweeps.
+// Cost of a linear program, in trials.
 constexpr int kTrialsOfAProgram = 20;
 
 bool helps(const LocalDefect& before, const LocalDefect& after) {
@@ -115,7 +116,7 @@ bool repairs(const Settings& settings) {
     return false;
   const Policy& policy = settings.policy;
   if (policy.allows_inversion() || policy.keeps_hidden()) return false;  // trials need regular meshes
-  // A constant γ is a study of that γ; only who asks for vertices to change wants its mesh mended by another.
+  // A user who sets a constant γ studies this γ. Only an option to change vertices allows repairs with another γ.
   return o.repair == Repair::vertices ||
          (!policy.gamma && !policy.h0 && policy.solver == Solver::newton && policy.weights_from == 0);
 }
@@ -126,7 +127,7 @@ bool RepairSearch::improve_one_place() {
   const std::vector<TriangleId> lacking =
       bad_.empty() && vertices ? triangles_lacking_length(work_.mesh, settings_.accuracy) : std::vector<TriangleId>();
   const std::vector<TriangleId>& bad = bad_.empty() ? lacking : bad_;
-  // Each of many bad places gets its chance.
+  // With many bad places, each gets a try.
   const int most_failures = std::max(vertices ? kMostFailures : kMostFailuresOfMoves, static_cast<int>(bad.size()));
   while (!bad.empty() && failures_ < most_failures && run_.repair_trials_left > 0) {
     const TriangleId seed = bad[rng_.below(static_cast<std::uint32_t>(bad.size()))];
@@ -135,7 +136,7 @@ bool RepairSearch::improve_one_place() {
     if (run_.stopped_early()) return false;
     if (!edit) continue;
     const TrialResult result = try_edit(around, *edit, settings_, work_.units, true);
-    TEMPER_ASSERT(result.valid);  // as it was without a listener
+    TEMPER_ASSERT(result.valid);  // as without a listener
     const std::vector<VertexId> there = splice(work_, flipper_, recorder_, around, result.events);
     changed_.reset();
     if (!flipper_.has_removed()) changed_ = triangles_at(work_.mesh, there);
@@ -145,7 +146,7 @@ bool RepairSearch::improve_one_place() {
   return false;
 }
 
-/// Looks only where the last edit was, when it left the numbers as they were.
+/// If the last edit kept all numbers, looks only at its place.
 void RepairSearch::find_bad() {
   if (!changed_) {
     bad_ = bad_triangles(work_.mesh);
@@ -159,8 +160,8 @@ void RepairSearch::find_bad() {
   TEMPER_ASSERT_SLOW(bad_ == bad_triangles(work_.mesh));
 }
 
-/// Says whether a linear program is asked for weights, which is of places that do not go round: not twice for the
-/// same ones, and not where no mesh with an edge of the triangle has any.
+/// Says whether a linear program may find weights. It is not solved in periodic planes, or twice for the same place. It
+/// is not solved either if no mesh with an edge of the triangle has such weights.
 bool RepairSearch::assigns_weights(TriangleId seed) const {
   const Mesh& mesh = work_.mesh;
   if (!asks_programs_ || run_.repair_trials_left < kTrialsOfAProgram ||
@@ -174,7 +175,7 @@ bool RepairSearch::assigns_weights(TriangleId seed) const {
   return true;
 }
 
-/// The edit after which the neighborhood stands best, if that helps; of the least tier that has one.
+/// Returns the edit that makes the neighborhood best, if it helps, from the first tier that has one.
 std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId seed) {
   const LocalDefect before = defect_of(around.mesh, settings_.accuracy);
   std::optional<Edit> best;
@@ -206,7 +207,7 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
   return best;
 }
 
-/// One of the best few that leave no more triangles bad.
+/// Returns one of the best few edits after which no more triangles are bad than before.
 std::optional<Edit> RepairSearch::sideways(std::vector<Tried> tried, LocalDefect before) {
   std::erase_if(tried, [&](const Tried& t) { return t.defect.bad > before.bad; });
   if (tried.empty()) return std::nullopt;

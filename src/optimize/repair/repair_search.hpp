@@ -1,9 +1,9 @@
-// Local search where sweeps alone leave triangles that are not well-centered.
+// Local search around triangles that are not well-centered after sweeps alone.
 //
-// Inside the well-centered set no edge can flip: h > 0 on both sides of it, so each connectivity is an island, and
-// sweeps, which go downhill, do not leave the one they are on. A repair takes a few rings around a bad triangle,
-// planned every edit that might help on a copy of them (trial.hpp), and does the best one to the mesh. When none helps,
-// now and then one that does no harm is done, so that the next try begins elsewhere.
+// Inside the well-centered set no edge can flip, since h > 0 on both sides. So each connectivity is an island, and
+// sweeps, which go downhill, do not leave theirs. A repair takes a few rings around a bad triangle and tries edits on a
+// copy (trial.hpp). Then it applies the best edit to the mesh. If no edit helps, it sometimes applies a harmless one,
+// so that the next try begins elsewhere.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace temper {
 
 class RepairSearch {
  public:
-  /// `seed`: of all that is random. `asks_programs`: linear ones, for weights of places that nothing else cures.
+  /// `seed`: of all random choices. `asks_programs`: linear programs find weights for places that nothing else cures.
   RepairSearch(WorkingCopy& work, const Settings& settings, Run& run, Flipper& flipper, const Recorder& recorder,
                std::uint64_t seed, bool asks_programs)
       : work_(work),
@@ -30,10 +30,10 @@ class RepairSearch {
         rng_(seed),
         asks_programs_(asks_programs) {}
 
-  /// Changes the mesh in one place: never to more bad triangles. False when none is left, none can be cured, or it was
-  /// asked to stop. Removed vertices stay isolated until the caller compacts, which it must before the next call.
+  /// Changes the mesh in one place, never to more bad triangles. Returns false if none is left, none can be cured, or
+  /// the run must stop. Removed vertices stay isolated. The caller must compact before the next call.
   bool improve_one_place();
-  /// The triangles of that place as it is now; none given: they and others have new numbers.
+  /// Returns the present triangles of that place. Returns none if triangles have new numbers.
   [[nodiscard]] const std::optional<std::vector<TriangleId>>& changed() const { return changed_; }
 
  private:
@@ -56,13 +56,13 @@ class RepairSearch {
   const Recorder& recorder_;
   Rng rng_;
   const bool asks_programs_;
-  int failures_ = 0;                 // places without an edit that helps, since the last one with
-  std::vector<TriangleId> weighed_;  // in vain, as their places are: a linear program takes long
-  std::vector<TriangleId> bad_;      // when `changed_` was still to come
+  int failures_ = 0;                 // places without a helpful edit since the last success
+  std::vector<TriangleId> weighed_;  // seeds of places for which a linear program has failed, since programs are slow
+  std::vector<TriangleId> bad_;      // before the edit that `changed_` describes
   std::optional<std::vector<TriangleId>> changed_;
 };
 
-/// Says whether these options ask for repairs, and leave room for them.
+/// Says whether these options ask for repairs and allow them.
 [[nodiscard]] bool repairs(const Settings& settings);
 
 }  // namespace temper

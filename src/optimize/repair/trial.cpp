@@ -24,9 +24,9 @@
 namespace temper {
 namespace {
 
-// Circumradius over size: an equilateral triangle of the size has 0.58.
+// Circumradius over size above which a triangle is large. An equilateral triangle of the right size has 0.58.
 constexpr double kLarge = 0.75;
-// Nearer to an edge than this part of its length, or of the size, a vertex makes flat triangles.
+// A vertex nearer to an edge than this part of the edge's length, or of the size, makes flat triangles.
 constexpr double kClearance = 0.4;
 
 double distance_to_segment(Vec3 x, Vec3 a, Vec3 b) {
@@ -35,12 +35,11 @@ double distance_to_segment(Vec3 x, Vec3 a, Vec3 b) {
   return length(x - (a + t * along));
 }
 
-/// Delaunay refinement of a place that has too few vertices: they come to circumcenters of triangles that are large for
-/// where they are.
+/// Delaunay refinement of a place that has too few vertices. New vertices go to circumcenters of triangles that are too
+/// large.
 ///
-/// But the boundary is never touched: what would come too near to it is not inserted. The
-/// size wanted at x is the least of s_v + g |x − v| over the vertices v of boundary, constrained edges and rim, s_v
-/// being the mean length of these edges at v.
+/// The boundary never changes: vertices too near to it are not inserted. The target size at x is the least s_v + g |x −
+/// v| over the vertices v of boundary, constrained edges and rim. Here s_v is the mean length of these edges at v.
 class DelaunayRefinement {
  public:
   /// `gradation`: g, the growth of the size with distance.
@@ -61,7 +60,7 @@ class DelaunayRefinement {
     }
   }
 
-  /// The place for the next vertex, and the triangle strictly around it; nothing when all are small enough.
+  /// The place of a new vertex and the triangle strictly around it. If no triangle is too large, next() returns none.
   struct Place {
     TriangleId triangle;
     WeightedPoint point;  ///< without a weight
@@ -91,7 +90,7 @@ class DelaunayRefinement {
     return found;
   }
 
-  /// That place cannot be had.
+  /// Refuses a place at which no vertex can be inserted.
   void refuse(const WeightedPoint& p) { refused_.insert({p.x, p.y, p.w}); }
 
  private:
@@ -125,21 +124,21 @@ class DelaunayRefinement {
   std::set<std::array<double, 3>> refused_;
 };
 
-// Enough for γ to come from kFirstGamma down to kLeastGamma, and a few at the floor.
+// Enough sweeps for γ to fall from kFirstGamma to kLeastGamma, and a few at the floor.
 constexpr int kSweeps = 25;
 constexpr double kFirstGamma = 0.5, kGammaFactor = 0.7, kLeastGamma = 0.003;
-// Below this γ/ℓ sweeps rarely lose again what is well-centered.
+// Below this γ/ℓ sweeps rarely make well-centered triangles bad again.
 constexpr double kSharp = 0.1;
-// The length of a kick, relative to the shortest edge: farther, and most kicks would turn a triangle over.
+// Length of a random perturbation, relative to the shortest edge. Most longer ones would turn a triangle over.
 constexpr double kKick = 0.4;
-// Half of what `temper weights` asks for: more, and few triangles that have it would be paid for by one that turns bad.
+// Half of the margin of `temper weights`. With more, one triangle would turn bad for the margins of a few others.
 constexpr double kWeighedMargin = 0.005;
-// Programs of one more take four times as long, and cure hardly more.
+// Programs with one more ring take four times as long and cure hardly more.
 constexpr int kWeighedRings = 2;
-// More than a neighborhood that lacks vertices ever needs.
+// More vertices than any neighborhood lacks.
 constexpr int kMostInserted = 300;
 
-/// −h/ℓ, −d/ℓ or d/ℓ − 1, whichever is the worst; zero or less inside.
+/// Returns the largest of −h/ℓ, −d/ℓ and d/ℓ − 1, which is positive if the triangle is bad.
 double violation_of(const Mesh& mesh, TriangleId t) {
   const auto [p, q, r] = mesh.points(t);
   double worst = 0;
@@ -172,7 +171,7 @@ class Trial {
 
   TrialResult run(const Edit& edit) && {
     if (!apply(edit) || !flipper_.restore_all()) return {};
-    if (edit.kind != Edit::assign_weights) sweep();  // whose first γ would take the weights back
+    if (edit.kind != Edit::assign_weights) sweep();  // the first γ of sweeps would undo the weights
     TrialResult result;
     result.defect = defect_of(work_.mesh, settings_.accuracy);
     result.valid = count_non_regular_edges(work_.mesh, false) == 0 && rim_is_regular(around_, work_.mesh);
@@ -181,7 +180,7 @@ class Trial {
   }
 
  private:
-  /// Newton steps on E_BP in temper's own way, whatever way the run goes; with the unknowns and constraints of the run.
+  /// Newton steps on E_BP by temper's default method, with the unknowns and constraints of the run.
   static Settings of_trial(const Settings& settings, Tracer tracer) {
     OptimizeOptions o;
     o.star = settings.options.star;
@@ -226,7 +225,7 @@ class Trial {
     return false;
   }
 
-  /// Of the vertices around the bad triangle. Those of the rim, which have triangles outside, keep their weights.
+  /// Assigns weights around the bad triangle. Vertices on the rim, which have triangles outside, keep theirs.
   void assign_weights() {
     const Mesh& mesh = work_.mesh;
     VertexMask free(mesh.n_vertices(), 0);
@@ -257,7 +256,7 @@ class Trial {
   bool insert(TriangleId t, const WeightedPoint& place) {
     const Mesh& mesh = work_.mesh;
     const auto [a, b, c] = mesh.points(t);
-    // With its weight first: on the sphere that moves it by rounding.
+    // The weight comes first: on the sphere it moves the vertex by rounding.
     const WeightedPoint p = with_interpolated_weight(mesh.space(), grid_.snap(mesh.space().image(place, a)), a, b, c);
     for (const auto& [q, r] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
       if (inlined::orientation(mesh.space(), q, r, p) != Sign::positive) return false;
@@ -287,7 +286,7 @@ class Trial {
     return true;
   }
 
-  /// False when nothing was missing, or an edge could not be made regular.
+  /// Returns false if no vertex was missing, or an edge could not be made regular.
   bool refine(double gradation) {
     DelaunayRefinement refinement(work_.mesh, gradation);
     int inserted = 0;

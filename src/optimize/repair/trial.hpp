@@ -1,7 +1,7 @@
-// One idea for a repair, tried out on a copy of a neighborhood: an edit, then sweeps of E_BP with a shrinking γ.
+// One trial of a repair on a copy of a neighborhood: an edit, then sweeps of E_BP with a shrinking γ.
 //
-// A trial changes nothing outside of itself. Run again with a listener, the same trial tells its events, and these are
-// what is then applied to the whole mesh (neighborhood.hpp).
+// A trial changes only its copy. The chosen trial runs again with a listener, which gets its events. splice()
+// (neighborhood.hpp) applies them to the whole mesh.
 #pragma once
 
 #include <compare>
@@ -13,17 +13,17 @@
 
 namespace temper {
 
-/// The edit that a trial begins with, in the numbers of the neighborhood.
+/// The first edit of a trial, in the numbers of the neighborhood.
 struct Edit {
   enum Kind {
-    nothing,         ///< only sweep again
-    kick,            ///< all free vertices, at random, by part of their shortest edge
-    assign_weights,  ///< by the linear program of the weights that lack least of a margin; positions stay
+    nothing,         ///< sweeps alone
+    kick,            ///< moves all free vertices at random, by part of their shortest edge
+    assign_weights,  ///< a linear program gives the weights that lack least of a margin; positions stay
     insert,          ///< a vertex in a triangle
-    split,           ///< an inner edge in its middle
+    split,           ///< an inner edge at its midpoint
     remove,          ///< a vertex
-    refine,          ///< with vertices, until no triangle is large for its place
-    remesh,          ///< the same, after all free vertices have been removed
+    refine,          ///< inserts vertices until no triangle is too large for its place
+    remesh,          ///< removes all free vertices, then refines
   } kind = nothing;
   TriangleId triangle = {};  ///< insert
   WeightedPoint place = {};  ///< insert; without a weight
@@ -33,26 +33,26 @@ struct Edit {
   std::uint64_t seed = 0;    ///< kick
 };
 
-/// The defect of a mesh, how far it is from well-centered: first the number of triangles that are not, then by how
-/// much, and by what edges lack of their lengths (optimize/run/judge.hpp).
+/// The distance of a mesh from well-centered: first the number of bad triangles, then how bad they are and how much
+/// length edges lack (optimize/run/judge.hpp).
 struct LocalDefect {
   std::size_t bad = 0;
-  double violation = 0;  ///< Σ over bad triangles of the worst of −h/ℓ, −d/ℓ and d/ℓ − 1, and over edges
+  double violation = 0;  ///< Σ of the worst of −h/ℓ, −d/ℓ and d/ℓ − 1 over bad triangles, plus missing lengths
   friend auto operator<=>(const LocalDefect&, const LocalDefect&) = default;
 };
 [[nodiscard]] LocalDefect defect_of(const Mesh& mesh, const AccuracyModel& model = {});
 
-/// Says whether v is on no boundary, interface or rim and not fixed; plan_removal says whether it can go.
+/// Says whether v is neither fixed nor on a boundary, interface or rim. plan_removal says whether it can be removed.
 [[nodiscard]] bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, VertexId v);
 
 /// The result of a trial.
 struct TrialResult {
-  bool valid = false;  ///< all edges regular, those of the rim too, and nothing hidden
+  bool valid = false;  ///< all edges are regular, on the rim too, and no vertex is hidden
   LocalDefect defect;
-  std::vector<TraceEvent> events;  ///< in the numbers of the neighborhood, new vertices after its own; when asked for
+  std::vector<TraceEvent> events;  ///< if requested; in local numbers, new vertices last
 };
 
-/// Applies the edit to a copy of the neighborhood and optimizes that. `grid`: of the whole mesh, for positions.
+/// Applies the edit to a copy of the neighborhood and optimizes it. `grid`: the whole mesh's, for positions.
 [[nodiscard]] TrialResult try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings,
                                    const WorkingUnits& grid, bool with_events);
 

@@ -20,7 +20,7 @@ std::string count_of(std::size_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-/// The sentences of a report, in the order in which they are told.
+/// The sentences of a report, in their order.
 class Notes {
  public:
   Notes(const Mesh& mesh, const Settings& settings, OptimizeReport& report)
@@ -39,14 +39,14 @@ class Notes {
     if (facts.energy_rose) add("the energy rose in the last sweeps; the mesh with the least one is returned");
   }
 
-  /// What else the run did is not in the mesh.
+  /// No other change of the run is in the returned mesh.
   void note_input_is_returned(const RunFacts& facts, bool flipped) {
     if (flipped) note_input_flips(facts.input_flips);
     add(flipped ? "no better mesh was found: the input is returned, its edges flipped to be regular"
                 : "no better mesh was found: the input is returned as it was");
   }
 
-  /// HOT energies do not ask how many triangles are well-centered. `bad_before`: part of the input's.
+  /// HOT energies may make more triangles bad. `bad_before`: bad part of the input's triangles.
   void note_if_more_are_bad(double bad_before) {
     const auto percent = [](double part) { return to_text(std::round(1000 * part) / 10) + " %"; };
     const double bad = bad_part(mesh_, count_bad(mesh_, settings_.executor()));
@@ -56,7 +56,7 @@ class Notes {
     }
   }
 
-  /// Hidden vertices that are kept keep edges from being regular.
+  /// Because of hidden vertices in the mesh, some edges cannot be regular.
   void note_what_is_not_regular() {
     if (!settings_.policy.keeps_hidden()) return;
     const std::size_t edges = count_non_regular_edges(mesh_, false, settings_.executor());
@@ -86,10 +86,10 @@ class Notes {
     }
   }
 
-  /// Triangles that no optimizer can make well-centered, whatever it planned.
+  /// Notes triangles that no optimizer can make well-centered.
   void note_edges_that_must_be_split(std::size_t bad) {
     if (!settings_.energy().barrier || bad == 0 || mesh_.space().kind() != SpaceKind::plane) return;
-    if (settings_.policy.allows_inversion() && count_inverted(mesh_) > 0) return;  // no inside to see through
+    if (settings_.policy.allows_inversion() && count_inverted(mesh_) > 0) return;  // no well-defined inside
     const std::vector<EdgeConflict> edges = edges_that_must_be_split(mesh_);
     if (edges.empty()) return;
     const HalfedgeId worst = edges.front().edge;
@@ -99,7 +99,7 @@ class Notes {
         (options_.boundary == BoundaryVertices::split ? "" : ", and `boundary=split` splits them"));
   }
 
-  /// Bad triangles that nothing can reshape, where another option would let a corner move.
+  /// Notes bad triangles that nothing can reshape, if another option would let a corner move.
   void note_corners_that_stay(std::size_t bad) {
     const bool moves = options_.unknowns != Unknowns::weights && settings_.energy().barrier;
     if (bad == 0 || !moves || mesh_.space().kind() != SpaceKind::plane) return;
@@ -181,7 +181,7 @@ class Notes {
     }
   }
 
-  /// Triangles without the margin, the bad ones included.
+  /// Counts the triangles without the margin, bad ones included.
   [[nodiscard]] std::size_t count_thin() const {
     return static_cast<std::size_t>(blockwise_sum(mesh_.n_triangles(), settings_.executor(), [&](std::size_t i) {
       return triangle_margin(mesh_, TriangleId(i)) > settings_.accuracy.margin ? 0.0 : 1.0;

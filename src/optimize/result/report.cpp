@@ -14,14 +14,14 @@
 namespace temper {
 namespace {
 
-/// What sizes are compared with; the input's own are seen until it is replaced.
+/// Returns the field with which sizes are compared: the user's, or the input's own, valid until that is replaced.
 SizeField field_of(const Mesh& input, const Settings& settings) {
   if (settings.size_field) return *settings.size_field;
   return settings.options.size_field ? *settings.options.size_field : input_size_field_of(input, settings.executor());
 }
 
-/// Vertices that Lawson's algorithm leaves without a power cell; none where it has no meaning, among inverted
-/// triangles.
+/// Returns the vertices that Lawson's algorithm leaves without a power cell. Among inverted triangles these are not
+/// defined, so there are none.
 std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, const Settings& settings) {
   const bool keeps = settings.policy.keeps_hidden();
   if (!keeps || count_non_regular_edges(mesh, false, settings.executor()) == 0 || count_inverted(mesh) > 0) return {};
@@ -29,16 +29,16 @@ std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, const Settings& setti
   return restore_regularity(copy).hidden;
 }
 
-/// A mesh that may be given back.
+/// A mesh that may be returned to the user.
 struct Result {
   Mesh mesh;
-  IdVector<VertexId, VertexId> vertices;  ///< of OptimizeReport
+  IdVector<VertexId, VertexId> vertices;  ///< for OptimizeReport
   MeshScore score;
   SizeReport size;
 };
 
-/// `model`: in the user's units. What the user's numbers would scatter over memory is measured before it has them;
-/// what is no longer needed is gone before the next is measured.
+/// `model`: in the user's units. Measures that the user's order would scatter over memory come before the change of
+/// order. Data that are no longer needed are freed before the next measure.
 Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, const EnergyModel& model,
                  std::optional<AccuracySizes> sizes) {
   Executor* const executor = settings.executor();
@@ -59,14 +59,14 @@ Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, 
     measure(work.mesh, work.order.vertices);
     result.mesh = std::move(work).in_user_order(executor);
   } else {
-    result.mesh = std::move(work).in_user_terms(executor);  // what knew the order takes room no longer
+    result.mesh = std::move(work).in_user_terms(executor);  // frees the data of the order
     take_back_rounding(input, result.vertices, result.mesh);
     measure(result.mesh, result.vertices);
   }
   return result;
 }
 
-/// The input with its edges flipped as every restart begins, for a run that found nothing better in so many sweeps.
+/// Returns the input made regular by flips, as every restart begins, for a run that found no better mesh.
 WorkingCopy made_regular(const Mesh& mesh, const Settings& settings, SweepState state, int sweeps) {
   WorkingCopy work(mesh, settings.policy.order, settings.executor());
   const OptimizeHooks nobody;
@@ -76,7 +76,7 @@ WorkingCopy made_regular(const Mesh& mesh, const Settings& settings, SweepState 
   return work;
 }
 
-/// Vertices of the input that are gone, and new ones that are there.
+/// Counts removed and inserted vertices.
 void count_changes(const Mesh& input, OptimizeReport& report) {
   report.vertices_removed = report.vertices_inserted = 0;
   if (report.vertices.empty()) return;
@@ -84,8 +84,7 @@ void count_changes(const Mesh& input, OptimizeReport& report) {
   report.vertices_removed = input.n_vertices() - (report.vertices.size() - report.vertices_inserted);
 }
 
-/// Says whether flips alone make an input that is returned better: what hidden vertices keep from being regular stays
-/// so.
+/// Says whether flips alone improve a returned input. Edges that hidden vertices keep irregular do not count.
 bool lacks_flips(const MeshScore& input, const Settings& settings, const RunFacts& facts) {
   const Policy& policy = settings.policy;
   if (policy.keeps_connectivity() || (policy.keeps_hidden() && facts.input_flips == 0)) return false;
@@ -131,7 +130,7 @@ void give_back(Mesh& mesh, Candidate best, const Settings& settings, const Sweep
   report.size.before = report.size.after = of_input.size;
   report.objective_before = before.energy;
   const double bad_part_before = bad_part(mesh, of_input.counts.bad);
-  // Flips that make the input regular come before all else that may be better or worse.
+  // Flips that make the input regular have priority over all other criteria.
   const bool may_be_better = before < result.score || result.score.bad > 0 || result.score.non_regular > 0;
   const bool flips = may_be_better && lacks_flips(of_input.counts, settings, run.facts);
   Result input;

@@ -1,4 +1,4 @@
-// The end of a run: the better of result and input goes back to the user, and the report says what came of it.
+// The end of a run: the better of result and input goes back to the user, with the report.
 #pragma once
 
 #include <optional>
@@ -10,19 +10,19 @@
 
 namespace temper {
 
-/// What the report compares with, as far as it depends on the input alone. It is measured before the sweeps: whoever
-/// stops them need not wait for it, and Run::begin_sweeps() learns how long the like takes at the end.
+/// Measures of the input for the report's comparisons. They are made before the sweeps, so that a user who stops the
+/// sweeps need not wait. Run::begin_sweeps() takes their time as an estimate of the time at the end.
 struct InputMeasures {
-  /// `sizes`: made too, for objectives other than an energy.
+  /// `sizes`: also computed, for objectives other than `energy`.
   InputMeasures(const Mesh& mesh, const Settings& settings, std::optional<AccuracySizes>& sizes);
 
   MeshScore counts;
   SizeReport size;
-  std::optional<MeshScore> score;  ///< where the energies of a run do not enter into it
+  std::optional<MeshScore> score;  ///< if it does not depend on the run's energies
 };
 
-/// Puts the candidate into `mesh`, unless that is the better one, and completes the report of the run. `sizes`: of the
-/// accuracy objective, else none.
+/// Puts the candidate into `mesh`, unless `mesh` is better, and completes the report. `sizes`: the accuracy
+/// objective's.
 void give_back(Mesh& mesh, Candidate best, const Settings& settings, const SweepState& state,
                const InputMeasures& of_input, std::optional<AccuracySizes> sizes, Run& run);
 

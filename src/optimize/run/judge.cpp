@@ -20,7 +20,7 @@ double missing(double length, double least) {
   return part * part;
 }
 
-/// Of an edge that the halfedge stands for; none of the boundary's.
+/// Returns the term of the inner edge that h represents, or 0.
 double missing_of(const Mesh& mesh, const Sizes& sizes, const AccuracyModel& model, HalfedgeId h) {
   if (mesh.is_erased(Mesh::triangle(h)) || mesh.is_boundary(h) || !mesh.is_edge_representative(h)) return 0;
   const auto [edge, dual] = relative_lengths(mesh, sizes, h);

@@ -1,4 +1,4 @@
-// The judge of meshes: the score of each mesh that a run comes to, and which of two meshes a stage keeps.
+// The judge of meshes. It scores each mesh that a run reaches, and decides which of two meshes a stage keeps.
 #pragma once
 
 #include <compare>
@@ -12,28 +12,28 @@
 
 namespace temper {
 
-/// Σ over interior edges of (1 − length/least)² of both lengths, where they are shorter than min_edge and min_dual ask
-/// for; exactly 0 where nothing is missing. Triangles may be erased. O(n).
+/// Returns Σ (1 − length/least)² over the primal and dual lengths of interior edges that are shorter than min_edge and
+/// min_dual require. If no length is missing, it is exactly 0. Triangles may be erased. O(n).
 [[nodiscard]] double missing_lengths(const Mesh& mesh, const AccuracyModel& model, Executor* executor = nullptr);
 
-/// The triangles that have an edge which lacks length, in ascending order.
+/// Returns the triangles that have an edge which lacks length, in ascending order.
 [[nodiscard]] std::vector<TriangleId> triangles_lacking_length(const Mesh& mesh, const AccuracyModel& model);
 
-/// Says whether the accuracy objective finds all margins and lengths that it asks for.
+/// Says whether the mesh has all margins and lengths that the accuracy objective requires.
 [[nodiscard]] bool has_all_for_accuracy(const Mesh& mesh, const Settings& settings);
 
 /// A smaller score is better. Validity comes first. Then regularity, unless the user keeps hidden vertices. Then, for a
-/// barrier, the number of triangles that are not well-centered. Then the margins of the accuracy objective, and lengths
-/// that are asked for. Then the energy, or the error of the solver.
+/// barrier, the number of triangles that are not well-centered. Then the margins of the accuracy objective, and missing
+/// lengths. Then the energy, or the error of the solver.
 struct MeshScore {
   std::size_t inverted = 0, non_regular = 0, bad = 0;
   bool lacks_margins = false;
-  double missing_lengths = 0;  ///< of those asked for
+  double missing_lengths = 0;  ///< if the options require lengths
   double energy = 0;
   friend auto operator<=>(const MeshScore&, const MeshScore&) = default;
 };
 
-/// What a mesh needs to replace the best mesh so far.
+/// The condition on which a mesh replaces the best mesh so far.
 enum class Requirement {
   not_worse,  ///< an equal score will do
   fewer_bad,  ///< fewer triangles that are not well-centered, whatever the rest
@@ -41,21 +41,21 @@ enum class Requirement {
 };
 [[nodiscard]] bool replaces(const MeshScore& now, const MeshScore& best, Requirement required);
 
-/// What is counted for a score, whatever the energy. Inverted triangles are looked for where they are allowed.
+/// Counts the parts of a score that do not depend on the energy. Inverted triangles are counted if they are allowed.
 [[nodiscard]] MeshScore count(const Mesh& mesh, const Settings& settings);
 
-/// The score by the energy `model`, or with the sizes at its vertices by the accuracy objective.
+/// Returns the score by the energy `model`; or, with `sizes` at the vertices, by the accuracy objective.
 [[nodiscard]] MeshScore score(const Mesh& mesh, const Settings& settings, const EnergyModel& model,
                               const VertexSizes* sizes = nullptr);
-/// The score of a mesh where all has been counted.
+/// Completes the score of a mesh from its counts.
 [[nodiscard]] MeshScore score(const Mesh& mesh, const MeshScore& counts, const Settings& settings,
                               const EnergyModel& model, const VertexSizes* sizes);
 
-/// Says whether a mesh replaces the best one, by that energy.
+/// Says whether a mesh replaces the best one, by the energy `model`.
 [[nodiscard]] bool replaces(const Mesh& now, const Mesh& best, Requirement required, const Settings& settings,
                             const EnergyModel& model);
 
-/// The root of the geometric mean of the schemes' squared errors; +∞ if there are none.
+/// Returns the root of the geometric mean of the schemes' squared errors; +∞ without errors.
 [[nodiscard]] double root_mean_square(const std::vector<double>& squared_errors);
 
 }  // namespace temper

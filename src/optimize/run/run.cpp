@@ -63,9 +63,9 @@ void add_options(Fingerprint& all, const OptimizeOptions& options) {
   }
 }
 
-constexpr std::size_t kGains = 4;  // from whose first and last the factor is taken: two alone jump
+constexpr std::size_t kGains = 4;  // gains for one factor, from first to last: two alone are noisy
 
-/// The limits of the stage that a sweep belongs to.
+/// The limits of a sweep's stage.
 struct Limits {
   double tolerance = 0;  ///< relative
   int sweeps = 0;        ///< of the run, at most
@@ -169,7 +169,7 @@ std::optional<double> estimate_sweeps_left(std::span<const SweepRecord> history,
     gains[i] = last[i].energy - last[i + 1].energy;
     if (!one_stage(last[i], last[i + 1]) || !(gains[i] > 0)) return std::nullopt;
   }
-  const double shrinking = std::log(gains[0] / gains[kGains - 1]) / (kGains - 1);  // of the gain's logarithm, a sweep
+  const double shrinking = std::log(gains[0] / gains[kGains - 1]) / (kGains - 1);  // of the gain's logarithm per sweep
   if (!(shrinking > 0)) return std::nullopt;
   const Limits limits = limits_of(history, options);
   const double target = limits.tolerance * std::abs(last.back().energy);

@@ -10,45 +10,45 @@
 namespace temper {
 namespace {
 
-// Small enough that the least h/ℓ of a converged mesh is that of the hard barrier to three digits.
+// So small that the least h/ℓ of a converged mesh agrees to three digits with the hard barrier's.
 constexpr double kFloor = 0.003;
-// On the 7 × 9 horseshoe the second restart leaves 5 triangles bad where the first leaves 30; on 33 × 25, 0 and 6.
+// On the 7 × 9 horseshoe the first restart leaves 30 triangles bad, and this one 5. On 33 × 25 they leave 6 and 0.
 constexpr Restart kThorough = {
     .start = 2, .factor = 0.5, .relaxation = kRelaxation, .level_sweeps = 30, .level_fall = 1e-4, .jitter = 0.02};
-// The restarts where most of the mesh has to change, the connectivity too; and where a few triangles have to.
+// kFar is for meshes that must change nearly everywhere, also in connectivity; kNear if only a few triangles must.
 constexpr Restart kFar = {.start = 1, .factor = 0.5, .relaxation = 1.97, .until_good = true};
 constexpr Restart kNear = {.start = 0.5, .factor = 0.7, .relaxation = kRelaxation, .until_good = true};
 constexpr std::array<Restart, 2> kManyBad = {kFar, kThorough};
 constexpr std::array<Restart, 2> kFewBad = {kNear, kThorough};
-// Between 0, where ties stay, and 1, where the shortest edge of a vertex is not crossed by its dual any more; in a
-// strip of squares it puts the orthocenters a quarter of the way from the diagonal to where they leave the triangle.
+// At 0 ties stay; at 1 the dual no longer crosses the shortest edge of a vertex. In a strip of squares this value moves
+// the orthocenters a quarter of the way from the diagonal to the opposite side of their triangle.
 constexpr double kTieWeight = 0.25;
 constexpr Restart with_ties(Restart restart) {
   restart.tie_weight = kTieWeight;
   return restart;
 }
-// Along a row of ties weights grow from its ends, some triangles a sweep: not to wait for, when another restart chooses
-// their diagonals.
+// Along a row of ties weights grow from its ends, some triangles per sweep. A restart that chooses their diagonals is
+// faster, so this one gives up early.
 constexpr double kManyFewer = 0.75;
 constexpr Restart without_ties(Restart restart) {
   restart.fewer = kManyFewer;
   return restart;
 }
-// The same where ties cannot move.
+// The restarts for meshes with ties that cannot move.
 constexpr std::array<Restart, 3> kManyBadAndTied = {without_ties(kFar), with_ties(kFar), with_ties(kThorough)};
 constexpr std::array<Restart, 3> kFewBadAndTied = {without_ties(kNear), with_ties(kNear), with_ties(kThorough)};
-constexpr double kMany = 0.25;  // of the triangles
-// With fewer of them there are not enough flips for going far to pay: which ones is luck.
+constexpr double kMany = 0.25;  // part of the triangles
+// Fewer bad triangles make too few flips for kFar to pay; the result is luck.
 constexpr std::size_t kLeastMany = 100;
 
-// Already inside, or nothing to soften.
+// For meshes that are well-centered already, and energies that nothing softens.
 constexpr std::array<Restart, 1> kHard = {{{.start = kFloor, .relaxation = kRelaxation}}};
 // −h°/ℓ stays this factor beyond the worst h/ℓ of the mesh, so that every term is finite.
 constexpr double kBeyondWorst = 1.25;
 // A relative change of h° that moves no minimum by more than rounding in a picture.
 constexpr double kSettledShift = 0.01;
 
-/// The least h/ℓ over all edges of all triangles.
+/// Returns the least h/ℓ over all edges of all triangles.
 double least_relative_height(const Mesh& mesh) {
   double least = 1;
   for (const TriangleId t : mesh.triangles()) {

@@ -20,8 +20,8 @@ constexpr double kLeastCurvature = 1e-12;  // least cosine between step and chan
 
 constexpr double kLongestStep = 0.3;      // of a scaled unknown in a step
 constexpr int kMostHalvings = 25;         // halvings of a step
-constexpr double kArmijo = 1e-4;          // of what the gradient promises, that a step has to reach (Armijo)
-constexpr std::size_t kStepsToGain = 10;  // steps that together have to gain the tolerance
+constexpr double kArmijo = 1e-4;          // part of the gradient's prediction that a step must reach (Armijo)
+constexpr std::size_t kStepsToGain = 10;  // number of steps that together must gain the tolerance
 
 void add(WeightedPoint& to, double factor, const WeightedPoint& of) {
   to.x += factor * of.x;
@@ -39,7 +39,7 @@ double mean_ratio(const std::vector<double>& errors, const std::vector<double>& 
   return sum / static_cast<double>(errors.size());
 }
 
-/// Nothing is flipped, and nothing slides.
+/// Returns settings with which no edge flips and no vertex slides.
 Settings of_errors(Settings s) {
   s.options.flips = Flips::none;
   s.options.boundary = BoundaryVertices::keep;
@@ -112,7 +112,7 @@ bool SolverErrorPhase::may_sweep() const {
   return can && steps_left && run_.sweeps_left();
 }
 
-/// One step of L-BFGS, halved until it lowers what it should. False when the caller has stopped the run.
+/// Makes one step of L-BFGS, halved until it lowers the objective. Returns false if the caller has stopped the run.
 std::optional<bool> SolverErrorPhase::move_all(const Recorder& recorder) {
   IdVector<VertexId, WeightedPoint> before(mesh_.n_vertices());
   for (const VertexId v : mesh_.vertices()) before[v] = mesh_.point(v);
@@ -156,7 +156,7 @@ SweepRecord SolverErrorPhase::measure() {
 
 Phase::Verdict SolverErrorPhase::judge(bool /*changed*/) {
   if (raise_floors()) {
-    now_ = value();  // of another barrier
+    now_ = value();  // the barrier has changed
     descent_.forget();
   }
   history_.push_back(now_.lowered);
@@ -188,7 +188,7 @@ SolverErrorPhase::Value SolverErrorPhase::value() const {
   return result;
 }
 
-/// What depends on a vertex in E and B is its star.
+/// Only the star of a vertex depends on it in E and B.
 void SolverErrorPhase::add_gradient_of_energy(double factor, IdVector<VertexId, WeightedPoint>& gradient) const {
   for_blocks(mesh_.n_vertices(), settings_.executor(), [&](std::size_t first, std::size_t last) {
     AccuracyPatch patch;
@@ -202,7 +202,7 @@ void SolverErrorPhase::add_gradient_of_energy(double factor, IdVector<VertexId, 
   });
 }
 
-/// All triangles well-centered, exactly, with more than their floors.
+/// Says exactly whether all triangles are well-centered and above their floors.
 bool SolverErrorPhase::is_inside() const {
   if (count_bad(mesh_, settings_.executor()) > bad_) return false;
   return std::all_of(mesh_.triangles().begin(), mesh_.triangles().end(), [this](TriangleId t) {
@@ -224,7 +224,7 @@ void SolverErrorPhase::place(const IdVector<VertexId, WeightedPoint>& from, cons
   }
 }
 
-/// By the unknowns over the local size, three a vertex; zero where one is none.
+/// Returns the gradient by the scaled unknowns, three per vertex; 0 for a coordinate that is no unknown.
 SolverErrorPhase::Vector SolverErrorPhase::scaled(const IdVector<VertexId, WeightedPoint>& gradient) const {
   Vector result(3 * mesh_.n_vertices(), 0.0);
   for (const VertexId v : mesh_.vertices()) {

@@ -2,10 +2,10 @@
 //
 //     ln mean(errors over those at the start) + κ ln(E + B)
 //
-// the errors those of the options' model (temper/detail/discretization_error.hpp), E and B energy and barrier of the
-// accuracy objective, which keep triangles well-centered with their margins, and other errors from rising. By L-BFGS in
-// places over the local size and weights over its square. Nothing where a triangle is not well-centered. The
-// connectivity stays.
+// The options' model gives the errors (temper/detail/discretization_error.hpp). E and B are the energy and barrier of
+// the accuracy objective: they keep triangles well-centered with their margins, and other errors low. The method is
+// L-BFGS. Its unknowns are places over the local size, and weights over its square. If a triangle is not well-centered,
+// the phase does nothing. The connectivity stays.
 #pragma once
 
 #include <vector>
@@ -15,15 +15,14 @@
 
 namespace temper {
 
-/// Directions of descent by L-BFGS (Nocedal 1980): the inverse Hessian by the last steps and what they changed in the
-/// gradient.
+/// Directions of descent by L-BFGS (Nocedal 1980). The last steps and changes of the gradient give the inverse Hessian.
 class Descent {
  public:
   using Vector = std::vector<double>;
 
-  /// The direction to go for that gradient; without any step so far a multiple of −gradient.
+  /// Returns the direction for this gradient; before any step it is a multiple of −gradient.
   [[nodiscard]] Vector direction(const Vector& gradient) const;
-  /// Learns a step, and what it changed in the gradient; not where the curvature along it is not positive.
+  /// Learns a step and its change of the gradient, if the curvature along the step is positive.
   void learn(Vector step, Vector change);
   void forget() { pairs_.clear(); }
   [[nodiscard]] bool knows_nothing() const { return pairs_.empty(); }
@@ -36,7 +35,7 @@ class Descent {
   std::vector<Pair> pairs_;  // oldest first
 };
 
-/// In order, so that it is the same on any number of threads.
+/// Adds in order, so that the sum does not depend on the number of threads.
 [[nodiscard]] double dot(const std::vector<double>& a, const std::vector<double>& b);
 [[nodiscard]] double largest(const std::vector<double>& a);
 
@@ -55,25 +54,25 @@ class SolverErrorPhase final : public SizedPhase {
  private:
   using Vector = Descent::Vector;
   struct Value {
-    double lowered = 0;  ///< what is lowered; +∞ outside of the barrier
-    double error = 0;    ///< root mean square, the geometric mean of all schemes'
+    double lowered = 0;  ///< the objective; +∞ outside of the barrier
+    double error = 0;    ///< geometric mean of the root mean squares of all schemes
     Vector gradient;     ///< of `lowered`, by the scaled unknowns
   };
 
   [[nodiscard]] Value value() const;
   void add_gradient_of_energy(double factor, IdVector<VertexId, WeightedPoint>& gradient) const;
   [[nodiscard]] bool is_inside() const;
-  /// Puts the vertices to t of the step from `from`.
+  /// Moves the vertices from `from` by t times the step.
   void place(const IdVector<VertexId, WeightedPoint>& from, const Vector& step, double t);
   [[nodiscard]] Vector scaled(const IdVector<VertexId, WeightedPoint>& gradient) const;
 
   const WorkingUnits& units_;
   IdVector<VertexId, Dofs> dofs_;
-  std::vector<double> start_;  // the errors then
+  std::vector<double> start_;  // errors at the start
   Value now_;
   Descent descent_;
-  bool stuck_ = false;           // no step lowers it
-  std::vector<double> history_;  // of what is lowered
+  bool stuck_ = false;           // no step lowers the objective
+  std::vector<double> history_;  // of the objective
 };
 
 }  // namespace temper

@@ -41,7 +41,7 @@ int Driver::run(Phase& phase, int first) {
   const int sweeps = run_.report.sweeps;
   begin(phase, first);
   Verdict verdict = Verdict::improving;
-  std::optional<Stopped> asked;  // by the caller, whatever the flips after it find
+  std::optional<Stopped> asked;  // set if the caller stops the run, whatever later flips find
   do {                           // outer iterations
     do {                         // inner iterations
       verdict = sweep(phase);
@@ -67,7 +67,7 @@ void Driver::begin(Phase& phase, int sweep) {
   show(Snapshot::Moment::start, phase);
 }
 
-/// Lines 9 to 18 of Algorithm 1, and the phase's verdict on them.
+/// Makes lines 9 to 18 of Algorithm 1 and returns the phase's verdict.
 Driver::Verdict Driver::sweep(Phase& phase) {
   if (!phase.may_sweep()) return Verdict::stopped;
   recorder_.begin_sweep(run_.report.sweeps + 1);
@@ -84,7 +84,7 @@ Driver::Verdict Driver::sweep(Phase& phase) {
   if (!settings_.policy.defers_flips()) keep_if_best(phase);
   show(Snapshot::Moment::after_sweep, phase);
   run_.offer(work_, settings_, state_);
-  if (!whole) return Verdict::stopped;  // by the caller or the clock
+  if (!whole) return Verdict::stopped;  // the caller or the clock stopped it
   const Verdict verdict = phase.judge(removed || inserted);
   if (verdict == Verdict::restarted) {
     best_.reset();
@@ -100,7 +100,7 @@ Driver::Verdict Driver::sweep(Phase& phase) {
   return Verdict::improving;
 }
 
-/// Lines 20 and 21: whether there is another outer iteration.
+/// Makes lines 20 and 21, and says whether another outer iteration follows.
 Driver::Verdict Driver::flip_if_deferred(Phase& phase, Verdict of_sweeps) {
   if (!settings_.policy.defers_flips()) return Verdict::stopped;
   show(Snapshot::Moment::before_flips, phase);
@@ -120,7 +120,7 @@ Driver::Verdict Driver::flip_if_deferred(Phase& phase, Verdict of_sweeps) {
   return outer_ == settings_.policy.outer ? Verdict::stopped : Verdict::improving;
 }
 
-/// One Gauss-Seidel sweep, lines 9 to 16. False when it was cut short.
+/// Makes one Gauss-Seidel sweep, lines 9 to 16. Returns false if it was stopped.
 bool Driver::improve_all_vertices(int iteration) {
   if (!settings_.policy.defers_updates() || settings_.policy.defers_flips())
     return sweeper_.sweep(iteration, sequence_, run_);
@@ -130,11 +130,11 @@ bool Driver::improve_all_vertices(int iteration) {
   return whole;
 }
 
-/// Deferred updates may hide a vertex where they meet: then half of each change of a weight is made, and so on, and at
-/// last none, nor any move.
+/// Deferred updates together may hide a vertex. Then weights get half of their changes, then a quarter, and so on. In
+/// the end neither weights nor positions change.
 void Driver::settle_updates(const IdVector<VertexId, WeightedPoint>& before) {
-  constexpr int kHalvings = 6;  // what is left then is hardly worth a step
-  // With another policy flips may have been made, for which vertices are where they are.
+  constexpr int kHalvings = 6;  // smaller changes are not worth a step
+  // With another policy, flips that need the new positions may have been made.
   const Space& space = mesh_.space();
   const bool moves_back = settings_.policy.defers_positions() && settings_.policy.undoes_hidden();
   for (int i = 0; !flipper_.restore_all() && i <= kHalvings; ++i) {
@@ -154,7 +154,7 @@ IdVector<VertexId, WeightedPoint> Driver::points() const {
   return all;
 }
 
-/// True when there are new ones. Among inverted triangles no point has its place.
+/// Returns true if there are new vertices. Among inverted triangles no point has a triangle of its own.
 bool Driver::insert_vertices(int iteration) {
   const Policy& policy = settings_.policy;
   if (!policy.insertion_from || iteration < *policy.insertion_from) return false;
@@ -164,7 +164,7 @@ bool Driver::insert_vertices(int iteration) {
   return true;
 }
 
-/// Drops what has been removed, if anything has, everywhere.
+/// Drops removed vertices and triangles everywhere.
 void Driver::compact() {
   if (!flipper_.has_removed()) return;
   const std::size_t n = mesh_.n_vertices();
@@ -183,8 +183,8 @@ void Driver::grow() {
   for (std::size_t i = sequence_.size(); i < mesh_.n_vertices(); ++i) sequence_.emplace_back(i);
 }
 
-/// Weights that leave edges uncrossed and that single vertices cannot mend: half of all of them, until zero weights at
-/// last, where every barrier on d is satisfied. False when weights or connectivity may not change.
+/// Halves all weights if they leave edges uncrossed and steps of single vertices cannot repair that. Repeated, it ends
+/// at zero weights, which satisfy every barrier on d. Returns false if weights or connectivity must not change.
 bool Driver::halve_weights() {
   if (settings_.options.unknowns == Unknowns::positions || settings_.policy.keeps_connectivity()) return false;
   run_.facts.weights_shrunk = true;
@@ -193,16 +193,16 @@ bool Driver::halve_weights() {
   return restore_regularity();
 }
 
-/// Line 17 of Algorithm 1. Equal shifts of all weights change no energy and, but for their rounding, no edge.
+/// Line 17 of Algorithm 1. Equal shifts of all weights change no energy and, except for rounding, no edge.
 void Driver::shift_weights_to_anchor() {
   if (!settings_.policy.anchor.valid()) return;
   const VertexId anchor = work_.from_user(settings_.policy.anchor);
-  if (!anchor.valid()) return;  // removed: any other constant would do as well
+  if (!anchor.valid()) return;  // removed: the choice of the constant is free
   const double shift = mesh_.weight(anchor);
   const IdVector<VertexId, WeightedPoint> before = points();
   for (const VertexId v : mesh_.vertices()) set_weight(v, mesh_.space().weight(before[v]) - shift);
   if (settings_.policy.keeps_connectivity() || settings_.policy.defers_flips() || flipper_.restore_all()) return;
-  // Rounded differences hide a vertex that was all but hidden: no constant is worth that.
+  // Rounding may hide a vertex that was nearly hidden. Then the shift is undone.
   for (const VertexId v : mesh_.vertices()) set_point(v, before[v]);
 }
 
@@ -214,8 +214,8 @@ void Driver::set_point(VertexId v, const WeightedPoint& p) {
 
 void Driver::set_weight(VertexId v, double w) { set_point(v, mesh_.space().with_weight(mesh_.point(v), w)); }
 
-/// Line 20 of Algorithm 1. False when no flips can: among inverted triangles, or around a hidden vertex that may not
-/// be.
+/// Line 20 of Algorithm 1. Returns false if flips cannot restore it: with inverted triangles or a vertex hidden against
+/// the policy.
 bool Driver::restore_regularity() {
   if (settings_.policy.allows_inversion() && count_inverted(mesh_) > 0) {
     run_.report.stopped = Stopped::tangled;
@@ -242,7 +242,7 @@ void Driver::grade_boundary() {
   const SplitCounts cuts = split_boundary(work_, flipper_, settings_.options.boundary_ratio);
   grow();
   TEMPER_ASSERT_SLOW(settings_.policy.keeps_hidden() || count_non_regular_edges(mesh_, false) == 0);
-  run_.facts.boundary_splits = cuts;  // of each restart the same
+  run_.facts.boundary_splits = cuts;  // the same in each restart
 }
 
 void Driver::split_where_bad() {
@@ -262,7 +262,7 @@ int Driver::restart(const Restart& restart, bool may_give_up) {
   jitter(restart.jitter);
   const int first = run_.next_sweep();
   const bool may_return_there = restart.first_energy.has_value() || settings_.policy.defers_flips();
-  // A trace says by sweeps where a run returns to.
+  // A trace names the sweep to which a run returns.
   if (first > 0 && may_return_there) end_sweep_of_its_own();
   EnergyPhase phase(work_, settings_, state_, run_, restart, may_give_up);
   const int last = run(phase, first);
@@ -291,7 +291,7 @@ void Driver::end_sweep_of_its_own() {
 }
 
 bool Driver::repair(std::uint64_t seed, bool asks_programs) {
-  EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);  // what repairs are told by
+  EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);  // puts repairs into the history
   RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed, asks_programs);
   bool changed = false;
   RunningEnergyAndBad totals;
@@ -319,8 +319,8 @@ int Driver::polish(int sweep) {
   return sweep;
 }
 
-/// HOT energies need not fall at every flip, and that of accuracy may rise a little in the end, for its barrier. A
-/// barrier's falls, once γ has settled.
+/// HOT energies can rise at a flip, and the accuracy energy may rise a little at the end because of its barrier. After
+/// γ has settled, barrier energies fall.
 void Driver::keep_if_best(const Phase& phase) {
   const double energy = run_.report.history.back().energy;
   if (phase.keeps() == Phase::Keeps::last || !(energy < best_energy_)) return;
@@ -330,7 +330,7 @@ void Driver::keep_if_best(const Phase& phase) {
 
 void Driver::keep(const Phase& phase, double energy, int sweep) {
   if (phase.keeps() == Phase::Keeps::best_points) {
-    best_points_.resize(mesh_.n_vertices());  // in place: the largest meshes have no room for another one
+    best_points_.resize(mesh_.n_vertices());  // in place: for the largest meshes memory has no room for a copy
     for (const VertexId v : mesh_.vertices()) best_points_[v] = mesh_.point(v);
   } else {
     best_ = Candidate{work_, sweep};
@@ -353,13 +353,13 @@ int Driver::return_best(const Phase& phase, int last_sweep) {
   return best_sweep_;
 }
 
-/// Deferred flips may find a vertex hidden, which leaves edges that no flip makes regular.
+/// Deferred flips may find a hidden vertex. Then some edges cannot be made regular by flips.
 void Driver::keep_regular(int sweep) {
   if (!settings_.policy.defers_flips() || settings_.policy.keeps_hidden()) return;
   regular_ = Candidate{work_, sweep};
 }
 
-/// The best mesh, if one is kept, else the last one that was regular.
+/// Returns to the best mesh if one is kept, else to the last regular mesh.
 int Driver::return_regular(int last_sweep) {
   std::optional<Candidate>& kept = best_ ? best_ : regular_;
   if (!kept) return last_sweep;

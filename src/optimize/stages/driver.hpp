@@ -1,4 +1,4 @@
-// Algorithm 1 of the paper: sweeps over the vertices of a working copy until a phase has what it wants.
+// Algorithm 1 of the paper: sweeps over the vertices of a working copy until a phase is finished.
 #pragma once
 
 #include <optional>
@@ -12,23 +12,24 @@ namespace temper {
 
 class Driver {
  public:
-  /// `state`: of the sweeps that it makes.
+  /// `state`: the state of its sweeps.
   Driver(WorkingCopy& work, const Settings& settings, SweepState& state, Run& run, std::size_t part_size = kPartSize);
 
-  /// Lawson on the whole input, before any phase. False when its weights hide a vertex that may not be.
+  /// Makes the whole input regular, before any phase. Returns false if weights hide a vertex against the policy.
   bool make_regular();
-  /// BoundarySplitting edges of the boundary and of lines, when the options ask for it.
+  /// Splits edges of the boundary and of lines, if the options ask for it.
   void grade_boundary();
-  /// The same at bad triangles alone.
+  /// Splits such edges at bad triangles alone.
   void split_where_bad();
-  /// One restart on the input. Returns the sweep whose mesh the working copy is then. `may_give_up`: as EnergyPhase.
+  /// Makes one restart on the input. Returns the sweep whose mesh the copy is then. `may_give_up`: as in EnergyPhase.
   int restart(const Restart& restart, bool may_give_up);
-  /// Sweeps of one phase. `sweep`: whose mesh the working copy is. Returns as above.
+  /// Makes the sweeps of one phase. `sweep`: the sweep whose mesh the working copy is. Returns as restart().
   int run(Phase& phase, int sweep);
 
-  /// Local search for what all restarts have left bad. False when nothing was changed. `asks_programs`: for weights.
+  /// Searches locally for repairs of triangles that all restarts left bad. Returns false if nothing changed.
+  /// `asks_programs`: use linear programs for weights.
   bool repair(std::uint64_t seed, bool asks_programs = false);
-  /// Sweeps at the sharpest γ, after repairs; taken back when they lose triangles again. `sweep` as above.
+  /// Sweeps at the sharpest γ, after repairs. If triangles turn bad again, the sweeps are undone. `sweep` as in run().
   int polish(int sweep);
 
   [[nodiscard]] const Recorder& recorder() const { return recorder_; }
@@ -36,12 +37,12 @@ class Driver {
  private:
   using Verdict = Phase::Verdict;
 
-  /// Moves free vertices by up to `amount` of their shortest edge: symmetric grids are stationary in their positions.
+  /// Moves free vertices by up to `amount` of their shortest edge, since symmetric grids are stationary in positions.
   void jitter(double amount);
-  /// Makes the heavier ends of ties (ties.hpp) heavier by `amount` of their shortest edge squared, and flips: a sweep
-  /// of its own. True when that is all it takes: sweeps with a large γ would undo it.
+  /// Adds `amount` of their shortest edge squared to the heavier ends of ties (ties.hpp), and flips, as one sweep.
+  /// Returns true if this is enough: then sweeps with a large γ would undo it.
   bool reweight_ties(double amount);
-  /// Counts and records what was done to the mesh since the last sweep as one more.
+  /// Counts and records the changes since the last sweep as one more sweep.
   void end_sweep_of_its_own();
   void begin(Phase& phase, int sweep);
   Verdict sweep(Phase& phase);
@@ -74,13 +75,13 @@ class Driver {
   Recorder recorder_;
   Flipper flipper_;
   Sweeper sweeper_;
-  std::vector<VertexId> sequence_;                 // in which a sweep visits the vertices; empty: as they are numbered
-  int inner_ = 0, outer_ = 0;                      // iterations since the last flips, and rounds of them
-  std::optional<Candidate> best_;                  // where the phase keeps one
-  IdVector<VertexId, WeightedPoint> best_points_;  // where the phase keeps points alone
+  std::vector<VertexId> sequence_;                 // order in which a sweep visits the vertices; empty: by number
+  int inner_ = 0, outer_ = 0;                      // iterations since the last flips, and rounds of flips
+  std::optional<Candidate> best_;                  // if the phase keeps a mesh
+  IdVector<VertexId, WeightedPoint> best_points_;  // if the phase keeps points alone
   double best_energy_ = 0;
   int best_sweep_ = 0;
-  std::optional<Candidate> regular_;  // where flips are deferred, and may fail: after the last that did not
+  std::optional<Candidate> regular_;  // mesh after the last deferred flips that did not fail
 };
 
 }  // namespace temper

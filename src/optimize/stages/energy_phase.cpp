@@ -8,10 +8,10 @@
 namespace temper {
 namespace {
 
-// Sweeps at the last γ without fewer bad triangles, after which another restart promises more; and without a lower
-// energy, after which none will come.
+// Largest number of sweeps at the last γ without progress. If bad triangles have not become fewer, another restart
+// promises more; if the energy has not fallen, it will not fall.
 constexpr int kPatience = 25;
-// Sweeps in which vertices may bring a barrier's infinite energy down one by one, before all weights shrink.
+// Number of sweeps in which single vertices may make a barrier's infinite energy finite, before all weights shrink.
 constexpr int kInfinitePatience = 5;
 
 }  // namespace
@@ -57,7 +57,7 @@ SweepRecord EnergyPhase::record_of(const EnergyAndBad& measured) const {
           .length_parameter = length_parameter};
 }
 
-/// Line 19 of Algorithm 1, and what a softened barrier or an infinite energy ask for besides.
+/// Line 19 of Algorithm 1, with the extra cases of a softened barrier and an infinite energy.
 Phase::Verdict EnergyPhase::judge(bool changed) {
   if (before_switch_ && iteration >= settings_.policy.switch_at) {
     take_last_energy();
@@ -91,7 +91,7 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
   return Verdict::improving;
 }
 
-/// The paper's rule takes a rise for convergence. The relative one waits whether the energy falls again.
+/// The paper's rule takes a rise for convergence. The relative rule waits for the energy to fall again.
 bool EnergyPhase::converged(double before, double after) {
   const double tolerance = settings_.policy.tolerance;
   if (settings_.policy.stopping == StoppingRule::paper) {
@@ -112,7 +112,7 @@ bool EnergyPhase::stagnates() {
   return bad > 0 && sweeps_since_fewer_bad_ >= kPatience;
 }
 
-/// Positions have converged before i_w: the weights' turn has come.
+/// If positions converge before i_w, the weights become unknowns now.
 bool EnergyPhase::goes_on_with_weights() {
   const int from = settings_.policy.weights_from;
   if (settings_.options.unknowns != Unknowns::positions_and_weights || iteration >= from) return false;

@@ -1,4 +1,4 @@
-// A phase of a run: what its sweeps lower, and when they have lowered it enough. The driver makes the sweeps.
+// A phase of a run: it sets the energy of sweeps, and decides when they are finished. The driver makes them.
 #pragma once
 
 #include <optional>
@@ -15,30 +15,29 @@ class Recorder;
 
 class Phase {
  public:
-  /// restarted: what is lowered from here on is another energy; no mesh so far compares.
+  /// restarted: later sweeps lower another energy, so no earlier mesh can be compared.
   enum class Verdict { improving, restarted, infinite, settled, stopped };
-  /// The mesh that the driver returns: the last one; that of the best sweep; that of the best sweep or the one before
-  /// the first, of a phase that moves vertices alone, so that their points are all that is kept.
+  /// The mesh that the driver returns. `best_points` is for a phase that moves vertices alone, so that only points are
+  /// kept; the mesh before its first sweep counts, too.
   enum class Keeps { last, best_sweep, best_points };
 
   virtual ~Phase() = default;
 
-  /// Begins the phase; to be called before the first sweep.
+  /// Begins the phase. Call it before the first sweep.
   virtual void begin() = 0;
-  /// Says whether there may be another sweep; if not, the report says why the run stopped.
+  /// Says whether another sweep may follow. If not, the report has the reason.
   [[nodiscard]] virtual bool may_sweep() const = 0;
-  /// The energy of the mesh as it is, in the user's units.
+  /// Returns the energy of the present mesh in the user's units.
   [[nodiscard]] virtual double total() const = 0;
-  /// The mesh as it is for the history of the run.
+  /// Measures the present mesh for the history of the run.
   virtual SweepRecord measure() = 0;
-  /// Judges a sweep that the history has as its last. `changed`: vertices are gone, or new ones there.
+  /// Judges the last sweep of the history. `changed`: vertices were removed or inserted.
   virtual Verdict judge(bool changed) = 0;
-  /// Compares with the last of the history from now on: after flips, or when all weights have shrunk.
+  /// Makes later sweeps compare with the last record of the history, after flips or when all weights have shrunk.
   virtual void compare_from_here() {}
-  /// Says whether there is more to lower once all has settled: weights, after positions.
+  /// Says, after positions have settled, whether weights can still lower the energy.
   virtual bool goes_on_with_weights() { return false; }
-  /// Moves all vertices at once, where the phase does that in place of a sweep; none if it does not. False when it was
-  /// cut short.
+  /// Moves all vertices at once, if the phase does this instead of a sweep, else returns none. False: it was stopped.
   virtual std::optional<bool> move_all(const Recorder& /*recorder*/) { return std::nullopt; }
   [[nodiscard]] virtual Keeps keeps() const = 0;
 
@@ -48,7 +47,7 @@ class Phase {
 /// Lowers an energy of the registry: one restart, or a polish.
 class EnergyPhase final : public Phase {
  public:
-  /// `may_give_up`: the phase ends too when triangles stay bad for many sweeps.
+  /// `may_give_up`: the phase also ends if triangles stay bad for many sweeps.
   EnergyPhase(const WorkingCopy& work, const Settings& settings, SweepState& state, Run& run, const Restart& restart,
               bool may_give_up);
 
@@ -60,9 +59,9 @@ class EnergyPhase final : public Phase {
   void compare_from_here() override { before_ = run_.report.history.back().energy; }
   bool goes_on_with_weights() override;
   [[nodiscard]] Keeps keeps() const override { return state_.energy.barrier ? Keeps::last : Keeps::best_sweep; }
-  /// What has been measured of the mesh as it is, for the history of the run.
+  /// Returns the record of these measures of the present mesh, for the history of the run.
   [[nodiscard]] SweepRecord record_of(const EnergyAndBad& measured) const;
-  /// From the restart's first energy to that of the options, if it has not been reached.
+  /// Switches from the restart's first energy to options.energy, if that has not happened yet.
   void take_last_energy();
 
  private:
@@ -75,13 +74,13 @@ class EnergyPhase final : public Phase {
   SweepState& state_;
   Run& run_;
   Restart restart_;
-  bool before_switch_ = false;  // from the first energy to that of the options
+  bool before_switch_ = false;  // from the first energy to options.energy
   GammaSchedule gamma_schedule_;
   bool may_give_up_;
   double before_ = 0;          // energy at the start of the sweep
-  std::size_t least_bad_ = 0;  // when they last were fewer, and for how many sweeps
+  std::size_t least_bad_ = 0;  // least number of bad triangles, and sweeps since then
   int sweeps_since_fewer_bad_ = 0;
-  double least_energy_ = 0;  // at the last γ, and for how many sweeps
+  double least_energy_ = 0;  // least energy at the last γ, and sweeps since then
   int sweeps_since_lower_ = 0;
   int infinite_sweeps_ = 0;
 };

@@ -17,18 +17,18 @@
 namespace temper {
 namespace {
 
-// Each where the one before has made triangles good; more find little.
+// Largest number of rounds of cuts at bad triangles, each after a successful one. More rounds find little.
 constexpr std::size_t kRoundsWhereBad = 4;
-// Times as many bad triangles, which a more thorough restart does not make up for.
+// With this factor more bad triangles, a more thorough restart does not help.
 constexpr std::size_t kFarMore = 2;
-// Weights alone are seldom enough: they have to get on fast.
+// Weights alone are seldom enough, so they must make fast progress.
 constexpr double kFewerByWeights = 0.75;
-// A search that ends with triangles bad may have gone astray early on.
+// A search that ends with bad triangles may have made a wrong choice early, so more searches follow.
 constexpr std::uint64_t kSearches = 4;
-// The one more, where linear programs can be asked: from what the first has left.
+// This search, if there is an LP solver, uses linear programs, and goes on from the result of the first.
 constexpr std::uint64_t kPrograms = 1;
 
-/// Hidden vertices have no power cell, so no regular triangulation keeps them: the user must know which.
+/// Hidden vertices have no power cell, so no regular triangulation has them. The error names them.
 InputError hidden_vertices_error(const Mesh& input, const InputNames* names) {
   constexpr std::size_t kNamed = 5;
   Mesh copy = input;
@@ -41,13 +41,13 @@ InputError hidden_vertices_error(const Mesh& input, const InputNames* names) {
     list += named.point(hidden[i].index) + " (weight " + to_text(input.weight(hidden[i])) + ")";
   }
   if (hidden.size() > kNamed) list += " and " + std::to_string(hidden.size() - kNamed) + " more";
-  // A flip that would make an edge of half a period leaves its quad as it does at a hidden vertex.
+  // A flip that would make an edge of half a period fails as a flip at a hidden vertex does.
   const char* const or_too_few = input.space().is_periodic() ? ", and edges shorter than half a period" : "";
   return {ErrorCode::hidden_vertex, hidden.empty() ? std::string() : named.point_where(hidden[0].index),
           "weights hide " + list + "; expected weights that leave every vertex a power cell" + or_too_few};
 }
 
-/// E_BH, and E_BHs with the user's h°, can only stay inside their barrier; the others get in from anywhere.
+/// E_BH, and E_BHs with the user's h°, can only stay inside their barrier. Other energies can enter it from anywhere.
 std::optional<InputError> outside_domain_error(const Mesh& mesh, const Settings& settings) {
   const EnergyInfo& energy = energy_info(settings.policy.first_energy.value_or(settings.model.kind));
   EnergyModel model = settings.model;
@@ -64,25 +64,25 @@ std::optional<InputError> outside_domain_error(const Mesh& mesh, const Settings&
 
 bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.executor()) > 0; }
 
-/// Says whether so few triangles of c are bad that each is a place of its own, far from all others. Another restart
-/// would leave as many elsewhere, where a repair of each is a matter of moments; a search need not give up what it has
-/// cured to begin again with the others; and it needs no copy to return to, which the largest meshes have no room for:
-/// it leaves no more bad than there were, and trials have swept each place by itself.
+/// Says whether so few triangles of c are bad that each is far from all others. Another restart would leave as many bad
+/// triangles elsewhere, while a repair of each is quick. A search can keep each place that it has cured. It needs no
+/// copy to return to, for which large meshes leave no memory: it never makes more triangles bad, and trials sweep each
+/// place.
 bool are_apart(const Candidate& c, const Settings& s) {
   constexpr double kMost = 1e-5;
   const auto bad = static_cast<double>(count_bad(c.work.mesh, s.executor()));
   return bad > 0 && bad < kMost * static_cast<double>(c.work.mesh.n_triangles());
 }
 
-/// Says whether c has what a repair could cure: bad triangles, or edges that vertices make too short.
+/// Says whether a repair could improve c: it has bad triangles, or edges that are too short.
 bool needs_repair(const Candidate& c, const Settings& s) {
   return has_bad(c, s) ||
          (s.options.repair == Repair::vertices && missing_lengths(c.work.mesh, s.accuracy, s.executor()) > 0);
 }
 
-/// What to try, for the working copy as it is. Where all restarts with a cut boundary leave triangles bad, they are
-/// made again without: what lines leave no room for, cuts may make worse. After either there are cuts where triangles
-/// are still bad, and sweeps from there.
+/// Returns the restarts to try from the present working copy. If all restarts with a cut boundary leave triangles bad,
+/// they are repeated without cuts: near lines that leave no room, cuts may do harm. Afterwards come cuts at triangles
+/// that are still bad, and sweeps from there.
 std::vector<Restart> restarts_for(const Mesh& mesh, const Settings& settings) {
   const auto all = restarts(settings, mesh);
   std::vector<Restart> planned(all.begin(), all.end());
@@ -101,7 +101,7 @@ std::vector<Restart> restarts_for(const Mesh& mesh, const Settings& settings) {
   return planned;
 }
 
-/// The quick ones of those for weights alone; none where nothing is softened.
+/// Returns the quick restarts for weights alone; none if the energy is not softened.
 std::vector<Restart> restarts_by_weights(const Mesh& mesh, const Settings& settings) {
   std::vector<Restart> planned;
   for (Restart restart : restarts(settings, mesh)) {
@@ -112,7 +112,7 @@ std::vector<Restart> restarts_by_weights(const Mesh& mesh, const Settings& setti
   return planned;
 }
 
-/// The input made regular, and its boundary cut, as a restart begins; or the best mesh, cut where it is bad.
+/// Makes the input regular and cuts its boundary for a restart; or cuts the best mesh at its bad triangles.
 std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Settings& settings, const Restart& restart) {
   if (restart.splitting == BoundarySplitting::where_bad) {
     driver.split_where_bad();
@@ -125,7 +125,7 @@ std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Setti
   return std::nullopt;
 }
 
-/// The cuts of the best mesh, which that restart has made.
+/// Notes the cuts of the best mesh that this restart made.
 void note_splits(const Restart& restart, RunFacts& facts) {
   if (restart.splitting == BoundarySplitting::where_bad) {
     const bool on_unsplit = facts.stays_unsplit || !facts.boundary_splits;
@@ -147,9 +147,9 @@ Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, Swe
   std::optional<Candidate> best;
   std::vector<Restart> all(1);
   std::size_t left = 0;  // bad triangles of the last restart that was not kept
-  bool renewed = false;  // the best mesh, since cuts where it is bad were of no use
-  // The second restart from the same beginning is more thorough, and takes many sweeps: where the first left far more
-  // bad than there are in the best mesh it does not make up for that.
+  bool renewed = false;  // whether the best mesh is new since cuts at bad triangles failed
+  // The second restart from the same beginning is more thorough and takes many sweeps. It does not help if the first
+  // one left far more triangles bad than the best mesh has.
   const auto may_gain = [&](std::size_t i) {
     if (all[i].splitting == BoundarySplitting::where_bad) return renewed;
     return all[i - 1].splitting != all[i].splitting ||
@@ -172,7 +172,7 @@ Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, Swe
     input.drop_twins();
     const Restart& restart = all[i];
     now.sweep = driver.restart(restart, i + 1 < all.size() || repairs(settings));
-    // The user asks for cuts: without them fewer triangles have to be bad.
+    // The user asks for cuts, so a mesh without them must have fewer bad triangles.
     const Requirement required =
         restart.splitting == BoundarySplitting::graded ? Requirement::not_worse : Requirement::fewer_bad;
     if (!best || replaces(now.work.mesh, best->work.mesh, required, settings, state.model)) {
@@ -195,14 +195,14 @@ Candidate reweighted(Candidate best, InputMesh& input, const Settings& settings,
   own.options.unknowns = Unknowns::weights;
   std::vector<Restart> planned(1);
   const bool may = settings.options.unknowns == Unknowns::positions_and_weights && repairs(settings) &&
-                   run.report.sweeps <= settings.options.max_sweeps / 2;  // repairs need those that are left
+                   run.report.sweeps <= settings.options.max_sweeps / 2;  // the rest is for repairs
   if (!may || !run.goes_on() || !has_bad(best, settings) || are_apart(best, settings)) return best;
   const BestBefore kept(run.best_before, &best.work);
   for (std::size_t i = 0; i < planned.size(); ++i) {
     Candidate now{WorkingCopy(input.restore_twins(), own.policy.order, own.executor())};
     Driver driver(now.work, own, state, run);
     driver.recorder().returned_to(-1);
-    driver.make_regular();  // it could be at the first restart
+    driver.make_regular();  // cannot fail: it succeeded in the first restart
     if (i == 0) planned = restarts_by_weights(now.work.mesh, own);
     input.drop_twins();
     if (planned.empty()) {
@@ -226,15 +226,15 @@ Candidate repaired(Candidate best, const Settings& settings, SweepState& state, 
     return !run.goes_on() || run.repair_trials_left <= 0 || !needs_repair(c, settings);
   };
   const std::uint64_t searches = settings.lp != nullptr ? kSearches + 1 : kSearches;
-  std::optional<Candidate> start;  // of all searches on copies, once it is not the best one
+  std::optional<Candidate> start;  // beginning of all searches on copies, if it is no longer the best mesh
   if (!repairs(settings) || is_done(best) || !std::isfinite(total_energy(best.work.mesh, state.model))) return best;
-  // Vertices that came or went are taken back where they cured nothing, which takes a copy.
+  // If new or removed vertices cured nothing, they are undone, which takes a copy.
   const bool in_place = settings.options.repair != Repair::vertices && are_apart(best, settings);
   for (std::uint64_t i = 0; i < searches && !is_done(best); ++i) {
     const BestBefore kept(run.best_before, in_place ? nullptr : &best.work);
     const bool asks_programs = i == kPrograms && settings.lp != nullptr;
     if (i == kPrograms && settings.lp == nullptr) run.facts.lacks_programs = true;
-    if (asks_programs) start.reset();  // they cost more than what is cured
+    if (asks_programs) start.reset();  // programs for cured places would cost too much
     Candidate copy;
     if (!in_place) copy = start ? *start : best;
     Candidate& now = in_place ? best : copy;

@@ -8,7 +8,7 @@
 namespace temper {
 namespace {
 
-// Sweeps of Jacobi rotations on 3 × 3: convergence is quadratic, five reach rounding.
+// On 3 × 3 matrices, Jacobi sweeps converge quadratically: five of them reach rounding.
 constexpr int kJacobiSweeps = 8;
 
 // Steps of central differences, relative to the reach.
@@ -19,8 +19,8 @@ constexpr double kGoldenTolerance = 1e-8;
 using Vector = std::array<double, 3>;
 using Matrix = std::array<Vector, 3>;
 
-/// Rotates rows and columns p and q of the first n of a so that a_pq, which is not 0, becomes 0; and the columns of v,
-/// whose are eigenvectors in the end.
+/// Rotates rows and columns p and q of the first n of a so that a_pq, which is not 0, becomes 0. Rotates the columns of
+/// v, too, which become the eigenvectors.
 void jacobi_rotation(Matrix& a, Matrix& v, std::size_t n, std::size_t p, std::size_t q) {
   const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
   const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
@@ -49,7 +49,7 @@ void diagonalize(std::size_t n, Matrix& a, Matrix& v) {
   }
 }
 
-/// −|H|⁻¹ g with floored eigenvalues, for a Hessian that is not positive definite.
+/// Returns −|H|⁻¹ g with floored eigenvalues, for a Hessian that is not positive definite.
 Vector solve_absolute(int n, Matrix h, const Vector& minus_gradient) {
   Matrix v;
   diagonalize(static_cast<std::size_t>(n), h, v);

@@ -8,14 +8,14 @@
 namespace temper {
 namespace {
 
-// Two edges are one straight line when they turn by less than this (radians): coordinates read from a file, or rounded
-// by earlier sliding, are collinear only so far.
+// Two edges are one straight line when they turn by less than this (radians). Coordinates from a file, or rounded by
+// earlier slides, are not exactly collinear.
 constexpr double kStraight = 1e-9;
 
-/// The edges that must keep their place, constrained ones and those of the boundary, as they pass through a vertex.
+/// The constrained and boundary edges at a vertex, which must keep their place, and their shape there.
 struct FixedLine {
   enum Shape { none, straight, bent } shape = none;
-  Vec2 direction;  ///< of a straight one, unit length
+  Vec2 direction;  ///< if straight, as a unit vector
 };
 
 FixedLine fixed_line(const Mesh& mesh, VertexId v) {

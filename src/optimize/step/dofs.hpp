@@ -1,4 +1,4 @@
-// The degrees of freedom of a vertex: the directions in (x, y, w) that it may go; on the sphere in its chart.
+// The degrees of freedom of a vertex: the directions in (x, y, w) in which it may move; on the sphere in its chart.
 #pragma once
 
 #include <array>
@@ -16,12 +16,12 @@ struct Dofs {
   [[nodiscard]] bool weighs() const { return n > 0 && axis[static_cast<std::size_t>(n - 1)][2] != 0; }
 };
 
-/// The mobility that its place leaves a vertex, whatever the sweep. Decided once, since moves keep the lines of the
+/// The mobility that its place gives a vertex in all sweeps. It is decided once, since moves keep the lines of the
 /// boundary and of constrained edges.
 enum class Mobility : std::uint8_t {
-  frozen,  ///< neither position nor weight: the rim of a neighborhood
-  fixed,   ///< where the user wants so; corners of the boundary, ends, bends and branches of constrained lines; and all
-           ///< of a line that the options do not let slide
+  frozen,   ///< neither position nor weight: the rim of a neighborhood
+  fixed,    ///< fixed by the user; a corner of the boundary; an end, bend or branch of a constrained line; or on a line
+            ///< on which the options forbid sliding
   sliding,  ///< along a straight piece of the boundary, or of a constrained line
   free,
 };
@@ -29,7 +29,7 @@ enum class Mobility : std::uint8_t {
 [[nodiscard]] IdVector<VertexId, Mobility> mobilities(const Mesh& mesh, const OptimizeOptions& options,
                                                       Executor* executor = nullptr);
 
-/// The directions that a vertex of that mobility is optimized in.
+/// Returns the directions in which a vertex with this mobility is optimized.
 [[nodiscard]] Dofs dofs(const Mesh& mesh, VertexId v, Mobility mobility, Unknowns unknowns);
 
 }  // namespace temper

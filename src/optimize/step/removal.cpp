@@ -17,20 +17,20 @@ namespace {
 
 using Corners = std::array<VertexId, 3>;
 
-/// The energy of an equilateral triangle of that doubled area, weights zero.
+/// Returns the energy of an equilateral triangle that has this doubled area and zero weights.
 double equilateral_energy(const EnergyModel& model, double doubled_area) {
   const double side = std::sqrt(2 * std::abs(doubled_area) / std::sqrt(3.0));
   return triangle_energy(model, {0, 0, 0}, {side, 0, 0}, {side / 2, side * std::sqrt(3.0) / 2, 0});
 }
 
-/// The triangles that fill a part of the mesh, now or once a plan is committed; all others stay.
+/// The triangles that fill a part of the mesh, now or after the commit of a plan. All others stay.
 class Filling {
  public:
-  /// `fresh`: the place of the vertex that a plan inserts, an invalid corner here.
+  /// `fresh`: the place of the vertex that a plan inserts. As a corner it is invalid.
   Filling(const Mesh& mesh, std::vector<Corners> triangles, const WeightedPoint& fresh = {})
       : mesh_(mesh), space_(mesh.space()), triangles_(std::move(triangles)), fresh_(fresh) {}
 
-  /// With everything that depends on them.
+  /// Includes the edges around them, whose energy depends on them.
   [[nodiscard]] double energy(const EnergyModel& model) const {
     return with_kernel(model, [&](const auto& kernel) {
       double sum = 0;
@@ -46,11 +46,11 @@ class Filling {
     });
   }
 
-  /// That energy as plans are compared by.
+  /// Returns the energy in the measure by which plans are compared.
   [[nodiscard]] double measured(double energy, const EnergyModel& model, RemovalMeasure measure) const {
     if (measure == RemovalMeasure::sum) return energy;
     if (measure == RemovalMeasure::mean) return energy / static_cast<double>(triangles_.size());
-    double ideal = 0;  // of as many equilateral triangles of the same areas
+    double ideal = 0;  // the energy if all triangles were equilateral, with the same areas
     for (const Corners& t : triangles_) {
       const auto [a, b, c] = points(t[0], t[1], t[2]);
       const double area = space_.is_plane() ? doubled_area(a.position(), b.position(), c.position())
@@ -60,7 +60,7 @@ class Filling {
     return energy - ideal;
   }
 
-  /// Says whether all their edges are regular, constrained ones apart. Exact.
+  /// Says exactly whether all their unconstrained edges are regular.
   [[nodiscard]] bool is_regular() const {
     return std::all_of(triangles_.begin(), triangles_.end(), [&](const Corners& t) {
       for (std::size_t k = 0; k < 3; ++k) {
@@ -74,7 +74,7 @@ class Filling {
   }
 
  private:
-  /// The triangle across the edge a → b of one of these: another one, or one that stays.
+  /// The triangle across the edge a → b of one of these triangles: another of them, or one that stays.
   struct Across {
     VertexId apex = {};  ///< invalid on the boundary
     bool stays = false, constrained = false;
@@ -90,8 +90,8 @@ class Filling {
     return {mesh_.opposite(mesh_.twin(h)), true, mesh_.is_constrained(h)};
   }
 
-  /// The share of triangle t in the energy of its edge k. The triangle beyond keeps its shape when it stays, but for
-  /// E_T the sign of its share may change: then it is added, as in patch_energy.
+  /// Returns the share of triangle t in the energy of its edge k. If the triangle beyond stays, its shape stays, too.
+  /// For E_T the sign of its share may change: then that share is added, as in patch_energy.
   [[nodiscard]] double hot_edge(const EnergyModel& model, const HotKernel& kernel, const Corners& t,
                                 std::size_t k) const {
     const auto [a, b, c] = points(t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
@@ -106,7 +106,7 @@ class Filling {
     return shares ? own + factor * (kernel.value(outer) * kernel.per_area(outer_area)) : own;
   }
 
-  /// Of vertices in images near the first one.
+  /// Returns the images of the vertices that are near the first one.
   [[nodiscard]] std::array<WeightedPoint, 3> points(VertexId a, VertexId b, VertexId c) const {
     const WeightedPoint first = a.valid() ? mesh_.point(a) : fresh_;
     const auto point = [&](VertexId v) { return v.valid() ? mesh_.point(v, first) : space_.image(fresh_, first); };
@@ -119,7 +119,7 @@ class Filling {
   WeightedPoint fresh_;
 };
 
-/// The triangles that an insertion makes, and those that they replace.
+/// The triangles that an insertion makes, and the triangles that they replace.
 Filling inserted(const Mesh& mesh, const InsertionPlan& plan) {
   std::vector<Corners> triangles;
   for (std::size_t i = 0; i < plan.rim.size(); ++i) {
@@ -133,7 +133,7 @@ Filling replaced(const Mesh& mesh, const InsertionPlan& plan) {
   return {mesh, std::move(triangles)};
 }
 
-/// The point of least E_c that three line searches find.
+/// Returns the point with the least E_c that three line searches find.
 WeightedPoint best_position(const Patch& patch, const EnergyModel& model, WeightedPoint p,
                             const PaperSwitches& switches) {
   const Dofs plane{2, {{{1, 0, 0}, {0, 1, 0}, {}}}};

@@ -1,5 +1,5 @@
-// Tests for the removal of a vertex: the paper's short-edge rule (Algorithm 2), patch test (Algorithm 1, line 15) and,
-// of §7, its weight; and the patch test of a new one. They only ask; others commit.
+// Tests for the removal of a vertex. They are the paper's short-edge rule (Algorithm 2), its patch test (Algorithm 1,
+// line 15), and its test of the weight in §7. A new vertex has a patch test, too. These tests change nothing.
 #pragma once
 
 #include "energy/patch.hpp"
@@ -9,38 +9,37 @@
 
 namespace temper {
 
-/// The energy of the plan's triangles with everything that depends on them, so that
-/// total(after) − total(before) = cavity_energy(mesh, model, plan) − patch_energy(patch, model, mesh.point(center)).
-/// Asked before the removal; interior vertices. O(k²) for k triangles.
+/// Returns the energy of the plan's triangles with everything that depends on them, so that total(after) −
+/// total(before) = cavity_energy(…) − patch_energy(…). Call it before the removal of an inner vertex. O(k²) for k
+/// triangles.
 [[nodiscard]] double cavity_energy(const Mesh& mesh, const EnergyModel& model, const RemovalPlan& plan);
 
-/// The energy of the new triangles of an insertion or a split, and of those that they replace, with everything that
-/// depends on them: total(after) − total(before) = insertion_energy(…) − replaced_energy(…). Asked before the commit.
-/// +∞ outside the domain of a barrier. O(k²) for k triangles.
+/// The energies of the triangles that an insertion or split makes, and of the triangles that it replaces. Everything
+/// that depends on them is included: total(after) − total(before) = insertion_energy(…) − replaced_energy(…). Call them
+/// before the commit. Outside the domain of a barrier they are +∞. O(k²) for k triangles.
 [[nodiscard]] double insertion_energy(const Mesh& mesh, const EnergyModel& model, const InsertionPlan& plan);
 [[nodiscard]] double replaced_energy(const Mesh& mesh, const EnergyModel& model, const InsertionPlan& plan);
 
-/// Will all edges of the plan, and the unconstrained ones around it, be regular? Exact. O(k²).
+/// Says exactly whether all edges of the plan, and the unconstrained edges around it, will be regular. O(k²).
 [[nodiscard]] bool is_regular(const Mesh& mesh, const RemovalPlan& plan);
 
-/// Lines 3 to 5 of Algorithm 2: does the position that is best by E_c come nearer to a vertex of the link than
-/// `collapse_ratio` times the shorter of that one's two link edges? The patch is closed and gathered with what E_c
-/// needs.
+/// Lines 3 to 5 of Algorithm 2. Says whether the position with the least E_c is too near to a link vertex. The limit is
+/// `collapse_ratio` times the shorter link edge there. The patch is closed and gathered for E_c.
 [[nodiscard]] bool nearly_collapses(const Patch& patch, const EnergyModel& collapse_model, const WeightedPoint& p,
                                     const PaperSwitches& switches);
 
-/// How far the weight of p is below the mean of its neighbors', relative to R², the mean squared length of the spokes.
+/// Returns the mean weight of the neighbors minus the weight of p, over R², the mean squared length of the spokes.
 [[nodiscard]] double relative_lightness(const Patch& patch, const WeightedPoint& p);
 
 /// The energies of P and of P∖p, as `measure` compares them.
 struct PatchComparison {
   double with = 0, without = 0;
 };
-/// Says whether an energy is better than what it is now, by at least `margin` relative to that.
+/// Says whether `energy` is below `now` by at least `margin`, relative to `now`.
 [[nodiscard]] bool is_better(double energy, double now, double margin);
 [[nodiscard]] PatchComparison compare_patch(const Mesh& mesh, const Patch& patch, const EnergyModel& model,
                                             const RemovalPlan& plan, RemovalMeasure measure);
-/// The same of a vertex that is not there yet.
+/// Compares the patch of a vertex that a plan inserts.
 [[nodiscard]] PatchComparison compare_patch(const Mesh& mesh, const EnergyModel& model, const InsertionPlan& plan,
                                             RemovalMeasure measure);
 

@@ -1,4 +1,4 @@
-// The search along a Newton step: of one vertex or of the vertices of a part (T = double), or of eight (T = Pack).
+// The search along a Newton step. T = double: a step of one vertex, or of all in a part. T = Pack: of eight vertices.
 #pragma once
 
 #include "base/pack.hpp"
@@ -8,17 +8,17 @@ namespace temper {
 
 // The trust radius of the scaled unknowns: half a patch radius in position, half a squared one in weight.
 inline constexpr double kTrustRadius = 0.5;
-// Eigenvalues below this part of the largest are raised to it: the step is then cut by the trust radius anyway.
+// Eigenvalues below this part of the largest are raised to it. The trust radius cuts such a step anyway.
 inline constexpr double kEigenvalueFloor = 1e-6;
 
 template <class T>
 struct NewtonStepOf {
   T x, y, w;
   T predicted;                   ///< −∇E · step: twice the decrease of the quadratic model
-  decltype(T{} < T{}) definite;  ///< the Hessian is: elsewhere this is no step
+  decltype(T{} < T{}) definite;  ///< whether the Hessian is; if not, this is no step
 };
 
-/// The step (x, y, w) of the scaled unknowns, cut to the trust radius, where −∇E is g.
+/// Returns the step (x, y, w) of the scaled unknowns, cut to the trust radius; g is −∇E.
 template <class T>
 [[nodiscard]] TEMPER_INLINE NewtonStepOf<T> within_trust_radius(const T& x, const T& y, const T& w,
                                                                 const CornerVector<T>& g,
@@ -28,8 +28,8 @@ template <class T>
   return {shrink * x, shrink * y, shrink * w, shrink * (x * g.x + y * g.y + w * g.w), definite};
 }
 
-/// The step H⁻¹ g by LDLᵀ where all pivots are safely positive, cut to the trust radius. What is no unknown has the
-/// curvature of what is on the diagonal, and 0 elsewhere.
+/// Returns the step H⁻¹ g by LDLᵀ, cut to the trust radius, if all pivots are safely positive. A coordinate that is no
+/// unknown has a curvature on the diagonal only.
 template <class T>
 [[nodiscard]] TEMPER_INLINE NewtonStepOf<T> scaled_newton_step(const CornerMatrix<T>& h, const CornerVector<T>& g) {
   const auto larger = [](const T& a, const T& b) { return select(a > b, a, b); };
@@ -45,9 +45,9 @@ template <class T>
   return within_trust_radius(x, y, w, g, (h.xx > floor) & (pivot_1 > floor) & (pivot_2 > floor));
 }
 
-// Trials a Newton step: over-relaxed, plain, then halved.
+// Trials per Newton step: over-relaxed, plain, then halved.
 inline constexpr int kTrials = 6;
-// The same with margins, of which one is near more often than not.
+// Trials per Newton step with margins, since a margin is usually near.
 inline constexpr int kTrialsWithMargins = 12;
 // A model decrease below this part of the patch energy is rounding, not progress.
 inline constexpr double kNoGain = 1e-15;
@@ -60,8 +60,8 @@ TEMPER_INLINE bool any(const Mask& mask) {
   return mask.bits() != 0;
 }
 
-/// Tries t, then less of it, until attempt(t, shorter, searching) is no longer searching. It makes t `shorter` times as
-/// long, the over-relaxed step first plain, or whatever else it finds better.
+/// Calls attempt(t, shorter, searching) until it is no longer searching. An attempt multiplies t by `shorter`, or by
+/// another factor that it prefers. The first `shorter` makes the over-relaxed step plain.
 template <class T, class Mask, class Attempt>
 TEMPER_INLINE void damped_search(double relaxation, int trials, T t, Mask searching, Attempt&& attempt) {
   for (int trial = 0; trial < trials && any(searching); ++trial) {
@@ -69,8 +69,8 @@ TEMPER_INLINE void damped_search(double relaxation, int trials, T t, Mask search
   }
 }
 
-/// `limit`, cut to where the step of p takes the triangle p, p + a, p + b too near to its inversion: signed areas are
-/// linear along it. Only where `here` is set.
+/// Returns `limit`, cut so that the step of p keeps the triangle p, p + a, p + b away from its inversion. Signed areas
+/// are linear along the step. Lanes in which `here` is not set keep `limit`.
 template <class T, class Mask>
 TEMPER_INLINE T before_inversion(T limit, const T (&a)[2], const T (&b)[2], const T (&step)[2], Mask here) {
   const T area = a[0] * b[1] - a[1] * b[0];

@@ -7,11 +7,11 @@
 namespace temper {
 namespace {
 
-// HOT has no barrier: nothing may come nearer to a neighbor than this part of the patch radius.
+// HOT has no barrier. So a vertex must not come nearer to a neighbor than this part of the patch radius.
 constexpr double kShortestEdge = 1e-7;
 
-/// An energy of the registry. Valid: all triangles of the star are counter-clockwise; an energy without a barrier also
-/// keeps its edges a little apart.
+/// An energy of the registry. A place is valid if all triangles of the star are counter-clockwise. Without a barrier,
+/// edges must also keep a least length.
 class EnergyStar final : public StarObjective {
  public:
   EnergyStar(const Mesh& mesh, const SweepState& state) : StarObjective(mesh, kTrials, false), state_(state) {}
@@ -40,10 +40,10 @@ class EnergyStar final : public StarObjective {
   WeightedPoint origin_;
 };
 
-/// The accuracy objective. A vertex stays if a triangle around it has no floor. Valid: all triangles are
-/// well-centered. The dual of an edge between two triangles is h_k + h_l long, and the edge is regular if that is not
-/// negative. The triangles of the star and across its link are well-centered before a step, and those of the star,
-/// which alone change, after it: so no edge stops being regular.
+/// The accuracy objective. A vertex stays if a triangle around it has no floor. A place is valid if all triangles are
+/// well-centered. No edge stops being regular: the dual of an inner edge has the length h_k + h_l, and is regular if
+/// this is not negative. Before a step all triangles in and around the star are well-centered. The step changes the
+/// star alone, whose triangles stay well-centered.
 class AccuracyStar final : public StarObjective {
  public:
   AccuracyStar(const Mesh& mesh, const AccuracyModel& model, const AccuracyDomain& domain)

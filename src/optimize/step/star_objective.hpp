@@ -1,4 +1,4 @@
-// What a step lowers, as a function of one vertex: an energy of the registry, or the accuracy objective.
+// The objective of a step as a function of one vertex: an energy of the registry, or the accuracy objective.
 #pragma once
 
 #include <memory>
@@ -8,23 +8,23 @@
 
 namespace temper {
 
-/// Storage is kept from one vertex to the next.
+/// An objective keeps its storage from one vertex to the next.
 class StarObjective {
  public:
   virtual ~StarObjective() = default;
 
-  /// Takes the star of v as it is now. False when v must stay.
+  /// Takes the star of v as it is now. Returns false if v must stay.
   virtual bool gather(VertexId v) = 0;
   [[nodiscard]] virtual double value(const WeightedPoint& p) = 0;
   [[nodiscard]] virtual VertexDerivatives derivatives(const WeightedPoint& p) = 0;
   /// The unit of steps.
   [[nodiscard]] virtual double radius(const WeightedPoint& p) const = 0;
-  /// Says, exactly, whether v may be at p.
+  /// Says exactly whether v may be at p.
   [[nodiscard]] bool is_valid(const WeightedPoint& p) const;
 
   [[nodiscard]] const Patch& patch() const { return patch_; }
 
-  const int trials;                ///< of a search: near a barrier more of them pay
+  const int trials;                ///< per search; near a barrier more trials pay
   const bool keeps_edges_regular;  ///< no edge can stop being regular
 
  protected:

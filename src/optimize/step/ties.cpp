@@ -11,7 +11,7 @@
 namespace temper {
 namespace {
 
-// Of the dual length of a tie, relative to its edge: coordinates in files have seven digits or more.
+// A dual shorter than this part of its edge is a tie, since coordinates in files have seven digits or more.
 constexpr double kTiedDual = 1e-6;
 
 bool is_tie(const Mesh& mesh, HalfedgeId h) {
@@ -20,8 +20,8 @@ bool is_tie(const Mesh& mesh, HalfedgeId h) {
   return std::abs(dual) < kTiedDual * edge;
 }
 
-/// Calls use(quad) for each tied quad, once, until it returns false. A triangle with two ties is of a circle with more
-/// than four vertices, and of no quad.
+/// Calls use(quad) once for each tied quad, until it returns false. A triangle with two ties is in no quad: its circle
+/// has more than four vertices.
 template <class Use>
 void for_tied_quads(const Mesh& mesh, const OptimizeOptions& options, Use&& use) {
   if (options.unknowns == Unknowns::positions || options.flips == Flips::none) return;
@@ -38,8 +38,8 @@ void for_tied_quads(const Mesh& mesh, const OptimizeOptions& options, Use&& use)
   }
 }
 
-/// Two colors for the vertices: sets of vertices whose colors depend on each other, as trees. Swapping the colors of a
-/// set leaves a coloring.
+/// Two colors for the vertices. A tree holds vertices whose colors depend on each other. After a swap of the two colors
+/// in one tree the coloring is still valid.
 class Coloring {
  public:
   explicit Coloring(std::size_t n) : parent_(n), differs_(n, 0) {
@@ -54,7 +54,7 @@ class Coloring {
     VertexId root = v;
     bool differs = false;
     for (; parent_[root] != root; root = parent_[root]) differs ^= differs_[root] != 0;
-    for (bool here = differs; v != root;) {  // the way becomes short
+    for (bool here = differs; v != root;) {  // shorten the path
       const VertexId next = std::exchange(parent_[v], root);
       here ^= std::exchange(differs_[v], here ? 1 : 0) != 0;
       v = next;
@@ -62,7 +62,7 @@ class Coloring {
     return {root, differs};
   }
 
-  /// Gives u and v equal colors, or different ones, unless their colors depend on each other already.
+  /// Gives u and v equal or different colors, unless their colors depend on each other already.
   void relate(VertexId u, VertexId v, bool differ) {
     Place a = place(u), b = place(v);
     if (a.root == b.root) return;
@@ -94,7 +94,7 @@ std::vector<TieEnd> heavier_ends_of_ties(const Mesh& mesh, const OptimizeOptions
     quads.push_back(q);
     return true;
   });
-  // Of each set, by its root: how many more diagonals have their ends in the color of the root, than in the other one.
+  // At the root of each set: the number of diagonals with the color of the root, minus the number with the other color.
   IdVector<VertexId, std::int32_t> majority(mesh.n_vertices(), 0);
   IdVector<VertexId, std::uint8_t> of_quads(mesh.n_vertices(), 0);
   for (const inlined::Quad& q : quads) {

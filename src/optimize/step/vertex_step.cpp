@@ -14,14 +14,14 @@
 namespace temper {
 namespace {
 
-// Short of a flip by this factor when the flip does not pay.
+// If a flip does not pay, a step ends at this part of the way to it.
 constexpr double kBeforeFlip = 0.99;
-// A threshold below this part of the step is a tie: stopping short of it would be standing still.
+// A threshold below this part of the step is a tie: a step that ends before it would not move.
 constexpr double kTie = 1e-6;
 // A threshold that is met exactly is a tie, which rounding decides.
 constexpr double kOvershootLeast = 1e-6;
 
-/// The weights of p with which its edge to q is crossed, 0 < d < ℓ.
+/// The weights of p at which the dual crosses the edge to q inside: 0 < d < ℓ.
 struct WeightRange {
   double low, high;
 };
@@ -64,12 +64,12 @@ bool VertexStep::suits_batches() const {
   return only_steps && (star_->keeps_edges_regular || makes_newton_steps());
 }
 
-/// Newton steps of a barrier, as far as they pay.
+/// Says whether Newton steps lower a barrier, with no limit on flips.
 bool VertexStep::makes_newton_steps() const {
   return state.energy.barrier && settings.policy.makes_newton_steps() && state.flip_limit == FlipLimit::unlimited;
 }
 
-/// Algorithm 2: where E_c would put v onto a neighbor, the mesh is better without v.
+/// Algorithm 2: if E_c would put v onto a neighbor, the mesh is better without v.
 bool VertexStep::collapse(VertexId v) {
   if (!may_go(v)) return false;
   const EnergyModel& model = settings.collapse_model;
@@ -83,7 +83,8 @@ bool VertexStep::collapse(VertexId v) {
   return true;
 }
 
-/// Line 15 of Algorithm 1: E(P∖p) < E(P). Or, of §7, what the weights are about to hide.
+/// Line 15 of Algorithm 1 removes v if the patch is better without it. §7 removes a vertex that the weights are about
+/// to hide.
 void VertexStep::remove_if_better(VertexId v) {
   if (!may_go(v) || mesh.is_isolated(v)) return;
   gather(v);
@@ -124,16 +125,16 @@ void VertexStep::make_steps() {
   if (all.weighs()) search(freedom_in(Unknowns::weights));
 }
 
-/// The star of v as it is now. False when v must stay.
+/// Takes the star of v as it is now. Returns false if v must stay.
 bool VertexStep::gather(VertexId v) {
   vertex_ = v;
   origin_ = mesh.point(v);
   return star_->gather(v);
 }
 
-/// A barrier is +∞ where some |Δw| ≥ ℓ² (weights of the input, or an unpriced flip). Puts the weight to the nearest
-/// value that satisfies the spokes, if there is one; what is left of the patch is up to the neighbors. True when
-/// the patch is finite then.
+/// A barrier is +∞ if some |Δw| ≥ ℓ², from weights of the input or an unpriced flip. If some weight satisfies all
+/// spokes, v takes the nearest such weight; the rest of the patch is left to the neighbors. Returns true if the patch
+/// is finite then.
 bool VertexStep::enter_domain() {
   if (unknowns_ == Unknowns::positions || star_->keeps_edges_regular) return false;
   const Patch& patch = star_->patch();
@@ -152,12 +153,12 @@ bool VertexStep::enter_domain() {
   return std::isfinite(star_->value(origin_));
 }
 
-/// The part of the step that a search may go.
+/// Returns the part of the step that a search may use.
 double VertexStep::farthest(const Step& step) const {
   return settings.policy.refuses_inversion() ? inversion_limit(star_->patch(), origin_, step) : 1;
 }
 
-/// t, cut to what the flip limit allows along step.
+/// Returns t, cut to what the flip limit allows along `step`.
 double VertexStep::flip_limited(const Step& step, double t) const {
   if (state.flip_limit == FlipLimit::unlimited) return t;
   const bool after = state.flip_limit == FlipLimit::after;
@@ -173,16 +174,15 @@ WeightedPoint VertexStep::moved(const Step& step, double t) const {
   return {x.x, x.y, p.w};
 }
 
-/// The t of the next trial where the flip before `t` does not pay, or hides a vertex: short of it. At a tie, one small
-/// step may still pay.
+/// Returns a t before the flip, if that does not pay or hides a vertex. At a tie, one small step may still pay.
 double VertexStep::short_of_flip(const Step& step, double t) const {
   const double threshold = flip_threshold(mesh, vertex_, step);
   if (threshold >= t) return 0;  // only rounding stands between the two
   return threshold > kTie * t ? kBeforeFlip * threshold : 1e-3 * t;
 }
 
-/// One Newton step: over-relaxed, then plain, then halved until the energy falls. Where the size band holds the
-/// position, the weight alone.
+/// Makes one Newton step: over-relaxed, then plain, then halved until the energy falls. If the size band blocks the
+/// position, only the weight changes.
 void VertexStep::newton_search(const Dofs& of) {
   VertexDerivatives d = star_->derivatives(origin_);
   energy_ = d.value;
@@ -246,8 +246,9 @@ VertexStep::StepResult VertexStep::try_step(const Step& step, double t) {
   return escapes_ ? StepResult::escaped : StepResult::blocked_by_flip;
 }
 
-/// The vertex at p, where its patch has that energy, with what flips that needs; or where it was, and false: when a
-/// vertex would be hidden, or flips cost more than the step gains and it must pay, or they escape from the part.
+/// Puts the vertex at p, where its patch has the given energy, and makes the flips that this needs. Returns false and
+/// leaves all as it was if a vertex would be hidden or flips leave the part. If the step must pay, it also fails when
+/// flips cost more than it gains.
 bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
   const bool only_weight = mesh.space().same_place(p, origin_);
   if (only_weight ? settings.policy.defers_weights() : settings.policy.defers_positions()) {
@@ -277,13 +278,13 @@ bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
   return fits;
 }
 
-/// Says whether the band allows p; to be asked before place(), which tells the band where its vertex went.
+/// Says whether the band allows p. Call it before place(), which gives the band the new place of the vertex.
 bool VertexStep::keeps_size(const WeightedPoint& p) {
   const bool only_weight = mesh.space().same_place(p, origin_);
   return only_weight || !limits.band.on() || limits.band.allows(star_->patch(), p.position());
 }
 
-/// Thresholds are computed in doubles; that no edge flips is decided exactly.
+/// Thresholds are computed in doubles, but an exact test decides whether an edge would flip.
 bool VertexStep::keeps_connectivity() const {
   return settings.policy.keeps_connectivity() || state.flip_limit == FlipLimit::before;
 }
@@ -304,8 +305,7 @@ void VertexStep::shake(double amount, Rng& rng) {
   }
 }
 
-/// Where triangles may not turn over, positions whose neighbors are no longer where the search has seen them are
-/// tested once more.
+/// If triangles must not turn over, a position is tested again when its neighbors have moved since the search.
 void VertexStep::end_sweep() {
   for (const auto& [v, old, to, before, after] : deferred_) {
     if (mesh.is_isolated(v)) continue;
@@ -324,8 +324,7 @@ void VertexStep::end_sweep() {
   deferred_.clear();
 }
 
-/// Notes the edges that may flip and are regular: with connectivity kept they stay so; one that is not regular may
-/// wait.
+/// Notes the regular edges that may flip. If connectivity is kept, they must stay regular; others may wait.
 void VertexStep::note_regular_edges() {
   regular_.clear();
   for (const HalfedgeId h : mesh.star(vertex_)) {

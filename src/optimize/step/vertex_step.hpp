@@ -1,4 +1,4 @@
-// One vertex, improved: the body of the paper's inner loop (lines 10 to 16 of Algorithm 1).
+// The improvement of one vertex: the body of the paper's inner loop (lines 10 to 16 of Algorithm 1).
 #pragma once
 
 #include <cstdint>
@@ -30,18 +30,18 @@ struct VertexLimits {
         options_(settings.options) {}
 
   IdVector<VertexId, Mobility> mobility;
-  IdVector<VertexId, std::uint8_t> degree;  ///< triangles there were when a batch took the vertex last; 0: never
-  SizeBand band;  ///< keeps what it was asked about last: with a band, only one step at a time
+  IdVector<VertexId, std::uint8_t> degree;  ///< number of triangles when a batch last took the vertex; 0: never
+  SizeBand band;                            ///< keeps its last query, so with a band only one step runs at a time
 
-  /// v stays, weight and all.
+  /// Fixes the position and weight of v.
   void freeze(VertexId v) { mobility[v] = Mobility::frozen; }
-  /// The mesh has been compacted.
+  /// Follows a compaction of the mesh.
   void renumber(const Compaction& kept) {
     mobility = kept_of(mobility, kept.vertices);
     degree.resize(mobility.size());
     band.renumber(kept);
   }
-  /// Vertices have been inserted, or edges split: new vertices are the last ones of the mesh.
+  /// Follows insertions and splits: new vertices are the last vertices of the mesh.
   void grow() {
     for (std::size_t i = mobility.size(); i < mesh_.n_vertices(); ++i) {
       mobility.push_back(temper::mobility(mesh_, VertexId(i), options_));
@@ -71,21 +71,21 @@ class VertexStep : StepContext {
   VertexStep(const StepContext& context, Flipper& flipper)
       : StepContext(context), flipper_(flipper), star_(make_star_objective(mesh, settings, state)) {}
 
-  /// Prepares for a sweep, or one visit of two: whether i ≥ i_c, and the overshoot of FlipLimit::after.
+  /// Prepares for a sweep, or for one of two visits: sets whether i ≥ i_c, and the overshoot of FlipLimit::after.
   void begin_sweep(int sweep, Unknowns unknowns);
 
-  /// Collapses v; or moves it so that the energy falls, flips what must flip, and removes it if its patch is better
-  /// without it; or leaves everything as it was. False when v is not confined to the part, or its flips would not be:
-  /// it needs a larger one, or another.
+  /// Collapses v, or moves it so that the energy falls, and flips edges that must flip. Then removes v if its patch is
+  /// better without it. If nothing helps, all stays as it was. Returns false if v or its flips are not confined to the
+  /// part: then v needs a larger part, or another one.
   bool improve(VertexId v, const Part& part = {});
 
-  /// Moves v by a step if it is free, no triangle turns over and no vertex is hidden, whatever that costs.
+  /// If v is free, no triangle turns over and no vertex is hidden, moves v by `by`, even if the energy rises.
   void nudge(VertexId v, Vec2 by);
 
-  /// Nudges every vertex, at random, by up to `amount` of its shortest edge on each axis.
+  /// Nudges every vertex at random, by up to `amount` of its shortest edge on each axis.
   void shake(double amount, Rng& rng);
 
-  /// Gives all vertices what deferred updates have kept from them.
+  /// Applies the deferred updates of all vertices.
   void end_sweep();
 
   [[nodiscard]] Unknowns unknowns() const { return unknowns_; }
@@ -126,21 +126,21 @@ class VertexStep : StepContext {
   double overshoot_ = 1;
 
   VertexId vertex_;
-  Part part_;             // that it is confined to
-  bool escapes_ = false;  // from it: what its step has to flip
-  WeightedPoint origin_;  // where the vertex is
-  double energy_ = 0;     // of the patch there
+  Part part_;             // to which the step is confined
+  bool escapes_ = false;  // whether edges that the step must flip are outside the part
+  WeightedPoint origin_;  // the vertex's present place
+  double energy_ = 0;     // of the patch at origin_
   std::unique_ptr<StarObjective> star_;
-  Patch collapsing_;  // with what E_c needs
+  Patch collapsing_;  // gathered for E_c
   RemovalPlan plan_;
-  std::vector<HalfedgeId> regular_;  // of the edges of star and link, those that a step leaves so
-  /// What waits for the end of the sweep. While v is under way it is where it will be.
+  std::vector<HalfedgeId> regular_;  // edges of star and link that a step must keep regular
+  /// An update that waits for the end of the sweep. During the step of v, v is at its new place.
   struct Deferred {
     VertexId v;
     WeightedPoint from, to;
     double before = 0, after = 0;
   };
-  std::optional<Deferred> waiting_;  // of the vertex under way
+  std::optional<Deferred> waiting_;  // of the present vertex
   std::vector<Deferred> deferred_;
 };
 

@@ -17,7 +17,7 @@ double own_energy(const Mesh& mesh, const EnergyModel& model, TriangleId t) {
   return triangle_energy(model, a, b, c);
 }
 
-/// Of the magnitudes, since E_F may be negative; of those that are finite.
+/// Returns the mean of the finite magnitudes; E_F may be negative.
 double mean_energy(const Mesh& mesh, const EnergyModel& model) {
   double sum = 0;
   std::size_t n = 0;
@@ -49,7 +49,7 @@ bool insert_where_energy_is_large(WorkingCopy& work, Flipper& flipper, const Set
   std::stable_sort(large.begin(), large.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   bool inserted = false;
   for (const auto& [energy_before, t] : large) {
-    if (!(own_energy(mesh, model, t) > limit)) continue;  // what came before may have changed it
+    if (!(own_energy(mesh, model, t) > limit)) continue;  // earlier insertions may have changed it
     const InsertionPlan plan = plan_at_orthocenter(mesh, work.units, t);
     if (plan.status != InsertionStatus::possible) continue;
     const PatchComparison e = compare_patch(mesh, model, plan, settings.policy.removal_measure);

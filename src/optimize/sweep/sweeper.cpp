@@ -7,20 +7,20 @@
 
 namespace temper {
 
-/// When to stop: all threads of a sweep ask whether to go on. The one that called asks the clock and the caller;
-/// the others hear of the answer.
+/// All threads of a sweep ask this token whether to go on. The calling thread asks the clock and the caller for the
+/// others.
 class StopToken {
  public:
-  /// To be made in the thread that is to ask.
+  /// Construct it in the thread that asks the caller and the clock.
   StopToken(Run& run, std::size_t n_vertices)
       : run_(run), caller_(this_thread()), n_(static_cast<double>(std::max<std::size_t>(1, n_vertices))) {}
 
-  /// Has the caller asked before the next stretch. To be called from the thread that asks.
+  /// Makes the next stretch ask the caller first. Call it in the thread that made this token.
   void ask_soon() {
     TEMPER_ASSERT(this_thread() == caller_);
     since_asked_ = kVerticesBetweenCalls;
   }
-  /// Begins and ends what each rank does alone: rank 0 asks meanwhile, the others get the answer at the end.
+  /// Begin and end the work that each rank does alone. Rank 0 asks, and the others get its answer at the end.
   void begin_local(std::size_t n_ranks) {
     alone_ = true;
     n_ranks_ = n_ranks;
@@ -30,9 +30,9 @@ class StopToken {
     n_ranks_ = 1;
     run_.sync_stop();
     if (run_.stopped_early()) stop_.store(true, std::memory_order_relaxed);
-    ask_soon();  // on all ranks, however much each has done
+    ask_soon();  // on all ranks, whatever their progress
   }
-  /// To be asked before each stretch of vertices: says whether to go on.
+  /// Call this before each stretch of vertices: it says whether to go on.
   [[nodiscard]] bool goes_on() {
     if (stop_.load(std::memory_order_relaxed)) return false;
     if (this_thread() != caller_ || since_asked_ < kVerticesBetweenCalls) return true;
@@ -41,17 +41,17 @@ class StopToken {
     if (stop) stop_.store(true, std::memory_order_relaxed);
     return !stop;
   }
-  /// To be told after each stretch, some of whose vertices must wait for another phase.
+  /// Call this after each stretch. `left` of its vertices must wait for another phase.
   void passed(std::size_t vertices, std::size_t left) {
-    done_.fetch_add(n_ranks_ * (vertices - left), std::memory_order_relaxed);  // the others do about as much
+    done_.fetch_add(n_ranks_ * (vertices - left), std::memory_order_relaxed);  // the other ranks do about as much
     if (this_thread() == caller_) since_asked_ += vertices;
   }
   [[nodiscard]] bool stopped() const { return stop_.load(std::memory_order_relaxed); }
 
  private:
-  static constexpr std::size_t kVerticesBetweenCalls = 8192;  // of the observer and the clock: a few milliseconds
+  static constexpr std::size_t kVerticesBetweenCalls = 8192;  // calls of the observer and the clock: a few milliseconds
 
-  /// A different address in each thread.
+  /// Returns a different address in each thread.
   static const void* this_thread() {
     thread_local const char here = 0;
     return &here;
@@ -61,17 +61,17 @@ class StopToken {
   const void* caller_;
   double n_;
   bool alone_ = false;                               // between begin_local() and end_local()
-  std::size_t n_ranks_ = 1;                          // that are at work on other vertices
-  std::size_t since_asked_ = kVerticesBetweenCalls;  // the caller's own
+  std::size_t n_ranks_ = 1;                          // that work on other vertices
+  std::size_t since_asked_ = kVerticesBetweenCalls;  // of the caller's thread
   std::atomic<bool> stop_ = false;
   std::atomic<std::size_t> done_ = 0;
 };
 
 namespace {
 
-constexpr std::size_t kStretch = 8192;  // vertices between looks at whether to stop
+constexpr std::size_t kStretch = 8192;  // vertices between two calls of goes_on()
 
-/// Improves these vertices of a part, in order. Those that need another part are appended to `left`.
+/// Improves these vertices of a part, in order. Vertices that need another part are appended to `left`.
 template <class Vertices>
 void improve(Improver& improver, const Vertices& vertices, const Part& part, std::vector<VertexId>& left,
              StopToken& stop) {
@@ -135,8 +135,8 @@ bool Sweeper::visit_all(int iteration, Unknowns unknowns, std::span<const Vertex
   return !stop.stopped();
 }
 
-/// First each part of the numbers does what it can; then, with what is left, the parts of the shifted cuts; the rest
-/// comes in order.
+/// Visits the vertices in the parts of the numbers, then the vertices that are left in the parts of the shifted cuts.
+/// The rest follows in order.
 void Sweeper::visit_parts(StopToken& stop) {
   const Mesh& mesh = context_.mesh;
   const std::size_t n = mesh.n_vertices(), count = std::max<std::size_t>(1, (n + part_size_ - 1) / part_size_);
@@ -158,7 +158,7 @@ void Sweeper::visit_parts(StopToken& stop) {
   visit_in_order(waiting_, stop);
 }
 
-/// One after another, without parts.
+/// Visits vertices one after another, without parts.
 void Sweeper::visit_in_order(std::span<const VertexId> vertices, StopToken& stop) {
   improvers_.make_room(1);
   std::vector<VertexId> none;
@@ -167,14 +167,14 @@ void Sweeper::visit_in_order(std::span<const VertexId> vertices, StopToken& stop
   improve(*improver, vertices, {}, none, stop);
 }
 
-/// One phase of n parts: part(i) of vertices(i). What is left after it waits for the next.
+/// Runs one phase of n parts: part(i) improves vertices(i). Vertices that are left wait for the next phase.
 template <class PartOf, class VerticesOf>
 void Sweeper::run_parts(std::size_t n, StopToken& stop, PartOf&& part, VerticesOf&& vertices) {
   const Engine by = engine();
   if (done_.size() < n) done_.resize(n);
   improvers_.make_room(n);
   if (by.has_ranks()) stop.begin_local(by.n_ranks());
-  static_cast<void>(stop.goes_on());  // asks, should no part run on this thread
+  static_cast<void>(stop.goes_on());  // asks even if no part runs on this thread
   by.run(n, [&](std::size_t i) {
     done_[i].left.clear();
     done_[i].flips.clear();
@@ -200,7 +200,7 @@ void Sweeper::run_parts(std::size_t n, StopToken& stop, PartOf&& part, VerticesO
   for (std::size_t i = 0; i < n; ++i) waiting_.insert(waiting_.end(), done_[i].left.begin(), done_[i].left.end());
 }
 
-/// Those that wait, by their parts of cut k (counting sort).
+/// Sorts the waiting vertices by their parts of cut k (counting sort).
 void Sweeper::hand_out(std::size_t k) {
   begin_.assign(partitions_.n_parts() + 1, 0);
   for (const VertexId v : waiting_) ++begin_[partitions_.part_of(k, v) + 1];
@@ -217,7 +217,8 @@ void Sweeper::shake(double amount, Rng& rng) {
   add_changes();
 }
 
-/// That of the caller, where steps do no more than sweeper.hpp says of them; else one part after another, on each rank.
+/// Returns the caller's engine if the proof in sweeper.hpp covers all steps. Otherwise parts run one by one on each
+/// rank.
 Engine Sweeper::engine() {
   const Policy& policy = context_.settings.policy;
   const bool told_in_order = context_.recorder.on() || policy.defers_updates();

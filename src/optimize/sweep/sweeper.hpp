@@ -1,33 +1,32 @@
-// One Gauss-Seidel sweep over the vertices of a mesh, in parts that may run at once: the same bytes for any number of
-// threads, and for none.
+// One Gauss-Seidel sweep over the vertices of a mesh, in parts that may run at once. The bytes of the result do not
+// depend on the number of threads.
 //
-// The vertices of a working copy are numbered along a Hilbert curve. They are cut into parts, ranges of about 16,000
-// numbers, however many threads there are, and each part improves the vertices that are confined to it (partition.hpp),
-// in order; it lists those that are not, or whose flips would not be. These wait for the parts of other cuts
-// (ShiftedPartitions): nearly all are inside of one of three. What is left then, mostly nothing, comes one after
+// The vertices of a working copy are numbered along a Hilbert curve. Parts are ranges of about 16,000 numbers, for any
+// number of threads. Each part improves the vertices that are confined to it (partition.hpp), in order. It lists
+// vertices that are not, or whose flips would not be. These wait for the parts of other cuts (ShiftedPartitions):
+// nearly all are inside a part of one of three cuts. The few vertices that are left, mostly none, follow one after
 // another. A mesh of one part is swept as a whole.
 //
-// Why parts may run at once. Call a triangle inner to a part when all its corners are in there. While parts run:
+// Proof that parts may run at once. Call a triangle inner to a part if all its corners are in it. While parts run:
 //
-//  1. A part writes corners only of its inner triangles, and they stay inner. Flips alone write corners, and flip an
-//     edge only when its quad is in the part (Lawson::run). So the inner triangles of a part are the same from
+//  1. A part writes corners only of its inner triangles, and these stay inner. Only flips write corners, and they flip
+//     an edge only if its quad is in the part (Lawson::run). So the inner triangles of a part are the same from
 //     beginning to end, and a triangle that is inner to no part does not change.
-//  2. A part writes twins and flags only of halfedges with both ends in the part: those of its inner triangles, and
-//     across the outer edges of a quad. By 1. the ends of a halfedge slot are all in one part throughout or not, so
-//     each slot is written by one part at most. Points and outgoing halfedges are written of the part's own vertices.
-//  3. A part reads corners only of triangles with a corner in the part, by 1. never written by another. It reads twins
-//     and flags only of halfedges with an end in the part, by 2. never written by another: around its own vertices, and
-//     of link edges once is_confined has seen both ends inside. It reads coordinates and outgoing halfedges only of its
-//     own vertices: a step looks at star, link and across the link; flips look at quads.
-//  4. That v is confined holds to the end of its step. A flip makes a new quad only from vertices of the part, and
-//     every edge of a triangle that was touched has been tested afterwards, and its quad found inside: otherwise the
-//     step is undone whole and the vertex listed. What is asked after flips (stuck edges, the patch gathered again) are
-//     edges of touched triangles, or as they were.
-//  5. Slots that lie side by side are different objects: bytes, words and doubles, no bits. Regions do not change.
+//  2. A part writes twins and flags only of halfedges with both ends in the part: in its inner triangles, and across
+//     the outer edges of a quad. By 1, the ends of a halfedge slot are in one part throughout or never, so at most one
+//     part writes each slot. A part writes points and outgoing halfedges only of its own vertices.
+//  3. A part reads corners only of triangles with a corner in the part. By 1, no other part writes them. It reads twins
+//     and flags only of halfedges with an end in the part, around its own vertices, and of link edges after is_confined
+//     has seen both ends inside. By 2, no other part writes these. It reads coordinates and outgoing halfedges only of
+//     its own vertices: a step reads star, link and across the link; flips read quads.
+//  4. A confined v stays confined until its step ends. A flip makes a new quad only from vertices of the part. Then
+//     every edge of a changed triangle is tested, and its quad must be inside; otherwise the whole step is undone and
+//     the vertex listed. Later reads (stuck edges, the patch again) are of changed triangles or of unchanged edges.
+//  5. Adjacent slots are different objects: bytes, words and doubles, not bits. Regions do not change.
 //
-// So nothing that one part writes is read or written by another, each part does what it would do alone, and the order
-// of parts does not matter. Where more is read (size bands look at the stars of neighbors), or where events are told
-// in order, or vertices go, the parts run one after another: the same parts, the same order in each, the same bytes.
+// So no part reads or writes what another part writes. Each part does what it would do alone, and the order of parts
+// does not matter. Some steps read more (size bands read the stars of neighbors), record events in order, or remove
+// vertices. Then the same parts run one after another, with the same order in each, and make the same bytes.
 #pragma once
 
 #include <atomic>
@@ -56,8 +55,8 @@ class Improver {
   Improver& operator=(const Improver&) = delete;
   ~Improver() = default;
 
-  /// Improves those that are still there, in that order, or in batches nearly so. Those that need another part are
-  /// appended to `left`, in the order of their numbers.
+  /// Improves the vertices that still exist, in order, or in batches nearly in order. Vertices that need another part
+  /// are appended to `left`, in the order of their numbers.
   void improve(std::span<const VertexId> vertices, const Part& part, std::vector<VertexId>& left) {
     if (context_.mesh.n_vertices() >= kLeastForBatches && step_.suits_batches()) {
       return batches_.improve(vertices, part, left);
@@ -67,7 +66,7 @@ class Improver {
     }
   }
 
-  /// Writes all that a sweep changes of vertices: what the mesh has of them, and what batches go by.
+  /// Writes all that a sweep changes in vertices: their data in the mesh, and the numbers that batches use.
   template <class Vertices>
   void write(ByteWriter& writer, const Vertices& vertices) const {
     for (const VertexId v : vertices) writer.write(context_.limits.degree[v]);
@@ -87,7 +86,7 @@ class Improver {
   [[nodiscard]] Flipper& flipper() { return flipper_; }
 
  private:
-  // The vertices of a smaller mesh are improved one by one: there is little to gain, and eight do not find each other.
+  // Vertices of a smaller mesh are improved one by one: batches gain little there, and rarely fill.
   static constexpr std::size_t kLeastForBatches = 1000;
 
   StepContext context_;
@@ -96,7 +95,7 @@ class Improver {
   BatchStep batches_;
 };
 
-/// The improvers of parts that run at once: as many are made as ever are at work together, and kept.
+/// The improvers of parts that run at once. There are as many as ever work at the same time, and they are kept.
 class Improvers {
   struct Place {
     std::atomic<bool> taken = false;
@@ -106,25 +105,25 @@ class Improvers {
  public:
   explicit Improvers(const StepContext& context) : context_(context) {}
 
-  /// An improver that nobody else has, until this ends.
+  /// An improver for one user, until the lease ends.
   struct GiveBack {
     Place* place;
     void operator()(Improver*) const { place->taken.store(false, std::memory_order_release); }
   };
   using Lease = std::unique_ptr<Improver, GiveBack>;
 
-  /// Room for n of them; while none is leased.
+  /// Makes room for n improvers. None may be leased.
   void make_room(std::size_t n);
-  /// The first one that is free. With as many places as there are blocks one always is, or is just about to be.
+  /// Leases the first free improver. With one place per block, one is always free, or will be in a moment.
   [[nodiscard]] Lease take();
-  /// Every one that has been made; while none is leased.
+  /// Visits every improver. None may be leased.
   template <class Visit>
   void for_each(Visit&& visit) {
     for (Place& place : places_) {
       if (place.improver) visit(*place.improver);
     }
   }
-  /// As of VertexStep, of those there are and those to come.
+  /// Calls VertexStep::begin_sweep for all improvers, present and later.
   void begin_sweep(int iteration, Unknowns unknowns);
 
  private:
@@ -134,14 +133,15 @@ class Improvers {
   std::deque<Place> places_;  // places do not move; few of them ever get an improver
 };
 
-/// Vertices in a part, at most: its boundary is a few per cent of it, and 10⁵ vertices still keep several threads busy.
+/// Largest number of vertices in a part. A few percent of them are at its boundary, and 10⁵ vertices occupy several
+/// threads.
 inline constexpr std::size_t kPartSize = 16384;
 
 class StopToken;
 
 class Sweeper {
  public:
-  /// `flipper`: counts what all parts do.
+  /// `flipper` counts the changes of all parts.
   Sweeper(WorkingCopy& work, const Settings& settings, const SweepState& state, Flipper& flipper,
           const Recorder& recorder, std::size_t part_size);
 
@@ -149,14 +149,14 @@ class Sweeper {
   Sweeper& operator=(const Sweeper&) = delete;
   ~Sweeper() = default;
 
-  /// Lines 9 to 16 of Algorithm 1. `sequence`: the order in which to visit the vertices, one after another; empty: in
-  /// parts along the numbers. False when the caller or the clock has cut it short.
+  /// Lines 9 to 16 of Algorithm 1. `sequence`: the order in which to visit the vertices one after another; empty: in
+  /// parts along the numbers. Returns false if the caller or the clock stopped the sweep.
   bool sweep(int iteration, std::span<const VertexId> sequence, Run& run);
 
   /// Moves free vertices by up to `amount` of their shortest edge.
   void shake(double amount, Rng& rng);
 
-  /// The mesh has been compacted, or has got new vertices.
+  /// Follow a compaction of the mesh, or new vertices.
   void renumber(const Compaction& kept) {
     limits_.renumber(kept);
     partitions_.clear();
@@ -164,13 +164,13 @@ class Sweeper {
   void grow() { limits_.grow(); }
 
  private:
-  /// What a part has done besides moving vertices.
+  /// The results of a part other than moved vertices.
   struct Done {
     std::vector<VertexId> left;
     std::vector<HalfedgeId> flips;  // for other ranks
   };
 
-  /// One visit of each vertex, of these unknowns.
+  /// Visits each vertex once, to change these unknowns.
   bool visit_all(int iteration, Unknowns unknowns, std::span<const VertexId> sequence, Run& run);
   void visit_parts(StopToken& stop);
   void visit_in_order(std::span<const VertexId> vertices, StopToken& stop);
@@ -186,11 +186,11 @@ class Sweeper {
   Improvers improvers_;
   SerialExecutor in_order_;
   std::size_t part_size_;
-  std::vector<Done> done_;            // by each part of the phase under way: storage is kept
-  std::vector<VertexId> waiting_;     // for the phase under way
-  std::vector<VertexId> handed_out_;  // as they are put in the order of their parts
-  std::vector<std::size_t> begin_;    // of each part among those that wait
-  ShiftedPartitions partitions_;      // as the mesh was at the first sweep, or the first with these vertices
+  std::vector<Done> done_;            // by part of the present phase; storage is kept
+  std::vector<VertexId> waiting_;     // for the present phase
+  std::vector<VertexId> handed_out_;  // waiting vertices in the order of their parts
+  std::vector<std::size_t> begin_;    // of each part among the waiting vertices
+  ShiftedPartitions partitions_;      // of the mesh at the first sweep with these vertices
 };
 
 }  // namespace temper

@@ -11,7 +11,7 @@
 
 namespace temper {
 
-/// The energy of an event that has none.
+/// The energy of events that have no energy.
 inline constexpr double kNoEnergy = std::numeric_limits<double>::quiet_NaN();
 
 /// One flip, in the numbers of the working copy: halfedge a→b became d→c.
@@ -22,12 +22,12 @@ struct FlipRecord {
 
 class Recorder {
  public:
-  /// `energy_unit`: the user's energy of one unit in the units.
+  /// `energy_unit`: one unit of energy here, in the user's units.
   Recorder(const Tracer& tracer, const WorkingCopy& work, double energy_unit)
       : tracer_(tracer), work_(work), energy_unit_(energy_unit) {}
 
   void set_energy_unit(double energy_unit) { energy_unit_ = energy_unit; }
-  /// Says whether anybody listens: if not, nothing else need be called.
+  /// Says whether there is a tracer. If not, other calls may be left out.
   [[nodiscard]] bool on() const { return static_cast<bool>(tracer_); }
   void begin_sweep(int sweep) { sweep_ = sweep; }
   [[nodiscard]] int sweep() const { return sweep_; }
@@ -35,10 +35,10 @@ class Recorder {
   void placed(VertexId v, const WeightedPoint& from, const WeightedPoint& to, double before, double after) const;
   void flipped(std::span<const FlipRecord> flips) const;
   void removed(EventKind kind, const RemovalPlan& plan, double before, double after) const;
-  /// insert_in_triangle(mesh, abc) has made v, and WorkingCopy::name_new() has named it.
+  /// Call this after insert_in_triangle has made v, and WorkingCopy::name_new() has numbered it.
   void inserted(VertexId v, const std::array<VertexId, 3>& triangle, double before, double after) const;
-  /// split_edge(mesh, a→b) has made v, named as above. c, d: the corners on the left and the right of a→b before, d
-  /// invalid on the boundary.
+  /// Call this after split_edge of a→b has made v, numbered as above. c and d: the former corners on the left and right
+  /// of a→b. On the boundary d is invalid.
   void split(VertexId v, const std::array<VertexId, 4>& quad, double before, double after) const;
   void hidden(VertexId v) const {
     record({.kind = EventKind::hidden, .vertex = v, .before = kNoEnergy, .after = kNoEnergy});
@@ -46,13 +46,13 @@ class Recorder {
   void undone(VertexId v, double before, double after) const {
     record({.kind = EventKind::undo, .vertex = v, .before = before, .after = after});
   }
-  /// Everything since the end of that sweep has been taken back; −1: since the input.
+  /// Records that everything since the end of this sweep was undone; −1: since the input.
   void returned_to(int sweep) const {
     record({.kind = EventKind::undo, .before = kNoEnergy, .after = kNoEnergy, .to_sweep = sweep});
   }
 
  private:
-  /// `event`: with vertices in the numbers of the working copy, energies in the units of the units, and no sweep.
+  /// `event` has the vertex numbers and energy units of the working copy, and no sweep.
   void record(TraceEvent event) const;
   [[nodiscard]] WeightedPoint place(VertexId v) const { return work_.units.to_user(work_.mesh.point(v)); }
 

@@ -1,13 +1,13 @@
 // replay(): the events of a trace, applied to the user's own mesh.
 //
-// No units and no Hilbert order here: a flip or a removal keeps to the slots of the triangles it touches, and an
-// insertion takes the next ones never used, so the same events in the same order leave the same slots in any numbering;
-// and the optimizer's units gives coordinates back bit for bit. Removed vertices keep their numbers until the end, when
-// the mesh is compacted: the slot of an inserted vertex here is its number.
+// Replay needs no units and no Hilbert order. A flip or removal keeps the slots of its triangles, and an insertion
+// takes the next slots that were never used. So the same events in the same order leave the same slots in any
+// numbering. The optimizer's units give coordinates back bit for bit. Removed vertices keep their numbers until the
+// mesh is compacted at the end, so the slot of an inserted vertex is its number.
 //
-// A trace may come from anywhere, so every event is held against the mesh before it is applied. What is checked is
-// connectivity: positions may pass through anything, as the paper's own do. But a new vertex comes into triangles that
-// are counter-clockwise, and leaves them so.
+// A trace may come from anywhere, so replay checks every event against the mesh before it applies it. It checks
+// connectivity, not positions: triangles may turn over, as in the paper. But the triangles that a new vertex cuts must
+// be counter-clockwise, before and after.
 #include <cmath>
 #include <map>
 #include <optional>
@@ -25,7 +25,7 @@ namespace {
 
 bool undoes_sweeps(const TraceEvent& e) { return e.kind == EventKind::undo && !e.vertex.valid(); }
 
-/// Copies of the mesh at the ends of the sweeps that some event goes back to.
+/// Copies of the mesh at the ends of the sweeps to which events go back.
 class SweepStates {
  public:
   explicit SweepStates(std::span<const TraceEvent> events) {
@@ -34,13 +34,13 @@ class SweepStates {
     }
   }
 
-  /// An event of `sweep` comes: all sweeps between the last event's and this one have ended.
+  /// Call this for the next event, of `sweep`: all sweeps since the last event's have ended.
   void arrive(int sweep, const Mesh& mesh) {
     for (auto s = states_.lower_bound(sweep_); s != states_.end() && s->first < sweep; ++s) s->second = mesh;
     sweep_ = sweep;
   }
 
-  /// The state at the end of that sweep; none: it is under way, or was never passed.
+  /// Returns the state at the end of this sweep, or none if it has not ended or was never reached.
   [[nodiscard]] const std::optional<Mesh>& at(int sweep) { return states_[sweep]; }
 
  private:
@@ -186,7 +186,7 @@ class Replayer {
     return std::nullopt;
   }
 
-  /// A new vertex has the next number, and a place that is a place.
+  /// A new vertex must have the next number and a valid place.
   std::optional<InputError> check_new(const TraceEvent& e, const char* what) const {
     if (!e.vertex.valid()) return misfit(std::string(what) + " without a vertex");
     if (e.vertex.index != mesh_.n_vertices()) {

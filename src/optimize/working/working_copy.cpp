@@ -7,7 +7,7 @@
 namespace temper {
 namespace {
 
-/// The ids that are left of an order, renumbered 0, 1, 2, … in the order of their numbers.
+/// Renumbers the ids that are left of an order 0, 1, 2, …, in the order of their numbers.
 template <class IdType>
 IdVector<IdType, IdType> ranks(const IdVector<IdType, IdType>& order) {
   std::vector<IdType> sorted(order.begin(), order.end());

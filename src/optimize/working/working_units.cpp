@@ -7,7 +7,7 @@
 namespace temper {
 namespace {
 
-/// The middle of [low, high] when the whole interval is within a factor of two of it, else 0.
+/// Returns the midpoint of [low, high] if the whole interval is within a factor of two of it, else 0.
 double center_of(double low, double high) {
   if (low > 0 ? high <= 2 * low : (high < 0 && low >= 2 * high)) return low + (high - low) / 2;
   return 0;

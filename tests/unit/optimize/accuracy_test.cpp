@@ -1,5 +1,5 @@
-// The accuracy objective: its energy falls, margins hold after every sweep, nothing that has to stay moves, and threads
-// do not show.
+// The accuracy objective: its energy falls, margins hold after every sweep, fixed vertices stay, and the number of
+// threads does not matter.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -129,7 +129,7 @@ TEST(Accuracy, OfOneSchemeBeginsWithSweepsOfOdtWhereThereAreNoWeights) {
   weighted.set_weight(VertexId(7), 1e-6);
   at_once.paper.first_energy.reset();
   EXPECT_EQ(made_by(weighted, stars), made_by(weighted, at_once));
-  const Mesh ready = ready_mesh();  // has its margins: nothing goes before
+  const Mesh ready = ready_mesh();  // has its margins: the second phase begins at once
   EXPECT_EQ(made_by(ready, stars), made_by(ready, at_once));
 }
 
@@ -367,7 +367,7 @@ TEST(Accuracy, CountsSweepsOfBothPhasesAndStopsWhereItIsTold) {
   expect_inside(mesh, *o.accuracy.margin);
 }
 
-/// One corner triangle has all its vertices on the boundary and is obtuse: without flips and weights nothing mends it.
+/// One corner triangle has all its vertices on the boundary and is obtuse. Only flips or weights could repair it.
 Mesh hopeless_mesh() {
   Mesh mesh = lattice({.n = 7, .jitter = 0.05, .weight = 0});
   mesh.set_point(VertexId(0), {0.5, 0.3, 0});

@@ -1,4 +1,4 @@
-// Batches of vertices: the step that a vertex would make alone, and the same bits from every instruction set.
+// Batches of vertices make the steps that each vertex would make alone, with the same bits in every instruction set.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -50,13 +50,13 @@ EnergyModel barrier_model(EnergyKind kind, Star star) {
   return model;
 }
 
-/// What the accuracy objective lowers.
+/// The model and domain of an accuracy run.
 struct AccuracyTask {
   AccuracyModel model;
   AccuracyDomain domain;
 };
 
-/// A vertex alone in a mesh's working copy, stepping as VertexStep does.
+/// A single vertex of a mesh's working copy, which steps as VertexStep does.
 struct Alone {
   Alone(const Mesh& mesh, const AccuracyTask& task) : Alone(mesh, EnergyModel{.kind = EnergyKind::BP}, &task) {}
   Alone(const Mesh& mesh, const EnergyModel& model, const AccuracyTask* task = nullptr)
@@ -92,7 +92,7 @@ struct Alone {
   VertexStep step;
 };
 
-/// The star of v in a lane of a batch, everything about it taken from the patch.
+/// Puts the star of v into a lane of a batch. All data come from the patch.
 void put(const Mesh& mesh, VertexId v, StarBatch& batch) {
   const std::size_t lane = batch.lanes++;
   Patch patch;
@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(All, BatchOfBarrier,
                          testing::Combine(testing::Values(EnergyKind::BH, EnergyKind::BHs, EnergyKind::BP),
                                           testing::Values(0, 1, 2)));
 
-/// What the accuracy objective asks of the star that has been put into the last lane.
+/// Puts the sizes and floors of the star in the last lane.
 void put_domain(const Mesh& mesh, VertexId v, const AccuracyTask& task, const StarBatch& batch, AccuracyLanes& lanes) {
   const AccuracyDomain& domain = task.domain;
   const std::size_t lane = batch.lanes - 1;
@@ -383,7 +383,7 @@ TEST(RunningEnergyAndBad, IsThatOfTheWholeMeshToTheBit) {
       EXPECT_EQ(now.energy, whole.energy);
       EXPECT_EQ(now.bad, whole.bad);
     };
-    expect_whole(std::vector<TriangleId>{});  // nothing was measured before
+    expect_whole(std::vector<TriangleId>{});  // the first measure
     for (int i = 0; i < 50; ++i) {
       const VertexId v(rng.below(static_cast<std::uint32_t>(mesh.n_vertices())));
       std::vector<TriangleId> changed;

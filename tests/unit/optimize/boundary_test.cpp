@@ -1,5 +1,5 @@
-// Vertices that come in, and what the boundary may do: recordings replay to the same bits whatever is inserted, split,
-// removed and compacted; and the domain keeps its shape.
+// Insertions and the options of the boundary. Traces replay to the same bits after any insertion, split, removal and
+// compaction. The domain keeps its shape.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ namespace {
 
 using Events = std::vector<TraceEvent>;
 
-/// Does at random, in a working copy, all that an optimizer can do, and has it written down.
+/// Makes random changes of every kind in a working copy, and records them.
 class Actor {
  public:
   Actor(const Mesh& input, SweepOrder order, std::uint64_t seed)
@@ -252,7 +252,8 @@ double distance(Vec2 p, const std::vector<std::pair<Vec2, Vec2>>& edges) {
 
 constexpr int kSweeps = 40;
 
-/// The distance that a place may be rounded off its line: one unit in the last place of the coordinates, each sweep.
+/// The distance by which rounding may move a place off its line: one unit in the last place of the coordinates per
+/// sweep.
 double rounding(const Mesh& mesh) {
   double largest = 0;
   for (const VertexId v : mesh.vertices()) {
@@ -267,7 +268,7 @@ double perimeter(const Mesh& mesh) {
   return sum;
 }
 
-/// Runs, replays, and checks what holds of any choice for the boundary.
+/// Runs, replays, and checks the laws of all boundary options.
 OptimizeReport run(const Mesh& input, Mesh& mesh, OptimizeOptions options) {
   Events events;
   OptimizeHooks hooks;
@@ -343,7 +344,7 @@ TEST(Boundary, SplittingKeepsTheVerticesThatWereThereAndTheShape) {
     ASSERT_EQ(mesh.n_vertices(), input.n_vertices() + report.vertices_inserted);
     ASSERT_EQ(report.vertices.size(), mesh.n_vertices());
     const auto edges = boundary_edges(input);
-    std::size_t on_boundary = 0;  // others free triangles that had no free corner
+    std::size_t on_boundary = 0;  // other new vertices are in triangles that had no free corner
     for (const VertexId v : mesh.vertices()) {
       if (v.index < input.n_vertices()) {
         EXPECT_EQ(report.vertices[v], v);
@@ -370,7 +371,7 @@ double shortest_edge(const Mesh& mesh) {
   return least;
 }
 
-/// A corner of few degrees, whose sides are divided each in its own way.
+/// A corner with few degrees, whose sides are divided differently.
 Mesh sharp_corner(double angle_deg) {
   const double angle = angle_deg * std::numbers::pi / 180;
   std::vector<Vec2> points = {{0, 0}};
@@ -391,7 +392,7 @@ TEST(Boundary, SplittingASharpCornerEndsLongBeforeRounding) {
   }
 }
 
-/// The strip y < 1 of a box whose upper side is divided evenly, and whose lower one at places that do not fit it.
+/// The strip y < 1 of a box. Its upper side is divided evenly, and its lower side at other places.
 Mesh uneven_strip() {
   std::vector<Vec2> points = {{0, 0}};
   for (const double x : {1.3, 1.9, 4.1, 4.9, 7.2}) points.push_back({x, 0});

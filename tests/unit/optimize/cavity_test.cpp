@@ -1,4 +1,4 @@
-// The energy of a vertex's cavity without the vertex: the change of the total, for every energy and star.
+// The energy of a vertex's cavity without the vertex gives the change of the total, for every energy and star.
 #include <gtest/gtest.h>
 
 #include "energy/patch.hpp"

@@ -1,4 +1,4 @@
-// How long a run may still take.
+// Estimates of the sweeps that a run still needs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ TEST(Estimate, IsExactWhereGainsAreAGeometricSeries) {
   for (const double q : {0.3, 0.7, 0.95}) {
     const std::vector<SweepRecord> history = geometric(q, 10);
     const double energy = history.back().energy;
-    // The gain of sweep k is q^(k−1) (1 − q).
+    // The gain of sweep k is q^(k−1) − q^k.
     const double last = 1 + std::log(o.paper.tolerance * energy / (1 - q)) / std::log(q);
     const auto left = estimate_sweeps_left(history, o);
     ASSERT_TRUE(left);

@@ -1,4 +1,4 @@
-// The optimizer's units is left exactly as it was entered.
+// The way into the optimizer's units and back is exact.
 #include <gtest/gtest.h>
 
 #include "optimize/working/working_units.hpp"

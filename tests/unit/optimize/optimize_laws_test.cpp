@@ -1,4 +1,4 @@
-// Laws that hold for every optimization, whatever the mesh.
+// Laws that hold for every optimization of every mesh.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 bool same_bits(Vec2 a, Vec2 b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-/// The invariants of design: orientation, boundary and fixed vertices, constrained edges, regularity, no vertex lost.
+/// Invariants: orientation, boundary and fixed vertices, constrained edges, regularity, no vertex lost.
 void expect_invariants(const Mesh& before, const Mesh& after) {
   EXPECT_EQ(after.validate(), std::nullopt);
   ASSERT_EQ(after.n_vertices(), before.n_vertices());
@@ -130,9 +130,9 @@ TEST(Optimize, OfAMeshThatNobodyLooksAtIsTheSame) {
       {},
       {.objective = Objective::accuracy},
       {.max_sweeps = 1},                                         // left bad: repaired
-      {.energy = EnergyKind::F, .unknowns = Unknowns::weights},  // may be no better: the input is given back
+      {.energy = EnergyKind::F, .unknowns = Unknowns::weights},  // may be no better: then the input is returned
       {.repair = Repair::none, .paper = {.tolerance = 1e-2}},    // more than one restart
-      {.boundary = BoundaryVertices::split, .size_band = 1.5},   // the field of the band looks at it
+      {.boundary = BoundaryVertices::split, .size_band = 1.5},   // the field of the band refers to it
   };
   for (const OptimizeOptions& options : cases) {
     Mesh seen = *made, unseen = *made;
@@ -222,7 +222,7 @@ TEST(Optimize, OfAMeshWithoutInteriorVerticesMovesWeightsOnly) {
 }
 
 TEST(Optimize, BringsWeightsThatViolateEdgesIntoTheBarriersDomain) {
-  // A few heavy vertices: their neighbors lie outside their own power cells, but have one.
+  // A few heavy vertices: their neighbors have power cells, but lie outside of them.
   Mesh mesh = lattice({.n = 8, .jitter = 0.1, .weight = 0});
   for (const VertexId v : mesh.vertices()) {
     if (v.index % 3 == 1 && (v.index / 8) % 3 == 1) mesh.set_weight(v, 1.3);

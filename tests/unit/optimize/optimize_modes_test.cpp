@@ -1,4 +1,4 @@
-// Every switch of the optimizer does what it says.
+// Every switch of the optimizer has its documented effect.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -160,7 +160,7 @@ TEST(Modes, EveryFlipLimitAndTimingKeepsTheMeshRegular) {
         EXPECT_EQ(mesh.validate(), std::nullopt);
         EXPECT_EQ(count_non_regular_edges(mesh), 0u) << energy_info(energy).name;
         if (limit == FlipLimit::before) {
-          // Only what made the input regular was flipped.
+          // Only the flips that made the input regular were made.
           Mesh restored = lattice({.n = 9, .jitter = 0.3, .weight = 0});
           EXPECT_EQ(report->flips, restore_regularity(restored).flips);
           EXPECT_GT(non_regular, 0u);
@@ -238,7 +238,7 @@ TEST(Modes, StopsAtTheSweepLimitTheTimeLimitAndWhenAsked) {
   EXPECT_EQ(count_non_regular_edges(asked), 0u);
 }
 
-/// Takes its time once, before the first sweep.
+/// Is slow once, before the first sweep.
 class SlowBeginning final : public Executor {
  public:
   static constexpr std::chrono::milliseconds kTime{300};
@@ -251,7 +251,7 @@ class SlowBeginning final : public Executor {
   std::once_flag slept_;
 };
 
-// Twice 0.3 seconds are more than 0.5. Nothing but the end, which is reckoned with, makes this run stop.
+// Twice 0.3 seconds are more than 0.5. Only the estimated time for the end makes this run stop.
 TEST(Modes, TheTimeLimitIsOfTheEndTooWhichTakesAsLongAsTheBeginning) {
   for (const Objective objective : {Objective::energy, Objective::accuracy}) {
     SlowBeginning executor;

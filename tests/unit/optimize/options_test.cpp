@@ -1,4 +1,4 @@
-// Options that make no sense are named, and leave the mesh as it was.
+// Errors name invalid options, and the mesh stays as it was.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ TEST(OptimizeOptions, OutOfRangeAreRefusedByName) {
   EXPECT_EQ(error_of({.paper = {.collapse_energy = EnergyKind::BP}}), "`collapse_energy` is BP; expected F, T or dT");
 }
 
-/// A value that the option may not have.
+/// A value that the option must not have.
 OptionValue wrong_value(const OptionRow& row) {
   switch (row.kind) {
     case OptionKind::count:

@@ -259,13 +259,13 @@ TEST(DeferredWeights, DoNotDependOnTheOrderOfTheVertices) {
   EXPECT_TRUE(std::any_of(results[0].vertices().begin(), results[0].vertices().end(),
                           [&](VertexId v) { return results[0].weight(v) != 0; }));
   for (const VertexId v : results[0].vertices()) {
-    // The same up to the order in which each patch is summed.
+    // Weights are equal up to the order in which each patch is summed.
     EXPECT_NEAR(results[1].weight(v), results[0].weight(v), 1e-6);
     EXPECT_NEAR(results[2].weight(v), results[0].weight(v), 1e-6);
   }
 }
 
-/// A strip, whose vertices all are on the boundary and cannot be removed, and meshes with many to hide.
+/// A strip, whose vertices are all on the boundary and cannot be removed, and meshes with many vertices to hide.
 std::vector<Mesh> meshes_to_hide_in() {
   std::vector<Vec2> points;
   std::vector<std::array<std::int32_t, 3>> triangles;
@@ -276,7 +276,7 @@ std::vector<Mesh> meshes_to_hide_in() {
   return {Mesh::build({.points = points, .triangles = triangles})->mesh, dense(), three_hundred_points()};
 }
 
-// HOT energies are lowered, whatever that does to triangles and, where hidden vertices stay, to edges.
+// Lower HOT energies may make triangles bad. If hidden vertices stay, edges may stop being regular.
 TEST(PaperMethod, SaysWhenMoreTrianglesAreBadOrEdgesNotRegular) {
   Mesh mesh = *random_mesh({.vertices = 130, .seed = 5});
   OptimizeOptions o = paper_method();
@@ -294,7 +294,7 @@ TEST(PaperMethod, SaysWhenMoreTrianglesAreBadOrEdgesNotRegular) {
   EXPECT_TRUE(says("not regular, since `hidden=keep`"));
 }
 
-// Runs that end early, where flips wait and may then find a vertex hidden that has to stay.
+// Runs that end early: deferred flips may find a hidden vertex that has to stay.
 TEST(HiddenVertices, LeaveEdgesRegularAtTheEndUnlessTheyAreKept) {
   std::size_t runs = 0, stopped = 0, with_progress = 0;
   for (const Mesh& input : meshes_to_hide_in()) {
@@ -329,10 +329,10 @@ TEST(HiddenVertices, LeaveEdgesRegularAtTheEndUnlessTheyAreKept) {
   }
   EXPECT_EQ(runs, 432u);
   EXPECT_GT(stopped, 10u);
-  EXPECT_GT(with_progress, 0u);  // of the rounds before the one that failed
+  EXPECT_GT(with_progress, 0u);  // runs that had rounds before the failed one
 }
 
-// Of barriers no best mesh is kept, since γ changes.
+// For barriers no best mesh is kept, since γ changes.
 TEST(HiddenVertices, OfABarrierEndTheRunWithTheLastRoundThatWasRegular) {
   OptimizeOptions o;
   o.objective = Objective::energy;
@@ -446,11 +446,11 @@ TEST(Inversions, AreTakenOnlyWhereAllowed) {
     if (inverted) {
       EXPECT_EQ(report->stopped, Stopped::tangled);
     }
-    EXPECT_EQ(mesh.validate(), std::nullopt);  // what comes back is never a tangle
+    EXPECT_EQ(mesh.validate(), std::nullopt);  // the returned mesh has no tangles
   }
 }
 
-// Lawson's algorithm, which finds what is hidden, has no meaning among them.
+// Lawson's algorithm, which finds hidden vertices, has no meaning among inverted triangles.
 TEST(Inversions, OfTheInputThatStayNameNoHiddenVertices) {
   Mesh mesh = dense();
   VertexId inner;
@@ -528,7 +528,7 @@ TEST(PaperMethod, GivesAnInputBackRegularWhateverIsCutOrKeptHidden) {
         hooks.tracer = [&](const TraceEvent& e) { events.push_back(e); };
         Mesh mesh = input;
         const auto report = optimize(mesh, o, hooks);
-        if (!report) {  // a vertex that is hidden and may not be
+        if (!report) {  // a vertex is hidden against the policy
           EXPECT_EQ(report.error().code, ErrorCode::hidden_vertex);
           continue;
         }

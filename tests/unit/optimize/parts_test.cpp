@@ -1,4 +1,4 @@
-// Sweeps in parts: the same bytes on any number of threads, and what parts may touch of each other.
+// Sweeps in parts: the same bytes on any number of threads, and limits of what a part touches.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -19,7 +19,7 @@ namespace temper::test {
 namespace {
 
 constexpr std::size_t kSmallPart = 100, kPartsVertices = 800;
-// Of these some where a sanitizer watches: others find the same there.
+// Numbers of threads. Under a sanitizer two are enough.
 const std::vector<std::size_t> kThreads =
     TEMPER_SANITIZED ? std::vector<std::size_t>{3, 8} : std::vector<std::size_t>{1, 2, 3, 8};
 const std::vector<std::size_t> kRanks =
@@ -322,7 +322,7 @@ bool has_corner_in(const Mesh& mesh, TriangleId t, const Part& part) {
   return part.contains(a) || part.contains(b) || part.contains(c);
 }
 
-/// Improves the part's vertices, three times over. Returns how many were left.
+/// Improves the part's vertices three times. Returns the number of vertices that were left.
 std::size_t improve_part(WorkingCopy& work, const Settings& settings, const Part& part) {
   const SweepState state(settings);
   const Recorder recorder(settings.hooks.tracer, work, 1);
@@ -347,7 +347,7 @@ struct OnePart {
     SerialExecutor executor;
     cuts.cut(work.mesh, 3, executor);
   }
-  /// Of the numbers, or of a shifted cut.
+  /// A part of the numbers, or of a shifted cut.
   [[nodiscard]] Part part(bool shifted) const { return shifted ? cuts.part(1, 1) : Part{VertexId(300), VertexId(700)}; }
   WorkingCopy work;
   Settings settings;

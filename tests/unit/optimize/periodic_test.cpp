@@ -1,4 +1,4 @@
-// Optimization of periodic planes: the guarantees of the plane, and the laws that periods have of their own.
+// Optimization of periodic planes: the guarantees of the plane, and the special laws of periods.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ void expect_all_well_centered(const Mesh& mesh) {
   EXPECT_EQ(count_non_regular_edges(mesh), 0U);
 }
 
-/// The same vertices elsewhere; `shift` is on the grid of the period.
+/// Moves all vertices by `shift`, which is on the grid of the period.
 Mesh shifted(const Mesh& mesh, Vec2 shift) {
   Mesh result = mesh;
   for (const VertexId v : mesh.vertices()) {
@@ -98,7 +98,8 @@ TEST(PeriodicOptimize, ShoresOfAChannelStayWhereTheyAre) {
   }
 }
 
-// The order of a sweep follows a curve over the domain: in that of the input nothing knows where the domain begins.
+// The usual order of a sweep follows a curve over the domain. The order of the input does not depend on the place of
+// the domain.
 TEST(PeriodicOptimize, TranslationsChangeNothingButRounding) {
   Mesh before = torus(300, 4);
   optimized_periodic(before, {.unknowns = Unknowns::positions});

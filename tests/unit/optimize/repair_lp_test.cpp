@@ -1,4 +1,4 @@
-// Repairs that ask a linear program for weights: what sweeps leave bad, and weights can cure.
+// Repairs by weights from a linear program, for triangles that sweeps leave bad and weights can cure.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Repairs: what sweeps leave bad is cured place by place, and nothing else is lost on the way.
+// Repairs cure the triangles that sweeps leave bad, place by place, and make nothing else worse.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -21,7 +21,7 @@ namespace {
 
 using Edge = std::pair<std::pair<double, double>, std::pair<double, double>>;
 
-/// The boundary as its edges by coordinates: equal sets are equal boundaries, bit for bit.
+/// The edges of the boundary by coordinates. Equal sets are equal boundaries, bit for bit.
 std::set<Edge> boundary(const Mesh& mesh) {
   std::set<Edge> edges;
   for (const HalfedgeId h : mesh.halfedges()) {
@@ -190,7 +190,7 @@ TEST(Repair, IsTracedLikeAllElse) {
 }
 
 TEST(Repair, KeepsInterfacesRegionsAndFixedVertices) {
-  // Two halves of a polygon without interior vertices, with a line across that is theirs.
+  // Two halves of a polygon without interior vertices, with a common line across.
   std::vector<Vec2> points;
   std::vector<std::array<std::int32_t, 2>> segments;
   for (int i = 0; i < 40; ++i) {

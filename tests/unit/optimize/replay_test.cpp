@@ -1,4 +1,4 @@
-// Replay of events made here, without the optimizer: what each does, and what is refused.
+// Replay of events that the tests make without the optimizer: effects and refusals.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -24,7 +24,7 @@ TraceEvent move(int sweep, VertexId v, WeightedPoint p) {
 
 TraceEvent back_to(int sweep, int to) { return {.kind = EventKind::undo, .sweep = sweep, .to_sweep = to}; }
 
-/// A mesh that does what it is told and writes it down.
+/// Changes a mesh and records the events.
 struct Actor {
   Mesh mesh;
   Events events;
@@ -120,8 +120,8 @@ TEST(Replay, OfRandomChangesGivesTheSameMeshAndTheNumbersOfItsVertices) {
   }
 }
 
-// Slots and numbers of another order are the same mesh once the order is undone: why the optimizer's Hilbert order
-// does not matter to a replay.
+// A replay in another order of slots and numbers gives the same mesh after the order is undone. So the optimizer's
+// Hilbert order does not matter to a replay.
 TEST(Replay, InAnyOrderOfSlotsGivesTheSameMesh) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Mesh input = *random_mesh({.vertices = 60, .seed = seed});
@@ -250,7 +250,7 @@ TEST(Replay, RefusesEventsThatDoNotFitByTheirNumber) {
 }
 
 TEST(Replay, RefusesAFlipToAnEdgeThatIsThere) {
-  // Vertex 3 has degree three: flipping 0-3 would join 1 and 2 once more.
+  // Vertex 3 has degree three: a flip of 0-3 would join 1 and 2 twice.
   const std::vector<Vec2> points = {{0, 0}, {4, 0}, {0, 4}, {1, 1}};
   const std::vector<std::array<std::int32_t, 3>> triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   const Mesh input = Mesh::build({.points = points, .triangles = triangles})->mesh;

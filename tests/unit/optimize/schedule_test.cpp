@@ -1,4 +1,4 @@
-// γ and h° only ever shrink, and end somewhere.
+// γ and h° only shrink, and reach an end.
 #include "optimize/run/schedule.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Optimization on the sphere: the guarantees of the plane, and the laws that the sphere has of its own.
+// Optimization on the sphere: the guarantees of the plane, and the special laws of the sphere.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -134,7 +134,7 @@ TEST(Sphere, RepairsMendWhatSweepsOfPositionsAloneDoNot) {
   }
 }
 
-// What is inserted beside an interface is what was tested there, to the last bit.
+// Repairs insert exactly the tested vertices next to an interface, to the last bit.
 TEST(Sphere, RepairsInsertBesideInterfaces) {
   Mesh mesh = globe(800, 1);
   const auto is_north = [&](TriangleId t) {
@@ -221,7 +221,7 @@ TEST(Sphere, UnitsOfLengthByAPowerOfTwoChangeNothing) {
 
 TEST(Sphere, TurnedGlobesEndTheSameButForRounding) {
   Mesh mesh = globe(250, 8);
-  // Far from a minimum Hessians are indefinite, and how the pivots of a definite one come out depends on its axes.
+  // Far from a minimum Hessians are indefinite, and the pivots of a definite one depend on its axes.
   optimized(mesh, {.unknowns = Unknowns::positions});
   ASSERT_TRUE(bad_triangles(mesh).empty());
   std::vector<Vec3> points;
@@ -246,7 +246,7 @@ TEST(Sphere, TurnedGlobesEndTheSameButForRounding) {
   input.triangles = triangles;
   auto other = Mesh::build(input);
   ASSERT_TRUE(other) << other.error().what();
-  // In another order of vertices the way is another one: in the order of the input it is the same.
+  // Another order of vertices gives other steps, and the order of the input gives the same steps.
   OptimizeOptions o;
   o.paper.order = SweepOrder::input;
   o.max_sweeps = 4;
@@ -283,7 +283,7 @@ TEST(Sphere, SameBytesForAnyThreadsAndInstructionSet) {
   ASSERT_TRUE(use_instruction_set(used));
 }
 
-// Heights, crossings and energies of a small cap are those of the plane that touches it, but for terms in (ℓ/R)².
+// Heights, crossings and energies of a small cap agree with the tangent plane's, except for terms in (ℓ/R)².
 TEST(Sphere, CapsOfASmallRadiusAreThePlane) {
   double last = 0;
   for (const double radius : {10.0, 20.0, 40.0, 80.0}) {
@@ -293,7 +293,7 @@ TEST(Sphere, CapsOfASmallRadiusAreThePlane) {
       const double angle = std::numbers::pi * (i + 0.2 * (i % 2)) / 3;
       const Vec2 p = i == 6 ? Vec2{0.1, 0.05} : Vec2{std::cos(angle), std::sin(angle)};
       flat.push_back(p);
-      // At the arc that the plane has as a distance from the center of the cap.
+      // The arc to the center of the cap is as long as the distance in the plane.
       const double r = length(p), s = std::sin(r / radius) / r;
       curved.push_back({radius * s * p.x, radius * s * p.y, radius * std::cos(r / radius)});
     }
@@ -377,7 +377,7 @@ TEST(SphericalDelaunay, DecidesTiesByNumberAlone) {
   EXPECT_FALSE(mesh->validate());
   EXPECT_EQ(mesh->n_triangles(), 200U);
   EXPECT_EQ(count_non_regular_edges(*mesh), 0U);
-  // Each edge as the perturbed test has it, which is the same from both of its triangles.
+  // Each edge agrees with the perturbed test, which gives the same answer from both of its triangles.
   for (const HalfedgeId h : mesh->halfedges()) {
     const VertexId a = mesh->origin(h), b = mesh->target(h), c = mesh->opposite(h), d = mesh->opposite(mesh->twin(h));
     EXPECT_EQ(power_test_perturbed(mesh->weighted_vector(a), mesh->weighted_vector(b), mesh->weighted_vector(c),

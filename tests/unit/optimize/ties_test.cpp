@@ -22,7 +22,7 @@ namespace {
 
 using Place = std::function<Vec2(double, double)>;
 
-/// columns × rows squares, of which all diagonals go the same way, wherever `place` puts their corners.
+/// columns × rows squares with parallel diagonals. `place` gives the places of their corners.
 Mesh squares(int columns, int rows, const Place& place) {
   std::vector<Vec2> points;
   std::vector<std::array<std::int32_t, 3>> triangles;
@@ -104,7 +104,7 @@ TEST(Ties, HeavierEndsAreEveryOtherVertex) {
   }
 }
 
-// Each quad has its diagonal between heavier ends, and no other vertex is among them, whatever diagonals there were.
+// Each quad has its diagonal between heavier ends, and no other vertex is among them, for any former diagonals.
 TEST(Ties, HeavierEndsMakeEveryDiagonalTheirs) {
   Rng rng(1);
   Mesh mesh = squares(12, 9, as_they_are);

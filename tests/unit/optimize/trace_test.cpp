@@ -1,4 +1,4 @@
-// Traces are true: replayed, every run gives the same mesh, bit for bit.
+// The replay of every run's trace gives the same mesh, bit for bit.
 #include "temper/detail/trace.hpp"
 
 #include <gtest/gtest.h>

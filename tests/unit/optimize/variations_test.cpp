@@ -1,5 +1,5 @@
-// The variations of Algorithm 1 that the paper names in §5.2 and §7, each against its naive twin: a loop over runs that
-// know nothing of the switch.
+// The variations of Algorithm 1 that the paper names in §5.2 and §7. Each is compared with its naive twin: a loop over
+// runs without the switch.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ TEST(SearchRadius, IsTheRootMeanSquareTheFarthestOrTheNearest) {
   }
 }
 
-// One search for a weight a sweep: no weight goes farther, and some go nearly as far.
+// One search for a weight per sweep: no weight moves farther, and some move nearly as far.
 TEST(SearchRadius, BoundsTheWayOfAWeight) {
   const Mesh input = mesh_of_random_points();
   Patch patch;
@@ -137,7 +137,7 @@ TEST(PositionUpdates, DeferredKeepTrianglesUprightWhereInversionsAreRefused) {
   }
 }
 
-/// The same points up to rounding: a run of its own may begin its stars elsewhere.
+/// Points agree up to rounding, since a separate run may begin its stars elsewhere.
 void expect_same(const Mesh& a, const Mesh& b) {
   ASSERT_EQ(a.n_vertices(), b.n_vertices());
   for (const VertexId v : a.vertices()) {
@@ -248,7 +248,7 @@ TEST(RemovalByWeight, TakesTheVertexThatIsAboutToBeHiddenAndNoOther) {
     o.paper.removal = Removal::weight;
     o.paper.hidden_threshold = limit;
     o.paper.removal_from = 0;
-    std::vector<VertexId> removed;  // whether or not the run returns to what was before
+    std::vector<VertexId> removed;  // whether or not the run returns to an earlier mesh
     OptimizeHooks hooks;
     hooks.tracer = [&](const TraceEvent& e) {
       if (e.kind == EventKind::removal) removed.push_back(e.vertex);
@@ -284,7 +284,7 @@ TEST(Insertion, BreaksUpTrianglesOfLargeEnergy) {
   }
 }
 
-// Algorithm 1 with all its parts besides: removals in the same sweeps, and triangles that turn over.
+// Algorithm 1 with all its other parts: removals in the same sweeps, and triangles that turn over.
 TEST(Insertion, GoesWithRemovalsAndWaitsWhereTrianglesAreInverted) {
   OptimizeOptions o = paper_method();
   o.energy = EnergyKind::F;
@@ -300,7 +300,8 @@ TEST(Insertion, GoesWithRemovalsAndWaitsWhereTrianglesAreInverted) {
   }
 }
 
-// Lloyd's iteration moves a vertex to the centroid of its cell, where the moment is least: a stationary point of E_F⁰.
+// Lloyd's iteration moves a vertex to the centroid of its cell. There the moment is least, so it is a stationary point
+// of E_F⁰.
 TEST(Methods, CvtEndsWithVerticesAtTheCentroidsOfTheirCells) {
   Mesh mesh = lattice({.n = 7, .jitter = 0.2, .weight = 0});
   OptimizeOptions o = cvt_method();
