@@ -142,6 +142,8 @@ stage "layers: the checker finds what it should" python3 scripts/check_layers.py
 stage "layers: who includes whom" python3 scripts/check_layers.py
 stage "links: the checker finds what it should" python3 scripts/check_links.py --self-test
 stage "links: none is dead" python3 scripts/check_links.py
+stage "prose: the checker finds what it should" python3 scripts/check_prose.py --self-test
+stage "prose: sentences are plain" python3 scripts/check_prose.py
 stage "format" formatted
 stage "names of tests" names_of_tests
 stage "bench: the comparison finds what it should" python3 bench/compare.py --self-test
