@@ -17,9 +17,9 @@ export interface OptimizeOptions {
   first_energy?: "F" | "T" | "dT" | "BH" | "BHs" | "BP" | "nF" | "nT" | "ndT" | "ODT" | null;
   /** of first_energy: the first sweep that lowers energy, from 0; an earlier one when the first energy has converged; at least 0. Default: 20. */
   switch_at?: number;
-  /** energy: the one of energy, to the end; accuracy: only until every triangle is well-centered with a margin, then how far the middles of edges and duals are apart, which a solver's error is proportional to; error: after that the errors of the schemes of target themselves, by adjoint solutions, which takes much longer; null: accuracy, but error target vertex or cell on a plane of no more than 20000 vertices; energy where energy is not BP, or has switches of its own. Default: null. */
+  /** energy: lowers energy to the end; accuracy: lowers the distances between the midpoints of edges and of duals, once all triangles are well-centered; solver_error: then lowers the error of the solver itself, and takes longer; null: accuracy; solver_error with target vertex or cell on a plane of at most 20000 vertices; energy if energy is not BP or has switches of its own. Default: null. */
   objective?: "energy" | "accuracy" | "solver_error" | null;
-  /** of accuracy: what the mesh is for. vertex: unknowns at vertices (discrete exterior calculus); cell: at orthocenters (two-point flux); stars: the diagonal Hodge stars; all: something for each, and larger margins. Default: "all". */
+  /** what the mesh is for. vertex: unknowns at vertices; cell: unknowns at orthocenters (two-point flux); stars: diagonal Hodge stars; all: each of them, with larger margins. Default: "all". */
   target?: "all" | "vertex" | "cell" | "stars";
   /** of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle; more than 0 and less than 0.25; null: 0.1, but 0.02 target one scheme. Default: null. */
   margin?: number | null;
