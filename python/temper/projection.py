@@ -43,7 +43,7 @@ class Projection(Record):
 def parse_projection(text: str, places: npt.ArrayLike | None = None) -> Projection:
     """Reads ``"stereographic"``, ``"mercator:lon"``, ``"transverse-mercator:lon,lat"``. Without a center, the center
     of ``places``, (k, 2), is used."""
-    return Projection(*_temper.parse_projection(text, _doubles(places, 2, "location")))
+    return Projection(*_temper.parse_projection(text, _doubles(places, 2, "places")))
 
 
 def forward(projection: Projection, lon_lat: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -54,7 +54,7 @@ def forward(projection: Projection, lon_lat: npt.ArrayLike) -> npt.NDArray[np.fl
 
 def inverse(projection: Projection, places: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Longitudes, in [center − 180, center + 180], and latitudes [degrees], (k, 2), from (k, 2) places on the map."""
-    return _temper.inverse(*projection._plain(), _doubles(places, 2, "location"))
+    return _temper.inverse(*projection._plain(), _doubles(places, 2, "places"))
 
 
 def scale_factor(projection: Projection, lon_lat: npt.ArrayLike) -> npt.NDArray[np.float64]:

@@ -79,11 +79,11 @@ std::string summary(const Explanation& e) {
   }
   if (weights.reasons > 0) {
     text += fmt::format("  {} in {} for which weights exist, but have not been found yet\n", weights.bad,
-                        plural(weights.reasons, "place", "location"));
+                        plural(weights.reasons, "place", "places"));
   }
   if (undecided.reasons > 0) {
     text += fmt::format("  {} in {} of which neither is known\n", undecided.bad,
-                        plural(undecided.reasons, "place", "location"));
+                        plural(undecided.reasons, "place", "places"));
   }
   return text;
 }
