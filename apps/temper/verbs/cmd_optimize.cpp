@@ -215,7 +215,7 @@ std::string ending(const OptimizeReport& report) {
     case Stopped::max_outer:
       return "stopped by --outer after " + work;
     case Stopped::sweep_limit:
-      return "made all --accuracy-sweeps after " + work;
+      return "finished after " + work;
     case Stopped::tangled:
       return "stopped by inverted triangles, among which no edges can be flipped, after " + work;
     case Stopped::hidden:
