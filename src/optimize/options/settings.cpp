@@ -154,7 +154,7 @@ std::optional<InputError> check_space(const OptimizeOptions& o, const Mesh& mesh
   if (o.paper.insertion_from) return not_there("insertion_from", "none");
   if (!mesh.space().is_periodic()) return std::nullopt;
   if (o.paper.inversion == Inversion::allow) return not_there("inversion=allow", "`inversion=refuse`");
-  if (objective_of(o) == Objective::solver_error) return not_there("objective=error", "`objective=accuracy`");
+  if (objective_of(o) == Objective::solver_error) return not_there("objective=solver_error", "`objective=accuracy`");
   return std::nullopt;
 }
 
