@@ -413,7 +413,8 @@ py::tuple mesh_by(const Mesher& mesh, const py::object& threads, const py::objec
   const auto executor = make_threads(threads_from(threads));
   Visitor visitor;
   const Observer watching = observer_of(visitor, observer);
-  auto made = aside([&] { return mesh(OptimizeHooks{.executor = executor.get(), .observer = watching, .solvers = solvers()}); });
+  auto made = aside(
+      [&] { return mesh(OptimizeHooks{.executor = executor.get(), .observer = watching, .solvers = solvers()}); });
   visitor.raise();
   return outline_mesh_to_python(or_raise(std::move(made)));
 }
