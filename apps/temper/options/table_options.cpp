@@ -14,7 +14,6 @@ struct Shorthand {
   std::string flag;
   std::string_view option, value;
   std::string sentence;
-  bool rare = true;
 };
 
 const Shorthand kShorthands[] = {
@@ -120,7 +119,7 @@ void add_shorthands(Command& command, const OptionRow& row, OptimizeOptions& opt
   for (const Shorthand& s : kShorthands) {
     if (s.option != row.name) continue;
     const auto take = [&row, &options, &s](const std::string&) { row.set(options, s.value); };
-    command.add({.names = s.flag, .value_name = "", .sentence = s.sentence, .take = take, .rare = s.rare}).excludes =
+    command.add({.names = s.flag, .value_name = "", .sentence = s.sentence, .take = take, .rare = true}).excludes =
         before;
     before = s.flag;
   }

@@ -174,7 +174,8 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
 #endif
   if (files.trace != nullptr) files.trace->stream.write(trace_end(files.trace->events, mesh, input));
   if (measured) results.after = quality(*seen, measuring);
-  results.lacks_flips = lacks_flips(s.options(), *seen, files.threads);
+  const bool all_regular = measured && results.after.non_regular_edges == 0;  // those that may not be flipped, too
+  results.lacks_flips = !all_regular && lacks_flips(s.options(), *seen, files.threads);
   results.outcomes = judge(s.requirements, results.after);
   if (!s.picture.empty()) {
     DrawOptions drawing;
