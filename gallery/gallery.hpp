@@ -42,7 +42,7 @@ struct Claim {
   Author author = Author::paper;
 };
 
-/// How the runs of the optimizer that a figure made took what the paper leaves open (reading.hpp).
+/// The choices of a figure's runs at points that the paper leaves open (reading.hpp).
 inline constexpr std::size_t kOpenOptions = 5;
 struct RunSettings {
   std::size_t runs = 0;

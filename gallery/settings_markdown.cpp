@@ -1,4 +1,4 @@
-// How the figures were read, as docs/paper.md has it: a row for each figure that made runs of the optimizer.
+// The table of docs/paper.md with the settings of the figures: a row for each figure that runs the optimizer.
 #include <string>
 
 #include "reading.hpp"

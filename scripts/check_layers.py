@@ -33,7 +33,7 @@ LAYERS = {
     "regularity": _BELOW + ["topology", "energy"],
     "feasibility": _BELOW + ["topology", "energy", "regularity"],
     "optimize": _BELOW + ["size", "topology", "energy", "regularity", "feasibility"],
-    # What looks at meshes: never at how they were optimized.
+    # These layers look at meshes. They do not depend on the optimization.
     "quality": _BELOW + ["size", "topology", "energy", "regularity", "feasibility"],
     "explain": _BELOW + ["topology", "energy", "regularity", "feasibility", "quality"],
     "dec": _BELOW + ["topology", "energy", "regularity"],

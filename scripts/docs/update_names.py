@@ -137,7 +137,7 @@ def other_options(program):
             known.append(f"| `{flag}` | {', '.join(verbs)} | {python} | {cpp} |")
         else:
             alone.append(f"`{flag}` ({', '.join(verbs)})")
-    return [*known, "", "Of the program alone, which prints, asks for or arranges what code does by other means: " + ", ".join(alone) + "."]
+    return [*known, "", "These options exist in the program alone: " + ", ".join(alone) + "."]
 
 
 def verbs_table(program):
@@ -185,7 +185,7 @@ def page(program):
         "<!-- written by scripts/docs/update_names.py, from the tables of the program, the module and the library -->",
         "",
         "A concept has one name. The program spells it `--as-this`, Python, JavaScript and JSON `as_this`; what is not listed here is",
-        "called the same in Python and C++, and a test sees to it. Names of JavaScript are those of Python.",
+        "called the same in Python and C++, and a test sees to it. JavaScript has the names of Python.",
         "",
         "## Verbs and functions",
         "",

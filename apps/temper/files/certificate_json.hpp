@@ -1,4 +1,4 @@
-// Certificates as JSON: the reason why a mesh has no good weights, for people to keep and for others to verify.
+// Certificates as JSON. A certificate proves that a mesh has no good weights, and others can verify it.
 //
 //   {"temper_certificate": 1, "constraints": "well_centered", "margin": 0,
 //    "terms": [{"kind": "height", "triangle": [3, 9, 10], "edge": [3, 9], "multiplier": 0.25},

@@ -19,7 +19,7 @@ void expect_without(const Command& command, const std::optional<Metric>& metric,
 /// A mesh of that input, in the plane of the metric.
 [[nodiscard]] Mesh in_metric(const Mesh& mesh, const Metric& metric, const Input& input);
 
-/// Puts the mesh of the input into the plane of the metric, if there is one. Then returns the former mesh.
+/// Puts the mesh of the input into the plane of the metric, if there is one. Returns the original mesh in that case.
 std::optional<Mesh> take_to_metric(Input& input, const std::optional<Metric>& metric);
 
 }  // namespace temper::app

@@ -78,7 +78,7 @@ class PointLocator {
                                                               const IdVector<VertexId, VertexId>& vertices = {},
                                                               Executor* executor = nullptr);
 
-/// Returns, for each triangle of `after`, the triangle of `before` that contains its middle. If that is of
+/// Returns, for each triangle of `after`, the triangle of `before` that contains its centroid. If that is of
 /// another region, a triangle of the same region that touches it replaces it, if there is one. If `before` had the same
 /// triangle at the same places, the result is exactly that triangle. `places`: positions_of_vertices(). The cost is the
 /// same.
