@@ -211,8 +211,9 @@ bool asks_for(std::string_view word, const ErrorField& field) {
 }
 
 std::string known_fields(SpaceKind space) {
-  constexpr const char* kGroups[] = {"all, chosen, held-back, exact", "on the sphere all, chosen, held-back",
-                                     "in a periodic plane all, chosen, held-back"};
+  constexpr const char* kGroups[] = {"the fields are all, chosen, held-back, exact",
+                                     "the fields on the sphere are all, chosen, held-back",
+                                     "the fields in a periodic plane are all, chosen, held-back"};
   std::string text = kGroups[static_cast<std::size_t>(space)];
   for (const Field& f : all_fields(space)) text += ", " + std::string(f.field.name);
   return text;
@@ -287,7 +288,7 @@ Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names
       wanted[i] = known = true;
     }
     if (!known) {
-      return InputError{ErrorCode::invalid_option, "", "no field '" + word + "'; there are " + known_fields(space)};
+      return InputError{ErrorCode::invalid_option, "", "no field '" + word + "'; " + known_fields(space)};
     }
   }
   std::vector<Field> fields;

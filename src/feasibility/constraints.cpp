@@ -49,7 +49,7 @@ constexpr std::array<ConstraintsInfo, 3> kConditions = {{
     {Constraints::heights_only, "heights_only", "h >= t l", "weights bring every orthocenter inside its triangle",
      "no weights bring every orthocenter inside its triangle"},
     {Constraints::regular, "regular", "dual length >= t l", "weights make these edges regular",
-     "no weights make these edges regular (of those that differ by less than 2^20 l^2 along edges)"},
+     "no weights make these edges regular, if weights differ by less than 2^20 l^2 along edges"},
 }};
 
 }  // namespace

@@ -179,208 +179,234 @@ bool makes_golden_searches(const Options& o) { return o.paper.solver == Solver::
 
 constexpr OptionRow kEnergyRows[] = {
     row<&Options::energy>("energy",
-                          "what to minimize: a barrier (BH, BHs, BP), a HOT energy (F, T, dT), one of these over "
-                          "squared areas (nF, nT, ndT), or what optimal Delaunay triangulations do (ODT)"),
+                          "Energy to lower. Barriers: BH, BHs, BP. HOT energies: F, T, dT. HOT energies over squared "
+                          "areas: nF, nT, ndT. Optimal Delaunay triangulation: ODT"),
     row<&Options::star>("star",
-                        "Hodge star whose error is to be small. all: the three at once, with `objective=accuracy`, "
-                        "which begins with sweeps for star 1 whatever this is"),
-    row<kPaper, &Paper::gamma>(
-        "gamma", "gamma of E_BP",
-        {.range = more_than(0),
-         .absent = "relative to each edge, shrinking from 0.5, or 1 where many triangles are bad, to 0.003",
-         .needs = {kEnergyThat<&EnergyInfo::softened_by_gamma>}}),
-    row<kPaper, &Paper::h0>("h0", "how far below zero E_BHs lets h go (-h0 of the paper, so >= 0)",
+                        "Hodge star whose error should be small. all: the three at once, except with "
+                        "`objective=energy`. The first sweeps for accuracy always use star 1"),
+    row<kPaper, &Paper::gamma>("gamma", "Parameter gamma of E_BP",
+                               {.range = more_than(0),
+                                .absent = "gamma is relative to each edge. It shrinks to 0.003, from 1 if many "
+                                          "triangles are bad, otherwise from 0.5",
+                                .needs = {kEnergyThat<&EnergyInfo::softened_by_gamma>}}),
+    row<kPaper, &Paper::h0>("h0", "Parameter -h0 of E_BHs, at least 0. E_BHs keeps h above h0",
                             {.range = at_least(0),
-                             .absent = "just beyond the least h of the mesh, following it up",
+                             .absent = "h0 is just below the least h of the mesh. It rises with the least h",
                              .needs = {kEnergyThat<&EnergyInfo::softened_by_h0>}}),
     row<kPaper, &Paper::boundary_treatment>(
         "boundary_treatment",
-        "of energy F: the h of boundary edges as it is, |h|, or as if the mesh were mirrored there",
+        "Height of boundary edges in energies F and nF. `boundary_treatment=as_is`: h itself. absolute: |h|. mirrored: "
+        "as if the mesh were mirrored there",
         {.needs = {{{"energy", "F|nF"}}}}),
     row<kPaper, &Paper::first_energy>("first_energy",
-                                      "what the first sweeps lower instead, before they switch to `energy`",
-                                      {.absent = "`energy` from the first sweep on; ODT for ten sweeps `target` one "
-                                                 "scheme on a mesh of the plane without weights"}),
+                                      "Energy that the first sweeps lower, before they switch to `energy`",
+                                      {.absent = "`energy` from the first sweep on. If `target` is one scheme and a "
+                                                 "mesh of the plane has no weights, ten sweeps lower ODT first"}),
     row<kPaper, &Paper::switch_at>("switch_at",
-                                   "of `first_energy`: the first sweep that lowers `energy`, from 0; an earlier one "
-                                   "when the first energy has converged",
+                                   "First sweep that lowers `energy` after `first_energy`, counted from 0. The switch "
+                                   "comes earlier if the first energy has converged",
                                    {.needs = {{{"first_energy", ""}}}}),
 };
 
 constexpr OptionRow kAccuracyRows[] = {
     row<&Options::objective>(
         "objective",
-        "energy: lowers `energy` to the end; accuracy: lowers the distances between the midpoints of edges and of "
-        "duals, "
-        "once all triangles are well-centered; solver_error: then lowers the error of the solver itself, and takes "
-        "longer",
+        "Objective of the run. energy: lower `energy` to the end. accuracy: once all triangles are well-centered, "
+        "lower the distances between the midpoints of edges and duals. With `objective=solver_error` a third phase "
+        "lowers the error of the solver itself. It takes longer",
         {.common = true,
-         .absent =
-             "accuracy; solver_error with `target` vertex or cell on a plane of at most 20000 vertices; energy if "
-             "`energy` is not BP or has switches of its own"}),
-    row<&Options::target>(
-        "target",
-        "what the mesh is for. vertex: unknowns at vertices; cell: unknowns at orthocenters (two-point flux); stars: "
-        "diagonal Hodge stars; all: each of them, with larger margins",
-        {.common = true, .needs = {kForAccuracy}}),
+         .absent = "accuracy. With `target=vertex` or `target=cell`, on a plane with at most 20000 vertices, it is "
+                   "`objective=solver_error`. If `energy` is not BP, or a switch of the paper other than `order` and "
+                   "`seed` is set, it is energy"}),
+    row<&Options::target>("target",
+                          "Scheme of your solver. vertex: unknowns at vertices. cell: unknowns at orthocenters, "
+                          "two-point flux. stars: diagonal Hodge stars. all: each of these, with larger margins",
+                          {.common = true, .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::margin>(
-        "margin", "of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle",
-        {.range = inside(0, kMostMargin), .absent = "0.1, but 0.02 `target` one scheme", .needs = {kForAccuracy}}),
+        "margin", "Least margin in every triangle: h/l, d/l and 1 - d/l stay above it",
+        {.range = inside(0, kMostMargin), .absent = "0.1, or 0.02 if `target` is one scheme", .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::min_edge>("min_edge",
-                                        "of accuracy: least length of interior edges, over the local size; 0: none",
+                                        "Least length of interior edges, as a multiple of the local size. 0: no limit",
                                         {.range = from_to(0, kMostEdge), .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::min_dual>("min_dual",
-                                        "of accuracy: the same of their dual edges, whose lengths bound time steps",
+                                        "Least length of interior dual edges, as a multiple of the local size. Dual "
+                                        "lengths bound time steps. 0: no limit",
                                         {.range = from_to(0, kMostDual), .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::offset_factor>(
-        "offset_factor",
-        "of accuracy: how many times as much as in HOT the offset of the middles counts; 1: HOT over size squared",
-        {.range = at_least(0), .absent = "10, but 20 for stars", .needs = {kForAccuracy}}),
+        "offset_factor", "Factor of the offset between the midpoints of edge and dual. 1: HOT over the squared size",
+        {.range = at_least(0), .absent = "10, or 20 for `target=stars`", .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::boundary_offset_factor>(
-        "boundary_offset_factor", "of accuracy: the same of the height of boundary edges",
-        {.range = at_least(0), .absent = "5; for vertex 0.5, cell 30, stars 18", .needs = {kForAccuracy}}),
-    row<kAccuracy, &Accuracy::barrier>("barrier", "of accuracy: factor of the logarithms that keep the margin",
+        "boundary_offset_factor", "Factor of the height of boundary edges, relative to HOT",
+        {.range = at_least(0),
+         .absent = "5 for `target=all`, 0.5 for vertex, 30 for cell, 18 for stars",
+         .needs = {kForAccuracy}}),
+    row<kAccuracy, &Accuracy::barrier>("barrier", "Factor of the logarithms that keep margins and least lengths",
                                        {.range = more_than(0), .needs = {kForAccuracy}}),
-    row<kAccuracy, &Accuracy::sweeps>("accuracy_sweeps", "of accuracy: at most this many, after those for the energy",
+    row<kAccuracy, &Accuracy::sweeps>("accuracy_sweeps",
+                                      "Largest number of sweeps for accuracy. They follow the sweeps for `energy`",
                                       {.needs = {kForAccuracy}}),
-    row<kAccuracy, &Accuracy::tolerance>("accuracy_tolerance",
-                                         "of accuracy: stop when a sweep gains less than this part",
-                                         {.range = at_least(0), .needs = {kForAccuracy}}),
-    row<kError, &Error::offset_share>(
-        "offset_share", "of error: how much the offset of the middles counts beside it, which other errors go with",
+    row<kAccuracy, &Accuracy::tolerance>(
+        "accuracy_tolerance", "Relative tolerance for accuracy. The sweeps end when one gains less than this part",
+        {.range = at_least(0), .needs = {kForAccuracy}}),
+    row<kError, &Error::offset_share>("offset_share",
+                                      "Factor of the accuracy objective, which is lowered together with the error of "
+                                      "the solver. It keeps other errors from rising",
+                                      {.range = at_least(0), .needs = {kForError}}),
+    row<kError, &Error::steps>(
+        "solver_error_steps",
+        "Largest number of steps for the error of the solver. Each moves all vertices at once, after all other sweeps",
+        {.needs = {kForError}}),
+    row<kError, &Error::tolerance>(
+        "solver_error_tolerance",
+        "Relative tolerance for the error of the solver. The steps end when ten of them gain less than this part",
         {.range = at_least(0), .needs = {kForError}}),
-    row<kError, &Error::steps>("solver_error_steps",
-                               "of error: at most this many, of all vertices at once, after the others",
-                               {.needs = {kForError}}),
-    row<kError, &Error::tolerance>("solver_error_tolerance", "of error: stop when ten steps gain less than this part",
-                                   {.range = at_least(0), .needs = {kForError}}),
 };
 
 constexpr OptionRow kMoveRows[] = {
     row<kPaper, &Paper::solver>(
         "solver",
-        "Newton steps in position and weight together; the paper's golden section; Newton in position, then weight"),
-    row<&Options::unknowns>("unknowns", "what steps may change; the others stay as they are", {.common = true}),
-    row<kPaper, &Paper::weights_from>("weights_from", "first sweep that changes weights, from 0",
+        "Method that improves one vertex. newton: Newton steps in position and weight together. golden: the paper's "
+        "golden section. alternating: Newton in position, then in weight"),
+    row<&Options::unknowns>("unknowns", "Unknowns that steps may change. The others keep their values",
+                            {.common = true}),
+    row<kPaper, &Paper::weights_from>("weights_from", "First sweep that changes weights, counted from 0",
                                       {.needs = {{{"unknowns", "positions_and_weights"}}}}),
-    row<kPaper, &Paper::relaxation>("relaxation", "over-relaxation of Newton steps",
+    row<kPaper, &Paper::relaxation>("relaxation", "Over-relaxation of Newton steps",
                                     {.range = inside(0, 2),
-                                     .absent = "1.7, but 1.97 while gamma shrinks from 1",
+                                     .absent = "1.7, or 1.97 while gamma shrinks from 1",
                                      .needs = {{{"solver", "newton|alternating"}}}}),
     row<kPaper, &Paper::search_radius>("search_radius",
-                                       "how far golden section searches for a position: the root mean square distance "
-                                       "to the neighbors, or that of the farthest or the nearest",
+                                       "Radius of golden section for positions. rms: root mean square distance to the "
+                                       "neighbors. max: distance to the farthest one. min: distance to the nearest one",
                                        {.needs = {{{"solver", "golden", makes_golden_searches}}}}),
     row<kPaper, &Paper::weight_search_radius>(
-        "weight_search_radius", "how far golden section searches for a weight, relative to the search radius squared",
+        "weight_search_radius",
+        "Radius of golden section for weights, as a multiple of the squared radius for positions",
         {.range = more_than(0), .needs = {kGolden}}),
-    row<kPaper, &Paper::visits>("visits",
-                                "a sweep visits each vertex once, or twice: all positions first, then all weights",
-                                {.needs = {{{"unknowns", "positions_and_weights"}}}}),
-    row<kPaper, &Paper::anchor>("anchor", "shift the weights after each sweep so that this vertex has weight 0",
-                                {.absent_name = "none", .absent = "they stay"}),
+    row<kPaper, &Paper::visits>(
+        "visits", "Number of visits to each vertex in one sweep. twice: first all positions, then all weights",
+        {.needs = {{{"unknowns", "positions_and_weights"}}}}),
+    row<kPaper, &Paper::anchor>("anchor", "Vertex that has weight 0 after each sweep. All weights are shifted for this",
+                                {.absent_name = "none", .absent = "weights are not shifted"}),
 };
 
 constexpr OptionRow kConnectivityRows[] = {
     row<&Options::flips>("flips",
-                         "flip edges at once, after the inner sweeps, or never: then the connectivity stays, and no "
-                         "step may make an edge non-regular"),
+                         "Time at which edges flip. immediate: at once. deferred: after the inner sweeps. none: never. "
+                         "Then the connectivity stays, and no step may make an edge non-regular"),
     row<kPaper, &Paper::flip_limit>(
-        "flip_limit", "how far a step may go past the point where an edge flips",
+        "flip_limit",
+        "Limit of a step that makes an edge flip. The step ends before, at or after the flip, or is unlimited",
         {.absent = "unlimited for barriers, after for HOT", .needs = {{{"flips", "immediate|deferred"}}}}),
     row<kPaper, &Paper::overshoot>(
-        "overshoot", "of `flip_limit=after`: where steps end, relative to the way to the flip, at first",
+        "overshoot",
+        "Length of a step with `flip_limit=after` in the first sweep, as a multiple of the way to the flip",
         {.range = more_than(0),
          .needs = {{{"flips", "immediate|deferred"}, {"flip_limit", "after", limits_after_flips}}}}),
     row<kPaper, &Paper::overshoot_factor>(
-        "overshoot_factor", "by which what the overshoot is above or below 1 shrinks each sweep; 1: it is constant",
+        "overshoot_factor",
+        "Factor per sweep on the difference between the overshoot and 1. With factor 1 the overshoot is constant",
         {.range = {0, 1}, .needs = {{{"flips", "immediate|deferred"}, {"flip_limit", "after", limits_after_flips}}}}),
     row<&Options::repair>(
         "repair",
-        "where sweeps leave triangles bad: nothing; sweep again and kick vertices there, and find weights by a linear "
-        "program; remove and insert vertices there, too, and keep what cures most",
+        "Treatment of triangles that stay invalid. none: nothing. perturb: sweep again with random moves, and find "
+        "weights by a linear program. vertices: also remove and insert vertices. The best result is kept",
         {.common = true,
          .needs = {{kBarrier, {"unknowns", "positions_and_weights|positions"}, {"flips", "immediate|deferred"}}}}),
-    row<&Options::repair_trials>("repair_trials",
-                                 "at most so many edits are tried, 1 to 3 ms each; a linear program counts as 20",
-                                 {.needs = {{{"repair", "perturb|vertices"}}}}),
+    row<&Options::repair_trials>(
+        "repair_trials", "Largest number of edits that repairs try, 1 to 3 ms each. A linear program counts as 20",
+        {.needs = {{{"repair", "perturb|vertices"}}}}),
     row<&Options::boundary>(
         "boundary",
-        "keep: the domain's boundary stays bit for bit; slide: vertices of its straight pieces, never corners, may "
-        "move along them; split: edges of boundary and interfaces much longer than one they meet are cut before the "
-        "sweeps, and the vertices that were there stay bit for bit",
+        "Treatment of the boundary. keep: it stays bit for bit. slide: vertices, never corners, may move along "
+        "straight pieces. split: cut long edges before the sweeps. They are edges of the boundary or of interfaces, "
+        "next to much shorter ones. The old vertices stay bit for bit",
         {.common = true}),
     row<&Options::boundary_ratio>("boundary_ratio",
-                                  "of `boundary=split`: how many times as long an edge may be as one it meets",
+                                  "Largest ratio of the lengths of two boundary or interface edges that meet, with "
+                                  "`boundary=split`. Longer edges are cut",
                                   {.range = at_least(kLeastBoundaryRatio), .needs = {{{"boundary", "split"}}}}),
     row<&Options::interfaces>("interfaces",
-                              "vertices of straight region interfaces and tagged lines stay, or may move along them"),
+                              "Treatment of vertices on region interfaces and tagged lines. fixed: they stay. sliding: "
+                              "they may move along straight lines"),
 };
 
 constexpr OptionRow kSizeRows[] = {
-    row<&Options::size_band>("size_band",
-                             "B: no step takes the size at a vertex out of the size field's 1/B to B times",
-                             {.range = at_least(1), .absent_name = "none", .absent = "sizes are only reported"}),
+    row<&Options::size_band>(
+        "size_band",
+        "Size band B. No step moves the size at a vertex out of the range from 1/B to B times the size field",
+        {.range = at_least(1), .absent_name = "none", .absent = "sizes are only reported"}),
 };
 
 constexpr OptionRow kPaperRows[] = {
     row<kPaper, &Paper::inner>(
-        "inner", "with deferred flips: at most so many sweeps before edges are flipped; 0: until they converge",
+        "inner", "Largest number of sweeps before edges flip, with `flips=deferred`. 0: sweep until convergence",
         {.needs = {kDeferredFlips}}),
     row<kPaper, &Paper::outer>(
-        "outer", "with deferred flips: at most so many rounds of sweeps and flips; 0: until no flips are needed",
+        "outer",
+        "Largest number of rounds of sweeps and flips, with `flips=deferred`. 0: continue until no flips are needed",
         {.needs = {kDeferredFlips}}),
-    row<kPaper, &Paper::weight_updates>(
-        "weight_updates",
-        "a new weight is seen by its neighbors at once, or after the sweep (not with `solver=newton`)"),
-    row<kPaper, &Paper::position_updates>("position_updates",
-                                          "the same of positions; deferred, with `weight_updates=deferred` where "
-                                          "weights move: all unknowns are those of the sweep before"),
-    row<kPaper, &Paper::collapse_from>("collapse_from",
-                                       "i_c: first sweep with short-edge collapses, from 0 (Algorithm 2)",
-                                       {.absent_name = "none", .absent = "no collapses"}),
-    row<kPaper, &Paper::collapse_energy>("collapse_energy", "E_c, which draws a vertex to an edge",
+    row<kPaper, &Paper::weight_updates>("weight_updates",
+                                        "Time at which neighbors see a new weight. immediate: at once. deferred: after "
+                                        "the sweep. With `solver=newton`, positions must then be deferred too"),
+    row<kPaper, &Paper::position_updates>(
+        "position_updates",
+        "Time at which neighbors see a new position. immediate: at once. deferred: after the sweep. All unknowns are "
+        "then from the sweep before, so weights that move need `weight_updates=deferred`"),
+    row<kPaper, &Paper::collapse_from>(
+        "collapse_from", "First sweep with collapses of short edges, counted from 0. It is i_c of Algorithm 2",
+        {.absent_name = "none", .absent = "no collapses"}),
+    row<kPaper, &Paper::collapse_energy>("collapse_energy", "Energy E_c of collapses, which draws a vertex to an edge",
                                          {.choices = std::span(kNames<EnergyKind>).first<3>(), .needs = {kCollapses}}),
-    row<kPaper, &Paper::collapse_ratio>(
-        "collapse_ratio",
-        "collapse a vertex that E_c wants this near its neighbor, relative to that one's shorter edge beside",
-        {.range = inside(0, 1), .needs = {kCollapses}}),
+    row<kPaper, &Paper::collapse_ratio>("collapse_ratio",
+                                        "Ratio below which a vertex collapses. It is the distance from the least E_c "
+                                        "to the nearest neighbor, over the shorter link edge at that neighbor",
+                                        {.range = inside(0, 1), .needs = {kCollapses}}),
     row<kPaper, &Paper::removal>("removal",
-                                 "patch: remove a vertex when its patch is better without it (Algorithm 1, line 15); "
-                                 "weight: when its weight is far below its neighbors'"),
+                                 "Removal of vertices. patch: if the patch is better without the vertex. This is line "
+                                 "15 of Algorithm 1. weight: if the weight is far below its neighbors' weights"),
     row<kPaper, &Paper::removal_measure>(
         "removal_measure",
-        "by what patches are compared: energy summed (the paper), per triangle, or above equilateral triangles",
+        "Measure that compares patches. sum: total energy, as in the paper. mean: energy per triangle. excess: energy "
+        "above the energy of equilateral triangles",
         {.needs = {{{"removal", "patch", compares_patches}}}}),
-    row<kPaper, &Paper::removal_margin>("removal_margin", "by which part the patch must be better",
+    row<kPaper, &Paper::removal_margin>("removal_margin",
+                                        "Relative gain of the patch that a removal or an insertion needs",
                                         {.range = at_least(0), .needs = {{{"removal", "patch", compares_patches}}}}),
-    row<kPaper, &Paper::hidden_threshold>(
-        "hidden_threshold",
-        "of `removal=weight`: how far below the mean of its neighbors', relative to their mean squared distance",
-        {.range = more_than(0), .needs = {{{"removal", "weight"}}}}),
-    row<kPaper, &Paper::removal_from>("removal_from", "first sweep with removals, from 0", {.needs = {kRemovals}}),
+    row<kPaper, &Paper::hidden_threshold>("hidden_threshold",
+                                          "Threshold of `removal=weight`. It is the distance of a weight below the "
+                                          "mean weight of its neighbors, over their mean squared distance",
+                                          {.range = more_than(0), .needs = {{{"removal", "weight"}}}}),
+    row<kPaper, &Paper::removal_from>("removal_from", "First sweep with removals, counted from 0",
+                                      {.needs = {kRemovals}}),
     row<kPaper, &Paper::insertion_from>("insertion_from",
-                                        "first sweep after which vertices are inserted at the orthocenters of "
-                                        "triangles of large energy, where that makes the mesh better, from 0",
+                                        "First sweep after which vertices are inserted, counted from 0. They go to the "
+                                        "orthocenters of triangles of large energy, if that makes the mesh better",
                                         {.absent_name = "none", .absent = "no insertions"}),
-    row<kPaper, &Paper::insertion_ratio>("insertion_ratio", "how many times the mean energy of a triangle is large",
+    row<kPaper, &Paper::insertion_ratio>("insertion_ratio",
+                                         "Ratio to the mean energy of a triangle, above which an energy is large",
                                          {.range = more_than(1), .needs = {kInsertions}}),
-    row<kPaper, &Paper::hidden>("hidden", "what weights hide: undo the step, remove the vertex, or keep and report it"),
-    row<kPaper, &Paper::inversion>(
-        "inversion",
-        "steps that turn a triangle over are refused, or allowed as in the paper (with deferred flips); infinite: "
-        "where a triangle is turned over a barrier is, so that searches step over such places, but not onto them"),
-    row<kPaper, &Paper::order>("order", "in which a sweep visits the vertices"),
+    row<kPaper, &Paper::hidden>("hidden",
+                                "Treatment of vertices that weights hide. undo: undo the step. remove: remove the "
+                                "vertex. keep: keep the vertex and report it"),
+    row<kPaper, &Paper::inversion>("inversion",
+                                   "Treatment of steps that turn a triangle over. refuse: refused. allow: allowed as "
+                                   "in the paper, with `flips=deferred`. infinite: barriers are infinite there. "
+                                   "Searches may then pass over such places, but never end there"),
+    row<kPaper, &Paper::order>("order", "Order in which a sweep visits the vertices"),
 };
 
 constexpr OptionRow kStoppingRows[] = {
-    row<&Options::max_sweeps>("max_sweeps", "at most this many sweeps over the vertices"),
-    row<kPaper, &Paper::tolerance>("tolerance", "stop when a sweep gains less than this", {.range = at_least(0)}),
-    row<kPaper, &Paper::stopping>(
-        "stopping", "the gain relative to the energy, or the paper's: mean energy per triangle, absolute"),
-    row<&Options::time_limit>("time_limit", "stop after this many seconds; 0: no limit",
+    row<&Options::max_sweeps>("max_sweeps", "Largest number of sweeps over the vertices"),
+    row<kPaper, &Paper::tolerance>("tolerance", "Tolerance. The sweeps end when one gains less than this",
+                                   {.range = at_least(0)}),
+    row<kPaper, &Paper::stopping>("stopping",
+                                  "Measure of the gain of a sweep. relative: relative to the energy. paper: change of "
+                                  "the mean energy per triangle, absolute"),
+    row<&Options::time_limit>("time_limit", "Time limit in seconds. 0: no limit",
                               {.range = at_least(0), .common = true}),
-    row<kPaper, &Paper::seed>("seed", "of the jitter that frees symmetric grids, of repairs, and of `order=random`"),
+    row<kPaper, &Paper::seed>("seed",
+                              "Seed of the jitter that frees symmetric grids, of repairs, and of `order=random`"),
 };
 
 constexpr OptionGroup kGroups[] = {
@@ -398,13 +424,13 @@ std::span<const OptionGroup> option_groups() { return kGroups; }
 
 std::span<const Method> methods() {
   static constexpr Method kMethods[] = {
-      {"production", "temper's own", [] { return OptimizeOptions(); }},
+      {"production", "temper's own method", [] { return OptimizeOptions(); }},
       {"paper",
-       "Algorithm 1 of the paper with golden section, deferred flips, collapses, the patch test, inversions allowed, "
-       "the first vertex as anchor and gamma 1",
+       "Algorithm 1 of the paper. It has golden section, deferred flips, collapses, the patch test, inversions, the "
+       "first vertex as anchor and gamma 1",
        paper_method},
-      {"odt", "optimal Delaunay triangulation: energy ODT of the positions alone", odt_method},
-      {"cvt", "centroidal Voronoi tessellation: energy F of star 0, of the positions alone", cvt_method},
+      {"odt", "optimal Delaunay triangulation. It lowers energy ODT by positions alone", odt_method},
+      {"cvt", "centroidal Voronoi tessellation. It lowers energy F of star 0 by positions alone", cvt_method},
   };
   return kMethods;
 }

@@ -153,7 +153,7 @@ TEST_F(Errors, BadUsageIsRefusedAndNothingIsWritten) {
   make_input();
   const Outcome field = temper({"errors", "in.vtu", "--fields", "chosen,sine", "--edges", "edges.csv"});
   EXPECT_EQ(field.exit, 2);
-  EXPECT_TRUE(contains(field.err, "--fields: no field 'sine'; there are all, chosen, held-back, exact, product"));
+  EXPECT_TRUE(contains(field.err, "--fields: no field 'sine'; the fields are all, chosen, held-back, exact, product"));
   EXPECT_EQ(temper({"errors"}).exit, 2);
   EXPECT_EQ(temper({"errors", "in.vtu", "--fields", ""}).exit, 2);
   EXPECT_EQ(temper({"errors", "in.vtu", "--refine", "-1"}).exit, 2);

@@ -105,9 +105,10 @@ TEST(ErrorSphere, IntegralsAreFlows) {
 TEST(ErrorSphere, FieldsOfThePlaneAreNoneOfTheSphere) {
   const auto report = measure_errors(*icosahedral({.level = 1}), {.fields = {"bump"}});
   ASSERT_FALSE(report);
-  EXPECT_EQ(report.error().message,
-            "no field 'bump'; there are on the sphere all, chosen, held-back, axial, saddle, quilt, tilted, belts, "
-            "octants, petals, mixed");
+  EXPECT_EQ(
+      report.error().message,
+      "no field 'bump'; the fields on the sphere are all, chosen, held-back, axial, saddle, quilt, tilted, belts, "
+      "octants, petals, mixed");
 }
 
 }  // namespace

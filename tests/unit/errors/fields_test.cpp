@@ -119,7 +119,7 @@ TEST(ErrorFields, AreSelectedByNameAndByGroup) {
   EXPECT_EQ(names({}), names({"held-back", "chosen", "bump"}));
   EXPECT_EQ(names({"exact"}), "linear ");
   EXPECT_EQ(names({"bump", "oblique", "bump"}), "oblique bump ");
-  EXPECT_TRUE(names({"chosen", "sine"}).starts_with("no field 'sine'; there are all, chosen, held-back"));
+  EXPECT_TRUE(names({"chosen", "sine"}).starts_with("no field 'sine'; the fields are all, chosen, held-back"));
 }
 
 TEST(ErrorQuadrature, IsExactForDegreeSevenAndAMeanAtAPoint) {
