@@ -124,9 +124,9 @@ std::string requirement_keys() {
 Option& add_requirements(Command& command, std::vector<std::string>& lists) {
   return add_texts(
       command, "--require", "LIST", Values::repeated, lists,
-      "key=value,key>=value,key<=value,...: exit with 3 when one does not hold. key=value asks of a count that "
-      "it is the value, of a minimum or a fraction that it is no less, of a maximum or an energy that it is no "
-      "more. A key alone asks for what is usual, see docs/thresholds.md. Keys: " +
+      "Requirements key=value, key>=value or key<=value, separated by commas. If one is not met, exit with 3. For a "
+      "count, key=value requires equality. For a minimum or a fraction it means at least, and for a maximum or an "
+      "energy at most. A key alone stands for its usual value, see docs/thresholds.md. Keys: " +
           requirement_keys());
 }
 
