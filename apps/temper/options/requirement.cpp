@@ -69,7 +69,7 @@ Requirement parse_requirement(std::string_view text) {
   if (at == std::string_view::npos) return usual_requirement(text);
   const std::string_view key = text.substr(0, at);
   const bool two = text.substr(at).size() > 1 && text[at + 1] == '=';
-  if (!two && text[at] != '=') refuse(fmt::format("'{}': write <= or >=, the ends always belong", text));
+  if (!two && text[at] != '=') refuse(fmt::format("'{}': write <= or >=, both include the value", text));
 
   Requirement requirement;
   requirement.text = text;
@@ -159,7 +159,7 @@ Exit report_unmet(std::span<const Outcome> outcomes, const std::string& path) {
   Exit exit = Exit::done;
   for (const auto& [requirement, found, met] : outcomes) {
     if (met) continue;
-    print_error(fmt::format("{}: requirement not met: {} wants {} {} {}, found {}", path, requirement.text,
+    print_error(fmt::format("{}: requirement not met: {} means {} {} {}, found {}", path, requirement.text,
                             requirement.key, sign(requirement.better), requirement.value, found));
     exit = Exit::requirement;
   }

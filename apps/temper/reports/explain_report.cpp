@@ -58,7 +58,7 @@ std::string headline(const Explanation& e, const Input& input) {
     case Feasibility::infeasible:
       return text + "With every vertex and edge as it is, no weights make all of them well-centered.\n";
     case Feasibility::undecided:
-      return text + "Whether weights alone could make all of them well-centered was not decided.\n";
+      return text + "It is not known if weights alone can make all of them well-centered.\n";
   }
   return text;
 }
@@ -137,12 +137,12 @@ const Section kSplits = {
     "The dual of an edge crosses it in one place. A vertex that stays and sees the edge lets it cross near one end "
     "only; two such vertices can leave no place. No other vertices inside, weights or edges help: the edge must be "
     "split, or one of the vertices move."};
-const Section kConflicts = {
-    "Conflicts",
-    "A dual edge crosses its edge in one place, the same for the triangles on both sides. If an obtuse triangle is "
-    "to be well-centered, the edges at its obtuse corner must be crossed close to that corner, and the edge across "
-    "from it away from both ends. Where the two sides need different places, no weights help: a vertex or an edge "
-    "has to change."};
+const Section kConflicts = {"Conflicts",
+                            "A dual edge crosses its edge in one place, the same for the triangles on both sides. An "
+                            "obtuse triangle is well-centered only if the edges at its obtuse corner are crossed close "
+                            "to that corner. The edge across from the corner must be crossed away from both ends. If "
+                            "the two sides need different places, no weights help: a vertex or an edge "
+                            "has to change."};
 const Section kUndecided = {"Not known", "Neither weights nor a proof that there are none were found."};
 const Section kWeights = {"Weights exist", "No vertex and no edge has to change here: the weights of the mesh do."};
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "console.hpp"
+#include "options/options.hpp"
 #include "reports/quality_report.hpp"
 
 namespace temper::app {
@@ -165,6 +166,12 @@ std::string verdict(const Quality& quality) {
     text += ", " + are(quality.inverted_triangles, "triangle is inverted", "triangles are inverted");
   }
   return text;
+}
+
+std::string next_step(const Quality& quality, const std::string& path, const std::string& projection) {
+  if (bad_triangles(quality) == 0 || path == kStandardOutput) return {};
+  const std::string map = projection.empty() ? "" : " --projection=" + shell_quote(projection);
+  return fmt::format("Next: {}{}\n", command_line("explain", {path}, {}), map);
 }
 
 std::string quality_text(const Quality& quality, const Input& input, const TextStyle& style) {

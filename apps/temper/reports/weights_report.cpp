@@ -48,7 +48,7 @@ std::string margin_text(const WeightReport& report) {
     case MarginKind::at_least:
       return fmt::format("best margin at least {:.10g}", report.margin);
     case MarginKind::at_most:
-      return fmt::format("best margin at most {:.10g}, that of the worst neighborhood", report.margin);
+      return fmt::format("best margin at most {:.10g}, the best margin of the worst neighborhood", report.margin);
   }
   return {};
 }

@@ -103,8 +103,9 @@ ErrorReference measure_reference(const ErrorSettings& s, const std::string& proj
   print_warnings(reference.warnings());
   take_to_metric(reference, s.metric);
   if (!same_box(frame, field_frame(reference.mesh()))) {
-    print_warnings(std::vector<std::string>{fmt::format(
-        "{} and {} do not have the same bounding box: both are measured in that of {}", s.input, s.against, s.input)});
+    print_warnings(std::vector<std::string>{
+        fmt::format("{} and {} do not have the same bounding box: both are measured in the box of {}", s.input,
+                    s.against, s.input)});
   }
   MeasureErrorsOptions same = options;
   same.refine = 0;

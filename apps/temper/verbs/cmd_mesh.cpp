@@ -140,9 +140,9 @@ std::vector<RegionSize> region_sizes(const std::string& text) {
 void check_usage(const Command& command, const MeshSettings& s) {
   if (s.sphere) return;
   if (s.input.empty())
-    refuse_usage("mesh", "OUTLINE is missing; without one there is a mesh of a whole sphere (--sphere)");
+    refuse_usage("mesh", "OUTLINE is missing: give an outline file, or --sphere for a mesh of the whole sphere");
   for (const char* option : {"--coast", "--lines", "--radius"}) {
-    if (command.was_given(option)) refuse_usage("mesh", std::string(option) + " is for --sphere");
+    if (command.was_given(option)) refuse_usage("mesh", std::string(option) + " needs --sphere");
   }
 }
 
@@ -334,7 +334,10 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
         fmt::format("{}: {} triangles, {} not well-centered", s.output.path, after.triangles, bad_triangles(after));
     outputs.write_picture(s.picture, draw_svg(made.mesh, drawing));
   }
-  if (!s.quiet) print(mesh_text(record) + fmt::format("\n{}: {}\n", s.output.path, verdict(after)));
+  if (!s.quiet) {
+    print(mesh_text(record) + fmt::format("\n{}: {}\n", s.output.path, verdict(after)));
+    if (!s.sphere) print(next_step(after, s.output.path, ""));
+  }
   return stopped_early(made.report.stopped) ? Exit::stopped_early : Exit::done;
 }
 

@@ -215,7 +215,7 @@ std::string ending(const OptimizeReport& report) {
     case Stopped::max_outer:
       return "stopped by --outer after " + work;
     case Stopped::sweep_limit:
-      return "made all --accuracy-sweeps after " + work;
+      return "finished the --accuracy-sweeps after " + work;
     case Stopped::tangled:
       return "stopped by inverted triangles, among which no edges can be flipped, after " + work;
     case Stopped::hidden:
@@ -269,6 +269,7 @@ void print_result(const OptimizeSettings& s, const RunResults& results, const Ou
   if (!results.errors_text.empty()) print("\n" + results.errors_text);
   for (const std::string& note : results.report.notes) print("note: " + note + "\n");
   print(fmt::format("\n{}: {}\n", s.output.path, verdict(results.after)));
+  if (!s.metric) print(next_step(results.after, s.output.path, s.projection));
   std::string written;
   for (const std::string& path : outputs.written()) written += (written.empty() ? "wrote " : ", ") + path;
   print(written + "\n");

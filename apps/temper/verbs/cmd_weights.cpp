@@ -134,16 +134,16 @@ void check_usage(const Command& command, const WeightsSettings& s) {
     fail("--output is missing");
   }
   const bool regular = s.options.constraints == Constraints::regular, search = s.connectivity == Connectivity::search;
-  if (!regular && command.was_given("--edges")) fail("--edges is of --constraints regular alone");
-  if (!search && command.was_given("--programs")) fail("--programs is of --connectivity search alone");
-  if (search && regular) fail("--connectivity search is of other constraints than regular, which flips alone keep");
+  if (!regular && command.was_given("--edges")) fail("--edges needs --constraints regular");
+  if (!search && command.was_given("--programs")) fail("--programs needs --connectivity search");
+  if (search && regular) fail("--connectivity search needs other constraints than regular, which flips alone keep");
   if (search && !s.certificate.empty()) {
-    fail("--certificate is about the connectivity of IN; --connectivity search leaves that");
+    fail("--certificate needs --connectivity fixed, because the proof is about the edges of IN");
   }
   if (s.mode == Mode::barrier && s.options.constraints != Constraints::well_centered) {
-    fail("--mode barrier is of --constraints well-centered alone");
+    fail("--mode barrier needs --constraints well-centered");
   }
-  if (s.mode != Mode::barrier && command.was_given("--energy")) fail("--energy is of --mode barrier alone");
+  if (s.mode != Mode::barrier && command.was_given("--energy")) fail("--energy needs --mode barrier");
 }
 
 Exit check(const WeightsSettings& s, const Input& input) {

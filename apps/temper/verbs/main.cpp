@@ -104,7 +104,7 @@ int internal_error(std::string_view what) {
 /// undone any more. But unfinished files are removed, and the usual message is printed.
 [[noreturn]] void end_on_terminate() {
   io::discard_unfinished();
-  const char* message = "temper: error: internal error, in a place that cannot fail; please report that\n";
+  const char* message = "temper: error: internal error, in a place that cannot fail; please report it\n";
   if (std::current_exception()) {
     try {
       throw;

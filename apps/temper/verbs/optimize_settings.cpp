@@ -120,9 +120,11 @@ Command optimize_command(OptimizeSettings& settings) {
 void take_input(Command& command, OptimizeSettings& s) {
   if (s.output.path.empty()) refuse_usage("optimize", "--output is required");
   if (s.save_every && !is_replaced(s.output.path))
-    throw Failure(Exit::bad_usage, fmt::format("optimize: --save-every: {} is no file that can be replaced; give -o "
-                                               "a file",
-                                               s.output.path));
+    throw Failure(
+        Exit::bad_usage,
+        fmt::format(
+            "optimize: --save-every: {} is not a file that can be replaced. Next: give the name of a file to -o",
+            s.output.path));
   if (!s.input.empty()) return;
   if (s.fix.size() < 2) refuse_usage("optimize", "IN is missing: the mesh to improve");
   s.input = s.fix.back();
@@ -134,7 +136,7 @@ std::vector<std::string> doubtful_options(const Command& command, const Optimize
   std::vector<std::string> warnings = idle_options(command, s.table, s.method->options());
   if (s.options().repair == Repair::vertices && s.options().size_band) {
     warnings.emplace_back(
-        spell_options("vertices that `repair=vertices` removes and inserts are not held to `size_band`"));
+        spell_options("`size_band` does not restrict the vertices that `repair=vertices` removes and inserts"));
   }
   if (s.size_field.empty() && command.was_given("--size-field-data")) {
     warnings.emplace_back("--size-field-data has no effect without --size-field");

@@ -244,7 +244,7 @@ std::vector<std::int32_t> one_tag_a_point(const WriteJob& job) {
   }
   if (lost > 0) {
     job.warn(lost, " further tags of points that have one already are not written: ", job.row.description,
-             " holds one a point");
+             " holds one per point");
   }
   return tags;
 }

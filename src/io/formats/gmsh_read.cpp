@@ -46,8 +46,7 @@ constexpr std::array<std::string_view, 9> kElementNames = {"quadrilateral",
                                                            "quadratic tetrahedron"};
 std::string_view element_name(std::int32_t type) {
   if (type == 16) return "quadratic quadrilateral";
-  return type >= 3 && type <= 11 ? kElementNames[static_cast<std::size_t>(type) - 3]
-                                 : "element of a type that temper does not know";
+  return type >= 3 && type <= 11 ? kElementNames[static_cast<std::size_t>(type) - 3] : "element of an unknown type";
 }
 
 /// Elements of one kind as they are read.

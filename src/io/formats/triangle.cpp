@@ -245,7 +245,7 @@ class TriangleReader {
     if (columns.undeclared() > 0) {
       f.warnings.push_back(text(source.path,
                                 ": undeclared attributes are read as data, not as weights; the comment line '",
-                                kDeclaration, "float64 1 weight' declares the first one a weight"));
+                                kDeclaration, "float64 1 weight' makes the first one a weight"));
     }
     f.point_data = columns.take();
     if (const DataArray* weight = find(f.point_data, "weight"); weight != nullptr && weight->components == 1) {

@@ -165,7 +165,7 @@ TEST_F(Optimize, RequirementsAreJudgedOnWhatIsWritten) {
   EXPECT_EQ(read_json("r.json")["requirements"].size(), 2u);
   const Outcome outcome = temper({"optimize", "in.vtu", "-o", "hard.vtu", "--quiet", "--require", "min_h>=0.5"});
   EXPECT_EQ(outcome.exit, 3);
-  EXPECT_TRUE(contains(outcome.err, "hard.vtu: requirement not met: min_h>=0.5 wants min_h_over_l >= 0.5, found 0."));
+  EXPECT_TRUE(contains(outcome.err, "hard.vtu: requirement not met: min_h>=0.5 means min_h_over_l >= 0.5, found 0."));
   EXPECT_TRUE(exists("hard.vtu"));
   EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "no.vtu", "--require", "min_hight=1"}).exit, 2);
   EXPECT_FALSE(exists("no.vtu"));

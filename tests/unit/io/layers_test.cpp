@@ -121,7 +121,7 @@ TEST_F(LayerFiles, AVertexWithoutACellHasNoneAndDisvNoPlaceForIt) {
   const auto disv = write_dec(path("out"), mesh, complex, cells, {.formats = {DecFormat::disv}, .columns = &*made});
   ASSERT_FALSE(disv);
   EXPECT_EQ(disv.error().what(),
-            "the power cell of point 0 in the domain is not one polygon, as DISV wants; DISU does not");
+            "the power cell of point 0 in the domain is not one polygon, which DISV needs. Next: write DISU");
   EXPECT_FALSE(std::filesystem::exists(path("out")));
   ASSERT_TRUE(write_dec(path("out"), mesh, complex, cells, {.formats = {DecFormat::disu}, .columns = &*made}));
   const std::string disu = slurp(path("out/mesh.disu"));

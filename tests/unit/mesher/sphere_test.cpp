@@ -374,7 +374,7 @@ TEST(SphereMesherErrors, CoastsAreClosedAndDoNotCross) {
   SphereOutline open;
   add_line(open.coasts, {{0, 0}, {20, 0}, {20, 20}}, false);
   expect_globe_error(open, globe_sized(1e6), ErrorCode::empty_input,
-                     "segment 0 ends at (0, 0), where the coast does not go on");
+                     "segment 0 ends at (0, 0), but no other segment goes on there");
   expect_globe_error(coast({{0, 0}, {20, 20}, {20, 0}, {0, 20}}), globe_sized(1e6), ErrorCode::overlap,
                      "segment 2 (point 2 to point 3) crosses segment 0 (point 0 to point 1)");
   SphereOutline two = coast(blob({0, 0}, 20, 20));
