@@ -24,9 +24,9 @@ std::string points_text(const io::DataReport& r) {
 
 std::string cells_text(const io::DataReport& r) {
   if (r.triangles_changed == 0 || r.of_triangles.empty()) return {};
-  return fmt::format("cell data: {} of {} are others\n", r.triangles_changed,
+  return fmt::format("cell data: {} of {} have changed\n", r.triangles_changed,
                      plural(r.triangles, "triangle", "triangles")) +
-         line("of the input's triangle that the middle is in", r.of_triangles);
+         line("taken from the input's triangle at the same place", r.of_triangles);
 }
 
 }  // namespace

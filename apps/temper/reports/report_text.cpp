@@ -110,7 +110,7 @@ std::string histograms(const Quality& quality, const TextStyle& style) {
   } else {
     for (const auto& panel : panels) text += beside({panel});
   }
-  return text + "The first and the last bar also count what lies beyond.\n";
+  return text + "The first and the last bar also count all values beyond them.\n";
 }
 
 std::string worst_text(const Quality& quality, const Input& input, const TextStyle& style) {

@@ -72,7 +72,7 @@ class Checks {
     options_.worst = s_.worst;
     options_.executor = threads_.get();
     if (!s_.html.empty() && s_.inputs.size() > 1) {
-      refuse_usage("check", fmt::format("--html: it is the report of one mesh, and {} are given", s_.inputs.size()));
+      refuse_usage("check", fmt::format("--html: expected one mesh, found {}", s_.inputs.size()));
     }
     expect_without(command, s_.metric, "--html");
     outputs_.expect_text("--html", s_.html, s_.inputs);

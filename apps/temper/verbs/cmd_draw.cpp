@@ -120,7 +120,7 @@ void check_view(const DrawOptions& options, const Input& input) {
   }
   if (!input.mesh().space().is_plane()) return;
   throw Failure(Exit::bad_usage,
-                fmt::format("{}: --view: the mesh is one of the plane, expected one of the sphere", input.path));
+                fmt::format("{}: --view: the mesh is in a plane; expected a mesh of the sphere", input.path));
 }
 
 void check_same_space(const Input& before, const Input& after) {
@@ -129,8 +129,9 @@ void check_same_space(const Input& before, const Input& after) {
     constexpr const char* kNames[] = {"the plane", "the sphere", "a periodic plane"};
     return kNames[static_cast<std::size_t>(input.mesh().space().kind())];
   };
-  throw Failure(Exit::bad_input, fmt::format("{}: is a mesh of {}, but {} is one of {}; expected two of a kind",
-                                             before.path, name(before), after.path, name(after)));
+  throw Failure(Exit::bad_input,
+                fmt::format("{}: is a mesh of {}, but {} is a mesh of {}; expected two meshes of the same space",
+                            before.path, name(before), after.path, name(after)));
 }
 
 }  // namespace

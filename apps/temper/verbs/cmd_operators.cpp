@@ -97,7 +97,7 @@ void check_layers(const Command& command, const DecSettings& s, const std::vecto
 void check_folder(const DecSettings& s, const std::vector<io::DecFormat>& formats) {
   std::error_code ignored;
   if (fs::exists(s.output, ignored) && !fs::is_directory(s.output, ignored)) {
-    throw Failure(Exit::bad_input, fmt::format("{}: is no folder; expected the name of one, or of none", s.output));
+    throw Failure(Exit::bad_input, fmt::format("{}: is not a folder; expected a folder, or a new name", s.output));
   }
   for (const io::DecFormat format : formats) {
     for (const std::string_view name : io::dec_file_names(format, !s.layers.empty())) {

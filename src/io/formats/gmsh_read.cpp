@@ -335,7 +335,7 @@ class GmshReader {
       const auto index = lookup_->find(number);
       if (!index) {
         fail(ErrorCode::index_out_of_range, where(), "node data ", in_quotes(name), " are given for node ", number,
-             ", which is none");
+             ", which does not exist");
       }
       given[*index] = true;
       for (std::size_t k = 0; k < components; ++k)
@@ -384,7 +384,7 @@ class GmshReader {
       }
       if (target == nullptr) {
         fail(ErrorCode::index_out_of_range, where(), "element data ", in_quotes(name), " are given for element ",
-             number, ", which is none");
+             number, ", which does not exist");
       }
       if (target->values.empty()) {
         allocation_.take(target->n, components, where());

@@ -344,7 +344,7 @@ std::vector<DataArray> without(const std::vector<DataArray>& arrays, std::string
   std::vector<DataArray> result;
   for (const DataArray& a : arrays) {
     if (a.name == name)
-      job.warn("data '", name, "' is not written: the name is taken");
+      job.warn("data '", name, "' is not written: other data have this name");
     else
       result.push_back(a);
   }

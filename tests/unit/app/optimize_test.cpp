@@ -107,8 +107,8 @@ TEST_F(Optimize, InTheMetricOfATensorAndNowhereElse) {
   temper_ok({"example", "random-sphere", "--vertices", "60", "-o", "globe.vtu"});
   const Outcome globe = temper(with({"optimize", "globe.vtu", "-o", "b.vtu"}));
   EXPECT_EQ(globe.exit, 1);
-  EXPECT_TRUE(contains(globe.err,
-                       "globe.vtu: the mesh is one of the sphere, and a diffusion tensor takes meshes of the plane"));
+  EXPECT_TRUE(
+      contains(globe.err, "globe.vtu: the mesh is on a sphere, but a diffusion tensor needs a mesh of the plane"));
   EXPECT_FALSE(std::filesystem::exists("b.vtu"));
 }
 

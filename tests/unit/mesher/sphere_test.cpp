@@ -401,12 +401,12 @@ TEST(SphereMesherErrors, SizesFitTheSphere) {
   MesherOptions options;
   const Mesh globe = *icosahedral({.level = 1, .radius = 1});
   options.field = *SizeField::from_values(globe, std::vector<double>(globe.n_vertices(), 0.5));
-  expect_globe_error({}, options, ErrorCode::invalid_option, "the size field is of a sphere of radius 1");
+  expect_globe_error({}, options, ErrorCode::invalid_option, "the size field is for a sphere of radius 1");
   options.field = *SizeField::from_values(globe, std::vector<double>(globe.n_vertices(), 1e-6));
   expect_globe_error({.radius = 1}, options, ErrorCode::invalid_option, "the size field would make about");
   const Mesh flat = sparse_horseshoe();
   options.field = *SizeField::from_values(flat, std::vector<double>(flat.n_vertices(), 0.5));
-  expect_globe_error({.radius = 1}, options, ErrorCode::invalid_option, "the size field is of the plane");
+  expect_globe_error({.radius = 1}, options, ErrorCode::invalid_option, "the size field is for the plane");
 }
 
 }  // namespace
