@@ -147,7 +147,7 @@ void write_side_file(const WriteJob& job) {
   for (const double w : f.weights) weighted = weighted || w != 0 || std::signbit(w);
   if (is_stream(job.path)) {
     if (weighted)
-      job.warn("the format has no place for weights, and no file can be beside a stream: they are left out");
+      job.warn("the format has no place for weights, and a stream has no file next to it: they are left out");
     return;
   }
   // An old side file would give its weights to this mesh, so it has to be replaced.

@@ -117,7 +117,7 @@ TEST_F(Convert, NothingIsPutBesideAStream) {
   for (const char* where : {" > b.obj", " | cat > b.obj"}) {
     const Outcome piped = shell(std::string("temper convert weighted.vtu -o - --format obj") + where);
     EXPECT_EQ(piped.exit, 0) << piped.err;
-    EXPECT_TRUE(contains(piped.err, "no file can be beside a stream")) << piped.err;
+    EXPECT_TRUE(contains(piped.err, "a stream has no file next to it")) << piped.err;
     const Outcome several = shell(std::string("temper convert weighted.vtu -o - --format triangle") + where);
     EXPECT_TRUE(contains(several.err, "Triangle is several files; expected the name of a file, found a stream"))
         << several.err;
