@@ -80,16 +80,15 @@ void Mesh::repair_outgoing() {
 std::optional<InputError> expect_plane(const Mesh& mesh, std::string_view what) {
   if (mesh.space().is_periodic()) return expect_no_period(mesh, what);
   if (mesh.space().kind() == SpaceKind::plane) return std::nullopt;
-  return InputError{ErrorCode::unsupported,
-                    {},
-                    "the mesh is one of the sphere, and " + std::string(what) + " takes meshes of the plane"};
+  return InputError{
+      ErrorCode::unsupported, {}, "the mesh is on a sphere, but " + std::string(what) + " needs a mesh of the plane"};
 }
 
 std::optional<InputError> expect_no_period(const Mesh& mesh, std::string_view what) {
   if (!mesh.space().is_periodic()) return std::nullopt;
   return InputError{ErrorCode::unsupported,
                     {},
-                    "the mesh is one of a periodic plane, and " + std::string(what) + " takes meshes without periods"};
+                    "the mesh is in a periodic plane, but " + std::string(what) + " needs a mesh without periods"};
 }
 
 }  // namespace temper

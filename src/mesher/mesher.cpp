@@ -37,7 +37,7 @@ std::string text_of(const Space& space) {
 std::optional<InputError> check(const MesherOptions& options, const Space& space) {
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
   if (options.field && !(options.field->mesh().space() == space)) {
-    return invalid("the size field is of " + text_of(options.field->mesh().space()) + ", what is to be meshed of " +
+    return invalid("the size field is for " + text_of(options.field->mesh().space()) + ", but the outline is for " +
                    text_of(space));
   }
   if (!positive(options.size) && !(options.field && options.size == 0)) {
@@ -228,8 +228,9 @@ class Mesher {
 
   [[nodiscard]] static InputError stopped(const std::string& doing) {
     return {ErrorCode::stopped, "",
-            "there is no mesh yet: it was time to stop while the outline was " + doing +
-                "; sizes far below the outline's, and narrow places along its long edges, take many triangles"};
+            "the run stopped without a mesh, while the outline was " + doing +
+                ". Sizes far below the sizes of the outline, and narrow places along its long edges, take many "
+                "triangles. Next: larger sizes, or more time"};
   }
   /// Division points meet or cross others: the outline is too narrow there for its coordinates.
   [[nodiscard]] static InputError too_fine(const InputError& error) {
@@ -329,8 +330,9 @@ class Mesher {
       made.vertex_of_point[p] = VertexId(static_cast<std::size_t>(inside.vertex[p]));
     }
     if (const std::size_t outside = outline_.points.size() - inside.outline_points.size(); outside > 0) {
-      made.notes.push_back("points of the outline outside, or of segments outside, are not in the mesh: " +
-                           std::to_string(outside));
+      made.notes.push_back(
+          "number of points of the outline that are not in the mesh, because they or their segments are outside: " +
+          std::to_string(outside));
     }
   }
 

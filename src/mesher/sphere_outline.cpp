@@ -265,7 +265,7 @@ class Joiner {
         const Vec2 p = point(o, end);
         return at_segment(k, i, ErrorCode::empty_input,
                           "ends at (" + to_text(p.x) + ", " + to_text(p.y) +
-                              "), where the coast does not go on; expected it to be closed");
+                              "), but no other segment goes on there; expected a closed coast");
       }
     }
     for (const std::int32_t s : segments) {

@@ -81,5 +81,5 @@ def test_hexagons_and_delaunay():
     ],
 )  # fmt: skip
 def test_what_takes_no_periods_says_so(call, sea):
-    with pytest.raises(temper.TemperError, match="the mesh is one of a periodic plane, and "):
+    with pytest.raises(temper.TemperError, match="the mesh is in a periodic plane, but "):
         call(sea)

@@ -328,7 +328,7 @@ def test_what_is_for_the_plane_says_so(name, globe):
     with pytest.raises(temper.TemperError) as caught:
         PLANE_ALONE[name](globe)
     assert caught.value.code == "unsupported"
-    assert caught.value.message == f"the mesh is one of the sphere, and {name}() takes meshes of the plane"
+    assert caught.value.message == f"the mesh is on a sphere, but {name}() needs a mesh of the plane"
     assert globe == before
 
 

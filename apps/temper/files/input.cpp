@@ -54,9 +54,10 @@ Input read_input(const std::string& path, const ReadingOptions& options) {
 void expect_plane(const Mesh& mesh, const std::string& path, std::string_view what) {
   const auto error = temper::expect_plane(mesh, what);
   if (!error) return;
-  throw Failure(Exit::bad_input,
-                fmt::format("{}: {}{}", path, error->message,
-                            mesh.space().is_plane() ? "" : "; --projection puts longitude and latitude on a map"));
+  throw Failure(
+      Exit::bad_input,
+      fmt::format("{}: {}{}", path, error->message,
+                  mesh.space().is_plane() ? "" : ". Next: --projection puts longitude and latitude on a map"));
 }
 
 std::string same_projection(const Input& input, const std::string& projection) {

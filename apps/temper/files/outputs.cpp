@@ -61,7 +61,7 @@ std::string what_it_is(const std::string& file, const std::string& input, std::s
 }  // namespace
 
 void add_mesh_output(Command& command, MeshOutput& target, const std::string& value_name, const std::string& sentence) {
-  add_text(command, "-o,--output", value_name, target.path, sentence + "; -: standard output");
+  add_text(command, "-o,--output", value_name, target.path, sentence + " '-' writes to standard output.");
   command.option("--output").take = [&target](const std::string& text) {
     if (text.empty()) throw BadValue("needs a value, found an empty one");
     target.path = text == "-" ? kStandardOutput : text;
@@ -72,18 +72,19 @@ void add_mesh_output(Command& command, MeshOutput& target, const std::string& va
   }
   add_name(
       command, "--format", names, [&target](std::string_view name) { target.options.format = name; },
-      "the format of " + value_name + ", whatever its suffix");
+      "Format of " + value_name + ". Without it, the suffix selects the format.");
   static constexpr Choice<io::Encoding> kEncodings[] = {{"ascii", io::Encoding::ascii},
                                                         {"base64", io::Encoding::base64},
                                                         {"appended", io::Encoding::appended},
                                                         {"binary", io::Encoding::appended}};
   add_choice(
       command, "--encoding", kEncodings, [&target](io::Encoding value) { target.options.encoding = value; },
-      "the encoding, of formats that have several (default: the compact one; fastest: appended)");
+      "Encoding, for formats that have several. The fastest is 'appended'. (default: the most compact)");
   command.add(
       {.names = "--no-triangle-quality",
        .value_name = "",
-       .sentence = "VTU and VTKHDF without the cell data well_centered, min_h_over_l, min_d_over_l and min_angle_deg",
+       .sentence =
+           "Leave out the cell data well_centered, min_h_over_l, min_d_over_l and min_angle_deg of VTU and VTKHDF.",
        .take = [&target](const std::string&) { target.options.triangle_quality = false; }});
 }
 

@@ -17,7 +17,7 @@ struct MeshOutput {
 };
 /// -o,--output, --format and --encoding. The output is not marked as required.
 void add_mesh_output(Command& command, MeshOutput& target, const std::string& value_name,
-                     const std::string& sentence = "where the mesh goes; its suffix tells the format");
+                     const std::string& sentence = "Mesh file to write. Its suffix selects the format.");
 
 class Outputs {
  public:

@@ -84,7 +84,9 @@ void convert(const std::string& path, std::vector<std::string> words, Scratch& i
       posix_spawnp(&process, kProgram, &files, nullptr, arguments.data(), environment_without_dates().data());
   posix_spawn_file_actions_destroy(&files);
   if (error == ENOENT) {
-    fail(path, fmt::format("{} is not there, which makes it of SVG (Debian: librsvg2-bin); or write .svg", kProgram));
+    fail(path,
+         fmt::format("{} is not there, which converts SVG. Next: install it (Debian: librsvg2-bin), or write .svg",
+                     kProgram));
   }
   if (error != 0) fail(path, fmt::format("{}: {}", kProgram, std::strerror(error)));
   int status = 0;

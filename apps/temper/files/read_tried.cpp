@@ -115,7 +115,7 @@ Expected<void> try_in_child(const std::string& path, const Budget& budget) {
   if (child < 0) {
     return InputError{
         ErrorCode::unsupported, path,
-        std::string("is first read in a process of its own, and none could be started: ") + std::strerror(errno)};
+        std::string("cannot be read: the process that reads it first could not be started: ") + std::strerror(errno)};
   }
   if (child == 0) be_the_child(ends[1], budget, path);
   close(ends[1]);
@@ -131,12 +131,11 @@ Expected<void> try_in_child(const std::string& path, const Budget& budget) {
     return InputError{static_cast<ErrorCode>((*said)[1]), said->substr(2, end - 2), said->substr(end + 1)};
   }
   const bool slow = !said || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL));
-  return InputError{
-      ErrorCode::syntax, path,
-      slow ? "libhdf5 does not get to its end within " + std::to_string(budget.seconds) +
-                 " s: the file is damaged, or should be written without compression, or as classic NetCDF (nccopy -k "
-                 "cdf5)"
-           : "libhdf5 dies of it: the file is damaged"};
+  return InputError{ErrorCode::syntax, path,
+                    slow ? "libhdf5 does not finish within " + std::to_string(budget.seconds) +
+                               " s: the file is damaged or slow to read. Next: write it without compression, or as "
+                               "classic NetCDF (nccopy -k cdf5)"
+                         : "libhdf5 crashes: the file is damaged"};
 }
 
 }  // namespace

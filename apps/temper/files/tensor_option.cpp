@@ -16,7 +16,7 @@ void add_tensor(Command& command, std::optional<Metric>& metric, const std::stri
     metric = *made;
   };
   add_numbers(command, "--tensor", "KXX,KXY,KYY", 3, use,
-              "a constant diffusion tensor K, for -div(K grad u): " + what + " in its metric; see docs/tensor.md");
+              "Constant diffusion tensor K of -div(K grad u). " + what + " in its metric. See docs/tensor.md.");
 }
 
 void expect_without(const Command& command, const std::optional<Metric>& metric, const std::string& option) {

@@ -228,7 +228,7 @@ void check_header(const Record& header, const Input& input) {
   if (!header.has("trace")) header.fail("is not the header of a trace; expected {\"temper\":…,\"trace\":2,…}");
   if (header.whole("trace") == kVersionWithoutEnd) {
     header.fail(
-        "is a trace of version 1, which has no end line to tell whether it is whole; write it anew with temper "
+        "is a trace of version 1, which has no end line to tell whether it is whole; write it again with temper "
         "optimize --trace");
   }
   if (header.whole("trace") != kTraceVersion) {

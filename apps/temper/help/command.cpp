@@ -236,9 +236,10 @@ void Command::add_help(VerbHelp help) {
   const bool in_two = std::ranges::any_of(options_, &Option::rare);
   add({.names = "-h,--help",
        .value_name = "",
-       .sentence = in_two ? "this text, without the options that most runs do not need" : "this text",
+       .sentence = in_two ? "Print this text, without the options that most runs do not need." : "Print this text.",
        .take = nullptr});
-  if (in_two) add({.names = std::string(kWholeHelp), .value_name = "", .sentence = "all options", .take = nullptr});
+  if (in_two)
+    add({.names = std::string(kWholeHelp), .value_name = "", .sentence = "Print all options.", .take = nullptr});
 }
 
 Command& Command::add_subcommand(std::string name, std::string description) {

@@ -59,7 +59,8 @@ bool has(const auto& names, std::string_view name) { return std::ranges::find(na
 /// A line: the word, and the first clause of its meaning.
 std::string offer(std::string_view word, std::string_view meaning) {
   constexpr std::size_t kLongest = 70;
-  std::string_view clause = meaning.substr(0, meaning.find_first_of(";(:"));
+  std::string_view clause = meaning.substr(0, std::min(meaning.find_first_of(";(:"), meaning.find(". ")));
+  if (clause.ends_with('.')) clause.remove_suffix(1);
   if (clause.size() > kLongest) clause = clause.substr(0, clause.rfind(' ', kLongest));
   return std::string(word) + "\t" + std::string(clause) + "\n";
 }

@@ -75,17 +75,17 @@ std::string_view meaning(Exit exit) {
     case Exit::done:
       return "done";
     case Exit::bad_input:
-      return "bad input, or an output that cannot be written; nothing was written but what the message names";
+      return "bad input, or an output that cannot be written; the message names all files that were written";
     case Exit::bad_usage:
       return "bad usage: options that make no sense";
     case Exit::requirement:
-      return "what --require or --require-claims asks for is not met";
+      return "a requirement of --require or --require-claims is not met";
     case Exit::stopped_early:
       return "stopped by a signal or --time-limit, best mesh written; or edges that may flip are not regular";
     case Exit::internal:
-      return "out of memory, or an internal error: please report that";
+      return "out of memory, or an internal error; please report it";
     case Exit::infeasible:
-      return "weights: there are none that do what was asked; nothing was written but the certificate";
+      return "weights: no weights meet the request; only the certificate was written";
   }
   return "";
 }
@@ -139,16 +139,17 @@ HelpPage help_of_program() {
   HelpPage page = {"", summary, "temper: " + summary, "VERB ...", {verb_part()}};
   page.parts.push_back(
       {"Options",
-       {{"-h, --help", "this text; temper VERB --help has the options and examples of a verb"},
-        {"--help=FORMAT", "the same for man, or completions for bash, zsh or fish: man <(temper optimize --help=man)"},
-        {"--version", "the version, and what the program was built from"}},
+       {{"-h, --help", "Print this text. For the options and examples of a verb, run temper VERB --help."},
+        {"--help=FORMAT",
+         "Print a page for man, or completions for bash, zsh or fish. Example: man <(temper optimize --help=man)"},
+        {"--version", "Print the version, and the commit, compiler and libraries of the program."}},
        kOptionColumns});
   page.parts.push_back(
       {"Environment",
        {{"TEMPER_NETCDF",
-         "the file of libnetcdf, where several are installed or the loader does not find it: files "
-         "of MPAS and UGRID are read and written by that library"},
-        {"TEMPER_HDF5", "the file of libhdf5, likewise: VTKHDF files are read and written by that library"}}});
+         "File of libnetcdf, which reads and writes files of MPAS and UGRID. Set it if several are installed, or if "
+         "the loader does not find the library."},
+        {"TEMPER_HDF5", "File of libhdf5, which reads and writes VTKHDF files. Set it in the same cases."}}});
   add_end(page,
           "  temper example horseshoe -o horseshoe.vtu\n"
           "  temper check horseshoe.vtu\n"

@@ -161,15 +161,16 @@ std::optional<LengthParameter> LengthParameterFlags::value() const {
 
 void add_gamma(Command& command, LengthParameterFlags& target, const std::string& default_text) {
   add_number(command, "--gamma", target.absolute, kPositive,
-             "gamma of E_BP, as a length in the units of the mesh" + default_text);
-  add_number(command, "--gamma-rel", target.relative, kPositive, "gamma of E_BP, as a multiple of each edge's length")
+             "Gamma of E_BP, as a length in the units of the mesh." + default_text);
+  add_number(command, "--gamma-rel", target.relative, kPositive, "Gamma of E_BP, as a multiple of each edge's length.")
       .excludes = "--gamma";
 }
 
 void add_h0(Command& command, LengthParameterFlags& target, const std::string& default_text) {
-  add_number(command, "--h0", target.absolute, kNotNegative,
-             "how far below zero E_BHs lets h go (-h0 of the paper, so >= 0), as a length" + default_text);
-  add_number(command, "--h0-rel", target.relative, kNotNegative, "the same, as a multiple of each edge's length")
+  add_number(
+      command, "--h0", target.absolute, kNotNegative,
+      "Distance below zero to which E_BHs lets h fall, as a length >= 0. It is -h0 of the paper." + default_text);
+  add_number(command, "--h0-rel", target.relative, kNotNegative, "As --h0, but as a multiple of each edge's length.")
       .excludes = "--h0";
 }
 
@@ -215,12 +216,11 @@ std::string command_line(const std::string& verb, const std::vector<std::string>
 }
 
 void add_projection(Command& command, std::string& target) {
-  add_text(
-      command, "--projection", "KIND[:lon,lat]|sphere[:radius=R]|none", target,
-      "the map for points in longitude and latitude, a globe's too: stereographic, mercator or transverse-mercator "
-      "about this center (default: the middle of the points), to meters; a mesh that is written has degrees again; "
-      "sphere: a mesh of the sphere of this radius (default: 6371000), without a map; none: coordinates are those "
-      "of a plane, whatever they look like");
+  add_text(command, "--projection", "KIND[:lon,lat]|sphere[:radius=R]|none", target,
+           "Map from longitude and latitude to meters: stereographic, mercator or transverse-mercator about this "
+           "center. Without a center, the middle of the points is used. The mesh that is written has degrees again. "
+           "'sphere' makes a mesh of the sphere without a map, with radius 6371000 unless you give R. 'none' uses all "
+           "coordinates as coordinates of a plane.");
 }
 
 }  // namespace temper::app

@@ -64,9 +64,10 @@ void join_ranks() {
   if (n == 0) return;
   world = std::make_unique<MpiCommunicator>();
   if (world->size() < n) {
-    throw Failure(Exit::bad_usage, fmt::format("optimize: started as {} processes, of which {} knows {}: mpirun is of "
-                                               "another MPI",
-                                               n, mpi_library(), world->size()));
+    throw Failure(
+        Exit::bad_usage,
+        fmt::format("optimize: started as {} processes, but {} has only {}. Next: start it with the mpirun of this MPI",
+                    n, mpi_library(), world->size()));
   }
   if (world->rank() > 0) be_silent();
 }
@@ -85,8 +86,8 @@ std::vector<std::string> warnings_of_ranks() {
   const std::size_t here = communicator() != nullptr ? world->ranks_on_machine() : 1;
   if (here == 1) return {};
   return {
-      fmt::format("{} ranks share this machine, and each has the whole mesh and threads of its own; one a machine "
-                  "is faster: mpirun --map-by ppr:1:node --bind-to none",
+      fmt::format("{} ranks share this machine, and each has its own copy of the mesh and its own threads. One rank "
+                  "per machine is faster: mpirun --map-by ppr:1:node --bind-to none",
                   here)};
 }
 
@@ -106,8 +107,8 @@ std::string mpi_library() { return {}; }
 void join_ranks() {
   if (launched() < 2) return;
   throw Failure(Exit::bad_usage,
-                "optimize: started as several processes, by a program that was built without MPI; for ranks configure "
-                "it with -DTEMPER_BUILD_MPI=ON");
+                "optimize: started as several processes, but this program was built without MPI. Next: build it with "
+                "-DTEMPER_BUILD_MPI=ON");
 }
 
 void leave_ranks() {}

@@ -69,7 +69,7 @@ Requirement parse_requirement(std::string_view text) {
   if (at == std::string_view::npos) return usual_requirement(text);
   const std::string_view key = text.substr(0, at);
   const bool two = text.substr(at).size() > 1 && text[at + 1] == '=';
-  if (!two && text[at] != '=') refuse(fmt::format("'{}': write <= or >=, the ends always belong", text));
+  if (!two && text[at] != '=') refuse(fmt::format("'{}': write <= or >=, both include the value", text));
 
   Requirement requirement;
   requirement.text = text;
@@ -124,9 +124,9 @@ std::string requirement_keys() {
 Option& add_requirements(Command& command, std::vector<std::string>& lists) {
   return add_texts(
       command, "--require", "LIST", Values::repeated, lists,
-      "key=value,key>=value,key<=value,...: exit with 3 when one does not hold. key=value asks of a count that "
-      "it is the value, of a minimum or a fraction that it is no less, of a maximum or an energy that it is no "
-      "more. A key alone asks for what is usual, see docs/thresholds.md. Keys: " +
+      "Requirements key=value, key>=value or key<=value, separated by commas. If one is not met, exit with 3. For a "
+      "count, key=value requires equality. For a minimum or a fraction it means at least, and for a maximum or an "
+      "energy at most. A key alone stands for its usual value, see docs/thresholds.md. Keys: " +
           requirement_keys());
 }
 
@@ -159,7 +159,7 @@ Exit report_unmet(std::span<const Outcome> outcomes, const std::string& path) {
   Exit exit = Exit::done;
   for (const auto& [requirement, found, met] : outcomes) {
     if (met) continue;
-    print_error(fmt::format("{}: requirement not met: {} wants {} {} {}, found {}", path, requirement.text,
+    print_error(fmt::format("{}: requirement not met: {} means {} {} {}, found {}", path, requirement.text,
                             requirement.key, sign(requirement.better), requirement.value, found));
     exit = Exit::requirement;
   }

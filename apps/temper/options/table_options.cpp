@@ -17,7 +17,7 @@ struct Shorthand {
 };
 
 const Shorthand kShorthands[] = {
-    {"--no-flips", "flips", "none", "keep the connectivity"},
+    {"--no-flips", "flips", "none", "Keep the connectivity."},
 };
 
 std::string with(char to, char from, std::string_view text) {
@@ -67,10 +67,16 @@ std::string value_name(const OptionRow& row) {
   return name + (row.optional ? "|" + std::string(row.absent_name) : "");
 }
 
+std::string without_period(std::string text) {
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
 std::string sentence_of(const OptionRow& row) {
   std::string sentence = spell_options(row.sentence);
-  if (row.optional) sentence += fmt::format("; {}: {}", row.absent_name, spell_options(row.absent));
-  return sentence;
+  if (!row.optional) return sentence;
+  return fmt::format("{}. '{}': {}.", without_period(sentence), row.absent_name,
+                     without_period(spell_options(row.absent)));
 }
 
 /// γ and h°: one option for a length, one for a multiple of each edge's.
@@ -88,9 +94,11 @@ void add_length_parameter(Command& command, const OptionRow& row, OptimizeOption
         {.names = name, .value_name = "X", .sentence = sentence, .take = take, .spell = spell, .rare = !row.common});
   };
   add(name_of(row), LengthScale::absolute,
-      fmt::format("{}, as a length in the units of the mesh; without it {}", row.sentence, row.absent));
-  add(relative_name(row), LengthScale::relative, "the same, as a multiple of each edge's length").excludes =
-      name_of(row);
+      fmt::format("{}, as a length in the units of the mesh. If you do not give it: {}.",
+                  without_period(std::string(row.sentence)), without_period(std::string(row.absent))));
+  add(relative_name(row), LengthScale::relative,
+      fmt::format("As {}, but as a multiple of each edge's length.", name_of(row)))
+      .excludes = name_of(row);
 }
 
 void add_row(Command& command, const OptionRow& row, TableOptions& target) {
@@ -103,7 +111,7 @@ void add_row(Command& command, const OptionRow& row, TableOptions& target) {
                    .rare = !row.common};
   if (row.kind == OptionKind::vertex) {
     option.take = [&row, &target](const std::string& text) { target.vertices[row.name] = text; };
-    option.sentence = sentence_of(row) + " (its number in the file)";
+    option.sentence = without_period(sentence_of(row)) + ". VERTEX is its number in the file.";
   } else {
     option.take = [&row, &options](const std::string& text) { row.set(options, value_of(row, text)); };
     option.spell = [&row, &options] {

@@ -24,9 +24,9 @@ std::string points_text(const io::DataReport& r) {
 
 std::string cells_text(const io::DataReport& r) {
   if (r.triangles_changed == 0 || r.of_triangles.empty()) return {};
-  return fmt::format("cell data: {} of {} are others\n", r.triangles_changed,
+  return fmt::format("cell data: {} of {} have changed\n", r.triangles_changed,
                      plural(r.triangles, "triangle", "triangles")) +
-         line("of the input's triangle that the middle is in", r.of_triangles);
+         line("taken from the input's triangle at the same place", r.of_triangles);
 }
 
 }  // namespace
@@ -37,9 +37,9 @@ void add_point_data(Command& command, std::vector<std::string>& words) {
     if (const auto rules = io::parse_data_rules(words); !rules) throw BadValue(rules.error().message);
   };
   const std::string sentence =
-      "what floating point data of points do where vertices move: interpolate (they are of the place, such as depths: "
-      "linear on the triangles of IN) or keep (they go with their point); RULE=NAME is for one array, and may be "
-      "repeated. Integers stay with their points, data of triangles with the place";
+      "Rule for floating point data of points when vertices move. 'interpolate' suits data of a place, such as depths: "
+      "it is linear on the triangles of IN. With 'keep', data move with their point. RULE=NAME applies to one array, "
+      "and may be repeated. Integers stay with their points, and data of triangles stay at their place.";
   command
       .add({.names = "--point-data",
             .value_name = "RULE[=NAME]",

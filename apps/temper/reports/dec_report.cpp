@@ -147,8 +147,7 @@ std::vector<std::string> dec_warnings(const DecRecord& record) {
   if (s.not_well_centered > 0) {
     warnings.push_back(fmt::format(
         "{}: {} of {} triangles are not well-centered: {} interior and {} boundary entries of star1 and {} of star0 "
-        "are "
-        "negative; temper optimize makes them positive",
+        "are negative. Next: temper optimize makes them positive",
         record.path, s.not_well_centered, s.triangles, s.negative_star1, s.negative_boundary_star1, s.negative_star0));
   }
   const auto edges = [](std::size_t n) { return n == 1 ? "1 interior edge" : fmt::format("{} interior edges", n); };
@@ -158,7 +157,7 @@ std::vector<std::string> dec_warnings(const DecRecord& record) {
   }
   if (s.zero_star1 > 0) {
     warnings.push_back(
-        fmt::format("{}: {} with a dual edge of length zero: star1 is 0 there, the two-point flux infinite",
+        fmt::format("{}: {} with a dual edge of length zero: star1 is 0 there, and the two-point flux is infinite",
                     record.path, edges(s.zero_star1)));
   }
   return warnings;

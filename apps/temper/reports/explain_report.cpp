@@ -51,14 +51,14 @@ std::string headline(const Explanation& e, const Input& input) {
                                  e.bad == 1 ? "is" : "are");
   switch (e.verdict) {
     case Feasibility::feasible:
-      return text + fmt::format(
-                        "With every vertex where it is, weights make all of them well-centered: {} of {} change "
-                        "(margin {:.4g}).\n",
-                        e.changed, input.mesh().n_vertices(), e.margin);
+      return text +
+             fmt::format(
+                 "If no vertex moves, weights make all of them well-centered: {} of {} change (margin {:.4g}).\n",
+                 e.changed, input.mesh().n_vertices(), e.margin);
     case Feasibility::infeasible:
-      return text + "With every vertex and edge as it is, no weights make all of them well-centered.\n";
+      return text + "If no vertex moves and no edge flips, no weights make all of them well-centered.\n";
     case Feasibility::undecided:
-      return text + "Whether weights alone could make all of them well-centered was not decided.\n";
+      return text + "It is not known if weights alone can make all of them well-centered.\n";
   }
   return text;
 }
@@ -74,7 +74,7 @@ std::string summary(const Explanation& e) {
                         plural(splits.reasons, "edge", "edges"), splits.reasons == 1 ? "it" : "them");
   }
   if (conflicts.reasons > 0) {
-    text += fmt::format("  {} in {}: small sets of triangles that no weights suit\n", conflicts.bad,
+    text += fmt::format("  {} in {}: small sets of triangles for which no weights exist\n", conflicts.bad,
                         plural(conflicts.reasons, "conflict", "conflicts"));
   }
   if (weights.reasons > 0) {
@@ -82,7 +82,7 @@ std::string summary(const Explanation& e) {
                         plural(weights.reasons, "place", "places"));
   }
   if (undecided.reasons > 0) {
-    text += fmt::format("  {} in {} of which neither is known\n", undecided.bad,
+    text += fmt::format("  {} in {} for which neither weights nor a proof were found\n", undecided.bad,
                         plural(undecided.reasons, "place", "places"));
   }
   return text;
@@ -132,19 +132,19 @@ std::string paragraph(const Reason& reason, std::size_t number, const Input& inp
 struct Section {
   std::string title, about;
 };
-const Section kSplits = {
-    "Edges that must be split",
-    "The dual of an edge crosses it in one place. A vertex that stays and sees the edge lets it cross near one end "
-    "only; two such vertices can leave no place. No other vertices inside, weights or edges help: the edge must be "
-    "split, or one of the vertices move."};
-const Section kConflicts = {
-    "Conflicts",
-    "A dual edge crosses its edge in one place, the same for the triangles on both sides. If an obtuse triangle is "
-    "to be well-centered, the edges at its obtuse corner must be crossed close to that corner, and the edge across "
-    "from it away from both ends. Where the two sides need different places, no weights help: a vertex or an edge "
-    "has to change."};
+const Section kSplits = {"Edges that must be split",
+                         "The dual of an edge crosses it in one place. A fixed vertex near the edge allows a crossing "
+                         "near one end only, and two such vertices can leave no place. Then no change inside helps: "
+                         "split the edge, or move one of these vertices."};
+const Section kConflicts = {"Conflicts",
+                            "A dual edge crosses its edge in one place, the same for the triangles on both sides. An "
+                            "obtuse triangle is well-centered only if the edges at its obtuse corner are crossed close "
+                            "to that corner. The edge across from the corner must be crossed away from both ends. If "
+                            "the two sides need different places, no weights help: a vertex or an edge "
+                            "has to change."};
 const Section kUndecided = {"Not known", "Neither weights nor a proof that there are none were found."};
-const Section kWeights = {"Weights exist", "No vertex and no edge has to change here: the weights of the mesh do."};
+const Section kWeights = {"Weights exist",
+                          "No vertex has to move here and no edge has to flip: the weights have to change."};
 
 template <class Which>
 std::string section(const Section& kind, const Explanation& e, const Input& input, std::size_t limit,

@@ -53,7 +53,7 @@ std::string mesh_text(const MeshRecord& r) {
                         r.made.report.seconds);
   }
   if (r.made.attempts > 1) {
-    text += fmt::format("the outline was divided {} times, finer around what stayed bad\n", r.made.attempts);
+    text += fmt::format("the outline was divided {} times, finer around triangles that stayed bad\n", r.made.attempts);
   }
   for (const std::string& note : r.made.notes) text += "note: " + note + "\n";
   return text;

@@ -41,6 +41,9 @@ struct TextStyle {
 /// "46 of 96 triangles are not well-centered, every edge is regular"
 [[nodiscard]] std::string verdict(const Quality& quality);
 
+/// "Next: temper explain out.vtu", if a triangle of the file is not well-centered.
+[[nodiscard]] std::string next_step(const Quality& quality, const std::string& path, const std::string& projection);
+
 /// Triangles that are not well-centered.
 [[nodiscard]] std::size_t bad_triangles(const Quality& quality);
 

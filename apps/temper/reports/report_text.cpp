@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "console.hpp"
+#include "options/options.hpp"
 #include "reports/quality_report.hpp"
 
 namespace temper::app {
@@ -109,7 +110,7 @@ std::string histograms(const Quality& quality, const TextStyle& style) {
   } else {
     for (const auto& panel : panels) text += beside({panel});
   }
-  return text + "The first and the last bar also count what lies beyond.\n";
+  return text + "The first and the last bar also count all values beyond them.\n";
 }
 
 std::string worst_text(const Quality& quality, const Input& input, const TextStyle& style) {
@@ -165,6 +166,12 @@ std::string verdict(const Quality& quality) {
     text += ", " + are(quality.inverted_triangles, "triangle is inverted", "triangles are inverted");
   }
   return text;
+}
+
+std::string next_step(const Quality& quality, const std::string& path, const std::string& projection) {
+  if (bad_triangles(quality) == 0 || path == kStandardOutput) return {};
+  const std::string map = projection.empty() ? "" : " --projection=" + shell_quote(projection);
+  return fmt::format("Next: {}{}\n", command_line("explain", {path}, {}), map);
 }
 
 std::string quality_text(const Quality& quality, const Input& input, const TextStyle& style) {

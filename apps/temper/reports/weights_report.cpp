@@ -48,7 +48,7 @@ std::string margin_text(const WeightReport& report) {
     case MarginKind::at_least:
       return fmt::format("best margin at least {:.10g}", report.margin);
     case MarginKind::at_most:
-      return fmt::format("best margin at most {:.10g}, that of the worst neighborhood", report.margin);
+      return fmt::format("best margin at most {:.10g}, the best margin of the worst neighborhood", report.margin);
   }
   return {};
 }
@@ -84,7 +84,7 @@ std::string violations_text(const WeightsRecord& r) {
                                 constraint_text(v.constraint, r.input, r.mesh)));
     total += v.shortfall;
   }
-  return fmt::format("{} of the {} give way, by {:.6g} in all:\n", lines.size(),
+  return fmt::format("{} of the {} violate their bound, by {:.6g} in all:\n", lines.size(),
                      r.options.constraints == Constraints::regular ? "dual lengths/l" : "h/l and d/l", total) +
          listed(lines);
 }
@@ -148,7 +148,7 @@ std::string weights_text(const WeightsRecord& r) {
   std::string text = fmt::format("{}: {} vertices, {} triangles\n{}{}\n{}\n", r.input.path, r.mesh.n_vertices(),
                                  r.mesh.n_triangles(), search_text(r), verdict_text(r), margin_text(report));
   if (!report.solved && report.verdict == Feasibility::feasible) {
-    text += fmt::format("a margin of {} cannot be had\n", r.options.margin);
+    text += fmt::format("no weights give a margin of {}\n", r.options.margin);
   }
   text += certificate_text(r) + violations_text(r);
   if (report.solved) {

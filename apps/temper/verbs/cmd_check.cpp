@@ -34,18 +34,20 @@ struct CheckSettings {
 void add_options(Command& command, CheckSettings& s) {
   command.group("Report");
   add_texts(command, "IN", "", Values::words, s.inputs,
-            "the mesh, or several; the content of each tells its format; -: standard input")
+            "One or more mesh files. The content of each file shows its format. '-' reads standard input.")
       .require();
   add_projection(command, s.projection);
-  command.add_flag("--json", s.json,
-                   "the report as JSON, of several meshes a list of them; vertices and triangles count from 0");
+  command.add_flag(
+      "--json", s.json,
+      "Print the report as JSON, with vertices and triangles counted from 0. For several meshes, print a list.");
   add_text(command, "--html", "FILE", s.html,
-           "an HTML report beside it, of one mesh: its measures, and each triangle's numbers");
-  add_count(command, "--worst", s.worst, 0, "list this many of the worst triangles");
+           "Also write an HTML report of one mesh, with its measures and the numbers of each triangle.");
+  add_count(command, "--worst", s.worst, 0, "Number of worst triangles to list.");
   add_gamma(command, s.gamma, " (default: 1)");
   add_h0(command, s.h0, " (default: 0)");
-  add_tensor(command, s.metric, "all measures are");
-  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  add_tensor(command, s.metric, "Take all measures");
+  add_count(command, "--threads", s.threads, 0,
+            "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
   command.group("Requirements");
   add_requirements(command, s.require);
   command.group("Help");
@@ -70,7 +72,7 @@ class Checks {
     options_.worst = s_.worst;
     options_.executor = threads_.get();
     if (!s_.html.empty() && s_.inputs.size() > 1) {
-      refuse_usage("check", fmt::format("--html: it is the report of one mesh, and {} are given", s_.inputs.size()));
+      refuse_usage("check", fmt::format("--html: expected one mesh, found {}", s_.inputs.size()));
     }
     expect_without(command, s_.metric, "--html");
     outputs_.expect_text("--html", s_.html, s_.inputs);
@@ -129,8 +131,7 @@ class Checks {
 }  // namespace
 
 Exit run_check(const Arguments& arguments) {
-  Command command("check",
-                  "Reports on a mesh: what is exactly right or wrong with it, margins, energies, the worst triangles.");
+  Command command("check", "Reports the quality of a mesh: exact tests, margins, energies and the worst triangles.");
   CheckSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

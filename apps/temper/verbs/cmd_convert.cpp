@@ -23,11 +23,12 @@ struct ConvertSettings {
 
 void add_options(Command& command, ConvertSettings& s) {
   command.group("Files");
-  add_argument(command, "IN", s.input, "the file to read; its content tells the format").require();
+  add_argument(command, "IN", s.input, "File to read. Its content shows the format.").require();
   add_projection(command, s.projection);
-  add_mesh_output(command, s.output, "OUT", "where it goes; its suffix tells the format");
+  add_mesh_output(command, s.output, "OUT", "File to write. Its suffix selects the format.");
   command.option("--output").require();
-  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  add_count(command, "--threads", s.threads, 0,
+            "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
   command.group("Help");
   command.add_help({"IN -o OUT [options]",
                     "  temper convert in.vtu -o out.msh\n"
@@ -40,8 +41,8 @@ void add_options(Command& command, ConvertSettings& s) {
 
 Exit run_convert(const Arguments& arguments) {
   Command command("convert",
-                  "Writes a mesh file in another format. Weights, tags, regions, names and data pass through; a "
-                  "warning names what the new format has no place for.");
+                  "Writes a mesh file in another format. Weights, tags, regions, names and data are kept. If the new "
+                  "format cannot hold something, a warning names it.");
   ConvertSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

@@ -26,40 +26,42 @@ struct DrawSettings {
 
 void add_options(Command& command, DrawSettings& s) {
   command.group("Files");
-  add_argument(command, "IN", s.input, "the mesh to draw").require();
+  add_argument(command, "IN", s.input, "Mesh to draw.").require();
   add_projection(command, s.projection);
-  add_text(command, "-o,--output", "FILE", s.output, "where the picture goes: .svg, .png or .pdf").require();
-  add_text(command, "--before", "IN0", s.before, "a mesh to draw to the left of IN, at the same scale");
+  add_text(command, "-o,--output", "FILE", s.output, "Picture to write: .svg, .png or .pdf.").require();
+  add_text(command, "--before", "IN0", s.before, "Second mesh, drawn to the left of IN at the same scale.");
   command.group("Picture");
   add_numbers(
       command, "--view", "LON,LAT", 2,
       [&s](const std::vector<double>& v) {
         s.options.view = Vec2{v[0], v[1]};
       },
-      "of a sphere: the longitude and latitude of the middle of the picture, in degrees, whose near half is drawn; "
-      "none: "
-      "the middle of a mesh that is a part of the sphere, else 0,0");
-  command.add_flag("--no-primal", s.no_primal, "without the triangles' edges");
-  command.add_flag("--no-dual", s.no_dual, "without the dual edges, between orthocenters");
-  command.add_flag("--no-weights", s.no_weights, "without the weight circles (green positive, red negative)");
-  command.add_flag("--no-bad", s.no_bad, "do not fill triangles that are not well-centered");
-  command.add_flag("--no-rings", s.no_rings, "do not ring vertices that nearly coincide with a neighbor");
-  command.add_flag("--no-regions", s.no_regions, "do not tint regions");
+      "Center of the picture of a sphere, in degrees. The half of the sphere nearest to it is drawn. If you do not "
+      "give it: the middle of a mesh that covers a part of the sphere, else 0,0.");
+  command.add_flag("--no-primal", s.no_primal, "Leave out the edges of triangles.");
+  command.add_flag("--no-dual", s.no_dual, "Leave out the dual edges, which connect orthocenters.");
+  command.add_flag("--no-weights", s.no_weights,
+                   "Leave out the weight circles, which are green for positive and red for negative weights.");
+  command.add_flag("--no-bad", s.no_bad, "Do not fill triangles that are not well-centered.");
+  command.add_flag("--no-rings", s.no_rings, "Do not mark vertices that nearly coincide with a neighbor.");
+  command.add_flag("--no-regions", s.no_regions, "Do not color regions.");
   std::string colors;
   for (const TriangleValue& value : triangle_values()) colors += std::string(value.name) + "|";
   add_text(command, "--color", colors + "NAME", s.color,
-           "fill triangles by a number, dark for the least: the least of h/l, d/l and 1 - d/l; the largest angle; the "
-           "mean length of the edges; the region; or data of triangles in the files");
-  command.add_flag("--numbers", s.options.vertex_numbers, "number the vertices, from 0");
-  add_number(command, "--weight-scale", s.options.weight_scale, kPositive, "factor on the radius of weight circles");
+           "Number by which triangles are filled, dark for the least. 'quality' is the least of h/l, d/l and 1 - d/l. "
+           "'angle' is the largest angle. 'size' is the mean length of the edges. 'region' is the number of the "
+           "region. NAME is data of triangles in the files.");
+  command.add_flag("--numbers", s.options.vertex_numbers, "Number the vertices, from 0.");
+  add_number(command, "--weight-scale", s.options.weight_scale, kPositive, "Factor on the radius of weight circles.");
   add_numbers(
       command, "--zoom", "x0,y0,x1,y1", 4,
       [&s](const std::vector<double>& v) {
         s.options.zoom = Box{{v[0], v[1]}, {v[2], v[3]}};
       },
-      "draw only what meets this rectangle; of a sphere in the picture, from its middle to the right and up");
-  add_number(command, "--width", s.options.width, kPositive, "the width of one panel, in CSS pixels");
-  add_text(command, "--title", "TEXT", s.options.title, "a title under the picture");
+      "Rectangle to draw; all outside it is left out. For a sphere, give coordinates in the picture: x to the right "
+      "and y up from its middle.");
+  add_number(command, "--width", s.options.width, kPositive, "Width of one panel, in CSS pixels.");
+  add_text(command, "--title", "TEXT", s.options.title, "Title under the picture.");
   command.group("Help");
   command.add_help({"IN -o FILE [options]",
                     "  temper draw in.vtu -o mesh.svg\n"
@@ -118,7 +120,7 @@ void check_view(const DrawOptions& options, const Input& input) {
   }
   if (!input.mesh().space().is_plane()) return;
   throw Failure(Exit::bad_usage,
-                fmt::format("{}: --view: the mesh is one of the plane, expected one of the sphere", input.path));
+                fmt::format("{}: --view: the mesh is in a plane; expected a mesh of the sphere", input.path));
 }
 
 void check_same_space(const Input& before, const Input& after) {
@@ -127,15 +129,16 @@ void check_same_space(const Input& before, const Input& after) {
     constexpr const char* kNames[] = {"the plane", "the sphere", "a periodic plane"};
     return kNames[static_cast<std::size_t>(input.mesh().space().kind())];
   };
-  throw Failure(Exit::bad_input, fmt::format("{}: is a mesh of {}, but {} is one of {}; expected two of a kind",
-                                             before.path, name(before), after.path, name(after)));
+  throw Failure(Exit::bad_input,
+                fmt::format("{}: is a mesh of {}, but {} is a mesh of {}; expected two meshes of the same space",
+                            before.path, name(before), after.path, name(after)));
 }
 
 }  // namespace
 
 Exit run_draw(const Arguments& arguments) {
   Command command("draw",
-                  "Draws triangles, the dual between orthocenters, and weights as circles, as SVG, PNG or PDF.");
+                  "Draws triangles, their dual and weight circles as SVG, PNG or PDF. The dual connects orthocenters.");
   DrawSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

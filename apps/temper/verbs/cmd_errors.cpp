@@ -31,39 +31,48 @@ constexpr double kSameBox = 1e-6;
 
 std::string field_names() {
   std::string text;
-  for (const ErrorField& field : error_fields()) text += (text.empty() ? "" : ", ") + std::string(field.name);
-  text += "; on the sphere";
-  for (const ErrorField& field : error_fields(SpaceKind::sphere))
-    text += (text.ends_with("sphere") ? " " : ", ") + std::string(field.name);
-  text += "; in a periodic plane";
-  for (const ErrorField& field : error_fields(SpaceKind::periodic_plane))
-    text += (text.ends_with("plane") ? " " : ", ") + std::string(field.name);
+  const auto add = [&text](std::string_view begin, SpaceKind space) {
+    text += begin;
+    std::string_view separator = " ";
+    for (const ErrorField& field : error_fields(space)) {
+      text += fmt::format("{}{}", separator, field.name);
+      separator = ", ";
+    }
+    text += ".";
+  };
+  add("Fields of the plane:", SpaceKind::plane);
+  add(" Fields of the sphere:", SpaceKind::sphere);
+  add(" Fields of a periodic plane:", SpaceKind::periodic_plane);
   return text;
 }
 
 void add_options(Command& command, ErrorSettings& s) {
   command.group("Report");
-  add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.").require();
   add_projection(command, s.projection);
-  command.add_flag("--json", s.json, "the report as JSON; null means infinite, or undefined for an order");
+  command.add_flag("--json", s.json,
+                   "Print the report as JSON. A null is an infinite number, or an order that is undefined.");
   add_text(command, "--against", "MESH", s.against,
-           "another mesh of the same domain: also print the errors of IN over those of MESH, field by field");
+           "Another mesh of the same domain. For each field, also print the error of IN divided by the error of MESH.");
   add_text(command, "--edges", "FILE", s.edges,
-           "write the error of star 1 at each edge as CSV, with points counted from 0");
+           "Write the error of star 1 at each edge as CSV, with points counted from 0.");
   command.group("Measures");
-  add_text(command, "--fields", "LIST", s.fields,
-           "solutions to try, separated by commas: all, chosen, held-back, exact, or of " + field_names())
+  add_text(
+      command, "--fields", "LIST", s.fields,
+      "Solutions to try, separated by commas. Groups of fields are all, chosen, held-back and exact. " + field_names())
       .defaults_to([&s] { return s.fields; });
-  add_count(command, "--refine", s.refine, 0,
-            "cut every triangle into four, this many times, and print orders of convergence");
-  add_tensor(command, s.metric, "solutions and errors are");
-  command.add_flag("--condition", s.condition, "also estimate the condition of both matrices");
-  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  add_count(
+      command, "--refine", s.refine, 0,
+      "Number of refinements, each of which cuts every triangle into four. The report then has orders of convergence.");
+  add_tensor(command, s.metric, "Take solutions and errors");
+  command.add_flag("--condition", s.condition, "Also estimate the condition numbers of both matrices.");
+  add_count(command, "--threads", s.threads, 0,
+            "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
   command.group("Help");
   command.add_help({"IN [options]",
                     "  temper errors in.vtu\n"
                     "  temper errors in.vtu --fields held-back --refine 2 --json\n"
-                    "  # what an optimization has done to the errors\n"
+                    "  # compare the errors before and after an optimization\n"
                     "  temper example annulus -o ring.vtu && temper optimize ring.vtu -o better.vtu --quiet\n"
                     "  temper errors better.vtu --against ring.vtu\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
@@ -94,8 +103,9 @@ ErrorReference measure_reference(const ErrorSettings& s, const std::string& proj
   print_warnings(reference.warnings());
   take_to_metric(reference, s.metric);
   if (!same_box(frame, field_frame(reference.mesh()))) {
-    print_warnings(std::vector<std::string>{fmt::format(
-        "{} and {} do not have the same bounding box: both are measured in that of {}", s.input, s.against, s.input)});
+    print_warnings(std::vector<std::string>{
+        fmt::format("{} and {} do not have the same bounding box: both are measured in the box of {}", s.input,
+                    s.against, s.input)});
   }
   MeasureErrorsOptions same = options;
   same.refine = 0;
@@ -108,9 +118,9 @@ ErrorReference measure_reference(const ErrorSettings& s, const std::string& proj
 Exit run_errors(const Arguments& arguments) {
   Command command(
       "errors",
-      "Measures the errors that solvers make on a mesh, with manufactured solutions: of the diagonal Hodge stars, "
-      "of a Poisson problem solved by discrete exterior calculus at the vertices, and of one solved by two-point "
-      "fluxes at the orthocenters. Also describes their matrices. docs/errors.md defines every number.");
+      "Measures the errors that solvers make on a mesh, with manufactured solutions. It tests diagonal Hodge stars and "
+      "two Poisson problems. One uses discrete exterior calculus at the vertices, the other two-point fluxes at the "
+      "orthocenters. It also describes their matrices. The page docs/errors.md defines every number.");
   ErrorSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

@@ -41,98 +41,98 @@ std::function<void(const std::vector<double>&)> into(Range& target) {
 }
 
 void add_horseshoe(Command& command, ExampleSettings& s) {
-  add_count(command, "--a", s.horseshoe.a, 2, "points along each arch");
-  add_count(command, "--b", s.horseshoe.b, 2, "arches");
-  add_numbers(command, "--x", "X0,X1", 2, into(s.horseshoe.x), "horizontal semi-axes of the inner and the outer arch")
+  add_count(command, "--a", s.horseshoe.a, 2, "Number of points along each arch.");
+  add_count(command, "--b", s.horseshoe.b, 2, "Number of arches.");
+  add_numbers(command, "--x", "X0,X1", 2, into(s.horseshoe.x), "Horizontal semi-axes of the inner and the outer arch.")
       .default_text = "1,2";
-  add_numbers(command, "--y", "Y0,Y1", 2, into(s.horseshoe.y), "vertical semi-axes of the inner and the outer arch")
+  add_numbers(command, "--y", "Y0,Y1", 2, into(s.horseshoe.y), "Vertical semi-axes of the inner and the outer arch.")
       .default_text = "1,4";
 }
 
 void add_triangle(Command& command, ExampleSettings& s) {
-  add_number(command, "--a", s.triangle.a, kPositive, "one side at vertex 0");
-  add_number(command, "--b", s.triangle.b, kPositive, "the other side");
-  add_number(command, "--angle", s.triangle.angle_deg, {0, 180, true}, "the angle between them, in degrees");
+  add_number(command, "--a", s.triangle.a, kPositive, "Length of one side at vertex 0.");
+  add_number(command, "--b", s.triangle.b, kPositive, "Length of the other side at vertex 0.");
+  add_number(command, "--angle", s.triangle.angle_deg, {0, 180, true}, "Angle between the two sides, in degrees.");
 }
 
 void add_random(Command& command, ExampleSettings& s) {
-  add_count(command, "--vertices", s.vertices, kLeastVertices, "vertices in all");
-  add_count(command, "--seed", s.random.seed, 0, "the seed of the random points");
+  add_count(command, "--vertices", s.vertices, kLeastVertices, "Number of vertices.");
+  add_count(command, "--seed", s.random.seed, 0, "Seed of the random points.");
   const auto use = [&s](const std::vector<double>& v) {
     s.random.polygon.clear();
     for (std::size_t i = 0; i + 1 < v.size(); i += 2) s.random.polygon.push_back({v[i], v[i + 1]});
   };
-  add_numbers(command, "--polygon", "x,y,x,y,...", 0, use,
-              "the outline, counter-clockwise (default: an L with a notch)");
+  add_numbers(command, "--polygon", "x,y,x,y,...", 0, use, "Outline, counter-clockwise. (default: an L with a notch)");
 }
 
 void add_sheared_grid(Command& command, ExampleSettings& s) {
-  add_count(command, "--nx", s.grid.nx, 1, "squares across");
-  add_count(command, "--ny", s.grid.ny, 1, "squares up");
-  add_number(command, "--shear", s.grid.shear, kAnyNumber, "x += shear * y");
+  add_count(command, "--nx", s.grid.nx, 1, "Number of squares across.");
+  add_count(command, "--ny", s.grid.ny, 1, "Number of squares up.");
+  add_number(command, "--shear", s.grid.shear, kAnyNumber, "Shear s: x becomes x + s y.");
 }
 
 void add_annulus(Command& command, ExampleSettings& s) {
-  add_number(command, "--inner", s.annulus.inner, kPositive, "inner radius");
-  add_number(command, "--outer", s.annulus.outer, kPositive, "outer radius");
-  add_count(command, "--around", s.annulus.around, 3, "points on a ring");
-  add_count(command, "--rings", s.annulus.rings, 2, "rings");
+  add_number(command, "--inner", s.annulus.inner, kPositive, "Inner radius.");
+  add_number(command, "--outer", s.annulus.outer, kPositive, "Outer radius.");
+  add_count(command, "--around", s.annulus.around, 3, "Number of points on a ring.");
+  add_count(command, "--rings", s.annulus.rings, 2, "Number of rings.");
   add_number(command, "--jitter", s.annulus.jitter, kNotNegative,
-             "the jitter of inner rings, as a part of the "
-             "spacing");
-  add_count(command, "--seed", s.annulus.seed, 0, "the seed of the jitter");
+             "Jitter of the inner rings, as a fraction of the spacing.");
+  add_count(command, "--seed", s.annulus.seed, 0, "Seed of the jitter.");
 }
 
 void add_airfoil(Command& command, ExampleSettings& s) {
-  add_count(command, "--around", s.airfoil.around, 3, "points on the foil");
+  add_count(command, "--around", s.airfoil.around, 3, "Number of points on the airfoil.");
   add_number(command, "--growth", s.airfoil.growth, {1, std::numeric_limits<double>::infinity(), true},
-             "ratio of one layer's spacing to the one before");
-  add_count(command, "--seed", s.airfoil.seed, 0, "the seed of the points between");
+             "Ratio of the spacing of a layer to the spacing of the layer before.");
+  add_count(command, "--seed", s.airfoil.seed, 0, "Seed of the points between.");
 }
 
 void add_polygon(Command& command, ExampleSettings& s) {
-  add_count(command, "--corners", s.polygon.corners, 3, "corners of the polygon");
+  add_count(command, "--corners", s.polygon.corners, 3, "Number of corners.");
 }
 
 void add_wedge(Command& command, ExampleSettings& s) {
-  add_number(command, "--angle", s.wedge.angle_deg, {0, 180, true}, "the angle of the corner, in degrees");
-  add_count(command, "--pieces", s.wedge.pieces, 1, "edges on each of the two sides at the corner, and points inside");
-  add_count(command, "--seed", s.wedge.seed, 0, "the seed of the points inside");
+  add_number(command, "--angle", s.wedge.angle_deg, {0, 180, true}, "Angle of the corner, in degrees.");
+  add_count(command, "--pieces", s.wedge.pieces, 1,
+            "Number of edges on each of the two sides at the corner, and number of points inside.");
+  add_count(command, "--seed", s.wedge.seed, 0, "Seed of the points inside.");
 }
 
 void add_graded(Command& command, ExampleSettings& s) {
-  add_number(command, "--finest", s.graded.finest, kPositive, "size of triangles at one corner of the unit square");
-  add_number(command, "--growth", s.graded.growth, kNotNegative, "growth of the size with the distance from there");
-  add_count(command, "--seed", s.graded.seed, 0, "the seed of the points");
+  add_number(command, "--finest", s.graded.finest, kPositive, "Size of triangles at one corner of the unit square.");
+  add_number(command, "--growth", s.graded.growth, kNotNegative,
+             "Growth of the size with the distance from that corner.");
+  add_count(command, "--seed", s.graded.seed, 0, "Seed of the points.");
 }
 
 void add_radius(Command& command, double& radius) {
-  add_number(command, "--radius", radius, kPositive, "the radius of the sphere");
+  add_number(command, "--radius", radius, kPositive, "Radius of the sphere.");
 }
 
 void add_icosahedral(Command& command, ExampleSettings& s) {
   add_count(command, "--level", s.icosahedral.level, 0,
-            "how often triangles are cut into four: 10 4^level + 2 vertices");
+            "Number of times that triangles are cut into four. The mesh has 10 4^level + 2 vertices.");
   add_radius(command, s.icosahedral.radius);
 }
 
 void add_random_sphere(Command& command, ExampleSettings& s) {
-  add_count(command, "--vertices", s.vertices, 20, "number of vertices");
-  add_count(command, "--seed", s.random_sphere.seed, 0, "the seed of the random points");
+  add_count(command, "--vertices", s.vertices, 20, "Number of vertices.");
+  add_count(command, "--seed", s.random_sphere.seed, 0, "Seed of the random points.");
   add_radius(command, s.random_sphere.radius);
 }
 
 void add_graded_sphere(Command& command, ExampleSettings& s) {
-  add_count(command, "--vertices", s.graded_vertices, 20, "number of vertices");
-  add_number(command, "--ratio", s.graded_sphere.ratio, {1, 1000, false}, "largest size over the least");
+  add_count(command, "--vertices", s.graded_vertices, 20, "Number of vertices.");
+  add_number(command, "--ratio", s.graded_sphere.ratio, {1, 1000, false}, "Ratio of the largest size to the least.");
   add_numbers(
       command, "--at", "LON,LAT", 2,
       [&s](const std::vector<double>& v) {
         s.graded_sphere.at = {v[0], v[1]};
       },
-      "where the least is, in degrees")
+      "Place of the least size, in degrees.")
       .default_text = "0,0";
-  add_count(command, "--seed", s.graded_sphere.seed, 0, "the seed of the random points");
+  add_count(command, "--seed", s.graded_sphere.seed, 0, "Seed of the random points.");
   add_radius(command, s.graded_sphere.radius);
 }
 
@@ -147,23 +147,24 @@ Expected<Mesh> make_random_sphere(ExampleSettings& s) {
 }
 
 void add_random_periodic(Command& command, ExampleSettings& s) {
-  add_count(command, "--vertices", s.vertices, 16, "number of vertices");
-  add_count(command, "--seed", s.random_periodic.seed, 0, "the seed of the random points");
+  add_count(command, "--vertices", s.vertices, 16, "Number of vertices.");
+  add_count(command, "--seed", s.random_periodic.seed, 0, "Seed of the random points.");
   add_numbers(
       command, "--period", "X,Y", 2,
       [&s](const std::vector<double>& v) {
         s.random_periodic.period = {v[0], v[1]};
       },
-      "the periods along x and y")
+      "Periods along x and y.")
       .default_text = "1,1";
 }
 
 void add_periodic_hexagons(Command& command, ExampleSettings& s) {
-  add_count(command, "--nx", s.periodic_hexagons.nx, 3, "hexagons in a row");
-  add_count(command, "--ny", s.periodic_hexagons.ny, 2, "rows, an even number where the plane is periodic along y");
-  add_number(command, "--distance", s.periodic_hexagons.distance, kPositive, "the distance of neighbors");
+  add_count(command, "--nx", s.periodic_hexagons.nx, 3, "Number of hexagons in a row.");
+  add_count(command, "--ny", s.periodic_hexagons.ny, 2,
+            "Number of rows. It must be even if the plane is periodic along y.");
+  add_number(command, "--distance", s.periodic_hexagons.distance, kPositive, "Distance between neighbors.");
   command.add_flag("--channel", s.periodic_hexagons.channel,
-                   "no period along y: the first and the last row are shores");
+                   "Make a channel without a period along y. The first and the last row are its shores.");
 }
 
 Expected<Mesh> make_random_periodic(ExampleSettings& s) {
@@ -224,7 +225,7 @@ constexpr Generator kGenerators[] = {
 void add_options(Command& command, ExampleSettings& s) {
   command.group("Options");
   add_mesh_output(command, s.output, "OUT");
-  command.add_flag("--list", s.list, "list the examples");
+  command.add_flag("--list", s.list, "List the examples.");
   command.add_help({"NAME -o OUT [options of NAME]",
                     "  temper example --list\n"
                     "  temper example sparse-horseshoe -o sparse.vtu\n"
@@ -268,7 +269,7 @@ io::MeshFile file_of(const Mesh& mesh, const Generator& generator, const Example
 
 Exit run_example(const Arguments& arguments) {
   Command command("example",
-                  "Makes an example mesh: the paper's, and the classes that a mesh method should be tried on.");
+                  "Makes an example mesh: a mesh of the paper, or a mesh of a class that tests a mesh method.");
   ExampleSettings s;
   add_options(command, s);
   check_name(arguments);

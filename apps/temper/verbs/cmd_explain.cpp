@@ -24,19 +24,19 @@ struct ExplainSettings {
 
 void add_options(Command& command, ExplainSettings& s) {
   command.group("Report");
-  add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.").require();
   add_projection(command, s.projection);
-  command.add_flag("--json", s.json, "all reasons as JSON, with vertices and triangles counted from 0");
+  command.add_flag("--json", s.json, "Print all reasons as JSON, with vertices and triangles counted from 0.");
   add_count(command, "--limit", s.limit, 0,
-            "print at most this many conflicts and this many places where weights exist; cures are searched for "
-            "these only");
+            "Largest number of conflicts to print, and of places for which weights exist. Cures are searched for these "
+            "only.");
   add_count(command, "--whole", s.whole, 0,
-            "look for weights of the whole mesh when it has at most this many triangles, or this many bad ones");
+            "Largest number of triangles, or of bad triangles, for which weights of the whole mesh are searched.");
   command.group("Help");
   command.add_help({"IN [options]",
                     "  temper example sparse-horseshoe -o shoe.vtu && temper explain shoe.vtu\n"
                     "  temper explain shoe.vtu --json\n"
-                    "  # a mesh whose weights have not been found yet\n"
+                    "  # a mesh for which weights exist, but have not been found yet\n"
                     "  temper example annulus -o ring.vtu && temper explain ring.vtu --limit 3\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
@@ -63,9 +63,9 @@ class Counter {
 Exit run_explain(const Arguments& arguments) {
   Command command(
       "explain",
-      "Explains every triangle that is not well-centered. The reason is either a small set of triangles that no "
-      "weights suit, with a proof, or that weights exist but have not been found. Cures are tried on the triangles "
-      "around. Exits with 0 whatever it finds; temper check --require is the test.");
+      "Explains every triangle that is not well-centered. There are two reasons. Either a proof shows a small set of "
+      "triangles for which no weights exist, or weights exist but have not been found. temper also tries cures on the "
+      "triangles around. The exit code does not depend on the result: to test a mesh, use temper check --require.");
   ExplainSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

@@ -45,57 +45,59 @@ struct MeshSettings {
 
 void add_files(Command& command, MeshSettings& s) {
   add_argument(command, "OUTLINE", s.input,
-               "the outline: .poly of Triangle, geometry of JIGSAW, or GeoJSON; its content tells which. With --sphere "
-               "it may be left out");
+               "Outline file: .poly of Triangle, geometry of JIGSAW, or GeoJSON. Its content shows the format. With "
+               "--sphere you may leave it out.");
   add_mesh_output(command, s.output, "MESH");
   command.option("--output").require();
-  add_text(command, "--report", "FILE", s.report, "a JSON report: what was read and made, before and after optimizing");
-  add_text(command, "--draw", "FILE", s.picture, "a picture (.svg, .png, .pdf) of the mesh and its dual");
-  command.add_flag("--quiet", s.quiet, "print warnings and errors only");
+  add_text(command, "--report", "FILE", s.report,
+           "JSON report of the input and of the mesh, before and after the optimization.");
+  add_text(command, "--draw", "FILE", s.picture, "Picture of the mesh and its dual: .svg, .png or .pdf.");
+  command.add_flag("--quiet", s.quiet, "Print warnings and errors only.");
 }
 
 void add_sizes(Command& command, MeshSettings& s) {
   add_text(command, "--size", "X|FILE", s.size,
-           "edge length wanted, in the units of the outline or in meters; or a mesh file with a size at each of its "
-           "points")
+           "Target edge length, in the units of the outline or in meters. FILE is a mesh file with a size at each of "
+           "its points.")
       .require();
-  add_text(command, "--size-field-data", "NAME", s.size_data, "the point data of that file with the sizes")
+  add_text(command, "--size-field-data", "NAME", s.size_data,
+           "Name of the point data with the sizes in the file of --size.")
       .default_text = "size";
   add_number(command, "--grade", s.options.grade, kPositive,
-             "growth of the size per unit of length, away from short edges and narrow places");
+             "Growth of the size per unit of length, away from short edges and narrow places.");
   add_text(command, "--region-size", "REGION,SIZE,...", s.region_sizes,
-           "edge length wanted in these regions, where it is less than --size");
+           "Target edge length in these regions. It applies if it is less than --size.");
   add_choice(command, "--enclosed", kEnclosed, s.options.enclosed,
-             "what counts as inside. all: everything that segments enclose, except holes; alternate: nested loops "
-             "take turns (land, lake, island); by-points: as all when the file has hole or region points, else as "
-             "alternate. Files with polygons or parts say it themselves")
+             "Rule for the inside of nested loops. 'all' is everything that segments enclose, except holes. With "
+             "'alternate' nested loops alternate: land, lake, island. 'by-points' is 'all' if the file has hole or "
+             "region points, else 'alternate'. If the file has polygons or parts, these decide.")
       .excludes = "--sphere";
   add_text(command, "--projection", "NAME[:lon,lat]", s.projection,
-           "the map for points in longitude and latitude: stereographic, mercator or transverse-mercator about "
-           "this center (default: the middle of the points), to meters; none: treat degrees as coordinates of a "
-           "plane")
+           "Map from longitude and latitude to meters: stereographic, mercator or transverse-mercator about this "
+           "center. Without a center, the middle of the points is used. 'none' uses degrees as coordinates of a plane.")
       .excludes = "--sphere";
 }
 
 void add_sphere(Command& command, MeshSettings& s) {
-  command.add_flag(
-      "--sphere", s.sphere,
-      "mesh the sphere, whole or what OUTLINE encloses of it. Outlines are in degrees, their segments arcs "
-      "of great circles; of the two sides of a closed line it encloses the smaller");
-  add_text(command, "--coast", "FILE", s.coast, "coasts: what their polygons and closed lines enclose is left out");
-  add_text(command, "--lines", "FILE", s.lines, "rivers and other lines: they become constrained edges");
+  command.add_flag("--sphere", s.sphere,
+                   "Mesh the whole sphere, or the part that OUTLINE encloses. Outlines are in degrees, and their "
+                   "segments are arcs of great circles. A closed line encloses the smaller of its two sides.");
+  add_text(command, "--coast", "FILE", s.coast,
+           "Coasts. The mesh leaves out everything that their polygons and closed lines enclose.");
+  add_text(command, "--lines", "FILE", s.lines, "Rivers and other lines, which become constrained edges.");
   add_number(command, "--radius", s.radius, kPositive,
-             "the radius of the sphere (default: that of the size field, or 6371000)");
+             "Radius of the sphere. (default: the radius of the size field, or 6371000)");
 }
 
 void add_optimization(Command& command, MeshSettings& s) {
-  command.add_flag("--no-optimize", s.no_optimize, "write the Delaunay mesh as it is");
+  command.add_flag("--no-optimize", s.no_optimize, "Write the Delaunay mesh without optimization.");
   add_count(command, "--attempts", s.options.attempts, 1,
-            "while triangles stay bad, divide the outline finer around them and mesh it again; at most this many "
-            "times");
+            "Largest number of meshes made. If triangles stay bad, temper divides the outline finer around them and "
+            "makes another mesh.");
   add_number(command, "--time-limit", s.options.time_limit, kNotNegative,
-             "stop after this many seconds, with the best mesh so far, if there is one; 0: no limit");
-  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+             "Time limit in seconds. The run then writes the best mesh so far, if there is one. 0 sets no limit.");
+  add_count(command, "--threads", s.threads, 0,
+            "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
 }
 
 void add_options(Command& command, MeshSettings& s) {
@@ -138,9 +140,9 @@ std::vector<RegionSize> region_sizes(const std::string& text) {
 void check_usage(const Command& command, const MeshSettings& s) {
   if (s.sphere) return;
   if (s.input.empty())
-    refuse_usage("mesh", "OUTLINE is missing; without one there is a mesh of a whole sphere (--sphere)");
+    refuse_usage("mesh", "OUTLINE is missing: give an outline file, or --sphere for a mesh of the whole sphere");
   for (const char* option : {"--coast", "--lines", "--radius"}) {
-    if (command.was_given(option)) refuse_usage("mesh", std::string(option) + " is for --sphere");
+    if (command.was_given(option)) refuse_usage("mesh", std::string(option) + " needs --sphere");
   }
 }
 
@@ -332,7 +334,10 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
         fmt::format("{}: {} triangles, {} not well-centered", s.output.path, after.triangles, bad_triangles(after));
     outputs.write_picture(s.picture, draw_svg(made.mesh, drawing));
   }
-  if (!s.quiet) print(mesh_text(record) + fmt::format("\n{}: {}\n", s.output.path, verdict(after)));
+  if (!s.quiet) {
+    print(mesh_text(record) + fmt::format("\n{}: {}\n", s.output.path, verdict(after)));
+    if (!s.sphere) print(next_step(after, s.output.path, ""));
+  }
   return stopped_early(made.report.stopped) ? Exit::stopped_early : Exit::done;
 }
 
@@ -341,9 +346,9 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
 Exit run_mesh(const Arguments& arguments) {
   Command command(
       "mesh",
-      "Meshes the inside of an outline and optimizes that until every triangle is well-centered. Points of the outline "
-      "stay bit for bit; of one in longitude and latitude, these do. With --sphere, a globe and what coasts leave of "
-      "it.");
+      "Meshes the inside of an outline and optimizes the mesh until every triangle is well-centered. Points of the "
+      "outline keep their coordinates bit for bit. If the outline is in longitude and latitude, these coordinates are "
+      "kept. With --sphere it meshes a globe, or the part that coasts leave of it.");
   MeshSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

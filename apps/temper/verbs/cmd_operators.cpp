@@ -39,24 +39,28 @@ struct DecSettings {
 
 void add_options(Command& command, DecSettings& s) {
   command.group("Files");
-  add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.").require();
   add_projection(command, s.projection);
-  add_text(command, "-o,--output", "DIR", s.output, "the folder for the files; made when it is missing").require();
+  add_text(command, "-o,--output", "DIR", s.output, "Folder for the files. It is made if it does not exist.").require();
   add_text(command, "--format", "LIST", s.formats,
-           "the kinds of files to write, separated by commas: npz (NumPy and SciPy), mtx (Matrix Market), vtu (the "
-           "dual, for ParaView); with --layers also disv and disu (MODFLOW 6), tough (TOUGH2 and TOUGH3)")
+           "Formats to write, separated by commas. 'npz' is for NumPy and SciPy, 'mtx' is Matrix Market, and 'vtu' "
+           "holds the dual for ParaView. With --layers there are also 'disv' and 'disu' for MODFLOW 6, and 'tough' for "
+           "TOUGH2 and TOUGH3.")
       .defaults_to([&s] { return s.formats; });
   command.group("Diffusion tensor");
-  add_tensor(command, s.metric, "stars, fluxes, orthocenters and power cells are those");
+  add_tensor(command, s.metric, "Make stars, fluxes, orthocenters and power cells");
   command.group("Layers");
   add_text(command, "--layers", "FILE", s.layers,
-           "heights of the surfaces between layers, for columns of cells below the power cells: CSV, a title line "
-           "vertex,top,bottom 1,bottom 2,... and a row for each vertex, or one with * for all; see docs/layers.md");
+           "CSV file with the heights of the surfaces between layers, for columns of cells below the power cells. Its "
+           "title line is vertex,top,bottom 1,bottom 2,... Each vertex has a row, or one row with * holds for all. See "
+           "docs/layers.md.");
   add_number(command, "--pinch-out", s.pinch_out, kNotNegative,
-             "a layer has no cell where it is not thicker than this: what is above and what is below it are connected");
+             "Least thickness. If a layer is not thicker than this at a vertex, it has no cell there. The cells above "
+             "and below are then connected.");
   command.group("Report");
-  command.add_flag("--json", s.json, "the summary as JSON");
-  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  command.add_flag("--json", s.json, "Print the summary as JSON.");
+  add_count(command, "--threads", s.threads, 0,
+            "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
   command.group("Help");
   command.add_help({"IN -o DIR [options]",
                     "  temper operators in.vtu -o operators\n"
@@ -93,7 +97,7 @@ void check_layers(const Command& command, const DecSettings& s, const std::vecto
 void check_folder(const DecSettings& s, const std::vector<io::DecFormat>& formats) {
   std::error_code ignored;
   if (fs::exists(s.output, ignored) && !fs::is_directory(s.output, ignored)) {
-    throw Failure(Exit::bad_input, fmt::format("{}: is no folder; expected the name of one, or of none", s.output));
+    throw Failure(Exit::bad_input, fmt::format("{}: is not a folder; expected a folder, or a new name", s.output));
   }
   for (const io::DecFormat format : formats) {
     for (const std::string_view name : io::dec_file_names(format, !s.layers.empty())) {
@@ -125,10 +129,9 @@ std::optional<Columns> make_columns(const DecSettings& s, const Input& input, co
 
 Exit run_operators(const Arguments& arguments) {
   Command command("operators",
-                  "Writes what a solver needs of a mesh: incidence d0 and d1, diagonal stars with signed power duals, "
-                  "orthocenters, "
-                  "weighted midpoints, transmissibilities, and power cells within the domain; with layers also the "
-                  "columns of cells that MODFLOW 6 and TOUGH compute on.");
+                  "Writes the operators of a mesh for solvers: incidence d0 and d1, and diagonal stars with signed "
+                  "power duals. It also writes orthocenters, weighted midpoints, transmissibilities, and power cells "
+                  "within the domain. With --layers it also writes columns of cells for MODFLOW 6 and TOUGH.");
   DecSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

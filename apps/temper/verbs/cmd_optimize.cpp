@@ -270,6 +270,7 @@ void print_result(const OptimizeSettings& s, const RunResults& results, const Ou
   if (!results.errors_text.empty()) print("\n" + results.errors_text);
   for (const std::string& note : results.report.notes) print("note: " + note + "\n");
   print(fmt::format("\n{}: {}\n", s.output.path, verdict(results.after)));
+  if (!s.metric) print(next_step(results.after, s.output.path, s.projection));
   std::string written;
   for (const std::string& path : outputs.written()) written += (written.empty() ? "wrote " : ", ") + path;
   print(written + "\n");

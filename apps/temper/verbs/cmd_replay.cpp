@@ -28,14 +28,14 @@ struct ReplaySettings {
 
 void add_options(Command& command, ReplaySettings& s) {
   command.group("Files");
-  add_argument(command, "IN", s.input, "the mesh that was optimized").require();
+  add_argument(command, "IN", s.input, "Mesh that was optimized.").require();
   add_projection(command, s.projection);
-  add_argument(command, "TRACE", s.trace, "the file that temper optimize IN --trace wrote").require();
+  add_argument(command, "TRACE", s.trace, "File that temper optimize IN --trace wrote.").require();
   add_mesh_output(command, s.output, "OUT");
   command.option("--output").require();
   add_point_data(command, s.point_data);
-  add_count(command, "--sweeps", s.sweeps, 0, "stop at the end of this sweep; 0: after IN was made regular");
-  command.add_flag("--quiet", s.quiet, "print warnings and errors only");
+  add_count(command, "--sweeps", s.sweeps, 0, "Last sweep to repeat. 0 stops when IN has been made regular.");
+  command.add_flag("--quiet", s.quiet, "Print warnings and errors only.");
   command.group("Help");
   command.add_help({"IN TRACE -o OUT [options]",
                     "  temper optimize in.vtu -o a.vtu --trace t.jsonl && temper replay in.vtu t.jsonl -o b.vtu\n",
@@ -61,10 +61,9 @@ std::span<const TraceEvent> wanted(const std::vector<TraceEvent>& events, std::o
 }  // namespace
 
 Exit run_replay(const Arguments& arguments) {
-  Command command(
-      "replay",
-      "Repeats what a trace records, without any optimization, and writes the mesh: the same bytes that temper "
-      "optimize wrote.");
+  Command command("replay",
+                  "Repeats the steps of a trace without any optimization, and writes the mesh. The file has the same "
+                  "bytes as the file that temper optimize wrote.");
   ReplaySettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

@@ -37,7 +37,7 @@ struct Settings {
 
 /// Replaces one reading of the figures. Open readings are options, as in optimize.
 void add_readings(Command& command, TableOptions& target) {
-  command.group("How the paper is read; what is not given is as each figure has it");
+  command.group("Readings of the paper; each figure has its own defaults");
   for (const std::string_view name : gallery::kOpen) add_option(command, *find_option(name), target);
 }
 
@@ -53,17 +53,15 @@ gallery::Reading reading(const Command& command, const TableOptions& target) {
 void add_options(Command& command, Settings& s) {
   command.group("Options");
   add_texts(command, "FIG", "", Values::words, s.figures,
-            "figures by the paper's numbers: 6, or a list 6,8, or a range 16-18; none: all, "
-            "which takes minutes");
+            "Figures of the paper: a number 6, a list 6,8 or a range 16-18. Without FIG, all figures are made, which "
+            "takes minutes.");
   add_text(command, "-o,--output", "DIR", s.output,
-           "the folder for the pictures, index.html, gallery.json, claims.md and settings.md; made when it is missing, "
-           "and files of "
-           "these "
-           "names are replaced");
-  command.add_flag("--reduced", s.reduced, "every claim, but fewer samples and shorter runs");
+           "Folder for the pictures, index.html, gallery.json, claims.md and settings.md. It is made if it does not "
+           "exist. Files with these names are replaced.");
+  command.add_flag("--reduced", s.reduced, "Test every claim with fewer samples and shorter runs.");
   command.add_flag("--require-claims", s.require_claims,
-                   "exit with 3 when a claim does not hold; everything is written first");
-  command.add_flag("--list", s.list, "list the figures");
+                   "Exit with 3 if a claim does not hold. All files are written first.");
+  command.add_flag("--list", s.list, "List the figures.");
   add_readings(command, s.readings);
   command.add_help({"[FIG ...] -o DIR [options]",
                     "  temper reproduce --list\n"
@@ -202,7 +200,7 @@ void print_summary(const Made& made) {
 
 Exit run_reproduce(const Arguments& arguments) {
   Command command("reproduce",
-                  "Makes the figures of \"Not so HOT Triangulations\" again, and says of each claim whether it holds.");
+                  "Makes the figures of \"Not so HOT Triangulations\" again, and tests each claim of the paper.");
   Settings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

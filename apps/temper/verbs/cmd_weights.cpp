@@ -59,9 +59,9 @@ void add_conditions(Command& command, WeightsSettings& s) {
     for (const ConstraintsInfo& row : constraints_table()) of_rows.push_back(option_name(row.constraints));
     return of_rows;
   }();
-  std::string text = "what weights have to keep, with margin t and edge length l";
+  std::string text = "Constraints on the weights, with margin t and edge length l.";
   for (const ConstraintsInfo& row : constraints_table()) {
-    text += fmt::format("; {}: {}", option_name(row.constraints), row.keeps);
+    text += fmt::format(" '{}': {}.", option_name(row.constraints), row.keeps);
   }
   const auto use = [&s](std::string_view chosen) {
     const auto at = std::find(names.begin(), names.end(), chosen);
@@ -74,47 +74,50 @@ void add_conditions(Command& command, WeightsSettings& s) {
 
 void add_options(Command& command, WeightsSettings& s) {
   command.group("Files");
-  add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.").require();
   add_projection(command, s.projection);
-  add_mesh_output(command, s.output, "OUT", "the mesh with its new weights; not needed with --mode feasible");
+  add_mesh_output(command, s.output, "OUT",
+                  "Mesh file to write, with the new weights. You may leave it out with --mode feasible.");
   add_text(command, "--certificate", "FILE", s.certificate,
-           "write the proof that no weights exist, if so, as JSON (docs/weights.md describes it)");
+           "If no weights exist, write the proof as JSON. The page docs/weights.md describes it.");
   add_text(command, "--check-certificate", "FILE", s.check,
-           "check such a proof against IN in exact arithmetic, and do nothing else");
-  command.add_flag("--json", s.json, "the report as JSON, with vertices and triangles counted from 0");
+           "Only check the proof in FILE against IN, in exact arithmetic.");
+  command.add_flag("--json", s.json, "Print the report as JSON, with vertices and triangles counted from 0.");
   command.group("Weights");
   add_choice(command, "--mode", kModes, s.mode,
-             "feasible: are there good weights, and with what best margin; minimal: the least change for the margin; "
-             "elastic: where there are none, the least violation; barrier: the least barrier energy");
+             "Goal of the search. 'feasible' tests if good weights exist, and finds the best margin. 'minimal' makes "
+             "the least change that gives the margin. If no weights exist, 'elastic' finds the least violation. "
+             "'barrier' finds the least barrier energy.");
   add_number(command, "--margin", s.options.margin, {0, 0.5, true},
-             "the least h/l, d/l, 1 - d/l or dual length/l wanted anywhere; feasible and barrier take half of the best "
-             "when that is less");
-  add_choice(command, "--from", kFrom, s.from, "the weights that change is measured from: all zero, or those of IN");
-  add_choice(command, "--energy", kBarriers, s.barrier, "the energy of --mode barrier");
+             "Least h/l, d/l, 1 - d/l or dual length/l in the mesh. With --mode feasible or barrier, half of the best "
+             "margin is used if it is less.");
+  add_choice(
+      command, "--from", kFrom, s.from,
+      "Weights from which the change is measured. 'zero' means that all are 0, and 'input' means the weights of IN.");
+  add_choice(command, "--energy", kBarriers, s.barrier, "Energy of --mode barrier.");
   add_count(command, "--whole", s.whole, 0,
-            "components of more triangles than this are solved around their bad triangles only, as far out as "
-            "needed");
+            "Largest number of triangles in a component that is solved as a whole. In larger components, only the "
+            "triangles around bad ones are solved, as far out as needed.");
   command.group("Constraints and connectivity");
   add_conditions(command, s);
-  add_text(
-      command, "--edges", "all|lines|FILE", s.edges,
-      "the edges of --constraints regular: all, those of tagged lines and between regions, or those of a file with "
-      "two vertices a line, as IN counts them");
+  add_text(command, "--edges", "all|lines|FILE", s.edges,
+           "Edges of --constraints regular. 'all' are all edges inside. 'lines' are tagged lines and the edges between "
+           "regions. FILE has two vertices per line, numbered as in IN.");
   add_choice(command, "--connectivity", kConnectivities, s.connectivity,
-             "fixed: that of IN; search: flip edges as long as that raises the best margin, and then find weights "
-             "(a local search: there may be a better connectivity)");
-  add_count(command, "--programs", s.programs, 1, "linear programs of the whole mesh that the search may take");
+             "Connectivity of the result. 'fixed' keeps the edges of IN. 'search' flips edges while this raises the "
+             "best margin, and then finds weights. The search is local, so a better connectivity may exist.");
+  add_count(command, "--programs", s.programs, 1, "Largest number of linear programs of the whole mesh in the search.");
   command.group("Help");
   command.add_help({"IN -o OUT [options]",
                     "  temper example annulus -o ring.vtu && temper weights ring.vtu -o out.vtu\n"
                     "  temper weights ring.vtu -o least.vtu --mode barrier\n"
                     "  temper weights ring.vtu -o inside.vtu --constraints heights-only\n"
-                    "  # a mesh that has none: the proof, its verification, and what gives way\n"
+                    "  # a mesh without such weights: write the proof, check it, and find the least violation\n"
                     "  temper example sparse-horseshoe -o shoe.vtu\n"
                     "  temper weights shoe.vtu --mode feasible --certificate why.json; test $? = 6\n"
                     "  temper weights shoe.vtu --check-certificate why.json\n"
                     "  temper weights shoe.vtu -o out.vtu --mode elastic --json\n"
-                    "  # orthocenters inside: not with these diagonals, but with others\n"
+                    "  # bring orthocenters inside by other diagonals\n"
                     "  temper example random --vertices 40 -o random.vtu\n"
                     "  temper weights random.vtu -o flipped.vtu --constraints heights-only --connectivity search\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal, Exit::infeasible}});
@@ -131,16 +134,16 @@ void check_usage(const Command& command, const WeightsSettings& s) {
     fail("--output is missing");
   }
   const bool regular = s.options.constraints == Constraints::regular, search = s.connectivity == Connectivity::search;
-  if (!regular && command.was_given("--edges")) fail("--edges is of --constraints regular alone");
-  if (!search && command.was_given("--programs")) fail("--programs is of --connectivity search alone");
-  if (search && regular) fail("--connectivity search is of other constraints than regular, which flips alone keep");
+  if (!regular && command.was_given("--edges")) fail("--edges needs --constraints regular");
+  if (!search && command.was_given("--programs")) fail("--programs needs --connectivity search");
+  if (search && regular) fail("--connectivity search needs other constraints than regular, which flips alone keep");
   if (search && !s.certificate.empty()) {
-    fail("--certificate is about the connectivity of IN; --connectivity search leaves that");
+    fail("--certificate needs --connectivity fixed, because the proof is about the edges of IN");
   }
   if (s.mode == Mode::barrier && s.options.constraints != Constraints::well_centered) {
-    fail("--mode barrier is of --constraints well-centered alone");
+    fail("--mode barrier needs --constraints well-centered");
   }
-  if (s.mode != Mode::barrier && command.was_given("--energy")) fail("--energy is of --mode barrier alone");
+  if (s.mode != Mode::barrier && command.was_given("--energy")) fail("--energy needs --mode barrier");
 }
 
 Exit check(const WeightsSettings& s, const Input& input) {
@@ -249,11 +252,10 @@ Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
 }  // namespace
 
 Exit run_weights(const Arguments& arguments) {
-  Command command(
-      "weights",
-      "Finds weights that make every triangle well-centered, or bring orthocenters inside, or make edges regular, with "
-      "positions and connectivity as they are; or proves that there are none. On request it looks for a better "
-      "connectivity first.");
+  Command command("weights",
+                  "Finds weights that make every triangle well-centered, or proves that there are none. Positions and "
+                  "connectivity stay. With --constraints, weights bring orthocenters inside or make edges regular "
+                  "instead. With --connectivity search, it looks for a better connectivity first.");
   WeightsSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

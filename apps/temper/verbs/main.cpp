@@ -28,10 +28,10 @@ namespace temper::app {
 
 std::span<const Verb> verbs() {
   static constexpr auto kVerbs = std::to_array<Verb>({
-      {"mesh", "mesh an outline, and optimize that until every triangle is well-centered", run_mesh},
+      {"mesh", "mesh an outline, and optimize the mesh until every triangle is well-centered", run_mesh},
       {"optimize", "move vertices, change weights and flip edges until every triangle is well-centered", run_optimize},
       {"weights", "find weights for a mesh as it is, or prove that there are none", run_weights},
-      {"explain", "say why triangles are not well-centered, and what would cure them", run_explain},
+      {"explain", "explain why triangles are not well-centered, and find cures", run_explain},
       {"check", "report on the quality of a mesh, and test requirements", run_check},
 #ifdef TEMPER_WITH_ERRORS
       {"errors", "measure the errors that solvers make on a mesh", run_errors},
@@ -40,7 +40,7 @@ std::span<const Verb> verbs() {
       {"draw", "draw triangles, dual and weights as SVG, PNG or PDF", run_draw},
       {"convert", "write a mesh in another file format", run_convert},
       {"example", "make an example mesh", run_example},
-      {"replay", "do again what a trace of optimize says", run_replay},
+      {"replay", "repeat the steps in a trace of optimize", run_replay},
       {"reproduce", "make the figures and claims of the paper again", run_reproduce},
   });
   return kVerbs;
@@ -104,7 +104,7 @@ int internal_error(std::string_view what) {
 /// undone any more. But unfinished files are removed, and the usual message is printed.
 [[noreturn]] void end_on_terminate() {
   io::discard_unfinished();
-  const char* message = "temper: error: internal error, in a place that cannot fail; please report that\n";
+  const char* message = "temper: error: internal error, in a place that cannot fail; please report it\n";
   if (std::current_exception()) {
     try {
       throw;

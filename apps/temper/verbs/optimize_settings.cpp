@@ -16,49 +16,53 @@ namespace {
 void add_files(Command& command, OptimizeSettings& s) {
   command.group("Files");
   // These two are not marked as required: see take_input.
-  add_argument(command, "IN", s.input, "the mesh to improve; its content tells the format");
+  add_argument(command, "IN", s.input, "Mesh to improve. Its content shows the format.");
   add_projection(command, s.projection);
-  add_mesh_output(command, s.output, "OUT", "where the improved mesh goes; may be IN; its suffix tells the format");
+  add_mesh_output(command, s.output, "OUT",
+                  "File for the improved mesh, which may be IN. Its suffix selects the format.");
   add_point_data(command, s.point_data);
-  add_text(command, "--report", "FILE", s.report,
-           "a JSON report: before, after, history, and the command to run again");
+  add_text(command, "--report", "FILE", s.report, "JSON report: mesh before and after, history, command to run again.");
   add_text(command, "--html", "FILE", s.html,
-           "an HTML report: the mesh before and after, measures, history, and the command to run again");
-  add_text(command, "--history", "FILE", s.history, "one line of CSV a sweep");
+           "HTML report: mesh before and after, measures, history, command to run again.");
+  add_text(command, "--history", "FILE", s.history, "CSV file with one line per sweep.");
   add_text(command, "--trace", "FILE", s.trace,
-           "every move, flip and removal, one JSON object a line; see temper replay");
-  add_text(command, "--draw", "FILE", s.picture, "a picture (.svg, .png, .pdf), before and after side by side");
+           "File for every move, flip and removal, with one JSON object per line. temper replay reads it.");
+  add_text(command, "--draw", "FILE", s.picture, "Picture (.svg, .png, .pdf) of the mesh before and after.");
 #ifdef TEMPER_WITH_ERRORS
   command.add_flag("--measure-errors", s.measure_errors,
-                   "measure the errors of solvers, too, before and after: see temper errors");
+                   "Also measure the errors of solvers before and after, as temper errors does.");
 #endif
   add_requirements(command, s.require).sentence =
-      "outside=0,min_h=0.05,...: exit with 3 when the result is not so, with everything written; see temper check";
-  command.add_flag("--quiet", s.quiet, "print warnings and errors only");
+      "Requirements, such as outside=0,min_h=0.05. If one is not met, exit with 3 after all files are written. See "
+      "temper check --help.";
+  command.add_flag("--quiet", s.quiet, "Print warnings and errors only.");
 }
 
 void add_constraints(Command& command, OptimizeSettings& s) {
   command.group("Constraints and sizes");
   add_texts(command, "--fix", "TAG ...", Values::words, s.fix,
-            "vertices with this tag or physical name stay where they are; several may follow");
-  add_tensor(command, s.metric, "meshes are made well-centered");
+            "Tags or physical names of vertices that keep their positions. Several may follow.");
+  add_tensor(command, s.metric, "Make meshes well-centered");
   add_text(command, "--size-field", "FILE", s.size_field,
-           "a mesh file whose point data say how long edges are meant to be where; without it the input's own sizes");
-  add_text(command, "--size-field-data", "NAME", s.size_data, "of the point data in that file (default: size)");
+           "Mesh file whose point data give the target edge length at each point. Without it, the sizes of the input "
+           "are used.");
+  add_text(command, "--size-field-data", "NAME", s.size_data,
+           "Name of these point data in the file of --size-field. (default: size)");
 }
 
 void add_run(Command& command, OptimizeSettings& s) {
   command.group("The run");
-  add_count(
-      command, "--threads", s.threads, 0,
-      "threads of each process; 0: as many as the machine has, or as the process may run on; the result is the same");
-  add_number(command, "--save-every", s.save_every, kNotNegative,
-             "write the best mesh so far to OUT during the run, each so many seconds; 0: as often as there is one");
+  add_count(command, "--threads", s.threads, 0,
+            "Number of threads of each process. 0 uses all threads of the machine, or all that the process may use. "
+            "The result does not depend on it.");
+  add_number(
+      command, "--save-every", s.save_every, kNotNegative,
+      "Write the best mesh so far to OUT during the run, at most once in this many seconds. 0 writes every new one.");
   std::vector<std::string_view> names;
-  std::string help = "what all options start from";
+  std::string help = "Initial values of all options.";
   for (const Method& method : methods()) {
     names.push_back(method.name);
-    help += fmt::format("; {}: {}", method.name, method.sentence);
+    help += fmt::format(" '{}': {}{}", method.name, method.sentence, method.sentence.ends_with('.') ? "" : ".");
   }
   // At once, before all other options are taken: options that are given override the method's.
   const auto take = [&s](std::string_view name) {
@@ -86,11 +90,10 @@ bool is_replaced(const std::string& path) {
 }  // namespace
 
 Command optimize_command(OptimizeSettings& settings) {
-  Command command(
-      "optimize",
-      "Moves vertices, changes weights and flips edges until every triangle is well-centered: its orthocenter "
-      "inside, every edge crossed by its dual. The boundary of the domain stays bit for bit, unless --boundary says "
-      "otherwise.");
+  Command command("optimize",
+                  "Moves vertices, changes weights and flips edges until every triangle is well-centered. The "
+                  "orthocenter is then inside the triangle, and each dual edge crosses its edge. The boundary of the "
+                  "domain stays bit for bit, unless --boundary allows changes.");
   add_files(command, settings);
   add_run(command, settings);
   add_constraints(command, settings);
@@ -117,9 +120,11 @@ Command optimize_command(OptimizeSettings& settings) {
 void take_input(Command& command, OptimizeSettings& s) {
   if (s.output.path.empty()) refuse_usage("optimize", "--output is required");
   if (s.save_every && !is_replaced(s.output.path))
-    throw Failure(Exit::bad_usage, fmt::format("optimize: --save-every: {} is no file that can be replaced; give -o "
-                                               "a file",
-                                               s.output.path));
+    throw Failure(
+        Exit::bad_usage,
+        fmt::format(
+            "optimize: --save-every: {} is not a file that can be replaced. Next: give the name of a file to -o",
+            s.output.path));
   if (!s.input.empty()) return;
   if (s.fix.size() < 2) refuse_usage("optimize", "IN is missing: the mesh to improve");
   s.input = s.fix.back();
@@ -131,7 +136,7 @@ std::vector<std::string> doubtful_options(const Command& command, const Optimize
   std::vector<std::string> warnings = idle_options(command, s.table, s.method->options());
   if (s.options().repair == Repair::vertices && s.options().size_band) {
     warnings.emplace_back(
-        spell_options("vertices that `repair=vertices` removes and inserts are not held to `size_band`"));
+        spell_options("`size_band` does not restrict the vertices that `repair=vertices` removes and inserts"));
   }
   if (s.size_field.empty() && command.was_given("--size-field-data")) {
     warnings.emplace_back("--size-field-data has no effect without --size-field");

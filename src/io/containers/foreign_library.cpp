@@ -66,8 +66,8 @@ void fail_without(const ForeignLibrary& library, const std::string& path) {
   const char* const chosen = chosen_file(library);
   fail(ErrorCode::unsupported, path,
        chosen != nullptr
-           ? text(library.need, "; ", library.variable, " names ", chosen, ", which cannot be loaded as that")
-           : text(library.need, ", and there is none: install it (", library.install, "), or name its file in ",
+           ? text(library.need, "; ", library.variable, " names ", chosen, ", which cannot be loaded as this library")
+           : text(library.need, ", which was not found. Next: install it (", library.install, "), or set its file in ",
                   library.variable));
 }
 

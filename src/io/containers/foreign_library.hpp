@@ -18,7 +18,7 @@ struct ForeignLibrary {
   std::span<const char* const> packages;  ///< folders of the libraries of Python packages that bring it along
   std::string_view file_in_package;       ///< how its name begins there
   std::string_view need;                  ///< "VTKHDF files need libhdf5 1.10 or later"
-  std::string_view install;               ///< "apt: libhdf5-103-1; conda: …": the packages that have it
+  std::string_view install;               ///< "apt: libhdf5-103-1, conda: …": the packages that have it
 };
 
 /// Calls take with the handle (of dlopen) of each file that can be loaded, until take accepts the library. A loaded

@@ -28,7 +28,7 @@ constexpr ForeignLibrary kHdf5 = {.variable = "TEMPER_HDF5",
                                   .packages = kHdf5Packages,
                                   .file_in_package = "libhdf5-",
                                   .need = "VTKHDF files need libhdf5 1.10 or later",
-                                  .install = "apt: libhdf5-103-1; conda: hdf5; pip: h5py or netCDF4"};
+                                  .install = "apt: libhdf5-103-1, conda: hdf5, pip: h5py or netCDF4"};
 
 /// All functions of the library, or nothing. A library before 1.10, whose numbers have 32 bits, gives nothing.
 std::optional<Hdf5Library> hdf5_of(void* handle) {

@@ -26,7 +26,7 @@ constexpr ForeignLibrary kNetcdf = {.variable = "TEMPER_NETCDF",
                                     .packages = kNetcdfPackages,
                                     .file_in_package = "libnetcdf-",
                                     .need = "NetCDF files need libnetcdf 4.6.2 or later",
-                                    .install = "apt: libnetcdf19; conda: libnetcdf; pip: netCDF4"};
+                                    .install = "apt: libnetcdf19, conda: libnetcdf, pip: netCDF4"};
 
 /// All functions of the library, or nothing.
 std::optional<NetcdfLibrary> netcdf_of(void* handle) {

@@ -59,8 +59,7 @@ void drop_what_differs(MeshFile& file, const std::vector<bool>& edge_lines) {
     names += text(names.empty() ? "" : ", ", array.name);
     return true;
   });
-  if (!names.empty())
-    file.warnings.push_back(text("edges are others than before: data of lines on them are dropped: ", names));
+  if (!names.empty()) file.warnings.push_back(text("edges have changed: data of lines on them are dropped: ", names));
 }
 
 std::size_t count_inner_edges(const Mesh& mesh) {

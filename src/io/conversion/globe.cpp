@@ -351,9 +351,8 @@ std::string needs_projection(bool guessed, std::string_view onto_sphere) {
                 "wide; in degrees angles and lengths are distorted"
               : "the points are longitude and latitude, in which angles and lengths are distorted";
   return text(what,
-              "; choose a `projection`: stereographic, mercator or transverse-mercator (lengths are then in "
-              "meters); ",
-              onto_sphere, ", for a mesh of the sphere; or none, to take the coordinates for those of a plane");
+              ". Next: choose a `projection`: stereographic, mercator or transverse-mercator for lengths in meters, ",
+              onto_sphere, " for a mesh of the sphere, or none to use the degrees as coordinates of a plane");
 }
 
 namespace {

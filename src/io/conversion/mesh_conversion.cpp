@@ -56,8 +56,8 @@ std::optional<InputError> sides_at_one_place(const MeshFile& file, const InputNa
     return InputError{ErrorCode::duplicate_point, names.point_where(b),
                       text(names.point(a), " and ", names.point(b), " are both at (", file.points[b].x, ", ",
                            file.points[b].y, "): they are the two sides of ", what, " (", name->second,
-                           "); expected distinct points: move the sides apart, as those of a levee of type 24, or make "
-                           "each pair one node and leave the boundary out")};
+                           "). Next: move the two sides apart, as in a levee of type 24, or make each pair one node "
+                           "and leave the boundary out")};
   }
   return std::nullopt;
 }

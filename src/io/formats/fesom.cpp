@@ -74,7 +74,7 @@ class FesomReader {
     fail(ErrorCode::unsupported, source_.path,
          is_points ? text("has points without triangles, as FESOM has them; expected a name that ends with ", kPoints,
                           ", and the triangles in ", kTriangles, " beside it")
-                   : text("has triangles without points, as METIS and FESOM have them; temper reads those of FESOM: "
+                   : text("has triangles without points, as in files of METIS and FESOM. temper reads files of FESOM: "
                           "expected a name that ends with ",
                           kTriangles, ", and the points in ", kPoints, " beside it"));
   }

@@ -147,7 +147,7 @@ void write_side_file(const WriteJob& job) {
   for (const double w : f.weights) weighted = weighted || w != 0 || std::signbit(w);
   if (is_stream(job.path)) {
     if (weighted)
-      job.warn("the format has no place for weights, and no file can be beside a stream: they are left out");
+      job.warn("the format has no place for weights, and a stream has no file next to it: they are left out");
     return;
   }
   // An old side file would give its weights to this mesh, so it has to be replaced.
@@ -244,7 +244,7 @@ std::vector<std::int32_t> one_tag_a_point(const WriteJob& job) {
   }
   if (lost > 0) {
     job.warn(lost, " further tags of points that have one already are not written: ", job.row.description,
-             " holds one a point");
+             " holds one per point");
   }
   return tags;
 }

@@ -46,8 +46,7 @@ constexpr std::array<std::string_view, 9> kElementNames = {"quadrilateral",
                                                            "quadratic tetrahedron"};
 std::string_view element_name(std::int32_t type) {
   if (type == 16) return "quadratic quadrilateral";
-  return type >= 3 && type <= 11 ? kElementNames[static_cast<std::size_t>(type) - 3]
-                                 : "element of a type that temper does not know";
+  return type >= 3 && type <= 11 ? kElementNames[static_cast<std::size_t>(type) - 3] : "element of an unknown type";
 }
 
 /// Elements of one kind as they are read.
@@ -336,7 +335,7 @@ class GmshReader {
       const auto index = lookup_->find(number);
       if (!index) {
         fail(ErrorCode::index_out_of_range, where(), "node data ", in_quotes(name), " are given for node ", number,
-             ", which is none");
+             ", which does not exist");
       }
       given[*index] = true;
       for (std::size_t k = 0; k < components; ++k)
@@ -385,7 +384,7 @@ class GmshReader {
       }
       if (target == nullptr) {
         fail(ErrorCode::index_out_of_range, where(), "element data ", in_quotes(name), " are given for element ",
-             number, ", which is none");
+             number, ", which does not exist");
       }
       if (target->values.empty()) {
         allocation_.take(target->n, components, where());

@@ -104,7 +104,7 @@ class JigsawMeshReader {
       const double r = scanner_.real("a radius");
       if (!(r > 0) || (radius_ && r != *radius_)) {
         scanner_.fail_here(ErrorCode::unsupported, "has the radius ", r, radius_ ? text(" beside ", *radius_) : "",
-                           "; expected a sphere: radii above 0, all the same");
+                           "; expected a sphere: equal radii above 0");
       }
       radius_ = r;
     }
@@ -144,7 +144,7 @@ class JigsawMeshReader {
     if (columns < 1 || columns > kMostColumns)
       scanner_.fail_here(ErrorCode::syntax, name, " has ", columns, " columns; expected 1 to ", kMostColumns);
     if (name == "POWER" && columns != 1)
-      scanner_.fail_here(ErrorCode::unsupported, "POWER has ", columns, " columns; expected one weight a point");
+      scanner_.fail_here(ErrorCode::unsupported, "POWER has ", columns, " columns; expected one weight per point");
     scanner_.check_room(n * columns, "numbers", 2);
     std::vector<double> values(n * columns);
     for (double& value : values) value = scanner_.real(text("a number of ", name));

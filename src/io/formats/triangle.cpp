@@ -245,7 +245,7 @@ class TriangleReader {
     if (columns.undeclared() > 0) {
       f.warnings.push_back(text(source.path,
                                 ": undeclared attributes are read as data, not as weights; the comment line '",
-                                kDeclaration, "float64 1 weight' declares the first one a weight"));
+                                kDeclaration, "float64 1 weight' makes the first one a weight"));
     }
     f.point_data = columns.take();
     if (const DataArray* weight = find(f.point_data, "weight"); weight != nullptr && weight->components == 1) {
@@ -344,7 +344,7 @@ std::vector<DataArray> without(const std::vector<DataArray>& arrays, std::string
   std::vector<DataArray> result;
   for (const DataArray& a : arrays) {
     if (a.name == name)
-      job.warn("data '", name, "' is not written: the name is taken");
+      job.warn("data '", name, "' is not written: other data have this name");
     else
       result.push_back(a);
   }

@@ -196,7 +196,7 @@ void write_columns_disv(const DecJob& job) {
     const InputNames counting;
     const InputNames& names = job.options.names != nullptr ? *job.options.names : counting;
     fail(ErrorCode::unsupported, "", "the power cell of ", names.point(v->index),
-         " in the domain is not one polygon, as DISV wants; DISU does not");
+         " in the domain is not one polygon, which DISV needs. Next: write DISU");
   }
   const SharedCorners shared = share_corners(job.cells, c.n_vertices);
   Output& out = job.open("mesh.disv");

@@ -19,7 +19,7 @@ class Folder {
   explicit Folder(const std::string& path) : path_(path) {
     const OnDisk there = look_at(path_);
     if (there.kind == OnDisk::Kind::folder) return;
-    if (there.exists()) fail(ErrorCode::not_writable, path, "is no folder; expected the name of one, or of none");
+    if (there.exists()) fail(ErrorCode::not_writable, path, "is not a folder; expected a folder, or a new name");
     made_ = mkdir(path_.c_str(), 0777) == 0;
     if (!made_) fail(ErrorCode::not_writable, path, "cannot be made: ", std::strerror(errno));
   }
@@ -39,7 +39,7 @@ std::vector<std::string> write_dec_or_throw(const std::string& name, const Mesh&
                                             const PowerCells& cells, const DecWriteOptions& options) {
   for (const DecFormat format : options.formats) {
     if (needs_columns(format) && options.columns == nullptr)
-      fail(ErrorCode::invalid_option, "", "formats disv, disu and tough are of columns, and need layers");
+      fail(ErrorCode::invalid_option, "", "formats disv, disu and tough need layers");
   }
   Folder folder(name);
   std::vector<std::string> written;

@@ -154,7 +154,7 @@ class LayersReader {
     const std::string_view field = fields_[column];
     if (field.empty()) {
       if (has_common_) return common_heights_[column - 1];
-      fail_field(ErrorCode::syntax, column, "is empty, and there is no row * with what holds then");
+      fail_field(ErrorCode::syntax, column, "is empty, and there is no row * with its default");
     }
     double value = 0;
     const auto [end, error] = read_number(field.data(), field.data() + field.size(), value);
@@ -168,7 +168,7 @@ class LayersReader {
     const std::string_view field = fields_[column];
     if (field.empty()) {
       if (has_common_) return common_active_[column - 1 - layers_.n_surfaces()];
-      fail_field(ErrorCode::syntax, column, "is empty, and there is no row * with what holds then");
+      fail_field(ErrorCode::syntax, column, "is empty, and there is no row * with its default");
     }
     if (field != "0" && field != "1")
       fail_field(ErrorCode::syntax, column, "expected 0 or 1, found ", in_quotes(field));
@@ -207,7 +207,7 @@ class LayersReader {
     }
     if (n == 0) return;
     fail(ErrorCode::size_mismatch, scanner_.path(), "has no row for ", n == 1 ? "vertex " : "vertices ",
-         vertices_.numbers_where(missing), " of ", mesh_path_, ", and no row * with what holds for them");
+         vertices_.numbers_where(missing), " of ", mesh_path_, ", and no row * with their default");
   }
   [[nodiscard]] std::size_t n_columns() const {
     return 1 + layers_.n_surfaces() + (has_active_ ? layers_.n_layers : 0);

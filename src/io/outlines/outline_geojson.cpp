@@ -131,11 +131,10 @@ class GeoJsonReader {
       const bool number = value.type == Type::number, exact = name == meant;
       if (meant.empty() || value.type == Type::null || number == exact) continue;
       if (exact) {
-        warn_at(value, text(feature, ": property ", in_quotes(name), " is ", describe(value),
-                            ", not a number, and passed over"));
-      } else {
         warn_at(value,
-                text(feature, ": property ", in_quotes(name), " is passed over; is ", in_quotes(meant), " meant?"));
+                text(feature, ": property ", in_quotes(name), " is ", describe(value), ", not a number, and ignored"));
+      } else {
+        warn_at(value, text(feature, ": property ", in_quotes(name), " is ignored; is ", in_quotes(meant), " meant?"));
       }
     }
   }

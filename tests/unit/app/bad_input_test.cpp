@@ -181,8 +181,8 @@ TEST_F(BadInput, SpheresAreRefusedByWhatIsForThePlane) {
                         {{"optimize", "globe.vtu", "-o", "out.vtu", "--html", "out.html"}, "--html"}}) {
     const Outcome outcome = temper(arguments);
     EXPECT_EQ(outcome.exit, 1) << arguments[0];
-    EXPECT_EQ(outcome.err, std::string("temper: error: globe.vtu: the mesh is one of the sphere, and ") + what +
-                               " takes meshes of the plane; --projection puts longitude and latitude on a map\n");
+    EXPECT_EQ(outcome.err, std::string("temper: error: globe.vtu: the mesh is on a sphere, but ") + what +
+                               " needs a mesh of the plane. Next: --projection puts longitude and latitude on a map\n");
     EXPECT_EQ(names(), std::vector<std::string>{"globe.vtu"});
   }
 }

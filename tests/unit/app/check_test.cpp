@@ -164,9 +164,9 @@ TEST_F(Check, EveryRequirementThatFailsIsNamedWithWantedAndFound) {
   const Outcome outcome =
       temper({"check", "in.vtu", "--require", "outside=0,inverted=0,triangles=73", "--require", "min_h=0.05"});
   EXPECT_EQ(outcome.exit, 3);
-  EXPECT_TRUE(contains(outcome.err, "in.vtu: requirement not met: outside=0 wants orthocenters_outside = 0, found "));
-  EXPECT_TRUE(contains(outcome.err, "triangles=73 wants triangles = 73, found 72\n"));
-  EXPECT_TRUE(contains(outcome.err, "min_h=0.05 wants min_h_over_l >= 0.05, found -"));
+  EXPECT_TRUE(contains(outcome.err, "in.vtu: requirement not met: outside=0 means orthocenters_outside = 0, found "));
+  EXPECT_TRUE(contains(outcome.err, "triangles=73 means triangles = 73, found 72\n"));
+  EXPECT_TRUE(contains(outcome.err, "min_h=0.05 means min_h_over_l >= 0.05, found -"));
   EXPECT_FALSE(contains(outcome.err, "inverted=0"));
 }
 

@@ -75,7 +75,7 @@ TEST_F(Data, TheReportSaysWhatMovedHowFarAndWhatWasInterpolated) {
   EXPECT_TRUE(contains(outcome.out, "point data: " + data["points_moved"].dump() + " of 400 points moved, by "));
   EXPECT_TRUE(contains(outcome.out, "interpolated on the triangles of the input: depth\n"));
   EXPECT_TRUE(contains(outcome.out, "kept with their points: node\n"));
-  EXPECT_TRUE(contains(outcome.out, "of the input's triangle that the middle is in: bottom\n"));
+  EXPECT_TRUE(contains(outcome.out, "taken from the input's triangle at the same place: bottom\n"));
   EXPECT_EQ(outcome.err, "");
 }
 

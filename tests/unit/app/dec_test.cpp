@@ -78,7 +78,7 @@ TEST_F(Dec, BadInputWritesNothing) {
     EXPECT_EQ(names(), before);
   };
   expect_failure({"operators", "bad.mesh", "-o", "out"}, 1, "bad.mesh:8: ");
-  expect_failure({"operators", "in.vtu", "-o", "file"}, 1, "file: is no folder; expected the name of one, or of none");
+  expect_failure({"operators", "in.vtu", "-o", "file"}, 1, "file: is not a folder; expected a folder, or a new name");
   expect_failure({"operators", "in.vtu", "-o", "no/such"}, 1, "no/such: cannot be made: No such file or directory");
   expect_failure({"operators", "in.vtu"}, 2, "--output");
   expect_failure({"operators", "in.vtu", "-o", "out", "--format", "npz,vtk"}, 2,

@@ -38,7 +38,7 @@ TEST_F(Degrees, AreRefusedWithTheCureWhereAPlaneIsNeeded) {
     EXPECT_EQ(outcome.exit, 2) << arguments[0];
     EXPECT_TRUE(contains(outcome.err, "fort.14: the points look like longitude and latitude"));
     EXPECT_TRUE(contains(outcome.err, "choose a --projection: stereographic, mercator or transverse-mercator"));
-    EXPECT_TRUE(contains(outcome.err, "(lengths are then in meters); sphere, for a mesh of the sphere; or none, "));
+    EXPECT_TRUE(contains(outcome.err, "for lengths in meters, sphere for a mesh of the sphere, or none "));
   }
   EXPECT_EQ(names(), std::vector<std::string>{"fort.14"});
   EXPECT_EQ(temper({"convert", "fort.14", "-o", "m.ugrid.nc"}).err.find("`projection`"), std::string::npos);

@@ -117,7 +117,7 @@ TEST_F(Convert, NothingIsPutBesideAStream) {
   for (const char* where : {" > b.obj", " | cat > b.obj"}) {
     const Outcome piped = shell(std::string("temper convert weighted.vtu -o - --format obj") + where);
     EXPECT_EQ(piped.exit, 0) << piped.err;
-    EXPECT_TRUE(contains(piped.err, "no file can be beside a stream")) << piped.err;
+    EXPECT_TRUE(contains(piped.err, "a stream has no file next to it")) << piped.err;
     const Outcome several = shell(std::string("temper convert weighted.vtu -o - --format triangle") + where);
     EXPECT_TRUE(contains(several.err, "Triangle is several files; expected the name of a file, found a stream"))
         << several.err;
@@ -184,7 +184,7 @@ TEST_F(Example, PeriodicPlanesGoThroughTheVerbsThatTakeThem) {
                              Words{"optimize", "in.vtu", "-o", "w.vtu", "--html", "w.html"}}) {
     const Outcome refused = temper(words);
     EXPECT_EQ(refused.exit, 1);
-    EXPECT_TRUE(contains(refused.err, "the mesh is one of a periodic plane, and ")) << refused.err;
+    EXPECT_TRUE(contains(refused.err, "the mesh is in a periodic plane, but ")) << refused.err;
     EXPECT_FALSE(exists("w.vtu"));
   }
 }
@@ -211,7 +211,7 @@ TEST_F(Draw, SpheresAreDrawnFromWhereOneLooks) {
   EXPECT_TRUE(contains(temper({"draw", "flat.vtu", "-o", "x.svg", "--view", "0,0"}).err, "expected one of the sphere"));
   const Outcome mixed = temper({"draw", "out.vtu", "--before", "flat.vtu", "-o", "x.svg"});
   EXPECT_EQ(mixed.exit, 1);
-  EXPECT_TRUE(contains(mixed.err, "flat.vtu: is a mesh of the plane, but out.vtu is one of the sphere"));
+  EXPECT_TRUE(contains(mixed.err, "flat.vtu: is a mesh of the plane, but out.vtu is a mesh of the sphere"));
   EXPECT_FALSE(exists("x.svg"));
 }
 

@@ -81,8 +81,8 @@ TEST_F(Hostile, TheEndOfTheChildIsAnError) {
     EXPECT_EQ(outcome.exit, 1) << does;
     return outcome.err;
   };
-  EXPECT_EQ(check("crash"), "temper: error: m.vtkhdf: libhdf5 dies of it: the file is damaged\n");
-  EXPECT_TRUE(contains(check("loop"), "temper: error: m.vtkhdf: libhdf5 does not get to its end within 3 s: "));
+  EXPECT_EQ(check("crash"), "temper: error: m.vtkhdf: libhdf5 crashes: the file is damaged\n");
+  EXPECT_TRUE(contains(check("loop"), "temper: error: m.vtkhdf: libhdf5 does not finish within 3 s: "));
   EXPECT_TRUE(contains(check("nothing"), "temper: error: m.vtkhdf: VTKHDF files need libhdf5"));
 }
 

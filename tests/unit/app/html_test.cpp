@@ -52,7 +52,7 @@ TEST_F(Html, TheInputAndOtherOutputsAreNotReplaced) {
   EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.vtu", "--html", "out.vtu"}).exit, 2);
   const Outcome several = temper({"check", "in.vtu", "in.vtu", "--html", "page.html"});
   EXPECT_EQ(several.exit, 2);
-  EXPECT_TRUE(contains(several.err, "--html: it is the report of one mesh, and 2 are given"));
+  EXPECT_TRUE(contains(several.err, "--html: expected one mesh, found 2"));
   EXPECT_EQ(names(), (std::vector<std::string>{"in.vtu"}));
 }
 

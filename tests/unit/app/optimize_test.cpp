@@ -107,8 +107,8 @@ TEST_F(Optimize, InTheMetricOfATensorAndNowhereElse) {
   temper_ok({"example", "random-sphere", "--vertices", "60", "-o", "globe.vtu"});
   const Outcome globe = temper(with({"optimize", "globe.vtu", "-o", "b.vtu"}));
   EXPECT_EQ(globe.exit, 1);
-  EXPECT_TRUE(contains(globe.err,
-                       "globe.vtu: the mesh is one of the sphere, and a diffusion tensor takes meshes of the plane"));
+  EXPECT_TRUE(
+      contains(globe.err, "globe.vtu: the mesh is on a sphere, but a diffusion tensor needs a mesh of the plane"));
   EXPECT_FALSE(std::filesystem::exists("b.vtu"));
 }
 
@@ -165,7 +165,7 @@ TEST_F(Optimize, RequirementsAreJudgedOnWhatIsWritten) {
   EXPECT_EQ(read_json("r.json")["requirements"].size(), 2u);
   const Outcome outcome = temper({"optimize", "in.vtu", "-o", "hard.vtu", "--quiet", "--require", "min_h>=0.5"});
   EXPECT_EQ(outcome.exit, 3);
-  EXPECT_TRUE(contains(outcome.err, "hard.vtu: requirement not met: min_h>=0.5 wants min_h_over_l >= 0.5, found 0."));
+  EXPECT_TRUE(contains(outcome.err, "hard.vtu: requirement not met: min_h>=0.5 means min_h_over_l >= 0.5, found 0."));
   EXPECT_TRUE(exists("hard.vtu"));
   EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "no.vtu", "--require", "min_hight=1"}).exit, 2);
   EXPECT_FALSE(exists("no.vtu"));

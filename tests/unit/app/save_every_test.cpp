@@ -86,7 +86,7 @@ TEST_F(SaveEvery, WantsAFileThatCanBeReplaced) {
     const Outcome refused = temper({"optimize", "in.vtu", "-o", output, "--format", "vtu", "--save-every", "3"});
     EXPECT_EQ(refused.exit, 2);
     EXPECT_EQ(refused.out, "");
-    EXPECT_TRUE(contains(refused.err, "is no file that can be replaced"));
+    EXPECT_TRUE(contains(refused.err, "is not a file that can be replaced"));
   }
   EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.vtu", "--save-every", "-1"}).exit, 2);
   EXPECT_FALSE(exists("out.vtu"));

@@ -158,7 +158,7 @@ TEST_F(DecFiles, OnAnErrorNothingHasChanged) {
   const auto file = operators.write(path("file"));
   ASSERT_FALSE(file);
   EXPECT_EQ(file.error().code, ErrorCode::not_writable);
-  EXPECT_EQ(file.error().what(), path("file") + ": is no folder; expected the name of one, or of none");
+  EXPECT_EQ(file.error().what(), path("file") + ": is not a folder; expected a folder, or a new name");
   const auto nowhere = operators.write(path("no/such"));
   ASSERT_FALSE(nowhere);
   EXPECT_EQ(nowhere.error().what(), path("no/such") + ": cannot be made: No such file or directory");

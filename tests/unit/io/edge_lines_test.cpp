@@ -136,7 +136,7 @@ TEST(EdgeLines, EdgesThatFlipsMakeTakeThePlacesOfThoseThatAreGone) {
     EXPECT_EQ(after.line_data[0].name, "entity");
     EXPECT_TRUE(after.line_data[0].values == before.line_data[0].values);
     EXPECT_EQ(after.warnings,
-              std::vector<std::string>{"edges are others than before: data of lines on them are dropped: length"});
+              std::vector<std::string>{"edges have changed: data of lines on them are dropped: length"});
   }
   const auto again = make_mesh(after);
   ASSERT_TRUE(again);

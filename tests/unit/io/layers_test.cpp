@@ -71,7 +71,7 @@ TEST_F(LayerFiles, ErrorsNameLineColumnAndVertex) {
   expect_error("vertex,top,bottom\n*,2,1\n\n3,abc,1\n",
                "l.csv:4: column 2 ('top'), vertex 3: expected a height, found 'abc'");
   expect_error("vertex,top,bottom\n3,2,\n",
-               "l.csv:2: column 3 ('bottom'), vertex 3: is empty, and there is no row * with what holds then");
+               "l.csv:2: column 3 ('bottom'), vertex 3: is empty, and there is no row * with its default");
   expect_error("vertex,top,bottom\n3,2,inf\n",
                "l.csv:2: column 3 ('bottom'), vertex 3: expected a height or nan, found 'inf'");
   expect_error("vertex,top,bottom,active\n3,2,1,yes\n",
@@ -84,7 +84,7 @@ TEST_F(LayerFiles, ErrorsNameLineColumnAndVertex) {
   expect_error("vertex,top,bottom\n3,2,1\n3,2,1\n", "l.csv:3: vertex 3 has its row in line 2 already");
   expect_error("vertex,top,bottom\n3,2,1\n*,2,1\n", "l.csv:3: the row * has to come once, before all others");
   expect_error("vertex,top,bottom\n3,2,1\n",
-               "l.csv: has no row for vertices 1, 4, 5 of a.mesh, and no row * with what holds for them");
+               "l.csv: has no row for vertices 1, 4, 5 of a.mesh, and no row * with their default");
 }
 
 TEST_F(LayerFiles, FormatsOfColumnsWantColumnsAndWriteNothingWithout) {
@@ -93,7 +93,7 @@ TEST_F(LayerFiles, FormatsOfColumnsWantColumnsAndWriteNothingWithout) {
   const auto written =
       write_dec(path("out"), mesh, complex, power_cells(mesh, complex), {.formats = {DecFormat::disv}});
   ASSERT_FALSE(written);
-  EXPECT_EQ(written.error().what(), "formats disv, disu and tough are of columns, and need layers");
+  EXPECT_EQ(written.error().what(), "formats disv, disu and tough need layers");
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
@@ -121,7 +121,7 @@ TEST_F(LayerFiles, AVertexWithoutACellHasNoneAndDisvNoPlaceForIt) {
   const auto disv = write_dec(path("out"), mesh, complex, cells, {.formats = {DecFormat::disv}, .columns = &*made});
   ASSERT_FALSE(disv);
   EXPECT_EQ(disv.error().what(),
-            "the power cell of point 0 in the domain is not one polygon, as DISV wants; DISU does not");
+            "the power cell of point 0 in the domain is not one polygon, which DISV needs. Next: write DISU");
   EXPECT_FALSE(std::filesystem::exists(path("out")));
   ASSERT_TRUE(write_dec(path("out"), mesh, complex, cells, {.formats = {DecFormat::disu}, .columns = &*made}));
   const std::string disu = slurp(path("out/mesh.disu"));

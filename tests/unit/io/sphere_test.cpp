@@ -341,7 +341,7 @@ TEST_F(SphereFiles, JigsawEllipsoidsAreSpheresOrRefused) {
   const auto flat = ellipsoid("RADII=2;2;1\n", "NDIMS=2\n", radians);
   ASSERT_FALSE(flat);
   EXPECT_EQ(plain(flat.error().what()),
-            "e.jigsaw.msh:2: has the radius 1 beside 2; expected a sphere: radii above 0, all the same");
+            "e.jigsaw.msh:2: has the radius 1 beside 2; expected a sphere: equal radii above 0");
   const auto none = ellipsoid("", "NDIMS=2\n", radians);
   ASSERT_FALSE(none);
   EXPECT_EQ(plain(none.error().what()), "e.jigsaw.msh: is an ELLIPSOID-MESH without RADII");

@@ -38,7 +38,7 @@ TEST_F(TriangleFiles, UndeclaredAttributesAreDataAndAWarningSaysHowToMakeThemWei
   EXPECT_EQ(plain(f->warnings[0]),
             "m.node: undeclared attributes are read as data, not as weights; the comment line '# temper attribute "
             "float64 1 weight' "
-            "declares the first one a weight");
+            "makes the first one a weight");
   make("m.node", "# temper attribute float64 1 weight\n" + slurp(path("m.node")));
   const auto g = read(path("m.node"));
   ASSERT_TRUE(g) << g.error().what();

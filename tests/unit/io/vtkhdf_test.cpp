@@ -304,9 +304,9 @@ TEST_F(Vtkhdf, WhatDoesNotFitIsNamed) {
   EXPECT_EQ(error_of(good.with(longs("NumberOfPoints", {2147483647, 2}))),
             "m.hdf: has 2147483649 points, more than 32 bits count");
   EXPECT_EQ(error_of(good.with(longs("NumberOfPoints", {}))),
-            "m.hdf: NumberOfPoints has 0 numbers, expected one a piece");
+            "m.hdf: NumberOfPoints has 0 numbers, expected one per piece");
   EXPECT_EQ(error_of(good.with(longs("NumberOfCells", {2}))),
-            "m.hdf: NumberOfCells has 1 numbers, expected one a piece, of which NumberOfPoints has 2");
+            "m.hdf: NumberOfCells has 1 numbers, expected one per piece, of which NumberOfPoints has 2");
   EXPECT_EQ(error_of(good.with(doubles("Points", {0, 0, 1, 0, 1, 1, 1, 1, 0, 1, 0, 0}, 2))),
             "m.hdf: the dataset 'Points' has 6 times 2 values, expected 6 times 3");
   EXPECT_EQ(error_of(good.with(longs("Offsets", {0, 3, 3, 6}))),

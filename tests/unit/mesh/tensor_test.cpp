@@ -93,7 +93,7 @@ TEST(Mapped, SpheresAndTrianglesThatTurnOverAreRefused) {
   const Mesh globe = test::lattice({.n = 4, .radius = 10});
   const auto refused = mapped(globe, Metric());
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().message, "the mesh is one of the sphere, and a diffusion tensor takes meshes of the plane");
+  EXPECT_EQ(refused.error().message, "the mesh is on a sphere, but a diffusion tensor needs a mesh of the plane");
   Mesh flat = test::lattice({.n = 2, .jitter = 0});
   const Mesh original = flat;
   flat.set_position(VertexId(0), flat.position(VertexId(3)));

@@ -157,13 +157,13 @@ TEST_F(OutlineFiles, GeoJsonPropertiesThatAreMisspeltOrHaveNoEffectAreNamed) {
   EXPECT_EQ(warnings(R"("size": 1, "region": 2, "tag": 3, "area": 4, "name": "Sizewell", "Region": "north")", square),
             "");
   EXPECT_EQ(warnings(R"("siez": 1, "Size": 1, "sizes": 1, "reigon": 2, "tags": 3)", square),
-            "the feature: property 'siez' is passed over; is 'size' meant?\n"
-            "the feature: property 'Size' is passed over; is 'size' meant?\n"
-            "the feature: property 'sizes' is passed over; is 'size' meant?\n"
-            "the feature: property 'reigon' is passed over; is 'region' meant?\n"
-            "the feature: property 'tags' is passed over; is 'tag' meant?\n");
+            "the feature: property 'siez' is ignored; is 'size' meant?\n"
+            "the feature: property 'Size' is ignored; is 'size' meant?\n"
+            "the feature: property 'sizes' is ignored; is 'size' meant?\n"
+            "the feature: property 'reigon' is ignored; is 'region' meant?\n"
+            "the feature: property 'tags' is ignored; is 'tag' meant?\n");
   EXPECT_EQ(warnings(R"("size": "0.1")", square),
-            "the feature: property 'size' is a string, not a number, and passed over\n");
+            "the feature: property 'size' is a string, not a number, and ignored\n");
   EXPECT_EQ(warnings(R"("size": 0.1, "tag": 2)", line),
             "the feature: 'size' is for polygons and has no effect on a LineString\n");
 }

@@ -374,7 +374,7 @@ TEST(SphereMesherErrors, CoastsAreClosedAndDoNotCross) {
   SphereOutline open;
   add_line(open.coasts, {{0, 0}, {20, 0}, {20, 20}}, false);
   expect_globe_error(open, globe_sized(1e6), ErrorCode::empty_input,
-                     "segment 0 ends at (0, 0), where the coast does not go on");
+                     "segment 0 ends at (0, 0), but no other segment goes on there");
   expect_globe_error(coast({{0, 0}, {20, 20}, {20, 0}, {0, 20}}), globe_sized(1e6), ErrorCode::overlap,
                      "segment 2 (point 2 to point 3) crosses segment 0 (point 0 to point 1)");
   SphereOutline two = coast(blob({0, 0}, 20, 20));
@@ -401,12 +401,12 @@ TEST(SphereMesherErrors, SizesFitTheSphere) {
   MesherOptions options;
   const Mesh globe = *icosahedral({.level = 1, .radius = 1});
   options.field = *SizeField::from_values(globe, std::vector<double>(globe.n_vertices(), 0.5));
-  expect_globe_error({}, options, ErrorCode::invalid_option, "the size field is of a sphere of radius 1");
+  expect_globe_error({}, options, ErrorCode::invalid_option, "the size field is for a sphere of radius 1");
   options.field = *SizeField::from_values(globe, std::vector<double>(globe.n_vertices(), 1e-6));
   expect_globe_error({.radius = 1}, options, ErrorCode::invalid_option, "the size field would make about");
   const Mesh flat = sparse_horseshoe();
   options.field = *SizeField::from_values(flat, std::vector<double>(flat.n_vertices(), 0.5));
-  expect_globe_error({.radius = 1}, options, ErrorCode::invalid_option, "the size field is of the plane");
+  expect_globe_error({.radius = 1}, options, ErrorCode::invalid_option, "the size field is for the plane");
 }
 
 }  // namespace

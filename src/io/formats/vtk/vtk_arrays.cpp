@@ -146,7 +146,7 @@ std::vector<VtkArray> vtk_point_data(const WriteJob& job) {
   }
   for (const DataArray& a : f.point_data) {
     if (a.name == "weight" && !f.weights.empty()) {
-      job.warn("point data 'weight' is not written: the name is that of the weights");
+      job.warn("point data 'weight' is not written: temper uses this name for the weights");
       continue;
     }
     list.push_back(joined(a.name, scalar_of(a.values), a.components, {{&a.values, size(a.values)}}));
@@ -169,7 +169,7 @@ std::vector<VtkArray> vtk_cell_data(const WriteJob& job) {
     for (const DataArray& a : *kind) {
       if (!done.insert(a.name).second) continue;
       if (a.name == "region" && tagged) {
-        job.warn("cell data 'region' is not written: the name is that of the regions");
+        job.warn("cell data 'region' is not written: temper uses this name for the regions");
         continue;
       }
       std::vector<Part> parts;
@@ -178,7 +178,7 @@ std::vector<VtkArray> vtk_cell_data(const WriteJob& job) {
         const bool alike =
             other != nullptr && other->components == a.components && other->values.index() == a.values.index();
         if (other != nullptr && !alike) {
-          job.warn("data ", a.name, " of lines or points differ in type from those of triangles and are not written");
+          job.warn("data ", a.name, " of lines or points have another type than data of triangles and are not written");
         }
         parts.push_back({alike ? &other->values : nullptr, counts[k] * static_cast<std::size_t>(a.components)});
       }

@@ -86,7 +86,7 @@ class VtkhdfReader {
     }
     const std::size_t pieces = piece_points_.empty() ? result.size() : piece_points_.size();
     if (result.empty() || result.size() != pieces) {
-      fail(ErrorCode::size_mismatch, path_, name, " has ", result.size(), " numbers, expected one a piece",
+      fail(ErrorCode::size_mismatch, path_, name, " has ", result.size(), " numbers, expected one per piece",
            pieces > 0 ? text(", of which NumberOfPoints has ", pieces) : "");
     }
     return result;
