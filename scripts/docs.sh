@@ -5,7 +5,7 @@
 #   scripts/docs.sh            to build/site: open index.html, or serve the folder
 #
 # The reference of options comes from the module, which is built (preset python), unless TEMPER_BUILD names a build.
-# TEMPER_GALLERY names what `temper reproduce -o` wrote, TEMPER_PLAYGROUND the built playground: both go into the site.
+# TEMPER_GALLERY names what `temper paper reproduce -o` wrote, TEMPER_PLAYGROUND the built playground: both go into the site.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

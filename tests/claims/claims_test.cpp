@@ -213,7 +213,7 @@ TEST(Gallery, TheDocsHaveEveryRowAsItIsFound) {
     const std::vector<std::string> found = lines_of(text), docs = documented(name);
     EXPECT_TRUE(found == docs) << "Found, and not in docs/paper.md:\n"
                                << missing(found, docs) << "In docs/paper.md, and not found:\n"
-                               << missing(docs, found) << "temper reproduce -o DIR && gallery/update_docs.py DIR";
+                               << missing(docs, found) << "temper paper reproduce -o DIR && gallery/update_docs.py DIR";
   }
 }
 
