@@ -136,6 +136,14 @@ std::string* last_word(OptimizeSettings& s) {
   return s.fix.size() > 1 ? &s.fix.back() : nullptr;
 }
 
+/// Refuses two values for one option.
+void expect_one_value(const Assignments& assignments) {
+  for (auto a = assignments.begin(); a != assignments.end(); ++a) {
+    if (std::any_of(assignments.begin(), a, [a](const Assignment& other) { return other.row == a->row; }))
+      refuse_usage("optimize", fmt::format("{} is set more than once", a->row->name));
+  }
+}
+
 /// Refuses settings that change what --keep names.
 void expect_kept(const OptimizeSettings& s) {
   for (const Preset& part : keeps()) {
@@ -200,6 +208,7 @@ void take_input(Command& command, OptimizeSettings& s) {
 }
 
 void settle_options(Command& command, OptimizeSettings& s) {
+  expect_one_value(s.assignments);
   if (!s.options_file.empty()) read_options(command, s.options_file, s.assignments);
   const std::vector<std::string_view> keep(s.keep.begin(), s.keep.end());
   const Expected<OptimizeOptions> options = options_for(s.target, s.effort, keep);

@@ -84,8 +84,8 @@ TEST_F(Data, AReplayPutsTheSameDataBackToTheByte) {
   for (const std::vector<std::string>& rules : {std::vector<std::string>{},
                                                 {"--point-data", "keep"},
                                                 {"--point-data", "keep", "--point-data", "interpolate=depth"}}) {
-    std::vector<std::string> run = {"optimize", "bay.vtu", "-o", "out.vtu", "--quiet", "--trace", "t.jsonl"};
-    if (TEMPER_SANITIZED) run.insert(run.end(), {"--max-sweeps", "10"});
+    std::vector<std::string> run = {"optimize", "bay.vtu", "-o", "out.vtu", "--quiet", "--write", "t.jsonl"};
+    if (TEMPER_SANITIZED) run.insert(run.end(), {"--set", "max_sweeps=10"});
     std::vector<std::string> again = {"paper", "replay", "bay.vtu", "t.jsonl", "-o", "again.vtu", "--quiet"};
     run.insert(run.end(), rules.begin(), rules.end());
     again.insert(again.end(), rules.begin(), rules.end());

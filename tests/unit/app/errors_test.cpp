@@ -80,7 +80,7 @@ TEST_F(Errors, ComparesWithAnotherMesh) {
 TEST_F(Errors, IsPartOfAnOptimizationWhenAskedFor) {
   make_input();
   const std::string text = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--set", "objective=accuracy",
-                                      "--measure-errors", "--report", "r.json"})
+                                      "--measure-errors", "--write", "r.json"})
                                .out;
   EXPECT_TRUE(contains(text, "mean relative error"));
   const auto report = nlohmann::json::parse(read("r.json"));
@@ -106,7 +106,7 @@ TEST_F(Errors, OfAnOptimizationOnlyMeasures) {
   temper_ok({"example", "annulus", "--jitter", "0", "-o", "in.vtu"});
   for (const auto& [out, more] :
        {std::pair("plain.off", std::vector<std::string>()),
-        std::pair("measured.off", std::vector<std::string>{"--measure-errors", "--report", "r.json"})}) {
+        std::pair("measured.off", std::vector<std::string>{"--measure-errors", "--write", "r.json"})}) {
     std::vector<std::string> words = {"optimize", "in.vtu", "-o", out, "--set", "objective=accuracy", "--quiet"};
     words.insert(words.end(), more.begin(), more.end());
     temper_ok(words);

@@ -16,7 +16,7 @@ class Html : public Workshop {
 
 TEST_F(Html, CheckShowsItsReportAndTheReasons) {
   make_input();
-  const Outcome outcome = temper_ok({"check", "in.vtu", "--json", "--html", "page.html"});
+  const Outcome outcome = temper_ok({"check", "in.vtu", "--json", "--write", "page.html"});
   const nlohmann::json report = report_in("page.html"), json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(report["verb"], "check");
   EXPECT_EQ(report["after"]["min_h_over_l"], json["min_h_over_l"]);

@@ -62,7 +62,7 @@ TEST_F(MeshVerb, ExitsWith4JustWhereTheTimeLimitEndsTheRun) {
 
 TEST_F(MeshVerb, WithoutOptimizationTheDelaunayMeshIsWritten) {
   make_outline();
-  temper_ok({"mesh", "in.poly", "-o", "out.vtu", "--size", "0.2", "--no-optimize", "--report", "r.json"});
+  temper_ok({"mesh", "in.poly", "-o", "out.vtu", "--size", "0.2", "--no-optimize", "--write", "r.json"});
   EXPECT_EQ(read_json("r.json")["sweeps"], 0);
   temper_ok({"check", "out.vtu", "--require", "nonregular=0"});
 }

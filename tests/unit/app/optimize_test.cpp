@@ -130,7 +130,7 @@ TEST_F(Optimize, ExitsWith4WhereEdgesThatMayFlipAreNotRegular) {
     lacking += check == 3 ? 1 : 0;
   }
   EXPECT_GT(lacking, 0);
-  temper_ok({"optimize", "in.vtu", "-o", "kept.vtu", "--keep", "edges", "--max-sweeps", "1"});
+  temper_ok({"optimize", "in.vtu", "-o", "kept.vtu", "--keep", "edges", "--set", "max_sweeps=1"});
   EXPECT_EQ(temper({"check", "kept.vtu", "--require", regular}).exit, 3) << "none may flip";
 }
 
@@ -260,13 +260,13 @@ TEST_F(Optimize, TheCommandInTheReportGivesTheSameBytes) {
 TEST_F(Optimize, TheCommandAndTheOptionsNameEveryOptionWithAValue) {
   temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "r.json"});
   const nlohmann::json report = read_json("r.json");
-  for (const char* option : {"--energy=BP", "--star=1", "--solver=newton", "--tolerance=1e-05", "--seed=1",
-                             "--flips=immediate", "--stopping=relative", "--output=out.vtu", "--report=r.json"}) {
+  for (const char* option : {"--set=energy=BP", "--set=star=1", "--set=solver=newton", "--set=tolerance=1e-05", "--set=seed=1",
+                             "--set=flips=immediate", "--set=stopping=relative", "--output=out.vtu", "--write=r.json"}) {
     EXPECT_TRUE(contains(report["command"], option));
   }
   EXPECT_EQ(report["options"]["energy"], "BP");
   const OptimizeOptions defaults;
-  EXPECT_TRUE(contains(report["command"], "--max-sweeps=" + std::to_string(defaults.max_sweeps)));
+  EXPECT_TRUE(contains(report["command"], "--set=max_sweeps=" + std::to_string(defaults.max_sweeps)));
   EXPECT_EQ(report["options"]["max-sweeps"], defaults.max_sweeps);
   EXPECT_EQ(report["options"]["tolerance"], defaults.paper.tolerance);
   EXPECT_EQ(report["options"]["no-flips"], false);
@@ -279,7 +279,7 @@ TEST_F(Optimize, FixTakesSeveralTagsAndStillFindsTheInput) {
         "MeshVersionFormatted 2\nDimension 2\nVertices\n5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.3 0.4 0\n"
         "Edges\n2\n1 2 11\n2 3 12\nTriangles\n4\n1 2 5 0\n2 3 5 0\n3 4 5 0\n4 1 5 0\nEnd\n");
   temper_ok({"optimize", "tagged.mesh", "-o", "a.vtu", "--fix", "11", "12", "--quiet"});
-  temper_ok({"optimize", "--fix", "11", "12", "tagged.mesh", "-o", "b.vtu", "--quiet", "--report", "r.json"});
+  temper_ok({"optimize", "--fix", "11", "12", "tagged.mesh", "-o", "b.vtu", "--quiet", "--write", "r.json"});
   temper_ok({"optimize", "--fix", "11", "--fix", "12", "-o", "c.vtu", "--quiet", "tagged.mesh"});
   EXPECT_EQ(read("a.vtu"), read("b.vtu"));
   EXPECT_EQ(read("a.vtu"), read("c.vtu"));
@@ -346,7 +346,7 @@ TEST_F(Optimize, TakesASizeFieldFromAFile) {
   const nlohmann::json report = read_json("r.json");
   EXPECT_GT(report["size"]["before"]["vertices_outside_field"], 0);
   EXPECT_EQ(report["options"]["size-field"], "sizes.vtk");
-  temper_ok({"optimize", "in.vtu", "-o", "own.vtu", "--write", "own.json", "--quiet", "--objective", "energy"});
+  temper_ok({"optimize", "in.vtu", "-o", "own.vtu", "--write", "own.json", "--quiet", "--set", "objective=energy"});
   EXPECT_EQ(read("own.vtu"), read("out.vtu"));  // without a band nothing but the report looks at it
   EXPECT_NE(read_json("own.json")["size"], report["size"]);
 }
@@ -360,9 +360,9 @@ TEST_F(Optimize, NamesWhatIsWrongWithASizeField) {
     for (const char* part : parts) EXPECT_TRUE(contains(outcome.err, part));
     EXPECT_FALSE(exists("out.vtu"));
   };
-  refused({"--size-field", "sizes.vtk"}, {"sizes.vtk", "point 2 has size 0", "expected a finite, positive length"});
-  refused({"--size-field", "sizes.vtk", "--size-field-data", "h"}, {"sizes.vtk", "no point data \"h\"", "size"});
-  refused({"--size-field", "none.vtk"}, {"none.vtk"});
+  refused({"--size", "sizes.vtk"}, {"sizes.vtk", "point 2 has size 0", "expected a finite, positive length"});
+  refused({"--size", "sizes.vtk", "--size-data", "h"}, {"sizes.vtk", "no point data \"h\"", "size"});
+  refused({"--size", "none.vtk"}, {"none.vtk"});
 }
 
 }  // namespace

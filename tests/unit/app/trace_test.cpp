@@ -72,7 +72,7 @@ TEST_F(Trace, ReplaysInEveryFormatWithDataAndDroppedPoints) {
     SCOPED_TRACE(name);
     temper_ok({"convert", "random.vtu", "-o", name});
     const std::string output = std::string("out.") + name;
-    temper_ok({"optimize", name, "-o", output, "--write", "t.jsonl", "--quiet", "--removal", "patch", "--set",
+    temper_ok({"optimize", name, "-o", output, "--write", "t.jsonl", "--quiet", "--set", "removal=patch", "--set",
                "removal_from=0", "--set", "removal_margin=0", "--set", "max_sweeps=15"});
     EXPECT_EQ(temper({"check", output, "--require", "vertices=150"}).exit, 3) << "nothing was removed";
     expect_replay_gives(name, output);
@@ -116,7 +116,7 @@ TEST_F(Trace, PointsThatAreLeftKeepTheirDataWhenToldTo) {
     ASSERT_TRUE(io::write(name, file));
     const std::string output = std::string("out.") + name;
     const Outcome outcome =
-        temper_ok({"optimize", name, "-o", output, "--write", "t.jsonl", "--quiet", "--removal", "patch",
+        temper_ok({"optimize", name, "-o", output, "--write", "t.jsonl", "--quiet", "--set", "removal=patch",
                    "--set", "removal_from=0", "--set", "removal_margin=0", "--set", "max_sweeps=15", "--point-data", "keep=id"});
     EXPECT_FALSE(contains(outcome.err, "dropped"));
     std::vector<double> left = id;
@@ -268,7 +268,7 @@ TEST_F(Trace, WrongOnesAreRefusedWithTheirLine) {
 
 TEST_F(Trace, MethodPaperChangesTheDefaultsAndGivenOptionsWin) {
   make_input();
-  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "r.json", "--quiet", "--tolerance", "0.5", "--for",
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "r.json", "--quiet", "--set", "tolerance=0.5", "--for",
              "paper", "--set", "max_sweeps=2", "--set", "removal=none", "--set", "collapse_from=none"});
   const nlohmann::json options = read_json("r.json")["options"];
   EXPECT_EQ(options["method"], "paper");
@@ -289,10 +289,10 @@ TEST_F(Trace, MethodPaperChangesTheDefaultsAndGivenOptionsWin) {
 TEST_F(Trace, TheCommandOfAnyMethodGivesTheSameBytes) {
   temper_ok({"example", "horseshoe", "-o", "in.vtu"});
   const std::vector<std::vector<std::string>> runs = {
-      {"--method", "paper", "--max-sweeps", "3", "--inversion", "refuse"},
-      {"--method", "paper", "--max-sweeps", "3", "--gamma-rel", "0.3", "--anchor", "none", "--energy", "T"},
-      {"--removal", "patch", "--collapse-from", "2", "--hidden", "remove", "--order", "reverse", "--max-sweeps", "15"},
-      {"--solver", "alternating", "--weight-updates", "deferred", "--flips", "none", "--unknown"},
+      {"--for", "paper", "--set", "max_sweeps=3", "--set", "inversion=refuse"},
+      {"--for", "paper", "--set", "max_sweeps=3", "--set", "gamma=0.3", "--set", "anchor=none", "--set", "energy=T"},
+      {"--set", "removal=patch", "--set", "collapse_from=2", "--set", "hidden=remove", "--set", "order=reverse", "--set", "max_sweeps=15"},
+      {"--set", "solver=alternating", "--set", "weight_updates=deferred", "--set", "flips=none", "--unknown"},
   };
   for (std::vector<std::string> options : runs) {
     const bool wrong = options.back() == "--unknown";
@@ -339,14 +339,14 @@ TEST_F(Trace, RemovalsAreSaidAndCounted) {
 
 TEST_F(Trace, SwitchesThatDoNothingAloneAreNamed) {
   make_input();
-  const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--quiet", "--max-sweeps", "1", "--set",
+  const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--quiet", "--set", "max_sweeps=1", "--set",
                                      "inner=2", "--set", "removal_margin=0.5", "--set", "collapse_ratio=0.2"});
   for (const char* message :
        {"--inner has no effect without --flips deferred", "--removal-margin has no effect without --removal patch",
         "--collapse-ratio has no effect without --collapse-from"}) {
     EXPECT_TRUE(contains(outcome.err, message));
   }
-  const Outcome others = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--quiet", "--max-sweeps", "1", "--set",
+  const Outcome others = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--quiet", "--set", "max_sweeps=1", "--set",
                                     "solver=golden", "--set", "relaxation=1.5", "--set", "overshoot=1.2", "--set", "boundary_ratio=3"});
   for (const char* message : {"--relaxation has no effect without --solver newton or --solver alternating",
                               "--overshoot has no effect without --flip-limit after",
@@ -365,13 +365,13 @@ TEST_F(Trace, SwitchesThatContradictEachOtherAreRefused) {
     EXPECT_FALSE(exists("no.vtu"));
     return outcome.err;
   };
-  EXPECT_TRUE(contains(refused({"--no-flips", "--flips", "immediate"}), "--no-flips"));
-  EXPECT_TRUE(contains(refused({"--method", "paper", "--method", "production"}), "--method is given more than once"));
-  EXPECT_TRUE(contains(refused({"--boundary", "split", "--no-flips"}), "expected --flips immediate"));
-  EXPECT_TRUE(contains(refused({"--boundary", "slide", "--inversion", "allow", "--flips", "deferred"}),
+  EXPECT_TRUE(contains(refused({"--keep", "edges", "--set", "flips=immediate"}), "--keep", "edges"));
+  EXPECT_TRUE(contains(refused({"--for", "paper", "--for", "any"}), "--method is given more than once"));
+  EXPECT_TRUE(contains(refused({"--boundary", "split", "--keep", "edges"}), "expected --flips immediate"));
+  EXPECT_TRUE(contains(refused({"--boundary", "slide", "--set", "inversion=allow", "--set", "flips=deferred"}),
                        "--boundary slide needs --inversion refuse"));
-  EXPECT_TRUE(contains(refused({"--method", "paper", "--flips", "immediate"}), "needs --flips deferred"));
-  EXPECT_TRUE(contains(refused({"--energy", "T", "--energy", "BP"}), "--energy is given more than once"));
+  EXPECT_TRUE(contains(refused({"--for", "paper", "--set", "flips=immediate"}), "needs --flips deferred"));
+  EXPECT_TRUE(contains(refused({"--set", "energy=T", "--set", "energy=BP"}), "--energy is given more than once"));
 }
 
 // --- the boundary -------------------------------------------------------------------------------------------------
