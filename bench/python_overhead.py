@@ -24,7 +24,7 @@ import temper
 def python_run(points, triangles, sweeps):
     start, cpu = time.perf_counter(), time.process_time()
     mesh = temper.Mesh(points, triangles)
-    temper.optimize(mesh, max_sweeps=sweeps, repair="none")
+    temper.optimize(mesh, options={"max_sweeps": sweeps, "repair": "none"})
     arrays = tuple(np.ascontiguousarray(a) for a in (mesh.points, mesh.weights, mesh.triangles))
     return (time.perf_counter() - start, time.process_time() - cpu), arrays
 

@@ -188,10 +188,19 @@ void bind_optimize(py::module_& m) {
                        const py::object& tensor, const py::object& communicator) {
     return optimize_mesh(self, options, {size_field, threads, {observer, tracer, snapshots}, tensor, communicator});
   });
-  m.def("methods", [] {
-    py::dict all;
-    for (const Method& method : methods()) all[py::str(std::string(method.name))] = options_to_dict(method.options());
-    return all;
+  m.def("options_for", [](const std::string& target, const std::string& effort, const std::vector<std::string>& keep) {
+    const std::vector<std::string_view> parts(keep.begin(), keep.end());
+    return options_to_dict(or_raise(options_for(target, effort, parts)));
+  });
+  m.def("presets", [] {
+    const auto rows = [](std::span<const Preset> presets) {
+      py::dict sentences;
+      for (const Preset& preset : presets) sentences[py::str(std::string(preset.name))] = std::string(preset.sentence);
+      return sentences;
+    };
+    return Record()("target", py::object(rows(targets())))("effort", py::object(rows(efforts())))(
+               "keep", py::object(rows(keeps())))
+        .dict;
   });
   m.def("option_table", option_table);
   m.def("idle_options", idle_options);

@@ -9,7 +9,7 @@ import sys
 HEAD = '''"""Made from the table of options when the module was built."""
 
 import dataclasses
-from typing import Any, Callable, Literal, TypedDict, TypeVar
+from typing import Any, Callable, Literal, Sequence, TypedDict, TypeVar
 
 from typing_extensions import Unpack
 
@@ -26,6 +26,9 @@ TABLE: list[dict[str, Any]]
 OPTION_NAMES: tuple[str, ...]
 EnergyName = {energy}
 ObjectiveName = {objective}
+TargetName = {target}
+EffortName = {effort}
+KeepName = {keep}
 
 class OptionChanges(TypedDict, total=False):
 '''
@@ -38,14 +41,17 @@ class OptimizeOptions(Record):
 TAIL = '''    def _plain(self) -> dict[str, Any]: ...
 
 def _length_parameter(name: str, value: LengthParameterLike) -> tuple[float, str]: ...
-def changed(options: OptimizeOptions | None, changes: OptionChanges) -> OptimizeOptions: ...
-def paper_method(**changes: Unpack[OptionChanges]) -> OptimizeOptions: ...
-def odt_method(**changes: Unpack[OptionChanges]) -> OptimizeOptions: ...
-def cvt_method(**changes: Unpack[OptionChanges]) -> OptimizeOptions: ...
+def settled(
+    target: str, effort: str, keep: Any, options: OptimizeOptions | OptionChanges | None
+) -> OptimizeOptions: ...
+def options_for(
+    target: TargetName = ..., effort: EffortName = ..., keep: KeepName | Sequence[KeepName] = ...,
+    **changes: Unpack[OptionChanges],
+) -> OptimizeOptions: ...
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-def shows_options(function: F) -> F: ...
+def lists_presets(function: F) -> F: ...
 '''
 
 
@@ -57,7 +63,8 @@ def main(folder):
     kinds = dict(fields)
     changes = "".join(f"    {name}: {kind}\n" for name, kind in fields)
     options = "".join(f"    {name}: {kind} = ...\n" for name, kind in fields)
-    text = HEAD.format(energy=kinds["energy"], objective=kinds["objective"].removesuffix(" | None")) + changes + OPTIONS + options + TAIL
+    words = {name: f"Literal[{', '.join(map(repr, rows))}]" for name, rows in _temper.presets().items()}
+    text = HEAD.format(energy=kinds["energy"], objective=kinds["objective"].removesuffix(" | None"), **words) + changes + OPTIONS + options + TAIL
     (folder / "_options.pyi").write_text(text, encoding="utf-8")
 
 

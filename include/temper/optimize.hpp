@@ -315,14 +315,14 @@ struct OptimizeOptions {
 [[nodiscard]] Objective objective_of(const OptimizeOptions& options);
 
 /// Says whether a run needs a model of errors. Objective::solver_error does, because it lowers these errors.
-/// Objective::accuracy does if `scheme` is vertex or cell and the mesh lies in the plane and has at most solver_error.most_vertices
-/// vertices. Then it becomes solver_error if the options have no objective. If they name accuracy, the model selects
-/// the mesh of least error; the input is compared too if it is well-centered.
+/// Objective::accuracy does if `scheme` is vertex or cell and the mesh lies in the plane and has at most
+/// solver_error.most_vertices vertices. Then it becomes solver_error if the options have no objective. If they name
+/// accuracy, the model selects the mesh of least error; the input is compared too if it is well-centered.
 [[nodiscard]] bool wants_error_model(const OptimizeOptions& options, const Mesh& mesh);
 
-/// Returns the options for a target, an effort, and parts of the mesh to keep. Their names and meanings are in targets(),
-/// efforts() and keeps() of optimize_table.hpp: `options_for("mpas", "high", {{"boundary"}})`. An unknown name, or parts
-/// that leave nothing to change, are an error.
+/// Returns the options for a target, an effort, and parts of the mesh to keep. Their names and meanings are in
+/// targets(), efforts() and keeps() of optimize_table.hpp: `options_for("mpas", "high", {{"boundary"}})`. An unknown
+/// name, or parts that leave nothing to change, are an error.
 [[nodiscard]] Expected<OptimizeOptions> options_for(std::string_view target, std::string_view effort = "normal",
                                                     std::span<const std::string_view> keep = {});
 

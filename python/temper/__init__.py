@@ -36,8 +36,8 @@ from ._explain import explain
 from ._io import formats, read, write
 from ._measure import quality, quality_measures, triangle_quality
 from ._mesh import Mesh, from_meshio
-from ._optimize import optimize, replay
-from ._options import OptimizeOptions, LengthParameter, cvt_method, odt_method, paper_method
+from ._optimize import Hooks, optimize, replay
+from ._options import LengthParameter, OptimizeOptions, options_for
 from ._outline import Outline, mesh_outline, mesh_sphere, read_outline
 from ._plot import plot, plot_history
 from ._space import Space

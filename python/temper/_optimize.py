@@ -10,15 +10,13 @@ import numpy.typing as npt
 
 from . import _temper
 from ._errors import TemperError, TemperWarning
-from ._mesh import DataRules, Mesh, MeshLike, as_mesh, data_rules, put_back
-from ._options import ObjectiveName, OptimizeOptions, changed, shows_options
+from ._mesh import Mesh, MeshLike, as_mesh, put_back
+from ._options import EffortName, KeepName, ObjectiveName, OptimizeOptions, TargetName, lists_presets, settled
 from ._progress import Line, Progress, SweepRecord
 from ._records import Record
 from .size import SizeField, SizeReport, Spread, _size_report
 
 if TYPE_CHECKING:
-    from typing_extensions import Unpack
-
     from ._options import OptionChanges
 
 
@@ -192,62 +190,88 @@ def _is_helper(communicator: Any) -> bool:
     return communicator.Get_rank() != 0
 
 
-@shows_options
+@dataclasses.dataclass(frozen=True)
+class Hooks:
+    """Listeners and ranks of a run. The result does not depend on them, unless a listener raises an exception."""
+
+    tracer: Callable[[TraceEvent], Any] | None = None
+    """Function that gets each ``TraceEvent``. ``replay`` makes the mesh again from them."""
+    snapshots: Callable[[Snapshot], Any] | None = None
+    """Function that gets a ``Snapshot`` between sweeps, with a copy of the mesh each time."""
+    communicator: Any = None
+    """Communicator of mpi4py of the processes that make this run together, usually one per machine. All call
+    ``optimize`` with the same mesh and options, and get the same result. Its bits do not depend on their number. The
+    progress and time limit of rank 0 count."""
+
+    def __post_init__(self) -> None:
+        for name in ("tracer", "snapshots"):
+            call = getattr(self, name)
+            if call is not None and not callable(call):
+                raise TypeError(f"{name}: expected a callable or None, found {call!r}")
+
+
+@lists_presets
 def optimize(
     mesh: MeshLike,
-    options: OptimizeOptions | None = None,
     *,
+    target: TargetName = "any",
+    effort: EffortName = "normal",
+    keep: KeepName | Sequence[KeepName] = (),
+    boundary: Literal["keep", "slide", "split"] | None = None,
     size_field: SizeField | None = None,
     tensor: Sequence[float] | None = None,
-    point_data: DataRules | None = None,
+    time_limit: float | None = None,
     threads: int | None = None,
-    observer: Callable[[Progress], Any] | None = None,
-    progress: bool | None = None,
-    tracer: Callable[[TraceEvent], Any] | None = None,
-    snapshots: Callable[[Snapshot], Any] | None = None,
-    communicator: Any = None,
-    **changes: Unpack[OptionChanges],
+    progress: bool | Callable[[Progress], Any] | None = None,
+    hooks: Hooks | None = None,
+    options: OptimizeOptions | OptionChanges | None = None,
 ) -> OptimizeReport:
     """Improves a mesh in place: moves vertices, changes weights and flips edges until every triangle is well-centered.
 
     A triangle is well-centered when its orthocenter is strictly inside and each of its edges is crossed by its dual:
-    all h > 0 and all 0 < d < ℓ (docs/concepts.md). Every triangle stays counter-clockwise. The domain boundary, fixed
-    vertices and constrained edges stay, bit for bit, unless ``boundary`` and ``interfaces`` allow changes. For barriers
+    all h > 0 and all 0 < d < ℓ. Every triangle stays counter-clockwise. The domain boundary, fixed vertices and
+    constrained edges stay, bit for bit, unless ``boundary`` and the option ``interfaces`` allow changes. For barriers
     (``BP``, ``BHs``, ``BH``) the result never has more triangles that are not well-centered than the input. For HOT
-    energies (``F``, ``T``, ``dT``) it may have more (docs/concepts.md). Equal inputs, options and seeds give equal
-    bits for any number of threads.
+    energies (``F``, ``T``, ``dT``) it may have more. Equal inputs, options and seeds give equal bits for any number of
+    threads. Data of points follow ``Mesh.point_data_rules``.
 
     Parameters
     ----------
     mesh : Mesh or meshio.Mesh
         The mesh, changed in place. To keep the original, optimize ``mesh.copy()``.
-    options : OptimizeOptions, optional
-        All options in one value, such as ``paper_method()``.
-    **changes
-        Options by name, such as ``energy="F", max_sweeps=20``. They override those in ``options``.
-        ``help(temper.OptimizeOptions)`` explains each.
+    target : str
+        Use of the mesh.
+
+        [target]
+    effort : str
+        Time that the run may take for repairs and lower errors.
+
+        [effort]
+    keep : str or sequence of str
+        Parts of the mesh that stay.
+
+        [keep]
+    boundary : str, optional
+        Treatment of the boundary. ``"keep"``: it stays bit for bit, the default. ``"slide"``: its vertices may move
+        along straight pieces. ``"split"``: long edges next to short ones are cut.
     size_field : SizeField, optional
         Size field to compare sizes with. None: the input's own sizes.
     tensor : sequence of float, optional
         kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u). Triangles become well-centered in its metric.
-        The report and the snapshots are in this metric too (docs/tensor.md). Not with ``size_field`` and ``tracer``.
-    point_data : str or sequence of str, optional
-        Rules for floating point data of points when vertices move: sets ``Mesh.point_data_rules``.
+        The report and the snapshots are in this metric too. Not with ``size_field`` and a tracer.
+    time_limit : float, optional
+        Time limit in seconds. The run then ends with the best mesh so far. None: no limit.
     threads : int, optional
         Number of threads; None or 0: as many as the machine has. The result does not depend on it.
-    observer : callable, optional
-        Function that gets a ``Progress`` at least once per sweep; if it returns False, the run stops. An exception
-        stops the run too, and is raised again when the mesh has its best state.
-    progress : bool, optional
+    progress : bool or callable, optional
         Progress line. None: on a terminal and in notebooks, but not in a pipe. False: never. True: lines in a pipe too.
-    tracer : callable, optional
-        Function that gets each ``TraceEvent``. ``replay`` makes the mesh again from them.
-    snapshots : callable, optional
-        Function that gets a ``Snapshot`` between sweeps, with a copy of the mesh each time.
-    communicator : mpi4py.MPI.Comm, optional
-        Communicator of the processes that make this run together, usually one per machine (docs/ranks.md). All call
-        ``optimize`` with the same mesh and options, and get the same result. Its bits do not depend on their number.
-        The progress, observer and time limit of rank 0 count.
+        A function gets a ``Progress`` at least once per sweep. If it returns False, the run stops. An exception stops
+        the run too, and is raised again when the mesh has its best state.
+    hooks : Hooks, optional
+        Listeners and ranks.
+    options : dict or OptimizeOptions, optional
+        Further options by name, such as ``{"energy": "F", "max_sweeps": 20}``. They override the options that
+        ``target``, ``effort`` and ``keep`` set. ``help(temper.OptimizeOptions)`` explains each.
 
     Returns
     -------
@@ -283,40 +307,38 @@ def optimize(
     >>> report.history[-1].objective, temper.quality(mesh).well_centered_fraction
     ('accuracy', 1.0)
     """
-    for name, call in (("observer", observer), ("tracer", tracer), ("snapshots", snapshots)):
-        if call is not None and not callable(call):
-            raise TypeError(f"{name}: expected a callable or None, found {call!r}")
+    hooks = hooks or Hooks()
     if size_field is not None and not isinstance(size_field, SizeField):
         raise TypeError(f"size_field: expected a SizeField or None, found {type(size_field).__name__}")
     if tensor is not None:
-        for name, given in (("size_field", size_field), ("tracer", tracer)):
+        for name, given in (("size_field", size_field), ("tracer", hooks.tracer)):
             if given is not None:
                 raise ValueError(f"{name}: is of the mesh's plane, and does not go with tensor")
-    if _is_helper(communicator):
-        progress, observer = False, None
-    target = as_mesh(mesh)
-    rules = target.point_data_rules if point_data is None else data_rules(point_data)
-    _temper.check_data_rules(target._handle, rules)
-    plain = changed(options, changes)._plain()
-    line = Line(progress)
+    observer = progress if callable(progress) else None
+    line = Line(False if observer is not None or _is_helper(hooks.communicator) else progress)
+    changes = {"boundary": boundary, "time_limit": time_limit}
+    settings = settled(target, effort, keep, options)
+    settings = dataclasses.replace(settings, **{name: value for name, value in changes.items() if value is not None})
+    plain = settings._plain()
+    changed = as_mesh(mesh)
+    tracer, snapshots = hooks.tracer, hooks.snapshots
     trace = (lambda event: tracer(TraceEvent(**event))) if tracer is not None else None
     look = (lambda shot: snapshots(Snapshot._of(shot))) if snapshots is not None else None
     field = size_field._handle if size_field is not None else None
-    original = target.copy() if tensor is None and 0 < target.n_triangles <= PAGE else None
-    before = target._handle.version()
+    original = changed.copy() if tensor is None and 0 < changed.n_triangles <= PAGE else None
+    before = changed._handle.version()
     try:
         watch = _observer(line, observer)
         report = _temper.optimize(
-            target._handle, plain, field, threads, watch, trace, look, None if tensor is None else tuple(tensor), communicator
+            changed._handle, plain, field, threads, watch, trace, look, None if tensor is None else tuple(tensor), hooks.communicator
         )
     finally:
         line.clear()
-        if target._handle.version() != before:
-            target.point_data_rules = rules
-            if target is not mesh:
-                put_back(mesh, target)
-    data = DataReport._of(target, threads) if target._handle.has_data() else None
-    return _report(report, data, None if original is None else (original, target.copy()))
+        if changed._handle.version() != before:
+            if changed is not mesh:
+                put_back(mesh, changed)
+    data = DataReport._of(changed, threads) if changed._handle.has_data() else None
+    return _report(report, data, None if original is None else (original, changed.copy()))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -6,7 +6,6 @@ Type checkers read a stub next to the compiled module, which write_stubs.py make
 from __future__ import annotations
 
 import dataclasses
-import inspect
 import itertools
 import numbers
 import textwrap
@@ -16,6 +15,9 @@ from typing import Any, Callable, Literal, TypeVar, Union
 from . import _temper
 from ._errors import TemperWarning
 from ._records import Record
+
+F = TypeVar("F", bound=Callable[..., Any])
+
 
 @dataclasses.dataclass(frozen=True)
 class LengthParameter:
@@ -63,7 +65,7 @@ def _description(row: dict[str, Any]) -> str:
 
 def _documentation() -> str:
     parts = [
-        "All options of ``optimize``. Each is also a keyword of ``optimize``.\n\n"
+        "All options of ``optimize``, which takes them as ``options``.\n\n"
         "``dataclasses.replace(options, star=0)`` returns changed options.\n\nParameters\n----------"
     ]
     for title, rows in itertools.groupby(TABLE, lambda row: row["group"]):
@@ -89,71 +91,76 @@ OptimizeOptions = dataclasses.make_dataclass(
 )
 
 
-def changed(options: Any, changes: dict[str, Any]) -> Any:
-    """The options (by default the usual ones) with some of them replaced. Warns about options without effect."""
-    if options is not None and not isinstance(options, OptimizeOptions):
-        raise TypeError(f"options: expected OptimizeOptions, found {type(options).__name__}")
-    for name in changes:
-        if name not in OPTION_NAMES:
-            raise TypeError(f"optimize() got an unexpected keyword argument {name!r}")
-    result = dataclasses.replace(options or OptimizeOptions(), **changes)
-    for sentence in _temper.idle_options(result._plain(), list(changes)):
+def settled(target: str, effort: str, keep: Any, options: Any) -> Any:
+    """The options of a run: those of the words, with ``options`` on top. Warns about options without effect."""
+    if isinstance(options, OptimizeOptions):
+        if (target, effort, keep) != ("any", "normal", ()):
+            raise TypeError("options: has all options already, so target, effort and keep have no effect; expected a dict")
+        return options
+    result = options_for(target, effort, keep, **(options or {}))
+    for sentence in _temper.idle_options(result._plain(), list(options or {})):
         warnings.warn(sentence, TemperWarning, stacklevel=3)
     return result
 
 
-def paper_method(**changes: Any) -> Any:
-    """The options of the paper's Algorithm 1 with all its parts: golden section, flips after the inner iterations have
-    converged, unlimited steps, inversions allowed, hidden vertices kept, collapses and the patch test from the first
-    sweep, vertex 0 as anchor, γ = 1, vertices in their order, convergence by mean energy. ``changes`` replace some
-    options.
+PRESETS: dict[str, dict[str, str]] = _temper.presets()
+TargetName = Literal[tuple(PRESETS["target"])]
+EffortName = Literal[tuple(PRESETS["effort"])]
+KeepName = Literal[tuple(PRESETS["keep"])]
 
+
+def lists_presets(function: F) -> F:
+    """Puts the words of target, effort and keep into a docstring, as lists."""
+    for name, words in PRESETS.items():
+        lines = "\n".join(f"        - ``{word}``: {meaning}." for word, meaning in words.items())
+        function.__doc__ = (function.__doc__ or "").replace(f"        [{name}]", lines)
+    return function
+
+
+@lists_presets
+def options_for(target: str = "any", effort: str = "normal", keep: Any = (), **changes: Any) -> Any:
+    """Returns the options for a target, an effort and parts of the mesh to keep.
+
+    Parameters
+    ----------
+    target : str
+        Use of the mesh.
+
+        [target]
+    effort : str
+        Time that the run may take.
+
+        [effort]
+    keep : str or sequence of str
+        Parts of the mesh that stay.
+
+        [keep]
+    **changes
+        Options of ``OptimizeOptions`` that replace the values of these words.
+
+    Returns
+    -------
+    OptimizeOptions
+
+    Raises
+    ------
+    TemperError
+        An unknown word, or parts to keep that leave nothing to change.
+    TypeError
+        An unknown option.
+
+    Examples
+    --------
     >>> import temper
-    >>> temper.paper_method(max_sweeps=20).solver
+    >>> temper.options_for("paper", max_sweeps=20).solver
     'golden'
+    >>> temper.options_for("mpas").unknowns
+    'positions'
     """
-    return _method("paper", changes)
-
-
-def odt_method(**changes: Any) -> Any:
-    """The options of optimal Delaunay triangulations (Chen and Xu 2004), for comparison. Their energy is ``"ODT"``,
-    whose unknowns are positions alone. Weights must be equal. ``changes`` replace some options.
-
-    >>> import temper
-    >>> temper.odt_method().energy
-    'ODT'
-    """
-    return _method("odt", changes)
-
-
-def cvt_method(**changes: Any) -> Any:
-    """The options of centroidal Voronoi tessellations (Du, Faber and Gunzburger 1999), for comparison. Their energy is
-    ``"F"`` for ★0, the moment of the Voronoi cells about their vertices. Lloyd's iterations lower the same energy.
-    Unknowns are positions alone. ``changes`` replace some options.
-
-    >>> import temper
-    >>> temper.cvt_method().star
-    0
-    """
-    return _method("cvt", changes)
-
-
-def _method(method: str, changes: dict[str, Any]) -> Any:
-    plain = _temper.methods()[method]
+    for name in changes:
+        if name not in OPTION_NAMES:
+            raise TypeError(f"there is no option {name!r}; help(temper.OptimizeOptions) lists all")
+    words = (keep,) if isinstance(keep, str) else tuple(keep)
+    plain = _temper.options_for(target, effort, words)
     options = OptimizeOptions(**{name: _from_plain(name, value) for name, value in plain.items()})
     return dataclasses.replace(options, **changes)
-
-
-F = TypeVar("F", bound=Callable[..., Any])
-
-
-def shows_options(function: F) -> F:
-    """Shows each option to ``help`` and editors instead of ``**changes``."""
-    signature = inspect.signature(function)
-    own = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
-    options = [
-        inspect.Parameter(f.name, inspect.Parameter.KEYWORD_ONLY, default=f.default, annotation=f.type)
-        for f in dataclasses.fields(OptimizeOptions)
-    ]
-    function.__signature__ = signature.replace(parameters=own + options)  # type: ignore[attr-defined]
-    return function

@@ -258,9 +258,9 @@ def test_the_names_of_energies_are_those_of_the_library():
 
 def test_a_wrong_type_is_told_what_is_expected(ring):
     with pytest.raises(TypeError, match=r"max_sweeps: expected int, found 'ten'"):
-        temper.optimize(ring, max_sweeps="ten")
+        temper.optimize(ring, options={"max_sweeps": "ten"})
     with pytest.raises(temper.TemperError, match=r"repair is True; expected none, perturb or vertices"):
-        temper.optimize(ring, repair=True)
+        temper.optimize(ring, options={"repair": True})
 
 
 def test_a_package_that_is_not_built_says_so(tmp_path):

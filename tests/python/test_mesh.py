@@ -76,7 +76,7 @@ def test_data_are_assigned_and_travel_with_the_mesh(ring, tmp_path):
     del ring.cell_data["gone"]
     assert list(ring.point_data) == ["depth"] and list(ring.cell_data) == ["number"]
     assert np.array_equal(ring.point_data["depth"], depth) and np.array_equal(ring.cell_data["number"], number)
-    temper.optimize(ring, max_sweeps=5)
+    temper.optimize(ring, options={"max_sweeps": 5})
     assert np.allclose(ring.point_data["depth"], ring.points @ (3.0, -1.0), atol=1e-14)
     before = ring.point_data["depth"]
     ring.point_data["shallow"] = before < 1  # of the vertices as they are now
@@ -423,13 +423,13 @@ def test_threads_of_python_may_read_while_a_mesh_is_optimized(ring):
         with pytest.raises(temper.TemperError, match="has not returned"):
             mesh.weights = mesh.weights
 
-    temper.optimize(mesh, max_sweeps=3, observer=look)
+    temper.optimize(mesh, progress=look, options={"max_sweeps": 3})
     assert seen and all(seen) and mesh != before
     ticks = []
     stop = threading.Event()
     counter = threading.Thread(target=lambda: [ticks.append(1) for _ in iter(lambda: stop.wait(0.001), True)])
     counter.start()
-    temper.optimize(before, max_sweeps=20)
+    temper.optimize(before, options={"max_sweeps": 20})
     stop.set()
     counter.join()
     assert len(ticks) > 3  # the GIL was free

@@ -77,7 +77,7 @@ def test_what_is_no_planar_triangle_mesh_is_refused():
 def test_a_mesh_that_an_error_left_alone_is_the_same_object(disc):
     points = disc.points
     with pytest.warns(temper.TemperWarning), pytest.raises(temper.TemperError):
-        temper.optimize(disc, energy="none")
+        temper.optimize(disc, options={"energy": "none"})
     assert disc.points is points and "weight" not in disc.point_data
 
 
@@ -137,7 +137,7 @@ def test_a_mesh_is_written_back_when_and_only_when_it_has_changed(marked):
             temper.read("there-is-no-such-file.vtu")
 
     with pytest.raises(temper.TemperError, match="no-such-file"):
-        temper.optimize(marked, observer=observe)
+        temper.optimize(marked, progress=observe)
     assert marked.points is not points and temper.quality(marked).well_centered_fraction > before
 
 

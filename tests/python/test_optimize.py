@@ -33,7 +33,7 @@ def test_it_makes_a_mesh_well_centered_and_keeps_the_boundary(ring):
 def test_the_same_bits_for_any_number_of_threads():
     meshes = [temper.generate.random_mesh(3000) for _ in range(3)]
     for mesh, threads in zip(meshes, (1, 2, None)):
-        temper.optimize(mesh, max_sweeps=8, threads=threads)
+        temper.optimize(mesh, threads=threads, options={"max_sweeps": 8})
     assert meshes[0] == meshes[1] == meshes[2]
 
 
@@ -59,7 +59,7 @@ def test_two_threads_of_python_optimize_two_meshes_at_once():
     alone = [temper.generate.random_mesh(3000, seed=seed) for seed in (1, 2)]
     together = [mesh.copy() for mesh in alone]
     for mesh in alone:
-        temper.optimize(mesh, max_sweeps=5, threads=1)
+        temper.optimize(mesh, threads=1, options={"max_sweeps": 5})
     both_run = threading.Barrier(2)  # breaks where one run waits for the end of the other: the GIL is not released
 
     def optimized(mesh):
@@ -69,7 +69,7 @@ def test_two_threads_of_python_optimize_two_meshes_at_once():
             if not waited:
                 waited.append(both_run.wait(60))
 
-        temper.optimize(mesh, max_sweeps=5, threads=1, observer=observer)
+        temper.optimize(mesh, threads=1, progress=observer, options={"max_sweeps": 5})
         return mesh
 
     assert at_once(*[lambda mesh=mesh: optimized(mesh) for mesh in together]) == alone
@@ -100,12 +100,12 @@ def test_a_mesh_that_another_thread_optimizes_shows_its_old_state_and_refuses_ch
         assert begun.wait(60)
         seen.append(mesh == before)
         try:
-            temper.optimize(mesh, max_sweeps=1)
+            temper.optimize(mesh, options={"max_sweeps": 1})
         except Exception as error:
             seen.append(error)
         looked.set()
 
-    report, _ = at_once(lambda: temper.optimize(mesh, max_sweeps=2, observer=observer), look)
+    report, _ = at_once(lambda: temper.optimize(mesh, progress=observer, options={"max_sweeps": 2}), look)
     assert report.sweeps == 2 and seen[0] and mesh != before
     assert isinstance(seen[1], temper.TemperError) and "a call that has not returned" in str(seen[1])
 
@@ -137,7 +137,7 @@ def test_options_are_the_rows_of_the_table(ring):
         assert signature.parameters[name].kind is inspect.Parameter.KEYWORD_ONLY
         assert re.search(rf"^{name} : ", temper.OptimizeOptions.__doc__, re.M) and row["sentence"]
         assert default in row["choices"] or not row["choices"] or default is None
-    temper.optimize(ring, **{row["name"]: getattr(options, row["name"]) for row in rows}, threads=1)
+    temper.optimize(ring, threads=1, options={row["name"]: getattr(options, row["name"]) for row in rows})
 
 
 def test_every_choice_is_taken_and_every_range_is_checked(ring):
@@ -169,7 +169,7 @@ def test_keywords_win_over_options_even_when_they_say_the_default(ring):
     options = temper.paper_method(max_sweeps=1)
     assert options.solver == "golden" and options.gamma == temper.LengthParameter(1.0, "absolute")
     a, b = ring.copy(), ring.copy()
-    temper.optimize(a, options, max_sweeps=2, solver="newton", weight_updates="immediate", inversion="refuse")
+    temper.optimize(a, options={**options, "max_sweeps": 2, "solver": "newton", "weight_updates": "immediate", "inversion": "refuse"})
     merged = dataclasses.replace(options, max_sweeps=2, solver="newton", weight_updates="immediate", inversion="refuse")
     temper.optimize(b, merged)
     assert a == b
@@ -221,7 +221,7 @@ def test_options_of_the_wrong_type_are_named(ring, name, value):
 
 def test_unknown_options_are_refused(ring):
     with pytest.raises(TypeError, match="unexpected keyword"):
-        temper.optimize(ring, sweeps=3)
+        temper.optimize(ring, options={"sweeps": 3})
 
 
 def test_threads_of_the_wrong_type_are_named_everywhere(ring):
@@ -232,13 +232,13 @@ def test_threads_of_the_wrong_type_are_named_everywhere(ring):
 
 def test_options_without_effect_are_a_warning(ring):
     with pytest.warns(temper.TemperWarning, match='^margin has no effect without objective="accuracy"$'):
-        temper.optimize(ring.copy(), margin=0.1, max_sweeps=1, objective="energy")
+        temper.optimize(ring.copy(), options={"margin": 0.1, "max_sweeps": 1, "objective": "energy"})
     with pytest.warns(temper.TemperWarning, match='^overshoot has no effect without flip_limit="after"$'):
-        temper.optimize(ring.copy(), overshoot=1.2, max_sweeps=1)
+        temper.optimize(ring.copy(), options={"overshoot": 1.2, "max_sweeps": 1})
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        temper.optimize(ring.copy(), temper.OptimizeOptions(margin=0.1), max_sweeps=1)
-        temper.optimize(ring.copy(), energy="F", overshoot=1.2, max_sweeps=1)
+        temper.optimize(ring.copy(), options={**temper.OptimizeOptions(margin=0.1), "max_sweeps": 1})
+        temper.optimize(ring.copy(), options={"energy": "F", "overshoot": 1.2, "max_sweeps": 1})
 
 
 def test_an_observer_sees_sweeps_and_may_stop(ring):
@@ -248,7 +248,7 @@ def test_an_observer_sees_sweeps_and_may_stop(ring):
         seen.append(progress)
         return progress.last.sweep < 2
 
-    report = temper.optimize(ring, observer=observe)
+    report = temper.optimize(ring, progress=observe)
     assert report.stopped == "canceled" and seen[-1].last.sweep == 2 and seen[0].max_sweeps == 1000
 
 
@@ -260,7 +260,7 @@ def test_an_exception_of_an_observer_comes_out_when_the_mesh_is_in_place(ring):
             raise KeyError("mine")
 
     with pytest.raises(KeyError, match="mine"):
-        temper.optimize(ring, observer=observe)
+        temper.optimize(ring, progress=observe)
     assert ring != before and ring.validate() is None
     assert temper.quality(ring).well_centered_fraction > temper.quality(before).well_centered_fraction
     ring.weights = ring.weights  # the run is over
@@ -272,7 +272,7 @@ def test_ctrl_c_stops_a_run_and_keeps_the_best_mesh():
     timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
     with pytest.raises(KeyboardInterrupt):
-        temper.optimize(mesh, tolerance=0, stopping="paper", max_sweeps=10**6, relaxation=0.01)
+        temper.optimize(mesh, options={"tolerance": 0, "stopping": "paper", "max_sweeps": 10**6, "relaxation": 0.01})
     timer.join()
     assert mesh.validate() is None and temper.quality(mesh).well_centered_fraction > before
 
@@ -281,7 +281,7 @@ def test_a_trace_makes_the_mesh_again():
     events = []
     mesh = temper.generate.random_mesh(300)
     before = mesh.copy()
-    report = temper.optimize(mesh, tracer=events.append, removal="patch", removal_from=1, max_sweeps=20)
+    report = temper.optimize(mesh, hooks=temper.Hooks(tracer=events.append), options={"removal": "patch", "removal_from": 1, "max_sweeps": 20})
     assert {e.kind for e in events} >= {"move", "flip"}
     again = temper.replay(before, events)
     assert again.mesh == mesh and np.array_equal(again.vertices, report.vertices)
@@ -293,7 +293,7 @@ def test_a_trace_makes_the_mesh_again():
 def test_watching_gives_the_mesh_of_each_sweep(ring):
     shots = []
     before = ring.copy()
-    temper.optimize(ring, snapshots=shots.append, max_sweeps=3)
+    temper.optimize(ring, hooks=temper.Hooks(snapshots=shots.append), options={"max_sweeps": 3})
     assert shots[0].moment == "start" and shots[-1].sweep == 3
     assert np.array_equal(shots[0].mesh.points, before.points)
     assert all(shot.mesh.validate() is None for shot in shots)
@@ -301,7 +301,7 @@ def test_watching_gives_the_mesh_of_each_sweep(ring):
 
 def test_weights_alone_leave_positions(ring):
     points = np.array(ring.points)
-    temper.optimize(ring, unknowns="weights")
+    temper.optimize(ring, keep="positions")
     assert np.array_equal(ring.points, points) and (ring.weights != 0).any()
 
 
@@ -311,11 +311,11 @@ def test_the_accuracy_objective_lowers_the_error_of_the_star_and_keeps_its_margi
     margin = lambda quality: min(quality.min_h_over_l, quality.min_d_over_l)
     plain = optimized(ring)
     accurate = ring.copy()
-    report = temper.optimize(accurate, objective="accuracy", accuracy_sweeps=15, margin=0.03)
+    report = temper.optimize(accurate, options={"objective": "accuracy", "accuracy_sweeps": 15, "margin": 0.03})
     assert {record.objective for record in report.history} == {"energy", "accuracy"}
     assert margin(temper.quality(accurate)) >= 0.03 and star1(accurate) < star1(plain)
     with pytest.raises(temper.TemperError, match="margin"):
-        temper.optimize(accurate, objective="accuracy", margin=0.5)
+        temper.optimize(accurate, options={"objective": "accuracy", "margin": 0.5})
 
 
 def test_edges_and_duals_become_as_long_as_is_asked_for(ring):
@@ -330,13 +330,13 @@ def test_edges_and_duals_become_as_long_as_is_asked_for(ring):
     mesh = optimized(ring, min_edge=0.6, min_dual=0.25)
     assert (least(mesh) >= [0.6, 0.25]).all()
     with pytest.raises(temper.TemperError, match="min_dual"):
-        temper.optimize(mesh, min_dual=0.6)
+        temper.optimize(mesh, options={"min_dual": 0.6})
 
 
 def test_sizes_are_reported_and_can_be_held(ring):
     field = temper.size.input_size_field(ring)
     assert temper.size.measure_size(ring, field).band == pytest.approx(1)
-    report = temper.optimize(ring, size_field=field, size_band=1.3)
+    report = temper.optimize(ring, size_field=field, options={"size_band": 1.3})
     assert report.size.after.band == pytest.approx(temper.size.measure_size(ring, field).band)
     sizes = temper.size.local_size(ring)
     own = temper.SizeField.from_values(ring, sizes)
@@ -365,7 +365,7 @@ def test_an_outline_is_meshed_well_centered():
 PROGRAM = textwrap.dedent(
     """
     import temper
-    temper.optimize(temper.generate.random_mesh(2000), max_sweeps=10)
+    temper.optimize(temper.generate.random_mesh(2000), options={"max_sweeps": 10})
     """
 )
 
@@ -405,7 +405,7 @@ def test_progress_in_a_notebook_updates_one_display(monkeypatch, ring):
     monkeypatch.setitem(sys.modules, "IPython", package)
     monkeypatch.setitem(sys.modules, "IPython.display", package.display)
     monkeypatch.setattr(temper._progress, "_INTERVAL", 0)
-    temper.optimize(ring, max_sweeps=5)
+    temper.optimize(ring, options={"max_sweeps": 5})
     assert shown[0].startswith("sweep") and "triangles bad" in shown[-2] and shown[-1] == ""
 
 

@@ -20,13 +20,13 @@ world, kind = MPI.COMM_WORLD, sys.argv[1]
 if kind == "differ":
     mesh = temper.generate.random_mesh(200, seed=1 + world.rank // 2)  # rank 2 has another
     try:
-        temper.optimize(mesh, communicator=world)
+        temper.optimize(mesh, hooks=temper.Hooks(communicator=world))
     except temper.TemperError as error:
         print(f" {world.rank} {error.code} ")
 else:
     mesh = temper.generate.random_mesh(20_000, seed=4)  # of two parts
     seen = []
-    report = temper.optimize(mesh, max_sweeps=6, communicator=world, threads=1, progress=False, observer=seen.append)
+    report = temper.optimize(mesh, threads=1, progress=False, progress=seen.append, hooks=temper.Hooks(communicator=world), options={"max_sweeps": 6})
     np.savez(f"rank{world.rank}.npz", points=mesh.points, weights=mesh.weights, triangles=mesh.triangles,
              sweeps=report.sweeps, seen=len(seen))
 """
@@ -54,7 +54,7 @@ def together(tmp_path):
 
 def test_ranks_get_the_bits_of_one_process(together, tmp_path):
     alone = temper.generate.random_mesh(20_000, seed=4)
-    report = temper.optimize(alone, max_sweeps=6, threads=1)
+    report = temper.optimize(alone, threads=1, options={"max_sweeps": 6})
     together(3, "run")
     for rank in range(3):
         with np.load(tmp_path / f"rank{rank}.npz") as found:
@@ -70,4 +70,4 @@ def test_all_ranks_hear_that_one_has_another_mesh(together):
 
 def test_what_is_no_communicator_is_refused():
     with pytest.raises(TypeError, match="communicator: expected a communicator of mpi4py or None, found 3"):
-        temper.optimize(temper.generate.annulus(), communicator=3)
+        temper.optimize(temper.generate.annulus(), hooks=temper.Hooks(communicator=3))

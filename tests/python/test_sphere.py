@@ -79,7 +79,7 @@ def test_places_are_on_the_sphere_and_weighted_vectors_are_weights_too(tempered)
 def test_a_view_keeps_what_it_showed(globe):
     vectors = globe.weighted_vectors
     before = vectors.copy()
-    temper.optimize(globe, max_sweeps=2)
+    temper.optimize(globe, options={"max_sweeps": 2})
     assert np.array_equal(vectors, before) and not np.array_equal(globe.weighted_vectors, before)
 
 
@@ -348,7 +348,7 @@ def test_a_size_field_is_linear_between_the_points(globe, ring):
         temper.optimize(ring, size_field=field)
     temper.optimize(globe, size_field=field)
     with pytest.raises(temper.TemperError, match="size_band"):
-        temper.optimize(globe, size_field=field, size_band=2.0)
+        temper.optimize(globe, size_field=field, options={"size_band": 2.0})
 
 
 def test_sizes_are_those_of_the_areas(globe):
@@ -365,13 +365,13 @@ def test_sizes_are_those_of_the_areas(globe):
 
 def test_a_trace_is_replayed_to_the_same_bits(globe):
     before, events = globe.copy(), []
-    temper.optimize(globe, tracer=events.append)
+    temper.optimize(globe, hooks=temper.Hooks(tracer=events.append))
     assert len(events) > 0 and temper.replay(before, events).mesh == globe
 
 
 def test_insertions_are_replayed_wherever_they_are(globe):
     found = []
-    temper.optimize(globe.copy(), tracer=found.append, max_sweeps=1)
+    temper.optimize(globe.copy(), hooks=temper.Hooks(tracer=found.append), options={"max_sweeps": 1})
     a, b, c = faces_of(globe)
     for t in (np.argmax(a[:, 2]), np.argmin(a[:, 2])):  # north and south
         corners = tuple(int(v) for v in globe.triangles[t])

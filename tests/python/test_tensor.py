@@ -122,7 +122,7 @@ def test_a_run_in_the_metric_is_the_run_of_the_mapped_mesh():
     before = better.copy()
     for wrong in [{"tracer": print}, {"size_field": size}]:
         with pytest.raises(ValueError, match=f"{next(iter(wrong))}: is of the mesh's plane"):
-            temper.optimize(better, tensor=K, **wrong)
+            temper.optimize(better, tensor=K, options=wrong)
     with pytest.raises(temper.TemperError, match="tensor: expected"):
         temper.optimize(better, tensor=(1, 2, 1))
     with pytest.raises(temper.TemperError, match="sphere"):

@@ -14,8 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr auto kFlags = std::to_array<std::string_view>({"--for", "--effort", "--keep", "--fix", "--size", "--size-data",
-                                                         "--tensor", "--projection", "--point-data"});
+constexpr auto kFlags = std::to_array<std::string_view>(
+    {"--for", "--effort", "--keep", "--fix", "--size", "--size-data", "--tensor", "--projection", "--point-data"});
 
 /// "size_data" of "--size-data".
 std::string member_of(std::string_view flag) {
@@ -32,7 +32,8 @@ Json parse(const std::string& path) {
   std::ifstream stream(path);
   if (!stream) fail_at(path, "cannot be opened; expected a JSON file with options");
   Json json = Json::parse(stream, nullptr, false);
-  if (json.is_discarded()) fail_at(path, "is no JSON; expected an object such as {\"for\": \"cell\", \"max_sweeps\": 20}");
+  if (json.is_discarded())
+    fail_at(path, "is no JSON; expected an object such as {\"for\": \"cell\", \"max_sweeps\": 20}");
   if (json.is_object() && json.contains("schema") && json.contains("options")) json = Json(json["options"]);
   if (!json.is_object()) fail_at(path, "expected a JSON object with options, or a report of temper optimize");
   return json;
@@ -111,8 +112,7 @@ std::string options_json(const Command& command, const Assignments& assignments)
     }
   }
   for (const Assignment& a : assignments) {
-    json[std::string(a.row->name)] =
-        a.vertex.empty() ? value_of(*a.row, a.value) : Json(a.vertex);
+    json[std::string(a.row->name)] = a.vertex.empty() ? value_of(*a.row, a.value) : Json(a.vertex);
   }
   return json.dump();
 }

@@ -126,7 +126,8 @@ FurtherOutputs sorted_outputs(std::string_view verb, const std::vector<std::stri
   for (const std::string& path : paths) {
     const OutputKind* const kind = kind_of(kinds, path);
     if (kind == nullptr) {
-      refuse_usage(std::string(verb), fmt::format("--write: the suffix of {} names no output; expected {}", path, list_of(kinds)));
+      refuse_usage(std::string(verb),
+                   fmt::format("--write: the suffix of {} names no output; expected {}", path, list_of(kinds)));
     }
     std::string& place = outputs.*kind->path;
     if (!place.empty()) {

@@ -49,7 +49,7 @@ struct Option {
   std::function<std::string()> spell = {};  ///< the default; none: there is none, or default_text says it
   Values values = Values::one;
   bool required = false;
-  bool rare = false;          ///< left out by --help, not by --help-all
+  bool rare = false;  ///< left out by --help, not by --help-all
   /// Values with their meanings, each in a line below the option.
   std::vector<std::pair<std::string, std::string>> meanings = {};
   std::string excludes = {};  ///< the option that may not be given, too

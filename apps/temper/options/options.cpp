@@ -162,8 +162,7 @@ LengthParameter to_length_parameter(const std::string& text, Interval allowed) {
 Option& add_length_parameter(Command& command, const std::string& name, std::optional<LengthParameter>& target,
                              Interval allowed, const std::string& description) {
   const auto take = [allowed, &target](const std::string& text) { target = to_length_parameter(text, allowed); };
-  return command.add(
-      {.names = name, .value_name = "X[:absolute]", .sentence = description, .take = take});
+  return command.add({.names = name, .value_name = "X[:absolute]", .sentence = description, .take = take});
 }
 
 std::string shell_quote(const std::string& word) {

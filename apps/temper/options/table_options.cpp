@@ -76,8 +76,7 @@ std::string sentence_of(const OptionRow& row) {
   if (row.kind == OptionKind::length_parameter)
     sentence += fmt::format(". X is a multiple of each edge's length, and X{} is a length", kAbsolute);
   if (row.kind == OptionKind::vertex) sentence += ". VERTEX is its number in the file";
-  if (row.optional)
-    sentence += fmt::format(". '{}': {}", row.absent_name, in_list(row.absent));
+  if (row.optional) sentence += fmt::format(". '{}': {}", row.absent_name, in_list(row.absent));
   return sentence + ".";
 }
 
@@ -92,8 +91,9 @@ const OptionRow& row_of(std::string_view name, std::span<const std::string_view>
   }
   if (std::ranges::find(known, name) != known.end()) return *find_option(name);
   const std::string_view guess = nearest(name, known);
-  throw BadValue(fmt::format("there is no option '{}'{}", name,
-                             guess.empty() ? "; --help-all lists the names" : fmt::format("; did you mean '{}'?", guess)));
+  throw BadValue(
+      fmt::format("there is no option '{}'{}", name,
+                  guess.empty() ? "; --help-all lists the names" : fmt::format("; did you mean '{}'?", guess)));
 }
 
 }  // namespace
@@ -108,8 +108,7 @@ Option& add_set(Command& command, Assignments& target, std::span<const std::stri
   const auto take = [&target, names](const std::string& text) {
     for (const std::string& part : separated(text)) {
       const std::size_t equals = part.find('=');
-      if (equals == std::string::npos)
-        throw BadValue(fmt::format("expected NAME=VALUE, found '{}'", part));
+      if (equals == std::string::npos) throw BadValue(fmt::format("expected NAME=VALUE, found '{}'", part));
       const std::string name = part.substr(0, equals);
       row_of(name, names);
       try {
@@ -128,11 +127,12 @@ Option& add_set(Command& command, Assignments& target, std::span<const std::stri
 
 Option& add_flag_of(Command& command, std::string_view name, Assignments& target) {
   const OptionRow& row = *find_option(name);
-  return command.add({.names = flag_of(row),
-                      .value_name = value_name(row),
-                      .sentence = sentence_of(row),
-                      .take = [&target, name](const std::string& text) { target.push_back(parse_assignment(name, text)); },
-                      .spell = [&row] { return default_of(row); }});
+  return command.add(
+      {.names = flag_of(row),
+       .value_name = value_name(row),
+       .sentence = sentence_of(row),
+       .take = [&target, name](const std::string& text) { target.push_back(parse_assignment(name, text)); },
+       .spell = [&row] { return default_of(row); }});
 }
 
 std::vector<HelpPart> help_parts(bool research) {
@@ -157,13 +157,13 @@ void assign(const Assignments& assignments, OptimizeOptions& options) {
 }
 
 std::vector<std::string> idle_assignments(const Assignments& assignments, const OptimizeOptions& options,
-                                       const OptimizeOptions& usual) {
+                                          const OptimizeOptions& usual) {
   std::vector<std::string> warnings;
   for (const Assignment& a : assignments) {
     const std::string missing = missing_need(*a.row, options);
     if (missing.empty() || a.row->get(options) == a.row->get(usual)) continue;
-    const std::string name = spell_options(fmt::format("`{}={}`", a.row->name,
-                                                       option_text(*a.row, a.row->get(options))));
+    const std::string name =
+        spell_options(fmt::format("`{}={}`", a.row->name, option_text(*a.row, a.row->get(options))));
     warnings.push_back(name + " has no effect without " + spell_options(missing));
   }
   return warnings;

@@ -40,7 +40,7 @@ void assign(const Assignments& assignments, OptimizeOptions& options);
 
 /// Assignments that differ from `usual` and have no effect.
 [[nodiscard]] std::vector<std::string> idle_assignments(const Assignments& assignments, const OptimizeOptions& options,
-                                                     const OptimizeOptions& usual);
+                                                        const OptimizeOptions& usual);
 
 /// "star=0, repair=vertices": the options in which `a` differs from `b`.
 [[nodiscard]] std::string differences(const OptimizeOptions& a, const OptimizeOptions& b);

@@ -188,7 +188,8 @@ const BriefRow kBriefRows[] = {
     {"triangles not well-centered", [](const Quality& q) { return std::to_string(bad_triangles(q)); }},
     {"least margin", [](const Quality& q) { return brief_number(std::min(q.min_h_over_l, q.min_d_over_l)); }},
     {"transmissibility, max/median", [](const Quality& q) { return brief_number(q.max_transmissibility_over_median); }},
-    {"angles (degrees)", [](const Quality& q) { return fmt::format("{:.1f} - {:.1f}", q.min_angle_deg, q.max_angle_deg); }},
+    {"angles (degrees)",
+     [](const Quality& q) { return fmt::format("{:.1f} - {:.1f}", q.min_angle_deg, q.max_angle_deg); }},
     {"least edge/size", [](const Quality& q) { return brief_number(q.min_edge_over_size); }},
 };
 
@@ -202,7 +203,8 @@ std::string brief_text(const Quality& quality) {
 }
 
 std::string brief_text(const Quality& before, const Quality& after) {
-  std::string text = pad_right("", kLabelColumns) + pad_left("before", kNumberColumns) + pad_left("after", kNumberColumns) + "\n";
+  std::string text =
+      pad_right("", kLabelColumns) + pad_left("before", kNumberColumns) + pad_left("after", kNumberColumns) + "\n";
   for (const BriefRow& row : kBriefRows) {
     text += pad_right(row.label, kLabelColumns) + pad_left(row.text(before), kNumberColumns) +
             pad_left(row.text(after), kNumberColumns) + "\n";

@@ -46,9 +46,10 @@ void add_options(Command& command, CheckSettings& s) {
   add_count(command, "--worst", s.worst, 0, "Number of worst triangles to list.");
   add_length_parameter(command, "--gamma", s.gamma, kPositive,
                        "Gamma of E_BP: a multiple of each edge's length, or a length. (default: 1:absolute)");
-  add_length_parameter(command, "--h0", s.h0, kNotNegative,
-                       "Distance below zero to which E_BHs lets h fall, a multiple of each edge's length, or a length. It "
-                       "is -h0 of the paper. (default: 0)");
+  add_length_parameter(
+      command, "--h0", s.h0, kNotNegative,
+      "Distance below zero to which E_BHs lets h fall, a multiple of each edge's length, or a length. It "
+      "is -h0 of the paper. (default: 0)");
   add_tensor(command, s.metric, "Take all measures");
   add_count(command, "--threads", s.threads, 0,
             "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
@@ -93,8 +94,7 @@ class Checks {
       if (s_.metric) worst.at = s_.metric->from_metric(worst.at);
     }
     const std::vector<Outcome> outcomes = judge(requirements_, measured);
-    if (!files_.report.empty())
-      outputs_.write_text(files_.report, check_json(path, measured, input.points, outcomes));
+    if (!files_.report.empty()) outputs_.write_text(files_.report, check_json(path, measured, input.points, outcomes));
     if (!files_.page.empty()) {
       expect_plane(input.mesh(), path, "--write " + files_.page);
       outputs_.write_text(files_.page, check_html(command_line(command_, {path}), input, measured));

@@ -62,8 +62,7 @@ void add_sizes(Command& command, MeshSettings& s) {
            "Target edge length, in the units of the outline or in meters. FILE is a mesh file with a size at each of "
            "its points.")
       .require();
-  add_text(command, "--size-data", "NAME", s.size_data,
-           "Name of the point data with the sizes in the file of --size.")
+  add_text(command, "--size-data", "NAME", s.size_data, "Name of the point data with the sizes in the file of --size.")
       .default_text = "size";
   add_number(command, "--grade", s.options.grade, kPositive,
              "Growth of the size per unit of length, away from short edges and narrow places.");

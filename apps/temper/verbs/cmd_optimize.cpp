@@ -204,8 +204,9 @@ void find_vertices(OptimizeSettings& s, const Input& input) {
 }
 
 std::string ending(const OptimizeReport& report) {
-  std::string work = fmt::format("{} in {:.3g} s, {}", plural(static_cast<std::size_t>(report.sweeps), "sweep", "sweeps"),
-                                 report.seconds, plural(report.flips, "flip", "flips"));
+  std::string work =
+      fmt::format("{} in {:.3g} s, {}", plural(static_cast<std::size_t>(report.sweeps), "sweep", "sweeps"),
+                  report.seconds, plural(report.flips, "flip", "flips"));
   const auto add_vertices = [&work](std::size_t n, const char* what) {
     if (n > 0) work += fmt::format(", {} {}", plural(n, "vertex", "vertices"), what);
   };
@@ -340,7 +341,8 @@ Exit run_command(Command& command, OptimizeSettings& settings) {
   settle_options(command, settings);
   expect_without(command, settings.metric, "--size");
   if (settings.metric && !(settings.files.page.empty() && settings.files.trace.empty()))
-    refuse_usage("optimize", "--tensor: the page and the trace of --write are in the plane of the mesh; expected neither");
+    refuse_usage("optimize",
+                 "--tensor: the page and the trace of --write are in the plane of the mesh; expected neither");
   if (settings.metric) settings.output.options.triangle_quality = false;  // which is of the plane
   settings.requirements = parse_requirements("optimize", settings.require);
 

@@ -87,8 +87,7 @@ Exit replay(const ReplaySettings& s) {
 
 std::function<Exit()> add_replay(Command& paper) {
   Command& command = paper.add_subcommand(
-      "replay",
-      "repeat the steps of a trace, and write the mesh with the same bytes as temper optimize did");
+      "replay", "repeat the steps of a trace, and write the mesh with the same bytes as temper optimize did");
   const auto settings = std::make_shared<ReplaySettings>();
   add_options(command, *settings);
   return [settings] { return replay(*settings); };

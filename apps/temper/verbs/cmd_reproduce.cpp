@@ -42,10 +42,10 @@ struct ReproduceSettings {
 
 /// Readings of the paper that are open. Each figure has its own; --set replaces them in all figures.
 void add_readings(Command& command, Assignments& target) {
-  add_set(command, target, gallery::kOpen).sentence =
-      fmt::format("Replace readings of the paper in all figures, separated by commas: {}. See temper optimize "
-                  "--help-paper.",
-                  join(gallery::kOpen));
+  add_set(command, target, gallery::kOpen).sentence = fmt::format(
+      "Replace readings of the paper in all figures, separated by commas: {}. See temper optimize "
+      "--help-paper.",
+      join(gallery::kOpen));
 }
 
 gallery::Reading reading(const Assignments& assignments) {

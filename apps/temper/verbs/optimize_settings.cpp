@@ -80,8 +80,7 @@ void add_common(Command& command, OptimizeSettings& s) {
   add_text(command, "--size", "FILE", s.size, "Mesh file with the target edge length at each of its points.");
   add_flag_of(command, "min_edge", s.assignments).sentence = "Least length of interior edges over the local size.";
   add_flag_of(command, "min_dual", s.assignments).sentence = "Least length of their duals over the local size.";
-  add_requirements(command, s.require).sentence =
-      "Requirements, such as outside=0. If one is not met, exit with 3.";
+  add_requirements(command, s.require).sentence = "Requirements, such as outside=0. If one is not met, exit with 3.";
   add_flag_of(command, "time_limit", s.assignments).value_name = "SECONDS";
   add_write(command, s.write, kRunOutputs);
   command.add_flag("--quiet", s.quiet, "Print warnings and errors only.");
@@ -91,9 +90,10 @@ void add_rare(Command& command, OptimizeSettings& s) {
   const std::size_t first = command.options().size();
   command.group("Further options");
   add_set(command, s.assignments);
-  add_text(command, "--options", "FILE", s.options_file,
-           "JSON file with options, such as {\"for\": \"cell\", \"max_sweeps\": 20}. A report of temper optimize is such a "
-           "file. Options of the command line override it.");
+  add_text(
+      command, "--options", "FILE", s.options_file,
+      "JSON file with options, such as {\"for\": \"cell\", \"max_sweeps\": 20}. A report of temper optimize is such a "
+      "file. Options of the command line override it.");
   command.add_flag("--details", s.details, "Print all measures, energies, sizes and notes.");
 #ifdef TEMPER_WITH_ERRORS
   command.add_flag("--measure-errors", s.measure_errors,
@@ -164,17 +164,17 @@ Command optimize_command(OptimizeSettings& settings) {
   add_common(command, settings);
   add_rare(command, settings);
   command.group("Options");
-  VerbHelp help = {"IN -o OUT [options]",
-                   "  temper optimize in.vtu -o out.vtu\n"
-                   "  temper optimize in.msh -o out.msh --for cell --require outside=0 --write out.html out.svg\n"
-                   "  temper optimize in.vtu -o out.vtu --keep positions,edges\n"
-                   "  temper optimize in.vtu -o out.vtu --set energy=F,star=1,solver=golden,max_sweeps=20\n"
-                   "  temper optimize in.vtu -o out.vtu --options report.json --time-limit 60\n"
-                   "  temper optimize in.vtu -o out.vtu --for vertex --measure-errors\n"
-                   "  temper optimize in.vtu -o out.vtu --for paper --set energy=dT,removal=none\n"
-                   "  temper optimize in.vtu -o out.vtu --save-every 600\n",
-                   {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early,
-                    Exit::internal}};
+  VerbHelp help = {
+      "IN -o OUT [options]",
+      "  temper optimize in.vtu -o out.vtu\n"
+      "  temper optimize in.msh -o out.msh --for cell --require outside=0 --write out.html out.svg\n"
+      "  temper optimize in.vtu -o out.vtu --keep positions,edges\n"
+      "  temper optimize in.vtu -o out.vtu --set energy=F,star=1,solver=golden,max_sweeps=20\n"
+      "  temper optimize in.vtu -o out.vtu --options report.json --time-limit 60\n"
+      "  temper optimize in.vtu -o out.vtu --for vertex --measure-errors\n"
+      "  temper optimize in.vtu -o out.vtu --for paper --set energy=dT,removal=none\n"
+      "  temper optimize in.vtu -o out.vtu --save-every 600\n",
+      {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early, Exit::internal}};
   help.all = help_parts(false);
   help.paper = help_parts(true);
   help.paper.push_back(research_targets());
@@ -220,8 +220,7 @@ void settle_options(Command& command, OptimizeSettings& s) {
 }
 
 std::vector<std::string> doubtful_options(const Command& command, const OptimizeSettings& s) {
-  std::vector<std::string> warnings =
-      idle_assignments(s.assignments, s.options, *options_for(s.target, s.effort));
+  std::vector<std::string> warnings = idle_assignments(s.assignments, s.options, *options_for(s.target, s.effort));
   if (s.options.repair == Repair::vertices && s.options.size_band) {
     warnings.emplace_back(
         spell_options("`size_band` does not restrict the vertices that `repair=vertices` removes and inserts"));

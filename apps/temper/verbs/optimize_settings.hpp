@@ -28,8 +28,8 @@ struct OptimizeSettings {
   std::string target = "any", effort = "normal", options_file;
   std::vector<std::string> keep, fix, require;
   Assignments assignments;
-  OptimizeOptions options;       ///< what follows from target, effort, keep and assignments
-  std::string set_by_target;     ///< options that the target sets, for people
+  OptimizeOptions options;    ///< what follows from target, effort, keep and assignments
+  std::string set_by_target;  ///< options that the target sets, for people
   std::uint64_t threads = 0;
   bool quiet = false, details = false, measure_errors = false;
   bool traced = false;               ///< by any writer of the trace

@@ -65,9 +65,9 @@ struct OptionGroup {
 /// A word of a user that sets several options.
 struct Preset {
   std::string_view name;
-  std::string_view sentence;             ///< Who needs it and what it does, in ASCII
+  std::string_view sentence;  ///< Who needs it and what it does, in ASCII
   void (*apply)(OptimizeOptions&);
-  bool research = false;                 ///< Preset is for the study of methods
+  bool research = false;  ///< Preset is for the study of methods
 };
 
 /// The targets: solvers and other uses of a mesh. The first is the default.

@@ -15,33 +15,51 @@ using Options = OptimizeOptions;
 /// Grading that --keep sizes allows: sizes stay within this factor of the sizes of the input.
 constexpr double kBandOfSizes = 2;
 
+/// Least lengths over the local size that solvers with explicit time steps need.
+constexpr double kLongEdge = 0.75, kLongDual = 0.3;
+
 void move_positions_alone(Options& o) { o.unknowns = Unknowns::positions; }
 
 constexpr auto kTargets = std::to_array<Preset>({
-    {"any", "Any solver that uses the dual mesh", [](Options&) {}},
-    {"valid", "Only valid triangles, in the least time", [](Options& o) { o.objective = Objective::energy; }},
+    {"any", "Any solver on a dual mesh: large margins, smaller errors", [](Options&) {}},
+    {"valid", "Valid triangles alone: the fastest run",
+     [](Options& o) {
+       o.objective = Objective::accuracy;
+       o.accuracy.sweeps = 0;
+       o.accuracy.margin = 0.02;
+     }},
     {"vertex", "Unknowns at vertices: Voronoi finite volumes, exterior calculus",
      [](Options& o) { o.scheme = Scheme::vertex; }},
-    {"cell", "Unknowns in triangles, two-point flux: MODFLOW, PorePy, FiPy",
+    {"cell", "Unknowns in triangles, two-point flux: PorePy, FiPy, MODFLOW",
      [](Options& o) { o.scheme = Scheme::cell; }},
     {"stars", "Diagonal Hodge stars of exterior calculus", [](Options& o) { o.scheme = Scheme::stars; }},
-    {"mpas", "MPAS: no weights, centered cells, vertices removed and inserted",
+    {"mpas", "MPAS: no weights, centered cells; may insert and remove vertices",
      [](Options& o) {
        move_positions_alone(o);
        o.star = Star::zero;
        o.repair = Repair::vertices;
+       o.accuracy.min_edge = kLongEdge;
+       o.accuracy.min_dual = kLongDual;
      }},
-    {"dflowfm", "D-Flow FM: no weights, orthogonality below 0.01, no small flow links",
+    {"dflowfm", "D-Flow FM: no weights, orthogonal; may insert and remove vertices",
      [](Options& o) {
        move_positions_alone(o);
        o.repair = Repair::vertices;
-       o.accuracy.min_dual = 0.1;
+       o.accuracy.min_edge = kLongEdge;
+       o.accuracy.min_dual = kLongDual;
      }},
-    {"adcirc", "ADCIRC and SCHISM: no weights, large angles, even edges", move_positions_alone},
-    {"fem", "Linear finite elements: no weights, large angles",
+    {"adcirc", "ADCIRC, SCHISM: no weights, long edges; may insert and remove vertices",
+     [](Options& o) {
+       move_positions_alone(o);
+       o.repair = Repair::vertices;
+       o.accuracy.min_edge = kLongEdge;
+     }},
+    {"fem", "Linear finite elements: no weights, good angles, the same vertices",
      [](Options& o) {
        move_positions_alone(o);
        o.scheme = Scheme::vertex;
+       o.objective = Objective::accuracy;
+       o.accuracy.min_edge = kLongEdge;
      }},
     {"paper",
      "Algorithm 1 of the paper: golden section, deferred flips, collapses, the patch test, inversions, the first "
@@ -75,8 +93,7 @@ constexpr auto kTargets = std::to_array<Preset>({
      },
      true},
     // The energy is the moment of the Voronoi cells about their vertices. Lloyd's iterations lower the same energy.
-    {"cvt",
-     "Centroidal Voronoi tessellation (Du, Faber and Gunzburger 1999): positions alone lower energy F of star 0",
+    {"cvt", "Centroidal Voronoi tessellation (Du, Faber and Gunzburger 1999): positions alone lower energy F of star 0",
      [](Options& o) {
        move_positions_alone(o);
        o.energy = EnergyKind::F;
@@ -86,17 +103,23 @@ constexpr auto kTargets = std::to_array<Preset>({
 });
 
 constexpr auto kEfforts = std::to_array<Preset>({
-    {"quick", "Few sweeps",
+    {"quick", "Few sweeps and repairs, in about half of the time",
      [](Options& o) {
-       o.accuracy.sweeps = 5;
+       o.accuracy.sweeps = std::min(o.accuracy.sweeps, 5);
        o.repair_trials = 2000;
        o.solver_error.most_vertices = 0;
      }},
-    {"normal", "Sweeps until little is gained", [](Options&) {}},
-    {"high", "Many sweeps and repairs",
+    {"normal",
+     "Sweeps until little is gained. Targets vertex and cell lower the error of the solver itself on small meshes",
+     [](Options&) {}},
+    {"high",
+     "More sweeps and repairs, which may insert and remove vertices. The solver's own error is lowered on larger "
+     "meshes too",
      [](Options& o) {
        o.accuracy.sweeps = 200;
-       o.repair_trials = 200'000;
+       o.accuracy.tolerance = 1e-7;
+       o.repair = Repair::vertices;
+       o.repair_trials = 100'000;
        o.solver_error.most_vertices = 200'000;
      }},
 });
@@ -144,6 +167,12 @@ Expected<OptimizeOptions> options_for(std::string_view target, std::string_view 
   (*wanted)->apply(options);
   const Expected<const Preset*> time = find(kEfforts, "effort", effort);
   if (!time) return time.error();
+  if ((*wanted)->research && effort != "normal") {
+    return InputError{ErrorCode::invalid_option,
+                      {},
+                      "effort '" + std::string(effort) + "' is not for target '" + std::string(target) +
+                          "', which is a method of research; expected effort 'normal'"};
+  }
   (*time)->apply(options);
   for (const std::string_view name : keep) {
     const Expected<const Preset*> part = find(kKeeps, "keep", name);

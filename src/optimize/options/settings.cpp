@@ -213,7 +213,7 @@ Objective objective_of(const OptimizeOptions& o) {
 bool wants_error_model(const OptimizeOptions& o, const Mesh& mesh) {
   const Objective objective = objective_of(o);
   const bool of_one = o.scheme == Scheme::vertex || o.scheme == Scheme::cell;
-  const bool judges = of_one && mesh.space().kind() == SpaceKind::plane && 
+  const bool judges = of_one && mesh.space().kind() == SpaceKind::plane &&
                       mesh.n_vertices() <= static_cast<std::size_t>(o.solver_error.most_vertices);
   return objective == Objective::solver_error || (objective == Objective::accuracy && judges);
 }

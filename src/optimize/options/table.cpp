@@ -215,9 +215,10 @@ constexpr OptionRow kAccuracyRows[] = {
         "Objective of the run. energy: lower `energy` to the end. accuracy: once all triangles are well-centered, "
         "lower the distances between the midpoints of edges and duals. With `objective=solver_error` a third phase "
         "lowers the error of the solver itself. It takes longer",
-        {.absent = "accuracy. With `scheme=vertex` or `scheme=cell`, on a plane with at most `solver_error_vertices`, it is "
-                   "`objective=solver_error`. If `energy` is not BP, or a switch of the paper other than `order` and "
-                   "`seed` is set, it is energy"}),
+        {.absent =
+             "accuracy. With `scheme=vertex` or `scheme=cell`, on a plane with at most `solver_error_vertices`, it is "
+             "`objective=solver_error`. If `energy` is not BP, or a switch of the paper other than `order` and "
+             "`seed` is set, it is energy"}),
     row<&Options::scheme>("scheme",
                           "Scheme of the solver. vertex: unknowns at vertices. cell: unknowns at orthocenters, "
                           "two-point flux. stars: diagonal Hodge stars. all: each of these, with larger margins",
@@ -225,8 +226,7 @@ constexpr OptionRow kAccuracyRows[] = {
     row<kAccuracy, &Accuracy::margin>(
         "margin", "Least margin in every triangle: h/l, d/l and 1 - d/l stay above it",
         {.range = inside(0, kMostMargin), .absent = "0.1, or 0.02 if `scheme` is one scheme", .needs = {kForAccuracy}}),
-    row<kAccuracy, &Accuracy::min_edge>("min_edge",
-                                        "Least length of interior edges, as a multiple of the local size",
+    row<kAccuracy, &Accuracy::min_edge>("min_edge", "Least length of interior edges, as a multiple of the local size",
                                         {.range = from_to(0, kMostEdge), .common = true, .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::min_dual>("min_dual",
                                         "Least length of interior dual edges, as a multiple of the local size",
