@@ -32,7 +32,7 @@ NOT_PROSE = [re.compile(pattern, re.M | re.S) for pattern in (
 EQUATION_BEFORE = re.compile(r"(?:[=<>≤≥≈]\s*[-−]?|(?:\b\w{1,2}|[)|′²]) ?(?:[·/*]|[+−](?= )) ?)$")
 EQUATION_AFTER = re.compile(r"\s*[=<>≤≥≈]|\s?[+−·/*]\s?(?:[^\W\d]\w?(?!\w)|[(|√])")
 OPTION = re.compile(r"(?<![\w-])--[a-z][\w-]*")
-SETTING = re.compile(r"--set[ =](\w+=[^\s`;&|]*)")
+SETTING = re.compile(r"--set[ =]([a-z]\w*=[^\s`;&|]*)")
 
 
 def blanked(text, pattern):
@@ -86,7 +86,7 @@ def wrong_numbers(text, known):
                 if part > 10 or part != int(part):
                     yield line(comment.start()), f"{part:g} in the expression of {give[1]} is printed by no command: correct it"
             given[value] = (give[1], line(comment.start()))
-    prose = text
+    prose, wrong = text, {}
     for pattern in NOT_PROSE:
         prose = blanked(prose, pattern)
     for match in NUMBER.finditer(prose):
@@ -96,8 +96,10 @@ def wrong_numbers(text, known):
             used.add(value)
         elif not (value <= 10 and unit == 1 or EQUATION_AFTER.match(prose, match.end()) or EQUATION_BEFORE.search(prose[max(0, match.start() - 9) : match.start()])
                   or rounds_to(value, unit, known) or rounds_to(value * scale, unit * scale, known)):
-            yield line(match.start()), (f"{match[0]} is printed by no command of the page: correct it, say it in words, or declare "
-                                        f"<!-- given: {match[0]} (REASON) -->")
+            wrong.setdefault(line(match.start()), []).append(match[0])
+    for at, numbers in wrong.items():
+        yield at, (f"{', '.join(numbers)}: no command of the page prints this; correct it, say it in words, or declare "
+                   f"<!-- given: {numbers[0]} (REASON) -->")
     for value in given.keys() - used:
         yield given[value][1], f"{given[value][0]} is given, but not in the prose: remove it"
 
