@@ -25,6 +25,7 @@ import tempfile
 import textwrap
 import time
 
+sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import prose  # noqa: E402
 from blocks import blocks_of, lacking, runs  # noqa: E402
@@ -161,7 +162,7 @@ class Page:
         figures = [(path.parent / (match[1] or match[2])).resolve() for match in IMAGE.finditer(self.text)]
         self.figures = [figure.name for figure in figures if figure.parent == root / "docs" / "figures"]
         self.outputs, self.lacks, self.error, self.results = [None] * len(self.blocks), [[]] * len(self.blocks), None, {}
-        self.pictures = {}  # what it wrote
+        self.pictures, self.seconds = {}, 0.0  # what it wrote, how long it took
 
     def run(self, environment, wanted, seconds):
         if not any(map(runs, self.blocks)):
@@ -171,12 +172,13 @@ class Page:
             scratch.mkdir()
             (scratch / "examples").symlink_to(self.root / "examples")
             command = [sys.executable, "-W", "ignore", __file__, "--one", str(self.path), str(result)]
+            start = time.monotonic()
             try:
                 run = subprocess.run(command, cwd=scratch, env=environment, capture_output=True, text=True, timeout=seconds)
                 said = json.loads(result.read_text()) if result.exists() else {"error": (1, f"ended: {(run.stdout + run.stderr)[-400:]}")}
             except subprocess.TimeoutExpired:
                 said = {"error": (1, f"runs for more than {seconds} s")}
-            self.__dict__.update(said)
+            self.__dict__.update(said, seconds=time.monotonic() - start)
             self.pictures = {name: (scratch / name).read_bytes() for name in wanted if (scratch / name).is_file()}
 
     def skipped(self):
@@ -209,9 +211,7 @@ class Page:
     def row(self):
         """Of the table of clients."""
         first = f"[{self.text.splitlines()[0].removeprefix('# ')}]({self.path.name})"
-        last = next((block for block in reversed(self.blocks) if block.needs), None)
-        if self.skipped() or not last:
-            return [first, "", f"not run: {', '.join(self.skipped()) or 'nothing to run'}", *([""] * len(COLUMNS))]
+        last = next(block for block in reversed(self.blocks) if block.needs)
         cells = (self.results.get(column) for column in COLUMNS)
         versions = ", ".join(filter(None, map(version, last.needs)))
         return [first, versions, last.measures, *("" if number is None else f"{number:.3g}".replace("-", "−") for number in cells)]
@@ -320,7 +320,7 @@ class Check:
             self.say(page.name, 1, f"{differing(page.text, text)}: run scripts/docs/pages.py --write")
 
     def compare_table(self, chosen):
-        """Rows of pages that were not asked for, or cannot be run here, stay what they are."""
+        """Compares the rows of pages that were run; all others stay what they are."""
         readme = self.root / "docs/howto/README.md"
         text = readme.read_text(encoding="utf-8")
         table = TABLE.search(text)
@@ -328,9 +328,9 @@ class Check:
             return
         rows = {row[0]: row for row in ([cell.strip() for cell in line.split("|")[1:-1]] for line in table[0].splitlines()[2:])}
         for page in chosen:
-            row = page.row()
-            if page.skipped() and row[0] in rows or not page.results or page.error:
+            if page.skipped() or page.error or not page.results:
                 continue
+            row = page.row()
             difference = differing("\n".join(rows.get(row[0], [])), "\n".join(row), tolerant=True)
             if difference and not self.write:
                 self.say(readme.relative_to(self.root).as_posix(), 1, f"row of {page.name}: {difference}")
@@ -342,13 +342,14 @@ class Check:
     def report(self, chosen, start):
         for page, line, why in sorted(self.problems):
             print(f"{page}:{line}: {why}")
+        slowest = max(chosen, key=lambda page: page.seconds)
         blocks = [(block, printed, lacks) for page in chosen for block, printed, lacks in zip(page.blocks, page.outputs, page.lacks)]
         ran = sum(printed is not None for _, printed, _ in blocks)
         skipped = sum(bool(lacks) for _, _, lacks in blocks)
         clients = sorted({name for _, _, lacks in blocks for name in lacks})
         marked = sum(bool(block.not_run) for block, _, _ in blocks)
         print(f"pages: {len(self.problems)} mistakes in {len(chosen)} pages; {ran} blocks ran, {skipped} skipped, {marked} are text, "
-              f"{sum(len(page.pictures) for page in chosen)} pictures, {time.monotonic() - start:.0f} s"
+              f"{sum(len(page.pictures) for page in chosen)} pictures, {time.monotonic() - start:.0f} s ({slowest.path.stem} {slowest.seconds:.0f})"
               + (f"; not installed: {', '.join(clients)}" if clients else ""))  # fmt: skip
         return len(self.problems) > 0
 

@@ -22,12 +22,13 @@ GIVEN = re.compile(r"<!-- given: (.*?) -->", re.S)
 GIVE = re.compile(r"([\d.,]+(?:e[-+]?\d+)?)\s*(?:\((?P<reason>[^()]+(?:\([^()]*\)[^()]*)*)\)|= (?P<formula>[-+*/() \d.e]+))(?:,\s*|$)")
 MONTH = r"(?:January|February|March|April|May|June|July|August|September|October|November|December)"
 NOT_PROSE = [re.compile(pattern, re.M | re.S) for pattern in (
-    r"^(?P<fence> *)```.*?^ *```[ \t]*$", r"<!-- written by .*?<!-- end -->", r"<!--.*?-->", r"\$\$.*?\$\$", r"(`+)(?!`).*?\1",
+    r"^(?P<fence> *)```.*?^ *```[ \t]*$", r"<!-- written by .*?<!-- end -->", r"<!-- ([\w ]+) -->.*?<!-- /\1 -->", r"<!--.*?-->", r"\$\$.*?\$\$", r"(`+)(?!`).*?\1",
     r"\$[^$\n]+\$", r"<[a-z/][^<>]*>",
     r"(?<!!)\[[^\[\]]*\]\([^()\s]*\)", r"\]\([^()\s]*\)", r"https?://\S+", r"^#+ [\d.]+ ", r"^ *\d+\. ", r"\[\^\w+\]",
     r"(?<=\n\n)(?:    [^\n]*\n)+",
     r"\d{4}-\d\d-\d\d", rf"(?:\d{{1,2}} )?{MONTH}(?: \d{{1,2}},)?(?: \d{{4}})?", r"(?:\(|\bin |\bsince |, )(?:19|20)\d\d(?=[).,;:])",
-    r"\b(?:Debian|Ubuntu|Python|Clang|GCC|Algorithms?|Figures?|Sections?|Tables?|Design|EPSG|version)[: ]\d[\d.]*(?:(?: and |–)\d+)?")]
+    r"(?i:\b(?:Debian|Ubuntu|Python|Clang|GCC|EPSG|versions?|Algorithms?|Figures?|Figs?\.|Sections?|Tables?|Design)[: ]|§ ?)"
+    r"\d[\d.]*(?:(?:, | and |, and | to |[–-])\d[\d.]*)*", r"\b\d+-bit\b")]
 # A number beside one of these is a part of an equation.
 EQUATION_BEFORE = re.compile(r"(?:[=<>≤≥≈]\s*[-−]?|(?:\b\w{1,2}|[)|′²]) ?(?:[·/*]|[+−](?= )) ?)$")
 EQUATION_AFTER = re.compile(r"\s*[=<>≤≥≈]|\s?[+−·/*]\s?(?:[^\W\d]\w?(?!\w)|[(|√])")
