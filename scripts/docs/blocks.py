@@ -15,7 +15,8 @@ import re
 import shutil
 from dataclasses import dataclass
 
-BLOCK = re.compile(r"(?:^<!-- (?P<mark>(?!given:)[^\n]*) -->\n)?^(?P<indent> *)```(?P<kind>\w*)[^\n]*\n(?P<text>.*?)^ *```[ \t]*$", re.M | re.S)
+BLOCK = re.compile(r"(?:^<!-- (?P<mark>(?!given:)[^\n]*) -->\n)?^(?P<indent> *)```(?P<kind>\w*)[^\n]*\n"
+                   r"(?P<text>.*?)^ *```[ \t]*$", re.M | re.S)
 RUN = ("sh", "python", "summary")
 DATA = ("json", "xml", "yaml", "csv")  # what is in a file: nothing to run
 

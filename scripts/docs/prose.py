@@ -7,6 +7,7 @@ Whole numbers up to ten are free. Others must be given, with a reason or as an e
 """
 
 import ast
+import math
 import operator
 import re
 
@@ -22,8 +23,8 @@ GIVEN = re.compile(r"<!-- given: (.*?) -->", re.S)
 GIVE = re.compile(r"([\d.,]+(?:e[-+]?\d+)?)\s*(?:\((?P<reason>[^()]+(?:\([^()]*\)[^()]*)*)\)|= (?P<formula>[-+*/() \d.e]+))(?:,\s*|$)")
 MONTH = r"(?:January|February|March|April|May|June|July|August|September|October|November|December)"
 NOT_PROSE = [re.compile(pattern, re.M | re.S) for pattern in (
-    r"^(?P<fence> *)```.*?^ *```[ \t]*$", r"<!-- written by .*?<!-- end -->", r"<!-- ([\w ]+) -->.*?<!-- /\1 -->", r"<!--.*?-->", r"\$\$.*?\$\$", r"(`+)(?!`).*?\1",
-    r"\$[^$\n]+\$", r"<[a-z/][^<>]*>",
+    r"^(?P<fence> *)```.*?^ *```[ \t]*$", r"<!-- written by .*?<!-- end -->", r"<!-- ([\w ]+) -->.*?<!-- /\1 -->", r"<!--.*?-->",
+    r"\$\$.*?\$\$", r"(`+)(?!`).*?\1", r"\$[^$\n]+\$", r"<[a-z/][^<>]*>",
     r"(?<!!)\[[^\[\]]*\]\([^()\s]*\)", r"\]\([^()\s]*\)", r"https?://\S+", r"^#+ [\d.]+ ", r"^ *\d+\. ", r"\[\^\w+\]",
     r"(?<=\n\n)(?:    [^\n]*\n)+",
     r"\d{4}-\d\d-\d\d", rf"(?:\d{{1,2}} )?{MONTH}(?: \d{{1,2}},)?(?: \d{{4}})?", r"(?:\(|\bin |\bsince |, )(?:19|20)\d\d(?=[).,;:])",
@@ -66,7 +67,10 @@ def computed(formula):
             return operations[type(node.op)](value(node.left), value(node.right))
         return -value(node.operand) if isinstance(node, ast.UnaryOp) else float(node.value)
 
-    return value(ast.parse(formula.strip(), mode="eval").body)
+    try:
+        return value(ast.parse(formula.strip(), mode="eval").body)
+    except (SyntaxError, KeyError, AttributeError, TypeError, ValueError, ZeroDivisionError):
+        return math.nan
 
 
 def wrong_numbers(text, known):
@@ -76,27 +80,28 @@ def wrong_numbers(text, known):
 
     given, used = {}, set()
     for comment in GIVEN.finditer(text):
-        if GIVE.sub("", comment[1]).strip():
-            yield line(comment.start()), f"'{GIVE.sub('', comment[1]).strip()}' gives no reason: write NUMBER (REASON) or NUMBER = EXPRESSION"
+        at, rest = line(comment.start()), GIVE.sub("", comment[1]).strip()
+        if rest:
+            yield at, f"'{rest}' gives no reason: write NUMBER (REASON) or NUMBER = EXPRESSION"
         for give in GIVE.finditer(comment[1]):
-            number = NUMBER.fullmatch(give[1])
+            number, formula = NUMBER.fullmatch(give[1]), give["formula"] or ""
             value, unit = value_of(number) if number else (0, 0)
-            if give["formula"] and not rounds_to(abs(computed(give["formula"])), unit, [value]):
-                yield line(comment.start()), f"{give[1]} is given as {give['formula'].strip()}, which is {computed(give['formula']):.4g}: correct it"
-            for part in numbers_in(give["formula"] or "") - known:
+            if formula and not rounds_to(value, unit, [abs(computed(formula))]):
+                yield at, f"{give[1]} is given as {formula.strip()}, which is {computed(formula):.4g}: correct it"
+            for part in numbers_in(formula) - known:
                 if part > 10 or part != int(part):
-                    yield line(comment.start()), f"{part:g} in the expression of {give[1]} is printed by no command: correct it"
-            given[value] = (give[1], line(comment.start()))
+                    yield at, f"{part:g} in the expression of {give[1]} is printed by no command: correct it"
+            given[value] = (give[1], at)
     prose, wrong = text, {}
     for pattern in NOT_PROSE:
         prose = blanked(prose, pattern)
     for match in NUMBER.finditer(prose):
         value, unit = value_of(match)
         scale = UNITS.get((UNIT.match(prose, match.end()) or "  ")[1], 1)
+        equation = EQUATION_AFTER.match(prose, match.end()) or EQUATION_BEFORE.search(prose[max(0, match.start() - 9) : match.start()])
         if value in given:
             used.add(value)
-        elif not (value <= 10 and unit == 1 or EQUATION_AFTER.match(prose, match.end()) or EQUATION_BEFORE.search(prose[max(0, match.start() - 9) : match.start()])
-                  or rounds_to(value, unit, known) or rounds_to(value * scale, unit * scale, known)):
+        elif not (value <= 10 and unit == 1 or equation or rounds_to(value, unit, known) or rounds_to(value * scale, unit * scale, known)):
             wrong.setdefault(line(match.start()), []).append(match[0])
     for at, numbers in wrong.items():
         yield at, (f"{', '.join(numbers)}: no command of the page prints this; correct it, say it in words, or declare "
@@ -116,7 +121,7 @@ def wrong_options(text, commands, options, settings):
     for line, piece in pieces:
         for command in re.split(r"[;|&\n]+", piece.replace("\\\n", " ")):
             words = command.split()
-            if not words or not (words[0] == "temper" or words[0].startswith("--") or words[0].startswith("-") and (line, piece) not in commands):
+            if not words or not (words[0] == "temper" or words[0].startswith("-")):  # of other programs
                 continue
             verb = next((" ".join(words[1:n]) for n in (3, 2) if " ".join(words[1:n]) in options), "")
             known = options[verb] if words[0] == "temper" and verb else every
