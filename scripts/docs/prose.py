@@ -27,11 +27,13 @@ NOT_PROSE = [re.compile(pattern, re.M | re.S) for pattern in (
     r"\$\$.*?\$\$", r"(`+)(?!`).*?\1", r"\$[^$\n]+\$", r"<[a-z/][^<>]*>",
     r"(?<!!)\[[^\[\]]*\]\([^()\s]*\)", r"\]\([^()\s]*\)", r"https?://\S+", r"^#+ [\d.]+ ", r"^ *\d+\. ", r"\[\^\w+\]",
     r"(?<=\n\n)(?:    [^\n]*\n)+",
-    r"\d{4}-\d\d-\d\d", rf"(?:\d{{1,2}} )?{MONTH}(?: \d{{1,2}},)?(?: \d{{4}})?", r"(?:\(|\bin |\bsince |, )(?:19|20)\d\d(?=[).,;:])",
+    r"\d{4}-\d\d-\d\d", rf"(?:\d{{1,2}} )?{MONTH}(?: \d{{1,2}},)?(?: \d{{4}})?",
+    r"(?i:\b(?:in|since) )(?:19|20)\d\d\b(?! \w+s\b)", r"(?:\(|, )(?:19|20)\d\d(?=[).,;:])",
     r"(?i:\b(?:Debian|Ubuntu|Python|Clang|GCC|EPSG|versions?|Algorithms?|Figures?|Figs?\.|Sections?|Tables?|Design)[: ]|§ ?)"
-    r"\d[\d.]*(?:(?:, | and |, and | to |[–-])\d[\d.]*)*", r"\b\d+-bit\b")]
+    r"\d[\d.]*(?:(?:, | and |, and | to |[–-])\d[\d.]*)*", r"\b\d+-bit\b",
+    r"\b\w*[A-Za-z]\w*[-+]+\d[\w.]*")]
 # A number beside one of these is a part of an equation.
-EQUATION_BEFORE = re.compile(r"(?:[=<>≤≥≈]\s*[-−]?|(?:\b\w{1,2}|[)|′²]) ?(?:[·/*]|[+−](?= )) ?)$")
+EQUATION_BEFORE = re.compile(r"(?:[=<>≤≥≈]\s*[-−]?|(?:\b\w(?:\w|_\w+)?|[)|′²]) ?(?:[·/*]|[+−](?= )) ?)$")
 EQUATION_AFTER = re.compile(r"\s*[=<>≤≥≈]|\s?[+−·/*]\s?(?:[^\W\d]\w?(?!\w)|[(|√])")
 OPTION = re.compile(r"(?<![\w-])--[a-z][\w-]*")
 SETTING = re.compile(r"--set[ =]([a-z]\w*=[^\s`;&|]*)")
