@@ -13,6 +13,7 @@ picture docs/figures/NAME is what some page writes as NAME. Exit 1 and one line 
 
 import argparse
 import concurrent.futures
+import functools
 import importlib.metadata
 import io
 import json
@@ -255,6 +256,7 @@ class Check:
         verbs = re.findall(r"^  ([a-z]+(?: [a-z]+)?)  ", re.search(r"^Verbs:\n(.*?)(?:\n\n|\Z)", top, re.M | re.S)[1], re.M)
         return {"": flags(top), **{verb: {"--help-all"} | flags(top) | flags(self.help(*verb.split(), "--help-all")) for verb in verbs}}
 
+    @functools.cache
     def settings(self):
         """Names for --set."""
         return set(re.findall(r"^  ([a-z]\w*)=", self.help("optimize", "--help-all") + self.help("optimize", "--help-paper"), re.M))
