@@ -405,6 +405,10 @@ def self_test():
         "a number that is given for nothing": ("page", "25 is right", "it is right", 5, "remove it"),
         "a wrong expression": ("page", "40 / 12", "12 / 40", 5, "which is 0.3"),
     }
+    passed = "## 3.2 In 2023\n\n`11`, [12](a), $13$, 64-bit x86-64, C++20, UTF-16, 2D, Section 5.2, d = 14, 1 − d/ℓ, 19 May 2025, 7.\n"
+    assert not list(prose.wrong_numbers(passed, set())), list(prose.wrong_numbers(passed, set()))
+    looked_up = ["480", "−0.22", "1e-6", "10⁵", "2·10⁸", "100,000", "20–30", "| 71 |", "90°", "in 2000 cells", "12 × faster"]
+    assert all(list(prose.wrong_numbers(f"so {number}, and\n", set())) for number in looked_up)
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder).resolve()
         program = root / "build/apps/temper/temper"

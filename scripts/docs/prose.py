@@ -31,7 +31,7 @@ NOT_PROSE = [re.compile(pattern, re.M | re.S) for pattern in (
     r"(?i:\b(?:in|since) )(?:19|20)\d\d\b(?! \w+s\b)", r"(?:\(|, )(?:19|20)\d\d(?=[).,;:])",
     r"(?i:\b(?:Debian|Ubuntu|Python|Clang|GCC|EPSG|versions?|Algorithms?|Figures?|Figs?\.|Sections?|Tables?|Design)[: ]|§ ?)"
     r"\d[\d.]*(?:(?:, | and |, and | to |[–-])\d[\d.]*)*", r"\b\d+-bit\b",
-    r"\b\w*[A-Za-z]\w*[-+]+\d[\w.]*")]
+    r"\b[A-Za-z]\w*[-+]+\d[\w.]*")]
 # A number beside one of these is a part of an equation.
 EQUATION_BEFORE = re.compile(r"(?:[=<>≤≥≈]\s*[-−]?|(?:\b\w(?:\w|_\w+)?|[)|′²]) ?(?:[·/*]|[+−](?= )) ?)$")
 EQUATION_AFTER = re.compile(r"\s*[=<>≤≥≈]|\s?[+−·/*]\s?(?:[^\W\d]\w?(?!\w)|[(|√])")
@@ -108,7 +108,8 @@ def wrong_numbers(text, known):
     for at, numbers in wrong.items():
         yield at, (f"{', '.join(numbers)}: no command of the page prints this; correct it, say it in words, or declare "
                    f"<!-- given: {numbers[0]} (REASON) -->")
-    for value in given.keys() - used:
+    shown = blanked(text, GIVEN)
+    for value in (value for value in given.keys() - used if given[value][0] not in shown):
         yield given[value][1], f"{given[value][0]} is given, but not in the prose: remove it"
 
 
