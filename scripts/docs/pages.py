@@ -302,6 +302,8 @@ class Check:
                 made = [other.pictures[name] for other in [page, *chosen] if name in other.pictures]
                 if not made and name not in DRAWN_ELSEWHERE and len(chosen) == len(self.pages) and not page.skipped() and not page.error:
                     self.say(page.name, line, f"no page writes {name}: add the command that makes it, or a line to DRAWN_ELSEWHERE")
+                elif made and name in DRAWN_ELSEWHERE:
+                    self.say(page.name, line, f"a page writes {name}: remove its line in DRAWN_ELSEWHERE")
                 elif made and self.write and not (file.exists() and same_picture(file.read_bytes(), made[0], file.suffix)):
                     file.write_bytes(made[0])
                 elif made and not (file.exists() and same_picture(file.read_bytes(), made[0], file.suffix)):
