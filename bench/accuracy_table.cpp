@@ -1,5 +1,5 @@
-// The tables of docs/accuracy.md: errors over those of the input, of E_BP alone and of the objectives after it, as
-// Markdown. The fields are the held-back ones of temper errors.
+// The tables of docs/explanation/accuracy.md: errors over those of the input, of E_BP alone and of the objectives after
+// it, as Markdown. The fields are the held-back ones of temper errors.
 //
 //     bench_accuracy_table FILE...                 one row a mesh and set of options, and their geometric means
 //     bench_accuracy_table --variants FILE...      the means alone, of other stars and weights

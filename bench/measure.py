@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Measures everything that docs/performance.md shows, and writes its numbers and pictures anew.
+"""Measures everything that docs/internals/performance.md shows, and writes its numbers and pictures anew.
 
     bench/measure.py BUILD [--sizes 1000,10000,100000,1000000] [--rounds 3] [--tables-only]
 
 BUILD is a build folder of the bench preset. On a quiet machine: 10⁶ vertices take some minutes. The numbers go to
-docs/performance/*.json, from there into the tables of docs/performance.md between their marks, and into the plots
-(bench/plot.py). --tables-only: from the numbers that are there.
+docs/internals/performance/*.json, from there into the tables of docs/internals/performance.md between their marks, and
+into the plots (bench/plot.py). --tables-only: from the numbers that are there.
 """
 
 import argparse
@@ -20,7 +20,7 @@ import tempfile
 import plot
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-DOCUMENT = ROOT / "docs" / "performance.md"
+DOCUMENT = ROOT / "docs" / "internals" / "performance.md"
 SETS = ("baseline", "avx2", "avx512")
 PARTS = {
     "step_1_gather": "gather the star, and what is across its link",
@@ -190,7 +190,7 @@ def main(arguments):
     parser.add_argument("--rounds", default="3")
     parser.add_argument("--tables-only", action="store_true")
     options = parser.parse_args(arguments)
-    folder = ROOT / "docs" / "performance"
+    folder = ROOT / "docs" / "internals" / "performance"
     files = {name: folder / f"{name}.json" for name in ("runs", "kernels")}
     if not options.tables_only:
         if options.build is None:

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plots of cost against size and threads, from what bench_whole_run --json has written.
 
-    bench/plot.py [RUNS.json [FOLDER]]     default: docs/performance/runs.json, and beside it
+    bench/plot.py [RUNS.json [FOLDER]]     default: docs/internals/performance/runs.json, and beside it
 """
 
 import json
@@ -94,7 +94,7 @@ def draw(runs, folder):
 
 def main(arguments):
     root = pathlib.Path(__file__).resolve().parent.parent
-    path = pathlib.Path(arguments[0]) if arguments else root / "docs" / "performance" / "runs.json"
+    path = pathlib.Path(arguments[0]) if arguments else root / "docs" / "internals" / "performance" / "runs.json"
     draw(json.loads(path.read_text()), pathlib.Path(arguments[1]) if len(arguments) > 1 else path.parent)
     return 0
 

@@ -1,4 +1,4 @@
-// The claims as docs/paper.md has them: a table, and what explains those that do not hold.
+// The claims as docs/explanation/paper.md has them: a table, and what explains those that do not hold.
 #include <string>
 
 #include "results.hpp"

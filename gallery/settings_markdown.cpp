@@ -1,4 +1,5 @@
-// The table of docs/paper.md with the settings of the figures: a row for each figure that runs the optimizer.
+// The table of docs/explanation/paper.md with the settings of the figures: a row for each figure that runs the
+// optimizer.
 #include <string>
 
 #include "reading.hpp"

@@ -211,11 +211,11 @@ def optimize(
     """Improves a mesh in place: moves vertices, changes weights and flips edges until every triangle is well-centered.
 
     A triangle is well-centered when its orthocenter is strictly inside and each of its edges is crossed by its dual:
-    all h > 0 and all 0 < d < ℓ (docs/concepts.md). Every triangle stays counter-clockwise. The domain boundary, fixed
-    vertices and constrained edges stay, bit for bit, unless ``boundary`` and ``interfaces`` allow changes. For barriers
-    (``BP``, ``BHs``, ``BH``) the result never has more triangles that are not well-centered than the input. For HOT
-    energies (``F``, ``T``, ``dT``) it may have more (docs/concepts.md). Equal inputs, options and seeds give equal
-    bits for any number of threads.
+    all h > 0 and all 0 < d < ℓ (docs/explanation/concepts.md). Every triangle stays counter-clockwise. The domain
+    boundary, fixed vertices and constrained edges stay, bit for bit, unless ``boundary`` and ``interfaces`` allow
+    changes. For barriers (``BP``, ``BHs``, ``BH``) the result never has more triangles that are not well-centered than
+    the input. For HOT energies (``F``, ``T``, ``dT``) it may have more (docs/explanation/concepts.md). Equal inputs,
+    options and seeds give equal bits for any number of threads.
 
     Parameters
     ----------
@@ -230,7 +230,8 @@ def optimize(
         Size field to compare sizes with. None: the input's own sizes.
     tensor : sequence of float, optional
         kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u). Triangles become well-centered in its metric.
-        The report and the snapshots are in this metric too (docs/tensor.md). Not with ``size_field`` and ``tracer``.
+        The report and the snapshots are in this metric too (docs/howto/anisotropic.md). Not with ``size_field`` and
+        ``tracer``.
     point_data : str or sequence of str, optional
         Rules for floating point data of points when vertices move: sets ``Mesh.point_data_rules``.
     threads : int, optional
@@ -245,9 +246,9 @@ def optimize(
     snapshots : callable, optional
         Function that gets a ``Snapshot`` between sweeps, with a copy of the mesh each time.
     communicator : mpi4py.MPI.Comm, optional
-        Communicator of the processes that make this run together, usually one per machine (docs/ranks.md). All call
-        ``optimize`` with the same mesh and options, and get the same result. Its bits do not depend on their number.
-        The progress, observer and time limit of rank 0 count.
+        Communicator of the processes that make this run together, usually one per machine
+        (docs/howto/large-and-parallel.md). All call ``optimize`` with the same mesh and options, and get the same
+        result. Its bits do not depend on their number. The progress, observer and time limit of rank 0 count.
 
     Returns
     -------

@@ -1,7 +1,8 @@
-// Every claim of the paper is a test: it holds, or it is known not to; and docs/paper.md says what was found.
+// Every claim of the paper is a test: it holds, or it is known not to; and docs/explanation/paper.md says what was
+// found.
 //
 // The pages are made once for all tests of this process. Built with TEMPER_QUICK_CLAIMS the figures are those that take
-// little time with reduced effort, which finds other numbers than docs/paper.md has.
+// little time with reduced effort, which finds other numbers than docs/explanation/paper.md has.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -185,9 +186,9 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// What docs/paper.md has between <!-- NAME --> and <!-- /NAME -->.
+/// What docs/explanation/paper.md has between <!-- NAME --> and <!-- /NAME -->.
 std::vector<std::string> documented(const std::string& name) {
-  std::ifstream file(TEMPER_SOURCE_DIR "/docs/paper.md");
+  std::ifstream file(TEMPER_SOURCE_DIR "/docs/explanation/paper.md");
   std::ostringstream text;
   text << file.rdbuf();
   const std::string begins = "<!-- " + name + " -->\n\n", ends = "\n<!-- /" + name + " -->";
@@ -211,8 +212,8 @@ TEST(Gallery, TheDocsHaveEveryRowAsItIsFound) {
   for (const auto& [name, text] :
        {std::pair("claims", claims_markdown(results)), std::pair("settings", settings_markdown(results))}) {
     const std::vector<std::string> found = lines_of(text), docs = documented(name);
-    EXPECT_TRUE(found == docs) << "Found, and not in docs/paper.md:\n"
-                               << missing(found, docs) << "In docs/paper.md, and not found:\n"
+    EXPECT_TRUE(found == docs) << "Found, and not in docs/explanation/paper.md:\n"
+                               << missing(found, docs) << "In docs/explanation/paper.md, and not found:\n"
                                << missing(docs, found) << "temper reproduce -o DIR && gallery/update_docs.py DIR";
   }
 }

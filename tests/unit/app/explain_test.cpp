@@ -58,7 +58,7 @@ TEST_F(Explain, SpeaksTheNumbersOfTheFile) {
 }
 
 TEST_F(Explain, ThePageShowsWhatTheProgramSays) {
-  const std::string page = read(TEMPER_SOURCE_DIR "/docs/explain.md");
+  const std::string page = read(TEMPER_SOURCE_DIR "/docs/explanation/proofs.md");
   const std::regex block("<!-- (temper example [^\n]*) -->\n```text\n([^`]*)```");
   std::size_t blocks = 0;
   for (std::sregex_iterator at(page.begin(), page.end(), block), end; at != end; ++at, ++blocks) {
