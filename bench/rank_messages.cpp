@@ -5,7 +5,7 @@
 //
 // Counts of messages are exact, whatever the machine. Times are of the processor's clock. Ranks are threads of this
 // process, each with a mesh of its own, and need no processor each. Prints tables of Markdown: see
-// docs/howto/large-and-parallel.md.
+// docs/internals/ranks.md.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
