@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Puts what the program prints into docs/: its help into cli.md, examples into explanation/proofs.md. update_docs.py PROGRAM.
+"""Puts the help of the program into docs/cli.md: update_docs.py PROGRAM.
 
 Every block after a line <!-- temper ARGUMENTS --> becomes what that command line prints. Tests compare them.
 """
@@ -28,8 +28,7 @@ def update(page, program):
 
 
 def main(program):
-    for name in ("cli.md", "explanation/proofs.md"):
-        update(pathlib.Path(__file__).parents[2] / "docs" / name, program)
+    update(pathlib.Path(__file__).parents[2] / "docs" / "cli.md", program)
 
 
 if __name__ == "__main__":
