@@ -56,7 +56,7 @@ class WeightConstraint:
 @dataclasses.dataclass(frozen=True)
 class Certificate(Record):
     """A proof that no weights exist (Farkas): constraints with multipliers ≥ 0 whose sum is a contradiction. The
-    polynomials are in ``temper/feasibility.hpp`` and docs/howto/keep-positions.md."""
+    polynomials are in ``temper/feasibility.hpp`` and docs/explanation/weights.md."""
 
     margin: float
     """Refuted margin: no weights keep the constraints with more than this margin."""
