@@ -5,8 +5,8 @@
 
 runs `temper reproduce` for figures 11 to 32, which are made by the optimizer, once as each figure has it and once for
 each reading below, into folders of DIR (one that has its gallery.json is not made again), and writes two tables into
-docs/explanation/paper.md: how many claims hold under each reading, and under which readings those hold that do not hold
-under all. Claims of a figure that cannot be made under a reading do not hold under it.
+docs/internals/paper-readings.md: how many claims hold under each reading, and under which readings claims hold that fail
+under another. Claims of a figure that cannot be made under a reading do not hold under it.
 """
 import json
 import pathlib
@@ -79,13 +79,13 @@ def main() -> None:
         sys.exit(__doc__)
     program, top = sys.argv[1], pathlib.Path(sys.argv[2])
     held = [claims(program, top / letter, options) for letter, _, options in READINGS]
-    page = pathlib.Path(__file__).resolve().parent.parent / "docs" / "explanation" / "paper.md"
+    page = pathlib.Path(__file__).resolve().parent.parent / "docs" / "internals" / "paper-readings.md"
     text = page.read_text(encoding="utf-8")
     for name, table in (("readings", counts(held)), ("claims by reading", by_claim(held))):
         text, blocks = re.subn(rf"(<!-- {name} -->\n).*?(<!-- /{name} -->)",
                                lambda m: m[1] + "\n" + table + "\n\n" + m[2], text, flags=re.S)
         if blocks != 1:
-            sys.exit(f"docs/explanation/paper.md must have one place for the {name}")
+            sys.exit(f"docs/internals/paper-readings.md must have one place for the {name}")
         print(table)
     page.write_text(text, encoding="utf-8")
 
