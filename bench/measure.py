@@ -152,7 +152,7 @@ def write_tables(runs, times):
 def put_tables(page, tables):
     text = page.read_text()
     for name, body in tables.items():
-        mark = re.compile(rf"(<!-- {name}: by bench/measure.py -->\n).*?(<!-- end -->)", re.DOTALL)
+        mark = re.compile(rf"(<!-- written by bench/measure.py: {name} -->\n).*?(<!-- end -->)", re.DOTALL)
         text, count = mark.subn(lambda m: m[1] + body + "\n" + m[2], text)
         if count != 1:
             sys.exit(f"measure: {page.name} has {count} places for the table '{name}'")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Puts the help of the program into docs/cli.md: update_docs.py PROGRAM.
+"""Puts what the program prints into docs/: its help into cli.md, examples into explain.md. update_docs.py PROGRAM.
 
 Every block after a line <!-- temper ARGUMENTS --> becomes what that command line prints. Tests compare them.
 """
@@ -28,7 +28,8 @@ def update(page, program):
 
 
 def main(program):
-    update(pathlib.Path(__file__).parents[2] / "docs" / "cli.md", program)
+    for name in ("cli.md", "explain.md"):
+        update(pathlib.Path(__file__).parents[2] / "docs" / name, program)
 
 
 if __name__ == "__main__":

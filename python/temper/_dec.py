@@ -136,7 +136,7 @@ class DecComplex(Record):
 
     On a sphere lengths are measured along arcs, and areas are spherical excess.
 
-    Signs (docs/explanation/concepts.md): a dual length is negative if the edge is not regular. On the boundary it is
+    Signs (docs/reference/symbols.md): a dual length is negative if the edge is not regular. On the boundary it is
     negative if the orthocenter is outside. It is zero exactly if the four points are cocircular in the power sense.
     """
 

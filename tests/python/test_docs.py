@@ -1,4 +1,4 @@
-"""Every command and script of docs/reference/python.md, docs/howto and examples/python runs, or says why not."""
+"""Every command and script of docs/python.md, docs/howto and examples/python runs, or says why not."""
 
 import doctest
 import importlib
@@ -13,7 +13,7 @@ from pages import blocks_of, lacking
 
 import temper
 
-PAGES = [ROOT / "docs" / "reference" / "python.md", *sorted((ROOT / "docs" / "howto").glob("*.md"))]
+PAGES = [ROOT / "docs" / "python.md", *sorted((ROOT / "docs" / "howto").glob("*.md"))]
 NOT_IN_DEBIAN = {"PyDEC", "PorePy", "Julia", "JIGSAW", "it is how"}
 
 
