@@ -18,7 +18,7 @@ test=(libgtest-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-h5py pytho
       python3-pytest python3-jsonschema zsh fish mandoc groff-base gmsh librsvg2-bin clang-format-14 clang-tidy-14 clang-19 lld-19
       libclang-rt-19-dev libopenmpi-dev openmpi-bin python3-mpi4py)
 clients=(python3-venv liblapack3 libblas3 libglu1-mesa libgl1 libegl1 libxcursor1 libxft2 libxinerama1 libxrender1)
-docs=(python3-venv doxygen)
+docs=(python3-venv doxygen python3-meshio python3-scipy python3-matplotlib)
 wasm=(clang-19 lld-19 llvm-19 wasi-libc libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32)
 # Whoever has another Node than Debian's has its npm, too.
 command -v npm >/dev/null || wasm+=(nodejs npm)

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Installs the solvers that docs/howto is about, as the package index has them, in versions that are pinned, and runs the pages
-# against them: what they promise is checked, and what they print is compared. Not a part of scripts/test.sh.
+# Installs the solvers that docs/howto is about, as the package index has them, in versions that are pinned. Then scripts/docs/pages.py
+# runs the pages that need them, and compares what they print. Not a part of scripts/test.sh.
 #
 #   scripts/clients.sh                       all pages
 #   scripts/clients.sh fipy landlab          these
-#   scripts/clients.sh --write               puts numbers into the pages, and the table into docs/howto/README.md
+#   scripts/clients.sh --write               puts numbers and pictures into the pages, and the table into docs/howto/README.md
 #   scripts/clients.sh --from DIR …          also installs a client that the index lacks, from its sources in DIR (PorePy, PyDEC)
 #
 # Clients go to build/clients. The program and the module are built (preset python), unless TEMPER_BUILD names a build.
@@ -41,8 +41,6 @@ for folder in "${from[@]}"; do
   "$venv/bin/pip" install --quiet --disable-pip-version-check -c "$constraints" "$folder"
 done
 
-export PATH="$TEMPER_BUILD/apps/temper:$venv/bin:$PATH" PYTHONPATH="$TEMPER_BUILD/python" MPLBACKEND=agg
-# One thread, and one BLAS: the last digits are the same from run to run.
-export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 DEVSIM_MATH_LIBS=liblapack.so.3:libblas.so.3
-export PYTHONDONTWRITEBYTECODE=1
-exec "$venv/bin/python" tests/clients/run_pages.py "${arguments[@]}"
+# One BLAS: the last digits are the same from run to run.
+export DEVSIM_MATH_LIBS=liblapack.so.3:libblas.so.3
+exec "$venv/bin/python" scripts/docs/pages.py --clients "$TEMPER_BUILD/apps/temper/temper" "${arguments[@]}"

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Builds the documentation as a site, strictly: any warning, of Doxygen or MkDocs, is an error, and so is a dead link or anchor.
-# Not a part of scripts/test.sh, which checks the links of the pages alone.
+# Builds the documentation: scripts/docs/pages.py runs every command of the pages and compares numbers and pictures, and MkDocs makes
+# a site. Any mistake on a page, any warning of Doxygen or MkDocs, and any dead link or anchor is an error.
 #
 #   scripts/docs.sh            to build/site: open index.html, or serve the folder
+#   scripts/docs.sh --write    before that, puts what the program prints and draws into the pages
 #
 # The reference of options comes from the module, which is built (preset python), unless TEMPER_BUILD names a build.
 # TEMPER_GALLERY names what `temper reproduce -o` wrote, TEMPER_PLAYGROUND the built playground: both go into the site.
@@ -14,6 +15,8 @@ if [[ -z "${TEMPER_BUILD:-}" ]]; then
   scripts/build.sh python
   TEMPER_BUILD=build/python
 fi
+
+/usr/bin/python3 scripts/docs/pages.py "$TEMPER_BUILD/apps/temper/temper" "$@"
 
 # The module is built for Debian's Python; the environment must be of the same version.
 venv=$PWD/build/docs

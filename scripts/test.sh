@@ -144,6 +144,7 @@ stage "links: the checker finds what it should" python3 scripts/check_links.py -
 stage "links: none is dead" python3 scripts/check_links.py
 stage "prose: the checker finds what it should" python3 scripts/check_prose.py --self-test
 stage "prose: sentences are plain" python3 scripts/check_prose.py
+stage "pages: the checker finds what it should" python3 scripts/docs/pages.py --self-test
 stage "format" formatted
 stage "names of tests" names_of_tests
 stage "bench: the comparison finds what it should" python3 bench/compare.py --self-test
@@ -155,7 +156,8 @@ if stage "build (optimized, -Werror)" configure_and_build dev --target optimized
   stage "core without exceptions and RTTI" core_without_exceptions
   stage "instruction sets keep to themselves" python3 scripts/check_instruction_sets.py build/dev
   stage "the Python module is tested" grep -q 'add_test.*python.*pytest' build/dev/tests/python/CTestTestfile.cmake
-  suite "tests (optimized)" build/dev -L optimized
+  stage "pages: commands, numbers and pictures" /usr/bin/python3 scripts/docs/pages.py build/dev/apps/temper/temper
+  suite "tests (optimized)" build/dev -L optimized -E '^pages$'
   stage "consumer: install, find_package" consumer_find_package && suite "consumer: find_package runs" "$scratch/find_package"
 fi
 # All tests, by the other compiler.

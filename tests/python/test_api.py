@@ -3,7 +3,6 @@
 import ast
 import dataclasses
 import graphlib
-import importlib.util
 import inspect
 import os
 import pathlib
@@ -312,11 +311,3 @@ def test_build_info_is_what_the_program_says():
     assert printed.pop("commit") and info.pop("commit")
     printed.pop("MPI", None)  # which the module has no use for
     assert printed == info
-
-
-def test_the_page_of_names_is_what_the_tables_say():
-    spec = importlib.util.spec_from_file_location("update_names", ROOT / "scripts" / "docs" / "update_names.py")
-    names = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(names)
-    program = pathlib.Path(os.environ["TEMPER_PROGRAM_DIR"]) / "temper"
-    assert (ROOT / "docs" / "names.md").read_text(encoding="utf-8") == names.page(program)

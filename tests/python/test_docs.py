@@ -1,46 +1,21 @@
-"""Every command and script of docs/python.md, docs/howto and examples/python runs, or says why not."""
+"""Every script of examples/python and every example in a docstring runs. scripts/docs/pages.py runs the pages of docs/."""
 
 import doctest
 import importlib
 import os
-import shutil
 import subprocess
 import sys
 
 import pytest
 from conftest import PUBLIC_MESHES, ROOT, optimized
-from pages import blocks_of, lacking
 
 import temper
-
-PAGES = [ROOT / "docs" / "python.md", *sorted((ROOT / "docs" / "howto").glob("*.md"))]
-NOT_IN_DEBIAN = {"PyDEC", "PorePy", "Julia", "JIGSAW", "it is how"}
 
 
 def run(arguments, **options):
     result = subprocess.run(arguments, capture_output=True, text=True, timeout=300, **options)
     assert result.returncode == 0, f"{result.stdout}\n{result.stderr}"
     return result
-
-
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_a_page_runs_from_top_to_bottom(page, in_scratch, monkeypatch):
-    monkeypatch.setenv("MPLBACKEND", "agg")
-    namespace, ran = {}, 0
-    for block in blocks_of(page):
-        if block.not_run:
-            assert any(name in block.not_run for name in NOT_IN_DEBIAN), block.not_run
-            continue
-        if lacking(block):
-            continue
-        if block.kind == "sh":
-            if shutil.which("temper") is None:
-                pytest.skip("the program was not built")
-            run(["bash", "-euo", "pipefail", "-c", block.text])
-        else:
-            exec(compile(block.text, str(page), "exec"), namespace)
-        ran += 1
-    assert ran > 0 or page.stem == "README"
 
 
 @pytest.mark.parametrize("example", sorted((ROOT / "examples" / "python").glob("*.py")), ids=lambda path: path.stem)

