@@ -89,9 +89,9 @@ bool print_variant(const std::vector<NamedMesh>& meshes, const Variant& variant,
 std::vector<Variant> schemes() {
   return {{"`--for valid`", {.objective = Objective::energy}},
           {"`--for any`", {}},
-          {"`--for vertex`", {.target = Scheme::vertex}},
-          {"`--for cell`", {.target = Scheme::cell}},
-          {"`--for stars`", {.target = Scheme::stars}}};
+          {"`--for vertex`", {.scheme = Scheme::vertex}},
+          {"`--for cell`", {.scheme = Scheme::cell}},
+          {"`--for stars`", {.scheme = Scheme::stars}}};
 }
 
 /// Each has one option that is another than in the first.

@@ -19,7 +19,7 @@ struct SweepCosts {
   double accuracy = kNone;                        ///< sweeps of the accuracy objective, all triangles well-centered
   double alternating = kNone;                     ///< the first sweeps of Solver::alternating
   double golden = kNone;                          ///< the first sweeps of the paper's search, and nothing else of it
-  double paper = kNone;                           ///< the first sweeps of paper_method(): collapses and removals, too
+  double paper = kNone;                           ///< the first sweeps of Algorithm 1, with collapses and removals
   double by_triangles = kNone, by_stars = kNone;  ///< value, gradient and Hessian of all stars, packed
   double triad = kNone;                           ///< streaming as many bytes as the mesh has
 };

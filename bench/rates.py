@@ -65,8 +65,8 @@ class Run:
 
     def __init__(self, program, mesh, out, options, most):
         history = out.with_suffix(".csv")
-        temper(program, "optimize", mesh, "-o", out, "--energy", "BP", "--flips", "immediate", "--inversion", "refuse",
-               "--repair", "none", "--threads", 1, "--quiet", "--tolerance", "1e-300", "--max-sweeps", most, "--history",
+        temper(program, "optimize", mesh, "-o", out, "--set", "energy=BP", "--set", "flips=immediate", "--set", "inversion=refuse",
+               "--set", "repair=none", "--threads", 1, "--quiet", "--tolerance", "1e-300", "--max-sweeps", most, "--history",
                history, *options)
         with open(history, newline="") as file:
             rows = list(csv.DictReader(file))

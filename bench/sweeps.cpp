@@ -41,7 +41,7 @@ OptimizeOptions sweeps_only(Solver solver) {
 }
 
 OptimizeOptions paper_sweeps() {
-  OptimizeOptions options = paper_method();
+  OptimizeOptions options = *options_for("paper");
   options.paper.stopping = StoppingRule::relative;
   options.paper.tolerance = 0;
   return options;

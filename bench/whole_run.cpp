@@ -276,7 +276,7 @@ void run_files(Row& row, const Options& options, const std::filesystem::path& fo
   if (options.temper.empty() || !std::filesystem::exists(input)) return;
   // Its memory has peaked by then.
   const ProgramRun program =
-      run_program({options.temper, "optimize", input, "-o", output, "--max-sweeps", "12", "--quiet"});
+      run_program({options.temper, "optimize", input, "-o", output, "--set", "max_sweeps=12", "--quiet"});
   if (!program.ok) fail(options.temper + " optimize failed");
   row.program_peak_bytes = program.peak_bytes;
 }

@@ -3,7 +3,7 @@
 
     gallery/readings.py PROGRAM DIR
 
-runs `temper reproduce` for figures 11 to 32, which are made by the optimizer, once as each figure has it and once for
+runs `temper paper reproduce` for figures 11 to 32, which are made by the optimizer, once as each figure has it and once for
 each reading below, into folders of DIR (one that has its gallery.json is not made again). It puts the number of claims
 that hold under each reading into docs/internals/paper-readings.md, and prints which claims fail under which reading.
 Claims of a figure that cannot be made under a reading do not hold under it.
@@ -36,7 +36,7 @@ def claims(program: str, folder: pathlib.Path, options: str) -> dict[tuple[str, 
     for figure in FIGURES:
         result = folder / str(figure) / "gallery.json"
         if not result.exists():
-            run = subprocess.run([program, "reproduce", str(figure), "-o", str(result.parent), *options.split()],
+            run = subprocess.run([program, "paper", "reproduce", str(figure), "-o", str(result.parent), *options.split()],
                                  capture_output=True, text=True)
             if run.returncode != 0 and "cannot be made" not in run.stderr:
                 sys.exit(run.stderr)

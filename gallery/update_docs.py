@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Puts the claims, their verdicts and the readings of the figures into two pages of docs/: update_docs.py DIR.
 
-DIR is what `temper reproduce -o DIR` wrote, all figures of it. What stands between <!-- claims --> and
+DIR is what `temper paper reproduce -o DIR` wrote, all figures of it. What stands between <!-- claims --> and
 <!-- /claims --> becomes DIR/claims.md, and so DIR/settings.md. The test `claims` compares them.
 """
 import pathlib

@@ -6,7 +6,7 @@
 #   scripts/docs.sh --write    before that, puts what the program prints and draws into the pages
 #
 # The reference of options comes from the module, which is built (preset python), unless TEMPER_BUILD names a build.
-# TEMPER_GALLERY names what `temper reproduce -o` wrote, TEMPER_PLAYGROUND the built playground: both go into the site.
+# TEMPER_GALLERY names what `temper paper reproduce -o` wrote, TEMPER_PLAYGROUND the built playground: both go into the site.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -20,8 +20,7 @@ Exit run_operators(const Arguments& arguments);
 Exit run_draw(const Arguments& arguments);
 Exit run_convert(const Arguments& arguments);
 Exit run_example(const Arguments& arguments);
-Exit run_replay(const Arguments& arguments);
-Exit run_reproduce(const Arguments& arguments);
+Exit run_paper(const Arguments& arguments);
 Exit run_weights(const Arguments& arguments);
 Exit run_explain(const Arguments& arguments);
 Exit run_errors(const Arguments& arguments);  // only with temper::errors

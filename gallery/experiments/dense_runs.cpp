@@ -12,7 +12,7 @@
 namespace temper::gallery {
 
 OptimizeOptions dense_options(std::string_view energy, const VertexOrder& order) {
-  OptimizeOptions o = paper_method();
+  OptimizeOptions o = *options_for("paper");
   o.energy = find_energy(energy)->kind;
   if (energy_info(o.energy).barrier) o.paper.inversion = Inversion::refuse;
   o.paper.h0 = shift_beyond(dense_horseshoe());

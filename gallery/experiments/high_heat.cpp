@@ -48,7 +48,7 @@ const std::vector<OrderedHeat>& high_heat_by_order(Effort effort) {
 }
 
 OptimizeOptions high_heat_options(std::string_view energy) {
-  OptimizeOptions options = paper_method();
+  OptimizeOptions options = *options_for("paper");
   options.energy = find_energy(energy)->kind;
   options.paper.gamma = LengthParameter{kPaperGamma, LengthScale::absolute};
   options.paper.h0 = shift_beyond(dense_horseshoe());

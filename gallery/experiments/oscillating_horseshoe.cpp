@@ -66,7 +66,7 @@ std::vector<VertexOrder> vertex_orders(int random) {
 VertexOrder shown_order() { return {"reverse", SweepOrder::reverse}; }
 
 OptimizeOptions positions_and_collapses() {
-  OptimizeOptions options = paper_method();
+  OptimizeOptions options = *options_for("paper");
   options.energy = EnergyKind::dT;
   options.unknowns = Unknowns::positions;
   options.paper.removal = Removal::none;

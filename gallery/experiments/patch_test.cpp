@@ -44,7 +44,7 @@ double mean_energy(const Mesh& mesh) {
 }  // namespace
 
 OptimizeOptions immediate_options(Unknowns unknowns, RemovalRule rule) {
-  OptimizeOptions options = paper_method();
+  OptimizeOptions options = *options_for("paper");
   options.unknowns = unknowns;
   options.flips = Flips::immediate;
   options.paper.inversion = Inversion::refuse;

@@ -36,7 +36,7 @@ Mesh numbered(const VertexSequence& sequence) {
 }
 
 OptimizeOptions options_of(const SparseSetting& setting, const Mesh& input) {
-  OptimizeOptions o = paper_method();
+  OptimizeOptions o = *options_for("paper");
   o.energy = find_energy(setting.energy)->kind;
   o.unknowns = setting.weights_from ? Unknowns::positions_and_weights : Unknowns::positions;
   o.paper.weights_from = setting.weights_from.value_or(0);

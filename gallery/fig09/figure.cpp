@@ -273,7 +273,7 @@ Claim valence_and_weight(Effort effort) {
   std::string found;
   for (const EnergyKind kind : {EnergyKind::BP, EnergyKind::T}) {
     auto mesh = random_mesh({.vertices = effort == Effort::full ? 400U : 120U});
-    OptimizeOptions options = kind == EnergyKind::T ? paper_method() : OptimizeOptions();
+    OptimizeOptions options = kind == EnergyKind::T ? *options_for("paper") : OptimizeOptions();
     options.objective = Objective::energy;
     options.energy = kind;
     options.paper.removal = Removal::none;

@@ -67,7 +67,7 @@ struct Pair {
 std::array<Pair, 3> make_runs(double tolerance) {
   std::array<Pair, 3> pairs;
   for (std::size_t i = 0; i < kEnergies.size(); ++i) {
-    const double enough = kEnergies[i] == "T" ? paper_method().paper.tolerance : tolerance;  // few sweeps in any case
+    const double enough = kEnergies[i] == "T" ? options_for("paper")->paper.tolerance : tolerance;  // few sweeps in any case
     pairs[i] = {make_run(kEnergies[i], 0, enough), make_run(kEnergies[i], 2, enough)};
   }
   return pairs;
@@ -203,7 +203,7 @@ Claim little_difference(const std::array<Pair, 3>& pairs) {
 
 /// The number of orders in which i_w = 2 needs fewer sweeps, for E_T, whose optima depend on the order.
 std::string orders_with_fewer(int random) {
-  const double tolerance = paper_method().paper.tolerance;
+  const double tolerance = options_for("paper")->paper.tolerance;
   std::size_t all = 0, fewer = 0;
   for (const VertexOrder& order : vertex_orders(random)) {
     ++all;
@@ -242,7 +242,7 @@ Claim fewer_iterations(const std::array<Pair, 3>& pairs, int random) {
 
 Page make(Effort effort) {
   const bool full = effort == Effort::full;
-  const double tolerance = full ? paper_method().paper.tolerance : kReducedTolerance;
+  const double tolerance = full ? options_for("paper")->paper.tolerance : kReducedTolerance;
   const std::array<Pair, 3> pairs = make_runs(tolerance);
   Page page;
   page.pictures.push_back({"fig18", panels(pairs),

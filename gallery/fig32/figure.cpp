@@ -148,7 +148,7 @@ const std::vector<Baseline>& baselines() {
     barrier.repair = Repair::none;
     OptimizeOptions positions = barrier;
     positions.unknowns = Unknowns::positions;
-    return std::vector<Baseline>{baseline("ODT, positions", odt_method()), baseline("CVT, positions", cvt_method()),
+    return std::vector<Baseline>{baseline("ODT, positions", *options_for("odt")), baseline("CVT, positions", *options_for("cvt")),
                                  baseline("E_BP, positions", positions),
                                  baseline("E_BP, positions and weights", barrier)};
   }();

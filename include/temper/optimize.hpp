@@ -1,6 +1,6 @@
 // Algorithm 1 of the paper. By default it runs in its production form: Gauss-Seidel over the vertices. Each vertex
-// takes its own Newton step in (x, y, w), and edges flip as soon as they stop being regular. paper_method() gives the
-// paper's form.
+// takes its own Newton step in (x, y, w), and edges flip as soon as they stop being regular. options_for("paper") gives
+// the paper's form.
 //
 // Options come in groups. OptimizeOptions has the options of every run, AccuracyOptions the options of the accuracy
 // objective, and PaperSwitches the options of the algorithm. Each has a row in optimize_table.hpp. It defines the
@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -185,10 +186,12 @@ struct SolverErrorOptions {
   double offset_share = 1;  ///< Factor κ ≥ 0, which keeps other errors from rising
   int steps = 200;          ///< Largest number of steps, ≥ 0
   double tolerance = 0.01;  ///< Tolerance ≥ 0: stop if ten steps lower the sum of logarithms by less than this
+  /// Largest number of vertices for which the errors of a scheme are modeled, unless `objective` is solver_error.
+  int most_vertices = 20'000;
 };
 
 /// The switches of Algorithm 1, for choices in the paper and for differences from the production form. The defaults are
-/// the production form; paper_method() has the paper's values.
+/// the production form; options_for("paper") has the paper's values.
 struct PaperSwitches {
   /// γ of E_BP. A given value is constant. Absent: relative to each edge and shrinking from sweep to sweep,
   /// from 0.5 to 0.003. It starts from 1 if there are 100 or more triangles and at least a quarter of them is bad. As
@@ -279,7 +282,7 @@ struct OptimizeOptions {
   ///
   /// `solver`, `order`, `tolerance` and `stopping` apply to the first phase.
   std::optional<Objective> objective = {};
-  Scheme target = Scheme::all;  ///< Scheme of Objective::accuracy and solver_error
+  Scheme scheme = Scheme::all;  ///< Scheme of Objective::accuracy and solver_error
   AccuracyOptions accuracy = {};
   SolverErrorOptions solver_error = {};
   EnergyKind energy = EnergyKind::BP;
@@ -311,24 +314,17 @@ struct OptimizeOptions {
 /// switches other than `order` and `seed` differ from their defaults.
 [[nodiscard]] Objective objective_of(const OptimizeOptions& options);
 
-/// The largest number of vertices for which a model of errors is used, unless the objective is solver_error.
-inline constexpr std::size_t kMostJudged = 20'000;
 /// Says whether a run needs a model of errors. Objective::solver_error does, because it lowers these errors.
-/// Objective::accuracy does if `target` is vertex or cell and the mesh lies in the plane and has at most kMostJudged
+/// Objective::accuracy does if `scheme` is vertex or cell and the mesh lies in the plane and has at most solver_error.most_vertices
 /// vertices. Then it becomes solver_error if the options have no objective. If they name accuracy, the model selects
 /// the mesh of least error; the input is compared too if it is well-centered.
 [[nodiscard]] bool wants_error_model(const OptimizeOptions& options, const Mesh& mesh);
 
-/// The options of the paper's Algorithm 1 with all its parts: golden section, flips after the inner iterations have
-/// converged, unlimited steps, inversions allowed, hidden vertices kept, collapses and the patch test from the first
-/// sweep, vertex 0 as anchor, γ = 1, vertices in their order, convergence by mean energy.
-[[nodiscard]] OptimizeOptions paper_method();
-/// Two older methods of §1.2, for comparison. Both move positions alone and keep edges Delaunay. All weights must be
-/// equal. This one makes optimal Delaunay triangulations (Chen and Xu 2004): E_ODT.
-[[nodiscard]] OptimizeOptions odt_method();
-/// Centroidal Voronoi tessellations (Du, Faber and Gunzburger 1999). It lowers E_F for ★0, the moment of the Voronoi
-/// cells about their vertices. Lloyd's iterations lower the same energy.
-[[nodiscard]] OptimizeOptions cvt_method();
+/// Returns the options for a target, an effort, and parts of the mesh to keep. Their names and meanings are in targets(),
+/// efforts() and keeps() of optimize_table.hpp: `options_for("mpas", "high", {{"boundary"}})`. An unknown name, or parts
+/// that leave nothing to change, are an error.
+[[nodiscard]] Expected<OptimizeOptions> options_for(std::string_view target, std::string_view effort = "normal",
+                                                    std::span<const std::string_view> keep = {});
 
 /// The mesh at one moment of a run.
 struct Snapshot {

@@ -1,6 +1,6 @@
 // Solvers of linear programs and of systems of equations in this build, for OptimizeHooks::solvers:
 //
-//     auto report = temper::optimize(mesh, {.target = temper::Scheme::vertex}, {.solvers = temper::solvers()});
+//     auto report = temper::optimize(mesh, {.scheme = temper::Scheme::vertex}, {.solvers = temper::solvers()});
 //
 // They have their own library, temper::solvers. It links Clp, and uses Eigen if the build has it.
 #pragma once

@@ -2,7 +2,7 @@
 //
 //     auto file = temper::io::read("coast.msh");
 //     auto loaded = temper::io::make_mesh(*file);
-//     auto report = temper::optimize(loaded->mesh, {.target = temper::Scheme::cell}, {.solvers = temper::solvers()});
+//     auto report = temper::optimize(loaded->mesh, {.scheme = temper::Scheme::cell}, {.solvers = temper::solvers()});
 //     temper::io::update(*file, *loaded, loaded->mesh, report->vertices);
 //     temper::io::write("tempered.vtu", *file);
 //

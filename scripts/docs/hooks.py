@@ -112,8 +112,8 @@ def options_table():
 
 
 def gallery_page(folder):
-    """The figures that `temper reproduce` wrote, or how to make them."""
-    text = "# Figures of the paper\n\n`temper reproduce -o gallery` makes each figure of the paper again, with its claims; "
+    """The figures that `temper paper reproduce` wrote, or how to make them."""
+    text = "# Figures of the paper\n\n`temper paper reproduce -o gallery` makes each figure of the paper again, with its claims; "
     text += "[The paper](explanation/paper.md) discusses them.\n\n"
     if folder is None:
         return text + "This site was built without them.\n"

@@ -320,9 +320,9 @@ Expected<std::shared_ptr<const DiscretizationError>> make_discretization_error(
     return refused("`objective=solver_error` is for meshes of the plane; expected `objective=accuracy`");
   if (options.scheme == Scheme::stars) {
     return refused(
-        "`objective=solver_error` is for a scheme that solves, and stars solve nothing; expected `target=vertex`, "
-        "`target=cell` "
-        "or `target=all`");
+        "`objective=solver_error` is for a scheme that solves, and stars solve nothing; expected `scheme=vertex`, "
+        "`scheme=cell` "
+        "or `scheme=all`");
   }
   if (options.fields == 0) return refused("errors are averaged over no field; expected one at least");
   return std::shared_ptr<const DiscretizationError>(std::make_shared<error_detail::SolverErrorModel>(options));

@@ -14,8 +14,8 @@ int fail(const temper::InputError& error) { return std::fprintf(stderr, "%s\n", 
 /// As callers.py has them.
 const std::map<std::string, temper::OptimizeOptions> kSets = {
     {"default", {}},
-    {"vertex", {.target = temper::Scheme::vertex}},
-    {"cell", {.target = temper::Scheme::cell}},
+    {"vertex", {.scheme = temper::Scheme::vertex}},
+    {"cell", {.scheme = temper::Scheme::cell}},
     {"energy", {.objective = temper::Objective::energy}},
     {"positions", {.unknowns = temper::Unknowns::positions, .boundary = temper::BoundaryVertices::slide}}};
 

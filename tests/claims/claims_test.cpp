@@ -217,7 +217,7 @@ TEST(Gallery, TheDocsHaveEveryRowAsItIsFound) {
     const std::vector<std::string> found = lines_of(text), docs = documented(where, name);
     EXPECT_TRUE(found == docs) << "Found, and not in " << where << ":\n"
                                << missing(found, docs) << "In " << where << ", and not found:\n"
-                               << missing(docs, found) << "temper reproduce -o DIR && gallery/update_docs.py DIR";
+                               << missing(docs, found) << "temper paper reproduce -o DIR && gallery/update_docs.py DIR";
   }
 }
 

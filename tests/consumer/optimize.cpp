@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   if (!file) return fail(file.error().what());
   auto loaded = temper::io::make_mesh(*file);
   if (!loaded) return fail(loaded.error().what());
-  auto report = temper::optimize(loaded->mesh, {.target = temper::Scheme::cell}, {.solvers = temper::solvers()});
+  auto report = temper::optimize(loaded->mesh, {.scheme = temper::Scheme::cell}, {.solvers = temper::solvers()});
   if (!report) return fail(report.error().what());
   temper::io::update(*file, *loaded, loaded->mesh, report->vertices);
   auto written = temper::io::write(argv[2], *file);

@@ -72,7 +72,7 @@ OptionValue some_value(const OptionRow& row, Choices& choices) {
 }
 
 OptimizeOptions make_options(Choices& choices) {
-  OptimizeOptions options = choices.one_in(3) ? paper_method() : OptimizeOptions();
+  OptimizeOptions options = choices.one_in(3) ? *options_for("paper") : OptimizeOptions();
   for (const OptionGroup& group : option_groups()) {
     for (const OptionRow& row : group.rows) {
       if (!choices.one_in(6)) continue;

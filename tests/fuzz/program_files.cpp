@@ -88,7 +88,7 @@ std::vector<std::string> certificates() {
 
 std::vector<std::string> traces() {
   std::vector<std::string> all;
-  OptimizeOptions with_removals = paper_method();
+  OptimizeOptions with_removals = *options_for("paper");
   with_removals.max_sweeps = 2;
   for (const OptimizeOptions& options : {OptimizeOptions{.max_sweeps = 3}, with_removals}) {
     std::string text = app::trace_header(input());

@@ -56,7 +56,7 @@ struct Options {
 };
 
 std::vector<Options> option_sets() {
-  OptimizeOptions paper = paper_method();
+  OptimizeOptions paper = *options_for("paper");
   paper.energy = EnergyKind::dT;
   paper.max_sweeps = 20;
   constexpr auto kEnergy = Objective::energy;

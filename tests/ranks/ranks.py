@@ -24,8 +24,8 @@ PARTS = 16384  # vertices of a part of a sweep
 METHODS = {
     "default": [],
     "accuracy": ["--for", "stars"],
-    "repair": ["--repair", "vertices", "--max-sweeps", "40"],
-    "paper": ["--method", "paper", "--max-sweeps", "3"],
+    "repair": ["--set", "repair=vertices", "--set", "max_sweeps=40"],
+    "paper": ["--for", "paper", "--set", "max_sweeps=3"],
 }
 LONGEST = 600  # seconds of one command: ranks that wait for each other for ever are a failure
 
@@ -76,12 +76,12 @@ class Runner:
 def same_bytes(runner, whole):
     n = (4 if whole else 1) * PARTS + 1000
     for space, example in SPACES.items():
-        runner.one("example", example, "--vertices", str(n), "--seed", "4", "-o", f"{space}.vtu")
+        runner.one("example", example, "--vertices", str(n), "--set", "seed=4", "-o", f"{space}.vtu")
     methods = METHODS if whole else {"default": METHODS["default"]}
     for (space, _), (method, options) in itertools.product(SPACES.items(), methods.items()):
         if (space, method) == ("periodic", "repair") or (space != "plane" and method == "paper"):
             continue  # which there is not, and what leaves nothing of a globe
-        options = [*options, *([] if whole else ["--max-sweeps", "2"]), "--quiet"]
+        options = [*options, *([] if whole else ["--set", "max_sweeps=2"]), "--quiet"]
         alone = runner.one("optimize", f"{space}.vtu", "-o", "alone.vtu", *options, "--threads", "1")
         expected = runner.bytes("alone.vtu")
         runner.expect(alone.returncode in (0, 4) and expected is not None, f"{space} {method}, one process: {alone.returncode}")
@@ -125,10 +125,10 @@ def say(runner):
 def refuse(runner):
     """What one rank finds ends all of them: a message, an exit code, and the output as it was."""
     good = ["optimize", "small.vtu", "-o", "out.vtu", "--threads", "1"]
-    runner.one("example", "random", "--vertices", "300", "--seed", "9", "-o", "other.vtu")
+    runner.one("example", "random", "--vertices", "300", "--set", "seed=9", "-o", "other.vtu")
     (runner.folder / "bad.vtu").write_bytes(b"<VTKFile")
     cases = {
-        "other options": (good + ["--max-sweeps", "7"], "rank 2 has another mesh, other options"),
+        "other options": (good + ["--set", "max_sweeps=7"], "rank 2 has another mesh, other options"),
         "another mesh": (["optimize", "other.vtu", *good[2:]], "rank 2 has another mesh, other options"),
         "no file": (["optimize", "none.vtu", *good[2:]], "rank 2: none.vtu: cannot be read"),
         "a damaged file": (["optimize", "bad.vtu", *good[2:]], "rank 2: bad.vtu"),

@@ -85,7 +85,7 @@ Errors improved_errors(const Mesh& input, const Promise& promise) {
   Mesh mesh = input, barrier = input;
   OptimizeOptions options;
   options.objective = promise.objective;
-  options.target = promise.scheme;
+  options.scheme = promise.scheme;
   const auto report = optimize(mesh, options, {.solvers = solvers()});
   EXPECT_TRUE(report) << report.error().what();
   EXPECT_TRUE(optimize(barrier, {.objective = Objective::energy}));

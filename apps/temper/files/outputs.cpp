@@ -88,6 +88,56 @@ void add_mesh_output(Command& command, MeshOutput& target, const std::string& va
        .take = [&target](const std::string&) { target.options.triangle_quality = false; }});
 }
 
+namespace {
+
+const OutputKind* kind_of(std::span<const OutputKind> kinds, const std::string& path) {
+  const std::string suffix = fs::path(path).extension().string();
+  for (const OutputKind& kind : kinds) {
+    const std::vector<std::string> suffixes = separated(kind.suffixes, ' ');
+    if (std::ranges::find(suffixes, suffix) != suffixes.end()) return &kind;
+  }
+  return nullptr;
+}
+
+/// ".json (report), .html (page) or .svg .png .pdf (picture)"
+std::string list_of(std::span<const OutputKind> kinds) {
+  std::string text;
+  for (const OutputKind& kind : kinds) {
+    text += text.empty() ? "" : &kind == &kinds.back() ? " or " : ", ";
+    text += fmt::format("{} ({})", kind.suffixes, kind.what);
+  }
+  return text;
+}
+
+}  // namespace
+
+Option& add_write(Command& command, std::vector<std::string>& paths, std::span<const OutputKind> kinds) {
+  return add_texts(command, "--write", "FILE ...", Values::words, paths,
+                   fmt::format("Further files, by suffix: {}.", list_of(kinds)));
+}
+
+bool is_output_of(std::span<const OutputKind> kinds, const std::string& path) {
+  return kind_of(kinds, path) != nullptr;
+}
+
+FurtherOutputs sorted_outputs(std::string_view verb, const std::vector<std::string>& paths,
+                              std::span<const OutputKind> kinds) {
+  FurtherOutputs outputs;
+  for (const std::string& path : paths) {
+    const OutputKind* const kind = kind_of(kinds, path);
+    if (kind == nullptr) {
+      refuse_usage(std::string(verb), fmt::format("--write: the suffix of {} names no output; expected {}", path, list_of(kinds)));
+    }
+    std::string& place = outputs.*kind->path;
+    if (!place.empty()) {
+      refuse_usage(std::string(verb),
+                   fmt::format("--write: {} and {} are each a {}; expected one", place, path, kind->what));
+    }
+    place = path;
+  }
+  return outputs;
+}
+
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error)) return true;
@@ -122,6 +172,11 @@ void Outputs::expect_mesh(const MeshOutput& output, const std::vector<std::strin
   }
   expect(option, path, *files);
   if (path == kStandardOutput) print_to_standard_error();
+}
+
+void Outputs::expect(const FurtherOutputs& outputs, const std::vector<std::string>& inputs) {
+  for (const std::string& path : {outputs.report, outputs.page, outputs.history, outputs.trace, outputs.picture})
+    expect_text("--write", path, inputs);
 }
 
 void Outputs::expect_picture(const std::string& option, const std::string& path,

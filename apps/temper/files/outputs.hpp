@@ -19,6 +19,27 @@ struct MeshOutput {
 void add_mesh_output(Command& command, MeshOutput& target, const std::string& value_name,
                      const std::string& sentence = "Mesh file to write. Its suffix selects the format.");
 
+/// The further files of a run, one of each kind. Empty: none.
+struct FurtherOutputs {
+  std::string report, page, history, trace, picture;
+};
+/// Adds --write, whose files are sorted by suffix. `kinds` are those of the verb.
+struct OutputKind {
+  std::string_view suffixes, what;  ///< ".svg .png .pdf", "picture"
+  std::string FurtherOutputs::*path;
+};
+inline constexpr OutputKind kReportKind = {".json", "report", &FurtherOutputs::report},
+                            kPageKind = {".html", "page", &FurtherOutputs::page},
+                            kHistoryKind = {".csv", "history", &FurtherOutputs::history},
+                            kTraceKind = {".jsonl", "trace", &FurtherOutputs::trace},
+                            kPictureKind = {".svg .png .pdf", "picture", &FurtherOutputs::picture};
+Option& add_write(Command& command, std::vector<std::string>& paths, std::span<const OutputKind> kinds);
+/// Says whether one of the kinds has the suffix of the path.
+[[nodiscard]] bool is_output_of(std::span<const OutputKind> kinds, const std::string& path);
+/// Sorts the paths by suffix. Failure if a suffix is none of these, or occurs twice.
+[[nodiscard]] FurtherOutputs sorted_outputs(std::string_view verb, const std::vector<std::string>& paths,
+                                            std::span<const OutputKind> kinds);
+
 class Outputs {
  public:
   explicit Outputs(std::string verb) : verb_(std::move(verb)) {}
@@ -30,6 +51,8 @@ class Outputs {
   /// A text file that must not be another output, or one of the files that these inputs are read from. An empty path
   /// means no output.
   void expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
+  /// The files of --write.
+  void expect(const FurtherOutputs& outputs, const std::vector<std::string>& inputs);
   /// A picture, whose suffix gives the format. It has the conditions of a text file.
   void expect_picture(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
 

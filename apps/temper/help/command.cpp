@@ -4,7 +4,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
-#include <set>
+#include <optional>
 #include <utility>
 
 #include "console.hpp"
@@ -14,7 +14,8 @@
 namespace temper::app {
 namespace {
 
-constexpr std::string_view kWholeHelp = "--help-all";
+constexpr std::string_view kHelpAll = "--help-all";
+constexpr std::string_view kHelpPaper = "--help-paper";
 
 }  // namespace
 
@@ -58,18 +59,17 @@ class Command::Parser {
     }
   }
 
-  enum class Asked { work, help, whole_help };
-
-  Asked read(const Arguments& arguments) {
+  /// The form of help that was asked for; nothing: the arguments have been read.
+  std::optional<HelpForm> read(const Arguments& arguments) {
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // CLI11 takes them from the back
     std::string message;
     try {
       app_.parse(reversed);
-      return Asked::work;
+      return asked_;
     } catch (const CLI::CallForHelp&) {
-      return Asked::help;
+      return HelpForm::first;
     } catch (const CLI::CallForAllHelp&) {
-      return Asked::whole_help;
+      return HelpForm::all;
     } catch (const CLI::ExtrasError&) {
       const std::vector<CLI::App*> inner = app_.get_subcommands();
       message = explain_extras(inner.empty() || inner.front()->remaining_size() == 0 ? app_ : *inner.front());
@@ -99,7 +99,7 @@ class Command::Parser {
 
   void declare(const Command& command, CLI::App& app) {
     app.set_help_flag();
-    app.set_help_all_flag(std::string(kWholeHelp));
+    app.set_help_all_flag(std::string(kHelpAll));
     for (const Option& option : command.options_) declare(option, app);
     for (const Option& option : command.options_) {
       if (!option.excludes.empty()) app.get_option(long_name(option.names))->excludes(app.get_option(option.excludes));
@@ -108,7 +108,11 @@ class Command::Parser {
 
   void declare(const Option& option, CLI::App& app) {
     if (option.is_help()) {
-      if (option.names != kWholeHelp) app.set_help_flag(option.names);
+      if (option.names == kHelpPaper) {
+        app.add_flag_callback(option.names, [this] { asked_ = HelpForm::paper; })->trigger_on_parse();
+      } else if (option.names != kHelpAll) {
+        app.set_help_flag(option.names);
+      }
       return;
     }
     CLI::Option* declared = nullptr;
@@ -126,13 +130,11 @@ class Command::Parser {
       declared->allow_extra_args(option.values == Values::words);
     }
     if (!option.value_name.empty()) declared->type_name(option.value_name);
-    declared->required(option.required)->trigger_on_parse(option.at_once);
+    declared->required(option.required);
   }
 
   void use_value(const Option& option, const std::string& text, const CLI::App& app) {
     const std::string name = long_name(option.names);
-    // The parser checks this for other options; it forgets options of this kind each time.
-    if (option.at_once && !taken_at_once_.insert(&option).second) fail(name + " is given more than once");
     // CLI11 gives an option the word after it, even another option: `-o --quiet` would write a file named --quiet.
     const std::string word = text.substr(0, text.find('='));
     if (option.values == Values::one && word.size() > 1 && word[0] == '-' && app.get_option_no_throw(word) != nullptr)
@@ -190,13 +192,21 @@ class Command::Parser {
     return message;
   }
 
-  static std::string explain_extras(const CLI::App& app) {
+  [[nodiscard]] std::string explain_extras(const CLI::App& app) const {
     const std::vector<std::string> extras = app.remaining();
     if (extras.empty()) return "unexpected arguments";
     const std::string& word = extras.front();
-    if (word.size() < 2 || word[0] != '-') return "unexpected argument '" + word + "'";
+    if (word.size() < 2 || word[0] != '-') {
+      const CLI::Option* const output = app.get_option_no_throw("-o");
+      const bool lacks_output = output != nullptr && output->count() == 0;
+      return "unexpected argument '" + word + "'" + (lacks_output ? "; did you mean -o " + word + "?" : "");
+    }
     const std::size_t begin = word.find_first_not_of('-');
     const std::string name = word.substr(begin == std::string::npos ? 0 : begin);
+    if (command_.help_.instead) {
+      const std::string other = command_.help_.instead(name.substr(0, name.find('=')));
+      if (!other.empty()) return "unknown option " + word + "; did you mean " + other + "?";
+    }
     std::vector<std::string_view> known;
     for (const CLI::Option* option : app.get_options()) {
       for (const std::string& other : option->get_lnames()) known.push_back(other);
@@ -213,7 +223,7 @@ class Command::Parser {
 
   const Command& command_;
   CLI::App app_;
-  std::set<const Option*> taken_at_once_;
+  std::optional<HelpForm> asked_;
 };
 
 Command::Command(std::string name, std::string description)
@@ -233,13 +243,17 @@ Option& Command::add_flag(std::string name, bool& target, std::string sentence) 
 
 void Command::add_help(VerbHelp help) {
   help_ = std::move(help);
+  const auto add_form = [this](std::string_view names, std::string_view sentence) {
+    add({.names = std::string(names), .value_name = "", .sentence = std::string(sentence), .take = nullptr});
+  };
   const bool in_two = std::ranges::any_of(options_, &Option::rare);
-  add({.names = "-h,--help",
-       .value_name = "",
-       .sentence = in_two ? "Print this text, without the options that most runs do not need." : "Print this text.",
-       .take = nullptr});
-  if (in_two)
-    add({.names = std::string(kWholeHelp), .value_name = "", .sentence = "Print all options.", .take = nullptr});
+  const bool in_three = !help_.paper.empty();
+  add_form("-h,--help", in_three ? "Print this text. --help-all prints all options, --help-paper the paper's switches."
+                        : in_two ? "Print this text. --help-all prints all options."
+                                 : "Print this text.");
+  if (in_two) add_form(kHelpAll, "Print all options.");
+  if (in_three) add_form(kHelpPaper, "Print the switches of the paper, for --set.");
+  for (Option& option : options_) option.rare = option.rare || option.names == kHelpAll || option.names == kHelpPaper;
 }
 
 Command& Command::add_subcommand(std::string name, std::string description) {
@@ -249,19 +263,12 @@ Command& Command::add_subcommand(std::string name, std::string description) {
 bool Command::parse(const Arguments& arguments) {
   if (print_other_help(arguments, this)) return false;
   Parser parser(*this);
-  const Parser::Asked asked = parser.read(arguments);
-  if (asked != Parser::Asked::work) {
-    print(text_of(help_of(*this, asked == Parser::Asked::whole_help)));
+  if (const std::optional<HelpForm> asked = parser.read(arguments)) {
+    print(text_of(help_of(*this, *asked)));
     return false;
   }
   parser.store(*this);
   return true;
-}
-
-void Command::spell_defaults() {
-  for (Option& option : options_) {
-    if (option.spell) option.default_text = option.spell();
-  }
 }
 
 Option& Command::option(std::string_view name) { return options_[index_of(name)]; }

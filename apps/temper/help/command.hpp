@@ -50,7 +50,8 @@ struct Option {
   Values values = Values::one;
   bool required = false;
   bool rare = false;          ///< left out by --help, not by --help-all
-  bool at_once = false;       ///< taken while the command line is read, before all others
+  /// Values with their meanings, each in a line below the option.
+  std::vector<std::pair<std::string, std::string>> meanings = {};
   std::string excludes = {};  ///< the option that may not be given, too
   std::string default_text = {};
   std::string group = {};               ///< the title above it in --help; Command::add fills it in
@@ -61,7 +62,7 @@ struct Option {
   [[nodiscard]] bool is_help() const { return !take; }
   /// The option must be given, so it has no default.
   Option& require();
-  /// Spells the default now, and again whenever Command::spell_defaults is called.
+  /// Spells the default now.
   Option& defaults_to(std::function<std::string()> spell);
 };
 
@@ -70,11 +71,30 @@ struct Option {
 /// "--output" of "-o,--output": the name of an option in messages.
 [[nodiscard]] std::string long_name(const std::string& names);
 
+struct HelpRow {
+  std::string head, meaning;  ///< "-o, --output FILE" and its sentence
+};
+
+inline constexpr std::size_t kOptionColumns = 27;
+
+/// Below its title a part has rows, or lines.
+struct HelpPart {
+  std::string title;
+  std::vector<HelpRow> rows = {};
+  std::size_t columns = kOptionColumns;  ///< of the heads
+  std::string note = {};                 ///< beside the title
+  std::string lines = {};                ///< to be shown as they are
+};
+
 /// The parts of --help besides the options.
 struct VerbHelp {
   std::string usage;     ///< what follows `temper VERB`
   std::string examples;  ///< lines "temper …"; comments start with #
   std::vector<Exit> exits;
+  /// Further lists of --help-all, and of --help-paper: the options of --set.
+  std::vector<HelpPart> all = {}, paper = {};
+  /// What to write instead of an unknown option, named without dashes; or nothing.
+  std::function<std::string(std::string_view name)> instead = {};
 };
 
 /// Command: a verb, or a word that selects further options of it (`temper example random`).
@@ -94,9 +114,6 @@ class Command {
 
   /// Reads the arguments. False: help was requested and printed. Bad usage is a Failure with a suggestion.
   [[nodiscard]] bool parse(const Arguments& arguments);
-  /// After parse, when an option has changed the defaults of others.
-  void spell_defaults();
-
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::string& description() const { return description_; }
   [[nodiscard]] const VerbHelp& help() const { return help_; }
@@ -106,6 +123,7 @@ class Command {
   [[nodiscard]] const Command* chosen() const { return chosen_; }
   /// An option by one of its names, dashes included. It must be there.
   [[nodiscard]] Option& option(std::string_view name);
+  [[nodiscard]] Option& option_at(std::size_t index) { return options_[index]; }
   [[nodiscard]] bool was_given(std::string_view name) const;
 
  private:

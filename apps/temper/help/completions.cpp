@@ -68,7 +68,7 @@ std::string offer(std::string_view word, std::string_view meaning) {
 /// "all|lines|FILE" as two words and files. Names of values that stand for something are listed here.
 std::string offered_values(const std::string& value_name) {
   static constexpr std::string_view kFiles[] = {"FILE", "IN", "IN0", "MESH", "OUT", "OUTLINE", "TRACE"};
-  static constexpr std::string_view kStandIns[] = {"N", "X", "VERTEX", "KIND[:lon,lat]"};
+  static constexpr std::string_view kStandIns[] = {"N", "X", "X[:absolute]", "VERTEX", "KIND[:lon,lat]"};
   const std::vector<std::string> parts = separated(value_name, '|');
   std::string text;
   for (const std::string& part : parts) {
@@ -115,7 +115,7 @@ bool print_other_help(const Arguments& words, const Command* verb) {
   } else if (row == kFormats.end() || words.size() > 1) {
     throw Failure(Exit::bad_usage, "--help: " + none_of(format, kFormats));
   } else if (row == kFormats.begin()) {
-    print(man_page(verb == nullptr ? help_of_program() : help_of(*verb, true)));
+    print(man_page(verb == nullptr ? help_of_program() : help_of(*verb, HelpForm::all)));
   } else {
     print(kScripts.at(static_cast<std::size_t>(row - kFormats.begin())));
   }

@@ -55,18 +55,24 @@ HelpRow row_of(const Option& option) {
                                    : fmt::format("{} (default: {})", option.sentence, option.default_text)};
 }
 
+/// The rows of an option: itself, and its values that have a meaning of their own.
+void add_rows(std::vector<HelpRow>& rows, const Option& option) {
+  rows.push_back(row_of(option));
+  for (const auto& [value, meaning] : option.meanings) rows.push_back({"    " + value, meaning});
+}
+
 /// Options in the order in which they were added: all, by group, or those that are not rare.
 void add_options(HelpPage& page, const Command& command, bool all) {
   const bool grouped = all || std::ranges::none_of(command.options(), &Option::rare);
   for (const Option& option : command.options()) {
     if (option.rare && !all) continue;
-    const std::string title = option.is_argument() ? "Arguments" : grouped ? option.group : "Options";
-    if (page.parts.empty() || page.parts.back().title != title) page.parts.push_back({title, {}, kOptionColumns});
-    page.parts.back().rows.push_back(row_of(option));
+    const std::string title = option.is_argument() && grouped ? "Arguments" : grouped ? option.group : "Options";
+    if (page.parts.empty() || page.parts.back().title != title) page.parts.push_back({title});
+    add_rows(page.parts.back().rows, option);
   }
   for (const Command& inner : command.subcommands()) {
     page.parts.push_back({inner.name(), {}, kOptionColumns, inner.description()});
-    for (const Option& option : inner.options()) page.parts.back().rows.push_back(row_of(option));
+    for (const Option& option : inner.options()) add_rows(page.parts.back().rows, option);
   }
 }
 
@@ -111,7 +117,7 @@ HelpPart verb_part() {
 
 void add_end(HelpPage& page, std::string examples, std::span<const Exit> exits) {
   page.parts.push_back({"Examples", {}, 0, {}, std::move(examples)});
-  page.parts.push_back({"Exit codes", {}, 1});
+  if (!exits.empty()) page.parts.push_back({"Exit codes", {}, 1});
   for (const Exit exit : exits)
     page.parts.back().rows.push_back({std::to_string(static_cast<int>(exit)), std::string(meaning(exit))});
 }
@@ -124,13 +130,21 @@ std::string text_of(const HelpPart& part) {
 
 }  // namespace
 
-HelpPage help_of(const Command& command, bool all) {
-  HelpPage page = {command.name(), {}, command.description(), command.help().usage, {}};
+HelpPage help_of(const Command& command, HelpForm form) {
+  const VerbHelp& help = command.help();
+  HelpPage page = {command.name(), {}, command.description(), help.usage, {}};
   for (const Verb& verb : verbs()) {
     if (verb.name == page.verb) page.summary = verb.summary;
   }
+  if (form == HelpForm::paper) {
+    page.parts = help.paper;
+    return page;
+  }
+  const bool all = form == HelpForm::all;
   add_options(page, command, all);
-  add_end(page, examples(command, all), command.help().exits);
+  if (all) page.parts.insert(page.parts.end(), help.all.begin(), help.all.end());
+  const bool short_form = !all && std::ranges::any_of(command.options(), &Option::rare);
+  add_end(page, examples(command, all), short_form ? std::span<const Exit>() : std::span(help.exits));
   return page;
 }
 
@@ -153,7 +167,7 @@ HelpPage help_of_program() {
   add_end(page,
           "  temper example horseshoe -o horseshoe.vtu\n"
           "  temper check horseshoe.vtu\n"
-          "  temper optimize horseshoe.vtu -o tempered.vtu --draw before-after.svg\n",
+          "  temper optimize horseshoe.vtu -o tempered.vtu --write before-after.svg\n",
           std::to_array({Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early,
                          Exit::internal, Exit::infeasible}));
   return page;

@@ -10,21 +10,6 @@
 
 namespace temper::app {
 
-struct HelpRow {
-  std::string head, meaning;  ///< "-o, --output FILE" and its sentence
-};
-
-inline constexpr std::size_t kOptionColumns = 26;
-
-/// Below its title a part has rows, or lines.
-struct HelpPart {
-  std::string title;
-  std::vector<HelpRow> rows = {};
-  std::size_t columns = kOptionColumns;  ///< of the heads
-  std::string note = {};                 ///< beside the title
-  std::string lines = {};                ///< to be shown as they are
-};
-
 struct HelpPage {
   std::string verb;  ///< empty: the program itself
   std::string summary, description;
@@ -32,8 +17,9 @@ struct HelpPage {
   std::vector<HelpPart> parts;
 };
 
-/// The help of a verb: with all options, in groups, or without its rare ones.
-[[nodiscard]] HelpPage help_of(const Command& command, bool all);
+/// The forms of the help of a verb: the options of a first run, all options in groups, the switches of the paper.
+enum class HelpForm { first, all, paper };
+[[nodiscard]] HelpPage help_of(const Command& command, HelpForm form);
 [[nodiscard]] HelpPage help_of_program();
 
 /// What --help prints.

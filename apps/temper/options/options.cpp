@@ -153,45 +153,17 @@ Option& add_name(Command& command, const std::string& name, std::vector<std::str
   return command.add({.names = name, .value_name = join(names, "|"), .sentence = description, .take = take});
 }
 
-std::optional<LengthParameter> LengthParameterFlags::value() const {
-  if (absolute) return LengthParameter{*absolute, LengthScale::absolute};
-  if (relative) return LengthParameter{*relative, LengthScale::relative};
-  return std::nullopt;
+LengthParameter to_length_parameter(const std::string& text, Interval allowed) {
+  constexpr std::string_view kAbsolute = ":absolute";
+  if (!text.ends_with(kAbsolute)) return {to_number(text, allowed), LengthScale::relative};
+  return {to_number(text.substr(0, text.size() - kAbsolute.size()), allowed), LengthScale::absolute};
 }
 
-void add_gamma(Command& command, LengthParameterFlags& target, const std::string& default_text) {
-  add_number(command, "--gamma", target.absolute, kPositive,
-             "Gamma of E_BP, as a length in the units of the mesh." + default_text);
-  add_number(command, "--gamma-rel", target.relative, kPositive, "Gamma of E_BP, as a multiple of each edge's length.")
-      .excludes = "--gamma";
-}
-
-void add_h0(Command& command, LengthParameterFlags& target, const std::string& default_text) {
-  add_number(
-      command, "--h0", target.absolute, kNotNegative,
-      "Distance below zero to which E_BHs lets h fall, as a length >= 0. It is -h0 of the paper." + default_text);
-  add_number(command, "--h0-rel", target.relative, kNotNegative, "As --h0, but as a multiple of each edge's length.")
-      .excludes = "--h0";
-}
-
-std::vector<UsedOption> used_options(const Command& command) {
-  std::vector<UsedOption> used;
-  for (const Option& option : command.options()) {
-    if (option.is_argument() || option.is_help()) continue;
-    UsedOption item;
-    item.name = long_name(option.names).substr(2);
-    item.flag = option.is_flag();
-    item.list = option.values != Values::one;
-    const bool given = !option.given.empty();
-    item.used = given || !option.default_text.empty();
-    if (!item.flag && item.used) item.values = given ? option.given : std::vector<std::string>{option.default_text};
-    const bool none = !item.values.empty() && item.values.front() == kNone;
-    const std::string& type = option.value_name;
-    item.number = type == "X" || type == "N" || ((type.starts_with("X|") || type.starts_with("N|")) && !none) ||
-                  type.find_first_not_of("0123456789|") == std::string::npos;
-    used.push_back(std::move(item));
-  }
-  return used;
+Option& add_length_parameter(Command& command, const std::string& name, std::optional<LengthParameter>& target,
+                             Interval allowed, const std::string& description) {
+  const auto take = [allowed, &target](const std::string& text) { target = to_length_parameter(text, allowed); };
+  return command.add(
+      {.names = name, .value_name = "X[:absolute]", .sentence = description, .take = take});
 }
 
 std::string shell_quote(const std::string& word) {
@@ -202,15 +174,18 @@ std::string shell_quote(const std::string& word) {
   return quoted + "'";
 }
 
-std::string command_line(const std::string& verb, const std::vector<std::string>& positionals,
-                         const std::vector<UsedOption>& options) {
-  std::string text = "temper " + verb;
-  for (const std::string& word : positionals) {
-    text += " " + shell_quote(word.starts_with('-') ? "./" + word : word);  // not to be taken for an option
-  }
-  for (const UsedOption& option : options) {
-    if (option.flag && option.used) text += " --" + option.name;
-    for (const std::string& value : option.values) text += " --" + option.name + "=" + shell_quote(value);
+std::string command_line(const std::string& verb, const std::string& path) {
+  // A name with a dash must not be taken for an option.
+  return fmt::format("temper {} {}", verb, shell_quote(path.starts_with('-') ? "./" + path : path));
+}
+
+std::string command_line(const Command& command, const std::vector<std::string>& positionals) {
+  std::string text = "temper " + command.name();
+  for (const std::string& word : positionals) text += " " + shell_quote(word.starts_with('-') ? "./" + word : word);
+  for (const Option& option : command.options()) {
+    if (option.is_argument()) continue;
+    const std::string name = " " + long_name(option.names);
+    for (const std::string& value : option.given) text += name + (option.is_flag() ? "" : "=" + shell_quote(value));
   }
   return text;
 }

@@ -109,28 +109,15 @@ Option& add_choice(Command& command, const std::string& name, const Choice<T> (&
   return add_choice(command, name, choices, use, description).defaults_to(spell);
 }
 
-/// γ and h°: the same pair of options for optimize and check.
-struct LengthParameterFlags {
-  std::optional<double> absolute, relative;
-  [[nodiscard]] std::optional<LengthParameter> value() const;
-};
-void add_gamma(Command& command, LengthParameterFlags& target, const std::string& default_text);
-void add_h0(Command& command, LengthParameterFlags& target, const std::string& default_text);
+/// γ or h°: "0.1" is a multiple of each edge's length, "0.1:absolute" a length.
+[[nodiscard]] LengthParameter to_length_parameter(const std::string& text, Interval allowed);
+Option& add_length_parameter(Command& command, const std::string& name, std::optional<LengthParameter>& target,
+                             Interval allowed, const std::string& description);
 
-/// One option as it was used: given on the command line, or its default.
-struct UsedOption {
-  std::string name;                 ///< without dashes
-  std::vector<std::string> values;  ///< none for a flag
-  bool flag = false;
-  bool number = false;
-  bool list = false;  ///< may have several values
-  bool used = false;  ///< given, or has a default
-};
-[[nodiscard]] std::vector<UsedOption> used_options(const Command& command);
-
-/// `temper VERB POSITIONALS --option value …` with all used options, quoted for a POSIX shell.
-[[nodiscard]] std::string command_line(const std::string& verb, const std::vector<std::string>& positionals,
-                                       const std::vector<UsedOption>& options);
+/// `temper VERB POSITIONALS --option=value …` with the options that were given, quoted for a POSIX shell.
+[[nodiscard]] std::string command_line(const Command& command, const std::vector<std::string>& positionals);
+/// `temper VERB PATH`
+[[nodiscard]] std::string command_line(const std::string& verb, const std::string& path);
 [[nodiscard]] std::string shell_quote(const std::string& word);
 
 /// --projection, of verbs that read a mesh in longitude and latitude (projection_option.hpp).

@@ -9,62 +9,14 @@
 namespace temper::app {
 namespace {
 
-/// A flag that is a shorter form of an option.
-struct Shorthand {
-  std::string flag;
-  std::string_view option, value;
-  std::string sentence;
-};
+/// The word after a length that is no multiple of each edge's length.
+constexpr std::string_view kAbsolute = ":absolute";
 
-const Shorthand kShorthands[] = {
-    {"--no-flips", "flips", "none", "Keep the connectivity."},
-};
-
-std::string with(char to, char from, std::string_view text) {
-  std::string result(text);
-  std::replace(result.begin(), result.end(), from, to);
-  return result;
-}
-std::string dashed(std::string_view text) { return with('-', '_', text); }
-
-/// The program has `for`, which is short; in C++, Python and JavaScript it is a keyword.
-std::string name_of(const OptionRow& row) { return row.name == "target" ? "--for" : "--" + dashed(row.name); }
-
-std::string relative_name(const OptionRow& row) { return name_of(row) + "-rel"; }
-
-std::vector<std::string> names_of(const OptionRow& row) {
-  std::vector<std::string> names = {name_of(row)};
-  if (row.kind == OptionKind::length_parameter) names.push_back(relative_name(row));
-  for (const Shorthand& s : kShorthands) {
-    if (s.option == row.name) names.push_back(s.flag);
-  }
-  return names;
-}
-
-/// The library's name of a choice with this spelling.
-std::string_view choice_of(const OptionRow& row, const std::string& text) {
-  std::vector<std::string> names;
-  for (const std::string_view choice : row.choices) names.push_back(dashed(choice));
-  expect_name(text, std::vector<std::string_view>(names.begin(), names.end()));
-  return row.choices[static_cast<std::size_t>(std::find(names.begin(), names.end(), text) - names.begin())];
-}
-
-OptionValue value_of(const OptionRow& row, const std::string& text) {
-  if (row.optional && text == row.absent_name) return {};
-  if (row.kind == OptionKind::choice) return choice_of(row, text);
-  if (row.kind == OptionKind::number) return to_number(text, row.range);
-  const std::int64_t count = to_count(text, static_cast<std::int64_t>(row.range.low));
-  if (static_cast<double>(count) > row.range.high) throw BadValue(text + " is too large");
-  return count;
-}
-
-std::string value_name(const OptionRow& row) {
-  std::string name = row.kind == OptionKind::number ? "X" : row.kind == OptionKind::count ? "N" : "VERTEX";
-  if (row.kind == OptionKind::choice) {
-    name.clear();
-    for (const std::string_view choice : row.choices) name += (name.empty() ? "" : "|") + dashed(choice);
-  }
-  return name + (row.optional ? "|" + std::string(row.absent_name) : "");
+/// "--time-limit" of a row with a flag.
+std::string flag_of(const OptionRow& row) {
+  std::string flag = "--" + std::string(row.name);
+  std::ranges::replace(flag, '_', '-');
+  return flag;
 }
 
 std::string without_period(std::string text) {
@@ -72,114 +24,160 @@ std::string without_period(std::string text) {
   return text;
 }
 
+OptionValue value_of(const OptionRow& row, const std::string& text) {
+  if (row.optional && text == row.absent_name) return {};
+  switch (row.kind) {
+    case OptionKind::choice:
+      expect_name(text, row.choices);
+      return *std::ranges::find(row.choices, std::string_view(text));
+    case OptionKind::number:
+      return to_number(text, row.range);
+    case OptionKind::length_parameter:
+      return to_length_parameter(text, row.range);
+    default:
+      break;
+  }
+  const std::int64_t count = to_count(text, static_cast<std::int64_t>(row.range.low));
+  if (static_cast<double>(count) > row.range.high) throw BadValue(text + " is too large");
+  return count;
+}
+
+std::string value_name(const OptionRow& row) {
+  std::string name;
+  switch (row.kind) {
+    case OptionKind::choice:
+      for (const std::string_view choice : row.choices) name += (name.empty() ? "" : "|") + std::string(choice);
+      break;
+    case OptionKind::number:
+      name = "X";
+      break;
+    case OptionKind::count:
+      name = "N";
+      break;
+    case OptionKind::length_parameter:
+      name = "X[" + std::string(kAbsolute) + "]";
+      break;
+    case OptionKind::vertex:
+      name = "VERTEX";
+      break;
+  }
+  return name + (row.optional ? "|" + std::string(row.absent_name) : "");
+}
+
+/// A text of the table in the list of --set: boundary=slide.
+std::string in_list(std::string_view text) {
+  return without_period(temper::spell_options(text, [](const OptionRow& row, std::string_view value) {
+    return std::string(row.name) + (value.empty() ? "" : "=" + std::string(value));
+  }));
+}
+
 std::string sentence_of(const OptionRow& row) {
-  std::string sentence = spell_options(row.sentence);
-  if (!row.optional) return sentence;
-  return fmt::format("{}. '{}': {}.", without_period(sentence), row.absent_name,
-                     without_period(spell_options(row.absent)));
+  std::string sentence = in_list(row.sentence);
+  if (row.kind == OptionKind::length_parameter)
+    sentence += fmt::format(". X is a multiple of each edge's length, and X{} is a length", kAbsolute);
+  if (row.kind == OptionKind::vertex) sentence += ". VERTEX is its number in the file";
+  if (row.optional)
+    sentence += fmt::format(". '{}': {}", row.absent_name, in_list(row.absent));
+  return sentence + ".";
 }
 
-/// γ and h°: one option for a length, one for a multiple of each edge's.
-void add_length_parameter(Command& command, const OptionRow& row, OptimizeOptions& target) {
-  const auto add = [&](const std::string& name, LengthScale scale, const std::string& sentence) -> Option& {
-    const auto take = [&row, &target, scale](const std::string& text) {
-      row.set(target, LengthParameter{to_number(text, row.range), scale});
-    };
-    const auto spell = [&row, &target, scale] {
-      const OptionValue value = row.get(target);
-      const auto* length_parameter = std::get_if<LengthParameter>(&value);
-      return length_parameter != nullptr && length_parameter->scale == scale ? option_text(row, value) : std::string();
-    };
-    return command.add(
-        {.names = name, .value_name = "X", .sentence = sentence, .take = take, .spell = spell, .rare = !row.common});
-  };
-  add(name_of(row), LengthScale::absolute,
-      fmt::format("{}, as a length in the units of the mesh. If you do not give it: {}.",
-                  without_period(std::string(row.sentence)), without_period(std::string(row.absent))));
-  add(relative_name(row), LengthScale::relative,
-      fmt::format("As {}, but as a multiple of each edge's length.", name_of(row)))
-      .excludes = name_of(row);
-}
+std::string default_of(const OptionRow& row) { return option_text(row, row.get(OptimizeOptions())); }
 
-void add_row(Command& command, const OptionRow& row, TableOptions& target) {
-  OptimizeOptions& options = target.options;
-  if (row.kind == OptionKind::length_parameter) return add_length_parameter(command, row, options);
-  Option option = {.names = name_of(row),
-                   .value_name = value_name(row),
-                   .sentence = sentence_of(row),
-                   .take = {},
-                   .rare = !row.common};
-  if (row.kind == OptionKind::vertex) {
-    option.take = [&row, &target](const std::string& text) { target.vertices[row.name] = text; };
-    option.sentence = without_period(sentence_of(row)) + ". VERTEX is its number in the file.";
-  } else {
-    option.take = [&row, &options](const std::string& text) { row.set(options, value_of(row, text)); };
-    option.spell = [&row, &options] {
-      const OptionValue value = row.get(options);
-      return std::holds_alternative<std::monostate>(value) ? std::string() : dashed(option_text(row, value));
-    };
+const OptionRow& row_of(std::string_view name, std::span<const std::string_view> names) {
+  std::vector<std::string_view> known(names.begin(), names.end());
+  if (names.empty()) {
+    for (const OptionGroup& group : option_groups()) {
+      for (const OptionRow& row : group.rows) known.push_back(row.name);
+    }
   }
-  command.add(std::move(option));
-}
-
-void add_shorthands(Command& command, const OptionRow& row, OptimizeOptions& options) {
-  std::string before;
-  for (const Shorthand& s : kShorthands) {
-    if (s.option != row.name) continue;
-    const auto take = [&row, &options, &s](const std::string&) { row.set(options, s.value); };
-    command.add({.names = s.flag, .value_name = "", .sentence = s.sentence, .take = take, .rare = true}).excludes =
-        before;
-    before = s.flag;
-  }
+  if (std::ranges::find(known, name) != known.end()) return *find_option(name);
+  const std::string_view guess = nearest(name, known);
+  throw BadValue(fmt::format("there is no option '{}'{}", name,
+                             guess.empty() ? "; --help-all lists the names" : fmt::format("; did you mean '{}'?", guess)));
 }
 
 }  // namespace
 
-void add_option(Command& command, const OptionRow& row, TableOptions& target) {
-  add_row(command, row, target);
-  for (const std::string& name : names_of(row)) {
-    Option& option = command.option(name);
-    option.spell = {};
-    option.default_text.clear();
-    option.rare = false;
-  }
+Assignment parse_assignment(std::string_view name, const std::string& text) {
+  const OptionRow& row = row_of(name, {});
+  if (row.kind == OptionKind::vertex) return {&row, {}, text};
+  return {&row, value_of(row, text)};
 }
 
-bool was_given(const Command& command, const OptionRow& row) {
-  const std::vector<std::string> names = names_of(row);
-  return std::ranges::any_of(names, [&](const std::string& name) { return command.was_given(name); });
-}
-
-void add_group(Command& command, const OptionGroup& group, TableOptions& target) {
-  command.group(std::string(group.title));
-  for (const OptionRow& row : group.rows) {
-    add_row(command, row, target);
-    add_shorthands(command, row, target.options);
-  }
-}
-
-void expect_no_contradictions(Command& command) {
-  for (const Shorthand& s : kShorthands) {
-    const std::string option = name_of(*find_option(s.option));
-    if (!command.was_given(s.flag) || !command.was_given(option)) continue;
-    const std::string& given = command.option(option).given.front();
-    if (given == s.value) continue;
-    refuse_usage(command.name(), fmt::format("{} contradicts {} {}", s.flag, option, given));
-  }
-}
-
-std::vector<std::string> idle_options(const Command& command, const TableOptions& given, const OptimizeOptions& usual) {
-  std::vector<std::string> warnings;
-  for (const OptionGroup& group : temper::option_groups()) {
-    for (const OptionRow& row : group.rows) {
-      const std::string missing = missing_need(row, given.options);
-      if (missing.empty() || row.get(given.options) == row.get(usual)) continue;
-      for (const std::string& name : names_of(row)) {
-        if (command.was_given(name)) warnings.push_back(name + " has no effect without " + spell_options(missing));
+Option& add_set(Command& command, Assignments& target, std::span<const std::string_view> names) {
+  const auto take = [&target, names](const std::string& text) {
+    for (const std::string& part : separated(text)) {
+      const std::size_t equals = part.find('=');
+      if (equals == std::string::npos)
+        throw BadValue(fmt::format("expected NAME=VALUE, found '{}'", part));
+      const std::string name = part.substr(0, equals);
+      row_of(name, names);
+      try {
+        target.push_back(parse_assignment(name, part.substr(equals + 1)));
+      } catch (const BadValue& bad) {
+        throw BadValue(fmt::format("{}: {}", name, bad.what()));
       }
     }
+  };
+  return command.add({.names = "--set",
+                      .value_name = "NAME=VALUE",
+                      .sentence = "Set any option of the lists below. Several are separated by commas.",
+                      .take = take,
+                      .values = Values::repeated});
+}
+
+Option& add_flag_of(Command& command, std::string_view name, Assignments& target) {
+  const OptionRow& row = *find_option(name);
+  return command.add({.names = flag_of(row),
+                      .value_name = value_name(row),
+                      .sentence = sentence_of(row),
+                      .take = [&target, name](const std::string& text) { target.push_back(parse_assignment(name, text)); },
+                      .spell = [&row] { return default_of(row); }});
+}
+
+std::vector<HelpPart> help_parts(bool research) {
+  std::vector<HelpPart> parts;
+  for (const OptionGroup& group : option_groups()) {
+    HelpPart part = {std::string(group.title) + ", for --set"};
+    for (const OptionRow& row : group.rows) {
+      if (row.research != research) continue;
+      std::string sentence = sentence_of(row);
+      if (!row.optional) sentence += fmt::format(" (default: {})", default_of(row));
+      part.rows.push_back({fmt::format("{}={}", row.name, value_name(row)), std::move(sentence)});
+    }
+    if (!part.rows.empty()) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+void assign(const Assignments& assignments, OptimizeOptions& options) {
+  for (const Assignment& a : assignments) {
+    if (a.vertex.empty()) a.row->set(options, a.value);
+  }
+}
+
+std::vector<std::string> idle_assignments(const Assignments& assignments, const OptimizeOptions& options,
+                                       const OptimizeOptions& usual) {
+  std::vector<std::string> warnings;
+  for (const Assignment& a : assignments) {
+    const std::string missing = missing_need(*a.row, options);
+    if (missing.empty() || a.row->get(options) == a.row->get(usual)) continue;
+    const std::string name = spell_options(fmt::format("`{}={}`", a.row->name,
+                                                       option_text(*a.row, a.row->get(options))));
+    warnings.push_back(name + " has no effect without " + spell_options(missing));
   }
   return warnings;
+}
+
+std::string differences(const OptimizeOptions& a, const OptimizeOptions& b) {
+  std::string text;
+  for (const OptionGroup& group : option_groups()) {
+    for (const OptionRow& row : group.rows) {
+      if (row.get(a) == row.get(b)) continue;
+      text += fmt::format("{}{}={}", text.empty() ? "" : ", ", row.name, option_text(row, row.get(a)));
+    }
+  }
+  return text;
 }
 
 InputError spell_options(InputError error) {
@@ -189,7 +187,8 @@ InputError spell_options(InputError error) {
 
 std::string spell_options(std::string_view text) {
   return temper::spell_options(text, [](const OptionRow& row, std::string_view value) {
-    return name_of(row) + (value.empty() ? "" : " " + dashed(value));
+    if (row.common) return flag_of(row) + (value.empty() ? "" : " " + std::string(value));
+    return value.empty() ? std::string(row.name) : fmt::format("--set {}={}", row.name, value);
   });
 }
 

@@ -1,39 +1,51 @@
-// The library's table of options as options of a verb: `max_sweeps` becomes --max-sweeps, as_is becomes as-is. Options
-// that may have no value take "none".
+// The library's table of options in the program: `--set NAME=VALUE` for all of them, and flags for the few that a first
+// run may need. Names and values are those of C++ and Python.
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "help/help.hpp"
 #include "options/options.hpp"
 #include "temper/detail/optimize_table.hpp"
 
 namespace temper::app {
 
-/// The values of the table's options.
-struct TableOptions {
-  OptimizeOptions options;  ///< where none is given, these stay
-  /// Options that name a vertex, as in the file: the vertex is found when the file has been read. "none": absent.
-  std::map<std::string_view, std::string> vertices = {};
+/// An option of the table, and the value that the user gave.
+struct Assignment {
+  const OptionRow* row;
+  OptionValue value;
+  std::string vertex = {};  ///< number of a vertex in the file, which is known when the file has been read
 };
 
-/// Adds one option. It shows no default, as the value in `target` need not be the option's own.
-void add_option(Command& command, const OptionRow& row, TableOptions& target);
-/// After parse.
-[[nodiscard]] bool was_given(const Command& command, const OptionRow& row);
+/// The assignments of a run in the order in which they count: later ones override earlier ones.
+using Assignments = std::vector<Assignment>;
 
-/// Adds the options of a group under its title.
-void add_group(Command& command, const OptionGroup& group, TableOptions& target);
-/// Flags that stand for a value of an option exclude other values of it. After parse.
-void expect_no_contradictions(Command& command);
+/// Returns the setting `name`, `text`. BadValue if there is no such option, or no such value of it.
+[[nodiscard]] Assignment parse_assignment(std::string_view name, const std::string& text);
 
-/// Options that were given, differ from `usual`, and have no effect: the command of a report gives defaults, too.
-[[nodiscard]] std::vector<std::string> idle_options(const Command& command, const TableOptions& given,
-                                                    const OptimizeOptions& usual);
+/// Adds --set. `names` are the options that it may set; none: all.
+Option& add_set(Command& command, Assignments& target, std::span<const std::string_view> names = {});
+/// Adds the flag of one option: --time-limit for time_limit.
+Option& add_flag_of(Command& command, std::string_view name, Assignments& target);
 
-/// A text of the library with the program's names of options.
+/// The table as NAME=VALUE for the help of --set: the switches of the paper, or all other options.
+[[nodiscard]] std::vector<HelpPart> help_parts(bool research);
+
+/// Puts the assignments into options, except vertices.
+void assign(const Assignments& assignments, OptimizeOptions& options);
+
+/// Assignments that differ from `usual` and have no effect.
+[[nodiscard]] std::vector<std::string> idle_assignments(const Assignments& assignments, const OptimizeOptions& options,
+                                                     const OptimizeOptions& usual);
+
+/// "star=0, repair=vertices": the options in which `a` differs from `b`.
+[[nodiscard]] std::string differences(const OptimizeOptions& a, const OptimizeOptions& b);
+
+/// A text of the library with the program's spelling of options: --boundary slide, --set star=0.
 [[nodiscard]] std::string spell_options(std::string_view text);
 /// An error with the names of options as the program spells them.
 [[nodiscard]] InputError spell_options(InputError error);

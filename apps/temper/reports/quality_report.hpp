@@ -31,12 +31,16 @@ struct TextStyle {
 /// The library's sentences, for a terminal without UTF-8.
 [[nodiscard]] std::string in_ascii(std::string text);
 
-/// Counts, margins, all energies, histograms, the worst triangles: `temper check`.
+/// Counts, margins, all energies, histograms, the worst triangles: `temper check --details`.
 [[nodiscard]] std::string quality_text(const Quality& quality, const Input& input, const TextStyle& style);
 
-/// Counts, margins and the energies of one star, before and after: `temper optimize`.
+/// Counts, margins and the energies of one star, before and after: `temper optimize --details`.
 [[nodiscard]] std::string comparison_text(const Quality& before, const Quality& after, int star,
                                           const TextStyle& style);
+
+/// The few numbers that most users need, of a mesh, or before and after a run.
+[[nodiscard]] std::string brief_text(const Quality& quality);
+[[nodiscard]] std::string brief_text(const Quality& before, const Quality& after);
 
 /// "46 of 96 triangles are not well-centered, every edge is regular"
 [[nodiscard]] std::string verdict(const Quality& quality);
@@ -61,10 +65,11 @@ inline constexpr int kSchema = 1;
 /// One JSON text made of several.
 [[nodiscard]] std::string json_list(std::span<const std::string> reports);
 
-/// Everything in `temper optimize --report`.
+/// Everything in the report of `temper optimize --write`.
 struct OptimizeRecord {
   std::string command;
-  std::vector<UsedOption> options;
+  std::string options;   ///< JSON: options that were given, which --options reads
+  std::string settings;  ///< JSON: all options with their values
   const Quality& before;
   std::span<const std::size_t> points_before;  ///< of IN; OUT has the points of the mesh
   const Quality& after;
@@ -76,11 +81,11 @@ struct OptimizeRecord {
 };
 [[nodiscard]] std::string optimize_json(const OptimizeRecord& record);
 
-/// `temper optimize --history`: a header and one line per sweep.
+/// The history of `temper optimize --write`: a header and one line per sweep.
 [[nodiscard]] std::string history_csv(const OptimizeReport& report);
 
-// The output of `--html` of check and optimize: the HTML report (temper/detail/html.hpp). It has the numbers of --json
-// and --report, the reasons of temper explain, and the command to run again. Nothing in it depends on the time a run
+// The page of `--write` of check and optimize: the HTML report (temper/detail/html.hpp). It has the numbers of the JSON
+// reports, the reasons of temper explain, and the command to run again. Nothing in it depends on the time a run
 // took.
 
 /// `quality`: with the list of the worst triangles for the page.

@@ -98,24 +98,6 @@ Json to_json(const io::DataReport& data) {
           {"of_triangles", data.of_triangles}};
 }
 
-/// The number of a text that was accepted as one: ".5", "1." and "007" are numbers too, but not to JSON.
-Json number_as_json(const std::string& text) {
-  std::int64_t whole = 0;
-  const char* const end = text.data() + text.size();
-  const auto as_whole = std::from_chars(text.data(), end, whole);
-  if (as_whole.ec == std::errc() && as_whole.ptr == end) return whole;
-  return std::strtod(text.c_str(), nullptr);
-}
-
-/// Numbers as numbers, a flag as true or false, an option that was not used as null.
-Json to_json(const UsedOption& option) {
-  if (option.flag) return option.used;
-  if (!option.used) return nullptr;
-  if (option.list) return option.values;
-  if (option.number) return number_as_json(option.values.front());
-  return option.values.front();
-}
-
 Json to_json(const SweepRecord& record) {
   return {{"sweep", record.sweep},
           {"energy", number_or_null(record.energy)},
@@ -157,7 +139,8 @@ std::string optimize_json(const OptimizeRecord& record) {
   json["schema"] = kSchema;
   json["command"] = record.command;
   json["version"] = version();
-  for (const UsedOption& option : record.options) json["options"][option.name] = to_json(option);
+  json["options"] = Json::parse(record.options);
+  json["settings"] = Json::parse(record.settings);
   json["before"] = to_json(record.before, record.points_before);
   json["after"] = to_json(record.after, Points());
   json["requirements"] = to_json(record.outcomes);

@@ -171,7 +171,43 @@ std::string verdict(const Quality& quality) {
 std::string next_step(const Quality& quality, const std::string& path, const std::string& projection) {
   if (bad_triangles(quality) == 0 || path == kStandardOutput) return {};
   const std::string map = projection.empty() ? "" : " --projection=" + shell_quote(projection);
-  return fmt::format("Next: {}{}\n", command_line("explain", {path}, {}), map);
+  return fmt::format("Next: {}{}\n", command_line("explain", path), map);
+}
+
+namespace {
+
+/// A row of the short report.
+struct BriefRow {
+  const char* label;
+  std::string (*text)(const Quality&);
+};
+
+std::string brief_number(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "infinite"; }
+
+const BriefRow kBriefRows[] = {
+    {"triangles not well-centered", [](const Quality& q) { return std::to_string(bad_triangles(q)); }},
+    {"least margin", [](const Quality& q) { return brief_number(std::min(q.min_h_over_l, q.min_d_over_l)); }},
+    {"transmissibility, max/median", [](const Quality& q) { return brief_number(q.max_transmissibility_over_median); }},
+    {"angles (degrees)", [](const Quality& q) { return fmt::format("{:.1f} - {:.1f}", q.min_angle_deg, q.max_angle_deg); }},
+    {"least edge/size", [](const Quality& q) { return brief_number(q.min_edge_over_size); }},
+};
+
+}  // namespace
+
+std::string brief_text(const Quality& quality) {
+  std::string text;
+  for (const BriefRow& row : kBriefRows)
+    text += pad_right(row.label, kLabelColumns) + pad_left(row.text(quality), kNumberColumns) + "\n";
+  return text;
+}
+
+std::string brief_text(const Quality& before, const Quality& after) {
+  std::string text = pad_right("", kLabelColumns) + pad_left("before", kNumberColumns) + pad_left("after", kNumberColumns) + "\n";
+  for (const BriefRow& row : kBriefRows) {
+    text += pad_right(row.label, kLabelColumns) + pad_left(row.text(before), kNumberColumns) +
+            pad_left(row.text(after), kNumberColumns) + "\n";
+  }
+  return text;
 }
 
 std::string quality_text(const Quality& quality, const Input& input, const TextStyle& style) {

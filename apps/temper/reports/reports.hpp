@@ -85,7 +85,6 @@ struct NamedOutline {
 
 struct MeshRecord {
   std::string command;
-  std::vector<UsedOption> options;
   const std::vector<NamedOutline>& inputs;
   const MapUsed& map;
   const OutlineMesh& made;

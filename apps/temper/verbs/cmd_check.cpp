@@ -1,4 +1,4 @@
-// temper check IN...: the quality of meshes as a table or as JSON, and requirements on it.
+// temper check IN...: the quality of meshes in a few lines, in full or as JSON, and requirements on it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,14 +20,15 @@
 namespace temper::app {
 namespace {
 
+constexpr OutputKind kCheckOutputs[] = {kReportKind, kPageKind};
+
 struct CheckSettings {
   std::string projection;
   std::vector<std::string> inputs;
-  std::string html;
-  std::vector<std::string> require;
-  LengthParameterFlags gamma, h0;
+  std::vector<std::string> write, require;
+  std::optional<LengthParameter> gamma, h0;
   std::uint64_t worst = 5, threads = 0;
-  bool json = false;
+  bool json = false, details = false;
   std::optional<Metric> metric;
 };
 
@@ -37,14 +38,17 @@ void add_options(Command& command, CheckSettings& s) {
             "One or more mesh files. The content of each file shows its format. '-' reads standard input.")
       .require();
   add_projection(command, s.projection);
+  command.add_flag("--details", s.details, "Print all measures, energies, histograms and the worst triangles.");
   command.add_flag(
       "--json", s.json,
       "Print the report as JSON, with vertices and triangles counted from 0. For several meshes, print a list.");
-  add_text(command, "--html", "FILE", s.html,
-           "Also write an HTML report of one mesh, with its measures and the numbers of each triangle.");
+  add_write(command, s.write, kCheckOutputs);
   add_count(command, "--worst", s.worst, 0, "Number of worst triangles to list.");
-  add_gamma(command, s.gamma, " (default: 1)");
-  add_h0(command, s.h0, " (default: 0)");
+  add_length_parameter(command, "--gamma", s.gamma, kPositive,
+                       "Gamma of E_BP: a multiple of each edge's length, or a length. (default: 1:absolute)");
+  add_length_parameter(command, "--h0", s.h0, kNotNegative,
+                       "Distance below zero to which E_BHs lets h fall, a multiple of each edge's length, or a length. It "
+                       "is -h0 of the paper. (default: 0)");
   add_tensor(command, s.metric, "Take all measures");
   add_count(command, "--threads", s.threads, 0,
             "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
@@ -54,7 +58,7 @@ void add_options(Command& command, CheckSettings& s) {
   command.add_help({"IN ... [options]",
                     "  temper check in.vtu\n"
                     "  temper check in.vtu --json --worst 20\n"
-                    "  temper check in.vtu --html report.html\n"
+                    "  temper check in.vtu --details --write report.html\n"
                     "  temper check in.vtu --require inverted=0,\"min_angle>=1\"\n"
                     "  temper check in.vtu in.vtu --require inverted=0\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
@@ -67,15 +71,17 @@ class Checks {
         s_(settings),
         requirements_(std::move(requirements)),
         threads_(make_threads(settings.threads)) {
-    options_.gamma = s_.gamma.value().value_or(options_.gamma);
-    options_.h0 = s_.h0.value().value_or(options_.h0);
+    options_.gamma = s_.gamma.value_or(options_.gamma);
+    options_.h0 = s_.h0.value_or(options_.h0);
     options_.worst = s_.worst;
     options_.executor = threads_.get();
-    if (!s_.html.empty() && s_.inputs.size() > 1) {
-      refuse_usage("check", fmt::format("--html: expected one mesh, found {}", s_.inputs.size()));
+    files_ = sorted_outputs("check", s_.write, kCheckOutputs);
+    if (!s_.write.empty() && s_.inputs.size() > 1) {
+      refuse_usage("check", fmt::format("--write: expected one mesh, found {}", s_.inputs.size()));
     }
-    expect_without(command, s_.metric, "--html");
-    outputs_.expect_text("--html", s_.html, s_.inputs);
+    if (s_.metric && !files_.page.empty())
+      refuse_usage("check", "--tensor: the page of --write is in the plane of the mesh; expected another output");
+    outputs_.expect(files_, s_.inputs);
   }
 
   void add(const std::string& path) {
@@ -87,15 +93,17 @@ class Checks {
       if (s_.metric) worst.at = s_.metric->from_metric(worst.at);
     }
     const std::vector<Outcome> outcomes = judge(requirements_, measured);
-    if (!s_.html.empty()) {
-      expect_plane(input.mesh(), path, "--html");
-      const std::string again = command_line("check", {path}, used_options(command_));
-      outputs_.write_text(s_.html, check_html(again, input, measured));
+    if (!files_.report.empty())
+      outputs_.write_text(files_.report, check_json(path, measured, input.points, outcomes));
+    if (!files_.page.empty()) {
+      expect_plane(input.mesh(), path, "--write " + files_.page);
+      outputs_.write_text(files_.page, check_html(command_line(command_, {path}), input, measured));
     }
     if (s_.json) {
       reports_.push_back(check_json(path, measured, input.points, outcomes));
     } else {
-      print((std::exchange(first_, false) ? "" : "\n") + quality_text(measured, input, text_style()));
+      print(std::exchange(first_, false) ? "" : "\n");
+      print(s_.details ? quality_text(measured, input, text_style()) : short_text(path, measured));
       flush_output();  // before the verdict on standard error
     }
     if (const Exit verdict = report_unmet(outcomes, path); exit_ == Exit::done) exit_ = verdict;
@@ -117,8 +125,17 @@ class Checks {
   }
 
  private:
+  [[nodiscard]] std::string short_text(const std::string& path, const Quality& measured) const {
+    std::string text = fmt::format("{}: {} vertices, {} triangles\n{}{}\n", path, measured.vertices, measured.triangles,
+                                   brief_text(measured), verdict(measured));
+    if (bad_triangles(measured) > 0 && path != kStandardInput)
+      text += fmt::format("Next: {} -o OUT, or {}\n", command_line("optimize", path), command_line("explain", path));
+    return text;
+  }
+
   const Command& command_;
   const CheckSettings& s_;
+  FurtherOutputs files_;
   Outputs outputs_ = Outputs("check");
   std::vector<Requirement> requirements_;
   std::unique_ptr<Executor> threads_;

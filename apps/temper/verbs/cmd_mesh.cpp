@@ -33,10 +33,14 @@ namespace {
 constexpr Choice<Enclosed> kEnclosed[] = {
     {"by-points", Enclosed::by_points}, {"all", Enclosed::all}, {"alternate", Enclosed::alternate}};
 
+constexpr OutputKind kMeshOutputs[] = {kReportKind, kPictureKind};
+
 struct MeshSettings {
   TimeLimit since;
-  std::string input, coast, lines, size, size_data = "size", report, picture, projection, region_sizes;
+  std::string input, coast, lines, size, size_data = "size", projection, region_sizes;
   MeshOutput output;
+  std::vector<std::string> write;
+  FurtherOutputs files;  ///< of `write`
   MesherOptions options;
   std::optional<double> radius;
   std::uint64_t threads = 0;
@@ -49,9 +53,7 @@ void add_files(Command& command, MeshSettings& s) {
                "--sphere you may leave it out.");
   add_mesh_output(command, s.output, "MESH");
   command.option("--output").require();
-  add_text(command, "--report", "FILE", s.report,
-           "JSON report of the input and of the mesh, before and after the optimization.");
-  add_text(command, "--draw", "FILE", s.picture, "Picture of the mesh and its dual: .svg, .png or .pdf.");
+  add_write(command, s.write, kMeshOutputs);
   command.add_flag("--quiet", s.quiet, "Print warnings and errors only.");
 }
 
@@ -60,7 +62,7 @@ void add_sizes(Command& command, MeshSettings& s) {
            "Target edge length, in the units of the outline or in meters. FILE is a mesh file with a size at each of "
            "its points.")
       .require();
-  add_text(command, "--size-field-data", "NAME", s.size_data,
+  add_text(command, "--size-data", "NAME", s.size_data,
            "Name of the point data with the sizes in the file of --size.")
       .default_text = "size";
   add_number(command, "--grade", s.options.grade, kPositive,
@@ -112,7 +114,7 @@ void add_options(Command& command, MeshSettings& s) {
   command.group("Help");
   command.add_help({"[OUTLINE] -o MESH --size h [options]",
                     "  temper mesh lake.poly -o lake.vtu --size 0.05\n"
-                    "  temper mesh lake.poly -o lake.msh --size 0.05 --grade 0.15 --draw lake.svg\n"
+                    "  temper mesh lake.poly -o lake.msh --size 0.05 --grade 0.15 --write lake.svg\n"
                     "  temper mesh plan.poly -o plan.vtu --size 1 --region-size 2,0.25\n"
                     "  temper mesh coast.geojson -o coast.vtu --size 2000 --projection stereographic\n"
                     "  temper mesh basin.msh -o basin.vtu --size 500 --projection transverse-mercator:9,0\n"
@@ -135,6 +137,14 @@ std::vector<RegionSize> region_sizes(const std::string& text) {
         fmt::format("--region-size: expected REGION,SIZE,... with whole regions and sizes above 0, found '{}'", text));
   }
   return sizes;
+}
+
+/// `--write a.svg OUTLINE`: --write takes all words that follow, so the last one may be the outline.
+void take_input(Command& command, MeshSettings& s) {
+  if (!s.input.empty() || s.write.empty() || is_output_of(kMeshOutputs, s.write.back())) return;
+  s.input = s.write.back();
+  s.write.pop_back();
+  command.option("--write").given.pop_back();
 }
 
 void check_usage(const Command& command, const MeshSettings& s) {
@@ -323,19 +333,18 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   const Quality after = quality(made.mesh, measuring);
 
   print_warnings(outputs.write_mesh(s.output, file_of(made, map), threads.get()));
-  const std::vector<UsedOption> options = used_options(command);
   std::vector<std::string> arguments;
   if (!s.input.empty()) arguments.push_back(s.input);
-  const MeshRecord record = {command_line("mesh", arguments, options), options, inputs, map, made, after};
-  if (!s.report.empty()) outputs.write_text(s.report, mesh_json(record));
-  if (!s.picture.empty()) {
+  const MeshRecord record = {command_line(command, arguments), inputs, map, made, after};
+  if (!s.files.report.empty()) outputs.write_text(s.files.report, mesh_json(record));
+  if (!s.files.picture.empty()) {
     DrawOptions drawing;
     drawing.title =
         fmt::format("{}: {} triangles, {} not well-centered", s.output.path, after.triangles, bad_triangles(after));
-    outputs.write_picture(s.picture, draw_svg(made.mesh, drawing));
+    outputs.write_picture(s.files.picture, draw_svg(made.mesh, drawing));
   }
   if (!s.quiet) {
-    print(mesh_text(record) + fmt::format("\n{}: {}\n", s.output.path, verdict(after)));
+    print(mesh_text(record) + fmt::format("{}: {}\n", s.output.path, verdict(after)));
     if (!s.sphere) print(next_step(after, s.output.path, ""));
   }
   return stopped_early(made.report.stopped) ? Exit::stopped_early : Exit::done;
@@ -352,14 +361,15 @@ Exit run_mesh(const Arguments& arguments) {
   MeshSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
+  take_input(command, s);
   check_usage(command, s);
+  s.files = sorted_outputs("mesh", s.write, kMeshOutputs);
   Outputs outputs("mesh");
   // The points of a .poly may be in the .node next to it.
   const std::vector<std::string> inputs = {s.input, std::filesystem::path(s.input).replace_extension(".node").string(),
                                            s.coast, s.lines, s.size};
   outputs.expect_mesh(s.output, inputs);
-  outputs.expect_text("--report", s.report, inputs);
-  outputs.expect_picture("--draw", s.picture, inputs);
+  outputs.expect(s.files, inputs);
   return mesh(command, s, outputs);
 }
 

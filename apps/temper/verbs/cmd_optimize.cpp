@@ -12,6 +12,7 @@
 #include "console.hpp"
 #include "exit.hpp"
 #include "files/input.hpp"
+#include "files/options_file.hpp"
 #include "files/outputs.hpp"
 #include "files/trace_jsonl.hpp"
 #include "options/options.hpp"
@@ -99,7 +100,7 @@ OptimizeReport run_library(const OptimizeSettings& s, const Input& input, Mesh& 
   hooks.observer = observer;
   hooks.tracer = std::move(tracer);
   if (s.save_every) hooks.best_so_far = saver(s, input, files);
-  OptimizeOptions options = s.options();
+  OptimizeOptions options = s.options;
   if (s.metric) options.tensor = s.metric->tensor();
   Expected<OptimizeReport> report = optimize(mesh, options, hooks);
   if (!report) throw as_failure(spell_options(report.error()));
@@ -150,14 +151,15 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
     if (s.metric) seen = &there.emplace(in_metric(mesh, *s.metric, input));
   };
   look_at();
-  if (!s.picture.empty() || !s.html.empty()) results.original = *seen;
-  const bool shown = !s.report.empty() || !s.html.empty() || !s.picture.empty();
+  if (!s.files.picture.empty() || !s.files.page.empty()) results.original = *seen;
+  const bool shown = !s.files.report.empty() || !s.files.page.empty() || !s.files.picture.empty();
   const bool measured = !s.quiet || shown || !s.requirements.empty();  // else nobody would see it
   if (measured) results.before = quality(*seen, measuring);
   catch_interrupts();
   on_first_rank([&] {
     if (s.quiet) return;
-    print(fmt::format("{}: {} vertices, {} triangles\n", s.input, results.before.vertices, results.before.triangles));
+    print(fmt::format("{}: {} vertices, {} triangles", s.input, results.before.vertices, results.before.triangles));
+    print(s.set_by_target.empty() ? "\n" : fmt::format("; --for {} sets {}\n", s.target, s.set_by_target));
     flush_output();
   });
   const Tracer tracer = tracer_of(s, files, input);
@@ -175,9 +177,9 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
   if (files.trace != nullptr) files.trace->stream.write(trace_end(files.trace->events, mesh, input));
   if (measured) results.after = quality(*seen, measuring);
   const bool all_regular = measured && results.after.non_regular_edges == 0;  // those that may not be flipped, too
-  results.lacks_flips = !all_regular && lacks_flips(s.options(), *seen, files.threads);
+  results.lacks_flips = !all_regular && lacks_flips(s.options, *seen, files.threads);
   results.outcomes = judge(s.requirements, results.after);
-  if (!s.picture.empty()) {
+  if (!s.files.picture.empty()) {
     DrawOptions drawing;
     drawing.title = picture_title(input, results.before, results.after);
     results.picture = draw_before_after_svg(results.original, *seen, drawing);
@@ -193,18 +195,19 @@ VertexId find_vertex(const Input& input, std::string_view option, const std::str
 }
 
 /// Finds the vertices that options name, now that vertices have numbers.
-void find_vertices(TableOptions& table, const Input& input) {
-  for (const auto& [name, number] : table.vertices) {
-    const OptionValue value = number == kNone ? OptionValue() : OptionValue(find_vertex(input, name, number));
-    find_option(name)->set(table.options, value);
+void find_vertices(OptimizeSettings& s, const Input& input) {
+  for (const Assignment& a : s.assignments) {
+    if (a.vertex.empty()) continue;
+    const bool none = a.vertex == a.row->absent_name;
+    a.row->set(s.options, none ? OptionValue() : OptionValue(find_vertex(input, a.row->name, a.vertex)));
   }
 }
 
 std::string ending(const OptimizeReport& report) {
-  const char* sweeps = report.sweeps == 1 ? "sweep" : "sweeps";
-  std::string work = fmt::format("{} {} in {:.3g} s, {} flips", report.sweeps, sweeps, report.seconds, report.flips);
+  std::string work = fmt::format("{} in {:.3g} s, {}", plural(static_cast<std::size_t>(report.sweeps), "sweep", "sweeps"),
+                                 report.seconds, plural(report.flips, "flip", "flips"));
   const auto add_vertices = [&work](std::size_t n, const char* what) {
-    if (n > 0) work += fmt::format(", {} {} {}", n, n == 1 ? "vertex" : "vertices", what);
+    if (n > 0) work += fmt::format(", {} {}", plural(n, "vertex", "vertices"), what);
   };
   add_vertices(report.vertices_removed, "removed");
   add_vertices(report.vertices_inserted, "inserted");
@@ -212,9 +215,9 @@ std::string ending(const OptimizeReport& report) {
     case Stopped::converged:
       return "converged after " + work;
     case Stopped::max_sweeps:
-      return "stopped by --max-sweeps after " + work;
+      return "stopped by max_sweeps after " + work;
     case Stopped::max_outer:
-      return "stopped by --outer after " + work;
+      return "stopped by outer after " + work;
     case Stopped::sweep_limit:
       return "finished after " + work;
     case Stopped::tangled:
@@ -242,19 +245,25 @@ void write_all(const Command& command, const OptimizeSettings& s, Input& input, 
       io::update(input.file, input.loaded, input.loaded.mesh, results.report.vertices, {s.rules, files.threads});
   warn(results, std::span(input.file.warnings).subspan(known));
   warn(results, outputs.write_mesh(s.output, input.file, files.threads));
-  if (files.trace != nullptr) outputs.commit(s.trace, files.trace->stream);
-  if (!s.report.empty() || !s.html.empty()) {
-    const std::vector<UsedOption> options = used_options(command);
-    const std::string again = command_line("optimize", {s.input}, options);
-    const OptimizeRecord record = {
-        again,          options,      results.before,   input.points,     results.after,
-        results.report, results.data, results.outcomes, results.warnings, results.errors_json};
-    if (!s.report.empty()) outputs.write_text(s.report, optimize_json(record));
-    if (!s.html.empty())
-      outputs.write_text(s.html, optimize_html({record, input, results.original, input.loaded.mesh}));
+  if (files.trace != nullptr) outputs.commit(s.files.trace, files.trace->stream);
+  if (!s.files.report.empty() || !s.files.page.empty()) {
+    const OptimizeRecord record = {command_line(command, {s.input}),
+                                   options_json(command, s.assignments),
+                                   options_json(s.options),
+                                   results.before,
+                                   input.points,
+                                   results.after,
+                                   results.report,
+                                   results.data,
+                                   results.outcomes,
+                                   results.warnings,
+                                   results.errors_json};
+    if (!s.files.report.empty()) outputs.write_text(s.files.report, optimize_json(record));
+    if (!s.files.page.empty())
+      outputs.write_text(s.files.page, optimize_html({record, input, results.original, input.loaded.mesh}));
   }
-  if (!s.history.empty()) outputs.write_text(s.history, history_csv(results.report));
-  if (!s.picture.empty()) outputs.write_picture(s.picture, results.picture);
+  if (!s.files.history.empty()) outputs.write_text(s.files.history, history_csv(results.report));
+  if (!s.files.picture.empty()) outputs.write_picture(s.files.picture, results.picture);
 }
 
 /// The relevant row of energies.
@@ -262,37 +271,45 @@ int star_shown(const OptimizeOptions& options) {
   return objective_of(options) != Objective::energy ? 1 : static_cast<int>(options.star);
 }
 
-void print_result(const OptimizeSettings& s, const RunResults& results, const Outputs& outputs) {
-  print(ending(results.report) + "\n\n" +
-        comparison_text(results.before, results.after, star_shown(s.options()), text_style()) +
+/// What --details adds.
+void print_details(const OptimizeSettings& s, const RunResults& results) {
+  print("\n" + comparison_text(results.before, results.after, star_shown(s.options), text_style()) +
         size_text(results.report.size));
   if (const std::string data = data_text(results.data); !data.empty()) print("\n" + data);
-  if (!results.errors_text.empty()) print("\n" + results.errors_text);
   for (const std::string& note : results.report.notes) print("note: " + note + "\n");
-  print(fmt::format("\n{}: {}\n", s.output.path, verdict(results.after)));
-  if (!s.metric) print(next_step(results.after, s.output.path, s.projection));
+  print("\n");
+}
+
+void print_result(const OptimizeSettings& s, const RunResults& results, const Outputs& outputs) {
+  print(brief_text(results.before, results.after));
+  if (s.details) print_details(s, results);
+  if (!results.errors_text.empty()) print("\n" + results.errors_text + "\n");
+  const std::size_t notes = s.details ? 0 : results.report.notes.size();
+  print(ending(results.report) +
+        (notes == 0 ? "\n" : fmt::format("; --details has {}\n", plural(notes, "note", "notes"))));
   std::string written;
   for (const std::string& path : outputs.written()) written += (written.empty() ? "wrote " : ", ") + path;
   print(written + "\n");
+  if (!s.metric) print(next_step(results.after, s.output.path, s.projection));
 }
 
 Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs) {
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   std::optional<TraceFile> trace;
-  if (!s.trace.empty()) trace.emplace(TraceFile{outputs.open(s.trace), {}});
+  if (!s.files.trace.empty()) trace.emplace(TraceFile{outputs.open(s.files.trace), {}});
   const RunFiles files = {threads.get(), trace ? &*trace : nullptr};
   Input input = read_input(s.input, {s.projection, s.fix, threads.get(), true});
-  if (!s.html.empty()) expect_plane(input.mesh(), s.input, "--html");
+  if (!s.files.page.empty()) expect_plane(input.mesh(), s.input, "--write " + s.files.page);
   RunResults results;
   warn(results, input.warnings());
-  find_vertices(s.table, input);
+  find_vertices(s, input);
   s.rules = data_rules(s.point_data, input.file);
   warn(results, doubtful_options(command, s));
-  if (!s.size_field.empty()) {
-    ReadSizeField sizes = read_size_field(s.size_field, s.size_data.empty() ? "size" : s.size_data,
+  if (!s.size.empty()) {
+    ReadSizeField sizes = read_size_field(s.size, s.size_data.empty() ? "size" : s.size_data,
                                           {same_projection(input, s.projection), {}, threads.get(), true});
     warn(results, sizes.warnings);
-    s.table.options.size_field = std::move(sizes.field);
+    s.options.size_field = std::move(sizes.field);
   }
   // The mesh has its geometry now, and on the largest meshes memory is scarce.
   io::release_geometry(input.file, input.loaded);
@@ -309,9 +326,8 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
 
 /// The outputs that the first rank writes for all.
 void leave_outputs_to_first_rank(OptimizeSettings& s) {
-  for (std::string* output : {&s.output.path, &s.report, &s.html, &s.history, &s.picture, &s.trace}) {
-    output->clear();
-  }
+  s.output.path.clear();
+  s.files = {};
   s.requirements.clear();
   s.save_every.reset();
   s.measure_errors = false;
@@ -321,23 +337,19 @@ void leave_outputs_to_first_rank(OptimizeSettings& s) {
 /// A command that has been parsed.
 Exit run_command(Command& command, OptimizeSettings& settings) {
   take_input(command, settings);
-  expect_no_contradictions(command);
-  command.spell_defaults();  // --method may have changed them
-  for (const char* option : {"--size-field", "--html", "--trace"}) expect_without(command, settings.metric, option);
+  settle_options(command, settings);
+  expect_without(command, settings.metric, "--size");
+  if (settings.metric && !(settings.files.page.empty() && settings.files.trace.empty()))
+    refuse_usage("optimize", "--tensor: the page and the trace of --write are in the plane of the mesh; expected neither");
   if (settings.metric) settings.output.options.triangle_quality = false;  // which is of the plane
   settings.requirements = parse_requirements("optimize", settings.require);
 
-  settings.traced = !settings.trace.empty();
+  settings.traced = !settings.files.trace.empty();
   if (!is_first_rank()) leave_outputs_to_first_rank(settings);
 
   Outputs outputs("optimize");
-  const std::vector<std::string> inputs = {settings.input, settings.size_field};
-  if (is_first_rank()) outputs.expect_mesh(settings.output, {settings.size_field});
-  outputs.expect_text("--report", settings.report, inputs);
-  outputs.expect_text("--html", settings.html, inputs);
-  outputs.expect_text("--history", settings.history, inputs);
-  outputs.expect_text("--trace", settings.trace, inputs);
-  outputs.expect_picture("--draw", settings.picture, inputs);
+  if (is_first_rank()) outputs.expect_mesh(settings.output, {settings.size});
+  outputs.expect(settings.files, {settings.input, settings.size});
   return optimize_mesh(command, settings, outputs);
 }
 

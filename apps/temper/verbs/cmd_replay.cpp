@@ -1,18 +1,19 @@
-// temper replay IN TRACE -o OUT: repeats the events of a trace, and writes the mesh that temper optimize wrote.
+// temper paper replay IN TRACE -o OUT: repeats the events of a trace, and writes the mesh that temper optimize wrote.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
+#include <memory>
 #include <string_view>
 
 #include "console.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
 #include "files/trace_jsonl.hpp"
-#include "help/help.hpp"
 #include "options/options.hpp"
 #include "reports/reports.hpp"
 #include "temper/detail/trace.hpp"
+#include "verbs/paper.hpp"
 
 namespace temper::app {
 namespace {
@@ -27,19 +28,14 @@ struct ReplaySettings {
 };
 
 void add_options(Command& command, ReplaySettings& s) {
-  command.group("Files");
   add_argument(command, "IN", s.input, "Mesh that was optimized.").require();
-  add_projection(command, s.projection);
-  add_argument(command, "TRACE", s.trace, "File that temper optimize IN --trace wrote.").require();
+  add_argument(command, "TRACE", s.trace, "Trace (.jsonl) that temper optimize IN --write wrote.").require();
   add_mesh_output(command, s.output, "OUT");
   command.option("--output").require();
+  add_projection(command, s.projection);
   add_point_data(command, s.point_data);
   add_count(command, "--sweeps", s.sweeps, 0, "Last sweep to repeat. 0 stops when IN has been made regular.");
   command.add_flag("--quiet", s.quiet, "Print warnings and errors only.");
-  command.group("Help");
-  command.add_help({"IN TRACE -o OUT [options]",
-                    "  temper optimize in.vtu -o a.vtu --trace t.jsonl && temper replay in.vtu t.jsonl -o b.vtu\n",
-                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
 /// The library counts events; a file has lines.
@@ -58,16 +54,8 @@ std::span<const TraceEvent> wanted(const std::vector<TraceEvent>& events, std::o
   return {events.begin(), past};
 }
 
-}  // namespace
-
-Exit run_replay(const Arguments& arguments) {
-  Command command("replay",
-                  "Repeats the steps of a trace without any optimization, and writes the mesh. The file has the same "
-                  "bytes as the file that temper optimize wrote.");
-  ReplaySettings s;
-  add_options(command, s);
-  if (!command.parse(arguments)) return Exit::done;
-  Outputs outputs("replay");
+Exit replay(const ReplaySettings& s) {
+  Outputs outputs("paper replay");
   outputs.expect_mesh(s.output);
 
   Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
@@ -93,6 +81,17 @@ Exit run_replay(const Arguments& arguments) {
                       replayed->mesh.n_vertices(), replayed->mesh.n_triangles(), s.output.path));
   }
   return Exit::done;
+}
+
+}  // namespace
+
+std::function<Exit()> add_replay(Command& paper) {
+  Command& command = paper.add_subcommand(
+      "replay",
+      "repeat the steps of a trace, and write the mesh with the same bytes as temper optimize did");
+  const auto settings = std::make_shared<ReplaySettings>();
+  add_options(command, *settings);
+  return [settings] { return replay(*settings); };
 }
 
 }  // namespace temper::app

@@ -1,4 +1,4 @@
-// temper reproduce [FIG...] -o DIR: the figures and claims of the paper, made again; see gallery/.
+// temper paper reproduce [FIG...] -o DIR: the figures and claims of the paper, made again; see gallery/.
 //
 // Each figure writes its pictures, then index.html, gallery.json, claims.md and settings.md of all figures so far. So a
 // run that is stopped leaves a folder of whole files that fit together.
@@ -8,6 +8,7 @@
 #include <csignal>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,9 @@
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "options/table_options.hpp"
+#include "suggest.hpp"
 #include "temper/detail/version.hpp"
+#include "verbs/paper.hpp"
 
 namespace temper::app {
 namespace {
@@ -28,30 +31,30 @@ namespace {
 namespace fs = std::filesystem;
 using gallery::Effort, gallery::Figure, gallery::Result, gallery::Tally;
 
-struct Settings {
+constexpr const char* kVerb = "paper reproduce";
+
+struct ReproduceSettings {
   std::vector<std::string> figures;
   std::string output;
   bool reduced = false, list = false, require_claims = false;
-  TableOptions readings;
+  Assignments readings;
 };
 
-/// Replaces one reading of the figures. Open readings are options, as in optimize.
-void add_readings(Command& command, TableOptions& target) {
-  command.group("Readings of the paper; each figure has its own defaults");
-  for (const std::string_view name : gallery::kOpen) add_option(command, *find_option(name), target);
+/// Readings of the paper that are open. Each figure has its own; --set replaces them in all figures.
+void add_readings(Command& command, Assignments& target) {
+  add_set(command, target, gallery::kOpen).sentence =
+      fmt::format("Replace readings of the paper in all figures, separated by commas: {}. See temper optimize "
+                  "--help-paper.",
+                  join(gallery::kOpen));
 }
 
-gallery::Reading reading(const Command& command, const TableOptions& target) {
+gallery::Reading reading(const Assignments& assignments) {
   gallery::Reading given;
-  for (const std::string_view name : gallery::kOpen) {
-    const OptionRow& row = *find_option(name);
-    if (was_given(command, row)) given.push_back({&row, row.get(target.options)});
-  }
+  for (const Assignment& a : assignments) given.push_back({a.row, a.value});
   return given;
 }
 
-void add_options(Command& command, Settings& s) {
-  command.group("Options");
+void add_options(Command& command, ReproduceSettings& s) {
   add_texts(command, "FIG", "", Values::words, s.figures,
             "Figures of the paper: a number 6, a list 6,8 or a range 16-18. Without FIG, all figures are made, which "
             "takes minutes.");
@@ -63,11 +66,6 @@ void add_options(Command& command, Settings& s) {
                    "Exit with 3 if a claim does not hold. All files are written first.");
   command.add_flag("--list", s.list, "List the figures.");
   add_readings(command, s.readings);
-  command.add_help({"[FIG ...] -o DIR [options]",
-                    "  temper reproduce --list\n"
-                    "  temper reproduce 6 -o gallery\n"
-                    "  temper reproduce 3,6-8 -o gallery --reduced\n",
-                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
 }
 
 void list(std::span<const Figure> figures) {
@@ -123,7 +121,7 @@ class Folder {
  private:
   std::string path_;
   Effort effort_;
-  Outputs outputs_{"reproduce"};
+  Outputs outputs_{kVerb};
 };
 
 /// Shows on a terminal the figure in progress.
@@ -196,33 +194,35 @@ void print_summary(const Made& made) {
   print(text);
 }
 
-}  // namespace
-
-Exit run_reproduce(const Arguments& arguments) {
-  Command command("reproduce",
-                  "Makes the figures of \"Not so HOT Triangulations\" again, and tests each claim of the paper.");
-  Settings s;
-  add_options(command, s);
-  if (!command.parse(arguments)) return Exit::done;
+Exit reproduce(const ReproduceSettings& s) {
   const Expected<std::vector<Figure>> chosen = gallery::select(gallery::figures(), s.figures);
-  if (!chosen) refuse_usage("reproduce", chosen.error().what());
+  if (!chosen) refuse_usage(kVerb, chosen.error().what());
   if (s.list) {
     list(*chosen);
     return Exit::done;
   }
-  if (s.output.empty()) refuse_usage("reproduce", "--output is required");
+  if (s.output.empty()) refuse_usage(kVerb, "-o DIR is missing: the folder for the figures");
   const Effort effort = s.reduced ? Effort::reduced : Effort::full;
   Folder folder(s.output, effort);
 
-  gallery::set_reading(reading(command, s.readings));
+  gallery::set_reading(reading(s.readings));
   const Made made = make(*chosen, effort, folder);
   print_summary(made);
   print(folder.file("index.html") + "\n");
   flush_output();  // before the verdict on standard error
   const Tally tally = all_claims(made.results);
   if (!s.require_claims || tally.hold == tally.all) return Exit::done;
-  print_error(fmt::format("reproduce: {} of {} claims do not hold", tally.all - tally.hold, tally.all));
+  print_error(fmt::format("{}: {} of {} claims do not hold", kVerb, tally.all - tally.hold, tally.all));
   return Exit::requirement;
+}
+
+}  // namespace
+
+std::function<Exit()> add_reproduce(Command& paper) {
+  Command& command = paper.add_subcommand("reproduce", "make the figures of the paper again, and test its claims");
+  const auto settings = std::make_shared<ReproduceSettings>();
+  add_options(command, *settings);
+  return [settings] { return reproduce(*settings); };
 }
 
 }  // namespace temper::app

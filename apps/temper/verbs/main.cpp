@@ -28,11 +28,11 @@ namespace temper::app {
 
 std::span<const Verb> verbs() {
   static constexpr auto kVerbs = std::to_array<Verb>({
-      {"mesh", "mesh an outline, and optimize the mesh until every triangle is well-centered", run_mesh},
-      {"optimize", "move vertices, change weights and flip edges until every triangle is well-centered", run_optimize},
+      {"check", "report on the quality of a mesh, and test requirements", run_check},
+      {"optimize", "make every triangle well-centered: move vertices, change weights, flip edges", run_optimize},
+      {"mesh", "mesh an outline, and optimize the mesh", run_mesh},
       {"weights", "find weights for a mesh as it is, or prove that there are none", run_weights},
       {"explain", "explain why triangles are not well-centered, and find cures", run_explain},
-      {"check", "report on the quality of a mesh, and test requirements", run_check},
 #ifdef TEMPER_WITH_ERRORS
       {"errors", "measure the errors that solvers make on a mesh", run_errors},
 #endif
@@ -40,8 +40,7 @@ std::span<const Verb> verbs() {
       {"draw", "draw triangles, dual and weights as SVG, PNG or PDF", run_draw},
       {"convert", "write a mesh in another file format", run_convert},
       {"example", "make an example mesh", run_example},
-      {"replay", "repeat the steps in a trace of optimize", run_replay},
-      {"reproduce", "make the figures and claims of the paper again", run_reproduce},
+      {"paper", "make the figures of the paper again, or repeat the steps of a run", run_paper},
   });
   return kVerbs;
 }

@@ -1,24 +1,14 @@
-// temper reproduce, in a program that was built without the paper's figures.
-#include "exit.hpp"
-#include "help/command.hpp"
-#include "verbs.hpp"
+// temper paper reproduce, in a program that was built without the paper's figures.
+#include "verbs/paper.hpp"
 
 namespace temper::app {
-namespace {
 
-constexpr const char* kMissing =
-    "this program was built without the paper's figures. Next: build it with -DTEMPER_BUILD_GALLERY=ON";
-
-}  // namespace
-
-Exit run_reproduce(const Arguments& arguments) {
-  const bool help = !arguments.empty() && (arguments.front() == "-h" || arguments.front().starts_with("--help"));
-  if (!help) throw Failure(Exit::bad_usage, std::string("reproduce: ") + kMissing);
-  Command command("reproduce",
-                  std::string("Makes the figures of \"Not so HOT Triangulations\" again. But ") + kMissing + ".");
-  command.add_help({"", "  temper reproduce --help\n", {Exit::done, Exit::bad_usage}});
-  static_cast<void>(command.parse(arguments));
-  return Exit::done;
+std::function<Exit()> add_reproduce(Command& paper) {
+  paper.add_subcommand("reproduce", "make the figures of the paper again; this program was built without them");
+  return []() -> Exit {
+    refuse_usage("paper reproduce",
+                 "this program was built without the paper's figures. Next: build it with -DTEMPER_BUILD_GALLERY=ON");
+  };
 }
 
 }  // namespace temper::app

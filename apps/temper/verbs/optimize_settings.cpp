@@ -6,79 +6,122 @@
 #include <filesystem>
 
 #include "files/input.hpp"
+#include "files/options_file.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "reports/reports.hpp"
+#include "suggest.hpp"
 
 namespace temper::app {
 namespace {
 
-void add_files(Command& command, OptimizeSettings& s) {
-  command.group("Files");
+constexpr OutputKind kRunOutputs[] = {kReportKind, kPageKind, kHistoryKind, kTraceKind, kPictureKind};
+
+std::vector<std::string_view> names_of(std::span<const Preset> presets, bool research) {
+  std::vector<std::string_view> names;
+  for (const Preset& preset : presets) {
+    if (research || !preset.research) names.push_back(preset.name);
+  }
+  return names;
+}
+
+/// The presets with their sentences, for the lines below an option.
+std::vector<std::pair<std::string, std::string>> meanings_of(std::span<const Preset> presets) {
+  std::vector<std::pair<std::string, std::string>> meanings;
+  for (const Preset& preset : presets) {
+    if (!preset.research) meanings.emplace_back(preset.name, preset.sentence);
+  }
+  return meanings;
+}
+
+void add_target(Command& command, OptimizeSettings& s) {
+  Option& target = add_name(
+      command, "--for", names_of(targets(), true), [&s](std::string_view name) { s.target = name; },
+      "What the mesh is for.");
+  target.value_name = "TARGET";
+  target.meanings = meanings_of(targets());
+  target.meanings.emplace_back("paper", "Algorithm 1 of the paper; see --help-paper");
+  target.defaults_to([&s] { return s.target; });
+  add_name(
+      command, "--effort", names_of(efforts(), true), [&s](std::string_view name) { s.effort = name; },
+      "Time to spend on repairs and lower errors.")
+      .defaults_to([&s] { return s.effort; });
+}
+
+void add_keep(Command& command, OptimizeSettings& s) {
+  const std::vector<std::string_view> names = names_of(keeps(), true);
+  const auto take = [&s, names](const std::string& text) {
+    for (const std::string& name : separated(text)) {
+      expect_name(name, names);
+      s.keep.push_back(name);
+    }
+  };
+  command.add({.names = "--keep",
+               .value_name = "LIST",
+               .sentence = fmt::format("Parts that stay: {}.", join(names, ", ")),
+               .take = take,
+               .values = Values::repeated});
+}
+
+/// The options of a first run.
+void add_common(Command& command, OptimizeSettings& s) {
+  command.group("Options");
   // These two are not marked as required: see take_input.
-  add_argument(command, "IN", s.input, "Mesh to improve. Its content shows the format.");
-  add_projection(command, s.projection);
-  add_mesh_output(command, s.output, "OUT",
-                  "File for the improved mesh, which may be IN. Its suffix selects the format.");
-  add_point_data(command, s.point_data);
-  add_text(command, "--report", "FILE", s.report, "JSON report: mesh before and after, history, command to run again.");
-  add_text(command, "--html", "FILE", s.html,
-           "HTML report: mesh before and after, measures, history, command to run again.");
-  add_text(command, "--history", "FILE", s.history, "CSV file with one line per sweep.");
-  add_text(command, "--trace", "FILE", s.trace,
-           "File for every move, flip and removal, with one JSON object per line. temper replay reads it.");
-  add_text(command, "--draw", "FILE", s.picture, "Picture (.svg, .png, .pdf) of the mesh before and after.");
-#ifdef TEMPER_WITH_ERRORS
-  command.add_flag("--measure-errors", s.measure_errors,
-                   "Also measure the errors of solvers before and after, as temper errors does.");
-#endif
+  add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.");
+  add_mesh_output(command, s.output, "OUT");
+  command.option("--output").sentence = "File for the result. Its suffix selects the format. '-': standard output.";
+  add_target(command, s);
+  add_keep(command, s);
+  add_flag_of(command, "boundary", s.assignments).sentence =
+      "The boundary stays bit for bit, or its vertices slide along straight pieces, or long edges next to short ones "
+      "are split.";
+  add_texts(command, "--fix", "TAG ...", Values::words, s.fix,
+            "Tags or physical names of vertices that keep their positions.");
+  add_text(command, "--size", "FILE", s.size, "Mesh file with the target edge length at each of its points.");
+  add_flag_of(command, "min_edge", s.assignments).sentence = "Least length of interior edges over the local size.";
+  add_flag_of(command, "min_dual", s.assignments).sentence = "Least length of their duals over the local size.";
   add_requirements(command, s.require).sentence =
-      "Requirements, such as outside=0,min_h=0.05. If one is not met, exit with 3 after all files are written. See "
-      "temper check --help.";
+      "Requirements, such as outside=0. If one is not met, exit with 3.";
+  add_flag_of(command, "time_limit", s.assignments).value_name = "SECONDS";
+  add_write(command, s.write, kRunOutputs);
   command.add_flag("--quiet", s.quiet, "Print warnings and errors only.");
 }
 
-void add_constraints(Command& command, OptimizeSettings& s) {
-  command.group("Constraints and sizes");
-  add_texts(command, "--fix", "TAG ...", Values::words, s.fix,
-            "Tags or physical names of vertices that keep their positions. Several may follow.");
+void add_rare(Command& command, OptimizeSettings& s) {
+  const std::size_t first = command.options().size();
+  command.group("Further options");
+  add_set(command, s.assignments);
+  add_text(command, "--options", "FILE", s.options_file,
+           "JSON file with options, such as {\"for\": \"cell\", \"max_sweeps\": 20}. A report of temper optimize is such a "
+           "file. Options of the command line override it.");
+  command.add_flag("--details", s.details, "Print all measures, energies, sizes and notes.");
+#ifdef TEMPER_WITH_ERRORS
+  command.add_flag("--measure-errors", s.measure_errors,
+                   "Measure the errors of solvers before and after, as temper errors does, and print them.");
+#endif
+  add_projection(command, s.projection);
   add_tensor(command, s.metric, "Make meshes well-centered");
-  add_text(command, "--size-field", "FILE", s.size_field,
-           "Mesh file whose point data give the target edge length at each point. Without it, the sizes of the input "
-           "are used.");
-  add_text(command, "--size-field-data", "NAME", s.size_data,
-           "Name of these point data in the file of --size-field. (default: size)");
-}
-
-void add_run(Command& command, OptimizeSettings& s) {
-  command.group("The run");
+  add_text(command, "--size-data", "NAME", s.size_data, "Name of the point data in the file of --size.").default_text =
+      "size";
+  add_point_data(command, s.point_data);
   add_count(command, "--threads", s.threads, 0,
             "Number of threads of each process. 0 uses all threads of the machine, or all that the process may use. "
             "The result does not depend on it.");
   add_number(
       command, "--save-every", s.save_every, kNotNegative,
       "Write the best mesh so far to OUT during the run, at most once in this many seconds. 0 writes every new one.");
-  std::vector<std::string_view> names;
-  std::string help = "Initial values of all options.";
-  for (const Method& method : methods()) {
-    names.push_back(method.name);
-    help += fmt::format(" '{}': {}{}", method.name, method.sentence, method.sentence.ends_with('.') ? "" : ".");
-  }
-  // At once, before all other options are taken: options that are given override the method's.
-  const auto take = [&s](std::string_view name) {
-    s.method = &*std::find_if(methods().begin(), methods().end(), [&](const Method& m) { return m.name == name; });
-    s.table.options = s.method->options();
-  };
-  Option& option = add_name(command, "--method", names, take, help);
-  option.at_once = true;
-  option.default_text = std::string(methods().front().name);
+  for (std::size_t i = first; i < command.options().size(); ++i) command.option_at(i).rare = true;
+  for (const char* name : {"--format", "--encoding", "--no-triangle-quality"}) command.option(name).rare = true;
 }
 
-/// Rare options of this verb's own, which a first run does not need. The library's table marks its own rare options.
-constexpr const char* kRare[] = {"--projection", "--format",     "--encoding",        "--point-data",
-                                 "--history",    "--trace",      "--threads",         "--method",
-                                 "--save-every", "--size-field", "--size-field-data", "--no-triangle-quality",
-                                 "--tensor"};
+/// Targets of research, which --help-paper lists.
+HelpPart research_targets() {
+  HelpPart part = {"Targets of research, for --for"};
+  for (const Preset& preset : targets()) {
+    if (preset.research) part.rows.push_back({std::string(preset.name), std::string(preset.sentence) + "."});
+  }
+  return part;
+}
 
 /// Says whether writing puts a new file there: not on standard output, a pipe or a device.
 bool is_replaced(const std::string& path) {
@@ -87,61 +130,106 @@ bool is_replaced(const std::string& path) {
          (!std::filesystem::exists(path, ignored) || std::filesystem::is_regular_file(path, ignored));
 }
 
+/// Returns a word of --write or --fix that must be the input; empty: none.
+std::string* last_word(OptimizeSettings& s) {
+  if (!s.write.empty() && !is_output_of(kRunOutputs, s.write.back())) return &s.write.back();
+  return s.fix.size() > 1 ? &s.fix.back() : nullptr;
+}
+
+/// Refuses two values for one option.
+void expect_one_value(const Assignments& assignments) {
+  for (auto a = assignments.begin(); a != assignments.end(); ++a) {
+    if (std::any_of(assignments.begin(), a, [a](const Assignment& other) { return other.row == a->row; }))
+      refuse_usage("optimize", fmt::format("{} is set more than once", a->row->name));
+  }
+}
+
+/// Refuses settings that change what --keep names.
+void expect_kept(const OptimizeSettings& s) {
+  for (const Preset& part : keeps()) {
+    if (std::ranges::find(s.keep, part.name) == s.keep.end()) continue;
+    OptimizeOptions kept = s.options;
+    part.apply(kept);
+    if (const std::string changed = differences(s.options, kept); !changed.empty())
+      refuse_usage("optimize", fmt::format("--keep {} contradicts {}", part.name, changed));
+  }
+}
+
 }  // namespace
 
 Command optimize_command(OptimizeSettings& settings) {
   Command command("optimize",
-                  "Moves vertices, changes weights and flips edges until every triangle is well-centered. The "
-                  "orthocenter is then inside the triangle, and each dual edge crosses its edge. The boundary of the "
-                  "domain stays bit for bit, unless --boundary allows changes.");
-  add_files(command, settings);
-  add_run(command, settings);
-  add_constraints(command, settings);
-  for (const OptionGroup& group : option_groups()) add_group(command, group, settings.table);
-  for (const char* name : kRare) command.option(name).rare = true;
-  command.group("Help");
-  command.add_help(
-      {"IN -o OUT [options]",
-       "  temper optimize in.vtu -o out.vtu\n"
-       "  temper optimize in.vtu -o out.vtu --report report.json --draw before-after.svg\n"
-       "  temper optimize in.vtu -o out.vtu --html report.html\n"
-       "  temper optimize in.vtu -o out.vtu --require outside=0,not_crossed=0\n"
-       "  temper optimize in.vtu -o out.vtu --weights-only --no-flips\n"
-       "  temper optimize in.vtu -o out.vtu --energy F --star 1 --solver golden --max-sweeps 20\n"
-       "  temper optimize in.vtu -o out.vtu --gamma-rel 0.1 --time-limit 60\n"
-       "  temper optimize in.vtu -o out.vtu --for vertex --measure-errors\n"
-       "  temper optimize in.vtu -o out.vtu --removal patch --trace trace.jsonl\n"
-       "  temper optimize in.vtu -o out.vtu --method paper --energy dT --removal none\n"
-       "  temper optimize in.vtu -o out.vtu --save-every 600\n",
-       {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early, Exit::internal}});
+                  "Moves vertices, changes weights and flips edges until every orthocenter is inside its triangle and "
+                  "each dual edge crosses its edge. The boundary stays bit for bit, unless --boundary allows changes.");
+  add_common(command, settings);
+  add_rare(command, settings);
+  command.group("Options");
+  VerbHelp help = {"IN -o OUT [options]",
+                   "  temper optimize in.vtu -o out.vtu\n"
+                   "  temper optimize in.msh -o out.msh --for cell --require outside=0 --write out.html out.svg\n"
+                   "  temper optimize in.vtu -o out.vtu --keep positions,edges\n"
+                   "  temper optimize in.vtu -o out.vtu --set energy=F,star=1,solver=golden,max_sweeps=20\n"
+                   "  temper optimize in.vtu -o out.vtu --options report.json --time-limit 60\n"
+                   "  temper optimize in.vtu -o out.vtu --for vertex --measure-errors\n"
+                   "  temper optimize in.vtu -o out.vtu --for paper --set energy=dT,removal=none\n"
+                   "  temper optimize in.vtu -o out.vtu --save-every 600\n",
+                   {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early,
+                    Exit::internal}};
+  help.all = help_parts(false);
+  help.paper = help_parts(true);
+  help.paper.push_back(research_targets());
+  help.instead = [](std::string_view name) {
+    std::string option(name);
+    std::ranges::replace(option, '-', '_');
+    return find_option(option) != nullptr ? fmt::format("--set {}=VALUE", option) : std::string();
+  };
+  command.add_help(std::move(help));
   return command;
 }
 
 void take_input(Command& command, OptimizeSettings& s) {
-  if (s.output.path.empty()) refuse_usage("optimize", "--output is required");
+  if (s.input.empty()) {
+    if (std::string* const word = last_word(s)) {
+      s.input = *word;
+      const bool written = !s.write.empty() && word == &s.write.back();
+      (written ? s.write : s.fix).pop_back();
+      command.option(written ? "--write" : "--fix").given.pop_back();
+    }
+  }
+  if (s.input.empty()) refuse_usage("optimize", "IN is missing: the mesh to improve");
+  if (s.output.path.empty()) refuse_usage("optimize", "-o OUT is missing: the file for the result");
   if (s.save_every && !is_replaced(s.output.path))
     throw Failure(
         Exit::bad_usage,
         fmt::format(
             "optimize: --save-every: {} is not a file that can be replaced. Next: give the name of a file to -o",
             s.output.path));
-  if (!s.input.empty()) return;
-  if (s.fix.size() < 2) refuse_usage("optimize", "IN is missing: the mesh to improve");
-  s.input = s.fix.back();
-  s.fix.pop_back();
-  command.option("--fix").given = s.fix;
+  s.files = sorted_outputs("optimize", s.write, kRunOutputs);
+}
+
+void settle_options(Command& command, OptimizeSettings& s) {
+  expect_one_value(s.assignments);
+  if (!s.options_file.empty()) read_options(command, s.options_file, s.assignments);
+  const std::vector<std::string_view> keep(s.keep.begin(), s.keep.end());
+  const Expected<OptimizeOptions> options = options_for(s.target, s.effort, keep);
+  if (!options) refuse_usage("optimize", options.error().message);
+  s.options = *options;
+  s.set_by_target = differences(*options_for(s.target), OptimizeOptions());
+  assign(s.assignments, s.options);
+  expect_kept(s);
 }
 
 std::vector<std::string> doubtful_options(const Command& command, const OptimizeSettings& s) {
-  std::vector<std::string> warnings = idle_options(command, s.table, s.method->options());
-  if (s.options().repair == Repair::vertices && s.options().size_band) {
+  std::vector<std::string> warnings =
+      idle_assignments(s.assignments, s.options, *options_for(s.target, s.effort));
+  if (s.options.repair == Repair::vertices && s.options.size_band) {
     warnings.emplace_back(
         spell_options("`size_band` does not restrict the vertices that `repair=vertices` removes and inserts"));
   }
-  if (s.size_field.empty() && command.was_given("--size-field-data")) {
-    warnings.emplace_back("--size-field-data has no effect without --size-field");
+  if (s.size.empty() && command.was_given("--size-data")) {
+    warnings.emplace_back("--size-data has no effect without --size");
   }
-  if (!(s.report.empty() && s.html.empty()) && same_file(s.input, s.output.path)) {
+  if (!(s.files.report.empty() && s.files.page.empty()) && same_file(s.input, s.output.path)) {
     warnings.emplace_back("--output replaces the input: the command in the report would start from the improved mesh");
   }
   return warnings;

@@ -21,30 +21,35 @@ namespace temper::app {
 struct OptimizeSettings {
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
   std::string projection;
-  std::string input, report, html, history, picture, trace;
+  std::string input;
   MeshOutput output;
-  std::vector<std::string> fix, require;
-  const Method* method = methods().data();
-  TableOptions table;  ///< first the values of the method
+  std::vector<std::string> write;
+  FurtherOutputs files;  ///< of `write`
+  std::string target = "any", effort = "normal", options_file;
+  std::vector<std::string> keep, fix, require;
+  Assignments assignments;
+  OptimizeOptions options;       ///< what follows from target, effort, keep and assignments
+  std::string set_by_target;     ///< options that the target sets, for people
   std::uint64_t threads = 0;
-  bool quiet = false, measure_errors = false;
+  bool quiet = false, details = false, measure_errors = false;
   bool traced = false;               ///< by any writer of the trace
   std::optional<double> save_every;  ///< seconds between two times that the best mesh so far is written
   std::vector<Requirement> requirements;
-  std::string size_field, size_data;
+  std::string size, size_data;
   std::optional<Metric> metric;  ///< of the diffusion tensor
   std::vector<std::string> point_data;
   io::DataRules rules;  ///< of point_data
-
-  [[nodiscard]] const OptimizeOptions& options() const { return table.options; }
 };
 
 /// The verb, whose options go into `settings`.
 [[nodiscard]] Command optimize_command(OptimizeSettings& settings);
 
-/// `--fix 1 2 IN -o OUT`: --fix takes all words that follow, so without other input the last one is the input. Failure
-/// when there is still none, or no output.
+/// `--fix 1 2 IN -o OUT`: --fix and --write take all words that follow, so without other input the last one is the
+/// input. Failure when there is still none, or no output.
 void take_input(Command& command, OptimizeSettings& settings);
+
+/// Finds the options that follow from the command line and the options file. Failure if they contradict each other.
+void settle_options(Command& command, OptimizeSettings& settings);
 
 /// Options that were given and cannot have their usual effect.
 [[nodiscard]] std::vector<std::string> doubtful_options(const Command& command, const OptimizeSettings& settings);

@@ -47,7 +47,8 @@ struct OptionRow {
   std::span<const std::string_view> choices = {};  ///< Names of the choices, for OptionKind::choice
   OptionRange range = {};                          ///< Range of counts, numbers and length_parameters
   bool optional = false;                           ///< Option may be absent
-  bool common = false;                             ///< Option is one of the few that a first run may need
+  bool common = false;                             ///< Option has a flag of its own in the program
+  bool research = false;                           ///< Option is a switch of the paper, for the study of methods
   std::string_view absent_name = "auto";           ///< Text for an absent value; "auto": temper chooses
   std::string_view absent = {};                    ///< Meaning of an absent value
   std::array<OptionNeed, 3> needs = {};
@@ -61,15 +62,20 @@ struct OptionGroup {
   std::span<const OptionRow> rows;
 };
 
-/// A set of options from which a run may start.
-struct Method {
+/// A word of a user that sets several options.
+struct Preset {
   std::string_view name;
-  std::string_view sentence;
-  OptimizeOptions (*options)();
+  std::string_view sentence;             ///< Who needs it and what it does, in ASCII
+  void (*apply)(OptimizeOptions&);
+  bool research = false;                 ///< Preset is for the study of methods
 };
 
-/// The methods; the first is the default.
-[[nodiscard]] std::span<const Method> methods();
+/// The targets: solvers and other uses of a mesh. The first is the default.
+[[nodiscard]] std::span<const Preset> targets();
+/// The efforts: how much time a run may take. "normal" is the default.
+[[nodiscard]] std::span<const Preset> efforts();
+/// The parts of a mesh that a run can keep.
+[[nodiscard]] std::span<const Preset> keeps();
 
 /// Returns the table.
 [[nodiscard]] std::span<const OptionGroup> option_groups();

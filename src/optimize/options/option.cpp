@@ -80,6 +80,9 @@ const OptionRow* find_option(std::string_view name) {
 
 std::string option_text(const OptionRow& row, const OptionValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
+  if (const auto* length = std::get_if<LengthParameter>(&value)) {
+    return to_text(length->value) + (length->scale == LengthScale::absolute ? ":absolute" : "");
+  }
   if (const auto number = number_of(value)) return to_text(*number);
   if (const auto* name = std::get_if<std::string_view>(&value)) return std::string(*name);
   if (const auto* vertex = std::get_if<VertexId>(&value)) return std::to_string(vertex->index);

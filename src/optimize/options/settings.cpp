@@ -105,7 +105,7 @@ constexpr int kSweepsOfOdt = 10;
 bool begins_with_odt(const Settings& s, const Mesh& mesh) {
   const OptimizeOptions& o = s.options;
   const bool newton = s.policy.solver == Solver::newton && s.policy.flips_at_once() && !s.policy.defers_updates();
-  return s.objective != Objective::energy && o.target != Scheme::all && !o.paper.first_energy &&
+  return s.objective != Objective::energy && o.scheme != Scheme::all && !o.paper.first_energy &&
          mesh.space().kind() == SpaceKind::plane && o.unknowns != Unknowns::weights && newton &&
          !first_of_other_weight(mesh).valid();
 }
@@ -174,7 +174,7 @@ Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
   const OptimizeOptions& o = s.options;
   const bool wants = wants_error_model(o, mesh);
   if (wants && s.hooks.solvers.discretization_error) {
-    auto model = s.hooks.solvers.discretization_error(mesh, o.target);
+    auto model = s.hooks.solvers.discretization_error(mesh, o.scheme);
     if (!model) return model.error();
     s.errors = *std::move(model);
   }
@@ -212,48 +212,10 @@ Objective objective_of(const OptimizeOptions& o) {
 
 bool wants_error_model(const OptimizeOptions& o, const Mesh& mesh) {
   const Objective objective = objective_of(o);
-  const bool of_one = o.target == Scheme::vertex || o.target == Scheme::cell;
-  const bool judges = of_one && mesh.space().kind() == SpaceKind::plane && mesh.n_vertices() <= kMostJudged;
+  const bool of_one = o.scheme == Scheme::vertex || o.scheme == Scheme::cell;
+  const bool judges = of_one && mesh.space().kind() == SpaceKind::plane && 
+                      mesh.n_vertices() <= static_cast<std::size_t>(o.solver_error.most_vertices);
   return objective == Objective::solver_error || (objective == Objective::accuracy && judges);
-}
-
-OptimizeOptions paper_method() {
-  PaperSwitches p;
-  p.gamma = LengthParameter{1, LengthScale::absolute};
-  p.solver = Solver::golden;
-  p.inner = 0;
-  p.flip_limit = FlipLimit::unlimited;
-  p.inversion = Inversion::allow;
-  p.hidden = HiddenPolicy::keep;
-  p.order = SweepOrder::input;
-  p.anchor = VertexId(0);
-  p.collapse_from = 0;
-  p.removal = Removal::patch;
-  p.removal_measure = RemovalMeasure::sum;
-  p.removal_margin = 0;
-  p.removal_from = 0;
-  p.stopping = StoppingRule::paper;
-  p.tolerance = 1e-6;
-  OptimizeOptions o;
-  o.flips = Flips::deferred;
-  o.repair = Repair::none;
-  o.paper = p;
-  return o;
-}
-
-OptimizeOptions odt_method() {
-  OptimizeOptions o;
-  o.energy = EnergyKind::ODT;
-  o.unknowns = Unknowns::positions;
-  return o;
-}
-
-OptimizeOptions cvt_method() {
-  OptimizeOptions o;
-  o.energy = EnergyKind::F;
-  o.star = Star::zero;
-  o.unknowns = Unknowns::positions;
-  return o;
 }
 
 SweepState::SweepState(const Settings& s) : model(s.model), relaxation(s.policy.relaxation.value_or(kRelaxation)) {
@@ -311,7 +273,7 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   s.model.wall = !s.policy.allows_inversion();
   if (p.gamma) s.model.gamma = in_working_units(*p.gamma, units);
   if (p.h0) s.model.h0 = in_working_units(*p.h0, units);
-  s.accuracy = accuracy_model(options.accuracy, options.target, options.star);
+  s.accuracy = accuracy_model(options.accuracy, options.scheme, options.star);
   if (hooks.solvers.lp) s.lp = hooks.solvers.lp();
   return with_error_model(std::move(s), mesh);
 }

@@ -114,6 +114,7 @@ constexpr OptionRow row(Name name, Name sentence, OptionRow more = {}) {
   more.sentence = sentence;
   more.kind = kind_of<T>();
   more.optional = Without<Field>::optional;
+  more.research = (std::is_same_v<decltype(path), PaperSwitches OptimizeOptions::*> || ...);
   if constexpr (std::is_enum_v<T>) {
     if (more.choices.empty()) more.choices = kNames<T>;
   }
@@ -200,7 +201,7 @@ constexpr OptionRow kEnergyRows[] = {
         {.needs = {{{"energy", "F|nF"}}}}),
     row<kPaper, &Paper::first_energy>("first_energy",
                                       "Energy that the first sweeps lower, before they switch to `energy`",
-                                      {.absent = "`energy` from the first sweep on. If `target` is one scheme and a "
+                                      {.absent = "`energy` from the first sweep on. If `scheme` is one scheme and a "
                                                  "mesh of the plane has no weights, ten sweeps lower ODT first"}),
     row<kPaper, &Paper::switch_at>("switch_at",
                                    "First sweep that lowers `energy` after `first_energy`, counted from 0. The switch "
@@ -214,31 +215,29 @@ constexpr OptionRow kAccuracyRows[] = {
         "Objective of the run. energy: lower `energy` to the end. accuracy: once all triangles are well-centered, "
         "lower the distances between the midpoints of edges and duals. With `objective=solver_error` a third phase "
         "lowers the error of the solver itself. It takes longer",
-        {.common = true,
-         .absent = "accuracy. With `target=vertex` or `target=cell`, on a plane with at most 20000 vertices, it is "
+        {.absent = "accuracy. With `scheme=vertex` or `scheme=cell`, on a plane with at most `solver_error_vertices`, it is "
                    "`objective=solver_error`. If `energy` is not BP, or a switch of the paper other than `order` and "
                    "`seed` is set, it is energy"}),
-    row<&Options::target>("target",
-                          "Scheme of your solver. vertex: unknowns at vertices. cell: unknowns at orthocenters, "
+    row<&Options::scheme>("scheme",
+                          "Scheme of the solver. vertex: unknowns at vertices. cell: unknowns at orthocenters, "
                           "two-point flux. stars: diagonal Hodge stars. all: each of these, with larger margins",
-                          {.common = true, .needs = {kForAccuracy}}),
+                          {.needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::margin>(
         "margin", "Least margin in every triangle: h/l, d/l and 1 - d/l stay above it",
-        {.range = inside(0, kMostMargin), .absent = "0.1, or 0.02 if `target` is one scheme", .needs = {kForAccuracy}}),
+        {.range = inside(0, kMostMargin), .absent = "0.1, or 0.02 if `scheme` is one scheme", .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::min_edge>("min_edge",
-                                        "Least length of interior edges, as a multiple of the local size. 0: no limit",
-                                        {.range = from_to(0, kMostEdge), .needs = {kForAccuracy}}),
+                                        "Least length of interior edges, as a multiple of the local size",
+                                        {.range = from_to(0, kMostEdge), .common = true, .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::min_dual>("min_dual",
-                                        "Least length of interior dual edges, as a multiple of the local size. Dual "
-                                        "lengths bound time steps. 0: no limit",
-                                        {.range = from_to(0, kMostDual), .needs = {kForAccuracy}}),
+                                        "Least length of interior dual edges, as a multiple of the local size",
+                                        {.range = from_to(0, kMostDual), .common = true, .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::offset_factor>(
         "offset_factor", "Factor of the offset between the midpoints of edge and dual. 1: HOT over the squared size",
-        {.range = at_least(0), .absent = "10, or 20 for `target=stars`", .needs = {kForAccuracy}}),
+        {.range = at_least(0), .absent = "10, or 20 for `scheme=stars`", .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::boundary_offset_factor>(
         "boundary_offset_factor", "Factor of the height of boundary edges, relative to HOT",
         {.range = at_least(0),
-         .absent = "5 for `target=all`, 0.5 for vertex, 30 for cell, 18 for stars",
+         .absent = "5 for `scheme=all`, 0.5 for vertex, 30 for cell, 18 for stars",
          .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::barrier>("barrier", "Factor of the logarithms that keep margins and least lengths",
                                        {.range = more_than(0), .needs = {kForAccuracy}}),
@@ -260,6 +259,10 @@ constexpr OptionRow kAccuracyRows[] = {
         "solver_error_tolerance",
         "Relative tolerance for the error of the solver. The steps end when ten of them gain less than this part",
         {.range = at_least(0), .needs = {kForError}}),
+    row<kError, &Error::most_vertices>(
+        "solver_error_vertices",
+        "Largest number of vertices for which the error of the solver is lowered, if `objective` is auto",
+        {.needs = {kForAccuracy}}),
 };
 
 constexpr OptionRow kMoveRows[] = {
@@ -267,8 +270,7 @@ constexpr OptionRow kMoveRows[] = {
         "solver",
         "Method that improves one vertex. newton: Newton steps in position and weight together. golden: the paper's "
         "golden section. alternating: Newton in position, then in weight"),
-    row<&Options::unknowns>("unknowns", "Unknowns that steps may change. The others keep their values",
-                            {.common = true}),
+    row<&Options::unknowns>("unknowns", "Unknowns that steps may change. The others keep their values"),
     row<kPaper, &Paper::weights_from>("weights_from", "First sweep that changes weights, counted from 0",
                                       {.needs = {{{"unknowns", "positions_and_weights"}}}}),
     row<kPaper, &Paper::relaxation>("relaxation", "Over-relaxation of Newton steps",
@@ -311,8 +313,7 @@ constexpr OptionRow kConnectivityRows[] = {
         "repair",
         "Treatment of triangles that stay invalid. none: nothing. perturb: sweep again with random moves, and find "
         "weights by a linear program. vertices: also remove and insert vertices. The best result is kept",
-        {.common = true,
-         .needs = {{kBarrier, {"unknowns", "positions_and_weights|positions"}, {"flips", "immediate|deferred"}}}}),
+        {.needs = {{kBarrier, {"unknowns", "positions_and_weights|positions"}, {"flips", "immediate|deferred"}}}}),
     row<&Options::repair_trials>(
         "repair_trials", "Largest number of edits that repairs try, 1 to 3 ms each. A linear program counts as 20",
         {.needs = {{{"repair", "perturb|vertices"}}}}),
@@ -403,7 +404,7 @@ constexpr OptionRow kStoppingRows[] = {
     row<kPaper, &Paper::stopping>("stopping",
                                   "Measure of the gain of a sweep. relative: relative to the energy. paper: change of "
                                   "the mean energy per triangle, absolute"),
-    row<&Options::time_limit>("time_limit", "Time limit in seconds. 0: no limit",
+    row<&Options::time_limit>("time_limit", "Time limit of the run in seconds. 0: no limit",
                               {.range = at_least(0), .common = true}),
     row<kPaper, &Paper::seed>("seed",
                               "Seed of the jitter that frees symmetric grids, of repairs, and of `order=random`"),
@@ -421,18 +422,5 @@ constexpr OptionGroup kGroups[] = {
 std::string_view name(Objective objective) { return kNames<Objective>[static_cast<std::size_t>(objective)]; }
 
 std::span<const OptionGroup> option_groups() { return kGroups; }
-
-std::span<const Method> methods() {
-  static constexpr Method kMethods[] = {
-      {"production", "temper's own method", [] { return OptimizeOptions(); }},
-      {"paper",
-       "Algorithm 1 of the paper. It has golden section, deferred flips, collapses, the patch test, inversions, the "
-       "first vertex as anchor and gamma 1",
-       paper_method},
-      {"odt", "optimal Delaunay triangulation. It lowers energy ODT by positions alone", odt_method},
-      {"cvt", "centroidal Voronoi tessellation. It lowers energy F of star 0 by positions alone", cvt_method},
-  };
-  return kMethods;
-}
 
 }  // namespace temper

@@ -13,7 +13,7 @@ class BadInput : public Workshop {
   /// Runs optimize on in.mesh with these bytes, which is refused there for that reason; nothing may appear beside it.
   static void expect_refused(const std::string& bytes, const std::string& where, const std::string& why) {
     write("in.mesh", bytes);
-    const Outcome outcome = temper({"optimize", "in.mesh", "-o", "out.vtu", "--report", "report.json"});
+    const Outcome outcome = temper({"optimize", "in.mesh", "-o", "out.vtu", "--write", "report.json"});
     EXPECT_EQ(outcome.exit, 1);
     EXPECT_EQ(names(), std::vector<std::string>{"in.mesh"});
     EXPECT_EQ(outcome.out, "");
@@ -95,7 +95,7 @@ TEST_F(BadInput, OptionsThatDoNotFitTheMeshAreBadUsage) {
   const Outcome tag = temper({"optimize", "in.vtu", "--fix", "nowhere", "-o", "out.vtu"});
   EXPECT_EQ(tag.exit, 2);
   EXPECT_TRUE(contains(tag.err, "nowhere"));
-  const Outcome anchor = temper({"optimize", "in.vtu", "--anchor", "123456", "-o", "out.vtu"});
+  const Outcome anchor = temper({"optimize", "in.vtu", "--set", "anchor=123456", "-o", "out.vtu"});
   EXPECT_EQ(anchor.exit, 2);
   EXPECT_TRUE(contains(anchor.err, "there is no vertex 123456"));
   EXPECT_EQ(names(), std::vector<std::string>{"in.vtu"});
@@ -110,9 +110,9 @@ TEST_F(BadInput, OutputsAreTriedBeforeTheWork) {
        "nowhere/out.vtu: cannot be written: there is no directory nowhere"},
       {{"optimize", "in.vtu", "-o", "file/out.vtu"}, "file is not a directory"},
       {{"optimize", "in.vtu", "-o", "folder"}, "folder: cannot be written: it is a directory"},
-      {{"optimize", "in.vtu", "-o", "out.vtu", "--report", "nowhere/r.json"}, "there is no directory nowhere"},
-      {{"optimize", "in.vtu", "-o", "out.vtu", "--history", "folder"}, "it is a directory"},
-      {{"optimize", "in.vtu", "-o", "out.vtu", "--draw", "folder/"}, "it is a directory"},
+      {{"optimize", "in.vtu", "-o", "out.vtu", "--write", "nowhere/r.json"}, "there is no directory nowhere"},
+      {{"optimize", "in.vtu", "-o", "out.vtu", "--write", "folder"}, "it is a directory"},
+      {{"optimize", "in.vtu", "-o", "out.vtu", "--write", "folder/"}, "it is a directory"},
       {{"draw", "in.vtu", "-o", "nowhere/p.svg"}, "there is no directory nowhere"},
       {{"convert", "in.vtu", "-o", "nowhere/out.msh"}, "there is no directory nowhere"},
       {{"example", "triangle", "-o", "nowhere/out.msh"}, "there is no directory nowhere"},
@@ -144,7 +144,7 @@ TEST_F(BadInput, FolderWithoutPermission) {
 TEST_F(BadInput, FullDiskForAReportSaysWhatWasWritten) {
   if (!exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   make_input();
-  const Outcome outcome = temper({"optimize", "in.vtu", "-o", "out.vtu", "--report", "/dev/full"});
+  const Outcome outcome = temper({"optimize", "in.vtu", "-o", "out.vtu", "--write", "/dev/full"});
   EXPECT_EQ(outcome.exit, 1);
   EXPECT_TRUE(contains(outcome.err, "/dev/full: "));
   EXPECT_TRUE(contains(outcome.err, "No space left on device"));
@@ -177,8 +177,8 @@ TEST_F(BadInput, SpheresAreRefusedByWhatIsForThePlane) {
     const char* what;
   };
   for (const auto& [arguments, what] :
-       std::vector<Row>{{{"check", "globe.vtu", "--html", "out.html"}, "--html"},
-                        {{"optimize", "globe.vtu", "-o", "out.vtu", "--html", "out.html"}, "--html"}}) {
+       std::vector<Row>{{{"check", "globe.vtu", "--write", "out.html"}, "--html"},
+                        {{"optimize", "globe.vtu", "-o", "out.vtu", "--write", "out.html"}, "--html"}}) {
     const Outcome outcome = temper(arguments);
     EXPECT_EQ(outcome.exit, 1) << arguments[0];
     EXPECT_EQ(outcome.err, std::string("temper: error: globe.vtu: the mesh is on a sphere, but ") + what +

@@ -130,11 +130,11 @@ TEST_F(Check, WarningsGoToStandardErrorAndJsonStaysJson) {
 TEST_F(Check, GammaIsOneUnlessGiven) {
   make_input();
   const OrderedJson plain = check({"in.vtu"});
-  EXPECT_EQ(plain, check({"in.vtu", "--gamma", "1"}));
-  EXPECT_NE(plain["energy"]["BP"], check({"in.vtu", "--gamma", "0.5"})["energy"]["BP"]);
-  EXPECT_NE(plain["energy"]["BP"], check({"in.vtu", "--gamma-rel", "1"})["energy"]["BP"]);
+  EXPECT_EQ(plain, check({"in.vtu", "--gamma", "1:absolute"}));
+  EXPECT_NE(plain["energy"]["BP"], check({"in.vtu", "--gamma", "0.5:absolute"})["energy"]["BP"]);
+  EXPECT_NE(plain["energy"]["BP"], check({"in.vtu", "--gamma", "1"})["energy"]["BP"]);
   EXPECT_EQ(plain["energy"]["BHs"], plain["energy"]["BH"]);
-  EXPECT_TRUE(check({"in.vtu", "--h0-rel", "10"})["energy"]["BHs"][1].is_number());
+  EXPECT_TRUE(check({"in.vtu", "--h0", "10"})["energy"]["BHs"][1].is_number());
 }
 
 TEST_F(Check, ThreadsDoNotChangeAByte) {

@@ -63,7 +63,7 @@ TEST_F(Data, DepthsStayAtTheirPlaceUnlessToldToKeepToTheirPoints) {
 
 TEST_F(Data, TheReportSaysWhatMovedHowFarAndWhatWasInterpolated) {
   write_bay("bay.vtu");
-  const Outcome outcome = temper_ok({"optimize", "bay.vtu", "-o", "out.vtu", "--report", "r.json"});
+  const Outcome outcome = temper_ok({"optimize", "bay.vtu", "-o", "out.vtu", "--write", "r.json"});
   const nlohmann::json data = read_json("r.json")["data"];
   EXPECT_EQ(data["points"], 400);
   EXPECT_GT(data["points_moved"], 200);
@@ -84,9 +84,9 @@ TEST_F(Data, AReplayPutsTheSameDataBackToTheByte) {
   for (const std::vector<std::string>& rules : {std::vector<std::string>{},
                                                 {"--point-data", "keep"},
                                                 {"--point-data", "keep", "--point-data", "interpolate=depth"}}) {
-    std::vector<std::string> run = {"optimize", "bay.vtu", "-o", "out.vtu", "--quiet", "--trace", "t.jsonl"};
-    if (TEMPER_SANITIZED) run.insert(run.end(), {"--max-sweeps", "10"});
-    std::vector<std::string> again = {"replay", "bay.vtu", "t.jsonl", "-o", "again.vtu", "--quiet"};
+    std::vector<std::string> run = {"optimize", "bay.vtu", "-o", "out.vtu", "--quiet", "--write", "t.jsonl"};
+    if (TEMPER_SANITIZED) run.insert(run.end(), {"--set", "max_sweeps=10"});
+    std::vector<std::string> again = {"paper", "replay", "bay.vtu", "t.jsonl", "-o", "again.vtu", "--quiet"};
     run.insert(run.end(), rules.begin(), rules.end());
     again.insert(again.end(), rules.begin(), rules.end());
     temper_ok(run);
@@ -113,7 +113,7 @@ TEST_F(Data, RulesThatFitNoArrayAreRefusedBeforeTheWork) {
 
 TEST_F(Data, TheCommandOfAReportMakesTheSameData) {
   write_bay("bay.vtu");
-  temper_ok({"optimize", "bay.vtu", "-o", "out.vtu", "--report", "r.json", "--quiet", "--point-data", "keep",
+  temper_ok({"optimize", "bay.vtu", "-o", "out.vtu", "--write", "r.json", "--quiet", "--point-data", "keep",
              "--point-data", "interpolate=depth"});
   const nlohmann::json report = read_json("r.json");
   EXPECT_EQ(report["options"]["point-data"], nlohmann::json::array({"keep", "interpolate=depth"}));

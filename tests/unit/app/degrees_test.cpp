@@ -69,8 +69,8 @@ TEST_F(Degrees, AreOptimizedOnAMapAndWrittenAsTheyCame) {
 
 TEST_F(Degrees, AReplayOnTheSameMapMakesTheSameFile) {
   write_sea("fort.14");
-  temper_ok({"optimize", "fort.14", "-o", "out.14", "--projection", "mercator", "--trace", "t.jsonl", "--quiet"});
-  temper_ok({"replay", "fort.14", "t.jsonl", "-o", "again.14", "--projection", "mercator", "--quiet"});
+  temper_ok({"optimize", "fort.14", "-o", "out.14", "--projection", "mercator", "--write", "t.jsonl", "--quiet"});
+  temper_ok({"paper", "replay", "fort.14", "t.jsonl", "-o", "again.14", "--projection", "mercator", "--quiet"});
   EXPECT_EQ(read("out.14"), read("again.14"));
 }
 

@@ -65,7 +65,7 @@ TEST_F(Draw, TheSuffixTellsTheFormat) {
     temper_ok({"draw", "a.vtu", "-o", name});
     EXPECT_EQ(read(name), first) << name;
   }
-  temper_ok({"optimize", "a.vtu", "-o", "b.vtu", "--draw", "both.png"});
+  temper_ok({"optimize", "a.vtu", "-o", "b.vtu", "--write", "both.png"});
   EXPECT_TRUE(read("both.png").starts_with("\x89PNG"));
   EXPECT_EQ(temper({"draw", "a.vtu", "-o", "p.jpg"}).exit, 2);
 
@@ -165,11 +165,11 @@ TEST_F(Example, ParametersArriveAndOptionsMayComeFirst) {
 
 TEST_F(Example, PeriodicPlanesGoThroughTheVerbsThatTakeThem) {
   temper_ok({"example", "random-periodic", "--vertices", "200", "--period", "2,1", "-o", "in.vtu"});
-  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--draw", "both.svg", "--quiet"});
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "both.svg", "--quiet"});
   EXPECT_EQ(temper({"check", "out.vtu", "--require", "well_centered_fraction=1,boundary_edges=0"}).exit, 0);
   EXPECT_TRUE(contains(read("both.svg"), "class=\"period\""));
-  temper_ok({"optimize", "in.vtu", "-o", "traced.vtu", "--trace", "t.jsonl", "--quiet"});
-  temper_ok({"replay", "in.vtu", "t.jsonl", "-o", "again.vtu"});
+  temper_ok({"optimize", "in.vtu", "-o", "traced.vtu", "--write", "t.jsonl", "--quiet"});
+  temper_ok({"paper", "replay", "in.vtu", "t.jsonl", "-o", "again.vtu"});
   EXPECT_EQ(read("again.vtu"), read("traced.vtu"));
   temper_ok({"operators", "out.vtu", "-o", "operators"});
   temper_ok({"convert", "out.vtu", "-o", "out.mpas.nc"});
@@ -197,7 +197,7 @@ TEST_F(Example, ParametersThatMakeNoMeshAreNamed) {
 
 TEST_F(Draw, SpheresAreDrawnFromWhereOneLooks) {
   temper_ok({"example", "random-sphere", "--vertices", "200", "-o", "in.vtu"});
-  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--draw", "both.svg", "--quiet"});
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "both.svg", "--quiet"});
   EXPECT_TRUE(contains(read("both.svg"), "class=\"limb\""));
   temper_ok({"draw", "out.vtu", "-o", "front.svg"});
   temper_ok({"draw", "out.vtu", "-o", "same.svg", "--view", "0,0"});

@@ -59,7 +59,7 @@ TEST_F(Errors, SaysTheSameAsJsonForAnyNumberOfThreads) {
 
 TEST_F(Errors, ComparesWithAnotherMesh) {
   temper_ok({"example", "annulus", "-o", "ring.vtu"});
-  temper_ok({"optimize", "ring.vtu", "-o", "better.vtu", "--max-sweeps", "5", "--quiet"});
+  temper_ok({"optimize", "ring.vtu", "-o", "better.vtu", "--set", "max_sweeps=5", "--quiet"});
   const auto json = nlohmann::json::parse(temper_ok({"errors", "better.vtu", "--against", "ring.vtu", "--json"}).out);
   const auto& ratios = json["against"]["ratios"]["fields"];
   const auto& before = json["against"]["report"]["errors"]["fields"];
@@ -79,8 +79,8 @@ TEST_F(Errors, ComparesWithAnotherMesh) {
 
 TEST_F(Errors, IsPartOfAnOptimizationWhenAskedFor) {
   make_input();
-  const std::string text = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--objective", "accuracy",
-                                      "--measure-errors", "--report", "r.json"})
+  const std::string text = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--set", "objective=accuracy",
+                                      "--measure-errors", "--write", "r.json"})
                                .out;
   EXPECT_TRUE(contains(text, "mean relative error"));
   const auto report = nlohmann::json::parse(read("r.json"));
@@ -97,7 +97,7 @@ TEST_F(Errors, IsPartOfAnOptimizationWhenAskedFor) {
       }
     }
   }
-  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--report", "r.json", "--quiet"});
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "r.json", "--quiet"});
   EXPECT_FALSE(nlohmann::json::parse(read("r.json")).contains("errors"));
 }
 
@@ -106,8 +106,8 @@ TEST_F(Errors, OfAnOptimizationOnlyMeasures) {
   temper_ok({"example", "annulus", "--jitter", "0", "-o", "in.vtu"});
   for (const auto& [out, more] :
        {std::pair("plain.off", std::vector<std::string>()),
-        std::pair("measured.off", std::vector<std::string>{"--measure-errors", "--report", "r.json"})}) {
-    std::vector<std::string> words = {"optimize", "in.vtu", "-o", out, "--objective", "accuracy", "--quiet"};
+        std::pair("measured.off", std::vector<std::string>{"--measure-errors", "--write", "r.json"})}) {
+    std::vector<std::string> words = {"optimize", "in.vtu", "-o", out, "--set", "objective=accuracy", "--quiet"};
     words.insert(words.end(), more.begin(), more.end());
     temper_ok(words);
   }

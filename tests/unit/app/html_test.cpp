@@ -16,20 +16,20 @@ class Html : public Workshop {
 
 TEST_F(Html, CheckShowsItsReportAndTheReasons) {
   make_input();
-  const Outcome outcome = temper_ok({"check", "in.vtu", "--json", "--html", "page.html"});
+  const Outcome outcome = temper_ok({"check", "in.vtu", "--json", "--write", "page.html"});
   const nlohmann::json report = report_in("page.html"), json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(report["verb"], "check");
   EXPECT_EQ(report["after"]["min_h_over_l"], json["min_h_over_l"]);
   EXPECT_EQ(report["after"]["histograms"], json["histograms"]);
   EXPECT_FALSE(report["reasons"].empty());
-  EXPECT_TRUE(contains(report["command"], "temper check in.vtu --json --html=page.html"));
+  EXPECT_TRUE(contains(report["command"], "temper check in.vtu --json --write page.html"));
   EXPECT_TRUE(contains(read("page.html"), "id=\"after.points\""));
   EXPECT_FALSE(contains(read("page.html"), "id=\"before.points\""));
 }
 
 TEST_F(Html, OptimizeShowsBeforeAndAfterAndWritesTheSameBytesAgain) {
   make_input();
-  const std::vector<std::string> command = {"optimize", "in.vtu", "-o", "out.vtu", "--html", "page.html"};
+  const std::vector<std::string> command = {"optimize", "in.vtu", "-o", "out.vtu", "--write", "page.html"};
   temper_ok(command);
   const std::string first = read("page.html");
   temper_ok(command);
@@ -47,10 +47,10 @@ TEST_F(Html, OptimizeShowsBeforeAndAfterAndWritesTheSameBytesAgain) {
 
 TEST_F(Html, TheInputAndOtherOutputsAreNotReplaced) {
   make_input();
-  EXPECT_EQ(temper({"check", "in.vtu", "--html", "in.vtu"}).exit, 2);
-  EXPECT_EQ(temper({"check", "in.vtu", "--html", "none/page.html"}).exit, 1);
-  EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.vtu", "--html", "out.vtu"}).exit, 2);
-  const Outcome several = temper({"check", "in.vtu", "in.vtu", "--html", "page.html"});
+  EXPECT_EQ(temper({"check", "in.vtu", "--write", "in.vtu"}).exit, 2);
+  EXPECT_EQ(temper({"check", "in.vtu", "--write", "none/page.html"}).exit, 1);
+  EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.vtu", "--write", "out.vtu"}).exit, 2);
+  const Outcome several = temper({"check", "in.vtu", "in.vtu", "--write", "page.html"});
   EXPECT_EQ(several.exit, 2);
   EXPECT_TRUE(contains(several.err, "--html: expected one mesh, found 2"));
   EXPECT_EQ(names(), (std::vector<std::string>{"in.vtu"}));

@@ -21,7 +21,7 @@ class MeshVerb : public Workshop {
 TEST_F(MeshVerb, OneCommandMakesAWellCenteredMeshThatKeepsTheOutline) {
   make_outline();
   const Outcome outcome =
-      temper_ok({"mesh", "in.poly", "-o", "out.vtu", "--size", "0.2", "--report", "r.json", "--draw", "out.svg"});
+      temper_ok({"mesh", "in.poly", "-o", "out.vtu", "--size", "0.2", "--write", "r.json", "--write", "out.svg"});
   EXPECT_TRUE(contains(outcome.out, "triangles are well-centered"));
   temper_ok({"check", "out.vtu", "--require", "outside=0,not_crossed=0,nonregular=0"});
   const auto report = read_json("r.json");
@@ -50,7 +50,7 @@ TEST_F(MeshVerb, ExitsWith4JustWhereTheTimeLimitEndsTheRun) {
   int cut = 0;
   for (const std::string limit : {"0.02", "0.1", "0.5", "1000"}) {
     const Outcome outcome = temper(
-        {"mesh", "in.poly", "-o", "out.vtu", "--size", "0.05", "--quiet", "--time-limit", limit, "--report", "r.json"});
+        {"mesh", "in.poly", "-o", "out.vtu", "--size", "0.05", "--quiet", "--time-limit", limit, "--write", "r.json"});
     const bool has_mesh = exists("out.vtu");
     const bool early = !has_mesh || read_json("r.json")["stopped"] == "time_limit";
     EXPECT_EQ(outcome.exit, early ? 4 : 0) << limit;
@@ -62,7 +62,7 @@ TEST_F(MeshVerb, ExitsWith4JustWhereTheTimeLimitEndsTheRun) {
 
 TEST_F(MeshVerb, WithoutOptimizationTheDelaunayMeshIsWritten) {
   make_outline();
-  temper_ok({"mesh", "in.poly", "-o", "out.vtu", "--size", "0.2", "--no-optimize", "--report", "r.json"});
+  temper_ok({"mesh", "in.poly", "-o", "out.vtu", "--size", "0.2", "--no-optimize", "--write", "r.json"});
   EXPECT_EQ(read_json("r.json")["sweeps"], 0);
   temper_ok({"check", "out.vtu", "--require", "nonregular=0"});
 }
@@ -75,7 +75,7 @@ TEST_F(MeshVerb, DegreesAreRefusedUnlessAProjectionIsChosen) {
   EXPECT_TRUE(contains(refused.err, "--projection"));
   EXPECT_FALSE(exists("out.vtu"));
   temper_ok(
-      {"mesh", "in.json", "-o", "out.vtu", "--size", "10000", "--projection", "stereographic", "--report", "r.json"});
+      {"mesh", "in.json", "-o", "out.vtu", "--size", "10000", "--projection", "stereographic", "--write", "r.json"});
   const auto report = read_json("r.json");
   EXPECT_EQ(report["bad"], 0);
   EXPECT_GT(report["projection"]["largest_scale"].get<double>(), 1);
@@ -153,13 +153,13 @@ TEST_F(MeshSphere, OneCommandMakesAWellCenteredOceanWithCoastsAndRivers) {
 
 TEST_F(MeshSphere, SizesComeFromAFile) {
   temper_ok({"example", "graded-sphere", "--vertices", "2000", "--ratio", "5", "--radius", "10", "-o", "field.vtu"});
-  temper_ok({"mesh", "--sphere", "--size", "field.vtu", "-o", "out.vtu", "--report", "r.json"});
+  temper_ok({"mesh", "--sphere", "--size", "field.vtu", "-o", "out.vtu", "--write", "r.json"});
   EXPECT_EQ(read_json("r.json")["sphere"]["radius"], 10);
   EXPECT_EQ(read_json("r.json")["bad"], 0);
   const Outcome radius = temper({"mesh", "--sphere", "--size", "field.vtu", "-o", "x.vtu", "--radius", "9"});
   EXPECT_EQ(radius.exit, 1);
   EXPECT_TRUE(contains(radius.err, "field.vtu: the sizes are on a sphere of radius 10; expected one of 9"));
-  const Outcome data = temper({"mesh", "--sphere", "--size", "field.vtu", "-o", "x.vtu", "--size-field-data", "h"});
+  const Outcome data = temper({"mesh", "--sphere", "--size", "field.vtu", "-o", "x.vtu", "--size-data", "h"});
   EXPECT_EQ(data.exit, 1);
   EXPECT_TRUE(contains(data.err, "no point data \"h\""));
   write("square.poly", "4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
@@ -171,7 +171,7 @@ TEST_F(MeshSphere, SizesComeFromAFile) {
 
 TEST_F(MeshSphere, AnOutlineIsABasin) {
   write("basin.json", R"({"type": "Polygon", "coordinates": [[[0, 40], [30, 38], [28, 60], [2, 62], [0, 40]]]})");
-  temper_ok({"mesh", "basin.json", "--sphere", "--size", "200000", "-o", "out.vtu", "--report", "r.json"});
+  temper_ok({"mesh", "basin.json", "--sphere", "--size", "200000", "-o", "out.vtu", "--write", "r.json"});
   EXPECT_EQ(read_json("r.json")["bad"], 0);
   EXPECT_NEAR(read_json("r.json")["sphere"]["covered"].get<double>(), 0.01, 0.005);
 }

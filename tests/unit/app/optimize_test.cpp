@@ -39,11 +39,11 @@ TEST_F(Optimize, LinesThatAreAllEdgesOfTheMeshHoldNothing) {
   ASSERT_TRUE(io::write("lines.msh", file));
   const std::string warning = "inner edges are lines of tag 0: they are taken for the edges of the mesh";
   for (const std::string boundary : {"keep", "split"}) {
-    const Outcome outcome = temper_ok({"optimize", "lines.msh", "-o", "out.msh", "--boundary", boundary, "--trace",
+    const Outcome outcome = temper_ok({"optimize", "lines.msh", "-o", "out.msh", "--boundary", boundary, "--write",
                                        "t.jsonl", "--require", "outside=0"});
     EXPECT_TRUE(contains(outcome.err, warning));
     EXPECT_TRUE(contains(temper_ok({"check", "out.msh"}).err, warning)) << "they are listed again";
-    temper_ok({"replay", "lines.msh", "t.jsonl", "-o", "again.msh"});
+    temper_ok({"paper", "replay", "lines.msh", "t.jsonl", "-o", "again.msh"});
     EXPECT_EQ(read("again.msh"), read("out.msh"));
   }
 }
@@ -59,7 +59,7 @@ TEST_F(Optimize, EveryTagComesThroughConversionsAndSweeps) {
   ASSERT_TRUE(io::write("tags.msh", file));
   temper_ok({"convert", "tags.msh", "-o", "tags.vtu"});
   temper_ok({"convert", "tags.vtu", "-o", "converted.msh"});
-  temper_ok({"optimize", "tags.msh", "-o", "kept.msh", "--no-flips", "--quiet"});
+  temper_ok({"optimize", "tags.msh", "-o", "kept.msh", "--keep", "edges", "--quiet"});
   temper_ok({"optimize", "tags.msh", "-o", "flipped.msh", "--quiet"});
   for (const char* path : {"converted.msh", "kept.msh", "flipped.msh"}) {
     SCOPED_TRACE(path);
@@ -99,8 +99,8 @@ TEST_F(Optimize, InTheMetricOfATensorAndNowhereElse) {
   EXPECT_EQ(read("again.vtu"), read("out.vtu"));
   const auto fluxes = nlohmann::json::parse(temper_ok(with({"operators", "out.vtu", "-o", "operators", "--json"})).out);
   EXPECT_GT(fluxes.at("min_star1").get<double>(), 0);
-  EXPECT_EQ(temper(with({"optimize", "in.vtu", "-o", "b.vtu", "--trace", "t.jsonl"})).exit, 2);
-  EXPECT_EQ(temper(with({"check", "in.vtu", "--html", "t.html"})).exit, 2);
+  EXPECT_EQ(temper(with({"optimize", "in.vtu", "-o", "b.vtu", "--write", "t.jsonl"})).exit, 2);
+  EXPECT_EQ(temper(with({"check", "in.vtu", "--write", "t.html"})).exit, 2);
   const Outcome wrong = temper({"optimize", "in.vtu", "-o", "b.vtu", "--tensor", "1,2,1"});
   EXPECT_EQ(wrong.exit, 2);
   EXPECT_TRUE(contains(wrong.err, "expected a positive definite tensor kxx,kxy,kyy"));
@@ -119,18 +119,18 @@ TEST_F(Optimize, ExitsWith4WhereEdgesThatMayFlipAreNotRegular) {
   int lacking = 0;
   for (const std::string tensor : {"1,0,5", "1,0,7", "1,0,10"}) {
     const Outcome outcome =
-        temper({"optimize", "squares.vtu", "-o", "out.vtu", "--tensor", tensor, "--energy", "F", "--max-sweeps", "1"});
+        temper({"optimize", "squares.vtu", "-o", "out.vtu", "--tensor", tensor, "--set", "energy=F", "--set", "max_sweeps=1"});
     const int check = temper({"check", "out.vtu", "--tensor", tensor, "--require", regular}).exit;
     EXPECT_EQ(outcome.exit, check == 3 ? 4 : check) << tensor;
-    EXPECT_EQ(temper({"optimize", "squares.vtu", "-o", "out.vtu", "--tensor", tensor, "--energy", "F", "--max-sweeps",
-                      "1", "--quiet"})
+    EXPECT_EQ(temper({"optimize", "squares.vtu", "-o", "out.vtu", "--tensor", tensor, "--set", "energy=F", "--set",
+                      "max_sweeps=1", "--quiet"})
                   .exit,
               outcome.exit)
         << tensor;
     lacking += check == 3 ? 1 : 0;
   }
   EXPECT_GT(lacking, 0);
-  temper_ok({"optimize", "in.vtu", "-o", "kept.vtu", "--no-flips", "--max-sweeps", "1"});
+  temper_ok({"optimize", "in.vtu", "-o", "kept.vtu", "--keep", "edges", "--set", "max_sweeps=1"});
   EXPECT_EQ(temper({"check", "kept.vtu", "--require", regular}).exit, 3) << "none may flip";
 }
 
@@ -161,7 +161,7 @@ TEST_F(Optimize, ThreadsDoNotChangeAByte) {
 }
 
 TEST_F(Optimize, RequirementsAreJudgedOnWhatIsWritten) {
-  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--require", "outside=0,nonregular=0", "--report", "r.json"});
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--require", "outside=0,nonregular=0", "--write", "r.json"});
   EXPECT_EQ(read_json("r.json")["requirements"].size(), 2u);
   const Outcome outcome = temper({"optimize", "in.vtu", "-o", "hard.vtu", "--quiet", "--require", "min_h>=0.5"});
   EXPECT_EQ(outcome.exit, 3);
@@ -172,7 +172,7 @@ TEST_F(Optimize, RequirementsAreJudgedOnWhatIsWritten) {
 }
 
 TEST_F(Optimize, TheReportHasBeforeAfterAndHistory) {
-  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--report", "r.json", "--history", "h.csv", "--draw", "p.svg"});
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "r.json", "--write", "h.csv", "--write", "p.svg"});
   const nlohmann::json report = read_json("r.json");
   for (const char* key : {"command", "version", "options", "before", "after", "sweeps", "seconds", "stopped",
                           "vertices_removed", "vertices_inserted", "flips", "notes", "warnings", "history"}) {
@@ -200,8 +200,8 @@ TEST_F(Optimize, TheReportHasBeforeAfterAndHistory) {
 TEST_F(Optimize, ForAllStarsEachObjectiveComparesEnergiesOfStar1) {
   make_input();
   for (const char* objective : {"accuracy", "solver-error"}) {
-    const std::string out = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--objective", objective, "--star", "all",
-                                       "--max-sweeps", "5"})
+    const std::string out = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--objective", objective, "--set", "star=all",
+                                       "--set", "max_sweeps=5"})
                                 .out;
     EXPECT_TRUE(contains(out, "E_BP, ★1")) << objective;
   }
@@ -209,7 +209,7 @@ TEST_F(Optimize, ForAllStarsEachObjectiveComparesEnergiesOfStar1) {
 
 TEST_F(Optimize, ForAccuracyMarginsHoldAndTheHistorySaysWhatEachSweepWasFor) {
   const Outcome run = temper_ok(
-      {"optimize", "in.vtu", "-o", "out.vtu", "--objective", "accuracy", "--margin", "0.02", "--report", "r.json"});
+      {"optimize", "in.vtu", "-o", "out.vtu", "--set", "objective=accuracy", "--set", "margin=0.02", "--write", "r.json"});
   const nlohmann::json report = read_json("r.json");
   EXPECT_GE(report["after"]["min_h_over_l"], 0.02);
   EXPECT_GE(report["after"]["min_d_over_l"], 0.02);
@@ -222,12 +222,12 @@ TEST_F(Optimize, ForAccuracyMarginsHoldAndTheHistorySaysWhatEachSweepWasFor) {
 }
 
 TEST_F(Optimize, OptionsOfTheAccuracyObjectiveAreForItAlone) {
-  const Outcome idle = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--margin", "0.1", "--objective", "energy"});
+  const Outcome idle = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--set", "margin=0.1", "--set", "objective=energy"});
   EXPECT_TRUE(contains(idle.err, "--margin has no effect without --objective accuracy"));
-  const Outcome all = temper({"optimize", "in.vtu", "-o", "new.vtu", "--star", "all", "--objective", "energy"});
+  const Outcome all = temper({"optimize", "in.vtu", "-o", "new.vtu", "--set", "star=all", "--set", "objective=energy"});
   EXPECT_EQ(all.exit, 2);
   EXPECT_TRUE(contains(all.err, "--star all is for --objective accuracy; of an energy expected 0, 1 or 2"));
-  const Outcome hot = temper({"optimize", "in.vtu", "-o", "new.vtu", "--objective", "accuracy", "--energy", "T"});
+  const Outcome hot = temper({"optimize", "in.vtu", "-o", "new.vtu", "--set", "objective=accuracy", "--set", "energy=T"});
   EXPECT_NE(hot.exit, 0);
   EXPECT_TRUE(contains(hot.err, "--objective accuracy begins with an energy that makes triangles well-centered"));
   EXPECT_FALSE(std::filesystem::exists("new.vtu"));
@@ -244,7 +244,7 @@ TEST_F(Optimize, TheCommandInTheReportGivesTheSameBytes) {
   };
   std::filesystem::rename("in.vtu", "it's a mesh.vtu");
   for (const auto& options : runs) {
-    std::vector<std::string> arguments = {"optimize", "it's a mesh.vtu", "-o", "$out.vtu", "--report", "r.json"};
+    std::vector<std::string> arguments = {"optimize", "it's a mesh.vtu", "-o", "$out.vtu", "--write", "r.json"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     temper_ok(arguments);
     const std::string first = read("$out.vtu");
@@ -258,15 +258,15 @@ TEST_F(Optimize, TheCommandInTheReportGivesTheSameBytes) {
 }
 
 TEST_F(Optimize, TheCommandAndTheOptionsNameEveryOptionWithAValue) {
-  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--report", "r.json"});
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "r.json"});
   const nlohmann::json report = read_json("r.json");
-  for (const char* option : {"--energy=BP", "--star=1", "--solver=newton", "--tolerance=1e-05", "--seed=1",
-                             "--flips=immediate", "--stopping=relative", "--output=out.vtu", "--report=r.json"}) {
+  for (const char* option : {"--set=energy=BP", "--set=star=1", "--set=solver=newton", "--set=tolerance=1e-05", "--set=seed=1",
+                             "--set=flips=immediate", "--set=stopping=relative", "--output=out.vtu", "--write=r.json"}) {
     EXPECT_TRUE(contains(report["command"], option));
   }
   EXPECT_EQ(report["options"]["energy"], "BP");
   const OptimizeOptions defaults;
-  EXPECT_TRUE(contains(report["command"], "--max-sweeps=" + std::to_string(defaults.max_sweeps)));
+  EXPECT_TRUE(contains(report["command"], "--set=max_sweeps=" + std::to_string(defaults.max_sweeps)));
   EXPECT_EQ(report["options"]["max-sweeps"], defaults.max_sweeps);
   EXPECT_EQ(report["options"]["tolerance"], defaults.paper.tolerance);
   EXPECT_EQ(report["options"]["no-flips"], false);
@@ -279,7 +279,7 @@ TEST_F(Optimize, FixTakesSeveralTagsAndStillFindsTheInput) {
         "MeshVersionFormatted 2\nDimension 2\nVertices\n5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.3 0.4 0\n"
         "Edges\n2\n1 2 11\n2 3 12\nTriangles\n4\n1 2 5 0\n2 3 5 0\n3 4 5 0\n4 1 5 0\nEnd\n");
   temper_ok({"optimize", "tagged.mesh", "-o", "a.vtu", "--fix", "11", "12", "--quiet"});
-  temper_ok({"optimize", "--fix", "11", "12", "tagged.mesh", "-o", "b.vtu", "--quiet", "--report", "r.json"});
+  temper_ok({"optimize", "--fix", "11", "12", "tagged.mesh", "-o", "b.vtu", "--quiet", "--write", "r.json"});
   temper_ok({"optimize", "--fix", "11", "--fix", "12", "-o", "c.vtu", "--quiet", "tagged.mesh"});
   EXPECT_EQ(read("a.vtu"), read("b.vtu"));
   EXPECT_EQ(read("a.vtu"), read("c.vtu"));
@@ -288,18 +288,18 @@ TEST_F(Optimize, FixTakesSeveralTagsAndStillFindsTheInput) {
 
 TEST_F(Optimize, OptionsWithoutEffectAreNamed) {
   const Outcome outcome =
-      temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--energy", "F", "--gamma", "1", "--max-sweeps", "2"});
+      temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--set", "energy=F", "--set", "gamma=1:absolute", "--set", "max_sweeps=2"});
   EXPECT_TRUE(contains(outcome.err, "temper: warning: --gamma has no effect without --energy BP"));
 }
 
 TEST_F(Optimize, SweepLimitIsKept) {
-  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--max-sweeps", "1", "--report", "r.json"});
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--set", "max_sweeps=1", "--write", "r.json"});
   EXPECT_EQ(read_json("r.json")["sweeps"], 1);
   EXPECT_EQ(read_json("r.json")["stopped"], "max_sweeps");
 }
 
 TEST_F(Optimize, ReportCanGoToStandardOutput) {
-  const Outcome outcome = shell("temper optimize in.vtu -o out.vtu --quiet --report /dev/stdout | cat");
+  const Outcome outcome = shell("temper optimize in.vtu -o out.vtu --quiet --write /dev/stdout | cat");
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["after"]["orthocenters_outside"], 0);
 }
 
@@ -313,7 +313,7 @@ std::string size_file(const std::string& sizes, const std::string& extent = "1")
 }
 
 TEST_F(Optimize, ReportsWhatBecameOfTheSizes) {
-  const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--report", "r.json"});
+  const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "r.json"});
   for (const char* row : {"size over field, least", "size over field, median", "gradation, 95 %"}) {
     EXPECT_TRUE(contains(outcome.out, row));
   }
@@ -328,25 +328,25 @@ TEST_F(Optimize, ReportsWhatBecameOfTheSizes) {
 
 TEST_F(Optimize, KeepsToASizeBand) {
   temper_ok({"example", "random", "-o", "random.vtu"});
-  temper_ok({"optimize", "random.vtu", "-o", "free.vtu", "--report", "free.json", "--quiet"});
-  temper_ok({"optimize", "random.vtu", "-o", "out.vtu", "--report", "r.json", "--size-band", "1.4", "--quiet"});
+  temper_ok({"optimize", "random.vtu", "-o", "free.vtu", "--write", "free.json", "--quiet"});
+  temper_ok({"optimize", "random.vtu", "-o", "out.vtu", "--write", "r.json", "--set", "size_band=1.4", "--quiet"});
   const double unbound = read_json("free.json")["size"]["after"]["over_field"]["max"];
   const nlohmann::json sizes = read_json("r.json")["size"]["after"]["over_field"];
   EXPECT_GT(unbound, 1.4);
   EXPECT_LE(sizes["max"], 1.4 + 1e-12);
   EXPECT_GE(sizes["min"], 1 / 1.4 - 1e-12);
-  EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.vtu", "--size-band", "0.5"}).exit, 2);
+  EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.vtu", "--set", "size_band=0.5"}).exit, 2);
 }
 
 TEST_F(Optimize, TakesASizeFieldFromAFile) {
   write("sizes.vtk", size_file("2 2 2 2", "0.125"));
-  const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--size-field", "sizes.vtk", "--report",
-                                     "r.json", "--objective", "energy"});
+  const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--size", "sizes.vtk", "--write",
+                                     "r.json", "--set", "objective=energy"});
   EXPECT_TRUE(contains(outcome.out, "note: the size field does not reach "));
   const nlohmann::json report = read_json("r.json");
   EXPECT_GT(report["size"]["before"]["vertices_outside_field"], 0);
   EXPECT_EQ(report["options"]["size-field"], "sizes.vtk");
-  temper_ok({"optimize", "in.vtu", "-o", "own.vtu", "--report", "own.json", "--quiet", "--objective", "energy"});
+  temper_ok({"optimize", "in.vtu", "-o", "own.vtu", "--write", "own.json", "--quiet", "--set", "objective=energy"});
   EXPECT_EQ(read("own.vtu"), read("out.vtu"));  // without a band nothing but the report looks at it
   EXPECT_NE(read_json("own.json")["size"], report["size"]);
 }
@@ -360,9 +360,9 @@ TEST_F(Optimize, NamesWhatIsWrongWithASizeField) {
     for (const char* part : parts) EXPECT_TRUE(contains(outcome.err, part));
     EXPECT_FALSE(exists("out.vtu"));
   };
-  refused({"--size-field", "sizes.vtk"}, {"sizes.vtk", "point 2 has size 0", "expected a finite, positive length"});
-  refused({"--size-field", "sizes.vtk", "--size-field-data", "h"}, {"sizes.vtk", "no point data \"h\"", "size"});
-  refused({"--size-field", "none.vtk"}, {"none.vtk"});
+  refused({"--size", "sizes.vtk"}, {"sizes.vtk", "point 2 has size 0", "expected a finite, positive length"});
+  refused({"--size", "sizes.vtk", "--size-data", "h"}, {"sizes.vtk", "no point data \"h\"", "size"});
+  refused({"--size", "none.vtk"}, {"none.vtk"});
 }
 
 }  // namespace

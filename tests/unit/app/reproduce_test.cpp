@@ -1,4 +1,4 @@
-// temper reproduce, with figures that take a moment.
+// temper paper reproduce, with figures that take a moment.
 #include <signal.h>
 
 #include <chrono>
@@ -21,7 +21,7 @@ Names without_pictures(Names names) {
 }
 
 TEST_F(Reproduce, WritesPicturesAPageAndClaims) {
-  const Outcome outcome = temper_ok({"reproduce", "6", "-o", "new/folder", "--reduced"});
+  const Outcome outcome = temper_ok({"paper", "reproduce", "6", "-o", "new/folder", "--reduced"});
   EXPECT_EQ(outcome.err, "");  // no progress in a pipe
   EXPECT_TRUE(contains(outcome.out, "Hard barrier energy of one edge"));
   const std::string page = read("new/folder/index.html");
@@ -44,18 +44,18 @@ TEST_F(Reproduce, WritesPicturesAPageAndClaims) {
 }
 
 TEST_F(Reproduce, OneReadingIsInThePlaceOfTheFiguresOwn) {
-  temper_ok({"reproduce", "13", "-o", "own", "--reduced"});
-  temper_ok({"reproduce", "13", "-o", "read", "--reduced", "--order", "reverse", "--gamma", "0.5"});
+  temper_ok({"paper", "reproduce", "13", "-o", "own", "--reduced"});
+  temper_ok({"paper", "reproduce", "13", "-o", "read", "--reduced", "--set", "order=reverse", "--set", "gamma=0.5:absolute"});
   EXPECT_TRUE(contains(read("own/settings.md"), " | input | rms | 1 | refuse | 1 |"));
   EXPECT_TRUE(contains(read("read/settings.md"), " | reverse | rms | 1 | refuse | 0.5 |"));
-  const Outcome outcome = temper({"reproduce", "20", "-o", "none", "--reduced", "--inversion", "allow"});
+  const Outcome outcome = temper({"paper", "reproduce", "20", "-o", "none", "--reduced", "--set", "inversion=allow"});
   EXPECT_EQ(outcome.exit, 1);
   EXPECT_TRUE(contains(outcome.err, "figure 20 cannot be made under this reading: "));
 }
 
 TEST_F(Reproduce, WritesTheSameBytesTwice) {
-  temper_ok({"reproduce", "6,7", "-o", "a", "--reduced"});
-  temper_ok({"reproduce", "7", "6", "-o", "b", "--reduced"});
+  temper_ok({"paper", "reproduce", "6,7", "-o", "a", "--reduced"});
+  temper_ok({"paper", "reproduce", "7", "6", "-o", "b", "--reduced"});
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator("a")) {
     const std::string name = entry.path().filename().string();
@@ -66,25 +66,25 @@ TEST_F(Reproduce, WritesTheSameBytesTwice) {
 }
 
 TEST_F(Reproduce, ListNamesEveryFigureAndWritesNothing) {
-  const Outcome outcome = temper_ok({"reproduce", "--list"});
+  const Outcome outcome = temper_ok({"paper", "reproduce", "--list"});
   EXPECT_TRUE(contains(outcome.out, " 6  Hard barrier energy of one edge\n"));
-  EXPECT_EQ(temper_ok({"reproduce", "6", "--list"}).out, " 6  Hard barrier energy of one edge\n");
+  EXPECT_EQ(temper_ok({"paper", "reproduce", "6", "--list"}).out, " 6  Hard barrier energy of one edge\n");
   EXPECT_TRUE(names().empty());
 }
 
 TEST_F(Reproduce, BadUsageTouchesNothing) {
   for (const char* figure : {"0", "33", "six", "6,", "7-6"}) {
-    EXPECT_EQ(temper({"reproduce", figure, "-o", "out"}).exit, 2) << figure;
+    EXPECT_EQ(temper({"paper", "reproduce", figure, "-o", "out"}).exit, 2) << figure;
   }
-  EXPECT_EQ(temper({"reproduce", "6"}).exit, 2);
-  EXPECT_EQ(temper({"reproduce", "6", "-o", "out", "--reducd"}).exit, 2);
+  EXPECT_EQ(temper({"paper", "reproduce", "6"}).exit, 2);
+  EXPECT_EQ(temper({"paper", "reproduce", "6", "-o", "out", "--reducd"}).exit, 2);
   EXPECT_TRUE(names().empty());
 }
 
 TEST_F(Reproduce, AFolderThatCannotBeIsNamedBeforeTheWork) {
   write("file", "mine");
   for (const char* folder : {"file", "file/below"}) {
-    const Outcome outcome = temper({"reproduce", "6", "--reduced", "-o", folder});
+    const Outcome outcome = temper({"paper", "reproduce", "6", "--reduced", "-o", folder});
     EXPECT_EQ(outcome.exit, 1);
     EXPECT_TRUE(contains(outcome.err, std::string(folder) + ": cannot be written: "));
   }
@@ -93,11 +93,11 @@ TEST_F(Reproduce, AFolderThatCannotBeIsNamedBeforeTheWork) {
 }
 
 TEST_F(Reproduce, ClaimsThatDoNotHoldAreAnErrorOnlyWhenAskedFor) {
-  temper_ok({"reproduce", "6", "--reduced", "-o", "out"});
+  temper_ok({"paper", "reproduce", "6", "--reduced", "-o", "out"});
   std::size_t failing = 0;
   const nlohmann::json json = read_json("out/gallery.json");
   for (const nlohmann::json& claim : json["claims"]) failing += claim["holds"].get<bool>() ? 0 : 1;
-  const Outcome outcome = temper({"reproduce", "6", "--reduced", "-o", "out", "--require-claims"});
+  const Outcome outcome = temper({"paper", "reproduce", "6", "--reduced", "-o", "out", "--require-claims"});
   EXPECT_EQ(outcome.exit, failing > 0 ? 3 : 0);
   EXPECT_EQ(outcome.err.empty(), failing == 0) << outcome.err;
 }
@@ -105,7 +105,7 @@ TEST_F(Reproduce, ClaimsThatDoNotHoldAreAnErrorOnlyWhenAskedFor) {
 TEST_F(Reproduce, ASignalLeavesWholeFilesThatFitTogether) {
   int stopped = 0;
   for (const auto delay : {5ms, 20ms, 80ms}) {
-    const pid_t process = start({"reproduce", "-o", "out", "--reduced"}, "out.txt", "err.txt");
+    const pid_t process = start({"paper", "reproduce", "-o", "out", "--reduced"}, "out.txt", "err.txt");
     std::this_thread::sleep_for(delay);
     kill(process, SIGINT);
     stopped += wait_for(process) == -SIGINT;

@@ -15,8 +15,8 @@ using namespace std::chrono_literals;
 class Stopping : public Workshop {
  protected:
   // Too many sweeps to end by itself, on a mesh that is large enough for a sweep to take a moment.
-  const std::vector<std::string> kLong = {"optimize", "in.vtu",      "-o", "out.vtu",  "--max-sweeps",
-                                          "1000000",  "--tolerance", "0",  "--report", "r.json"};
+  const std::vector<std::string> kLong = {"optimize", "in.vtu",      "-o", "out.vtu",  "--set",
+                                          "max_sweeps=1000000",  "--set", "tolerance=0",  "--write", "r.json"};
 
   void SetUp() override { temper_ok({"example", "random", "--vertices", "10000", "-o", "in.vtu"}); }
 
@@ -64,7 +64,7 @@ TEST_F(Stopping, TheTimeLimitIsOfTheWholeRun) {
   temper_ok({"optimize", "small.off", "-o", "out.off", "--time-limit", "100", "--quiet"});
   const Outcome outcome = shell(
       "mkfifo late.off; (sleep 1; cat small.off > late.off) & "
-      "temper optimize late.off -o out.off --time-limit 2 --report r.json");
+      "temper optimize late.off -o out.off --time-limit 2 --write r.json");
   EXPECT_EQ(outcome.exit, 4) << outcome.err;
   EXPECT_EQ(read_json("r.json")["stopped"], "time_limit");
 }

@@ -1,4 +1,4 @@
-// temper optimize --trace and temper replay: the same bytes, and every trace that is none or another's refused.
+// temper optimize --write and temper replay: the same bytes, and every trace that is none or another's refused.
 #include <signal.h>
 
 #include <chrono>
@@ -25,7 +25,7 @@ class Trace : public Workshop {
   }
   static void expect_replay_gives(const std::string& input, const std::string& output) {
     const std::string again = "again." + output;
-    const Outcome outcome = temper({"replay", input, "t.jsonl", "-o", again});
+    const Outcome outcome = temper({"paper", "replay", input, "t.jsonl", "-o", again});
     ASSERT_EQ(outcome.exit, 0) << outcome.err;
     ASSERT_FALSE(read(output).empty());
     EXPECT_EQ(read(again), read(output));
@@ -56,7 +56,7 @@ TEST_F(Trace, ReplaysToTheSameBytes) {
     if (std::string(sample.example).starts_with("random"))
       make.insert(make.end(), {"--vertices", TEMPER_SANITIZED ? "80" : "200"});
     temper_ok(make);
-    std::vector<std::string> arguments = {"optimize", "in.vtu", "-o", "out.vtu", "--trace", "t.jsonl", "--quiet"};
+    std::vector<std::string> arguments = {"optimize", "in.vtu", "-o", "out.vtu", "--write", "t.jsonl", "--quiet"};
     arguments.insert(arguments.end(), sample.options.begin(), sample.options.end());
     temper_ok(arguments);
     EXPECT_GT(lines("t.jsonl").size(), 1u);
@@ -72,15 +72,15 @@ TEST_F(Trace, ReplaysInEveryFormatWithDataAndDroppedPoints) {
     SCOPED_TRACE(name);
     temper_ok({"convert", "random.vtu", "-o", name});
     const std::string output = std::string("out.") + name;
-    temper_ok({"optimize", name, "-o", output, "--trace", "t.jsonl", "--quiet", "--removal", "patch", "--removal-from",
-               "0", "--removal-margin", "0", "--max-sweeps", "15"});
+    temper_ok({"optimize", name, "-o", output, "--write", "t.jsonl", "--quiet", "--set", "removal=patch", "--set",
+               "removal_from=0", "--set", "removal_margin=0", "--set", "max_sweeps=15"});
     EXPECT_EQ(temper({"check", output, "--require", "vertices=150"}).exit, 3) << "nothing was removed";
     expect_replay_gives(name, output);
   }
   write("odd.mesh",
         "MeshVersionFormatted 2\nDimension 2\nVertices\n7\n9 9 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n8 8 0\n0.3 0.4 0\n"
         "Edges\n2\n2 3 11\n3 4 12\nTriangles\n4\n3 2 7 0\n3 4 7 0\n4 5 7 0\n5 2 7 0\nEnd\n");
-  temper_ok({"optimize", "odd.mesh", "-o", "out.mesh", "--trace", "t.jsonl", "--quiet"});
+  temper_ok({"optimize", "odd.mesh", "-o", "out.mesh", "--write", "t.jsonl", "--quiet"});
   expect_replay_gives("odd.mesh", "out.mesh");
   std::size_t moves = 0;
   for (const std::string& line : lines("t.jsonl")) {
@@ -116,8 +116,8 @@ TEST_F(Trace, PointsThatAreLeftKeepTheirDataWhenToldTo) {
     ASSERT_TRUE(io::write(name, file));
     const std::string output = std::string("out.") + name;
     const Outcome outcome =
-        temper_ok({"optimize", name, "-o", output, "--trace", "t.jsonl", "--quiet", "--removal", "patch",
-                   "--removal-from", "0", "--removal-margin", "0", "--max-sweeps", "15", "--point-data", "keep=id"});
+        temper_ok({"optimize", name, "-o", output, "--write", "t.jsonl", "--quiet", "--set", "removal=patch",
+                   "--set", "removal_from=0", "--set", "removal_margin=0", "--set", "max_sweeps=15", "--point-data", "keep=id"});
     EXPECT_FALSE(contains(outcome.err, "dropped"));
     std::vector<double> left = id;
     for (const std::string& line : lines("t.jsonl")) {
@@ -137,8 +137,8 @@ TEST_F(Trace, PointsThatAreLeftKeepTheirDataWhenToldTo) {
 
 TEST_F(Trace, EveryLineIsAnObjectWithItsKeys) {
   temper_ok({"example", "horseshoe", "-o", "in.vtu"});
-  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--trace", "t.jsonl", "--removal", "patch", "--removal-from", "0",
-             "--report", "r.json", "--quiet"});
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "t.jsonl", "--set", "removal=patch", "--set", "removal_from=0",
+             "--write", "r.json", "--quiet"});
   const std::vector<std::string> all = lines("t.jsonl");
   ASSERT_GT(all.size(), 100u);
   const nlohmann::json header = nlohmann::json::parse(all[0]);
@@ -174,19 +174,19 @@ TEST_F(Trace, EveryLineIsAnObjectWithItsKeys) {
 
 TEST_F(Trace, ReplayStopsAfterASweepWhenAsked) {
   make_input();
-  temper_ok({"optimize", "in.vtu", "-o", "three.vtu", "--max-sweeps", "3", "--trace", "t.jsonl", "--quiet"});
-  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--max-sweeps", "6", "--trace", "t.jsonl", "--quiet"});
-  const Outcome outcome = temper_ok({"replay", "in.vtu", "t.jsonl", "-o", "again.vtu", "--sweeps", "3"});
+  temper_ok({"optimize", "in.vtu", "-o", "three.vtu", "--set", "max_sweeps=3", "--write", "t.jsonl", "--quiet"});
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--set", "max_sweeps=6", "--write", "t.jsonl", "--quiet"});
+  const Outcome outcome = temper_ok({"paper", "replay", "in.vtu", "t.jsonl", "-o", "again.vtu", "--sweeps", "3"});
   EXPECT_EQ(read("again.vtu"), read("three.vtu"));
   EXPECT_TRUE(contains(outcome.out, "wrote again.vtu"));
-  EXPECT_EQ(temper_ok({"replay", "in.vtu", "t.jsonl", "-o", "again.vtu", "--quiet"}).out, "");
+  EXPECT_EQ(temper_ok({"paper", "replay", "in.vtu", "t.jsonl", "-o", "again.vtu", "--quiet"}).out, "");
   EXPECT_EQ(read("again.vtu"), read("out.vtu"));
 }
 
 TEST_F(Trace, OfARunStoppedByASignalIsThatOfItsMesh) {
   temper_ok({"example", "random", "--vertices", "5000", "-o", "in.vtu"});
   const pid_t process = start(
-      {"optimize", "in.vtu", "-o", "out.vtu", "--max-sweeps", "1000000", "--tolerance", "0", "--trace", "t.jsonl"},
+      {"optimize", "in.vtu", "-o", "out.vtu", "--set", "max_sweeps=1000000", "--set", "tolerance=0", "--write", "t.jsonl"},
       "out.txt", "err.txt");
   for (int i = 0; i < 3000 && read("out.txt").find("vertices") == std::string::npos; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -201,17 +201,17 @@ TEST_F(Trace, OfARunStoppedByASignalIsThatOfItsMesh) {
 
 TEST_F(Trace, NothingIsLeftOfOneWhoseRunFailed) {
   temper_ok({"example", "horseshoe", "-o", "in.vtu"});
-  EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.vtu", "--energy", "BH", "--trace", "t.jsonl"}).exit, 2);
+  EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.vtu", "--set", "energy=BH", "--write", "t.jsonl"}).exit, 2);
   EXPECT_EQ(names(), std::vector<std::string>{"in.vtu"});
 }
 
 TEST_F(Trace, WrongOnesAreRefusedWithTheirLine) {
   make_input();
-  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--trace", "t.jsonl", "--quiet"});
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "t.jsonl", "--quiet"});
   const std::string header = lines("t.jsonl").at(0) + "\n";
   const auto expect_refused = [&](const std::string& trace, const std::string& message) {
     write("bad.jsonl", trace);
-    const Outcome outcome = temper({"replay", "in.vtu", "bad.jsonl", "-o", "no.vtu"});
+    const Outcome outcome = temper({"paper", "replay", "in.vtu", "bad.jsonl", "-o", "no.vtu"});
     EXPECT_EQ(outcome.exit, 1) << message;
     EXPECT_TRUE(contains(outcome.err, "temper: error: bad.jsonl" + message));
     EXPECT_FALSE(exists("no.vtu"));
@@ -219,7 +219,7 @@ TEST_F(Trace, WrongOnesAreRefusedWithTheirLine) {
   const std::string move = R"({"event":"move","sweep":1,"vertex":8,"before":null,"after":1,"x":0.3,"y":0.2,"w":0})";
   const std::string end = "{\"event\":\"end\",\"events\":1}\n";
   write("good.jsonl", header + move + "\n" + end);
-  temper_ok({"replay", "in.vtu", "good.jsonl", "-o", "moved.vtu"});
+  temper_ok({"paper", "replay", "in.vtu", "good.jsonl", "-o", "moved.vtu"});
 
   expect_refused("", ": the file is empty");
   expect_refused(header + "{\"event\":" + std::string(200000, '[') + "\n", ":2: is nested more than 16 deep");
@@ -259,7 +259,7 @@ TEST_F(Trace, WrongOnesAreRefusedWithTheirLine) {
                  ":3: flip of the edge from point 0 to point 48, which is not in the mesh");
   expect_refused(header + "{\"event\":\"undo\",\"sweep\":1,\"to\":4}\n" + end,
                  ":2: undo in sweep 1 to the end of sweep 4, which has not been");
-  const Outcome missing = temper({"replay", "in.vtu", "none.jsonl", "-o", "no.vtu"});
+  const Outcome missing = temper({"paper", "replay", "in.vtu", "none.jsonl", "-o", "no.vtu"});
   EXPECT_EQ(missing.exit, 1);
   EXPECT_TRUE(contains(missing.err, "none.jsonl: cannot be read: No such file or directory"));
 }
@@ -268,8 +268,8 @@ TEST_F(Trace, WrongOnesAreRefusedWithTheirLine) {
 
 TEST_F(Trace, MethodPaperChangesTheDefaultsAndGivenOptionsWin) {
   make_input();
-  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--report", "r.json", "--quiet", "--tolerance", "0.5", "--method",
-             "paper", "--max-sweeps", "2", "--removal", "none", "--collapse-from", "none"});
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "r.json", "--quiet", "--set", "tolerance=0.5", "--for",
+             "paper", "--set", "max_sweeps=2", "--set", "removal=none", "--set", "collapse_from=none"});
   const nlohmann::json options = read_json("r.json")["options"];
   EXPECT_EQ(options["method"], "paper");
   EXPECT_EQ(options["solver"], "golden");
@@ -289,14 +289,14 @@ TEST_F(Trace, MethodPaperChangesTheDefaultsAndGivenOptionsWin) {
 TEST_F(Trace, TheCommandOfAnyMethodGivesTheSameBytes) {
   temper_ok({"example", "horseshoe", "-o", "in.vtu"});
   const std::vector<std::vector<std::string>> runs = {
-      {"--method", "paper", "--max-sweeps", "3", "--inversion", "refuse"},
-      {"--method", "paper", "--max-sweeps", "3", "--gamma-rel", "0.3", "--anchor", "none", "--energy", "T"},
-      {"--removal", "patch", "--collapse-from", "2", "--hidden", "remove", "--order", "reverse", "--max-sweeps", "15"},
-      {"--solver", "alternating", "--weight-updates", "deferred", "--flips", "none", "--unknown"},
+      {"--for", "paper", "--set", "max_sweeps=3", "--set", "inversion=refuse"},
+      {"--for", "paper", "--set", "max_sweeps=3", "--set", "gamma=0.3", "--set", "anchor=none", "--set", "energy=T"},
+      {"--set", "removal=patch", "--set", "collapse_from=2", "--set", "hidden=remove", "--set", "order=reverse", "--set", "max_sweeps=15"},
+      {"--set", "solver=alternating", "--set", "weight_updates=deferred", "--set", "flips=none", "--unknown"},
   };
   for (std::vector<std::string> options : runs) {
     const bool wrong = options.back() == "--unknown";
-    std::vector<std::string> arguments = {"optimize", "in.vtu", "-o", "out.vtu", "--report", "r.json", "--quiet"};
+    std::vector<std::string> arguments = {"optimize", "in.vtu", "-o", "out.vtu", "--write", "r.json", "--quiet"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     if (wrong) {
       EXPECT_EQ(temper(arguments).exit, 2);
@@ -313,14 +313,14 @@ TEST_F(Trace, TheCommandOfAnyMethodGivesTheSameBytes) {
 
 TEST_F(Trace, FlipsNoneIsNoFlipsAndKeepsEveryEdge) {
   make_input();
-  temper_ok({"optimize", "in.vtu", "-o", "a.vtu", "--flips", "none", "--max-sweeps", "5", "--report", "r.json"});
+  temper_ok({"optimize", "in.vtu", "-o", "a.vtu", "--set", "flips=none", "--set", "max_sweeps=5", "--write", "r.json"});
   EXPECT_EQ(read_json("r.json")["flips"], 0);
-  temper_ok({"optimize", "in.vtu", "-o", "b.vtu", "--no-flips", "--quiet", "--max-sweeps", "5"});
+  temper_ok({"optimize", "in.vtu", "-o", "b.vtu", "--keep", "edges", "--quiet", "--set", "max_sweeps=5"});
   EXPECT_EQ(read("a.vtu"), read("b.vtu"));
   const auto input = *io::read("in.vtu"), output = *io::read("a.vtu");
   EXPECT_EQ(output.triangles, input.triangles);
   EXPECT_NE(output.points, input.points);
-  temper_ok({"optimize", "in.vtu", "-o", "c.vtu", "--max-sweeps", "5", "--report", "r.json"});
+  temper_ok({"optimize", "in.vtu", "-o", "c.vtu", "--set", "max_sweeps=5", "--write", "r.json"});
   EXPECT_GT(read_json("r.json")["flips"], 0);
   EXPECT_NE(io::read("c.vtu")->triangles, input.triangles);
 }
@@ -328,7 +328,7 @@ TEST_F(Trace, FlipsNoneIsNoFlipsAndKeepsEveryEdge) {
 TEST_F(Trace, RemovalsAreSaidAndCounted) {
   temper_ok({"example", "horseshoe", "-o", "in.vtu"});
   const Outcome outcome = temper_ok(
-      {"optimize", "in.vtu", "-o", "out.vtu", "--removal", "patch", "--removal-from", "0", "--report", "r.json"});
+      {"optimize", "in.vtu", "-o", "out.vtu", "--set", "removal=patch", "--set", "removal_from=0", "--write", "r.json"});
   const nlohmann::json report = read_json("r.json");
   const std::size_t removed = report["vertices_removed"];
   ASSERT_GT(removed, 1u);
@@ -339,15 +339,15 @@ TEST_F(Trace, RemovalsAreSaidAndCounted) {
 
 TEST_F(Trace, SwitchesThatDoNothingAloneAreNamed) {
   make_input();
-  const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--quiet", "--max-sweeps", "1", "--inner",
-                                     "2", "--removal-margin", "0.5", "--collapse-ratio", "0.2"});
+  const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--quiet", "--set", "max_sweeps=1", "--set",
+                                     "inner=2", "--set", "removal_margin=0.5", "--set", "collapse_ratio=0.2"});
   for (const char* message :
        {"--inner has no effect without --flips deferred", "--removal-margin has no effect without --removal patch",
         "--collapse-ratio has no effect without --collapse-from"}) {
     EXPECT_TRUE(contains(outcome.err, message));
   }
-  const Outcome others = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--quiet", "--max-sweeps", "1", "--solver",
-                                    "golden", "--relaxation", "1.5", "--overshoot", "1.2", "--boundary-ratio", "3"});
+  const Outcome others = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--quiet", "--set", "max_sweeps=1", "--set",
+                                    "solver=golden", "--set", "relaxation=1.5", "--set", "overshoot=1.2", "--set", "boundary_ratio=3"});
   for (const char* message : {"--relaxation has no effect without --solver newton or --solver alternating",
                               "--overshoot has no effect without --flip-limit after",
                               "--boundary-ratio has no effect without --boundary split"}) {
@@ -365,13 +365,13 @@ TEST_F(Trace, SwitchesThatContradictEachOtherAreRefused) {
     EXPECT_FALSE(exists("no.vtu"));
     return outcome.err;
   };
-  EXPECT_TRUE(contains(refused({"--no-flips", "--flips", "immediate"}), "--no-flips"));
-  EXPECT_TRUE(contains(refused({"--method", "paper", "--method", "production"}), "--method is given more than once"));
-  EXPECT_TRUE(contains(refused({"--boundary", "split", "--no-flips"}), "expected --flips immediate"));
-  EXPECT_TRUE(contains(refused({"--boundary", "slide", "--inversion", "allow", "--flips", "deferred"}),
+  EXPECT_TRUE(contains(refused({"--keep", "edges", "--set", "flips=immediate"}), "--keep", "edges"));
+  EXPECT_TRUE(contains(refused({"--for", "paper", "--for", "any"}), "--method is given more than once"));
+  EXPECT_TRUE(contains(refused({"--boundary", "split", "--keep", "edges"}), "expected --flips immediate"));
+  EXPECT_TRUE(contains(refused({"--boundary", "slide", "--set", "inversion=allow", "--set", "flips=deferred"}),
                        "--boundary slide needs --inversion refuse"));
-  EXPECT_TRUE(contains(refused({"--method", "paper", "--flips", "immediate"}), "needs --flips deferred"));
-  EXPECT_TRUE(contains(refused({"--energy", "T", "--energy", "BP"}), "--energy is given more than once"));
+  EXPECT_TRUE(contains(refused({"--for", "paper", "--set", "flips=immediate"}), "needs --flips deferred"));
+  EXPECT_TRUE(contains(refused({"--set", "energy=T", "--set", "energy=BP"}), "--energy is given more than once"));
 }
 
 // --- the boundary -------------------------------------------------------------------------------------------------
@@ -382,8 +382,8 @@ TEST_F(Trace, OfASplitBoundaryReplaysInEveryFormat) {
     SCOPED_TRACE(name);
     temper_ok({"convert", "horseshoe.vtu", "-o", name});
     const std::string output = std::string("out.") + name;
-    const Outcome outcome = temper_ok({"optimize", name, "-o", output, "--trace", "t.jsonl", "--boundary", "split",
-                                       "--max-sweeps", "15", "--repair", "none", "--report", "r.json"});
+    const Outcome outcome = temper_ok({"optimize", name, "-o", output, "--write", "t.jsonl", "--boundary", "split",
+                                       "--set", "max_sweeps=15", "--set", "repair=none", "--write", "r.json"});
     const nlohmann::json report = read_json("r.json");
     ASSERT_GT(report["vertices_inserted"], 0);
     EXPECT_EQ(report["vertices_removed"], 0);

@@ -22,7 +22,7 @@ constexpr double kMargin = 0.02;
 
 OptimizeOptions options_for(Scheme scheme) {
   OptimizeOptions o;
-  o.target = scheme;
+  o.scheme = scheme;
   if (scheme == Scheme::all) o.objective = Objective::solver_error;
   o.solver_error.steps = 40;
   return o;
@@ -54,7 +54,7 @@ TEST(ErrorObjective, LowersTheErrorsOfItsSchemeBelowThoseOfTheAccuracyObjective)
   for (const Scheme scheme : {Scheme::vertex, Scheme::cell, Scheme::all}) {
     const OptimizeOptions options = options_for(scheme);
     const Improved error = improved(input, options);
-    const Improved accuracy = improved(input, {.objective = Objective::accuracy, .target = scheme});
+    const Improved accuracy = improved(input, {.objective = Objective::accuracy, .scheme = scheme});
     const auto after = errors_on(error.mesh, input, scheme), before = errors_on(accuracy.mesh, input, scheme);
     ASSERT_EQ(after.size(), before.size());
     double product = 1;
@@ -133,22 +133,22 @@ TEST(ErrorObjective, AsksAfterEachTrialOfAStep) {
 TEST(ErrorObjective, WithoutAModelLowersAccuracyAndSaysSo) {
   const Mesh input = *random_mesh({.vertices = 60, .seed = 2});
   Mesh without = input, accuracy = input;
-  const auto report = optimize(without, {.target = Scheme::vertex});
+  const auto report = optimize(without, {.scheme = Scheme::vertex});
   ASSERT_TRUE(report);
-  ASSERT_TRUE(optimize(accuracy, {.objective = Objective::accuracy, .target = Scheme::vertex}));
+  ASSERT_TRUE(optimize(accuracy, {.objective = Objective::accuracy, .scheme = Scheme::vertex}));
   EXPECT_EQ(without, accuracy);
   EXPECT_EQ(report->objective, Objective::accuracy);
   EXPECT_NE(report->notes.front().find("the objective was accuracy, not the error"), std::string::npos);
-  EXPECT_EQ(improved(input, {.target = Scheme::vertex}).report.objective, Objective::solver_error);
+  EXPECT_EQ(improved(input, {.scheme = Scheme::vertex}).report.objective, Objective::solver_error);
 }
 
 TEST(ErrorObjective, IsForSchemesAndEnergiesThatCenterTriangles) {
   Mesh mesh = *random_mesh({.vertices = 20, .seed = 2});
   const Mesh before = mesh;
   EXPECT_FALSE(wants_error_model({}, mesh));
-  EXPECT_FALSE(wants_error_model({.target = Scheme::stars}, mesh));
-  EXPECT_FALSE(wants_error_model({.target = Scheme::cell, .energy = EnergyKind::T}, mesh));
-  EXPECT_TRUE(wants_error_model({.target = Scheme::cell}, mesh));
+  EXPECT_FALSE(wants_error_model({.scheme = Scheme::stars}, mesh));
+  EXPECT_FALSE(wants_error_model({.scheme = Scheme::cell, .energy = EnergyKind::T}, mesh));
+  EXPECT_TRUE(wants_error_model({.scheme = Scheme::cell}, mesh));
   OptimizeOptions hot = options_for(Scheme::vertex);
   hot.objective = Objective::solver_error;
   hot.energy = EnergyKind::T;

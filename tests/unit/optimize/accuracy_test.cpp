@@ -26,7 +26,7 @@ namespace {
 OptimizeOptions for_accuracy() {
   OptimizeOptions o;
   o.objective = Objective::accuracy;
-  o.target = Scheme::stars;
+  o.scheme = Scheme::stars;
   o.accuracy.margin = 0.02;
   return o;
 }
@@ -97,7 +97,7 @@ TEST(Accuracy, MakesEdgesAndDualsAsLongAsIsAskedFor) {
   for (const Mesh& input : {*random_mesh({.vertices = 300, .seed = 2}), *annulus(), *airfoil()}) {
     for (const Scheme scheme : {Scheme::all, Scheme::vertex}) {
       OptimizeOptions o;
-      o.target = scheme;
+      o.scheme = scheme;
       Mesh without = input, with = input;
       improved(without, o);
       o.accuracy.min_edge = kEdge, o.accuracy.min_dual = kDual;

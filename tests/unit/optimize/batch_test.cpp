@@ -339,7 +339,7 @@ TEST(InstructionSets, RunsForAccuracyGiveTheSameBytes) {
   ASSERT_TRUE(optimize(start));
   OptimizeOptions options;
   options.objective = Objective::accuracy;
-  options.target = Scheme::stars;
+  options.scheme = Scheme::stars;
   options.accuracy.sweeps = 5;
   std::optional<Mesh> first;
   for (const InstructionSet set : instruction_sets()) {

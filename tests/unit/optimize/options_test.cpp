@@ -55,7 +55,7 @@ OptionValue wrong_value(const OptionRow& row) {
 TEST(TableOfOptions, HasADefaultInRangeAndRefusesOthersByNameAndRange) {
   const OptimizeOptions defaults;
   EXPECT_TRUE(check_options(defaults));
-  EXPECT_TRUE(check_options(paper_method()));
+  EXPECT_TRUE(check_options(*options_for("paper")));
   std::set<std::string_view> names;
   for (const OptionGroup& group : option_groups()) {
     for (const OptionRow& row : group.rows) {

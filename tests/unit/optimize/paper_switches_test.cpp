@@ -36,7 +36,7 @@ std::vector<Vec2> boundary(const Mesh& mesh) {
 }
 
 OptimizeOptions dense_positions() {
-  OptimizeOptions o = paper_method();
+  OptimizeOptions o = *options_for("paper");
   o.energy = EnergyKind::dT;
   o.unknowns = Unknowns::positions;
   o.paper.inversion = Inversion::refuse;
@@ -47,7 +47,7 @@ OptimizeOptions dense_positions() {
 
 TEST(PaperMethod, IsAlgorithm1) {
   Mesh mesh = dense();
-  const auto report = optimize(mesh, paper_method());
+  const auto report = optimize(mesh, *options_for("paper"));
   ASSERT_TRUE(report) << report.error().what();
   EXPECT_EQ(mesh.validate(), std::nullopt);
   EXPECT_GT(report->vertices_removed, 10u);
@@ -124,7 +124,7 @@ TEST(Collapses, LeaveFixedVerticesAlone) {
   Mesh mesh = dense();
   for (const VertexId v : mesh.vertices()) mesh.set_fixed(v, true);
   const Mesh input = mesh;
-  OptimizeOptions o = paper_method();
+  OptimizeOptions o = *options_for("paper");
   o.paper.inversion = Inversion::refuse;
   ASSERT_TRUE(optimize(mesh, o));
   EXPECT_EQ(mesh.n_vertices(), input.n_vertices());
@@ -141,7 +141,7 @@ TEST(Collapses, LeaveInterfacesAlone) {
     line.push_back({a, b});
   }
   ASSERT_GT(line.size(), 4u);
-  OptimizeOptions o = paper_method();
+  OptimizeOptions o = *options_for("paper");
   o.paper.inversion = Inversion::refuse;
   const auto report = optimize(mesh, o);
   ASSERT_TRUE(report);
@@ -245,7 +245,7 @@ TEST(DeferredWeights, DoNotDependOnTheOrderOfTheVertices) {
   for (const SweepOrder order : {SweepOrder::input, SweepOrder::reverse, SweepOrder::random}) {
     Mesh mesh = lattice({.n = 8, .jitter = 0.1, .weight = 0});
     ASSERT_TRUE(restore_regularity(mesh).regular());
-    OptimizeOptions o = paper_method();
+    OptimizeOptions o = *options_for("paper");
     o.unknowns = Unknowns::weights;
     o.paper.weight_updates = Updates::deferred;
     o.paper.anchor = {};
@@ -279,7 +279,7 @@ std::vector<Mesh> meshes_to_hide_in() {
 // Lower HOT energies may make triangles bad. If hidden vertices stay, edges may stop being regular.
 TEST(PaperMethod, SaysWhenMoreTrianglesAreBadOrEdgesNotRegular) {
   Mesh mesh = *random_mesh({.vertices = 130, .seed = 5});
-  OptimizeOptions o = paper_method();
+  OptimizeOptions o = *options_for("paper");
   o.energy = EnergyKind::dT;
   o.paper.inversion = Inversion::refuse;
   o.max_sweeps = 100;
@@ -394,7 +394,7 @@ TEST(DeferredWeights, LeaveEveryEdgeRegularWhereFlipsDoNotWait) {
 TEST(HiddenVertices, AreKeptRemovedOrNeverThereByThePolicy) {
   std::size_t kept = 0, removed = 0;
   for (const HiddenPolicy policy : {HiddenPolicy::undo, HiddenPolicy::keep, HiddenPolicy::remove}) {
-    OptimizeOptions o = paper_method();
+    OptimizeOptions o = *options_for("paper");
     o.energy = EnergyKind::dT;
     o.unknowns = Unknowns::weights;
     o.paper.collapse_from = std::nullopt;
@@ -429,7 +429,7 @@ TEST(HiddenVertices, AreKeptRemovedOrNeverThereByThePolicy) {
 
 TEST(Inversions, AreTakenOnlyWhereAllowed) {
   for (const Inversion inversion : {Inversion::refuse, Inversion::allow}) {
-    OptimizeOptions o = paper_method();
+    OptimizeOptions o = *options_for("paper");
     o.energy = EnergyKind::F;
     o.paper.collapse_from = std::nullopt;
     o.paper.removal = Removal::none;
@@ -458,7 +458,7 @@ TEST(Inversions, OfTheInputThatStayNameNoHiddenVertices) {
     if (!mesh.is_boundary(v)) inner = v;
   }
   mesh.set_position(inner, {100, 100});
-  OptimizeOptions o = paper_method();
+  OptimizeOptions o = *options_for("paper");
   o.energy = EnergyKind::F;
   o.max_sweeps = 1;
   const auto report = optimize(mesh, o);
@@ -491,7 +491,7 @@ TEST(FlipLimits, BeforeNeverFlips) {
 TEST(PaperMethod, GivesTheInputBackRegularWhenItFindsNothingBetter) {
   const Mesh input = *sheared_grid({.nx = 6, .ny = 5});
   ASSERT_GT(count_non_regular_edges(input), 0u);
-  OptimizeOptions o = paper_method();
+  OptimizeOptions o = *options_for("paper");
   o.energy = EnergyKind::dT;
   o.star = Star::zero;
   std::vector<TraceEvent> events;
@@ -517,7 +517,7 @@ TEST(PaperMethod, GivesAnInputBackRegularWhateverIsCutOrKeptHidden) {
       for (const BoundaryVertices boundary : {BoundaryVertices::keep, BoundaryVertices::split}) {
         SCOPED_TRACE(std::to_string(seed) + ", " + std::to_string(static_cast<int>(policy)) + ", " +
                      std::to_string(static_cast<int>(boundary)));
-        OptimizeOptions o = paper_method();
+        OptimizeOptions o = *options_for("paper");
         o.energy = seed % 3 == 0 ? EnergyKind::dT : EnergyKind::BP;
         o.boundary = boundary;
         o.boundary_ratio = 2;

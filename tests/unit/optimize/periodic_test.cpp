@@ -69,7 +69,7 @@ TEST(PeriodicOptimize, AFewVerticesAroundAPeriodDo) {
 TEST(PeriodicOptimize, TheAccuracyObjectiveLowersItsEnergyAndKeepsItsMargin) {
   for (const std::size_t vertices : {200U, 1500U}) {
     Mesh mesh = torus(vertices, 5);
-    const OptimizeReport report = optimized_periodic(mesh, {.objective = Objective::accuracy, .target = Scheme::stars});
+    const OptimizeReport report = optimized_periodic(mesh, {.objective = Objective::accuracy, .scheme = Scheme::stars});
     expect_all_well_centered(mesh);
     EXPECT_LT(report.objective_after, 0.35 * report.objective_before);
     const Quality q = quality(mesh);
@@ -198,7 +198,7 @@ TEST(PeriodicOptimize, WhatIsNotThereSaysSo) {
       refused.error().message,
       "weights hide point 7 (weight -1); expected weights that leave every vertex a power cell, and edges shorter "
       "than half a period");
-  EXPECT_NE(message(paper_method()).find("`inversion=allow` is for meshes of the plane"), std::string::npos);
+  EXPECT_NE(message(*options_for("paper")).find("`inversion=allow` is for meshes of the plane"), std::string::npos);
 }
 
 TEST(PeriodicOptimize, SameBytesForAnyThreadsAndInstructionSet) {

@@ -78,7 +78,7 @@ TEST(Sphere, TheAccuracyObjectiveLowersItsEnergyAndKeepsItsMargin) {
   for (const std::size_t vertices : {200U, 1500U}) {  // one by one, and in batches
     Mesh barrier = globe(vertices, 5), mesh = barrier;
     optimized(barrier);
-    const OptimizeReport report = optimized(mesh, {.objective = Objective::accuracy, .target = Scheme::stars});
+    const OptimizeReport report = optimized(mesh, {.objective = Objective::accuracy, .scheme = Scheme::stars});
     expect_well_centered(mesh);
     EXPECT_LT(report.objective_after, 0.35 * report.objective_before);
     const auto q = quality(mesh);

@@ -83,7 +83,7 @@ std::vector<Case> cases() {
   add("anchor", {.paper = {.anchor = VertexId(5)}});
   add("frozen", {.flips = Flips::none});
   add("two restarts", {.max_sweeps = 120});
-  OptimizeOptions paper = paper_method();
+  OptimizeOptions paper = *options_for("paper");
   paper.max_sweeps = 6;
   paper.paper.inner = 2;
   for (const std::string energy : {"F", "T", "dT", "BP", "BHs"}) {

@@ -27,7 +27,7 @@ Mesh mesh_of_random_points() {
 
 /// Algorithm 1 without removals, one sweep of it.
 OptimizeOptions one_sweep(EnergyKind energy) {
-  OptimizeOptions o = paper_method();
+  OptimizeOptions o = *options_for("paper");
   o.energy = energy;
   o.paper.inversion = Inversion::refuse;
   o.paper.hidden = HiddenPolicy::undo;
@@ -286,7 +286,7 @@ TEST(Insertion, BreaksUpTrianglesOfLargeEnergy) {
 
 // Algorithm 1 with all its other parts: removals in the same sweeps, and triangles that turn over.
 TEST(Insertion, GoesWithRemovalsAndWaitsWhereTrianglesAreInverted) {
-  OptimizeOptions o = paper_method();
+  OptimizeOptions o = *options_for("paper");
   o.energy = EnergyKind::F;
   o.paper.inner = 3;
   o.paper.insertion_from = 0;
@@ -304,7 +304,7 @@ TEST(Insertion, GoesWithRemovalsAndWaitsWhereTrianglesAreInverted) {
 // of E_F⁰.
 TEST(Methods, CvtEndsWithVerticesAtTheCentroidsOfTheirCells) {
   Mesh mesh = lattice({.n = 7, .jitter = 0.2, .weight = 0});
-  OptimizeOptions o = cvt_method();
+  OptimizeOptions o = *options_for("cvt");
   o.paper.tolerance = 1e-12;
   ASSERT_TRUE(optimize(mesh, o));
   int inner = 0;
@@ -333,7 +333,7 @@ TEST(Methods, CvtEndsWithVerticesAtTheCentroidsOfTheirCells) {
 // Chen and Xu: the vertex is the mean of its star's circumcenters, weighted by the areas.
 TEST(Methods, OdtEndsWithVerticesAtTheMeanOfCircumcenters) {
   Mesh mesh = lattice({.n = 7, .jitter = 0.2, .weight = 0});
-  OptimizeOptions o = odt_method();
+  OptimizeOptions o = *options_for("odt");
   o.paper.tolerance = 1e-12;
   ASSERT_TRUE(optimize(mesh, o));
   int inner = 0;

@@ -118,7 +118,7 @@ TEST(SizeBand, BelowOneIsRefused) {
     ASSERT_FALSE(report.has_value());
     EXPECT_EQ(report.error().code, ErrorCode::invalid_option);
   }
-  OptimizeOptions tangled = paper_method();
+  OptimizeOptions tangled = *options_for("paper");
   tangled.size_band = 2;
   EXPECT_FALSE(optimize(mesh, tangled).has_value());
 }

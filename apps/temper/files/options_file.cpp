@@ -1,0 +1,128 @@
+#include "files/options_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "suggest.hpp"
+
+namespace temper::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr auto kFlags = std::to_array<std::string_view>({"--for", "--effort", "--keep", "--fix", "--size", "--size-data",
+                                                         "--tensor", "--projection", "--point-data"});
+
+/// "size_data" of "--size-data".
+std::string member_of(std::string_view flag) {
+  std::string member(flag.substr(2));
+  std::ranges::replace(member, '-', '_');
+  return member;
+}
+
+[[noreturn]] void fail_at(const std::string& path, const std::string& message) {
+  throw Failure(Exit::bad_input, fmt::format("{}: {}", path, message));
+}
+
+Json parse(const std::string& path) {
+  std::ifstream stream(path);
+  if (!stream) fail_at(path, "cannot be opened; expected a JSON file with options");
+  Json json = Json::parse(stream, nullptr, false);
+  if (json.is_discarded()) fail_at(path, "is no JSON; expected an object such as {\"for\": \"cell\", \"max_sweeps\": 20}");
+  if (json.is_object() && json.contains("schema") && json.contains("options")) json = Json(json["options"]);
+  if (!json.is_object()) fail_at(path, "expected a JSON object with options, or a report of temper optimize");
+  return json;
+}
+
+/// A value as the text that a flag takes; nothing: it is no text or number.
+std::optional<std::string> text_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_integer()) return std::to_string(value.get<std::int64_t>());
+  if (value.is_number()) return fmt::format("{}", value.get<double>());
+  return std::nullopt;
+}
+
+/// The texts of a member: one, or those of a list.
+std::vector<std::string> texts_of(const std::string& path, const std::string& member, const Json& value) {
+  std::vector<std::string> texts;
+  for (const Json& item : value.is_array() ? value : Json::array({value})) {
+    std::optional<std::string> text = text_of(item);
+    if (!text) fail_at(path, fmt::format("{} is {}; expected a text or a number", member, value.dump()));
+    texts.push_back(*std::move(text));
+  }
+  return texts;
+}
+
+Assignment assignment_of(const std::string& path, const OptionRow& row, const Json& value) {
+  if (value.is_null()) return parse_assignment(row.name, std::string(row.absent_name));
+  return parse_assignment(row.name, texts_of(path, std::string(row.name), value).front());
+}
+
+Json value_of(const OptionRow& row, const OptionValue& value) {
+  if (std::holds_alternative<std::monostate>(value)) return nullptr;
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return *whole;
+  if (const auto* real = std::get_if<double>(&value)) return *real;
+  return option_text(row, value);
+}
+
+}  // namespace
+
+std::span<const std::string_view> flags_of_a_run() { return kFlags; }
+
+void read_options(Command& command, const std::string& path, Assignments& assignments) {
+  Assignments read;
+  std::vector<std::string> known;
+  for (const std::string_view flag : kFlags) known.push_back(member_of(flag));
+  const Json json = parse(path);
+  for (const auto& [member, value] : json.items()) {
+    try {
+      const auto flag = std::ranges::find(known, member);
+      if (flag == known.end()) {
+        const OptionRow* const row = find_option(member);
+        read.push_back(row != nullptr ? assignment_of(path, *row, value) : parse_assignment(member, ""));
+        continue;
+      }
+      Option& option = command.option(kFlags.at(static_cast<std::size_t>(flag - known.begin())));
+      if (!option.given.empty() || value.is_null()) continue;
+      for (const std::string& text : texts_of(path, member, value)) {
+        option.take(text);
+        option.given.push_back(text);
+      }
+    } catch (const BadValue& bad) {
+      fail_at(path, fmt::format("{}: {}", member, bad.what()));
+    }
+  }
+  assignments.insert(assignments.begin(), read.begin(), read.end());
+}
+
+std::string options_json(const Command& command, const Assignments& assignments) {
+  Json json = Json::object();
+  for (const Option& option : command.options()) {
+    if (option.given.empty() || std::ranges::find(kFlags, long_name(option.names)) == kFlags.end()) continue;
+    const std::string member = member_of(long_name(option.names));
+    if (option.values == Values::one) {
+      json[member] = option.given.front();
+    } else {
+      json[member] = option.given;
+    }
+  }
+  for (const Assignment& a : assignments) {
+    json[std::string(a.row->name)] =
+        a.vertex.empty() ? value_of(*a.row, a.value) : Json(a.vertex);
+  }
+  return json.dump();
+}
+
+std::string options_json(const OptimizeOptions& options) {
+  Json json = Json::object();
+  for (const OptionGroup& group : option_groups()) {
+    for (const OptionRow& row : group.rows) json[std::string(row.name)] = value_of(row, row.get(options));
+  }
+  return json.dump();
+}
+
+}  // namespace temper::app

@@ -1,0 +1,166 @@
+// Words of a user that set several options: the target of a mesh, the effort of a run, the parts of a mesh to keep.
+// docs/howto/choose.md has the measurements behind them.
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "base/text.hpp"
+#include "temper/detail/optimize_table.hpp"
+
+namespace temper {
+namespace {
+
+using Options = OptimizeOptions;
+
+/// Grading that --keep sizes allows: sizes stay within this factor of the sizes of the input.
+constexpr double kBandOfSizes = 2;
+
+void move_positions_alone(Options& o) { o.unknowns = Unknowns::positions; }
+
+constexpr auto kTargets = std::to_array<Preset>({
+    {"any", "Any solver that uses the dual mesh", [](Options&) {}},
+    {"valid", "Only valid triangles, in the least time", [](Options& o) { o.objective = Objective::energy; }},
+    {"vertex", "Unknowns at vertices: Voronoi finite volumes, exterior calculus",
+     [](Options& o) { o.scheme = Scheme::vertex; }},
+    {"cell", "Unknowns in triangles, two-point flux: MODFLOW, PorePy, FiPy",
+     [](Options& o) { o.scheme = Scheme::cell; }},
+    {"stars", "Diagonal Hodge stars of exterior calculus", [](Options& o) { o.scheme = Scheme::stars; }},
+    {"mpas", "MPAS: no weights, centered cells, vertices removed and inserted",
+     [](Options& o) {
+       move_positions_alone(o);
+       o.star = Star::zero;
+       o.repair = Repair::vertices;
+     }},
+    {"dflowfm", "D-Flow FM: no weights, orthogonality below 0.01, no small flow links",
+     [](Options& o) {
+       move_positions_alone(o);
+       o.repair = Repair::vertices;
+       o.accuracy.min_dual = 0.1;
+     }},
+    {"adcirc", "ADCIRC and SCHISM: no weights, large angles, even edges", move_positions_alone},
+    {"fem", "Linear finite elements: no weights, large angles",
+     [](Options& o) {
+       move_positions_alone(o);
+       o.scheme = Scheme::vertex;
+     }},
+    {"paper",
+     "Algorithm 1 of the paper: golden section, deferred flips, collapses, the patch test, inversions, the first "
+     "vertex as anchor and gamma 1",
+     [](Options& o) {
+       o.flips = Flips::deferred;
+       o.repair = Repair::none;
+       PaperSwitches& p = o.paper;
+       p.gamma = LengthParameter{1, LengthScale::absolute};
+       p.solver = Solver::golden;
+       p.inner = 0;
+       p.flip_limit = FlipLimit::unlimited;
+       p.inversion = Inversion::allow;
+       p.hidden = HiddenPolicy::keep;
+       p.order = SweepOrder::input;
+       p.anchor = VertexId(0);
+       p.collapse_from = 0;
+       p.removal = Removal::patch;
+       p.removal_measure = RemovalMeasure::sum;
+       p.removal_margin = 0;
+       p.removal_from = 0;
+       p.stopping = StoppingRule::paper;
+       p.tolerance = 1e-6;
+     },
+     true},
+    {"odt",
+     "Optimal Delaunay triangulation (Chen and Xu 2004): positions alone lower energy ODT. All weights must be equal",
+     [](Options& o) {
+       move_positions_alone(o);
+       o.energy = EnergyKind::ODT;
+     },
+     true},
+    // The energy is the moment of the Voronoi cells about their vertices. Lloyd's iterations lower the same energy.
+    {"cvt",
+     "Centroidal Voronoi tessellation (Du, Faber and Gunzburger 1999): positions alone lower energy F of star 0",
+     [](Options& o) {
+       move_positions_alone(o);
+       o.energy = EnergyKind::F;
+       o.star = Star::zero;
+     },
+     true},
+});
+
+constexpr auto kEfforts = std::to_array<Preset>({
+    {"quick", "Few sweeps",
+     [](Options& o) {
+       o.accuracy.sweeps = 5;
+       o.repair_trials = 2000;
+       o.solver_error.most_vertices = 0;
+     }},
+    {"normal", "Sweeps until little is gained", [](Options&) {}},
+    {"high", "Many sweeps and repairs",
+     [](Options& o) {
+       o.accuracy.sweeps = 200;
+       o.repair_trials = 200'000;
+       o.solver_error.most_vertices = 200'000;
+     }},
+});
+
+constexpr auto kKeeps = std::to_array<Preset>({
+    {"positions", "All vertices stay, and only weights change", [](Options& o) { o.unknowns = Unknowns::weights; }},
+    {"weights", "All weights stay, and only positions change", move_positions_alone},
+    {"edges", "No edge flips", [](Options& o) { o.flips = Flips::none; }},
+    {"boundary", "Vertices of the boundary and of interfaces stay",
+     [](Options& o) {
+       o.boundary = BoundaryVertices::keep;
+       o.interfaces = InterfaceVertices::fixed;
+     }},
+    {"sizes", "Local sizes stay within a factor of 2", [](Options& o) { o.size_band = kBandOfSizes; }},
+});
+
+/// Returns the preset of this name, or an error that lists the names.
+Expected<const Preset*> find(std::span<const Preset> presets, std::string_view what, std::string_view name) {
+  std::string names;
+  for (const Preset& preset : presets) {
+    if (preset.name == name) return &preset;
+    names += (names.empty() ? "" : ", ") + std::string(preset.name);
+  }
+  return InputError{
+      ErrorCode::invalid_option, {}, std::string(what) + " is '" + std::string(name) + "'; expected one of " + names};
+}
+
+bool changes(const Preset& preset, Unknowns unknowns) {
+  Options options;
+  preset.apply(options);
+  return options.unknowns == unknowns;
+}
+
+}  // namespace
+
+std::span<const Preset> targets() { return kTargets; }
+std::span<const Preset> efforts() { return kEfforts; }
+std::span<const Preset> keeps() { return kKeeps; }
+
+Expected<OptimizeOptions> options_for(std::string_view target, std::string_view effort,
+                                      std::span<const std::string_view> keep) {
+  Options options;
+  const Expected<const Preset*> wanted = find(kTargets, "target", target);
+  if (!wanted) return wanted.error();
+  (*wanted)->apply(options);
+  const Expected<const Preset*> time = find(kEfforts, "effort", effort);
+  if (!time) return time.error();
+  (*time)->apply(options);
+  for (const std::string_view name : keep) {
+    const Expected<const Preset*> part = find(kKeeps, "keep", name);
+    if (!part) return part.error();
+    const bool moves = options.unknowns == Unknowns::positions, weighs = options.unknowns == Unknowns::weights;
+    if ((moves && changes(**part, Unknowns::weights)) || (weighs && changes(**part, Unknowns::positions))) {
+      const bool by_target = changes(**wanted, Unknowns::positions);
+      return InputError{ErrorCode::invalid_option,
+                        {},
+                        by_target ? "target '" + std::string(target) + "' moves positions and keeps weights, so that " +
+                                        "positions cannot be kept; expected another target, or no 'positions' to keep"
+                                  : "positions and weights are both to be kept, so that nothing can change; expected "
+                                    "one of the two"};
+    }
+    (*part)->apply(options);
+  }
+  return options;
+}
+
+}  // namespace temper
