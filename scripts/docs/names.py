@@ -28,13 +28,7 @@ VERBS = {
     "draw": (["draw_svg"], ["draw_svg", "draw_before_after_svg"]),
     "convert": (["read", "write"], ["io::read", "io::write"]),
     "example": (["generate"], ["horseshoe", "random_mesh", "…"]),
-    "replay": (["replay"], ["replay"]),
-    "reproduce": ([], []),
-}  # fmt: skip
-
-# Options of optimize that are another option's value, or two for one.
-SPELLED = {
-    "--gamma-rel": "gamma", "--h0-rel": "h0", "--no-flips": "flips", "--for": "target",
+    "paper": (["replay"], ["replay"]),
 }  # fmt: skip
 
 # Options that are no field of OptimizeOptions and no keyword of that name, of all verbs or of one: Python, C++.
@@ -49,8 +43,14 @@ OTHERS = {
     "--format": ("`write(format=…)`", "`io::WriteOptions::format`"),
     "--gamma-rel": ("`quality(gamma=LengthParameter(…, 'relative'))`", "`LengthParameter`"),
     "--h0-rel": ("`quality(h0=LengthParameter(…, 'relative'))`", "`LengthParameter`"),
-    "--html": ("`html_report`", "`io::html_report`"),
-    "--method": ("`paper_method`, `odt_method`, `cvt_method`", "`methods`"),
+    "--for": ("`optimize(target=…)`", "`options_for`"),
+    "--effort": ("`optimize(effort=…)`", "`options_for`"),
+    "--keep": ("`optimize(keep=…)`", "`options_for`"),
+    "--options": ("`optimize(options=…)`", "`OptimizeOptions`"),
+    "optimize --set": ("`optimize(options={…})`", "`OptimizeOptions`"),
+    "--size-data": ("`optimize(size_field=…)`", "`OptimizeOptions::size_field`"),
+    "optimize --size": ("`optimize(size_field=…)`", "`OptimizeOptions::size_field`"),
+    "--write": ("`html_report`, `draw_svg`, `optimize(tracer=…)`", "`io::html_report`, `OptimizeHooks::tracer`"),
     "--no-bad": ("`draw_svg(bad_triangles=False)`", ""),
     "--no-rings": ("`draw_svg(near_coincident=False)`", ""),
     "--numbers": ("`draw_svg(vertex_numbers=True)`", ""),
@@ -61,10 +61,8 @@ OTHERS = {
     "--no-triangle-quality": ("`write(triangle_quality=False)`", "`io::WriteOptions::triangle_quality`"),
     "--point-data": ("`optimize(point_data=…)`", "`io::UpdateOptions::rules`"),
     "--projection": ("`read(projection=…)`", "`io::project`"),
-    "--size-field": ("`optimize(size_field=…)`", "`OptimizeOptions::size_field`"),
     "--tensor": ("`optimize(tensor=…)`, `dec_operators(tensor=…)`, `mapped`, `mapped_back`", "`Metric`, `mapped`, `mapped_back`"),
     "--threads": ("`threads=…`", "`Executor`, `TbbExecutor`"),
-    "--trace": ("`optimize(tracer=…)`", "`OptimizeHooks::tracer`"),
 }  # fmt: skip
 
 
@@ -84,17 +82,17 @@ def members_of(struct):
 
 
 def options_table(program):
-    """Options of optimize(): one name in three spellings."""
+    """Options of optimize() that have another name in C++, or a flag of the program."""
     given = options_of(program, "optimize")
     lines = []
     for group, rows in itertools.groupby(TABLE, lambda row: row["group"]):
-        lines += ["", f"**{group}**", "", "| program | Python | C++: `OptimizeOptions` |", "|-|-|-|"]
-        for row in rows:
-            name = row["name"]
-            spellings = ["--" + name.replace("_", "-")] + [flag for flag, of in SPELLED.items() if of == name]
-            shown = ", ".join(f"`{flag}`" for flag in spellings if flag in given)
-            assert shown, f"no option of the program for {name}"
-            lines.append(f"| {shown} | `{name}` | `{member_for(name)}` |")
+        found = []
+        for name in (row["name"] for row in rows):
+            flag, member = "--" + name.replace("_", "-"), member_for(name)
+            if flag in given or member != name:
+                found.append(f"| `{flag if flag in given else '--set ' + name + '=…'}` | `{name}` | `{member}` |")
+        if found:
+            lines += ["", f"**{group}**", "", "| program | Python | C++: `OptimizeOptions` |", "|-|-|-|", *found]
     return lines
 
 
@@ -116,9 +114,9 @@ def other_options(program):
         for function in functions:
             if callable(getattr(temper, function)):
                 keywords = {name: function for name in inspect.signature(getattr(temper, function)).parameters} | keywords
-        of_table = {"--" + row["name"].replace("_", "-") for row in TABLE} | set(SPELLED) if verb == "optimize" else set()
-        for flag in options_of(program, verb) if verb not in ("example", "reproduce") else []:
-            if flag in of_table or flag in ("--help", "--help-all"):
+        of_table = {"--" + row["name"].replace("_", "-") for row in TABLE} if verb == "optimize" else set()
+        for flag in options_of(program, verb) if verb != "example" else []:
+            if flag in of_table or flag.startswith("--help"):
                 continue
             plain = flag.removeprefix("--").replace("-", "_")
             python, cpp = OTHERS.get(f"{verb} {flag}") or OTHERS.get(flag, ("", ""))
@@ -167,7 +165,7 @@ def measures_table(program):
 
 
 def energies_table():
-    lines = ["| `--energy`, `energy=`, row of `energy.energies()` | C++: `EnergyKind` | formula |", "|-|-|-|"]
+    lines = ["| option `energy`, row of `energy.energies()` | C++: `EnergyKind` | formula |", "|-|-|-|"]
     kinds = re.search(r"enum class EnergyKind \{(.*?)\};", re.sub(r"//[^\n]*", "", (HEADERS / "energy.hpp").read_text(encoding="utf-8")), re.S)[1]
     for energy, kind in zip(temper.energy.energies(), re.findall(r"\w+", kinds), strict=True):
         formula = energy.formula.replace("|", "\\|")
@@ -191,7 +189,8 @@ def page(program):
         "",
         "## Options of `optimize`",
         "",
-        "In Python each is a keyword of `optimize` and a field of `OptimizeOptions`; in `paper.` and `accuracy.` are members of the structs there.",
+        "All options have one name: in `--set NAME=VALUE` of the program, in `OptimizeOptions` and `optimize(options={NAME: VALUE})` of",
+        "Python, and in JSON. These have a flag of their own too, or are members of a struct in C++:",
         *options_table(program),
         "",
         "## Other options",

@@ -252,9 +252,8 @@ class Check:
         return {"": flags(top), **{verb: {"--help-all"} | flags(top) | flags(self.help(*verb.split(), "--help-all")) for verb in verbs}}
 
     def settings(self):
-        from temper._options import TABLE as rows
-
-        return {row["name"] for row in rows}
+        """Names for --set."""
+        return set(re.findall(r"^  ([a-z]\w*)=", self.help("optimize", "--help-all") + self.help("optimize", "--help-paper"), re.M))
 
     def verb_pages(self):
         """Each verb has a page, with its summary and its help."""
@@ -357,7 +356,8 @@ class Check:
 FAKE = """#!/bin/sh
 case "$*" in
   --help) printf 'Verbs:\\n  check  judge a mesh\\n  draw   draw a mesh\\n\\nOptions:\\n  -h, --help  this\\n' ;;
-  "check --help"|"check --help-all") printf 'Judges a mesh. Then ends.\\n\\nUsage: temper check IN\\n\\nOptions:\\n  --json  as JSON\\n' ;;
+  "check --help"|"check --help-all") printf 'Judges a mesh. Then ends.\\n\\nUsage: temper check IN\\n\\nOptions:\\n  --json  as JSON\\n  --set NAME=VALUE\\n' ;;
+  "optimize --help-all"|"optimize --help-paper") echo "  star=N  the star" ;;
   "draw --help"|"draw --help-all") printf 'Draws a mesh.\\n\\nUsage: temper draw IN\\n\\nOptions:\\n  -o, --output FILE  there\\n' ;;
   "check a") echo "12 of 40 triangles are bad, 0.296 is least, in 0.$$ s" ;;
   "draw a -o "*) echo "<svg>1.5</svg>" >"$4" ;;
@@ -366,7 +366,7 @@ esac
 """
 GOOD = """# A mesh
 
-Of 40 triangles, 30 % have 0.3 as their least; 25 is right and so is 3.33. `--json` helps. ![12 bad](../figures/a.svg)
+Of 40 triangles, 30 % have 0.3 as their least; 25 is right and so is 3.33. `--json` helps, and `--set star=1`. ![12 bad](../figures/a.svg)
 
 <!-- given: 25 (a reason), 3.33 = 40 / 12 -->
 
@@ -391,6 +391,7 @@ def self_test():
         "a removed option in a command": ("page", "check a", "check a --fast", 7, "unknown: check a --fast"),
         "the same before it is run": ("page", "check a", "check a --fast", 7, "temper check has no option --fast"),
         "a removed option in prose": ("page", "`--json`", "`--jsn`", 3, "has no option --jsn"),
+        "a removed option for --set": ("page", "star=1", "stra=1", 3, "--set stra"),
         "text that nothing prints": ("page", "```text", "so:\n\n```text", 14, "text that no command prints"),
         "a program that is not run": ("page", "```sh", "```console", 7, "a block of console is not run"),
         "a page of a verb without its mark": ("verb", "<!-- temper check --help-all -->\n", "", 1, "no block with the mark"),
