@@ -1,8 +1,8 @@
-// The tables of docs/accuracy.md: errors over those of the input, of E_BP alone and of the objectives after it, as
-// Markdown. The fields are the held-back ones of temper errors.
+// The table of docs/explanation/accuracy.md: errors of each target over those of the input, as Markdown. The fields are
+// the held-back ones of temper errors.
 //
-//     bench_accuracy_table FILE...                 one row a mesh and set of options, and their geometric means
-//     bench_accuracy_table --variants FILE...      the means alone, of other stars and weights
+//     bench_accuracy_table FILE...                 one row per mesh and target, and their geometric means
+//     bench_accuracy_table --variants FILE...      the means alone, of other stars and constants
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -87,8 +87,8 @@ bool print_variant(const std::vector<NamedMesh>& meshes, const Variant& variant,
 }
 
 std::vector<Variant> schemes() {
-  return {{"`--objective energy`", {.objective = Objective::energy}},
-          {"(none)", {}},
+  return {{"`--for valid`", {.objective = Objective::energy}},
+          {"`--for any`", {}},
           {"`--for vertex`", {.scheme = Scheme::vertex}},
           {"`--for cell`", {.scheme = Scheme::cell}},
           {"`--for stars`", {.scheme = Scheme::stars}}};

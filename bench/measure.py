@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Measures everything that docs/performance.md shows, and writes its numbers and pictures anew.
+"""Measures what docs/internals/performance.md and docs/explanation/cost.md show, and writes their tables and pictures.
 
     bench/measure.py BUILD [--sizes 1000,10000,100000,1000000] [--rounds 3] [--tables-only]
 
 BUILD is a build folder of the bench preset. On a quiet machine: 10⁶ vertices take some minutes. The numbers go to
-docs/performance/*.json, from there into the tables of docs/performance.md between their marks, and into the plots
+docs/internals/performance/*.json, from there into the tables of both pages between their marks, and into the plots
 (bench/plot.py). --tables-only: from the numbers that are there.
 """
 
@@ -20,7 +20,8 @@ import tempfile
 import plot
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-DOCUMENT = ROOT / "docs" / "performance.md"
+DOCUMENT = ROOT / "docs" / "internals" / "performance.md"
+COST = ROOT / "docs" / "explanation" / "cost.md"
 SETS = ("baseline", "avx2", "avx512")
 PARTS = {
     "step_1_gather": "gather the star, and what is across its link",
@@ -92,27 +93,13 @@ def sweeps_table(rows):
     return table(head, [[number(r["vertices"])] + [number(r[k]) for k in keys] for r in rows])
 
 
-def runs_table(rows):
+def cost_table(rows):
     def cells(r):
-        peak = [r[k] and r[k] / r["vertices"] for k in ("library_peak_bytes", "program_peak_bytes")]
-        s = r["stages"]
-        share = s["total"] and 100 * (s["read"] + s["build"] + s["update"] + s["write"]) / s["total"]
-        return [number(r["vertices"]), number(r["bad_before"]), number(r["bad_after"]),
-                number(r["sweeps_to_well_centered"]), number(r["sweeps"]), number(r["optimize_seconds"], 2),
-                *map(number, peak), number(share, 1)]
-    head = ["vertices", "bad triangles before", "after", "sweeps until none is bad", "until converged", "seconds",
-            "bytes a vertex, library", "program", "files, %"]
+        seconds = [r[key]["total"] for key in ("stages", "stages_with_threads")]
+        return [number(r["vertices"]), number(r["triangles"]), *(number(s, 1) for s in seconds),
+                number(r["program_peak_bytes"] / r["vertices"])]
+    head = ["vertices", "triangles", "seconds, one thread", "two threads", "bytes per vertex"]
     return table(head, [cells(r) for r in rows])
-
-
-def threads_table(rows):
-    rows = [r for r in rows if r["wall_ns_by_threads"]]
-    if not rows:
-        return "Not measured: there was no oneTBB."
-    most = max(len(r["wall_ns_by_threads"]) for r in rows)
-    cells = [[number(r["vertices"])] + [f"{number(ns)} ({r['wall_ns_by_threads'][0] / ns:.2f} ×)"
-                                        for ns in r["wall_ns_by_threads"]] for r in rows]
-    return table(["vertices"] + [f"{i} thread{'s' * (i > 1)}" for i in range(1, most + 1)], cells)
 
 
 def stages_table(rows):
@@ -125,20 +112,6 @@ def stages_table(rows):
     return table([f"{r['vertices']:,} vertices, seconds", "one thread", "all threads"], cells)
 
 
-def race_table(rows):
-    cells = []
-    for r in rows:
-        for key, start in (("race", "the input"), ("settled_race", "well-centered")):
-            race = r[key]
-            if race["plain_seconds"] is None:
-                continue
-            def finish(who, count):
-                return "not reached" if race[who] is None else f"{race[who]:.2f} ({race[count]:.0f})"
-            cells.append([f"{r['vertices']:,}, {start}", f"{race['plain_seconds']:.2f}",
-                          finish("default_seconds", "default_sweeps")])
-    return table(["vertices, from", "200 plain sweeps, s", "default, s (sweeps)"], cells)
-
-
 def step_table(times, rows):
     """Nanoseconds a vertex; batches have eight. The last rows: what a sweep costs besides."""
     def of(part, instruction_set):
@@ -149,13 +122,13 @@ def step_table(times, rows):
     total = {s: sum(of(part, s) for part in PARTS) for s in sets}
     cells.append(["together"] + [number(total[s], 1) for s in sets])
     whole = {s: times[f"energy_and_bad_triangles/{s}"] / 10000 for s in sets}
-    cells.append(["energy and bad triangles of the mesh, once a sweep"] + [number(whole[s], 1) for s in sets])
+    cells.append(["energy and bad triangles of the mesh, once per sweep"] + [number(whole[s], 1) for s in sets])
     settled = next((r["settled_ns"] for r in rows if r["vertices"] == 10000), None)
     if settled:
         rest = settled - total[sets[-1]] - whole[sets[-1]]
         cells.append(["the rest of a settled sweep: choosing who comes together, further trials, flips"] +
                      [""] * (len(sets) - 1) + [number(rest, 1)])
-    return table(["ns a vertex"] + list(sets), cells)
+    return table(["ns per vertex"] + list(sets), cells)
 
 
 def kernels_table(times):
@@ -170,17 +143,20 @@ def bounds_table(bounds):
 
 
 def write_tables(runs, times):
-    text = DOCUMENT.read_text()
     rows = runs["sizes"]
-    tables = {"sweeps": sweeps_table(rows), "runs": runs_table(rows), "threads": threads_table(rows),
-              "stages": stages_table(rows), "race": race_table(rows), "step": step_table(times, rows),
-              "kernels": kernels_table(times), "bounds": bounds_table(runs["bounds"])}
+    put_tables(COST, {"cost": cost_table(rows)})
+    put_tables(DOCUMENT, {"sweeps": sweeps_table(rows), "stages": stages_table(rows), "step": step_table(times, rows),
+                          "kernels": kernels_table(times), "bounds": bounds_table(runs["bounds"])})
+
+
+def put_tables(page, tables):
+    text = page.read_text()
     for name, body in tables.items():
-        mark = re.compile(rf"(<!-- {name}: by bench/measure.py -->\n).*?(<!-- end -->)", re.DOTALL)
+        mark = re.compile(rf"(<!-- written by bench/measure.py: {name} -->\n).*?(<!-- end -->)", re.DOTALL)
         text, count = mark.subn(lambda m: m[1] + body + "\n" + m[2], text)
         if count != 1:
-            sys.exit(f"measure: {DOCUMENT.name} has {count} places for the table '{name}'")
-    DOCUMENT.write_text(text)
+            sys.exit(f"measure: {page.name} has {count} places for the table '{name}'")
+    page.write_text(text)
 
 
 def main(arguments):
@@ -190,7 +166,7 @@ def main(arguments):
     parser.add_argument("--rounds", default="3")
     parser.add_argument("--tables-only", action="store_true")
     options = parser.parse_args(arguments)
-    folder = ROOT / "docs" / "performance"
+    folder = ROOT / "docs" / "internals" / "performance"
     files = {name: folder / f"{name}.json" for name in ("runs", "kernels")}
     if not options.tables_only:
         if options.build is None:

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Plots of cost against size and threads, from what bench_whole_run --json has written.
+"""Plots of cost against size and of stages, from what bench_whole_run --json has written.
 
-    bench/plot.py [RUNS.json [FOLDER]]     default: docs/performance/runs.json, and beside it
+    bench/plot.py [RUNS.json [FOLDER]]     default: docs/internals/performance/runs.json, and beside it
 """
 
 import json
@@ -37,28 +37,9 @@ def cost_against_size(rows, path):
         if points:
             axes.loglog(*zip(*points), color=color, marker=marker, markersize=4, label=label)
     axes.set_xlabel("vertices")
-    axes.set_ylabel("ns a vertex and sweep, one thread")
+    axes.set_ylabel("ns per vertex and sweep, one thread")
     axes.grid(True, which="major", color="#dddddd", linewidth=0.6)
     axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
-    save(figure, path)
-
-
-def speed_against_threads(rows, path):
-    rows = [r for r in rows if len(r["wall_ns_by_threads"]) > 1]
-    if not rows:
-        return
-    figure, axes = pyplot.subplots(figsize=(4, 3.2))
-    most = max(len(r["wall_ns_by_threads"]) for r in rows)
-    axes.plot([1, most], [1, most], color="#bbbbbb", linestyle="--", label="ideal")
-    for (_, color, marker), r in zip(list(COSTS.values())[2:], rows):
-        ns = r["wall_ns_by_threads"]
-        axes.plot(range(1, len(ns) + 1), [ns[0] / x for x in ns], color=color, marker=marker, markersize=4,
-                  label=f"{r['vertices']:,} vertices")
-    axes.set_xticks(range(1, most + 1))
-    axes.set_xlabel("threads")
-    axes.set_ylabel("times as fast as one, wall time")
-    axes.grid(True, color="#dddddd", linewidth=0.6)
-    axes.legend(fontsize=7, frameon=False)
     save(figure, path)
 
 
@@ -88,13 +69,12 @@ def draw(runs, folder):
     matplotlib.rcParams.update({"svg.hashsalt": "temper", "svg.fonttype": "none", "font.size": 9})
     rows = runs["sizes"]
     cost_against_size(rows, folder / "cost.svg")
-    speed_against_threads(rows, folder / "threads.svg")
     stages(rows, folder / "stages.svg")
 
 
 def main(arguments):
     root = pathlib.Path(__file__).resolve().parent.parent
-    path = pathlib.Path(arguments[0]) if arguments else root / "docs" / "performance" / "runs.json"
+    path = pathlib.Path(arguments[0]) if arguments else root / "docs" / "internals" / "performance" / "runs.json"
     draw(json.loads(path.read_text()), pathlib.Path(arguments[1]) if len(arguments) > 1 else path.parent)
     return 0
 

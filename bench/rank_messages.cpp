@@ -4,7 +4,8 @@
 //   bench_rank_messages work plane|sphere|periodic VERTICES RANKS …
 //
 // Counts of messages are exact, whatever the machine. Times are of the processor's clock. Ranks are threads of this
-// process, each with a mesh of its own, and need no processor each. Prints tables of Markdown: see docs/ranks.md.
+// process, each with a mesh of its own, and need no processor each. Prints tables of Markdown: see
+// docs/internals/ranks.md.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

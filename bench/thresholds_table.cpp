@@ -1,4 +1,4 @@
-// The tables of docs/thresholds.md, as Markdown: what solvers' codes look at, by quality_measures().
+// The tables of docs/reference/limits.md, as Markdown: what solvers' codes look at, by quality_measures().
 //
 //     bench_thresholds_table --definitions     one row a measure
 //     bench_thresholds_table FILE...           one row a mesh and run, then how many meshes of each run are refused by

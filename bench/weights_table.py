@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What weights, positions, and both together are worth: the table of docs/weights-help.md.
+"""Errors after runs with weights, with positions, and with both: the table of docs/explanation/weights.md.
 
     bench/weights_table.py TEMPER MESH ...
 

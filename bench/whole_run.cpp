@@ -1,4 +1,5 @@
-// Speed and memory of whole runs on random meshes, all ratios from one run of this program; see docs/performance.md.
+// Speed and memory of whole runs on random meshes, all ratios from one run of this program; see
+// docs/internals/performance.md.
 //
 //   bench_whole_run [--sizes 1000,10000,100000,1000000] [--rounds 3] [--sweeps 10] [--golden-sweeps 3] [--threads N]
 //                   [--sweeps-alone] [--temper PATH] [--json FILE] [--check]

@@ -1,4 +1,4 @@
-// The claims as docs/paper.md has them: a table, and what explains those that do not hold.
+// The claims as docs/explanation/paper-claims.md has them: a table, with the reason for each that does not hold.
 #include <string>
 
 #include "results.hpp"
@@ -36,27 +36,17 @@ std::string place(const Claim& claim) {
 std::string row(const Claim& claim) {
   const std::string paper = claim.author == Author::temper ? "(ours) " + claim.paper : claim.paper;
   return "| " + place(claim) + " | " + cell(claim.claim) + " | " + cell(paper) + " | " + cell(claim.temper) + " | " +
-         (claim.holds ? "✓" : "**✗**") + " |\n";
-}
-
-std::string reason(const Claim& claim) {
-  return "- *" + cell(claim.claim) + "* (" + place(claim) + "): " + cell(claim.why) + "\n";
+         (claim.holds ? "✓" : "**✗**: " + cell(claim.why)) + " |\n";
 }
 
 }  // namespace
 
 std::string claims_markdown(std::span<const Result> results) {
-  std::string rows, reasons;
+  std::string rows;
   for (const Result& result : results) {
-    for (const Claim& claim : result.page.claims) {
-      rows += row(claim);
-      if (!claim.holds) reasons += reason(claim);
-    }
+    for (const Claim& claim : result.page.claims) rows += row(claim);
   }
-  std::string text =
-      verdict_sentence(results) + "\n\n| where | claim | the paper | temper | holds |\n|-|-|-|-|-|\n" + rows;
-  if (!reasons.empty()) text += "\nWhy the others do not:\n\n" + reasons;
-  return text;
+  return verdict_sentence(results) + "\n\n| where | claim | the paper | temper | holds |\n|-|-|-|-|-|\n" + rows;
 }
 
 }  // namespace temper::gallery

@@ -4,8 +4,8 @@
     gallery/readings.py PROGRAM DIR
 
 runs `temper paper reproduce` for figures 11 to 32, which are made by the optimizer, once as each figure has it and once for
-each reading below, into folders of DIR (one that has its gallery.json is not made again), and writes two tables into
-docs/paper.md: how many claims hold under each reading, and under which readings those hold that do not hold under all.
+each reading below, into folders of DIR (one that has its gallery.json is not made again). It puts the number of claims
+that hold under each reading into docs/internals/paper-readings.md, and prints which claims fail under which reading.
 Claims of a figure that cannot be made under a reading do not hold under it.
 """
 import json
@@ -79,14 +79,13 @@ def main() -> None:
         sys.exit(__doc__)
     program, top = sys.argv[1], pathlib.Path(sys.argv[2])
     held = [claims(program, top / letter, options) for letter, _, options in READINGS]
-    page = pathlib.Path(__file__).resolve().parent.parent / "docs" / "paper.md"
+    page = pathlib.Path(__file__).resolve().parent.parent / "docs" / "internals" / "paper-readings.md"
     text = page.read_text(encoding="utf-8")
-    for name, table in (("readings", counts(held)), ("claims by reading", by_claim(held))):
-        text, blocks = re.subn(rf"(<!-- {name} -->\n).*?(<!-- /{name} -->)",
-                               lambda m: m[1] + "\n" + table + "\n\n" + m[2], text, flags=re.S)
-        if blocks != 1:
-            sys.exit(f"docs/paper.md must have one place for the {name}")
-        print(table)
+    text, blocks = re.subn(r"(<!-- readings -->\n).*?(<!-- /readings -->)",
+                           lambda m: m[1] + "\n" + counts(held) + "\n\n" + m[2], text, flags=re.S)
+    if blocks != 1:
+        sys.exit("docs/internals/paper-readings.md must have one place for the readings")
+    print(counts(held), by_claim(held), sep="\n\n")
     page.write_text(text, encoding="utf-8")
 
 

@@ -1,4 +1,4 @@
-// The table of docs/paper.md with the settings of the figures: a row for each figure that runs the optimizer.
+// The table of docs/internals/paper-readings.md: a row for each figure that runs the optimizer.
 #include <string>
 
 #include "reading.hpp"
@@ -19,18 +19,12 @@ std::string row(const Result& result) {
   return text + " |\n";
 }
 
-std::string dashed(std::string_view name) {
-  std::string text(name);
-  for (char& c : text) c = c == '_' ? '-' : c;
-  return text;
-}
-
 }  // namespace
 
 std::string settings_markdown(std::span<const Result> results) {
   std::string text = "| figure | runs |", rule = "|-|-|";
   for (const std::string_view name : kOpen) {
-    text += " `--" + dashed(name) + "` |";
+    text += " `" + std::string(name) + "` |";
     rule += "-|";
   }
   text += "\n" + rule + "\n";

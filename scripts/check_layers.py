@@ -2,12 +2,12 @@
 """Checks that every #include keeps to the layers, and that the core stays what it promises to be.
 
     scripts/check_layers.py [ROOT]       exit 1 and one line a violation: file:line: why
-    scripts/check_layers.py --picture    draws the layers anew in docs/architecture.md
+    scripts/check_layers.py --picture    draws the layers anew in docs/internals/architecture.md
     scripts/check_layers.py --self-test  plants violations in a scratch tree and expects each to be found
 
-The table below is the architecture, and docs/architecture.md shows it: the picture there must be that of the table, and
-every folder of src/ must be named there. A public header belongs to the layer it speaks for; a file of a layer
-may include its own layer and the layers its row names, nothing else. The core includes the standard C++
+The table below is the architecture, and docs/internals/architecture.md shows it: the picture there must be that of the
+table, and every folder of src/ must be named there. A public header belongs to the layer it speaks for; a file of a
+layer may include its own layer and the layers its row names, nothing else. The core includes the standard C++
 headers alone, and of those none that prints, opens files, starts threads or needs RTTI.
 
 A subfolder of a layer, of the program or of Python is a room, and the files beside its rooms are one more. No two rooms
@@ -165,7 +165,7 @@ def check_rooms(root):
             yield f"{line}: {house}/{a} and {house}/{b} include each other; see {first[house, b, a]}".replace("/ ", " ")
 
 
-PAGE = "docs/architecture.md"
+PAGE = "docs/internals/architecture.md"
 PICTURE = re.compile(r"(<!-- layers: drawn by scripts/check_layers.py --picture -->\n)```text\n.*?```\n", re.S)
 
 
@@ -191,7 +191,7 @@ def picture():
 
 
 def check_page(root):
-    """What docs/architecture.md does not show as it is."""
+    """What docs/internals/architecture.md does not show as it is."""
     page = (root / PAGE).read_text(encoding="utf-8") if (root / PAGE).exists() else ""
     drawn = PICTURE.search(page)
     if drawn is None or drawn[0] != f"{drawn[1]}```text\n{picture()}```\n":
@@ -275,7 +275,7 @@ def self_test():
             violations, files = check(pathlib.Path(scratch))
         if files != 1 or bool(violations) != expected:
             wrong.append(f"self-test: {file}: {line}: expected {'a violation' if expected else 'none'}, got {violations}")
-    pages = [  # docs/architecture.md, how many violations of a tree with src/mesh and src/mesh/room
+    pages = [  # docs/internals/architecture.md, how many violations of a tree with src/mesh and src/mesh/room
         (f"<!-- layers: drawn by scripts/check_layers.py --picture -->\n```text\n{picture()}```\n`src/mesh` `src/mesh/room`", 0),
         (f"<!-- layers: drawn by scripts/check_layers.py --picture -->\n```text\n{picture()}```\n`src/mesh`", 1),
         ("<!-- layers: drawn by scripts/check_layers.py --picture -->\n```text\n[mesh]\n```\n`src/mesh` `src/mesh/room`", 1),
@@ -285,7 +285,7 @@ def self_test():
         with tempfile.TemporaryDirectory() as scratch:
             root = pathlib.Path(scratch)
             (root / "src/mesh/room").mkdir(parents=True)
-            (root / "docs").mkdir()
+            (root / PAGE).parent.mkdir(parents=True)
             (root / PAGE).write_text(page, encoding="utf-8")
             found = list(check_page(root))
         if len(found) != expected:

@@ -1,7 +1,7 @@
 // Discrete exterior calculus on a weighted triangle mesh: incidence, diagonal stars with signed power duals, and the
 // dual. One value of flat arrays has all that a finite-volume or DEC solver needs of a mesh.
 //
-// Conventions (docs/operators.md), with the signs of temper/detail/geometry.hpp:
+// Conventions (docs/reference/operators.md), with the signs of temper/detail/geometry.hpp:
 //
 //            k            edges:  each once, from the lower vertex number to the higher, sorted by (from, to)
 //          / | \          d0:     −1 at from, +1 at to

@@ -1,5 +1,5 @@
 // The errors that a mesh causes in users' solvers, measured with manufactured solutions. It is a library of its own,
-// temper::errors, because it needs Eigen. docs/errors.md defines every norm.
+// temper::errors, because it needs Eigen. docs/reference/errors.md defines every norm.
 //
 //   ★s       the diagonal stars on smooth s-forms: the errors that the HOT energies bound
 //   Poisson  −Δu = f by discrete exterior calculus, unknowns at the vertices:  d0ᵀ ★1 d0 u = ★0 f

@@ -3,8 +3,8 @@
 // A reason is one of two things. Either it is a smallest set of triangles for which no common weights exist, with a
 // certificate (temper/feasibility.hpp). Or weights exist, and only have to be found. A conflict is explained in
 // lengths: each triangle allows its dual to cross an edge only in an interval. For some edge the intervals of its two
-// sides do not meet (docs/explain.md has the formulas). Each cure is tried on a copy of the neighborhood. It is
-// verified only if the weights found there make every triangle of the copy well-centered, by the exact predicate.
+// sides do not meet (docs/explanation/proofs.md has the formulas). Each cure is tried on a copy of the neighborhood. It
+// is verified only if the weights found there make every triangle of the copy well-centered, by the exact predicate.
 #pragma once
 
 #include <cstddef>

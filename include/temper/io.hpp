@@ -133,7 +133,7 @@ struct WriteOptions {
 
 /// A format that temper knows. A new format is one source file and one row.
 struct Format {
-  std::string_view name;  ///< Name: "vtu", "gmsh22", …; docs/formats.md lists them
+  std::string_view name;  ///< Name: "vtu", "gmsh22", …; docs/reference/formats/index.md lists them
   std::string_view description;
   std::string_view suffixes;  ///< Suffixes ".vtu", ".msh", …, separated by spaces; files are written with the first one
   bool writes;                ///< Format can be written

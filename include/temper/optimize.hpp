@@ -149,7 +149,7 @@ enum class StoppingRule {
 ///
 /// The star sets α and β. For c = 1, E is E_F / s² (eq. 2 of the paper). The first term is a moment of edge and dual,
 /// which every mesh of this size has. The second is c times the offset between their midpoints, which is the
-/// first-order error of a diagonal ★. docs/accuracy.md derives it. [length²]
+/// first-order error of a diagonal ★. docs/explanation/accuracy.md derives it. [length²]
 struct AccuracyOptions {
   std::optional<double> offset_factor = {};  ///< Factor c ≥ 0 of the offset: 1 is HOT itself. Absent: set by the scheme
   /// Factor of H² on the boundary, ≥ 0. No mesh avoids this term. A smaller factor is better for vertex-centered
@@ -177,7 +177,7 @@ struct AccuracyOptions {
 struct SchemeWeights {
   double offset_factor, boundary_offset_factor, margin;
 };
-/// These values come from measurements: docs/accuracy.md.
+/// These values come from measurements: docs/explanation/accuracy.md.
 [[nodiscard]] SchemeWeights scheme_weights(Scheme scheme);
 
 /// Options of Objective::solver_error. It lowers  ln mean(errors / initial errors) + κ ln(E + barrier)  over all

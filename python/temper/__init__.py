@@ -25,7 +25,7 @@ except ImportError as error:
     if "cannot import name '_temper'" not in str(error):
         raise
     raise ImportError(
-        f"temper: the compiled module _temper is not in {__path__[0]}: build it (docs/python.md) or install temper"
+        f"temper: the compiled module _temper is not in {__path__[0]}: see docs/howto/install.md"
     ) from None
 
 from . import energy, generate, geometry, projection, size, topology, types

@@ -136,8 +136,8 @@ class DecComplex(Record):
 
     On a sphere lengths are measured along arcs, and areas are spherical excess.
 
-    Signs (docs/concepts.md): a dual length is negative if the edge is not regular. On the boundary it is negative if
-    the orthocenter is outside. It is zero exactly if the four points are cocircular in the power sense.
+    Signs (docs/reference/symbols.md): a dual length is negative if the edge is not regular. On the boundary it is
+    negative if the orthocenter is outside. It is zero exactly if the four points are cocircular in the power sense.
     """
 
     edges: DecEdges
@@ -192,8 +192,8 @@ class DecComplex(Record):
         formats: Sequence[Literal["npz", "mtx", "vtu"]] = ("npz", "mtx", "vtu"),
         threads: int | None = None,
     ) -> list[str]:
-        """Writes the operators into a folder (docs/operators.md names every file and array). On an error no file is
-        written. Returns the paths of the files."""
+        """Writes the operators into a folder (docs/reference/operators.md names every file and array). On an error no
+        file is written. Returns the paths of the files."""
         return self._handle.write(os.fspath(folder), list(formats), threads)
 
 
@@ -209,7 +209,7 @@ def dec_operators(mesh: MeshLike, *, tensor: Sequence[float] | None = None) -> D
     mesh : Mesh or meshio.Mesh
     tensor : sequence of float, optional
         kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u). Duals and lengths are measured in its metric. ★1
-        and transmissibility are multiplied by √(det K) (docs/tensor.md).
+        and transmissibility are multiplied by √(det K) (docs/howto/anisotropic.md).
 
     Returns
     -------
@@ -282,7 +282,8 @@ class Columns(Record):
         threads: int | None = None,
     ) -> list[str]:
         """Writes ``mesh.disv`` and ``mesh.disu`` (MODFLOW 6), ``MESH`` (TOUGH), and for ParaView ``columns.vtu`` and
-        the dual, into a folder (docs/layers.md). On an error no file is written. Returns the paths of the files."""
+        the dual, into a folder (docs/reference/formats/layers.md). On an error no file is written. Returns the paths of
+        the files."""
         return self._handle.write(os.fspath(folder), list(formats), threads)
 
 

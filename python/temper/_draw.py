@@ -144,7 +144,7 @@ def html_report(
     title: str = "temper.Mesh",
     reasons: bool = True,
 ) -> Html:
-    """The report that the program writes with ``--html``: a page that needs no network (docs/report.md).
+    """The report that the program writes with ``--html``: a page that needs no network (docs/reference/formats/report.md).
 
     Parameters
     ----------

@@ -155,7 +155,7 @@ def explain(
     whole: int = 1000,
     progress: Callable[[int, int], Any] | None = None,
 ) -> Explanation:
-    """Explains each triangle that is not well-centered by exactly one reason (docs/explain.md).
+    """Explains each triangle that is not well-centered by exactly one reason (docs/explanation/proofs.md).
 
     Parameters
     ----------

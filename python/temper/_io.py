@@ -31,7 +31,7 @@ class Format(Record):
 
 
 def formats() -> list[Format]:
-    """The file formats of ``read`` and ``write`` (docs/formats.md describes the contents of each)."""
+    """The file formats of ``read`` and ``write`` (docs/reference/formats/index.md describes the contents of each)."""
     return [Format(**row) for row in _temper.formats()]
 
 

@@ -180,7 +180,8 @@ def measure_errors(
     local: bool = False,
     threads: int | None = None,
 ) -> ErrorReport:
-    """Measures the errors that solvers make on a mesh, with manufactured solutions (docs/errors.md defines every norm).
+    """Measures the errors that solvers make on a mesh, with manufactured solutions (docs/reference/errors.md defines
+    every norm).
 
     Parameters
     ----------

@@ -20,7 +20,8 @@ class SweepRecord(Record):
     sweep: int
     """Number of the sweep; 0 is the input."""
     energy: float
-    """Total energy at the end of the sweep, at its γ; for the objective ``accuracy`` see docs/accuracy.md."""
+    """Total energy at the end of the sweep, at its γ; for the objective ``accuracy`` see
+    docs/explanation/accuracy.md."""
     bad: int
     """Number of triangles that are not well-centered."""
     flips: int

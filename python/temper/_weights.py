@@ -56,7 +56,7 @@ class WeightConstraint:
 @dataclasses.dataclass(frozen=True)
 class Certificate(Record):
     """A proof that no weights exist (Farkas): constraints with multipliers ≥ 0 whose sum is a contradiction. The
-    polynomials are in ``temper/feasibility.hpp`` and docs/weights.md."""
+    polynomials are in ``temper/feasibility.hpp`` and docs/explanation/weights.md."""
 
     margin: float
     """Refuted margin: no weights keep the constraints with more than this margin."""
@@ -302,7 +302,7 @@ class EdgeConflict(Record):
 
 def edge_conflict(mesh: MeshLike, halfedge: int, *, up_to: float = 1.0) -> EdgeConflict | None:
     """The conflict of one edge if a + b ≤ up_to, exactly. With up_to = 1, no well-centered mesh has this edge and these
-    two vertices (docs/explain.md)."""
+    two vertices (docs/explanation/proofs.md)."""
     d = _temper.edge_conflict(as_mesh(mesh)._handle, halfedge, up_to)
     return None if d is None else EdgeConflict(**d)
 

@@ -2,8 +2,8 @@
 
 Points are (…, 2), or (…, 3) with the weight last; two columns mean weight 0. Arguments are broadcast against each
 other, and results have the shape that remains. Triangle ijk is counter-clockwise. h_k is positive on the left of i → j.
-d_ij = ℓ/2 + (w_i − w_j)/(2ℓ) is measured from i towards j (docs/concepts.md). Signs are −1, 0 or 1, int8. They are
-right for all doubles in the range of ``is_exact_coordinate`` and ``is_exact_weight``.
+d_ij = ℓ/2 + (w_i − w_j)/(2ℓ) is measured from i towards j (docs/reference/symbols.md). Signs are −1, 0 or 1, int8.
+They are right for all doubles in the range of ``is_exact_coordinate`` and ``is_exact_weight``.
 
 On a sphere, with ``space=mesh.space``, points are ``mesh.weighted_vectors``, (…, 3): directions whose squared lengths
 are R² + w (``temper.Space``). Triangles are counter-clockwise as seen from outside. Lengths and heights are arcs in

@@ -114,7 +114,7 @@ def options_table():
 def gallery_page(folder):
     """The figures that `temper paper reproduce` wrote, or how to make them."""
     text = "# Figures of the paper\n\n`temper paper reproduce -o gallery` makes each figure of the paper again, with its claims; "
-    text += "[The paper](paper.md) discusses them.\n\n"
+    text += "[The paper](explanation/paper.md) discusses them.\n\n"
     if folder is None:
         return text + "This site was built without them.\n"
     text += '<a href="gallery/index.html">All figures, with claims and tables</a>\n\n'
@@ -148,9 +148,9 @@ def on_config(config):
     generated["gallery.md"] = gallery_page(folder_of("TEMPER_GALLERY"))
     generated["playground.md"] = playground_page(folder_of("TEMPER_PLAYGROUND"))
     reference = next(entry for entry in config["nav"] if "Reference" in entry)
-    reference["Reference"] = [
-        {"Python": [{title: f"python-reference/{name}"} for name, title, _ in python]},
-        {"C++": [{name: f"cpp/{name}.md"} for name in cpp]},
+    reference["Reference"] += [
+        {"Python, every name": [{title: f"python-reference/{name}"} for name, title, _ in python]},
+        {"C++, every name": [{name: f"cpp/{name}.md"} for name in cpp]},
     ]
     return config
 

@@ -1,7 +1,8 @@
-// Every claim of the paper is a test: it holds, or it is known not to; and docs/paper.md says what was found.
+// Every claim of the paper is a test: it holds, or it is known not to; and docs/explanation/paper-claims.md says what
+// was found.
 //
 // The pages are made once for all tests of this process. Built with TEMPER_QUICK_CLAIMS the figures are those that take
-// little time with reduced effort, which finds other numbers than docs/paper.md has.
+// little time with reduced effort, which finds other numbers than docs/explanation/paper-claims.md has.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "gallery/gallery.hpp"
@@ -185,9 +187,9 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// What docs/paper.md has between <!-- NAME --> and <!-- /NAME -->.
-std::vector<std::string> documented(const std::string& name) {
-  std::ifstream file(TEMPER_SOURCE_DIR "/docs/paper.md");
+/// What a page has between <!-- NAME --> and <!-- /NAME -->.
+std::vector<std::string> documented(const std::string& page_name, const std::string& name) {
+  std::ifstream file(TEMPER_SOURCE_DIR + page_name);
   std::ostringstream text;
   text << file.rdbuf();
   const std::string begins = "<!-- " + name + " -->\n\n", ends = "\n<!-- /" + name + " -->";
@@ -208,11 +210,13 @@ std::string missing(const std::vector<std::string>& lines, const std::vector<std
 TEST(Gallery, TheDocsHaveEveryRowAsItIsFound) {
   std::vector<Result> results;
   for (const Figure& figure : figures()) results.push_back({figure, page(figure)});
-  for (const auto& [name, text] :
-       {std::pair("claims", claims_markdown(results)), std::pair("settings", settings_markdown(results))}) {
-    const std::vector<std::string> found = lines_of(text), docs = documented(name);
-    EXPECT_TRUE(found == docs) << "Found, and not in docs/paper.md:\n"
-                               << missing(found, docs) << "In docs/paper.md, and not found:\n"
+  const std::tuple<std::string, std::string, std::string> pages[] = {
+      {"/docs/explanation/paper-claims.md", "claims", claims_markdown(results)},
+      {"/docs/internals/paper-readings.md", "settings", settings_markdown(results)}};
+  for (const auto& [where, name, text] : pages) {
+    const std::vector<std::string> found = lines_of(text), docs = documented(where, name);
+    EXPECT_TRUE(found == docs) << "Found, and not in " << where << ":\n"
+                               << missing(found, docs) << "In " << where << ", and not found:\n"
                                << missing(docs, found) << "temper paper reproduce -o DIR && gallery/update_docs.py DIR";
   }
 }

@@ -1,6 +1,6 @@
 """Diffusion tensors: meshes in the metric, and two-point fluxes that converge there and nowhere else.
 
-    test_tensor.py    prints the table of docs/tensor.md, of the public meshes
+    test_tensor.py    prints errors and orders of convergence on the public meshes
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 // The promises of the accuracy objective, on public meshes that nobody here made and on fields that no parameter was
 // chosen by: errors over those of the input, each mesh well-centered and regular with its margins.
 //
-// docs/accuracy.md says which errors are reached, and how.
+// docs/explanation/accuracy.md says which errors are reached, and how.
 #include <gtest/gtest.h>
 
 #include <algorithm>

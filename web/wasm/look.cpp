@@ -205,7 +205,7 @@ int mesh_draw_svg(const HeldMesh* held, const HeldMesh* after, const char* optio
   });
 }
 
-/// The answer is the page. `before` may be null; `shown` is JSON: see docs/report.md.
+/// The answer is the page. `before` may be null; `shown` is JSON: see docs/reference/formats/report.md.
 TEMPER_EXPORT(mesh_html_report)
 int mesh_html_report(const HeldMesh* held, const HeldMesh* before, const char* title, std::size_t title_size,
                      const char* shown, std::size_t shown_size) {

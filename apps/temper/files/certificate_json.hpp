@@ -6,8 +6,8 @@
 //
 // Points count from 0, in the order of the file's arrays. The edge of a height lies in its triangle, counter-clockwise.
 // The edge of a crossing is directed: d is from its first point. A dual has the fields of a height, and "across": the
-// corner on the other side of the edge. Without "constraints" a file is of well_centered. docs/weights.md has the
-// expressions that the multipliers multiply.
+// corner on the other side of the edge. Without "constraints" a file is of well_centered.
+// docs/explanation/weights.md has the expressions that the multipliers multiply.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -15,8 +15,9 @@ void add_tensor(Command& command, std::optional<Metric>& metric, const std::stri
     if (!made) throw BadValue(made.error().message);
     metric = *made;
   };
-  add_numbers(command, "--tensor", "KXX,KXY,KYY", 3, use,
-              "Constant diffusion tensor K of -div(K grad u). " + what + " in its metric. See docs/tensor.md.");
+  add_numbers(
+      command, "--tensor", "KXX,KXY,KYY", 3, use,
+      "Constant diffusion tensor K of -div(K grad u). " + what + " in its metric. See docs/howto/anisotropic.md.");
 }
 
 void expect_without(const Command& command, const std::optional<Metric>& metric, const std::string& option) {

@@ -1,4 +1,5 @@
-// Traces as files: a header and one JSON object per line (JSON Lines; the format is in docs/formats.md).
+// Traces as files: a header and one JSON object per line (JSON Lines; the format is in
+// docs/reference/formats/trace.md).
 //
 // Vertices are points of the input file, counted from 0 in the order of its arrays, as in reports; inserted ones
 // follow. Numbers are the shortest that read back to the same double. The last line has the number of events. Without

@@ -126,7 +126,7 @@ Option& add_requirements(Command& command, std::vector<std::string>& lists) {
       command, "--require", "LIST", Values::repeated, lists,
       "Requirements key=value, key>=value or key<=value, separated by commas. If one is not met, exit with 3. For a "
       "count, key=value requires equality. For a minimum or a fraction it means at least, and for a maximum or an "
-      "energy at most. A key alone stands for its usual value, see docs/thresholds.md. Keys: " +
+      "energy at most. A key alone stands for its usual value, see docs/reference/limits.md. Keys: " +
           requirement_keys());
 }
 

@@ -120,7 +120,7 @@ Exit run_errors(const Arguments& arguments) {
       "errors",
       "Measures the errors that solvers make on a mesh, with manufactured solutions. It tests diagonal Hodge stars and "
       "two Poisson problems. One uses discrete exterior calculus at the vertices, the other two-point fluxes at the "
-      "orthocenters. It also describes their matrices. The page docs/errors.md defines every number.");
+      "orthocenters. It also describes their matrices. The page docs/reference/errors.md defines every number.");
   ErrorSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

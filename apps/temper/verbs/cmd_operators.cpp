@@ -53,7 +53,7 @@ void add_options(Command& command, DecSettings& s) {
   add_text(command, "--layers", "FILE", s.layers,
            "CSV file with the heights of the surfaces between layers, for columns of cells below the power cells. Its "
            "title line is vertex,top,bottom 1,bottom 2,... Each vertex has a row, or one row with * holds for all. See "
-           "docs/layers.md.");
+           "docs/reference/formats/layers.md.");
   add_number(command, "--pinch-out", s.pinch_out, kNotNegative,
              "Least thickness. If a layer is not thicker than this at a vertex, it has no cell there. The cells above "
              "and below are then connected.");

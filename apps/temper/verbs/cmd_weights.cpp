@@ -79,7 +79,7 @@ void add_options(Command& command, WeightsSettings& s) {
   add_mesh_output(command, s.output, "OUT",
                   "Mesh file to write, with the new weights. You may leave it out with --mode feasible.");
   add_text(command, "--certificate", "FILE", s.certificate,
-           "If no weights exist, write the proof as JSON. The page docs/weights.md describes it.");
+           "If no weights exist, write the proof as JSON. See docs/reference/formats/certificate.md.");
   add_text(command, "--check-certificate", "FILE", s.check,
            "Only check the proof in FILE against IN, in exact arithmetic.");
   command.add_flag("--json", s.json, "Print the report as JSON, with vertices and triangles counted from 0.");

@@ -1,5 +1,5 @@
-// Operators as files: NumPy, Matrix Market and VTU (docs/operators.md names every file and array). Also columns of
-// cells under layers, for MODFLOW 6 and TOUGH (docs/layers.md).
+// Operators as files: NumPy, Matrix Market and VTU (docs/reference/operators.md names every file and array). Also
+// columns of cells under layers, for MODFLOW 6 and TOUGH (docs/reference/formats/layers.md).
 #pragma once
 
 #include <cstddef>

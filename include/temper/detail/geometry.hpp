@@ -1,8 +1,8 @@
 // Triangle geometry of the power diagram, and the exact predicates that decide validity.
 //
-// Conventions (docs/concepts.md): triangle ijk is counter-clockwise. The orthocenter o has equal power to i, j and k.
-// h_k is the signed distance from edge ij to o, positive on the left of i → j, the side of k. d_ij = ℓ/2 + (w_i −
-// w_j)/(2ℓ) is measured from i towards j, so d_ij + d_ji = ℓ.
+// Conventions (docs/reference/symbols.md): triangle ijk is counter-clockwise. The orthocenter o has equal power to
+// i, j and k. h_k is the signed distance from edge ij to o, positive on the left of i → j, the side of k. d_ij = ℓ/2 +
+// (w_i − w_j)/(2ℓ) is measured from i towards j, so d_ij + d_ji = ℓ.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // The HTML report: one file that needs nothing from the network. A browser shows in it a mesh, or two meshes to
-// compare, next to the numbers of a report (docs/report.md).
+// compare, next to the numbers of a report (docs/reference/formats/report.md).
 #pragma once
 
 #include <optional>
@@ -20,7 +20,8 @@ struct HtmlReport {
   HtmlMesh mesh;
   std::optional<HtmlMesh> before = {};  ///< Mesh for comparison
   std::string_view title;               ///< Title, in UTF-8; wrong bytes are passed on
-  /// Further contents of the page as a JSON object. docs/report.md names its keys; each may be missing.
+  /// Further contents of the page as a JSON object. docs/reference/formats/report.md names its keys; each may be
+  /// missing.
   std::string_view json = "{}";
 };
 

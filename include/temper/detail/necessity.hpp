@@ -8,8 +8,8 @@
 //   1 − s < b(X) = |X − v|² / ((u − v)·(X − v))   the same from v
 //
 // if the product is positive. If the least a and the least b add up to 1 or less, no s is possible. The proof needs no
-// weight and no other vertex (docs/explain.md): |p|² − w_p, linear in each triangle, is a convex function along every
-// segment inside the domain.
+// weight and no other vertex (docs/explanation/proofs.md): |p|² − w_p, linear in each triangle, is a convex function
+// along every segment inside the domain.
 //
 // On the sphere the foot is the direction of (1 − s) u + s v, and a(X) = |u × X|² / ((u × X)·((u − v) × X)). X must be
 // less than a quarter of a great circle from u. As an arc, tan um < tan uX / cos U, where U is the angle at u between v

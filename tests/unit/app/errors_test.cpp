@@ -166,7 +166,7 @@ TEST_F(Errors, BadUsageIsRefusedAndNothingIsWritten) {
 
 TEST_F(Errors, TheDocsListTheFieldsAndTheirGroups) {
   make_input();
-  const std::string page = read(TEMPER_SOURCE_DIR "/docs/errors.md");
+  const std::string page = read(TEMPER_SOURCE_DIR "/docs/reference/errors.md");
   const auto json = nlohmann::json::parse(temper_ok({"errors", "in.vtu", "--fields", "all,exact", "--json"}).out);
   ASSERT_EQ(json["errors"]["fields"].size(), 10u);
   for (const auto& field : json["errors"]["fields"]) {

@@ -73,7 +73,8 @@ TEST(ErrorObjective, LowersTheErrorsOfItsSchemeBelowThoseOfTheAccuracyObjective)
   }
 }
 
-// On rings errors cancel from neighbor to neighbor, which all that moves single vertices ends (docs/accuracy.md).
+// On rings errors cancel from neighbor to neighbor, which all that moves single vertices ends
+// (docs/explanation/accuracy.md).
 TEST(ErrorObjective, IsNeverWorseThanAWellCenteredInput) {
   const Mesh ring = *annulus({.jitter = 0});
   ASSERT_EQ(quality(ring).well_centered_fraction, 1);

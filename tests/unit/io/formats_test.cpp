@@ -29,7 +29,7 @@ TEST(Formats, HaveDistinctNamesAndASuffix) {
 }
 
 TEST(Formats, AreInTheDocumentation) {
-  const std::string docs = slurp(TEMPER_SOURCE_DIR "/docs/formats.md");
+  const std::string docs = slurp(TEMPER_SOURCE_DIR "/docs/reference/formats/index.md");
   for (const Format& f : formats()) {
     EXPECT_NE(docs.find("| `" + std::string(f.name) + "` | "), std::string::npos) << f.name;
   }
