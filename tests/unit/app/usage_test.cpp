@@ -49,7 +49,7 @@ TEST_F(Usage, EveryVerbHasUsageExamplesAndExitCodes) {
     const Outcome outcome = temper_ok({verb, "--help"});
     EXPECT_TRUE(contains(outcome.out, "\nUsage: temper "));
     const std::string all = temper_ok({verb, "--help-all"}).out;
-    for (const char* part : {"\nUsage: temper ", "\nExamples:\n  temper ", "\nExit codes:\n  0  done\n"}) {
+    for (const char* part : {"\nUsage: temper ", "\nExamples:\n  temper ", "\nExit codes:\n  0  Done.\n"}) {
       EXPECT_TRUE(contains(all, part));
     }
     EXPECT_EQ(outcome.out, temper_ok({"help", verb}).out);
