@@ -13,6 +13,7 @@ Exit run_paper(const Arguments& arguments) {
   command.add_help(
       {"reproduce|replay ... [options]",
        "  temper paper reproduce --list\n"
+       "  temper paper reproduce 6 -o gallery\n"
        "  temper paper reproduce 3,6-8 -o gallery --reduced\n"
        "  temper optimize in.vtu -o a.vtu --write t.jsonl && temper paper replay in.vtu t.jsonl -o b.vtu\n",
        {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});

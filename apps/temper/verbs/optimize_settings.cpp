@@ -37,7 +37,7 @@ std::vector<std::pair<std::string, std::string>> meanings_of(std::span<const Pre
 void add_target(Command& command, OptimizeSettings& s) {
   Option& target = add_name(
       command, "--for", names_of(targets(), true), [&s](std::string_view name) { s.target = name; },
-      "What the mesh is for.");
+      "Purpose of the mesh.");
   target.value_name = "TARGET";
   target.meanings = meanings_of(targets());
   target.meanings.emplace_back("paper", "Algorithm 1 of the paper, with the switches of --help-paper");

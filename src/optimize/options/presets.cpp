@@ -116,7 +116,7 @@ constexpr auto kEfforts = std::to_array<Preset>({
      "More sweeps and repairs, which may add and remove vertices. The solver's own error is lowered on larger "
      "meshes too",
      [](Options& o) {
-       o.accuracy.sweeps = 200;
+       if (o.accuracy.sweeps > 0) o.accuracy.sweeps = 200;
        o.accuracy.tolerance = 1e-7;
        o.repair = Repair::vertices;
        o.repair_trials = 100'000;

@@ -1,0 +1,101 @@
+// The words of a user: targets, efforts and parts to keep give valid options, and their order does not matter.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "temper/detail/optimize_table.hpp"
+#include "temper/optimize.hpp"
+
+namespace temper::test {
+namespace {
+
+using Values = std::map<std::string, std::string>;
+using Words = std::vector<std::string_view>;
+
+Values values_of(const OptimizeOptions& options) {
+  Values values;
+  for (const OptionGroup& group : option_groups()) {
+    for (const OptionRow& row : group.rows) values[std::string(row.name)] = option_text(row, row.get(options));
+  }
+  return values;
+}
+
+std::string message(const Expected<OptimizeOptions>& options) { return options ? "" : options.error().message; }
+
+TEST(Presets, TheFirstOfEachAreTheDefaults) {
+  EXPECT_EQ(targets().front().name, "any");
+  EXPECT_EQ(values_of(*options_for("any")), values_of(OptimizeOptions()));
+  EXPECT_EQ(values_of(*options_for("any", "normal")), values_of(OptimizeOptions()));
+}
+
+TEST(Presets, EveryCombinationIsValidOrRefused) {
+  int valid = 0, refused = 0;
+  for (const Preset& target : targets()) {
+    EXPECT_FALSE(target.sentence.empty());
+    for (const Preset& effort : efforts()) {
+      for (const Preset& part : keeps()) {
+        const auto options = options_for(target.name, effort.name, Words{part.name});
+        if (!options) {
+          const bool research = target.research && effort.name != "normal";
+          EXPECT_TRUE(research || part.name == "positions") << target.name << " " << effort.name << " " << part.name;
+          EXPECT_NE(message(options).find("expected"), std::string::npos) << message(options);
+          ++refused;
+          continue;
+        }
+        EXPECT_TRUE(check_options(*options)) << target.name << " " << effort.name << " " << part.name;
+        ++valid;
+      }
+    }
+  }
+  EXPECT_GT(valid, 100);
+  EXPECT_GT(refused, 10);
+}
+
+TEST(Presets, PartsToKeepCountOnceAndInAnyOrder) {
+  const Words words = {"edges", "boundary", "sizes", "weights"};
+  const Words back(words.rbegin(), words.rend());
+  Words twice = words;
+  twice.insert(twice.end(), back.begin(), back.end());
+  const Values once = values_of(*options_for("cell", "high", words));
+  EXPECT_EQ(values_of(*options_for("cell", "high", back)), once);
+  EXPECT_EQ(values_of(*options_for("cell", "high", twice)), once);
+  EXPECT_EQ(once.at("unknowns"), "positions");
+  EXPECT_EQ(once.at("flips"), "none");
+  EXPECT_EQ(once.at("size_band"), "2");
+}
+
+TEST(Presets, EffortsGrow) {
+  for (const char* target : {"any", "vertex", "cell", "stars", "mpas"}) {
+    const OptimizeOptions quick = *options_for(target, "quick"), normal = *options_for(target),
+                          high = *options_for(target, "high");
+    for (const auto& [less, more] : {std::pair{&quick, &normal}, std::pair{&normal, &high}}) {
+      EXPECT_LT(less->accuracy.sweeps, more->accuracy.sweeps);
+      EXPECT_LT(less->repair_trials, more->repair_trials);
+      EXPECT_LT(less->solver_error.most_vertices, more->solver_error.most_vertices);
+    }
+  }
+}
+
+TEST(Presets, NoEffortAddsSweepsToValidTrianglesAlone) {
+  for (const Preset& effort : efforts()) EXPECT_EQ(options_for("valid", effort.name)->accuracy.sweeps, 0);
+}
+
+TEST(Presets, WhatLeavesNothingToChangeIsRefused) {
+  EXPECT_NE(message(options_for("any", "normal", Words{"positions", "weights"})).find("nothing can change"),
+            std::string::npos);
+  EXPECT_NE(message(options_for("mpas", "normal", Words{"positions"})).find("target 'mpas' moves positions"),
+            std::string::npos);
+}
+
+TEST(Presets, AnUnknownWordIsToldWithAllWords) {
+  for (const std::string& text : {message(options_for("mpass")), message(options_for("any", "hard")),
+                                  message(options_for("any", "normal", Words{"points"}))}) {
+    EXPECT_NE(text.find("expected one of "), std::string::npos) << text;
+  }
+  EXPECT_NE(message(options_for("mpass")).find("dflowfm"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace temper::test
