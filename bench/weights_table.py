@@ -17,11 +17,12 @@ import tempfile
 
 RUNS = {
     "input": None,
-    "E_BP, weights alone": ["--unknowns", "weights"],
-    "E_BP, positions alone": ["--unknowns", "positions"],
-    "E_BP, both": [],
-    "accuracy, positions alone": ["--objective", "accuracy", "--unknowns", "positions"],
-    "accuracy, both": ["--objective", "accuracy"],
+    "E_BP, weights alone": ["--set", "objective=energy", "--keep", "positions"],
+    "E_BP, positions alone": ["--set", "objective=energy", "--keep", "weights"],
+    "E_BP, both": ["--set", "objective=energy"],
+    "accuracy, weights alone": ["--keep", "positions"],
+    "accuracy, positions alone": ["--keep", "weights"],
+    "accuracy, both": [],
 }
 ERRORS = [("★1, L2", "star1", "l2"), ("Poisson, L2", "poisson", "l2"), ("Poisson, max", "poisson", "max"),
           ("flux, L2", "flux", "l2")]
