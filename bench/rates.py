@@ -29,11 +29,11 @@ ROUNDING = 1e-13  # of E: what is nearer to E* says nothing
 SAME_LIMIT = 1e-9  # relative: two limits are one optimum
 STEADY = 1.5  # how much the sweeps of two decades, and of two halves of all, may differ where convergence is linear
 
-SOLVERS = {  # name: options for --set, most sweeps on the small mesh and on the large one, color
+SOLVERS = {  # name: options, most sweeps on the small mesh and on the large one, color
     "Newton": ([], 20000, 2000, "#56b4e9"),
-    "Newton, relaxation 1": (["relaxation=1"], 20000, 2000, "#009e73"),
-    "alternating": (["solver=alternating"], 20000, 400, "#e69f00"),
-    "golden": (["solver=golden"], 8000, 60, "#d55e00"),
+    "Newton, relaxation 1": (["--set", "relaxation=1"], 20000, 2000, "#009e73"),
+    "alternating": (["--set", "solver=alternating"], 20000, 400, "#e69f00"),
+    "golden": (["--set", "solver=golden"], 8000, 60, "#d55e00"),
 }
 
 
@@ -44,13 +44,13 @@ class Case:
         self.title, self.example, self.ready, self.gamma, self.large = title, example, ready, gamma, large
 
 
-FIXED = ["gamma=0.003"]
+FIXED = ["--set", "gamma=0.003"]
 CASES = {
-    "figure-18": Case("Figure 18's mesh, γ = 1", ["horseshoe"], None, ["gamma=1:absolute"], False),
-    "well-centered": Case("Figure 18's mesh, once well-centered, γ = 0.003 ℓ", ["horseshoe"], "tolerance=1e-3",
+    "figure-18": Case("Figure 18's mesh, γ = 1", ["horseshoe"], None, ["--set", "gamma=1:absolute"], False),
+    "well-centered": Case("Figure 18's mesh, once well-centered, γ = 0.003 ℓ", ["horseshoe"], ["--set", "tolerance=1e-3"],
                           FIXED, False),
     "random": Case("10,000 random vertices, once well-centered, γ = 0.003 ℓ", ["random", "--vertices", "10000"],
-                   "tolerance=0.1", FIXED, True),
+                   ["--set", "tolerance=0.1"], FIXED, True),
 }
 
 
@@ -65,8 +65,9 @@ class Run:
 
     def __init__(self, program, mesh, out, options, most):
         history = out.with_suffix(".csv")
-        settings = ["energy=BP", "flips=immediate", "inversion=refuse", "repair=none", "tolerance=1e-300", f"max_sweeps={most}", *options]
-        temper(program, "optimize", mesh, "-o", out, "--threads", 1, "--quiet", "--write", history, "--set", ",".join(settings))
+        temper(program, "optimize", mesh, "-o", out, "--set", "energy=BP", "--set", "flips=immediate", "--set", "inversion=refuse",
+               "--set", "repair=none", "--threads", 1, "--quiet", "--set", f"tolerance=1e-300,max_sweeps={most}", "--write",
+               history, *options)
         with open(history, newline="") as file:
             rows = list(csv.DictReader(file))
         self.energies = [float(r["energy"]) for r in rows]
@@ -134,7 +135,7 @@ def measured(program, case, rounds, folder):
     mesh = folder / "input.vtu"
     temper(program, "example", *case.example, "-o", mesh)
     if case.ready is not None:
-        temper(program, "optimize", mesh, "-o", mesh, "--threads", 1, "--quiet", "--set", case.ready)
+        temper(program, "optimize", mesh, "-o", mesh, "--threads", 1, "--quiet", *case.ready)
     runs, limits = {name: [] for name in SOLVERS}, {}
     for number in range(rounds):
         for name, (options, small, large, _) in SOLVERS.items():

@@ -15,29 +15,28 @@ import subprocess
 import sys
 
 FIGURES = range(11, 33)
-READINGS = [  # letter, name, settings
+READINGS = [  # letter, name, options
     ("own", "as each figure has it", ""),
-    ("r", "no step turns a triangle over", "inversion=refuse"),
-    ("a", "steps may turn triangles over", "inversion=allow"),
-    ("f", "R is the distance to the farthest neighbor", "search_radius=max"),
-    ("n", "R is the distance to the nearest neighbor", "search_radius=min"),
-    ("4", "weights are searched up to 4 R²", "weight_search_radius=4"),
-    ("i", "points are visited as numbered", "order=input"),
-    ("v", "points are visited in reverse", "order=reverse"),
-    ("r4", "no step turns a triangle over, and weights up to 4 R²", "inversion=refuse,weight_search_radius=4"),
+    ("r", "no step turns a triangle over", "--set inversion=refuse"),
+    ("a", "steps may turn triangles over", "--set inversion=allow"),
+    ("f", "R is the distance to the farthest neighbor", "--set search_radius=max"),
+    ("n", "R is the distance to the nearest neighbor", "--set search_radius=min"),
+    ("4", "weights are searched up to 4 R²", "--set weight_search_radius=4"),
+    ("i", "points are visited as numbered", "--set order=input"),
+    ("v", "points are visited in reverse", "--set order=reverse"),
+    ("r4", "no step turns a triangle over, and weights up to 4 R²", "--set inversion=refuse,weight_search_radius=4"),
     ("all", "everything as `--for paper` has it",
-     "order=input,search_radius=rms,weight_search_radius=1,inversion=allow,gamma=1:absolute"),
+     "--set order=input,search_radius=rms,weight_search_radius=1,inversion=allow,gamma=1:absolute"),
 ]
 
 
-def claims(program: str, folder: pathlib.Path, settings: str) -> dict[tuple[str, str], bool]:
+def claims(program: str, folder: pathlib.Path, options: str) -> dict[tuple[str, str], bool]:
     """Of the paper's claims in FIGURES, by place and sentence, whether each holds."""
     found = {}
     for figure in FIGURES:
         result = folder / str(figure) / "gallery.json"
         if not result.exists():
-            options = ["--set", settings] if settings else []
-            run = subprocess.run([program, "paper", "reproduce", str(figure), "-o", str(result.parent), *options],
+            run = subprocess.run([program, "paper", "reproduce", str(figure), "-o", str(result.parent), *options.split()],
                                  capture_output=True, text=True)
             if run.returncode != 0 and "cannot be made" not in run.stderr:
                 sys.exit(run.stderr)
@@ -53,11 +52,11 @@ def counts(held: list[dict]) -> str:
     """How many claims hold under each reading."""
     rows = ["| | one reading for figures 11 to 32 | options | claims that hold | lost | won |", "|-|-|-|-|-|-|"]
     own = held[0]
-    for (letter, name, settings), now in zip(READINGS, held):
+    for (letter, name, options), now in zip(READINGS, held):
         holds = {claim: now.get(claim, False) for claim in own}
         lost, won = sum(own[c] and not holds[c] for c in own), sum(holds[c] and not own[c] for c in own)
-        changes = [lost, won] if settings else ["", ""]
-        rows.append(f"| {letter} | {name} | {f'`--set {settings}`' if settings else ''} | {sum(holds.values())} of {len(own)} | "
+        changes = [lost, won] if options else ["", ""]
+        rows.append(f"| {letter} | {name} | {f'`{options}`' if options else ''} | {sum(holds.values())} of {len(own)} | "
                     f"{changes[0]} | {changes[1]} |")
     return "\n".join(rows)
 
@@ -79,7 +78,7 @@ def main() -> None:
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     program, top = sys.argv[1], pathlib.Path(sys.argv[2])
-    held = [claims(program, top / letter, settings) for letter, _, settings in READINGS]
+    held = [claims(program, top / letter, options) for letter, _, options in READINGS]
     page = pathlib.Path(__file__).resolve().parent.parent / "docs" / "internals" / "paper-readings.md"
     text = page.read_text(encoding="utf-8")
     text, blocks = re.subn(r"(<!-- readings -->\n).*?(<!-- /readings -->)",
