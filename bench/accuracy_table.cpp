@@ -86,12 +86,13 @@ bool print_variant(const std::vector<NamedMesh>& meshes, const Variant& variant,
   return true;
 }
 
-std::vector<Variant> schemes() {
-  return {{"`--for valid`", {.objective = Objective::energy}},
-          {"`--for any`", {}},
-          {"`--for vertex`", {.scheme = Scheme::vertex}},
-          {"`--for cell`", {.scheme = Scheme::cell}},
-          {"`--for stars`", {.scheme = Scheme::stars}}};
+std::vector<Variant> targets_of_solvers() {
+  std::vector<Variant> list;
+  for (const char* name : {"valid", "any", "vertex", "cell", "stars"}) {
+    list.push_back({std::string("`--for ") + name + "`", *options_for(name)});
+  }
+  list.push_back({"`--set objective=energy`", {.objective = Objective::energy}});
+  return list;
 }
 
 /// Each has one option that is another than in the first.
@@ -104,22 +105,22 @@ std::vector<Variant> variants() {
     list.push_back({name, accuracy});
     change(list.back().options);
   };
-  add("`--star 0`", [](OptimizeOptions& o) { o.star = Star::zero; });
-  add("`--star 2`", [](OptimizeOptions& o) { o.star = Star::two; });
-  add("`--star all`", [](OptimizeOptions& o) { o.star = Star::all; });
-  add("`--offset-factor 1 --boundary-offset-factor 1` (HOT/s²)",
+  add("`--set star=0`", [](OptimizeOptions& o) { o.star = Star::zero; });
+  add("`--set star=2`", [](OptimizeOptions& o) { o.star = Star::two; });
+  add("`--set star=all`", [](OptimizeOptions& o) { o.star = Star::all; });
+  add("`--set offset_factor=1,boundary_offset_factor=1` (HOT/s²)",
       [](OptimizeOptions& o) { o.accuracy.offset_factor = o.accuracy.boundary_offset_factor = 1; });
-  add("`--offset-factor 5`", [](OptimizeOptions& o) { o.accuracy.offset_factor = 5; });
-  add("`--offset-factor 20`", [](OptimizeOptions& o) { o.accuracy.offset_factor = 20; });
-  add("`--boundary-offset-factor 0.5`", [](OptimizeOptions& o) { o.accuracy.boundary_offset_factor = 0.5; });
-  add("`--boundary-offset-factor 10`", [](OptimizeOptions& o) { o.accuracy.boundary_offset_factor = 10; });
-  add("`--boundary-offset-factor 30`", [](OptimizeOptions& o) { o.accuracy.boundary_offset_factor = 30; });
-  add("`--margin 0.05`", [](OptimizeOptions& o) { o.accuracy.margin = 0.05; });
-  add("`--barrier 0.03`", [](OptimizeOptions& o) { o.accuracy.barrier = 0.03; });
-  add("`--barrier 0.0003`", [](OptimizeOptions& o) { o.accuracy.barrier = 0.0003; });
-  add("`--accuracy-sweeps 5`", [](OptimizeOptions& o) { o.accuracy.sweeps = 5; });
-  add("`--accuracy-sweeps 10`", [](OptimizeOptions& o) { o.accuracy.sweeps = 10; });
-  add("`--accuracy-sweeps 100 --accuracy-tolerance 0`",
+  add("`--set offset_factor=5`", [](OptimizeOptions& o) { o.accuracy.offset_factor = 5; });
+  add("`--set offset_factor=20`", [](OptimizeOptions& o) { o.accuracy.offset_factor = 20; });
+  add("`--set boundary_offset_factor=0.5`", [](OptimizeOptions& o) { o.accuracy.boundary_offset_factor = 0.5; });
+  add("`--set boundary_offset_factor=10`", [](OptimizeOptions& o) { o.accuracy.boundary_offset_factor = 10; });
+  add("`--set boundary_offset_factor=30`", [](OptimizeOptions& o) { o.accuracy.boundary_offset_factor = 30; });
+  add("`--set margin=0.05`", [](OptimizeOptions& o) { o.accuracy.margin = 0.05; });
+  add("`--set barrier=0.03`", [](OptimizeOptions& o) { o.accuracy.barrier = 0.03; });
+  add("`--set barrier=0.0003`", [](OptimizeOptions& o) { o.accuracy.barrier = 0.0003; });
+  add("`--set accuracy_sweeps=5`", [](OptimizeOptions& o) { o.accuracy.sweeps = 5; });
+  add("`--set accuracy_sweeps=10`", [](OptimizeOptions& o) { o.accuracy.sweeps = 10; });
+  add("`--set accuracy_sweeps=100,accuracy_tolerance=0`",
       [](OptimizeOptions& o) { o.accuracy.sweeps = 100, o.accuracy.tolerance = 0; });
   return list;
 }
@@ -138,7 +139,7 @@ int run(std::span<const std::string_view> arguments) {
   std::printf(all ? "| | %s\n|" : "| mesh | | %s\n|-|", kHeader);
   for (std::size_t i = 0; i < kMeasures + 5; ++i) std::printf("-|");
   std::printf("\n");
-  for (const Variant& variant : all ? variants() : schemes()) {
+  for (const Variant& variant : all ? variants() : targets_of_solvers()) {
     if (!print_variant(meshes, variant, !all)) return 1;
   }
   return 0;

@@ -35,9 +35,9 @@ std::vector<Run> runs() {
   repaired.repair = Repair::vertices;
   return {{"input", false, {}},
           {"default", true, {}},
-          {"`--unknowns positions`", true, positions},
+          {"`--keep weights`", true, positions},
           {"`--min-edge 0.75 --min-dual 0.3`", true, kept},
-          {"the same, `--repair vertices`", true, repaired}};
+          {"the same, `--set repair=vertices`", true, repaired}};
 }
 
 void print_definitions() {

@@ -17,11 +17,12 @@ import tempfile
 
 RUNS = {
     "input": None,
-    "E_BP, weights alone": ["--keep", "positions"],
-    "E_BP, positions alone": ["--keep", "weights"],
-    "E_BP, both": [],
-    "accuracy, positions alone": ["--set", "objective=accuracy", "--keep", "weights"],
-    "accuracy, both": ["--set", "objective=accuracy"],
+    "E_BP, weights alone": ["--set", "objective=energy", "--keep", "positions"],
+    "E_BP, positions alone": ["--set", "objective=energy", "--keep", "weights"],
+    "E_BP, both": ["--set", "objective=energy"],
+    "accuracy, weights alone": ["--keep", "positions"],
+    "accuracy, positions alone": ["--keep", "weights"],
+    "accuracy, both": [],
 }
 ERRORS = [("★1, L2", "star1", "l2"), ("Poisson, L2", "poisson", "l2"), ("Poisson, max", "poisson", "max"),
           ("flux, L2", "flux", "l2")]

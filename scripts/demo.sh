@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds temper and shows it at work: a mesh with most triangles bad, before and after.
-# Writes demo-output/: the two meshes, a picture of both, the report.
+# Builds temper and shows it at work: a mesh with all triangles bad, before and after.
+# Writes demo-output/: the two meshes, a picture of both, the report as a page and as JSON.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -15,8 +15,8 @@ mkdir -p demo-output
 run example sheared-grid --nx 16 --ny 10 --shear 1 -o demo-output/sheared.vtu
 run check demo-output/sheared.vtu
 run optimize demo-output/sheared.vtu -o demo-output/tempered.vtu \
-  --draw demo-output/before-after.svg --report demo-output/report.json
+  --write demo-output/before-after.svg demo-output/report.html demo-output/report.json
 run check demo-output/tempered.vtu --require outside=0,nonregular=0,not_crossed=0
 
 echo
-echo "Look at demo-output/before-after.svg; open demo-output/tempered.vtu in ParaView."
+echo "Open demo-output/report.html in a browser, or demo-output/tempered.vtu in ParaView."

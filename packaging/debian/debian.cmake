@@ -29,7 +29,7 @@ foreach(library temper temper_io temper_lp temper_tbb temper_errors temper_solve
   endif()
 endforeach()
 
-# The page of --html has libraries of others in it.
+# The HTML report has libraries of others in it.
 file(READ ${PROJECT_SOURCE_DIR}/web/report/dist/NOTICE notice)
 string(STRIP "${notice}" notice)
 string(REPLACE "\n" "\n " notice " ${notice}")

@@ -50,7 +50,7 @@ OTHERS = {
     "optimize --set": ("`optimize(options={…})`", "`OptimizeOptions`"),
     "--size-data": ("`optimize(size_field=…)`", "`OptimizeOptions::size_field`"),
     "optimize --size": ("`optimize(size_field=…)`", "`OptimizeOptions::size_field`"),
-    "--write": ("`html_report`, `draw_svg`, `optimize(tracer=…)`", "`io::html_report`, `OptimizeHooks::tracer`"),
+    "--write": ("`html_report`, `draw_svg`, `Hooks(tracer=…)`", "`io::html_report`, `OptimizeHooks::tracer`"),
     "--no-bad": ("`draw_svg(bad_triangles=False)`", ""),
     "--no-rings": ("`draw_svg(near_coincident=False)`", ""),
     "--numbers": ("`draw_svg(vertex_numbers=True)`", ""),
@@ -59,7 +59,7 @@ OTHERS = {
     "--coast": ("`mesh_sphere(coasts=…)`", "`SphereOutline::coasts`"),
     "--lines": ("`mesh_sphere(lines=…)`", "`SphereOutline::lines`"),
     "--no-triangle-quality": ("`write(triangle_quality=False)`", "`io::WriteOptions::triangle_quality`"),
-    "--point-data": ("`optimize(point_data=…)`", "`io::UpdateOptions::rules`"),
+    "--point-data": ("`Mesh.point_data_rules`", "`io::UpdateOptions::rules`"),
     "--projection": ("`read(projection=…)`", "`io::project`"),
     "--tensor": ("`optimize(tensor=…)`, `dec_operators(tensor=…)`, `mapped`, `mapped_back`", "`Metric`, `mapped`, `mapped_back`"),
     "--threads": ("`threads=…`", "`Executor`, `TbbExecutor`"),
@@ -101,8 +101,9 @@ def member_for(name):
     groups = [("OptimizeOptions", ""), ("PaperSwitches", "paper."), ("AccuracyOptions", "accuracy."), ("SolverErrorOptions", "solver_error.")]
     for struct, place in groups:
         short = name.removeprefix(place.replace(".", "_")) if place else name
-        if name in members_of(struct) or short in members_of(struct):
-            return place + (name if name in members_of(struct) else short)
+        for member in (name, short, "most_" + short):
+            if member in members_of(struct):
+                return place + member
     raise KeyError(f"no member of OptimizeOptions is called {name}")
 
 
@@ -132,8 +133,8 @@ def other_options(program):
         if python:
             known.append(f"| `{flag}` | {', '.join(verbs)} | {python} | {cpp} |")
         else:
-            alone.append(f"`{flag}` ({', '.join(verbs)})")
-    return [*known, "", "These options exist in the program alone: " + ", ".join(alone) + "."]
+            alone.append(f"| `{flag}` | {', '.join(verbs)} |")
+    return [*known, "", "These options exist in the program alone:", "", "| program | verbs |", "|-|-|", *alone]
 
 
 def verbs_table(program):
@@ -180,7 +181,7 @@ def page(program):
         "",
         "<!-- written by scripts/docs/pages.py --write, from the tables of the program, the module and the library -->",
         "",
-        "A concept has one name. Options of the program have hyphens between words, names in Python, JavaScript and JSON have",
+        "A concept has one name. Options of the program have hyphens between words. Names in Python, JavaScript and JSON have",
         "underscores. Names that are not listed here are the same in Python and C++. JavaScript has the names of Python.",
         "",
         "## Verbs and functions",
