@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the solvers that docs/howto is about, as the package index has them, in versions that are pinned. Then scripts/docs/pages.py
-# runs the pages that need them, and compares what they print. Not a part of scripts/test.sh.
+# runs the pages that need them and examples/benchmarks, and compares what they print. Not a part of scripts/test.sh.
 #
 #   scripts/clients.sh                       all pages
 #   scripts/clients.sh fipy landlab          these

@@ -7,13 +7,14 @@ A block of kind `text` right below a block of commands is what that one prints. 
     <!-- temper ARGUMENTS -->                            of text: what this command prints, which the page does not show
     <!-- summary of temper VERB -->                      of text: a sentence, the usage and three examples from the help of the verb
 
-NAME is a program in a block of shell, and a module in one of Python, or `program NAME`.
+NAME is a program in a block of shell, and a module in one of Python, or `program NAME`. The first line of a script is its mark.
 """
 
 import importlib.util
+import pathlib
 import re
 import shutil
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 BLOCK = re.compile(r"(?:^<!-- (?P<mark>(?!given:)[^\n]*) -->\n)?^(?P<indent> *)```(?P<kind>\w*)[^\n]*\n"
                    r"(?P<text>.*?)^ *```[ \t]*$", re.M | re.S)
@@ -64,6 +65,15 @@ def blocks_of(text: str) -> list[Block]:
             block.not_run = block.problem
         found.append(block)
     return found
+
+
+def blocks_in(path: pathlib.Path) -> list[Block]:
+    """The blocks of a page. A script of Python is one block."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix != ".py":
+        return blocks_of(text)
+    mark = text.partition("\n")[0].removeprefix("# ")
+    return [replace(block, text=text, line=1) for block in blocks_of(f"<!-- {mark} -->\n```python\n```\n")]
 
 
 def runs(block: Block) -> bool:

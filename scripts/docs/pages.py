@@ -3,12 +3,13 @@
 
     pages.py PROGRAM [PAGE …]     all pages, or those with these names or paths; the module of the same build, or on PYTHONPATH
     pages.py --write PROGRAM …    puts what is printed and drawn, and the pages that are made, into docs/
-    pages.py --clients PROGRAM …  the pages that need clients, and the table of their results: scripts/clients.sh
+    pages.py --clients PROGRAM …  the pages that need clients, examples/benchmarks, and the table of results: scripts/clients.sh
     pages.py --self-test          plants mistakes and expects each to be found; needs no program
 
 The blocks of a page run from top to bottom in an empty folder with a link `examples` to that of the repository: `bash -euo pipefail` for
 sh, one namespace for all blocks of Python. blocks.py has the marks of blocks, prose.py the numbers and options of prose. A
-picture docs/figures/NAME is what some page writes as NAME. Exit 1 and one line a mistake: file:line: what to do.
+picture docs/figures/NAME is what some page writes as NAME. examples/benchmarks/with_CLIENT.py measures what the row of
+docs/howto/CLIENT.md in the table says. Exit 1 and one line a mistake: file:line: what to do.
 """
 
 import argparse
@@ -29,7 +30,7 @@ import time
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import prose  # noqa: E402
-from blocks import blocks_of, lacking, runs  # noqa: E402
+from blocks import blocks_in, blocks_of, lacking, runs  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 NUMBERS = ("README.md", "docs/tutorial/", "docs/howto/", "docs/explanation/")  # where numbers of prose are looked up
@@ -41,7 +42,7 @@ DRAWN_ELSEWHERE = {
     "signs.svg": "drawn by hand: symbols, no numbers",
     "summary.svg": "`temper paper reproduce -o gallery` writes gallery/summary.svg",
 }
-COLUMNS = ("before", "energy", "default", "accuracy", "for")  # of `results`, which the last block of a client's page leaves
+COLUMNS = ("before", "energy", "default", "accuracy", "for")  # of `results`, which a benchmark leaves
 HEAD = ["page", "client", "measured", "before", "energy", "`optimize`", "accuracy", "`--for`"]
 TABLE = re.compile(r"(?<=<!-- written by scripts/clients.sh --write -->\n)(?:\|.*\n)*(?=<!-- end -->)")
 DISTRIBUTIONS = {"skfem": "scikit-fem"}  # of modules with other names
@@ -78,7 +79,8 @@ def summary(verb):
 def run_blocks(page, result):
     """Runs the page here, in the current folder, and writes to the file `result` what became of it."""
     namespace, outputs, lacks, error = {"__name__": "__page__"}, [], [], None
-    for block in blocks_of(pathlib.Path(page).read_text(encoding="utf-8")):
+    sys.path.insert(0, str(pathlib.Path(page).parent))  # as Python does for a script
+    for block in blocks_in(pathlib.Path(page)):
         missing = lacking(block) if runs(block) and not error else []
         lacks.append(missing)
         outputs.append(None)
@@ -159,9 +161,11 @@ class Page:
     def __init__(self, path, root):
         self.path, self.root, self.name = path, root, path.relative_to(root).as_posix()
         self.text = path.read_text(encoding="utf-8")
-        self.blocks = [] if self.name.startswith(NOT_RUN) else blocks_of(self.text)
+        self.blocks = [] if self.name.startswith(NOT_RUN) else blocks_in(path)
+        self.howto = root / "docs/howto" / f"{path.stem.removeprefix('with_').replace('_', '-')}.md"  # of a benchmark, or itself
         figures = [(path.parent / (match[1] or match[2])).resolve() for match in IMAGE.finditer(self.text)]
         self.figures = [figure.name for figure in figures if figure.parent == root / "docs" / "figures"]
+        self.names = {self.name, path.stem, self.howto.stem}
         self.outputs, self.lacks, self.error, self.results = [None] * len(self.blocks), [[]] * len(self.blocks), None, {}
         self.pictures, self.seconds = {}, 0.0  # what it wrote, how long it took
 
@@ -213,7 +217,7 @@ class Page:
 
     def row(self):
         """Of the table of clients."""
-        first = f"[{self.text.splitlines()[0].removeprefix('# ')}]({self.path.name})"
+        first = f"[{self.howto.read_text(encoding='utf-8').splitlines()[0].removeprefix('# ')}]({self.howto.name})"
         last = next(block for block in reversed(self.blocks) if block.needs)
         cells = (self.results.get(column) for column in COLUMNS)
         versions = ", ".join(filter(None, map(version, last.needs)))
@@ -239,7 +243,12 @@ class Check:
         self.options = self.options_of_verbs()
         if (root / "docs/reference/cli").is_dir():
             self.verb_pages()
-        self.pages = [Page(path, root) for path in [root / "README.md", *sorted((root / "docs").rglob("*.md"))] if path.exists()]
+        paths = [root / "README.md", *sorted((root / "docs").rglob("*.md"))]
+        benchmarks = sorted((root / "examples/benchmarks").glob("with_*.py"))
+        self.drawn_with_clients = set(re.findall(r'"([\w-]+\.svg)"', "".join(file.read_text(encoding="utf-8") for file in benchmarks)))
+        paths += benchmarks if clients else []
+        self.pages = [Page(path, root) for path in paths if path.exists()]
+        self.table = (root / "docs/howto/README.md").read_text(encoding="utf-8") if (root / "docs/howto/README.md").exists() else ""
 
     def say(self, page, line, why):
         self.problems.append((page, line, " ".join(why.split())))
@@ -279,6 +288,8 @@ class Check:
         order = sorted(chosen, key=lambda page: -sum(map(runs, page.blocks)))
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             list(pool.map(lambda page: page.run(self.environment, wanted, 900 if self.clients else 300), order))
+        if self.clients:
+            self.compare_table(chosen)
         for page in chosen:
             if page.name == "docs/reference/names.md":
                 self.compare_names(page)
@@ -287,12 +298,11 @@ class Check:
             commands = [(block.line, block.text) for block in page.blocks if block.kind == "sh"]
             found = list(prose.wrong_options(page.text, commands, self.options, self.settings)) if page.name not in WRONG_OPTIONS else []
             if page.name.startswith(NUMBERS):
-                found += prose.wrong_numbers(page.text, page.known_numbers())
+                row = re.findall(rf"^\| \[[^]]*\]\({page.path.name}\).*", self.table, re.M)  # a page may say what its benchmark measured
+                found += prose.wrong_numbers(page.text, page.known_numbers() | prose.numbers_in("\n".join(row)))
             for line, why in found:
                 self.say(page.name, line, why)
         self.compare_pictures(chosen)
-        if self.clients:
-            self.compare_table(chosen)
 
     def compare_pictures(self, chosen):
         for page in chosen:
@@ -300,7 +310,8 @@ class Check:
                 line = page.text.count("\n", 0, page.text.index(f"figures/{name}")) + 1
                 file = self.root / "docs/figures" / name
                 made = [other.pictures[name] for other in [page, *chosen] if name in other.pictures]
-                if not made and name not in DRAWN_ELSEWHERE and len(chosen) == len(self.pages) and not page.skipped() and not page.error:
+                elsewhere = name in DRAWN_ELSEWHERE or name in self.drawn_with_clients
+                if not made and not elsewhere and len(chosen) == len(self.pages) and not page.skipped() and not page.error:
                     self.say(page.name, line, f"no page writes {name}: add the command that makes it, or a line to DRAWN_ELSEWHERE")
                 elif made and name in DRAWN_ELSEWHERE:
                     self.say(page.name, line, f"a page writes {name}: remove its line in DRAWN_ELSEWHERE")
@@ -344,7 +355,8 @@ class Check:
             rows[row[0]] = row
         made = "\n".join("| " + " | ".join(row) + " |" for row in [HEAD, ["-"] * len(HEAD), *rows.values()]) + "\n"
         if self.write:
-            readme.write_text(text[: table.start()] + made + text[table.end() :], encoding="utf-8")
+            self.table = text[: table.start()] + made + text[table.end() :]
+            readme.write_text(self.table, encoding="utf-8")
 
     def report(self, chosen, start):
         for page, line, why in sorted(self.problems):
@@ -363,7 +375,7 @@ class Check:
 
 FAKE = """#!/bin/sh
 case "$*" in
-  --help) printf 'Verbs:\\n  check  judge a mesh\\n  draw   draw a mesh\\n\\nOptions:\\n  -h, --help  this\\n' ;;
+  --help) printf 'Verbs:\\n  check  judge a mesh\\n  draw   draw a mesh\\n\\nOptions:\\n  -h, --help  this\\n  --for T  so\\n' ;;
   "check --help"|"check --help-all") printf 'Judges a mesh. Then ends.\\n\\nUsage: temper check IN\\n\\nOptions:\\n  --json  as JSON\\n  --set NAME=VALUE\\n' ;;
   "optimize --help-all"|"optimize --help-paper") echo "  star=N  the star" ;;
   "draw --help"|"draw --help-all") printf 'Draws a mesh.\\n\\nUsage: temper draw IN\\n\\nOptions:\\n  -o, --output FILE  there\\n' ;;
@@ -374,7 +386,7 @@ esac
 """
 GOOD = """# A mesh
 
-Of 40 triangles, 30 % have 0.3 as their least; 25 is right and so is 3.33. `--json` helps, and `--set star=1`. ![12 bad](../figures/a.svg)
+Of 40 triangles, 30 % have 0.3 as their least; 25 is right and so are 3.33 and 3.77. `--json` helps, and `--set star=1`. ![12 bad](../figures/a.svg)
 
 <!-- given: 25 (a reason), 3.33 = 40 / 12 -->
 
@@ -386,6 +398,10 @@ temper draw a -o a.svg
 ```text
 12 of 40 triangles are bad, 0.296 is least, in 0.01 s
 ```
+"""
+TABLE_OF_CLIENTS = "# All\n\n<!-- written by scripts/clients.sh --write -->\n<!-- end -->\n"
+BENCHMARK = """# runs with: json; measures: much
+results = {"before": 3.77}
 """
 
 
@@ -404,6 +420,9 @@ def self_test():
         "a program that is not run": ("page", "```sh", "```console", 7, "a block of console is not run"),
         "a page of a verb without its mark": ("verb", "<!-- temper check --help-all -->\n", "", 1, "no block with the mark"),
         "stale help": ("verb", "as JSON", "as XML", 13, "as XML"),
+        "a number that no benchmark measures": ("page", "and 3.77", "and 3.78", 3, "3.78: no command"),
+        "a stale row of the table": ("table", "| 3.77 |", "| 4.77 |", 1, "the page has '4.77'"),
+        "a benchmark that fails": ("benchmark", "3.77", "x", 2, "NameError"),
         "a number that is given for nothing": ("page", "25 is right", "it is right", 5, "remove it"),
         "a wrong expression": ("page", "40 / 12", "12 / 40", 5, "which is 0.3"),
     }
@@ -414,18 +433,21 @@ def self_test():
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder).resolve()
         program = root / "build/apps/temper/temper"
-        files = {"page": root / "docs/tutorial/a.md", "verb": root / "docs/reference/cli/check.md", "figure": root / "docs/figures/a.svg"}
+        files = {"page": "docs/howto/a.md", "table": "docs/howto/README.md", "verb": "docs/reference/cli/check.md",
+                 "figure": "docs/figures/a.svg", "benchmark": "examples/benchmarks/with_a.py"}  # fmt: skip
+        files = {name: root / file for name, file in files.items()}
         for file in (program, root / "examples/x", *files.values()):
             file.parent.mkdir(parents=True, exist_ok=True)
         program.write_text(FAKE)
         program.chmod(0o755)
 
         def found(write=False):
-            check = Check(root, program, write)
+            check = Check(root, program, write, clients=True)
             check.run(check.pages)
             return check.problems
 
-        files["page"].write_text(GOOD)
+        for name, text in (("page", GOOD), ("table", TABLE_OF_CLIENTS), ("benchmark", BENCHMARK)):
+            files[name].write_text(text)
         assert not found(write=True) and not found(), found()
         good = {name: file.read_text() for name, file in files.items()}
         assert "Judges a mesh.\n\nUsage: temper check IN\n" in good["verb"], good["verb"]
@@ -454,9 +476,9 @@ def main():
     check = Check(ROOT, arguments.program, arguments.write, arguments.clients)
     chosen = [page for page in check.pages if not arguments.clients or any(block.needs for block in page.blocks)]
     for name in arguments.pages:
-        if not any(name in (page.path.stem, page.name) for page in chosen):
+        if not any(name in page.names for page in chosen):
             parser.error(f"no page '{name}'")
-    chosen = [page for page in chosen if not arguments.pages or {page.path.stem, page.name} & set(arguments.pages)]
+    chosen = [page for page in chosen if not arguments.pages or page.names & set(arguments.pages)]
     check.run(chosen)
     return check.report(chosen, start)
 
