@@ -1,8 +1,6 @@
 # runs with: xarray, uxarray, temper-netcdf; measures: relative L2 error of a divergence
 """The divergence of a velocity from its normal components at the edges, with the arrays of MPAS files that xarray reads."""
 
-import pathlib
-
 import numpy as np
 import uxarray
 import xarray
@@ -30,7 +28,7 @@ def divergence_error(mesh, name):
     return error, file.dvEdge.values[inner].min() / np.median(file.dvEdge.values)
 
 
-harbor = temper.read_outline(pathlib.Path(__file__).parent.parent / "harbour.poly").outline
+harbor = temper.read_outline("examples/harbour.poly").outline
 # On a ring of nearly equal triangles errors of neighbors cancel, until vertices move.
 for place, start in (("ring", temper.generate.annulus()), ("harbor", temper.mesh_outline(harbor, 0.4, optimize=False).mesh)):
     numbers = {name: divergence_error(mesh, name) for name, mesh in variants(start, "mpas", keep="weights").items()}
