@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "draw/panel.hpp"
@@ -64,7 +65,10 @@ std::string circle_mark(const char* color, const char* more = "") {
 Key scale_key(const std::string& label, const ColorScale& scale) {
   constexpr double kBox = 0.6;
   Key key = {label, "", kBox * static_cast<double>(kScaleColors.size())};
-  if (scale.low <= scale.high) key.label += ": " + number_label(scale.low) + " to " + number_label(scale.high);
+  const auto number = [size = std::max(std::abs(scale.low), std::abs(scale.high))](double value) {
+    return number_label(std::abs(value) < 1e-6 * size ? 0 : value);
+  };
+  if (scale.low <= scale.high) key.label += ": " + number(scale.low) + " to " + number(scale.high);
   for (std::size_t i = 0; i < kScaleColors.size(); ++i) {
     key.mark += "<rect x=\"" + short_number(kBox * static_cast<double>(i)) + "\" y=\"-0.45\" width=\"" +
                 short_number(kBox) + "\" height=\"0.9\" fill=\"" + kScaleColors[i] + "\"/>";
