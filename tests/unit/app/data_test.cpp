@@ -63,7 +63,7 @@ TEST_F(Data, DepthsStayAtTheirPlaceUnlessToldToKeepToTheirPoints) {
 
 TEST_F(Data, TheReportSaysWhatMovedHowFarAndWhatWasInterpolated) {
   write_bay("bay.vtu");
-  const Outcome outcome = temper_ok({"optimize", "bay.vtu", "-o", "out.vtu", "--write", "r.json"});
+  const Outcome outcome = temper_ok({"optimize", "bay.vtu", "-o", "out.vtu", "--write", "r.json", "--details"});
   const nlohmann::json data = read_json("r.json")["data"];
   EXPECT_EQ(data["points"], 400);
   EXPECT_GT(data["points_moved"], 200);

@@ -26,12 +26,12 @@ TEST_F(Draw, WritesOnePanelOrTwo) {
 
 TEST_F(Draw, RefusesTheNameOfAPictureThatItDoesNotWrite) {
   make_input("a.vtu");
-  const Outcome drawn = temper({"draw", "a.vtu", "-o", "a.jpg"});
-  EXPECT_EQ(drawn.exit, 2);
-  EXPECT_TRUE(contains(drawn.err, "expected one that ends in .svg"));
-  const Outcome optimized = temper({"optimize", "a.vtu", "-o", "b.vtu", "--write", "a.TIFF"});
-  EXPECT_EQ(optimized.exit, 2);
-  EXPECT_TRUE(contains(optimized.err, "or .svg .png .pdf (picture)"));
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"draw", "a.vtu", "-o", "a.jpg"},
+                                                {"optimize", "a.vtu", "-o", "b.vtu", "--write", "a.TIFF"}}) {
+    const Outcome outcome = temper(words);
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_TRUE(contains(outcome.err, ".svg")) << outcome.err;
+  }
   EXPECT_EQ(names(), std::vector<std::string>{"a.vtu"});
 }
 

@@ -47,8 +47,10 @@ TEST_F(Usage, HelpNamesEveryVerbAndEveryExitCode) {
 TEST_F(Usage, EveryVerbHasUsageExamplesAndExitCodes) {
   for (const std::string& verb : kVerbs) {
     const Outcome outcome = temper_ok({verb, "--help"});
-    for (const char* part : {"\nUsage: temper ", "\nExamples:\n  temper ", "\nExit codes:\n  0  done\n"}) {
-      EXPECT_TRUE(contains(outcome.out, part));
+    EXPECT_TRUE(contains(outcome.out, "\nUsage: temper "));
+    const std::string all = temper_ok({verb, "--help-all"}).out;
+    for (const char* part : {"\nUsage: temper ", "\nExamples:\n  temper ", "\nExit codes:\n  0  Done.\n"}) {
+      EXPECT_TRUE(contains(all, part));
     }
     EXPECT_EQ(outcome.out, temper_ok({"help", verb}).out);
     EXPECT_EQ(outcome.out, temper_ok({verb, "-h"}).out);
@@ -190,10 +192,22 @@ TEST_F(Usage, NoOutputIsAFileOfAnotherOutputOrOfAnInput) {
 
 TEST_F(Usage, EveryExampleInTheHelpRuns) {
   make_input();
+  temper_ok({"convert", "in.vtu", "-o", "in.msh"});
   write("layers.csv", "vertex,top,bottom\n*,1,0\n");
+  write("lake.poly", "4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
+  write("plan.poly", "4 2 0 0\n1 0 0\n2 9 0\n3 9 9\n4 0 9\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n1\n1 1 1 2 -1\n");
+  const std::string square =
+      R"({"type": "Polygon", "coordinates": [[[9, 0], [9.1, 0], [9.1, 0.1], [9, 0.1], [9, 0]]]})";
+  write("coast.geojson", square);
+  write("basin.msh",
+        "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=4\n9;0;0\n9.1;0;0\n9.1;0.1;0\n9;0.1;0\n"
+        "EDGE2=4\n0;1;0\n1;2;0\n2;3;0\n3;0;0\n");
+  write("report.json", R"({"for": "cell"})");
+  write("land.geojson", R"({"type": "Polygon", "coordinates": [[[0, 0], [40, 5], [35, 40], [5, 30], [0, 0]]]})");
+  write("rivers.geojson", R"({"type": "LineString", "coordinates": [[170, 30], [178, 33], [-174, 30], [-165, 40]]})");
   std::vector<std::string> texts = {temper_ok({"--help"}).out};
   for (const std::string& verb : kVerbs) {
-    texts.push_back(temper_ok({verb, "--help"}).out);
+    texts.push_back(temper_ok({verb, "--help-all"}).out);
   }
   int examples = 0;
   for (const std::string& text : texts) {
@@ -285,7 +299,7 @@ INSTANTIATE_TEST_SUITE_P(
               "'BP' is none of F, T, dT"},
         Wrong{"CollapseRatioOne", {"optimize", "a.vtu", "-o", "b.vtu", "--set", "collapse_ratio=1"}, "between 0 and 1"},
         Wrong{"CollapseFromAWord", {"optimize", "a.vtu", "-o", "b.vtu", "--set", "collapse_from=soon"}, "whole number"},
-        Wrong{"ReplayWithoutTrace", {"replay", "a.vtu", "-o", "b.vtu"}, "TRACE is required"},
+        Wrong{"ReplayWithoutTrace", {"paper", "replay", "a.vtu", "-o", "b.vtu"}, "TRACE is required"},
         Wrong{"RequireUnknownKey", {"check", "a.vtu", "--require", "outsid=0"}, "did you mean 'outside'?"},
         Wrong{"RequireListsTheKeys", {"check", "a.vtu", "--require", "size=0"}, "max_transmissibility_over_median"},
         Wrong{"RequireNoValue", {"check", "a.vtu", "--require", "nowhere"}, "'nowhere' is not key=value"},
