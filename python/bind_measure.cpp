@@ -152,9 +152,8 @@ DrawOptions draw_options_from(const py::dict& given) {
   take(given, "dual", o.dual);
   take(given, "weights", o.weights);
   take(given, "weight_scale", o.weight_scale);
-  take(given, "bad_triangles", o.bad_triangles);
+  take(given, "fill", o.fill);
   take(given, "near_coincident", o.near_coincident);
-  take(given, "regions", o.regions);
   take(given, "vertex_numbers", o.vertex_numbers);
   take(given, "width", o.width);
   take(given, "title", o.title);

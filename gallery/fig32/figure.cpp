@@ -33,7 +33,7 @@ constexpr std::array<std::string_view, 2> kUnknownNames = {"positions", "positio
 constexpr double kLabelWidth = 70, kCellWidth = 128, kCellHeight = 46, kHeadHeight = 52;
 
 std::string_view tint(Verdict verdict) {
-  constexpr std::array<std::string_view, kVerdicts> kTints = {"#f3b6b0", "#f7d3a1", "#fbe9a6", "#cfe8d5"};
+  constexpr std::array<std::string_view, kVerdicts> kTints = {"#f2a58a", "#f6c9a4", "#fdf0b5", "#b9cdea"};
   return kTints[static_cast<std::size_t>(verdict)];
 }
 

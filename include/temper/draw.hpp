@@ -18,27 +18,28 @@ struct Box {
 /// Colors of triangles by a number, from dark for the least to light for the greatest value in all panels. Infinite
 /// values do not count for the scale and get the color of its nearest end. NaN has no color.
 struct TriangleColors {
-  std::string label;                                 ///< Label under the scale
+  std::string label;                                 ///< Label next to the scale
   std::vector<IdVector<TriangleId, double>> values;  ///< Value of each triangle, for each panel
 };
 
 struct DrawOptions {
-  bool primal = true;           ///< Edges of the triangulation
-  bool dual = true;             ///< Edges of the power diagram, between orthocenters
-  bool weights = true;          ///< Circles of radius √|w|: green positive, red negative
+  bool primal = true;  ///< Edges of the triangulation; the boundary and constrained edges are thicker
+  bool dual = true;    ///< Edges of the power diagram, between orthocenters; dashed where their length is negative
+  /// Hatch bad triangles, which are not well-centered, and tint the others by their margin: the least of h/ℓ, d/ℓ and
+  /// 1 − d/ℓ.
+  bool fill = true;
+  bool weights = false;         ///< Circles of radius √|w|: solid for positive, dashed for negative weights
   double weight_scale = 1;      ///< Factor on the radius of weight circles
-  bool bad_triangles = true;    ///< Fill triangles that are not well-centered
   bool near_coincident = true;  ///< Draw rings around vertices that nearly coincide with a neighbor
-  bool regions = true;          ///< Tint regions, and draw constrained edges thicker
   bool vertex_numbers = false;
-  std::optional<TriangleColors> colors = {};  ///< Colors instead of bad triangles and regions
+  std::optional<TriangleColors> colors = {};  ///< Colors instead of margins and bad triangles
   std::optional<Box> zoom = {};               ///< Box that the picture shows
   /// Middle of the picture for a sphere: longitude and latitude [degrees]. None: the middle of a mesh that is a part of
   /// the sphere, else 0, 0. Parts behind the limb are not drawn. A zoom box is in the plane of the picture [length],
   /// from its middle to the right and up.
   std::optional<Vec2> view = {};
   double width = 900;      ///< Width of one panel [CSS pixels]
-  std::string title = {};  ///< Title under the picture
+  std::string title = {};  ///< Title above the picture
 };
 
 /// Draws one panel.

@@ -44,11 +44,10 @@ def draw_svg(
     *,
     primal: bool = True,
     dual: bool = True,
-    weights: bool = True,
+    fill: bool = True,
+    weights: bool = False,
     weight_scale: float = 1.0,
-    bad_triangles: bool = True,
     near_coincident: bool = True,
-    regions: bool = True,
     vertex_numbers: bool = False,
     zoom: Sequence[float] | None = None,
     view: tuple[float, float] | None = None,
@@ -63,15 +62,15 @@ def draw_svg(
     before : Mesh or meshio.Mesh, optional
         A mesh to draw on the left, with the same scale, view and zoom box.
     primal, dual : bool
-        Draw the edges of the triangulation, and the edges of the power diagram between orthocenters.
+        Draw the edges of the triangulation, and the edges of the power diagram between orthocenters. Dual edges of
+        negative length are dashed.
+    fill : bool
+        Hatch triangles that are not well-centered, and tint the others by their margin, the least of h/ℓ, d/ℓ and
+        1 − d/ℓ.
     weights : bool
-        Draw circles of radius √\\|w\\| times ``weight_scale``: green positive, red negative.
-    bad_triangles : bool
-        Fill triangles that are not well-centered.
+        Draw circles of radius √\\|w\\| times ``weight_scale``: solid for positive, dashed for negative weights.
     near_coincident : bool
         Draw rings around vertices that nearly coincide with a neighbor.
-    regions : bool
-        Tint regions, and draw constrained edges thicker.
     zoom : (x0, y0, x1, y1), optional
         Box that the picture shows. For a sphere it is in the plane of the picture [length], from its middle to the
         right and up.

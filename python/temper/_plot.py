@@ -11,8 +11,11 @@ from ._dec import dec_operators
 from ._mesh import Mesh, MeshLike, as_mesh
 from ._measure import triangle_quality
 
-_BAD = "#d55e00"
-_DUAL = "#0072b2"
+# Those of draw_svg.
+_BAD = "#c83a00"
+_DUAL = "#084f9c"
+_PRIMAL = "#6b7280"
+_OUTLINE = "#1d232b"
 
 
 def _dual_segments(mesh: Mesh) -> npt.NDArray[np.float64]:
@@ -40,8 +43,8 @@ def _angles(mesh: Mesh) -> npt.NDArray[np.float64]:
 
 
 _COLORS: dict[str, Any] = {
-    "quality": (_least, "least of h/ℓ, d/ℓ", "viridis"),
-    "angle": (_angles, "largest angle [°]", "magma_r"),
+    "quality": (_least, "least of h/ℓ, d/ℓ", "cividis"),
+    "angle": (_angles, "largest angle [°]", "cividis"),
     "region": (lambda mesh: mesh.regions, "region", "tab10"),
 }
 
@@ -73,9 +76,9 @@ def plot(
     orthocenters : bool
         Draw dots at the orthocenters.
     bad_triangles : bool
-        Fill triangles that are not well-centered, by exact tests. With ``color`` they get a thick outline instead.
+        Hatch triangles that are not well-centered, by exact tests. With ``color`` they get a thick outline instead.
     weights : bool
-        Draw circles of radius √\\|w\\|: green positive, red negative.
+        Draw circles of radius √\\|w\\|: solid for positive, dashed for negative weights.
     color : {"quality", "angle", "region"} or (m,) array, optional
         Fill triangles by their least h/ℓ and d/ℓ, by their largest angle, by region, or by your own numbers.
     colorbar : bool
@@ -106,19 +109,20 @@ def plot(
             outlined = {"facecolors": "none", "edgecolors": _BAD, "linewidths": 3 * width}
             ax.add_collection(PolyCollection(corners[bad], **outlined, zorder=3))
     elif bad_triangles and bad.any():
-        ax.add_collection(PolyCollection(corners[bad], facecolors=_BAD, edgecolors="none", alpha=0.45, zorder=1))
+        hatched = {"facecolors": "none", "edgecolors": _BAD, "linewidths": 0, "hatch": "////"}
+        ax.add_collection(PolyCollection(corners[bad], **hatched, zorder=1))
     if primal:
-        ax.add_collection(LineCollection(points[mesh.edges], colors="#444444", linewidths=width, zorder=2))
+        ax.add_collection(LineCollection(points[mesh.edges], colors=_PRIMAL, linewidths=width, zorder=2))
         boundary = points[mesh.boundary_edges]
-        ax.add_collection(LineCollection(boundary, colors="#000000", linewidths=2 * width, zorder=2.1))
+        ax.add_collection(LineCollection(boundary, colors=_OUTLINE, linewidths=2 * width, zorder=2.1))
         constrained = mesh.constrained_edges
         outer = {tuple(sorted(edge)) for edge in mesh.boundary_edges.tolist()}
         inside = [tuple(sorted(edge)) not in outer for edge in constrained.tolist()]
         constrained = constrained[np.array(inside, dtype=bool)]
         if len(constrained):
-            ax.add_collection(LineCollection(points[constrained], colors="#cc79a7", linewidths=2 * width, zorder=2.2))
+            ax.add_collection(LineCollection(points[constrained], colors=_OUTLINE, linewidths=2 * width, zorder=2.2))
     if dual:
-        ax.add_collection(LineCollection(_dual_segments(mesh), colors=_DUAL, linewidths=width, zorder=2.5))
+        ax.add_collection(LineCollection(_dual_segments(mesh), colors=_DUAL, linewidths=2 * width, zorder=2.5))
     if orthocenters:
         centers = np.asarray(dec_operators(mesh).orthocenters)
         ax.plot(*centers.T, ".", color=_DUAL, markersize=4 * width + 1, zorder=2.6)
@@ -137,7 +141,7 @@ def _fill(ax: Any, mesh: Mesh, corners: Any, color: Any, colorbar: bool, cmap: A
         function, label, default = _COLORS[color]
         values = np.asarray(function(mesh), dtype=np.float64)
     else:
-        values, label, default = np.asarray(color, dtype=np.float64), "", "viridis"
+        values, label, default = np.asarray(color, dtype=np.float64), "", "cividis"
     if values.shape != (len(corners),):
         raise ValueError(f"color: expected a number for each of {len(corners)} triangles, found shape {values.shape}")
     filled = PolyCollection(corners, array=values, cmap=cmap or default, edgecolors="face", linewidths=0.2, zorder=1)
@@ -149,13 +153,13 @@ def _fill(ax: Any, mesh: Mesh, corners: Any, color: Any, colorbar: bool, cmap: A
 def _circles(ax: Any, points: Any, weights: Any, width: float) -> None:
     from matplotlib.collections import EllipseCollection
 
-    for sign, color in ((1, "#009e73"), (-1, "#cc3311")):
+    for sign, color, style in ((1, "#00866b", "solid"), (-1, "#9a4f96", "dashed")):
         chosen = sign * weights > 0
         diameters = 2 * np.sqrt(np.abs(weights[chosen]))
         ax.add_collection(
             EllipseCollection(
                 diameters, diameters, np.zeros(len(diameters)), units="xy", offsets=points[chosen],
-                transOffset=ax.transData, facecolors="none", edgecolors=color, linewidths=width, zorder=2.7,
+                transOffset=ax.transData, facecolors="none", edgecolors=color, linewidths=width, linestyles=style, zorder=2.7,
             )  # fmt: skip
         )
 

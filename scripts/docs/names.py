@@ -51,7 +51,6 @@ OTHERS = {
     "--size-data": ("`optimize(size_field=…)`", "`OptimizeOptions::size_field`"),
     "optimize --size": ("`optimize(size_field=…)`", "`OptimizeOptions::size_field`"),
     "--write": ("`html_report`, `draw_svg`, `Hooks(tracer=…)`", "`io::html_report`, `OptimizeHooks::tracer`"),
-    "--no-bad": ("`draw_svg(bad_triangles=False)`", ""),
     "--no-rings": ("`draw_svg(near_coincident=False)`", ""),
     "--numbers": ("`draw_svg(vertex_numbers=True)`", ""),
     "--region-size": ("`mesh_outline(region_sizes=…)`", ""),

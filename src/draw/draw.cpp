@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "draw/panel.hpp"
@@ -13,19 +14,12 @@
 namespace temper {
 namespace {
 
-constexpr double kGap = 24;   // between panels and around the picture, pixels
-constexpr double kLine = 22;  // height of a line of text
-constexpr double kFontSize = 14;
+constexpr double kLine = 1.6, kTitle = 1.2;  // height of a line of text, size of a title: in font sizes
 
 struct Shown {
   Panel panel;
   std::string name;  // "before", "after" or nothing
 };
-
-std::string text_at(double x, double y, std::string_view anchor, const std::string& content) {
-  return "<text x=\"" + short_number(x) + "\" y=\"" + short_number(y) + "\" text-anchor=\"" + std::string(anchor) +
-         "\">" + xml_text(content) + "</text>\n";
-}
 
 std::string with_commas(std::size_t n) {
   std::string digits = std::to_string(n);
@@ -33,110 +27,154 @@ std::string with_commas(std::size_t n) {
   return digits;
 }
 
-std::string caption(const Shown& shown, bool zoomed) {
-  const std::string all = with_commas(shown.panel.triangles), bad = with_commas(shown.panel.bad);
-  std::string text = shown.name.empty() ? "" : shown.name + ": ";
-  text += shown.panel.bad == 0 ? "all " + all + " triangles well-centered"
-                               : bad + " of " + all + " triangles not well-centered";
-  return zoomed ? text + " (whole mesh)" : text;
+// The words above a panel, smaller where they would not fit, with a check mark if no triangle is bad.
+std::string caption(const Shown& shown, bool zoomed, Vec2 at, const Viewport& viewport) {
+  const bool good = shown.panel.bad == 0;
+  const std::string name = shown.name.empty() ? "" : shown.name + ":", count = with_commas(shown.panel.bad);
+  const std::string of =
+      " of " + with_commas(shown.panel.triangles) + " triangles bad" + (zoomed ? " (whole mesh)" : "");
+  const double wide = text_width(name + " " + count + of, viewport.em) + 2 * viewport.em;
+  const double size = viewport.em * std::min(1.0, viewport.width / wide);
+  std::string svg = "<text x=\"" + short_number(at.x) + "\" y=\"" + short_number(at.y) +
+                    "\" text-anchor=\"middle\" font-size=\"" + short_number(size) + "\">";
+  if (!name.empty()) svg += "<tspan font-weight=\"bold\">" + name + "</tspan> ";
+  svg += std::string("<tspan font-weight=\"bold\" fill=\"") + (good ? Palette::dual : Palette::warning) + "\">" +
+         count + "</tspan>" + of + "</text>\n";
+  if (!good) return svg;
+  const double left = at.x - 0.55 * text_width(name + " " + count + of, size) - 1.4 * size;
+  return svg + "<path d=\"M0 0l0.25 0.3 0.5-0.8\" transform=\"translate(" + short_number(left) + " " +
+         short_number(at.y - 0.33 * size) + ") scale(" + short_number(size) +
+         ")\" fill=\"none\" stroke-width=\"0.16\" stroke-linecap=\"round\" stroke=\"" + Palette::dual + "\"/>\n";
 }
 
+// Marks are as wide as two letters m, around y = 0, in font sizes.
 struct Key {
-  std::string label, mark;  // mark: SVG around y = 0
-  double width = 20;        // of the mark, pixels
+  std::string label, mark;
+  double width = 1.5;  // of the mark
 };
 
 std::string line_mark(const char* color, const char* more = "") {
-  return std::string("<path d=\"M0 0h20\" fill=\"none\" stroke-width=\"1.5\" stroke=\"") + color + "\" " + more + "/>";
-}
-std::string circle_mark(const char* color, const char* more = "") {
-  return std::string("<circle cx=\"12\" r=\"6\" fill=\"none\" stroke-width=\"1.5\" stroke=\"") + color + "\" " + more +
+  return std::string("<path d=\"M0 0h1.5\" fill=\"none\" stroke-width=\"0.15\" stroke=\"") + color + "\" " + more +
          "/>";
 }
+std::string circle_mark(const char* color, const char* more = "") {
+  return std::string("<circle cx=\"0.75\" r=\"0.4\" fill=\"none\" stroke-width=\"0.1\" stroke=\"") + color + "\" " +
+         more + "/>";
+}
 
-Key scale_key(const TriangleColors& colors) {
-  constexpr double kBox = 12;
-  const ColorScale scale = scale_of(colors);
-  Key key = {colors.label, "", kBox * static_cast<double>(kScaleColors.size())};
-  if (scale.low <= scale.high) key.label += ": " + short_number(scale.low) + " to " + short_number(scale.high);
+Key scale_key(const std::string& label, const ColorScale& scale) {
+  constexpr double kBox = 0.6;
+  Key key = {label, "", kBox * static_cast<double>(kScaleColors.size())};
+  const auto number = [size = std::max(std::abs(scale.low), std::abs(scale.high))](double value) {
+    return number_label(std::abs(value) < 1e-6 * size ? 0 : value);
+  };
+  if (scale.low <= scale.high) key.label += ": " + number(scale.low) + " to " + number(scale.high);
   for (std::size_t i = 0; i < kScaleColors.size(); ++i) {
-    key.mark += "<rect x=\"" + short_number(kBox * static_cast<double>(i)) + "\" y=\"-6\" width=\"" +
-                short_number(kBox) + "\" height=\"12\" fill=\"" + kScaleColors[i] + "\"/>";
+    key.mark += "<rect x=\"" + short_number(kBox * static_cast<double>(i)) + "\" y=\"-0.45\" width=\"" +
+                short_number(kBox) + "\" height=\"0.9\" fill=\"" + kScaleColors[i] + "\"/>";
   }
   return key;
 }
 
+template <class What>
+bool any(std::span<const Shown> shown, What what) {
+  return std::any_of(shown.begin(), shown.end(), [&](const Shown& s) { return what(s.panel); });
+}
+
+bool is_hatched(std::span<const Shown> shown, const DrawOptions& options) {
+  return !options.colors && options.fill && any(shown, [](const Panel& p) { return p.bad > 0; });
+}
+
 // The legend has only what some panel really shows.
 std::vector<Key> legend(std::span<const Shown> shown, const Viewport& viewport, const DrawOptions& options) {
-  const auto any = [&](auto what) {
-    return std::any_of(shown.begin(), shown.end(), [&](const Shown& s) { return what(s.panel); });
-  };
   std::vector<Key> keys;
+  if (is_hatched(shown, options)) {
+    const std::string fill = viewport.shows_detail() ? hatched(viewport, 1 / viewport.em) : Palette::warning;
+    keys.push_back({"bad triangle", "<rect y=\"-0.45\" width=\"1.5\" height=\"0.9\" fill=\"" + fill + "\"/>"});
+  }
   if (options.colors) {
-    keys.push_back(scale_key(*options.colors));
-  } else if (options.bad_triangles && any([](const Panel& p) { return p.bad > 0; })) {
-    const char* color = viewport.shows_detail() ? Palette::bad : Palette::bad_dense;
-    keys.push_back(
-        {"not well-centered", std::string("<rect y=\"-6\" width=\"20\" height=\"12\" fill=\"") + color + "\"/>"});
+    keys.push_back(scale_key(options.colors->label, scale_of(*options.colors)));
+  } else if (options.fill && any(shown, [](const Panel& p) { return p.bad < p.triangles; })) {
+    keys.push_back(scale_key("margin", kMargins));
   }
-  if (any([](const Panel& p) { return p.dual; })) keys.push_back({"dual", line_mark(Palette::dual)});
-  if (any([](const Panel& p) { return p.positive; })) keys.push_back({"weight > 0", circle_mark(Palette::positive)});
-  if (any([](const Panel& p) { return p.negative; })) {
-    keys.push_back({"weight < 0", circle_mark(Palette::negative, "stroke-dasharray=\"4 2\"")});
+  if (any(shown, [](const Panel& p) { return p.dual; })) keys.push_back({"dual edge", line_mark(Palette::dual)});
+  if (any(shown, [](const Panel& p) { return p.negative_dual; })) {
+    keys.push_back({"negative dual edge", line_mark(Palette::warning, "stroke-dasharray=\"0.35 0.2\"")});
   }
-  if (any([](const Panel& p) { return p.rings; })) keys.push_back({"nearly coincident", circle_mark(Palette::ring)});
+  if (any(shown, [](const Panel& p) { return p.positive; })) {
+    keys.push_back({"weight > 0", circle_mark(Palette::positive)});
+  }
+  if (any(shown, [](const Panel& p) { return p.negative; })) {
+    keys.push_back({"weight < 0", circle_mark(Palette::negative, "stroke-dasharray=\"0.3 0.15\"")});
+  }
+  if (any(shown, [](const Panel& p) { return p.rings; })) {
+    keys.push_back({"nearly coincident", circle_mark(Palette::warning)});
+  }
   if (!viewport.shows_detail() && (options.dual || options.weights)) {
-    keys.push_back({viewport.shows_edges() ? "dual and weights: zoom in" : "edges, dual and weights: zoom in", ""});
+    const std::string edges = viewport.shows_edges() ? "" : options.weights ? "edges, " : "edges and ";
+    keys.push_back({edges + (options.weights ? "dual and weights" : "dual") + ": zoom in", "", 0});
   }
   return keys;
 }
 
-constexpr double kPerLetter = 7.5, kAfterMark = 8, kBetween = 22;  // pixels, generous for any sans-serif
-
-double mark_width(const Key& key) { return key.mark.empty() ? 0 : key.width + kAfterMark; }
-
-double legend_width(const std::vector<Key>& keys) {
-  double width = 0;
-  for (const Key& key : keys) {
-    width += mark_width(key) + kPerLetter * static_cast<double>(key.label.size()) + kBetween;
-  }
-  return width - kBetween;
-}
-
-std::string legend_svg(const std::vector<Key>& keys, double left, double y) {
+// Rows of keys, each in the middle of the picture.
+struct Legend {
   std::string svg;
-  for (const Key& key : keys) {
-    svg += "<g transform=\"translate(" + short_number(left) + " " + short_number(y - 5) + ")\">" + key.mark + "</g>\n";
-    left += mark_width(key);
-    svg += text_at(left, y, "start", key.label);
-    left += kPerLetter * static_cast<double>(key.label.size()) + kBetween;
+  double height = 0;
+};
+
+Legend legend_at(const std::vector<Key>& keys, double y, double width, double em) {
+  constexpr double kAfterMark = 0.5, kBetween = 1.8, kWide = 1.1;  // font sizes; and of the estimate, for wide fonts
+  const auto key_width = [&](const Key& key) {
+    return (key.width + (key.mark.empty() ? 0 : kAfterMark) + kBetween) * em + kWide * text_width(key.label, em);
+  };
+  Legend legend;
+  for (auto key = keys.begin(); key != keys.end();) {
+    auto end = key;
+    double row = 0;
+    do row += key_width(*end++);
+    while (end != keys.end() && row + key_width(*end) - kBetween * em <= width);
+    double left = (width - row + kBetween * em) / 2;
+    legend.height += kLine * em;
+    const double base = y + legend.height;
+    for (; key != end; left += key_width(*key++)) {
+      if (!key->mark.empty()) {
+        legend.svg += "<g transform=\"translate(" + short_number(left) + " " + short_number(base - 0.35 * em) +
+                      ") scale(" + short_number(em) + ")\">" + key->mark + "</g>\n";
+      }
+      const double label = left + (key->width + (key->mark.empty() ? 0 : kAfterMark)) * em;
+      legend.svg += text_element({label, base}, key->label, {.size = em});
+    }
   }
-  return svg;
+  return legend;
 }
 
 std::string document(std::span<const Shown> shown, const Viewport& viewport, const DrawOptions& options) {
-  const double panels = static_cast<double>(shown.size());
-  const std::vector<Key> keys = legend(shown, viewport, options);
-  const double width = panels * viewport.width + (panels + 1) * kGap;
-  double y = kGap + viewport.height;
-
+  const double panels = static_cast<double>(shown.size()), em = viewport.em, gap = Viewport::kGapEms * em;
+  const double width = panels * viewport.width + (panels + 1) * gap;
   std::string body;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    const double x = kGap + static_cast<double>(i) * (viewport.width + kGap);
-    body += "<g transform=\"translate(" + short_number(x) + " " + short_number(kGap) + ")\">\n" + shown[i].panel.svg +
-            "</g>\n";
-    body += text_at(x + viewport.width / 2, y + kLine, "middle",
-                    caption(shown[i], options.zoom.has_value() || !viewport.view.is_flat()));
+  if (is_hatched(shown, options)) {
+    body += "<defs>" + hatching(viewport, 1 / viewport.unit) + hatching(viewport, 1 / em) + "</defs>\n";
   }
-  y += kLine;
-  if (!options.title.empty()) body += text_at(width / 2, y += kLine, "middle", options.title);
-  if (!keys.empty()) body += legend_svg(keys, std::max(kGap, (width - legend_width(keys)) / 2), y += kLine);
-  y += kGap;
-
-  const std::string size = short_number(width) + "\" height=\"" + short_number(y);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size + "\" viewBox=\"0 0 " + short_number(width) + " " +
-         short_number(y) + "\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"" + short_number(kFontSize) +
-         "\">\n<rect width=\"" + size + "\" fill=\"#ffffff\"/>\n" + body + "</svg>\n";
+  double y = 0.3 * em;
+  if (!options.title.empty()) {
+    const double size = kTitle * em * std::min(1.0, width / text_width(options.title, kTitle * em));
+    y += kLine * em;
+    body += "<text x=\"" + short_number(width / 2) + "\" y=\"" + short_number(y) +
+            "\" text-anchor=\"middle\" font-size=\"" + short_number(size) + "\">" + xml_text(options.title) +
+            "</text>\n";
+  }
+  y += kLine * em;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const double x = gap + static_cast<double>(i) * (viewport.width + gap);
+    body +=
+        caption(shown[i], options.zoom.has_value() || !viewport.view.is_flat(), {x + viewport.width / 2, y}, viewport);
+    body += "<g transform=\"translate(" + short_number(x) + " " + short_number(y + em / 2) + ")\">\n" +
+            shown[i].panel.svg + "</g>\n";
+  }
+  y += em / 2 + viewport.height;
+  const Legend keys = legend_at(legend(shown, viewport, options), y, width, em);
+  return picture_document(width, y + keys.height + em, body + keys.svg);
 }
 
 }  // namespace

@@ -8,25 +8,25 @@
 #include "draw/text.hpp"
 #include "draw/viewport.hpp"
 #include "geometry/surface.hpp"
+#include "quality/measure.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/regularity.hpp"
 
 namespace temper {
 namespace {
 
-// Widths in pixels, from the median edge: thin enough to see through, thick enough to print.
-constexpr double kPrimalWidth = 0.03, kLeastPrimal = 0.45, kMostPrimal = 1.2;
-constexpr double kDenseWidth = 0.2;  // where edges are close: bad triangles show through
-constexpr double kConstrainedTimes = 2.5;
-constexpr double kDualTimes = 0.9;
-constexpr double kPeriodWidth = 2;        // pixels
+// Widths, from the median edge: thin enough to see through, thick enough to print.
+constexpr double kPrimalWidth = 0.018, kLeastPrimal = 0.018, kMostPrimal = 0.07;  // of an edge; of the font size
+constexpr double kDenseWidth = 0.2;  // pixels, where edges are close: bad triangles show through
+constexpr double kConstrainedTimes = 2.5, kDualTimes = 2.2, kNegativeTimes = 3.5;
+constexpr double kOutlineWidth = 0.08, kRingWidth = 0.09, kPeriodWidth = 0.1;  // of the font size
+constexpr double kHatchPeriod = 0.25, kLeastHatch = 0.15, kMostHatch = 0.36;   // of an edge; of the font size
 constexpr double kNearCoincident = 0.05;  // of the mean of the other edges around: nothing to see between the two ends
 constexpr double kSeam = 0.3;             // pixels: hides the hairlines between filled neighbors
 constexpr double kSpot = 3;               // pixels added around bad triangles too small and too few to be seen
 constexpr double kFew = 0.02;             // of all triangles
-constexpr double kRingRadius = 5;         // pixels
-constexpr double kFontPerEdge = 0.22, kLeastFont = 3, kMostFont = 12;
-
-constexpr std::array<const char*, 6> kTints = {"#dceaf5", "#e6f1d9", "#efe2f0", "#f6efd6", "#dff0ee", "#ececec"};
+constexpr double kRingRadius = 0.35;      // of the font size
+constexpr double kFontPerEdge = 0.22, kLeastFont = 3;
 
 /// The shifts from the mesh to its images that a picture of the domain and its margin shows.
 std::vector<Vec2> shifts_of(const Space& space) {
@@ -53,13 +53,8 @@ class PanelPainter {
 
   Panel paint() {
     panel_.triangles = mesh_.n_triangles();
-    if (options_.colors) {
-      fill_by_value(options_.colors->values[number_]);
-    } else if (options_.regions) {
-      tint_regions();
-    }
-    fill_bad_triangles();
-    draw_limb();
+    draw_globe();
+    fill_triangles();
     if (options_.primal) draw_edges();
     if (options_.dual && detailed_) draw_dual();
     if (options_.weights && detailed_) draw_weights();
@@ -71,7 +66,8 @@ class PanelPainter {
 
  private:
   [[nodiscard]] double primal_width() const {
-    return detailed_ ? std::clamp(kPrimalWidth * viewport_.edge, kLeastPrimal, kMostPrimal) : kDenseWidth;
+    const double em = viewport_.em;
+    return detailed_ ? std::clamp(kPrimalWidth * viewport_.edge, kLeastPrimal * em, kMostPrimal * em) : kDenseWidth;
   }
   [[nodiscard]] double edge_length(HalfedgeId h) const {
     const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h), a);
@@ -115,64 +111,71 @@ class PanelPainter {
     panel_.svg += std::string("<path class=\"") + name + "\" fill=\"none\" stroke=\"" + color + "\" stroke-width=\"" +
                   short_number(width / viewport_.unit) + "\" " + more + "d=\"" + path.text() + "\"/>\n";
   }
-  void fill(const PathText& path, const char* name, const char* color, double stroke_width = kSeam) {
+  void fill(const PathText& path, const char* name, const std::string& color, double stroke_width = kSeam) {
     if (path.empty()) return;
     panel_.svg += std::string("<path class=\"") + name + "\" fill=\"" + color + "\" stroke=\"" + color +
                   "\" stroke-width=\"" + short_number(stroke_width / viewport_.unit) + "\" d=\"" + path.text() +
                   "\"/>\n";
   }
 
-  void tint_regions() {
-    std::map<std::int32_t, PathText> paths;
-    for (TriangleId t : mesh_.triangles()) paths.try_emplace(mesh_.region(t));
-    if (paths.size() < 2) return;
-    for (TriangleId t : mesh_.triangles()) add_triangle(paths[mesh_.region(t)], t);
-    std::size_t i = 0;
-    for (const auto& [region, path] : paths) fill(path, "region", kTints[i++ % kTints.size()]);
-  }
-
-  void fill_by_value(const IdVector<TriangleId, double>& values) {
-    const ColorScale scale = scale_of(*options_.colors);
+  void fill_triangles() {
+    const ColorScale scale = options_.colors ? scale_of(*options_.colors) : kMargins;
     std::array<PathText, kScaleColors.size()> paths;
+    PathText bad;
     for (TriangleId t : mesh_.triangles()) {
-      if (!std::isnan(values[t])) add_triangle(paths[scale.color(values[t])], t);
+      const TriangleMeasure measure = measure_triangle(mesh_, t);
+      const bool good = measure.well_centered();
+      panel_.bad += good ? 0 : 1;
+      if (!options_.colors && !options_.fill) continue;
+      const double value = options_.colors ? options_.colors->values[number_][t] : measure.margin();
+      if (!options_.colors && !good) {
+        add_triangle(bad, t);
+      } else if (!std::isnan(value)) {
+        add_triangle(paths[scale.color(value)], t);
+      }
     }
-    for (std::size_t i = 0; i < paths.size(); ++i) fill(paths[i], "value", kScaleColors[i]);
-  }
-
-  void fill_bad_triangles() {
-    PathText path;
-    for (TriangleId t : mesh_.triangles()) {
-      const auto p = mesh_.points(t);
-      if (is_well_centered(mesh_.space(), p[0], p[1], p[2])) continue;
-      ++panel_.bad;
-      if (options_.bad_triangles && !options_.colors) add_triangle(path, t);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      fill(paths[i], options_.colors ? "value" : "margin", kScaleColors[i]);
     }
     const bool few = static_cast<double>(panel_.bad) < kFew * static_cast<double>(panel_.triangles);
-    fill(path, "bad", detailed_ ? Palette::bad : Palette::bad_dense, few && !detailed_ ? kSpot : kSeam);
+    fill(bad, "bad", detailed_ ? hatched(viewport_, 1 / viewport_.unit) : Palette::warning,
+         few && !detailed_ ? kSpot : kSeam);
   }
 
-  /// Draws the lines at which a period begins again.
+  /// Fades what repeats the domain, and marks the lines at which a period begins again.
   void draw_periods() {
     if (!mesh_.space().is_periodic()) return;
     PathText path;
     const auto [x, y] = mesh_.space().period();
     const Box& box = viewport_.clip;
+    const Box domain = {{x > 0 ? 0 : box.low.x, y > 0 ? 0 : box.low.y},
+                        {x > 0 ? x : box.high.x, y > 0 ? y : box.high.y}};
     const auto line = [&](Vec2 a, Vec2 b) { path.segment(viewport_.grid(a), viewport_.grid(b)); };
-    for (const double at : {0.0, x}) {
-      if (x > 0) line({at, y > 0 ? 0 : box.low.y}, {at, y > 0 ? y : box.high.y});
+    for (const double at : {domain.low.x, domain.high.x}) {
+      if (x > 0) line({at, domain.low.y}, {at, domain.high.y});
     }
-    for (const double at : {0.0, y}) {
-      if (y > 0) line({x > 0 ? 0 : box.low.x, at}, {x > 0 ? x : box.high.x, at});
+    for (const double at : {domain.low.y, domain.high.y}) {
+      if (y > 0) line({domain.low.x, at}, {domain.high.x, at});
     }
-    stroke(path, "period", Palette::primal_dense, kPeriodWidth, dashes(kPeriodWidth).c_str());
+    PathText beyond;
+    for (const Box& b : {box, domain}) {
+      beyond.move_to(viewport_.grid(b.low));
+      beyond.line_to(viewport_.grid({b.high.x, b.low.y}));
+      beyond.line_to(viewport_.grid(b.high));
+      beyond.line_to(viewport_.grid({b.low.x, b.high.y}));
+      beyond.close();
+    }
+    panel_.svg += "<path class=\"beyond\" fill=\"#ffffff\" fill-opacity=\"0.65\" fill-rule=\"evenodd\" d=\"" +
+                  beyond.text() + "\"/>\n";
+    const double width = kPeriodWidth * viewport_.em;
+    stroke(path, "period", Palette::outline, width, dashes(width).c_str());
   }
 
-  void draw_limb() {
+  void draw_globe() {
     if (viewport_.view.is_flat()) return;
     PathText path;
     path.circle(viewport_.grid({0, 0}), viewport_.steps(viewport_.view.radius() * viewport_.scale));
-    stroke(path, "limb", Palette::viewport, 1);
+    fill(path, "limb", Palette::outside);
   }
 
   // Domain boundary and constrained edges are thicker, because the optimizer keeps them.
@@ -183,11 +186,11 @@ class PanelPainter {
       const bool outline = mesh_.is_unflippable(h);
       if (!outline && !viewport_.shows_edges()) continue;
       const WeightedPoint from = mesh_.point(mesh_.origin(h));
-      add_line(outline && options_.regions ? kept : plain, from, mesh_.point(mesh_.target(h), from));
+      add_line(outline ? kept : plain, from, mesh_.point(mesh_.target(h), from));
     }
-    stroke(plain, "primal", detailed_ ? Palette::primal : Palette::primal_dense, primal_width());
-    stroke(kept, "constrained", Palette::primal, std::max(kConstrainedTimes * primal_width(), 0.8),
-           "stroke-linecap=\"round\" ");
+    stroke(plain, "primal", Palette::primal, primal_width());
+    stroke(kept, "constrained", Palette::outline,
+           std::max(kConstrainedTimes * primal_width(), kOutlineWidth * viewport_.em), "stroke-linecap=\"round\" ");
   }
 
   // Dual edges run between the orthocenters on both sides, or from an orthocenter to the weighted midpoint of a
@@ -195,16 +198,25 @@ class PanelPainter {
   void draw_dual() {
     IdVector<TriangleId, WeightedPoint> centers(mesh_.n_triangles());
     for (TriangleId t : mesh_.triangles()) centers[t] = center(t);
-    PathText path;
+    PathText positive, negative;
     for (HalfedgeId h : mesh_.halfedges()) {
       if (!mesh_.is_edge_representative(h)) continue;
       const TriangleId here = Mesh::triangle(h), there = Mesh::triangle(mesh_.twin(h));
       const WeightedPoint near = mesh_.point(mesh_.origin(h));
-      add_line(path, beside(near, here, centers[here]),
+      add_line(has_negative_dual(h) ? negative : positive, beside(near, here, centers[here]),
                mesh_.is_boundary(h) ? weighted_midpoint(h) : beside(near, there, centers[there]));
     }
-    panel_.dual = !path.empty();
-    stroke(path, "dual", Palette::dual, kDualTimes * primal_width());
+    panel_.dual = !positive.empty();
+    panel_.negative_dual = !negative.empty();
+    stroke(positive, "dual", Palette::dual, kDualTimes * primal_width());
+    const double width = kNegativeTimes * primal_width();
+    stroke(negative, "halo", "#ffffff", 2 * width);
+    stroke(negative, "dual-negative", Palette::warning, width, dashes(width / 2).c_str());
+  }
+
+  [[nodiscard]] bool has_negative_dual(HalfedgeId h) const {
+    if (!mesh_.is_boundary(h)) return !is_regular(mesh_, h);
+    return measure_triangle(mesh_, Mesh::triangle(h)).h_sign[h.index % 3] == Sign::negative;
   }
 
   /// The orthocenter or the weighted midpoint, as a point of the space.
@@ -238,7 +250,7 @@ class PanelPainter {
     }
     panel_.positive = !positive.empty();
     panel_.negative = !negative.empty();
-    const double width = std::max(primal_width(), 0.4);
+    const double width = 1.5 * primal_width();
     stroke(positive, "weight-positive", Palette::positive, width);
     stroke(negative, "weight-negative", Palette::negative, width, dashes(width).c_str());
   }
@@ -255,11 +267,11 @@ class PanelPainter {
       if (!mesh_.is_edge_representative(h) || !nearly_collapsed(h)) continue;
       const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h), a);
       if (const auto middle = seen({0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.w + b.w)})) {
-        path.circle(viewport_.grid(*middle), viewport_.steps(kRingRadius));
+        path.circle(viewport_.grid(*middle), viewport_.steps(kRingRadius * viewport_.em));
       }
     }
     panel_.rings = !path.empty();
-    stroke(path, "near-coincident", Palette::ring, 1.5);
+    stroke(path, "near-coincident", Palette::warning, kRingWidth * viewport_.em);
   }
 
   [[nodiscard]] bool nearly_collapsed(HalfedgeId h) const {
@@ -276,7 +288,7 @@ class PanelPainter {
   }
 
   void number_vertices() {
-    const double size = std::clamp(kFontPerEdge * viewport_.edge, kLeastFont, kMostFont) / viewport_.unit;
+    const double size = std::clamp(kFontPerEdge * viewport_.edge, kLeastFont, viewport_.em) / viewport_.unit;
     panel_.svg += "<g class=\"numbers\" font-size=\"" + short_number(size) + "\" fill=\"#000000\" stroke=\"#ffffff\"" +
                   " stroke-width=\"" + short_number(size / 4) + "\" paint-order=\"stroke\">\n";
     for (VertexId v : mesh_.vertices()) {
@@ -319,14 +331,43 @@ std::size_t ColorScale::color(double value) const {
   return std::min(static_cast<std::size_t>(at), kScaleColors.size() - 1);
 }
 
+namespace {
+
+constexpr double kPattern = 4;  // its units for a stripe and a gap
+
+double hatch_scale(const Viewport& viewport, double per_pixel) {
+  const double em = viewport.em, period = std::clamp(kHatchPeriod * viewport.edge, kLeastHatch * em, kMostHatch * em);
+  return period / kPattern * per_pixel;
+}
+// The id tells the scale: a page may have pictures of several.
+std::string hatch_id(const Viewport& viewport, double per_pixel) {
+  return "bad-" + short_number(hatch_scale(viewport, per_pixel));
+}
+
+}  // namespace
+
+std::string hatching(const Viewport& viewport, double per_pixel) {
+  return "<pattern id=\"" + hatch_id(viewport, per_pixel) +
+         "\" width=\"4\" height=\"4\" patternUnits=\"userSpaceOnUse\" patternTransform=\"scale(" +
+         short_number(hatch_scale(viewport, per_pixel)) +
+         ") rotate(45)\"><rect width=\"4\" height=\"4\" fill=\"#ffffff\"/><rect width=\"2\" height=\"4\" fill=\"" +
+         Palette::warning + "\"/></pattern>\n";
+}
+
+std::string hatched(const Viewport& viewport, double per_pixel) {
+  return "url(#" + hatch_id(viewport, per_pixel) + ")";
+}
+
 Panel draw_panel(const Mesh& mesh, const Viewport& viewport, const DrawOptions& options, std::size_t number,
                  const std::string& id) {
   Panel panel = PanelPainter(mesh, viewport, options, number).paint();
   const std::string size =
       "width=\"" + short_number(viewport.width) + "\" height=\"" + short_number(viewport.height) + "\"";
+  const bool framed = options.zoom.has_value() || mesh.space().is_periodic();
   panel.svg = "<clipPath id=\"" + id + "\"><rect " + size + "/></clipPath>\n<g clip-path=\"url(#" + id +
               ")\">\n<g transform=\"scale(" + short_number(viewport.unit) + ")\" stroke-linejoin=\"round\">\n" +
-              panel.svg + "</g>\n</g>\n<rect " + size + " fill=\"none\" stroke=\"" + Palette::viewport + "\"/>\n";
+              panel.svg + "</g>\n</g>\n";
+  if (framed) panel.svg += "<rect " + size + " fill=\"none\" stroke=\"" + Palette::frame + "\"/>\n";
   return panel;
 }
 

@@ -17,35 +17,41 @@ struct Panel {
   std::string svg;            ///< a <g> element, its origin the upper left corner of the panel
   std::size_t triangles = 0;  ///< of the whole mesh
   std::size_t bad = 0;        ///< of these, not well-centered
-  bool dual = false, positive = false, negative = false, rings = false;  ///< drawn at all
-  bool too_dense = false;  ///< duals and weights asked for, but left out at this scale
+  // Drawn at all:
+  bool dual = false, negative_dual = false, positive = false, negative = false, rings = false;
 };
 
 /// `number`: of the panel, from 0. `id` names the clip path: unique in the document.
 [[nodiscard]] Panel draw_panel(const Mesh& mesh, const Viewport& viewport, const DrawOptions& options,
                                std::size_t number, const std::string& id);
 
-/// Evenly growing lightness, for color-blind readers and gray print: ten of Matplotlib's viridis.
-inline constexpr std::array<const char*, 10> kScaleColors = {"#440154", "#482878", "#3e4989", "#31688e", "#26828e",
-                                                             "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"};
+/// From blue to yellow with growing lightness, for color-blind readers and gray print; light, so that all lines stand
+/// out.
+inline constexpr std::array<const char*, 10> kScaleColors = {"#7690c8", "#8ba1cc", "#9fb3d0", "#b3c5d3", "#c6d7d6",
+                                                             "#d5e2d2", "#e1e6c6", "#eceaba", "#f6eead", "#fff2a0"};
 struct ColorScale {
   double low = std::numeric_limits<double>::infinity(), high = -low;  ///< low > high: there is no finite value
   /// Of kScaleColors.
   [[nodiscard]] std::size_t color(double value) const;
 };
 [[nodiscard]] ColorScale scale_of(const TriangleColors& colors);
+/// Of margins, in every picture: an equilateral triangle without weights has 0.289.
+inline constexpr ColorScale kMargins = {0, 0.3};
 
-/// Colors that differ for color-blind readers and in gray print.
+/// One warning color, for what a solver cannot use. A hatching or dashes say the same without color.
 struct Palette {
-  static constexpr const char* bad = "#f8c471";
-  static constexpr const char* bad_dense = "#e88a00";
-  static constexpr const char* primal = "#222222";
-  static constexpr const char* primal_dense = "#8a8a8a";
-  static constexpr const char* dual = "#005fa3";
-  static constexpr const char* positive = "#00845f";
-  static constexpr const char* negative = "#c8320a";
-  static constexpr const char* ring = "#b0389a";
-  static constexpr const char* viewport = "#c8c8c8";
+  static constexpr const char* warning = "#c83a00";
+  static constexpr const char* primal = "#6b7280";
+  static constexpr const char* outline = "#1d232b";
+  static constexpr const char* dual = "#084f9c";
+  static constexpr const char* positive = "#00866b";
+  static constexpr const char* negative = "#9a4f96";
+  static constexpr const char* outside = "#e7e9ec";  ///< the globe where it has no mesh
+  static constexpr const char* frame = "#c8c8c8";
 };
+
+/// The hatching of bad triangles, and a reference to it, for coordinates of which one pixel has so many.
+[[nodiscard]] std::string hatching(const Viewport& viewport, double per_pixel);
+[[nodiscard]] std::string hatched(const Viewport& viewport, double per_pixel);
 
 }  // namespace temper

@@ -111,6 +111,8 @@ constexpr double kMargin = 0.03;                   // white space around the mes
 constexpr double kMostCircle = 0.08;               // more of it for weight circles, at most
 constexpr double kClipMargin = 0.05;               // beyond the panel, so that strokes leave it without an end in sight
 constexpr double kLeastWidth = 50;                 // pixels; less cannot be read
+constexpr double kEm = 12.0 / 700;                 // of the width of a picture
+constexpr double kLeastEm = 14;                    // pixels
 constexpr double kFlattest = 0.1;                  // height of a panel over its width, at least …
 constexpr double kTallest = 1.25;                  // … and at most; the mesh is centered in what is left
 constexpr double kStepsPerEdge = 100;              // grid steps on a median edge: its ends are then right to 1 %
@@ -203,6 +205,8 @@ Viewport make_viewport(std::span<const Mesh* const> meshes, const DrawOptions& o
   if (!options.zoom) box = grown(box, margin(meshes, options, side));
 
   viewport.width = options.width >= kLeastWidth ? options.width : kLeastWidth;
+  const double panels = static_cast<double>(meshes.size());
+  viewport.em = std::max(kLeastEm, kEm * panels * viewport.width / (1 - kEm * Viewport::kGapEms * (panels + 1)));
   const double w = box.high.x - box.low.x, h = box.high.y - box.low.y;
   const double ratio = w > 0 ? std::clamp(h / w, kFlattest, kTallest) : kTallest;
   viewport.height = std::round(viewport.width * ratio);

@@ -78,6 +78,7 @@ struct Segment {
 struct Viewport {
   static constexpr double kLeastDetail = 6;   ///< pixels of a median edge, for duals and weights
   static constexpr double kLeastEdges = 1.5;  ///< for the edges themselves: closer lines are one gray
+  static constexpr double kGapEms = 1.5;      ///< between panels and around the picture
 
   View view;                     ///< from the mesh to the plane of the picture
   Box box;                       ///< what the panel shows, in this plane: of a mesh of the plane the user's coordinates
@@ -86,6 +87,7 @@ struct Viewport {
   double unit = 0.01;            ///< pixels per step of the grid
   double width = 0, height = 0;  ///< of the panel, pixels
   double edge = 0;               ///< median length of the edges that are drawn, pixels
+  double em = 0;                 ///< font size, pixels: 12 when the picture is scaled to a width of 700
 
   /// Is there room for duals and weights between the edges, and for more edges than the kept ones?
   [[nodiscard]] bool shows_detail() const { return edge == 0 || edge >= kLeastDetail; }

@@ -178,13 +178,12 @@ namespace {
 
 DrawOptions draw_options_from(const Json& given) {
   constexpr std::string_view kNames[] = {
-      "primal",  "dual",           "weights", "weight_scale", "bad_triangles", "near_coincident",
-      "regions", "vertex_numbers", "zoom",    "width",        "title"};
+      "primal", "dual", "fill", "weights", "weight_scale", "near_coincident", "vertex_numbers", "zoom", "width", "title"};
   expect_names(given, kNames);
   DrawOptions o;
-  take(given, "primal", o.primal), take(given, "dual", o.dual), take(given, "weights", o.weights);
-  take(given, "weight_scale", o.weight_scale), take(given, "bad_triangles", o.bad_triangles);
-  take(given, "near_coincident", o.near_coincident), take(given, "regions", o.regions);
+  take(given, "primal", o.primal), take(given, "dual", o.dual), take(given, "fill", o.fill);
+  take(given, "weights", o.weights), take(given, "weight_scale", o.weight_scale);
+  take(given, "near_coincident", o.near_coincident);
   take(given, "vertex_numbers", o.vertex_numbers), take(given, "width", o.width), take(given, "title", o.title);
   if (given.contains("zoom") && !given["zoom"].is_null()) {
     std::array<double, 4> z{};

@@ -21,7 +21,7 @@ struct DrawSettings {
   std::string projection;
   std::string input, before, output, color;
   DrawOptions options;
-  bool no_primal = false, no_dual = false, no_weights = false, no_bad = false, no_rings = false, no_regions = false;
+  bool no_primal = false, no_dual = false, no_rings = false;
 };
 
 void add_options(Command& command, DrawSettings& s) {
@@ -40,17 +40,16 @@ void add_options(Command& command, DrawSettings& s) {
       "give it: the middle of a mesh that covers a part of the sphere, else 0,0.");
   command.add_flag("--no-primal", s.no_primal, "Leave out the edges of triangles.");
   command.add_flag("--no-dual", s.no_dual, "Leave out the dual edges, which connect orthocenters.");
-  command.add_flag("--no-weights", s.no_weights,
-                   "Leave out the weight circles, which are green for positive and red for negative weights.");
-  command.add_flag("--no-bad", s.no_bad, "Do not fill triangles that are not well-centered.");
   command.add_flag("--no-rings", s.no_rings, "Do not mark vertices that nearly coincide with a neighbor.");
-  command.add_flag("--no-regions", s.no_regions, "Do not color regions.");
-  std::string colors;
+  command.add_flag("--weights", s.options.weights,
+                   "Draw a circle of radius sqrt|w| around each vertex of weight w. It is dashed if w < 0.");
+  std::string colors = "none|";
   for (const TriangleValue& value : triangle_values()) colors += std::string(value.name) + "|";
   add_text(command, "--color", colors + "NAME", s.color,
-           "Number by which triangles are filled, dark for the least. 'quality' is the least of h/l, d/l and 1 - d/l. "
-           "'angle' is the largest angle. 'size' is the mean length of the edges. 'region' is the number of the "
-           "region. NAME is data of triangles in the files.");
+           "Number by which triangles are filled, dark for the least. If you do not give it, bad triangles are hatched "
+           "and the others show their margin, which is the 'quality' from 0 to 0.3. 'none' leaves triangles white. "
+           "'quality' is the least of h/l, d/l and 1 - d/l. 'angle' is the largest angle. 'size' is the mean length of "
+           "the edges. 'region' is the number of the region. NAME is data of triangles in the files.");
   command.add_flag("--numbers", s.options.vertex_numbers, "Number the vertices, from 0.");
   add_number(command, "--weight-scale", s.options.weight_scale, kPositive, "Factor on the radius of weight circles.");
   add_numbers(
@@ -61,13 +60,13 @@ void add_options(Command& command, DrawSettings& s) {
       "Rectangle to draw; all outside it is left out. For a sphere, give coordinates in the picture: x to the right "
       "and y up from its middle.");
   add_number(command, "--width", s.options.width, kPositive, "Width of one panel, in CSS pixels.");
-  add_text(command, "--title", "TEXT", s.options.title, "Title under the picture.");
+  add_text(command, "--title", "TEXT", s.options.title, "Title above the picture.");
   command.group("Help");
   command.add_help({"IN -o FILE [options]",
                     "  temper draw in.vtu -o mesh.svg\n"
-                    "  temper draw in.vtu -o quality.svg --color quality --no-weights\n"
-                    "  temper draw out.vtu --before in.vtu -o both.svg --title \"before and after\"\n"
-                    "  temper draw in.vtu -o corner.svg --zoom 0,0,0.5,0.5 --numbers --no-weights\n",
+                    "  temper draw out.vtu --before in.vtu -o both.svg\n"
+                    "  temper draw in.vtu -o angle.svg --color angle --no-dual\n"
+                    "  temper draw in.vtu -o corner.svg --zoom 0,0,0.5,0.5 --numbers --weights\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
@@ -100,7 +99,8 @@ IdVector<TriangleId, double> values_of(const Input& input, const std::string& na
 
 /// The colors of the panels, from left to right.
 void set_colors(DrawOptions& options, const std::string& name, std::initializer_list<const Input*> panels) {
-  if (name.empty()) return;
+  options.fill = name != "none";
+  if (name.empty() || !options.fill) return;
   const auto known = std::ranges::find(triangle_values(), name, &TriangleValue::name);
   options.colors = TriangleColors{known != triangle_values().end() ? std::string(known->label) : name, {}};
   for (const Input* panel : panels) options.colors->values.push_back(values_of(*panel, name));
@@ -137,17 +137,14 @@ void check_same_space(const Input& before, const Input& after) {
 }  // namespace
 
 Exit run_draw(const Arguments& arguments) {
-  Command command("draw",
-                  "Draws triangles, their dual and weight circles as SVG, PNG or PDF. The dual connects orthocenters.");
+  Command command(
+      "draw", "Draws triangles and their dual as SVG, PNG or PDF. Triangles that are not well-centered are hatched.");
   DrawSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   s.options.primal = !s.no_primal;
   s.options.dual = !s.no_dual;
-  s.options.weights = !s.no_weights;
-  s.options.bad_triangles = !s.no_bad;
   s.options.near_coincident = !s.no_rings;
-  s.options.regions = !s.no_regions;
   check_zoom(s.options);
   Outputs outputs("draw");
   outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});

@@ -336,12 +336,7 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   if (!s.input.empty()) arguments.push_back(s.input);
   const MeshRecord record = {command_line(command, arguments), inputs, map, made, after};
   if (!s.files.report.empty()) outputs.write_text(s.files.report, mesh_json(record));
-  if (!s.files.picture.empty()) {
-    DrawOptions drawing;
-    drawing.title =
-        fmt::format("{}: {} triangles, {} not well-centered", s.output.path, after.triangles, bad_triangles(after));
-    outputs.write_picture(s.files.picture, draw_svg(made.mesh, drawing));
-  }
+  if (!s.files.picture.empty()) outputs.write_picture(s.files.picture, draw_svg(made.mesh));
   if (!s.quiet) {
     print(mesh_text(record) + fmt::format("{}: {}\n", s.output.path, verdict(after)));
     if (!s.sphere) print(next_step(after, s.output.path, ""));

@@ -135,11 +135,6 @@ bool lacks_flips(const OptimizeOptions& o, const Mesh& mesh, Executor* executor)
          count_non_regular_edges(mesh, false, executor) > 0;
 }
 
-std::string picture_title(const Input& input, const Quality& before, const Quality& after) {
-  return fmt::format("{}: of {} triangles {} were not well-centered, now {}", input.path, before.triangles,
-                     bad_triangles(before), bad_triangles(after));
-}
-
 /// Improves the mesh of the input in place: a second copy is made only when something needs one.
 void improve(const OptimizeSettings& s, Input& input, RunResults& results, const RunFiles& files) {
   QualityOptions measuring;
@@ -179,11 +174,7 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
   const bool all_regular = measured && results.after.non_regular_edges == 0;  // those that may not be flipped, too
   results.lacks_flips = !all_regular && lacks_flips(s.options, *seen, files.threads);
   results.outcomes = judge(s.requirements, results.after);
-  if (!s.files.picture.empty()) {
-    DrawOptions drawing;
-    drawing.title = picture_title(input, results.before, results.after);
-    results.picture = draw_before_after_svg(results.original, *seen, drawing);
-  }
+  if (!s.files.picture.empty()) results.picture = draw_before_after_svg(results.original, *seen);
 }
 
 VertexId find_vertex(const Input& input, std::string_view option, const std::string& number) {

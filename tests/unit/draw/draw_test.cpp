@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -63,7 +64,7 @@ TEST(Draw, ColorsAreOnOneScaleOfAllPanelsInsteadOfBadTriangles) {
   expect_well_formed(svg);
   EXPECT_TRUE(has_class(svg, "value"));
   EXPECT_FALSE(has_class(svg, "bad"));
-  EXPECT_FALSE(has_class(svg, "region"));
+  EXPECT_FALSE(has_class(svg, "margin"));
   EXPECT_NE(svg.find("a &lt; b: 0 to 149"), std::string::npos);
   // 0 to 49 and 100 to 149, of ten colors four in each panel; and infinity has the last one in both.
   EXPECT_EQ(count(svg, "class=\"value\""), 9u);
@@ -71,12 +72,12 @@ TEST(Draw, ColorsAreOnOneScaleOfAllPanelsInsteadOfBadTriangles) {
 
 TEST(Draw, APictureOfEverythingIsWellFormed) {
   DrawOptions options;
-  options.vertex_numbers = true;
+  options.vertex_numbers = options.weights = true;
   options.title = "a < b & \"c\" \x02\xff";
   const std::string svg = draw_svg(everything(), options);
   expect_well_formed(svg);
-  for (const char* name : {"region", "bad", "primal", "constrained", "dual", "weight-positive", "weight-negative",
-                           "near-coincident", "numbers"}) {
+  for (const char* name : {"margin", "bad", "primal", "constrained", "dual", "dual-negative", "weight-positive",
+                           "weight-negative", "near-coincident", "numbers"}) {
     EXPECT_TRUE(has_class(svg, name)) << name;
   }
   EXPECT_NE(svg.find("a &lt; b &amp; \"c\""), std::string::npos);
@@ -93,8 +94,8 @@ std::uint64_t hash(std::string_view bytes) {
 // Neither time nor place, machine or what was drawn before: whoever changes pictures changes the hashes.
 TEST(Draw, TheBytesAreThoseOfTheMeshAlone) {
   const std::string one = draw_svg(everything()), two = draw_before_after_svg(everything(), lattice());
-  EXPECT_EQ(hash(one), 4818275544968681294u);
-  EXPECT_EQ(hash(two), 13232430598391721411u);
+  EXPECT_EQ(hash(one), 2458226062689698899u);
+  EXPECT_EQ(hash(two), 13606934428358034227u);
   EXPECT_EQ(draw_svg(everything()), one);
   Mesh mesh = everything();
   mesh.set_weight(VertexId(44), 0.25);
@@ -109,13 +110,12 @@ struct Switch {
 TEST(Draw, EachOptionSwitchesItsOwnClassesOff) {
   const Mesh mesh = everything();
   DrawOptions all;
-  all.vertex_numbers = true;
-  const std::vector<Switch> switches = {{&DrawOptions::dual, {"dual"}},
+  all.vertex_numbers = all.weights = true;
+  const std::vector<Switch> switches = {{&DrawOptions::dual, {"dual", "dual-negative"}},
                                         {&DrawOptions::primal, {"primal", "constrained"}},
+                                        {&DrawOptions::fill, {"margin", "bad"}},
                                         {&DrawOptions::weights, {"weight-positive", "weight-negative"}},
-                                        {&DrawOptions::bad_triangles, {"bad"}},
                                         {&DrawOptions::near_coincident, {"near-coincident"}},
-                                        {&DrawOptions::regions, {"region", "constrained"}},
                                         {&DrawOptions::vertex_numbers, {"numbers"}}};
   const std::string full = draw_svg(mesh, all);
   for (const Switch& s : switches) {
@@ -131,7 +131,7 @@ TEST(Draw, EachOptionSwitchesItsOwnClassesOff) {
   }
 }
 
-TEST(Draw, BadTrianglesAreFilledAndCountedExactly) {
+TEST(Draw, BadTrianglesAreHatchedAndCountedExactly) {
   const Mesh mesh = lattice({.n = 10, .jitter = 0.3, .weight = 0.3});
   std::size_t bad = 0;
   for (TriangleId t : mesh.triangles()) {
@@ -141,38 +141,66 @@ TEST(Draw, BadTrianglesAreFilledAndCountedExactly) {
   ASSERT_GT(bad, 0u);
   const std::string svg = draw_svg(mesh);
   EXPECT_EQ(count(path_of(svg, "bad"), "z"), bad);
-  EXPECT_NE(svg.find(std::to_string(bad) + " of " + std::to_string(mesh.n_triangles()) + " triangles"),
-            std::string::npos);
+  EXPECT_NE(
+      svg.find(">" + std::to_string(bad) + "</tspan> of " + std::to_string(mesh.n_triangles()) + " triangles bad"),
+      std::string::npos);
+  // One hatching in the panel, and one in the legend.
+  EXPECT_EQ(count(svg, "<pattern id="), 2u);
+  EXPECT_EQ(count(svg, "fill=\"url(#bad-"), 2u);
   const std::string good = draw_svg(lattice({.jitter = 0, .weight = 0}));
   EXPECT_FALSE(has_class(good, "bad"));
-  EXPECT_NE(good.find("all 32 triangles well-centered"), std::string::npos);
+  EXPECT_EQ(count(good, "<pattern"), 0u);
+  EXPECT_NE(good.find(">0</tspan> of 32 triangles bad"), std::string::npos);
+}
+
+TEST(Draw, TintsAreOfMarginsFromZeroToThreeTenths) {
+  const double high = std::sqrt(0.75);  // of an equilateral triangle, with the margin 0.289
+  EXPECT_NE(draw_svg(mesh_of({{0, 0}, {1, 0}, {0.5, high}}, {{0, 1, 2}})).find("class=\"margin\" fill=\"#fff2a0\""),
+            std::string::npos);
+  EXPECT_NE(draw_svg(mesh_of({{0, 0}, {1, 0}, {0.01, 1}}, {{0, 1, 2}})).find("class=\"margin\" fill=\"#7690c8\""),
+            std::string::npos);
+}
+
+TEST(Draw, DualEdgesOfNegativeLengthAreDashed) {
+  // The boundary edge below an obtuse angle; and the diagonal of a square of which one corner is pulled in.
+  const std::string obtuse = draw_svg(mesh_of({{0, 0}, {2, 0}, {1, 0.5}}, {{0, 1, 2}}));
+  EXPECT_EQ(count(path_of(obtuse, "dual"), "m"), 2u);
+  EXPECT_EQ(count(path_of(obtuse, "dual-negative"), "m"), 1u);
+  EXPECT_NE(obtuse.find("negative dual edge"), std::string::npos);
+  const std::string diagonal = draw_svg(mesh_of({{0, 0}, {1, 0}, {0.6, 0.6}, {0, 1}}, {{0, 1, 3}, {1, 2, 3}}));
+  EXPECT_TRUE(has_class(diagonal, "dual-negative"));
+  EXPECT_FALSE(has_class(draw_svg(lattice({.jitter = 0, .weight = 0})), "dual-negative"));
 }
 
 TEST(Draw, WeightCirclesComeInTwoSignsAndSkipZero) {
   Mesh mesh = lattice({.weight = 0});
-  EXPECT_FALSE(has_class(draw_svg(mesh), "weight-positive"));
+  DrawOptions options;
+  options.weights = true;
+  EXPECT_FALSE(has_class(draw_svg(mesh, options), "weight-positive"));
   mesh.set_weight(VertexId(6), 0.04);
   mesh.set_weight(VertexId(7), 0.09);
   mesh.set_weight(VertexId(8), -0.01);
-  const std::string svg = draw_svg(mesh);
+  EXPECT_FALSE(has_class(draw_svg(mesh), "weight-positive"));
+  const std::string svg = draw_svg(mesh, options);
   EXPECT_EQ(count(path_of(svg, "weight-positive"), "z"), 2u);
   EXPECT_EQ(count(path_of(svg, "weight-negative"), "z"), 1u);
-  DrawOptions tiny;
-  tiny.weight_scale = 0;
-  EXPECT_FALSE(has_class(draw_svg(mesh, tiny), "weight-positive"));
+  options.weight_scale = 0;
+  EXPECT_FALSE(has_class(draw_svg(mesh, options), "weight-positive"));
 }
 
 // The radius in pixels of the only weight circle.
 double circle_radius(const std::string& svg) {
   const std::string path = path_of(svg, "weight-positive");
-  const std::size_t unit = svg.find("scale(");
-  return std::stod(path.substr(path.find('a') + 1)) * std::stod(svg.substr(unit + 6));
+  const std::string_view scale = "<g transform=\"scale(";
+  const std::string unit = svg.substr(svg.find(scale) + scale.size());
+  return std::stod(path.substr(path.find('a') + 1)) * std::stod(unit);
 }
 
 TEST(Draw, ACircleHasTheRootOfTheWeightForItsRadius) {
   Mesh mesh = lattice({.weight = 0});
   mesh.set_weight(VertexId(12), 0.09);
   DrawOptions options;
+  options.weights = true;
   options.zoom = Box{{0, 0}, {9, 4}};
   options.width = 900;  // 100 pixels a unit
   EXPECT_NEAR(circle_radius(draw_svg(mesh, options)), 30, 0.1);
@@ -199,8 +227,8 @@ TEST(Draw, BothPanelsHaveOneScale) {
   const std::string same = draw_before_after_svg(mesh, mesh);
   const std::string first = path_of(same, "primal");
   EXPECT_EQ(count(same, first), 2u) << "the same mesh is drawn the same in both panels";
-  EXPECT_NE(same.find("before: "), std::string::npos);
-  EXPECT_NE(same.find("after: "), std::string::npos);
+  EXPECT_NE(same.find(">before:<"), std::string::npos);
+  EXPECT_NE(same.find(">after:<"), std::string::npos);
   // A larger mesh beside it shrinks both.
   EXPECT_LT(path_of(draw_before_after_svg(mesh, lattice({.scale = 4})), "primal").size(), first.size());
 }
@@ -224,7 +252,7 @@ TEST(Draw, EdgesTooCloseToTellApartAreLeftOutButNotTheBoundary) {
   const std::string svg = draw_svg(mesh, options);
   EXPECT_FALSE(has_class(svg, "primal"));
   EXPECT_TRUE(has_class(svg, "constrained"));
-  EXPECT_NE(svg.find("edges, dual and weights: zoom in"), std::string::npos);
+  EXPECT_NE(svg.find("edges and dual: zoom in"), std::string::npos);
   EXPECT_TRUE(has_class(draw_svg(mesh), "primal"));
 }
 
@@ -239,7 +267,7 @@ TEST(Draw, AHundredThousandTrianglesFitInAFewMegabytesAndBadOnesStayVisible) {
   EXPECT_FALSE(has_class(svg, "weight-positive"));
   EXPECT_NE(svg.find("zoom in"), std::string::npos);
   ASSERT_TRUE(has_class(svg, "bad"));
-  EXPECT_NE(svg.find("class=\"bad\" fill=\"#e88a00\" stroke=\"#e88a00\" stroke-width=\"300\""), std::string::npos)
+  EXPECT_NE(svg.find("class=\"bad\" fill=\"#c83a00\" stroke=\"#c83a00\" stroke-width=\"300\""), std::string::npos)
       << "3 pixels on a grid of 0.01: as wide as an edge is long";
 }
 

@@ -14,6 +14,7 @@ TEST(DrawPeriodic, TheDomainIsShownAndItsEdgesAreMarked) {
   const std::string svg = draw_svg(mesh);
   test::expect_well_formed(svg);
   EXPECT_NE(svg.find("class=\"period\""), std::string::npos);
+  EXPECT_NE(svg.find("class=\"beyond\""), std::string::npos);
   const std::array<const Mesh*, 1> meshes = {&mesh};
   const Viewport frame = make_viewport(meshes, {});
   EXPECT_LT(frame.box.low.x, 0);
@@ -32,7 +33,7 @@ TEST(DrawPeriodic, TheMarginIsFull) {
   const double times = shown.x * shown.y / (period.x * period.y);
   EXPECT_GT(times, 1.2);
   DrawOptions options;
-  options.dual = options.weights = options.bad_triangles = false;
+  options.dual = options.fill = false;
   const std::string svg = draw_svg(mesh, options);
   const std::size_t begin = svg.find("class=\"primal\"");
   const std::string path = svg.substr(begin, svg.find("/>", begin) - begin);

@@ -99,11 +99,12 @@ TEST(DrawSphere, IsWellFormedAndShowsAboutHalfOfTheMesh) {
     EXPECT_EQ(test::count(svg, std::string("class=\"") + name + "\""), 1U) << name;
   }
   EXPECT_NE(svg.find("(whole mesh)"), std::string::npos);
-  options.dual = options.weights = false;
+  options.dual = false;
   const std::string front = draw_svg(mesh, options);
   options.view = Vec2{180, 0};
   const std::string back = draw_svg(mesh, options);
-  EXPECT_EQ(test::count(front, "<text x") + test::count(back, "<text x"), 500U + 2 * 2);  // caption and legend of each
+  EXPECT_EQ(test::count(front, "<text x") + test::count(back, "<text x"),
+            500U + 2 * 3);  // of each a caption and two keys
 }
 
 TEST(DrawSphere, HasTheScaleOfBothPanels) {

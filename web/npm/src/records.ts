@@ -314,11 +314,10 @@ export interface DecComplex {
 export interface DrawOptions {
   primal?: boolean;
   dual?: boolean;
+  fill?: boolean;
   weights?: boolean;
   weight_scale?: number;
-  bad_triangles?: boolean;
   near_coincident?: boolean;
-  regions?: boolean;
   vertex_numbers?: boolean;
   /** x0, y0, x1, y1: draw only what meets this box. */
   zoom?: [number, number, number, number] | null;
