@@ -28,13 +28,18 @@ Continue tell(const Progress& progress) {
 }  // namespace
 
 TEMPER_EXPORT(option_table) void answer_option_table() { answer(option_table()); }
-TEMPER_EXPORT(methods) void answer_methods() { answer(method_table()); }
+TEMPER_EXPORT(presets) void answer_presets() { answer(preset_table()); }
 
-/// In place, whatever ends the run but an error. The answer is the report.
+/// The answer is all options of {"target", "effort", "keep"}.
+TEMPER_EXPORT(options_for) int options_for_words(const char* words, std::size_t size) {
+  return done([&] { answer(to_json(options_from(parse({words, size})))); });
+}
+
+/// Optimizes in place, unless an error ends the run. The answer is the report.
 TEMPER_EXPORT(mesh_optimize)
-int mesh_optimize(HeldMesh* held, const char* options, std::size_t size, int traced, int shown) {
+int mesh_optimize(HeldMesh* held, const char* run, std::size_t size, int traced, int shown) {
   return done([&] {
-    const OptimizeOptions given = options_from(parse({options, size}));
+    const OptimizeOptions options = options_from(parse({run, size}));
     OptimizeHooks hooks;
     hooks.observer = tell;
     hooks.solvers = solvers();
@@ -52,7 +57,7 @@ int mesh_optimize(HeldMesh* held, const char* options, std::size_t size, int tra
       };
     }
     Mesh mesh = held->mesh;
-    const Expected<OptimizeReport> report = optimize(mesh, given, hooks);
+    const Expected<OptimizeReport> report = optimize(mesh, options, hooks);
     if (!report) throw BadInput{spelled(report.error())};
     held->replace(std::move(mesh), report->vertices);
     answer(to_json(*report));

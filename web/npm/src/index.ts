@@ -1,16 +1,16 @@
 // temper: primal-dual triangle meshes that solvers can trust. The names are those of Python.
 import { Mesh } from './mesh.ts';
 import { answer, answerBytes, answerText, call, type Files, fromJson, listening, module, takeWritten, toJson, withFiles } from './module.ts';
-import type { OptimizeOptions } from './options.ts';
+import type { EffortName, KeepName, OptimizeOptions, TargetName } from './options.ts';
 import type {
-  DecComplex, DecSummary, DrawOptions, EnergyInfo, EnergyModel, Explanation, Format, IncidenceMatrix, OptimizeReport, OptionRow, Progress,
-  Quality, Restoration, Snapshot, LengthParameterLike, TraceEvent, VertexDerivatives,
+  DecComplex, DecSummary, DrawOptions, EnergyInfo, EnergyModel, Explanation, Format, IncidenceMatrix, OptimizeReport, OptionRow, Preset,
+  Progress, Quality, Restoration, Snapshot, LengthParameterLike, TraceEvent, VertexDerivatives,
 } from './records.ts';
 import { loadSolver } from './solver.ts';
 
 export { Mesh, type MeshParts, type Numbers } from './mesh.ts';
 export { type Files, TemperError } from './module.ts';
-export type { OptimizeOptions } from './options.ts';
+export type { EffortName, KeepName, OptimizeOptions, TargetName } from './options.ts';
 export type * from './records.ts';
 
 /** What a function of the module without arguments answers. */
@@ -77,20 +77,39 @@ export function write(path: string, mesh: Mesh, options: WriteOptions = {}): str
 
 // --- optimization ----------------------------------------------------------------------------------------------------
 
-export interface OptimizeHooks {
-  /** Hears of the progress, a few times a sweep; false stops the run, with the best mesh so far. */
-  observer?: (progress: Progress) => boolean | void;
-  /** Sees every move, flip, removal: enough for `replay`. */
+/** Listeners of a run. The result does not depend on them, unless a listener throws an error. */
+export interface Hooks {
+  /** Gets each move, flip and removal. `replay` makes the mesh again from them. */
   tracer?: (event: TraceEvent) => void;
-  /** Sees the mesh after each sweep. */
+  /** Gets the mesh after each sweep. */
   snapshots?: (snapshot: Snapshot) => void;
 }
 
-/** Makes the mesh well-centered, in place: give it `mesh.copy()` to keep the mesh. An exception of a listener is thrown on when the best mesh so far is in place. */
-export function optimize(mesh: Mesh, options: OptimizeOptions & OptimizeHooks = {}): OptimizeReport {
-  const { observer, tracer, snapshots, ...given } = options;
+/** The arguments of `optimize`. */
+export interface OptimizeArguments {
+  /** Use of the mesh. Default: "any". */
+  target?: TargetName;
+  /** Time that the run may take for repairs and lower errors. Default: "normal". */
+  effort?: EffortName;
+  /** Parts of the mesh that stay. */
+  keep?: KeepName | readonly KeepName[];
+  /** Treatment of the boundary. By default it stays bit for bit. */
+  boundary?: OptimizeOptions['boundary'];
+  /** Time limit in seconds. The run then ends with the best mesh so far. */
+  time_limit?: number;
+  /** Gets the progress, at least once per sweep. If it returns false, the run stops with the best mesh so far. */
+  progress?: (progress: Progress) => boolean | void;
+  hooks?: Hooks;
+  /** Further options. They override the options that `target`, `effort` and `keep` set. */
+  options?: OptimizeOptions;
+}
+
+/** Makes the mesh well-centered, in place. To keep the original, optimize `mesh.copy()`. If a listener throws an error, the
+ * run stops. The error is thrown again when the mesh has its best state. */
+export function optimize(mesh: Mesh, { progress, hooks = {}, ...given }: OptimizeArguments = {}): OptimizeReport {
+  const { tracer, snapshots } = hooks;
   const listener = {
-    progress: (progress: string): boolean => observer === undefined || observer(fromJson(progress) as Progress) !== false,
+    progress: (state: string): boolean => progress === undefined || progress(fromJson(state) as Progress) !== false,
     trace: tracer && ((event: string): void => tracer(fromJson(event) as TraceEvent)),
     snapshot: snapshots && ((handle: number, sweep: number): void => snapshots({ sweep, mesh: Mesh.of(call('mesh_copy', handle)) })),
   };
@@ -98,6 +117,19 @@ export function optimize(mesh: Mesh, options: OptimizeOptions & OptimizeHooks = 
     call('mesh_optimize', mesh.handle, toJson(given), tracer ? 1 : 0, snapshots ? 1 : 0);
     return answer<OptimizeReport>();
   });
+}
+
+/** Returns the options for a target, an effort and parts of the mesh to keep. */
+export function options_for(
+  target: TargetName = 'any', effort: EffortName = 'normal', keep: KeepName | readonly KeepName[] = [],
+): Required<OptimizeOptions> {
+  call('options_for', toJson({ target, effort, keep }));
+  return answer();
+}
+
+/** The words of `target`, `effort` and `keep`, with their meanings. */
+export function presets(): Record<'target' | 'effort' | 'keep', Preset[]> {
+  return told('presets');
 }
 
 /** The input after these events of a run: with all of them what came out, bit for bit. */
@@ -109,14 +141,6 @@ export function replay(input: Mesh, events: readonly TraceEvent[]): Mesh {
 export function option_table(): OptionRow[] {
   return told('option_table');
 }
-
-const method = (name: string): Required<OptimizeOptions> => told<Record<string, Required<OptimizeOptions>>>('methods')[name];
-/** The options of the paper's Algorithm 1 with all its parts. */
-export const paper_method = (): Required<OptimizeOptions> => method('paper');
-/** Optimal Delaunay triangulations (Chen and Xu 2004). */
-export const odt_method = (): Required<OptimizeOptions> => method('odt');
-/** Centroidal Voronoi tessellations (Du, Faber and Gunzburger 1999). */
-export const cvt_method = (): Required<OptimizeOptions> => method('cvt');
 
 /** Flips edges until all are regular that can be. */
 export function restore_regularity(mesh: Mesh): Restoration {
@@ -243,7 +267,7 @@ export interface HtmlOptions {
   title?: string;
 }
 
-/** The report that the program writes with --html: a page that needs no network. */
+/** The page that the program writes with `--write FILE.html`. It needs no network. */
 export function html_report(mesh: Mesh, { before, report, explanation, title = 'temper.Mesh' }: HtmlOptions = {}): string {
   const measures = (of: Mesh): object => {
     const q = quality(of);

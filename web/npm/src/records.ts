@@ -231,6 +231,14 @@ export interface Restoration {
   hidden: number[];
 }
 
+/** A word that sets several options. */
+export interface Preset {
+  name: string;
+  sentence: string;
+  /** Is for the study of methods. */
+  research: boolean;
+}
+
 /** A row of the table of options. */
 export interface OptionRow {
   name: string;
