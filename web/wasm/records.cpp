@@ -349,7 +349,8 @@ Json to_json(const OptimizeOptions& options) {
 Json preset_table() {
   const auto rows = [](std::span<const Preset> presets) {
     Json list = Json::array();
-    for (const Preset& p : presets) list.push_back({{"name", p.name}, {"sentence", p.sentence}, {"research", p.research}});
+    for (const Preset& p : presets)
+      list.push_back({{"name", p.name}, {"sentence", p.sentence}, {"research", p.research}});
     return list;
   };
   return {{"target", rows(targets())}, {"effort", rows(efforts())}, {"keep", rows(keeps())}};

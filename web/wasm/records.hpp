@@ -13,7 +13,8 @@ namespace temper::wasm {
 [[nodiscard]] LengthParameter length_parameter_from(std::string_view name, const Json& given);
 /// The model of {"energy", "star", "boundary_treatment", "gamma", "h0", "wall"}, each of which may be left out.
 [[nodiscard]] EnergyModel model_from(const Json& given);
-/// The options of a run: {"target", "effort", "keep", "boundary", "time_limit", "options"}, each of which may be left out.
+/// The options of a run: {"target", "effort", "keep", "boundary", "time_limit", "options"}, each of which may be left
+/// out.
 [[nodiscard]] OptimizeOptions options_from(const Json& given);
 /// A text of the library with its options as JavaScript has them: boundary: "split".
 [[nodiscard]] std::string spelled(std::string_view text);
