@@ -1,4 +1,4 @@
-// Optimization and replay. JavaScript hears of progress and events by two functions that it gives to the module.
+// Optimization and replay. The module calls functions of JavaScript for progress, events and snapshots.
 #include "answer.hpp"
 #include "held_mesh.hpp"
 #include "records.hpp"
@@ -9,9 +9,9 @@
 namespace temper::wasm {
 namespace {
 
-/// How far the run is, as JSON; 0 stops it.
+/// Passes on the progress as JSON. The result 0 stops the run.
 TEMPER_IMPORT(progress) int report_progress(const char* progress, std::size_t size);
-/// An event of the run, as JSON.
+/// Passes on an event of the run as JSON.
 TEMPER_IMPORT(trace) void report_event(const char* event, std::size_t size);
 
 /// The mesh between two sweeps, to be looked at until the function returns.
@@ -64,8 +64,8 @@ int mesh_optimize(HeldMesh* held, const char* run, std::size_t size, int traced,
   });
 }
 
-/// Puts a mesh that was made elsewhere in place, of whose vertices these are the former numbers, −1 for inserted ones;
-/// none: they are the same. The file behind the mesh stays.
+/// Puts a mesh that was made elsewhere in place. `vertices` has the former number of each vertex, −1 for inserted ones;
+/// if it is empty, the numbers are the same. The file behind the mesh stays.
 TEMPER_EXPORT(mesh_replace)
 int mesh_replace(HeldMesh* held, const HeldMesh* other, const std::int32_t* vertices, std::size_t n) {
   return done([&] {
