@@ -1,5 +1,5 @@
-// The answer of a function of the module: one buffer, valid until the next call. It holds JSON, or the bytes of an array,
-// or after a failure {"code", "where", "message"}.
+// The answer of a function of the module: one buffer, valid until the next call. It holds JSON, or the bytes of an
+// array, or after a failure {"code", "where", "message"}.
 #pragma once
 
 #include <cstdint>
