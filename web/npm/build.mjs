@@ -52,7 +52,7 @@ function wordsSource(name, title, words) {
 export function optionsSource(table, presets) {
   const members = table.map((row) => {
     const range = row.range && row.choices.length === 0 ? `; ${row.range}` : '';
-    const absent = row.optional && row.absent ? `; null: ${row.absent}` : '';
+    const absent = row.optional && row.absent ? `. null: ${row.absent}` : '';
     return `  /** ${row.sentence}${range}${absent}. Default: ${JSON.stringify(row.default)}. */\n  ${row.name}?: ${row.type};`;
   });
   return `// Written by build.mjs --options from the tables in the library. Do not edit.

@@ -4,6 +4,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
+import { isDeepStrictEqual } from 'node:util';
 import * as temper from 'temper-mesh';
 
 const folder = mkdtempSync(join(tmpdir(), 'temper-api-'));
@@ -178,7 +179,11 @@ test('words set options, which others override', () => {
   for (const { name } of effort) assert.deepEqual(Object.keys(temper.options_for('any', name)), names);
   const defaults = Object.fromEntries(temper.option_table().map((row) => [row.name, row.default]));
   assert.deepEqual(temper.options_for(), defaults);
-  for (const { name } of keep) assert.notDeepEqual(temper.options_for('any', 'normal', name), defaults);
+  for (const { name } of keep) {
+    const options = temper.options_for('any', 'normal', name);
+    assert.deepEqual(Object.keys(options), names);
+    assert.equal(isDeepStrictEqual(options, defaults), name === 'boundary', name); // the boundary stays by default
+  }
   assert.deepEqual(temper.options_for('any', 'normal', ['weights']), { ...defaults, unknowns: 'positions' });
   assert.equal(temper.options_for('mpas').star, 0);
   assert.equal(temper.options_for('paper').solver, 'golden');

@@ -71,8 +71,9 @@ export class OptionsForm {
     const input = row.choices.length > 0 ? selectOf(row) : inputOf(row);
     input.value = shown(row.default);
     this.controls.set(row.name, { row, input });
-    const range = row.choices.length === 0 && row.range, absent = row.optional && row.absent && `empty: ${row.absent}`;
-    add(to, row.name, input, [row.sentence, range, absent].filter(Boolean).join('; '));
+    const range = row.choices.length === 0 && row.range ? `; ${row.range}` : '';
+    const absent = row.optional && row.absent ? `. Empty: ${row.absent}` : '';
+    add(to, row.name, input, `${row.sentence}${range}${absent}.`);
   }
 }
 
