@@ -88,7 +88,7 @@ def compare(callers, given, name, arguments):
     digest, objective = found["program"][0], SETS[name][1]
     same = all(each == (digest, objective) for each in found.values())
     verdict = f"{digest} {objective}" if same else f"DIFFER, expected {objective}: {found}"
-    print(f"{given.stem:10} {name:10} {verdict:26} {', '.join(callers)}")
+    print(f"{given.stem:10} {name:10} {verdict:29} {', '.join(callers)}")
     return same
 
 

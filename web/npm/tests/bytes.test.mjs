@@ -82,10 +82,10 @@ const runs = {
   'removals, insertions': { options: { removal: 'patch', removal_from: 2, insertion_from: 3, max_sweeps: 12 } },
   'overshoot past flips': { options: { energy: 'T', flip_limit: 'after', overshoot: 1.5, overshoot_factor: 0.3, max_sweeps: 12 } },
 };
-/** The words of the program. It takes a plain number for a length. */
+/** The words of the program. */
 const spell = ({ target = 'any', effort = 'normal', keep = [], boundary = 'keep', options }) => [
   '--for', target, '--effort', effort, ...keep.flatMap((part) => ['--keep', part]), '--boundary', boundary,
-  '--set', Object.entries(options).map(([name, value]) => `${name}=${value.value ?? value}`).join(),
+  '--set', Object.entries(options).map(([name, value]) => `${name}=${value?.scale ? `${value.value}:${value.scale}` : value}`).join(),
 ];
 
 for (const [label, run] of Object.entries(runs)) {
