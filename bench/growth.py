@@ -113,7 +113,7 @@ VERBS = {
     "operators": "operators {mesh} -o {out}",
     "explain": "explain {mesh}",
     "optimize": "optimize {mesh} -o {out}.vtu --quiet",
-    "optimize --repair vertices": "optimize {mesh} -o {out}.vtu --quiet --repair vertices",
+    "optimize, repair=vertices": "optimize {mesh} -o {out}.vtu --quiet --set repair=vertices",
     "optimize --boundary split": "optimize {mesh} -o {out}.vtu --quiet --boundary split",
     "weights": "weights {mesh} -o {out}.vtu",
     "errors": "errors {mesh}",

@@ -31,9 +31,9 @@ STEADY = 1.5  # how much the sweeps of two decades, and of two halves of all, ma
 
 SOLVERS = {  # name: options, most sweeps on the small mesh and on the large one, color
     "Newton": ([], 20000, 2000, "#56b4e9"),
-    "Newton, relaxation 1": (["--relaxation", "1"], 20000, 2000, "#009e73"),
-    "alternating": (["--solver", "alternating"], 20000, 400, "#e69f00"),
-    "golden": (["--solver", "golden"], 8000, 60, "#d55e00"),
+    "Newton, relaxation 1": (["--set", "relaxation=1"], 20000, 2000, "#009e73"),
+    "alternating": (["--set", "solver=alternating"], 20000, 400, "#e69f00"),
+    "golden": (["--set", "solver=golden"], 8000, 60, "#d55e00"),
 }
 
 
@@ -44,13 +44,13 @@ class Case:
         self.title, self.example, self.ready, self.gamma, self.large = title, example, ready, gamma, large
 
 
-FIXED = ["--gamma-rel", "0.003"]
+FIXED = ["--set", "gamma=0.003"]
 CASES = {
-    "figure-18": Case("Figure 18's mesh, γ = 1", ["horseshoe"], None, ["--gamma", "1"], False),
-    "well-centered": Case("Figure 18's mesh, once well-centered, γ = 0.003 ℓ", ["horseshoe"], ["--tolerance", "1e-3"],
+    "figure-18": Case("Figure 18's mesh, γ = 1", ["horseshoe"], None, ["--set", "gamma=1:absolute"], False),
+    "well-centered": Case("Figure 18's mesh, once well-centered, γ = 0.003 ℓ", ["horseshoe"], ["--set", "tolerance=1e-3"],
                           FIXED, False),
     "random": Case("10,000 random vertices, once well-centered, γ = 0.003 ℓ", ["random", "--vertices", "10000"],
-                   ["--tolerance", "0.1"], FIXED, True),
+                   ["--set", "tolerance=0.1"], FIXED, True),
 }
 
 
@@ -66,7 +66,7 @@ class Run:
     def __init__(self, program, mesh, out, options, most):
         history = out.with_suffix(".csv")
         temper(program, "optimize", mesh, "-o", out, "--set", "energy=BP", "--set", "flips=immediate", "--set", "inversion=refuse",
-               "--set", "repair=none", "--threads", 1, "--quiet", "--tolerance", "1e-300", "--max-sweeps", most, "--history",
+               "--set", "repair=none", "--threads", 1, "--quiet", "--set", f"tolerance=1e-300,max_sweeps={most}", "--write",
                history, *options)
         with open(history, newline="") as file:
             rows = list(csv.DictReader(file))

@@ -17,11 +17,11 @@ import tempfile
 
 RUNS = {
     "input": None,
-    "E_BP, weights alone": ["--unknowns", "weights"],
-    "E_BP, positions alone": ["--unknowns", "positions"],
+    "E_BP, weights alone": ["--keep", "positions"],
+    "E_BP, positions alone": ["--keep", "weights"],
     "E_BP, both": [],
-    "accuracy, positions alone": ["--objective", "accuracy", "--unknowns", "positions"],
-    "accuracy, both": ["--objective", "accuracy"],
+    "accuracy, positions alone": ["--set", "objective=accuracy", "--keep", "weights"],
+    "accuracy, both": ["--set", "objective=accuracy"],
 }
 ERRORS = [("★1, L2", "star1", "l2"), ("Poisson, L2", "poisson", "l2"), ("Poisson, max", "poisson", "max"),
           ("flux, L2", "flux", "l2")]

@@ -17,16 +17,16 @@ import sys
 FIGURES = range(11, 33)
 READINGS = [  # letter, name, options
     ("own", "as each figure has it", ""),
-    ("r", "no step turns a triangle over", "--inversion refuse"),
-    ("a", "steps may turn triangles over", "--inversion allow"),
-    ("f", "R is the distance to the farthest neighbor", "--search-radius max"),
-    ("n", "R is the distance to the nearest neighbor", "--search-radius min"),
-    ("4", "weights are searched up to 4 R²", "--weight-search-radius 4"),
-    ("i", "points are visited as numbered", "--order input"),
-    ("v", "points are visited in reverse", "--order reverse"),
-    ("r4", "no step turns a triangle over, and weights up to 4 R²", "--inversion refuse --weight-search-radius 4"),
-    ("all", "everything as `--method paper` has it",
-     "--order input --search-radius rms --weight-search-radius 1 --inversion allow --gamma 1"),
+    ("r", "no step turns a triangle over", "--set inversion=refuse"),
+    ("a", "steps may turn triangles over", "--set inversion=allow"),
+    ("f", "R is the distance to the farthest neighbor", "--set search_radius=max"),
+    ("n", "R is the distance to the nearest neighbor", "--set search_radius=min"),
+    ("4", "weights are searched up to 4 R²", "--set weight_search_radius=4"),
+    ("i", "points are visited as numbered", "--set order=input"),
+    ("v", "points are visited in reverse", "--set order=reverse"),
+    ("r4", "no step turns a triangle over, and weights up to 4 R²", "--set inversion=refuse,weight_search_radius=4"),
+    ("all", "everything as `--for paper` has it",
+     "--set order=input,search_radius=rms,weight_search_radius=1,inversion=allow,gamma=1:absolute"),
 ]
 
 

@@ -95,12 +95,6 @@ py::tuple load(io::MeshFile file, const std::string& projection, const std::vect
   return py::make_tuple(std::make_unique<PyMesh>(std::move(mesh), source), to_python(warnings));
 }
 
-std::vector<std::string> strings_from(const py::sequence& sequence) {
-  std::vector<std::string> strings;
-  for (const auto& item : sequence) strings.push_back(item.cast<std::string>());
-  return strings;
-}
-
 /// The file of a mesh, and the report on its data.
 struct UpdatedFile {
   io::MeshFile file;

@@ -188,8 +188,9 @@ void bind_optimize(py::module_& m) {
                        const py::object& tensor, const py::object& communicator) {
     return optimize_mesh(self, options, {size_field, threads, {observer, tracer, snapshots}, tensor, communicator});
   });
-  m.def("options_for", [](const std::string& target, const std::string& effort, const std::vector<std::string>& keep) {
-    const std::vector<std::string_view> parts(keep.begin(), keep.end());
+  m.def("options_for", [](const std::string& target, const std::string& effort, const py::sequence& keep) {
+    const std::vector<std::string> names = strings_from(keep);
+    const std::vector<std::string_view> parts(names.begin(), names.end());
     return options_to_dict(or_raise(options_for(target, effort, parts)));
   });
   m.def("presets", [] {

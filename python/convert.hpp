@@ -191,6 +191,12 @@ std::array<T, n> ids_from(const py::handle& sequence) {
   return ids;
 }
 
+inline std::vector<std::string> strings_from(const py::sequence& sequence) {
+  std::vector<std::string> strings;
+  for (const auto& item : sequence) strings.push_back(item.cast<std::string>());
+  return strings;
+}
+
 // --- enums: their names in the order of their values -----------------------------------------------------
 
 /// The index of `text` in the names, or an error that lists them.

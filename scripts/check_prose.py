@@ -5,8 +5,8 @@
     scripts/check_prose.py --list FILE ...  prints each sentence that breaks a rule
     scripts/check_prose.py --self-test      checks that each rule finds a planted sentence
 
-The checker reads prose only: paragraphs of Markdown, comments of C++, comments and docstrings of Python. It skips code, tables,
-headings and the targets of links. A code span counts as one word.
+The checker reads prose only: paragraphs of Markdown, comments of C++, comments and docstrings of Python, and the help of the
+program in the pages of its reference. It skips code, tables, headings and the targets of links. A code span counts as one word.
 """
 
 import pathlib
@@ -20,6 +20,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 GROUPS = {
     "pages": (["README.md", "CONTRIBUTING.md", "docs/*.md"], 8.0),
     "how-tos": (["docs/howto/*.md", "docs/tutorial/*.md"], 8.0),
+    "help": (["docs/reference/cli/*.md"], 8.0),
     "public headers": (["include/*.hpp"], 11.0),
     "src": (["src/*.cpp", "src/*.hpp"], 12.0),
     "apps": (["apps/*.cpp", "apps/*.hpp"], 12.0),
@@ -65,6 +66,16 @@ def paragraphs(path, text):
     return [" ".join(part.split()) for part in re.split(r"\n\s*\n", text)]
 
 
+def paragraphs_of_help(text):
+    """The sentences of the help in a page: those above the usage, and the right column of each list."""
+    found = []
+    for block in re.findall(r"^```text\n(.*?)^```", text, flags=re.S | re.M):
+        help_text = re.sub(r"^(?:Usage|Examples):.*?(?=^\S|\Z)", "", block, flags=re.S | re.M)
+        rows = re.sub(r"^ {2,6}\S.*?(?:  +|$)", "\n\n", help_text, flags=re.M)
+        found += [" ".join(part.split()) for part in re.split(r"\n\s*\n|^\S.*:$", rows, flags=re.M)]
+    return [re.sub(r" \(default: .*\)$", "", part) for part in found]
+
+
 def comment(line):
     """The comment of a line of C++. A comment behind code is a paragraph of its own."""
     found = re.search(r"//[/<]*\s?(.*)", line)
@@ -73,8 +84,8 @@ def comment(line):
     return found[1] if line.lstrip().startswith("//") else f"\n\n{found[1]}\n"
 
 
-def sentences(path, text):
-    for paragraph in paragraphs(path, text):
+def sentences(found):
+    for paragraph in found:
         for sentence in re.split(r"(?<=[.!?])\s+(?=[A-Z0-9\"'(])", paragraph):
             if len(sentence.split()) >= 4:
                 yield sentence
@@ -85,9 +96,10 @@ def broken_rules(sentence):
     return rules + (["at most 30 words"] if len(sentence.split()) > MOST_WORDS else [])
 
 
-def read(name):
+def read(name, is_help=False):
     path = ROOT / name
-    return list(sentences(path, path.read_text(encoding="utf-8")))
+    text = path.read_text(encoding="utf-8")
+    return list(sentences(paragraphs_of_help(text) if is_help else paragraphs(path, text)))
 
 
 def check():
@@ -96,7 +108,7 @@ def check():
         names = subprocess.run(["git", "ls-files", *patterns], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split()
         if group == "pages":
             names = [name for name in names if not name.startswith(("docs/howto/", "docs/tutorial/"))]
-        found = [broken_rules(sentence) for name in names for sentence in read(name)]
+        found = [broken_rules(sentence) for name in names for sentence in read(name, group == "help")]
         share = 100 * sum(map(bool, found)) / max(1, len(found))
         failed = not found or share > limit
         failures += failed
@@ -108,11 +120,14 @@ def self_test():
     wrong = [rule for rule, (_, planted) in RULES.items() if broken_rules(planted) != [rule]]
     long = " ".join(["word"] * (MOST_WORDS + 1))
     wrong += ["at most 30 words"] if broken_rules(long) != ["at most 30 words"] else []
-    cpp = list(sentences(pathlib.Path("x.cpp"), "int x = 0;  // The first one is here.\n// The second\n// one is there.\n"))
+    cpp = list(sentences(paragraphs(pathlib.Path("x.cpp"), "int x = 0;  // The first one is here.\n// The second\n// one is there.\n")))
     wrong += ["comments"] if cpp != ["The first one is here.", "The second one is there."] else []
-    page = list(sentences(pathlib.Path("x.md"), "# A title is no sentence\n\n```\nno code is read here.\n```\nSee [the other page](x.md).\n"))
+    page = list(sentences(paragraphs(pathlib.Path("x.md"), "# A title is no sentence\n\n```\nno code is read here.\n```\nSee [the other page](x.md).\n")))
     wrong += ["pages"] if page != ["See the other page."] else []
-    print(f"check_prose: {len(RULES) + 3 - len(wrong)} of {len(RULES) + 3} cases of the self-test pass", *wrong, sep="\n  ")
+    row = "```text\nSays a lot to you.\n\nUsage: temper x\n\nGroup:\n  -a, --all N       The row of one option\n                    has two lines. (default: 2)\n```\n"
+    told = list(sentences(paragraphs_of_help(row)))
+    wrong += ["help"] if told != ["Says a lot to you.", "The row of one option has two lines."] else []
+    print(f"check_prose: {len(RULES) + 4 - len(wrong)} of {len(RULES) + 4} cases of the self-test pass", *wrong, sep="\n  ")
     return bool(wrong)
 
 
@@ -121,7 +136,8 @@ def main(arguments):
         return self_test()
     if arguments[:1] == ["--list"]:
         for name in arguments[1:]:
-            for sentence in read(pathlib.Path(name).resolve().relative_to(ROOT)):
+            path = pathlib.Path(name).resolve().relative_to(ROOT)
+            for sentence in read(path) + (read(path, is_help=True) if path.match("docs/reference/cli/*") else []):
                 for rule in broken_rules(sentence):
                     print(f"{name}: {rule}: {sentence}")
         return False

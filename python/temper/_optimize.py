@@ -310,6 +310,9 @@ def optimize(
     hooks = hooks or Hooks()
     if size_field is not None and not isinstance(size_field, SizeField):
         raise TypeError(f"size_field: expected a SizeField or None, found {type(size_field).__name__}")
+    for name, given in (("progress", progress), ("tracer", hooks.tracer), ("snapshots", hooks.snapshots)):
+        if not (given is None or callable(given) or (name == "progress" and isinstance(given, bool))):
+            raise TypeError(f"{name}: expected a function, found {given!r}")
     if tensor is not None:
         for name, given in (("size_field", size_field), ("tracer", hooks.tracer)):
             if given is not None:

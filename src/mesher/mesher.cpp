@@ -331,7 +331,7 @@ class Mesher {
     }
     if (const std::size_t outside = outline_.points.size() - inside.outline_points.size(); outside > 0) {
       made.notes.push_back(
-          "number of points of the outline that are not in the mesh, because they or their segments are outside: " +
+          "points of the outline that are not in the mesh, because they or their segments are outside: " +
           std::to_string(outside));
     }
   }

@@ -120,8 +120,8 @@ class Runner:
         return self.run(case.arguments, files, {"LD_PRELOAD": self.shim, "TEMPER_FAULT": fault})
 
     def help(self, verb=None):
-        return subprocess.run([self.program, *([verb] if verb else []), "--help"], capture_output=True, text=True,
-                              check=True).stdout
+        words = [verb, "--help-all"] if verb else ["--help"]
+        return subprocess.run([self.program, *words], capture_output=True, text=True, check=True).stdout
 
 
 def verbs(runner):

@@ -41,8 +41,8 @@ expect "bash: verbs" "$(printf '%s\n' "${verbs[@]}" --help --version | sort)" "$
 for verb in "${verbs[@]}"; do
   expect "bash: options of $verb" "$(options_of "$verb")" "$(offers temper "$verb" -)"
 done
-expect "bash: values with names" $'golden' "$(offers temper optimize in.vtu --set solver=g)"
-expect "bash: nothing for a number" "" "$(offers temper optimize in.vtu --set seed='')"
+expect "bash: values with names" normal "$(offers temper optimize in.vtu --effort n)"
+expect "bash: nothing for a number" "" "$(offers temper optimize in.vtu --time-limit '')"
 expect "bash: files" $'folder\nin.vtu' "$(offers temper optimize '')"
 expect "bash: files of an option" "in.vtu" "$(offers temper optimize -o in)"
 expect "bash: words before files" "all" "$(offers temper weights in.vtu --edges al)"
@@ -61,7 +61,7 @@ if there zsh; then
   expect "zsh: syntax" "" "$(zsh -n _temper 2>&1)"
   expect "zsh: verbs" "$(printf '%s\n' "${verbs[@]}" --help --version | sort)" "$(zsh_offers temper '')"
   expect "zsh: options" "$(options_of operators)" "$(zsh_offers temper operators -)"
-  expect "zsh: values with names" $'alternating\ngolden\nnewton' "$(zsh_offers temper optimize --set solver='' | grep .)"
+  expect "zsh: values with names" $'high\nnormal\nquick' "$(zsh_offers temper optimize --effort '' | grep .)"
   expect "zsh: words beside files" $'all\nfiles\nlines' "$(zsh_offers temper weights in.vtu --edges '')"
   expect "zsh: folders" 'files -/' "$(zsh_offers temper operators in.vtu -o '' | grep .)"
 fi
@@ -71,7 +71,7 @@ if there fish; then
   expect "fish: syntax" "" "$(fish -n temper.fish 2>&1)"
   expect "fish: verbs" "$(printf '%s\n' "${verbs[@]}" | sort)" "$(fish_offers 'temper ')"
   expect "fish: options" "$(options_of operators | grep ^--)" "$(fish_offers 'temper operators --')"
-  expect "fish: values with names" $'alternating\ngolden\nnewton' "$(fish_offers 'temper optimize --solver ')"
+  expect "fish: values with names" $'high\nnormal\nquick' "$(fish_offers 'temper optimize --effort ')"
   expect "fish: files" $'folder/\nin.vtu' "$(fish_offers 'temper check ')"
 fi
 

@@ -23,7 +23,7 @@ MODULES = [temper, temper.energy, temper.generate, temper.geometry, temper.proje
 ELSEWHERE = {
     "name": "enums are their names", "energy_info": "energies() lists the rows", "find_energy": "as energy_info",
     "objective_of": "help(OptimizeOptions)", "make_discretization_error": "optimize does it", "solvers": "as make_discretization_error", "wants_error_model": "as make_discretization_error", "scheme_weights": "as objective_of",
-    "methods": "paper_method, odt_method, cvt_method", "option_groups": "help(OptimizeOptions)", "find_option": "as option_groups", "check_option": "optimize checks",
+    "targets": "help(optimize)", "efforts": "as targets", "keeps": "as targets", "option_groups": "help(OptimizeOptions)", "find_option": "as option_groups", "check_option": "optimize checks",
     "check_options": "as check_option", "option_text": "repr", "option_range_text": "as option_groups",
     "missing_need": "optimize warns", "spell_options": "texts are spelled", "stopped_early": "OptimizeReport.stopped",
     "read_number": "float", "read_by_strtod": "float",
@@ -45,7 +45,7 @@ ELSEWHERE = {
     "summarize": "DecComplex.summarize", "power_cells": "DecComplex.power_cells", "write_dec": "DecComplex.write, Columns.write",
     "dec_file_names": "write_dec returns the paths", "needs_columns": "as dec_file_names", "read_layers": "numpy.genfromtxt",
     "fault_of_surfaces": "columns says it", "draw_before_after_svg": "draw_svg(before=…)", "write_text": "Svg.save and Html.save",
-    "replay_with_vertices": "paper", "replay",
+    "replay_with_vertices": "replay",
     "distance": "numpy.linalg.norm; the library asks a space for it",
     "hilbert_order": "Python keeps the user's numbers", "restore_order": "as hilbert_order",
     "hilbert_ordered": "as hilbert_order", "or_serial": "threads=1",
@@ -220,10 +220,11 @@ def test_everything_is_typed():
 def test_help_of_optimize_shows_the_signature_and_what_is_not_an_option():
     text = temper.optimize.__doc__
     signature = inspect.signature(temper.optimize)
-    options = {f.name for f in dataclasses.fields(temper.OptimizeOptions)}
-    for name in set(signature.parameters) - options:
+    assert len(signature.parameters) <= 12
+    for name in signature.parameters:
         assert re.search(rf"^    (?:\w+, )*{name}(?:, \w+)* : ", text, re.M), name
-    assert signature.parameters["energy"].default == "BP" and "changes" not in signature.parameters
+    for kind, words in temper._temper.presets().items():
+        assert all(f"- ``{word}``: " in text for word in words), kind
     for word in ("Raises", "Returns", "KeyboardInterrupt", "Algorithm 1", ">>> import temper"):
         assert word in text
 
@@ -265,7 +266,7 @@ def test_a_wrong_type_is_told_what_is_expected(ring):
 def test_a_package_that_is_not_built_says_so(tmp_path):
     shutil.copytree(ROOT / "python" / "temper", tmp_path / "temper")
     run = subprocess.run([sys.executable, "-c", "import temper"], cwd=tmp_path, capture_output=True, text=True, env={"PYTHONPATH": ""})
-    assert run.returncode == 1 and f"_temper is not in {tmp_path / 'temper'}: build it" in run.stderr
+    assert run.returncode == 1 and f"_temper is not in {tmp_path / 'temper'}: see docs/howto/install.md" in run.stderr
 
 
 def test_a_numpy_that_arrays_would_be_wrong_with_is_refused(tmp_path):

@@ -158,7 +158,7 @@ def test_linear_fields_are_exact_on_any_mesh(ring):
 
 @needs_errors
 def test_errors_fall_with_refinement_and_ratios_of_a_mesh_to_itself_are_one(ring):
-    mesh = optimized(ring, objective="energy")
+    mesh = optimized(ring, options={"objective": "energy"})
     report = temper.measure_errors(mesh, fields=["held-back"], refine=2, condition=True, local=True)
     assert len(report.levels) == 3 and report.levels[2].triangles == 16 * mesh.n_triangles
     assert temper.arithmetic_mean(report.orders).poisson.l2 > 1.5

@@ -82,7 +82,7 @@ def test_two_threads_of_python_look_at_one_mesh():
     def look():
         for _ in range(5):
             assert repr(temper.quality(mesh)) == quality and temper.energy.total_energy(mesh) == energy
-        return optimized(mesh, max_sweeps=2, threads=1)
+        return optimized(mesh, threads=1, options={"max_sweeps": 2})
 
     first, second = at_once(look, look)
     assert first == second and first != mesh
@@ -129,12 +129,10 @@ def test_a_copy_is_optimized_and_its_mesh_left_alone(ring):
 
 def test_options_are_the_rows_of_the_table(ring):
     rows = temper._temper.option_table()
-    options, signature = temper.OptimizeOptions(), inspect.signature(temper.optimize)
+    options = temper.OptimizeOptions()
     assert [f.name for f in dataclasses.fields(options)] == [row["name"] for row in rows] and len(rows) > 40
     for row in rows:
         name, default = row["name"], getattr(options, row["name"])
-        assert signature.parameters[name].default == default
-        assert signature.parameters[name].kind is inspect.Parameter.KEYWORD_ONLY
         assert re.search(rf"^{name} : ", temper.OptimizeOptions.__doc__, re.M) and row["sentence"]
         assert default in row["choices"] or not row["choices"] or default is None
     temper.optimize(ring, threads=1, options={row["name"]: getattr(options, row["name"]) for row in rows})
@@ -150,7 +148,7 @@ def test_every_choice_is_taken_and_every_range_is_checked(ring):
         if wrong is None:
             continue
         with pytest.raises(temper.TemperError, match=f"^{row['name']} is -1; expected {row['range']}") as caught:
-            temper.optimize(ring, **{row["name"]: wrong})
+            temper.optimize(ring, options={row["name"]: wrong})
         assert caught.value.code == "invalid_option"
         refused += 1
     assert choices > 50 and refused > 20
@@ -165,19 +163,31 @@ def test_stubs_have_every_option():
         assert fields == types
 
 
-def test_keywords_win_over_options_even_when_they_say_the_default(ring):
-    options = temper.paper_method(max_sweeps=1)
+def test_options_win_over_the_target_even_when_they_say_the_default(ring):
+    options = dataclasses.replace(temper.options_for("paper"), max_sweeps=1)
     assert options.solver == "golden" and options.gamma == temper.LengthParameter(1.0, "absolute")
     a, b = ring.copy(), ring.copy()
-    temper.optimize(a, options={**options, "max_sweeps": 2, "solver": "newton", "weight_updates": "immediate", "inversion": "refuse"})
-    merged = dataclasses.replace(options, max_sweeps=2, solver="newton", weight_updates="immediate", inversion="refuse")
-    temper.optimize(b, merged)
+    changes = dict(max_sweeps=2, solver="newton", weight_updates="immediate", inversion="refuse", flips="immediate")
+    temper.optimize(a, target="paper", options=changes)
+    temper.optimize(b, options=dataclasses.replace(options, **changes))
     assert a == b
+    with pytest.raises(TypeError, match="target, effort and keep have no effect"):
+        temper.optimize(b, target="paper", options=options)
+
+
+def sorted_into_arguments(words):
+    """Words that are no parameters of optimize are hooks or options."""
+    parameters = inspect.signature(temper.optimize).parameters
+    hooks = {name: words[name] for name in ("tracer", "snapshots") if name in words}
+    options = {name: value for name, value in words.items() if name not in parameters and name not in hooks}
+    return {**{name: words[name] for name in parameters if name in words}, "hooks": temper.Hooks(**hooks), "options": options}
 
 
 @pytest.mark.parametrize(
     "options, says",
     [
+        (dict(target="mpass"), "mpas"),
+        (dict(keep=("positions", "weights")), "nothing can change"),
         (dict(energy="HOT"), "BP"),
         (dict(solver="nwton"), "solver is nwton; expected newton, golden or alternating"),
         (dict(star=3), "star"),
@@ -192,7 +202,7 @@ def test_keywords_win_over_options_even_when_they_say_the_default(ring):
 def test_options_that_make_no_sense_leave_the_mesh_alone(ring, options, says):
     before = ring.copy()
     with pytest.raises(temper.TemperError, match=says) as caught:
-        temper.optimize(ring, **options)
+        temper.optimize(ring, **sorted_into_arguments(options))
     assert caught.value.code == "invalid_option" and ring == before
 
 
@@ -205,7 +215,7 @@ def test_options_that_make_no_sense_leave_the_mesh_alone(ring, options, says):
         ("gamma", "x"),
         ("h0", temper.LengthParameter("x")),
         ("solver", 3.0),
-        ("observer", 3),
+        ("progress", 3),
         ("tracer", "print"),
         ("snapshots", []),
         ("size_field", 0.1),
@@ -215,12 +225,12 @@ def test_options_that_make_no_sense_leave_the_mesh_alone(ring, options, says):
 def test_options_of_the_wrong_type_are_named(ring, name, value):
     before = ring.copy()
     with pytest.raises(TypeError, match=f"^{name}: "):
-        temper.optimize(ring, **{name: value})
+        temper.optimize(ring, **sorted_into_arguments({name: value}))
     assert ring == before
 
 
 def test_unknown_options_are_refused(ring):
-    with pytest.raises(TypeError, match="unexpected keyword"):
+    with pytest.raises(TypeError, match="there is no option 'sweeps'"):
         temper.optimize(ring, options={"sweeps": 3})
 
 
@@ -237,7 +247,7 @@ def test_options_without_effect_are_a_warning(ring):
         temper.optimize(ring.copy(), options={"overshoot": 1.2, "max_sweeps": 1})
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        temper.optimize(ring.copy(), options={**temper.OptimizeOptions(margin=0.1), "max_sweeps": 1})
+        temper.optimize(ring.copy(), options=temper.OptimizeOptions(margin=0.1, max_sweeps=1))
         temper.optimize(ring.copy(), options={"energy": "F", "overshoot": 1.2, "max_sweeps": 1})
 
 
@@ -327,7 +337,7 @@ def test_edges_and_duals_become_as_long_as_is_asked_for(ring):
     a = 0.5 * np.sqrt(3)
     hexagon = temper.Mesh([[1, 0], [0.5, a], [-0.5, a], [-1, 0], [-0.5, -a], [0.5, -a], [0, 0]], [[6, k, (k + 1) % 6] for k in range(6)])
     assert least(hexagon) == pytest.approx([1, 1 / np.sqrt(3)], rel=1e-12)
-    mesh = optimized(ring, min_edge=0.6, min_dual=0.25)
+    mesh = optimized(ring, options={"min_edge": 0.6, "min_dual": 0.25})
     assert (least(mesh) >= [0.6, 0.25]).all()
     with pytest.raises(temper.TemperError, match="min_dual"):
         temper.optimize(mesh, options={"min_dual": 0.6})
@@ -436,7 +446,8 @@ def sea(ring):
 def test_data_follow_the_vertices(sea):
     before = np.array(sea.points)
     mesh = temper.from_meshio(sea)
-    report = temper.optimize(mesh, point_data="keep=load")
+    mesh.point_data_rules = ("interpolate", "keep=load")
+    report = temper.optimize(mesh)
     points, data = np.asarray(mesh.points), mesh.point_data
     assert np.allclose(data["depth"], points @ (3.0, -1.0) + 2, atol=1e-14)
     assert np.array_equal(data["load"], sea.point_data["load"]) and np.array_equal(data["node"], np.arange(len(points)))
@@ -464,7 +475,8 @@ def test_data_are_the_same_as_the_programs(sea, in_scratch):
     except FileNotFoundError:
         pytest.skip("the program was not built")
     mesh = temper.read("in.vtu")
-    temper.optimize(mesh, point_data=["keep=load"])
+    mesh.point_data_rules = ["keep=load"]
+    temper.optimize(mesh)
     program = temper.read("out.vtu")
     for name, values in mesh.point_data.items():
         assert np.array_equal(program.point_data[name], values), name
@@ -476,9 +488,9 @@ def test_rules_of_data_that_make_no_sense_leave_the_mesh_as_it_was(sea):
     before = mesh.copy()
     for rules, words in (("keep=dept", "there are: depth"), ("interpolate=node", "integers"), (["keep", "drop"], "drop")):
         with pytest.raises(temper.TemperError, match=words):
-            temper.optimize(mesh, point_data=rules)
+            mesh.point_data_rules = rules
     with pytest.raises(TypeError, match="point_data"):
-        temper.optimize(mesh, point_data=[1])
+        mesh.point_data_rules = [1]
     assert mesh == before and mesh.point_data_rules == ("interpolate",)
     assert temper.optimize(temper.generate.annulus()).data is None
 

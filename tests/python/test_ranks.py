@@ -26,7 +26,7 @@ if kind == "differ":
 else:
     mesh = temper.generate.random_mesh(20_000, seed=4)  # of two parts
     seen = []
-    report = temper.optimize(mesh, threads=1, progress=False, progress=seen.append, hooks=temper.Hooks(communicator=world), options={"max_sweeps": 6})
+    report = temper.optimize(mesh, threads=1, progress=seen.append, hooks=temper.Hooks(communicator=world), options={"max_sweeps": 6})
     np.savez(f"rank{world.rank}.npz", points=mesh.points, weights=mesh.weights, triangles=mesh.triangles,
              sweeps=report.sweeps, seen=len(seen))
 """

@@ -120,9 +120,9 @@ def test_a_run_in_the_metric_is_the_run_of_the_mapped_mesh():
     assert [record.energy for record in same.history] == [record.energy for record in report.history]
     size = temper.SizeField.from_values(mesh, np.ones(mesh.n_vertices))
     before = better.copy()
-    for wrong in [{"tracer": print}, {"size_field": size}]:
-        with pytest.raises(ValueError, match=f"{next(iter(wrong))}: is of the mesh's plane"):
-            temper.optimize(better, tensor=K, options=wrong)
+    for name, wrong in [("tracer", {"hooks": temper.Hooks(tracer=print)}), ("size_field", {"size_field": size})]:
+        with pytest.raises(ValueError, match=f"{name}: is of the mesh's plane"):
+            temper.optimize(better, tensor=K, **wrong)
     with pytest.raises(temper.TemperError, match="tensor: expected"):
         temper.optimize(better, tensor=(1, 2, 1))
     with pytest.raises(temper.TemperError, match="sphere"):

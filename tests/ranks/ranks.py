@@ -76,7 +76,7 @@ class Runner:
 def same_bytes(runner, whole):
     n = (4 if whole else 1) * PARTS + 1000
     for space, example in SPACES.items():
-        runner.one("example", example, "--vertices", str(n), "--set", "seed=4", "-o", f"{space}.vtu")
+        runner.one("example", example, "--vertices", str(n), "--seed", "4", "-o", f"{space}.vtu")
     methods = METHODS if whole else {"default": METHODS["default"]}
     for (space, _), (method, options) in itertools.product(SPACES.items(), methods.items()):
         if (space, method) == ("periodic", "repair") or (space != "plane" and method == "paper"):
@@ -125,7 +125,7 @@ def say(runner):
 def refuse(runner):
     """What one rank finds ends all of them: a message, an exit code, and the output as it was."""
     good = ["optimize", "small.vtu", "-o", "out.vtu", "--threads", "1"]
-    runner.one("example", "random", "--vertices", "300", "--set", "seed=9", "-o", "other.vtu")
+    runner.one("example", "random", "--vertices", "300", "--seed", "9", "-o", "other.vtu")
     (runner.folder / "bad.vtu").write_bytes(b"<VTKFile")
     cases = {
         "other options": (good + ["--set", "max_sweeps=7"], "rank 2 has another mesh, other options"),

@@ -24,14 +24,14 @@ def main(program, schema_path):
             return run.stdout
 
         def report(*words, exit=0):
-            temper("optimize", "in.vtu", "-o", "out.vtu", "--report", "report.json", "--quiet", *words, exit=exit)
+            temper("optimize", "in.vtu", "-o", "out.vtu", "--write", "report.json", "--quiet", *words, exit=exit)
             return json.loads(pathlib.Path(folder, "report.json").read_text(encoding="utf-8"))
 
         temper("example", "random", "--vertices", "60", "-o", "in.vtu")
         one = json.loads(temper("check", "in.vtu", "--json", "--require", "outside=0,energy.BH.1=1", exit=3))
         two = json.loads(temper("check", "in.vtu", "in.vtu", "--json"))
-        reports = [report(), report("--objective", "accuracy"), report("--require", "regions=2", exit=3),
-                   report("--method", "paper", "--max-sweeps", "2"), report("--time-limit", "1e-9", exit=4)]
+        reports = [report(), report("--set", "objective=accuracy"), report("--require", "regions=2", exit=3),
+                   report("--for", "paper", "--set", "max_sweeps=2"), report("--time-limit", "1e-9", exit=4)]
 
     assert len(two) == 2 and one["energy"]["BH"][1] is None and not one["requirements"][1]["met"]
     for found in [one, two, *reports]:

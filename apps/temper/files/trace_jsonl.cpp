@@ -229,7 +229,7 @@ void check_header(const Record& header, const Input& input) {
   if (header.whole("trace") == kVersionWithoutEnd) {
     header.fail(
         "is a trace of version 1, which has no end line to tell whether it is whole; write it again with temper "
-        "optimize --trace");
+        "optimize --write FILE.jsonl");
   }
   if (header.whole("trace") != kTraceVersion) {
     header.fail(

@@ -58,7 +58,7 @@ HelpRow row_of(const Option& option) {
 /// The rows of an option: itself, and its values that have a meaning of their own.
 void add_rows(std::vector<HelpRow>& rows, const Option& option) {
   rows.push_back(row_of(option));
-  for (const auto& [value, meaning] : option.meanings) rows.push_back({"    " + value, meaning});
+  for (const auto& [value, meaning] : option.meanings) rows.push_back({"    " + value, meaning + "."});
 }
 
 /// Options in the order in which they were added: all, by group, or those that are not rare.
@@ -79,19 +79,19 @@ void add_options(HelpPage& page, const Command& command, bool all) {
 std::string_view meaning(Exit exit) {
   switch (exit) {
     case Exit::done:
-      return "done";
+      return "Done.";
     case Exit::bad_input:
-      return "bad input, or an output that cannot be written; the message names all files that were written";
+      return "Bad input, or an output cannot be written. The message names all written files.";
     case Exit::bad_usage:
-      return "bad usage: options that make no sense";
+      return "Bad usage: options that make no sense.";
     case Exit::requirement:
-      return "a requirement of --require or --require-claims is not met";
+      return "A requirement of --require or --require-claims is not met.";
     case Exit::stopped_early:
-      return "stopped by a signal or --time-limit, best mesh written; or edges that may flip are not regular";
+      return "A signal or --time-limit stopped the run, or a flip is missing. The best mesh is written.";
     case Exit::internal:
-      return "out of memory, or an internal error; please report it";
+      return "Out of memory, or an internal error. Please report it.";
     case Exit::infeasible:
-      return "weights: no weights meet the request; only the certificate was written";
+      return "No weights meet the request. Only the certificate is written.";
   }
   return "";
 }

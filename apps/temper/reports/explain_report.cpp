@@ -105,9 +105,9 @@ std::string command(const Mesh& mesh, const Cure& cure) {
     case Action::flip_edge:
       return "temper optimize";
     case Action::insert_vertex:
-      return "temper optimize --repair vertices";
+      return "temper optimize --set repair=vertices";
     case Action::split_edge:
-      return on_line() ? split_of_lines : "temper optimize --repair vertices";
+      return on_line() ? split_of_lines : "temper optimize --set repair=vertices";
     case Action::split_boundary:
       return split_of_lines;
   }

@@ -117,7 +117,7 @@ void add_options(Command& command, MeshSettings& s) {
                     "  temper mesh plan.poly -o plan.vtu --size 1 --region-size 2,0.25\n"
                     "  temper mesh coast.geojson -o coast.vtu --size 2000 --projection stereographic\n"
                     "  temper mesh basin.msh -o basin.vtu --size 500 --projection transverse-mercator:9,0\n"
-                    "  temper mesh --sphere -o ocean.vtu --size 100000 --coast land.geojson --lines rivers.geojson\n",
+                    "  temper mesh --sphere -o ocean.vtu --size 500000 --coast land.geojson --lines rivers.geojson\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal}});
 }
 

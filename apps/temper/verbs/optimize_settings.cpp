@@ -40,7 +40,7 @@ void add_target(Command& command, OptimizeSettings& s) {
       "What the mesh is for.");
   target.value_name = "TARGET";
   target.meanings = meanings_of(targets());
-  target.meanings.emplace_back("paper", "Algorithm 1 of the paper; see --help-paper");
+  target.meanings.emplace_back("paper", "Algorithm 1 of the paper, with the switches of --help-paper");
   target.defaults_to([&s] { return s.target; });
   add_name(
       command, "--effort", names_of(efforts(), true), [&s](std::string_view name) { s.effort = name; },

@@ -33,7 +33,7 @@ constexpr auto kTargets = std::to_array<Preset>({
     {"cell", "Unknowns in triangles, two-point flux: PorePy, FiPy, MODFLOW",
      [](Options& o) { o.scheme = Scheme::cell; }},
     {"stars", "Diagonal Hodge stars of exterior calculus", [](Options& o) { o.scheme = Scheme::stars; }},
-    {"mpas", "MPAS: no weights, centered cells; may insert and remove vertices",
+    {"mpas", "MPAS: no weights, centered cells; may add and remove vertices",
      [](Options& o) {
        move_positions_alone(o);
        o.star = Star::zero;
@@ -41,14 +41,14 @@ constexpr auto kTargets = std::to_array<Preset>({
        o.accuracy.min_edge = kLongEdge;
        o.accuracy.min_dual = kLongDual;
      }},
-    {"dflowfm", "D-Flow FM: no weights, orthogonal; may insert and remove vertices",
+    {"dflowfm", "D-Flow FM: no weights, orthogonal; may add and remove vertices",
      [](Options& o) {
        move_positions_alone(o);
        o.repair = Repair::vertices;
        o.accuracy.min_edge = kLongEdge;
        o.accuracy.min_dual = kLongDual;
      }},
-    {"adcirc", "ADCIRC, SCHISM: no weights, long edges; may insert and remove vertices",
+    {"adcirc", "ADCIRC, SCHISM: no weights, long edges; may add and remove vertices",
      [](Options& o) {
        move_positions_alone(o);
        o.repair = Repair::vertices;
@@ -113,7 +113,7 @@ constexpr auto kEfforts = std::to_array<Preset>({
      "Sweeps until little is gained. Targets vertex and cell lower the error of the solver itself on small meshes",
      [](Options&) {}},
     {"high",
-     "More sweeps and repairs, which may insert and remove vertices. The solver's own error is lowered on larger "
+     "More sweeps and repairs, which may add and remove vertices. The solver's own error is lowered on larger "
      "meshes too",
      [](Options& o) {
        o.accuracy.sweeps = 200;

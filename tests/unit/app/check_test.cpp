@@ -94,7 +94,7 @@ TEST_F(Check, NumbersHaveFullPrecision) {
 
 TEST_F(Check, TheDenseHorseshoeHasThePublishedEnergies) {
   temper_ok({"example", "horseshoe", "-o", "h.vtu"});
-  const std::string table = temper_ok({"check", "h.vtu"}).out;
+  const std::string table = temper_ok({"check", "h.vtu", "--details"}).out;
   for (const char* energy :
        {"2.836890825582", "12.143904187128", "375.355882218659", "0.581320957789", "2.255569867793"}) {
     EXPECT_TRUE(contains(table, energy));
@@ -105,7 +105,7 @@ TEST_F(Check, WorstIsAsLongAsAsked) {
   make_input();
   EXPECT_EQ(check({"in.vtu", "--worst", "0"})["worst"].size(), 0u);
   EXPECT_EQ(check({"in.vtu", "--worst", "7"})["worst"].size(), 7u);
-  EXPECT_FALSE(contains(temper_ok({"check", "in.vtu", "--worst", "0"}).out, "worst triangles"));
+  EXPECT_FALSE(contains(temper_ok({"check", "in.vtu", "--details", "--worst", "0"}).out, "worst triangles"));
 }
 
 TEST_F(Check, JsonCountsFromZeroAndPeopleSeeTheirOwnNumbers) {
@@ -115,7 +115,7 @@ TEST_F(Check, JsonCountsFromZeroAndPeopleSeeTheirOwnNumbers) {
   EXPECT_EQ(worst["vertices"], (OrderedJson{1, 2, 3}));
   EXPECT_TRUE(contains(worst["why"].get<std::string>(), "vertex 2"));
 
-  const std::string table = temper_ok({"check", "kite.mesh", "--worst", "1"}).out;
+  const std::string table = temper_ok({"check", "kite.mesh", "--details", "--worst", "1"}).out;
   EXPECT_TRUE(contains(table, "\n  1 (2 3 4) at "));
   EXPECT_TRUE(contains(table, "at vertex 3"));
 }
@@ -145,11 +145,11 @@ TEST_F(Check, ThreadsDoNotChangeAByte) {
 
 TEST_F(Check, TheTableHasHistogramsInUtf8OrAscii) {
   make_input();
-  const std::string utf8 = temper_ok({"check", "in.vtu"}).out;
+  const std::string utf8 = temper_ok({"check", "in.vtu", "--details"}).out;
   EXPECT_TRUE(contains(utf8, "angles (degrees)"));
   EXPECT_TRUE(contains(utf8, "h/ℓ"));
   EXPECT_TRUE(contains(utf8, "█"));
-  const std::string ascii = shell("LC_ALL=C temper check in.vtu").out;
+  const std::string ascii = shell("LC_ALL=C temper check in.vtu --details").out;
   EXPECT_TRUE(contains(ascii, "####"));
   EXPECT_TRUE(std::all_of(ascii.begin(), ascii.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
 }

@@ -63,7 +63,7 @@ TEST_F(Data, DepthsStayAtTheirPlaceUnlessToldToKeepToTheirPoints) {
 
 TEST_F(Data, TheReportSaysWhatMovedHowFarAndWhatWasInterpolated) {
   write_bay("bay.vtu");
-  const Outcome outcome = temper_ok({"optimize", "bay.vtu", "-o", "out.vtu", "--write", "r.json"});
+  const Outcome outcome = temper_ok({"optimize", "bay.vtu", "-o", "out.vtu", "--write", "r.json", "--details"});
   const nlohmann::json data = read_json("r.json")["data"];
   EXPECT_EQ(data["points"], 400);
   EXPECT_GT(data["points_moved"], 200);
@@ -116,7 +116,7 @@ TEST_F(Data, TheCommandOfAReportMakesTheSameData) {
   temper_ok({"optimize", "bay.vtu", "-o", "out.vtu", "--write", "r.json", "--quiet", "--point-data", "keep",
              "--point-data", "interpolate=depth"});
   const nlohmann::json report = read_json("r.json");
-  EXPECT_EQ(report["options"]["point-data"], nlohmann::json::array({"keep", "interpolate=depth"}));
+  EXPECT_EQ(report["options"]["point_data"], nlohmann::json::array({"keep", "interpolate=depth"}));
   const std::string first = read("out.vtu");
   const Outcome again = shell(report["command"].get<std::string>());
   EXPECT_EQ(again.exit, 0);

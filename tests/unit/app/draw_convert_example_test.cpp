@@ -27,10 +27,10 @@ TEST_F(Draw, WritesOnePanelOrTwo) {
 TEST_F(Draw, RefusesTheNameOfAPictureThatItDoesNotWrite) {
   make_input("a.vtu");
   for (const std::vector<std::string>& words : {std::vector<std::string>{"draw", "a.vtu", "-o", "a.jpg"},
-                                                {"optimize", "a.vtu", "-o", "b.vtu", "--draw", "a.TIFF"}}) {
+                                                {"optimize", "a.vtu", "-o", "b.vtu", "--write", "a.TIFF"}}) {
     const Outcome outcome = temper(words);
     EXPECT_EQ(outcome.exit, 2);
-    EXPECT_TRUE(contains(outcome.err, "expected one that ends in .svg")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, ".svg")) << outcome.err;
   }
   EXPECT_EQ(names(), std::vector<std::string>{"a.vtu"});
 }
@@ -104,8 +104,8 @@ TEST_F(Convert, DashIsStandardInputAndOutput) {
   const Outcome piped =
       shell("temper convert - -o - --format gmsh41 < a.vtu | temper optimize - -o - --format vtu > c.vtu");
   EXPECT_EQ(piped.exit, 0) << piped.err;
-  EXPECT_TRUE(
-      contains(piped.err, "/dev/stdout: all 72 triangles are well-centered"));  // what is said leaves the mesh alone
+  EXPECT_TRUE(contains(
+      piped.err, "triangles not well-centered               72             0"));  // what is said leaves the mesh alone
   temper_ok({"optimize", "b.msh", "-o", "d.vtu"});
   EXPECT_EQ(numbers_of("c.vtu"), numbers_of("d.vtu"));
   EXPECT_TRUE(contains(shell("temper check - < c.vtu").out, "/dev/stdin: "));
@@ -181,7 +181,7 @@ TEST_F(Example, PeriodicPlanesGoThroughTheVerbsThatTakeThem) {
   EXPECT_FALSE(exists("out.off"));
   using Words = std::vector<std::string>;
   for (const Words& words : {Words{"explain", "in.vtu"}, Words{"weights", "in.vtu", "-o", "w.vtu"},
-                             Words{"optimize", "in.vtu", "-o", "w.vtu", "--html", "w.html"}}) {
+                             Words{"optimize", "in.vtu", "-o", "w.vtu", "--write", "w.html"}}) {
     const Outcome refused = temper(words);
     EXPECT_EQ(refused.exit, 1);
     EXPECT_TRUE(contains(refused.err, "the mesh is in a periodic plane, but ")) << refused.err;
@@ -208,7 +208,8 @@ TEST_F(Draw, SpheresAreDrawnFromWhereOneLooks) {
 
   temper_ok({"example", "annulus", "-o", "flat.vtu"});
   EXPECT_TRUE(contains(temper({"draw", "out.vtu", "-o", "x.svg", "--view", "0,91"}).err, "a latitude from -90 to 90"));
-  EXPECT_TRUE(contains(temper({"draw", "flat.vtu", "-o", "x.svg", "--view", "0,0"}).err, "expected one of the sphere"));
+  EXPECT_TRUE(
+      contains(temper({"draw", "flat.vtu", "-o", "x.svg", "--view", "0,0"}).err, "expected a mesh of the sphere"));
   const Outcome mixed = temper({"draw", "out.vtu", "--before", "flat.vtu", "-o", "x.svg"});
   EXPECT_EQ(mixed.exit, 1);
   EXPECT_TRUE(contains(mixed.err, "flat.vtu: is a mesh of the plane, but out.vtu is a mesh of the sphere"));

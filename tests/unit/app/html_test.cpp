@@ -1,4 +1,4 @@
-// --html of check and optimize.
+// The HTML page of check and optimize.
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -22,7 +22,7 @@ TEST_F(Html, CheckShowsItsReportAndTheReasons) {
   EXPECT_EQ(report["after"]["min_h_over_l"], json["min_h_over_l"]);
   EXPECT_EQ(report["after"]["histograms"], json["histograms"]);
   EXPECT_FALSE(report["reasons"].empty());
-  EXPECT_TRUE(contains(report["command"], "temper check in.vtu --json --write page.html"));
+  EXPECT_TRUE(contains(report["command"], "temper check in.vtu --json --write=page.html"));
   EXPECT_TRUE(contains(read("page.html"), "id=\"after.points\""));
   EXPECT_FALSE(contains(read("page.html"), "id=\"before.points\""));
 }
@@ -47,12 +47,12 @@ TEST_F(Html, OptimizeShowsBeforeAndAfterAndWritesTheSameBytesAgain) {
 
 TEST_F(Html, TheInputAndOtherOutputsAreNotReplaced) {
   make_input();
-  EXPECT_EQ(temper({"check", "in.vtu", "--write", "in.vtu"}).exit, 2);
+  EXPECT_EQ(temper({"check", "in.vtu", "--write", "page.htm"}).exit, 2);
   EXPECT_EQ(temper({"check", "in.vtu", "--write", "none/page.html"}).exit, 1);
-  EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.vtu", "--write", "out.vtu"}).exit, 2);
+  EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.html", "--format", "vtu", "--write", "out.html"}).exit, 2);
   const Outcome several = temper({"check", "in.vtu", "in.vtu", "--write", "page.html"});
   EXPECT_EQ(several.exit, 2);
-  EXPECT_TRUE(contains(several.err, "--html: expected one mesh, found 2"));
+  EXPECT_TRUE(contains(several.err, "--write: expected one mesh, found 2"));
   EXPECT_EQ(names(), (std::vector<std::string>{"in.vtu"}));
 }
 

@@ -132,7 +132,7 @@ class MeshSphere : public Workshop {
 
 TEST_F(MeshSphere, OneCommandMakesAWellCenteredOceanWithCoastsAndRivers) {
   make_world();
-  const Outcome outcome = mesh({"--coast", "land.json", "--lines", "rivers.json", "--report", "r.json"});
+  const Outcome outcome = mesh({"--coast", "land.json", "--lines", "rivers.json", "--write", "r.json"});
   ASSERT_EQ(outcome.exit, 0) << outcome.err;
   EXPECT_TRUE(contains(outcome.out, "triangles are well-centered"));
   EXPECT_TRUE(contains(outcome.out, "% of it meshed"));

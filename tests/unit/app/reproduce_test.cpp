@@ -45,9 +45,10 @@ TEST_F(Reproduce, WritesPicturesAPageAndClaims) {
 
 TEST_F(Reproduce, OneReadingIsInThePlaceOfTheFiguresOwn) {
   temper_ok({"paper", "reproduce", "13", "-o", "own", "--reduced"});
-  temper_ok({"paper", "reproduce", "13", "-o", "read", "--reduced", "--set", "order=reverse", "--set", "gamma=0.5:absolute"});
-  EXPECT_TRUE(contains(read("own/settings.md"), " | input | rms | 1 | refuse | 1 |"));
-  EXPECT_TRUE(contains(read("read/settings.md"), " | reverse | rms | 1 | refuse | 0.5 |"));
+  temper_ok(
+      {"paper", "reproduce", "13", "-o", "read", "--reduced", "--set", "order=reverse", "--set", "gamma=0.5:absolute"});
+  EXPECT_TRUE(contains(read("own/settings.md"), " | input | rms | 1 | refuse | 1:absolute |"));
+  EXPECT_TRUE(contains(read("read/settings.md"), " | reverse | rms | 1 | refuse | 0.5:absolute |"));
   const Outcome outcome = temper({"paper", "reproduce", "20", "-o", "none", "--reduced", "--set", "inversion=allow"});
   EXPECT_EQ(outcome.exit, 1);
   EXPECT_TRUE(contains(outcome.err, "figure 20 cannot be made under this reading: "));

@@ -26,8 +26,8 @@ class SaveEvery : public Workshop {
   }
   /// A run that ends by a signal only.
   static pid_t start_long(const std::string& output) {
-    return start({"optimize", "in.vtu", "-o", output, "--set", "objective=energy", "--set", "max_sweeps=1000000", "--set",
-                  "tolerance=0", "--set", "repair=none", "--save-every", "0"},
+    return start({"optimize", "in.vtu", "-o", output, "--set", "objective=energy", "--set", "max_sweeps=1000000",
+                  "--set", "tolerance=0", "--set", "repair=none", "--save-every", "0"},
                  "out.txt", "err.txt");
   }
   template <class Holds>

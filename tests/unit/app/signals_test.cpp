@@ -15,8 +15,8 @@ using namespace std::chrono_literals;
 class Stopping : public Workshop {
  protected:
   // Too many sweeps to end by itself, on a mesh that is large enough for a sweep to take a moment.
-  const std::vector<std::string> kLong = {"optimize", "in.vtu",      "-o", "out.vtu",  "--set",
-                                          "max_sweeps=1000000",  "--set", "tolerance=0",  "--write", "r.json"};
+  const std::vector<std::string> kLong = {"optimize",           "in.vtu", "-o",          "out.vtu", "--set",
+                                          "max_sweeps=1000000", "--set",  "tolerance=0", "--write", "r.json"};
 
   void SetUp() override { temper_ok({"example", "random", "--vertices", "10000", "-o", "in.vtu"}); }
 

@@ -39,16 +39,19 @@ struct Replayed {
 
 TEST_F(Trace, ReplaysToTheSameBytes) {
   const std::vector<Replayed> samples = {
-      {"horseshoe", TEMPER_SANITIZED ? std::vector<std::string>{"--max-sweeps", "100"} : std::vector<std::string>()},
-      {"horseshoe", {"--removal", "patch", "--removal-from", "0", "--removal-margin", "0", "--max-sweeps", "20"}},
-      {"random", {"--energy", "T", "--collapse-from", "1", "--collapse-ratio", "0.4", "--max-sweeps", "20"}},
-      {"random", {"--solver", "golden", "--flips", "deferred", "--max-sweeps", "4"}},
-      {"sheared-grid", {"--anchor", "3", "--order", "random", "--max-sweeps", "10"}},
-      {"sheared-grid", {"--method", "paper", "--energy", "dT", "--max-sweeps", "6", "--inversion", "refuse"}},
-      {"airfoil", {"--unknowns", "weights", "--no-flips", "--max-sweeps", "5"}},
-      {"random-sphere", {"--max-sweeps", "10"}},
-      {"random-sphere", {"--unknowns", "weights", "--max-sweeps", "5"}},
-      {"random-sphere", {"--unknowns", "positions", "--max-sweeps", "5"}},
+      {"horseshoe",
+       TEMPER_SANITIZED ? std::vector<std::string>{"--set", "max_sweeps=100"} : std::vector<std::string>()},
+      {"horseshoe",
+       {"--set", "removal=patch", "--set", "removal_from=0", "--set", "removal_margin=0", "--set", "max_sweeps=20"}},
+      {"random",
+       {"--set", "energy=T", "--set", "collapse_from=1", "--set", "collapse_ratio=0.4", "--set", "max_sweeps=20"}},
+      {"random", {"--set", "solver=golden", "--set", "flips=deferred", "--set", "max_sweeps=4"}},
+      {"sheared-grid", {"--set", "anchor=3", "--set", "order=random", "--set", "max_sweeps=10"}},
+      {"sheared-grid", {"--for", "paper", "--set", "energy=dT", "--set", "max_sweeps=6", "--set", "inversion=refuse"}},
+      {"airfoil", {"--keep", "positions", "--keep", "edges", "--set", "max_sweeps=5"}},
+      {"random-sphere", {"--set", "max_sweeps=10"}},
+      {"random-sphere", {"--keep", "positions", "--set", "max_sweeps=5"}},
+      {"random-sphere", {"--keep", "weights", "--set", "max_sweeps=5"}},
   };
   for (const Replayed& sample : samples) {
     SCOPED_TRACE(sample.example);
@@ -116,8 +119,8 @@ TEST_F(Trace, PointsThatAreLeftKeepTheirDataWhenToldTo) {
     ASSERT_TRUE(io::write(name, file));
     const std::string output = std::string("out.") + name;
     const Outcome outcome =
-        temper_ok({"optimize", name, "-o", output, "--write", "t.jsonl", "--quiet", "--set", "removal=patch",
-                   "--set", "removal_from=0", "--set", "removal_margin=0", "--set", "max_sweeps=15", "--point-data", "keep=id"});
+        temper_ok({"optimize", name, "-o", output, "--write", "t.jsonl", "--quiet", "--set", "removal=patch", "--set",
+                   "removal_from=0", "--set", "removal_margin=0", "--set", "max_sweeps=15", "--point-data", "keep=id"});
     EXPECT_FALSE(contains(outcome.err, "dropped"));
     std::vector<double> left = id;
     for (const std::string& line : lines("t.jsonl")) {
@@ -137,8 +140,8 @@ TEST_F(Trace, PointsThatAreLeftKeepTheirDataWhenToldTo) {
 
 TEST_F(Trace, EveryLineIsAnObjectWithItsKeys) {
   temper_ok({"example", "horseshoe", "-o", "in.vtu"});
-  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "t.jsonl", "--set", "removal=patch", "--set", "removal_from=0",
-             "--write", "r.json", "--quiet"});
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "t.jsonl", "--set", "removal=patch", "--set",
+             "removal_from=0", "--write", "r.json", "--quiet"});
   const std::vector<std::string> all = lines("t.jsonl");
   ASSERT_GT(all.size(), 100u);
   const nlohmann::json header = nlohmann::json::parse(all[0]);
@@ -185,9 +188,9 @@ TEST_F(Trace, ReplayStopsAfterASweepWhenAsked) {
 
 TEST_F(Trace, OfARunStoppedByASignalIsThatOfItsMesh) {
   temper_ok({"example", "random", "--vertices", "5000", "-o", "in.vtu"});
-  const pid_t process = start(
-      {"optimize", "in.vtu", "-o", "out.vtu", "--set", "max_sweeps=1000000", "--set", "tolerance=0", "--write", "t.jsonl"},
-      "out.txt", "err.txt");
+  const pid_t process = start({"optimize", "in.vtu", "-o", "out.vtu", "--set", "max_sweeps=1000000", "--set",
+                               "tolerance=0", "--write", "t.jsonl"},
+                              "out.txt", "err.txt");
   for (int i = 0; i < 3000 && read("out.txt").find("vertices") == std::string::npos; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
@@ -266,24 +269,23 @@ TEST_F(Trace, WrongOnesAreRefusedWithTheirLine) {
 
 // --- the paper's switches ---------------------------------------------------------------------------------------
 
-TEST_F(Trace, MethodPaperChangesTheDefaultsAndGivenOptionsWin) {
+TEST_F(Trace, TargetPaperChangesTheDefaultsAndGivenOptionsWin) {
   make_input();
   temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "r.json", "--quiet", "--set", "tolerance=0.5", "--for",
              "paper", "--set", "max_sweeps=2", "--set", "removal=none", "--set", "collapse_from=none"});
-  const nlohmann::json options = read_json("r.json")["options"];
-  EXPECT_EQ(options["method"], "paper");
-  EXPECT_EQ(options["solver"], "golden");
-  EXPECT_EQ(options["flips"], "deferred");
-  EXPECT_EQ(options["flip-limit"], "unlimited");
-  EXPECT_EQ(options["inversion"], "allow");
-  EXPECT_EQ(options["hidden"], "keep");
-  EXPECT_EQ(options["order"], "input");
-  EXPECT_EQ(options["gamma"], 1);
-  EXPECT_EQ(options["removal-measure"], "sum");
-  EXPECT_EQ(options["stopping"], "paper");
-  EXPECT_EQ(options["tolerance"], 0.5) << "given before --method";
-  EXPECT_EQ(options["removal"], "none");
-  EXPECT_EQ(options["collapse-from"], "none");
+  const nlohmann::json settings = read_json("r.json")["settings"];
+  EXPECT_EQ(settings["solver"], "golden");
+  EXPECT_EQ(settings["flips"], "deferred");
+  EXPECT_EQ(settings["flip_limit"], "unlimited");
+  EXPECT_EQ(settings["inversion"], "allow");
+  EXPECT_EQ(settings["hidden"], "keep");
+  EXPECT_EQ(settings["order"], "input");
+  EXPECT_EQ(settings["gamma"], "1:absolute");
+  EXPECT_EQ(settings["removal_measure"], "sum");
+  EXPECT_EQ(settings["stopping"], "paper");
+  EXPECT_EQ(settings["tolerance"], 0.5) << "given before --for";
+  EXPECT_EQ(settings["removal"], "none");
+  EXPECT_TRUE(settings["collapse_from"].is_null());
 }
 
 TEST_F(Trace, TheCommandOfAnyMethodGivesTheSameBytes) {
@@ -291,7 +293,8 @@ TEST_F(Trace, TheCommandOfAnyMethodGivesTheSameBytes) {
   const std::vector<std::vector<std::string>> runs = {
       {"--for", "paper", "--set", "max_sweeps=3", "--set", "inversion=refuse"},
       {"--for", "paper", "--set", "max_sweeps=3", "--set", "gamma=0.3", "--set", "anchor=none", "--set", "energy=T"},
-      {"--set", "removal=patch", "--set", "collapse_from=2", "--set", "hidden=remove", "--set", "order=reverse", "--set", "max_sweeps=15"},
+      {"--set", "removal=patch", "--set", "collapse_from=2", "--set", "hidden=remove", "--set", "order=reverse",
+       "--set", "max_sweeps=15"},
       {"--set", "solver=alternating", "--set", "weight_updates=deferred", "--set", "flips=none", "--unknown"},
   };
   for (std::vector<std::string> options : runs) {
@@ -327,8 +330,8 @@ TEST_F(Trace, FlipsNoneIsNoFlipsAndKeepsEveryEdge) {
 
 TEST_F(Trace, RemovalsAreSaidAndCounted) {
   temper_ok({"example", "horseshoe", "-o", "in.vtu"});
-  const Outcome outcome = temper_ok(
-      {"optimize", "in.vtu", "-o", "out.vtu", "--set", "removal=patch", "--set", "removal_from=0", "--write", "r.json"});
+  const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--set", "removal=patch", "--set",
+                                     "removal_from=0", "--write", "r.json"});
   const nlohmann::json report = read_json("r.json");
   const std::size_t removed = report["vertices_removed"];
   ASSERT_GT(removed, 1u);
@@ -341,16 +344,18 @@ TEST_F(Trace, SwitchesThatDoNothingAloneAreNamed) {
   make_input();
   const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--quiet", "--set", "max_sweeps=1", "--set",
                                      "inner=2", "--set", "removal_margin=0.5", "--set", "collapse_ratio=0.2"});
-  for (const char* message :
-       {"--inner has no effect without --flips deferred", "--removal-margin has no effect without --removal patch",
-        "--collapse-ratio has no effect without --collapse-from"}) {
+  for (const char* message : {"--set inner=2 has no effect without --set flips=deferred",
+                              "--set removal_margin=0.5 has no effect without --set removal=patch",
+                              "--set collapse_ratio=0.2 has no effect without collapse_from"}) {
     EXPECT_TRUE(contains(outcome.err, message));
   }
-  const Outcome others = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--quiet", "--set", "max_sweeps=1", "--set",
-                                    "solver=golden", "--set", "relaxation=1.5", "--set", "overshoot=1.2", "--set", "boundary_ratio=3"});
-  for (const char* message : {"--relaxation has no effect without --solver newton or --solver alternating",
-                              "--overshoot has no effect without --flip-limit after",
-                              "--boundary-ratio has no effect without --boundary split"}) {
+  const Outcome others =
+      temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--quiet", "--set", "max_sweeps=1", "--set", "solver=golden",
+                 "--set", "relaxation=1.5", "--set", "overshoot=1.2", "--set", "boundary_ratio=3"});
+  for (const char* message :
+       {"--set relaxation=1.5 has no effect without --set solver=newton or --set solver=alternating",
+        "--set overshoot=1.2 has no effect without --set flip_limit=after",
+        "--set boundary_ratio=3 has no effect without --boundary split"}) {
     EXPECT_TRUE(contains(others.err, message));
   }
 }
@@ -365,13 +370,14 @@ TEST_F(Trace, SwitchesThatContradictEachOtherAreRefused) {
     EXPECT_FALSE(exists("no.vtu"));
     return outcome.err;
   };
-  EXPECT_TRUE(contains(refused({"--keep", "edges", "--set", "flips=immediate"}), "--keep", "edges"));
-  EXPECT_TRUE(contains(refused({"--for", "paper", "--for", "any"}), "--method is given more than once"));
-  EXPECT_TRUE(contains(refused({"--boundary", "split", "--keep", "edges"}), "expected --flips immediate"));
+  EXPECT_TRUE(
+      contains(refused({"--keep", "edges", "--set", "flips=immediate"}), "--keep edges contradicts flips=immediate"));
+  EXPECT_TRUE(contains(refused({"--for", "paper", "--for", "any"}), "--for is given more than once"));
+  EXPECT_TRUE(contains(refused({"--boundary", "split", "--keep", "edges"}), "expected --set flips=immediate"));
   EXPECT_TRUE(contains(refused({"--boundary", "slide", "--set", "inversion=allow", "--set", "flips=deferred"}),
-                       "--boundary slide needs --inversion refuse"));
-  EXPECT_TRUE(contains(refused({"--for", "paper", "--set", "flips=immediate"}), "needs --flips deferred"));
-  EXPECT_TRUE(contains(refused({"--set", "energy=T", "--set", "energy=BP"}), "--energy is given more than once"));
+                       "--boundary slide needs --set inversion=refuse"));
+  EXPECT_TRUE(contains(refused({"--for", "paper", "--set", "flips=immediate"}), "needs --set flips=deferred"));
+  EXPECT_TRUE(contains(refused({"--set", "energy=T", "--set", "energy=BP"}), "energy is set more than once"));
 }
 
 // --- the boundary -------------------------------------------------------------------------------------------------

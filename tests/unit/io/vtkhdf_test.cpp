@@ -111,7 +111,9 @@ TEST_F(Vtkhdf, HoldsWhatVtuHolds) {
     const auto back = read(path("1.vtkhdf"));
     ASSERT_TRUE(back) << back.error().what();
     EXPECT_EQ(back->space(), f.space());
-    if (f.sphere() != nullptr) EXPECT_EQ(back->sphere()->places, f.sphere()->places);
+    if (f.sphere() != nullptr) {
+      EXPECT_EQ(back->sphere()->places, f.sphere()->places);
+    }
     ASSERT_TRUE(write(path("2.vtu"), *back));
     EXPECT_EQ(slurp(path("2.vtu")), slurp(path("1.vtu")));
   }

@@ -196,7 +196,7 @@ TEST(Mesher, WhatLiesOutsideIsLeftOutAndSaid) {
   EXPECT_NEAR(mesh_area(made.mesh), 1, 1e-12);
   EXPECT_FALSE(made.vertex_of_point[5].valid());
   ASSERT_EQ(made.notes.size(), 1u);
-  EXPECT_NE(made.notes[0].find("not in the mesh: 2"), std::string::npos);
+  EXPECT_NE(made.notes[0].find("are outside: 2"), std::string::npos);
 }
 
 TEST(Mesher, SegmentsMayMeetOnOneAnother) {

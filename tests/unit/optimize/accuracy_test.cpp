@@ -119,7 +119,7 @@ TEST(Accuracy, OfOneSchemeBeginsWithSweepsOfOdtWhereThereAreNoWeights) {
     return mesh;
   };
   OptimizeOptions said, stars, at_once, all;
-  for (OptimizeOptions* o : {&said, &stars, &at_once}) o->target = Scheme::stars;
+  for (OptimizeOptions* o : {&said, &stars, &at_once}) o->scheme = Scheme::stars;
   said.paper.first_energy = EnergyKind::ODT, said.paper.switch_at = 10;
   at_once.paper.first_energy = EnergyKind::ODT, at_once.paper.switch_at = 0;
   EXPECT_EQ(made_by(input, stars), made_by(input, said));

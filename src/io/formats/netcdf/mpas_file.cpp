@@ -335,7 +335,7 @@ void warn_of_offsets(const WriteJob& job, const NetcdfMesh& m) {
            " edges are crossed more than 1 % of dcEdge away from the middle of their cells, up to ",
            std::round(1000 * most) / 10,
            " %. Models such as MPAS use xEdge as the midpoint, and need a mesh without weights. Next: temper optimize "
-           "--unknowns positions");
+           "--for mpas, on a mesh without weights");
 }
 
 }  // namespace
