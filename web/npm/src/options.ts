@@ -7,9 +7,9 @@ import type { LengthParameterLike } from './records.ts';
  * - `vertex`: Unknowns at vertices: Voronoi finite volumes, exterior calculus.
  * - `cell`: Unknowns in triangles, two-point flux: PorePy, FiPy, MODFLOW.
  * - `stars`: Diagonal Hodge stars of exterior calculus.
- * - `mpas`: MPAS: no weights, centered cells; may insert and remove vertices.
- * - `dflowfm`: D-Flow FM: no weights, orthogonal; may insert and remove vertices.
- * - `adcirc`: ADCIRC, SCHISM: no weights, long edges; may insert and remove vertices.
+ * - `mpas`: MPAS: no weights, centered cells; may add and remove vertices.
+ * - `dflowfm`: D-Flow FM: no weights, orthogonal; may add and remove vertices.
+ * - `adcirc`: ADCIRC, SCHISM: no weights, long edges; may add and remove vertices.
  * - `fem`: Linear finite elements: no weights, good angles, the same vertices.
  * - `paper`: Algorithm 1 of the paper: golden section, deferred flips, collapses, the patch test, inversions, the first vertex as anchor and gamma 1.
  * - `odt`: Optimal Delaunay triangulation (Chen and Xu 2004): positions alone lower energy ODT. All weights must be equal.
@@ -18,7 +18,7 @@ export type TargetName = "any" | "valid" | "vertex" | "cell" | "stars" | "mpas" 
 /** Time that the run may take.
  * - `quick`: Few sweeps and repairs, in about half of the time.
  * - `normal`: Sweeps until little is gained. Targets vertex and cell lower the error of the solver itself on small meshes.
- * - `high`: More sweeps and repairs, which may insert and remove vertices. The solver's own error is lowered on larger meshes too. */
+ * - `high`: More sweeps and repairs, which may add and remove vertices. The solver's own error is lowered on larger meshes too. */
 export type EffortName = "quick" | "normal" | "high";
 /** Part of the mesh that stays.
  * - `positions`: All vertices stay, and only weights change.
