@@ -3,9 +3,9 @@
 
 callers.py --program FILE [--cpp FILE] [--python FOLDER] [--npm FOLDER]
 
-Each caller that is named is compared with the program; one at least has to be. --cpp: run.cpp as a program; --python:
-where the package is; --npm: web/npm, built, in runs whose repairs ask no linear programs, since it has no Clp. A caller
-that cannot run is a failure.
+Each caller is compared with the program. At least one must be given. --cpp: run.cpp as a program; --python: the folder
+of the package; --npm: web/npm, built. Runs of npm have too few trials for linear programs, which npm does not have. A
+caller that cannot run is a failure.
 """
 import argparse
 import hashlib
@@ -16,15 +16,15 @@ import sys
 import tempfile
 
 EXAMPLES = {"random": ["random", "--vertices", "400"], "annulus": ["annulus"], "horseshoe": ["horseshoe"]}
-# Name → options, and the objective of the run. run.cpp has the same.
+# Name → arguments of optimize in Python and npm, and the objective of the run. run.cpp has the same sets.
 SETS = {
     "default": ({}, "accuracy"),
-    "vertex": ({"for": "vertex"}, "solver_error"),
-    "cell": ({"for": "cell"}, "solver_error"),
-    "energy": ({"objective": "energy"}, "energy"),
-    "positions": ({"unknowns": "positions", "boundary": "slide"}, "accuracy"),
+    "vertex": ({"target": "vertex"}, "solver_error"),
+    "cell": ({"target": "cell"}, "solver_error"),
+    "energy": ({"options": {"objective": "energy"}}, "energy"),
+    "positions": ({"keep": ["weights"], "boundary": "slide"}, "accuracy"),
 }
-NO_PROGRAMS = {"repair-trials": "19"}  # each counts as 20
+NO_PROGRAMS = {"repair_trials": 19}  # a linear program counts as 20
 
 
 def output_of(*words):
@@ -34,56 +34,61 @@ def output_of(*words):
     return run.stdout.strip()
 
 
-def by_program(program, given, result, name, options):
-    words = [word for key, value in options.items() for word in ("--" + key, value)]
+def words_of(arguments):
+    """The arguments as words of the program."""
+    words = []
+    for name, value in arguments.items():
+        if name == "options":
+            words += ["--set", ",".join(f"{option}={each}" for option, each in value.items())]
+        else:
+            words += ["--for" if name == "target" else "--" + name, ",".join(value) if name == "keep" else value]
+    return words
+
+
+def by_program(program, given, result, name, arguments):
     report = result.with_suffix(".json")
-    output_of(program, "optimize", str(given), "-o", str(result), "--quiet", "--report", str(report), *words)
+    words = words_of(arguments)
+    output_of(program, "optimize", str(given), "-o", str(result), "--quiet", *words, "--write", str(report))
     return json.loads(report.read_text(encoding="utf-8"))["objective"]
 
 
-def by_cpp(program, given, result, name, options):
+def by_cpp(program, given, result, name, arguments):
     return output_of(program, str(given), str(result), name)
 
 
-def with_names_of_python(options):
-    """Which are those of the npm package, too."""
-    numbers = {key: int(value) if value.isdigit() else value for key, value in options.items()}
-    return {"target" if key == "for" else key.replace("-", "_"): value for key, value in numbers.items()}
-
-
-def by_python(folder, given, result, name, options):
+def by_python(folder, given, result, name, arguments):
     if folder not in sys.path:
         sys.path.insert(0, folder)
     import temper
 
     mesh = temper.read(given)
-    report = temper.optimize(mesh, **with_names_of_python(options))
+    report = temper.optimize(mesh, **arguments)
     temper.write(result, mesh)
     return report.objective
 
 
-def by_npm(folder, given, result, name, options):
+def by_npm(folder, given, result, name, arguments):
     script = str(pathlib.Path(__file__).with_name("run.mjs"))
-    return output_of("node", script, folder, str(given), str(result), json.dumps(with_names_of_python(options)))
+    return output_of("node", script, folder, str(given), str(result), json.dumps(arguments))
 
 
 CALLERS = {"program": by_program, "cpp": by_cpp, "python": by_python, "npm": by_npm}
 
 
-def run(caller, path, given, name, options):
+def run(caller, path, given, name, arguments):
     """The hash of the mesh, and the objective."""
     result = given.with_name(f"{given.stem}-{name}-{caller}.vtu")
-    objective = CALLERS[caller](path, given, result, name, options)
+    objective = CALLERS[caller](path, given, result, name, arguments)
     return hashlib.sha256(result.read_bytes()).hexdigest()[:16], objective
 
 
-def compare(callers, given, name, options):
-    """Whether all agree, which a line says."""
-    found = {caller: run(caller, path, given, name, options) for caller, path in callers.items()}
+def compare(callers, given, name, arguments):
+    """Prints a line, and says if all agree."""
+    found = {caller: run(caller, path, given, name, arguments) for caller, path in callers.items()}
     digest, objective = found["program"][0], SETS[name][1]
     same = all(each == (digest, objective) for each in found.values())
     verdict = f"{digest} {objective}" if same else f"DIFFER, expected {objective}: {found}"
-    print(f"{given.stem:10} {name:10} {verdict:26} {', '.join(callers)}")
+    print(f"{given.stem:10} {name:10} {verdict:29} {', '.join(callers)}")
     return same
 
 
@@ -102,11 +107,12 @@ def main():
         for example, words in EXAMPLES.items():
             given = pathlib.Path(folder, example + ".vtu")
             output_of(callers["program"], "example", *words, "-o", str(given))
-            for name, (options, _) in SETS.items():
+            for name, (arguments, _) in SETS.items():
                 if len(native) > 1:
-                    same.append(compare(native, given, name, options))
+                    same.append(compare(native, given, name, arguments))
                 if npm:
-                    same.append(compare(npm, given, name, {**options, **NO_PROGRAMS}))
+                    options = {**arguments.get("options", {}), **NO_PROGRAMS}
+                    same.append(compare(npm, given, name, {**arguments, "options": options}))
     print(f"{sum(same)} of {len(same)} comparisons of {', '.join(callers)} found the same bytes")
     return not all(same)
 

@@ -1,5 +1,5 @@
 // Builds the package into dist/: the module, the two platforms, the types. `node build.mjs --options` also writes
-// src/options.ts anew from the table of options in the module.
+// src/options.ts from the tables of options and of words in the module.
 import { execFileSync } from 'node:child_process';
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -42,17 +42,27 @@ for (const [file, name] of [['build/highs.mjs', 'highs.js'], ['build/highs.wasm'
 copyFileSync(wasm, join(here, 'dist', 'temper.wasm'));
 copyFileSync(join(root, 'LICENSE'), join(here, 'LICENSE'));
 
-/** The options as an interface, a member a row. */
-export function optionsSource(table) {
+/** A type for the words of `target`, `effort` or `keep`. */
+function wordsSource(name, title, words) {
+  const meanings = words.map((word) => ` * - \`${word.name}\`: ${word.sentence}.`);
+  return `/** ${title}.\n${meanings.join('\n')} */\nexport type ${name} = ${words.map((word) => JSON.stringify(word.name)).join(' | ')};`;
+}
+
+/** Types for the words, and the options as an interface with one member per row. */
+export function optionsSource(table, presets) {
   const members = table.map((row) => {
     const range = row.range && row.choices.length === 0 ? `; ${row.range}` : '';
-    const absent = row.optional && row.absent ? `; null: ${row.absent}` : '';
+    const absent = row.optional && row.absent ? `. null: ${row.absent}` : '';
     return `  /** ${row.sentence}${range}${absent}. Default: ${JSON.stringify(row.default)}. */\n  ${row.name}?: ${row.type};`;
   });
-  return `// Written by build.mjs --options from the table of options in the library. Not to be edited.
+  return `// Written by build.mjs --options from the tables in the library. Do not edit.
 import type { LengthParameterLike } from './records.ts';
 
-/** The options of \`optimize\`. */
+${wordsSource('TargetName', 'Use of the mesh', presets.target)}
+${wordsSource('EffortName', 'Time that the run may take', presets.effort)}
+${wordsSource('KeepName', 'Part of the mesh that stays', presets.keep)}
+
+/** Further options of \`optimize\`. */
 export interface OptimizeOptions {
 ${members.join('\n')}
 }
@@ -60,7 +70,7 @@ ${members.join('\n')}
 }
 
 const temper = await import('./dist/node.js');
-const source = optionsSource(temper.option_table());
+const source = optionsSource(temper.option_table(), temper.presets());
 const target = join(here, 'src', 'options.ts');
 if (process.argv.includes('--options')) {
   writeFileSync(target, source);

@@ -84,7 +84,7 @@ function makeMesh() {
 }
 
 test('each control of a report of optimize does what it says', async () => {
-  temper('optimize', makeMesh(), '-o', 'out.vtu', '--html', 'optimize.html', '--measure-errors');
+  temper('optimize', makeMesh(), '-o', 'out.vtu', '--measure-errors', '--write', 'optimize.html');
   const { page, close } = await open('optimize.html');
   await shoot(page, 'optimize-light');
   assert.match(await page.textContent('#verdict'), /well-centered/);
@@ -155,7 +155,7 @@ test('each control of a report of optimize does what it says', async () => {
 
 test('a click on one of the worst shows it, with its reason', async () => {
   temper('example', 'sparse-horseshoe', '-o', 'shoe.vtu');
-  temper('check', 'shoe.vtu', '--html', 'check.html');
+  temper('check', 'shoe.vtu', '--write', 'check.html');
   const { page, close } = await open('check.html', { colorScheme: 'dark' });
   assert.match(await page.textContent('#verdict'), /not well-centered/);
   assert.ok(await page.isHidden('#sides') && await page.isHidden('#divider'));
@@ -219,7 +219,7 @@ for (const [triangles, points] of [[100_000, 50_000], [1_000_000, 500_000]]) {
   test(`${triangles} triangles open and move`, { timeout: 600_000 }, async (t) => {
     const name = `${triangles}.html`;
     temper('example', 'random', '--vertices', String(points), '-o', 'large.vtu');
-    temper('check', 'large.vtu', '--html', name);
+    temper('check', 'large.vtu', '--write', name);
     const { page, close, seconds } = await open(name);
     const drag = await dragTimes(page);
     const whole = await frames(page);

@@ -1,5 +1,5 @@
-// What the functions of the module give back beside their result: one buffer, valid until the next call. It holds JSON,
-// or the bytes of an array, or after a failure {"code", "where", "message"}.
+// The answer of a function of the module: one buffer, valid until the next call. It holds JSON, or the bytes of an
+// array, or after a failure {"code", "where", "message"}.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,7 @@ template <class T>
 void answer_array(std::span<const T> values) {
   answer(std::string(reinterpret_cast<const char*>(values.data()), values.size_bytes()));
 }
-/// Whatever is on its way as an exception becomes the answer. To be called in a handler.
+/// Makes the current exception the answer. Call it in a handler.
 void answer_exception();
 
 /// Runs the work of an exported function; `failed` is its result when the work ends with an exception.
@@ -58,7 +58,7 @@ Result guarded(Result failed, Work work) {
     return failed;
   }
 }
-/// The same for work without a result: 1, or 0 when it failed.
+/// Runs work without a result. Returns 1, or 0 when it failed.
 template <class Work>
 int done(Work work) {
   return guarded(0, [&] {
@@ -82,7 +82,7 @@ template <class Tag>
   return id.valid() ? Json(id.index) : Json(-1);
 }
 
-/// Takes a member of `given` into `target`, where there is one.
+/// Takes a member of `given` into `target`, if there is one.
 template <class T>
 void take(const Json& given, const char* name, T& target) {
   const auto found = given.find(name);

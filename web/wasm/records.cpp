@@ -113,6 +113,24 @@ Json unmarked(const Json& given) {
   return given;
 }
 
+/// Throws WrongType if there is no such option, or if the value has another type.
+void set_option(OptimizeOptions& options, const std::string& key, const Json& value) {
+  const OptionRow* row = find_option(key);
+  if (row == nullptr) throw WrongType{"there is no option " + key};
+  std::string text;
+  const auto wrong = [&] { return WrongType{key + ": expected " + type_of(*row) + ", found " + value.dump()}; };
+  OptionValue taken;
+  try {
+    taken = value_from(*row, unmarked(value), text);
+  } catch (const Json::exception&) {
+    throw wrong();
+  } catch (const WrongType&) {
+    throw wrong();
+  }
+  if (const Expected<void> good = check_option(*row, taken); !good) throw BadInput{spelled(good.error())};
+  row->set(options, taken);
+}
+
 // --- reports --------------------------------------------------------------------------------------------------------
 
 Json to_json(const Histogram& h) { return {{"low", h.low}, {"high", h.high}, {"counts", h.counts}}; }
@@ -173,22 +191,30 @@ EnergyModel model_from(const Json& given) {
 }
 
 OptimizeOptions options_from(const Json& given) {
-  OptimizeOptions options;
+  std::string target(targets().front().name), effort = "normal";
+  std::vector<std::string> keep;
+  Json changes = Json::object();
   for (const auto& [key, value] : given.items()) {
-    const OptionRow* row = find_option(key);
-    if (row == nullptr) throw WrongType{"there is no option " + key};
-    std::string text;
-    const auto wrong = [&] { return WrongType{key + ": expected " + type_of(*row) + ", found " + value.dump()}; };
-    OptionValue taken;
-    try {
-      taken = value_from(*row, unmarked(value), text);
-    } catch (const Json::exception&) {
-      throw wrong();
-    } catch (const WrongType&) {
-      throw wrong();
+    if (key == "target") {
+      take(given, "target", target);
+    } else if (key == "effort") {
+      take(given, "effort", effort);
+    } else if (key == "keep" && value.is_string()) {
+      keep.push_back(value.get<std::string>());
+    } else if (key == "keep") {
+      take(given, "keep", keep);
+    } else if (key == "options") {
+      take(given, "options", changes);
+    } else if (key != "boundary" && key != "time_limit") {
+      throw WrongType{find_option(key) == nullptr ? "there is no argument " + key
+                                                  : key + " is one of the options: {options: {" + key + ": VALUE}}"};
     }
-    if (const Expected<void> good = check_option(*row, taken); !good) throw BadInput{spelled(good.error())};
-    row->set(options, taken);
+  }
+  const std::vector<std::string_view> parts(keep.begin(), keep.end());
+  OptimizeOptions options = or_fail(options_for(target, effort, parts));
+  for (const auto& [key, value] : changes.items()) set_option(options, key, value);
+  for (const char* key : {"boundary", "time_limit"}) {
+    if (given.contains(key)) set_option(options, key, given[key]);
   }
   return options;
 }
@@ -312,16 +338,22 @@ Json option_table() {
   return table;
 }
 
-Json method_table() {
-  Json table;
-  for (const Method& method : methods()) {
-    Json& options = table[std::string(method.name)];
-    const OptimizeOptions values = method.options();
-    for (const OptionGroup& group : option_groups()) {
-      for (const OptionRow& row : group.rows) options[std::string(row.name)] = to_json(row.get(values));
-    }
+Json to_json(const OptimizeOptions& options) {
+  Json json;
+  for (const OptionGroup& group : option_groups()) {
+    for (const OptionRow& row : group.rows) json[std::string(row.name)] = to_json(row.get(options));
   }
-  return table;
+  return json;
+}
+
+Json preset_table() {
+  const auto rows = [](std::span<const Preset> presets) {
+    Json list = Json::array();
+    for (const Preset& p : presets)
+      list.push_back({{"name", p.name}, {"sentence", p.sentence}, {"research", p.research}});
+    return list;
+  };
+  return {{"target", rows(targets())}, {"effort", rows(efforts())}, {"keep", rows(keeps())}};
 }
 
 Json energy_table() {

@@ -13,6 +13,8 @@ namespace temper::wasm {
 [[nodiscard]] LengthParameter length_parameter_from(std::string_view name, const Json& given);
 /// The model of {"energy", "star", "boundary_treatment", "gamma", "h0", "wall"}, each of which may be left out.
 [[nodiscard]] EnergyModel model_from(const Json& given);
+/// The options of a run: {"target", "effort", "keep", "boundary", "time_limit", "options"}, each of which may be left
+/// out.
 [[nodiscard]] OptimizeOptions options_from(const Json& given);
 /// A text of the library with its options as JavaScript has them: boundary: "split".
 [[nodiscard]] std::string spelled(std::string_view text);
@@ -23,9 +25,11 @@ namespace temper::wasm {
 [[nodiscard]] Json to_json(const OptimizeReport& report);
 [[nodiscard]] Json to_json(const TraceEvent& event);
 [[nodiscard]] TraceEvent event_from(const Json& given);
-/// The table of options, and what each is by default.
+[[nodiscard]] Json to_json(const OptimizeOptions& options);
+/// The table of options with their default values.
 [[nodiscard]] Json option_table();
-[[nodiscard]] Json method_table();
+/// The words of target, effort and keep.
+[[nodiscard]] Json preset_table();
 [[nodiscard]] Json energy_table();
 
 }  // namespace temper::wasm

@@ -1,4 +1,4 @@
-// Optimization and replay. JavaScript hears of progress and events by two functions that it gives to the module.
+// Optimization and replay. The module calls functions of JavaScript for progress, events and snapshots.
 #include "answer.hpp"
 #include "held_mesh.hpp"
 #include "records.hpp"
@@ -9,9 +9,9 @@
 namespace temper::wasm {
 namespace {
 
-/// How far the run is, as JSON; 0 stops it.
+/// Passes on the progress as JSON. The result 0 stops the run.
 TEMPER_IMPORT(progress) int report_progress(const char* progress, std::size_t size);
-/// An event of the run, as JSON.
+/// Passes on an event of the run as JSON.
 TEMPER_IMPORT(trace) void report_event(const char* event, std::size_t size);
 
 /// The mesh between two sweeps, to be looked at until the function returns.
@@ -28,13 +28,18 @@ Continue tell(const Progress& progress) {
 }  // namespace
 
 TEMPER_EXPORT(option_table) void answer_option_table() { answer(option_table()); }
-TEMPER_EXPORT(methods) void answer_methods() { answer(method_table()); }
+TEMPER_EXPORT(presets) void answer_presets() { answer(preset_table()); }
 
-/// In place, whatever ends the run but an error. The answer is the report.
+/// The answer is all options of {"target", "effort", "keep"}.
+TEMPER_EXPORT(options_for) int options_for_words(const char* words, std::size_t size) {
+  return done([&] { answer(to_json(options_from(parse({words, size})))); });
+}
+
+/// Optimizes in place, unless an error ends the run. The answer is the report.
 TEMPER_EXPORT(mesh_optimize)
-int mesh_optimize(HeldMesh* held, const char* options, std::size_t size, int traced, int shown) {
+int mesh_optimize(HeldMesh* held, const char* run, std::size_t size, int traced, int shown) {
   return done([&] {
-    const OptimizeOptions given = options_from(parse({options, size}));
+    const OptimizeOptions options = options_from(parse({run, size}));
     OptimizeHooks hooks;
     hooks.observer = tell;
     hooks.solvers = solvers();
@@ -52,15 +57,15 @@ int mesh_optimize(HeldMesh* held, const char* options, std::size_t size, int tra
       };
     }
     Mesh mesh = held->mesh;
-    const Expected<OptimizeReport> report = optimize(mesh, given, hooks);
+    const Expected<OptimizeReport> report = optimize(mesh, options, hooks);
     if (!report) throw BadInput{spelled(report.error())};
     held->replace(std::move(mesh), report->vertices);
     answer(to_json(*report));
   });
 }
 
-/// Puts a mesh that was made elsewhere in place, of whose vertices these are the former numbers, −1 for inserted ones;
-/// none: they are the same. The file behind the mesh stays.
+/// Puts a mesh that was made elsewhere in place. `vertices` has the former number of each vertex, −1 for inserted ones;
+/// if it is empty, the numbers are the same. The file behind the mesh stays.
 TEMPER_EXPORT(mesh_replace)
 int mesh_replace(HeldMesh* held, const HeldMesh* other, const std::int32_t* vertices, std::size_t n) {
   return done([&] {

@@ -1,19 +1,19 @@
-// temper: primal-dual triangle meshes that solvers can trust. The names are those of Python.
+// temper: primal-dual triangle meshes that solvers can trust. Names are as in Python.
 import { Mesh } from './mesh.ts';
 import { answer, answerBytes, answerText, call, type Files, fromJson, listening, module, takeWritten, toJson, withFiles } from './module.ts';
-import type { OptimizeOptions } from './options.ts';
+import type { EffortName, KeepName, OptimizeOptions, TargetName } from './options.ts';
 import type {
-  DecComplex, DecSummary, DrawOptions, EnergyInfo, EnergyModel, Explanation, Format, IncidenceMatrix, OptimizeReport, OptionRow, Progress,
-  Quality, Restoration, Snapshot, LengthParameterLike, TraceEvent, VertexDerivatives,
+  DecComplex, DecSummary, DrawOptions, EnergyInfo, EnergyModel, Explanation, Format, IncidenceMatrix, OptimizeReport, OptionRow, Preset,
+  Progress, Quality, Restoration, Snapshot, LengthParameterLike, TraceEvent, VertexDerivatives,
 } from './records.ts';
 import { loadSolver } from './solver.ts';
 
 export { Mesh, type MeshParts, type Numbers } from './mesh.ts';
 export { type Files, TemperError } from './module.ts';
-export type { OptimizeOptions } from './options.ts';
+export type { EffortName, KeepName, OptimizeOptions, TargetName } from './options.ts';
 export type * from './records.ts';
 
-/** What a function of the module without arguments answers. */
+/** The answer of a function of the module without arguments. */
 function told<T>(name: string): T {
   module()[name]();
   return answer<T>();
@@ -33,7 +33,7 @@ export function formats(): Format[] {
 }
 
 export interface ReadOptions {
-  /** The files by their names, of which the path is one; without them, in Node, the path is on the disk. */
+  /** Files by name, among them the path. Without files, Node reads the path from the disk. */
   files?: Files;
   /** Tags or physical names whose points must not move. */
   fixed_tags?: (string | number)[];
@@ -41,8 +41,8 @@ export interface ReadOptions {
   projection?: string;
 }
 
-/** Reads a mesh file; its content tells the format, never its name. A file PATH.weights.csv beside it gives the weights.
- * `warnings` of the mesh are what was repaired. */
+/** Reads a mesh file. Its content determines the format, never its name. A file PATH.weights.csv next to it gives the
+ * weights. `warnings` of the mesh lists all repairs. */
 export function read(path: string, options: ReadOptions = {}): Mesh {
   const { files, fixed_tags = [], projection = '' } = options;
   return withFiles(path, files, (name) => {
@@ -53,18 +53,18 @@ export function read(path: string, options: ReadOptions = {}): Mesh {
 }
 
 export interface WriteOptions {
-  /** Takes what is written, by names; without it, in Node, the path is on the disk. */
+  /** Receives the written files by name. Without it, Node writes to the disk. */
   files?: Files;
-  /** A name of `formats()`; by default the suffix of the path tells it. */
+  /** A name of `formats()`. By default, the suffix of the path selects the format. */
   format?: string;
-  /** Of formats that have several. VTU: base64, compressed, is its default. */
+  /** Encoding, for formats that have several. The default of VTU is base64, compressed. */
   encoding?: 'ascii' | 'base64' | 'appended';
-  /** VTU has cell data for ParaView to color: well_centered, min_h_over_l, min_d_over_l, min_angle_deg. By default true. */
+  /** VTU gets cell data for colors in ParaView: well_centered, min_h_over_l, min_d_over_l, min_angle_deg. Default: true. */
   triangle_quality?: boolean;
 }
 
-/** Writes a mesh, with all else that was in the file it came from. Returns warnings: weights gone to a file beside it, data
- * that the format cannot hold. */
+/** Writes a mesh, with all other data of the file it came from. Returns warnings: weights that went to a file next to it,
+ * and data that the format cannot hold. */
 export function write(path: string, mesh: Mesh, options: WriteOptions = {}): string[] {
   const { files, format = '', encoding = '', triangle_quality = true } = options;
   return withFiles(path, files, (name) => {
@@ -77,20 +77,39 @@ export function write(path: string, mesh: Mesh, options: WriteOptions = {}): str
 
 // --- optimization ----------------------------------------------------------------------------------------------------
 
-export interface OptimizeHooks {
-  /** Hears of the progress, a few times a sweep; false stops the run, with the best mesh so far. */
-  observer?: (progress: Progress) => boolean | void;
-  /** Sees every move, flip, removal: enough for `replay`. */
+/** Listeners of a run. The result does not depend on them, unless a listener throws an error. */
+export interface Hooks {
+  /** Gets each move, flip and removal. `replay` makes the mesh again from them. */
   tracer?: (event: TraceEvent) => void;
-  /** Sees the mesh after each sweep. */
+  /** Gets the mesh after each sweep. */
   snapshots?: (snapshot: Snapshot) => void;
 }
 
-/** Makes the mesh well-centered, in place: give it `mesh.copy()` to keep the mesh. An exception of a listener is thrown on when the best mesh so far is in place. */
-export function optimize(mesh: Mesh, options: OptimizeOptions & OptimizeHooks = {}): OptimizeReport {
-  const { observer, tracer, snapshots, ...given } = options;
+/** The arguments of `optimize`. */
+export interface OptimizeArguments {
+  /** Use of the mesh. Default: "any". */
+  target?: TargetName;
+  /** Time that the run may take for repairs and lower errors. Default: "normal". */
+  effort?: EffortName;
+  /** Parts of the mesh that stay. */
+  keep?: KeepName | readonly KeepName[];
+  /** Treatment of the boundary. By default it stays bit for bit. */
+  boundary?: OptimizeOptions['boundary'];
+  /** Time limit in seconds. The run then ends with the best mesh so far. */
+  time_limit?: number;
+  /** Gets the progress, at least once per sweep. If it returns false, the run stops with the best mesh so far. */
+  progress?: (progress: Progress) => boolean | void;
+  hooks?: Hooks;
+  /** Further options. They override the options that `target`, `effort` and `keep` set. */
+  options?: OptimizeOptions;
+}
+
+/** Makes the mesh well-centered, in place. To keep the original, optimize `mesh.copy()`. If a listener throws an error, the
+ * run stops. The error is thrown again when the mesh has its best state. */
+export function optimize(mesh: Mesh, { progress, hooks = {}, ...given }: OptimizeArguments = {}): OptimizeReport {
+  const { tracer, snapshots } = hooks;
   const listener = {
-    progress: (progress: string): boolean => observer === undefined || observer(fromJson(progress) as Progress) !== false,
+    progress: (state: string): boolean => progress === undefined || progress(fromJson(state) as Progress) !== false,
     trace: tracer && ((event: string): void => tracer(fromJson(event) as TraceEvent)),
     snapshot: snapshots && ((handle: number, sweep: number): void => snapshots({ sweep, mesh: Mesh.of(call('mesh_copy', handle)) })),
   };
@@ -100,7 +119,20 @@ export function optimize(mesh: Mesh, options: OptimizeOptions & OptimizeHooks = 
   });
 }
 
-/** The input after these events of a run: with all of them what came out, bit for bit. */
+/** Returns the options for a target, an effort and parts of the mesh to keep. */
+export function options_for(
+  target: TargetName = 'any', effort: EffortName = 'normal', keep: KeepName | readonly KeepName[] = [],
+): Required<OptimizeOptions> {
+  call('options_for', toJson({ target, effort, keep }));
+  return answer();
+}
+
+/** The words of `target`, `effort` and `keep`, with their meanings. */
+export function presets(): Record<'target' | 'effort' | 'keep', Preset[]> {
+  return told('presets');
+}
+
+/** Applies these events of a run to its input. With all events, the result is the same mesh, bit for bit. */
 export function replay(input: Mesh, events: readonly TraceEvent[]): Mesh {
   return Mesh.of(call('mesh_replay', input.handle, toJson(events)));
 }
@@ -110,15 +142,7 @@ export function option_table(): OptionRow[] {
   return told('option_table');
 }
 
-const method = (name: string): Required<OptimizeOptions> => told<Record<string, Required<OptimizeOptions>>>('methods')[name];
-/** The options of the paper's Algorithm 1 with all its parts. */
-export const paper_method = (): Required<OptimizeOptions> => method('paper');
-/** Optimal Delaunay triangulations (Chen and Xu 2004). */
-export const odt_method = (): Required<OptimizeOptions> => method('odt');
-/** Centroidal Voronoi tessellations (Du, Faber and Gunzburger 1999). */
-export const cvt_method = (): Required<OptimizeOptions> => method('cvt');
-
-/** Flips edges until all are regular that can be. */
+/** Flips edges until all edges are regular that can be regular. */
 export function restore_regularity(mesh: Mesh): Restoration {
   call('mesh_restore_regularity', mesh.handle);
   return answer();
@@ -126,34 +150,34 @@ export function restore_regularity(mesh: Mesh): Restoration {
 
 // --- measures ----------------------------------------------------------------------------------------------------------
 
-/** Measures a mesh: is it valid, regular, well-centered, and with what margins? */
+/** Measures a mesh: validity, regularity, well-centered triangles and margins. */
 export function quality(mesh: Mesh, options: { gamma?: LengthParameterLike; h0?: LengthParameterLike; worst?: number } = {}): Quality {
   call('mesh_quality', mesh.handle, toJson(options));
   return answer();
 }
 
-/** Of each triangle the least of its h/ℓ, d/ℓ and 1 − d/ℓ: above 0 where well-centered. */
+/** The margin of each triangle: the least of its h/ℓ, d/ℓ and 1 − d/ℓ. It is above 0 if the triangle is well-centered. */
 export function triangle_margins(mesh: Mesh): Float64Array {
   call('mesh_triangle_margins', mesh.handle);
   return new Float64Array(answerBytes().buffer);
 }
-/** Of each triangle 1 where it is well-centered, else 0. Exact. */
+/** 1 for each well-centered triangle, else 0. Decided exactly. */
 export function well_centered_triangles(mesh: Mesh): Uint8Array {
   call('mesh_well_centered_triangles', mesh.handle);
   return answerBytes();
 }
 
 export interface ExplainOptions {
-  /** Cures are searched for so many reasons, the worst. Default: 20. */
+  /** Number of reasons for which cures are searched, the worst first. Default: 20. */
   cures?: number;
-  /** Weights are asked of the whole mesh when it has at most so many triangles, or so many bad ones. Default: 1000. */
+  /** Weights of the whole mesh are searched if it has at most this many triangles, or bad triangles. Default: 1000. */
   whole?: number;
-  /** Hears now and then how many of the bad triangles are explained; false stops, with a TemperError. */
+  /** Gets the number of explained bad triangles now and then. If it returns false, `explain` stops with a TemperError. */
   progress?: (done: number, all: number) => boolean | void;
 }
 
-/** Explains each triangle that is not well-centered, by exactly one reason, with what would cure it. A promise, other than
- * in Python: the first call loads a solver of linear programs, HiGHS. The mesh is taken as it is when that is there. */
+/** Explains each triangle that is not well-centered, by exactly one reason with its cures. Unlike in Python, the result is a
+ * promise: the first call loads HiGHS, a solver for linear programs. The mesh is read after that. */
 export async function explain(mesh: Mesh, { progress, ...given }: ExplainOptions = {}): Promise<Explanation> {
   await loadSolver();
   const explained = progress && ((done: number, all: number): boolean => progress(done, all) !== false);
@@ -167,7 +191,7 @@ export async function explain(mesh: Mesh, { progress, ...given }: ExplainOptions
 export function energies(): EnergyInfo[] {
   return told('energies');
 }
-/** The energy of a mesh; Infinity when any term is outside its domain. */
+/** The energy of a mesh. It is Infinity if a term is outside its domain. */
 export function total_energy(mesh: Mesh, model: EnergyModel = {}): number {
   call('mesh_total_energy', mesh.handle, toJson(model));
   return answer();
@@ -236,20 +260,20 @@ export function draw_before_after_svg(before: Mesh, after: Mesh, options: DrawOp
 export interface HtmlOptions {
   /** A mesh to compare with. */
   before?: Mesh;
-  /** Of the run that made the mesh: its history and notes are shown, too. */
+  /** Report of the run that made the mesh. The page then has its history and notes. */
   report?: OptimizeReport;
-  /** Of the mesh: its reasons and cures are shown with the triangles. */
+  /** Explanation of the mesh. The page then has reasons and cures at the triangles. */
   explanation?: Explanation;
   title?: string;
 }
 
-/** The report that the program writes with --html: a page that needs no network. */
+/** The page that the program writes with `--write FILE.html`. It needs no network. */
 export function html_report(mesh: Mesh, { before, report, explanation, title = 'temper.Mesh' }: HtmlOptions = {}): string {
   const measures = (of: Mesh): object => {
     const q = quality(of);
     return { ...q, histograms: { angles: q.angles, h_over_l: q.h_over_l, d_over_l: q.d_over_l } };
   };
-  // Times are left out: the same run makes the same page.
+  // Without times, the same run makes the same page.
   const run = report && {
     sweeps: report.sweeps,
     stopped: report.stopped,
@@ -264,7 +288,7 @@ export function html_report(mesh: Mesh, { before, report, explanation, title = '
     ...run,
     reasons: explanation?.reasons.map((r) => ({ kind: r.kind, triangles: r.bad, text: r.text, cures: r.cures.map((cure) => cure.text) })) ?? [],
   };
-  // Numbers that JSON has not are null to the page.
+  // Infinity and NaN become null for the page.
   call('mesh_html_report', mesh.handle, before?.handle ?? 0, title, JSON.stringify(shown));
   return answerText();
 }
@@ -273,11 +297,11 @@ export function html_report(mesh: Mesh, { before, report, explanation, title = '
 
 const make = (name: string, parameters: object = {}): Mesh => Mesh.of(call('mesh_generate', name, toJson(parameters)));
 
-/** Example meshes: the paper's, and the classes a mesh method should be tried on. */
+/** Example meshes of the paper, and others on which methods can be tried. */
 export const generate = {
   /** The paper's sparse horseshoe: 5 vertices, 4 triangles. */
   sparse_horseshoe: (): Mesh => make('sparse_horseshoe'),
-  /** The paper's parameterized horseshoe: a × b points, x and y the semi-axes of the inner and the outer arch. */
+  /** The paper's parameterized horseshoe: a × b points, x and y are the semi-axes of the inner and the outer arch. */
   horseshoe: (p: { a?: number; b?: number; x?: [number, number]; y?: [number, number] } = {}): Mesh => make('horseshoe', p),
   /** Sides of length a and b from vertex 0, with an angle between them. */
   single_triangle: (p: { a?: number; b?: number; angle_deg?: number } = {}): Mesh => make('single_triangle', p),

@@ -1,7 +1,7 @@
-// The weighted triangle mesh. It lies in the memory of the module, and arrays are copies.
+// The weighted triangle mesh. It is in the memory of the module; arrays are copies.
 import { answer, answerBytes, call, module } from './module.ts';
 
-/** Numbers one after the other, or in rows: [[0, 0], [1, 0]]. */
+/** Numbers in a flat array, or in rows: [[0, 0], [1, 0]]. */
 export type Numbers = ArrayLike<number> | readonly (readonly number[])[];
 
 function flat(values: Numbers | undefined | null, columns: number, name: string): number[] | ArrayLike<number> {
@@ -31,15 +31,15 @@ const ints = (values: Numbers | undefined | null, columns: number, name: string)
   return whole;
 };
 
-// Meshes that nobody holds any more give back their memory; free() does at once.
+// A mesh without references gives back its memory; free() does this at once.
 const freed = new FinalizationRegistry((handle: number) => module().mesh_release(handle));
 
 export interface MeshParts {
-  /** Edges that must stay, as pairs of vertices. */
+  /** Edges that stay, as pairs of vertices. */
   constrained_edges?: Numbers;
   /** A number for each triangle. */
   regions?: Numbers;
-  /** Vertices that must not move. */
+  /** Vertices that do not move. */
   fixed?: Numbers;
 }
 
@@ -48,15 +48,15 @@ export interface MeshParts {
 export class Mesh {
   /** Triangles that were clockwise in the input. */
   reversed_triangles = 0;
-  /** What was repaired or dropped when the mesh was read, in sentences. */
+  /** Parts of the file that were repaired or dropped, in sentences. */
   warnings: string[] = [];
-  /** The format of the file it was read from. */
+  /** Format of its file. */
   format: string | null = null;
   /** @internal */
   #handle: number;
 
-  /** `points` x, y of each vertex; `triangles` three corners each, counted from 0; `weights` squared lengths, all 0 by
-   * default. Throws TemperError for arrays that make no planar mesh; its message names the element. */
+  /** `points`: x, y of each vertex. `triangles`: three corners each, counted from 0. `weights`: squared lengths, all 0 by
+   * default. If the arrays make no planar mesh, it throws a TemperError that names the element. */
   constructor(points: Numbers, triangles: Numbers, weights?: Numbers | null, parts: MeshParts = {}) {
     if (points === kOfHandle) {
       this.#handle = triangles as unknown as number;
@@ -83,7 +83,7 @@ export class Mesh {
     return this.#handle;
   }
 
-  /** Gives back the memory; the mesh is of no use after that. */
+  /** Gives back the memory. After that, the mesh cannot be used. */
   free(): void {
     if (this.#handle === 0) return;
     freed.unregister(this);
@@ -104,8 +104,8 @@ export class Mesh {
     return module().mesh_n_edges(this.handle);
   }
 
-  /** x, y of each vertex. Assigning moves all vertices at once; TemperError when a triangle would not be
-   * counter-clockwise, and then nothing has changed. */
+  /** x, y of each vertex. Assigning moves all vertices at once. If a triangle would not be counter-clockwise, it throws a
+   * TemperError and changes nothing. */
   get points(): Float64Array {
     return this.columns(0, 2);
   }
@@ -113,7 +113,7 @@ export class Mesh {
     call('mesh_set_points', this.handle, this.sized(doubles(points, 2, 'points'), 2, 'points'));
   }
 
-  /** One a vertex [length²]. Assigning sets all at once; the connectivity stays (see restore_regularity). */
+  /** Weight of each vertex [length²]. Assigning sets all at once; the edges stay (see restore_regularity). */
   get weights(): Float64Array {
     return this.columns(2, 1);
   }
@@ -128,7 +128,7 @@ export class Mesh {
     const memory = new Float64Array(module().memory.buffer);
     return [memory[at], memory[at + 1], memory[at + 2]];
   }
-  /** Puts a vertex elsewhere; TemperError when a triangle would not be counter-clockwise, and then it stays. */
+  /** Moves a vertex. If a triangle would not be counter-clockwise, it throws a TemperError and changes nothing. */
   set_point(vertex: number, x: number, y: number, w: number): void {
     call('mesh_set_point', this.handle, vertex, x, y, w);
   }
@@ -137,14 +137,14 @@ export class Mesh {
   get triangles(): Int32Array {
     return this.ints(module().mesh_corner_data(this.handle), this.n_halfedges);
   }
-  /** The halfedge on the other side of each; −1 on the boundary. */
+  /** Halfedge on the other side of each halfedge; −1 on the boundary. */
   get twins(): Int32Array {
     return this.ints(module().mesh_twin_data(this.handle), this.n_halfedges);
   }
   get regions(): Int32Array {
     return this.array('mesh_regions');
   }
-  /** Each edge once, as two vertices. */
+  /** All edges, as two vertices each. */
   get edges(): Int32Array {
     return this.array('mesh_edges');
   }
@@ -152,11 +152,11 @@ export class Mesh {
   get boundary_edges(): Int32Array {
     return this.array('mesh_boundary_edges');
   }
-  /** Edges that are never flipped: lines of yours, and interfaces of regions. */
+  /** Edges that are never flipped: your lines, and interfaces of regions. */
   get constrained_edges(): Int32Array {
     return this.array('mesh_constrained_edges');
   }
-  /** Vertices that were marked never to move. Assigning marks others. */
+  /** Vertices that never move. Assigning replaces them. */
   get fixed(): Int32Array {
     return this.array('mesh_fixed');
   }
@@ -165,14 +165,14 @@ export class Mesh {
     call('mesh_set_fixed', this.handle, list, list.length);
   }
 
-  /** Puts another mesh in place, made of this one elsewhere, in a worker say; what the file behind this one holds stays.
-   * `vertices`: former number of each vertex, −1 for inserted ones (`OptimizeReport.vertices`); empty: the same. */
+  /** Takes the state of another mesh that was made from this one, for example in a worker. The other data of the file stay.
+   * `vertices`: former number of each vertex, −1 for inserted ones (`OptimizeReport.vertices`). Empty: the same numbers. */
   replace(other: Mesh, vertices: Numbers = []): void {
     const former = ints(vertices, 1, 'vertices');
     call('mesh_replace', this.handle, other.handle, former, former.length);
   }
 
-  /** The first thing that does not hold of what must hold of a mesh, or null. */
+  /** The first broken invariant of the mesh, or null. */
   validate(): string | null {
     call('mesh_validate', this.handle);
     return answer<string | null>();
@@ -184,7 +184,7 @@ export class Mesh {
     mesh.format = this.format;
     return mesh;
   }
-  /** The same numbers everywhere, bit for bit. */
+  /** Compares all numbers, bit for bit. */
   equals(other: Mesh): boolean {
     return module().mesh_equal(this.handle, other.handle) === 1;
   }

@@ -1,126 +1,155 @@
-// Written by build.mjs --options from the table of options in the library. Not to be edited.
+// Written by build.mjs --options from the tables in the library. Do not edit.
 import type { LengthParameterLike } from './records.ts';
 
-/** The options of `optimize`. */
+/** Use of the mesh.
+ * - `any`: Any solver on a dual mesh: large margins, smaller errors.
+ * - `valid`: Valid triangles alone: the fastest run.
+ * - `vertex`: Unknowns at vertices: Voronoi finite volumes, exterior calculus.
+ * - `cell`: Unknowns in triangles, two-point flux: PorePy, FiPy, MODFLOW.
+ * - `stars`: Diagonal Hodge stars of exterior calculus.
+ * - `mpas`: MPAS: no weights, centered cells; may add and remove vertices.
+ * - `dflowfm`: D-Flow FM: no weights, orthogonal; may add and remove vertices.
+ * - `adcirc`: ADCIRC, SCHISM: no weights, long edges; may add and remove vertices.
+ * - `fem`: Linear finite elements: no weights, good angles, the same vertices.
+ * - `paper`: Algorithm 1 of the paper: golden section, deferred flips, collapses, the patch test, inversions, the first vertex as anchor and gamma 1.
+ * - `odt`: Optimal Delaunay triangulation (Chen and Xu 2004): positions alone lower energy ODT. All weights must be equal.
+ * - `cvt`: Centroidal Voronoi tessellation (Du, Faber and Gunzburger 1999): positions alone lower energy F of star 0. */
+export type TargetName = "any" | "valid" | "vertex" | "cell" | "stars" | "mpas" | "dflowfm" | "adcirc" | "fem" | "paper" | "odt" | "cvt";
+/** Time that the run may take.
+ * - `quick`: Few sweeps and repairs, in about half of the time.
+ * - `normal`: Sweeps until little is gained. Targets vertex and cell lower the error of the solver itself on small meshes.
+ * - `high`: More sweeps and repairs, which may add and remove vertices. The solver's own error is lowered on larger meshes too. */
+export type EffortName = "quick" | "normal" | "high";
+/** Part of the mesh that stays.
+ * - `positions`: All vertices stay, and only weights change.
+ * - `weights`: All weights stay, and only positions change.
+ * - `edges`: No edge flips.
+ * - `boundary`: Vertices of the boundary and of interfaces stay.
+ * - `sizes`: Local sizes stay within a factor of 2. */
+export type KeepName = "positions" | "weights" | "edges" | "boundary" | "sizes";
+
+/** Further options of `optimize`. */
 export interface OptimizeOptions {
-  /** what to minimize: a barrier (BH, BHs, BP), a HOT energy (F, T, dT), one of these over squared areas (nF, nT, ndT), or what optimal Delaunay triangulations do (ODT). Default: "BP". */
+  /** Energy to lower. Barriers: BH, BHs, BP. HOT energies: F, T, dT. HOT energies over squared areas: nF, nT, ndT. Optimal Delaunay triangulation: ODT. Default: "BP". */
   energy?: "F" | "T" | "dT" | "BH" | "BHs" | "BP" | "nF" | "nT" | "ndT" | "ODT";
-  /** Hodge star whose error is to be small. all: the three at once, with objective: "accuracy", which begins with sweeps for star 1 whatever this is. Default: 1. */
+  /** Hodge star whose error should be small. all: the three at once, except with objective: "energy". The first sweeps for accuracy always use star 1. Default: 1. */
   star?: 0 | 1 | 2 | "all";
-  /** gamma of E_BP; more than 0; null: relative to each edge, shrinking from 0.5, or 1 where many triangles are bad, to 0.003. Default: null. */
+  /** Parameter gamma of E_BP; more than 0. null: gamma is relative to each edge. It shrinks to 0.003, from 1 if many triangles are bad, otherwise from 0.5. Default: null. */
   gamma?: LengthParameterLike | null;
-  /** how far below zero E_BHs lets h go (-h0 of the paper, so >= 0); at least 0; null: just beyond the least h of the mesh, following it up. Default: null. */
+  /** Parameter -h0 of E_BHs, at least 0. E_BHs keeps h above h0; at least 0. null: h0 is just below the least h of the mesh. It rises with the least h. Default: null. */
   h0?: LengthParameterLike | null;
-  /** of energy F: the h of boundary edges as it is, |h|, or as if the mesh were mirrored there. Default: "as_is". */
+  /** Height of boundary edges in energies F and nF. boundary_treatment: "as_is": h itself. absolute: |h|. mirrored: as if the mesh were mirrored there. Default: "as_is". */
   boundary_treatment?: "as_is" | "absolute" | "mirrored";
-  /** what the first sweeps lower instead, before they switch to energy; null: energy from the first sweep on; ODT for ten sweeps target one scheme on a mesh of the plane without weights. Default: null. */
+  /** Energy that the first sweeps lower, before they switch to energy. null: energy from the first sweep on. If scheme is one scheme and a mesh of the plane has no weights, ten sweeps lower ODT first. Default: null. */
   first_energy?: "F" | "T" | "dT" | "BH" | "BHs" | "BP" | "nF" | "nT" | "ndT" | "ODT" | null;
-  /** of first_energy: the first sweep that lowers energy, from 0; an earlier one when the first energy has converged; at least 0. Default: 20. */
+  /** First sweep that lowers energy after first_energy, counted from 0. The switch comes earlier if the first energy has converged; at least 0. Default: 20. */
   switch_at?: number;
-  /** energy: lowers energy to the end; accuracy: lowers the distances between the midpoints of edges and of duals, once all triangles are well-centered; solver_error: then lowers the error of the solver itself, and takes longer; null: accuracy; solver_error with target vertex or cell on a plane of at most 20000 vertices; energy if energy is not BP or has switches of its own. Default: null. */
+  /** Objective of the run. energy: lower energy to the end. accuracy: once all triangles are well-centered, lower the distances between the midpoints of edges and duals. With objective: "solver_error" a third phase lowers the error of the solver itself. It takes longer. null: accuracy. With scheme: "vertex" or scheme: "cell", on a plane with at most solver_error_vertices, it is objective: "solver_error". If energy is not BP, or a switch of the paper other than order and seed is set, it is energy. Default: null. */
   objective?: "energy" | "accuracy" | "solver_error" | null;
-  /** what the mesh is for. vertex: unknowns at vertices; cell: unknowns at orthocenters (two-point flux); stars: diagonal Hodge stars; all: each of them, with larger margins. Default: "all". */
-  target?: "all" | "vertex" | "cell" | "stars";
-  /** of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle; more than 0 and less than 0.25; null: 0.1, but 0.02 target one scheme. Default: null. */
+  /** Scheme of the solver. vertex: unknowns at vertices. cell: unknowns at orthocenters, two-point flux. stars: diagonal Hodge stars. all: each of these, with larger margins. Default: "all". */
+  scheme?: "all" | "vertex" | "cell" | "stars";
+  /** Least margin in every triangle: h/l, d/l and 1 - d/l stay above it; more than 0 and less than 0.25. null: 0.1, or 0.02 if scheme is one scheme. Default: null. */
   margin?: number | null;
-  /** of accuracy: least length of interior edges, over the local size; 0: none; at least 0 and at most 0.95. Default: 0. */
+  /** Least length of interior edges, as a multiple of the local size; at least 0 and at most 0.95. Default: 0. */
   min_edge?: number;
-  /** of accuracy: the same of their dual edges, whose lengths bound time steps; at least 0 and at most 0.55. Default: 0. */
+  /** Least length of interior dual edges, as a multiple of the local size; at least 0 and at most 0.55. Default: 0. */
   min_dual?: number;
-  /** of accuracy: how many times as much as in HOT the offset of the middles counts; 1: HOT over size squared; at least 0; null: 10, but 20 for stars. Default: null. */
+  /** Factor of the offset between the midpoints of edge and dual. 1: HOT over the squared size; at least 0. null: 10, or 20 for scheme: "stars". Default: null. */
   offset_factor?: number | null;
-  /** of accuracy: the same of the height of boundary edges; at least 0; null: 5; for vertex 0.5, cell 30, stars 18. Default: null. */
+  /** Factor of the height of boundary edges, relative to HOT; at least 0. null: 5 for scheme: "all", 0.5 for vertex, 30 for cell, 18 for stars. Default: null. */
   boundary_offset_factor?: number | null;
-  /** of accuracy: factor of the logarithms that keep the margin; more than 0. Default: 0.003. */
+  /** Factor of the logarithms that keep margins and least lengths; more than 0. Default: 0.003. */
   barrier?: number;
-  /** of accuracy: at most this many, after those for the energy; at least 0. Default: 30. */
+  /** Largest number of sweeps for accuracy. They follow the sweeps for energy; at least 0. Default: 30. */
   accuracy_sweeps?: number;
-  /** of accuracy: stop when a sweep gains less than this part; at least 0. Default: 0.00001. */
+  /** Relative tolerance for accuracy. The sweeps end when one gains less than this part; at least 0. Default: 0.00001. */
   accuracy_tolerance?: number;
-  /** of error: how much the offset of the middles counts beside it, which other errors go with; at least 0. Default: 1. */
+  /** Factor of the accuracy objective, which is lowered together with the error of the solver. It keeps other errors from rising; at least 0. Default: 1. */
   offset_share?: number;
-  /** of error: at most this many, of all vertices at once, after the others; at least 0. Default: 200. */
+  /** Largest number of steps for the error of the solver. Each moves all vertices at once, after all other sweeps; at least 0. Default: 200. */
   solver_error_steps?: number;
-  /** of error: stop when ten steps gain less than this part; at least 0. Default: 0.01. */
+  /** Relative tolerance for the error of the solver. The steps end when ten of them gain less than this part; at least 0. Default: 0.01. */
   solver_error_tolerance?: number;
-  /** Newton steps in position and weight together; the paper's golden section; Newton in position, then weight. Default: "newton". */
+  /** Largest number of vertices for which the error of the solver is lowered, if objective is auto; at least 0. Default: 20000. */
+  solver_error_vertices?: number;
+  /** Method that improves one vertex. newton: Newton steps in position and weight together. golden: the paper's golden section. alternating: Newton in position, then in weight. Default: "newton". */
   solver?: "newton" | "golden" | "alternating";
-  /** what steps may change; the others stay as they are. Default: "positions_and_weights". */
+  /** Unknowns that steps may change. The others keep their values. Default: "positions_and_weights". */
   unknowns?: "positions_and_weights" | "positions" | "weights";
-  /** first sweep that changes weights, from 0; at least 0. Default: 0. */
+  /** First sweep that changes weights, counted from 0; at least 0. Default: 0. */
   weights_from?: number;
-  /** over-relaxation of Newton steps; more than 0 and less than 2; null: 1.7, but 1.97 while gamma shrinks from 1. Default: null. */
+  /** Over-relaxation of Newton steps; more than 0 and less than 2. null: 1.7, or 1.97 while gamma shrinks from 1. Default: null. */
   relaxation?: number | null;
-  /** how far golden section searches for a position: the root mean square distance to the neighbors, or that of the farthest or the nearest. Default: "rms". */
+  /** Radius of golden section for positions. rms: root mean square distance to the neighbors. max: distance to the farthest one. min: distance to the nearest one. Default: "rms". */
   search_radius?: "rms" | "max" | "min";
-  /** how far golden section searches for a weight, relative to the search radius squared; more than 0. Default: 1. */
+  /** Radius of golden section for weights, as a multiple of the squared radius for positions; more than 0. Default: 1. */
   weight_search_radius?: number;
-  /** a sweep visits each vertex once, or twice: all positions first, then all weights. Default: "once". */
+  /** Number of visits to each vertex in one sweep. twice: first all positions, then all weights. Default: "once". */
   visits?: "once" | "twice";
-  /** shift the weights after each sweep so that this vertex has weight 0; a vertex; null: they stay. Default: null. */
+  /** Vertex that has weight 0 after each sweep. All weights are shifted for this; a vertex. null: weights are not shifted. Default: null. */
   anchor?: number | null;
-  /** flip edges at once, after the inner sweeps, or never: then the connectivity stays, and no step may make an edge non-regular. Default: "immediate". */
+  /** Time at which edges flip. immediate: at once. deferred: after the inner sweeps. none: never. Then the connectivity stays, and no step may make an edge non-regular. Default: "immediate". */
   flips?: "immediate" | "deferred" | "none";
-  /** how far a step may go past the point where an edge flips; null: unlimited for barriers, after for HOT. Default: null. */
+  /** Limit of a step that makes an edge flip. The step ends before, at or after the flip, or is unlimited. null: unlimited for barriers, after for HOT. Default: null. */
   flip_limit?: "unlimited" | "before" | "at" | "after" | null;
-  /** of flip_limit: "after": where steps end, relative to the way to the flip, at first; more than 0. Default: 1.1. */
+  /** Length of a step with flip_limit: "after" in the first sweep, as a multiple of the way to the flip; more than 0. Default: 1.1. */
   overshoot?: number;
-  /** by which what the overshoot is above or below 1 shrinks each sweep; 1: it is constant; at least 0 and at most 1. Default: 0.1. */
+  /** Factor per sweep on the difference between the overshoot and 1. With factor 1 the overshoot is constant; at least 0 and at most 1. Default: 0.1. */
   overshoot_factor?: number;
-  /** where sweeps leave triangles bad: nothing; sweep again and kick vertices there, and find weights by a linear program; remove and insert vertices there, too, and keep what cures most. Default: "perturb". */
+  /** Treatment of triangles that stay invalid. none: nothing. perturb: sweep again with random moves, and find weights by a linear program. vertices: also remove and insert vertices. The best result is kept. Default: "perturb". */
   repair?: "none" | "perturb" | "vertices";
-  /** at most so many edits are tried, 1 to 3 ms each; a linear program counts as 20; at least 0. Default: 20000. */
+  /** Largest number of edits that repairs try, 1 to 3 ms each. A linear program counts as 20; at least 0. Default: 20000. */
   repair_trials?: number;
-  /** keep: the domain's boundary stays bit for bit; slide: vertices of its straight pieces, never corners, may move along them; split: edges of boundary and interfaces much longer than one they meet are cut before the sweeps, and the vertices that were there stay bit for bit. Default: "keep". */
+  /** Treatment of the boundary. keep: it stays bit for bit. slide: vertices, never corners, may move along straight pieces. split: cut long edges before the sweeps. They are edges of the boundary or of interfaces, next to much shorter ones. The old vertices stay bit for bit. Default: "keep". */
   boundary?: "keep" | "slide" | "split";
-  /** of boundary: "split": how many times as long an edge may be as one it meets; at least 2. Default: 4. */
+  /** Largest ratio of the lengths of two boundary or interface edges that meet, with boundary: "split". Longer edges are cut; at least 2. Default: 4. */
   boundary_ratio?: number;
-  /** vertices of straight region interfaces and tagged lines stay, or may move along them. Default: "fixed". */
+  /** Treatment of vertices on region interfaces and tagged lines. fixed: they stay. sliding: they may move along straight lines. Default: "fixed". */
   interfaces?: "fixed" | "sliding";
-  /** B: no step takes the size at a vertex out of the size field's 1/B to B times; at least 1; null: sizes are only reported. Default: null. */
+  /** Size band B. No step moves the size at a vertex out of the range from 1/B to B times the size field; at least 1. null: sizes are only reported. Default: null. */
   size_band?: number | null;
-  /** with deferred flips: at most so many sweeps before edges are flipped; 0: until they converge; at least 0. Default: 1. */
+  /** Largest number of sweeps before edges flip, with flips: "deferred". 0: sweep until convergence; at least 0. Default: 1. */
   inner?: number;
-  /** with deferred flips: at most so many rounds of sweeps and flips; 0: until no flips are needed; at least 0. Default: 0. */
+  /** Largest number of rounds of sweeps and flips, with flips: "deferred". 0: continue until no flips are needed; at least 0. Default: 0. */
   outer?: number;
-  /** a new weight is seen by its neighbors at once, or after the sweep (not with solver: "newton"). Default: "immediate". */
+  /** Time at which neighbors see a new weight. immediate: at once. deferred: after the sweep. With solver: "newton", positions must then be deferred too. Default: "immediate". */
   weight_updates?: "immediate" | "deferred";
-  /** the same of positions; deferred, with weight_updates: "deferred" where weights move: all unknowns are those of the sweep before. Default: "immediate". */
+  /** Time at which neighbors see a new position. immediate: at once. deferred: after the sweep. All unknowns are then from the sweep before, so weights that move need weight_updates: "deferred". Default: "immediate". */
   position_updates?: "immediate" | "deferred";
-  /** i_c: first sweep with short-edge collapses, from 0 (Algorithm 2); at least 0; null: no collapses. Default: null. */
+  /** First sweep with collapses of short edges, counted from 0. It is i_c of Algorithm 2; at least 0. null: no collapses. Default: null. */
   collapse_from?: number | null;
-  /** E_c, which draws a vertex to an edge. Default: "dT". */
+  /** Energy E_c of collapses, which draws a vertex to an edge. Default: "dT". */
   collapse_energy?: "F" | "T" | "dT";
-  /** collapse a vertex that E_c wants this near its neighbor, relative to that one's shorter edge beside; more than 0 and less than 1. Default: 0.1. */
+  /** Ratio below which a vertex collapses. It is the distance from the least E_c to the nearest neighbor, over the shorter link edge at that neighbor; more than 0 and less than 1. Default: 0.1. */
   collapse_ratio?: number;
-  /** patch: remove a vertex when its patch is better without it (Algorithm 1, line 15); weight: when its weight is far below its neighbors'. Default: "none". */
+  /** Removal of vertices. patch: if the patch is better without the vertex. This is line 15 of Algorithm 1. weight: if the weight is far below its neighbors' weights. Default: "none". */
   removal?: "none" | "patch" | "weight";
-  /** by what patches are compared: energy summed (the paper), per triangle, or above equilateral triangles. Default: "mean". */
+  /** Measure that compares patches. sum: total energy, as in the paper. mean: energy per triangle. excess: energy above the energy of equilateral triangles. Default: "mean". */
   removal_measure?: "sum" | "mean" | "excess";
-  /** by which part the patch must be better; at least 0. Default: 0.1. */
+  /** Relative gain of the patch that a removal or an insertion needs; at least 0. Default: 0.1. */
   removal_margin?: number;
-  /** of removal: "weight": how far below the mean of its neighbors', relative to their mean squared distance; more than 0. Default: 1. */
+  /** Threshold of removal: "weight". It is the distance of a weight below the mean weight of its neighbors, over their mean squared distance; more than 0. Default: 1. */
   hidden_threshold?: number;
-  /** first sweep with removals, from 0; at least 0. Default: 10. */
+  /** First sweep with removals, counted from 0; at least 0. Default: 10. */
   removal_from?: number;
-  /** first sweep after which vertices are inserted at the orthocenters of triangles of large energy, where that makes the mesh better, from 0; at least 0; null: no insertions. Default: null. */
+  /** First sweep after which vertices are inserted, counted from 0. They go to the orthocenters of triangles of large energy, if that makes the mesh better; at least 0. null: no insertions. Default: null. */
   insertion_from?: number | null;
-  /** how many times the mean energy of a triangle is large; more than 1. Default: 4. */
+  /** Ratio to the mean energy of a triangle, above which an energy is large; more than 1. Default: 4. */
   insertion_ratio?: number;
-  /** what weights hide: undo the step, remove the vertex, or keep and report it. Default: "undo". */
+  /** Treatment of vertices that weights hide. undo: undo the step. remove: remove the vertex. keep: keep the vertex and report it. Default: "undo". */
   hidden?: "undo" | "remove" | "keep";
-  /** steps that turn a triangle over are refused, or allowed as in the paper (with deferred flips); infinite: where a triangle is turned over a barrier is, so that searches step over such places, but not onto them. Default: "refuse". */
+  /** Treatment of steps that turn a triangle over. refuse: refused. allow: allowed as in the paper, with flips: "deferred". infinite: barriers are infinite there. Searches may then pass over such places, but never end there. Default: "refuse". */
   inversion?: "refuse" | "allow" | "infinite";
-  /** in which a sweep visits the vertices. Default: "hilbert". */
+  /** Order in which a sweep visits the vertices. Default: "hilbert". */
   order?: "hilbert" | "input" | "reverse" | "random";
-  /** at most this many sweeps over the vertices; at least 0. Default: 1000. */
+  /** Largest number of sweeps over the vertices; at least 0. Default: 1000. */
   max_sweeps?: number;
-  /** stop when a sweep gains less than this; at least 0. Default: 0.00001. */
+  /** Tolerance. The sweeps end when one gains less than this; at least 0. Default: 0.00001. */
   tolerance?: number;
-  /** the gain relative to the energy, or the paper's: mean energy per triangle, absolute. Default: "relative". */
+  /** Measure of the gain of a sweep. relative: relative to the energy. paper: change of the mean energy per triangle, absolute. Default: "relative". */
   stopping?: "relative" | "paper";
-  /** stop after this many seconds; 0: no limit; at least 0. Default: 0. */
+  /** Time limit of the run in seconds. 0: no limit; at least 0. Default: 0. */
   time_limit?: number;
-  /** of the jitter that frees symmetric grids, of repairs, and of order: "random"; at least 0. Default: 1. */
+  /** Seed of the jitter that frees symmetric grids, of repairs, and of order: "random"; at least 0. Default: 1. */
   seed?: number;
 }

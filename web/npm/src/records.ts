@@ -1,11 +1,11 @@
-// What functions give back, with the names that they have in Python and in reports.
+// Results of functions, with the names of Python and of reports.
 import type { Mesh } from './mesh.ts';
 import type { OptimizeOptions } from './options.ts';
 
 export interface Histogram {
   low: number;
   high: number;
-  /** In equal bins; each holds its lower end, and the end bins what lies outside. */
+  /** Counts in equal bins. Each bin contains its lower end; the end bins contain values outside too. */
   counts: number[];
 }
 
@@ -21,7 +21,7 @@ export interface WorstTriangle {
   why: string;
 }
 
-/** Counts decided exactly, margins and energies in doubles. */
+/** Measures of a mesh. Counts are exact; margins and energies are doubles. */
 export interface Quality {
   vertices: number;
   triangles: number;
@@ -43,12 +43,12 @@ export interface Quality {
   min_angle_deg: number;
   max_angle_deg: number;
   max_transmissibility_over_median: number;
-  /** The largest over the least of them. */
+  /** The largest transmissibility over the least. */
   transmissibility_ratio: number;
-  /** Of interior edges, over local size. */
+  /** Least length of interior edges over the local size. */
   min_edge_over_size: number;
   min_dual_over_size: number;
-  /** Of closed cells. */
+  /** For closed cells. */
   min_dual_over_cell_median: number;
   /** D-Flow FM; so are the next three. */
   max_orthogonality: number;
@@ -63,7 +63,7 @@ export interface Quality {
   min_triangle_angle_quality: number;
   obtuse_triangles: number;
   max_centroid_offset_over_size: number;
-  /** Of each energy the totals for ★0, ★1, ★2; Infinity outside its domain. */
+  /** Totals of each energy for ★0, ★1, ★2; Infinity outside its domain. */
   energy: Record<EnergyName, [number, number, number]>;
   /** Worst first. */
   worst: WorstTriangle[];
@@ -76,7 +76,7 @@ export type EnergyName = NonNullable<OptimizeOptions['energy']>;
 export type ObjectiveName = NonNullable<OptimizeOptions['objective']>;
 export type BoundaryTreatment = 'as_is' | 'absolute' | 'mirrored';
 
-/** A length: absolute, or relative to each edge. */
+/** A length, absolute or relative to each edge. */
 export interface LengthParameter {
   value: number;
   scale: 'absolute' | 'relative';
@@ -99,7 +99,7 @@ export interface EnergyInfo {
   positions_alone: boolean;
 }
 
-/** An energy with everything it depends on. */
+/** An energy and its parameters. */
 export interface EnergyModel {
   energy?: EnergyName;
   star?: 0 | 1 | 2;
@@ -111,7 +111,7 @@ export interface EnergyModel {
 
 /** The energy as a function of one vertex. */
 export interface VertexDerivatives {
-  /** Infinity when not feasible. */
+  /** Infinity if not feasible. */
   value: number;
   feasible: boolean;
   /** ∂E/∂x, ∂E/∂y, ∂E/∂w. */
@@ -132,11 +132,11 @@ export interface SweepRecord {
   objective: ObjectiveName;
 }
 
-/** How far a run is. */
+/** The progress of a run. */
 export interface Progress {
   /** The last whole sweep. */
   last: SweepRecord;
-  /** Of the sweep under way, in [0, 1). */
+  /** Part of the current sweep that is done, in [0, 1). */
   fraction: number;
   max_sweeps: number;
   /** An estimate of the sweeps after the last one; null in the first sweeps of a stage. Repairs may follow. */
@@ -162,17 +162,17 @@ export interface SizeReport {
 export type Stopped =
   | 'converged' | 'max_sweeps' | 'max_outer' | 'time_limit' | 'canceled' | 'tangled' | 'hidden' | 'sweep_limit';
 
-/** What `optimize` did. */
+/** The result of `optimize`. */
 export interface OptimizeReport {
   stopped: Stopped;
   sweeps: number;
   flips: number;
   vertices_removed: number;
   vertices_inserted: number;
-  /** Number in the input of each vertex, −1 for inserted ones; empty when none was removed or inserted. */
+  /** Number of each vertex in the input, −1 for inserted ones. Empty if none was removed or inserted. */
   vertices: number[];
   hidden: number[];
-  /** That the run lowered. */
+  /** Objective that the run lowered. */
   objective: ObjectiveName;
   seconds: number;
   objective_before: number;
@@ -180,7 +180,7 @@ export interface OptimizeReport {
   size: { before: SizeReport; after: SizeReport };
   /** history[0] is the input. */
   history: SweepRecord[];
-  /** What the user should know, in sentences. */
+  /** Notes for the user, in sentences. */
   notes: string[];
 }
 
@@ -191,7 +191,7 @@ export interface Snapshot {
   mesh: Mesh;
 }
 
-/** What a run did, event by event. Vertices are numbered as in the input, inserted ones follow. */
+/** An event of a run. Vertices are numbered as in the input; inserted vertices follow. */
 export interface TraceEvent {
   kind: 'move' | 'weight' | 'flip' | 'collapse' | 'removal' | 'insertion' | 'split' | 'hidden' | 'undo';
   sweep: number;
@@ -199,7 +199,7 @@ export interface TraceEvent {
   vertex: number;
   before: number;
   after: number;
-  /** x, y, w of the vertex now. */
+  /** New x, y, w of the vertex. */
   point: [number, number, number];
   /** flip: edge a→b, with c on its left and d on its right, becomes d→c; split: a→b was cut. */
   quad: [number, number, number, number];
@@ -212,12 +212,12 @@ export interface TraceEvent {
 export interface Format {
   name: string;
   description: string;
-  /** ".vtu", …, separated by spaces; the first is the one written. */
+  /** Suffixes such as ".vtu", separated by spaces. `write` uses the first. */
   suffixes: string;
   writes: boolean;
-  /** Else weights go to a file PATH.weights.csv. */
+  /** If false, weights go to a file PATH.weights.csv. */
   holds_weights: boolean;
-  /** Meshes of the plane; else only such as were read in degrees. */
+  /** Holds meshes of the plane. If false, it only holds meshes that were read in degrees. */
   holds_planes: boolean;
   holds_spheres: boolean;
 }
@@ -231,19 +231,27 @@ export interface Restoration {
   hidden: number[];
 }
 
+/** A word that sets several options. */
+export interface Preset {
+  name: string;
+  sentence: string;
+  /** Is for the study of methods. */
+  research: boolean;
+}
+
 /** A row of the table of options. */
 export interface OptionRow {
   name: string;
   group: string;
   sentence: string;
-  /** In TypeScript. */
+  /** Type in TypeScript. */
   type: string;
   choices: (string | number)[];
-  /** May be null. */
+  /** The value may be null. */
   optional: boolean;
   /** "at least 2" */
   range: string;
-  /** What null stands for. */
+  /** Meaning of null. */
   absent: string;
   default: unknown;
 }
@@ -276,7 +284,7 @@ export interface IncidenceMatrix {
   signs: Int8Array;
 }
 
-/** Of each edge, in the order of (from, to); left and right of from → to. Pairs lie one after the other. */
+/** Values of each edge, in the order of (from, to). Left and right are seen from from → to. Pairs are flat. */
 export interface DecEdges {
   vertices: Int32Array;
   /** Left and right; −1 on the boundary. */
@@ -292,7 +300,7 @@ export interface DecEdges {
   midpoint: Float64Array;
 }
 
-/** Discrete exterior calculus on a mesh: incidence, diagonal stars with signed power duals, and the dual itself. */
+/** Discrete exterior calculus on a mesh: incidence, diagonal stars with signed power duals, and the dual. */
 export interface DecComplex {
   edges: DecEdges;
   edge_of_halfedge: Int32Array;
@@ -303,9 +311,9 @@ export interface DecComplex {
   star0: Float64Array;
   star1: Float64Array;
   star2: Float64Array;
-  /** Transmissibility of a two-point flux between orthocenters; Infinity where a dual edge has no length. */
+  /** Transmissibility of a two-point flux between orthocenters. It is Infinity if a dual edge has no length. */
   transmissibility: Float64Array;
-  /** x, y of each triangle's. */
+  /** x, y of the orthocenter of each triangle. */
   orthocenters: Float64Array;
   areas: Float64Array;
   summary: DecSummary;
@@ -319,7 +327,7 @@ export interface DrawOptions {
   weight_scale?: number;
   near_coincident?: boolean;
   vertex_numbers?: boolean;
-  /** x0, y0, x1, y1: draw only what meets this box. */
+  /** x0, y0, x1, y1: draw only parts in this box. */
   zoom?: [number, number, number, number] | null;
   width?: number;
   title?: string;
@@ -335,40 +343,40 @@ export interface WeightConstraint {
   s: number;
 }
 
-/** Why no weights exist (Farkas): constraints with multipliers ≥ 0 whose sum contradicts itself. */
+/** Proof that no weights exist (Farkas): constraints with multipliers ≥ 0 whose sum is a contradiction. */
 export interface Certificate {
-  /** Refuted: no weights keep the constraints with more than this margin. */
+  /** No weights satisfy the constraints with more than this margin. */
   margin: number;
   /** None: no certificate. */
   terms: [WeightConstraint, number][];
   constraints: 'well_centered' | 'heights_only' | 'regular';
 }
 
-/** An edge u → v whose dual must cross it near u for the sake of one vertex, and near v for the sake of another. */
+/** An edge u → v whose dual must cross it near u for one vertex, and near v for another. */
 export interface EdgeConflict {
   /** u, v. */
   edge: [number, number];
   halfedge: number;
   near_u: number;
   near_v: number;
-  /** Parts of the edge's length. */
+  /** Distances, as parts of the edge's length. */
   a: number;
   b: number;
-  /** a + b: at most 1 when there is no place for the crossing. */
+  /** a + b. It is at most 1 if there is no place for the crossing. */
   sum: number;
   /** Part of the way from u. */
   split_at: number;
 }
 
-/** One side of the edge in a conflict: where its triangles let the dual cross, if they are to be well-centered. */
+/** One side of the edge in a conflict: the part of the edge where the dual may cross if its triangles are well-centered. */
 export interface CrossingSide {
   triangles: number[];
   /** Distances from the edge's first vertex, exclusive [length]. */
   from_: number;
   to: number;
-  /** Where the largest angle of these triangles is, */
+  /** Vertex of the largest angle of these triangles. */
   widest: number;
-  /** and that angle. */
+  /** The largest angle. */
   angle_deg: number;
 }
 
@@ -385,7 +393,7 @@ export interface CrossingConflict {
 export interface FanCenter {
   vertex: number;
   on_boundary: boolean;
-  /** Of the domain there, when on the boundary; else 360. */
+  /** Angle of the domain at a vertex of the boundary; else 360. */
   angle_deg: number;
   shortest: number;
   longest: number;
@@ -393,7 +401,7 @@ export interface FanCenter {
   longest_length: number;
 }
 
-/** What would cure a reason. */
+/** A cure of a reason. */
 export interface Cure {
   action: 'find_weights' | 'optimize' | 'move_vertex' | 'flip_edge' | 'insert_vertex' | 'split_edge' | 'split_boundary';
   /** A sentence. */
@@ -404,7 +412,7 @@ export interface Cure {
   vertex: number;
   triangle: number;
   at: [number, number];
-  /** Tried: the triangles of the neighborhood then have weights that make them well-centered, exactly checked. */
+  /** The cure was tried: the neighborhood then has weights that make it well-centered, checked exactly. */
   verified: boolean;
   conflict_only: boolean;
   triangles: number;
@@ -414,14 +422,14 @@ export interface Cure {
   changed: number;
 }
 
-/** Why triangles are not well-centered. */
+/** The reason why triangles are not well-centered. */
 export interface Reason {
   kind: 'split' | 'edge' | 'fan' | 'patch' | 'weights' | 'undecided';
-  /** What the reason says to people, with vertices counted from 0. */
+  /** The reason as text, with vertices counted from 0. */
   text: string;
   /** Triangles not well-centered for this reason, worst first. */
   bad: number[];
-  /** edge, fan, patch: the smallest set of triangles that no weights suit; `bad` are of these. */
+  /** edge, fan, patch: the smallest set of triangles without suitable weights. It contains `bad`. */
   conflict: number[];
   must_split: EdgeConflict | null;
   /** edge, fan, patch: the proof. */
@@ -434,7 +442,7 @@ export interface Reason {
   center: FanCenter | null;
   /** Corners that may move. */
   free: number[];
-  /** Least h/ℓ or d/ℓ of the bad triangles as they are. */
+  /** Least h/ℓ or d/ℓ of the bad triangles. */
   least_margin: number;
   /** Centroid of the worst of them. */
   at: [number, number];
@@ -443,11 +451,11 @@ export interface Reason {
   cures: Cure[];
 }
 
-/** What `explain` found. */
+/** The result of `explain`. */
 export interface Explanation {
   triangles: number;
   bad: number;
-  /** Of the whole mesh, positions and connectivity as they are. Feasible when nothing is bad. */
+  /** Verdict for the whole mesh with these positions and edges. It is feasible if no triangle is bad. */
   verdict: 'feasible' | 'infeasible' | 'undecided';
   changed: number;
   margin: number;

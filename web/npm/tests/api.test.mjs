@@ -4,6 +4,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
+import { isDeepStrictEqual } from 'node:util';
 import * as temper from 'temper-mesh';
 
 const folder = mkdtempSync(join(tmpdir(), 'temper-api-'));
@@ -31,10 +32,18 @@ test('wrong arguments are TypeErrors that name them, bad meshes TemperErrors', (
   assert.throws(() => new temper.Mesh([[0, 0, 0]], []), /points: expected rows of 2 numbers, found 3 in row 0/);
   assert.throws(() => new temper.Mesh([0, 0, 1], []), /points: expected rows of 2 numbers, found 3 in all/);
   assert.throws(() => new temper.Mesh([0, 0], [0.5, 1, 2]), /triangles: expected whole numbers/);
-  assert.throws(() => temper.optimize(square(), { sweeps: 3 }), { name: 'TypeError', message: 'there is no option sweeps' });
-  assert.throws(() => temper.optimize(square(), { max_sweeps: 1.5 }), { name: 'TypeError', message: 'max_sweeps: expected number, found 1.5' });
-  assert.throws(() => temper.optimize(square(), { energy: 'XY' }), { name: 'TemperError', code: 'invalid_option' });
-  assert.throws(() => temper.optimize(square(), { size_band: Infinity }), temper.TemperError);
+  const refuses = (given, error) => assert.throws(() => temper.optimize(square(), given), error);
+  refuses({ sweeps: 3 }, { name: 'TypeError', message: 'there is no argument sweeps' });
+  refuses({ max_sweeps: 3 }, { name: 'TypeError', message: 'max_sweeps is one of the options: {options: {max_sweeps: VALUE}}' });
+  refuses({ options: { sweeps: 3 } }, { name: 'TypeError', message: 'there is no option sweeps' });
+  refuses({ options: { max_sweeps: 1.5 } }, { name: 'TypeError', message: 'max_sweeps: expected number, found 1.5' });
+  refuses({ options: { energy: 'XY' } }, { name: 'TemperError', code: 'invalid_option' });
+  refuses({ options: { size_band: Infinity } }, temper.TemperError);
+  refuses({ target: 'modflow' }, { code: 'invalid_option', message: /^target is 'modflow'; expected one of any, valid, / });
+  refuses({ keep: 3 }, TypeError);
+  refuses({ keep: ['positions', 'weights'] }, /nothing can change/);
+  refuses({ target: 'paper', effort: 'high' }, /effort 'high' is not for target 'paper'/);
+  refuses({ boundary: 'cut' }, { code: 'invalid_option' });
   assert.throws(() => temper.generate.annulus({ inside: 3 }), TypeError);
   assert.throws(() => new temper.Mesh([[0, 0], [1, 0], [0, 1], [0, 0], [1, 1]], [[0, 1, 2], [3, 4, 2]]), { code: 'duplicate_point' });
   assert.throws(() => temper.read('none.vtu', { files: {} }), { code: 'not_found', where: 'none.vtu' });
@@ -67,12 +76,12 @@ test('positions that turn a triangle over are refused, and nothing has changed',
   assert.throws(() => mesh.n_vertices, /freed/);
 });
 
-test('an observer hears of sweeps and stops the run; what it throws is thrown when the mesh is in place', () => {
+test('a listener gets the progress and stops the run; its error is thrown when the mesh is in place', () => {
   const mesh = temper.generate.random_mesh({ vertices: 400 });
   const sweeps = [];
   const left = [];
   const report = temper.optimize(mesh, {
-    observer: ({ last, sweeps_left }) => {
+    progress: ({ last, sweeps_left }) => {
       sweeps.push(last.sweep);
       left.push(sweeps_left);
     },
@@ -81,21 +90,21 @@ test('an observer hears of sweeps and stops the run; what it throws is thrown wh
   assert.equal(left[0], null);                             // nothing to go by yet
   assert(left.some((n) => n !== null && n >= 0 && n < 1000));
   assert(sweeps.length >= report.sweeps);
-  const stopped = temper.optimize(temper.generate.random_mesh({ vertices: 400 }), { observer: ({ last }) => last.sweep < 2 });
+  const stopped = temper.optimize(temper.generate.random_mesh({ vertices: 400 }), { progress: ({ last }) => last.sweep < 2 });
   assert.equal(stopped.stopped, 'canceled');
   assert(stopped.sweeps <= 3);
   const thrown = temper.generate.random_mesh({ vertices: 400 });
   const before = temper.quality(thrown).orthocenters_outside;
-  assert.throws(() => temper.optimize(thrown, { observer: ({ last }) => { if (last.sweep === 2) throw new RangeError('enough'); } }), /enough/);
+  assert.throws(() => temper.optimize(thrown, { progress: ({ last }) => { if (last.sweep === 2) throw new RangeError('enough'); } }), /enough/);
   assert(temper.quality(thrown).orthocenters_outside < before);
   let inner = 0;
-  temper.optimize(temper.generate.letter_a(), { max_sweeps: 2, repair: 'none', observer: () => void (inner += temper.quality(square()).triangles) });
+  temper.optimize(temper.generate.letter_a(), { options: { max_sweeps: 2, repair: 'none' }, progress: () => void (inner += temper.quality(square()).triangles) });
   assert(inner > 0, 'other calls may be made meanwhile');
 });
 
 test('a trace replays to the same bits, and its beginning to a mesh', () => {
   const input = temper.generate.letter_a(), output = input.copy(), events = [];
-  const report = temper.optimize(output, { repair: 'vertices', boundary: 'split', tracer: (event) => void events.push(event) });
+  const report = temper.optimize(output, { boundary: 'split', options: { repair: 'vertices' }, hooks: { tracer: (event) => void events.push(event) } });
   assert(report.vertices_inserted > 0 && events.length > 100);
   assert(temper.replay(input, events).equals(output));
   assert.equal(temper.replay(input, events.slice(0, 50)).validate(), null);
@@ -161,8 +170,44 @@ test('SVG is drawn, and options are those of the table', () => {
   assert.match(temper.draw_before_after_svg(square(), square()), /^<svg/);
   const names = temper.option_table().map((row) => row.name);
   assert(names.includes('objective') && names.includes('max_sweeps'));
-  for (const method of [temper.paper_method(), temper.odt_method(), temper.cvt_method()]) assert.deepEqual(Object.keys(method), names);
-  temper.optimize(temper.generate.annulus(), { ...temper.paper_method(), max_sweeps: 1 });
+});
+
+test('words set options, which others override', () => {
+  const { target, effort, keep } = temper.presets();
+  const names = temper.option_table().map((row) => row.name);
+  for (const { name } of target) assert.deepEqual(Object.keys(temper.options_for(name)), names);
+  for (const { name } of effort) assert.deepEqual(Object.keys(temper.options_for('any', name)), names);
+  const defaults = Object.fromEntries(temper.option_table().map((row) => [row.name, row.default]));
+  assert.deepEqual(temper.options_for(), defaults);
+  for (const { name } of keep) {
+    const options = temper.options_for('any', 'normal', name);
+    assert.deepEqual(Object.keys(options), names);
+    assert.equal(isDeepStrictEqual(options, defaults), name === 'boundary', name); // the boundary stays by default
+  }
+  assert.deepEqual(temper.options_for('any', 'normal', ['weights']), { ...defaults, unknowns: 'positions' });
+  assert.equal(temper.options_for('mpas').star, 0);
+  assert.equal(temper.options_for('paper').solver, 'golden');
+  assert.equal(temper.options_for('any', 'high').repair, 'vertices');
+  assert.throws(() => temper.options_for('modflow'), { code: 'invalid_option' });
+
+  const run = (given) => {
+    const mesh = temper.generate.annulus();
+    temper.optimize(mesh, given);
+    return mesh;
+  };
+  const same = (a, b) => assert(run(a).equals(run(b)), JSON.stringify([a, b]));
+  same({ target: 'cell', effort: 'quick', keep: 'edges' }, { options: temper.options_for('cell', 'quick', ['edges']) });
+  same({ target: 'fem', boundary: 'slide', options: { max_sweeps: 3, boundary: 'keep' } },
+    { options: { ...temper.options_for('fem'), max_sweeps: 3, boundary: 'slide' } });
+  assert(run({ keep: ['positions', 'edges'] }).points.every((x, i) => x === temper.generate.annulus().points[i]));
+  assert(!run({ target: 'paper', options: { max_sweeps: 1 } }).equals(temper.generate.annulus()));
+});
+
+test('a time limit ends a run with a valid mesh', () => {
+  const mesh = temper.generate.random_mesh({ vertices: 2000 });
+  const report = temper.optimize(mesh, { time_limit: 0.01 });
+  assert.equal(report.stopped, 'time_limit');
+  assert.equal(mesh.validate(), null);
 });
 
 test('a mesh that was optimized elsewhere takes the place of the one that has the file', () => {
@@ -173,11 +218,11 @@ test('a mesh that was optimized elsewhere takes the place of the one that has th
   const here = temper.read('a.msh', { files });
   const there = new temper.Mesh(here.points, here.triangles, here.weights, { regions: here.regions, constrained_edges: here.constrained_edges, fixed: here.fixed });
   let seen = 0;
-  const report = temper.optimize(there, { repair: 'vertices', boundary: 'split', snapshots: ({ mesh }) => void (seen += mesh.validate() === null ? 1 : 0) });
+  const report = temper.optimize(there, { boundary: 'split', options: { repair: 'vertices' }, hooks: { snapshots: ({ mesh }) => void (seen += mesh.validate() === null ? 1 : 0) } });
   assert(seen > 0 && report.vertices.length === there.n_vertices);
   here.replace(there, report.vertices);
   const direct = temper.read('a.msh', { files });
-  temper.optimize(direct, { repair: 'vertices', boundary: 'split' });
+  temper.optimize(direct, { boundary: 'split', options: { repair: 'vertices' } });
   temper.write('here.msh', here, { files });
   temper.write('direct.msh', direct, { files });
   assert.deepEqual(files['here.msh'], files['direct.msh']);

@@ -48,7 +48,7 @@ for (const format of writable) {
     for (const encoding of format.name === 'vtu' ? encodings : ['']) {
       test(`${format.name} ${encoding} of ${name} has the bytes of the program, and is read again`, () => {
         const stem = `${format.name}-${name}${encoding}`, suffix = format.suffixes.split(' ')[0];
-        native('optimize', `${name}.vtu`, '-o', `wc-${name}.vtu`, '--quiet', '--max-sweeps', '3');
+        native('optimize', `${name}.vtu`, '-o', `wc-${name}.vtu`, '--quiet', '--set', 'max_sweeps=3');
         native('convert', `wc-${name}.vtu`, '-o', `native-${stem}${suffix}`, '--format', format.name, ...(encoding ? ['--encoding', encoding] : []));
         const mesh = temper.read(at(`wc-${name}.vtu`));
         temper.write(at(`wasm-${stem}${suffix}`), mesh, { format: format.name, ...(encoding ? { encoding } : {}) });
@@ -62,45 +62,50 @@ for (const format of writable) {
   }
 }
 
-/** Fewer than what a linear program counts as: repairs of the program ask one then, those of the module have none. */
-const kTrials = 19;
-/** Sets of options: what the module and the program are told. */
+/** Fewer trials than a linear program counts as: the module has none, so the program must use none. */
+const repair_trials = 19;
+/** Runs: what module and program are given. */
 const runs = {
-  default: { repair_trials: kTrials },
-  accuracy: { objective: 'accuracy', repair_trials: kTrials },
-  'star 0, dT': { energy: 'dT', star: 0, max_sweeps: 40 },
-  'BHs from F': { energy: 'BHs', first_energy: 'F', max_sweeps: 60, repair_trials: kTrials },
-  'split boundary': { boundary: 'split', repair_trials: kTrials },
-  'slide, band': { boundary: 'slide', size_band: 2, repair_trials: kTrials },
-  'repair by vertices': { repair: 'vertices', repair_trials: kTrials },
-  'golden section': { solver: 'golden', max_sweeps: 5 },
-  'alternating, deferred flips': { solver: 'alternating', flips: 'deferred', max_sweeps: 8 },
-  'gamma 1, random order': { gamma: { value: 1, scale: 'absolute' }, order: 'random', seed: 5, max_sweeps: 30 },
-  'removals, insertions': { removal: 'patch', removal_from: 2, insertion_from: 3, max_sweeps: 12 },
-  'overshoot past flips': { energy: 'T', flip_limit: 'after', overshoot: 1.5, overshoot_factor: 0.3, max_sweeps: 12 },
+  default: { options: { repair_trials } },
+  accuracy: { options: { objective: 'accuracy', repair_trials } },
+  'star 0, dT': { options: { energy: 'dT', star: 0, max_sweeps: 40 } },
+  'BHs from F': { options: { energy: 'BHs', first_energy: 'F', max_sweeps: 60, repair_trials } },
+  'split boundary': { boundary: 'split', options: { repair_trials } },
+  'slide, kept sizes': { boundary: 'slide', keep: ['sizes'], options: { repair_trials } },
+  'kept positions and edges': { keep: ['positions', 'edges'], options: { repair_trials } },
+  'high effort': { effort: 'high', options: { repair_trials } },
+  'target valid': { target: 'valid', effort: 'quick', options: { repair_trials } },
+  'target mpas': { target: 'mpas', options: { repair_trials } },
+  'target paper': { target: 'paper', options: { max_sweeps: 5 } },
+  'alternating, deferred flips': { options: { solver: 'alternating', flips: 'deferred', max_sweeps: 8 } },
+  'gamma 1, random order': { options: { gamma: { value: 1, scale: 'absolute' }, order: 'random', seed: 5, max_sweeps: 30 } },
+  'removals, insertions': { options: { removal: 'patch', removal_from: 2, insertion_from: 3, max_sweeps: 12 } },
+  'overshoot past flips': { options: { energy: 'T', flip_limit: 'after', overshoot: 1.5, overshoot_factor: 0.3, max_sweeps: 12 } },
 };
-// A plain number of the program is a length.
-const spell = (options) =>
-  Object.entries(options).flatMap(([name, value]) => [`--${name.replaceAll('_', '-')}`, String(value.value ?? value).replaceAll('_', '-')]);
+/** The words of the program. */
+const spell = ({ target = 'any', effort = 'normal', keep = [], boundary = 'keep', options }) => [
+  '--for', target, '--effort', effort, ...keep.flatMap((part) => ['--keep', part]), '--boundary', boundary,
+  '--set', Object.entries(options).map(([name, value]) => `${name}=${value?.scale ? `${value.value}:${value.scale}` : value}`).join(),
+];
 
-for (const [label, options] of Object.entries(runs)) {
+for (const [label, run] of Object.entries(runs)) {
   test(`optimize with ${label} ends with the bytes of the program on every example`, () => {
     let compared = 0;
     for (const name of Object.keys(examples)) {
       const stem = `run-${name}-${label.replaceAll(/\W/g, '')}`;
       let refused = null;
       try {
-        native('optimize', `${name}.vtu`, '-o', `native-${stem}.vtu`, '--quiet', ...spell(options));
+        native('optimize', `${name}.vtu`, '-o', `native-${stem}.vtu`, '--quiet', ...spell(run));
       } catch (error) {
         if (error.status !== 3 && error.status !== 1) throw error;
         refused = error.stderr;
       }
       const mesh = temper.read(at(`${name}.vtu`));
       if (refused) {
-        assert.throws(() => temper.optimize(mesh, options), temper.TemperError, refused);
+        assert.throws(() => temper.optimize(mesh, run), temper.TemperError, refused);
         continue;
       }
-      temper.optimize(mesh, options);
+      temper.optimize(mesh, run);
       temper.write(at(`wasm-${stem}.vtu`), mesh);
       expectSame(stem, `${name}, ${label}`);
       compared++;

@@ -182,7 +182,7 @@ async function optimize(): Promise<void> {
   session.remember();
   say([]);
   element('progress').textContent = 'begins';
-  const run = runner.run({ kind: 'optimize', mesh: input, options: options.values, traced }, showProgress);
+  const run = runner.run({ kind: 'optimize', mesh: input, given: options.given, traced }, showProgress);
   update();
   const { mesh, report, events, error } = await run;
   if (error) {

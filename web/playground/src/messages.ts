@@ -1,5 +1,6 @@
 // What page and worker tell each other: a mesh as arrays, a run of it, and why its triangles are bad.
-import type { Explanation, OptimizeOptions, OptimizeReport, Progress, TraceEvent } from 'temper-mesh';
+import type { Explanation, OptimizeReport, Progress, TraceEvent } from 'temper-mesh';
+import type { Given } from './options_form.ts';
 
 /** A mesh as arrays, for its way between page and worker. */
 export interface Arrays {
@@ -14,7 +15,7 @@ export interface Arrays {
 export interface Start {
   kind: 'optimize';
   mesh: Arrays;
-  options: OptimizeOptions;
+  given: Given;
   traced: boolean;
 }
 

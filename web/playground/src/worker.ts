@@ -9,22 +9,24 @@ const kMostEvents = 200_000; // as many as are worth stepping through
 
 const tell = (told: Told): void => postMessage(told);
 
-function run({ mesh: arrays, options, traced }: Start): void {
+function run({ mesh: arrays, given, traced }: Start): void {
   const mesh = meshOf(arrays);
   const events: TraceEvent[] = [];
   let last = 0;
   let seen: Snapshot | null = null;
   const report = optimize(mesh, {
-    ...options,
-    tracer: traced ? (event) => void (events.length < kMostEvents && events.push(event)) : undefined,
-    snapshots: (snapshot) => {
-      seen?.mesh.free();
-      seen = snapshot;
-    },
-    observer: (progress) => {
+    ...given,
+    progress: (progress) => {
       if (performance.now() - last < kInterval) return;
       last = performance.now();
       tell({ kind: 'progress', progress, mesh: seen && arraysOf(seen.mesh) });
+    },
+    hooks: {
+      tracer: traced ? (event) => void (events.length < kMostEvents && events.push(event)) : undefined,
+      snapshots: (snapshot) => {
+        seen?.mesh.free();
+        seen = snapshot;
+      },
     },
   });
   tell({ kind: 'done', mesh: arraysOf(mesh), report, events: events.length < kMostEvents ? events : [] });

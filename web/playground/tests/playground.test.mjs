@@ -111,9 +111,9 @@ test('each example is shown, and optimized with the bytes of the program', async
     const input = (await save('vtu'))[`${name}.vtu`];
     writeFileSync(join(folder, `${name}.vtu`), input);
     const said = await optimize();
-    assert.match(said, /converged|(max|accuracy) sweeps/, `${name}: ${said}`);
+    assert.match(said, /converged|max sweeps|sweep limit/, `${name}: ${said}`);
     const ours = (await save('vtu'))[`${name}.vtu`];
-    native('optimize', `${name}.vtu`, '-o', 'native.vtu', '--quiet', '--repair-trials', '200');
+    native('optimize', `${name}.vtu`, '-o', 'native.vtu', '--quiet', '--set', 'repair_trials=200');
     assert(ours.equals(readFileSync(join(folder, 'native.vtu'))), `${name}: other bytes than the program's`);
     if (['horseshoe', 'airfoil', 'large'].includes(name)) await shot(name);
   }
@@ -233,28 +233,42 @@ test('a run is stopped, with the mesh of its last sweep', async () => {
   await page.locator('summary').click();
 });
 
-test('accuracy and repair are options, and have the bytes of the program', async () => {
+test('target, effort and boundary are choices, and have the bytes of the program', async () => {
   await choose('letter');
   writeFileSync(join(folder, 'letter.vtu'), (await save('vtu'))['letter.vtu']);
-  await page.selectOption('#option-objective', 'accuracy');
+  await page.locator('summary').click();
+  await page.fill('#option-max_sweeps', '900');
+  await page.selectOption('#option-target', 'cell');
+  await page.selectOption('#option-effort', 'high');
   await page.selectOption('#option-boundary', 'split');
-  await page.selectOption('#option-repair', 'vertices');
+  assert.equal(await page.inputValue('#option-repair'), 'vertices', 'the form shows the options of the words');
+  assert.equal(await page.inputValue('#option-max_sweeps'), '900', 'a change by hand stays');
   await optimize();
   assert.equal(await bad(), 0);
-  native('optimize', 'letter.vtu', '-o', 'native.vtu', '--quiet', '--objective', 'accuracy', '--boundary', 'split', '--repair', 'vertices');
+  native('optimize', 'letter.vtu', '-o', 'native.vtu', '--quiet', '--for', 'cell', '--effort', 'high', '--boundary', 'split', '--set', 'max_sweeps=900');
   assert((await save('vtu'))['letter.vtu'].equals(readFileSync(join(folder, 'native.vtu'))));
   await shot('letter');
-  await page.selectOption('#option-objective', '');
+
+  await page.selectOption('#option-target', 'paper');
+  await page.click('#optimize');
+  await page.waitForSelector('#messages .error');
+  assert.match(await page.innerText('#messages'), /effort 'high' is not for target 'paper'/);
+  await page.selectOption('#option-target', 'any');
+  await page.selectOption('#option-effort', 'normal');
   await page.selectOption('#option-boundary', 'keep');
-  await page.selectOption('#option-repair', 'moves');
+  await page.fill('#option-max_sweeps', '1000');
+  assert.equal(await page.inputValue('#option-repair'), 'perturb');
+  await page.locator('summary').click();
 });
 
 test('a wrong option is refused in the words of the library', async () => {
+  await page.locator('summary').click();
   await page.fill('#option-max_sweeps', '-3');
   await page.click('#optimize');
   await page.waitForSelector('#messages .error');
   assert.match(await page.innerText('#messages'), /max_sweeps is -3; expected at least/);
   await page.fill('#option-max_sweeps', '1000');
+  await page.locator('summary').click();
 });
 
 test('a trace is stepped through from the input to the result', async () => {
