@@ -28,9 +28,9 @@ constexpr auto kTargets = std::to_array<Preset>({
        o.accuracy.sweeps = 0;
        o.accuracy.margin = 0.02;
      }},
-    {"vertex", "Unknowns at vertices: Voronoi finite volumes, exterior calculus",
+    {"vertex", "Unknowns at vertices: MODFLOW, DEVSIM, exterior calculus",
      [](Options& o) { o.scheme = Scheme::vertex; }},
-    {"cell", "Unknowns in triangles, two-point flux: PorePy, FiPy, MODFLOW",
+    {"cell", "Unknowns in triangles, two-point flux: PorePy, FiPy",
      [](Options& o) { o.scheme = Scheme::cell; }},
     {"stars", "Diagonal Hodge stars of exterior calculus", [](Options& o) { o.scheme = Scheme::stars; }},
     {"mpas", "MPAS: no weights, centered cells; may add and remove vertices",
