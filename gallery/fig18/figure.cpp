@@ -67,7 +67,8 @@ struct Pair {
 std::array<Pair, 3> make_runs(double tolerance) {
   std::array<Pair, 3> pairs;
   for (std::size_t i = 0; i < kEnergies.size(); ++i) {
-    const double enough = kEnergies[i] == "T" ? options_for("paper")->paper.tolerance : tolerance;  // few sweeps in any case
+    const double enough =
+        kEnergies[i] == "T" ? options_for("paper")->paper.tolerance : tolerance;  // few sweeps in any case
     pairs[i] = {make_run(kEnergies[i], 0, enough), make_run(kEnergies[i], 2, enough)};
   }
   return pairs;

@@ -148,9 +148,9 @@ const std::vector<Baseline>& baselines() {
     barrier.repair = Repair::none;
     OptimizeOptions positions = barrier;
     positions.unknowns = Unknowns::positions;
-    return std::vector<Baseline>{baseline("ODT, positions", *options_for("odt")), baseline("CVT, positions", *options_for("cvt")),
-                                 baseline("E_BP, positions", positions),
-                                 baseline("E_BP, positions and weights", barrier)};
+    return std::vector<Baseline>{
+        baseline("ODT, positions", *options_for("odt")), baseline("CVT, positions", *options_for("cvt")),
+        baseline("E_BP, positions", positions), baseline("E_BP, positions and weights", barrier)};
   }();
   return all;
 }

@@ -40,7 +40,6 @@ WRONG_OPTIONS = ("docs/reference/cli/mistakes.md",)  # a test of the program run
 DRAWN_ELSEWHERE = {
     "report.jpg": "a browser shows the page of `temper optimize --write FILE.html`",
     "signs.svg": "drawn by hand: symbols, no numbers",
-    "summary.svg": "`temper paper reproduce -o gallery` writes gallery/summary.svg",
 }
 COLUMNS = ("before", "energy", "default", "accuracy", "for")  # of `results`, which a benchmark leaves
 HEAD = ["page", "client", "measured", "before", "energy", "`optimize`", "accuracy", "`--for`"]

@@ -177,8 +177,8 @@ TEMPER_EXPORT(dec_summary) int dec_summary(const HeldMesh* held, const DecComple
 namespace {
 
 DrawOptions draw_options_from(const Json& given) {
-  constexpr std::string_view kNames[] = {
-      "primal", "dual", "fill", "weights", "weight_scale", "near_coincident", "vertex_numbers", "zoom", "width", "title"};
+  constexpr std::string_view kNames[] = {"primal",          "dual",           "fill", "weights", "weight_scale",
+                                         "near_coincident", "vertex_numbers", "zoom", "width",   "title"};
   expect_names(given, kNames);
   DrawOptions o;
   take(given, "primal", o.primal), take(given, "dual", o.dual), take(given, "fill", o.fill);

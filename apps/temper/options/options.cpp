@@ -173,9 +173,10 @@ std::string shell_quote(const std::string& word) {
   return quoted + "'";
 }
 
-std::string command_line(const std::string& verb, const std::string& path) {
+std::string command_line(const std::string& verb, const std::string& path, const std::string& projection) {
   // A name with a dash must not be taken for an option.
-  return fmt::format("temper {} {}", verb, shell_quote(path.starts_with('-') ? "./" + path : path));
+  const std::string map = projection.empty() ? "" : " --projection=" + shell_quote(projection);
+  return fmt::format("temper {} {}{}", verb, shell_quote(path.starts_with('-') ? "./" + path : path), map);
 }
 
 std::string command_line(const Command& command, const std::vector<std::string>& positionals) {

@@ -116,8 +116,8 @@ Option& add_length_parameter(Command& command, const std::string& name, std::opt
 
 /// `temper VERB POSITIONALS --option=value …` with the options that were given, quoted for a POSIX shell.
 [[nodiscard]] std::string command_line(const Command& command, const std::vector<std::string>& positionals);
-/// `temper VERB PATH`
-[[nodiscard]] std::string command_line(const std::string& verb, const std::string& path);
+/// `temper VERB PATH --projection=P`
+[[nodiscard]] std::string command_line(const std::string& verb, const std::string& path, const std::string& projection);
 [[nodiscard]] std::string shell_quote(const std::string& word);
 
 /// --projection, of verbs that read a mesh in longitude and latitude (projection_option.hpp).

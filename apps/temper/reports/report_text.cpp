@@ -170,8 +170,7 @@ std::string verdict(const Quality& quality) {
 
 std::string next_step(const Quality& quality, const std::string& path, const std::string& projection) {
   if (bad_triangles(quality) == 0 || path == kStandardOutput) return {};
-  const std::string map = projection.empty() ? "" : " --projection=" + shell_quote(projection);
-  return fmt::format("Next: {}{}\n", command_line("explain", path), map);
+  return fmt::format("Next: {}\n", command_line("explain", path, projection));
 }
 
 namespace {

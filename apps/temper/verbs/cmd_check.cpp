@@ -129,7 +129,8 @@ class Checks {
     std::string text = fmt::format("{}: {} vertices, {} triangles\n{}{}\n", path, measured.vertices, measured.triangles,
                                    brief_text(measured), verdict(measured));
     if (bad_triangles(measured) > 0 && path != kStandardInput)
-      text += fmt::format("Next: {} -o OUT, or {}\n", command_line("optimize", path), command_line("explain", path));
+      text += fmt::format("Next: {} -o OUT, or {}\n", command_line("optimize", path, s_.projection),
+                          command_line("explain", path, s_.projection));
     return text;
   }
 

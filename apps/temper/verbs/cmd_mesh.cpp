@@ -339,7 +339,7 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   if (!s.files.picture.empty()) outputs.write_picture(s.files.picture, draw_svg(made.mesh));
   if (!s.quiet) {
     print(mesh_text(record) + fmt::format("{}: {}\n", s.output.path, verdict(after)));
-    if (!s.sphere) print(next_step(after, s.output.path, ""));
+    if (!s.sphere) print(next_step(after, s.output.path, s.projection));
   }
   return stopped_early(made.report.stopped) ? Exit::stopped_early : Exit::done;
 }

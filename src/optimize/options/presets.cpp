@@ -30,8 +30,7 @@ constexpr auto kTargets = std::to_array<Preset>({
      }},
     {"vertex", "Unknowns at vertices: MODFLOW, DEVSIM, exterior calculus",
      [](Options& o) { o.scheme = Scheme::vertex; }},
-    {"cell", "Unknowns in triangles, two-point flux: PorePy, FiPy",
-     [](Options& o) { o.scheme = Scheme::cell; }},
+    {"cell", "Unknowns in triangles, two-point flux: PorePy, FiPy", [](Options& o) { o.scheme = Scheme::cell; }},
     {"stars", "Diagonal Hodge stars of exterior calculus", [](Options& o) { o.scheme = Scheme::stars; }},
     {"mpas", "MPAS: no weights, centered cells; may add and remove vertices",
      [](Options& o) {

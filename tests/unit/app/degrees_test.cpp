@@ -60,6 +60,8 @@ TEST_F(Degrees, AreOptimizedOnAMapAndWrittenAsTheyCame) {
   }
   EXPECT_GT(stayed, 20u) << "the coast";
   EXPECT_LT(stayed, before->points.size() / 2);
+  const Outcome bad = temper_ok({"check", "fort.14", "--projection", "stereographic:-10,57"});
+  EXPECT_TRUE(contains(bad.out, "temper optimize fort.14 --projection=stereographic:-10,57 -o OUT"));
   // On the same map it is what the run said that it is, and a run on the plane of degrees would not be.
   temper_ok({"check", "out.14", "--projection", "stereographic:-10,57", "--require", "outside=0,not_crossed=0"});
   temper_ok({"optimize", "fort.14", "-o", "plane.14", "--projection", "none", "--quiet"});
