@@ -33,7 +33,7 @@ for name, mesh in meshes.items():
     bad = temper.quality(mesh).orthocenters_outside
     print(f"{name:8}  bad {bad:2}  flux {mean.flux.l2:.2e}  Poisson {mean.poisson.l2:.2e}")
 assert results["for"] < results["before"]
-temper.draw_svg(meshes["for"], meshes["before"], weights=False).save("gmsh.svg")
+temper.draw_svg(meshes["for"], meshes["before"]).save("gmsh.svg")
 
 temper.write("better.msh", meshes["for"])
 gmsh.open("better.msh")  # Gmsh has groups, and weights as a view
