@@ -4,8 +4,8 @@ import type { LengthParameterLike } from './records.ts';
 /** Use of the mesh.
  * - `any`: Any solver on a dual mesh: large margins, smaller errors.
  * - `valid`: Valid triangles alone: the fastest run.
- * - `vertex`: Unknowns at vertices: Voronoi finite volumes, exterior calculus.
- * - `cell`: Unknowns in triangles, two-point flux: PorePy, FiPy, MODFLOW.
+ * - `vertex`: Unknowns at vertices: MODFLOW, DEVSIM, exterior calculus.
+ * - `cell`: Unknowns in triangles, two-point flux: PorePy, FiPy.
  * - `stars`: Diagonal Hodge stars of exterior calculus.
  * - `mpas`: MPAS: no weights, centered cells; may add and remove vertices.
  * - `dflowfm`: D-Flow FM: no weights, orthogonal; may add and remove vertices.
