@@ -20,6 +20,14 @@ constexpr double kLongEdge = 0.75, kLongDual = 0.3;
 
 void move_positions_alone(Options& o) { o.unknowns = Unknowns::positions; }
 
+/// For solvers that use circumcenters, or no dual: positions alone, with edges of at least these lengths.
+void place_vertices(Options& o, double min_dual) {
+  move_positions_alone(o);
+  o.repair = Repair::vertices;
+  o.accuracy.min_edge = kLongEdge;
+  o.accuracy.min_dual = min_dual;
+}
+
 constexpr auto kTargets = std::to_array<Preset>({
     {"any", "Any solver on a dual mesh: large margins, smaller errors", [](Options&) {}},
     {"valid", "Valid triangles alone: the fastest run",
@@ -34,25 +42,13 @@ constexpr auto kTargets = std::to_array<Preset>({
     {"stars", "Diagonal Hodge stars of exterior calculus", [](Options& o) { o.scheme = Scheme::stars; }},
     {"mpas", "MPAS: no weights, centered cells; may add and remove vertices",
      [](Options& o) {
-       move_positions_alone(o);
+       place_vertices(o, kLongDual);
        o.star = Star::zero;
-       o.repair = Repair::vertices;
-       o.accuracy.min_edge = kLongEdge;
-       o.accuracy.min_dual = kLongDual;
      }},
     {"dflowfm", "D-Flow FM: no weights, orthogonal; may add and remove vertices",
-     [](Options& o) {
-       move_positions_alone(o);
-       o.repair = Repair::vertices;
-       o.accuracy.min_edge = kLongEdge;
-       o.accuracy.min_dual = kLongDual;
-     }},
+     [](Options& o) { place_vertices(o, kLongDual); }},
     {"adcirc", "ADCIRC, SCHISM: no weights, long edges; may add and remove vertices",
-     [](Options& o) {
-       move_positions_alone(o);
-       o.repair = Repair::vertices;
-       o.accuracy.min_edge = kLongEdge;
-     }},
+     [](Options& o) { place_vertices(o, 0); }},
     {"fem", "Linear finite elements: no weights, good angles, the same vertices",
      [](Options& o) {
        move_positions_alone(o);
