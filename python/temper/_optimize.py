@@ -319,10 +319,7 @@ def optimize(
                 raise ValueError(f"{name}: is of the mesh's plane, and does not go with tensor")
     observer = progress if callable(progress) else None
     line = Line(False if observer is not None or _is_helper(hooks.communicator) else progress)
-    changes = {"boundary": boundary, "time_limit": time_limit}
-    settings = settled(target, effort, keep, options)
-    settings = dataclasses.replace(settings, **{name: value for name, value in changes.items() if value is not None})
-    plain = settings._plain()
+    plain = settled(target, effort, keep, options, boundary=boundary, time_limit=time_limit)._plain()
     changed = as_mesh(mesh)
     tracer, snapshots = hooks.tracer, hooks.snapshots
     trace = (lambda event: tracer(TraceEvent(**event))) if tracer is not None else None

@@ -91,16 +91,26 @@ OptimizeOptions = dataclasses.make_dataclass(
 )
 
 
-def settled(target: str, effort: str, keep: Any, options: Any) -> Any:
-    """The options of a run: those of the words, with ``options`` on top. Warns about options without effect."""
+def settled(target: str, effort: str, keep: Any, options: Any, **changes: Any) -> Any:
+    """The options of a run: those of the words, with ``options`` and ``changes`` on top. None changes nothing.
+
+    Warns about options without effect.
+    """
+    changes = {name: value for name, value in changes.items() if value is not None}
     if isinstance(options, OptimizeOptions):
         if (target, effort, keep) != ("any", "normal", ()):
             raise TypeError("options: has all options already, so target, effort and keep have no effect; expected a dict")
-        return options
-    result = options_for(target, effort, keep, **(options or {}))
-    for sentence in _temper.idle_options(result._plain(), list(options or {})):
+        return dataclasses.replace(options, **changes)
+    result = options_for(target, effort, keep, **{**(options or {}), **changes})
+    plain = result._plain()
+    _temper.check_kept(plain, _words(keep))
+    for sentence in _temper.idle_options(plain, list(options or {})):
         warnings.warn(sentence, TemperWarning, stacklevel=3)
     return result
+
+
+def _words(keep: Any) -> tuple[str, ...]:
+    return (keep,) if isinstance(keep, str) else tuple(keep)
 
 
 PRESETS: dict[str, dict[str, str]] = _temper.presets()
@@ -160,7 +170,6 @@ def options_for(target: str = "any", effort: str = "normal", keep: Any = (), **c
     for name in changes:
         if name not in OPTION_NAMES:
             raise TypeError(f"there is no option {name!r}; help(temper.OptimizeOptions) lists all")
-    words = (keep,) if isinstance(keep, str) else tuple(keep)
-    plain = _temper.options_for(target, effort, words)
+    plain = _temper.options_for(target, effort, _words(keep))
     options = OptimizeOptions(**{name: _from_plain(name, value) for name, value in plain.items()})
     return dataclasses.replace(options, **changes)

@@ -188,6 +188,8 @@ def sorted_into_arguments(words):
     [
         (dict(target="mpass"), "mpas"),
         (dict(keep=("positions", "weights")), "nothing can change"),
+        (dict(keep="edges", flips="immediate"), "keep 'edges' contradicts flips=\"immediate\""),
+        (dict(keep="boundary", boundary="slide"), "keep 'boundary' contradicts"),
         (dict(energy="HOT"), "BP"),
         (dict(solver="nwton"), "solver is nwton; expected newton, golden or alternating"),
         (dict(star=3), "star"),

@@ -414,7 +414,7 @@ def test_a_sphere_is_drawn_from_where_one_looks(globe, ring):
     assert globe._repr_svg_() is not None
     before = globe.copy()
     temper.optimize(globe)
-    both = temper.draw_svg(globe, before, view=(30, 40))
+    both = temper.draw_svg(globe, before, view=(30, 40), weights=True)
     assert both.count('class="limb"') == 2 and 'class="weight-positive"' in both
     with pytest.raises(temper.TemperError, match="one mesh is of the plane and the other of a sphere"):
         temper.draw_svg(globe, ring)

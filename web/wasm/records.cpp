@@ -216,6 +216,7 @@ OptimizeOptions options_from(const Json& given) {
   for (const char* key : {"boundary", "time_limit"}) {
     if (given.contains(key)) set_option(options, key, given[key]);
   }
+  or_fail(check_kept(options, parts));
   return options;
 }
 

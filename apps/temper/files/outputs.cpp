@@ -58,6 +58,25 @@ std::string what_it_is(const std::string& file, const std::string& input, std::s
                                 : fmt::format("{} is read with {}, {}", file, input, what);
 }
 
+const OutputKind* kind_of(std::span<const OutputKind> kinds, const std::string& path) {
+  const std::string suffix = fs::path(path).extension().string();
+  for (const OutputKind& kind : kinds) {
+    const std::vector<std::string> suffixes = separated(kind.suffixes, ' ');
+    if (std::ranges::find(suffixes, suffix) != suffixes.end()) return &kind;
+  }
+  return nullptr;
+}
+
+/// ".json (report), .html (page) or .svg .png .pdf (picture)"
+std::string list_of(std::span<const OutputKind> kinds) {
+  std::string text;
+  for (const OutputKind& kind : kinds) {
+    text += text.empty() ? "" : &kind == &kinds.back() ? " or " : ", ";
+    text += fmt::format("{} ({})", kind.suffixes, kind.what);
+  }
+  return text;
+}
+
 }  // namespace
 
 void add_mesh_output(Command& command, MeshOutput& target, const std::string& value_name, const std::string& sentence) {
@@ -87,29 +106,6 @@ void add_mesh_output(Command& command, MeshOutput& target, const std::string& va
            "Leave out the cell data well_centered, min_h_over_l, min_d_over_l and min_angle_deg of VTU and VTKHDF.",
        .take = [&target](const std::string&) { target.options.triangle_quality = false; }});
 }
-
-namespace {
-
-const OutputKind* kind_of(std::span<const OutputKind> kinds, const std::string& path) {
-  const std::string suffix = fs::path(path).extension().string();
-  for (const OutputKind& kind : kinds) {
-    const std::vector<std::string> suffixes = separated(kind.suffixes, ' ');
-    if (std::ranges::find(suffixes, suffix) != suffixes.end()) return &kind;
-  }
-  return nullptr;
-}
-
-/// ".json (report), .html (page) or .svg .png .pdf (picture)"
-std::string list_of(std::span<const OutputKind> kinds) {
-  std::string text;
-  for (const OutputKind& kind : kinds) {
-    text += text.empty() ? "" : &kind == &kinds.back() ? " or " : ", ";
-    text += fmt::format("{} ({})", kind.suffixes, kind.what);
-  }
-  return text;
-}
-
-}  // namespace
 
 Option& add_write(Command& command, std::vector<std::string>& paths, std::span<const OutputKind> kinds) {
   return add_texts(command, "--write", "FILE ...", Values::words, paths,

@@ -130,6 +130,23 @@ std::string worst_text(const Quality& quality, const Input& input, const TextSty
   return text;
 }
 
+/// A row of the short report.
+struct BriefRow {
+  const char* label;
+  std::string (*text)(const Quality&);
+};
+
+std::string brief_number(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "infinite"; }
+
+const BriefRow kBriefRows[] = {
+    {"triangles not well-centered", [](const Quality& q) { return std::to_string(bad_triangles(q)); }},
+    {"least margin", [](const Quality& q) { return brief_number(std::min(q.min_h_over_l, q.min_d_over_l)); }},
+    {"transmissibility, max/median", [](const Quality& q) { return brief_number(q.max_transmissibility_over_median); }},
+    {"angles (degrees)",
+     [](const Quality& q) { return fmt::format("{:.1f} - {:.1f}", q.min_angle_deg, q.max_angle_deg); }},
+    {"least edge/size", [](const Quality& q) { return brief_number(q.min_edge_over_size); }},
+};
+
 }  // namespace
 
 std::string in_ascii(std::string text) {
@@ -172,27 +189,6 @@ std::string next_step(const Quality& quality, const std::string& path, const std
   if (bad_triangles(quality) == 0 || path == kStandardOutput) return {};
   return fmt::format("Next: {}\n", command_line("explain", path, projection));
 }
-
-namespace {
-
-/// A row of the short report.
-struct BriefRow {
-  const char* label;
-  std::string (*text)(const Quality&);
-};
-
-std::string brief_number(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "infinite"; }
-
-const BriefRow kBriefRows[] = {
-    {"triangles not well-centered", [](const Quality& q) { return std::to_string(bad_triangles(q)); }},
-    {"least margin", [](const Quality& q) { return brief_number(std::min(q.min_h_over_l, q.min_d_over_l)); }},
-    {"transmissibility, max/median", [](const Quality& q) { return brief_number(q.max_transmissibility_over_median); }},
-    {"angles (degrees)",
-     [](const Quality& q) { return fmt::format("{:.1f} - {:.1f}", q.min_angle_deg, q.max_angle_deg); }},
-    {"least edge/size", [](const Quality& q) { return brief_number(q.min_edge_over_size); }},
-};
-
-}  // namespace
 
 std::string brief_text(const Quality& quality) {
   std::string text;

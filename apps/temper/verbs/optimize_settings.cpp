@@ -144,17 +144,6 @@ void expect_one_value(const Assignments& assignments) {
   }
 }
 
-/// Refuses settings that change what --keep names.
-void expect_kept(const OptimizeSettings& s) {
-  for (const Preset& part : keeps()) {
-    if (std::ranges::find(s.keep, part.name) == s.keep.end()) continue;
-    OptimizeOptions kept = s.options;
-    part.apply(kept);
-    if (const std::string changed = differences(s.options, kept); !changed.empty())
-      refuse_usage("optimize", fmt::format("--keep {} contradicts {}", part.name, changed));
-  }
-}
-
 }  // namespace
 
 Command optimize_command(OptimizeSettings& settings) {
@@ -216,7 +205,8 @@ void settle_options(Command& command, OptimizeSettings& s) {
   s.options = *options;
   s.set_by_target = differences(*options_for(s.target), OptimizeOptions());
   assign(s.assignments, s.options);
-  expect_kept(s);
+  if (const auto kept = check_kept(s.options, keep); !kept)
+    refuse_usage("optimize", spell_options(kept.error()).message);
 }
 
 std::vector<std::string> doubtful_options(const Command& command, const OptimizeSettings& s) {

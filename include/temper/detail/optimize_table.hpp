@@ -76,6 +76,8 @@ struct Preset {
 [[nodiscard]] std::span<const Preset> efforts();
 /// The parts of a mesh that a run can keep.
 [[nodiscard]] std::span<const Preset> keeps();
+/// Returns an error if options change a part of the mesh to keep.
+[[nodiscard]] Expected<void> check_kept(const OptimizeOptions& options, std::span<const std::string_view> keep);
 
 /// Returns the table.
 [[nodiscard]] std::span<const OptionGroup> option_groups();

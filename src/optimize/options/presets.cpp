@@ -187,4 +187,24 @@ Expected<OptimizeOptions> options_for(std::string_view target, std::string_view 
   return options;
 }
 
+Expected<void> check_kept(const OptimizeOptions& options, std::span<const std::string_view> keep) {
+  for (const std::string_view name : keep) {
+    const Expected<const Preset*> part = find(kKeeps, "keep", name);
+    if (!part) return part.error();
+    Options kept = options;
+    (*part)->apply(kept);
+    for (const OptionGroup& group : option_groups()) {
+      for (const OptionRow& row : group.rows) {
+        const OptionValue value = row.get(options);
+        if (value == row.get(kept)) continue;
+        return InputError{ErrorCode::invalid_option,
+                          {},
+                          "keep '" + std::string(name) + "' contradicts `" + std::string(row.name) + "=" +
+                              option_text(row, value) + "`; expected one of the two"};
+      }
+    }
+  }
+  return {};
+}
+
 }  // namespace temper

@@ -371,7 +371,7 @@ TEST_F(Trace, SwitchesThatContradictEachOtherAreRefused) {
     return outcome.err;
   };
   EXPECT_TRUE(
-      contains(refused({"--keep", "edges", "--set", "flips=immediate"}), "--keep edges contradicts flips=immediate"));
+      contains(refused({"--keep", "edges", "--set", "flips=immediate"}), "keep 'edges' contradicts --set flips=immediate"));
   EXPECT_TRUE(contains(refused({"--for", "paper", "--for", "any"}), "--for is given more than once"));
   EXPECT_TRUE(contains(refused({"--boundary", "split", "--keep", "edges"}), "expected --set flips=immediate"));
   EXPECT_TRUE(contains(refused({"--boundary", "slide", "--set", "inversion=allow", "--set", "flips=deferred"}),

@@ -89,6 +89,17 @@ TEST(Presets, WhatLeavesNothingToChangeIsRefused) {
             std::string::npos);
 }
 
+TEST(Presets, OptionsThatChangeAPartToKeepAreRefused) {
+  OptimizeOptions options = *options_for("cell", "normal", Words{"boundary", "edges"});
+  EXPECT_TRUE(check_kept(options, Words{"boundary", "edges"}));
+  options.boundary = BoundaryVertices::slide;
+  const auto kept = check_kept(options, Words{"edges", "boundary"});
+  ASSERT_FALSE(kept);
+  EXPECT_EQ(kept.error().message, "keep 'boundary' contradicts `boundary=slide`; expected one of the two");
+  EXPECT_TRUE(check_kept(options, Words{"edges"}));
+  EXPECT_FALSE(check_kept(options, Words{"corners"}));
+}
+
 TEST(Presets, AnUnknownWordIsToldWithAllWords) {
   for (const std::string& text : {message(options_for("mpass")), message(options_for("any", "hard")),
                                   message(options_for("any", "normal", Words{"points"}))}) {
