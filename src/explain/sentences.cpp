@@ -25,7 +25,8 @@ class Speaker {
     const bool boundary = !mesh_.find_halfedge(p, q).valid() || !mesh_.find_halfedge(q, p).valid();
     return (boundary ? "boundary edge " : "edge ") + number(p) + "-" + number(q);
   }
-  [[nodiscard]] static std::string place(Vec2 p) { return "(" + rounded(p.x) + ", " + rounded(p.y) + ")"; }
+  /// Nine digits find a place on a map, in meters.
+  [[nodiscard]] static std::string place(Vec2 p) { return "(" + rounded(p.x, 9) + ", " + rounded(p.y, 9) + ")"; }
 
   /// "triangle 3", "triangles 3, 5 and 8", "triangles 3, 5, … (12 in all)".
   template <class IdType>

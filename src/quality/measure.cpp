@@ -259,9 +259,9 @@ std::string number_of(TriangleId t, const InputNames* names) {
 }
 
 // Four digits are enough for people; the report has the numbers in full.
-std::string rounded(double value) {
+std::string rounded(double value, int digits) {
   char buffer[64];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 4);
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits);
   return {buffer, result.ptr};
 }
 

@@ -72,7 +72,7 @@ class WorstList {
 [[nodiscard]] std::string number_of(VertexId v, const InputNames* names);
 [[nodiscard]] std::string number_of(TriangleId t, const InputNames* names);
 /// "0.1234", and "138.3°": numbers rounded for people.
-[[nodiscard]] std::string rounded(double value);
+[[nodiscard]] std::string rounded(double value, int digits = 4);
 [[nodiscard]] std::string degrees(double angle);
 
 /// Two passes, over triangles and over vertices. All executors give equal results. Precondition: no erased triangles.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "suggest.hpp"
@@ -77,7 +78,7 @@ std::span<const std::string_view> flags_of_a_run() { return kFlags; }
 void read_options(Command& command, const std::string& path, Assignments& assignments) {
   Assignments read;
   std::vector<std::string> known;
-  for (const std::string_view flag : kFlags) known.push_back(member_of(flag));
+  std::ranges::transform(kFlags, std::back_inserter(known), member_of);
   const Json json = parse(path);
   for (const auto& [member, value] : json.items()) {
     try {

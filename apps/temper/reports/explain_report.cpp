@@ -116,7 +116,7 @@ std::string command(const Mesh& mesh, const Cure& cure) {
 
 std::string paragraph(const Reason& reason, std::size_t number, const Input& input, const TextStyle& style) {
   const std::string head = pad_left(std::to_string(number) + ". ", kIndent);
-  std::string text = head + wrapped(fmt::format("At ({:.4g}, {:.4g}): ", reason.at.x, reason.at.y) +
+  std::string text = head + wrapped(fmt::format("At ({:.9g}, {:.9g}): ", reason.at.x, reason.at.y) +
                                         reason_text(input.mesh(), reason, input.names.get()),
                                     kIndent, style);
   for (const Cure& cure : reason.cures) {

@@ -118,7 +118,7 @@ std::string worst_text(const Quality& quality, const Input& input, const TextSty
   std::string text = "\nworst triangles\n";
   for (const WorstTriangle& worst : quality.worst) {
     const auto name = [&input](VertexId v) { return input.vertex_number(v); };
-    text += fmt::format("  {} ({} {} {}) at {:.6g} {:.6g}: h/l {:.4g}, largest angle {:.5g}\n",
+    text += fmt::format("  {} ({} {} {}) at {:.9g} {:.9g}: h/l {:.4g}, largest angle {:.5g}\n",
                         input.triangle_number(worst.triangle), name(worst.vertices[0]), name(worst.vertices[1]),
                         name(worst.vertices[2]), worst.at.x, worst.at.y, worst.h_over_l, worst.angle_deg);
     const std::string why = renumber(worst.why, name);

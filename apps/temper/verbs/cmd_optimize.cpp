@@ -1,7 +1,9 @@
 // temper optimize IN -o OUT: reads, improves, writes, reports.
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -177,6 +179,13 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
   if (!s.files.picture.empty()) results.picture = draw_before_after_svg(results.original, *seen);
 }
 
+bool has_weights(const Mesh& mesh) {
+  for (const VertexId v : mesh.vertices()) {
+    if (mesh.weight(v) != 0) return true;
+  }
+  return false;
+}
+
 VertexId find_vertex(const Input& input, std::string_view option, const std::string& number) {
   for (const VertexId v : input.mesh().vertices()) {
     if (input.vertex_number(v) == number) return v;
@@ -203,6 +212,8 @@ std::string ending(const OptimizeReport& report) {
   };
   add_vertices(report.vertices_removed, "removed");
   add_vertices(report.vertices_inserted, "inserted");
+  if (report.objective == Objective::solver_error && std::isfinite(report.objective_before))
+    work += fmt::format("; solver error {:.3g} times the input's", report.objective_after / report.objective_before);
   switch (report.stopped) {
     case Stopped::converged:
       return "converged after " + work;
@@ -268,6 +279,8 @@ void print_details(const OptimizeSettings& s, const RunResults& results) {
   print("\n" + comparison_text(results.before, results.after, star_shown(s.options), text_style()) +
         size_text(results.report.size));
   if (const std::string data = data_text(results.data); !data.empty()) print("\n" + data);
+  print(fmt::format("objective {}: {:.6g} before, {:.6g} after\n", name(results.report.objective),
+                    results.report.objective_before, results.report.objective_after));
   for (const std::string& note : results.report.notes) print("note: " + note + "\n");
   print("\n");
 }
@@ -297,6 +310,12 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   find_vertices(s, input);
   s.rules = data_rules(s.point_data, input.file);
   warn(results, doubtful_options(command, s));
+  if (s.options.unknowns == Unknowns::positions && has_weights(input.mesh())) {
+    warn(results,
+         std::array{fmt::format("{}: the mesh has weights, and this run keeps them. If your solver ignores weights, "
+                                "start from a mesh without weights. Next: temper mesh --no-optimize makes one",
+                                s.input)});
+  }
   if (!s.size.empty()) {
     ReadSizeField sizes = read_size_field(s.size, s.size_data.empty() ? "size" : s.size_data,
                                           {same_projection(input, s.projection), {}, threads.get(), true});

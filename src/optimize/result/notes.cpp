@@ -142,16 +142,8 @@ class Notes {
           " edges or duals are shorter than `min_edge` and `min_dual` ask for" +
           (options_.repair == Repair::vertices ? "" : ": `repair=vertices` may find other connectivities"));
     }
-    if (settings_.errors == nullptr) {
-      add("energy of the accuracy objective, edges taken absolute: " + to_text(report_.objective_before) + " before, " +
-          to_text(report_.objective_after) + " after");
-    } else if (std::isfinite(report_.objective_before)) {
-      add("errors of what the mesh is for, over smooth fields: now " +
-          to_text(std::round(1000 * report_.objective_after / report_.objective_before) / 1000) +
-          " times those of the input");
-    } else {
-      add("what the mesh is for could not be solved on the input: its matrix was not positive definite");
-    }
+    if (settings_.errors != nullptr && !std::isfinite(report_.objective_before))
+      add("the equations of the scheme have no solution on the input: the matrix is not positive definite");
   }
 
  private:

@@ -654,6 +654,27 @@ TEST_F(NetcdfFormats, UgridSaysWhereOrthocentersAndEdgesAre) {
   EXPECT_EQ(std::count(edge_faces.begin(), edge_faces.end(), -1), 18);
 }
 
+// D-Flow FM finds the bed level by the name of the topology: mesh2d_node_z of mesh2d.
+TEST_F(NetcdfFormats, UgridNamesItsTopologyAsTheDataDo) {
+  MeshFile f = bent_lattice();
+  const std::vector<double> depth(f.points.size(), -5.0);
+  f.point_data = {{"mesh2d_node_z", 1, depth}};
+  write_ok("net.nc", f);
+  const Nc nc = Nc::open(path("net.nc"));
+  EXPECT_EQ(nc.text("mesh2d", "cf_role"), "mesh_topology");
+  EXPECT_EQ(nc.text("mesh2d", "node_coordinates"), "mesh2d_node_x mesh2d_node_y");
+  EXPECT_EQ(nc.text("mesh2d_node_z", "mesh"), "mesh2d");
+  EXPECT_EQ(nc.get<double>("mesh2d_node_z"), depth);
+  const auto again = read(path("net.nc"));
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->weights, f.weights);
+  ASSERT_EQ(again->point_data.size(), 1u);
+  EXPECT_EQ(again->point_data[0].name, "mesh2d_node_z");
+  f.point_data = {{"2d_node_z", 1, depth}, {"_node_z", 1, depth}, {"a b_node_z", 1, depth}};
+  write_ok("plain.nc", f);
+  EXPECT_EQ(Nc::open(path("plain.nc")).text("mesh", "cf_role"), "mesh_topology");
+}
+
 TEST_F(NetcdfFormats, MpasHasLatitudesAndLongitudesOfAMeshThatKnowsThem) {
   constexpr double kRadians = std::numbers::pi / 180;
   Mesh mesh = *random_mesh({.vertices = 60, .seed = 2});
@@ -705,10 +726,12 @@ TEST_F(NetcdfFormats, WhatIsNoPlanarMeshOfTrianglesIsNamed) {
     EXPECT_FALSE(f);
     return f ? "" : plain(f.error().what());
   };
-  EXPECT_EQ(refused([](Nc& nc) {
-              nc.add<double>("x", {nc.add_dimension("n", 2)}, {0, 1});
-            }),
-            "o.nc: is NetCDF without a mesh that temper reads: neither MPAS nor a two-dimensional topology of UGRID");
+  EXPECT_EQ(
+      refused([](Nc& nc) {
+        nc.add<double>("x", {nc.add_dimension("n", 2)}, {0, 1});
+      }),
+      "o.nc: is NetCDF without a mesh that temper reads: neither MPAS nor a two-dimensional topology of UGRID. Next: "
+      "write the mesh as UGRID with its faces");
   EXPECT_EQ(refused([](Nc& nc) {
               const int n = nc.add_dimension("nCells", 3), v = nc.add_dimension("nVertices", 1),
                         d = nc.add_dimension("vertexDegree", 3);

@@ -6,6 +6,7 @@
 //                                                written: faces are at their orthocenters, edges at weighted midpoints
 //
 // The node variable MESH_node_weight holds weights. Other variables of nodes and faces with one number each are data.
+// MESH is the name that the data begin with, such as mesh2d of mesh2d_node_z, or mesh.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -163,23 +164,39 @@ class UgridReader {
 
 // --- writing ---------------------------------------------------------------------------------------------
 
+/// The name that the data have in front of _node_ or _face_, as in mesh2d_node_z; else "mesh". So names that a solver
+/// looks for stay what they are.
+std::string name_of_topology(const MeshFile& file) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+  for (const auto& [data, location] : {std::pair{&file.point_data, "_node_"}, std::pair{&file.cell_data, "_face_"}}) {
+    for (const DataArray& a : *data) {
+      const std::size_t at = a.name.find(location);
+      if (at == std::string::npos || at == 0) continue;
+      std::string name = a.name.substr(0, at);
+      if (name.find_first_not_of(kPlain) == std::string::npos && name[0] > '9') return name;
+    }
+  }
+  return "mesh";
+}
+
 class UgridWriter {
  public:
   explicit UgridWriter(const WriteJob& job)
       : job_(job),
         m_(mesh_for_netcdf(job, "UGRID")),
+        name_(name_of_topology(m_.file)),
         out_(job.path, needs_cdf5(m_.file, std::max(2 * m_.complex.edges.size(), 3 * m_.mesh.n_triangles()))) {}
 
   void write() {
-    nodes_ = out_.dimension("mesh_nodes", m_.mesh.n_vertices());
-    faces_ = out_.dimension("mesh_faces", m_.mesh.n_triangles());
-    edges_ = out_.dimension("mesh_edges", m_.complex.edges.size());
+    nodes_ = out_.dimension(named("nodes"), m_.mesh.n_vertices());
+    faces_ = out_.dimension(named("faces"), m_.mesh.n_triangles());
+    edges_ = out_.dimension(named("edges"), m_.complex.edges.size());
     out_.attribute(NetcdfWriter::kFile, "Conventions", "CF-1.8 UGRID-1.0");
     topology();
     coordinates();
     connectivity();
     if (!m_.file.weights.empty()) {
-      const int id = out_.variable("mesh_node_weight", {nodes_}, m_.file.weights);
+      const int id = out_.variable(named("node_weight"), {nodes_}, m_.file.weights);
       const std::string map =
           m_.file.map() != nullptr      ? text(" on the map ", projection_text(m_.file.map()->projection))
           : m_.file.sphere() != nullptr ? text(" on the sphere of radius ", m_.file.sphere()->radius)
@@ -192,29 +209,32 @@ class UgridWriter {
       job_.warn("points are longitude and latitude, without the radius: give --projection sphere:radius=",
                 m_.file.sphere()->radius, " where the file is read again");
     }
-    write_netcdf_extras(out_, job_, m_.file, {nodes_, faces_, "mesh"});
+    write_netcdf_extras(out_, job_, m_.file, {nodes_, faces_, name_});
     out_.finish(job_.outputs.open(job_.path));
   }
 
  private:
+  [[nodiscard]] std::string named(std::string_view what) const { return text(name_, "_", what); }
+  [[nodiscard]] std::string both(std::string_view what) const { return text(named(what), "_x ", named(what), "_y"); }
+
   void on(int id, std::string_view location) {
-    out_.attribute(id, "mesh", "mesh");
+    out_.attribute(id, "mesh", name_);
     out_.attribute(id, "location", location);
   }
 
   void topology() {
-    const int id = out_.variable("mesh", {}, std::vector<std::int32_t>{0});
+    const int id = out_.variable(name_, {}, std::vector<std::int32_t>{0});
     out_.attribute(id, "cf_role", "mesh_topology");
     out_.attribute(id, "topology_dimension", std::int32_t{2});
-    out_.attribute(id, "node_coordinates", "mesh_node_x mesh_node_y");
-    out_.attribute(id, "face_node_connectivity", "mesh_face_nodes");
-    out_.attribute(id, "edge_node_connectivity", "mesh_edge_nodes");
-    out_.attribute(id, "face_edge_connectivity", "mesh_face_edges");
-    out_.attribute(id, "edge_face_connectivity", "mesh_edge_faces");
-    out_.attribute(id, "face_coordinates", "mesh_face_x mesh_face_y");
-    out_.attribute(id, "edge_coordinates", "mesh_edge_x mesh_edge_y");
-    out_.attribute(id, "face_dimension", "mesh_faces");
-    out_.attribute(id, "edge_dimension", "mesh_edges");
+    out_.attribute(id, "node_coordinates", both("node"));
+    out_.attribute(id, "face_node_connectivity", named("face_nodes"));
+    out_.attribute(id, "edge_node_connectivity", named("edge_nodes"));
+    out_.attribute(id, "face_edge_connectivity", named("face_edges"));
+    out_.attribute(id, "edge_face_connectivity", named("edge_faces"));
+    out_.attribute(id, "face_coordinates", both("face"));
+    out_.attribute(id, "edge_coordinates", both("edge"));
+    out_.attribute(id, "face_dimension", named("faces"));
+    out_.attribute(id, "edge_dimension", named("edges"));
   }
 
   void places(const std::string& what, int dimension, const std::vector<Vec2>& all, const char* long_name) {
@@ -222,7 +242,7 @@ class UgridWriter {
     for (const bool is_x : {true, false}) {
       std::vector<double> values(all.size());
       for (std::size_t i = 0; i < all.size(); ++i) values[i] = is_x ? all[i].x : all[i].y;
-      const int id = out_.variable(text("mesh_", what, is_x ? "_x" : "_y"), {dimension}, std::move(values));
+      const int id = out_.variable(named(text(what, is_x ? "_x" : "_y")), {dimension}, std::move(values));
       out_.attribute(id, "long_name", long_name);
       if (degrees) {
         name_degrees(out_, id, is_x ? kLongitude : kLatitude);
@@ -272,14 +292,15 @@ class UgridWriter {
       edge_faces.insert(edge_faces.end(), {number(first), number(second)});
     }
     const int two = out_.dimension("TWO", 2), three = out_.dimension("THREE", 3);
-    table("mesh_face_nodes", "face_node_connectivity", {faces_, three}, std::move(face_nodes));
-    table("mesh_face_edges", "face_edge_connectivity", {faces_, three}, std::move(face_edges));
-    table("mesh_edge_nodes", "edge_node_connectivity", {edges_, two}, std::move(edge_nodes));
-    const int id = table("mesh_edge_faces", "edge_face_connectivity", {edges_, two}, std::move(edge_faces));
+    table(named("face_nodes"), "face_node_connectivity", {faces_, three}, std::move(face_nodes));
+    table(named("face_edges"), "face_edge_connectivity", {faces_, three}, std::move(face_edges));
+    table(named("edge_nodes"), "edge_node_connectivity", {edges_, two}, std::move(edge_nodes));
+    const int id = table(named("edge_faces"), "edge_face_connectivity", {edges_, two}, std::move(edge_faces));
     out_.attribute(id, "_FillValue", kUgridNone);
   }
 
-  int table(const char* name, const char* role, const std::vector<int>& dimensions, std::vector<std::int32_t> values) {
+  int table(const std::string& name, const char* role, const std::vector<int>& dimensions,
+            std::vector<std::int32_t> values) {
     const int id = out_.variable(name, dimensions, std::move(values));
     out_.attribute(id, "cf_role", role);
     out_.attribute(id, "start_index", std::int32_t{0});
@@ -288,6 +309,7 @@ class UgridWriter {
 
   const WriteJob& job_;
   NetcdfMesh m_;
+  const std::string name_;  // of the topology
   NetcdfWriter out_;
   int nodes_ = -1, faces_ = -1, edges_ = -1;
 };
@@ -307,7 +329,9 @@ Document read_ugrid_from(const NetcdfReader& in, const Source& source) {
   if (is_hdf5(source.bytes) && source.bytes.find("ENS_MAA") != std::string::npos)
     fail(ErrorCode::unsupported, path, "is a MED mesh, which temper does not read; meshio converts it");
   fail(ErrorCode::unsupported, path,
-       "is NetCDF without a mesh that temper reads: neither MPAS nor a two-dimensional topology of UGRID");
+       "is NetCDF without a mesh that temper reads: neither MPAS nor a two-dimensional topology of UGRID. Next: write "
+       "the "
+       "mesh as UGRID with its faces");
 }
 
 }  // namespace
