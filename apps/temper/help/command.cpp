@@ -248,7 +248,8 @@ void Command::add_help(VerbHelp help) {
   };
   const bool in_two = std::ranges::any_of(options_, &Option::rare);
   const bool in_three = !help_.paper.empty();
-  add_form("-h,--help", in_three ? "Print this text. --help-all prints all options, --help-paper the paper's switches."
+  add_form("-h,--help", in_three ? "Print this text. --help-all prints all options, such as --details and --set, "
+                                   "--help-paper the paper's switches."
                         : in_two ? "Print this text. --help-all prints all options."
                                  : "Print this text.");
   if (in_two) add_form(kHelpAll, "Print all options.");

@@ -83,11 +83,11 @@ std::string_view meaning(Exit exit) {
     case Exit::bad_input:
       return "Bad input, or an output cannot be written. The message names all written files.";
     case Exit::bad_usage:
-      return "Bad usage: options that make no sense.";
+      return "Bad usage: options that are wrong or missing.";
     case Exit::requirement:
       return "A requirement of --require or --require-claims is not met.";
     case Exit::stopped_early:
-      return "A signal or --time-limit stopped the run, or a flip is missing. The best mesh is written.";
+      return "A signal or --time-limit stopped the run, or edges are not regular. The best mesh is written.";
     case Exit::internal:
       return "Out of memory, or an internal error. Please report it.";
     case Exit::infeasible:

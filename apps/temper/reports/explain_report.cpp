@@ -95,7 +95,7 @@ std::string command(const Mesh& mesh, const Cure& cure) {
     const HalfedgeId h = mesh.find_halfedge(cure.edge[0], cure.edge[1]);
     return h.valid() && mesh.is_constrained(h);
   };
-  const std::string split_of_lines = mesh.space().is_plane() ? "temper optimize --boundary split" : "";
+  std::string split_of_lines = mesh.space().is_plane() ? "temper optimize --boundary split" : "";
   switch (cure.action) {
     case Action::find_weights:
       if (cure.changed == 0) return "";

@@ -50,9 +50,9 @@ std::string bar(std::size_t count, std::size_t most, const TextStyle& style) {
   static constexpr std::array<const char*, 8> kEighths = {"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
   if (count == 0 || most == 0) return "";
   const double full = static_cast<double>(kBarColumns) * static_cast<double>(count) / static_cast<double>(most);
-  if (!style.utf8) return std::string(std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(full))), '#');
-  const std::size_t eighths = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(8 * full)));
   std::string text;
+  if (!style.utf8) return text.assign(std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(full))), '#');
+  const std::size_t eighths = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(8 * full)));
   for (std::size_t i = 0; i < eighths / 8; ++i) text += "█";
   return text + kEighths[eighths % 8];
 }
@@ -105,7 +105,7 @@ std::string histograms(const Quality& quality, const TextStyle& style) {
       histogram_panel("d/" + ell, quality.d_over_l, style),
   };
   std::string text;
-  if (style.columns >= 3 * 30 + 2 * kPanelGap) {
+  if (style.columns >= 90 + 2 * kPanelGap) {
     text = beside(panels);
   } else {
     for (const auto& panel : panels) text += beside({panel});

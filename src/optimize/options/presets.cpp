@@ -40,7 +40,7 @@ constexpr auto kTargets = std::to_array<Preset>({
      [](Options& o) { o.scheme = Scheme::vertex; }},
     {"cell", "Unknowns in triangles, two-point flux: PorePy, FiPy", [](Options& o) { o.scheme = Scheme::cell; }},
     {"stars", "Diagonal Hodge stars of exterior calculus", [](Options& o) { o.scheme = Scheme::stars; }},
-    {"mpas", "MPAS: no weights, centered cells; may add and remove vertices",
+    {"mpas", "MPAS: no weights, centered edges; may add and remove vertices",
      [](Options& o) {
        place_vertices(o, kLongDual);
        o.star = Star::zero;

@@ -559,7 +559,8 @@ TEST_F(NetcdfFormats, UgridOfOthersCountsFromOneFillsUpAndMayLieOnItsSide) {
                 most = nc.add_dimension("nMax", 4);
       nc.add<double>("lon", {nodes}, {0, 1, 1, 0});
       nc.add<double>("lat", {nodes}, {0, 0, 1, 1});
-      nc.add<double>("depth", {nodes}, {10, 20, 30, 40});
+      const int depth = nc.add<double>("depth", {nodes}, {10, 20, 30, -999});
+      nc.say(depth, "_FillValue", -999.0);
       nc.add<std::int32_t>("material", {faces}, {7, 8});
       const std::map<std::string, int> attributes = {{"start_index", 1}, {"_FillValue", -999}};
       if (turned) {
@@ -579,6 +580,9 @@ TEST_F(NetcdfFormats, UgridOfOthersCountsFromOneFillsUpAndMayLieOnItsSide) {
     EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
     ASSERT_EQ(f->point_data.size(), 1u);
     EXPECT_EQ(f->point_data[0].name, "depth");
+    const auto& depths = std::get<std::vector<double>>(f->point_data[0].values);
+    EXPECT_EQ(depths[2], 30);
+    EXPECT_TRUE(std::isnan(depths[3])) << "missing";
     ASSERT_EQ(f->cell_data.size(), 1u);
     EXPECT_EQ(f->numbering->point(0), "point 1");
   }

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <variant>
 
 #include "io/conversion/globe.hpp"
 #include "io/text/names.hpp"
@@ -148,6 +152,16 @@ void read_own_data(const NetcdfReader& in, Document& document, const NetcdfVaria
   arrays.push_back({std::move(name), static_cast<int>(components), in.values(v)});
 }
 
+/// A number that stands for a missing value becomes NaN, so that no depth is interpolated from it.
+void make_nan(Values& values, double missing) {
+  const auto replace = [missing](auto& numbers) {
+    using Number = typename std::decay_t<decltype(numbers)>::value_type;
+    if constexpr (std::is_floating_point_v<Number>)
+      std::ranges::replace(numbers, static_cast<Number>(missing), std::numeric_limits<Number>::quiet_NaN());
+  };
+  std::visit(replace, values);
+}
+
 }  // namespace
 
 void name_degrees(NetcdfWriter& out, int variable, std::string_view standard_name) {
@@ -200,7 +214,11 @@ void read_netcdf_extras(const NetcdfReader& in, Document& document) {
 }
 
 void add_netcdf_data(const NetcdfReader& in, const NetcdfVariable& v, std::vector<DataArray>& arrays) {
-  arrays.push_back({v.name, 1, in.values(v)});
+  Values values = in.values(v);
+  for (const char* attribute : {"_FillValue", "missing_value"}) {
+    if (const auto missing = in.number_attribute(&v, attribute)) make_nan(values, *missing);
+  }
+  arrays.push_back({v.name, 1, std::move(values)});
 }
 
 NetcdfMesh mesh_for_netcdf(const WriteJob& job, std::string_view format) {

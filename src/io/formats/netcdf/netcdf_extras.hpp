@@ -26,7 +26,7 @@ void name_degrees(NetcdfWriter& out, int variable, std::string_view standard_nam
 void read_netcdf_extras(const NetcdfReader& in, Document& document);
 /// Says whether a variable is one of temper's own.
 [[nodiscard]] bool is_netcdf_extra(const NetcdfReader& in, const NetcdfVariable& variable);
-/// Adds a variable with one number per element as data, when it has numbers and no other dimension.
+/// Adds a variable with one number per element as data. Numbers that the file declares as missing become NaN.
 void add_netcdf_data(const NetcdfReader& in, const NetcdfVariable& variable, std::vector<DataArray>& arrays);
 
 /// The file without unused points, with counter-clockwise triangles; also its mesh and operators.

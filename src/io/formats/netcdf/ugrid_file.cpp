@@ -94,7 +94,8 @@ class UgridReader {
 
   void faces() {
     const auto names = named("face_node_connectivity");
-    if (names.size() != 1) fail(ErrorCode::unsupported, path(), "has no face_node_connectivity");
+    if (names.size() != 1)
+      fail(ErrorCode::unsupported, path(), "has no face_node_connectivity. Next: write the mesh with its faces");
     const NetcdfVariable& v = in_.variable(names[0]);
     expect(v.sizes.size() == 2, v.name);
     // Rows are faces, unless face_dimension names the columns.
