@@ -370,8 +370,8 @@ TEST_F(Trace, SwitchesThatContradictEachOtherAreRefused) {
     EXPECT_FALSE(exists("no.vtu"));
     return outcome.err;
   };
-  EXPECT_TRUE(
-      contains(refused({"--keep", "edges", "--set", "flips=immediate"}), "keep 'edges' contradicts --set flips=immediate"));
+  EXPECT_TRUE(contains(refused({"--keep", "edges", "--set", "flips=immediate"}),
+                       "keep 'edges' contradicts --set flips=immediate"));
   EXPECT_TRUE(contains(refused({"--for", "paper", "--for", "any"}), "--for is given more than once"));
   EXPECT_TRUE(contains(refused({"--boundary", "split", "--keep", "edges"}), "expected --set flips=immediate"));
   EXPECT_TRUE(contains(refused({"--boundary", "slide", "--set", "inversion=allow", "--set", "flips=deferred"}),
