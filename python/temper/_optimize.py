@@ -176,7 +176,8 @@ def _observer(line: Line, observer: Callable[[Progress], Any] | None) -> Callabl
     def tell(last: dict[str, Any], fraction: float, max_sweeps: int, sweeps_left: float | None) -> bool:
         progress = Progress(SweepRecord(**last), fraction, max_sweeps, sweeps_left)
         line.show(progress)
-        return observer is None or observer(progress) is not False
+        answer = None if observer is None else observer(progress)
+        return not isinstance(answer, (bool, np.bool_)) or bool(answer)
 
     return tell
 
@@ -307,6 +308,8 @@ def optimize(
     >>> report.history[-1].objective, temper.quality(mesh).well_centered_fraction
     ('accuracy', 1.0)
     """
+    if not (hooks is None or isinstance(hooks, Hooks)):
+        raise TypeError(f"hooks: expected Hooks, found {hooks!r}")
     hooks = hooks or Hooks()
     if size_field is not None and not isinstance(size_field, SizeField):
         raise TypeError(f"size_field: expected a SizeField or None, found {type(size_field).__name__}")

@@ -10,6 +10,7 @@ import itertools
 import numbers
 import textwrap
 import warnings
+from collections.abc import Mapping
 from typing import Any, Callable, Literal, TypeVar, Union
 
 from . import _temper
@@ -97,11 +98,13 @@ def settled(target: str, effort: str, keep: Any, options: Any, **changes: Any) -
     Warns about options without effect.
     """
     changes = {name: value for name, value in changes.items() if value is not None}
+    if not (options is None or isinstance(options, (OptimizeOptions, Mapping))):
+        raise TypeError(f"options: expected a dict or OptimizeOptions, found {options!r}")
     if isinstance(options, OptimizeOptions):
         if (target, effort, keep) != ("any", "normal", ()):
             raise TypeError("options: has all options already, so target, effort and keep have no effect; expected a dict")
         return dataclasses.replace(options, **changes)
-    result = options_for(target, effort, keep, **{**(options or {}), **changes})
+    result = _options_for(target, effort, keep, {**(options or {}), **changes})
     plain = result._plain()
     _temper.check_kept(plain, _words(keep))
     for sentence in _temper.idle_options(plain, list(options or {})):
@@ -110,7 +113,23 @@ def settled(target: str, effort: str, keep: Any, options: Any, **changes: Any) -
 
 
 def _words(keep: Any) -> tuple[str, ...]:
-    return (keep,) if isinstance(keep, str) else tuple(keep)
+    words = (keep,) if isinstance(keep, str) else tuple(keep)
+    for word in words:
+        if not isinstance(word, str):
+            raise TypeError(f"keep: expected words, found {word!r}")
+    return words
+
+
+def _options_for(target: str, effort: str, keep: Any, changes: Mapping[str, Any]) -> Any:
+    for name, word in (("target", target), ("effort", effort)):
+        if not isinstance(word, str):
+            raise TypeError(f"{name}: expected a word, found {word!r}")
+    for name in changes:
+        if name not in OPTION_NAMES:
+            raise TypeError(f"there is no option {name!r}; help(temper.OptimizeOptions) lists all")
+    plain = _temper.options_for(target, effort, _words(keep))
+    options = OptimizeOptions(**{name: _from_plain(name, value) for name, value in plain.items()})
+    return dataclasses.replace(options, **changes)
 
 
 PRESETS: dict[str, dict[str, str]] = _temper.presets()
@@ -167,9 +186,4 @@ def options_for(target: str = "any", effort: str = "normal", keep: Any = (), **c
     >>> temper.options_for("mpas").unknowns
     'positions'
     """
-    for name in changes:
-        if name not in OPTION_NAMES:
-            raise TypeError(f"there is no option {name!r}; help(temper.OptimizeOptions) lists all")
-    plain = _temper.options_for(target, effort, _words(keep))
-    options = OptimizeOptions(**{name: _from_plain(name, value) for name, value in plain.items()})
-    return dataclasses.replace(options, **changes)
+    return _options_for(target, effort, keep, changes)

@@ -180,7 +180,8 @@ def sorted_into_arguments(words):
     parameters = inspect.signature(temper.optimize).parameters
     hooks = {name: words[name] for name in ("tracer", "snapshots") if name in words}
     options = {name: value for name, value in words.items() if name not in parameters and name not in hooks}
-    return {**{name: words[name] for name in parameters if name in words}, "hooks": temper.Hooks(**hooks), "options": options}
+    given = {name: words[name] for name in parameters if name in words}
+    return {"hooks": temper.Hooks(**hooks), "options": options, **given}
 
 
 @pytest.mark.parametrize(
@@ -218,6 +219,10 @@ def test_options_that_make_no_sense_leave_the_mesh_alone(ring, options, says):
         ("h0", temper.LengthParameter("x")),
         ("solver", 3.0),
         ("progress", 3),
+        ("target", None),
+        ("keep", ["edges", 3]),
+        ("hooks", 3),
+        ("options", [1]),
         ("tracer", "print"),
         ("snapshots", []),
         ("size_field", 0.1),
@@ -232,8 +237,9 @@ def test_options_of_the_wrong_type_are_named(ring, name, value):
 
 
 def test_unknown_options_are_refused(ring):
-    with pytest.raises(TypeError, match="there is no option 'sweeps'"):
-        temper.optimize(ring, options={"sweeps": 3})
+    for name in ("sweeps", "target", 1):
+        with pytest.raises(TypeError, match=f"there is no option {name!r}"):
+            temper.optimize(ring, options={name: 3})
 
 
 def test_threads_of_the_wrong_type_are_named_everywhere(ring):
@@ -258,7 +264,7 @@ def test_an_observer_sees_sweeps_and_may_stop(ring):
 
     def observe(progress):
         seen.append(progress)
-        return progress.last.sweep < 2
+        return np.bool_(progress.last.sweep < 2)
 
     report = temper.optimize(ring, progress=observe)
     assert report.stopped == "canceled" and seen[-1].last.sweep == 2 and seen[0].max_sweeps == 1000

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -30,13 +33,26 @@ std::string member_of(std::string_view flag) {
 }
 
 Json parse(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) fail_at(path, "is a directory; expected a JSON file with options");
   std::ifstream stream(path);
-  if (!stream) fail_at(path, "cannot be opened; expected a JSON file with options");
-  Json json = Json::parse(stream, nullptr, false);
-  if (json.is_discarded())
-    fail_at(path, "is no JSON; expected an object such as {\"for\": \"cell\", \"max_sweeps\": 20}");
-  if (json.is_object() && json.contains("schema") && json.contains("options")) json = Json(json["options"]);
-  if (!json.is_object()) fail_at(path, "expected a JSON object with options, or a report of temper optimize");
+  if (!stream)
+    fail_at(path, fmt::format("cannot be opened: {}; expected a JSON file with options", std::strerror(errno)));
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const Json::parse_error& wrong) {
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(wrong.byte - 1), '\n');
+    fail_at(fmt::format("{}:{}", path, line),
+            "is no JSON; expected an object such as {\"for\": \"cell\", \"max_sweeps\": 20}");
+  } catch (const Json::out_of_range&) {
+    fail_at(path, "has a number that is too large");
+  }
+  const bool is_report = json.is_object() && json.contains("schema");
+  if (is_report && json.contains("options")) json = Json(json["options"]);
+  if (!json.is_object() || (is_report && json.contains("schema")))
+    fail_at(path, "expected a JSON object with options, or a report of temper optimize");
   return json;
 }
 

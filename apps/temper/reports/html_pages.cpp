@@ -77,7 +77,9 @@ std::string optimize_html(const OptimizePage& page) {
   const InputNames* names = page.input.file.numbering.get();
   use_numbers(json["before"], page.record.before, page.input.names.get());
   use_numbers(json["after"], page.record.after, names);
-  json["reasons"] = reasons_json(page.mesh, page.record.after, names);
+  // A run that has to end now searches for no reasons.
+  const bool ends_now = stopped_early(page.record.report.stopped);
+  json["reasons"] = ends_now ? Json::array() : reasons_json(page.mesh, page.record.after, names);
   return io::html_report(
       {{page.mesh, names}, io::HtmlMesh{page.before, page.input.names.get()}, page.input.path, in_a_line(json)});
 }

@@ -307,11 +307,20 @@ TEST_F(Optimize, AFileOfOptionsThatIsWrongIsNamedWithItsMember) {
     EXPECT_FALSE(exists("out.vtu"));
   };
   refused("{", {"is no JSON"});
+  refused("{\n\"seed\": 1,\n}", {"o.json:3: is no JSON"});
   refused("[1]", {"expected a JSON object"});
+  refused(R"({"schema": 1, "vertices": 5})", {"a report of temper optimize"});
+  refused(R"({"tolerance": 1e400})", {"too large"});
   refused(R"({"max_sweep": 5})", {"max_sweep", "max_sweeps"});
   refused(R"({"max_sweeps": "many"})", {"max_sweeps", "many"});
   refused(R"({"seed": {"a": 1}})", {"seed", "expected a text or a number"});
   refused(R"({"for": "cells"})", {"for", "cell"});
+  std::filesystem::create_directory("folder");
+  const Outcome folder = temper({"optimize", "in.vtu", "-o", "out.vtu", "--options", "folder"});
+  EXPECT_EQ(folder.exit, 1);
+  EXPECT_TRUE(contains(folder.err, "folder: is a directory"));
+  const Outcome none = temper({"optimize", "in.vtu", "-o", "out.vtu", "--options", "none.json"});
+  EXPECT_TRUE(contains(none.err, "none.json: cannot be opened: No such file"));
 }
 
 TEST_F(Optimize, FixTakesSeveralTagsAndStillFindsTheInput) {
