@@ -7,7 +7,7 @@ import type { LengthParameterLike } from './records.ts';
  * - `vertex`: Unknowns at vertices: MODFLOW, DEVSIM, exterior calculus.
  * - `cell`: Unknowns in triangles, two-point flux: PorePy, FiPy.
  * - `stars`: Diagonal Hodge stars of exterior calculus.
- * - `mpas`: MPAS: no weights, centered cells; may add and remove vertices.
+ * - `mpas`: MPAS: no weights, centered edges; may add and remove vertices.
  * - `dflowfm`: D-Flow FM: no weights, orthogonal; may add and remove vertices.
  * - `adcirc`: ADCIRC, SCHISM: no weights, long edges; may add and remove vertices.
  * - `fem`: Linear finite elements: no weights, good angles, the same vertices.
