@@ -4,6 +4,8 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -127,8 +129,18 @@ namespace {
 
 }  // namespace
 
-void expect_projection_of_outline(const std::string& path, bool geographic, const std::string& projection) {
-  if (geographic && projection.empty()) refuse_degrees(path, io::needs_projection(false, "--sphere"));
+void expect_projection_of_outline(const std::string& path, bool geographic, std::span<const Vec2> points,
+                                  const std::string& projection) {
+  if (!geographic || !projection.empty()) return;
+  for (const Vec2 p : points) {
+    if (std::abs(p.x) <= 360 && std::abs(p.y) <= 90) continue;
+    refuse_degrees(path,
+                   fmt::format("the point ({:.9g}, {:.9g}) is no longitude and latitude, which GeoJSON holds unless "
+                               "it has a member crs. Next: add \"crs\": {{\"type\": \"name\", \"properties\": "
+                               "{{\"name\": \"EPSG:32632\"}}}} with the code of your map, or --projection none",
+                               p.x, p.y));
+  }
+  refuse_degrees(path, io::needs_projection(false, "--sphere"));
 }
 
 void take_to_map(io::MeshFile& file, const std::string& path, const std::string& projection) {

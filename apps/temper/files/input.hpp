@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,8 +74,9 @@ class VertexNames final : public InputNames {
 /// The library's sentence with the program's name of the option.
 [[nodiscard]] std::string spell_projection(std::string message);
 
-/// Failure, with the cure, if the points of an outline are in degrees and no projection is chosen.
-void expect_projection_of_outline(const std::string& path, bool geographic, const std::string& projection);
+/// Failure, with the cure, if the points of an outline should be in degrees and no projection is chosen.
+void expect_projection_of_outline(const std::string& path, bool geographic, std::span<const Vec2> points,
+                                  const std::string& projection);
 
 /// The points of a mesh on the chosen map or the sphere; unchanged if none is needed. Failure, with the cure, if they
 /// are in degrees and none is chosen.

@@ -26,7 +26,9 @@ void check_writable(const std::string& path) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) not_writable(path, "it is a directory");
   if (!fs::path(path).has_filename()) not_writable(path, "it names no file");
-  const bool there = fs::exists(path, ignored);
+  std::error_code error;
+  const bool there = fs::exists(path, error);
+  if (error == std::errc::filename_too_long) not_writable(path, error.message());
   if (there && access(path.c_str(), W_OK) != 0) not_writable(path, std::strerror(errno));
   if (there && !fs::is_regular_file(path, ignored)) return;  // a device is written in place
 

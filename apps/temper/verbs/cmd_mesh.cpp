@@ -179,7 +179,7 @@ SizeField read_sizes(const MeshSettings& s, const std::string& degrees, Executor
 
 /// The outline in the plane, and its map. Longitude and latitude are not used as a plane: angles are wrong there.
 MapUsed take_to_plane(const MeshSettings& s, io::OutlineFile& file) {
-  expect_projection_of_outline(s.input, file.geographic, s.projection);
+  expect_projection_of_outline(s.input, file.geographic, file.outline.points, s.projection);
   if (s.projection.empty() || s.projection == io::kNoProjection) return {};
   MapUsed map;
   map.projection = or_fail(parse_projection(s.projection, file.outline.points));

@@ -107,6 +107,13 @@ int create(const std::string& path) {
   return -1;
 }
 
+/// The target, with room for a suffix behind its name, of which file systems allow 255 bytes.
+std::string with_room(const std::string& target) {
+  constexpr std::size_t kLongest = 245;
+  const std::size_t slash = target.rfind('/'), name = slash == std::string::npos ? 0 : slash + 1;
+  return target.substr(0, name + kLongest);
+}
+
 }  // namespace
 
 void discard_unfinished() noexcept {
@@ -123,7 +130,7 @@ Temporary Temporary::beside(const std::string& target) {
   constexpr int kTries = 1000;  // as many runs may write the same file at once
   Place place;
   for (int i = 0; i < kTries; ++i) {
-    std::string path = text(target, ".tmp", i);
+    std::string path = text(with_room(target), ".tmp", i);
     int file = create(path);
     const bool taken = file < 0 && errno == EEXIST;
     if (taken && remove_left_over(path)) file = create(path);

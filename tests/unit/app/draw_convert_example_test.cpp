@@ -98,6 +98,16 @@ TEST_F(Convert, GoesThereAndBack) {
   }
 }
 
+TEST_F(Convert, ANameMayHaveAsManyBytesAsTheFileSystemAllows) {
+  make_input();
+  const std::string longest = std::string(251, 'x') + ".vtu";
+  temper_ok({"convert", "in.vtu", "-o", longest});
+  EXPECT_EQ(read(longest), read("in.vtu"));
+  const Outcome beyond = temper({"optimize", "none.vtu", "-o", "x" + longest});
+  EXPECT_EQ(beyond.exit, 1);
+  EXPECT_TRUE(contains(beyond.err, "File name too long")) << "before the input is read";
+}
+
 TEST_F(Convert, DashIsStandardInputAndOutput) {
   make_input("a.vtu");
   temper_ok({"convert", "a.vtu", "-o", "b.msh"});

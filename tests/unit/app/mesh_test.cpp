@@ -72,6 +72,12 @@ TEST_F(MeshVerb, DegreesAreRefusedUnlessAProjectionIsChosen) {
   const Outcome refused = temper({"mesh", "in.json", "-o", "out.vtu", "--size", "10000"});
   EXPECT_EQ(refused.exit, 2);
   EXPECT_TRUE(contains(refused.err, "longitude and latitude"));
+  write("meters.geojson",
+        R"({"type": "Polygon", "coordinates": [[[6e5, 5e6], [6.1e5, 5e6], [6e5, 5.1e6], [6e5, 5e6]]]})");
+  const Outcome meters = temper({"mesh", "meters.geojson", "-o", "out.vtu", "--size", "3000"});
+  EXPECT_EQ(meters.exit, 2);
+  EXPECT_TRUE(contains(meters.err, "meters.geojson: the point (600000, 5000000) is no longitude and latitude"));
+  EXPECT_TRUE(contains(meters.err, "\"crs\""));
   EXPECT_TRUE(contains(refused.err, "--projection"));
   EXPECT_FALSE(exists("out.vtu"));
   temper_ok(
