@@ -55,7 +55,7 @@ template <class Whole>
 RemovalPlan removal_of(const Mesh& mesh, const TraceEvent& e, const Whole& whole) {
   std::vector<std::array<VertexId, 3>> triangles;
   for (const auto& [a, b, c] : e.triangles) triangles.push_back({whole(a), whole(b), whole(c)});
-  const RemovalPlan plan = removal_from_names(mesh, whole(e.vertex), whole(e.link.front()), triangles);
+  RemovalPlan plan = removal_from_names(mesh, whole(e.vertex), whole(e.link.front()), triangles);
   TEMPER_ASSERT(plan.status == RemovalStatus::possible);
   return plan;
 }
@@ -129,8 +129,7 @@ std::vector<VertexId> splice(WorkingCopy& work, Flipper& flipper, const Recorder
   const auto whole = [&](VertexId local) { return vertices[local.index]; };
   const auto edge = [&](VertexId a, VertexId b) { return mesh.find_halfedge(whole(a), whole(b)); };
   for (const TraceEvent& e : events) {
-    const bool is_new = e.kind == EventKind::insertion || e.kind == EventKind::split;
-    TEMPER_ASSERT(!is_new || e.vertex.index == vertices.size());
+    TEMPER_ASSERT((e.kind != EventKind::insertion && e.kind != EventKind::split) || e.vertex.index == vertices.size());
     switch (e.kind) {
       case EventKind::move:
       case EventKind::weight: {
