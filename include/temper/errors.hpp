@@ -134,6 +134,41 @@ struct ErrorReport {
 ///     if (report) use(geometric_mean(report->fields).poisson.l2);
 [[nodiscard]] Expected<ErrorReport> measure_errors(const Mesh& mesh, const MeasureErrorsOptions& options = {});
 
+// --- the user's own problem -----------------------------------------------------------------------------------------
+
+/// A piece of the boundary with a given value: of u (Dirichlet), or of the flux K ∂u/∂n into the domain (Neumann).
+struct BoundaryValue {
+  std::vector<std::array<VertexId, 2>> edges;  ///< Boundary edges, each by its ends in either order
+  double value = 0;
+  bool is_flux = false;
+};
+
+/// −div(K ∇u) = f in the plane. Boundary edges of no piece have no flux. A vertex between two pieces has the value of
+/// u; of two values it has the one of the later piece.
+struct DiffusionProblem {
+  std::vector<double> coefficient = {};  ///< K > 0 of each triangle; empty: 1
+  std::vector<double> source = {};       ///< f at each vertex, linear on triangles; empty: 0
+  std::vector<BoundaryValue> boundary = {};
+};
+
+/// The errors of both schemes for one problem.
+struct DiffusionErrors {
+  ErrorNorms vertex, cell;  ///< Relative to the reference: its L2 norm, and its largest absolute value
+  ErrorNorms reference;     ///< Change of the reference by its last refinement: how much of the errors is its own
+  ErrorSystem vertex_system, cell_system;
+  int refinements = 0;            ///< Refinements of the mesh for the reference
+  double least = 0, largest = 0;  ///< Least and largest value of the reference at the vertices
+};
+
+/// Solves a problem by the two schemes of this file, with the coefficients of with_coefficient(). The reference is a
+/// solution by linear finite elements on the mesh without weights, refined `refinements` times, each triangle into
+/// four. Errors are those at vertices (weighted by |★0|) and at orthocenters (weighted by the area). Errors: sizes that
+/// do not fit the mesh, numbers that are not finite, edges that are not on the boundary, no piece with a value of u, a
+/// mesh that is not of the plane, too many refinements for the memory. O(n^1.5).
+[[nodiscard]] Expected<DiffusionErrors> measure_diffusion_errors(const Mesh& mesh, const DiffusionProblem& problem,
+                                                                 int refinements = 3,
+                                                                 const InputNames* names = nullptr);
+
 /// The choices of a model of errors.
 struct DiscretizationErrorOptions {
   Scheme scheme = Scheme::all;  ///< Scheme; vertex: Poisson problems; cell: two-point flux; all: both

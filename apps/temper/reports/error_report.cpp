@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "console.hpp"
@@ -164,6 +165,70 @@ Json system_json(const ErrorSystem& system) {
 }
 
 }  // namespace
+
+namespace {
+
+/// A row of both meshes: the mesh itself first.
+std::string problem_row(const ProblemRecord& record, const std::string& label,
+                        const std::function<std::string(const DiffusionErrors&)>& value) {
+  std::vector<std::string> cells = {value(record.errors)};
+  if (record.reference) cells.push_back(value(*record.reference));
+  return row_text(label, cells);
+}
+
+Json problem_report_json(const DiffusionErrors& e) {
+  const auto norms = [](const ErrorNorms& n) {
+    return Json{{"l2", std::isfinite(n.l2) ? Json(n.l2) : Json()},
+                {"max", std::isfinite(n.max) ? Json(n.max) : Json()}};
+  };
+  const auto system = [](const ErrorSystem& s) {
+    return Json{{"unknowns", s.unknowns},
+                {"m_matrix", s.m_matrix},
+                {"definite", s.definite},
+                {"singular", s.singular},
+                {"negative", s.negative}};
+  };
+  Json json;
+  json["vertex"] = norms(e.vertex);
+  json["cell"] = norms(e.cell);
+  json["reference"] = norms(e.reference);
+  json["matrices"] = {{"vertex", system(e.vertex_system)}, {"cell", system(e.cell_system)}};
+  json["refinements"] = e.refinements;
+  json["least"] = e.least;
+  json["largest"] = e.largest;
+  return json;
+}
+
+}  // namespace
+
+std::string problem_text(const ProblemRecord& r) {
+  const TextStyle plain = {};
+  const auto error = [&](double value) { return number_text(value, Shown::errors, plain); };
+  std::string text = r.path + ": your problem, errors relative to finite elements after " +
+                     fmt::format("{} refinements\n", r.errors.refinements);
+  if (r.reference) text += row_text("", {"IN", "--against"});
+  text += problem_row(r, "unknowns at vertices, L2", [&](const auto& e) { return error(e.vertex.l2); });
+  text += problem_row(r, "unknowns at vertices, maximum", [&](const auto& e) { return error(e.vertex.max); });
+  text += problem_row(r, "  negative coefficients",
+                      [](const auto& e) { return fmt::format("{}", e.vertex_system.negative); });
+  text += problem_row(r, "unknowns at orthocenters, L2", [&](const auto& e) { return error(e.cell.l2); });
+  text += problem_row(r, "unknowns at orthocenters, maximum", [&](const auto& e) { return error(e.cell.max); });
+  text += problem_row(r, "  negative coefficients",
+                      [](const auto& e) { return fmt::format("{}", e.cell_system.negative); });
+  text += problem_row(r, "error of the reference, L2, about", [&](const auto& e) { return error(e.reference.l2); });
+  text += problem_row(r, "least u", [](const auto& e) { return fmt::format("{:.5g}", e.least); });
+  text += problem_row(r, "largest u", [](const auto& e) { return fmt::format("{:.5g}", e.largest); });
+  return text;
+}
+
+std::string problem_json(const ProblemRecord& record) {
+  Json json;
+  json["mesh"] = record.path;
+  json["problem"] = problem_report_json(record.errors);
+  if (record.reference)
+    json["against"] = {{"mesh", record.against}, {"problem", problem_report_json(*record.reference)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 std::string error_text(const ErrorRecord& record, const TextStyle& style) {
   const ErrorReport& report = record.report;

@@ -24,6 +24,16 @@ struct ErrorRecord {
   std::optional<ErrorReference> against;
 };
 
+/// The user's own problem on a mesh, and on another one.
+struct ProblemRecord {
+  std::string path;
+  DiffusionErrors errors;
+  std::string against;  ///< path of the other mesh; empty: none
+  std::optional<DiffusionErrors> reference;
+};
+[[nodiscard]] std::string problem_text(const ProblemRecord& record);
+[[nodiscard]] std::string problem_json(const ProblemRecord& record);
+
 [[nodiscard]] std::string error_text(const ErrorRecord& record, const TextStyle& style);
 [[nodiscard]] std::string error_json(const ErrorRecord& record);
 

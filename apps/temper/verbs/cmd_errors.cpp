@@ -8,6 +8,7 @@
 #include "console.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
+#include "files/problem_options.hpp"
 #include "files/tensor_option.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
@@ -20,6 +21,7 @@ namespace {
 struct ErrorSettings {
   std::string projection;
   std::string input, against, fields = "all", edges;
+  std::string coefficient, source, dirichlet, neumann;
   int refine = 0;
   std::uint64_t threads = 0;
   bool condition = false, json = false;
@@ -68,13 +70,24 @@ void add_options(Command& command, ErrorSettings& s) {
   command.add_flag("--condition", s.condition, "Also estimate the condition numbers of both matrices.");
   add_count(command, "--threads", s.threads, 0,
             "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
+  command.group("Your own problem, -div(K grad u) = f");
+  add_text(
+      command, "--dirichlet", "NAME=U,...", s.dirichlet,
+      "Values of u on parts of the boundary, by the name or tag of their lines; 'boundary' is all of it. The report "
+      "is then about this problem: both schemes against finite elements on a refined mesh.");
+  add_text(command, "--neumann", "NAME=Q,...", s.neumann,
+           "Fluxes K du/dn into the domain, on parts of the boundary. Other edges have no flux.");
+  add_text(command, "--source", "F|NAME", s.source, "Source f: a number, or the name of point data.");
+  add_coefficient(command, s.coefficient);
   command.group("Help");
   command.add_help({"IN [options]",
                     "  temper errors in.vtu\n"
                     "  temper errors in.vtu --fields held-back --refine 2 --json\n"
                     "  # compare the errors before and after an optimization\n"
                     "  temper example annulus -o ring.vtu && temper optimize ring.vtu -o better.vtu --quiet\n"
-                    "  temper errors better.vtu --against ring.vtu\n",
+                    "  temper errors better.vtu --against ring.vtu\n"
+                    "  # the heads of a well field\n"
+                    "  temper errors in.vtu --dirichlet boundary=0 --source 1e-3\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
@@ -113,6 +126,38 @@ ErrorReference measure_reference(const ErrorSettings& s, const std::string& proj
   return {s.against, or_fail(measure_errors(reference.mesh(), same)), {}};
 }
 
+DiffusionErrors measure_problem(const Command& command, const ErrorSettings& s, const std::string& path,
+                                const std::string& projection, Executor* executor) {
+  const Input input = read_input(path, {projection, {}, executor, true});
+  print_warnings(input.warnings());
+  DiffusionProblem problem = {
+      read_coefficient(command, s.coefficient, input), read_source(command, s.source, input), {}};
+  for (const bool is_flux : {true, false}) {
+    for (NamedValue& part :
+         read_boundary_values(command, is_flux ? "--neumann" : "--dirichlet", is_flux ? s.neumann : s.dirichlet, input))
+      problem.boundary.push_back({std::move(part.edges), part.value, is_flux});
+  }
+  const int refinements = s.refine > 0 ? s.refine : 2;
+  auto errors = measure_diffusion_errors(input.mesh(), problem, refinements, input.names.get());
+  if (errors) return *std::move(errors);
+  InputError error = errors.error();
+  if (error.where.empty()) error.where = path;
+  throw Failure(Exit::bad_input, error.what());
+}
+
+/// The report of the user's own problem.
+Exit run_problem(const Command& command, const ErrorSettings& s, Executor* executor) {
+  for (const char* option : {"--fields", "--tensor", "--edges", "--condition"}) {
+    if (command.was_given(option))
+      refuse_usage("errors",
+                   std::string(option) + " is about manufactured solutions, and does not go with --dirichlet");
+  }
+  ProblemRecord record = {s.input, measure_problem(command, s, s.input, s.projection, executor), s.against, {}};
+  if (!s.against.empty()) record.reference = measure_problem(command, s, s.against, s.projection, executor);
+  print(s.json ? problem_json(record) : problem_text(record));
+  return Exit::done;
+}
+
 }  // namespace
 
 Exit run_errors(const Arguments& arguments) {
@@ -133,6 +178,11 @@ Exit run_errors(const Arguments& arguments) {
   outputs.expect_text("--edges", s.edges, inputs);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
+  for (const char* option : {"--neumann", "--source", "--coefficient"}) {
+    if (command.was_given(option) && s.dirichlet.empty())
+      refuse_usage("errors", std::string(option) + " needs --dirichlet, which makes the problem complete");
+  }
+  if (!s.dirichlet.empty()) return run_problem(command, s, threads.get());
   options.executor = threads.get();
   Input input = read_input(s.input, {s.projection, {}, threads.get(), true});
   print_warnings(input.warnings());

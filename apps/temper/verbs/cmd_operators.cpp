@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "console.hpp"
-#include "files/coefficient_option.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
+#include "files/problem_options.hpp"
 #include "files/tensor_option.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"

@@ -57,6 +57,41 @@ TEST_F(Errors, SaysTheSameAsJsonForAnyNumberOfThreads) {
   EXPECT_TRUE(json["matrices"]["flux"]["condition"].is_null());
 }
 
+TEST_F(Errors, MeasuresTheUsersOwnProblemByTheNamesOfTheFile) {
+  // Two squares, sand and clay, with tagged lines on the left and right.
+  write(
+      "a.msh",
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n1 1 \"river\"\n1 2 \"lake\"\n2 5 \"sand\"\n2 6 "
+      "\"clay\"\n$EndPhysicalNames\n$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 2 0 0\n4 0 1 0\n5 1 1 0\n6 2 1 0\n7 0.4 0.5 "
+      "0\n8 1.6 0.5 0\n$EndNodes\n$Elements\n10\n1 1 2 1 1 1 4\n2 1 2 2 2 3 6\n3 2 2 5 1 1 2 7\n4 2 2 5 1 2 5 7\n5 2 2 "
+      "5 1 "
+      "5 4 7\n6 2 2 5 1 4 1 7\n7 2 2 6 2 2 3 8\n8 2 2 6 2 3 6 8\n9 2 2 6 2 6 5 8\n10 2 2 6 2 5 2 8\n$EndElements\n");
+  const std::vector<std::string> problem = {"errors",      "a.msh",          "--coefficient", "sand=10,6=0.1",
+                                            "--dirichlet", "river=3,lake=1", "--json"};
+  const auto json = nlohmann::json::parse(temper_ok(problem).out);
+  EXPECT_LT(json["problem"]["vertex"]["max"].get<double>(), 1e-12) << "piecewise linear";
+  EXPECT_GT(json["problem"]["cell"]["max"].get<double>(), 1e-3) << "orthocenters are in other triangles";
+  EXPECT_NEAR(json["problem"]["largest"].get<double>(), 3, 1e-12);
+  EXPECT_EQ(json["problem"]["matrices"]["vertex"]["unknowns"], 4);
+  const std::string text =
+      temper_ok({"errors", "a.msh", "--dirichlet", "boundary=0", "--source", "2", "--against", "a.msh"}).out;
+  EXPECT_TRUE(contains(text, "unknowns at orthocenters, L2"));
+  EXPECT_TRUE(contains(text, "--against"));
+  const auto refuse = [&](std::vector<std::string> arguments, const std::string& message) {
+    arguments.insert(arguments.begin(), {"errors", "a.msh"});
+    const auto outcome = temper(arguments);
+    EXPECT_NE(outcome.exit, 0);
+    EXPECT_TRUE(contains(outcome.err, message)) << outcome.err;
+  };
+  refuse({"--dirichlet", "sea=1"},
+         "expected the number or name of lines on the boundary before '=', found 'sea'; names are river, lake");
+  refuse({"--dirichlet", "9=1"}, "no boundary edge has the tag '9'");
+  refuse({"--dirichlet", "river"}, "expected NAME=NUMBER, found 'river'");
+  refuse({"--source", "1"}, "--source needs --dirichlet");
+  refuse({"--dirichlet", "river=1", "--source", "rain"}, "expected a number or the name of point data, found 'rain'");
+  refuse({"--dirichlet", "river=1", "--fields", "all"}, "--fields is about manufactured solutions");
+}
+
 TEST_F(Errors, ComparesWithAnotherMesh) {
   temper_ok({"example", "annulus", "-o", "ring.vtu"});
   temper_ok({"optimize", "ring.vtu", "-o", "better.vtu", "--set", "max_sweeps=5", "--quiet"});

@@ -1,0 +1,169 @@
+#include "files/problem_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "options/options.hpp"
+#include "suggest.hpp"
+
+namespace temper::app {
+namespace {
+
+/// The data of triangles with this name.
+std::vector<double> from_data(const Command& command, const std::string& name, const Input& input) {
+  std::vector<std::string_view> names;
+  for (const io::DataArray& array : input.file.cell_data) {
+    if (array.components != 1) continue;
+    if (array.name == name)
+      return std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
+                        array.values);
+    names.push_back(array.name);
+  }
+  throw Failure(Exit::bad_usage,
+                fmt::format("{}: {}: --coefficient: there are no data '{}' of triangles; {}. Next: give one of these, "
+                            "or REGION=K,...",
+                            command.name(), input.path, name,
+                            names.empty() ? "the file has none of one number" : "there are " + join(names)));
+}
+
+/// The tag of a region (dimension 2) or of lines (1), by its number or its name.
+std::int32_t tag_of(const Command& command, const std::string& option, const std::string& word, int dimension,
+                    const Input& input) {
+  std::vector<std::string_view> names;
+  for (const io::PhysicalName& n : input.file.names) {
+    if (n.dimension != dimension) continue;
+    if (n.name == word) return n.tag;
+    names.push_back(n.name);
+  }
+  const auto number = parse_number(word);
+  if (number && *number == std::floor(*number) && std::abs(*number) < 2e9) return static_cast<std::int32_t>(*number);
+  refuse_usage(command.name(), fmt::format("{}: expected the number or name of {} before '=', found '{}'{}", option,
+                                           dimension == 2 ? "a region" : "lines on the boundary", word,
+                                           names.empty() ? "" : "; names are " + join(names)));
+}
+
+/// "clay=1e-9" as the name and the number.
+std::pair<std::string, double> name_and_value(const Command& command, const std::string& option,
+                                              const std::string& entry) {
+  const std::size_t equals = entry.rfind('=');
+  const auto value = equals == std::string::npos ? std::nullopt : parse_number(entry.substr(equals + 1));
+  if (!value) refuse_usage(command.name(), fmt::format("{}: expected NAME=NUMBER, found '{}'", option, entry));
+  return {entry.substr(0, equals), *value};
+}
+
+std::map<std::int32_t, double> values_of_regions(const Command& command, const std::string& text, const Input& input) {
+  std::map<std::int32_t, double> values;
+  for (const std::string& entry : separated(text)) {
+    const auto [name, value] = name_and_value(command, "--coefficient", entry);
+    const std::int32_t region = tag_of(command, "--coefficient", name, 2, input);
+    if (!values.emplace(region, value).second) {
+      refuse_usage(command.name(), fmt::format("--coefficient: region {} has two values", region));
+    }
+  }
+  return values;
+}
+
+std::vector<double> from_regions(const Command& command, const std::string& text, const Input& input) {
+  const std::map<std::int32_t, double> values = values_of_regions(command, text, input);
+  std::map<std::int32_t, std::size_t> triangles;
+  std::vector<double> coefficient;
+  std::string missing;
+  for (const TriangleId t : input.mesh().triangles()) {
+    const std::int32_t region = input.mesh().region(t);
+    const auto found = values.find(region);
+    if (++triangles[region] == 1 && found == values.end())
+      missing += fmt::format("{}{}", missing.empty() ? "" : ", ", region);
+    coefficient.push_back(found == values.end() ? 0 : found->second);
+  }
+  if (!missing.empty()) {
+    throw Failure(Exit::bad_usage, fmt::format("{}: {}: --coefficient: there is no value for region {}", command.name(),
+                                               input.path, missing));
+  }
+  for (const auto& [region, value] : values) {
+    if (triangles.count(region) != 0) continue;
+    throw Failure(Exit::bad_usage,
+                  fmt::format("{}: {}: --coefficient: the mesh has no region {}", command.name(), input.path, region));
+  }
+  return coefficient;
+}
+
+}  // namespace
+
+void add_coefficient(Command& command, std::string& target) {
+  add_text(command, "--coefficient", "NAME", target,
+           "Coefficient K > 0 of -div(K grad u) on each triangle: the name of data of triangles. Or write a value for "
+           "each region, by number or name: 1=1e-4,clay=1e-9.");
+}
+
+std::vector<double> read_coefficient(const Command& command, const std::string& text, const Input& input) {
+  if (text.empty()) return {};
+  return text.find('=') == std::string::npos ? from_data(command, text, input) : from_regions(command, text, input);
+}
+
+std::vector<double> read_source(const Command& command, const std::string& text, const Input& input) {
+  if (text.empty()) return {};
+  if (const auto number = parse_number(text)) return std::vector<double>(input.mesh().n_vertices(), *number);
+  std::vector<std::string_view> names;
+  for (const io::DataArray& array : input.file.point_data) {
+    if (array.components != 1) continue;
+    names.push_back(array.name);
+    if (array.name != text) continue;
+    std::vector<double> source;
+    for (const VertexId v : input.mesh().vertices()) {
+      const std::size_t point = input.points.empty() ? v.index : input.points[v.index];
+      source.push_back(
+          std::visit([point](const auto& values) { return static_cast<double>(values[point]); }, array.values));
+    }
+    return source;
+  }
+  throw Failure(Exit::bad_usage, fmt::format("{}: {}: --source: expected a number or the name of point data, found "
+                                             "'{}'; {}",
+                                             command.name(), input.path, text,
+                                             names.empty() ? "the file has no data" : "there are " + join(names)));
+}
+
+std::vector<NamedValue> read_boundary_values(const Command& command, const std::string& option, const std::string& text,
+                                             const Input& input) {
+  std::vector<NamedValue> values;
+  if (text.empty()) return values;
+  const Mesh& mesh = input.mesh();
+  const auto on_boundary = [&mesh](VertexId a, VertexId b) {
+    const HalfedgeId h = mesh.find_halfedge(a, b), other = mesh.find_halfedge(b, a);
+    return (h.valid() && mesh.is_boundary(h)) || (other.valid() && mesh.is_boundary(other));
+  };
+  for (const std::string& entry : separated(text)) {
+    const auto [name, value] = name_and_value(command, option, entry);
+    NamedValue part{name, value, {}};
+    if (name == "boundary") {
+      for (const HalfedgeId h : mesh.halfedges()) {
+        if (mesh.is_boundary(h)) part.edges.push_back({mesh.origin(h), mesh.target(h)});
+      }
+    } else {
+      const std::int32_t tag = tag_of(command, option, name, 1, input);
+      for (std::size_t i = 0; i < input.file.lines.size(); ++i) {
+        if (input.file.line_tags[i] != tag) continue;
+        const auto& [from, to] = input.file.lines[i];
+        const std::int32_t a = input.loaded.vertex_of_point[static_cast<std::size_t>(from)],
+                           b = input.loaded.vertex_of_point[static_cast<std::size_t>(to)];
+        if (a < 0 || b < 0) continue;
+        const VertexId v(static_cast<std::size_t>(a)), w(static_cast<std::size_t>(b));
+        if (on_boundary(v, w)) part.edges.push_back({v, w});
+      }
+    }
+    if (part.edges.empty()) {
+      throw Failure(Exit::bad_usage, fmt::format("{}: {}: {}: no boundary edge has the tag '{}'", command.name(),
+                                                 input.path, option, name));
+    }
+    values.push_back(std::move(part));
+  }
+  return values;
+}
+
+}  // namespace temper::app
