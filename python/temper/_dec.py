@@ -66,6 +66,8 @@ class DecEdges(Record):
     midpoint: npt.NDArray[np.float64]
     """Point at which the line of the dual edge crosses the line of the edge, (e, 2). On a sphere (e, 3), at its
     radius."""
+    named: dict[str, npt.NDArray[np.int32]]
+    """Numbers of the edges of each name of lines, such as ``named["inflow"]``, ascending (``Mesh.names``)."""
 
     def __len__(self) -> int:
         return len(self.length)
@@ -162,7 +164,8 @@ class DecComplex(Record):
     _handle: Any = dataclasses.field(repr=False, compare=False)
 
     def __reduce__(self) -> Any:
-        return _dec_of, (Mesh._of(self._handle.mesh()), self._handle.tensor())
+        lines = {name: self.edges.vertices[numbers] for name, numbers in self.edges.named.items()}
+        return _dec_of, (Mesh._of(self._handle.mesh()), self._handle.tensor(), lines)
 
     def star(self, s: Literal[0, 1, 2]) -> Any:
         """★s as a diagonal ``scipy.sparse`` matrix. Needs SciPy."""
@@ -197,16 +200,12 @@ class DecComplex(Record):
         return self._handle.write(os.fspath(folder), list(formats), threads)
 
 
-def _dec_of(mesh: Mesh, tensor: tuple[float, float, float] | None) -> DecComplex:
-    return dec_operators(mesh, tensor=tensor)
-
-
 def dec_operators(mesh: MeshLike, *, tensor: Sequence[float] | None = None) -> DecComplex:
     """The operators of a mesh, as exact as doubles allow.
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
+    mesh : MeshLike
     tensor : sequence of float, optional
         kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u). Duals and lengths are measured in its metric. ★1
         and transmissibility are multiplied by √(det K) (docs/howto/anisotropic.md).
@@ -231,9 +230,28 @@ def dec_operators(mesh: MeshLike, *, tensor: Sequence[float] | None = None) -> D
     >>> complex.d0.shape
     (1240, 441)
     """
-    handle = _temper.dec_operators(as_mesh(mesh)._handle, None if tensor is None else tuple(tensor))
+    given = as_mesh(mesh)
+    return _dec_of(given, None if tensor is None else tuple(tensor), _named_lines(given))
+
+
+def _named_lines(mesh: Mesh) -> dict[str, npt.NDArray[np.int32]]:
+    """The lines of each name, (k, 2)."""
+    file = mesh._file()
+    named: dict[str, list[Any]] = {}
+    for dimension, tag, name in file["names"]:
+        if dimension == 1:
+            named.setdefault(name, []).append(file["lines"][file["line_tags"] == tag])
+    return {name: np.concatenate(lines) for name, lines in named.items()}
+
+
+def _dec_of(mesh: Mesh, tensor: tuple[float, ...] | None, named: dict[str, npt.NDArray[np.int32]]) -> DecComplex:
+    handle = _temper.dec_operators(mesh._handle, tensor)
     arrays = handle.arrays()
-    edges = DecEdges(**arrays.pop("edges"))
+    edges = DecEdges(**arrays.pop("edges"), named={})
+    keys = edges.vertices[:, 0].astype(np.int64) * mesh.n_vertices + edges.vertices[:, 1]  # ascending
+    for name, lines in named.items():
+        low, high = np.sort(lines.astype(np.int64), axis=1).T
+        edges.named[name] = np.flatnonzero(np.isin(keys, low * mesh.n_vertices + high)).astype(np.int32)
     d0, d1 = IncidenceMatrix(**arrays.pop("d0")), IncidenceMatrix(**arrays.pop("d1"))
     return DecComplex(edges=edges, d0=d0, d1=d1, _handle=handle, **arrays)
 
@@ -294,7 +312,7 @@ def columns(
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
+    mesh : MeshLike
         A regular mesh in the plane.
     surfaces : array_like
         Heights, (n_vertices, layers + 1): the top and then the bottom of each layer, going down [length]; or (layers +

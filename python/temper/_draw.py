@@ -58,8 +58,8 @@ def draw_svg(
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
-    before : Mesh or meshio.Mesh, optional
+    mesh : MeshLike
+    before : MeshLike, optional
         A mesh to draw on the left, with the same scale, view and zoom box.
     primal, dual : bool
         Draw the edges of the triangulation, and the edges of the power diagram between orthocenters. Dual edges of
@@ -147,8 +147,8 @@ def html_report(
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
-    before : Mesh or meshio.Mesh, optional
+    mesh : MeshLike
+    before : MeshLike, optional
         A mesh for comparison.
     report : OptimizeReport, optional
         Report of the run that made the mesh; its history and notes are shown too.

@@ -238,7 +238,7 @@ def optimize(
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
+    mesh : MeshLike
         The mesh, changed in place. To keep the original, optimize ``mesh.copy()``.
     target : str
         Use of the mesh.
@@ -323,7 +323,7 @@ def optimize(
     observer = progress if callable(progress) else None
     line = Line(False if observer is not None or _is_helper(hooks.communicator) else progress)
     plain = settled(target, effort, keep, options, boundary=boundary, time_limit=time_limit)._plain()
-    changed = as_mesh(mesh)
+    changed = as_mesh(mesh, in_place=True)
     tracer, snapshots = hooks.tracer, hooks.snapshots
     trace = (lambda event: tracer(TraceEvent(**event))) if tracer is not None else None
     look = (lambda shot: snapshots(Snapshot._of(shot))) if snapshots is not None else None
