@@ -10,8 +10,9 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 
 namespace temper::app {
 namespace {
@@ -32,6 +33,23 @@ std::string member_of(std::string_view flag) {
   throw Failure(Exit::bad_input, fmt::format("{}: {}", path, message));
 }
 
+/// JSON itself takes the last of two values for a key: one of them would be lost.
+Json::parser_callback_t expect_each_key_once(const std::string& path) {
+  return
+      [path, keys = std::vector<std::set<std::string>>()](int depth, Json::parse_event_t event, Json& parsed) mutable {
+        const auto level = static_cast<std::size_t>(depth);
+        if (event == Json::parse_event_t::object_start) {
+          keys.resize(level + 2);
+          keys.back().clear();
+        } else if (event == Json::parse_event_t::key) {
+          const auto name = parsed.get<std::string>();
+          if (!keys.at(level).insert(name).second)
+            fail_at(path, fmt::format("{} is given more than once; expected one value", name));
+        }
+        return true;
+      };
+}
+
 Json parse(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) fail_at(path, "is a directory; expected a JSON file with options");
@@ -41,7 +59,7 @@ Json parse(const std::string& path) {
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   Json json;
   try {
-    json = Json::parse(text);
+    json = Json::parse(text, expect_each_key_once(path));
   } catch (const Json::parse_error& wrong) {
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(wrong.byte - 1), '\n');
     fail_at(fmt::format("{}:{}", path, line),

@@ -46,9 +46,8 @@ std::string wrapped(const std::string& text, std::size_t indent, const TextStyle
 }
 
 std::string headline(const Explanation& e, const Input& input) {
-  if (e.bad == 0) return fmt::format("{}: all {} triangles are well-centered\n", input.path, e.triangles);
-  std::string text = fmt::format("{}: {} of {} triangles {} not well-centered\n", input.path, e.bad, e.triangles,
-                                 e.bad == 1 ? "is" : "are");
+  std::string text = fmt::format("{}: {}\n", input.path, well_centered(e.bad, e.triangles));
+  if (e.bad == 0) return text;
   switch (e.verdict) {
     case Feasibility::feasible:
       return text +

@@ -145,8 +145,9 @@ std::string constraint_text(const WeightConstraint& c, const Input& input, const
 
 std::string weights_text(const WeightsRecord& r) {
   const WeightReport& report = r.report;
-  std::string text = fmt::format("{}: {} vertices, {} triangles\n{}{}\n{}\n", r.input.path, r.mesh.n_vertices(),
-                                 r.mesh.n_triangles(), search_text(r), verdict_text(r), margin_text(report));
+  std::string text =
+      fmt::format("{}: {}\n{}{}\n{}\n", r.input.path, mesh_size(r.mesh.n_vertices(), r.mesh.n_triangles()),
+                  search_text(r), verdict_text(r), margin_text(report));
   if (!report.solved && report.verdict == Feasibility::feasible) {
     text += fmt::format("no weights give a margin of {}\n", r.options.margin);
   }

@@ -10,7 +10,7 @@
 #include "files/outputs.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 #include "temper/draw.hpp"
 #include "temper/quality.hpp"
 

@@ -44,7 +44,7 @@ struct MeshSettings {
   MesherOptions options;
   std::optional<double> radius;
   std::uint64_t threads = 0;
-  bool sphere = false, no_optimize = false, quiet = false;
+  bool sphere = false, no_optimize = false;
 };
 
 void add_files(Command& command, MeshSettings& s) {
@@ -54,7 +54,6 @@ void add_files(Command& command, MeshSettings& s) {
   add_mesh_output(command, s.output, "MESH");
   command.option("--output").require();
   add_write(command, s.write, kMeshOutputs);
-  command.add_flag("--quiet", s.quiet, "Print warnings and errors only.");
 }
 
 void add_sizes(Command& command, MeshSettings& s) {
@@ -247,7 +246,7 @@ io::MeshFile file_of(const OutlineMesh& made, const MapUsed& map) {
 using Meshing = std::function<Expected<OutlineMesh>(const MesherOptions&, const OptimizeHooks&)>;
 
 OutlineMesh run_library(const MeshSettings& s, MesherOptions options, Executor* executor, const Meshing& meshing) {
-  ProgressLine line(!s.quiet && error_is_terminal());
+  ProgressLine line(!is_quiet() && error_is_terminal());
   const Observer observer = [&line](const Progress& progress) {
     line.show(progress);
     return interrupted() ? Continue::no : Continue::yes;
@@ -337,10 +336,8 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   const MeshRecord record = {command_line(command, arguments), inputs, map, made, after};
   if (!s.files.report.empty()) outputs.write_text(s.files.report, mesh_json(record));
   if (!s.files.picture.empty()) outputs.write_picture(s.files.picture, draw_svg(made.mesh));
-  if (!s.quiet) {
-    print(mesh_text(record) + fmt::format("{}: {}\n", s.output.path, verdict(after)));
-    if (!s.sphere) print(next_step(after, s.output.path, s.projection));
-  }
+  print(mesh_text(record) + fmt::format("{}: {}\n", s.output.path, verdict(after)));
+  if (!s.sphere) print(next_step(after, s.output.path, s.projection));
   return stopped_early(made.report.stopped) ? Exit::stopped_early : Exit::done;
 }
 

@@ -14,8 +14,8 @@
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "reports/reports.hpp"
-#include "suggest.hpp"
 #include "temper/detail/dec_io.hpp"
+#include "temper/detail/suggest.hpp"
 #include "threads.hpp"
 
 namespace temper::app {
@@ -158,7 +158,7 @@ Exit run_operators(const Arguments& arguments) {
   record.files =
       or_fail(io::write_dec(s.output, plain ? *plain : input.mesh(), complex, cells,
                             {formats, input.points, input.file.z(), columns, input.names.get(), threads.get()}));
-  print(s.json ? dec_json(record) : dec_text(record));
+  s.json ? print_data(dec_json(record)) : print(dec_text(record));
   return Exit::done;
 }
 
