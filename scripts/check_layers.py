@@ -41,7 +41,7 @@ LAYERS = {
     "generate": _BELOW + ["topology", "energy", "regularity", "projection"],
     "mesher": _BELOW + ["size", "topology", "energy", "regularity", "feasibility", "optimize", "generate", "projection"],
     # A library of its own: sees the core's public headers, and no other folder of src/.
-    "io": _BELOW + ["projection", "location", "size", "quality", "dec"],
+    "io": _BELOW + ["projection", "location", "size", "quality", "dec", "mesher"],
     "lp": _BELOW + ["feasibility"],
     "tbb": ["base"],
     "mpi": ["base"],

@@ -15,6 +15,7 @@
 #include "io/text/file_names.hpp"
 #include "io/text/values.hpp"
 #include "temper/io.hpp"
+#include "temper/mesher.hpp"
 
 namespace temper::io {
 namespace {
@@ -321,6 +322,57 @@ void release_geometry(MeshFile& file, const LoadedMesh& loaded) {
   std::vector<double>().swap(file.weights);
   std::vector<std::array<std::int32_t, 3>>().swap(file.triangles);
   give_memory_back();
+}
+
+namespace {
+
+/// Longitude and latitude of the vertices of a map, as point data.
+void add_degrees(MeshFile& file, const OutlineMesh& made, std::span<const Vec2> lon_lat, const Projection& map) {
+  std::vector<double> longitudes, latitudes;
+  const LongitudeTurn turn(lon_lat);
+  for (const VertexId v : made.mesh.vertices()) {
+    const Vec2 place = turn(inverse(map, made.mesh.position(v)));
+    longitudes.push_back(place.x);
+    latitudes.push_back(place.y);
+  }
+  for (std::size_t p = 0; p < lon_lat.size(); ++p) {  // bit for bit
+    const VertexId v = made.vertex_of_point[p];
+    if (v.valid()) longitudes[v.index] = lon_lat[p].x, latitudes[v.index] = lon_lat[p].y;
+  }
+  file.point_data.push_back({std::string(kLongitude), 1, std::move(longitudes)});
+  file.point_data.push_back({std::string(kLatitude), 1, std::move(latitudes)});
+}
+
+}  // namespace
+
+MeshFile from_outline(const OutlineMesh& made, std::span<const Vec2> lon_lat, const std::optional<Projection>& map) {
+  MeshFile file = from_mesh(made.mesh);
+  file.lines.clear();
+  file.line_tags.clear();
+  constexpr std::int32_t kBoundary = 1;
+  std::int32_t highest = kBoundary;
+  for (const MeshLine& line : made.lines) highest = std::max(highest, line.tag);
+  for (const MarkedVertex& mark : made.marked) highest = std::max(highest, mark.tag);
+  const std::int32_t inside = highest + 1, point = highest + 2;
+  const auto number = [](VertexId v) { return static_cast<std::int32_t>(v.index); };
+  for (const MeshLine& line : made.lines) {
+    const HalfedgeId h = made.mesh.find_halfedge(line.a, line.b);
+    const bool boundary = !h.valid() || made.mesh.is_boundary(h);
+    file.lines.push_back({number(line.a), number(line.b)});
+    file.line_tags.push_back(line.tag != 0 ? line.tag : boundary ? kBoundary : inside);
+  }
+  for (const MarkedVertex& mark : made.marked) {
+    file.marked_points.push_back(number(mark.vertex));
+    file.point_tags.push_back(mark.tag != 0 ? mark.tag : point);
+  }
+  file.names = made.groups;
+  if (map) add_degrees(file, made, lon_lat, *map);
+  if (made.mesh.space().is_plane()) return file;
+  for (std::size_t p = 0; p < lon_lat.size(); ++p) {  // bit for bit
+    const VertexId v = made.vertex_of_point[p];
+    if (v.valid()) file.points[v.index] = lon_lat[p];
+  }
+  return file;
 }
 
 MeshFile from_mesh(const Mesh& mesh) {
