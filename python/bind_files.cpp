@@ -168,14 +168,12 @@ py::dict data_report(const PyMesh& self, const py::object& threads) {
 /// The contents of a file that Python gets unchanged. Points are not included, because they may be in the plane or on a
 /// sphere.
 Record arrays_of(const io::MeshFile& file) {
-  py::list names;
-  for (const io::PhysicalName& n : file.names) names.append(py::make_tuple(n.dimension, n.tag, n.name));
   return Record()("weights", file.weights)(
       "triangles", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 3>>(file.triangles)))(
       "regions", array_of<std::int32_t>(file.regions))(
       "lines", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(file.lines)))(
       "line_tags", array_of<std::int32_t>(file.line_tags))("marked_points", array_of<std::int32_t>(file.marked_points))(
-      "point_tags", array_of<std::int32_t>(file.point_tags))("names", py::object(names))(
+      "point_tags", array_of<std::int32_t>(file.point_tags))("names", py::object(physical_names_to_python(file.names)))(
       "point_data", py::object(to_python_dict(file.point_data)))(
       "cell_data", py::object(to_python_dict(file.cell_data)))("line_data", py::object(to_python_dict(file.line_data)))(
       "marked_point_data", py::object(to_python_dict(file.marked_point_data)))(
@@ -245,10 +243,7 @@ io::MeshFile file_of_arrays(const py::dict& d, std::size_t n_points) {
       from_python_dict(d["marked_point_data"].cast<py::dict>(), file.marked_points.size(), "data of vertex cells");
   check_range<3>(file.triangles, n_points, "triangle");
   check_range<2>(file.lines, n_points, "line");
-  for (const auto& item : d["names"]) {
-    auto [dimension, tag, text] = item.cast<std::tuple<int, std::int32_t, std::string>>();
-    file.names.push_back({dimension, tag, std::move(text)});
-  }
+  file.names = physical_names_from(d["names"]);
   for (const auto& [name, array] : d["field_data"].cast<py::dict>()) {
     file.field_data.push_back(from_python_array(name.cast<std::string>(), array.cast<py::array>()));
   }
@@ -376,6 +371,21 @@ void set_source_from_dict(PyMesh& self, const py::dict& d) {
 }
 
 }  // namespace
+
+py::list physical_names_to_python(const std::vector<PhysicalName>& names) {
+  py::list rows;
+  for (const PhysicalName& n : names) rows.append(py::make_tuple(n.dimension, n.tag, n.name));
+  return rows;
+}
+
+std::vector<PhysicalName> physical_names_from(const py::handle& names) {
+  std::vector<PhysicalName> result;
+  for (const auto& item : names) {
+    auto [dimension, tag, text] = item.cast<std::tuple<int, std::int32_t, std::string>>();
+    result.push_back({dimension, tag, std::move(text)});
+  }
+  return result;
+}
 
 void bind_files(py::module_& m) {
   m.def("read", read_file);

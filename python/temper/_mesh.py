@@ -13,8 +13,8 @@ from ._errors import TemperError, TemperWarning
 from ._others import cells_of, data_of, handle_of, meshio_of, put_back_vtk
 from ._space import Space
 
-_PICTURE = 3000  # triangles: larger meshes are not drawn in notebooks
-_WIDTH = 300.0  # of a picture [px]
+PICTURE = 2000  # triangles: notebooks draw no larger meshes
+PICTURE_WIDTH = 240.0  # [px]
 
 
 def _ints(values: Any, columns: int, name: str) -> npt.NDArray[Any]:
@@ -466,7 +466,9 @@ class Mesh:
         return f"<temper.Mesh: {vertices}, {triangles}{where}>"
 
     def _repr_svg_(self) -> str | None:
-        return _temper.draw_svg(self._handle, {"width": _WIDTH}) if self.n_triangles <= _PICTURE else None
+        if not 0 < self.n_triangles <= PICTURE:
+            return None
+        return _temper.draw_svg(self._handle, {"dual": False, "near_coincident": False, "width": PICTURE_WIDTH})
 
 
 def _unpickle(vertices: tuple[Any, ...], triangles: tuple[Any, ...], source: tuple[Any, ...]) -> Mesh:

@@ -126,7 +126,7 @@ def _options_for(target: str, effort: str, keep: Any, changes: Mapping[str, Any]
             raise TypeError(f"{name}: expected a word, found {word!r}")
     for name in changes:
         if name not in OPTION_NAMES:
-            guess = _temper.did_you_mean(name, list(OPTION_NAMES)) or "; help(temper.OptimizeOptions) lists all"
+            guess = _temper.did_you_mean(str(name), list(OPTION_NAMES)) or "; help(temper.OptimizeOptions) lists all"
             raise TypeError(f"there is no option {name!r}{guess}")
     plain = _temper.options_for(target, effort, _words(keep))
     options = OptimizeOptions(**{name: _from_plain(name, value) for name, value in plain.items()})

@@ -17,6 +17,7 @@ from ._errors import TemperError
 _WEIGHTS = ("weight", "weights")
 _WRITTEN = ("region", "gmsh:physical")  # cell data that to_meshio makes from the tags
 _REGIONS = ("region", "gmsh:physical", "medit:ref", "cell_tags")
+_QUALITY = ("well_centered", "min_h_over_l", "min_d_over_l", "min_angle_deg")  # that VTU has of the former mesh
 _NAMES = "physical_names"  # field data of VTU: a line "dimension tag name" for each name
 
 
@@ -43,7 +44,8 @@ class Cells:
 def cells_of(mesh: Any) -> Any:
     """A mesh of another library in the form of meshio, or None."""
     if hasattr(mesh, "celltypes") and hasattr(mesh, "cell_connectivity"):
-        return _vtk_cells(mesh, np.asarray(mesh.celltypes), np.asarray(mesh.offset), np.asarray(mesh.cell_connectivity))
+        offset = mesh.cell_offsets if hasattr(mesh, "cell_offsets") else mesh.offset
+        return _vtk_cells(mesh, np.asarray(mesh.celltypes), np.asarray(offset), np.asarray(mesh.cell_connectivity))
     if all(hasattr(mesh, name) for name in ("points", "verts", "lines", "faces", "cell_data")):
         return _poly_data(mesh)
     if hasattr(mesh, "face_node_connectivity"):
@@ -86,7 +88,7 @@ def _vtk_cells(mesh: Any, types: Any, offset: Any, connectivity: Any) -> Cells:
         name, width = _WIDTHS.get(int(kind), ("triangle", 3))
         if kind == _POLYGON:
             of_kind = of_kind[sizes[of_kind] == 3]
-        elif kind not in _WIDTHS and kind != _TRIANGLE:
+        if len(of_kind) == 0 or (kind not in _WIDTHS and kind not in (_TRIANGLE, _POLYGON)):
             continue
         n_parts = sizes[of_kind] - width + 1 if width < 3 else np.ones(len(of_kind), dtype=np.int64)
         cell = np.repeat(of_kind, n_parts)
@@ -110,9 +112,10 @@ def _vtk_cells(mesh: Any, types: Any, offset: Any, connectivity: Any) -> Cells:
 
 
 def _ugrid(grid: Any, variables: dict[str, Any]) -> Cells:
-    """A Ugrid2d, with the variables on its nodes and faces. Variables with other dimensions are left out."""
+    """A Ugrid2d, with the variables on its nodes and faces. Others are left out, but those of the grid itself."""
     if not hasattr(grid, "face_node_connectivity"):
         raise TemperError("empty_input", "", f"expected a Ugrid2d, found {type(grid).__name__}")
+    own = {word for value in getattr(grid, "attrs", {}).values() for word in str(value).split()}
     if getattr(grid, "is_geographic", False):
         cure = "Next: move it to a plane with to_crs, or read its file with temper.read(path, projection=…)"
         raise TemperError("geographic", "", f"the grid is in longitude and latitude. {cure}")
@@ -122,11 +125,14 @@ def _ugrid(grid: Any, variables: dict[str, Any]) -> Cells:
     if not triangular.all():
         result.left_out.append(f"{(~triangular).sum()} faces that are no triangles are left out")
     for name, variable in variables.items():
+        if name in own or not variable.dims:
+            continue
         if variable.dims == (grid.node_dimension,):
-            result.point_data[str(name)] = np.asarray(variable.values)
+            is_weight = name == f"{getattr(grid, 'name', '')}_node_weight"
+            result.point_data["weight" if is_weight else str(name)] = np.asarray(variable.values)
         elif variable.dims == (grid.face_dimension,):
             result.cell_data[str(name)] = [np.asarray(variable.values)[triangular]]
-        elif set(variable.dims) & {grid.node_dimension, grid.face_dimension, grid.edge_dimension}:
+        else:
             result.left_out.append(f"variable '{name}' with dimensions {', '.join(variable.dims)} is left out")
     return result
 
@@ -170,7 +176,10 @@ def _joined(mesh: Any, blocks: list[int], columns: int) -> Any:
 
 def _cell_data(mesh: Any, blocks: list[int], dropped: list[str]) -> dict[str, Any]:
     result = {}
+    made_again = _QUALITY if all(name in mesh.cell_data for name in _QUALITY) else ()
     for name, values in mesh.cell_data.items():
+        if name in made_again:
+            continue
         parts = [np.asarray(values[i]) for i in blocks]
         if parts and (array := data_of(name, np.concatenate(parts), dropped)) is not None:
             result[name] = array
@@ -212,8 +221,8 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
     points = _points(mesh.points)
     triangles, lines = _blocks(mesh, "triangle"), _blocks(mesh, "line")
     if not triangles:
-        raise TemperError("empty_input", "", "expected cells of type triangle; found " +
-                          (", ".join(sorted({b.type for b in mesh.cells})) or "none"))
+        found = [f"{len(block.data)} cells of type {block.type}" for block in mesh.cells] + dropped
+        raise TemperError("empty_input", "", f"expected cells of type triangle; {'; '.join(found) or 'there are none'}")
     point_data = {}
     weights = np.empty(0)
     for name, values in mesh.point_data.items():

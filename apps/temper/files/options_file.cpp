@@ -19,9 +19,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr auto kFlags = std::to_array<std::string_view>(
-    {"--for", "--effort", "--keep", "--fix", "--size", "--size-data", "--tensor", "--projection", "--point-data"});
-
 /// "size_data" of "--size-data".
 std::string member_of(std::string_view flag) {
   std::string member(flag.substr(2));
@@ -107,12 +104,10 @@ Json value_of(const OptionRow& row, const OptionValue& value) {
 
 }  // namespace
 
-std::span<const std::string_view> flags_of_a_run() { return kFlags; }
-
 void read_options(Command& command, const std::string& path, Assignments& assignments) {
   Assignments read;
   std::vector<std::string> known;
-  std::ranges::transform(kFlags, std::back_inserter(known), member_of);
+  std::ranges::transform(kFlagsOfARun, std::back_inserter(known), member_of);
   const Json json = parse(path);
   for (const auto& [member, value] : json.items()) {
     try {
@@ -122,7 +117,7 @@ void read_options(Command& command, const std::string& path, Assignments& assign
         read.push_back(row != nullptr ? assignment_of(path, *row, value) : parse_assignment(member, ""));
         continue;
       }
-      Option& option = command.option(kFlags.at(static_cast<std::size_t>(flag - known.begin())));
+      Option& option = command.option(kFlagsOfARun.at(static_cast<std::size_t>(flag - known.begin())));
       if (!option.given.empty() || value.is_null()) continue;
       for (const std::string& text : texts_of(path, member, value)) {
         option.take(text);
@@ -138,7 +133,8 @@ void read_options(Command& command, const std::string& path, Assignments& assign
 std::string options_json(const Command& command, const Assignments& assignments) {
   Json json = Json::object();
   for (const Option& option : command.options()) {
-    if (option.given.empty() || std::ranges::find(kFlags, long_name(option.names)) == kFlags.end()) continue;
+    if (option.given.empty() || std::ranges::find(kFlagsOfARun, long_name(option.names)) == kFlagsOfARun.end())
+      continue;
     const std::string member = member_of(long_name(option.names));
     if (option.values == Values::one) {
       json[member] = option.given.front();

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "files/options_file.hpp"
 #include "temper/detail/suggest.hpp"
 
 namespace temper::app {
@@ -95,7 +94,7 @@ const OptionRow& row_of(std::string_view name, std::span<const std::string_view>
   }
   if (std::ranges::find(known, name) != known.end()) return *find_option(name);
   const std::string flag = name == "target" ? "--for" : "--" + in_flag(name);
-  if (std::ranges::find(flags_of_a_run(), flag) != flags_of_a_run().end())
+  if (std::ranges::find(kFlagsOfARun, flag) != kFlagsOfARun.end())
     throw BadValue(fmt::format("there is no option '{}'; did you mean {}?", name, flag));
   const std::string_view guess = nearest(name, known);
   throw BadValue(

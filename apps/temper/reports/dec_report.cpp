@@ -112,6 +112,7 @@ std::string dec_json(const DecRecord& record) {
   const DecSummary& s = record.summary;
   const CellCounts cells = count(record.cells);
   Json json;
+  json["schema"] = kSchema;
   json["vertices"] = s.vertices;
   json["edges"] = s.edges;
   json["boundary_edges"] = s.boundary_edges;

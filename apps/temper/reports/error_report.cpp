@@ -227,7 +227,8 @@ Json error_report_json(const ErrorReport& report) {
 }
 
 std::string error_json(const ErrorRecord& record) {
-  Json json = error_report_json(record.report);
+  Json json = {{"schema", kSchema}};
+  json.update(error_report_json(record.report));
   if (record.against) {
     json["against"] = {{"mesh", record.against->path},
                        {"report", error_report_json(record.against->report)},

@@ -272,6 +272,7 @@ std::string explanation_text(const Explanation& e, const Input& input, std::size
 std::string explanation_json(const Explanation& e, const Input& input) {
   const JsonWriter writer(input);
   Json json;
+  json["schema"] = kSchema;
   json["triangles"] = e.triangles;
   json["bad"] = e.bad;
   json["verdict"] = name(e.verdict);

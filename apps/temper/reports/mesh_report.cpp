@@ -76,6 +76,7 @@ std::string mesh_text(const MeshRecord& r) {
 
 std::string mesh_json(const MeshRecord& r) {
   Json json;
+  json["schema"] = kSchema;
   json["command"] = r.command;
   json["version"] = version();
   for (const NamedOutline& input : r.inputs) {

@@ -164,6 +164,7 @@ std::string weights_text(const WeightsRecord& r) {
 std::string weights_json(const WeightsRecord& r) {
   const WeightReport& report = r.report;
   Json json;
+  json["schema"] = kSchema;
   json["mode"] = r.mode;
   json["constraints"] = name(r.options.constraints);
   json["edges"] = r.options.constraints == Constraints::regular ? Json(r.options.edges.size()) : Json(nullptr);

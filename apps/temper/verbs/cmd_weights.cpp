@@ -151,7 +151,7 @@ Exit check(const WeightsSettings& s, const Input& input) {
   const CertificateCheck result = check_certificate(input.mesh(), certificate);
   const bool proves = result == CertificateCheck::proves;
   if (s.json) {
-    print_data(fmt::format("{{\"proves\": {}, \"check\": \"{}\"}}\n", proves, name(result)));
+    print_data(fmt::format("{{\"schema\": {}, \"proves\": {}, \"check\": \"{}\"}}\n", kSchema, proves, name(result)));
   } else if (proves) {
     const ConstraintsInfo& row = constraints_table()[static_cast<std::size_t>(certificate.constraints)];
     const bool none = certificate.margin == 0 || certificate.constraints == Constraints::regular;

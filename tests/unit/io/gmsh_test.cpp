@@ -191,7 +191,7 @@ class Numbers {
   void one(double value) { put(value); }
   template <class T>
   void put(T value) {
-    if (!binary_) return static_cast<void>(content += text(value) + " ");
+    if (!binary_) return static_cast<void>(content += std::to_string(value) + " ");
     content.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
   bool binary_;
