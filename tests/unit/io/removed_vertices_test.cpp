@@ -50,6 +50,7 @@ MeshFile grid() {
 /// Takes vertices out of the mesh; returns the numbers of those that are left.
 IdVector<VertexId, VertexId> remove(Mesh& mesh, const std::vector<std::size_t>& gone) {
   for (const std::size_t v : gone) {
+    mesh.set_fixed(VertexId(v), false);  // marked points are
     const RemovalPlan plan = plan_removal(mesh, VertexId(v));
     EXPECT_EQ(plan.status, RemovalStatus::possible) << v;
     if (plan.status == RemovalStatus::possible) remove_vertex(mesh, plan);
@@ -325,6 +326,7 @@ TEST_F(FileTest, MarkersOfBoundaryPointsGoToPointsBetweenThemWhereFormatsMarkThe
 // Between them groups would change their shape if it slid.
 TEST_F(FileTest, PointsOfStraightBoundariesWhereTagsEndOrChangeAreFixed) {
   MeshFile f = grid();
+  f.marked_points.clear(), f.point_tags.clear();
   f.line_tags[6] = 5;  // bottom and middle alternate: the fourth piece of the bottom
   f.lines.pop_back(), f.line_tags.pop_back();
   f.lines.pop_back(), f.line_tags.pop_back();  // the last piece of the bottom
