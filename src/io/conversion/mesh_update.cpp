@@ -4,6 +4,7 @@
 // its line or its triangle. data_update.cpp moves data of points and triangles.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string_view>
 #include <unordered_map>
@@ -358,10 +359,11 @@ MeshFile from_outline(const OutlineMesh& made, std::span<const Vec2> lon_lat, co
   MeshFile file = from_mesh(made.mesh);
   for (auto* const tags : {&file.line_tags, &file.marked_points, &file.point_tags}) tags->clear();
   file.lines.clear();
-  constexpr std::int32_t kBoundary = 1;
+  constexpr std::int32_t kBoundary = 1, kHighest = std::numeric_limits<std::int32_t>::max() - 2;
   std::int32_t highest = kBoundary;
   for (const MeshLine& line : made.lines) highest = std::max(highest, line.tag);
   for (const MarkedVertex& mark : made.marked) highest = std::max(highest, mark.tag);
+  highest = std::min(highest, kHighest);
   const std::int32_t inside = highest + 1, point = highest + 2;
   const auto number = [](VertexId v) { return static_cast<std::int32_t>(v.index); };
   for (const MeshLine& line : made.lines) {

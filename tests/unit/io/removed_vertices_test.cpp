@@ -339,6 +339,31 @@ TEST_F(FileTest, PointsOfStraightBoundariesWhereTagsEndOrChangeAreFixed) {
   EXPECT_EQ(fixed, (std::vector<std::size_t>{3, 4, 5}));
 }
 
+/// Adds a second tag to the lines of tag 4: the bottom.
+void tag_the_bottom_twice(MeshFile& f) {
+  const std::size_t n = f.lines.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (f.line_tags[i] != 4) continue;
+    f.lines.push_back(f.lines[i]);
+    f.line_tags.push_back(6);
+  }
+}
+
+TEST_F(FileTest, EachTagOfAnEdgeFollowsVerticesThatGoOrCome) {
+  MeshFile f = grid();
+  tag_the_bottom_twice(f);
+  f.marked_points.clear(), f.point_tags.clear();
+  auto loaded = make_mesh(f);
+  ASSERT_TRUE(loaded);
+  for (const VertexId v : loaded->mesh.vertices()) EXPECT_FALSE(loaded->mesh.is_fixed(v)) << "both tags go on";
+  const InsertedAndRemoved changed = insert_and_remove(loaded->mesh);
+  update(f, *loaded, loaded->mesh, changed.vertices);
+  std::map<std::int32_t, std::vector<std::array<std::int32_t, 2>>> lines;
+  for (std::size_t i = 0; i < f.lines.size(); ++i) lines[f.line_tags[i]].push_back(f.lines[i]);
+  EXPECT_EQ(lines.at(4).size(), kSquares + 2u - 1) << "two vertices more and one less";
+  EXPECT_EQ(lines.at(6), lines.at(4));
+}
+
 // --- vertices of which nobody says what they were ----------------------------------------------------------------
 
 /// A sphere with a line of one tag around it, marked points, weights, and data of all kinds.
