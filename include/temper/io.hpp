@@ -334,7 +334,7 @@ struct OutlineFile {
 /// Reads an outline: Triangle's .poly (with its .node), JIGSAW's geometry, or GeoJSON. The content decides the format.
 [[nodiscard]] Expected<OutlineFile> read_outline(const std::string& path);
 
-/// A file that holds only this mesh.
+/// A file that holds only this mesh. Its fixed vertices are marked points of tag 1.
 [[nodiscard]] MeshFile from_mesh(const Mesh& mesh);
 
 /// A file with the mesh of an outline. It has the edges of the outline as tagged lines, the marked vertices as marked

@@ -88,6 +88,7 @@ class Joiner {
  private:
   using Error = std::optional<InputError>;
   static constexpr std::size_t kBasins = 0, kCoasts = 1, kLines = 2;
+  static constexpr std::int32_t kHighestTag = 2'000'000'000;  // free numbers come after it
 
   [[nodiscard]] const OutlineNames& names(std::size_t k) const { return *names_->outlines[k]; }
   [[nodiscard]] InputError at_segment(std::size_t k, std::size_t i, ErrorCode code, const std::string& what) const {
@@ -207,7 +208,7 @@ class Joiner {
       for (const OutlineTag& p : o->point_tags) tags.emplace(0, p.tag);
       for (const PhysicalName& g : o->groups) named.emplace(g.dimension, g.tag);
       for (const Group& tag : tags) {
-        highest_ = std::max(highest_, tag.second);
+        highest_ = std::max(highest_, std::min(tag.second, kHighestTag));
         if (!named.contains(tag)) taken_.insert(tag);
       }
     }
