@@ -126,6 +126,10 @@ class Visitor {
 /// Calls Python's observer, which may be None, and checks for Ctrl-C.
 Observer observer_of(Visitor& visitor, const py::object& observer);
 
+// Names of tags, as tuples of dimension, tag and name.
+py::list physical_names_to_python(const std::vector<PhysicalName>& names);
+std::vector<PhysicalName> physical_names_from(const py::handle& names);
+
 /// The metric of the three numbers of a diffusion tensor.
 Metric metric_from(const py::handle& tensor);
 

@@ -325,6 +325,18 @@ std::optional<double> size_or_none(const py::handle& value) {
   return value.cast<double>();
 }
 
+std::vector<OutlineTag> outline_tags_from(const py::handle& rows) {
+  std::vector<OutlineTag> tags;
+  const auto pairs = rows.cast<Int32s>();
+  for (const auto& [element, tag] : as_span<std::array<std::int32_t, 2>>(pairs)) tags.push_back({element, tag});
+  return tags;
+}
+
+py::array rows_of_tags(const std::vector<OutlineTag>& tags) {
+  static_assert(sizeof(OutlineTag) == 2 * sizeof(std::int32_t));
+  return rows_of<std::int32_t>(std::span<const OutlineTag>(tags));
+}
+
 Outline outline_from(const py::dict& d) {
   Outline outline;
   const auto points = d["points"].cast<Doubles>();
@@ -351,6 +363,9 @@ Outline outline_from(const py::dict& d) {
     const auto numbers = as_span<std::int32_t>(segments);
     outline.parts.push_back({p[0].cast<std::int32_t>(), {numbers.begin(), numbers.end()}, size_or_none(p[2])});
   }
+  outline.point_tags = outline_tags_from(d["point_tags"]);
+  outline.further_tags = outline_tags_from(d["further_tags"]);
+  outline.groups = physical_names_from(d["groups"]);
   if (!d["names"].is_none()) outline.names = d["names"].cast<PyNames>().names;
   return outline;
 }
@@ -370,6 +385,8 @@ py::dict outline_to_dict(const Outline& outline) {
              "segments", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(ends)))(
              "segment_tags", array_of<std::int32_t>(tags))(
              "holes", rows_of<double>(std::span<const Vec2>(outline.holes)))("regions", regions)("parts", parts)(
+             "point_tags", rows_of_tags(outline.point_tags))("further_tags", rows_of_tags(outline.further_tags))(
+             "groups", physical_names_to_python(outline.groups))(
              "names", outline.names ? py::cast(PyNames{outline.names}) : py::none())
       .dict;
 }
@@ -395,35 +412,60 @@ MesherOptions mesher_options_from(const py::dict& d, const py::object& optimize_
   return options;
 }
 
-py::tuple outline_mesh_to_python(OutlineMesh result) {
+/// The degrees that the points of an outline were given in, and their map; none in a plane without a map.
+struct GivenDegrees {
+  std::vector<Vec2> lon_lat;
+  std::optional<Projection> map;
+};
+
+GivenDegrees degrees_from(const py::handle& given) {
+  if (given.is_none()) return {};
+  const auto [kind, lon, lat, radius, lon_lat] = given.cast<std::tuple<std::string, double, double, double, Doubles>>();
+  const auto points = as_span<Vec2>(lon_lat);
+  return {{points.begin(), points.end()},
+          Projection{from_name<ProjectionKind>("projection", kind), {lon, lat}, radius}};
+}
+
+/// The mesh, with the file that the program writes.
+py::tuple outline_mesh_to_python(OutlineMesh result, const GivenDegrees& degrees) {
+  auto source = std::make_shared<Source>();
+  source->file = io::from_outline(result, degrees.lon_lat, degrees.map);
+  source->loaded.vertex_of_point = io::VertexOfPoint(result.mesh.n_vertices());
+  std::vector<std::array<std::int32_t, 2>> marked;
+  for (const auto& [vertex, tag] : result.marked) marked.push_back({static_cast<std::int32_t>(vertex.index), tag});
   std::vector<std::array<VertexId, 2>> lines;
   std::vector<std::int32_t> tags;
   for (const MeshLine& line : result.lines) lines.push_back({line.a, line.b}), tags.push_back(line.tag);
-  return py::make_tuple(std::make_unique<PyMesh>(std::move(result.mesh)),
-                        Record()("lines", rows_of<VertexId>(std::span<const std::array<VertexId, 2>>(lines)))(
-                            "line_tags", array_of<std::int32_t>(tags))("vertex_of_point", result.vertex_of_point)(
-                            "bad", result.bad)("delaunay_bad", result.delaunay_bad)("attempts", result.attempts)(
-                            "report", report_to_dict(result.report))("notes", result.notes)
-                            .dict);
+  return py::make_tuple(
+      std::make_unique<PyMesh>(std::move(result.mesh), std::move(source)),
+      Record()("lines", rows_of<VertexId>(std::span<const std::array<VertexId, 2>>(lines)))(
+          "line_tags", array_of<std::int32_t>(tags))(
+          "marked", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(marked)))(
+          "groups", physical_names_to_python(result.groups))("vertex_of_point", result.vertex_of_point)(
+          "bad", result.bad)("delaunay_bad", result.delaunay_bad)("attempts", result.attempts)(
+          "report", report_to_dict(result.report))("notes", result.notes)
+          .dict);
 }
 
 /// Makes a mesh by the function `mesh`, which runs without the GIL.
 template <class Mesher>
-py::tuple mesh_by(const Mesher& mesh, const py::object& threads, const py::object& observer) {
+py::tuple mesh_by(const Mesher& mesh, const GivenDegrees& degrees, const py::object& threads,
+                  const py::object& observer) {
   const auto executor = make_threads(threads_from(threads));
   Visitor visitor;
   const Observer watching = observer_of(visitor, observer);
   auto made = aside(
       [&] { return mesh(OptimizeHooks{.executor = executor.get(), .observer = watching, .solvers = solvers()}); });
   visitor.raise();
-  return outline_mesh_to_python(or_raise(std::move(made)));
+  return outline_mesh_to_python(or_raise(std::move(made)), degrees);
 }
 
 py::tuple mesh_an_outline(const py::dict& dict, const py::dict& d, const py::object& optimize_options,
                           const py::object& threads, const py::object& observer) {
   const Outline outline = outline_from(dict);
   const MesherOptions options = mesher_options_from(d, optimize_options);
-  return mesh_by([&](const OptimizeHooks& hooks) { return mesh_outline(outline, options, hooks); }, threads, observer);
+  return mesh_by([&](const OptimizeHooks& hooks) { return mesh_outline(outline, options, hooks); },
+                 degrees_from(dict["degrees"]), threads, observer);
 }
 
 py::tuple mesh_a_sphere(const py::dict& dict, const py::dict& d, const py::object& optimize_options,
@@ -431,7 +473,11 @@ py::tuple mesh_a_sphere(const py::dict& dict, const py::dict& d, const py::objec
   const auto outline = [&dict](const char* name) { return outline_from(dict[name].cast<py::dict>()); };
   const SphereOutline sphere = {dict["radius"].cast<double>(), outline("basins"), outline("coasts"), outline("lines")};
   const MesherOptions options = mesher_options_from(d, optimize_options);
-  return mesh_by([&](const OptimizeHooks& hooks) { return mesh_sphere(sphere, options, hooks); }, threads, observer);
+  GivenDegrees degrees;
+  for (const Outline* one : {&sphere.basins, &sphere.coasts, &sphere.lines})
+    degrees.lon_lat.insert(degrees.lon_lat.end(), one->points.begin(), one->points.end());
+  return mesh_by([&](const OptimizeHooks& hooks) { return mesh_sphere(sphere, options, hooks); }, degrees, threads,
+                 observer);
 }
 
 void bind_mesher(py::module_& m) {

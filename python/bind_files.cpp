@@ -103,10 +103,14 @@ struct UpdatedFile {
 
 /// The updated original file of the mesh, or a new one. Without the GIL it works on a copy of the mesh that was made
 /// with the GIL. The copy shares the memory, so other threads may change the mesh meanwhile.
-UpdatedFile updated_file_of(const PyMesh& self, Executor* executor) {
+UpdatedFile updated_file_of(const PyMesh& self, Executor* executor, bool with_data = true) {
   const auto mesh = self.read();
   if (!self.source()) return {io::from_mesh(*mesh), {}};
   UpdatedFile result{self.source()->file, {}};
+  if (!with_data) {
+    result.file.point_data.clear();
+    result.file.cell_data.clear();
+  }
   result.data = io::update(result.file, self.source()->loaded, *mesh, self.origin(), {self.data_rules(), executor});
   return result;
 }
@@ -164,14 +168,12 @@ py::dict data_report(const PyMesh& self, const py::object& threads) {
 /// The contents of a file that Python gets unchanged. Points are not included, because they may be in the plane or on a
 /// sphere.
 Record arrays_of(const io::MeshFile& file) {
-  py::list names;
-  for (const io::PhysicalName& n : file.names) names.append(py::make_tuple(n.dimension, n.tag, n.name));
   return Record()("weights", file.weights)(
       "triangles", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 3>>(file.triangles)))(
       "regions", array_of<std::int32_t>(file.regions))(
       "lines", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(file.lines)))(
       "line_tags", array_of<std::int32_t>(file.line_tags))("marked_points", array_of<std::int32_t>(file.marked_points))(
-      "point_tags", array_of<std::int32_t>(file.point_tags))("names", py::object(names))(
+      "point_tags", array_of<std::int32_t>(file.point_tags))("names", py::object(physical_names_to_python(file.names)))(
       "point_data", py::object(to_python_dict(file.point_data)))(
       "cell_data", py::object(to_python_dict(file.cell_data)))("line_data", py::object(to_python_dict(file.line_data)))(
       "marked_point_data", py::object(to_python_dict(file.marked_point_data)))(
@@ -179,9 +181,10 @@ Record arrays_of(const io::MeshFile& file) {
       "warnings", file.warnings);
 }
 
-py::dict file_as_dict(const PyMesh& self) {
+/// The file of the mesh as it is now. Without data of points and triangles, nothing has to be interpolated.
+py::dict file_as_dict(const PyMesh& self, bool with_data) {
   const PyMesh same = self.copy();
-  io::MeshFile file = aside([&] { return file_of(same); });
+  io::MeshFile file = aside([&] { return updated_file_of(same, nullptr, with_data).file; });
   std::vector<Vec3> places;
   if (file.sphere() != nullptr) places = file.sphere()->places;
   if (places.empty()) {
@@ -240,6 +243,10 @@ io::MeshFile file_of_arrays(const py::dict& d, std::size_t n_points) {
       from_python_dict(d["marked_point_data"].cast<py::dict>(), file.marked_points.size(), "data of vertex cells");
   check_range<3>(file.triangles, n_points, "triangle");
   check_range<2>(file.lines, n_points, "line");
+  file.names = physical_names_from(d["names"]);
+  for (const auto& [name, array] : d["field_data"].cast<py::dict>()) {
+    file.field_data.push_back(from_python_array(name.cast<std::string>(), array.cast<py::array>()));
+  }
   return file;
 }
 
@@ -334,13 +341,6 @@ io::MeshFile file_of_source(const py::dict& d, std::size_t n_points) {
   io::MeshFile file = file_of_arrays(d, n_points);
   file.points = copy_of<Vec2>(d["points"].cast<Doubles>());
   file.points_in = points_in_from(d["points_in"].cast<py::tuple>());
-  for (const auto& item : d["names"]) {
-    auto [dimension, tag, text] = item.cast<std::tuple<int, std::int32_t, std::string>>();
-    file.names.push_back({dimension, tag, std::move(text)});
-  }
-  for (const auto& [name, array] : d["field_data"].cast<py::dict>()) {
-    file.field_data.push_back(from_python_array(name.cast<std::string>(), array.cast<py::array>()));
-  }
   file.path = d["path"].cast<std::string>();
   file.format = d["format"].cast<std::string>();
   file.warnings = strings_from(d["warnings"]);
@@ -371,6 +371,21 @@ void set_source_from_dict(PyMesh& self, const py::dict& d) {
 }
 
 }  // namespace
+
+py::list physical_names_to_python(const std::vector<PhysicalName>& names) {
+  py::list rows;
+  for (const PhysicalName& n : names) rows.append(py::make_tuple(n.dimension, n.tag, n.name));
+  return rows;
+}
+
+std::vector<PhysicalName> physical_names_from(const py::handle& names) {
+  std::vector<PhysicalName> result;
+  for (const auto& item : names) {
+    auto [dimension, tag, text] = item.cast<std::tuple<int, std::int32_t, std::string>>();
+    result.push_back({dimension, tag, std::move(text)});
+  }
+  return result;
+}
 
 void bind_files(py::module_& m) {
   m.def("read", read_file);

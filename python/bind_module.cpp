@@ -6,6 +6,7 @@
 #include "bind.hpp"
 #include "temper/detail/build_info.hpp"
 #include "temper/detail/instruction_set.hpp"
+#include "temper/detail/suggest.hpp"
 #include "temper/detail/version.hpp"
 #ifdef TEMPER_WITH_TBB
 #include "temper/detail/tbb_executor.hpp"
@@ -31,10 +32,8 @@ Metric metric_from(const py::handle& tensor) {
 std::size_t choose(std::string_view option, std::string_view text, std::span<const std::string_view> names) {
   const auto found = std::find(names.begin(), names.end(), text);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  std::string message(option);
-  message += ": expected one of ";
-  for (const std::string_view name : names) message += (name == names.front() ? "" : ", ") + std::string(name);
-  fail(ErrorCode::invalid_option, message + "; found '" + std::string(text) + "'");
+  fail(ErrorCode::invalid_option, std::string(option) + ": expected one of " + join(names) + "; found '" +
+                                      std::string(text) + "'" + did_you_mean(text, names));
 }
 
 LengthParameter length_parameter_from(const py::handle& value) {
@@ -266,6 +265,10 @@ PYBIND11_MODULE(_temper, m) {
   });
   m.attr("__version__") = to_python(temper::version());
   bind_build_info(m);
+  m.def("did_you_mean", [](const std::string& word, const py::sequence& names) {
+    const std::vector<std::string> known = strings_from(names);
+    return temper::did_you_mean(word, std::vector<std::string_view>(known.begin(), known.end()));
+  });
   m.attr("knows_numpy_2") = kKnowsNumPy2;
   bind_mesh(m);
   bind_files(m);

@@ -193,10 +193,12 @@ void bind_optimize(py::module_& m) {
     const std::vector<std::string_view> parts(names.begin(), names.end());
     return options_to_dict(or_raise(options_for(target, effort, parts)));
   });
-  m.def("check_kept", [](const py::dict& options, const py::sequence& keep) {
+  m.def("check_words", [](const py::dict& given, const std::string& target, const py::sequence& keep) {
+    const OptimizeOptions options = options_from(given);
+    or_raise(check_target(options, target));
     const std::vector<std::string> names = strings_from(keep);
     const std::vector<std::string_view> parts(names.begin(), names.end());
-    or_raise(check_kept(options_from(options), parts));
+    or_raise(check_kept(options, parts));
   });
   m.def("presets", [] {
     const auto rows = [](std::span<const Preset> presets) {

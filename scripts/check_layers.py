@@ -41,7 +41,7 @@ LAYERS = {
     "generate": _BELOW + ["topology", "energy", "regularity", "projection"],
     "mesher": _BELOW + ["size", "topology", "energy", "regularity", "feasibility", "optimize", "generate", "projection"],
     # A library of its own: sees the core's public headers, and no other folder of src/.
-    "io": _BELOW + ["projection", "location", "size", "quality", "dec"],
+    "io": _BELOW + ["projection", "location", "size", "quality", "dec", "mesher"],
     "lp": _BELOW + ["feasibility"],
     "tbb": ["base"],
     "mpi": ["base"],
@@ -52,7 +52,7 @@ LAYERS = {
 CORE = set(LAYERS) - {"io", "lp", "tbb", "mpi", "errors", "solvers", "build_info"}
 
 # Public headers whose name is not that of their layer.
-HEADER_LAYER = {name: "base" for name in ["ids", "vec", "space", "error", "progress", "executor", "instruction_set", "outline", "read_number", "version"]} | {"temper": "solvers", "trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "tbb_executor": "tbb", "mpi_communicator": "mpi", "columns": "dec", "tensor": "mesh", "discretization_error": "mesh", "dec_io": "io", "html": "io"}
+HEADER_LAYER = {name: "base" for name in ["ids", "vec", "space", "error", "progress", "executor", "instruction_set", "outline", "read_number", "suggest", "version"]} | {"temper": "solvers", "trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "tbb_executor": "tbb", "mpi_communicator": "mpi", "columns": "dec", "tensor": "mesh", "discretization_error": "mesh", "dec_io": "io", "html": "io"}
 
 STANDARD = set("""
 algorithm array atomic bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits cmath

@@ -15,34 +15,51 @@
 
 namespace temper::app {
 
-void print_error(std::string_view message) { fmt::print(stderr, "temper: error: {}\n", printable(message)); }
+void put_to_error(std::string_view text) { static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr)); }
+
+void print_error(std::string_view message) { put_to_error(fmt::format("temper: error: {}\n", printable(message))); }
 
 void print_warnings(std::span<const std::string> messages) {
-  for (const std::string& message : messages) fmt::print(stderr, "temper: warning: {}\n", printable(message));
+  for (const std::string& message : messages) put_to_error(fmt::format("temper: warning: {}\n", printable(message)));
 }
 
 namespace {
 
-std::FILE*& printed_to() {
-  static std::FILE* file = stdout;
-  return file;
+struct Printing {
+  std::FILE* to = stdout;
+  bool is_quiet = false;       // by --quiet
+  bool has_no_reader = false;  // the reader of the pipe has ended
+};
+
+Printing& printing() {
+  static Printing now;
+  return now;
+}
+
+void expect_printed(bool printed) {
+  if (printed) return;
+  if (errno != EPIPE) throw Failure(Exit::bad_input, fmt::format("standard output: {}", std::strerror(errno)));
+  printing().has_no_reader = true;
 }
 
 }  // namespace
 
-void print_to_standard_error() { printed_to() = stderr; }
+void print_to_standard_error() { printing().to = stderr; }
+void be_quiet() { printing().is_quiet = true; }
+bool is_quiet() { return printing().is_quiet || printing().has_no_reader; }
 
-void print(std::string_view any_text) {
+void print(std::string_view text) {
+  if (!is_quiet()) print_data(text);
+}
+
+void print_data(std::string_view any_text) {
+  if (printing().has_no_reader) return;
   const std::string text = printable(any_text);
-  if (std::fwrite(text.data(), 1, text.size(), printed_to()) != text.size()) {
-    throw Failure(Exit::bad_input, fmt::format("standard output: {}", std::strerror(errno)));
-  }
+  expect_printed(std::fwrite(text.data(), 1, text.size(), printing().to) == text.size());
 }
 
 void flush_output() {
-  if (std::fflush(stdout) != 0) {
-    throw Failure(Exit::bad_input, fmt::format("standard output: {}", std::strerror(errno)));
-  }
+  if (!printing().has_no_reader) expect_printed(std::fflush(stdout) == 0);
 }
 
 bool error_is_terminal() { return isatty(STDERR_FILENO) == 1; }
@@ -82,6 +99,10 @@ std::string pad_right(std::string_view text, std::size_t width) {
 
 std::string plural(std::size_t n, std::string_view one, std::string_view several) {
   return fmt::format("{} {}", n, n == 1 ? one : several);
+}
+
+std::string mesh_size(std::size_t vertices, std::size_t triangles) {
+  return plural(vertices, "vertex", "vertices") + ", " + plural(triangles, "triangle", "triangles");
 }
 
 std::vector<std::string> wrap(std::string_view text, std::size_t width) {

@@ -13,8 +13,17 @@ namespace temper::app {
 void print_error(std::string_view message);
 void print_warnings(std::span<const std::string> messages);
 
-/// Text to standard output. Throws Failure when it cannot be written.
+/// Text to standard error. What cannot be written there is lost.
+void put_to_error(std::string_view text);
+
+/// Text for people to standard output, unless quiet. Throws Failure when it cannot be written. If the reader of a pipe
+/// has ended, the text is lost, and the program goes on: its files matter more.
 void print(std::string_view text);
+/// The same for data that were asked for, such as JSON: they are printed also when quiet.
+void print_data(std::string_view text);
+/// From now on print() prints nothing: --quiet.
+void be_quiet();
+[[nodiscard]] bool is_quiet();
 /// From now on print() writes to standard error: a mesh takes standard output.
 void print_to_standard_error();
 /// Makes sure that everything printed so far is written. Throws Failure, for example on a full disk behind a
@@ -33,6 +42,8 @@ void flush_output();
 [[nodiscard]] std::string pad_right(std::string_view text, std::size_t width);
 /// "1 edge", "3 edges"
 [[nodiscard]] std::string plural(std::size_t n, std::string_view one, std::string_view several);
+/// "4 vertices, 1 triangle"
+[[nodiscard]] std::string mesh_size(std::size_t vertices, std::size_t triangles);
 /// Lines of at most width columns, broken at spaces.
 [[nodiscard]] std::vector<std::string> wrap(std::string_view text, std::size_t width);
 

@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "temper/detail/error.hpp"
@@ -20,6 +21,9 @@ enum class Exit : int {
   internal = 5,       ///< a defect of temper
   infeasible = 6,     ///< weights: none do what was asked
 };
+
+/// A sentence for people.
+[[nodiscard]] std::string_view meaning(Exit exit);
 
 class Failure : public std::runtime_error {
  public:

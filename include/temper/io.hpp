@@ -23,6 +23,10 @@
 #include "temper/detail/size.hpp"
 #include "temper/mesh.hpp"
 
+namespace temper {
+struct OutlineMesh;
+}
+
 namespace temper::io {
 
 /// Numbers of one type. A file is written with the types that it was read with.
@@ -37,12 +41,7 @@ struct DataArray {
   Values values;
 };
 
-/// A named group of elements: Gmsh physical names.
-struct PhysicalName {
-  int dimension = 0;  ///< 0 points, 1 lines, 2 triangles
-  std::int32_t tag = 0;
-  std::string name;
-};
+using temper::PhysicalName;
 
 /// A map on which the points of a file in degrees lie.
 struct GeographicMap {
@@ -335,7 +334,18 @@ struct OutlineFile {
 /// Reads an outline: Triangle's .poly (with its .node), JIGSAW's geometry, or GeoJSON. The content decides the format.
 [[nodiscard]] Expected<OutlineFile> read_outline(const std::string& path);
 
-/// A file that holds only this mesh.
+/// A file that holds only this mesh. Its fixed vertices are marked points of tag 1.
 [[nodiscard]] MeshFile from_mesh(const Mesh& mesh);
+
+/// A file with the mesh of an outline. It has the edges of the outline as tagged lines, the marked vertices as marked
+/// points, and the names of both. Tags of 0 are replaced, because files drop elements without a tag: lines on the
+/// boundary get 1, as in Triangle. Other lines get the first number above 1 and above all other tags, and points the
+/// number after it.
+///
+/// If the outline was given in degrees, `lon_lat` has its points as they were given (`vertex_of_point` counts them),
+/// and `map` is the projection of the plane. The points of a file on the sphere are then these degrees, bit for bit. A
+/// file in the plane has point data `longitude` and `latitude`.
+[[nodiscard]] MeshFile from_outline(const OutlineMesh& made, std::span<const Vec2> lon_lat = {},
+                                    const std::optional<Projection>& map = {});
 
 }  // namespace temper::io

@@ -52,9 +52,18 @@ struct MeshLine {
   std::int32_t tag = 0;
 };
 
+/// A vertex that is a point of the outline with a tag, or a point of no segment.
+struct MarkedVertex {
+  VertexId vertex;
+  std::int32_t tag = 0;
+};
+
 struct OutlineMesh {
   Mesh mesh;
-  std::vector<MeshLine> lines;            ///< Each edge on the outline once, in the order of the segments
+  /// Each edge on the outline, in the order of the segments: once for each of its tags, or once with tag 0.
+  std::vector<MeshLine> lines;
+  std::vector<MarkedVertex> marked;       ///< Tagged points, then points of no segment without a tag
+  std::vector<PhysicalName> groups;       ///< Names of these tags, and of regions
   std::vector<VertexId> vertex_of_point;  ///< Vertex of each point of the outline; invalid if the point is outside
   std::size_t bad = 0;                    ///< Number of triangles that are not well-centered
   std::size_t delaunay_bad = 0;           ///< Number of such triangles before the optimization

@@ -2,7 +2,7 @@
 
 A weighted triangulation and its power diagram are optimized until every triangle is well-centered: its orthocenter is
 inside, and its dual crosses every edge. Arrays are NumPy arrays, without copies if the memory allows. Every function
-that takes a mesh also takes a ``meshio`` mesh.
+that takes a mesh also takes meshes of ``meshio``, ``PyVista`` and ``xugrid``.
 
 >>> import temper
 >>> mesh = temper.generate.annulus()
@@ -35,7 +35,7 @@ from ._errors import TemperError, TemperWarning
 from ._explain import explain
 from ._io import formats, read, write
 from ._measure import quality, quality_measures, triangle_quality
-from ._mesh import Mesh, from_meshio
+from ._mesh import Mesh, as_mesh, from_meshio
 from ._optimize import Hooks, optimize, replay
 from ._options import LengthParameter, OptimizeOptions, options_for
 from ._outline import Outline, mesh_outline, mesh_sphere, read_outline

@@ -66,6 +66,8 @@ class DecEdges(Record):
     midpoint: npt.NDArray[np.float64]
     """Point at which the line of the dual edge crosses the line of the edge, (e, 2). On a sphere (e, 3), at its
     radius."""
+    named: dict[str, npt.NDArray[np.int32]]
+    """Numbers of the edges of each name of lines, such as ``named["inflow"]``, ascending (``Mesh.names``)."""
 
     def __len__(self) -> int:
         return len(self.length)
@@ -166,8 +168,9 @@ class DecComplex(Record):
     _handle: Any = dataclasses.field(repr=False, compare=False)
 
     def __reduce__(self) -> Any:
-        coefficient = self.coefficient.copy() if len(self.coefficient) else None
-        return _dec_of, (Mesh._of(self._handle.mesh()), self._handle.tensor(), coefficient)
+        lines = {name: self.edges.vertices[numbers] for name, numbers in self.edges.named.items()}
+        coefficient = self.coefficient.copy() if len(self.coefficient) else np.empty(0)
+        return _dec_of, (Mesh._of(self._handle.mesh()), self._handle.tensor(), coefficient, lines)
 
     def star(self, s: Literal[0, 1, 2]) -> Any:
         """★s as a diagonal ``scipy.sparse`` matrix. Needs SciPy."""
@@ -200,12 +203,6 @@ class DecComplex(Record):
         """Writes the operators into a folder (docs/reference/operators.md names every file and array). On an error no
         file is written. Returns the paths of the files."""
         return self._handle.write(os.fspath(folder), list(formats), threads)
-
-
-def _dec_of(
-    mesh: Mesh, tensor: tuple[float, float, float] | None, coefficient: npt.NDArray[np.float64] | None
-) -> DecComplex:
-    return dec_operators(mesh, tensor=tensor, coefficient=coefficient)
 
 
 def _coefficient_of(mesh: Mesh, coefficient: npt.ArrayLike | Mapping[int, float] | None) -> npt.NDArray[np.float64]:
@@ -241,7 +238,7 @@ def dec_operators(
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
+    mesh : MeshLike
     tensor : sequence of float, optional
         kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u). Duals and lengths are measured in its metric. ★1
         and transmissibility are multiplied by √(det K) (docs/howto/anisotropic.md).
@@ -270,11 +267,34 @@ def dec_operators(
     >>> complex.d0.shape
     (1240, 441)
     """
-    mesh = as_mesh(mesh)
-    k = _coefficient_of(mesh, coefficient)
-    handle = _temper.dec_operators(mesh._handle, None if tensor is None else tuple(tensor), k)
+    given = as_mesh(mesh)
+    tensor = None if tensor is None else tuple(tensor)
+    return _dec_of(given, tensor, _coefficient_of(given, coefficient), _named_lines(given))
+
+
+def _named_lines(mesh: Mesh) -> dict[str, npt.NDArray[np.int32]]:
+    """The lines of each name, (k, 2)."""
+    file = mesh._file()
+    named: dict[str, list[Any]] = {}
+    for dimension, tag, name in file["names"]:
+        if dimension == 1:
+            named.setdefault(name, []).append(file["lines"][file["line_tags"] == tag])
+    return {name: np.concatenate(lines) for name, lines in named.items()}
+
+
+def _dec_of(
+    mesh: Mesh,
+    tensor: tuple[float, ...] | None,
+    coefficient: npt.NDArray[np.float64],
+    named: dict[str, npt.NDArray[np.int32]],
+) -> DecComplex:
+    handle = _temper.dec_operators(mesh._handle, tensor, coefficient)
     arrays = handle.arrays()
-    edges = DecEdges(**arrays.pop("edges"))
+    edges = DecEdges(**arrays.pop("edges"), named={})
+    keys = edges.vertices[:, 0].astype(np.int64) * mesh.n_vertices + edges.vertices[:, 1]  # ascending
+    for name, lines in named.items():
+        low, high = np.sort(lines.astype(np.int64), axis=1).T
+        edges.named[name] = np.flatnonzero(np.isin(keys, low * mesh.n_vertices + high)).astype(np.int32)
     d0, d1 = IncidenceMatrix(**arrays.pop("d0")), IncidenceMatrix(**arrays.pop("d1"))
     return DecComplex(edges=edges, d0=d0, d1=d1, _handle=handle, **arrays)
 
@@ -335,7 +355,7 @@ def columns(
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
+    mesh : MeshLike
         A regular mesh in the plane.
     surfaces : array_like
         Heights, (n_vertices, layers + 1): the top and then the bottom of each layer, going down [length]; or (layers +

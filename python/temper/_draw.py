@@ -10,10 +10,9 @@ from typing import Any, Sequence
 from . import _temper
 from ._explain import explain
 from ._measure import quality
-from ._mesh import Mesh, MeshLike, as_mesh
-from ._optimize import PAGE, OptimizeReport
+from ._mesh import PICTURE_WIDTH, Mesh, MeshLike, as_mesh
+from ._optimize import OptimizeReport
 from ._records import Record, table
-from ._space import Space
 
 _EXPLAINED = 500  # bad triangles: about one second, as in the program
 
@@ -58,8 +57,8 @@ def draw_svg(
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
-    before : Mesh or meshio.Mesh, optional
+    mesh : MeshLike
+    before : MeshLike, optional
         A mesh to draw on the left, with the same scale, view and zoom box.
     primal, dual : bool
         Draw the edges of the triangulation, and the edges of the power diagram between orthocenters. Dual edges of
@@ -147,8 +146,8 @@ def html_report(
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
-    before : Mesh or meshio.Mesh, optional
+    mesh : MeshLike
+    before : MeshLike, optional
         A mesh for comparison.
     report : OptimizeReport, optional
         Report of the run that made the mesh; its history and notes are shown too.
@@ -201,17 +200,15 @@ def _mesh_html(mesh: Mesh) -> str:
         ("least h/ℓ", f"{q.min_h_over_l:.4g}"),
         ("angles", f"{q.min_angle_deg:.4g}° to {q.max_angle_deg:.4g}°"),
     ]
-    if mesh.n_triangles == 0 or mesh.n_triangles > PAGE or mesh.space != Space():
-        return table("temper.Mesh", rows)
-    return table("temper.Mesh", rows, html_report(mesh, reasons=False)._repr_html_())
+    return table("temper.Mesh", rows, mesh._repr_svg_() or "")
 
 
 def _report_html(report: OptimizeReport) -> str:
     if report._meshes is None:
         return Record._repr_html_(report)
     before, after = report._meshes
-    page = html_report(after, before, report, title="temper.optimize", reasons=False)
-    return table("OptimizeReport", report._rows(), page._repr_html_())
+    picture = draw_svg(after, before=before, dual=False, near_coincident=False, width=PICTURE_WIDTH)
+    return table("OptimizeReport", report._rows(), picture)
 
 
 Mesh._repr_html_ = _mesh_html  # type: ignore[attr-defined]

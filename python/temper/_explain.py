@@ -159,7 +159,7 @@ def explain(
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
+    mesh : MeshLike
     cures : int
         Largest number of reasons, the worst, for which cures are searched.
     whole : int

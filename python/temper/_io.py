@@ -97,7 +97,7 @@ def write(
         Path of the file. It is written under a temporary name first, so that an error leaves the old file unchanged. If
         a mesh needs several files, they are renamed one after the other when all are complete. If one cannot be
         renamed, the files before it are new, and the error names them.
-    mesh : Mesh or meshio.Mesh
+    mesh : MeshLike
     format : str, optional
         A name of ``formats()``; by default the suffix of the path decides.
     encoding : {"ascii", "base64", "appended"}, optional

@@ -128,7 +128,7 @@ def quality(
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
+    mesh : MeshLike
     gamma, h0 : LengthParameter or float
         Parameters γ of E_BP and −h° of E_BHs in the report; plain numbers are relative to each edge.
     worst : int

@@ -185,7 +185,7 @@ def measure_errors(
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
+    mesh : MeshLike
     fields : sequence of str
         Names of fields or of groups (``"chosen"``, ``"held-back"``), or ``"all"``; empty: all.
     frame : FieldFrame, optional

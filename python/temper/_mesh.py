@@ -10,10 +10,11 @@ import numpy.typing as npt
 
 from . import _temper
 from ._errors import TemperError, TemperWarning
-from ._meshio import data_of, handle_of, meshio_of
+from ._others import cells_of, data_of, handle_of, meshio_of, put_back_vtk
 from ._space import Space
 
-_PICTURE = 3000  # triangles: larger meshes are not drawn in notebooks
+PICTURE = 2000  # triangles: notebooks draw no larger meshes
+PICTURE_WIDTH = 240.0  # [px]
 
 
 def _ints(values: Any, columns: int, name: str) -> npt.NDArray[Any]:
@@ -83,7 +84,7 @@ class Data(MutableMapping[str, npt.NDArray[Any]]):
 
     def __init__(self, mesh: Mesh, kind: Literal["point_data", "cell_data"]) -> None:
         self._mesh, self._kind = mesh, kind
-        self._arrays = _temper.file_as_dict(mesh._handle)[kind]
+        self._arrays = _temper.file_as_dict(mesh._handle, True)[kind]
         for array in self._arrays.values():
             array.flags.writeable = False
 
@@ -123,7 +124,7 @@ class Mesh:
         Positions, in units of your choice; read without a copy if C-contiguous. Or (n, 3) with the same z. On a sphere
         (n, 3), at its radius to one part in a million.
     triangles : (m, 3) int32 or int64
-        Corners, counted from 0. Clockwise triangles are reversed; ``reversed_triangles`` counts them.
+        Corners, counted from 0. Clockwise triangles are reversed, with a warning; ``reversed_triangles`` counts them.
     weights : (n,) float64, optional
         Squared lengths [length²]. The power of a place p to vertex i is \\|x_i − p\\|² − w_i, so a larger weight makes
         a larger power cell. Default: all 0. On a sphere weights must be more than −R²: see ``Space``.
@@ -200,6 +201,8 @@ class Mesh:
             threads,
         )
         self.warnings = []
+        if n := self.reversed_triangles:
+            _warn(self, [f"{n} clockwise {'triangle is' if n == 1 else 'triangles are'} reversed"], 2)
 
     @classmethod
     def _of(cls, handle: _temper.Mesh) -> Mesh:
@@ -324,6 +327,46 @@ class Mesh:
     def fixed(self, vertices: npt.ArrayLike) -> None:
         self._handle.set_fixed(_ints(vertices, 0, "fixed").astype(np.int64))
 
+    # --- tags and names -------------------------------------------------------------------------------------
+
+    def _file(self) -> dict[str, Any]:
+        return _temper.file_as_dict(self._handle, False)
+
+    @property
+    def lines(self) -> npt.NDArray[np.int32]:
+        """Tagged lines, on the boundary or inside, as two vertices each, (k, 2) int32: those of the mesh's file or
+        outline, as they are now. A mesh made from arrays has its constrained edges inside regions. A copy."""
+        return self._file()["lines"]
+
+    @property
+    def tags(self) -> npt.NDArray[np.int32]:
+        """Tag of each of ``lines``, (k,) int32. A copy. (Tags of triangles are ``regions``, tags of points are
+        ``point_tags``.)"""
+        return self._file()["line_tags"]
+
+    @property
+    def marked_points(self) -> npt.NDArray[np.int32]:
+        """Vertices that carry a tag, such as wells, (p,) int32. A copy."""
+        return self._file()["marked_points"]
+
+    @property
+    def point_tags(self) -> npt.NDArray[np.int32]:
+        """Tag of each of ``marked_points``, (p,) int32. A copy."""
+        return self._file()["point_tags"]
+
+    @property
+    def names(self) -> dict[str, tuple[int, int]]:
+        """The names of tags, each with its dimension and tag. The dimension is 0 for ``point_tags``, 1 for ``tags``, and
+        2 for ``regions``. A name of several dimensions has the highest. A copy.
+
+        >>> import temper
+        >>> square = temper.Outline([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1), (1, 2), (2, 3), (3, 0)], [7, 8, 7, 8])
+        >>> mesh = temper.mesh_outline(square, 0.5).mesh
+        >>> mesh.lines.shape, sorted(set(mesh.tags.tolist())), mesh.names
+        ((8, 2), [7, 8], {})
+        """
+        return {name: (dimension, tag) for dimension, tag, name in sorted(self._file()["names"])}
+
     # --- methods --------------------------------------------------------------------------------------------
 
     def set_constrained(self, edges: npt.ArrayLike, constrained: bool = True) -> None:
@@ -407,8 +450,9 @@ class Mesh:
         """The mesh as a ``meshio.Mesh``, which meshio writes to any of its formats. Needs meshio.
 
         Points are (n, 3) float64 (with the original z, or 0; on a sphere the places), with point data ``weight``
-        (float64, [length²]). Triangles have cell data ``region``. Lines of the file and constrained edges are cells of
-        type ``line``, marked points of type ``vertex``; their ``region`` is their tag. All other data of the mesh
+        (float64, [length²]). Triangles have cell data ``region``. ``lines`` are cells of type ``line``, and
+        ``marked_points`` of type ``vertex``; their ``region`` is their tag. If there are tags, the cell data
+        ``gmsh:physical`` are the same, and names are ``field_data``: tag and dimension. All other data of the mesh
         follow.
         """
         return meshio_of(self._handle)
@@ -417,10 +461,14 @@ class Mesh:
 
     def __repr__(self) -> str:
         where = "" if self.space == Space() else f" on {self.space!r}"
-        return f"<temper.Mesh: {self.n_vertices} vertices, {self.n_triangles} triangles{where}>"
+        vertices = "1 vertex" if self.n_vertices == 1 else f"{self.n_vertices} vertices"
+        triangles = "1 triangle" if self.n_triangles == 1 else f"{self.n_triangles} triangles"
+        return f"<temper.Mesh: {vertices}, {triangles}{where}>"
 
     def _repr_svg_(self) -> str | None:
-        return _temper.draw_svg(self._handle, {"width": 500.0}) if self.n_triangles <= _PICTURE else None
+        if not 0 < self.n_triangles <= PICTURE:
+            return None
+        return _temper.draw_svg(self._handle, {"dual": False, "near_coincident": False, "width": PICTURE_WIDTH})
 
 
 def _unpickle(vertices: tuple[Any, ...], triangles: tuple[Any, ...], source: tuple[Any, ...]) -> Mesh:
@@ -437,17 +485,36 @@ def _unpickle(vertices: tuple[Any, ...], triangles: tuple[Any, ...], source: tup
 
 
 MeshLike = Union[Mesh, Any]
-"""A ``temper.Mesh`` or a ``meshio.Mesh``, for every function that takes a mesh."""
+"""A ``temper.Mesh``, or a mesh of meshio, PyVista or xugrid (``as_mesh``), for every function that takes a mesh."""
 
 
-def as_mesh(mesh: MeshLike) -> Mesh:
-    """The mesh itself, or a ``meshio.Mesh`` as a ``temper.Mesh`` (see ``temper.from_meshio``)."""
+def as_mesh(mesh: MeshLike, *, in_place: bool = False) -> Mesh:
+    """The mesh itself, or the mesh of another library as a ``temper.Mesh``. Every function that takes a mesh does this.
+
+    Parameters
+    ----------
+    mesh : Mesh, or of another library
+        ``meshio.Mesh`` (``from_meshio`` has the rules, which hold for all), PyVista's ``PolyData`` and
+        ``UnstructuredGrid``, xugrid's ``Ugrid2d``, ``UgridDataset`` and ``UgridDataArray``.
+    in_place : bool
+        The caller will change the mesh. Meshes of xugrid cannot change.
+
+    Raises
+    ------
+    TypeError
+        Another class.
+    TemperError
+        The errors of ``from_meshio``; a grid in degrees.
+    """
     if isinstance(mesh, Mesh):
         return mesh
-    if hasattr(mesh, "points") and hasattr(mesh, "cells") and hasattr(mesh, "point_data"):
-        handle, messages = handle_of(mesh)
-        return _warn(Mesh._of(handle), messages, 3)
-    raise TypeError(f"expected a temper.Mesh or a meshio.Mesh, found {type(mesh).__name__}")
+    cells = cells_of(mesh)
+    if cells is None:
+        raise TypeError(f"expected a temper.Mesh, or a mesh of meshio, PyVista or xugrid, found {type(mesh).__name__}")
+    if in_place and not hasattr(mesh, "points"):
+        raise TypeError(f"a {type(mesh).__name__} cannot change in place. Next: change temper.as_mesh(grid)")
+    handle, messages = handle_of(cells)
+    return _warn(Mesh._of(handle), messages, 3)
 
 
 def _warn(mesh: Mesh, messages: list[str], level: int) -> Mesh:
@@ -471,8 +538,9 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
         their points. Other cells, ``point_sets`` and ``cell_sets`` are left out, with a warning. Points may have a
         third coordinate if it is the same for all. If all points have the same distance from the origin, to one part in
         a million, they are a mesh of the sphere. Point data ``weight`` are the weights [length²]. The regions are the
-        integer cell data ``region``, ``gmsh:physical``, ``medit:ref`` or ``cell_tags``, the first that exists. All
-        point and cell data are kept: ``to_meshio`` and ``write`` return them.
+        integer cell data ``region``, ``gmsh:physical``, ``medit:ref`` or ``cell_tags``, the first that exists; tags of
+        lines and vertex cells too. ``field_data`` of a tag and a dimension are ``names``. All other data are kept:
+        ``to_meshio`` and ``write`` return them.
     fixed_tags : sequence of str or int
         Tags of lines whose points must not move.
 
@@ -493,8 +561,10 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
 
 
 def put_back(mesh: Any, changed: Mesh) -> None:
-    """Writes a mesh that was changed in place into the ``meshio.Mesh`` that it came from. Sets of points stay, with
-    their new numbers. Sets of cells are lost, because flips change the triangles."""
+    """Writes a mesh that was changed in place into the mesh of meshio or PyVista that it came from. Sets of points
+    stay, with their new numbers. Sets of cells are lost, because flips change the triangles."""
+    if not hasattr(mesh, "point_sets"):
+        return put_back_vtk(mesh, changed._handle)
     new = meshio_of(changed._handle)
     now = np.asarray(_temper.vertices_of_points(changed._handle))
     sets = {name: now[np.asarray(points, dtype=np.int64)] for name, points in mesh.point_sets.items()}

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._errors import TemperError, TemperWarning
-from ._mesh import Mesh, MeshLike, as_mesh, put_back
+from ._mesh import PICTURE, Mesh, MeshLike, as_mesh, put_back
 from ._options import EffortName, KeepName, ObjectiveName, OptimizeOptions, TargetName, lists_presets, settled
 from ._progress import Line, Progress, SweepRecord
 from ._records import Record
@@ -18,9 +18,6 @@ from .size import SizeField, SizeReport, Spread, _size_report
 
 if TYPE_CHECKING:
     from ._options import OptionChanges
-
-
-PAGE = 20_000  # triangles: notebooks keep and show no HTML report of larger meshes
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -238,7 +235,7 @@ def optimize(
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
+    mesh : MeshLike
         The mesh, changed in place. To keep the original, optimize ``mesh.copy()``.
     target : str
         Use of the mesh.
@@ -323,12 +320,12 @@ def optimize(
     observer = progress if callable(progress) else None
     line = Line(False if observer is not None or _is_helper(hooks.communicator) else progress)
     plain = settled(target, effort, keep, options, boundary=boundary, time_limit=time_limit)._plain()
-    changed = as_mesh(mesh)
+    changed = as_mesh(mesh, in_place=True)
     tracer, snapshots = hooks.tracer, hooks.snapshots
     trace = (lambda event: tracer(TraceEvent(**event))) if tracer is not None else None
     look = (lambda shot: snapshots(Snapshot._of(shot))) if snapshots is not None else None
     field = size_field._handle if size_field is not None else None
-    original = changed.copy() if tensor is None and 0 < changed.n_triangles <= PAGE else None
+    original = changed.copy() if tensor is None and 0 < changed.n_triangles <= PICTURE else None
     before = changed._handle.version()
     try:
         watch = _observer(line, observer)

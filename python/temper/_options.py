@@ -106,7 +106,7 @@ def settled(target: str, effort: str, keep: Any, options: Any, **changes: Any) -
         return dataclasses.replace(options, **changes)
     result = _options_for(target, effort, keep, {**(options or {}), **changes})
     plain = result._plain()
-    _temper.check_kept(plain, _words(keep))
+    _temper.check_words(plain, target, _words(keep))
     for sentence in _temper.idle_options(plain, list(options or {})):
         warnings.warn(sentence, TemperWarning, stacklevel=3)
     return result
@@ -126,7 +126,8 @@ def _options_for(target: str, effort: str, keep: Any, changes: Mapping[str, Any]
             raise TypeError(f"{name}: expected a word, found {word!r}")
     for name in changes:
         if name not in OPTION_NAMES:
-            raise TypeError(f"there is no option {name!r}; help(temper.OptimizeOptions) lists all")
+            guess = _temper.did_you_mean(str(name), list(OPTION_NAMES)) or "; help(temper.OptimizeOptions) lists all"
+            raise TypeError(f"there is no option {name!r}{guess}")
     plain = _temper.options_for(target, effort, _words(keep))
     options = OptimizeOptions(**{name: _from_plain(name, value) for name, value in plain.items()})
     return dataclasses.replace(options, **changes)

@@ -40,7 +40,15 @@ class Outline:
     """x, y, region number, and the desired edge length or None, for everything that can be reached from (x, y)."""
     parts: Sequence[tuple[int, Sequence[int], float | None]] = ()
     """Region number, segments of its boundary, edge length or None. If there are any, they alone define the inside."""
+    point_tags: npt.ArrayLike | None = None
+    """Point and tag, (t, 2) int32. Vertices of these points are fixed and carry the tag."""
+    further_tags: npt.ArrayLike | None = None
+    """Segment and tag, (t, 2) int32, of segments that have more than one tag."""
+    groups: Sequence[tuple[int, int, str]] = ()
+    """Dimension, tag and name, for ``Mesh.names``: dimension 0 for points, 1 for segments, 2 for regions."""
     _names: Any = dataclasses.field(default=None, repr=False)
+    _degrees: Any = dataclasses.field(default=None, repr=False)
+    """Projection, and the points before it."""
 
     def _plain(self) -> dict[str, Any]:
         segments = _ints(self.segments, 2, "segments").astype(np.int32)
@@ -54,7 +62,11 @@ class Outline:
             "holes": _doubles(self.holes, 2, "holes"),
             "regions": [(float(x), float(y), int(number), size) for x, y, number, size in self.regions],
             "parts": [(int(n), _ints(list(s), 0, "parts").astype(np.int32), size) for n, s, size in self.parts],
+            "point_tags": _ints(self.point_tags, 2, "point_tags").astype(np.int32),
+            "further_tags": _ints(self.further_tags, 2, "further_tags").astype(np.int32),
+            "groups": [(int(dimension), int(tag), str(name)) for dimension, tag, name in self.groups],
             "names": self._names,
+            "degrees": self._degrees,
         }
 
     @classmethod
@@ -90,10 +102,15 @@ class OutlineMesh(Record):
     """The result of ``mesh_outline`` or ``mesh_sphere``."""
 
     mesh: Mesh
+    """The mesh, with its lines, tags and names as the program writes them."""
     lines: npt.NDArray[np.int32]
-    """Each edge on the outline once, (k, 2), in the order of the segments."""
+    """Each edge on the outline, (k, 2), in the order of the segments: once for each of its tags."""
     line_tags: npt.NDArray[np.int32]
     """Tag of the segment of each line, (k,)."""
+    marked: npt.NDArray[np.int32]
+    """Vertices that are tagged points, or points of no segment, with their tags, (p, 2)."""
+    groups: list[tuple[int, int, str]]
+    """Dimension, tag and name of all names."""
     vertex_of_point: npt.NDArray[np.int32]
     """Vertex of each point of the outline; −1 for points outside."""
     bad: int

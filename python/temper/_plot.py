@@ -7,6 +7,7 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from . import _temper
 from ._dec import dec_operators
 from ._mesh import Mesh, MeshLike, as_mesh
 from ._measure import triangle_quality
@@ -68,7 +69,7 @@ def plot(
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
+    mesh : MeshLike
     ax : matplotlib.axes.Axes, optional
         Axes to draw on; None: a new figure.
     primal, dual : bool
@@ -137,7 +138,8 @@ def _fill(ax: Any, mesh: Mesh, corners: Any, color: Any, colorbar: bool, cmap: A
 
     if isinstance(color, str):
         if color not in _COLORS:
-            raise ValueError(f"color: expected one of {', '.join(_COLORS)}, or an array; found '{color}'")
+            guess = _temper.did_you_mean(color, list(_COLORS))
+            raise ValueError(f"color: expected one of {', '.join(_COLORS)}, or an array; found '{color}'{guess}")
         function, label, default = _COLORS[color]
         values = np.asarray(function(mesh), dtype=np.float64)
     else:

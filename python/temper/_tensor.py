@@ -17,7 +17,7 @@ def mapped(mesh: MeshLike, tensor: Sequence[float]) -> Mesh:
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
+    mesh : MeshLike
         A mesh in the plane.
     tensor : sequence of float
         kxx, kxy, kyy: symmetric, positive definite.
@@ -49,7 +49,7 @@ def mapped_back(
 
     Parameters
     ----------
-    changed, original : Mesh or meshio.Mesh
+    changed, original : MeshLike
     tensor : sequence of float
         The tensor of ``mapped``.
     vertices : array_like of int, optional

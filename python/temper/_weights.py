@@ -151,7 +151,7 @@ def find_weights(
 
     Parameters
     ----------
-    mesh : Mesh or meshio.Mesh
+    mesh : MeshLike
     goal : {"minimal", "feasible", "elastic"}
         minimal: the least change for the requested margin. feasible: the best margin, and the least change for the
         requested margin or for half of the best one. elastic: the least violation, and then the least change.

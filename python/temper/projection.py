@@ -80,4 +80,7 @@ def mean_place(lon_lat: npt.ArrayLike) -> tuple[float, float]:
 def project(outline: Outline, projection: Projection) -> Outline:
     """Maps an outline. TemperError, with its names: latitudes beyond the poles, longitudes beyond ±360, places that are
     infinitely far away, segments that are torn apart because the map ends between their ends."""
-    return Outline._of(_temper.project(outline._plain(), *projection._plain()))
+    plain = outline._plain()
+    projected = Outline._of(_temper.project(plain, *projection._plain()))
+    projected._degrees = (*projection._plain(), plain["points"])
+    return projected

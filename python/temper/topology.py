@@ -183,7 +183,7 @@ def restore_regularity(mesh: MeshLike, *, policy: Literal["undo", "remove", "kee
     - undo: put the mesh back as it was.
     - remove: remove them inside the domain and on straight parts of lines.
     - keep: leave them in."""
-    target = as_mesh(mesh)
+    target = as_mesh(mesh, in_place=True)
     restoration = Restoration(**_temper.restore_regularity(target._handle, policy))
     if target is not mesh:
         put_back(mesh, target)

@@ -13,6 +13,7 @@
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 #include "temper/detail/projection.hpp"
+#include "temper/detail/suggest.hpp"
 
 namespace temper::io {
 
@@ -141,13 +142,20 @@ MeshFile read_or_throw(const std::string& path, const ReadOptions& options) {
   return std::move(document.file);
 }
 
-/// The length of the row's suffix that the path ends with, or 0.
+bool ends_with(std::string_view path, std::string_view suffix, bool any_case) {
+  const auto lower = [any_case](char c) { return any_case && c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+  return path.size() >= suffix.size() &&
+         std::ranges::equal(path.substr(path.size() - suffix.size()), suffix, {}, lower, lower);
+}
+
+/// The length of the row's suffix that the path ends with, or 0. Letters may be large, unless the format has several
+/// files, whose names belong together.
 std::size_t suffix_length(const FormatRow& row, const std::string& path) {
   std::string_view left = row.suffixes;
   std::size_t longest = 0;
   while (!left.empty()) {
     const std::size_t end = std::min(left.find(' '), left.size());
-    if (path.ends_with(left.substr(0, end))) longest = std::max(longest, end);
+    if (ends_with(path, left.substr(0, end), row.details.files_to_read == nullptr)) longest = std::max(longest, end);
     left.remove_prefix(std::min(end + 1, left.size()));
   }
   return longest;
@@ -161,19 +169,21 @@ std::string writable_suffixes() {
   return result;
 }
 
-std::string writable_names() {
-  std::string result;
+std::vector<std::string_view> writable_names() {
+  std::vector<std::string_view> names;
   for (const Format& format : kFormats) {
-    if (format.writes) result += text(result.empty() ? "" : ", ", format.name);
+    if (format.writes) names.push_back(format.name);
   }
-  return result;
+  return names;
 }
 
 const FormatRow& row_to_write(const std::string& path, const std::string& format) {
   if (!format.empty()) {
     const FormatRow* row = find_row(format);
     if (row != nullptr && row->write != nullptr) return *row;
-    fail(ErrorCode::invalid_option, path, "cannot be written as '", format, "'; expected one of ", writable_names());
+    const std::vector<std::string_view> names = writable_names();
+    fail(ErrorCode::invalid_option, path, "cannot be written as '", format, "'; expected one of ", join(names),
+         did_you_mean(format, names));
   }
   // .jigsaw.msh is a better match than .msh; the first of equals wins.
   const FormatRow* best = nullptr;

@@ -52,7 +52,7 @@ class Arranger {
         return at_point(ErrorCode::out_of_scale, i, "has coordinates too large or too small for exact arithmetic");
       }
     }
-    return {};
+    return check_tags(o_.point_tags, "point", o_.points.size());
   }
 
   Error check_segments() {
@@ -71,7 +71,7 @@ class Arranger {
                           "has no length: both its ends are " + names_.point(static_cast<std::size_t>(ends[0])));
       }
     }
-    return {};
+    return check_tags(o_.further_tags, "segment", o_.segments.size());
   }
 
   Error check_places() {
@@ -173,8 +173,19 @@ class Arranger {
     return parts;
   }
 
+  [[nodiscard]] std::vector<std::vector<std::int32_t>> tags_of_segments() const {
+    std::vector<std::vector<std::int32_t>> tags(o_.segments.size());
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+      if (o_.segments[i].tag != 0) tags[i].push_back(o_.segments[i].tag);
+    }
+    for (const OutlineTag& further : o_.further_tags) {
+      if (further.tag != 0) tags[static_cast<std::size_t>(further.element)].push_back(further.tag);
+    }
+    return tags;
+  }
+
   std::vector<OutlineEdge> cut() {
-    const auto parts = parts_of_segments();
+    const auto parts = parts_of_segments(), tags = tags_of_segments();
     std::vector<OutlineEdge> edges;
     for (std::size_t i = 0; i < o_.segments.size(); ++i) {
       std::vector<std::int32_t>& on = on_segment_[i];
@@ -186,16 +197,15 @@ class Arranger {
       on.erase(std::unique(on.begin(), on.end()), on.end());
       std::int32_t from = a;
       for (const std::int32_t p : on) {
-        edges.push_back({{from, p}, o_.segments[i].tag, parts[i]});
+        edges.push_back({{from, p}, tags[i], parts[i]});
         from = p;
       }
-      edges.push_back({{from, b}, o_.segments[i].tag, parts[i]});
+      edges.push_back({{from, b}, tags[i], parts[i]});
     }
     return edges;
   }
 
-  /// Merges equal edges into the first, with the first tag that is not 0, and the parts that an odd number of them
-  /// bound.
+  /// Merges equal edges into the first, with the tags of all, and the parts that an odd number of them bound.
   std::vector<OutlineEdge> cut_and_merge() {
     const std::vector<OutlineEdge> edges = cut();
     std::vector<std::uint32_t> order(edges.size());
@@ -211,9 +221,11 @@ class Arranger {
     std::vector<OutlineEdge> merged;
     std::vector<std::size_t> place(edges.size());
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
-      if (first_of[i] == i) place[i] = merged.size(), merged.push_back({edges[i].ends, 0, {}});
+      if (first_of[i] == i) place[i] = merged.size(), merged.push_back({edges[i].ends, {}, {}});
       OutlineEdge& edge = merged[place[first_of[i]]];
-      if (edge.tag == 0) edge.tag = edges[i].tag;
+      for (const std::int32_t tag : edges[i].tags) {
+        if (std::find(edge.tags.begin(), edge.tags.end(), tag) == edge.tags.end()) edge.tags.push_back(tag);
+      }
       edge.parts.insert(edge.parts.end(), edges[i].parts.begin(), edges[i].parts.end());
     }
     for (OutlineEdge& edge : merged) keep_odd(edge.parts);
@@ -245,6 +257,16 @@ class Arranger {
 const OutlineNames& names_of(const Outline& outline) {
   static const OutlineNames from_zero;
   return outline.names ? *outline.names : from_zero;
+}
+
+std::optional<InputError> check_tags(const std::vector<OutlineTag>& tags, const std::string& what, std::size_t n) {
+  for (const OutlineTag& tag : tags) {
+    if (tag.element >= 0 && static_cast<std::size_t>(tag.element) < n) continue;
+    return InputError{ErrorCode::index_out_of_range, "",
+                      "tag " + std::to_string(tag.tag) + " is for " + what + " " + std::to_string(tag.element) +
+                          ", but the outline has " + std::to_string(n) + " " + what + "s"};
+  }
+  return {};
 }
 
 Expected<std::vector<OutlineEdge>> arrange(const Surface& surface, const Outline& outline,

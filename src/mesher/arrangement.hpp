@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "geometry/surface.hpp"
@@ -15,7 +16,7 @@ namespace temper::mesher {
 /// An edge between two points of the outline that has no other point on it.
 struct OutlineEdge {
   std::array<std::int32_t, 2> ends = {};
-  std::int32_t tag = 0;
+  std::vector<std::int32_t> tags;   ///< of its segments, each once, without 0
   std::vector<std::int32_t> parts;  ///< sorted: crossing the edge enters or leaves these
 };
 
@@ -24,6 +25,10 @@ struct OutlineEdge {
 /// `places`: of the points. A whole sphere needs no segments.
 [[nodiscard]] Expected<std::vector<OutlineEdge>> arrange(const Surface& surface, const Outline& outline,
                                                          const std::vector<Vec3>& places);
+
+/// An error if a tag is for none of the n elements of the outline.
+[[nodiscard]] std::optional<InputError> check_tags(const std::vector<OutlineTag>& tags, const std::string& what,
+                                                   std::size_t n);
 
 /// The names of the outline, or names that count from 0.
 [[nodiscard]] const OutlineNames& names_of(const Outline& outline);

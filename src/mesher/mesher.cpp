@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -305,8 +306,10 @@ class Mesher {
       if (left == kOutside && right == kOutside) continue;
       const std::int32_t a = vertex[piece.ends[0]], b = vertex[piece.ends[1]];
       if (left != kOutside && right != kOutside) constrained.push_back({a, b});
-      result.lines.push_back(
-          {VertexId(static_cast<std::size_t>(a)), VertexId(static_cast<std::size_t>(b)), edges_[piece.edge].tag});
+      const VertexId from(static_cast<std::size_t>(a)), to(static_cast<std::size_t>(b));
+      const std::vector<std::int32_t>& tags = edges_[piece.edge].tags;
+      for (const std::int32_t tag : tags) result.lines.push_back({from, to, tag});
+      if (tags.empty()) result.lines.push_back({from, to, 0});
     }
     const MeshNames names(names_of(outline_), inside->outline_points);
     InputPositions places(surface_.space());
@@ -336,15 +339,48 @@ class Mesher {
     }
   }
 
-  /// Points of no segment stay, too: they are the user's.
+  /// Points with a tag and points of no segment stay, too: they are the user's.
   void fix_points(OutlineMesh& made) const {
-    std::vector<std::uint8_t> on_edge(outline_.points.size(), 0);
+    const auto mark = [&](std::size_t point, std::int32_t tag) {
+      const VertexId v = made.vertex_of_point[point];
+      if (!v.valid()) return;
+      made.mesh.set_fixed(v, true);
+      made.marked.push_back({v, tag});
+    };
+    std::vector<std::uint8_t> known(outline_.points.size(), 0);  // on an edge, or marked
     for (const OutlineEdge& e : edges_) {
-      for (const std::int32_t end : e.ends) on_edge[static_cast<std::size_t>(end)] = 1;
+      for (const std::int32_t end : e.ends) known[static_cast<std::size_t>(end)] = 1;
     }
-    for (std::size_t i = 0; i < on_edge.size(); ++i) {
-      if (on_edge[i] == 0 && made.vertex_of_point[i].valid()) made.mesh.set_fixed(made.vertex_of_point[i], true);
+    for (const OutlineTag& p : outline_.point_tags) {
+      mark(static_cast<std::size_t>(p.element), p.tag);
+      known[static_cast<std::size_t>(p.element)] = 1;
     }
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (known[i] == 0) mark(i, 0);
+    }
+    made.groups = outline_.groups;
+    note_lost_groups(made);
+  }
+
+  /// Tells of tags that the outline has and the mesh has not: their points and segments are outside.
+  void note_lost_groups(OutlineMesh& made) const {
+    std::set<std::pair<int, std::int32_t>> lost;  // dimension and tag
+    for (const OutlineTag& p : outline_.point_tags) lost.emplace(0, p.tag);
+    for (const OutlineSegment& s : outline_.segments) {
+      if (s.tag != 0) lost.emplace(1, s.tag);
+    }
+    for (const OutlineTag& s : outline_.further_tags) lost.emplace(1, s.tag);
+    for (const MarkedVertex& m : made.marked) lost.erase({0, m.tag});
+    for (const MeshLine& line : made.lines) lost.erase({1, line.tag});
+    if (lost.empty()) return;
+    std::string list;
+    for (const auto& [dimension, tag] : lost) {
+      const auto named = std::find_if(outline_.groups.begin(), outline_.groups.end(),
+                                      [&](const PhysicalName& g) { return g.dimension == dimension && g.tag == tag; });
+      list += (list.empty() ? "" : ", ") + (dimension == 0 ? "points " : std::string("lines ")) +
+              (named == outline_.groups.end() ? "of tag " + std::to_string(tag) : "'" + named->name + "'");
+    }
+    made.notes.push_back("outside, so the mesh has nothing of them: " + list);
   }
 
   Expected<OutlineMesh> attempt() {
@@ -382,6 +418,7 @@ class Mesher {
       now[old.index] = VertexId(v);
     }
     for (MeshLine& line : made.lines) line.a = now[line.a.index], line.b = now[line.b.index];
+    for (MarkedVertex& m : made.marked) m.vertex = now[m.vertex.index];
     for (VertexId& v : made.vertex_of_point) {
       if (v.valid()) v = now[v.index];
     }

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "base/text.hpp"
@@ -74,6 +77,7 @@ class Joiner {
       if (auto error = check(k)) return *std::move(error);
     }
     join_points();
+    find_tags_without_name();
     for (std::size_t k = 0; k < sources_.size(); ++k) {
       if (auto error = add(k)) return *std::move(error);
     }
@@ -83,7 +87,8 @@ class Joiner {
 
  private:
   using Error = std::optional<InputError>;
-  static constexpr std::size_t kCoasts = 1, kLines = 2;
+  static constexpr std::size_t kBasins = 0, kCoasts = 1, kLines = 2;
+  static constexpr std::int32_t kHighestTag = 2'000'000'000;  // free numbers come after it
 
   [[nodiscard]] const OutlineNames& names(std::size_t k) const { return *names_->outlines[k]; }
   [[nodiscard]] InputError at_segment(std::size_t k, std::size_t i, ErrorCode code, const std::string& what) const {
@@ -108,6 +113,10 @@ class Joiner {
                           "uses " + names(k).point(static_cast<std::size_t>(std::int64_t{end})) +
                               ", but the outline has " + std::to_string(n) + " points");
       }
+    }
+    for (const auto& [tags, what, size] : {std::tuple(&o.point_tags, "point", o.points.size()),
+                                           std::tuple(&o.further_tags, "segment", o.segments.size())}) {
+      if (auto error = check_tags(*tags, what, size)) return error;
     }
     return check_conventions(k);
   }
@@ -186,20 +195,90 @@ class Joiner {
     return first;
   }
 
+  // --- names of several outlines, as one list. Each outline has its own tags for its names ---
+
+  using Group = std::pair<int, std::int32_t>;  // dimension and tag
+
+  /// Tags without a name keep their number, so no name may get it.
+  void find_tags_without_name() {
+    for (const Outline* o : sources_) {
+      std::set<Group> tags, named;
+      for (const OutlineSegment& s : o->segments) tags.emplace(1, s.tag);
+      for (const OutlineTag& further : o->further_tags) tags.emplace(1, further.tag);
+      for (const OutlineTag& p : o->point_tags) tags.emplace(0, p.tag);
+      for (const PhysicalName& g : o->groups) named.emplace(g.dimension, g.tag);
+      for (const Group& tag : tags) {
+        highest_ = std::max(highest_, std::min(tag.second, kHighestTag));
+        if (!named.contains(tag)) taken_.insert(tag);
+      }
+    }
+  }
+  /// The tag of a name in the common list: its own number, unless another group has it.
+  std::int32_t tag_of(int dimension, std::int32_t tag, const std::string& name) {
+    const auto [known, is_new] = tags_.emplace(std::pair(dimension, name), tag);
+    if (!is_new) return known->second;
+    if (tag == 0 || taken_.contains({dimension, tag})) known->second = ++highest_;
+    taken_.emplace(dimension, known->second);
+    result_.outline.groups.push_back({dimension, known->second, name});
+    return known->second;
+  }
+  /// The tags of an outline in the common list, by its own; regions stay.
+  std::map<Group, std::int32_t> common_tags(std::size_t k) {
+    std::map<Group, std::int32_t> tags;
+    for (const PhysicalName& g : sources_[k]->groups) {
+      if (g.dimension < 2) {
+        tags.emplace(Group(g.dimension, g.tag), tag_of(g.dimension, g.tag, g.name));
+      } else if (k == kBasins) {
+        result_.outline.groups.push_back(g);
+      }
+    }
+    return tags;
+  }
+  /// Coasts and lines leave no region in the mesh. So the names of their polygons go to the edges of these, as further
+  /// tags.
+  void name_edges_of_polygons(std::size_t k, const std::vector<std::int32_t>& now) {
+    const Outline& o = *sources_[k];
+    for (const PhysicalName& g : o.groups) {
+      if (g.dimension < 2 || k == kBasins) continue;
+      const std::int32_t tag = tag_of(1, 0, g.name);
+      for (const OutlinePart& part : o.parts) {
+        if (part.region != g.tag) continue;
+        for (const std::int32_t s : part.segments) {
+          const auto i = static_cast<std::size_t>(s);
+          if (s < 0 || i >= now.size() || now[i] < 0) continue;
+          result_.outline.further_tags.push_back({now[i], tag});
+        }
+      }
+    }
+  }
+
   Error add(std::size_t k) {
     const Outline& o = *sources_[k];
+    const std::map<Group, std::int32_t> tags = common_tags(k);
+    const auto common = [&tags](int dimension, std::int32_t tag) {
+      const auto found = tags.find({dimension, tag});
+      return found == tags.end() ? tag : found->second;
+    };
     std::vector<std::int32_t> now(o.segments.size(), -1);  // segments between two names of one place go
     for (std::size_t i = 0; i < o.segments.size(); ++i) {
       OutlineSegment segment = o.segments[i];
-      for (std::int32_t& end : segment.ends) end = result_.numbers[first_point_[k] + static_cast<std::size_t>(end)];
+      for (std::int32_t& end : segment.ends) end = number(k, end);
       if (segment.ends[0] == segment.ends[1]) continue;
       const Vec3 a = place(segment.ends[0]), b = place(segment.ends[1]);
       if (length(a + b) < kOpposite * radius_)
         return at_segment(k, i, ErrorCode::geographic,
                           "joins opposite places of the sphere; expected one shortest way between its ends");
+      segment.tag = common(1, segment.tag);
       now[i] = static_cast<std::int32_t>(result_.outline.segments.size());
       result_.outline.segments.push_back(segment);
       names_->segments.push_back({k, i});
+    }
+    name_edges_of_polygons(k, now);
+    for (const OutlineTag& p : o.point_tags)
+      result_.outline.point_tags.push_back({number(k, p.element), common(0, p.tag)});
+    for (const OutlineTag& further : o.further_tags) {
+      const std::int32_t there = now[static_cast<std::size_t>(further.element)];
+      if (there >= 0) result_.outline.further_tags.push_back({there, common(1, further.tag)});
     }
     for (std::size_t i = 0; i < o.holes.size(); ++i) {
       result_.outline.holes.push_back(o.holes[i]);
@@ -212,6 +291,10 @@ class Joiner {
     return k == kLines ? Error() : add_parts(k, now);
   }
   [[nodiscard]] Vec3 place(std::int32_t i) const { return result_.places[static_cast<std::size_t>(i)]; }
+  /// The place of a point of an outline.
+  [[nodiscard]] std::int32_t number(std::size_t k, std::int32_t point) const {
+    return result_.numbers[first_point_[k] + static_cast<std::size_t>(point)];
+  }
 
   /// Adds the parts of an outline, and the part that its other segments enclose.
   Error add_parts(std::size_t k, const std::vector<std::int32_t>& now) {
@@ -278,8 +361,11 @@ class Joiner {
   std::vector<const Outline*> sources_;
   std::shared_ptr<JoinedNames> names_ = std::make_shared<JoinedNames>();
   JoinedOutline result_;
-  std::vector<std::size_t> first_point_;  // of each outline, among all points given
-  std::vector<std::uint32_t> degree_;     // of places, in the part that is looked at; else 0
+  std::vector<std::size_t> first_point_;                      // of each outline, among all points given
+  std::vector<std::uint32_t> degree_;                         // of places, in the part that is looked at; else 0
+  std::set<Group> taken_;                                     // tags that no further name may get
+  std::int32_t highest_ = 1;                                  // of all tags
+  std::map<std::pair<int, std::string>, std::int32_t> tags_;  // of names
 };
 
 }  // namespace

@@ -313,8 +313,10 @@ def test_html_report_is_a_page_that_notebooks_show(ring, in_scratch):
     assert len(shown["history"]) == len(report.history) and shown["after"]["histograms"]["angles"]["high"] == 180
     page.save("page.html")
     assert pathlib.Path("page.html").read_text(encoding="utf-8") == page
-    for shows_itself in (page, after, report):
-        assert 'srcdoc="&lt;!DOCTYPE html&gt;' in shows_itself._repr_html_()
+    assert 'srcdoc="&lt;!DOCTYPE html&gt;' in page._repr_html_()
+    for shows_itself in (after, report):
+        assert "<svg" in shows_itself._repr_html_() and "srcdoc" not in shows_itself._repr_html_()
+        assert len(shows_itself._repr_html_()) < 120 * after.n_triangles
     bad = json.loads(temper.html_report(ring).split('id="report">')[1].split("</script>")[0])
     assert sum(len(reason["triangles"]) for reason in bad["reasons"]) == bad["after"]["orthocenters_outside"]
 

@@ -115,8 +115,10 @@ def test_neighbors_and_twins_agree(ring):
 
 
 def test_clockwise_triangles_are_reversed_and_counted():
-    mesh = temper.Mesh(SQUARE, [(0, 2, 1), (0, 2, 3)])
+    with pytest.warns(temper.TemperWarning, match="^1 clockwise triangle is reversed$") as caught:
+        mesh = temper.Mesh(SQUARE, [(0, 2, 1), (0, 2, 3)])
     assert mesh.reversed_triangles == 1 and mesh.validate() is None
+    assert caught[0].filename == __file__ and mesh.warnings == [str(caught[0].message)]
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """meshio's meshes, wherever a mesh is taken."""
 
+import pickle
 import warnings
 
 import numpy as np
@@ -66,7 +67,7 @@ def test_what_is_no_planar_triangle_mesh_is_refused():
     with pytest.raises(temper.TemperError, match="point 2 has z = 0.5") as caught:
         temper.from_meshio(meshio.Mesh(flat, [("triangle", [(0, 1, 2)])]))
     assert caught.value.code == "not_planar"
-    with pytest.raises(temper.TemperError, match="found line"):
+    with pytest.raises(temper.TemperError, match="expected cells of type triangle; 1 cells of type line"):
         temper.from_meshio(meshio.Mesh(np.array(flat)[:, :2], [("line", [(0, 1)])]))
     with pytest.raises(temper.TemperError, match="triangle 0 uses point 9, but there are 3 points"):
         temper.from_meshio(meshio.Mesh(np.array(flat) * (1, 1, 0), [("triangle", [(0, 1, 9)])]))
@@ -178,3 +179,132 @@ def test_points_in_space_on_no_sphere_are_refused_as_in_files():
     globe.points[7, 2] = np.nan
     with pytest.raises(temper.TemperError, match="point 7 has z = nan, expected a finite number"):
         temper.from_meshio(globe)
+
+
+# --- tags and names ---------------------------------------------------------------------------------------------------
+
+
+def gmsh_strip():
+    """What meshio reads of a Gmsh file: two regions, a named inflow, and a well."""
+    points = np.array([(0, 0), (1, 0), (9, 0), (9, 1), (0, 1)], dtype=float)
+    cells = [("vertex", [[4]]), ("line", [[0, 1], [1, 2], [2, 3]]), ("triangle", [[0, 1, 4], [1, 2, 3], [1, 3, 4]])]
+    tags = [np.array([40]), np.array([31, 31, 32]), np.array([10, 20, 20])]
+    names = {"well": [40, 0], "inflow": [31, 1], "wall": [32, 1], "sand": [20, 2]}
+    return meshio.Mesh(
+        points, cells, cell_data={"gmsh:physical": tags}, field_data={k: np.array(v) for k, v in names.items()}
+    )
+
+
+def test_tags_and_names_come_from_meshio_and_go_back(in_scratch):
+    given = gmsh_strip()
+    mesh = temper.from_meshio(given)
+    assert mesh.names == {"well": (0, 40), "inflow": (1, 31), "wall": (1, 32), "sand": (2, 20)}
+    assert mesh.lines.tolist() == [[0, 1], [1, 2], [2, 3]] and mesh.tags.tolist() == [31, 31, 32]
+    assert mesh.marked_points.tolist() == [4] and mesh.point_tags.tolist() == [40]
+    assert mesh.lines.dtype == mesh.tags.dtype == np.int32 and "gmsh:physical" not in mesh.cell_data
+    again = mesh.to_meshio()
+    assert {k: v.tolist() for k, v in again.field_data.items()} == {k: v.tolist() for k, v in given.field_data.items()}
+    for kind in ("vertex", "line", "triangle"):
+        assert np.array_equal(again.cell_data_dict["gmsh:physical"][kind], given.cell_data_dict["gmsh:physical"][kind])
+    temper.write("square.msh", mesh)
+    assert temper.read("square.msh").names == mesh.names
+    again.write("square22.msh", file_format="gmsh22")
+    assert temper.read("square22.msh").names == mesh.names
+
+
+def test_edges_are_known_by_name_also_after_an_optimization():
+    mesh = temper.from_meshio(gmsh_strip())
+    for _ in range(2):
+        dual = temper.dec_operators(mesh)
+        named = dual.edges.named
+        assert set(named) == {"inflow", "wall"} and named["inflow"].dtype == np.int32
+        ends = dual.edges.vertices[named["inflow"]]
+        assert dual.edges.is_boundary[named["inflow"]].all()
+        assert sorted(map(tuple, np.sort(mesh.lines[mesh.tags == 31], axis=1).tolist())) == [tuple(e) for e in ends.tolist()]
+        assert set(mesh.points[ends.ravel(), 1]) == {0.0} and dual.edges.length[named["inflow"]].sum() == 9
+        assert pickle.loads(pickle.dumps(dual)) == dual
+        temper.optimize(mesh, boundary="split")
+    assert (mesh.tags == 31).sum() > 4
+
+
+class Bare:
+    """An object with these attributes: what temper needs of a class that the tests do not have."""
+
+    def __init__(self, **attributes):
+        vars(self).update(attributes)
+
+
+def poly_data(lines=(2, 0, 1, 3, 1, 2, 3), faces=(3, 0, 1, 4, 3, 1, 2, 3, 3, 1, 3, 4)):
+    given = gmsh_strip()
+    n = 1 + 2 + 3
+    points = np.column_stack([given.points, np.zeros(5)])
+    return Bare(
+        points=points, verts=np.array([1, 4]), lines=np.array(lines), faces=np.array(faces), point_data={"u": points[:, 0]},
+        cell_data={"region": np.array([40, 31, 32, 10, 20, 20]), "c": np.arange(n)}, field_data={},
+    )  # fmt: skip
+
+
+def test_meshes_of_pyvista_are_taken():
+    mesh = temper.as_mesh(poly_data())
+    assert mesh.regions.tolist() == [10, 20, 20] and mesh.cell_data["c"].tolist() == [3, 4, 5]
+    assert mesh.lines.tolist() == [[0, 1], [1, 2], [2, 3]] and mesh.tags.tolist() == [31, 32, 32]
+    assert mesh.marked_points.tolist() == [4] and mesh.point_tags.tolist() == [40]
+    data = poly_data()
+    grid = Bare(
+        points=data.points, celltypes=np.array([5, 1, 7, 3, 5, 9]), offset=np.array([0, 3, 4, 7, 9, 12, 16]),
+        cell_connectivity=np.array([0, 1, 4, 4, 1, 2, 3, 0, 1, 1, 3, 4, 0, 1, 2, 3]), point_data=data.point_data,
+        cell_data={"region": np.array([10, 40, 20, 31, 20, 9])},
+        field_data={"physical_names": np.frombuffer(b"1 31 inflow\n2 20 clean sand\n", dtype=np.uint8)},
+    )  # fmt: skip
+    with pytest.warns(temper.TemperWarning, match="1 cells of type quad are left out"):
+        other = temper.as_mesh(grid)
+    assert other == mesh and other.names == {"inflow": (1, 31), "clean sand": (2, 20)}
+    assert other.lines.tolist() == [[0, 1]] and temper.quality(poly_data()) == temper.quality(mesh)
+
+
+def test_meshes_of_xugrid_are_taken_and_not_changed():
+    given = gmsh_strip()
+    grid = Bare(
+        node_coordinates=given.points, face_node_connectivity=np.array([[0, 1, 4], [1, 2, 3], [1, 3, 4]]),
+        node_dimension="n", face_dimension="f", name="mesh", attrs={"node_coordinates": "x y"},
+    )  # fmt: skip
+    assert temper.as_mesh(grid).n_triangles == 3
+    variables = {
+        "depth": Bare(dims=("n",), values=np.arange(5.0)), "k": Bare(dims=("f",), values=np.arange(3)),
+        "mesh_node_weight": Bare(dims=("n",), values=np.full(5, 0.25)), "x": Bare(dims=("n",), values=np.arange(5.0)),
+        "series": Bare(dims=("time", "n"), values=None), "crs": Bare(dims=(), values=None),
+    }  # fmt: skip
+    dataset = Bare(ugrid=Bare(grid=grid), data_vars=variables)
+    with pytest.warns(temper.TemperWarning, match="'series' with dimensions time, n is left out"):
+        mesh = temper.as_mesh(dataset)
+    assert mesh.point_data["depth"].tolist() == [0, 1, 2, 3, 4] and mesh.cell_data["k"].tolist() == [0, 1, 2]
+    assert list(mesh.point_data) == ["depth"] and set(mesh.weights) == {0.25}
+    with pytest.raises(TypeError, match=r"cannot change in place. Next: change temper.as_mesh\(grid\)"):
+        temper.optimize(grid)
+    grid.is_geographic = True
+    with pytest.raises(temper.TemperError, match="longitude and latitude") as caught:
+        temper.quality(grid)
+    assert caught.value.code == "geographic"
+
+
+class Poly(Bare):
+    """As PyVista's PolyData."""
+
+    def __init__(self, points, verts, lines, faces):
+        super().__init__(points=points, verts=verts, lines=lines, faces=faces, point_data={}, cell_data={}, field_data={})
+
+    def copy_from(self, other):
+        vars(self).update(vars(other))
+
+
+def test_a_mesh_of_pyvista_is_changed_in_place():
+    like = poly_data()
+    mesh = Poly(like.points, like.verts, like.lines, like.faces)
+    mesh.cell_data, mesh.point_data = like.cell_data, like.point_data
+    mesh.field_data = {"physical_names": np.frombuffer(b"1 31 inflow\n", dtype=np.uint8)}
+    copy = temper.as_mesh(mesh)
+    temper.optimize(mesh, boundary="split")
+    temper.optimize(copy, boundary="split")
+    assert copy.n_triangles > 4 and temper.as_mesh(mesh) == copy and temper.as_mesh(mesh).names == {"inflow": (1, 31)}
+    assert np.array_equal(temper.as_mesh(mesh).tags, copy.tags) and np.array_equal(temper.as_mesh(mesh).lines, copy.lines)
+    assert mesh.cell_data["region"][0] == 40 and len(mesh.cell_data["region"]) == 1 + len(copy.lines) + copy.n_triangles

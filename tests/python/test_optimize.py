@@ -5,6 +5,7 @@ import dataclasses
 import inspect
 import os
 import pathlib
+import pickle
 import re
 import signal
 import subprocess
@@ -242,6 +243,27 @@ def test_unknown_options_are_refused(ring):
             temper.optimize(ring, options={name: 3})
 
 
+@pytest.mark.parametrize("wrong, right", [
+    (dict(options={"max_sweep": 3}), "max_sweeps"), (dict(options={"solver": "newtn"}), "newton"), (dict(target="vertx"), "vertex"),
+    (dict(keep="weight"), "weights"), (dict(boundary="slid"), "slide"), (dict(effort="hihg"), "high"),
+])  # fmt: skip
+def test_misspelled_words_are_told_what_is_near(ring, wrong, right):
+    with pytest.raises((TypeError, temper.TemperError), match=f"; did you mean '{right}'\\?$"):
+        temper.optimize(ring, **wrong)
+    with pytest.raises(temper.TemperError, match="did you mean 'gmsh41'"):
+        temper.write("ring.msh", ring, format="gmsh4")
+
+
+def test_words_that_contradict_each_other_are_refused(ring):
+    for wrong, says in (
+        (dict(target="cell", options={"scheme": "vertex"}), "target 'cell', which stands for scheme=\"cell\", contradicts"),
+        (dict(target="mpas", options={"unknowns": "weights"}), "contradicts unknowns"),
+        (dict(keep="positions", boundary="slide"), "keep 'positions' contradicts boundary=\"slide\""),
+    ):
+        with pytest.raises(temper.TemperError, match=says):
+            temper.optimize(ring, **wrong)
+
+
 def test_threads_of_the_wrong_type_are_named_everywhere(ring):
     for call in (temper.quality, topology.count_non_regular_edges, temper.measure_errors):
         with pytest.raises(TypeError, match="^threads: "):
@@ -372,10 +394,35 @@ def test_an_outline_is_meshed_well_centered():
     assert temper.dec_operators(made.mesh).areas.sum() == pytest.approx(11)
     assert np.array_equal(made.mesh.points[made.vertex_of_point], np.array(points, dtype=float))
     assert temper.mesh_outline(outline, 0.4, optimize=False).bad >= 0
+    assert np.array_equal(made.mesh.lines, made.lines) and np.array_equal(made.mesh.tags, made.line_tags)
     with pytest.raises(temper.TemperError, match="segment"):
         temper.mesh_outline(temper.Outline(points, [(0, 99)]), 0.4)
     with pytest.raises(temper.TemperError):
         temper.mesh_outline(outline, -1)
+
+
+LAKE = """{"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {"name": "lake"}, "geometry": {"type": "Polygon", "coordinates": [[[7, 50], [7.02, 50], [7.02, 50.01], [7, 50.01], [7, 50]]]}},
+{"type": "Feature", "properties": {"name": "inflow", "tag": 4}, "geometry": {"type": "LineString", "coordinates": [[7, 50], [7.02, 50]]}},
+{"type": "Feature", "properties": {"name": "gauge", "tag": 9}, "geometry": {"type": "Point", "coordinates": [7.01, 50.005]}}]}"""
+
+
+def test_the_mesh_of_an_outline_is_written_as_the_program_writes_it(in_scratch):
+    pathlib.Path("lake.geojson").write_text(LAKE, encoding="utf-8")
+    subprocess.run(
+        ["temper", "mesh", "lake.geojson", "-o", "program.vtu", "--size", "400", "--projection", "stereographic", "--quiet"], check=True
+    )
+    outline = temper.read_outline("lake.geojson").outline
+    made = temper.mesh_outline(
+        temper.projection.project(outline, temper.projection.parse_projection("stereographic", outline.points)), 400
+    )
+    temper.write("python.vtu", made.mesh)
+    assert pathlib.Path("python.vtu").read_bytes() == pathlib.Path("program.vtu").read_bytes()
+    assert made.mesh.names["inflow"] == (1, 4) and made.mesh.names["gauge"] == (0, 9)
+    assert 9 in made.mesh.point_tags and (made.mesh.tags == 4).sum() > 2
+    assert len(temper.dec_operators(made.mesh).edges.named["inflow"]) == (made.mesh.tags == 4).sum()
+    again = pickle.loads(pickle.dumps(made.mesh))
+    assert again.names == made.mesh.names and np.array_equal(again.lines, made.mesh.lines)
 
 
 # --- progress --------------------------------------------------------------------------------------------------

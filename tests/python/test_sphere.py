@@ -63,7 +63,8 @@ def test_closed_meshes_go_in_and_out_unchanged():
     assert np.array_equal(mesh.points, EARTH * OCTAHEDRON) and np.array_equal(mesh.triangles, FACES)
     assert (mesh.weights == 0).all() and len(mesh.boundary_edges) == 0 and mesh.n_edges == 12
     assert "Space.sphere(6371220.0)" in repr(mesh)
-    assert temper.Mesh(OCTAHEDRON, np.array(FACES)[:, ::-1], space=Space.sphere(1)).reversed_triangles == 8
+    with pytest.warns(temper.TemperWarning, match="8 clockwise triangles are reversed"):
+        assert temper.Mesh(OCTAHEDRON, np.array(FACES)[:, ::-1], space=Space.sphere(1)).reversed_triangles == 8
 
 
 def test_places_are_on_the_sphere_and_weighted_vectors_are_weights_too(tempered):

@@ -62,6 +62,11 @@ void expect_plane(const Mesh& mesh, const std::string& path, std::string_view wh
                   mesh.space().is_plane() ? "" : ". Next: --projection puts longitude and latitude on a map"));
 }
 
+Vec2 place_in_file(const io::MeshFile& file, Vec2 place) {
+  const io::GeographicMap* const map = file.map();
+  return map == nullptr ? place : LongitudeTurn(map->lon_lat)(inverse(map->projection, place));
+}
+
 std::string same_projection(const Input& input, const std::string& projection) {
   return input.file.map() != nullptr ? projection_text(input.file.map()->projection) : projection;
 }

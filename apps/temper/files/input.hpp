@@ -43,6 +43,9 @@ struct ReadingOptions {
 /// Reads a file and builds its mesh; Failure when anything is wrong with it.
 [[nodiscard]] Input read_input(const std::string& path, const ReadingOptions& options = {});
 
+/// Longitude and latitude, as in the file, of a place on the map of a file in degrees. Other places are unchanged.
+[[nodiscard]] Vec2 place_in_file(const io::MeshFile& file, Vec2 place);
+
 /// Failure when the mesh is one of the sphere, which `what` does not support.
 void expect_plane(const Mesh& mesh, const std::string& path, std::string_view what);
 

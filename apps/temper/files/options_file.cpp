@@ -10,16 +10,14 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 
 namespace temper::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr auto kFlags = std::to_array<std::string_view>(
-    {"--for", "--effort", "--keep", "--fix", "--size", "--size-data", "--tensor", "--projection", "--point-data"});
 
 /// "size_data" of "--size-data".
 std::string member_of(std::string_view flag) {
@@ -32,6 +30,23 @@ std::string member_of(std::string_view flag) {
   throw Failure(Exit::bad_input, fmt::format("{}: {}", path, message));
 }
 
+/// JSON itself takes the last of two values for a key: one of them would be lost.
+Json::parser_callback_t expect_each_key_once(const std::string& path) {
+  return
+      [path, keys = std::vector<std::set<std::string>>()](int depth, Json::parse_event_t event, Json& parsed) mutable {
+        const auto level = static_cast<std::size_t>(depth);
+        if (event == Json::parse_event_t::object_start) {
+          keys.resize(level + 2);
+          keys.back().clear();
+        } else if (event == Json::parse_event_t::key) {
+          const auto name = parsed.get<std::string>();
+          if (!keys.at(level).insert(name).second)
+            fail_at(path, fmt::format("{} is given more than once; expected one value", name));
+        }
+        return true;
+      };
+}
+
 Json parse(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) fail_at(path, "is a directory; expected a JSON file with options");
@@ -41,7 +56,7 @@ Json parse(const std::string& path) {
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   Json json;
   try {
-    json = Json::parse(text);
+    json = Json::parse(text, expect_each_key_once(path));
   } catch (const Json::parse_error& wrong) {
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(wrong.byte - 1), '\n');
     fail_at(fmt::format("{}:{}", path, line),
@@ -89,12 +104,10 @@ Json value_of(const OptionRow& row, const OptionValue& value) {
 
 }  // namespace
 
-std::span<const std::string_view> flags_of_a_run() { return kFlags; }
-
 void read_options(Command& command, const std::string& path, Assignments& assignments) {
   Assignments read;
   std::vector<std::string> known;
-  std::ranges::transform(kFlags, std::back_inserter(known), member_of);
+  std::ranges::transform(kFlagsOfARun, std::back_inserter(known), member_of);
   const Json json = parse(path);
   for (const auto& [member, value] : json.items()) {
     try {
@@ -104,7 +117,7 @@ void read_options(Command& command, const std::string& path, Assignments& assign
         read.push_back(row != nullptr ? assignment_of(path, *row, value) : parse_assignment(member, ""));
         continue;
       }
-      Option& option = command.option(kFlags.at(static_cast<std::size_t>(flag - known.begin())));
+      Option& option = command.option(kFlagsOfARun.at(static_cast<std::size_t>(flag - known.begin())));
       if (!option.given.empty() || value.is_null()) continue;
       for (const std::string& text : texts_of(path, member, value)) {
         option.take(text);
@@ -120,7 +133,8 @@ void read_options(Command& command, const std::string& path, Assignments& assign
 std::string options_json(const Command& command, const Assignments& assignments) {
   Json json = Json::object();
   for (const Option& option : command.options()) {
-    if (option.given.empty() || std::ranges::find(kFlags, long_name(option.names)) == kFlags.end()) continue;
+    if (option.given.empty() || std::ranges::find(kFlagsOfARun, long_name(option.names)) == kFlagsOfARun.end())
+      continue;
     const std::string member = member_of(long_name(option.names));
     if (option.values == Values::one) {
       json[member] = option.given.front();

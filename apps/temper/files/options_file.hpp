@@ -7,9 +7,6 @@
 
 namespace temper::app {
 
-/// The flags that an options file may hold besides the options of the table. A report holds those that were given.
-[[nodiscard]] std::span<const std::string_view> flags_of_a_run();
-
 /// Reads the file. Options of the table go into `assignments`, before those that are there. Flags are taken as if the
 /// user had given them, unless the user did. Failure names the file and the member that is wrong.
 void read_options(Command& command, const std::string& path, Assignments& assignments);

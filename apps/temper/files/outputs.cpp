@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -11,7 +12,7 @@
 #include "console.hpp"
 #include "exit.hpp"
 #include "files/input.hpp"
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 
 namespace temper::app {
 namespace {
@@ -61,7 +62,7 @@ std::string what_it_is(const std::string& file, const std::string& input, std::s
 }
 
 const OutputKind* kind_of(std::span<const OutputKind> kinds, const std::string& path) {
-  const std::string suffix = fs::path(path).extension().string();
+  const std::string suffix = suffix_of(path);
   for (const OutputKind& kind : kinds) {
     const std::vector<std::string> suffixes = separated(kind.suffixes, ' ');
     if (std::ranges::find(suffixes, suffix) != suffixes.end()) return &kind;
@@ -112,6 +113,12 @@ void add_mesh_output(Command& command, MeshOutput& target, const std::string& va
 Option& add_write(Command& command, std::vector<std::string>& paths, std::span<const OutputKind> kinds) {
   return add_texts(command, "--write", "FILE ...", Values::words, paths,
                    fmt::format("Further files, by suffix: {}.", list_of(kinds)));
+}
+
+std::string suffix_of(const std::string& path) {
+  std::string suffix = fs::path(path).extension().string();
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return suffix;
 }
 
 bool is_output_of(std::span<const OutputKind> kinds, const std::string& path) {

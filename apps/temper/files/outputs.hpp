@@ -34,6 +34,8 @@ inline constexpr OutputKind kReportKind = {".json", "report", &FurtherOutputs::r
                             kTraceKind = {".jsonl", "trace", &FurtherOutputs::trace},
                             kPictureKind = {".svg .png .pdf", "picture", &FurtherOutputs::picture};
 Option& add_write(Command& command, std::vector<std::string>& paths, std::span<const OutputKind> kinds);
+/// ".svg" of "mesh.SVG".
+[[nodiscard]] std::string suffix_of(const std::string& path);
 /// Says whether one of the kinds has the suffix of the path.
 [[nodiscard]] bool is_output_of(std::span<const OutputKind> kinds, const std::string& path);
 /// Sorts the paths by suffix. Failure if a suffix is none of these, or occurs twice.

@@ -4,12 +4,10 @@
 #include <unistd.h>
 
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -20,12 +18,6 @@ namespace temper::app {
 namespace {
 
 constexpr const char* kProgram = "rsvg-convert";
-
-std::string suffix_of(const std::string& path) {
-  std::string suffix = std::filesystem::path(path).extension().string();
-  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return suffix;
-}
 
 [[noreturn]] void fail(const std::string& path, const std::string& why) {
   throw Failure(Exit::bad_input, fmt::format("{}: cannot be written: {}", path, why));

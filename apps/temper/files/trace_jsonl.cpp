@@ -16,7 +16,7 @@
 
 #include "exit.hpp"
 #include "files/input.hpp"
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 #include "temper/detail/version.hpp"
 
 namespace temper::app {

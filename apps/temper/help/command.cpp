@@ -9,7 +9,7 @@
 
 #include "console.hpp"
 #include "help/help.hpp"
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 
 namespace temper::app {
 namespace {
@@ -246,6 +246,12 @@ void Command::add_help(VerbHelp help) {
   const auto add_form = [this](std::string_view names, std::string_view sentence) {
     add({.names = std::string(names), .value_name = "", .sentence = std::string(sentence), .take = nullptr});
   };
+  add({.names = "--quiet",
+       .value_name = "",
+       .sentence = "Print warnings, errors and JSON only.",
+       .take = [](const std::string& text) {
+         if (text == "true") be_quiet();
+       }});
   const bool in_two = std::ranges::any_of(options_, &Option::rare);
   const bool in_three = !help_.paper.empty();
   add_form("-h,--help", in_three ? "Print this text. --help-all prints all options, such as --details and --set, "

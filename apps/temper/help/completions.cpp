@@ -5,7 +5,7 @@
 
 #include "console.hpp"
 #include "help/help.hpp"
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 
 namespace temper::app {
 namespace {

@@ -76,26 +76,6 @@ void add_options(HelpPage& page, const Command& command, bool all) {
   }
 }
 
-std::string_view meaning(Exit exit) {
-  switch (exit) {
-    case Exit::done:
-      return "Done.";
-    case Exit::bad_input:
-      return "Bad input, or an output cannot be written. The message names all written files.";
-    case Exit::bad_usage:
-      return "Bad usage: options that are wrong or missing.";
-    case Exit::requirement:
-      return "A requirement of --require or --require-claims is not met.";
-    case Exit::stopped_early:
-      return "A signal or --time-limit stopped the run, or edges are not regular. The best mesh is written.";
-    case Exit::internal:
-      return "Out of memory, or an internal error. Please report it.";
-    case Exit::infeasible:
-      return "No weights meet the request. Only the certificate is written.";
-  }
-  return "";
-}
-
 /// All examples, or those without rare options.
 std::string examples(const Command& command, bool all) {
   std::string text;

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 
 namespace temper::app {
 namespace {

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "console.hpp"
 #include "options/options.hpp"
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 
 namespace temper::app {
 namespace {
@@ -108,6 +109,11 @@ bool holds(Preference better, double found, double wanted) {
   return false;
 }
 
+/// Says whether no value meets both: `at least a` must be above `b at most`.
+bool contradict(const Requirement& a, const Requirement& b) {
+  return a.key == b.key && a.better != Preference::less && b.better != Preference::larger && a.value > b.value;
+}
+
 /// The keys and short names, for --help.
 std::string requirement_keys() {
   std::string text;
@@ -138,6 +144,11 @@ std::vector<Requirement> parse_requirements(std::string_view verb, std::span<con
     }
   } catch (const BadValue& bad) {
     refuse_usage(std::string(verb), fmt::format("--require: {}", bad.what()));
+  }
+  for (const Requirement& a : requirements) {
+    const auto b = std::ranges::find_if(requirements, [&a](const Requirement& other) { return contradict(a, other); });
+    if (b == requirements.end()) continue;
+    refuse_usage(std::string(verb), fmt::format("--require: no mesh meets both {} and {}", a.text, b->text));
   }
   return requirements;
 }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 
 namespace temper::app {
 namespace {
@@ -12,12 +12,15 @@ namespace {
 /// The word after a length that is no multiple of each edge's length.
 constexpr std::string_view kAbsolute = ":absolute";
 
-/// "--time-limit" of a row with a flag.
-std::string flag_of(const OptionRow& row) {
-  std::string flag = "--" + std::string(row.name);
+/// "time-limit" of "time_limit".
+std::string in_flag(std::string_view name) {
+  std::string flag(name);
   std::ranges::replace(flag, '_', '-');
   return flag;
 }
+
+/// "--time-limit" of a row with a flag.
+std::string flag_of(const OptionRow& row) { return "--" + in_flag(row.name); }
 
 std::string without_period(std::string text) {
   if (text.ends_with('.')) text.pop_back();
@@ -90,6 +93,9 @@ const OptionRow& row_of(std::string_view name, std::span<const std::string_view>
     }
   }
   if (std::ranges::find(known, name) != known.end()) return *find_option(name);
+  const std::string flag = name == "target" ? "--for" : "--" + in_flag(name);
+  if (std::ranges::find(kFlagsOfARun, flag) != kFlagsOfARun.end())
+    throw BadValue(fmt::format("there is no option '{}'; did you mean {}?", name, flag));
   const std::string_view guess = nearest(name, known);
   throw BadValue(
       fmt::format("there is no option '{}'{}", name,

@@ -2,6 +2,7 @@
 // run may need. Names and values are those of C++ and Python.
 #pragma once
 
+#include <array>
 #include <map>
 #include <span>
 #include <string>
@@ -13,6 +14,10 @@
 #include "temper/detail/optimize_table.hpp"
 
 namespace temper::app {
+
+/// The flags that an options file may hold besides the options of the table. A report holds those that were given.
+inline constexpr auto kFlagsOfARun = std::to_array<std::string_view>(
+    {"--for", "--effort", "--keep", "--fix", "--size", "--size-data", "--tensor", "--projection", "--point-data"});
 
 /// An option of the table, and the value that the user gave.
 struct Assignment {

@@ -112,6 +112,7 @@ std::string dec_json(const DecRecord& record) {
   const DecSummary& s = record.summary;
   const CellCounts cells = count(record.cells);
   Json json;
+  json["schema"] = kSchema;
   json["vertices"] = s.vertices;
   json["edges"] = s.edges;
   json["boundary_edges"] = s.boundary_edges;
@@ -145,10 +146,11 @@ std::vector<std::string> dec_warnings(const DecRecord& record) {
   const DecSummary& s = record.summary;
   std::vector<std::string> warnings;
   if (s.not_well_centered > 0) {
-    warnings.push_back(fmt::format(
-        "{}: {} of {} triangles are not well-centered: {} interior and {} boundary entries of star1 and {} of star0 "
-        "are negative. Next: temper optimize makes them positive",
-        record.path, s.not_well_centered, s.triangles, s.negative_star1, s.negative_boundary_star1, s.negative_star0));
+    warnings.push_back(
+        fmt::format("{}: {}: {} interior and {} boundary entries of star1 and {} of star0 "
+                    "are negative. Next: temper optimize makes them positive",
+                    record.path, well_centered(s.not_well_centered, s.triangles), s.negative_star1,
+                    s.negative_boundary_star1, s.negative_star0));
   }
   const auto edges = [](std::size_t n) { return n == 1 ? "1 interior edge" : fmt::format("{} interior edges", n); };
   if (s.negative_star1 > 0) {

@@ -232,8 +232,9 @@ std::string problem_json(const ProblemRecord& record) {
 
 std::string error_text(const ErrorRecord& record, const TextStyle& style) {
   const ErrorReport& report = record.report;
-  std::string text = fmt::format("{}: {} triangles, {} not well-centered; {} interior edges not regular\n", record.path,
-                                 report.triangles, report.not_well_centered, report.non_regular_edges);
+  std::string text = fmt::format("{}: {}, {} not well-centered; {} not regular\n", record.path,
+                                 plural(report.triangles, "triangle", "triangles"), report.not_well_centered,
+                                 plural(report.non_regular_edges, "interior edge", "interior edges"));
   text += table("relative error, L2", ".l2", report.fields, Shown::errors, style);
   text += table("relative error, maximum", ".max", report.fields, Shown::errors, style);
   text += matrices_text(report, style);
@@ -291,7 +292,8 @@ Json error_report_json(const ErrorReport& report) {
 }
 
 std::string error_json(const ErrorRecord& record) {
-  Json json = error_report_json(record.report);
+  Json json = {{"schema", kSchema}};
+  json.update(error_report_json(record.report));
   if (record.against) {
     json["against"] = {{"mesh", record.against->path},
                        {"report", error_report_json(record.against->report)},

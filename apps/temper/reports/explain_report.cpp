@@ -46,9 +46,8 @@ std::string wrapped(const std::string& text, std::size_t indent, const TextStyle
 }
 
 std::string headline(const Explanation& e, const Input& input) {
-  if (e.bad == 0) return fmt::format("{}: all {} triangles are well-centered\n", input.path, e.triangles);
-  std::string text = fmt::format("{}: {} of {} triangles {} not well-centered\n", input.path, e.bad, e.triangles,
-                                 e.bad == 1 ? "is" : "are");
+  std::string text = fmt::format("{}: {}\n", input.path, well_centered(e.bad, e.triangles));
+  if (e.bad == 0) return text;
   switch (e.verdict) {
     case Feasibility::feasible:
       return text +
@@ -273,6 +272,7 @@ std::string explanation_text(const Explanation& e, const Input& input, std::size
 std::string explanation_json(const Explanation& e, const Input& input) {
   const JsonWriter writer(input);
   Json json;
+  json["schema"] = kSchema;
   json["triangles"] = e.triangles;
   json["bad"] = e.bad;
   json["verdict"] = name(e.verdict);

@@ -30,6 +30,21 @@ std::string spell(const Projection& projection) {
   return fmt::format("{}:{},{}", name(projection.kind), projection.center.x, projection.center.y);
 }
 
+namespace {
+
+/// An edge with several tags is several lines, one after the other.
+std::size_t count_edges(const OutlineMesh& made) {
+  std::size_t n = 0;
+  const MeshLine* last = nullptr;
+  for (const MeshLine& line : made.lines) {
+    n += last != nullptr && last->a == line.a && last->b == line.b ? 0 : 1;
+    last = &line;
+  }
+  return n;
+}
+
+}  // namespace
+
 std::string mesh_text(const MeshRecord& r) {
   std::string text;
   for (const NamedOutline& input : r.inputs) {
@@ -47,7 +62,7 @@ std::string mesh_text(const MeshRecord& r) {
   text += fmt::format("{}, {}, {} of the outline; {} of the Delaunay triangles were not well-centered\n",
                       plural(r.quality.vertices, "vertex", "vertices"),
                       plural(r.quality.triangles, "triangle", "triangles"),
-                      plural(r.made.lines.size(), "edge", "edges"), r.made.delaunay_bad);
+                      plural(count_edges(r.made), "edge", "edges"), r.made.delaunay_bad);
   if (r.made.report.sweeps > 0) {
     text += fmt::format("optimized in {}, {:.3g} s\n", plural(std::size_t(r.made.report.sweeps), "sweep", "sweeps"),
                         r.made.report.seconds);
@@ -61,6 +76,7 @@ std::string mesh_text(const MeshRecord& r) {
 
 std::string mesh_json(const MeshRecord& r) {
   Json json;
+  json["schema"] = kSchema;
   json["command"] = r.command;
   json["version"] = version();
   for (const NamedOutline& input : r.inputs) {
@@ -80,7 +96,7 @@ std::string mesh_json(const MeshRecord& r) {
   }
   if (r.map.radius > 0) json["sphere"] = {{"radius", r.map.radius}, {"covered", r.map.covered}};
   json["attempts"] = r.made.attempts;
-  json["outline_edges"] = r.made.lines.size();
+  json["outline_edges"] = count_edges(r.made);
   json["delaunay_bad"] = r.made.delaunay_bad;
   json["bad"] = r.made.bad;
   json["sweeps"] = r.made.report.sweeps;

@@ -44,6 +44,8 @@ struct TextStyle {
 
 /// "46 of 96 triangles are not well-centered, every edge is regular"
 [[nodiscard]] std::string verdict(const Quality& quality);
+/// "2 of 9 triangles are not well-centered", or "all 9 triangles are well-centered".
+[[nodiscard]] std::string well_centered(std::size_t bad, std::size_t triangles);
 
 /// "Next: temper explain out.vtu", if a triangle of the file is not well-centered.
 [[nodiscard]] std::string next_step(const Quality& quality, const std::string& path, const std::string& projection);

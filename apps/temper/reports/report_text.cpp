@@ -168,19 +168,22 @@ std::size_t bad_triangles(const Quality& quality) {
   return quality.triangles - std::min(quality.triangles, static_cast<std::size_t>(std::lround(good)));
 }
 
+std::string well_centered(std::size_t bad, std::size_t triangles) {
+  if (bad == 0)
+    return triangles == 1 ? "the triangle is well-centered"
+                          : fmt::format("all {} triangles are well-centered", triangles);
+  return fmt::format("{} of {} {} not well-centered", bad, plural(triangles, "triangle", "triangles"),
+                     bad == 1 ? "is" : "are");
+}
+
 std::string verdict(const Quality& quality) {
   const std::size_t bad = bad_triangles(quality);
-  const auto are = [](std::size_t n, const char* one, const char* many) {
-    return fmt::format("{} {}", n, n == 1 ? one : many);
-  };
-  std::string text = bad == 0 ? fmt::format("all {} triangles are well-centered", quality.triangles)
-                              : fmt::format("{} of {} triangles {} not well-centered", bad, quality.triangles,
-                                            bad == 1 ? "is" : "are");
+  std::string text = well_centered(bad, quality.triangles);
   text += quality.non_regular_edges == 0
               ? ", every edge is regular"
-              : ", " + are(quality.non_regular_edges, "edge is not regular", "edges are not regular");
+              : ", " + plural(quality.non_regular_edges, "edge is not regular", "edges are not regular");
   if (quality.inverted_triangles > 0) {
-    text += ", " + are(quality.inverted_triangles, "triangle is inverted", "triangles are inverted");
+    text += ", " + plural(quality.inverted_triangles, "triangle is inverted", "triangles are inverted");
   }
   return text;
 }

@@ -145,8 +145,9 @@ std::string constraint_text(const WeightConstraint& c, const Input& input, const
 
 std::string weights_text(const WeightsRecord& r) {
   const WeightReport& report = r.report;
-  std::string text = fmt::format("{}: {} vertices, {} triangles\n{}{}\n{}\n", r.input.path, r.mesh.n_vertices(),
-                                 r.mesh.n_triangles(), search_text(r), verdict_text(r), margin_text(report));
+  std::string text =
+      fmt::format("{}: {}\n{}{}\n{}\n", r.input.path, mesh_size(r.mesh.n_vertices(), r.mesh.n_triangles()),
+                  search_text(r), verdict_text(r), margin_text(report));
   if (!report.solved && report.verdict == Feasibility::feasible) {
     text += fmt::format("no weights give a margin of {}\n", r.options.margin);
   }
@@ -163,6 +164,7 @@ std::string weights_text(const WeightsRecord& r) {
 std::string weights_json(const WeightsRecord& r) {
   const WeightReport& report = r.report;
   Json json;
+  json["schema"] = kSchema;
   json["mode"] = r.mode;
   json["constraints"] = name(r.options.constraints);
   json["edges"] = r.options.constraints == Constraints::regular ? Json(r.options.edges.size()) : Json(nullptr);

@@ -94,11 +94,12 @@ class Checks {
       if (s_.metric) worst.at = s_.metric->from_metric(worst.at);
     }
     const std::vector<Outcome> outcomes = judge(requirements_, measured);
-    if (!files_.report.empty()) outputs_.write_text(files_.report, check_json(path, measured, input.points, outcomes));
     if (!files_.page.empty()) {
       expect_plane(input.mesh(), path, "--write " + files_.page);
       outputs_.write_text(files_.page, check_html(command_line(command_, {path}), input, measured));
     }
+    for (WorstTriangle& worst : measured.worst) worst.at = place_in_file(input.file, worst.at);
+    if (!files_.report.empty()) outputs_.write_text(files_.report, check_json(path, measured, input.points, outcomes));
     if (s_.json) {
       reports_.push_back(check_json(path, measured, input.points, outcomes));
     } else {
@@ -120,13 +121,13 @@ class Checks {
   }
 
   Exit end() {
-    if (s_.json) print(s_.inputs.size() == 1 ? reports_.front() : json_list(reports_));
+    if (s_.json) print_data(s_.inputs.size() == 1 ? reports_.front() : json_list(reports_));
     return exit_;
   }
 
  private:
   [[nodiscard]] std::string short_text(const std::string& path, const Quality& measured) const {
-    std::string text = fmt::format("{}: {} vertices, {} triangles\n{}{}\n", path, measured.vertices, measured.triangles,
+    std::string text = fmt::format("{}: {}\n{}{}\n", path, mesh_size(measured.vertices, measured.triangles),
                                    brief_text(measured), verdict(measured));
     if (bad_triangles(measured) > 0 && path != kStandardInput)
       text += fmt::format("Next: {} -o OUT, or {}\n", command_line("optimize", path, s_.projection),

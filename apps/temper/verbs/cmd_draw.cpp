@@ -8,9 +8,10 @@
 #include "console.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
+#include "files/tensor_option.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 #include "temper/draw.hpp"
 #include "temper/quality.hpp"
 
@@ -21,6 +22,7 @@ struct DrawSettings {
   std::string projection;
   std::string input, before, output, color;
   DrawOptions options;
+  std::optional<Metric> metric;
   bool no_primal = false, no_dual = false, no_rings = false;
 };
 
@@ -49,7 +51,8 @@ void add_options(Command& command, DrawSettings& s) {
            "Number by which triangles are filled, dark for the least. If you do not give it, bad triangles are hatched "
            "and the others show their margin, which is the 'quality' from 0 to 0.3. 'none' leaves triangles white. "
            "'quality' is the least of h/l, d/l and 1 - d/l. 'angle' is the largest angle. 'size' is the mean length of "
-           "the edges. 'region' is the number of the region. NAME is data of triangles in the files.");
+           "the edges. 'region' is the number of the region. NAME is data of triangles or points in the files.");
+  add_tensor(command, s.metric, "Draw meshes");
   command.add_flag("--numbers", s.options.vertex_numbers, "Number the vertices, from 0.");
   add_number(command, "--weight-scale", s.options.weight_scale, kPositive, "Factor on the radius of weight circles.");
   add_numbers(
@@ -74,26 +77,39 @@ std::vector<double> as_doubles(const io::DataArray& data) {
   return std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); }, data.values);
 }
 
-/// A measure of the library, or data of triangles.
-IdVector<TriangleId, double> values_of(const Input& input, const std::string& name) {
-  const auto known = std::ranges::find(triangle_values(), name, &TriangleValue::name);
-  IdVector<TriangleId, double> values;
-  if (known != triangle_values().end()) {
-    for (const TriangleId t : input.mesh().triangles()) values.push_back(known->of(input.mesh(), t));
-    return values;
-  }
-  const std::vector<io::DataArray>& data = input.file.cell_data;
+/// The array of single numbers with this name, or null.
+const io::DataArray* find_numbers(const std::vector<io::DataArray>& data, const std::string& name) {
   const auto named = std::ranges::find(data, name, &io::DataArray::name);
-  if (named == data.end() || named->components != 1) {
+  return named == data.end() || named->components != 1 ? nullptr : &*named;
+}
+
+/// A measure of the library, data of triangles, or the mean of data of points over the corners.
+IdVector<TriangleId, double> values_of(const Input& input, const std::string& name) {
+  const Mesh& mesh = input.mesh();
+  IdVector<TriangleId, double> values;
+  const auto known = std::ranges::find(triangle_values(), name, &TriangleValue::name);
+  if (known != triangle_values().end()) {
+    for (const TriangleId t : mesh.triangles()) values.push_back(known->of(mesh, t));
+  } else if (const io::DataArray* of_triangles = find_numbers(input.file.cell_data, name)) {
+    for (const double value : as_doubles(*of_triangles)) values.push_back(value);
+  } else if (const io::DataArray* of_points = find_numbers(input.file.point_data, name)) {
+    const std::vector<double> at_points = as_doubles(*of_points);
+    const auto at = [&](VertexId v) { return at_points[input.points.empty() ? v.index : input.points[v.index]]; };
+    for (const TriangleId t : mesh.triangles()) {
+      const auto [a, b, c] = mesh.corners(t);
+      values.push_back((at(a) + at(b) + at(c)) / 3);
+    }
+  } else {
     std::vector<std::string_view> names;
     for (const TriangleValue& m : triangle_values()) names.push_back(m.name);
-    for (const io::DataArray& d : data) {
-      if (d.components == 1) names.push_back(d.name);
+    for (const auto* data : {&input.file.cell_data, &input.file.point_data}) {
+      for (const io::DataArray& d : *data) {
+        if (d.components == 1) names.push_back(d.name);
+      }
     }
-    throw Failure(Exit::bad_usage, fmt::format("{}: --color: there is no number '{}' of triangles; there are {}",
-                                               input.path, name, join(names)));
+    throw Failure(Exit::bad_usage, fmt::format("{}: --color: there are no numbers '{}'; there are {}{}", input.path,
+                                               name, join(names), did_you_mean(name, names)));
   }
-  for (const double value : as_doubles(*named)) values.push_back(value);
   return values;
 }
 
@@ -146,18 +162,21 @@ Exit run_draw(const Arguments& arguments) {
   s.options.dual = !s.no_dual;
   s.options.near_coincident = !s.no_rings;
   check_zoom(s.options);
+  expect_without(command, s.metric, "--zoom");
   Outputs outputs("draw");
   outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});
 
-  const Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
+  Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
   print_warnings(input.warnings());
   check_view(s.options, input);
+  take_to_metric(input, s.metric);
   if (s.before.empty()) {
     set_colors(s.options, s.color, {&input});
     outputs.write_picture(s.output, draw_svg(input.mesh(), s.options));
   } else {
-    const Input before = read_input(s.before, {.projection = same_projection(input, s.projection), .spheres = true});
+    Input before = read_input(s.before, {.projection = same_projection(input, s.projection), .spheres = true});
     print_warnings(before.warnings());
+    take_to_metric(before, s.metric);
     check_same_space(before, input);
     set_colors(s.options, s.color, {&before, &input});
     outputs.write_picture(s.output, draw_before_after_svg(before.mesh(), input.mesh(), s.options));

@@ -197,7 +197,7 @@ Exit run_errors(const Arguments& arguments) {
     record.against->ratios = or_fail(error_ratios(record.report, record.against->report));
   }
   if (!s.edges.empty()) outputs.write_text(s.edges, edge_errors_csv(record.report, input));
-  print(s.json ? error_json(record) : error_text(record, text_style()));
+  s.json ? print_data(error_json(record)) : print(error_text(record, text_style()));
   return Exit::done;
 }
 

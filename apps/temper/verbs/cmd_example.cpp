@@ -5,7 +5,7 @@
 #include "files/outputs.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 #include "temper/generate.hpp"
 
 namespace temper::app {

@@ -78,9 +78,14 @@ Exit run_explain(const Arguments& arguments) {
   options.cures = s.limit;
   options.whole = s.whole;
   options.progress = [&counter](std::size_t done, std::size_t all) { return counter.show(done, all); };
-  const Explanation explanation = or_fail(explain(input.mesh(), *solver, options));
+  Explanation explanation = or_fail(explain(input.mesh(), *solver, options));
+  for (Reason& reason : explanation.reasons) {
+    reason.at = place_in_file(input.file, reason.at);
+    for (Cure& cure : reason.cures) cure.at = place_in_file(input.file, cure.at);
+  }
   counter.clear();
-  print(s.json ? explanation_json(explanation, input) : explanation_text(explanation, input, s.limit, text_style()));
+  s.json ? print_data(explanation_json(explanation, input))
+         : print(explanation_text(explanation, input, s.limit, text_style()));
   return Exit::done;
 }
 

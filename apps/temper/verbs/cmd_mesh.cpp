@@ -44,7 +44,7 @@ struct MeshSettings {
   MesherOptions options;
   std::optional<double> radius;
   std::uint64_t threads = 0;
-  bool sphere = false, no_optimize = false, quiet = false;
+  bool sphere = false, no_optimize = false;
 };
 
 void add_files(Command& command, MeshSettings& s) {
@@ -54,7 +54,6 @@ void add_files(Command& command, MeshSettings& s) {
   add_mesh_output(command, s.output, "MESH");
   command.option("--output").require();
   add_write(command, s.write, kMeshOutputs);
-  command.add_flag("--quiet", s.quiet, "Print warnings and errors only.");
 }
 
 void add_sizes(Command& command, MeshSettings& s) {
@@ -207,47 +206,10 @@ void measure_covered(MapUsed& map, const Mesh& mesh) {
   map.covered = covered / (4 * std::numbers::pi);
 }
 
-/// The mesh with the edges of the outline as tagged lines. Segments without a tag get one, or a file would lose them: 1
-/// on the boundary, as in Triangle, and the first free number inside.
-io::MeshFile file_of(const OutlineMesh& made, const MapUsed& map) {
-  io::MeshFile file = io::from_mesh(made.mesh);
-  file.lines.clear();
-  file.line_tags.clear();
-  std::int32_t inside = 2;
-  for (const MeshLine& line : made.lines) inside = std::max(inside, line.tag + 1);
-  for (const MeshLine& line : made.lines) {
-    const HalfedgeId h = made.mesh.find_halfedge(line.a, line.b);
-    const bool boundary = !h.valid() || made.mesh.is_boundary(h);
-    file.lines.push_back({static_cast<std::int32_t>(line.a.index), static_cast<std::int32_t>(line.b.index)});
-    file.line_tags.push_back(line.tag != 0 ? line.tag : boundary ? 1 : inside);
-  }
-  if (map.radius > 0) {
-    for (std::size_t p = 0; p < map.lon_lat.size(); ++p) {  // bit for bit
-      const VertexId v = made.vertex_of_point[p];
-      if (v.valid()) file.points[v.index] = map.lon_lat[p];
-    }
-  }
-  if (!map.projection) return file;
-  std::vector<double> longitudes, latitudes;
-  const LongitudeTurn turn(map.lon_lat);
-  for (const VertexId v : made.mesh.vertices()) {
-    const Vec2 place = turn(inverse(*map.projection, made.mesh.position(v)));
-    longitudes.push_back(place.x);
-    latitudes.push_back(place.y);
-  }
-  for (std::size_t p = 0; p < map.lon_lat.size(); ++p) {  // bit for bit
-    const VertexId v = made.vertex_of_point[p];
-    if (v.valid()) longitudes[v.index] = map.lon_lat[p].x, latitudes[v.index] = map.lon_lat[p].y;
-  }
-  file.point_data.push_back({"longitude", 1, std::move(longitudes)});
-  file.point_data.push_back({"latitude", 1, std::move(latitudes)});
-  return file;
-}
-
 using Meshing = std::function<Expected<OutlineMesh>(const MesherOptions&, const OptimizeHooks&)>;
 
 OutlineMesh run_library(const MeshSettings& s, MesherOptions options, Executor* executor, const Meshing& meshing) {
-  ProgressLine line(!s.quiet && error_is_terminal());
+  ProgressLine line(!is_quiet() && error_is_terminal());
   const Observer observer = [&line](const Progress& progress) {
     line.show(progress);
     return interrupted() ? Continue::no : Continue::yes;
@@ -331,16 +293,14 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   measuring.executor = threads.get();
   const Quality after = quality(made.mesh, measuring);
 
-  print_warnings(outputs.write_mesh(s.output, file_of(made, map), threads.get()));
+  print_warnings(outputs.write_mesh(s.output, io::from_outline(made, map.lon_lat, map.projection), threads.get()));
   std::vector<std::string> arguments;
   if (!s.input.empty()) arguments.push_back(s.input);
   const MeshRecord record = {command_line(command, arguments), inputs, map, made, after};
   if (!s.files.report.empty()) outputs.write_text(s.files.report, mesh_json(record));
   if (!s.files.picture.empty()) outputs.write_picture(s.files.picture, draw_svg(made.mesh));
-  if (!s.quiet) {
-    print(mesh_text(record) + fmt::format("{}: {}\n", s.output.path, verdict(after)));
-    if (!s.sphere) print(next_step(after, s.output.path, s.projection));
-  }
+  print(mesh_text(record) + fmt::format("{}: {}\n", s.output.path, verdict(after)));
+  if (!s.sphere) print(next_step(after, s.output.path, s.projection));
   return stopped_early(made.report.stopped) ? Exit::stopped_early : Exit::done;
 }
 

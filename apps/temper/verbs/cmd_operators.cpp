@@ -15,8 +15,8 @@
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "reports/reports.hpp"
-#include "suggest.hpp"
 #include "temper/detail/dec_io.hpp"
+#include "temper/detail/suggest.hpp"
 #include "threads.hpp"
 
 namespace temper::app {
@@ -169,10 +169,12 @@ Exit run_operators(const Arguments& arguments) {
   const Columns* const columns = under_layers ? &*under_layers : nullptr;
   DecRecord record = {s.input, summary, cells, columns, {}};
   print_warnings(dec_warnings(record));
-  record.files =
-      or_fail(io::write_dec(s.output, plain ? *plain : input.mesh(), complex, cells,
-                            {formats, input.points, input.file.z(), columns, input.names.get(), threads.get()}));
-  print(s.json ? dec_json(record) : dec_text(record));
+  const std::vector<io::GroupCell> groups =
+      columns != nullptr ? io::cells_of_groups(input.file, input.loaded, input.mesh()) : std::vector<io::GroupCell>();
+  record.files = or_fail(
+      io::write_dec(s.output, plain ? *plain : input.mesh(), complex, cells,
+                    {formats, input.points, input.file.z(), columns, groups, input.names.get(), threads.get()}));
+  s.json ? print_data(dec_json(record)) : print(dec_text(record));
   return Exit::done;
 }
 

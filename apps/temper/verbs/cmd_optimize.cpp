@@ -87,7 +87,7 @@ auto saver(const OptimizeSettings& s, const Input& input, const RunFiles& files)
 
 OptimizeReport run_library(const OptimizeSettings& s, const Input& input, Mesh& mesh, const RunFiles& files,
                            Tracer tracer) {
-  ProgressLine line(!s.quiet && error_is_terminal());
+  ProgressLine line(!is_quiet() && error_is_terminal());
   const Observer observer = [&line](const Progress& progress) {
     line.show(progress);
     return interrupted() ? Continue::no : Continue::yes;
@@ -150,12 +150,11 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
   look_at();
   if (!s.files.picture.empty() || !s.files.page.empty()) results.original = *seen;
   const bool shown = !s.files.report.empty() || !s.files.page.empty() || !s.files.picture.empty();
-  const bool measured = !s.quiet || shown || !s.requirements.empty();  // else nobody would see it
+  const bool measured = !is_quiet() || shown || !s.requirements.empty();  // else nobody would see it
   if (measured) results.before = quality(*seen, measuring);
   catch_interrupts();
   on_first_rank([&] {
-    if (s.quiet) return;
-    print(fmt::format("{}: {} vertices, {} triangles", s.input, results.before.vertices, results.before.triangles));
+    print(fmt::format("{}: {}", s.input, mesh_size(results.before.vertices, results.before.triangles)));
     print(s.set_by_target.empty() ? "\n" : fmt::format("; --for {} sets {}\n", s.target, s.set_by_target));
     flush_output();
   });
@@ -329,7 +328,7 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   improve(s, input, results, files);
   if (!is_first_rank()) return Exit::done;
   write_all(command, s, input, results, outputs, files);
-  if (!s.quiet) print_result(s, results, outputs);
+  if (!is_quiet()) print_result(s, results, outputs);
   flush_output();  // before the verdict on standard error
   if (const Exit verdict = report_unmet(results.outcomes, s.output.path); verdict != Exit::done) return verdict;
   return stopped_early(results.report.stopped) || results.lacks_flips ? Exit::stopped_early : Exit::done;
@@ -342,7 +341,7 @@ void leave_outputs_to_first_rank(OptimizeSettings& s) {
   s.requirements.clear();
   s.save_every.reset();
   s.measure_errors = false;
-  s.quiet = true;
+  be_quiet();
 }
 
 /// A command that has been parsed.
@@ -360,8 +359,8 @@ Exit run_command(Command& command, OptimizeSettings& settings) {
   if (!is_first_rank()) leave_outputs_to_first_rank(settings);
 
   Outputs outputs("optimize");
-  if (is_first_rank()) outputs.expect_mesh(settings.output, {settings.size});
-  outputs.expect(settings.files, {settings.input, settings.size});
+  if (is_first_rank()) outputs.expect_mesh(settings.output, {settings.size, settings.options_file});
+  outputs.expect(settings.files, {settings.input, settings.size, settings.options_file});
   return optimize_mesh(command, settings, outputs);
 }
 

@@ -24,7 +24,6 @@ struct ReplaySettings {
   MeshOutput output;
   std::optional<int> sweeps;
   std::vector<std::string> point_data;
-  bool quiet = false;
 };
 
 void add_options(Command& command, ReplaySettings& s) {
@@ -35,7 +34,6 @@ void add_options(Command& command, ReplaySettings& s) {
   add_projection(command, s.projection);
   add_point_data(command, s.point_data);
   add_count(command, "--sweeps", s.sweeps, 0, "Last sweep to repeat. 0 stops when IN has been made regular.");
-  command.add_flag("--quiet", s.quiet, "Print warnings and errors only.");
 }
 
 /// The library counts events; a file has lines.
@@ -56,7 +54,7 @@ std::span<const TraceEvent> wanted(const std::vector<TraceEvent>& events, std::o
 
 Exit replay(const ReplaySettings& s) {
   Outputs outputs("paper replay");
-  outputs.expect_mesh(s.output);
+  outputs.expect_mesh(s.output, {s.trace});
 
   Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
   print_warnings(input.warnings());
@@ -76,10 +74,8 @@ Exit replay(const ReplaySettings& s) {
   io::update(input.file, input.loaded, replayed->mesh, replayed->vertices, {rules});
   print_warnings(std::span(input.file.warnings).subspan(known));
   print_warnings(outputs.write_mesh(s.output, input.file));
-  if (!s.quiet) {
-    print(fmt::format("{} of {} events: {} vertices, {} triangles\nwrote {}\n", applied.size(), events.size(),
-                      replayed->mesh.n_vertices(), replayed->mesh.n_triangles(), s.output.path));
-  }
+  print(fmt::format("{} of {}: {}\nwrote {}\n", applied.size(), plural(events.size(), "event", "events"),
+                    mesh_size(replayed->mesh.n_vertices(), replayed->mesh.n_triangles()), s.output.path));
   return Exit::done;
 }
 

@@ -21,7 +21,7 @@
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "options/table_options.hpp"
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 #include "temper/detail/version.hpp"
 #include "verbs/paper.hpp"
 

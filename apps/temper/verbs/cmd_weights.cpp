@@ -151,7 +151,7 @@ Exit check(const WeightsSettings& s, const Input& input) {
   const CertificateCheck result = check_certificate(input.mesh(), certificate);
   const bool proves = result == CertificateCheck::proves;
   if (s.json) {
-    print(fmt::format("{{\"proves\": {}, \"check\": \"{}\"}}\n", proves, name(result)));
+    print_data(fmt::format("{{\"schema\": {}, \"proves\": {}, \"check\": \"{}\"}}\n", kSchema, proves, name(result)));
   } else if (proves) {
     const ConstraintsInfo& row = constraints_table()[static_cast<std::size_t>(certificate.constraints)];
     const bool none = certificate.margin == 0 || certificate.constraints == Constraints::regular;
@@ -245,7 +245,7 @@ Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
     outputs.write_text(s.certificate, certificate_text(report.certificate, input));
     record.certificate = s.certificate;
   }
-  print(s.json ? weights_json(record) : weights_text(record));
+  s.json ? print_data(weights_json(record)) : print(weights_text(record));
   return report.solved ? Exit::done : Exit::infeasible;
 }
 
@@ -264,8 +264,8 @@ Exit run_weights(const Arguments& arguments) {
   s.options.from_input = s.from == From::input;
   s.options.whole = s.whole;
   Outputs outputs("weights");
-  if (!s.output.path.empty()) outputs.expect_mesh(s.output);
-  outputs.expect_text("--certificate", s.certificate, {s.input});
+  if (!s.output.path.empty()) outputs.expect_mesh(s.output, {s.edges});
+  outputs.expect_text("--certificate", s.certificate, {s.input, s.edges});
 
   Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
   print_warnings(input.warnings());

@@ -18,8 +18,8 @@
 #include "exit.hpp"
 #include "help/help.hpp"
 #include "options/ranks.hpp"
-#include "suggest.hpp"
 #include "temper/detail/build_info.hpp"
+#include "temper/detail/suggest.hpp"
 #include "temper/detail/version.hpp"
 #include "temper/io.hpp"
 #include "verbs.hpp"
@@ -67,7 +67,7 @@ std::string version_text() {
 
 Exit run(const Arguments& words) {
   if (words.empty()) {
-    fmt::print(stderr, "{}", short_help());
+    put_to_error(short_help());
     return Exit::bad_usage;
   }
   const std::string& first = words.front();
@@ -94,8 +94,8 @@ Exit run(const Arguments& words) {
 
 int internal_error(std::string_view what) {
   print_error(fmt::format("internal error: {}", what));
-  fmt::print(stderr, "This is a defect of temper {}. Please report it, with the command and the mesh it was run on.\n",
-             version());
+  put_to_error(fmt::format(
+      "This is a defect of temper {}. Please report it, with the command and the mesh it was run on.\n", version()));
   return static_cast<int>(Exit::internal);
 }
 
@@ -124,10 +124,12 @@ int run_program(int argc, char** argv) {
   std::set_terminate(end_on_terminate);
   end_on_signals();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
+  std::signal(SIGPIPE, SIG_IGN);  // and so is a pipe without a reader
   try {
     const Exit exit = run(Arguments(argv + std::min(argc, 1), argv + argc));
     flush_output();
     leave_ranks();
+    if (is_quiet() && (exit == Exit::stopped_early || exit == Exit::infeasible)) print_error(meaning(exit));
     return static_cast<int>(exit);
   } catch (const Failure& failure) {
     const std::optional<Failure> shown = agreed(failure);

@@ -10,7 +10,7 @@
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "reports/reports.hpp"
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 
 namespace temper::app {
 namespace {
@@ -83,7 +83,6 @@ void add_common(Command& command, OptimizeSettings& s) {
   add_requirements(command, s.require).sentence = "Requirements, such as outside=0. If one is not met, exit with 3.";
   add_flag_of(command, "time_limit", s.assignments).value_name = "SECONDS";
   add_write(command, s.write, kRunOutputs);
-  command.add_flag("--quiet", s.quiet, "Print warnings and errors only.");
 }
 
 void add_rare(Command& command, OptimizeSettings& s) {
@@ -205,8 +204,9 @@ void settle_options(Command& command, OptimizeSettings& s) {
   s.options = *options;
   s.set_by_target = differences(*options_for(s.target), OptimizeOptions());
   assign(s.assignments, s.options);
-  if (const auto kept = check_kept(s.options, keep); !kept)
-    refuse_usage("optimize", spell_options(kept.error()).message);
+  for (const auto& checked : {check_target(s.options, s.target), check_kept(s.options, keep)}) {
+    if (!checked) refuse_usage("optimize", spell_options(checked.error()).message);
+  }
 }
 
 std::vector<std::string> doubtful_options(const Command& command, const OptimizeSettings& s) {

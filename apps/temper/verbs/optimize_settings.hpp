@@ -31,7 +31,7 @@ struct OptimizeSettings {
   OptimizeOptions options;    ///< what follows from target, effort, keep and assignments
   std::string set_by_target;  ///< options that the target sets, for people
   std::uint64_t threads = 0;
-  bool quiet = false, details = false, measure_errors = false;
+  bool details = false, measure_errors = false;
   bool traced = false;               ///< by any writer of the trace
   std::optional<double> save_every;  ///< seconds between two times that the best mesh so far is written
   std::vector<Requirement> requirements;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,19 +27,40 @@ enum class DecFormat {
         ///< edge_midpoints.mtx
   vtu,  ///< Files dual.vtu, the power cells as polygons; dual_edges.vtu, the dual edges as lines; columns.vtu, prisms
   // These need columns:
-  disv,   ///< File mesh.disv: MODFLOW 6's discretization by vertices
-  disu,   ///< File mesh.disu: MODFLOW 6's discretization by connections
-  tough,  ///< File MESH: elements and connections of TOUGH2, TOUGH3 and iTOUGH2
+  disv,   ///< Files mesh.disv, MODFLOW 6's discretization by vertices; mesh.disv.csv, the cells of groups
+  disu,   ///< Files mesh.disu, MODFLOW 6's discretization by connections; mesh.disu.csv
+  tough,  ///< Files MESH, elements and connections of TOUGH2, TOUGH3 and iTOUGH2; MESH.csv
 };
 [[nodiscard]] bool needs_columns(DecFormat format);
+
+enum class GroupKind {
+  point,     ///< Marked points, such as wells
+  line,      ///< Lines inside the domain, such as rivers
+  boundary,  ///< Lines on its boundary
+};
+
+/// A power cell that a named group touches.
+struct GroupCell {
+  std::string name;  ///< Physical name, or the number of a tag without a name
+  GroupKind kind = GroupKind::point;
+  VertexId vertex;    ///< Vertex of the cell
+  double length = 0;  ///< Length of the lines of the group in the cell [length]; 0 for points
+};
+
+/// The cells of all marked points and lines, by kind, tag and vertex. A cell is once for each name and kind, so lengths
+/// of a group add up to the length of its lines. Lines that only list the edges of the mesh are left out. Precondition:
+/// all edges of the mesh are regular, as in columns().
+[[nodiscard]] std::vector<GroupCell> cells_of_groups(const MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh);
 
 struct DecWriteOptions {
   std::vector<DecFormat> formats = {DecFormat::npz, DecFormat::mtx, DecFormat::vtu};
   std::span<const std::size_t> points = {};  ///< Point of the file for each vertex, from 0; empty: the same numbers
   double z = 0;                              ///< Common height of all points, in VTU
   const Columns* columns = nullptr;          ///< Columns to write; null: none
-  const InputNames* names = nullptr;         ///< Numbers of vertices for the user, for errors
-  Executor* executor = nullptr;              ///< Threads that compress; the bytes written do not depend on them
+  /// Cells of groups, for the tables beside the columns; absent: no tables
+  std::optional<std::span<const GroupCell>> groups = {};
+  const InputNames* names = nullptr;  ///< Numbers of vertices for the user, for errors
+  Executor* executor = nullptr;       ///< Threads that compress; the bytes written do not depend on them
 };
 
 /// The names of the files that a format writes into its folder, with or without columns.

@@ -76,6 +76,8 @@ struct Preset {
 [[nodiscard]] std::span<const Preset> efforts();
 /// The parts of a mesh that a run can keep.
 [[nodiscard]] std::span<const Preset> keeps();
+/// Returns an error if an option contradicts the use that the target stands for: its scheme, or that weights stay.
+[[nodiscard]] Expected<void> check_target(const OptimizeOptions& options, std::string_view target);
 /// Returns an error if options change a part of the mesh to keep.
 [[nodiscard]] Expected<void> check_kept(const OptimizeOptions& options, std::span<const std::string_view> keep);
 

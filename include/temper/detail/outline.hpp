@@ -17,9 +17,22 @@
 
 namespace temper {
 
+/// A named group of elements: Gmsh physical names.
+struct PhysicalName {
+  int dimension = 0;  ///< 0 points, 1 lines, 2 triangles
+  std::int32_t tag = 0;
+  std::string name;
+};
+
 struct OutlineSegment {
   std::array<std::int32_t, 2> ends = {};  ///< Numbers of its end points, from 0
   std::int32_t tag = 0;                   ///< Boundary marker; edges of the segment carry it
+};
+
+/// A tag of a point or of a segment, beside those that it has.
+struct OutlineTag {
+  std::int32_t element = 0;  ///< Number of the point or segment, from 0
+  std::int32_t tag = 0;
 };
 
 /// A place in a region. Its data hold for everything that can be reached from it without crossing a segment.
@@ -61,6 +74,9 @@ struct Outline {
   std::vector<OutlineRegion> regions;
   std::vector<OutlinePart> parts;             ///< Parts; if there are any, they alone define the inside
   std::shared_ptr<const OutlineNames> names;  ///< Names for errors; null: counted from 0
+  std::vector<OutlineTag> point_tags;         ///< Tags of points; their vertices are fixed and carry them
+  std::vector<OutlineTag> further_tags;       ///< Tags of segments that have more than one
+  std::vector<PhysicalName> groups;           ///< Names of the tags of points and segments, and of regions
 };
 
 }  // namespace temper

@@ -1,7 +1,8 @@
 // From the arrays of a file to a mesh.
 //
 // Points of no triangle are left out of the mesh. Tagged lines inside the domain become constrained edges, unless they
-// list all edges of the mesh. Points of fixed tags are fixed, and points that medit calls required.
+// list all edges of the mesh. Marked points are fixed, unless they list vertices. Points of fixed tags are fixed, too,
+// and points that medit calls required.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -209,6 +210,7 @@ class MeshMaker {
     take_edge_lines();
     constrain_lines();
     fix_ends_of_tags();
+    fix_marked_points();
     return std::move(loaded_);
   }
 
@@ -360,27 +362,65 @@ class MeshMaker {
   /// Fixes points of straight pieces of the boundary if tagged lines end there or the tag changes. If such a point
   /// slid, the user's groups would change their shape.
   void fix_ends_of_tags() {
-    if (file_.lines.empty()) return;
-    struct Lines {
-      std::int32_t tag = 0;
-      int count = 0;
-      bool one_tag = true;
-    };
     Mesh& mesh = loaded_.mesh;
-    IdVector<VertexId, Lines> lines(mesh.n_vertices());  // of the boundary
+    std::vector<std::array<std::uint32_t, 3>> ends;  // vertex, tag and edge of lines on the boundary
     for (std::size_t i = 0; i < file_.lines.size(); ++i) {
       const HalfedgeId h = edges_[i];
       if (!h.valid() || !mesh.is_boundary(h)) continue;
-      for (const VertexId v : {mesh.origin(h), mesh.target(h)}) {
-        Lines& at = lines[v];
-        at.one_tag = at.one_tag && (at.count == 0 || at.tag == file_.line_tags[i]);
-        at.tag = file_.line_tags[i];
-        ++at.count;
+      for (const VertexId v : {mesh.origin(h), mesh.target(h)})
+        ends.push_back({v.index, static_cast<std::uint32_t>(file_.line_tags[i]), h.index});
+    }
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      const auto continues = [&](std::size_t other) {
+        return other < ends.size() && ends[other][0] == ends[i][0] && ends[other][1] == ends[i][1];
+      };
+      const VertexId v(ends[i][0]);
+      if (!continues(i + 1) && !continues(i - 1) && !is_corner(mesh, v)) mesh.set_fixed(v, true);
+    }
+  }
+  /// Fixes marked points: they are places that the user chose, such as wells. But marks may also list vertices, and
+  /// then they fix nothing:
+  ///   - if all vertices are marked
+  ///   - tags of vertices of the boundary, if all of these are marked (Triangle)
+  ///   - tags of lines that pass through one of their points (ADCIRC's levees), unless they have a name for points
+  ///
+  /// A tag of 0 is none.
+  void fix_marked_points() {
+    Mesh& mesh = loaded_.mesh;
+    IdVector<VertexId, std::uint8_t> marked(mesh.n_vertices());
+    std::vector<std::pair<VertexId, std::int32_t>> marks, of_lines;
+    for (std::size_t i = 0; i < file_.marked_points.size(); ++i) {
+      const std::int32_t v = loaded_.vertex_of_point[static_cast<std::size_t>(file_.marked_points[i])];
+      if (v < 0 || file_.point_tags[i] == 0) continue;
+      marks.emplace_back(static_cast<std::size_t>(v), file_.point_tags[i]);
+      marked[marks.back().first] = 1;
+    }
+    if (marks.empty() || std::find(marked.begin(), marked.end(), 0) == marked.end()) return;
+    bool all_of_boundary = true;
+    for (const HalfedgeId h : mesh.halfedges())
+      all_of_boundary = all_of_boundary && (!mesh.is_boundary(h) || marked[mesh.origin(h)] != 0);
+    for (std::size_t i = 0; i < file_.lines.size(); ++i) {
+      for (const std::int32_t p : file_.lines[i]) {
+        const std::int32_t v = loaded_.vertex_of_point[static_cast<std::size_t>(p)];
+        if (v >= 0) of_lines.emplace_back(static_cast<std::size_t>(v), file_.line_tags[i]);
       }
     }
-    for (const VertexId v : mesh.vertices()) {
-      const bool ends = lines[v].count == 1 || !lines[v].one_tag;
-      if (ends && !is_corner(mesh, v)) mesh.set_fixed(v, true);
+    std::sort(of_lines.begin(), of_lines.end());
+    std::vector<std::int32_t> lists, named;
+    for (const PhysicalName& n : file_.names) {
+      if (n.dimension == 0) named.push_back(n.tag);
+    }
+    for (const auto& mark : marks) {
+      const auto [v, tag] = mark;
+      const bool of_boundary = all_of_boundary && mesh.is_boundary(v);
+      const bool of_line = !contains(named, tag) && std::binary_search(of_lines.begin(), of_lines.end(), mark);
+      if (of_boundary || of_line) lists.push_back(tag);
+    }
+    std::sort(lists.begin(), lists.end());
+    for (const auto& [v, tag] : marks) {
+      if (!std::binary_search(lists.begin(), lists.end(), tag)) mesh.set_fixed(v, true);
     }
   }
 

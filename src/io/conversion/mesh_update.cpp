@@ -4,6 +4,8 @@
 // its line or its triangle. data_update.cpp moves data of points and triangles.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -15,6 +17,7 @@
 #include "io/text/file_names.hpp"
 #include "io/text/values.hpp"
 #include "temper/io.hpp"
+#include "temper/mesher.hpp"
 
 namespace temper::io {
 namespace {
@@ -213,7 +216,7 @@ Former vertices_by_place(const MeshFile& file, const Mesh& mesh) {
 
 using NewNumbers = std::vector<std::int32_t>;  // of the points before; −1: removed
 
-/// A vertex on a straight line may be removed: the two lines that met there become one.
+/// A vertex on a straight line may be removed: of each tag, the two lines that met there become one.
 ///
 ///     a --i-- v --j-- b     becomes    a --i-- b
 class LineMerger {
@@ -228,24 +231,32 @@ class LineMerger {
   /// Lines that were merged into others get a removed vertex at both ends, for renumber() to drop.
   std::size_t merge() {
     std::size_t merged = 0;
-    for (std::size_t p = 0; p < new_index_.size(); ++p) merged += merge_at(static_cast<std::int32_t>(p)) ? 1 : 0;
+    for (std::size_t p = 0; p < new_index_.size(); ++p) merged += merge_at(static_cast<std::int32_t>(p));
     return merged;
   }
 
  private:
   [[nodiscard]] bool removed(std::int32_t p) const { return new_index_[static_cast<std::size_t>(p)] < 0; }
-  bool merge_at(std::int32_t v) {
+  std::size_t merge_at(std::int32_t v) {
     const auto found = lines_at_.find(v);
-    if (found == lines_at_.end() || found->second.size() != 2) return false;
-    const std::size_t i = std::min(found->second[0], found->second[1]);
-    const std::size_t j = std::max(found->second[0], found->second[1]);
-    if (i == j || file_.line_tags[i] != file_.line_tags[j]) return false;
+    if (found == lines_at_.end()) return 0;
+    std::map<std::int32_t, std::vector<std::size_t>> lines_of;  // by tag, ascending
+    for (const std::size_t line : found->second) lines_of[file_.line_tags[line]].push_back(line);
+    std::size_t merged = 0;
+    for (auto& [tag, lines] : lines_of) {
+      std::sort(lines.begin(), lines.end());
+      if (lines.size() != 2 || lines[0] == lines[1]) continue;
+      join(v, lines[0], lines[1]);
+      ++merged;
+    }
+    return merged;
+  }
+  void join(std::int32_t v, std::size_t i, std::size_t j) {
     auto &kept = file_.lines[i], &gone = file_.lines[j];
     const std::int32_t far = gone[0] == v ? gone[1] : gone[0];
     kept[kept[0] == v ? 0 : 1] = far;
     gone = {v, v};
     if (removed(far)) std::replace(lines_at_[far].begin(), lines_at_[far].end(), j, i);
-    return true;
   }
 
   MeshFile& file_;
@@ -323,6 +334,58 @@ void release_geometry(MeshFile& file, const LoadedMesh& loaded) {
   give_memory_back();
 }
 
+namespace {
+
+/// Longitude and latitude of the vertices of a map, as point data.
+void add_degrees(MeshFile& file, const OutlineMesh& made, std::span<const Vec2> lon_lat, const Projection& map) {
+  std::vector<double> longitudes, latitudes;
+  const LongitudeTurn turn(lon_lat);
+  for (const VertexId v : made.mesh.vertices()) {
+    const Vec2 place = turn(inverse(map, made.mesh.position(v)));
+    longitudes.push_back(place.x);
+    latitudes.push_back(place.y);
+  }
+  for (std::size_t p = 0; p < lon_lat.size(); ++p) {  // bit for bit
+    const VertexId v = made.vertex_of_point[p];
+    if (v.valid()) longitudes[v.index] = lon_lat[p].x, latitudes[v.index] = lon_lat[p].y;
+  }
+  file.point_data.push_back({std::string(kLongitude), 1, std::move(longitudes)});
+  file.point_data.push_back({std::string(kLatitude), 1, std::move(latitudes)});
+}
+
+}  // namespace
+
+MeshFile from_outline(const OutlineMesh& made, std::span<const Vec2> lon_lat, const std::optional<Projection>& map) {
+  MeshFile file = from_mesh(made.mesh);
+  for (auto* const tags : {&file.line_tags, &file.marked_points, &file.point_tags}) tags->clear();
+  file.lines.clear();
+  constexpr std::int32_t kBoundary = 1, kHighest = std::numeric_limits<std::int32_t>::max() - 2;
+  std::int32_t highest = kBoundary;
+  for (const MeshLine& line : made.lines) highest = std::max(highest, line.tag);
+  for (const MarkedVertex& mark : made.marked) highest = std::max(highest, mark.tag);
+  highest = std::min(highest, kHighest);
+  const std::int32_t inside = highest + 1, point = highest + 2;
+  const auto number = [](VertexId v) { return static_cast<std::int32_t>(v.index); };
+  for (const MeshLine& line : made.lines) {
+    const HalfedgeId h = made.mesh.find_halfedge(line.a, line.b);
+    const bool boundary = !h.valid() || made.mesh.is_boundary(h);
+    file.lines.push_back({number(line.a), number(line.b)});
+    file.line_tags.push_back(line.tag != 0 ? line.tag : boundary ? kBoundary : inside);
+  }
+  for (const MarkedVertex& mark : made.marked) {
+    file.marked_points.push_back(number(mark.vertex));
+    file.point_tags.push_back(mark.tag != 0 ? mark.tag : point);
+  }
+  file.names = made.groups;
+  if (map) add_degrees(file, made, lon_lat, *map);
+  if (made.mesh.space().is_plane()) return file;
+  for (std::size_t p = 0; p < lon_lat.size(); ++p) {  // bit for bit
+    const VertexId v = made.vertex_of_point[p];
+    if (v.valid()) file.points[v.index] = lon_lat[p];
+  }
+  return file;
+}
+
 MeshFile from_mesh(const Mesh& mesh) {
   MeshFile file;
   copy_vertices(file, mesh, {});
@@ -334,6 +397,12 @@ MeshFile from_mesh(const Mesh& mesh) {
     file.lines.push_back(
         {static_cast<std::int32_t>(mesh.origin(h).index), static_cast<std::int32_t>(mesh.target(h).index)});
     file.line_tags.push_back(0);
+  }
+  constexpr std::int32_t kFixed = 1;
+  for (const VertexId v : mesh.vertices()) {
+    if (!mesh.is_fixed(v)) continue;
+    file.marked_points.push_back(static_cast<std::int32_t>(v.index));
+    file.point_tags.push_back(kFixed);
   }
   return file;
 }

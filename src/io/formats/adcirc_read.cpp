@@ -26,13 +26,17 @@ std::string adcirc_boundary_name(const AdcircBoundary& b, std::size_t number) {
 }
 
 std::optional<AdcircBoundary> adcirc_boundary(std::string_view name) {
-  const bool open = name.starts_with("open boundary ");
-  if (!open && !name.starts_with("land boundary ")) return std::nullopt;
+  constexpr std::pair<std::string_view, AdcircBoundary> kWords[] = {
+      {"open", {true, 0}}, {"land", {false, 0}}, {"island", {false, 1}}};
   constexpr std::string_view kType = ", type ";
+  const std::string_view word = name.substr(0, name.find_first_of(" ,"));
+  const auto* const kind =
+      std::find_if(std::begin(kWords), std::end(kWords), [word](const auto& row) { return row.first == word; });
+  if (kind == std::end(kWords)) return std::nullopt;
+  AdcircBoundary result = kind->second;
   const std::size_t at = name.find(kType);
-  if (at == std::string_view::npos) return AdcircBoundary{open, 0};
+  if (at == std::string_view::npos) return result;
   const std::string_view digits = name.substr(at + kType.size());
-  AdcircBoundary result{open, 0};
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), result.type);
   if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
   return result;

@@ -1,5 +1,6 @@
 // Writes ADCIRC's fort.14. Lines on the boundary become strings of nodes, with the domain on the left. If the name of
-// their tag is not the name of a boundary, they become land boundaries of type 0 (mainland).
+// their tag is not the name of a boundary, they become land boundaries of type 0 (mainland). Then an edge with several
+// tags is in one boundary only: in those of its tags that are named so, or else in that of its first tag.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -108,36 +109,58 @@ class AdcircWriter {
     const MeshFile& f = file_;
     if (f.lines.empty()) return;
     const auto boundary = boundary_edges(f);
-    std::vector<std::int32_t> tags;  // in the order of their first line
-    std::map<std::int32_t, std::vector<DirectedEdge>> edges;
-    std::size_t inside = 0;
+    std::vector<std::pair<DirectedEdge, std::int32_t>> lines;  // on the boundary, and their tags
+    std::map<DirectedEdge, std::int32_t> first_tag;            // named as a boundary if one is
     for (std::size_t i = 0; i < f.lines.size(); ++i) {
       const auto [a, b] = f.lines[i];
+      const std::int32_t tag = f.line_tags[i];
       const bool forward = boundary.contains({a, b});
-      if (!forward && !boundary.contains({b, a})) {
-        ++inside;
+      if (!forward && !boundary.contains({b, a})) continue;
+      const DirectedEdge edge = forward ? DirectedEdge{a, b} : DirectedEdge{b, a};
+      lines.emplace_back(edge, tag);
+      const auto [known, is_new] = first_tag.emplace(edge, tag);
+      if (!is_new && !named_kind(known->second) && named_kind(tag)) known->second = tag;
+    }
+    if (const std::size_t inside = f.lines.size() - lines.size(); inside > 0)
+      job_.warn(inside, " lines that are not on the boundary are not written: fort.14 has no place for them");
+    std::vector<std::int32_t> tags;  // in the order of their first line
+    std::map<std::int32_t, std::vector<DirectedEdge>> edges;
+    std::map<std::int32_t, std::size_t> lost;
+    for (const auto& [edge, tag] : lines) {
+      if (tag != first_tag[edge] && !named_kind(tag)) {
+        ++lost[tag];
         continue;
       }
-      auto& list = edges[f.line_tags[i]];
-      if (list.empty()) tags.push_back(f.line_tags[i]);
-      list.push_back(forward ? DirectedEdge{a, b} : DirectedEdge{b, a});
+      auto& list = edges[tag];
+      if (list.empty()) tags.push_back(tag);
+      list.push_back(edge);
     }
-    if (inside > 0)
-      job_.warn(inside, " lines that are not on the boundary are not written: fort.14 has no place for them");
+    for (const auto& [tag, n] : lost) {
+      job_.warn("tag ", tag, described(tag), " is not written for ", n, n == 1 ? " edge" : " edges",
+                " of another boundary: fort.14 has an edge in one boundary");
+    }
     for (const std::int32_t tag : tags) {
       const AdcircBoundary kind = kind_of(tag);
       for (NodeString& nodes : strings_of(edges[tag])) strings_.push_back({kind, tag, std::move(nodes)});
     }
     for (AdcircString& s : strings_) levee_string(s);
   }
-  AdcircBoundary kind_of(std::int32_t tag) {
-    std::string_view name;
+  /// The kind that a name of the tag says, if one does.
+  [[nodiscard]] std::optional<AdcircBoundary> named_kind(std::int32_t tag) const {
     const auto [first, last] = names_.equal_range(tag);
     for (auto named = first; named != last; ++named) {
-      if (const auto kind = adcirc_boundary(named->second)) return *kind;
-      name = named->second;
+      if (const auto kind = adcirc_boundary(named->second)) return kind;
     }
-    job_.warn("lines with tag ", tag, name.empty() ? "" : ", ", name,
+    return {};
+  }
+  /// ", NAME" if the tag has one.
+  [[nodiscard]] std::string described(std::int32_t tag) const {
+    const auto named = names_.find(tag);
+    return named == names_.end() ? std::string() : text(", ", named->second);
+  }
+  AdcircBoundary kind_of(std::int32_t tag) {
+    if (const auto kind = named_kind(tag)) return *kind;
+    job_.warn("lines with tag ", tag, described(tag),
               " are written as land boundaries of type 0; the name 'open boundary 1' or 'land boundary 1, type 20' "
               "would say otherwise");
     return {};
@@ -208,7 +231,8 @@ class AdcircWriter {
     const MeshFile& f = file_;
     std::vector<PhysicalName> names;
     for (const PhysicalName& n : f.names) {
-      if (n.dimension != 1 || !adcirc_boundary(n.name)) names.push_back(n);
+      const bool numbered = n.name.starts_with("open boundary ") || n.name.starts_with("land boundary ");
+      if (n.dimension != 1 || !numbered || !adcirc_boundary(n.name)) names.push_back(n);
     }
     warn_of_names(job_, names);
     const bool levees = find(f.marked_point_data, kAdcircSide) != nullptr;

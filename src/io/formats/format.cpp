@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 
 #include "io/conversion/globe.hpp"
 #include "io/disk/files.hpp"
@@ -235,17 +236,26 @@ std::vector<std::int32_t> one_tag_a_point(const WriteJob& job) {
   const MeshFile& f = job.file;
   std::vector<std::int32_t> tags(f.points.size());
   std::size_t lost = 0;
+  std::map<std::int32_t, std::string> lost_tags;
   for (std::size_t i = 0; i < f.marked_points.size(); ++i) {
     std::int32_t& tag = tags[static_cast<std::size_t>(f.marked_points[i])];
-    if (tag == 0)
+    if (tag == 0) {
       tag = f.point_tags[i];
-    else
+    } else if (tag != f.point_tags[i]) {
       ++lost;
+      lost_tags.emplace(f.point_tags[i], text(f.point_tags[i]));
+    }
   }
-  if (lost > 0) {
-    job.warn(lost, " further tags of points that have one already are not written: ", job.row.description,
-             " holds one per point");
+  if (lost == 0) return tags;
+  for (const PhysicalName& n : f.names) {
+    const auto found = lost_tags.find(n.tag);
+    if (n.dimension == 0 && found != lost_tags.end()) found->second = n.name;
   }
+  std::vector<std::string_view> names;
+  for (const auto& [tag, name] : lost_tags) names.push_back(name);
+  job.warn(lost, lost == 1 ? " further tag of a point that has" : " further tags of points that have", " one already ",
+           lost == 1 ? "is" : "are", " not written: ", list_of(names), "; ", job.row.description,
+           " holds one per point");
   return tags;
 }
 

@@ -3,6 +3,12 @@
 // A physical tag is the region of a triangle, or the tag of a line or point. The number of the geometric entity is kept
 // as data gmsh:geometrical. NodeData and ElementData become data; the NodeData "weight" are the weights. Elements are
 // sorted by their numbers: Gmsh gave them in this order, and other programs count by it.
+//
+// A partition divides entities into parts, and adds entities between the parts. A part belongs to its parent again; its
+// number is the data gmsh:partition. What lies between parts is left out.
+//
+//     surface 1, curve 5 |  gmsh    surface 3 of 1 | curve 8 of 1, | surface 4 of 1     (dimension 2 of 2, 1 of 2, …)
+//                        |  ---->   curve 9 of 5   | not of a curve| curve 10 of 5
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -49,20 +55,35 @@ std::string_view element_name(std::int32_t type) {
   return type >= 3 && type <= 11 ? kElementNames[static_cast<std::size_t>(type) - 3] : "element of an unknown type";
 }
 
+/// What an element belongs to.
+struct Membership {
+  std::int32_t physical = 0, entity = 0;
+  std::int32_t partition = 0;       // 0: the mesh has none
+  bool is_reversed = false;         // the physical group has the entity in the other direction
+  bool between_partitions = false;  // made by the partition
+};
+
 /// Elements of one kind as they are read.
 template <std::size_t N>
 struct Elements {
   std::vector<std::array<std::int32_t, N>> nodes;
-  std::vector<std::int32_t> physical, geometrical;
+  std::vector<std::int32_t> physical, geometrical, partitions;
   RunLength numbers, text_lines;
 
-  void add(const std::array<std::int32_t, N>& element_nodes, std::int32_t physical_tag, std::int32_t entity,
-           std::int64_t number, std::int64_t text_line) {
+  void add(const std::array<std::int32_t, N>& element_nodes, const Membership& of, std::int64_t number,
+           std::int64_t text_line) {
     nodes.push_back(element_nodes);
-    physical.push_back(physical_tag);
-    geometrical.push_back(entity);
+    physical.push_back(of.physical);
+    geometrical.push_back(of.entity);
+    partitions.push_back(of.partition);
     numbers.push_back(number);
     text_lines.push_back(text_line);
+  }
+  /// Appends an element of another list.
+  void add_from(const Elements& other, std::size_t i) {
+    const auto row = static_cast<std::int64_t>(i);
+    add(other.nodes[i], {other.physical[i], other.geometrical[i], other.partitions[i]}, other.numbers[row],
+        other.text_lines[row]);
   }
   void sort_by_number();
 };
@@ -77,9 +98,7 @@ void Elements<N>::sort_by_number() {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return number[a] < number[b]; });
   Elements sorted;
-  for (const std::size_t i : order) {
-    sorted.add(nodes[i], physical[i], geometrical[i], number[i], text_lines[static_cast<std::int64_t>(i)]);
-  }
+  for (const std::size_t i : order) sorted.add_from(*this, i);
   *this = std::move(sorted);
 }
 
@@ -110,10 +129,10 @@ class GmshReader {
       mesh_format();
     } else if (name == "PhysicalNames") {
       physical_names();
-    } else if (name == "Entities" && version4_) {
-      entities();
-    } else if (name == "Nodes") {
-      version4_ ? nodes_4() : nodes_2();
+    } else if ((name == "Entities" || name == "PartitionedEntities") && version4_) {
+      entities(name == "PartitionedEntities");
+    } else if (name == "Nodes" || (name == "ParametricNodes" && !version4_)) {
+      version4_ ? nodes_4() : nodes_2(name == "ParametricNodes");
       finish_nodes();
     } else if (name == "Elements") {
       if (!has_nodes_) scanner_.fail_here(ErrorCode::syntax, "expected $Nodes before $Elements");
@@ -161,6 +180,7 @@ class GmshReader {
       }
       name.tag = scanner_.integer("the tag of a physical name");
       name.name = quoted_string();
+      named_.emplace(name.dimension, name.tag);
       document_.file.names.push_back(std::move(name));
     }
   }
@@ -182,28 +202,65 @@ class GmshReader {
                                 " is dropped: it has no dimension, and no element has the tag"));
     }
   }
-  void entities() {
+  void entities(bool partitioned) {
     if (binary_) scanner_.next_line();
+    if (partitioned) {
+      get<std::uint64_t>("the number of partitions");
+      const std::size_t n_ghosts = get_count("ghost entities", 4, 8);
+      for (std::size_t i = 0; i < 2 * n_ghosts; ++i) get<std::int32_t>("a ghost entity");
+    }
     std::array<std::size_t, 4> counts;
     for (std::size_t& n : counts) n = get_count("entities", 10, 36);
     for (std::int32_t dimension = 0; dimension < 4; ++dimension) {
-      for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) {
-        const auto tag = get<std::int32_t>("the tag of an entity");
-        const int n_coordinates = dimension == 0 ? 3 : 6;
-        for (int k = 0; k < n_coordinates; ++k) get<double>("a coordinate of an entity");
-        const std::size_t n_physical = get_count("physical tags", 2, 4);
-        for (std::size_t k = 0; k < n_physical; ++k) {
-          const auto physical = get<std::int32_t>("a physical tag");
-          if (k == 0) physical_of_entity_[{dimension, tag}] = physical;
-        }
-        if (n_physical > 1) ++with_further_tags_;
-        if (dimension == 0) continue;
-        const std::size_t n_bounding = get_count("bounding entities", 2, 4);
-        for (std::size_t k = 0; k < n_bounding; ++k) get<std::int32_t>("a bounding entity");
-      }
+      for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) entity(dimension, partitioned);
     }
   }
-  void nodes_2() {
+  void entity(std::int32_t dimension, bool partitioned) {
+    const auto tag = get<std::int32_t>("the tag of an entity");
+    Membership of;
+    of.entity = tag;
+    const Membership* parent = nullptr;
+    if (partitioned) {
+      const auto parent_dimension = get<std::int32_t>("the dimension of a parent");
+      of.entity = get<std::int32_t>("the tag of a parent");
+      of.between_partitions = parent_dimension != dimension;
+      const auto found = entities_.find({dimension, of.entity});
+      if (!of.between_partitions && found != entities_.end()) parent = &found->second;
+      const std::size_t n_partitions = get_count("partitions", 2, 4);
+      for (std::size_t k = 0; k < n_partitions; ++k) {
+        const auto partition = get<std::int32_t>("a partition");
+        if (k == 0) of.partition = partition;
+      }
+    }
+    const int n_coordinates = dimension == 0 ? 3 : 6;
+    for (int k = 0; k < n_coordinates; ++k) get<double>("a coordinate of an entity");
+    const std::size_t n_physical = get_count("physical tags", 2, 4);
+    for (std::size_t k = 0; k < n_physical; ++k) {
+      const auto physical = get<std::int32_t>("a physical tag");
+      if (k == 0) of.physical = physical;
+    }
+    const std::size_t n_bounding = dimension == 0 ? 0 : get_count("bounding entities", 2, 4);
+    for (std::size_t k = 0; k < n_bounding; ++k) get<std::int32_t>("a bounding entity");
+    of.is_reversed = is_of_reversed(dimension, of.physical, n_bounding > 0);
+    if (of.is_reversed) of.physical = -of.physical;
+    if (parent != nullptr && parent->physical != 0) {
+      of.physical = parent->physical;
+      of.is_reversed = parent->is_reversed;
+    } else if (n_physical > 1 && !of.between_partitions) {
+      ++with_further_tags_;
+    }
+    entities_[{dimension, tag}] = of;
+  }
+  /// In 4.1 a negative tag is that of a group that has the entity in the other direction. Entities of temper have no
+  /// boundary, and their tags may be negative.
+  [[nodiscard]] bool is_of_reversed(std::int32_t dimension, std::int32_t tag, bool has_boundary) const {
+    return tag < 0 && tag > std::numeric_limits<std::int32_t>::min() && !is_named(dimension, tag) &&
+           (has_boundary || is_named(dimension, -tag));
+  }
+  [[nodiscard]] bool is_named(std::int32_t dimension, std::int32_t tag) const {
+    return named_.contains({dimension, tag});
+  }
+  void nodes_2(bool parametric) {
     const std::size_t n = scanner_.count("nodes", binary_ ? 28 : 8);
     if (binary_) scanner_.next_line();
     document_.file.points.reserve(n);
@@ -213,7 +270,12 @@ class GmshReader {
       if (!binary_) document_.names->point_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
       const double x = get<double>("the x coordinate of a node");
       const double y = get<double>("the y coordinate of a node");
-      add_node(number, x, y, get<double>("the z coordinate of a node"));
+      add_node(x, y, get<double>("the z coordinate of a node"));
+      if (!parametric) continue;
+      const auto dimension = get<std::int32_t>("the dimension of an entity");
+      get<std::int32_t>("the tag of an entity");
+      const int n_parameters = dimension == 1 || dimension == 2 ? dimension : 0;
+      for (int k = 0; k < n_parameters; ++k) get<double>("a parameter of a node");
     }
   }
   void nodes_4() {
@@ -235,7 +297,7 @@ class GmshReader {
         const double x = get<double>("the x coordinate of a node");
         if (!binary_) document_.names->point_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
         const double y = get<double>("the y coordinate of a node");
-        add_node(0, x, y, get<double>("the z coordinate of a node"));
+        add_node(x, y, get<double>("the z coordinate of a node"));
         for (int k = 0; parametric && k < dimension; ++k) get<double>("a parameter of a node");
       }
     }
@@ -260,13 +322,24 @@ class GmshReader {
         --left_in_block;
       }
       if (n_tags < 0) fail(ErrorCode::syntax, where(), "element ", number, " has ", n_tags, " tags");
-      std::array<std::int32_t, 2> tags = {0, 0};
-      for (std::int32_t k = 0; k < n_tags; ++k) {
-        const auto tag = get<std::int32_t>("a tag of an element");
-        if (k < 2) tags[static_cast<std::size_t>(k)] = tag;
-      }
-      add_element(type, number, tags[0], tags[1]);
+      add_element(type, number, membership_2(type, n_tags));
     }
+  }
+  /// Tags: physical, entity, number of partitions, these; a negative one has the element as a ghost. Before
+  /// version 2.2: physical, entity, partition.
+  Membership membership_2(std::int32_t type, std::int32_t n_tags) {
+    Membership of;
+    int n_partitions = 0;
+    for (std::int32_t k = 0; k < n_tags; ++k) {
+      const auto tag = get<std::int32_t>("a tag of an element");
+      if (k == 0) of.physical = tag;
+      if (k == 1) of.entity = tag;
+      if (k == 3 || (k == 2 && n_tags == 3)) of.partition = tag;
+      if (k >= 3 && tag > 0) ++n_partitions;
+    }
+    const std::int32_t dimension = type == kGmshPoint ? 0 : type == kGmshLine ? 1 : 2;
+    of.between_partitions = n_partitions > 1 && dimension < 2 && !is_named(dimension, of.physical);
+    return of;
   }
   void elements_4() {
     if (binary_) scanner_.next_line();
@@ -279,11 +352,12 @@ class GmshReader {
       const auto entity = get<std::int32_t>("the tag of an entity");
       const auto type = get<std::int32_t>("the type of elements");
       const std::size_t n = get_count("elements", 4, 16);
-      const auto physical = physical_of_entity_.find({dimension, entity});
-      const std::int32_t tag = physical == physical_of_entity_.end() ? 0 : physical->second;
+      Membership of;
+      of.entity = entity;
+      if (const auto found = entities_.find({dimension, entity}); found != entities_.end()) of = found->second;
       for (std::size_t i = 0; i < n; ++i) {
         const auto number = static_cast<std::int64_t>(get<std::uint64_t>("the number of an element"));
-        add_element(type, number, tag, entity);
+        add_element(type, number, of);
       }
     }
   }
@@ -378,7 +452,7 @@ class GmshReader {
           break;
         }
       }
-      if (target == nullptr && repeated_lookup_->find(number)) {
+      if (target == nullptr && left_out_lookup_->find(number)) {
         for (std::size_t k = 0; k < components; ++k) get<double>("a value of element data");
         continue;
       }
@@ -418,6 +492,9 @@ class GmshReader {
           std::any_of(elements.geometrical.begin(), elements.geometrical.end(), [](auto e) { return e != 0; });
       if (has_entities) data.push_back({std::string(kGmshEntity), 1, std::move(elements.geometrical)});
     };
+    auto& partitions = triangles_.partitions;
+    if (std::any_of(partitions.begin(), partitions.end(), [](auto p) { return p != 0; }))
+      f.cell_data.push_back({std::string(kGmshPartition), 1, std::move(partitions)});
     hand_over(triangles_, f.triangles, f.regions, f.cell_data);
     // No physical group at all: no regions.
     if (std::count(f.regions.begin(), f.regions.end(), 0) == std::ssize(f.regions)) f.regions.clear();
@@ -435,6 +512,10 @@ class GmshReader {
       names.triangle_lines = std::move(triangles_.text_lines);
       names.line_lines = std::move(lines_.text_lines);
     }
+    if (n_between_ > 0) {
+      f.warnings.push_back(text(scanner_.path(), ": ", n_between_, n_between_ == 1 ? " element" : " elements",
+                                " between partitions ", n_between_ == 1 ? "is" : "are", " left out"));
+    }
     if (with_further_tags_ > 0) {
       const bool one = with_further_tags_ == 1;
       const std::string_view what = version4_ ? one ? " entity has" : " entities have"
@@ -445,9 +526,8 @@ class GmshReader {
     }
   }
 
-  void add_node(std::int64_t number, double x, double y, double z) {
+  void add_node(double x, double y, double z) {
     MeshFile& f = document_.file;
-    static_cast<void>(number);
     f.points.push_back({x, y});
     PlaneCheck(document_).add(f.points.size() - 1, z);
   }
@@ -459,22 +539,35 @@ class GmshReader {
       fail(ErrorCode::syntax, where(), "node number ", *twice, " is given twice");
     }
   }
-  void add_element(std::int32_t type, std::int64_t number, std::int32_t physical, std::int32_t entity) {
+  void add_element(std::int32_t type, std::int64_t number, const Membership& of) {
     const auto line = static_cast<std::int64_t>(scanner_.line());
     switch (type) {
       case kGmshTriangle: {
-        const std::int32_t a = node_index("triangle", number), b = node_index("triangle", number);
-        return triangles_.add({a, b, node_index("triangle", number)}, physical, entity, number, line);
+        const auto corners = nodes_of<3>("triangle", number);
+        return of.between_partitions ? leave_out(number) : triangles_.add(corners, of, number, line);
       }
       case kGmshLine: {
-        const std::int32_t a = node_index("line", number);
-        return lines_.add({a, node_index("line", number)}, physical, entity, number, line);
+        auto ends = nodes_of<2>("line", number);
+        if (of.is_reversed) std::swap(ends[0], ends[1]);
+        return of.between_partitions ? leave_out(number) : lines_.add(ends, of, number, line);
       }
-      case kGmshPoint:
-        return points_.add({node_index("point element", number)}, physical, entity, number, line);
+      case kGmshPoint: {
+        const auto point = nodes_of<1>("point element", number);
+        return of.between_partitions ? leave_out(number) : points_.add(point, of, number, line);
+      }
       default:
         refuse_element(where(), number, element_name(type));
     }
+  }
+  void leave_out(std::int64_t number) {
+    left_out_.push_back(number);
+    ++n_between_;
+  }
+  template <std::size_t N>
+  [[nodiscard]] std::array<std::int32_t, N> nodes_of(std::string_view kind, std::int64_t element) {
+    std::array<std::int32_t, N> nodes;
+    for (std::int32_t& node : nodes) node = node_index(kind, element);
+    return nodes;
   }
   [[nodiscard]] std::int32_t node_index(std::string_view kind, std::int64_t element) {
     const std::int64_t number = version4_ ? static_cast<std::int64_t>(get<std::uint64_t>("the number of a node"))
@@ -509,12 +602,10 @@ class GmshReader {
     if (with_further_tags_ == 0) return;
     Elements<3> kept;
     for (std::size_t i = 0; i < repeated.size(); ++i) {
-      const auto row = static_cast<std::int64_t>(i);
       if (repeated[i])
-        repeated_.push_back(triangles_.numbers[row]);
+        left_out_.push_back(triangles_.numbers[static_cast<std::int64_t>(i)]);
       else
-        kept.add(triangles_.nodes[i], physical[i], triangles_.geometrical[i], triangles_.numbers[row],
-                 triangles_.text_lines[row]);
+        kept.add_from(triangles_, i);
     }
     triangles_ = std::move(kept);
   }
@@ -526,7 +617,7 @@ class GmshReader {
     points_.sort_by_number();
     if (!version4_) keep_one_of_each_triangle();
     triangle_lookup_.emplace(triangles_.numbers);
-    repeated_lookup_.emplace(repeated_);
+    left_out_lookup_.emplace(left_out_);
     line_lookup_.emplace(lines_.numbers);
     point_lookup_.emplace(points_.numbers);
   }
@@ -561,15 +652,17 @@ class GmshReader {
   AllocationLimits& allocation_;
   bool binary_ = false, swap_ = false, version4_ = false, has_nodes_ = false, has_elements_ = false;
   std::optional<NumberLookup> lookup_;
-  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> physical_of_entity_;
-  std::size_t with_further_tags_ = 0;  // entities in 4.1, triangles in 2
+  std::map<std::pair<std::int32_t, std::int32_t>, Membership> entities_;  // by dimension and tag
+  std::size_t with_further_tags_ = 0;                                     // entities in 4.1, triangles in 2
   std::vector<PhysicalName> names_without_dimension_;
+  std::set<std::pair<std::int32_t, std::int32_t>> named_;  // dimension and tag
   Elements<3> triangles_;
   Elements<2> lines_;
   Elements<1> points_;
   std::optional<NumberLookup> triangle_lookup_, line_lookup_, point_lookup_;
-  RunLength repeated_;  // the numbers of triangles that are there already
-  std::optional<NumberLookup> repeated_lookup_;
+  RunLength left_out_;  // the numbers of elements between partitions, and of triangles that are there already
+  std::optional<NumberLookup> left_out_lookup_;
+  std::size_t n_between_ = 0;
   std::set<std::string> node_data_, element_data_;  // names
 };
 

@@ -213,6 +213,7 @@ void write_columns_disv(const DecJob& job) {
   out.put("END GRIDDATA\n");
   put_vertices(out, shared);
   put_cells(out, job.mesh, c, shared, c.n_vertices);
+  write_groups(job, "mesh.disv.csv", [&c](std::size_t cell) { return text(c.vertex(cell).index + 1); });
 }
 
 void write_columns_disu(const DecJob& job) {
@@ -232,6 +233,7 @@ void write_columns_disu(const DecJob& job) {
   put_array(out, "IDOMAIN", c.n_cells(), [&](std::size_t i) { return c.is_active(i) ? 1 : 0; });
   out.put("END GRIDDATA\n");
   put_connections(out, job.mesh, c, rows);
+  write_groups(job, "mesh.disu.csv", [](std::size_t cell) { return text(cell + 1); });
   if (!has_polygons) return;
   put_vertices(out, shared);
   put_cells(out, job.mesh, c, shared, c.n_cells());

@@ -95,6 +95,7 @@ void write_columns_tough(const DecJob& job) {
             in_ten_columns(downward(c, connection)), '\n');
   }
   out.put('\n');
+  write_groups(job, "MESH.csv", element_name);
 }
 
 }  // namespace temper::io

@@ -82,7 +82,8 @@ std::span<const std::string_view> dec_file_names(DecFormat format, bool has_colu
                                               "star2.mtx",        "transmissibility.mtx",
                                               "orthocenters.mtx", "edge_midpoints.mtx"};
   static constexpr std::string_view kVtu[] = {"dual.vtu", "dual_edges.vtu", "columns.vtu"};
-  static constexpr std::string_view kDisv[] = {"mesh.disv"}, kDisu[] = {"mesh.disu"}, kTough[] = {"MESH"};
+  static constexpr std::string_view kDisv[] = {"mesh.disv", "mesh.disv.csv"}, kDisu[] = {"mesh.disu", "mesh.disu.csv"},
+                                    kTough[] = {"MESH", "MESH.csv"};
   switch (format) {
     case DecFormat::npz:
       return kNpz;

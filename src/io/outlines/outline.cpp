@@ -195,13 +195,45 @@ class Parser {
     rest_.remove_prefix(1);
     constexpr std::string_view kNames = "\"\\/bfnrt", kMeanings = "\"\\/\b\f\n\r\t";
     if (const std::size_t i = kNames.find(c); i != std::string_view::npos) return {kMeanings[i]};
-    unsigned code = 0;
+    if (c != 'u') fail_here("an escape in a string is none of JSON's");
+    const std::uint32_t code = code_unit();
+    constexpr std::uint32_t kReplacement = 0xFFFD;  // for half a pair
+    const bool high = code >= 0xD800 && code < 0xDC00, low = code >= 0xDC00 && code < 0xE000;
+    if (!high) return utf8(low ? kReplacement : code);
+    // Beyond 16 bits a character is a pair of escapes.
+    const std::string_view before = rest_;
+    if (rest_.starts_with("\\u")) {
+      rest_.remove_prefix(2);
+      const std::uint32_t second = code_unit();
+      if (second >= 0xDC00 && second < 0xE000) return utf8(0x10000 + ((code - 0xD800) << 10) + (second - 0xDC00));
+    }
+    rest_ = before;
+    return utf8(kReplacement);
+  }
+
+  /// The four digits of an escape \uXXXX.
+  std::uint32_t code_unit() {
+    std::uint32_t code = 0;
     const std::size_t digits = std::min<std::size_t>(4, rest_.size());
     const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + digits, code, 16);
-    if (c != 'u' || error != std::errc() || end != rest_.data() + 4)
-      fail_here("an escape in a string is none of JSON's");
+    if (error != std::errc() || end != rest_.data() + 4) fail_here("an escape in a string is none of JSON's");
     rest_.remove_prefix(4);
-    return code < 128 ? std::string(1, static_cast<char>(code)) : "?";  // such strings are only shown
+    return code;
+  }
+
+  static std::string utf8(std::uint32_t code) {
+    constexpr std::uint32_t kMore = 0x80, kSix = 0x3F;
+    if (code < kMore) return {static_cast<char>(code)};
+    std::string bytes;
+    std::uint32_t lead = 0xC0;
+    for (std::uint32_t most = 0x20;; most >>= 1) {  // what the first byte holds
+      bytes.insert(bytes.begin(), static_cast<char>(kMore | (code & kSix)));
+      code >>= 6;
+      if (code < most) break;
+      lead = (lead >> 1) | kMore;
+    }
+    bytes.insert(bytes.begin(), static_cast<char>(lead | code));
+    return bytes;
   }
 
   const std::string& path_;

@@ -1,16 +1,19 @@
 // GeoJSON (RFC 7946): polygons become parts, lines stay inside as constrained edges, points as fixed vertices.
 //
-// Equal positions are one point, so polygons that share a piece of boundary share its edges. The reader uses three
+// Equal positions are one point, so polygons that share a piece of boundary share its edges. The reader uses four
 // properties of a feature: "region" is a number (without it features count from 1 when there are several). "size" is
-// the edge length inside, "tag" the tag of the edges on its lines. Positions are longitude and latitude, unless a crs
-// member of an older file names another system.
+// the edge length inside, "tag" the tag of its points and of the edges on its lines. "name" names their group, see
+// NamedElements. Positions are longitude and latitude, unless a crs member of an older file names another system.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "io/outlines/outline_input.hpp"
+#include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 
 namespace temper::io {
@@ -41,6 +44,15 @@ struct Feature {
   std::string name = "the geometry";
   std::optional<std::int32_t> region, tag;
   std::optional<double> size;
+  std::string group;  ///< the property "name"
+};
+
+/// The points or segments of a feature with a name, in the order of the features.
+struct NamedElements {
+  int dimension = 0;
+  std::int32_t tag = 0;  ///< of the feature; 0: none
+  std::string name;
+  std::vector<std::int32_t> elements;
 };
 
 class GeoJsonReader {
@@ -62,6 +74,7 @@ class GeoJsonReader {
       geometry(root_, Feature());
     }
     number_regions();
+    name_groups();
     if (dropped_ > 0) {
       document_.file.warnings.push_back(text(path_, ": ", dropped_, dropped_ == 1 ? " position is" : " positions are",
                                              " the same as the one before"));
@@ -79,8 +92,7 @@ class GeoJsonReader {
   [[nodiscard]] bool is_geographic() const {
     const JsonValue* crs = root_.find("crs");
     const JsonValue* properties = crs != nullptr ? crs->find("properties") : nullptr;
-    if (properties == nullptr) return true;
-    const std::string_view name = properties->text("name");
+    const std::string_view name = properties != nullptr ? properties->text("name") : root_.text("crs");
     for (const std::string_view geographic : {"CRS84", "4326", "4269", "4258"}) {
       if (name.ends_with(geographic)) return true;
     }
@@ -106,6 +118,7 @@ class GeoJsonReader {
       warn_of_misspelt(*properties, name);
       about.region = integer(*properties, "region", name);
       about.tag = integer(*properties, "tag", name);
+      about.group = group_name(properties->text("name"));
       if (const JsonValue* size = properties->find("size"); size != nullptr && size->type == Type::number) {
         if (!(size->number > 0))
           fail_at(*size, ErrorCode::syntax, name, ": expected a size above 0, found ", size->number);
@@ -142,7 +155,6 @@ class GeoJsonReader {
   /// Warns of properties of polygons on other geometries.
   void warn_of_idle(const JsonValue& shape, const Feature& about) {
     const std::string_view type = shape.text("type");
-    const bool point = type == "Point" || type == "MultiPoint";
     const bool polygon = type == "Polygon" || type == "MultiPolygon" || type == "GeometryCollection";
     const auto warn_if = [&](bool idle, std::string_view property, std::string_view of) {
       if (idle)
@@ -150,7 +162,14 @@ class GeoJsonReader {
     };
     warn_if(about.size && !polygon, "size", "polygons");
     warn_if(about.region && !polygon, "region", "polygons");
-    warn_if(about.tag && point, "tag", "polygons and lines");
+  }
+
+  /// The name without blanks at its ends, which formats of text cannot keep, and without control characters.
+  [[nodiscard]] static std::string group_name(std::string_view name) {
+    constexpr std::string_view kBlank = " \t\r\n";
+    name.remove_prefix(std::min(name.find_first_not_of(kBlank), name.size()));
+    name = name.substr(0, name.find_last_not_of(kBlank) + 1);
+    return plain_name(name);
   }
 
   std::optional<std::int32_t> integer(const JsonValue& properties, std::string_view key,
@@ -189,14 +208,36 @@ class GeoJsonReader {
       for (const JsonValue& polygon : array(*coordinates, about.name)) all.push_back(&polygon);
       polygons(all, about);
     }
+    const std::size_t first = document_.file.outline.segments.size();
     if (type == "LineString") line(*coordinates, about, about.name);
     if (type == "MultiLineString") {
       for (const JsonValue& one : array(*coordinates, about.name)) line(one, about, about.name);
     }
-    if (type == "Point") point(*coordinates, about.name);
+    if (type.ends_with("LineString")) name_segments(about, first);
+    if (type == "Point") marks({coordinates}, about);
     if (type == "MultiPoint") {
-      for (const JsonValue& one : array(*coordinates, about.name)) point(one, about.name);
+      std::vector<const JsonValue*> all;
+      for (const JsonValue& one : array(*coordinates, about.name)) all.push_back(&one);
+      marks(all, about);
     }
+  }
+
+  void name_segments(const Feature& about, std::size_t first) {
+    if (about.group.empty()) return;
+    NamedElements named{1, about.tag.value_or(0), about.group, {}};
+    for (std::size_t s = first; s < document_.file.outline.segments.size(); ++s)
+      named.elements.push_back(static_cast<std::int32_t>(s));
+    named_.push_back(std::move(named));
+  }
+
+  void marks(const std::vector<const JsonValue*>& positions, const Feature& about) {
+    NamedElements named{0, about.tag.value_or(0), about.group, {}};
+    for (const JsonValue* position : positions) named.elements.push_back(point(*position, about.name));
+    for (const std::int32_t p : named.elements) add_tag(p, named.tag);
+    if (!about.group.empty()) named_.push_back(std::move(named));
+  }
+  void add_tag(std::int32_t point, std::int32_t tag) {
+    if (tag != 0 && point_tags_.emplace(point, tag).second) document_.file.outline.point_tags.push_back({point, tag});
   }
 
   const std::vector<JsonValue>& array(const JsonValue& value, const std::string& name) const {
@@ -212,6 +253,8 @@ class GeoJsonReader {
     part.size = about.size;
     part.region = about.region.value_or(0);
     given_region_.push_back(about.region.has_value() ? 1 : 0);
+    part_groups_.push_back(about.group);
+    const std::size_t first_segment = document_.file.outline.segments.size();
     for (std::size_t i = 0; i < all.size(); ++i) {
       const std::vector<JsonValue>& rings = array(*all[i], about.name);
       for (std::size_t k = 0; k < rings.size(); ++k) {
@@ -224,6 +267,7 @@ class GeoJsonReader {
         check_ring(rings[k], name, document_.file.outline.segments.size() - first);
       }
     }
+    if (about.tag) name_segments(about, first_segment);
     document_.file.outline.parts.push_back(std::move(part));
     document_.names->parts.push_back(about.name);
   }
@@ -272,11 +316,78 @@ class GeoJsonReader {
     return known->second;
   }
 
-  /// Several polygons without regions of their own count from 1.
+  /// Several polygons without regions of their own count from 1. Polygons of one name are one region; a name without a
+  /// region gets a free one.
   void number_regions() {
     std::vector<OutlinePart>& parts = document_.file.outline.parts;
-    if (parts.size() < 2 || std::find(given_region_.begin(), given_region_.end(), 1) != given_region_.end()) return;
-    for (std::size_t i = 0; i < parts.size(); ++i) parts[i].region = static_cast<std::int32_t>(i + 1);
+    const bool counts =
+        parts.size() > 1 && std::find(given_region_.begin(), given_region_.end(), 1) == given_region_.end();
+    std::int32_t highest = 0;
+    for (const OutlinePart& part : parts) highest = std::max(highest, part.region);
+    std::map<std::string, std::int32_t> region_of;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (parts[i].region != 0) region_of.emplace(part_groups_[i], parts[i].region);
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      std::int32_t& region = parts[i].region;
+      if (region == 0 && counts) region = static_cast<std::int32_t>(i + 1);
+      if (part_groups_[i].empty()) continue;
+      if (given_region_[i] == 0) region = region_of.emplace(part_groups_[i], counts ? region : ++highest).first->second;
+      name_region(region, part_groups_[i]);
+    }
+  }
+  void name_region(std::int32_t region, const std::string& name) {
+    std::vector<PhysicalName>& groups = document_.file.outline.groups;
+    const auto known =
+        std::find_if(groups.begin(), groups.end(), [&](const PhysicalName& g) { return g.tag == region; });
+    if (known == groups.end()) {
+      groups.push_back({2, region, name});
+    } else if (known->name != name) {
+      document_.file.warnings.push_back(text(path_, ": region ", region, " is named '", known->name, "'; its name '",
+                                             name, "' is dropped, because a region has one name"));
+    }
+  }
+
+  /// Gives each name of points and lines its tag. It is the tag of its features, if that is one tag with one name. Else
+  /// it is a free one, above 1 and all others. Elements then carry it beside the tags that they have.
+  void name_groups() {
+    std::map<std::pair<int, std::string>, std::set<std::int32_t>> tags_of;
+    std::map<std::pair<int, std::int32_t>, std::set<std::string>> names_of;
+    std::int32_t highest = 1;
+    for (const OutlineSegment& s : document_.file.outline.segments) highest = std::max(highest, s.tag);
+    for (const OutlineTag& p : document_.file.outline.point_tags) highest = std::max(highest, p.tag);
+    for (const NamedElements& named : named_) {
+      auto& tags = tags_of[{named.dimension, named.name}];
+      if (named.tag == 0) continue;
+      tags.insert(named.tag);
+      names_of[{named.dimension, named.tag}].insert(named.name);
+    }
+    std::map<std::pair<int, std::string>, std::int32_t> tag_of;
+    for (const NamedElements& named : named_) {
+      const std::pair group(named.dimension, named.name);
+      if (!tag_of.contains(group)) {
+        const std::set<std::int32_t>& tags = tags_of[group];
+        const bool own = tags.size() == 1 && names_of[{named.dimension, *tags.begin()}].size() == 1;
+        tag_of[group] = own ? *tags.begin() : ++highest;
+        document_.file.outline.groups.push_back({named.dimension, tag_of[group], named.name});
+      }
+      carry(named, tag_of[group]);
+    }
+  }
+  void carry(const NamedElements& named, std::int32_t tag) {
+    Outline& o = document_.file.outline;
+    for (const std::int32_t element : named.elements) {
+      if (named.dimension == 0) {
+        add_tag(element, tag);
+        continue;
+      }
+      OutlineSegment& segment = o.segments[static_cast<std::size_t>(element)];
+      if (segment.tag == 0) {
+        segment.tag = tag;
+      } else if (segment.tag != tag) {
+        o.further_tags.push_back({element, tag});
+      }
+    }
   }
 
   std::string path_;
@@ -284,6 +395,9 @@ class GeoJsonReader {
   OutlineDocument document_;
   std::map<std::array<double, 2>, std::int32_t> point_at_;  // no hash, which a file could be made to defeat
   std::vector<std::uint8_t> given_region_;
+  std::vector<std::string> part_groups_;  // names of parts
+  std::vector<NamedElements> named_;
+  std::set<std::pair<std::int32_t, std::int32_t>> point_tags_;  // that the outline has
   std::size_t dropped_ = 0;
   bool heights_ = false;
 };

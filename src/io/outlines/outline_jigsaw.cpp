@@ -112,11 +112,12 @@ class JigsawReader {
     return n;
   }
 
-  /// The numbers of the line, between semicolons.
+  /// The numbers of the line, between semicolons, after the first ones.
   template <class T, std::size_t n>
-  std::array<T, n> numbers(std::string_view expected) const {
+  std::array<T, n> numbers(std::string_view expected, int after = 0) const {
     std::array<T, n> result = {};
     std::string_view rest = line_;
+    for (; after > 0; --after) rest.remove_prefix(rest.find(';') + 1);
     for (std::size_t i = 0; i < n; ++i) {
       const std::string_view field = rest.substr(0, rest.find(';'));
       // As everywhere: a leading plus and Fortran's exponents are numbers too.
@@ -133,9 +134,14 @@ class JigsawReader {
   }
 
   void point() {
-    const auto [x, y] = numbers<double, 2>("a point x;y;tag");
+    constexpr std::string_view kExpected = "a point x;y;tag";
+    const auto [x, y] = numbers<double, 2>(kExpected);
+    const bool tagged = std::count(line_.begin(), line_.end(), ';') > 1;
+    const auto tag = tagged ? numbers<std::int32_t, 1>(kExpected, 2)[0] : 0;
     const double unit = document_.file.geographic ? 180 / std::numbers::pi : 1;
-    document_.file.outline.points.push_back({unit * x, unit * y});
+    Outline& o = document_.file.outline;
+    if (tag != 0) o.point_tags.push_back({static_cast<std::int32_t>(o.points.size()), tag});
+    o.points.push_back({unit * x, unit * y});
     document_.names->point_lines.push_back(static_cast<std::int64_t>(line_number_));
   }
 

@@ -54,7 +54,8 @@ class PolyReader {
       const double x = s.real("the x coordinate of a point");
       o.points.push_back({x, s.real("the y coordinate of a point")});
       for (std::size_t k = 0; k < attributes; ++k) s.real("an attribute");
-      if (markers) s.integer("the marker of a point");
+      const std::int32_t tag = markers ? s.integer("the marker of a point") : 0;
+      if (tag != 0) o.point_tags.push_back({static_cast<std::int32_t>(i), tag});
     }
     return n;
   }

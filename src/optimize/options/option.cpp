@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "temper/detail/optimize_table.hpp"
+#include "temper/detail/suggest.hpp"
 
 namespace temper {
 namespace {
@@ -110,8 +111,11 @@ Expected<void> check_option(const OptionRow& row, const OptionValue& value) {
   if (row.kind == OptionKind::count && number_of(value) > row.range.high) {
     return refused("at most " + to_text(row.range.high));
   }
-  if (!may_have(row, value))
-    return refused(option_range_text(row) + (row.optional ? ", or " + std::string(row.absent_name) : ""));
+  if (!may_have(row, value)) {
+    const auto* word = std::get_if<std::string_view>(&value);
+    return refused(option_range_text(row) + (row.optional ? ", or " + std::string(row.absent_name) : "") +
+                   (word == nullptr ? "" : did_you_mean(*word, row.choices)));
+  }
   return {};
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "temper/detail/optimize_table.hpp"
+#include "temper/detail/suggest.hpp"
 
 namespace temper {
 namespace {
@@ -120,7 +121,11 @@ constexpr auto kEfforts = std::to_array<Preset>({
 });
 
 constexpr auto kKeeps = std::to_array<Preset>({
-    {"positions", "All vertices stay, and only weights change", [](Options& o) { o.unknowns = Unknowns::weights; }},
+    {"positions", "All vertices stay, and only weights change",
+     [](Options& o) {
+       o.unknowns = Unknowns::weights;
+       if (o.boundary == BoundaryVertices::slide) o.boundary = BoundaryVertices::keep;
+     }},
     {"weights", "All weights stay, and only positions change", move_positions_alone},
     {"edges", "No edge flips", [](Options& o) { o.flips = Flips::none; }},
     {"boundary", "Vertices of the boundary and of interfaces stay",
@@ -133,13 +138,22 @@ constexpr auto kKeeps = std::to_array<Preset>({
 
 /// Returns the preset of this name, or an error that lists the names.
 Expected<const Preset*> find(std::span<const Preset> presets, std::string_view what, std::string_view name) {
-  std::string names;
+  std::vector<std::string_view> names;
   for (const Preset& preset : presets) {
     if (preset.name == name) return &preset;
-    names += (names.empty() ? "" : ", ") + std::string(preset.name);
+    names.push_back(preset.name);
   }
-  return InputError{
-      ErrorCode::invalid_option, {}, std::string(what) + " is '" + std::string(name) + "'; expected one of " + names};
+  return InputError{ErrorCode::invalid_option,
+                    {},
+                    std::string(what) + " is '" + std::string(name) + "'; expected one of " + join(names) +
+                        did_you_mean(name, names)};
+}
+
+InputError contradiction(const std::string& word, const OptionRow& row, const OptimizeOptions& options) {
+  return {ErrorCode::invalid_option,
+          {},
+          word + " contradicts `" + std::string(row.name) + "=" + option_text(row, row.get(options)) +
+              "`; expected one of the two"};
 }
 
 bool changes(const Preset& preset, Unknowns unknowns) {
@@ -187,6 +201,20 @@ Expected<OptimizeOptions> options_for(std::string_view target, std::string_view 
   return options;
 }
 
+Expected<void> check_target(const OptimizeOptions& options, std::string_view target) {
+  const Expected<OptimizeOptions> wanted = options_for(target);
+  if (!wanted) return wanted.error();
+  for (const std::string_view name : {"scheme", "unknowns"}) {
+    const OptionRow& row = *find_option(name);
+    const OptionValue value = row.get(*wanted);
+    if (value == row.get({}) || value == row.get(options)) continue;
+    return contradiction("target '" + std::string(target) + "', which stands for `" + std::string(name) + "=" +
+                             option_text(row, value) + "`,",
+                         row, options);
+  }
+  return {};
+}
+
 Expected<void> check_kept(const OptimizeOptions& options, std::span<const std::string_view> keep) {
   for (const std::string_view name : keep) {
     const Expected<const Preset*> part = find(kKeeps, "keep", name);
@@ -195,12 +223,8 @@ Expected<void> check_kept(const OptimizeOptions& options, std::span<const std::s
     (*part)->apply(kept);
     for (const OptionGroup& group : option_groups()) {
       for (const OptionRow& row : group.rows) {
-        const OptionValue value = row.get(options);
-        if (value == row.get(kept)) continue;
-        return InputError{ErrorCode::invalid_option,
-                          {},
-                          "keep '" + std::string(name) + "' contradicts `" + std::string(row.name) + "=" +
-                              option_text(row, value) + "`; expected one of the two"};
+        if (row.get(options) == row.get(kept)) continue;
+        return contradiction("keep '" + std::string(name) + "'", row, options);
       }
     }
   }

@@ -79,7 +79,7 @@ TEST_F(Dec, LayersMakeColumns) {
       temper_ok({"operators", "a.mesh", "-o", "out", "--layers", "l.csv", "--format", "disv,tough", "--json"});
   EXPECT_EQ(outcome.err, "");
   const auto json = nlohmann::json::parse(outcome.out);
-  EXPECT_EQ(json.at("files"), nlohmann::json({"out/mesh.disv", "out/MESH"}));
+  EXPECT_EQ(json.at("files"), nlohmann::json({"out/mesh.disv", "out/mesh.disv.csv", "out/MESH", "out/MESH.csv"}));
   const auto& columns = json.at("columns");
   EXPECT_EQ(columns.at("active"), 5);
   EXPECT_EQ(columns.at("pinched_out"), 3);

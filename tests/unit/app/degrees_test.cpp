@@ -69,6 +69,22 @@ TEST_F(Degrees, AreOptimizedOnAMapAndWrittenAsTheyCame) {
   temper_ok({"draw", "out.14", "--before", "fort.14", "-o", "both.svg", "--projection", "stereographic"});
 }
 
+TEST_F(Degrees, PlacesAreThoseOfTheFile) {
+  write_sea("fort.14");
+  const std::string map = "--projection=stereographic";
+  const auto is_in_sea = [](const nlohmann::json& at) {
+    return at[0] >= -14 && at[0] <= -6 && at[1] >= 54 && at[1] <= 60;
+  };
+  const auto reasons = nlohmann::json::parse(temper_ok({"explain", "fort.14", map, "--json"}).out)["reasons"];
+  ASSERT_FALSE(reasons.empty());
+  for (const nlohmann::json& reason : reasons) {
+    EXPECT_TRUE(is_in_sea(reason["at"])) << reason["at"];
+    for (const nlohmann::json& cure : reason["cures"]) EXPECT_TRUE(cure["at"].is_null() || is_in_sea(cure["at"]));
+  }
+  for (const nlohmann::json& worst : nlohmann::json::parse(temper_ok({"check", "fort.14", map, "--json"}).out)["worst"])
+    EXPECT_TRUE(is_in_sea(worst["at"])) << worst["at"];
+}
+
 TEST_F(Degrees, AReplayOnTheSameMapMakesTheSameFile) {
   write_sea("fort.14");
   temper_ok({"optimize", "fort.14", "-o", "out.14", "--projection", "mercator", "--write", "t.jsonl", "--quiet"});

@@ -43,7 +43,7 @@ TEST_F(Draw, EveryOptionChangesThePicture) {
   const std::vector<std::vector<std::string>> options = {
       {"--no-primal"},    {"--color", "angle"}, {"--no-dual"}, {"--color", "none"},
       {"--no-rings"},     {"--weights"},        {"--numbers"}, {"--zoom", "0,0,0.5,0.5"},
-      {"--width", "300"}, {"--title", "a < b"}};
+      {"--width", "300"}, {"--title", "a < b"}, {"--tensor", "4,0,1"}};
   temper_ok({"draw", "a.mesh", "-o", "plain.svg"});
   const std::string plain = read("plain.svg");
   for (const auto& option : options) {
@@ -85,8 +85,15 @@ TEST_F(Draw, ColorsAreMeasuresOrDataOfTheFile) {
   const Outcome outcome = temper({"draw", "a.vtu", "-o", "q.svg", "--color", "color"});
   EXPECT_EQ(outcome.exit, 2);
   EXPECT_TRUE(
-      contains(outcome.err, "a.vtu: --color: there is no number 'color' of triangles; there are quality, angle"));
+      contains(outcome.err, "a.vtu: --color: there are no numbers 'color'; there are quality, angle"));
   EXPECT_FALSE(exists("q.svg"));
+  // Data of points are their mean over the corners: 3 and 6 here.
+  write("p.vtk",
+        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 1 1 0 0 1 0\n"
+        "CELLS 2 8\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5\n5\nPOINT_DATA 4\nSCALARS depth double 1\n"
+        "LOOKUP_TABLE default\n0 0 9 9\n");
+  temper_ok({"draw", "p.vtk", "-o", "p.svg", "--color", "depth"});
+  EXPECT_TRUE(contains(read("p.svg"), "depth: 3 to 6"));
 }
 
 TEST_F(Convert, GoesThereAndBack) {

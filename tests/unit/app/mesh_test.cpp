@@ -90,6 +90,40 @@ TEST_F(MeshVerb, DegreesAreRefusedUnlessAProjectionIsChosen) {
   temper_ok({"mesh", "in.json", "-o", "plain.vtu", "--size", "0.2", "--projection", "none"});
 }
 
+TEST_F(MeshVerb, WellsStayThroughOptimizeAndHaveTheirCells) {
+  write("map.json", R"({"type": "FeatureCollection", "crs": "EPSG:25832", "features": [
+{"type": "Feature", "properties": {}, "geometry":
+ {"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 6], [0, 6], [0, 0]]]}},
+{"type": "Feature", "properties": {"name": "brook, upper"}, "geometry":
+ {"type": "LineString", "coordinates": [[1, 1], [5, 3.5]]}},
+{"type": "Feature", "properties": {"name": "wells"}, "geometry":
+ {"type": "MultiPoint", "coordinates": [[2.1, 4.7], [6.3, 2.2], [7.1, 4.9]]}}]})");
+  temper_ok({"mesh", "map.json", "-o", "raw.vtu", "--size", "0.6", "--no-optimize"});
+  temper_ok({"optimize", "raw.vtu", "-o", "out.vtu", "--fix", "brook, upper"});
+  const auto before = io::read("raw.vtu"), after = io::read("out.vtu");
+  ASSERT_TRUE(before && after);
+  EXPECT_NE(before->points, after->points);
+  std::vector<Vec2> wells;
+  for (const std::int32_t p : after->marked_points) wells.push_back(after->points[static_cast<std::size_t>(p)]);
+  EXPECT_EQ(wells, (std::vector<Vec2>{{2.1, 4.7}, {6.3, 2.2}, {7.1, 4.9}}));
+  for (const auto& line : before->lines) {
+    for (const std::int32_t end : line) {
+      const auto p = static_cast<std::size_t>(end);
+      EXPECT_EQ(after->points[p], before->points[p]);
+    }
+  }
+  write("l.csv", "vertex,top,bottom 1,bottom 2\n*,3,2,1\n");
+  temper_ok({"operators", "out.vtu", "-o", "grid", "--layers", "l.csv", "--format", "disv,disu,tough"});
+  const std::string n = std::to_string(after->points.size() + static_cast<std::size_t>(after->marked_points[0]) + 1);
+  const std::string first = std::to_string(after->marked_points[0] + 1);
+  EXPECT_TRUE(read("grid/mesh.disv.csv")
+                  .starts_with("name,kind,layer,cell,length,x,y\nwells,point,1," + first + ",,2.1,4.7\nwells,point,2," +
+                               first + ",,2.1,4.7\n"));
+  EXPECT_TRUE(contains(read("grid/mesh.disu.csv"), "wells,point,2," + n + ",,2.1,4.7\n"));
+  EXPECT_TRUE(contains(read("grid/mesh.disv.csv"), "\n\"brook, upper\",line,1,"));
+  EXPECT_TRUE(contains(read("grid/MESH.csv"), "\nwells,point,1,A"));
+}
+
 TEST_F(MeshVerb, BadUsageIsRefusedAndNothingWritten) {
   make_outline();
   for (const std::vector<std::string>& more :

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 #include "threads.hpp"
 
 namespace temper::app {

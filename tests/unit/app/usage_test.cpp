@@ -165,6 +165,7 @@ TEST_F(Usage, NoOutputIsAFileOfAnotherOutputOrOfAnInput) {
   temper_ok({"convert", "in.vtu", "-o", "in.node"});
   temper_ok({"convert", "in.vtu", "-o", "in.obj"});
   write("in.obj.weights.csv", "point,weight\n");
+  write("mine.json", "{\"for\": \"cell\"}");
   std::map<std::string, std::string> before;
   for (const std::string& name : names()) before[name] = read(name);
   const auto refused = [&](const std::vector<std::string>& arguments, const std::string& message) {
@@ -187,7 +188,80 @@ TEST_F(Usage, NoOutputIsAFileOfAnotherOutputOrOfAnInput) {
           "--output: in.obj is an input, and would be replaced");
   refused({"optimize", "in.vtu", "-o", "in.ele", "--format", "vtu", "--size", "in.node"},
           "--output: in.ele is read with in.node, an input, and would be replaced");
+  refused({"optimize", "in.vtu", "-o", "out.vtu", "--options", "mine.json", "--write", "mine.json"},
+          "--write: mine.json is an input");
+  refused({"optimize", "in.vtu", "-o", "mine.json", "--format", "vtu", "--options", "mine.json"},
+          "--output: mine.json is an input, and would be replaced");
+  refused({"weights", "in.vtu", "-o", "w.vtu", "--edges", "mine.json", "--constraints", "regular", "--certificate",
+           "mine.json"},
+          "--certificate: mine.json is an input");
+  refused({"paper", "replay", "in.vtu", "mine.json", "-o", "mine.json", "--format", "vtu"},
+          "--output: mine.json is an input, and would be replaced");
   temper_ok({"convert", "in.node", "-o", "in.ele"});  // in its own place
+}
+
+TEST_F(Usage, EveryVerbIsQuietButForJson) {
+  temper_ok({"example", "annulus", "--around", "24", "--rings", "3", "-o", "in.vtu", "--quiet"});
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "t.jsonl", "--quiet"});
+  write("a.poly", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n");
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"check", "out.vtu"},
+           {"explain", "out.vtu"},
+           {"operators", "out.vtu", "-o", "dual", "--format", "npz"},
+           {"weights", "out.vtu", "-o", "w.vtu"},
+           {"mesh", "a.poly", "-o", "a.vtu", "--size", "0.5"},
+           {"optimize", "in.vtu", "-o", "out.vtu"},
+           {"draw", "in.vtu", "-o", "in.svg"},
+           {"convert", "in.vtu", "-o", "in.off"},
+           {"paper", "replay", "in.vtu", "t.jsonl", "-o", "again.vtu"}}) {
+    std::vector<std::string> quiet = words;
+    quiet.emplace_back("--quiet");
+    EXPECT_EQ(temper_ok(quiet).out, "") << words[0];
+  }
+  EXPECT_TRUE(nlohmann::json::parse(temper_ok({"check", "out.vtu", "--json", "--quiet"}).out).contains("triangles"));
+}
+
+TEST_F(Usage, ACodeOfAQuietRunThatIsNotZeroHasItsSentence) {
+  make_input();
+  const Outcome stopped = temper({"optimize", "in.vtu", "-o", "out.vtu", "--time-limit", "1e-9", "--quiet"});
+  EXPECT_EQ(stopped.exit, 4);
+  EXPECT_TRUE(contains(stopped.err, "temper: error: A signal or --time-limit stopped the run"));
+  temper_ok({"example", "sparse-horseshoe", "-o", "shoe.vtu"});
+  const Outcome none = temper({"weights", "shoe.vtu", "--mode", "feasible", "--quiet"});
+  EXPECT_EQ(none.exit, 6);
+  EXPECT_TRUE(contains(none.err, "No weights meet the request"));
+}
+
+TEST_F(Usage, TheReaderOfAPipeMayGoBeforeTheFileIsWritten) {
+  make_input();
+  const Outcome one = shell("temper optimize in.vtu -o out.vtu --write r.json | true");
+  EXPECT_EQ(one.err, "");
+  temper_ok({"check", "out.vtu", "--require", "outside=0"});
+  EXPECT_TRUE(exists("r.json"));
+  EXPECT_EQ(shell("(temper optimize in.vtu -o both.vtu 2>&1; echo $? > code) | true").err, "");
+  EXPECT_EQ(read("code"), "0\n");
+  EXPECT_EQ(read("both.vtu"), read("out.vtu"));
+}
+
+TEST_F(Usage, SuffixesMayBeLargeAndOneIsOne) {
+  temper_ok({"example", "triangle", "-o", "A.VTU"});
+  temper_ok({"convert", "A.VTU", "-o", "A.MSH"});
+  temper_ok({"draw", "A.MSH", "-o", "A.SVG"});
+  const Outcome check = temper_ok({"check", "A.MSH", "--write", "A.JSON"});
+  EXPECT_TRUE(contains(check.out, "A.MSH: 3 vertices, 1 triangle\n"));
+  EXPECT_TRUE(contains(check.out, "1 of 1 triangle is not well-centered"));
+  EXPECT_EQ(read_json("A.JSON")["triangles"], 1);
+  EXPECT_TRUE(read("A.MSH").starts_with("$MeshFormat\n4.1"));
+}
+
+TEST_F(Usage, AKeyOfTheOptionsFileIsGivenOnce) {
+  make_input();
+  write("o.json", R"({"max_sweeps": 3, "max_sweeps": 4})");
+  const Outcome outcome = temper({"optimize", "in.vtu", "-o", "out.vtu", "--options", "o.json"});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.err, "o.json: max_sweeps is given more than once; expected one value"));
+  write("o.json", R"({"schema": 1, "before": {"size": 1}, "after": {"size": 1}, "options": {"max_sweeps": 3}})");
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--options", "o.json"});
 }
 
 TEST_F(Usage, EveryExampleInTheHelpRuns) {
@@ -280,6 +354,23 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"NothingToChange",
               {"optimize", "a.vtu", "-o", "b.vtu", "--keep", "positions,weights"},
               "nothing can change"},
+        Wrong{"SchemeOfAnotherTarget",
+              {"optimize", "a.vtu", "-o", "b.vtu", "--for", "cell", "--set", "scheme=vertex"},
+              "target 'cell', which stands for --set scheme=cell, contradicts --set scheme=vertex"},
+        Wrong{"WeightsOfATargetWithout",
+              {"optimize", "a.vtu", "-o", "b.vtu", "--for", "mpas", "--set", "unknowns=weights"},
+              "contradicts --set unknowns=weights"},
+        Wrong{"PositionsThatSlide",
+              {"optimize", "a.vtu", "-o", "b.vtu", "--keep", "positions", "--boundary", "slide"},
+              "keep 'positions' contradicts --boundary slide"},
+        Wrong{"TargetAsOption", {"optimize", "a.vtu", "-o", "b.vtu", "--set", "target=cell"}, "did you mean --for?"},
+        Wrong{"FlagAsOption", {"optimize", "a.vtu", "-o", "b.vtu", "--set", "keep=weights"}, "did you mean --keep?"},
+        Wrong{"RequireTwoValues",
+              {"check", "a.vtu", "--require", "inverted=0", "--require", "inverted=1"},
+              "no mesh meets both inverted=1 and inverted=0"},
+        Wrong{"RequireEmptyRange",
+              {"check", "a.vtu", "--require", "min_angle>=30,min_angle<=20"},
+              "no mesh meets both min_angle>=30 and min_angle<=20"},
         Wrong{"KeepUnknown", {"optimize", "a.vtu", "-o", "b.vtu", "--keep", "position"}, "did you mean 'positions'?"},
         Wrong{"ReportIsOutput",
               {"optimize", "a.vtu", "-o", "b.csv", "--format", "vtu", "--write", "./b.csv"},

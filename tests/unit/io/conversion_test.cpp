@@ -121,12 +121,12 @@ TEST_F(FileTest, FixedTagsGoByNumberOrName) {
     return result;
   };
   using List = std::vector<std::size_t>;
-  EXPECT_EQ(fixed({}), List{});
-  EXPECT_EQ(fixed({"4"}), (List{0, 1, 2}));
-  EXPECT_EQ(fixed({"inflow and more"}), (List{0, 1, 2}));
-  EXPECT_EQ(fixed({"corner"}), List{0});
-  EXPECT_EQ(fixed({"12", "9"}), (List{2, 3, 4}));
-  EXPECT_EQ(fixed({"steel"}), (List{1, 2, 4}));
+  EXPECT_EQ(fixed({}), (List{0, 3})) << "marked points";
+  EXPECT_EQ(fixed({"4"}), (List{0, 1, 2, 3}));
+  EXPECT_EQ(fixed({"inflow and more"}), (List{0, 1, 2, 3}));
+  EXPECT_EQ(fixed({"corner"}), (List{0, 3}));
+  EXPECT_EQ(fixed({"12", "9"}), (List{0, 2, 3, 4}));
+  EXPECT_EQ(fixed({"steel"}), (List{0, 1, 2, 3, 4}));
   const std::string unknown[] = {"outflow"};
   const auto made = make_mesh(f, unknown);
   ASSERT_FALSE(made);

@@ -173,5 +173,143 @@ TEST_F(FileTest, BigEndianBinaryIsRead) {
   EXPECT_EQ(f->regions, std::vector<std::int32_t>{6});
 }
 
+/// Numbers of a file, as words or as bytes.
+class Numbers {
+ public:
+  explicit Numbers(bool binary) : binary_(binary) {}
+  template <class... T>
+  Numbers& operator()(T... values) {
+    (one(values), ...);
+    if (!binary_) content += '\n';
+    return *this;
+  }
+  std::string content;
+
+ private:
+  void one(int value) { put(std::int32_t{value}); }
+  void one(unsigned value) { put(std::uint64_t{value}); }
+  void one(double value) { put(value); }
+  template <class T>
+  void put(T value) {
+    if (!binary_) return static_cast<void>(content += std::to_string(value) + " ");
+    content.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  bool binary_;
+};
+
+/// A square of two triangles with a well, a wall, and an inflow whose group has its curve in the other direction:
+///
+///     4 ---- 3          In two parts there are, too, the edge 1-3 between them (curve 12, of surface 1) and
+///     |  20/ |          its end 3 (point 10, of curve 2).
+///  32 |  / 10| 31
+///     1 ---- 2 (well)
+std::string square_41(bool binary, bool partitioned) {
+  const std::string names =
+      "$PhysicalNames\n5\n0 40 \"well\"\n1 31 \"inflow\"\n1 32 \"wall\"\n2 10 \"granite\"\n2 20 \"sand\"\n"
+      "$EndPhysicalNames\n";
+  std::string file = "$MeshFormat\n4.1 " + std::string(binary ? "1 8\n" : "0 8\n");
+  if (binary) file += Numbers(true)(1).content + "\n";
+  file += "$EndMeshFormat\n" + names + "$Entities\n";
+  Numbers entities(binary);
+  entities(1u, 2u, 2u, 0u);
+  entities(2, 1., 0., 0., 1u, 40);
+  entities(2, 1., 0., 0., 1., 1., 0., 1u, -31, 0u)(3, 0., 0., 0., 0., 1., 0., 1u, 32, 0u);
+  entities(1, 0., 0., 0., 1., 1., 0., 1u, 10, 0u)(2, 0., 0., 0., 1., 1., 0., 1u, 20, 0u);
+  file += entities.content + "\n$EndEntities\n";
+  const int shift = partitioned ? 7 : 0;  // of the numbers of entities
+  if (partitioned) {
+    Numbers parts(binary);
+    parts(2u, 2u)(20, 1)(21, 2)(2u, 3u, 2u, 0u);
+    parts(9, 0, 2, 1u, 1, 1., 0., 0., 0u)(10, 1, 2, 2u, 1, 2, 1., 1., 0., 0u);
+    parts(9, 1, 2, 1u, 1, 1., 0., 0., 1., 1., 0., 0u, 2u, 9, -10);
+    parts(10, 1, 3, 1u, 2, 0., 0., 0., 0., 1., 0., 1u, 32, 0u);
+    parts(12, 2, 1, 2u, 1, 2, 0., 0., 0., 1., 1., 0., 1u, 10, 0u);
+    parts(8, 2, 1, 1u, 1, 0., 0., 0., 1., 1., 0., 1u, 99, 0u)(9, 2, 2, 1u, 2, 0., 0., 0., 1., 1., 0., 0u, 0u);
+    file += "$PartitionedEntities\n" + parts.content + "\n$EndPartitionedEntities\n";
+  }
+  Numbers nodes(binary);
+  nodes(1u, 4u, 1u, 4u)(2, 1 + shift, 0, 4u)(1u)(2u)(3u)(4u)(0., 0., 0.)(1., 0., 0.)(1., 1., 0.)(0., 1., 0.);
+  file += "$Nodes\n" + nodes.content + "\n$EndNodes\n$Elements\n";
+  Numbers elements(binary);
+  elements(partitioned ? 7u : 5u, partitioned ? 7u : 5u, 1u, 7u);
+  elements(0, 2 + shift, 15, 1u)(1u, 2u);
+  elements(1, 2 + shift, 1, 1u)(2u, 2u, 3u)(1, 3 + shift, 1, 1u)(3u, 4u, 1u);
+  elements(2, 1 + shift, 2, 1u)(4u, 1u, 2u, 3u)(2, 2 + shift, 2, 1u)(5u, 1u, 3u, 4u);
+  if (partitioned) elements(0, 10, 15, 1u)(6u, 3u)(1, 12, 1, 1u)(7u, 1u, 3u);
+  file += elements.content + "\n$EndElements\n";
+  if (partitioned) file += "$ElementData\n1\n\"e\"\n1\n0\n3\n0\n1\n3\n";
+  Numbers data(binary);
+  if (partitioned) file += data(4, 1.5)(5, 2.5)(7, 3.5).content + "\n$EndElementData\n";
+  return file;
+}
+
+TEST_F(FileTest, APartitionedMeshIsTheMeshOfItsParts) {
+  for (const bool binary : {false, true}) {
+    SCOPED_TRACE(binary);
+    const auto plain_file = read(make("whole.msh", square_41(binary, false)));
+    auto f = read(make("parts.msh", square_41(binary, true)));
+    ASSERT_TRUE(plain_file) << plain_file.error().what();
+    ASSERT_TRUE(f) << f.error().what();
+    EXPECT_EQ(f->triangles, plain_file->triangles);
+    EXPECT_EQ(f->regions, plain_file->regions);
+    EXPECT_EQ(f->regions, (std::vector<std::int32_t>{10, 20}));
+    EXPECT_EQ(f->lines, plain_file->lines);
+    EXPECT_EQ(f->lines, (std::vector<std::array<std::int32_t, 2>>{{2, 1}, {3, 0}})) << "in the direction of the group";
+    EXPECT_EQ(f->line_tags, plain_file->line_tags);
+    EXPECT_EQ(f->line_tags, (std::vector<std::int32_t>{31, 32}));
+    EXPECT_EQ(f->point_tags, plain_file->point_tags);
+    EXPECT_EQ(f->point_tags, std::vector<std::int32_t>{40});
+    ASSERT_EQ(f->line_data.size(), 1u);
+    EXPECT_EQ(f->line_data[0].values, plain_file->line_data.at(0).values) << "entities that the partition divided";
+    const auto partition = std::find_if(f->cell_data.begin(), f->cell_data.end(),
+                                        [](const DataArray& a) { return a.name == "gmsh:partition"; });
+    ASSERT_NE(partition, f->cell_data.end());
+    EXPECT_EQ(std::get<std::vector<std::int32_t>>(partition->values), (std::vector<std::int32_t>{1, 2}));
+    ASSERT_EQ(f->warnings.size(), 1u);
+    EXPECT_EQ(plain(f->warnings[0]), "parts.msh: 2 elements between partitions are left out");
+    const auto made = make_mesh(*f);
+    ASSERT_TRUE(made) << made.error().what();
+    EXPECT_TRUE(made->warnings.empty());
+  }
+}
+
+TEST_F(FileTest, PartitionsOfVersion2AreDataAndTheEdgesBetweenThemAreLeftOut) {
+  const auto f = read(make("m.msh",
+                           "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 30 \"fault\"\n"
+                           "$EndPhysicalNames\n" +
+                               kNodes2.substr(kNodes2.find("$Nodes")) +
+                               "$Elements\n5\n1 1 5 30 7 2 1 2 10 30\n2 1 5 0 8 2 1 2 10 30\n"
+                               "3 1 5 9 8 2 2 -1 10 20\n4 2 4 5 1 1 2 10 20 30\n5 2 5 5 1 2 3 -2 10 30 7\n"
+                               "$EndElements\n"));
+  ASSERT_TRUE(f) << f.error().what();
+  EXPECT_EQ(f->line_tags, (std::vector<std::int32_t>{30, 9})) << "a ghost is not between partitions";
+  EXPECT_EQ(f->regions, (std::vector<std::int32_t>{5, 5}));
+  ASSERT_FALSE(f->cell_data.empty());
+  EXPECT_EQ(f->cell_data[0].name, "gmsh:partition");
+  EXPECT_EQ(std::get<std::vector<std::int32_t>>(f->cell_data[0].values), (std::vector<std::int32_t>{2, 3}));
+  ASSERT_EQ(f->warnings.size(), 1u);
+  EXPECT_EQ(plain(f->warnings[0]), "m.msh: 1 element between partitions is left out");
+}
+
+TEST_F(FileTest, ParametricNodesOfVersion22AreRead) {
+  for (const bool binary : {false, true}) {
+    SCOPED_TRACE(binary);
+    std::string file = "$MeshFormat\n2.2 " + std::string(binary ? "1 8\n" : "0 8\n");
+    if (binary) file += Numbers(true)(1).content + "\n";
+    Numbers nodes(binary), elements(binary);
+    nodes(1, 0., 0., 2., 0, 7)(2, 1., 0., 2., 1, 7, .5)(3, 0., 1., 2., 2, 1, .25, .75)(4, 1., 1., 2., 3, 1);
+    binary ? elements(2, 2, 2)(1, 6, 1, 1, 2, 3)(2, 6, 1, 2, 4, 3)
+           : elements(1, 2, 2, 6, 1, 1, 2, 3)(2, 2, 2, 6, 1, 2, 4, 3);
+    file += "$EndMeshFormat\n$ParametricNodes\n4\n" + nodes.content + "\n$EndParametricNodes\n$Elements\n2\n" +
+            elements.content + "\n$EndElements\n";
+    const auto f = read(make("m.msh", file));
+    ASSERT_TRUE(f) << f.error().what();
+    EXPECT_EQ(f->points, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}));
+    EXPECT_EQ(f->z(), 2);
+    EXPECT_EQ(f->triangles.size(), 2u);
+    EXPECT_TRUE(f->warnings.empty());
+  }
+}
+
 }  // namespace
 }  // namespace temper::io

@@ -31,7 +31,8 @@ class LayerFiles : public FileTest {
     const PowerCells cells = power_cells(mesh, complex);
     const auto made = columns(mesh, complex, cells, layers);
     if (!made) return made.error();
-    return write_dec(path("out"), mesh, complex, cells, {.formats = formats, .columns = &*made});
+    const std::vector<GroupCell> groups = cells_of_groups(file_, *loaded_, mesh);
+    return write_dec(path("out"), mesh, complex, cells, {.formats = formats, .columns = &*made, .groups = groups});
   }
   MeshFile file_;
   std::optional<LoadedMesh> loaded_;

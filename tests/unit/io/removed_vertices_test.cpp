@@ -50,6 +50,7 @@ MeshFile grid() {
 /// Takes vertices out of the mesh; returns the numbers of those that are left.
 IdVector<VertexId, VertexId> remove(Mesh& mesh, const std::vector<std::size_t>& gone) {
   for (const std::size_t v : gone) {
+    mesh.set_fixed(VertexId(v), false);  // marked points are
     const RemovalPlan plan = plan_removal(mesh, VertexId(v));
     EXPECT_EQ(plan.status, RemovalStatus::possible) << v;
     if (plan.status == RemovalStatus::possible) remove_vertex(mesh, plan);
@@ -325,6 +326,7 @@ TEST_F(FileTest, MarkersOfBoundaryPointsGoToPointsBetweenThemWhereFormatsMarkThe
 // Between them groups would change their shape if it slid.
 TEST_F(FileTest, PointsOfStraightBoundariesWhereTagsEndOrChangeAreFixed) {
   MeshFile f = grid();
+  f.marked_points.clear(), f.point_tags.clear();
   f.line_tags[6] = 5;  // bottom and middle alternate: the fourth piece of the bottom
   f.lines.pop_back(), f.line_tags.pop_back();
   f.lines.pop_back(), f.line_tags.pop_back();  // the last piece of the bottom
@@ -335,6 +337,31 @@ TEST_F(FileTest, PointsOfStraightBoundariesWhereTagsEndOrChangeAreFixed) {
     if (loaded->mesh.is_fixed(v)) fixed.push_back(v.index);
   }
   EXPECT_EQ(fixed, (std::vector<std::size_t>{3, 4, 5}));
+}
+
+/// Adds a second tag to the lines of tag 4: the bottom.
+void tag_the_bottom_twice(MeshFile& f) {
+  const std::size_t n = f.lines.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (f.line_tags[i] != 4) continue;
+    f.lines.push_back(f.lines[i]);
+    f.line_tags.push_back(6);
+  }
+}
+
+TEST_F(FileTest, EachTagOfAnEdgeFollowsVerticesThatGoOrCome) {
+  MeshFile f = grid();
+  tag_the_bottom_twice(f);
+  f.marked_points.clear(), f.point_tags.clear();
+  auto loaded = make_mesh(f);
+  ASSERT_TRUE(loaded);
+  for (const VertexId v : loaded->mesh.vertices()) EXPECT_FALSE(loaded->mesh.is_fixed(v)) << "both tags go on";
+  const InsertedAndRemoved changed = insert_and_remove(loaded->mesh);
+  update(f, *loaded, loaded->mesh, changed.vertices);
+  std::map<std::int32_t, std::vector<std::array<std::int32_t, 2>>> lines;
+  for (std::size_t i = 0; i < f.lines.size(); ++i) lines[f.line_tags[i]].push_back(f.lines[i]);
+  EXPECT_EQ(lines.at(4).size(), kSquares + 2u - 1) << "two vertices more and one less";
+  EXPECT_EQ(lines.at(6), lines.at(4));
 }
 
 // --- vertices of which nobody says what they were ----------------------------------------------------------------

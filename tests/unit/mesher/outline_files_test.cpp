@@ -7,6 +7,7 @@
 #include <fstream>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "outlines.hpp"
@@ -168,6 +169,84 @@ TEST_F(OutlineFiles, GeoJsonPropertiesThatAreMisspeltOrHaveNoEffectAreNamed) {
             "the feature: 'size' is for polygons and has no effect on a LineString\n");
 }
 
+TEST_F(OutlineFiles, GeoJsonNamesHaveOneTagEachAndNothingIsLost) {
+  const auto feature = [](const std::string& properties, const std::string& geometry) {
+    return R"({"type": "Feature", "properties": {)" + properties + R"(}, "geometry": {"type": )" + geometry + "}}";
+  };
+  const auto line = [](int y) {
+    return R"("LineString", "coordinates": [[1, )" + std::to_string(y) + "], [9, " + std::to_string(y) + "]]";
+  };
+  const auto square = [](int x) {
+    const std::string a = std::to_string(x), b = std::to_string(x + 10);
+    return R"("Polygon", "coordinates": [[[)" + a + ", 0], [" + b + ", 0], [" + b + ", 10], [" + a + ", 10], [" + a +
+           ", 0]]]";
+  };
+  const auto outline_of = [&](const std::vector<std::string>& features) {
+    std::string all;
+    for (const std::string& each : features) all += (all.empty() ? "" : ",") + each;
+    return read(R"({"type": "FeatureCollection", "crs": "EPSG:25832", "features": [)" + all + "]}");
+  };
+  using Names = std::vector<std::string>;
+  const auto names = [](const io::OutlineFile& file) {
+    Names all;
+    for (const PhysicalName& g : file.outline.groups)
+      all.push_back(std::to_string(g.dimension) + " " + std::to_string(g.tag) + " " + g.name);
+    return all;
+  };
+  const auto tags_of_segment = [](const io::OutlineFile& file, std::size_t segment) {
+    std::vector<std::int32_t> tags = {file.outline.segments[segment].tag};
+    for (const OutlineTag& further : file.outline.further_tags) {
+      if (static_cast<std::size_t>(further.element) == segment) tags.push_back(further.tag);
+    }
+    return tags;
+  };
+  using Tags = std::vector<std::int32_t>;
+  // One name and one tag belong together, also where another feature of the name has no tag.
+  io::OutlineFile file =
+      outline_of({feature("\"tag\": 1", square(0)), feature(R"("name": " Rhine ", "tag": 4)", line(2)),
+                  feature(R"("name": "Rhine")", line(4)), feature(R"("name": "Main\n")", line(6))});
+  EXPECT_EQ(names(file), (Names{"1 4 Rhine", "1 5 Main"}));
+  EXPECT_EQ(tags_of_segment(file, 5), Tags{4});
+  EXPECT_TRUE(file.warnings.empty());
+  EXPECT_FALSE(file.geographic);
+  // A tag of several names is a class: it stays, and each name has its own tag beside it. So does a name with two tags.
+  file = outline_of({feature("", square(0)), feature(R"("name": "Rhine", "tag": 4)", line(2)),
+                     feature(R"("name": "Main", "tag": 4)", line(4)), feature(R"("name": "Elbe", "tag": 5)", line(6)),
+                     feature(R"("name": "Elbe", "tag": 6)", line(8))});
+  EXPECT_EQ(names(file), (Names{"1 7 Rhine", "1 8 Main", "1 9 Elbe"}));
+  EXPECT_EQ(tags_of_segment(file, 4), (Tags{4, 7}));
+  EXPECT_EQ(tags_of_segment(file, 5), (Tags{4, 8}));
+  EXPECT_EQ(tags_of_segment(file, 6), (Tags{5, 9}));
+  EXPECT_EQ(tags_of_segment(file, 7), (Tags{6, 9}));
+  // Polygons of one name are one region. A triangle has one region, so a second name is named and dropped.
+  file = outline_of({feature(R"("name": "sand")", square(0)), feature(R"("name": "clay")", square(10)),
+                     feature(R"("name": "sand")", square(20))});
+  EXPECT_EQ(names(file), (Names{"2 1 sand", "2 2 clay"}));
+  EXPECT_EQ(file.outline.parts[2].region, 1);
+  file = outline_of({feature(R"("name": "sand", "region": 4)", square(0)),
+                     feature(R"("name": "clay", "region": 4)", square(10)), feature(R"("name": "silt")", square(20))});
+  EXPECT_EQ(names(file), (Names{"2 4 sand", "2 5 silt"}));
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_NE(
+      file.warnings[0].find("region 4 is named 'sand'; its name 'clay' is dropped, because a region has one name"),
+      std::string::npos);
+  EXPECT_EQ(names(outline_of({feature(R"("name": "\u00e4\u20ac\ud83d\ude00\ud83d")", square(0))})),
+            Names{"2 1 \u00e4\u20ac\U0001F600\ufffd"});
+}
+
+TEST_F(OutlineFiles, TagsOfPointsAreRead) {
+  const auto tags = [&](const std::string& text) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> all;
+    for (const OutlineTag& tag : read(text).outline.point_tags) all.emplace_back(tag.element, tag.tag);
+    return all;
+  };
+  using Tags = std::vector<std::pair<std::int32_t, std::int32_t>>;
+  EXPECT_EQ(tags(kSquarePoly), (Tags{{0, 3}, {1, 3}, {2, 3}, {3, 3}}));
+  EXPECT_EQ(tags("MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=4\n0;0;0\n1;0;7\n0;1;-1\n1;1\n"
+                 "EDGE2=3\n0;1;0\n1;2;0\n2;0;0\n"),
+            (Tags{{1, 7}, {2, -1}}));
+}
+
 TEST_F(OutlineFiles, GeoJsonWithAProjectedCrsIsPlanar) {
   const std::string polygon = R"("type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]]})";
   const auto with_crs = [&](const std::string& name) {
@@ -177,6 +256,8 @@ TEST_F(OutlineFiles, GeoJsonWithAProjectedCrsIsPlanar) {
   EXPECT_TRUE(with_crs("urn:ogc:def:crs:OGC:1.3:CRS84"));
   EXPECT_TRUE(with_crs("EPSG:4326"));
   EXPECT_TRUE(read("{" + polygon).geographic);
+  EXPECT_FALSE(read(R"({"crs": "EPSG:32632", )" + polygon).geographic);
+  EXPECT_TRUE(read(R"({"crs": "EPSG:4326", )" + polygon).geographic);
 }
 
 TEST_F(OutlineFiles, BadPolyFilesAreNamedWithLineAndNumber) {

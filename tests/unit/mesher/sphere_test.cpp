@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <numeric>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/rng.hpp"
@@ -137,6 +141,41 @@ TEST(SphereMesher, CoastsAreCutOutAndLinesStay) {
                         area_of(blob({0, -90}, 20, 40), {0, -90});
     EXPECT_NEAR(area_of(made.mesh), 1 - land, 1e-9);
     EXPECT_GT(std::count_if(made.lines.begin(), made.lines.end(), [](const MeshLine& l) { return l.tag == 7; }), 2);
+  }
+}
+
+TEST(SphereMesher, EachNameOfSeveralOutlinesHasItsOwnTag) {
+  SphereOutline o = islands_and_rivers();
+  constexpr std::size_t kIsland = 60;  // segments
+  for (std::size_t s = 0; s < kIsland; ++s) o.coasts.segments[s].tag = 3;
+  o.coasts.parts = {{1, std::vector<std::int32_t>(kIsland), {}}};
+  std::iota(o.coasts.parts[0].segments.begin(), o.coasts.parts[0].segments.end(), 0);
+  o.coasts.groups = {{1, 3, "cliff"}, {2, 1, "island"}};
+  o.lines.segments.back().tag = 3;
+  o.lines.groups = {{1, 3, "Congo"}, {1, 7, "Nile"}, {0, 3, "gauges"}};
+  o.lines.point_tags = {{0, 3}, {2, 3}};
+  o.lines.further_tags = {{1, 3}};
+  const OutlineMesh made = globe_of(o, globe_sized(1e6));
+  std::map<std::pair<int, std::int32_t>, std::string> names;
+  for (const PhysicalName& g : made.groups) {
+    EXPECT_TRUE(names.emplace(std::pair(g.dimension, g.tag), g.name).second) << g.name << " shares its tag";
+  }
+  std::map<std::string, std::set<std::pair<VertexId, VertexId>>> edges;
+  for (const MeshLine& line : made.lines) {
+    const std::string name = line.tag == 0 ? "none" : names.at({1, line.tag});
+    EXPECT_TRUE(edges[name].emplace(line.a, line.b).second) << name << " has an edge twice";
+  }
+  EXPECT_EQ(edges.at("island"), edges.at("cliff")) << "the polygon leaves no region, so its edges have its name";
+  EXPECT_GE(edges.at("cliff").size(), kIsland);
+  for (const auto& edge : edges.at("none")) EXPECT_FALSE(edges.at("cliff").contains(edge));
+  std::size_t both = 0;
+  for (const auto& edge : edges.at("Congo")) both += edges.at("Nile").contains(edge) ? 1 : 0;
+  EXPECT_GT(both, 0u) << "one segment is part of both rivers";
+  EXPECT_LT(both, edges.at("Congo").size());
+  ASSERT_EQ(made.marked.size(), 2u);
+  for (const MarkedVertex& mark : made.marked) {
+    EXPECT_EQ(names.at({0, mark.tag}), "gauges");
+    EXPECT_TRUE(made.mesh.is_fixed(mark.vertex));
   }
 }
 

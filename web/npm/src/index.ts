@@ -295,31 +295,38 @@ export function html_report(mesh: Mesh, { before, report, explanation, title = '
 
 // --- examples ----------------------------------------------------------------------------------------------------------
 
-const make = (name: string, parameters: object = {}): Mesh => Mesh.of(call('mesh_generate', name, toJson(parameters)));
+/** `first`: a parameter, to say how one is given. */
+function make(name: string, parameters: object = {}, first = ''): Mesh {
+  if (typeof parameters !== 'object' || parameters === null || Array.isArray(parameters)) {
+    const found = JSON.stringify(parameters);
+    throw new TypeError(`generate.${name}: expected named parameters, such as ${name}({ ${first}: ${found} }), found ${found}`);
+  }
+  return Mesh.of(call('mesh_generate', name, toJson(parameters)));
+}
 
 /** Example meshes of the paper, and others on which methods can be tried. */
 export const generate = {
   /** The paper's sparse horseshoe: 5 vertices, 4 triangles. */
   sparse_horseshoe: (): Mesh => make('sparse_horseshoe'),
   /** The paper's parameterized horseshoe: a × b points, x and y are the semi-axes of the inner and the outer arch. */
-  horseshoe: (p: { a?: number; b?: number; x?: [number, number]; y?: [number, number] } = {}): Mesh => make('horseshoe', p),
+  horseshoe: (p: { a?: number; b?: number; x?: [number, number]; y?: [number, number] } = {}): Mesh => make('horseshoe', p, 'a'),
   /** Sides of length a and b from vertex 0, with an angle between them. */
-  single_triangle: (p: { a?: number; b?: number; angle_deg?: number } = {}): Mesh => make('single_triangle', p),
+  single_triangle: (p: { a?: number; b?: number; angle_deg?: number } = {}): Mesh => make('single_triangle', p, 'a'),
   /** Random points in a polygon, counter-clockwise (default: an L with a notch). */
-  random_mesh: (p: { vertices?: number; seed?: number; polygon?: [number, number][] } = {}): Mesh => make('random_mesh', p),
+  random_mesh: (p: { vertices?: number; seed?: number; polygon?: [number, number][] } = {}): Mesh => make('random_mesh', p, 'vertices'),
   /** nx × ny squares, each cut along the same diagonal, then sheared. */
-  sheared_grid: (p: { nx?: number; ny?: number; shear?: number } = {}): Mesh => make('sheared_grid', p),
+  sheared_grid: (p: { nx?: number; ny?: number; shear?: number } = {}): Mesh => make('sheared_grid', p, 'nx'),
   /** Rings of points between two circles, the middle rings jittered. */
   annulus: (p: { inner?: number; outer?: number; around?: number; rings?: number; jitter?: number; seed?: number } = {}): Mesh =>
-    make('annulus', p),
+    make('annulus', p, 'inner'),
   /** A box with an airfoil-like hole, graded from fine at the foil. */
-  airfoil: (p: { around?: number; growth?: number; seed?: number } = {}): Mesh => make('airfoil', p),
+  airfoil: (p: { around?: number; growth?: number; seed?: number } = {}): Mesh => make('airfoil', p, 'around'),
   /** A regular polygon with no vertex inside: hard. */
-  regular_polygon: (p: { corners?: number } = {}): Mesh => make('regular_polygon', p),
+  regular_polygon: (p: { corners?: number } = {}): Mesh => make('regular_polygon', p, 'corners'),
   /** A letter A with no vertex inside: hard. */
   letter_a: (): Mesh => make('letter_a'),
   /** A triangle with a sharp corner. */
-  wedge: (p: { angle_deg?: number; pieces?: number; seed?: number } = {}): Mesh => make('wedge', p),
+  wedge: (p: { angle_deg?: number; pieces?: number; seed?: number } = {}): Mesh => make('wedge', p, 'angle_deg'),
   /** Random points in the unit square, finer towards a corner. */
-  graded_mesh: (p: { finest?: number; growth?: number; seed?: number } = {}): Mesh => make('graded_mesh', p),
+  graded_mesh: (p: { finest?: number; growth?: number; seed?: number } = {}): Mesh => make('graded_mesh', p, 'finest'),
 };

@@ -45,6 +45,7 @@ test('wrong arguments are TypeErrors that name them, bad meshes TemperErrors', (
   refuses({ target: 'paper', effort: 'high' }, /effort 'high' is not for target 'paper'/);
   refuses({ boundary: 'cut' }, { code: 'invalid_option' });
   assert.throws(() => temper.generate.annulus({ inside: 3 }), TypeError);
+  assert.throws(() => temper.generate.random_mesh(30), { name: 'TypeError', message: /such as random_mesh\(\{ vertices: 30 \}\), found 30/ });
   assert.throws(() => new temper.Mesh([[0, 0], [1, 0], [0, 1], [0, 0], [1, 1]], [[0, 1, 2], [3, 4, 2]]), { code: 'duplicate_point' });
   assert.throws(() => temper.read('none.vtu', { files: {} }), { code: 'not_found', where: 'none.vtu' });
 });

@@ -1,11 +1,11 @@
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <vector>
 
-namespace temper::app {
+namespace temper {
 namespace {
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; }
@@ -49,11 +49,13 @@ std::string join(std::span<const std::string_view> words, std::string_view separ
   return text;
 }
 
-std::string none_of(std::string_view word, std::span<const std::string_view> candidates) {
-  std::string text = "'" + std::string(word) + "' is none of " + join(candidates);
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates) {
   const std::string_view guess = nearest(word, candidates);
-  if (!guess.empty()) text += "; did you mean '" + std::string(guess) + "'?";
-  return text;
+  return guess.empty() ? std::string() : "; did you mean '" + std::string(guess) + "'?";
 }
 
-}  // namespace temper::app
+std::string none_of(std::string_view word, std::span<const std::string_view> candidates) {
+  return "'" + std::string(word) + "' is none of " + join(candidates) + did_you_mean(word, candidates);
+}
+
+}  // namespace temper

@@ -1,0 +1,317 @@
+"""Meshes of meshio, PyVista and xugrid, and the compiled module. The functions for users are in ``_mesh``.
+
+Classes are told apart by their attributes, so none of these libraries is imported. ``cells_of`` brings each to the form
+of meshio: blocks of cells of one type, with data for each block.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+
+from . import _temper
+from ._errors import TemperError
+
+_WEIGHTS = ("weight", "weights")
+_WRITTEN = ("region", "gmsh:physical")  # cell data that to_meshio makes from the tags
+_REGIONS = ("region", "gmsh:physical", "medit:ref", "cell_tags")
+_QUALITY = ("well_centered", "min_h_over_l", "min_d_over_l", "min_angle_deg")  # that VTU has of the former mesh
+_NAMES = "physical_names"  # field data of VTU: a line "dimension tag name" for each name
+
+
+@dataclasses.dataclass
+class Block:
+    """Cells of one type."""
+
+    type: str
+    data: Any
+
+
+@dataclasses.dataclass
+class Cells:
+    """A mesh as meshio has it."""
+
+    points: Any
+    cells: list[Block]
+    point_data: dict[str, Any] = dataclasses.field(default_factory=dict)
+    cell_data: dict[str, list[Any]] = dataclasses.field(default_factory=dict)
+    field_data: dict[str, Any] = dataclasses.field(default_factory=dict)
+    left_out: list[str] = dataclasses.field(default_factory=list)
+
+
+def cells_of(mesh: Any) -> Any:
+    """A mesh of another library in the form of meshio, or None."""
+    if hasattr(mesh, "celltypes") and hasattr(mesh, "cell_connectivity"):
+        offset = mesh.cell_offsets if hasattr(mesh, "cell_offsets") else mesh.offset
+        return _vtk_cells(mesh, np.asarray(mesh.celltypes), np.asarray(offset), np.asarray(mesh.cell_connectivity))
+    if all(hasattr(mesh, name) for name in ("points", "verts", "lines", "faces", "cell_data")):
+        return _poly_data(mesh)
+    if hasattr(mesh, "face_node_connectivity"):
+        return _ugrid(mesh, {})
+    if hasattr(mesh, "ugrid"):
+        return _ugrid(mesh.ugrid.grid, dict(getattr(mesh, "data_vars", {mesh.name: mesh} if hasattr(mesh, "name") else {})))
+    return mesh if all(hasattr(mesh, name) for name in ("points", "cells", "point_data")) else None
+
+
+# --- PyVista ----------------------------------------------------------------------------------------------------------
+
+_POLY_VERTEX, _POLY_LINE, _TRIANGLE, _POLYGON = 2, 4, 5, 7  # types of VTK
+_WIDTHS = {1: ("vertex", 1), _POLY_VERTEX: ("vertex", 1), 3: ("line", 2), _POLY_LINE: ("line", 2)}
+_TYPES_OF_VTK = {6: "triangle strip", _POLYGON: "polygon", 8: "pixel", 9: "quad"}
+
+
+def _poly_data(mesh: Any) -> Cells:
+    """PolyData has three lists of cells, in this order: k, and the k points of a cell."""
+    types, offset, connectivity = [], [0], []
+    for kind, flat in ((_POLY_VERTEX, mesh.verts), (_POLY_LINE, mesh.lines), (_POLYGON, mesh.faces)):
+        flat, at = np.asarray(flat), 0
+        while at < len(flat):
+            k = int(flat[at])
+            connectivity.append(flat[at + 1 : at + 1 + k])
+            types.append(kind)
+            offset.append(offset[-1] + k)
+            at += 1 + k
+    joined = np.concatenate(connectivity) if connectivity else np.empty(0, dtype=np.int64)
+    return _vtk_cells(mesh, np.array(types, dtype=np.uint8), np.array(offset), joined)
+
+
+def _vtk_cells(mesh: Any, types: Any, offset: Any, connectivity: Any) -> Cells:
+    """Cells by type: their points are ``connectivity[offset[i]:offset[i + 1]]``. A line of many points becomes lines of
+    two."""
+    sizes = np.diff(offset)
+    rows: dict[str, list[Any]] = {}  # cells of each block, once for each of their parts
+    parts: dict[str, list[Any]] = {}
+    for kind in np.unique(types):
+        of_kind = np.flatnonzero(types == kind)
+        name, width = _WIDTHS.get(int(kind), ("triangle", 3))
+        if kind == _POLYGON:
+            of_kind = of_kind[sizes[of_kind] == 3]
+        if len(of_kind) == 0 or (kind not in _WIDTHS and kind not in (_TRIANGLE, _POLYGON)):
+            continue
+        n_parts = sizes[of_kind] - width + 1 if width < 3 else np.ones(len(of_kind), dtype=np.int64)
+        cell = np.repeat(of_kind, n_parts)
+        part = np.arange(len(cell)) - np.repeat(np.cumsum(n_parts) - n_parts, n_parts)
+        rows.setdefault(name, []).append(cell)
+        parts.setdefault(name, []).append(connectivity[(offset[cell] + part)[:, None] + np.arange(width)])
+    order = {name: np.argsort(np.concatenate(cells), kind="stable") for name, cells in rows.items()}
+    chosen = {name: np.concatenate(cells)[order[name]] for name, cells in rows.items()}
+    blocks = [Block(name, np.concatenate(parts[name])[order[name]].astype(np.int64)) for name in rows]
+    cell_data = {
+        name: [np.asarray(values)[chosen[block.type]] for block in blocks] for name, values in mesh.cell_data.items()
+    }
+    taken = np.unique(np.concatenate([*chosen.values(), np.empty(0, dtype=np.int64)]))
+    others = np.setdiff1d(np.arange(len(types)), taken)
+    kinds = [_TYPES_OF_VTK.get(int(kind), f"VTK {kind}") for kind in types[others]]
+    lost = [f"{kinds.count(kind)} cells of type {kind} are left out" for kind in sorted(set(kinds))]
+    return Cells(mesh.points, blocks, dict(mesh.point_data.items()), cell_data, dict(mesh.field_data.items()), lost)
+
+
+# --- xugrid -----------------------------------------------------------------------------------------------------------
+
+
+def _ugrid(grid: Any, variables: dict[str, Any]) -> Cells:
+    """A Ugrid2d, with the variables on its nodes and faces. Others are left out, but those of the grid itself."""
+    if not hasattr(grid, "face_node_connectivity"):
+        raise TemperError("empty_input", "", f"expected a Ugrid2d, found {type(grid).__name__}")
+    own = {word for value in getattr(grid, "attrs", {}).values() for word in str(value).split()}
+    if getattr(grid, "is_geographic", False):
+        cure = "Next: move it to a plane with to_crs, or read its file with temper.read(path, projection=…)"
+        raise TemperError("geographic", "", f"the grid is in longitude and latitude. {cure}")
+    faces = np.asarray(grid.face_node_connectivity)
+    triangular = (faces[:, :3] >= 0).all(axis=1) & (faces[:, 3:] < 0).all(axis=1)
+    result = Cells(np.asarray(grid.node_coordinates), [Block("triangle", faces[triangular, :3])])
+    if not triangular.all():
+        result.left_out.append(f"{(~triangular).sum()} faces that are no triangles are left out")
+    for name, variable in variables.items():
+        if name in own or not variable.dims:
+            continue
+        if variable.dims == (grid.node_dimension,):
+            is_weight = name == f"{getattr(grid, 'name', '')}_node_weight"
+            result.point_data["weight" if is_weight else str(name)] = np.asarray(variable.values)
+        elif variable.dims == (grid.face_dimension,):
+            result.cell_data[str(name)] = [np.asarray(variable.values)[triangular]]
+        else:
+            result.left_out.append(f"variable '{name}' with dimensions {', '.join(variable.dims)} is left out")
+    return result
+
+
+# --- all --------------------------------------------------------------------------------------------------------------
+
+
+def _points(values: Any) -> Any:
+    """Two or three coordinates per point. The library decides whether three are in a plane or on a sphere."""
+    points = np.asarray(values, dtype=np.float64)
+    if points.ndim != 2 or points.shape[1] not in (2, 3):
+        raise TemperError("size_mismatch", "", f"points: expected shape (n, 2) or (n, 3), found {points.shape}")
+    return np.ascontiguousarray(points)
+
+
+_TYPES = {np.dtype(t) for t in ("f8", "f4", "i8", "i4", "u1", "i1", "i2", "u2", "u4", "u8")}
+
+
+def data_of(name: str, values: Any, dropped: list[str]) -> Any:
+    """The array in one of the types of files, or None."""
+    array = np.asarray(values)
+    if array.dtype == bool:
+        array = array.astype(np.uint8)
+    array = array.astype(array.dtype.newbyteorder("="), copy=False)
+    if array.ndim > 2:
+        array = array.reshape(len(array), -1)
+    if array.dtype not in _TYPES or array.ndim == 0:
+        dropped.append(f"data '{name}' of type {array.dtype} is dropped")
+        return None
+    return np.ascontiguousarray(array)
+
+
+def _blocks(mesh: Any, kind: str) -> list[int]:
+    return [i for i, block in enumerate(mesh.cells) if block.type == kind]
+
+
+def _joined(mesh: Any, blocks: list[int], columns: int) -> Any:
+    parts = [np.asarray(mesh.cells[i].data, dtype=np.int64).reshape(-1, columns) for i in blocks]
+    return np.concatenate(parts) if parts else np.empty((0, columns), dtype=np.int64)
+
+
+def _cell_data(mesh: Any, blocks: list[int], dropped: list[str]) -> dict[str, Any]:
+    result = {}
+    made_again = _QUALITY if all(name in mesh.cell_data for name in _QUALITY) else ()
+    for name, values in mesh.cell_data.items():
+        if name in made_again:
+            continue
+        parts = [np.asarray(values[i]) for i in blocks]
+        if parts and (array := data_of(name, np.concatenate(parts), dropped)) is not None:
+            result[name] = array
+    return result
+
+
+def _tags(data: dict[str, Any], size: int) -> Any:
+    for name in _REGIONS:
+        values = data.get(name)
+        if values is not None and values.ndim == 1 and values.dtype.kind in "iu":
+            return values.astype(np.int32)
+    return np.zeros(size, dtype=np.int32)
+
+
+def _names(mesh: Any, dropped: list[str]) -> tuple[list[tuple[int, int, str]], dict[str, Any]]:
+    """Names as (dimension, tag, name), and the other field data. meshio has a name as field data [tag, dimension]."""
+    names, field_data = [], {}
+    for name, value in mesh.field_data.items():
+        array = data_of(name, value, dropped)
+        if array is None:
+            continue
+        if name == _NAMES and array.dtype == np.uint8:
+            for line in array.tobytes().decode().splitlines():
+                dimension, tag, text = line.split(" ", 2)
+                names.append((int(dimension), int(tag), text))
+        elif array.shape == (2,) and array.dtype.kind in "iu" and 0 <= array[1] <= 3:
+            names.append((int(array[1]), int(array[0]), name))
+        else:
+            field_data[name] = array
+    return names, field_data
+
+
+def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, list[str]]:
+    """A handle of a mesh in the form of meshio, and messages about omissions and changes."""
+    dropped: list[str] = list(getattr(mesh, "left_out", ()))
+    for block in mesh.cells:
+        if block.type not in ("triangle", "line", "vertex"):
+            dropped.append(f"{len(block.data)} cells of type {block.type} are left out")
+    points = _points(mesh.points)
+    triangles, lines = _blocks(mesh, "triangle"), _blocks(mesh, "line")
+    if not triangles:
+        found = [f"{len(block.data)} cells of type {block.type}" for block in mesh.cells] + dropped
+        raise TemperError("empty_input", "", f"expected cells of type triangle; {'; '.join(found) or 'there are none'}")
+    point_data = {}
+    weights = np.empty(0)
+    for name, values in mesh.point_data.items():
+        if name in _WEIGHTS and weights.size == 0 and np.asarray(values).size == len(points):
+            weights = np.ascontiguousarray(np.asarray(values, dtype=np.float64).reshape(-1))
+        elif (array := data_of(name, values, dropped)) is not None:
+            point_data[name] = array
+    cell_data = _cell_data(mesh, triangles, dropped)
+    corners, ends = _joined(mesh, triangles, 3), _joined(mesh, lines, 2)
+    regions = _tags(cell_data, 0)
+    line_data = _cell_data(mesh, lines, dropped)
+    vertices = _blocks(mesh, "vertex")
+    vertex_data = _cell_data(mesh, vertices, dropped)
+    vertex_cells = _joined(mesh, vertices, 1).reshape(-1)
+    vertex_tags, line_tags = _tags(vertex_data, len(vertex_cells)), _tags(line_data, len(ends))
+    for data, tags in ((cell_data, regions), (line_data, line_tags), (vertex_data, vertex_tags)):
+        for name in _WRITTEN:
+            if name in data and np.array_equal(data[name], tags):
+                del data[name]
+    names, field_data = _names(mesh, dropped)
+    arrays = {
+        "points": points, "weights": weights, "triangles": corners, "regions": regions, "lines": ends,
+        "line_tags": line_tags, "point_data": point_data, "cell_data": cell_data, "line_data": line_data,
+        "marked_points": vertex_cells, "point_tags": vertex_tags, "marked_point_data": vertex_data,
+        "names": names, "field_data": field_data,
+    }  # fmt: skip
+    handle, messages = _temper.mesh_from_file_arrays(arrays, [str(tag) for tag in fixed_tags])
+    return handle, dropped + list(messages)
+
+
+def meshio_form(handle: Any) -> Cells:
+    """The mesh in the form of meshio, with tags and names as in VTU."""
+    file = _temper.file_as_dict(handle, True)
+    blocks = [Block("triangle", file["triangles"].astype(np.int64))]
+    tags = [file["regions"] if len(file["regions"]) else np.zeros(len(file["triangles"]), dtype=np.int32)]
+    data = [file["cell_data"]]
+    for kind, columns, cells, its_tags, its_data in (
+        ("line", 2, "lines", "line_tags", "line_data"), ("vertex", 1, "marked_points", "point_tags", "marked_point_data")
+    ):  # fmt: skip
+        if len(file[cells]):
+            blocks.append(Block(kind, file[cells].astype(np.int64).reshape(-1, columns)))
+            tags.append(file[its_tags])
+            data.append(file[its_data])
+    # Each array is on every block: zeros if a block has none.
+    cell_data: dict[str, list[Any]] = {"region": tags}
+    for name in dict.fromkeys(name for arrays in data for name in arrays):
+        like = next(arrays[name] for arrays in data if name in arrays)
+        cell_data[name] = [
+            arrays[name] if name in arrays else np.zeros((len(block.data), *like.shape[1:]), dtype=like.dtype)
+            for block, arrays in zip(blocks, data)
+        ]
+    weights = file["weights"] if len(file["weights"]) else np.zeros(len(file["points"]))
+    field_data = dict(file["field_data"])
+    if lines := "".join(f"{dimension} {tag} {name}\n" for dimension, tag, name in file["names"]):
+        field_data[_NAMES] = np.frombuffer(lines.encode(), dtype=np.uint8)
+    return Cells(file["points"], blocks, {"weight": weights, **file["point_data"]}, cell_data, field_data)
+
+
+def meshio_of(handle: Any) -> Any:
+    """The mesh as a ``meshio.Mesh``: see ``Mesh.to_meshio``."""
+    import meshio
+
+    handle.require_no_period("to_meshio()")
+    form = meshio_form(handle)
+    names, field_data = _names(form, [])
+    field_data.update((name, np.array([tag, dimension])) for dimension, tag, name in sorted(names))
+    cell_data = form.cell_data
+    if any(map(np.any, cell_data["region"])):
+        cell_data = {"region": cell_data["region"], "gmsh:physical": list(cell_data["region"]), **cell_data}
+    cells = [(block.type, block.data) for block in form.cells]
+    return meshio.Mesh(form.points, cells, point_data=form.point_data, cell_data=cell_data, field_data=field_data)
+
+
+def put_back_vtk(mesh: Any, handle: Any) -> None:
+    """Replaces a ``PolyData`` or ``UnstructuredGrid`` by the mesh, with its data."""
+    cells = meshio_form(handle)
+    blocks = {block.type: np.asarray(block.data) for block in cells.cells}
+    order = [kind for kind in ("vertex", "line", "triangle") if kind in blocks]
+    if hasattr(mesh, "celltypes"):
+        new = type(mesh)({{"vertex": 1, "line": 3, "triangle": _TRIANGLE}[kind]: blocks[kind] for kind in order}, cells.points)
+    else:
+        flat = {k: np.column_stack([np.full(len(b), b.shape[1]), b]).ravel() for k, b in blocks.items()}
+        names = {"vertex": "verts", "line": "lines", "triangle": "faces"}
+        new = type(mesh)(cells.points, **{names[kind]: flat[kind] for kind in order})
+    of_kind = [block.type for block in cells.cells]
+    for name, values in cells.point_data.items():
+        new.point_data[name] = values
+    for name, parts in cells.cell_data.items():
+        new.cell_data[name] = np.concatenate([parts[of_kind.index(kind)] for kind in order])
+    for name, values in cells.field_data.items():
+        new.field_data[name] = values
+    mesh.copy_from(new)
