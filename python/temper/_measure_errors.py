@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, Literal, Sequence
+from typing import Any, Literal, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _temper
-from ._mesh import MeshLike, as_mesh
+from ._dec import _coefficient_of
+from ._mesh import Mesh, MeshLike, _doubles, as_mesh
 from ._records import Record, merged
 
 FieldGroup = Literal["chosen", "held-back", "exact"]
@@ -168,6 +169,99 @@ def _fields(d: dict[str, Any]) -> list[FieldErrors]:
 def _plain(fields: Sequence[FieldErrors]) -> tuple[list[str], npt.NDArray[np.float64]]:
     values = np.array([row.errors._row() for row in fields], dtype=np.float64).reshape(-1, 10)
     return [row.field.name for row in fields], values
+
+
+@dataclasses.dataclass(frozen=True)
+class DiffusionErrors(Record):
+    """The errors of both schemes for one problem."""
+
+    vertex: ErrorNorms
+    """Errors at vertices, relative to the reference: its L2 norm, and its largest absolute value."""
+    cell: ErrorNorms
+    """Errors at orthocenters."""
+    reference: ErrorNorms
+    """Change of the reference by its last refinement: how much of the errors is its own."""
+    vertex_system: ErrorSystem
+    cell_system: ErrorSystem
+    refinements: int
+    """Refinements of the mesh for the reference."""
+    least: float
+    """Least value of the reference at the vertices."""
+    largest: float
+
+
+def measure_diffusion_errors(
+    mesh: MeshLike,
+    *,
+    dirichlet: Mapping[str | int, float],
+    neumann: Mapping[str | int, float] | None = None,
+    source: npt.ArrayLike = 0.0,
+    coefficient: npt.ArrayLike | Mapping[int, float] | None = None,
+    refinements: int = 2,
+) -> DiffusionErrors:
+    """Measures the errors of both schemes for your own problem −div(K ∇u) = f in the plane. The reference is a solution
+    by linear finite elements on a refined mesh (docs/reference/errors.md).
+
+    Parameters
+    ----------
+    mesh : Mesh, meshio.Mesh, …
+    dirichlet : mapping of name or tag to value
+        Values of u on parts of the boundary: the names or tags of ``mesh.lines``, or ``"boundary"`` for all of it.
+    neumann : mapping of name or tag to value, optional
+        Fluxes K ∂u/∂n into the domain. Other boundary edges have no flux.
+    source : float or array of float
+        Source f, one number or one per vertex, (n,).
+    coefficient : array of float, or dict of region to float, optional
+        K > 0, as in ``dec_operators``.
+    refinements : int
+        Refinements for the reference, each triangle into four.
+
+    Raises
+    ------
+    TemperError
+        Values that do not fit the mesh, no part with a value of u, a mesh that is not of the plane.
+    ValueError
+        A name that is no part of the boundary.
+
+    Examples
+    --------
+    >>> import temper
+    >>> ring = temper.generate.annulus()
+    >>> errors = temper.measure_diffusion_errors(ring, dirichlet={"boundary": 0.0}, source=1.0)
+    >>> errors.vertex.l2 < 0.01
+    True
+    """
+    given = as_mesh(mesh)
+    parts = [
+        (_boundary_part(given, name), float(value), is_flux)
+        for values, is_flux in ((neumann or {}, True), (dirichlet, False))
+        for name, value in values.items()
+    ]
+    f = np.broadcast_to(np.asarray(source, dtype=np.float64), given.n_vertices) if np.ndim(source) == 0 else source
+    d = _temper.measure_diffusion_errors(
+        given._handle, _coefficient_of(given, coefficient), _doubles(f, 0, "source"), parts, refinements
+    )
+    norms = {key: ErrorNorms(**d[key]) for key in ("vertex", "cell", "reference")}
+    systems = {key: ErrorSystem(**d[key]) for key in ("vertex_system", "cell_system")}
+    return DiffusionErrors(**merged(d, **norms, **systems))
+
+
+def _boundary_part(mesh: Mesh, name: str | int) -> npt.NDArray[np.int32]:
+    """The boundary edges of a name or tag, (k, 2)."""
+    boundary = mesh.boundary_edges
+    if name == "boundary":
+        return boundary
+    tags = [tag for dimension, tag in [mesh.names.get(str(name), (1, name))] if dimension == 1]
+    lines = mesh.lines[np.isin(mesh.tags, [tag for tag in tags if not isinstance(tag, str)])]
+    on_boundary = {frozenset(edge) for edge in boundary.tolist()}
+    edges = np.array([edge for edge in lines.tolist() if frozenset(edge) in on_boundary], dtype=np.int32)
+    if not len(edges):
+        names = sorted(name for name, (dimension, _) in mesh.names.items() if dimension == 1)
+        raise ValueError(
+            f"no boundary edge has the name or tag {name!r}; expected 'boundary', a tag of {sorted(set(mesh.tags.tolist()))}"
+            + (f", or one of {', '.join(names)}" if names else "")
+        )
+    return edges.reshape(-1, 2)
 
 
 def measure_errors(

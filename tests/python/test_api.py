@@ -81,7 +81,7 @@ STRUCTS = {
     "Cure": (temper.types.Cure, set()),
     "Explanation": (temper.types.Explanation, set()),
     "ErrorReport": (temper.types.ErrorReport, set()),
-    "ErrorSystem": (temper.types.ErrorSystem, set()),
+    "ErrorSystem": (temper.types.ErrorSystem, set()), "DiffusionErrors": (temper.types.DiffusionErrors, set()),
     "Restoration": (temper.topology.Restoration, set()),
     "SizeReport": (temper.size.SizeReport, set()),
     "TraceEvent": (temper.types.TraceEvent, set()),

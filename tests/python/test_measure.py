@@ -87,6 +87,24 @@ def test_a_coefficient_has_one_value_for_each_triangle_or_region():
             temper.dec_operators(mesh, coefficient=wrong)
 
 
+def test_a_problem_of_the_user_is_measured_by_the_names_of_its_boundary():
+    outline = temper.Outline(
+        [(0, 0), (1, 0), (2, 0), (2, 1), (1, 1), (0, 1)],
+        [(0, 1), (1, 2), (2, 3), (3, 4), (4, 5), (5, 0), (1, 4)],
+        [1, 1, 2, 1, 1, 3, 0],
+        parts=[(7, [0, 6, 4, 5], None), (8, [1, 2, 3, 6], None)],
+    )
+    mesh = temper.mesh_outline(outline, 0.3).mesh
+    errors = temper.measure_diffusion_errors(mesh, dirichlet={3: 0.0, 2: 1.1}, coefficient={7: 1.0, 8: 10.0})
+    assert max(errors.vertex.max, errors.cell.max, errors.reference.max) < 1e-10, "linear on both sides"
+    flux = temper.measure_diffusion_errors(mesh, dirichlet={3: 0.0}, neumann={2: 2.0}, coefficient={7: 1.0, 8: 10.0})
+    assert flux.largest == pytest.approx(2.2) and flux.cell.max < 1e-10
+    with pytest.raises(ValueError, match="no boundary edge has the name or tag 'sea'"):
+        temper.measure_diffusion_errors(mesh, dirichlet={"sea": 0.0})
+    with pytest.raises(temper.TemperError, match="known up to a constant"):
+        temper.measure_diffusion_errors(mesh, dirichlet={}, neumann={3: 1.0})
+
+
 @pytest.mark.parametrize("mesh", EVERY)
 def test_laws_of_the_operators_hold_for_any_weights(mesh):
     mesh = weighted(mesh)
