@@ -304,6 +304,11 @@ void bind_size(py::module_& m) {
     }
     return rows_of<double>(std::span<const std::array<double, 2>>(lengths));
   });
+  m.def("sizes_from_depths", [](const Doubles& depths, double per_wavelength, double period, double time_step,
+                                double courant, double least, double largest) {
+    const DepthSizes rules = {per_wavelength, period, time_step, courant, least, largest};
+    return array_of<double>(or_raise(sizes_from_depths(as_span<double>(depths), rules)));
+  });
   m.def("measure_size", [](const PyMesh& self, const SizeField& field) {
     const auto mesh = self.read();
     if (mesh->space().kind() != field.mesh().space().kind()) {
@@ -366,6 +371,10 @@ Outline outline_from(const py::dict& d) {
   outline.point_tags = outline_tags_from(d["point_tags"]);
   outline.further_tags = outline_tags_from(d["further_tags"]);
   outline.groups = physical_names_from(d["groups"]);
+  for (const auto& item : d["sizes"]) {
+    const auto s = item.cast<py::tuple>();
+    outline.sizes.push_back({{s[0].cast<std::int32_t>(), s[1].cast<std::int32_t>()}, s[2].cast<double>()});
+  }
   if (!d["names"].is_none()) outline.names = d["names"].cast<PyNames>().names;
   return outline;
 }
@@ -381,7 +390,9 @@ py::dict outline_to_dict(const Outline& outline) {
   for (const OutlinePart& p : outline.parts) {
     parts.append(py::make_tuple(p.region, array_of<std::int32_t>(p.segments), to_python(p.size)));
   }
-  return Record()("points", rows_of<double>(std::span<const Vec2>(outline.points)))(
+  py::list sizes;
+  for (const OutlineSize& s : outline.sizes) sizes.append(py::make_tuple(s.points[0], s.points[1], s.size));
+  return Record()("points", rows_of<double>(std::span<const Vec2>(outline.points)))("sizes", sizes)(
              "segments", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(ends)))(
              "segment_tags", array_of<std::int32_t>(tags))(
              "holes", rows_of<double>(std::span<const Vec2>(outline.holes)))("regions", regions)("parts", parts)(

@@ -115,6 +115,10 @@ enum class Encoding { ascii, base64, appended };
 
 struct ReadOptions {
   Executor* executor = nullptr;  ///< Threads that unpack compressed data; the result does not depend on them
+  /// The part of a raster to read: the lower left and upper right corner, in the coordinates of the file. Two more
+  /// columns and rows are read on each side. Meshes are read whole.
+  std::optional<std::array<Vec2, 2>> window = {};
+  bool raster_in_degrees = false;  ///< Rasters that do not say it (ESRI ASCII) are in longitude and latitude
 };
 
 struct WriteOptions {

@@ -46,6 +46,9 @@ class Outline:
     """Segment and tag, (t, 2) int32, of segments that have more than one tag."""
     groups: Sequence[tuple[int, int, str]] = ()
     """Dimension, tag and name, for ``Mesh.names``: dimension 0 for points, 1 for segments, 2 for regions."""
+    sizes: Sequence[tuple[int, int, float]] = ()
+    """Two points and a size, > 0 [length]: desired edge length along the line between them, or at a point that is given
+    twice. Away from it lengths grow by the grade."""
     _names: Any = dataclasses.field(default=None, repr=False)
     _degrees: Any = dataclasses.field(default=None, repr=False)
     """Projection, and the points before it."""
@@ -65,6 +68,7 @@ class Outline:
             "point_tags": _ints(self.point_tags, 2, "point_tags").astype(np.int32),
             "further_tags": _ints(self.further_tags, 2, "further_tags").astype(np.int32),
             "groups": [(int(dimension), int(tag), str(name)) for dimension, tag, name in self.groups],
+            "sizes": [(int(a), int(b), float(size)) for a, b, size in self.sizes],
             "names": self._names,
             "degrees": self._degrees,
         }

@@ -12,7 +12,8 @@ from . import _temper
 from ._mesh import Mesh, MeshLike, _doubles, as_mesh
 from ._records import Record
 
-__all__ = ["SizeReport", "Spread", "input_size_field", "local_size", "measure_size", "relative_lengths"]
+__all__ = ["SizeReport", "Spread", "input_size_field", "local_size", "measure_size", "relative_lengths",
+           "sizes_from_depths"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -95,6 +96,46 @@ class SizeField:
 def input_size_field(mesh: MeshLike) -> SizeField:
     """The field of the mesh's own local sizes."""
     return SizeField(_temper.input_size_field(as_mesh(mesh)._handle))
+
+
+def sizes_from_depths(
+    depths: npt.ArrayLike,
+    *,
+    least: float,
+    largest: float = 0.0,
+    per_wavelength: float = 0.0,
+    period: float = 44714.16,
+    time_step: float = 0.0,
+    courant: float = 1.0,
+) -> npt.NDArray[np.float64]:
+    """Sizes from depths of water, for ``SizeField.from_values``.
+
+    Parameters
+    ----------
+    depths : array of float
+        Depths H [m], (n,), positive down. Land (H ≤ 0) and missing depths (NaN) have the least size.
+    least, largest : float
+        Bounds of the sizes [m]; a ``largest`` of 0 is no bound.
+    per_wavelength : float
+        Least number of edges per wave of length T √(g H); 0: no rule.
+    period : float
+        Period T of the wave [s]: by default of the principal lunar tide M2.
+    time_step, courant : float
+        Edges are at least √(g H) Δt / courant long, with this Δt [s]. This counts more than ``largest``. 0: no rule.
+
+    Returns
+    -------
+    array of float, (n,) [m]
+
+    Examples
+    --------
+    >>> from temper.size import sizes_from_depths
+    >>> sizes_from_depths([-2, 10, 1000], per_wavelength=100, least=500, largest=30000).round()
+    array([  500.,  4429., 30000.])
+    """
+    return _temper.sizes_from_depths(
+        _doubles(depths, 0, "depths"), per_wavelength, period, time_step, courant, least, largest
+    )
 
 
 def local_size(mesh: MeshLike) -> npt.NDArray[np.float64]:

@@ -25,9 +25,10 @@ using Keeps = bool(ArraysOf of, const DataArray& array);
 using Files = std::vector<std::string>(const std::string& path);
 
 Sniff sniff_vtu, sniff_gmsh22, sniff_gmsh41, sniff_medit, sniff_triangle, sniff_obj, sniff_legacy_vtk, sniff_vtk51,
-    sniff_jigsaw, sniff_off, sniff_ply, sniff_adcirc, sniff_vtkhdf, sniff_mpas, sniff_ugrid, sniff_mfem, sniff_fesom;
+    sniff_jigsaw, sniff_off, sniff_ply, sniff_adcirc, sniff_vtkhdf, sniff_mpas, sniff_ugrid, sniff_mfem, sniff_fesom,
+    sniff_esri_ascii, sniff_geotiff;
 Read read_vtu, read_gmsh, read_medit, read_triangle, read_obj, read_legacy_vtk, read_jigsaw_mesh, read_off, read_ply,
-    read_adcirc, read_vtkhdf, read_mpas, read_mfem, read_fesom;
+    read_adcirc, read_vtkhdf, read_mpas, read_mfem, read_fesom, read_esri_ascii, read_geotiff;
 Write write_vtu, write_gmsh22, write_gmsh41, write_medit, write_triangle, write_obj, write_legacy_vtk, write_vtk51,
     write_jigsaw_mesh, write_off, write_ply, write_adcirc, write_vtkhdf, write_mpas, write_ugrid, write_fesom;
 Keeps fesom_keeps, adcirc_keeps, jigsaw_keeps, medit_keeps;
@@ -66,6 +67,10 @@ constexpr FormatRow kRows[] = {
      sniff_vtk51, read_legacy_vtk, write_vtk51},
     {"mfem", "MFEM mesh v1.0", ".mesh", 0,
      sniff_mfem, read_mfem},
+    {"esri", "ESRI ASCII grid", ".asc", 0,
+     sniff_esri_ascii, read_esri_ascii},
+    {"geotiff", "GeoTIFF", ".tif .tiff", 0,
+     sniff_geotiff, read_geotiff},
     {"fesom", "FESOM nod2d.out and elem2d.out", ".nod2d.out .elem2d.out nod2d.out elem2d.out", kSphere,
      sniff_fesom, read_fesom, write_fesom,
      {.keeps = fesom_keeps, .files_to_write = fesom_files, .files_to_read = fesom_files, .degrees = Degrees::always}},
@@ -79,6 +84,8 @@ constexpr FormatRow kRows[] = {
      sniff_mpas, read_mpas, write_mpas, {.files_to_write = netcdf_files, .degrees = Degrees::by_writer}},
     {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll | kSphere,
      sniff_ugrid, read_ugrid, write_ugrid, {.files_to_write = netcdf_files, .degrees = Degrees::by_writer}},
+    {"ncgrid", "grid of CF or COARDS (NetCDF)", ".nc .grd", 0,
+     sniff_ugrid, read_ugrid},
     // clang-format on
 };
 
@@ -127,6 +134,8 @@ void tidy_warnings(MeshFile& file) {
 MeshFile read_or_throw(const std::string& path, const ReadOptions& options) {
   Source source = load(path);
   source.executor = options.executor;
+  source.window = options.window;
+  source.raster_in_degrees = options.raster_in_degrees;
   const FormatRow& row = recognize(source);
   Document document = row.read(source);
   std::string().swap(source.bytes);

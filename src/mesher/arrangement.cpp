@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/text.hpp"
 #include "geometry/bounding_boxes.hpp"
 #include "temper/detail/geometry.hpp"
 
@@ -265,6 +266,24 @@ std::optional<InputError> check_tags(const std::vector<OutlineTag>& tags, const 
     return InputError{ErrorCode::index_out_of_range, "",
                       "tag " + std::to_string(tag.tag) + " is for " + what + " " + std::to_string(tag.element) +
                           ", but the outline has " + std::to_string(n) + " " + what + "s"};
+  }
+  return {};
+}
+
+std::optional<InputError> check_sizes(const Outline& outline) {
+  const OutlineNames& names = names_of(outline);
+  const auto n = static_cast<std::int64_t>(outline.points.size());
+  for (const OutlineSize& s : outline.sizes) {
+    for (const std::int32_t p : s.points) {
+      if (p >= 0 && p < n) continue;
+      return InputError{ErrorCode::index_out_of_range, "",
+                        "size " + to_text(s.size) + " is for point " + std::to_string(p) + ", but the outline has " +
+                            std::to_string(n) + " points"};
+    }
+    if (s.size > 0 && std::isfinite(s.size)) continue;
+    const auto p = static_cast<std::size_t>(s.points[0]);
+    return InputError{ErrorCode::invalid_option, names.point_where(p),
+                      names.point(p) + " has size " + to_text(s.size) + "; expected a finite, positive length"};
   }
   return {};
 }

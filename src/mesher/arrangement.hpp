@@ -30,6 +30,9 @@ struct OutlineEdge {
 [[nodiscard]] std::optional<InputError> check_tags(const std::vector<OutlineTag>& tags, const std::string& what,
                                                    std::size_t n);
 
+/// An error if a size is for no point of the outline, or no length.
+[[nodiscard]] std::optional<InputError> check_sizes(const Outline& outline);
+
 /// The names of the outline, or names that count from 0.
 [[nodiscard]] const OutlineNames& names_of(const Outline& outline);
 

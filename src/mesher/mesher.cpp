@@ -95,9 +95,12 @@ class Mesher {
     Expected<Areas> areas = find_areas(surface_, outline_, places_, edges_, options_, wanted_.most, deadline_);
     if (!areas) return areas.error();
     areas_ = *std::move(areas);
+    if (auto error = check_sizes(outline_)) return *error;
     if (auto error = check_count()) return *error;
     start_sources();
-    return best_of_attempts();
+    Expected<OutlineMesh> made = best_of_attempts();
+    if (made) note_distant_field(*made);
+    return made;
   }
 
  private:
@@ -110,9 +113,11 @@ class Mesher {
     return {options_.size > 0 ? std::min(options_.size, most) : most, &*options_.field};
   }
 
-  /// Refuses meshes that would take all memory, estimated from the area inside.
+  /// Refuses meshes that would take all memory, estimated from the area inside and from lines with sizes.
   [[nodiscard]] std::optional<InputError> check_count() const {
-    const double triangles = 2 * count_pieces(surface_, places_, edges_, wanted_.most) + count_inside();
+    double triangles = 2 * count_pieces(surface_, places_, edges_, wanted_.most) + count_inside();
+    for (const OutlineSize& s : outline_.sizes)
+      triangles += 2 * surface_.distance(point(s.points[0]), point(s.points[1])) / s.size;
     if (triangles <= static_cast<double>(options_.most_triangles)) return {};
     return invalid((options_.field ? std::string("the size field") : "a size of " + std::to_string(options_.size)) +
                    " would make about " + std::to_string(static_cast<long long>(std::min(triangles, 9e18))) +
@@ -170,15 +175,19 @@ class Mesher {
       for (const Vec3 end : {a, b}) sources_.push_back({end, whole});
       for (const std::int32_t area : areas_.sides[i]) {
         const double size = area == kOutside ? wanted_.most : areas_.areas[static_cast<std::size_t>(area)].size;
-        if (size >= wanted_.most) continue;
-        const auto n = static_cast<std::size_t>(std::ceil(whole / size));
-        for (std::size_t k = 0; k <= n; ++k) {
-          sources_.push_back({surface_.between(a, b, static_cast<double>(k) / static_cast<double>(n)), size});
-        }
+        add_sources(a, b, size);
       }
     }
+    for (const OutlineSize& s : outline_.sizes) add_sources(point(s.points[0]), point(s.points[1]), s.size);
     if (options_.field) grade_field(*options_.field);
     corners_ = corner_radii(surface_, places_, edges_, wanted_.most);
+  }
+
+  /// Sources of a size along a line, or at a point.
+  void add_sources(Vec3 a, Vec3 b, double size) {
+    if (size >= wanted_.most) return;
+    const double n = std::max(1.0, std::ceil(surface_.distance(a, b) / size));
+    for (double k = 0; k <= n; ++k) sources_.push_back({surface_.between(a, b, k / n), size});
   }
 
   void grade_field(const SizeField& field) {
@@ -434,6 +443,17 @@ class Mesher {
         sources_.push_back({p, kSmaller * now(p)});
       }
     }
+  }
+
+  /// Sizes in other coordinates than the outline's would go unnoticed, because they hold outside their mesh, too.
+  void note_distant_field(OutlineMesh& made) const {
+    if (!options_.field) return;
+    const auto inside = [&](VertexId v) { return !options_.field->at(made.mesh.point(v)).outside; };
+    const auto vertices = made.mesh.vertices();
+    if (std::any_of(vertices.begin(), vertices.end(), inside)) return;
+    made.notes.push_back(
+        "the sizes are all outside the domain, so the nearest of them are used. Next: check that both have the same "
+        "coordinates and units");
   }
 
   [[nodiscard]] bool stopped_early(const OutlineMesh& made) const {

@@ -118,6 +118,7 @@ class Joiner {
                                            std::tuple(&o.further_tags, "segment", o.segments.size())}) {
       if (auto error = check_tags(*tags, what, size)) return error;
     }
+    if (auto error = check_sizes(o)) return error;
     return check_conventions(k);
   }
 
@@ -279,6 +280,10 @@ class Joiner {
     for (const OutlineTag& further : o.further_tags) {
       const std::int32_t there = now[static_cast<std::size_t>(further.element)];
       if (there >= 0) result_.outline.further_tags.push_back({there, common(1, further.tag)});
+    }
+    for (OutlineSize size : o.sizes) {
+      for (std::int32_t& p : size.points) p = result_.numbers[first_point_[k] + static_cast<std::size_t>(p)];
+      result_.outline.sizes.push_back(size);
     }
     for (std::size_t i = 0; i < o.holes.size(); ++i) {
       result_.outline.holes.push_back(o.holes[i]);

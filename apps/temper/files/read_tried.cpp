@@ -140,9 +140,9 @@ Expected<void> try_in_child(const std::string& path, const Budget& budget) {
 
 }  // namespace
 
-io::MeshFile read_tried(const std::string& path, Executor* executor) {
+io::MeshFile read_tried(const std::string& path, const io::ReadOptions& options) {
   if (const auto size = size_of_hdf5(path)) or_fail(try_in_child(path, budget_of(*size)));
-  return or_fail(io::read(path, {executor}));
+  return or_fail(io::read(path, options));
 }
 
 }  // namespace temper::app

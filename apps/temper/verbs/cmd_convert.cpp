@@ -50,7 +50,7 @@ Exit run_convert(const Arguments& arguments) {
   outputs.expect_mesh(s.output);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  io::MeshFile file = read_tried(s.input, threads.get());
+  io::MeshFile file = read_tried(s.input, {threads.get()});
   if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
   print_warnings(file.warnings);
   print_warnings(outputs.write_mesh(s.output, file, threads.get()));

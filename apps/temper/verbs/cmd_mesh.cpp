@@ -37,7 +37,7 @@ constexpr OutputKind kMeshOutputs[] = {kReportKind, kPictureKind};
 
 struct MeshSettings {
   TimeLimit since;
-  std::string input, coast, lines, size, size_data = "size", projection, region_sizes;
+  std::string input, coast, lines, size, size_data, from_depth, projection, region_sizes;
   MeshOutput output;
   std::vector<std::string> write;
   FurtherOutputs files;  ///< of `write`
@@ -58,11 +58,15 @@ void add_files(Command& command, MeshSettings& s) {
 
 void add_sizes(Command& command, MeshSettings& s) {
   add_text(command, "--size", "X|FILE", s.size,
-           "Target edge length, in the units of the outline or in meters. FILE is a mesh file with a size at each of "
-           "its points.")
+           "Target edge length, in the units of the outline or in meters. FILE is a mesh file or a raster with a size "
+           "at each of its points.")
       .require();
-  add_text(command, "--size-data", "NAME", s.size_data, "Name of the point data with the sizes in the file of --size.")
-      .default_text = "size";
+  add_text(command, "--size-data", "NAME", s.size_data,
+           "Name of the point data with the sizes in the file of --size. (default: size, or the only data)");
+  add_text(command, "--from-depth", "KEY=VALUE,...", s.from_depth,
+           "Rules that make sizes from depths in the file of --size. per_wavelength=N gives at least N edges to a "
+           "wave of period=S seconds (default: the tide M2). time_step=S keeps the Courant number below courant=1. "
+           "least=R and largest=R bound the sizes. positive=up says that the numbers are heights.");
   add_number(command, "--grade", s.options.grade, kPositive,
              "Growth of the size per unit of length, away from short edges and narrow places.");
   add_text(command, "--region-size", "REGION,SIZE,...", s.region_sizes,
@@ -157,17 +161,32 @@ void check_usage(const Command& command, const MeshSettings& s) {
 /// The number given as --size; nothing if it is a file.
 std::optional<double> size_number(const MeshSettings& s) {
   const auto number = parse_number(s.size);
+  if (number && !s.from_depth.empty())
+    refuse_usage("mesh", "--from-depth: expected a file with depths as --size, found the number " + s.size);
   if (number && !(*number > 0 && std::isfinite(*number)))
     refuse_usage("mesh", "--size: expected a number above 0, or a mesh file with sizes, found '" + s.size + "'");
   return number;
 }
 
-/// The sizes of a file. `degrees`: the projection for its points if they are longitude and latitude.
-SizeField read_sizes(const MeshSettings& s, const std::string& degrees, Executor* executor) {
-  io::MeshFile file = read_tried(s.size, executor);
+/// The sizes of a file. `degrees`: the projection for its points if they are longitude and latitude. A raster is read
+/// in the box of the outline, if that has points.
+SizeField read_sizes(const MeshSettings& s, const std::string& degrees, const std::vector<Vec2>& outline,
+                     bool geographic, Executor* executor) {
+  io::ReadOptions options = {executor, {}, geographic};
+  if (!outline.empty()) {
+    Vec2 low = outline.front(), high = low;
+    for (const Vec2 p : outline) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    options.window = {low, high};
+  }
+  std::optional<DepthRule> depths;
+  if (!s.from_depth.empty()) depths = parse_depth_rule("mesh", s.from_depth);
+  io::MeshFile file = read_tried(s.size, options);
   const std::string projection = file.degrees() != nullptr ? degrees : "";
   const auto read = [&file](const std::string&) { return std::move(file); };
-  ReadSizeField sizes = read_size_field(s.size, s.size_data, {projection, {}, executor, true, read});
+  ReadSizeField sizes = read_size_field(s.size, s.size_data, {projection, {}, executor, true, read}, depths);
   print_warnings(sizes.warnings);
   return std::move(sizes.field);
 }
@@ -243,7 +262,8 @@ Result mesh_plane(const MeshSettings& s, Executor* executor) {
     options.size = *number;
   } else {
     const auto& map = result.map.projection;
-    options.field = read_sizes(s, map ? projection_text(*map) : std::string(io::kNoProjection), executor);
+    options.field = read_sizes(s, map ? projection_text(*map) : std::string(io::kNoProjection),
+                               map ? result.map.lon_lat : input.outline.points, map.has_value(), executor);
     const Space space = options.field->mesh().space();
     if (!space.is_plane()) wrong_space(s, "a sphere", "a plane, or --sphere");
     if (space.is_periodic()) wrong_space(s, "a periodic plane", "a plane without periods");
@@ -262,7 +282,7 @@ Result mesh_globe(const MeshSettings& s, Executor* executor) {
   if (const auto number = size_number(s)) {
     options.size = *number;
   } else {
-    options.field = read_sizes(s, fmt::format("{}:radius={}", io::kOntoSphere, sphere.radius), executor);
+    options.field = read_sizes(s, fmt::format("{}:radius={}", io::kOntoSphere, sphere.radius), {}, true, executor);
     const Space space = options.field->mesh().space();
     if (space.is_plane()) wrong_space(s, "a plane", "a sphere");
     if (s.radius && *s.radius != space.radius())

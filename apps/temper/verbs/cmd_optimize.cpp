@@ -316,7 +316,7 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
                                 s.input)});
   }
   if (!s.size.empty()) {
-    ReadSizeField sizes = read_size_field(s.size, s.size_data.empty() ? "size" : s.size_data,
+    ReadSizeField sizes = read_size_field(s.size, s.size_data,
                                           {same_projection(input, s.projection), {}, threads.get(), true});
     warn(results, sizes.warnings);
     s.options.size_field = std::move(sizes.field);

@@ -35,6 +35,12 @@ struct OutlineTag {
   std::int32_t tag = 0;
 };
 
+/// Desired edge length at a point, or along the line between two points. Away from it lengths grow by the grade.
+struct OutlineSize {
+  std::array<std::int32_t, 2> points = {};  ///< Numbers of points of the outline, from 0; twice the same: at that point
+  double size = 0;                          ///< Length, > 0; it counts if it is less than elsewhere
+};
+
 /// A place in a region. Its data hold for everything that can be reached from it without crossing a segment.
 struct OutlineRegion {
   Vec2 at;
@@ -76,6 +82,7 @@ struct Outline {
   std::shared_ptr<const OutlineNames> names;  ///< Names for errors; null: counted from 0
   std::vector<OutlineTag> point_tags;         ///< Tags of points; their vertices are fixed and carry them
   std::vector<OutlineTag> further_tags;       ///< Tags of segments that have more than one
+  std::vector<OutlineSize> sizes;             ///< Desired edge lengths at points and along lines
   std::vector<PhysicalName> groups;           ///< Names of the tags of points and segments, and of regions
 };
 

@@ -67,6 +67,21 @@ class SizeField {
 /// The field of the local sizes without a copy of the mesh: the mesh must exist and not change.
 [[nodiscard]] SizeField input_size_field_of(const Mesh& mesh, Executor* executor = nullptr);
 
+/// Rules that make sizes from depths of water. A wave of the period T in water of depth H has the length T √(g H); in a
+/// time step Δt it goes √(g H) Δt.
+struct DepthSizes {
+  double per_wavelength = 0;  ///< Least number of edges per wavelength; 0: no rule
+  double period = 44714.16;   ///< Period of the wave [s]: by default of the principal lunar tide M2, 12.4206 h
+  double time_step = 0;       ///< Edges are at least √(g H) Δt / courant long, with this Δt [s]; 0: no rule
+  double courant = 1;         ///< Largest Courant number of the time step
+  double least = 0;           ///< Least size, > 0 [m]
+  double largest = 0;         ///< Largest size [m]; 0: no bound
+};
+/// The size at each depth H [m], positive down: T √(g H) / per_wavelength, between `least` and `largest`, and not below
+/// √(g H) Δt / courant, which counts most. Land (H ≤ 0) and missing depths (NaN) have the least size. g is 9.81 m/s².
+/// Errors: no rule; numbers that are not positive or not finite; `largest` below `least`. O(n).
+[[nodiscard]] Expected<std::vector<double>> sizes_from_depths(std::span<const double> depths, const DepthSizes& rules);
+
 /// The lengths of an interior edge and of its dual, over the mean of the local sizes at its ends. Equilateral triangles
 /// have 1 and 1/√3. The least of them bound the time steps of explicit schemes.
 struct RelativeLengths {

@@ -15,6 +15,7 @@
 
 #include "io/text/failure.hpp"
 #include "temper/detail/executor.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper::io {
 
@@ -40,6 +41,8 @@ struct Source {
   std::string bytes;  ///< readers may overwrite it while they decode
   Executor* executor = nullptr;
   AllocationLimits allocation = {};
+  std::optional<std::array<Vec2, 2>> window = {};  ///< as in ReadOptions
+  bool raster_in_degrees = false;
 };
 
 /// Reads a file, or fails with the reason: missing, a directory, empty.

@@ -2,7 +2,7 @@
 //
 // Equal positions are one point, so polygons that share a piece of boundary share its edges. The reader uses four
 // properties of a feature: "region" is a number (without it features count from 1 when there are several). "size" is
-// the edge length inside, "tag" the tag of its points and of the edges on its lines. "name" names their group, see
+// the edge length inside, on its lines or at its points, "tag" the tag of its points and of the edges on its lines. "name" names their group, see
 // NamedElements. Positions are longitude and latitude, unless a crs member of an older file names another system.
 #include <algorithm>
 #include <array>
@@ -156,12 +156,8 @@ class GeoJsonReader {
   void warn_of_idle(const JsonValue& shape, const Feature& about) {
     const std::string_view type = shape.text("type");
     const bool polygon = type == "Polygon" || type == "MultiPolygon" || type == "GeometryCollection";
-    const auto warn_if = [&](bool idle, std::string_view property, std::string_view of) {
-      if (idle)
-        warn_at(shape, text(about.name, ": ", in_quotes(property), " is for ", of, " and has no effect on a ", type));
-    };
-    warn_if(about.size && !polygon, "size", "polygons");
-    warn_if(about.region && !polygon, "region", "polygons");
+    if (about.region && !polygon)
+      warn_at(shape, text(about.name, ": \"region\" is for polygons and has no effect on a ", type));
   }
 
   /// The name without blanks at its ends, which formats of text cannot keep, and without control characters.
@@ -213,7 +209,11 @@ class GeoJsonReader {
     if (type == "MultiLineString") {
       for (const JsonValue& one : array(*coordinates, about.name)) line(one, about, about.name);
     }
-    if (type.ends_with("LineString")) name_segments(about, first);
+    if (type.ends_with("LineString")) {
+      name_segments(about, first);
+      for (std::size_t s = first; s < document_.file.outline.segments.size(); ++s)
+        add_size(document_.file.outline.segments[s].ends, about);
+    }
     if (type == "Point") marks({coordinates}, about);
     if (type == "MultiPoint") {
       std::vector<const JsonValue*> all;
@@ -233,8 +233,11 @@ class GeoJsonReader {
   void marks(const std::vector<const JsonValue*>& positions, const Feature& about) {
     NamedElements named{0, about.tag.value_or(0), about.group, {}};
     for (const JsonValue* position : positions) named.elements.push_back(point(*position, about.name));
-    for (const std::int32_t p : named.elements) add_tag(p, named.tag);
+    for (const std::int32_t p : named.elements) add_tag(p, named.tag), add_size({p, p}, about);
     if (!about.group.empty()) named_.push_back(std::move(named));
+  }
+  void add_size(const std::array<std::int32_t, 2>& points, const Feature& about) {
+    if (about.size) document_.file.outline.sizes.push_back({points, *about.size});
   }
   void add_tag(std::int32_t point, std::int32_t tag) {
     if (tag != 0 && point_tags_.emplace(point, tag).second) document_.file.outline.point_tags.push_back({point, tag});

@@ -784,6 +784,62 @@ TEST_F(NetcdfFormats, WhatIsNoPlanarMeshOfTrianglesIsNamed) {
             "o.nc: face 0 has 4 corners; temper reads triangles");
 }
 
+// Grids, with either order of their axes; the values of places are the same.
+TEST_F(NetcdfFormats, GridsAreMeshesWithTheirDataAtPoints) {
+  const std::vector<double> lon = {-10, -5, 0, 5}, lat = {50, 48, 46};  // from north to south
+  for (const bool turned : {false, true}) {
+    const std::string name = path(turned ? "turned.nc" : "grid.nc");
+    {
+      Nc nc = Nc::create(name);
+      const int x = nc.add_dimension("lon", 4), y = nc.add_dimension("lat", 3), time = nc.add_dimension("time", 1);
+      nc.say(nc.add("lon", {x}, lon), "units", "degrees_east");
+      nc.say(nc.add("lat", {y}, lat), "units", "degrees_north");
+      std::vector<double> values;
+      for (std::size_t k = 0; k < 12; ++k) {
+        const std::size_t i = turned ? k / 3 : k % 4, j = turned ? k % 3 : k / 4;
+        values.push_back(i == 3 && j == 0 ? -9999 : lon[i] + 100 * lat[j]);
+      }
+      nc.say(nc.add("elevation", turned ? std::vector<int>{x, y} : std::vector<int>{time, y, x}, values), "_FillValue",
+             -9999.0);
+      nc.add("other", {y}, std::vector<double>(3));
+    }
+    const auto file = read(name);
+    ASSERT_TRUE(file) << file.error().what();
+    EXPECT_EQ(file->format, "ncgrid");
+    EXPECT_NE(file->degrees(), nullptr);
+    ASSERT_EQ(file->points.size(), 11u);
+    ASSERT_EQ(file->point_data.size(), 1u);
+    EXPECT_EQ(file->point_data[0].name, "elevation");
+    for (std::size_t i = 0; i < 11; ++i) {
+      EXPECT_EQ(std::get<std::vector<double>>(file->point_data[0].values)[i],
+                file->points[i].x + 100 * file->points[i].y);
+    }
+    EXPECT_EQ(file->triangles.size(), 11u);
+  }
+}
+
+TEST_F(NetcdfFormats, LargeGridsBecomeMeansOfBlocks) {
+  constexpr std::size_t kColumns = 2500, kRows = 2000;
+  {
+    Nc nc = Nc::create(path("large.nc"));
+    const int x = nc.add_dimension("x", kColumns), y = nc.add_dimension("y", kRows);
+    std::vector<int> ascending(kColumns), values(kColumns * kRows);
+    for (std::size_t i = 0; i < kColumns; ++i) ascending[i] = static_cast<int>(i);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = i % 2 == 0 ? 1 : 3;
+    nc.add("x", {x}, ascending);
+    nc.add("y", {y}, std::vector<int>(ascending.begin(), ascending.begin() + kRows));
+    nc.add("z", {y, x}, values);
+  }
+  const auto file = read(path("large.nc"));
+  ASSERT_TRUE(file) << file.error().what();
+  EXPECT_EQ(file->points.size(), kColumns * kRows / 4);
+  EXPECT_EQ(file->points[0].x, 0.5);
+  ASSERT_EQ(file->warnings.size(), 1u);
+  EXPECT_TRUE(file->warnings[0].ends_with("the raster has 2500 times 2000 points; means of 2 times 2 are used"));
+  const auto& means = std::get<std::vector<double>>(file->point_data[0].values);
+  EXPECT_TRUE(std::ranges::all_of(means, [](double v) { return v == 2; }));
+}
+
 TEST_F(NetcdfFormats, ExodusIsNamed) {
   {
     Nc nc = Nc::create(path("o.exo"));

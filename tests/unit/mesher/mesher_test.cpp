@@ -1,9 +1,11 @@
 // From outlines to meshes: what holds of every mesh, what the options do, and what is refused.
 #include "temper/mesher.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include "outlines.hpp"
+#include "temper/generate.hpp"
 
 namespace temper::test {
 namespace {
@@ -151,6 +153,43 @@ TEST(Mesher, SizesMayComeFromAField) {
   EXPECT_LT(report.over_field.p95, 1.35);
   options.size = 0.03;
   EXPECT_GT(mesh_of(square(), options).mesh.n_triangles(), made.mesh.n_triangles());
+}
+
+TEST(Mesher, SizesAtPointsAndAlongLinesGrowWithTheDistance) {
+  Outline outline = square();
+  add_line(outline, {{0.2, 0.3}, {0.7, 0.3}}, false);
+  outline.points.push_back({0.4, 0.8});
+  outline.sizes = {{{4, 5}, 0.02}, {{6, 6}, 0.01}, {{0, 0}, 7}};  // the last is larger than all
+  MesherOptions options = sized(0.2);
+  options.grade = 0.25;
+  const OutlineMesh made = mesh_of(outline, options);
+  EXPECT_EQ(made.bad, 0u);
+  const IdVector<VertexId, double> sizes = local_sizes(made.mesh);
+  for (const VertexId v : made.mesh.vertices()) {
+    const Vec2 p = made.mesh.position(v);
+    const double along = length(p - Vec2{std::clamp(p.x, 0.2, 0.7), 0.3}), around = length(p - Vec2{0.4, 0.8});
+    const double wanted = std::min({0.2, 0.02 + 0.25 * along, 0.01 + 0.25 * around});
+    EXPECT_LT(sizes[v], 1.7 * wanted) << p.x << ' ' << p.y;
+    EXPECT_GT(sizes[v], wanted / 2.5) << p.x << ' ' << p.y;
+  }
+  outline.sizes[1].size = 0;
+  EXPECT_EQ(mesh_outline(outline, options).error().message, "point 6 has size 0; expected a finite, positive length");
+  outline.sizes[1] = {{7, 7}, 1};
+  EXPECT_EQ(mesh_outline(outline, options).error().message, "size 1 is for point 7, but the outline has 7 points");
+}
+
+TEST(Mesher, AFieldOutsideTheDomainIsSaid) {
+  for (const double shift : {0.0, 100.0}) {
+    Mesh far = *random_mesh({50, 1, {}});
+    for (const VertexId v : far.vertices()) far.set_point(v, {far.point(v).x + shift, far.point(v).y, 0});
+    MesherOptions options;
+    options.field = *SizeField::from_values(far, std::vector<double>(far.n_vertices(), 0.3));
+    const OutlineMesh made = mesh_of(square(), options);
+    const bool said = std::any_of(made.notes.begin(), made.notes.end(), [](const std::string& note) {
+      return note.starts_with("the sizes are all outside");
+    });
+    EXPECT_EQ(said, shift > 0);
+  }
 }
 
 TEST(Mesher, PartsSayWhatIsInside) {

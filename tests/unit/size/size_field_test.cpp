@@ -2,7 +2,10 @@
 // nearest value holds.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "location/box_tree.hpp"
 #include "support/lattice.hpp"
@@ -51,6 +54,37 @@ TEST(SizeField, OfASphereIsExactAtItsVerticesAndWhatSizesAreComparedWith) {
     EXPECT_NEAR(sample.size, (sizes[a.index] + sizes[b.index] + sizes[c.index]) / 3, 1e-9);
   }
   EXPECT_EQ(measure_size(mesh, input_size_field(mesh)).band(), 1);
+}
+
+TEST(DepthSizes, FollowTheWaveBetweenTheirBounds) {
+  const DepthSizes rules = {.per_wavelength = 40, .period = 600, .least = 50, .largest = 2000};
+  const std::vector<double> depths = {-3, 0, std::numeric_limits<double>::quiet_NaN(), 1, 25, 100, 1e6};
+  const std::vector<double> sizes = *sizes_from_depths(depths, rules);
+  const std::vector<double> expected = {50, 50, 50, 50, 15 * std::sqrt(9.81 * 25), 15 * std::sqrt(9.81 * 100), 2000};
+  ASSERT_EQ(sizes.size(), expected.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) EXPECT_DOUBLE_EQ(sizes[i], expected[i]) << i;
+}
+
+TEST(DepthSizes, KeepTheCourantNumberEvenAboveTheLargestSize) {
+  const DepthSizes rules = {.per_wavelength = 100, .time_step = 20, .courant = 0.5, .least = 30, .largest = 1000};
+  for (const double depth : {0.1, 5.0, 300.0, 9000.0}) {
+    const double size = (*sizes_from_depths(std::array{depth}, rules))[0], speed = std::sqrt(9.81 * depth);
+    EXPECT_LE(speed * rules.time_step / size, rules.courant * (1 + 1e-12));
+    EXPECT_GE(size, rules.least);
+  }
+  const std::vector<double> alone = *sizes_from_depths(std::array{10.0}, {.time_step = 4, .least = 1});
+  EXPECT_DOUBLE_EQ(alone[0], 4 * std::sqrt(98.1));
+}
+
+TEST(DepthSizes, RulesAreNumbersAboveZero) {
+  const std::array depths = {1.0};
+  for (const DepthSizes& wrong :
+       {DepthSizes{.least = 1}, DepthSizes{.per_wavelength = 1}, DepthSizes{.per_wavelength = -1, .least = 1},
+        DepthSizes{.per_wavelength = 1, .courant = 0, .least = 1},
+        DepthSizes{.per_wavelength = 1, .least = 2, .largest = 1},
+        DepthSizes{.time_step = std::numeric_limits<double>::infinity(), .least = 1}}) {
+    EXPECT_FALSE(sizes_from_depths(depths, wrong));
+  }
 }
 
 TEST(SizeField, IsExactAtTheVerticesFromAnyHint) {

@@ -22,6 +22,7 @@
 namespace temper::io {
 
 Document read_mpas_from(const NetcdfReader& in, const std::string& path);
+std::optional<Document> read_grid_from(const NetcdfReader& in, const Source& source);
 
 bool sniff_ugrid(std::string_view head) { return is_netcdf(head); }
 
@@ -324,6 +325,7 @@ Document read_ugrid_from(const NetcdfReader& in, const Source& source) {
     if (in.number_attribute(&v, "topology_dimension").value_or(2) != 2) continue;
     return UgridReader(in, v, path).read();
   }
+  if (auto grid = read_grid_from(in, source)) return *std::move(grid);
   if (in.find("connect1") != nullptr)
     fail(ErrorCode::unsupported, path, "is an Exodus mesh, which temper does not read; meshio converts it");
   // Recognized by the name of a group, which libnetcdf does not show among variables.
