@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "options/options.hpp"
-#include "suggest.hpp"
+#include "temper/detail/suggest.hpp"
 
 namespace temper::app {
 namespace {
