@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "convert.hpp"
-#include "temper/detail/dec_io.hpp"
 #include "temper/detail/executor.hpp"
 #include "temper/detail/progress.hpp"
 #include "temper/detail/tensor.hpp"
@@ -127,8 +126,6 @@ class Visitor {
 /// Calls Python's observer, which may be None, and checks for Ctrl-C.
 Observer observer_of(Visitor& visitor, const py::object& observer);
 
-/// The cells of the marked points and lines of a mesh.
-std::vector<io::GroupCell> groups_of(const PyMesh& self);
 // Names of tags, as tuples of dimension, tag and name.
 py::list physical_names_to_python(const std::vector<PhysicalName>& names);
 std::vector<PhysicalName> physical_names_from(const py::handle& names);

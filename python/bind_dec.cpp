@@ -128,27 +128,15 @@ py::dict cells_to_dict(const PyDec& d) {
       .dict;
 }
 
-/// Columns, and what their files need besides.
-struct PyColumns {
-  std::shared_ptr<const Mesh> mesh;
-  DecComplex complex;
-  PowerCells cells;
-  Columns columns;
-  std::vector<io::GroupCell> groups;
-};
-
 /// Writes the files. `cells` is a function that makes the cells; it runs without the GIL.
 template <class Cells>
 std::vector<std::string> write_files(const std::string& folder, const Mesh& mesh, const DecComplex& complex,
-                                     const Cells& cells, const PyColumns* columns, const py::sequence& formats,
+                                     const Cells& cells, const Columns* columns, const py::sequence& formats,
                                      const py::object& threads) {
   io::DecWriteOptions options;
   options.formats.clear();
   for (const auto& f : formats) options.formats.push_back(from_name<io::DecFormat>("formats", f.cast<std::string>()));
-  if (columns != nullptr) {
-    options.columns = &columns->columns;
-    options.groups = columns->groups;
-  }
+  options.columns = columns;
   const auto count = threads_from(threads);
   const py::gil_scoped_release release;
   const auto executor = make_threads(count);
@@ -178,6 +166,13 @@ void bind_operators(py::module_& m) {
 
 // --- columns ----------------------------------------------------------------------------------------------------
 
+struct PyColumns {
+  std::shared_ptr<const Mesh> mesh;
+  DecComplex complex;
+  PowerCells cells;
+  Columns columns;
+};
+
 /// The Python package has checked the shapes.
 std::shared_ptr<const PyColumns> make_columns(const PyMesh& self, std::size_t n_layers, const Doubles& surfaces,
                                               const Int32s& active, double pinch_out) {
@@ -188,13 +183,11 @@ std::shared_ptr<const PyColumns> make_columns(const PyMesh& self, std::size_t n_
   for (const std::int32_t flag : as_span<std::int32_t>(active)) layers.active.push_back(flag != 0 ? 1 : 0);
   const auto mesh = self.read();
   require_plane(*mesh, "columns()");
-  const PyMesh same = self.copy();  // which no other thread changes
   const py::gil_scoped_release release;
   DecComplex complex = dec_operators(*mesh);
   PowerCells cells = power_cells(*mesh, complex);
   Columns made = or_raise(columns(*mesh, complex, cells, layers, {pinch_out, nullptr}));
-  return std::make_shared<const PyColumns>(
-      PyColumns{mesh, std::move(complex), std::move(cells), std::move(made), groups_of(same)});
+  return std::make_shared<const PyColumns>(PyColumns{mesh, std::move(complex), std::move(cells), std::move(made)});
 }
 
 /// (layers, vertices).
@@ -237,7 +230,7 @@ void bind_columns(py::module_& m) {
       .def("write",
            [](const PyColumns& c, const std::string& folder, const py::sequence& formats, const py::object& threads) {
              const auto cells = [&c]() -> const PowerCells& { return c.cells; };
-             return to_python(write_files(folder, *c.mesh, c.complex, cells, &c, formats, threads));
+             return to_python(write_files(folder, *c.mesh, c.complex, cells, &c.columns, formats, threads));
            });
   m.def("columns",
         [](const PyMesh& self, std::size_t n_layers, const Doubles& surfaces, const Int32s& active, double pinch_out) {

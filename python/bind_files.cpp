@@ -372,13 +372,6 @@ void set_source_from_dict(PyMesh& self, const py::dict& d) {
 
 }  // namespace
 
-std::vector<io::GroupCell> groups_of(const PyMesh& self) {
-  const io::MeshFile file = updated_file_of(self, nullptr, false).file;
-  if (file.lines.empty() && file.marked_points.empty()) return {};
-  const io::LoadedMesh loaded = or_raise(io::make_mesh(file));
-  return io::cells_of_groups(file, loaded, loaded.mesh);
-}
-
 py::list physical_names_to_python(const std::vector<PhysicalName>& names) {
   py::list rows;
   for (const PhysicalName& n : names) rows.append(py::make_tuple(n.dimension, n.tag, n.name));

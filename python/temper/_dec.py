@@ -343,8 +343,8 @@ class Columns(Record):
         threads: int | None = None,
     ) -> list[str]:
         """Writes ``mesh.disv`` and ``mesh.disu`` (MODFLOW 6), ``MESH`` (TOUGH), and for ParaView ``columns.vtu`` and
-        the dual, into a folder (docs/reference/formats/layers.md). Tables beside them have the cells of points and
-        lines by name. On an error no file is written. Returns the paths of the files."""
+        the dual, into a folder (docs/reference/formats/layers.md). On an error no file is written. Returns the paths of
+        the files."""
         return self._handle.write(os.fspath(folder), list(formats), threads)
 
 

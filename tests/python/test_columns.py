@@ -164,7 +164,7 @@ def test_arrays_have_their_shapes_and_add_up(columns):
 
 def test_disv_read_back_has_the_volumes_and_connections(columns, tmp_path):
     mesh, c = columns
-    path, _ = c.write(tmp_path, formats=["disv"])
+    (path,) = c.write(tmp_path, formats=["disv"])
     corners, centers, polygons, tops, bottoms, idomain = disv_of(path)
     assert np.array_equal(idomain, c.states) and np.array_equal(centers, mesh.points)
     areas = np.array([-doubled_area(corners[p]) / 2 for p in polygons])
@@ -180,7 +180,7 @@ def test_disv_read_back_has_the_volumes_and_connections(columns, tmp_path):
 
 def test_disu_read_back_is_reciprocal_and_the_same_as_disv(columns, tmp_path):
     mesh, c = columns
-    disv, _, disu, _ = c.write(tmp_path, formats=["disv", "disu"])
+    disv, disu = c.write(tmp_path, formats=["disv", "disu"])
     u = disu_of(disu)
     assert np.array_equal(u["IDOMAIN"] == 1, (c.states == 1).ravel())
     assert np.allclose((u["AREA"] * (u["TOP"] - u["BOT"]))[u["IDOMAIN"] == 1].sum(), c.volumes.sum())
@@ -210,7 +210,7 @@ def test_disu_read_back_is_reciprocal_and_the_same_as_disv(columns, tmp_path):
 
 def test_tough_read_back_keeps_water_at_rest(columns, tmp_path):
     mesh, c = columns
-    path, _ = c.write(tmp_path, formats=["tough"])
+    (path,) = c.write(tmp_path, formats=["tough"])
     assert pathlib.Path(path).name == "MESH"
     elements, connections = tough_of(path)
     active = np.flatnonzero((c.states == 1).ravel())
@@ -278,19 +278,3 @@ def test_the_program_writes_what_python_writes(in_scratch):
     for path in temper.columns(temper.read("a.vtu"), surfaces).write("python", formats=["disv", "disu", "tough"]):
         name = pathlib.Path(path).name
         assert pathlib.Path("program", name).read_bytes() == pathlib.Path("python", name).read_bytes()
-
-
-def test_tables_of_names_are_those_of_the_program(in_scratch):
-    corners, sides = [(0, 0), (3, 0), (3, 1), (0, 1), (1.5, 0.5)], [(0, 1), (1, 2), (2, 3), (3, 0)]
-    groups = [(1, 4, "inflow"), (0, 9, "well")]
-    outline = temper.Outline(corners, sides, segment_tags=[1, 1, 1, 4], point_tags=[(4, 9)], groups=groups)
-    mesh = temper.mesh_outline(outline, 0.4).mesh
-    temper.columns(mesh, [10, 0]).write("python", formats=["disv"])
-    temper.write("m.vtu", mesh)
-    pathlib.Path("layers.csv").write_text("vertex,top,bottom 1\n*,10,0\n", encoding="utf-8")
-    subprocess.run(
-        ["temper", "operators", "m.vtu", "-o", "program", "--layers", "layers.csv", "--format", "disv", "--quiet"], check=True
-    )
-    table = pathlib.Path("python/mesh.disv.csv").read_text(encoding="utf-8")
-    assert table == pathlib.Path("program/mesh.disv.csv").read_text(encoding="utf-8")
-    assert "well" in table and table.count("inflow") == len(temper.dec_operators(mesh).edges.named["inflow"]) + 1
