@@ -131,9 +131,11 @@ py::dict cells_to_dict(const PyDec& d) {
 /// Writes the files. `cells` is a function that makes the cells; it runs without the GIL.
 template <class Cells>
 std::vector<std::string> write_files(const std::string& folder, const Mesh& mesh, const DecComplex& complex,
-                                     const Cells& cells, const Columns* columns, const py::sequence& formats,
+                                     const Cells& cells, const Columns* columns,
+                                     const std::vector<io::GroupCell>& groups, const py::sequence& formats,
                                      const py::object& threads) {
   io::DecWriteOptions options;
+  if (!groups.empty()) options.groups = groups;
   options.formats.clear();
   for (const auto& f : formats) options.formats.push_back(from_name<io::DecFormat>("formats", f.cast<std::string>()));
   options.columns = columns;
@@ -159,7 +161,7 @@ void bind_operators(py::module_& m) {
       .def("write",
            [](const PyDec& d, const std::string& folder, const py::sequence& formats, const py::object& threads) {
              const auto cells = [&d] { return d.cells(); };
-             return to_python(write_files(folder, *d.mesh, *d.complex, cells, nullptr, formats, threads));
+             return to_python(write_files(folder, *d.mesh, *d.complex, cells, nullptr, {}, formats, threads));
            });
   m.def("dec_operators", make_dec);
 }
@@ -171,7 +173,19 @@ struct PyColumns {
   DecComplex complex;
   PowerCells cells;
   Columns columns;
+  std::vector<io::GroupCell> groups;
 };
+
+/// The cells of the groups of the mesh's file; none without a file.
+std::vector<io::GroupCell> groups_of(const PyMesh& self, const Mesh& mesh) {
+  if (!self.source()) return {};
+  io::MeshFile file = self.source()->file;
+  if (file.lines.empty() && file.marked_points.empty()) return {};
+  file.point_data.clear();
+  file.cell_data.clear();
+  io::update(file, self.source()->loaded, mesh, self.origin());
+  return io::cells_of_groups(file, or_raise(io::make_mesh(file)), mesh);
+}
 
 /// The Python package has checked the shapes.
 std::shared_ptr<const PyColumns> make_columns(const PyMesh& self, std::size_t n_layers, const Doubles& surfaces,
@@ -183,11 +197,13 @@ std::shared_ptr<const PyColumns> make_columns(const PyMesh& self, std::size_t n_
   for (const std::int32_t flag : as_span<std::int32_t>(active)) layers.active.push_back(flag != 0 ? 1 : 0);
   const auto mesh = self.read();
   require_plane(*mesh, "columns()");
+  std::vector<io::GroupCell> groups = groups_of(self, *mesh);
   const py::gil_scoped_release release;
   DecComplex complex = dec_operators(*mesh);
   PowerCells cells = power_cells(*mesh, complex);
   Columns made = or_raise(columns(*mesh, complex, cells, layers, {pinch_out, nullptr}));
-  return std::make_shared<const PyColumns>(PyColumns{mesh, std::move(complex), std::move(cells), std::move(made)});
+  return std::make_shared<const PyColumns>(
+      PyColumns{mesh, std::move(complex), std::move(cells), std::move(made), std::move(groups)});
 }
 
 /// (layers, vertices).
@@ -210,6 +226,14 @@ py::array of_connections(const py::object& owner, const Columns& c, T ColumnConn
   return view(py::dtype::of<T>(), {n, width}, {stride, size}, start, owner);
 }
 
+py::list groups_to_python(const std::vector<io::GroupCell>& groups) {
+  constexpr const char* kKinds[] = {"point", "line", "boundary"};
+  py::list rows;
+  for (const io::GroupCell& g : groups)
+    rows.append(py::make_tuple(g.name, kKinds[static_cast<std::size_t>(g.kind)], g.vertex.index, g.length));
+  return rows;
+}
+
 py::dict columns_to_dict(const std::shared_ptr<const PyColumns>& made) {
   const py::object owner = keep(made);
   const Columns& c = made->columns;
@@ -220,7 +244,7 @@ py::dict columns_to_dict(const std::shared_ptr<const PyColumns>& made) {
              "is_vertical", of_connections(owner, c, &ColumnConnection::is_vertical))(
              "distances", of_connections(owner, c, &ColumnConnection::first_distance, 2))(
              "widths", of_connections(owner, c, &ColumnConnection::width))(
-             "face_areas", of_connections(owner, c, &ColumnConnection::area))
+             "face_areas", of_connections(owner, c, &ColumnConnection::area))("groups", groups_to_python(made->groups))
       .dict;
 }
 
@@ -230,7 +254,7 @@ void bind_columns(py::module_& m) {
       .def("write",
            [](const PyColumns& c, const std::string& folder, const py::sequence& formats, const py::object& threads) {
              const auto cells = [&c]() -> const PowerCells& { return c.cells; };
-             return to_python(write_files(folder, *c.mesh, c.complex, cells, &c.columns, formats, threads));
+             return to_python(write_files(folder, *c.mesh, c.complex, cells, &c.columns, c.groups, formats, threads));
            });
   m.def("columns",
         [](const PyMesh& self, std::size_t n_layers, const Doubles& surfaces, const Int32s& active, double pinch_out) {

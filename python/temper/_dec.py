@@ -329,6 +329,9 @@ class Columns(Record):
     face_areas: npt.NDArray[np.float64]
     """Areas of the faces, (c,) [length²]. For cells next to each other the thickness is linear between their
     centers."""
+    groups: list[tuple[str, str, int, float]]
+    """Power cells of marked points and tagged lines: name or tag, ``"point"``, ``"line"`` or ``"boundary"``, vertex,
+    and the length of the lines in the cell. Each name and kind has a cell once."""
     _handle: Any = dataclasses.field(repr=False, compare=False)
     _arguments: Any = dataclasses.field(repr=False, compare=False)
 
@@ -343,8 +346,9 @@ class Columns(Record):
         threads: int | None = None,
     ) -> list[str]:
         """Writes ``mesh.disv`` and ``mesh.disu`` (MODFLOW 6), ``MESH`` (TOUGH), and for ParaView ``columns.vtu`` and
-        the dual, into a folder (docs/reference/formats/layers.md). On an error no file is written. Returns the paths of
-        the files."""
+        the dual, into a folder (docs/reference/formats/layers.md). If there are ``groups``, tables of their cells stand
+        next to the first three: ``mesh.disv.csv`` and so on. On an error no file is written. Returns the paths of the
+        files."""
         return self._handle.write(os.fspath(folder), list(formats), threads)
 
 

@@ -57,16 +57,16 @@ def cells_of(mesh: Any) -> Any:
 
 # --- PyVista ----------------------------------------------------------------------------------------------------------
 
-_POLY_VERTEX, _POLY_LINE, _TRIANGLE, _POLYGON = 2, 4, 5, 7  # types of VTK
+_POLY_VERTEX, _POLY_LINE, _TRIANGLE, _STRIP, _POLYGON = 2, 4, 5, 6, 7  # types of VTK
 _WIDTHS = {1: ("vertex", 1), _POLY_VERTEX: ("vertex", 1), 3: ("line", 2), _POLY_LINE: ("line", 2)}
-_TYPES_OF_VTK = {6: "triangle strip", _POLYGON: "polygon", 8: "pixel", 9: "quad"}
+_TYPES_OF_VTK = {_STRIP: "triangle strip", _POLYGON: "polygon", 8: "pixel", 9: "quad"}
 
 
 def _poly_data(mesh: Any) -> Cells:
-    """PolyData has three lists of cells, in this order: k, and the k points of a cell."""
+    """PolyData has four lists of cells, in this order: k, and the k points of a cell."""
     types, offset, connectivity = [], [0], []
-    for kind, flat in ((_POLY_VERTEX, mesh.verts), (_POLY_LINE, mesh.lines), (_POLYGON, mesh.faces)):
-        flat, at = np.asarray(flat), 0
+    for kind, name in ((_POLY_VERTEX, "verts"), (_POLY_LINE, "lines"), (_POLYGON, "faces"), (_STRIP, "strips")):
+        flat, at = np.asarray(getattr(mesh, name, ())), 0
         while at < len(flat):
             k = int(flat[at])
             connectivity.append(flat[at + 1 : at + 1 + k])

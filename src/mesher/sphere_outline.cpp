@@ -239,16 +239,16 @@ class Joiner {
   /// tags.
   void name_edges_of_polygons(std::size_t k, const std::vector<std::int32_t>& now) {
     const Outline& o = *sources_[k];
+    std::map<std::int32_t, std::int32_t> tag_of_region;
     for (const PhysicalName& g : o.groups) {
-      if (g.dimension < 2 || k == kBasins) continue;
-      const std::int32_t tag = tag_of(1, 0, g.name);
-      for (const OutlinePart& part : o.parts) {
-        if (part.region != g.tag) continue;
-        for (const std::int32_t s : part.segments) {
-          const auto i = static_cast<std::size_t>(s);
-          if (s < 0 || i >= now.size() || now[i] < 0) continue;
-          result_.outline.further_tags.push_back({now[i], tag});
-        }
+      if (g.dimension == 2 && k != kBasins) tag_of_region.emplace(g.tag, tag_of(1, 0, g.name));
+    }
+    for (const OutlinePart& part : o.parts) {
+      const auto tag = tag_of_region.find(part.region);
+      if (tag == tag_of_region.end()) continue;
+      for (const std::int32_t s : part.segments) {
+        const auto i = static_cast<std::size_t>(s);
+        if (s >= 0 && i < now.size() && now[i] >= 0) result_.outline.further_tags.push_back({now[i], tag->second});
       }
     }
   }

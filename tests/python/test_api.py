@@ -45,7 +45,7 @@ ELSEWHERE = {
     "discard_unfinished": "a signal ends Python by an exception",
     "summarize": "DecComplex.summarize", "power_cells": "DecComplex.power_cells", "write_dec": "DecComplex.write, Columns.write",
     "dec_file_names": "write_dec returns the paths", "needs_columns": "as dec_file_names", "read_layers": "numpy.genfromtxt",
-    "fault_of_surfaces": "columns says it", "cells_of_groups": "Columns.write does it", "draw_before_after_svg": "draw_svg(before=…)", "write_text": "Svg.save and Html.save",
+    "fault_of_surfaces": "columns says it", "cells_of_groups": "Columns.groups", "draw_before_after_svg": "draw_svg(before=…)", "write_text": "Svg.save and Html.save",
     "replay_with_vertices": "replay",
     "distance": "numpy.linalg.norm; the library asks a space for it",
     "hilbert_order": "Python keeps the user's numbers", "restore_order": "as hilbert_order",

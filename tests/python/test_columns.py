@@ -7,6 +7,7 @@ import xml.etree.ElementTree as xml
 
 import numpy as np
 import pytest
+from conftest import ROOT
 
 import temper
 
@@ -278,3 +279,17 @@ def test_the_program_writes_what_python_writes(in_scratch):
     for path in temper.columns(temper.read("a.vtu"), surfaces).write("python", formats=["disv", "disu", "tough"]):
         name = pathlib.Path(path).name
         assert pathlib.Path("program", name).read_bytes() == pathlib.Path("python", name).read_bytes()
+
+
+def test_the_cells_of_names_are_those_of_the_program(in_scratch):
+    subprocess.run(["temper", "mesh", ROOT / "examples" / "aquifer.geojson", "-o", "a.vtu", "--size", "300", "--quiet"], check=True)
+    pathlib.Path("layers.csv").write_text("vertex,top,bottom\n*,1,0\n")
+    subprocess.run(["temper", "operators", "a.vtu", "-o", "program", "--layers", "layers.csv", "--format", "disv,tough"],
+                   check=True, capture_output=True)  # fmt: skip
+    mesh = temper.read("a.vtu")
+    columns = temper.columns(mesh, [1, 0])
+    names = [pathlib.Path(path).name for path in columns.write("python", formats=["disv", "tough"])]
+    assert names == ["mesh.disv", "mesh.disv.csv", "MESH", "MESH.csv"]
+    assert all(pathlib.Path("program", name).read_bytes() == pathlib.Path("python", name).read_bytes() for name in names)
+    wells = {name: mesh.points[vertex].tolist() for name, kind, vertex, _ in columns.groups if kind == "point"}
+    assert wells == {"west well": [681300, 5241200], "south well": [682100, 5240600], "east well": [682900, 5241600]}

@@ -1,8 +1,8 @@
 // The conventions that the reader and the writer of ADCIRC's fort.14 share.
 //
 // A boundary is lines of one tag, and its physical name is its kind: "open boundary 2", "land boundary 3, type 20". So
-// it survives in all formats that hold names, and comes back to fort.14. The first word of a name decides: open, land or
-// island (a land boundary of type 1), then maybe ", type" and the number. So users can name lines "open sea". On
+// it survives in all formats that hold names, and comes back to fort.14. The first word of a name decides: open, land
+// or island (a land boundary of type 1), then maybe ", type" and the number. So users can name lines "open sea". On
 // boundaries with levees (weirs) a row holds
 // more numbers. Their nodes are marked points with the same tag: a node, then its partner across the levee.
 #pragma once

@@ -1,6 +1,7 @@
 // The cells of named groups, as a table beside the columns of MODFLOW and TOUGH: wells, rivers and boundaries by name.
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "io/operators/dec_files.hpp"
 
@@ -50,15 +51,6 @@ void for_each_cell(const Mesh& mesh, VertexId a, VertexId b, F f) {
   }
 }
 
-std::vector<std::string> names_of_tag(const MeshFile& file, int dimension, std::int32_t tag) {
-  std::vector<std::string> names;
-  for (const PhysicalName& n : file.names) {
-    if (n.dimension == dimension && n.tag == tag) names.push_back(n.name);
-  }
-  if (names.empty()) names.push_back(text(tag));
-  return names;
-}
-
 /// In quotes if it has a comma or a quote (RFC 4180).
 std::string csv_field(const std::string& value) {
   if (value.find_first_of(",\"") == std::string::npos) return value;
@@ -93,11 +85,14 @@ std::vector<GroupCell> cells_of_groups(const MeshFile& file, const LoadedMesh& l
     const GroupKind kind = mesh.is_boundary(h) ? GroupKind::boundary : GroupKind::line;
     for_each_cell(mesh, a, b, [&](VertexId v, double part) { lengths[{kind, file.line_tags[i], v}] += part; });
   }
+  std::multimap<std::pair<int, std::int32_t>, std::string_view> names;  // of a dimension and tag
+  for (const PhysicalName& n : file.names) names.emplace(std::pair(n.dimension, n.tag), n.name);
   std::vector<GroupCell> cells;
   for (const auto& [key, part] : lengths) {
     const auto [kind, tag, v] = key;
-    for (const std::string& name : names_of_tag(file, kind == GroupKind::point ? 0 : 1, tag))
-      cells.push_back({name, kind, v, part});
+    const auto [first, last] = names.equal_range({kind == GroupKind::point ? 0 : 1, tag});
+    if (first == last) cells.push_back({text(tag), kind, v, part});
+    for (auto name = first; name != last; ++name) cells.push_back({std::string(name->second), kind, v, part});
   }
   return cells;
 }

@@ -328,6 +328,7 @@ class GeoJsonReader {
     std::int32_t highest = 0;
     for (const OutlinePart& part : parts) highest = std::max(highest, part.region);
     std::map<std::string, std::int32_t> region_of;
+    std::map<std::int32_t, std::string> name_of;
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (parts[i].region != 0) region_of.emplace(part_groups_[i], parts[i].region);
     }
@@ -336,18 +337,14 @@ class GeoJsonReader {
       if (region == 0 && counts) region = static_cast<std::int32_t>(i + 1);
       if (part_groups_[i].empty()) continue;
       if (given_region_[i] == 0) region = region_of.emplace(part_groups_[i], counts ? region : ++highest).first->second;
-      name_region(region, part_groups_[i]);
-    }
-  }
-  void name_region(std::int32_t region, const std::string& name) {
-    std::vector<PhysicalName>& groups = document_.file.outline.groups;
-    const auto known =
-        std::find_if(groups.begin(), groups.end(), [&](const PhysicalName& g) { return g.tag == region; });
-    if (known == groups.end()) {
-      groups.push_back({2, region, name});
-    } else if (known->name != name) {
-      document_.file.warnings.push_back(text(path_, ": region ", region, " is named '", known->name, "'; its name '",
-                                             name, "' is dropped, because a region has one name"));
+      const auto [known, is_new] = name_of.emplace(region, part_groups_[i]);
+      if (is_new) {
+        document_.file.outline.groups.push_back({2, region, known->second});
+      } else if (known->second != part_groups_[i]) {
+        document_.file.warnings.push_back(text(path_, ": region ", region, " is named '", known->second,
+                                               "'; its name '", part_groups_[i],
+                                               "' is dropped, because a region has one name"));
+      }
     }
   }
 

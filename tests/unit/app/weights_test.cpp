@@ -34,7 +34,7 @@ TEST_F(Weights, InfeasibleIsSaidProvedAndWritten) {
   EXPECT_EQ(json["certificate"], read_json("why.json"));
   EXPECT_EQ(temper_ok({"weights", "in.vtu", "--check-certificate", "why.json"}).err, "");
   EXPECT_EQ(temper_ok({"weights", "in.vtu", "--check-certificate", "why.json", "--json"}).out,
-            "{\"proves\": true, \"check\": \"proves\"}\n");
+            "{\"schema\": 1, \"proves\": true, \"check\": \"proves\"}\n");
 }
 
 TEST_F(Weights, WithoutAnswerNothingButTheProofIsWritten) {

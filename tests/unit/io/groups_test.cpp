@@ -243,7 +243,7 @@ VertexId owner(const Mesh& mesh, Vec2 at) {
 }
 
 TEST_F(Groups, HaveTheCellsThatTheirPointsAndLinesAreIn) {
-  const MeshFile f = valley();  // with obtuse triangles: edges pass through the cells of third vertices
+  const MeshFile f = valley();
   const auto loaded = make_mesh(f);
   ASSERT_TRUE(loaded);
   const Mesh& mesh = loaded->mesh;
@@ -276,6 +276,26 @@ TEST_F(Groups, HaveTheCellsThatTheirPointsAndLinesAreIn) {
   for (const auto& [cell, part] : sampled)
     EXPECT_NEAR(found[cell], part, 0.02) << cell.first << " " << cell.second.index;
   EXPECT_EQ(wells, (std::set<VertexId>{owner(mesh, {3.1, 6.2}), owner(mesh, {10.3, 4.1}), owner(mesh, {10.9, 4.4})}));
+}
+
+//            2              The long edge passes through the cell of the obtuse corner: up to t = 17/16 it is nearer
+//     0 ---------- 1        to point 0 at (0, 0), and then to point 2 at (2, 1/2).
+//            3
+TEST_F(Groups, HaveTheCellsOfThirdVerticesThatALinePasses) {
+  MeshFile f;
+  f.points = {{0, 0}, {4, 0}, {2, 0.5}, {2, -9}};
+  f.triangles = {{0, 1, 2}, {1, 0, 3}};
+  f.lines = {{1, 0}};
+  f.line_tags = {5};
+  const auto loaded = make_mesh(f);
+  ASSERT_TRUE(loaded);
+  const std::vector<GroupCell> cells = cells_of_groups(f, *loaded, loaded->mesh);
+  ASSERT_EQ(cells.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(cells[i].vertex, VertexId(i));
+    EXPECT_EQ(cells[i].name, "5");
+    EXPECT_NEAR(cells[i].length, i < 2 ? 17.0 / 16 : 30.0 / 16, 1e-12);
+  }
 }
 
 }  // namespace
