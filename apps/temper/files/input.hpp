@@ -37,6 +37,7 @@ struct ReadingOptions {
   std::vector<std::string> fixed_tags = {};
   Executor* executor = nullptr;
   bool spheres = false;  ///< meshes of the sphere are taken too
+  bool flat = false;     ///< z becomes data: as --flat has it
   /// The source of the file; none: the disk.
   std::function<io::MeshFile(const std::string& path)> read = {};
 };
@@ -95,6 +96,6 @@ inline constexpr int kDeepestJson = 16;
 /// io::read(), which reads a file of HDF5 (NetCDF-4, VTKHDF) first in a child process. On a damaged file libhdf5 may
 /// loop forever or crash, and then only the child does. Failure when the file cannot be used, or the child exceeds its
 /// budget of time and memory. A pipe can be read only once, and is read at once.
-[[nodiscard]] io::MeshFile read_tried(const std::string& path, Executor* executor);
+[[nodiscard]] io::MeshFile read_tried(const std::string& path, const io::ReadOptions& options);
 
 }  // namespace temper::app

@@ -19,6 +19,7 @@ namespace {
 
 struct DrawSettings {
   std::string projection;
+  bool flat = false;
   std::string input, before, output, color;
   DrawOptions options;
   bool no_primal = false, no_dual = false, no_rings = false;
@@ -28,6 +29,7 @@ void add_options(Command& command, DrawSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "Mesh to draw.").require();
   add_projection(command, s.projection);
+  add_flat(command, s.flat);
   add_text(command, "-o,--output", "FILE", s.output, "Picture to write: .svg, .png or .pdf.").require();
   add_text(command, "--before", "IN0", s.before, "Second mesh, drawn to the left of IN at the same scale.");
   command.group("Picture");
@@ -149,14 +151,15 @@ Exit run_draw(const Arguments& arguments) {
   Outputs outputs("draw");
   outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});
 
-  const Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
+  const Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .flat = s.flat});
   print_warnings(input.warnings());
   check_view(s.options, input);
   if (s.before.empty()) {
     set_colors(s.options, s.color, {&input});
     outputs.write_picture(s.output, draw_svg(input.mesh(), s.options));
   } else {
-    const Input before = read_input(s.before, {.projection = same_projection(input, s.projection), .spheres = true});
+    const Input before =
+        read_input(s.before, {.projection = same_projection(input, s.projection), .spheres = true, .flat = s.flat});
     print_warnings(before.warnings());
     check_same_space(before, input);
     set_colors(s.options, s.color, {&before, &input});

@@ -44,7 +44,7 @@ struct MeshSettings {
   MesherOptions options;
   std::optional<double> radius;
   std::uint64_t threads = 0;
-  bool sphere = false, no_optimize = false, quiet = false;
+  bool sphere = false, no_optimize = false, quiet = false, flat = false;
 };
 
 void add_files(Command& command, MeshSettings& s) {
@@ -64,6 +64,8 @@ void add_sizes(Command& command, MeshSettings& s) {
       .require();
   add_text(command, "--size-data", "NAME", s.size_data, "Name of the point data with the sizes in the file of --size.")
       .default_text = "size";
+  command.add_flag("--flat", s.flat,
+                   "Take the mesh of --size as one of the plane of x and y, with z as point data 'z'.");
   add_number(command, "--grade", s.options.grade, kPositive,
              "Growth of the size per unit of length, away from short edges and narrow places.");
   add_text(command, "--region-size", "REGION,SIZE,...", s.region_sizes,
@@ -165,10 +167,10 @@ std::optional<double> size_number(const MeshSettings& s) {
 
 /// The sizes of a file. `degrees`: the projection for its points if they are longitude and latitude.
 SizeField read_sizes(const MeshSettings& s, const std::string& degrees, Executor* executor) {
-  io::MeshFile file = read_tried(s.size, executor);
+  io::MeshFile file = read_tried(s.size, {executor, s.flat});
   const std::string projection = file.degrees() != nullptr ? degrees : "";
   const auto read = [&file](const std::string&) { return std::move(file); };
-  ReadSizeField sizes = read_size_field(s.size, s.size_data, {projection, {}, executor, true, read});
+  ReadSizeField sizes = read_size_field(s.size, s.size_data, {projection, {}, executor, true, s.flat, read});
   print_warnings(sizes.warnings);
   return std::move(sizes.field);
 }
@@ -326,6 +328,9 @@ Result mesh_globe(const MeshSettings& s, Executor* executor) {
 Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   catch_interrupts();
+  io::MeshFile space;
+  if (s.sphere) space.points_in = io::SpherePoints{};
+  outputs.expect_space(s.output, space);
   const auto [inputs, map, made] = s.sphere ? mesh_globe(s, threads.get()) : mesh_plane(s, threads.get());
   QualityOptions measuring;
   measuring.executor = threads.get();
