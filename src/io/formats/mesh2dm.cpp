@@ -174,7 +174,7 @@ void write_2dm(const WriteJob& job) {
   out.put("MESH2D\n", "");
   for (std::size_t t = 0; t < f.triangles.size(); ++t) {
     const auto [a, b, c] = f.triangles[t];
-    out.put("E3T ", t + 1, ' ', a + 1, ' ', b + 1, ' ', c + 1, ' ', f.regions.empty() ? 1 : f.regions[t], '\n');
+    out.put("E3T ", t + 1, ' ', a + 1, ' ', b + 1, ' ', c + 1, ' ', f.regions.empty() ? 0 : f.regions[t], '\n');
   }
   for (std::size_t i = 0; i < f.points.size(); ++i) {
     const double z = job.heights.empty() ? f.z() : job.heights[i];

@@ -743,7 +743,7 @@ TEST_F(NetcdfFormats, DepthsAreBedLevelsAndComeBack) {
   MeshFile f = bent_lattice();
   f.weights.clear();
   std::vector<double> depth;
-  for (const Vec2 p : f.points) depth.push_back(5 + p.x);
+  for (const Vec2 p : f.points) depth.push_back(1 + p.x / 8);
   f.point_data = {{"depth", 1, depth}};
   write_ok("m.nc", f);
   const Nc nc = Nc::open(path("m.nc"));
@@ -978,12 +978,12 @@ TEST_F(NetcdfFormats, WhatIsNoPlanarMeshOfTrianglesIsNamed) {
     EXPECT_FALSE(f);
     return f ? "" : plain(f.error().what());
   };
-  EXPECT_EQ(
-      refused([](Nc& nc) {
-        nc.add<double>("x", {nc.add_dimension("n", 2)}, {0, 1});
-      }),
-      "o.nc: is NetCDF without a mesh that temper reads: neither MPAS nor a two-dimensional topology of UGRID. Next: "
-      "write the mesh as UGRID with its faces");
+  EXPECT_EQ(refused([](Nc& nc) {
+              nc.add<double>("x", {nc.add_dimension("n", 2)}, {0, 1});
+            }),
+            "o.nc: is NetCDF without a mesh that temper reads: neither MPAS, ICON nor a two-dimensional topology of "
+            "UGRID. Next: "
+            "write the mesh as UGRID with its faces");
   EXPECT_EQ(refused([](Nc& nc) {
               const int n = nc.add_dimension("nCells", 3), v = nc.add_dimension("nVertices", 1),
                         d = nc.add_dimension("vertexDegree", 3);

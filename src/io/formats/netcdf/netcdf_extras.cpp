@@ -302,7 +302,7 @@ void NetcdfCollector::variable(const NetcdfVariable& v, const std::string& name,
 void NetcdfCollector::attributes(const NetcdfVariable* v, int to, const IsKnown& is_known) {
   const bool packed = v != nullptr && in_.is_packed(*v);
   for (const std::string& name : in_.attribute_names(v)) {
-    const std::string value = in_.text_attribute(v, name.c_str());
+    std::string value = in_.text_attribute(v, name.c_str());
     const auto numbers = in_.numbers_attribute(v, name.c_str());
     if ((value.empty() && numbers.values.empty()) || holds_no_more(name, packed) || (is_known && is_known(name, value)))
       continue;

@@ -23,8 +23,8 @@ inline constexpr std::string_view kNetcdfAttributes = "netcdf:attributes";
 /// Collects from a file that is read what is to be kept.
 class NetcdfCollector {
  public:
-  /// Says whether an attribute need not be kept, from its name and its text.
-  using IsKnown = std::function<bool(std::string_view attribute, const std::string& value)>;
+  /// Says whether an attribute need not be kept, from its name and its text, which it may change.
+  using IsKnown = std::function<bool(std::string_view attribute, std::string& value)>;
   explicit NetcdfCollector(const NetcdfReader& in);
   /// The attributes of the file.
   void file(const IsKnown& is_known);

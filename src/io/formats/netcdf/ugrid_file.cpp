@@ -279,8 +279,9 @@ class UgridReader {
     if (topology_ == nullptr) return kept_.finish(document_.file);
     const bool usual = topology_->name == kUsualTopology &&
                        coordinates_ == text(kUsualTopology, "_node_x ", kUsualTopology, "_node_y");
-    kept_.variable(*topology_, [&](std::string_view name, const std::string&) {
+    kept_.variable(*topology_, [&](std::string_view name, std::string& value) {
       const auto ends = [&](std::string_view end) { return name.ends_with(end); };
+      if (name == "node_coordinates") value = coordinates_;
       if (name == "node_coordinates" || name == "cf_role") return usual;
       return name == "topology_dimension" || ends("_connectivity") || ends("_coordinates") || ends("_dimension") ||
              ends("_dimensions");
