@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "io/conversion/globe.hpp"
 #include "io/text/values.hpp"
 
 namespace temper::io {
@@ -43,9 +44,10 @@ bool needs_turned_bed(Bed bed, const MeshFile& file) {
   if (at == file.point_data.size()) return false;
   const DataArray& a = file.point_data[at];
   if (bed == Bed::depth) return a.name != kDepth || is_level(file, a);
-  if (bed == Bed::z) return !file.z_is_data;
-  if (a.name == kHeight) return find(file.point_data, kBedLevel) == nullptr;
-  return a.name == kDepth && !netcdf_attribute(file, kDepth, "positive") && find(file.point_data, kBedLevel) == nullptr;
+  const auto is_free = [&](std::string_view name) { return a.name == name || find(file.point_data, name) == nullptr; };
+  if (bed == Bed::z) return !file.z_is_data && is_free(kHeight);
+  const bool is_of_netcdf = file.format == "ugrid" || file.format == "mpas" || netcdf_attribute(file, a.name, "units");
+  return (a.name == kHeight || a.name == kDepth) && !is_of_netcdf && is_free(kBedLevel);
 }
 
 void turn_bed(MeshFile& file, Bed bed) {

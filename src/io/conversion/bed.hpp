@@ -9,10 +9,17 @@
 #include <string>
 #include <string_view>
 
-#include "io/formats/format.hpp"
 #include "temper/io.hpp"
 
 namespace temper::io {
+
+/// The bed of water that a format has a place for.
+enum class Bed {
+  as_it_came,
+  depth,  ///< point data `depth`, positive down
+  level,  ///< point data `mesh2d_node_z`, positive up, except the depth of a NetCDF file
+  z,      ///< point data `z`, positive up, and z of the points
+};
 
 inline constexpr std::string_view kDepth = "depth", kBedLevel = "mesh2d_node_z";
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/conversion/bed.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/disk/files.hpp"
 #include "io/text/file_names.hpp"
@@ -78,14 +79,6 @@ enum class Degrees {
   where_known,   ///< those in the plane, too, that have longitude and latitude as data
   always,        ///< no others
   by_writer,     ///< the writer needs the plane for orthocenters, and sees to degrees itself
-};
-
-/// The bed of water that a format has a place for: see turn_bed().
-enum class Bed {
-  as_it_came,
-  depth,  ///< point data `depth`, positive down
-  level,  ///< point data `mesh2d_node_z`, positive up, unless a depth has come with attributes of NetCDF
-  z,      ///< point data `z`, positive up, and z of the points
 };
 
 /// Properties that few formats have.

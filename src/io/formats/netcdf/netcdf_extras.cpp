@@ -106,6 +106,16 @@ class ExtrasWriter {
         },
         values);
   }
+  /// Says whether an array may hold the number: it may have got another type since it was read.
+  static bool can_be(const Values& values, double number) {
+    return std::visit(
+        [number](const auto& all) {
+          using Limits = std::numeric_limits<ElementOf<decltype(all)>>;
+          return !Limits::is_integer ||
+                 (number >= static_cast<double>(Limits::min()) && number <= static_cast<double>(Limits::max()));
+        },
+        values);
+  }
   /// Declares the number that stands for a missing value, in the type of the values: NaN if no other is known.
   void declare_fill(int id, const Values& values, std::optional<double> fill) {
     const bool has_nan =
@@ -137,6 +147,7 @@ class ExtrasWriter {
     Values values = a.values;
     auto fill = places_.kept.number_of(kept, "_FillValue");
     if (!fill) fill = places_.kept.number_of(kept, "missing_value");
+    if (fill && !can_be(a.values, *fill)) fill.reset();
     if (fill) put_fill(values, *fill);
     const int id = put(kind, name, dimensions, std::move(values));
     if (a.name == kLongitude || a.name == kLatitude) name_degrees(out_, id, a.name);
