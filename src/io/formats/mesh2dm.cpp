@@ -8,8 +8,10 @@
 // A string may continue on the next NS line. z is data: see ReadOptions::flat.
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "io/conversion/adcirc.hpp"
@@ -86,23 +88,25 @@ class Reader2dm {
   /// All lines of a string: its nodes, of which the last is negative, then its number and its name if they are there.
   void node_string() {
     MeshFile& f = document_.file;
-    std::int64_t last = 0;
+    std::optional<std::int64_t> last;
     const std::size_t first_line = ends_.size();
     for (bool ended = false; !ended;) {
-      if (last != 0 && !scanner_.more_on_line()) {
+      if (last && !scanner_.more_on_line()) {
         if (scanner_.peek() != "NS")
           scanner_.fail_here(ErrorCode::syntax, "expected the end of a node string, a negative node");
         static_cast<void>(scanner_.word("NS"));
       }
       const auto node = scanner_.number<std::int64_t>("a node of a node string");
       ended = node < 0;
-      if (last != 0) {
-        ends_.push_back({last, std::abs(node)});
+      if (node == std::numeric_limits<std::int64_t>::min()) scanner_.fail_here(ErrorCode::syntax, "has no node ", node);
+      if (last) {
+        ends_.push_back({*last, std::abs(node)});
         document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
       }
       last = std::abs(node);
     }
-    std::int32_t tag = ++last_tag_;
+    if (last_tag_ < std::numeric_limits<std::int32_t>::max()) ++last_tag_;
+    std::int32_t tag = last_tag_;
     const bool has_number = scanner_.more_on_line() && looks_like_number(scanner_.peek());
     if (has_number) tag = scanner_.integer("the number of a node string");
     last_tag_ = std::max(last_tag_, tag);

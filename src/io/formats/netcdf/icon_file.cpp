@@ -87,6 +87,9 @@ class IconReader {
     constexpr double kTick = 1e-10;  // degrees: far below the rounding of radians in single precision
     std::map<std::pair<double, double>, std::int32_t> vertices;
     for (std::size_t i = 0; i < lon.size(); ++i) {
+      if (!std::isfinite(lon[i]) || !std::isfinite(lat[i]))
+        fail(ErrorCode::not_finite, document_.names->path, "triangle ", i / 3 + 1, " has a corner at longitude ",
+             lon[i], " and latitude ", lat[i], ", expected finite numbers");
       const bool is_pole = std::abs(lat[i]) > 90 - kTick;
       const double turned = lon[i] - 360 * std::floor(lon[i] / 360);
       const std::pair key = {is_pole ? 0 : std::fmod(std::round(turned / kTick), std::round(360 / kTick)),

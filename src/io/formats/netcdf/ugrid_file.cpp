@@ -232,12 +232,16 @@ class UgridReader {
     for (std::size_t e = 0; 2 * e < all.size(); ++e) {
       constexpr std::int64_t kOfPlane = 2;
       if (e < type.size() && type[e] != kOfPlane) continue;
-      const std::int64_t a = all[2 * e] - start, b = all[2 * e + 1] - start;
-      if (a < 0 || b < 0 || a >= n_points || b >= n_points) {
+      const auto is_point = [&](std::int64_t number) { return number >= start && number < n_points + start; };
+      if (!is_point(all[2 * e]) || !is_point(all[2 * e + 1])) {
         fail(ErrorCode::index_out_of_range, path(), "edge ", static_cast<std::int64_t>(e) + start, " joins vertices ",
              all[2 * e], " and ", all[2 * e + 1], ", but the file has ", n_points, " vertices, numbered from ", start);
       }
-      if (a != b) edges.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)});
+      const std::int64_t a = all[2 * e] - start, b = all[2 * e + 1] - start;
+      const Vec2 p = document_.file.points[static_cast<std::size_t>(a)],
+                 q = document_.file.points[static_cast<std::size_t>(b)];
+      const bool is_finite = std::isfinite(p.x + p.y) && std::isfinite(q.x + q.y);  // else the point is named later
+      if (a != b && is_finite) edges.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)});
     }
     document_.file.triangles = planar_triangles(document_.file.points, edges, *document_.names, path());
     document_.names->triangles = RunLength(start, document_.file.triangles.size());
