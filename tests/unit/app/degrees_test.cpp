@@ -91,7 +91,7 @@ TEST_F(Degrees, AFormatWithoutAPlaceForTheGlobeIsRefusedBeforeTheWork) {
     std::vector<std::string> all = arguments;
     all.insert(all.end(), {"-o", "out.node"});
     const Outcome outcome = temper(all);
-    EXPECT_EQ(outcome.exit, 2) << arguments[0];
+    EXPECT_EQ(outcome.exit, 1) << arguments[0];
     EXPECT_TRUE(contains(outcome.err, "points are on a sphere, which Triangle is not written with")) << outcome.err;
     EXPECT_EQ(outcome.out, "");
   }
