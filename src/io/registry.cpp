@@ -61,9 +61,9 @@ constexpr FormatRow kRows[] = {
     // and names that are boundaries; its writer names the others.
     {"adcirc", "ADCIRC fort.14", ".14 .grd .gr3", kLines | kMarkedPoints | kNames | kSphere,
      sniff_adcirc, read_adcirc, write_adcirc, {.keeps = adcirc_keeps, .degrees = Degrees::where_known, .bed = Bed::depth}},
-    {"2dm", "2DM of SMS", ".2dm", kZ | kRegions | kLines | kNames | kSphere,
+    {"2dm", "2DM of SMS", ".2dm", kZ | kRegions | kLines | kNames,
      sniff_2dm, read_2dm, write_2dm,
-     {.name_ends = "\"", .degrees = Degrees::where_known, .bed = Bed::z, .has_heights = true}},
+     {.name_ends = "\"", .bed = Bed::z, .has_heights = true}},
     {"obj", "Wavefront OBJ", ".obj", kInSpace | kAllTags | kNames,
      sniff_obj, read_obj, write_obj},
     {"vtk", "legacy VTK 2.0 to 4.2", ".vtk", kAll | kSphere,

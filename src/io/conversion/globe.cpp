@@ -224,7 +224,8 @@ void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& n
     return set_plane(file, points, plane, names);
   }
   if (radius) return set_sphere(file, *radius, std::move(points));
-  for (int normal = 0; normal < kZAxis; ++normal) {
+  const bool may_stand = file.periodic() == nullptr && file.degrees() == nullptr;
+  for (int normal = 0; may_stand && normal < kZAxis; ++normal) {
     std::vector<Vec3> standing;
     standing.reserve(points.size());
     for (const Vec3 p : points) standing.push_back(turned(p, normal));

@@ -93,7 +93,7 @@ struct FormatDetails {
   std::string_view name_ends = {};  ///< characters that would end a name: written as %22
   Degrees degrees = Degrees::as_they_came;
   Bed bed = Bed::as_it_came;
-  bool has_heights = false;  ///< z of its points is data, also beside longitude and latitude
+  bool has_heights = false;  ///< z of its points is data
 };
 
 struct FormatRow {
