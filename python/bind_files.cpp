@@ -261,11 +261,11 @@ py::tuple mesh_from_file_arrays(const py::dict& d, const py::sequence& fixed_tag
   return load(std::move(file), {}, strings_from(fixed_tags), nullptr);
 }
 
-py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, const std::string& projection,
+py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, const std::string& projection, bool flat,
                     const py::object& threads) {
   const auto tags = strings_from(fixed_tags);
   const auto executor = make_threads(threads_from(threads));
-  auto file = aside([&] { return io::read(path, {executor.get()}); });
+  auto file = aside([&] { return io::read(path, {executor.get(), flat}); });
   return load(or_raise(std::move(file)), projection, tags, executor.get());
 }
 
@@ -290,7 +290,7 @@ py::object write_file(const std::string& path, const PyMesh& self, const std::st
 
 /// The kind of the points, with all its data.
 struct PointsToPython {
-  py::tuple operator()(const io::PlanePoints& p) const { return py::make_tuple("plane", p.z); }
+  py::tuple operator()(const io::PlanePoints& p) const { return py::make_tuple("plane", p.z, p.normal); }
   py::tuple operator()(const io::PeriodicPoints& p) const {
     return py::make_tuple("periodic", p.period.x, p.period.y, p.z);
   }
@@ -308,7 +308,7 @@ struct PointsToPython {
 io::PointsIn points_in_from(const py::tuple& t) {
   const auto number = [&t](std::size_t i) { return t[i].cast<double>(); };
   const auto kind = t[0].cast<std::string>();
-  if (kind == "plane") return io::PlanePoints{number(1)};
+  if (kind == "plane") return io::PlanePoints{number(1), t[2].cast<int>()};
   if (kind == "periodic") return io::PeriodicPoints{{number(1), number(2)}, number(3)};
   if (kind == "sphere") return io::SpherePoints{number(1), copy_of<Vec3>(t[2].cast<Doubles>())};
   if (kind == "degrees") return io::DegreePoints{t[1].cast<bool>(), number(2)};
@@ -328,7 +328,7 @@ py::object source_as_dict(const PyMesh& self) {
   const std::vector<std::uint8_t> edge_lines(loaded.edge_lines.begin(), loaded.edge_lines.end());
   return arrays_of(file)("points", rows_of<double>(std::span(file.points)))(
              "points_in", std::visit(PointsToPython(), file.points_in))("kept", array_of<std::uint8_t>(kept))(
-             "edge_lines", array_of<std::uint8_t>(edge_lines))("origin", self.origin())
+             "edge_lines", array_of<std::uint8_t>(edge_lines))("origin", self.origin())("z_is_data", file.z_is_data)
       .dict;
 }
 
@@ -341,6 +341,7 @@ io::MeshFile file_of_source(const py::dict& d, std::size_t n_points) {
   io::MeshFile file = file_of_arrays(d, n_points);
   file.points = copy_of<Vec2>(d["points"].cast<Doubles>());
   file.points_in = points_in_from(d["points_in"].cast<py::tuple>());
+  file.z_is_data = d["z_is_data"].cast<bool>();
   file.path = d["path"].cast<std::string>();
   file.format = d["format"].cast<std::string>();
   file.warnings = strings_from(d["warnings"]);

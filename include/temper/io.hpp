@@ -50,9 +50,10 @@ struct GeographicMap {
   std::vector<Vec2> places;   ///< Positions of these points on the map [m]
 };
 
-/// Points of a plane. They have a common z, which is written back.
+/// Points of a plane across one of the axes. They have a common coordinate along this axis, which is written back.
 struct PlanePoints {
-  double z = 0;
+  double z = 0;    ///< Common coordinate
+  int normal = 2;  ///< Axis: 2 z; 0 x, with points (y, z); 1 y, with points (x, z)
 };
 /// Points of a plane with these periods along x and y. A period of 0 means none along that axis; one of them may be 0.
 struct PeriodicPoints {
@@ -92,6 +93,7 @@ struct MeshFile {
   std::vector<DataArray> line_data;          ///< Data with one tuple per line
   std::vector<DataArray> marked_point_data;  ///< Data with one tuple per marked point
   std::vector<DataArray> field_data;         ///< Data of the file as a whole
+  bool z_is_data = false;                    ///< Point data "z" are the third coordinate of a mesh of the plane
   std::string path;                          ///< Path of the file that was read, for messages
   std::string format;                        ///< Name of the row of formats() that read the file: "vtu", "gmsh41", …
   std::vector<std::string> warnings;         ///< Warnings about what was dropped or repaired in reading
@@ -115,6 +117,9 @@ enum class Encoding { ascii, base64, appended };
 
 struct ReadOptions {
   Executor* executor = nullptr;  ///< Threads that unpack compressed data; the result does not depend on them
+  /// If z differs, the mesh is one of the plane of x and y, and z becomes point data "z". Formats with three
+  /// coordinates get it back as z.
+  bool flat = false;
   /// The part of a raster to read: the lower left and upper right corner, in the coordinates of the file. Two more
   /// columns and rows are read on each side. Meshes are read whole.
   std::optional<std::array<Vec2, 2>> window = {};
@@ -165,9 +170,10 @@ struct Format {
 /// The files that read(path) takes: path, and further files of its format or its weights (m.ele for m.node). Returns
 /// path alone if it does not exist or is a pipe, which is not read.
 [[nodiscard]] std::vector<std::string> files_to_read(const std::string& path);
-/// The files that write() would replace or make, the weights file included; or the error that it would return.
-[[nodiscard]] Expected<std::vector<std::string>> files_to_write(const std::string& path,
-                                                                const std::string& format = {});
+/// The files that write() would replace or make, the weights file included; or the error that it would return. `file`:
+/// what is to be written, if it is known. The format must have a place for its space, and its mesh may change.
+[[nodiscard]] Expected<std::vector<std::string>> files_to_write(const std::string& path, const std::string& format = {},
+                                                                const MeshFile* file = nullptr);
 
 /// Writes any text to a file, by way of a temporary file in the same way.
 [[nodiscard]] Expected<void> write_text(const std::string& path, std::string_view text);
@@ -235,9 +241,9 @@ inline constexpr std::string_view kNoProjection = "none";
 [[nodiscard]] Expected<void> project(MeshFile& file, std::string_view projection);
 
 /// Sets the points of a file from three coordinates. If z is constant to one part in a million of the extent, they are
-/// in a plane; a warning says so if z is not exactly constant. If all have the same distance from the origin, to one
-/// part in a million, they are on a sphere. Points that no triangle of the file uses may be anywhere. An error names a
-/// point that is in neither.
+/// in a plane; a warning says so if z is not exactly constant. So they are if x or y is constant. If all have the same
+/// distance from the origin, to one part in a million, they are on a sphere. Points that no triangle of the file uses
+/// may be anywhere. An error names a point that is in neither.
 [[nodiscard]] Expected<void> set_points(MeshFile& file, std::vector<Vec3> points);
 
 /// The mesh of a file, in a plane or on a sphere. A file in degrees needs project() first. Points of no triangle are

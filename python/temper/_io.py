@@ -40,6 +40,7 @@ def read(
     *,
     fixed_tags: tuple[str | int, ...] = (),
     projection: str | None = None,
+    flat: bool = False,
     threads: int | None = None,
 ) -> Mesh:
     """Reads a mesh file. Its content decides the format, never its name.
@@ -56,6 +57,9 @@ def read(
         ``"transverse-mercator:lon,lat"`` (``temper.projection``). Without a center, the middle of the points is used.
         ``write`` returns to degrees, bit for bit if a point has not moved. Weights are squared meters of the map.
         ``"none"``: coordinates are in a plane, whatever their values.
+    flat : bool
+        Take the mesh as one of the plane of x and y, with z as point data ``z``, which follow the vertices. Formats
+        with three coordinates get z back.
     threads : int, optional
         Threads that unpack; None or 0: all of the machine. The result does not depend on them.
 
@@ -76,7 +80,7 @@ def read(
     TemperWarning
         Each of ``Mesh.warnings``.
     """
-    handle, messages = _temper.read(os.fspath(path), [str(tag) for tag in fixed_tags], projection or "", threads)
+    handle, messages = _temper.read(os.fspath(path), [str(tag) for tag in fixed_tags], projection or "", flat, threads)
     return _warn(Mesh._of(handle), messages, 2)
 
 

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <iterator>
 
+#include "io/conversion/bed.hpp"
+#include "io/conversion/data_update.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/disk/files.hpp"
 #include "io/formats/format.hpp"
@@ -26,11 +28,12 @@ using Files = std::vector<std::string>(const std::string& path);
 
 Sniff sniff_vtu, sniff_gmsh22, sniff_gmsh41, sniff_medit, sniff_triangle, sniff_obj, sniff_legacy_vtk, sniff_vtk51,
     sniff_jigsaw, sniff_off, sniff_ply, sniff_adcirc, sniff_vtkhdf, sniff_mpas, sniff_ugrid, sniff_mfem, sniff_fesom,
-    sniff_esri_ascii, sniff_geotiff;
+    sniff_2dm, sniff_esri_ascii, sniff_geotiff;
 Read read_vtu, read_gmsh, read_medit, read_triangle, read_obj, read_legacy_vtk, read_jigsaw_mesh, read_off, read_ply,
-    read_adcirc, read_vtkhdf, read_mpas, read_mfem, read_fesom, read_esri_ascii, read_geotiff;
+    read_adcirc, read_vtkhdf, read_mpas, read_mfem, read_fesom, read_2dm, read_esri_ascii, read_geotiff;
 Write write_vtu, write_gmsh22, write_gmsh41, write_medit, write_triangle, write_obj, write_legacy_vtk, write_vtk51,
-    write_jigsaw_mesh, write_off, write_ply, write_adcirc, write_vtkhdf, write_mpas, write_ugrid, write_fesom;
+    write_jigsaw_mesh, write_off, write_ply, write_adcirc, write_vtkhdf, write_mpas, write_ugrid, write_fesom,
+    write_2dm;
 Keeps fesom_keeps, adcirc_keeps, jigsaw_keeps, medit_keeps;
 Files fesom_files, triangle_files, triangle_files_to_read, vtkhdf_files, netcdf_files;
 
@@ -57,8 +60,11 @@ constexpr FormatRow kRows[] = {
      sniff_off, read_off, write_off, {.first_point = 0}},
     // This row is before the formats whose first word may also be the first word of a title. It holds only those tags
     // and names that are boundaries; its writer names the others.
-    {"adcirc", "ADCIRC fort.14", ".14 .grd .gr3", kLines | kMarkedPoints | kNames,
-     sniff_adcirc, read_adcirc, write_adcirc, {.keeps = adcirc_keeps, .degrees = Degrees::where_known}},
+    {"adcirc", "ADCIRC fort.14", ".14 .grd .gr3", kLines | kMarkedPoints | kNames | kSphere,
+     sniff_adcirc, read_adcirc, write_adcirc, {.keeps = adcirc_keeps, .degrees = Degrees::where_known, .bed = Bed::depth}},
+    {"2dm", "2DM of SMS", ".2dm", kZ | kRegions | kLines | kNames,
+     sniff_2dm, read_2dm, write_2dm,
+     {.name_ends = "\"", .bed = Bed::z, .has_heights = true}},
     {"obj", "Wavefront OBJ", ".obj", kInSpace | kAllTags | kNames,
      sniff_obj, read_obj, write_obj},
     {"vtk", "legacy VTK 2.0 to 4.2", ".vtk", kAll | kSphere,
@@ -73,7 +79,8 @@ constexpr FormatRow kRows[] = {
      sniff_geotiff, read_geotiff},
     {"fesom", "FESOM nod2d.out and elem2d.out", ".nod2d.out .elem2d.out nod2d.out elem2d.out", kSphere,
      sniff_fesom, read_fesom, write_fesom,
-     {.keeps = fesom_keeps, .files_to_write = fesom_files, .files_to_read = fesom_files, .degrees = Degrees::always}},
+     {.keeps = fesom_keeps, .files_to_write = fesom_files, .files_to_read = fesom_files, .degrees = Degrees::always,
+      .bed = Bed::depth}},
     {"triangle", "Triangle", ".node .ele", kAll & ~(kLineData | kMarkedPointData | kFieldData),
      sniff_triangle, read_triangle, write_triangle,
      {.files_to_write = triangle_files, .files_to_read = triangle_files_to_read}},
@@ -83,7 +90,8 @@ constexpr FormatRow kRows[] = {
     {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll | kSphere | kPeriod,
      sniff_mpas, read_mpas, write_mpas, {.files_to_write = netcdf_files, .degrees = Degrees::by_writer}},
     {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll | kSphere,
-     sniff_ugrid, read_ugrid, write_ugrid, {.files_to_write = netcdf_files, .degrees = Degrees::by_writer}},
+     sniff_ugrid, read_ugrid, write_ugrid,
+     {.files_to_write = netcdf_files, .degrees = Degrees::by_writer, .bed = Bed::level}},
     {"ncgrid", "grid of CF or COARDS (NetCDF)", ".nc .grd", 0,
      sniff_ugrid, read_ugrid},
     // clang-format on
@@ -140,8 +148,9 @@ MeshFile read_or_throw(const std::string& path, const ReadOptions& options) {
   Document document = row.read(source);
   std::string().swap(source.bytes);
   if (document.file.format.empty()) document.file.format = row.name;
-  check(document);
+  check(document, options.flat);
   read_side_file(document);
+  drop_zero_weights(document.file);
   document.file.path = path;
   document.file.numbering = document.names;
   tidy_names(document.file);
@@ -267,15 +276,57 @@ bool goes_back_to_degrees(const FormatRow& row, const MeshFile& file) {
   return file.map() != nullptr || (row.details.degrees == Degrees::where_known && lon_lat_of_points(file));
 }
 
+/// A file with degrees alone has the earth's radius.
+bool is_resized(const FormatRow& row, const MeshFile& file) {
+  const bool degrees_alone = row.details.degrees == Degrees::always || row.details.degrees == Degrees::where_known;
+  return degrees_alone && file.sphere() != nullptr && file.sphere()->radius != Projection{}.radius;
+}
+
 /// Warns that weights are squared lengths on the map, even if the points next to them are degrees.
 void warn_of_weights_beside_degrees(const WriteJob& job, const MeshFile& on_map) {
-  const auto& weights = on_map.weights;
-  if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; })) return;
+  if (!is_weighted(on_map)) return;
   const std::string map = on_map.map() != nullptr
                               ? text(" on the map ", projection_text(on_map.map()->projection),
                                      ", in meters: give this projection where the file is read again")
                               : std::string(" of the plane that the mesh was in");
   job.warn("points are longitude and latitude, but weights are squared lengths", map);
+}
+
+/// Refuses a space that the format has no place for.
+void expect_space(const FormatRow& row, const std::string& path, const MeshFile& file) {
+  if (file.sphere() != nullptr && (row.holds & kSphere) == 0) {
+    fail(ErrorCode::unsupported, path, "points are on a sphere, which ", row.description,
+         " is not written with; expected one of ", names_with(kSphere));
+  }
+  if (file.periodic() != nullptr && (row.holds & kPeriod) == 0) {
+    fail(ErrorCode::unsupported, path, "the plane is periodic, which ", row.description,
+         " has no place for; expected one of ", names_with(kPeriod));
+  }
+  if (row.details.degrees == Degrees::always && file.sphere() == nullptr && !goes_back_to_degrees(row, file) &&
+      file.degrees() == nullptr) {
+    fail(ErrorCode::unsupported, path, row.description,
+         " has points in longitude and latitude; expected a mesh of the sphere, or one that was read in degrees");
+  }
+}
+
+/// The file as a format has it: in degrees, on the earth, with the bed and z in their places. The heights are taken out
+/// of its data.
+struct FileInFormat {
+  std::optional<MeshFile> changed;
+  std::vector<double> heights;
+};
+FileInFormat file_in_format(const FormatRow& row, const MeshFile& file) {
+  FileInFormat result;
+  const auto change = [&]() -> MeshFile& { return result.changed ? *result.changed : result.changed.emplace(file); };
+  if (goes_back_to_degrees(row, file)) result.changed = in_degrees(file);
+  if (is_resized(row, file)) resize_sphere(change(), Projection{}.radius);
+  if (!file.weights.empty() && !is_weighted(file)) change().weights.clear();
+  if (needs_turned_bed(row.details.bed, file)) turn_bed(change(), row.details.bed);
+  const MeshFile& now = result.changed ? *result.changed : file;
+  const bool has_place = row.details.has_heights || (row.is_in_space() && file.sphere() == nullptr);
+  if (now.z_is_data && has_place && find(now.point_data, kHeight) != nullptr)
+    result.heights = to_doubles(std::move(take(change().point_data, kHeight)->values));
+  return result;
 }
 
 }  // namespace
@@ -289,40 +340,23 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
     }
     check_sizes(path, file);
     check_names(path, file);
-    if (file.sphere() != nullptr && (row.holds & kSphere) == 0) {
-      fail(ErrorCode::unsupported, path, "points are on a sphere, which ", row.description,
-           " is not written with; expected one of ", names_with(kSphere));
-    }
-    if (file.periodic() != nullptr && (row.holds & kPeriod) == 0) {
-      fail(ErrorCode::unsupported, path, "the plane is periodic, which ", row.description,
-           " has no place for; expected one of ", names_with(kPeriod));
-    }
+    expect_space(row, path, file);
     std::vector<std::string> warnings;
     OutputSet outputs;
-    const bool turned = goes_back_to_degrees(row, file);
-    // A file with degrees alone has the earth's radius.
-    const double earth = Projection{}.radius;
-    const bool always = row.details.degrees == Degrees::always;
-    const bool resized = always && file.sphere() != nullptr && file.sphere()->radius != earth;
-    MeshFile changed = turned ? in_degrees(file) : resized ? file : MeshFile();
-    if (resized) resize_sphere(changed, earth);
-    if (always && file.sphere() == nullptr && !turned && file.degrees() == nullptr) {
-      fail(ErrorCode::unsupported, path, row.description,
-           " has points in longitude and latitude; expected a mesh of the sphere, or one that was "
-           "read in degrees");
-    }
+    FileInFormat written = file_in_format(row, file);
     const WriteJob job = {path,
-                          turned || resized ? changed : file,
+                          written.changed ? *written.changed : file,
                           file,
                           row,
                           options.encoding,
                           options.triangle_quality,
                           options.executor,
                           outputs,
-                          warnings};
-    if (turned) warn_of_weights_beside_degrees(job, file);
-    if (resized) {
-      job.warn("the radius is ", earth, " in ", row.description, ", not ", file.sphere()->radius,
+                          warnings,
+                          std::move(written.heights)};
+    if (goes_back_to_degrees(row, file)) warn_of_weights_beside_degrees(job, file);
+    if (is_resized(row, file)) {
+      job.warn("the radius is ", Projection{}.radius, " in ", row.description, ", not ", file.sphere()->radius,
                "; weights are scaled along");
     }
     row.write(job);
@@ -344,9 +378,11 @@ std::vector<std::string> files_to_read(const std::string& path) {
   return files;
 }
 
-Expected<std::vector<std::string>> files_to_write(const std::string& path, const std::string& format) {
+Expected<std::vector<std::string>> files_to_write(const std::string& path, const std::string& format,
+                                                  const MeshFile* file) {
   return guarded<std::vector<std::string>>(path, [&] {
     const FormatRow& row = row_to_write(path, format);
+    if (file != nullptr) expect_space(row, path, *file);
     std::vector<std::string> files =
         row.details.files_to_write == nullptr ? std::vector<std::string>{path} : row.details.files_to_write(path);
     if ((row.holds & kWeights) == 0 && !is_stream(path)) files.push_back(side_file_path(path));

@@ -43,7 +43,7 @@ std::vector<std::string> Input::warnings() const {
 Input read_input(const std::string& path, const ReadingOptions& options) {
   Input input;
   input.path = path;
-  input.file = options.read ? options.read(path) : read_tried(path, {options.executor});
+  input.file = options.read ? options.read(path) : read_tried(path, {options.executor, options.flat});
   take_to_map(input.file, path, options.projection);
   input.loaded = or_fail(io::make_mesh(input.file, options.fixed_tags, options.executor));
   if (!options.spheres) expect_plane(input.loaded.mesh, path, "this verb");

@@ -37,6 +37,7 @@ struct ReadingOptions {
   std::vector<std::string> fixed_tags = {};
   Executor* executor = nullptr;
   bool spheres = false;  ///< meshes of the sphere are taken too
+  bool flat = false;     ///< z becomes data: as --flat has it
   /// The source of the file; none: the disk.
   std::function<io::MeshFile(const std::string& path)> read = {};
 };

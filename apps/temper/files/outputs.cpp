@@ -180,6 +180,12 @@ void Outputs::expect_mesh(const MeshOutput& output, const std::vector<std::strin
   if (path == kStandardOutput) print_to_standard_error();
 }
 
+void Outputs::expect_space(const MeshOutput& output, const io::MeshFile& file) const {
+  if (output.path.empty()) return;
+  const auto files = io::files_to_write(output.path, output.options.format, &file);
+  if (!files) fail(files.error());
+}
+
 void Outputs::expect(const FurtherOutputs& outputs, const std::vector<std::string>& inputs) {
   for (const std::string& path : {outputs.report, outputs.page, outputs.history, outputs.trace, outputs.picture})
     expect_text("--write", path, inputs);

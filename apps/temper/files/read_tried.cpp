@@ -68,10 +68,11 @@ void limit_this_process(const Budget& budget) {
   }
 }
 
-[[noreturn]] void be_the_child(int pipe, const Budget& budget, const std::string& path) {
+[[noreturn]] void be_the_child(int pipe, const Budget& budget, const std::string& path,
+                               const io::ReadOptions& options) {
   limit_this_process(budget);
   std::string said = {kDone};
-  if (const auto file = io::read(path); !file) {
+  if (const auto file = io::read(path, {.flat = options.flat}); !file) {
     said = {kFailed, static_cast<char>(file.error().code)};
     said.append(file.error().where).append(1, '\0').append(file.error().message);
   }
@@ -109,7 +110,7 @@ int end_of(pid_t child) {
 }
 
 /// The reason not to read the file here; nothing when the child could read it.
-Expected<void> try_in_child(const std::string& path, const Budget& budget) {
+Expected<void> try_in_child(const std::string& path, const Budget& budget, const io::ReadOptions& options) {
   int ends[2];
   const pid_t child = pipe(ends) == 0 ? fork() : -1;
   if (child < 0) {
@@ -117,7 +118,7 @@ Expected<void> try_in_child(const std::string& path, const Budget& budget) {
         ErrorCode::unsupported, path,
         std::string("cannot be read: the process that reads it first could not be started: ") + std::strerror(errno)};
   }
-  if (child == 0) be_the_child(ends[1], budget, path);
+  if (child == 0) be_the_child(ends[1], budget, path, options);
   close(ends[1]);
   // A child that waits forever takes no processor time. On a busy machine a healthy child may get little.
   const auto patience = std::chrono::seconds(20 + 10 * budget.seconds);
@@ -141,7 +142,7 @@ Expected<void> try_in_child(const std::string& path, const Budget& budget) {
 }  // namespace
 
 io::MeshFile read_tried(const std::string& path, const io::ReadOptions& options) {
-  if (const auto size = size_of_hdf5(path)) or_fail(try_in_child(path, budget_of(*size)));
+  if (const auto size = size_of_hdf5(path)) or_fail(try_in_child(path, budget_of(*size), options));
   return or_fail(io::read(path, options));
 }
 

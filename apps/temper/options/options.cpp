@@ -198,4 +198,10 @@ void add_projection(Command& command, std::string& target) {
            "coordinates as coordinates of a plane.");
 }
 
+void add_flat(Command& command, bool& target) {
+  command.add_flag("--flat", target,
+                   "Take the mesh as one of the plane of x and y, with z as point data 'z': heights or depths, which "
+                   "follow the vertices. Formats with three coordinates get z back.");
+}
+
 }  // namespace temper::app

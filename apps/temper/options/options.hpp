@@ -122,5 +122,7 @@ Option& add_length_parameter(Command& command, const std::string& name, std::opt
 
 /// --projection, of verbs that read a mesh in longitude and latitude (projection_option.hpp).
 void add_projection(Command& command, std::string& target);
+/// --flat, of verbs that read a mesh.
+void add_flat(Command& command, bool& target);
 
 }  // namespace temper::app

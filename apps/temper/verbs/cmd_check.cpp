@@ -24,6 +24,7 @@ constexpr OutputKind kCheckOutputs[] = {kReportKind, kPageKind};
 
 struct CheckSettings {
   std::string projection;
+  bool flat = false;
   std::vector<std::string> inputs;
   std::vector<std::string> write, require;
   std::optional<LengthParameter> gamma, h0;
@@ -38,6 +39,7 @@ void add_options(Command& command, CheckSettings& s) {
             "One or more mesh files. The content of each file shows its format. '-' reads standard input.")
       .require();
   add_projection(command, s.projection);
+  add_flat(command, s.flat);
   command.add_flag("--details", s.details, "Print all measures, energies, histograms and the worst triangles.");
   command.add_flag(
       "--json", s.json,
@@ -86,7 +88,7 @@ class Checks {
   }
 
   void add(const std::string& path) {
-    Input input = read_input(path, {s_.projection, {}, threads_.get(), true});
+    Input input = read_input(path, {s_.projection, {}, threads_.get(), true, s_.flat});
     print_warnings(input.warnings());
     take_to_metric(input, s_.metric);
     Quality measured = quality(input.mesh(), options_);

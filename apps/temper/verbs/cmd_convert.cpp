@@ -16,6 +16,7 @@ namespace {
 
 struct ConvertSettings {
   std::string projection;
+  bool flat = false;
   std::string input;
   MeshOutput output;
   std::uint64_t threads = 0;
@@ -25,6 +26,7 @@ void add_options(Command& command, ConvertSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "File to read. Its content shows the format.").require();
   add_projection(command, s.projection);
+  add_flat(command, s.flat);
   add_mesh_output(command, s.output, "OUT", "File to write. Its suffix selects the format.");
   command.option("--output").require();
   add_count(command, "--threads", s.threads, 0,
@@ -50,7 +52,7 @@ Exit run_convert(const Arguments& arguments) {
   outputs.expect_mesh(s.output);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  io::MeshFile file = read_tried(s.input, {threads.get()});
+  io::MeshFile file = read_tried(s.input, {threads.get(), s.flat});
   if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
   print_warnings(file.warnings);
   print_warnings(outputs.write_mesh(s.output, file, threads.get()));

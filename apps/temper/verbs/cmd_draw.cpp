@@ -20,6 +20,7 @@ namespace {
 
 struct DrawSettings {
   std::string projection;
+  bool flat = false;
   std::string input, before, output, color;
   DrawOptions options;
   std::optional<Metric> metric;
@@ -30,6 +31,7 @@ void add_options(Command& command, DrawSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "Mesh to draw.").require();
   add_projection(command, s.projection);
+  add_flat(command, s.flat);
   add_text(command, "-o,--output", "FILE", s.output, "Picture to write: .svg, .png or .pdf.").require();
   add_text(command, "--before", "IN0", s.before, "Second mesh, drawn to the left of IN at the same scale.");
   command.group("Picture");
@@ -166,7 +168,7 @@ Exit run_draw(const Arguments& arguments) {
   Outputs outputs("draw");
   outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});
 
-  Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
+  Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .flat = s.flat});
   print_warnings(input.warnings());
   check_view(s.options, input);
   take_to_metric(input, s.metric);
@@ -174,7 +176,8 @@ Exit run_draw(const Arguments& arguments) {
     set_colors(s.options, s.color, {&input});
     outputs.write_picture(s.output, draw_svg(input.mesh(), s.options));
   } else {
-    Input before = read_input(s.before, {.projection = same_projection(input, s.projection), .spheres = true});
+    Input before =
+        read_input(s.before, {.projection = same_projection(input, s.projection), .spheres = true, .flat = s.flat});
     print_warnings(before.warnings());
     take_to_metric(before, s.metric);
     check_same_space(before, input);

@@ -20,6 +20,7 @@ namespace {
 
 struct ErrorSettings {
   std::string projection;
+  bool flat = false;
   std::string input, against, fields = "all", edges;
   std::string coefficient, source, dirichlet, neumann;
   int refine = 0;
@@ -52,6 +53,7 @@ void add_options(Command& command, ErrorSettings& s) {
   command.group("Report");
   add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.").require();
   add_projection(command, s.projection);
+  add_flat(command, s.flat);
   command.add_flag("--json", s.json,
                    "Print the report as JSON. A null is an infinite number, or an order that is undefined.");
   add_text(command, "--against", "MESH", s.against,
@@ -112,7 +114,7 @@ bool same_box(const FieldFrame& a, const FieldFrame& b) {
 
 ErrorReference measure_reference(const ErrorSettings& s, const std::string& projection,
                                  const MeasureErrorsOptions& options, const FieldFrame& frame) {
-  Input reference = read_input(s.against, {projection, {}, options.executor, true});
+  Input reference = read_input(s.against, {projection, {}, options.executor, true, s.flat});
   print_warnings(reference.warnings());
   take_to_metric(reference, s.metric);
   if (!same_box(frame, field_frame(reference.mesh()))) {
@@ -184,7 +186,7 @@ Exit run_errors(const Arguments& arguments) {
   }
   if (!s.dirichlet.empty()) return run_problem(command, s, threads.get());
   options.executor = threads.get();
-  Input input = read_input(s.input, {s.projection, {}, threads.get(), true});
+  Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.flat});
   print_warnings(input.warnings());
   take_to_metric(input, s.metric);
   options.frame = field_frame(input.mesh());

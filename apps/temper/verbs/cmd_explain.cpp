@@ -16,6 +16,7 @@ namespace {
 
 struct ExplainSettings {
   std::string projection;
+  bool flat = false;
   std::string input;
   std::uint64_t limit = 10;
   std::uint64_t whole = ExplainOptions().whole;
@@ -26,6 +27,7 @@ void add_options(Command& command, ExplainSettings& s) {
   command.group("Report");
   add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.").require();
   add_projection(command, s.projection);
+  add_flat(command, s.flat);
   command.add_flag("--json", s.json, "Print all reasons as JSON, with vertices and triangles counted from 0.");
   add_count(command, "--limit", s.limit, 0,
             "Largest number of conflicts to print, and of places for which weights exist. Cures are searched for these "
@@ -70,7 +72,7 @@ Exit run_explain(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
 
-  const Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
+  const Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .flat = s.flat});
   print_warnings(input.warnings());
   const auto solver = clp_solver();
   Counter counter;

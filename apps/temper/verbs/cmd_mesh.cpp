@@ -44,7 +44,7 @@ struct MeshSettings {
   MesherOptions options;
   std::optional<double> radius;
   std::uint64_t threads = 0;
-  bool sphere = false, no_optimize = false;
+  bool sphere = false, no_optimize = false, flat = false;
 };
 
 void add_files(Command& command, MeshSettings& s) {
@@ -67,6 +67,8 @@ void add_sizes(Command& command, MeshSettings& s) {
            "Rules that make sizes from depths in the file of --size. per_wavelength=N gives at least N edges to a "
            "wave of period=S seconds (default: the tide M2). time_step=S keeps the Courant number below courant=1. "
            "least=R and largest=R bound the sizes. positive=up says that the numbers are heights.");
+  command.add_flag("--flat", s.flat,
+                   "Take the mesh of --size as one of the plane of x and y, with z as point data 'z'.");
   add_number(command, "--grade", s.options.grade, kPositive,
              "Growth of the size per unit of length, away from short edges and narrow places.");
   add_text(command, "--region-size", "REGION,SIZE,...", s.region_sizes,
@@ -172,7 +174,7 @@ std::optional<double> size_number(const MeshSettings& s) {
 /// in the box of the outline, if that has points.
 SizeField read_sizes(const MeshSettings& s, const std::string& degrees, const std::vector<Vec2>& outline,
                      bool geographic, Executor* executor) {
-  io::ReadOptions options = {executor, {}, geographic};
+  io::ReadOptions options = {executor, s.flat, {}, geographic};
   if (!outline.empty()) {
     Vec2 low = outline.front(), high = low;
     for (const Vec2 p : outline) {
@@ -186,7 +188,7 @@ SizeField read_sizes(const MeshSettings& s, const std::string& degrees, const st
   io::MeshFile file = read_tried(s.size, options);
   const std::string projection = file.degrees() != nullptr ? degrees : "";
   const auto read = [&file](const std::string&) { return std::move(file); };
-  ReadSizeField sizes = read_size_field(s.size, s.size_data, {projection, {}, executor, true, read}, depths);
+  ReadSizeField sizes = read_size_field(s.size, s.size_data, {projection, {}, executor, true, s.flat, read}, depths);
   print_warnings(sizes.warnings);
   return std::move(sizes.field);
 }
@@ -308,6 +310,9 @@ Result mesh_globe(const MeshSettings& s, Executor* executor) {
 Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   catch_interrupts();
+  io::MeshFile space;
+  if (s.sphere) space.points_in = io::SpherePoints{};
+  outputs.expect_space(s.output, space);
   const auto [inputs, map, made] = s.sphere ? mesh_globe(s, threads.get()) : mesh_plane(s, threads.get());
   QualityOptions measuring;
   measuring.executor = threads.get();

@@ -30,6 +30,7 @@ constexpr Choice<io::DecFormat> kDecFormats[] = {{"npz", io::DecFormat::npz},   
 
 struct DecSettings {
   std::string projection;
+  bool flat = false;
   std::string input, output, formats = "npz,mtx,vtu";
   std::string layers, coefficient;
   double pinch_out = 0;
@@ -42,6 +43,7 @@ void add_options(Command& command, DecSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.").require();
   add_projection(command, s.projection);
+  add_flat(command, s.flat);
   add_text(command, "-o,--output", "DIR", s.output, "Folder for the files. It is made if it does not exist.").require();
   add_text(command, "--format", "LIST", s.formats,
            "Formats to write, separated by commas. 'npz' is for NumPy and SciPy, 'mtx' is Matrix Market, and 'vtu' "
@@ -155,7 +157,7 @@ Exit run_operators(const Arguments& arguments) {
   check_folder(s, formats);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  Input input = read_input(s.input, {s.projection, {}, threads.get(), true});
+  Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.flat});
   print_warnings(input.warnings());
   const std::optional<Mesh> plain = take_to_metric(input, s.metric);
   DecComplex complex = with_k(command, s, input, dec_operators(input.mesh()));

@@ -302,7 +302,8 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   std::optional<TraceFile> trace;
   if (!s.files.trace.empty()) trace.emplace(TraceFile{outputs.open(s.files.trace), {}});
   const RunFiles files = {threads.get(), trace ? &*trace : nullptr};
-  Input input = read_input(s.input, {s.projection, s.fix, threads.get(), true});
+  Input input = read_input(s.input, {s.projection, s.fix, threads.get(), true, s.flat});
+  outputs.expect_space(s.output, input.file);
   if (!s.files.page.empty()) expect_plane(input.mesh(), s.input, "--write " + s.files.page);
   RunResults results;
   warn(results, input.warnings());
@@ -317,7 +318,7 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   }
   if (!s.size.empty()) {
     ReadSizeField sizes = read_size_field(s.size, s.size_data,
-                                          {same_projection(input, s.projection), {}, threads.get(), true});
+                                          {same_projection(input, s.projection), {}, threads.get(), true, s.flat});
     warn(results, sizes.warnings);
     s.options.size_field = std::move(sizes.field);
   }

@@ -41,6 +41,7 @@ constexpr Choice<Connectivity> kConnectivities[] = {{"fixed", Connectivity::fixe
 
 struct WeightsSettings {
   std::string projection;
+  bool flat = false;
   std::string input, certificate, check;
   MeshOutput output;
   Mode mode = Mode::minimal;
@@ -76,6 +77,7 @@ void add_options(Command& command, WeightsSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.").require();
   add_projection(command, s.projection);
+  add_flat(command, s.flat);
   add_mesh_output(command, s.output, "OUT",
                   "Mesh file to write, with the new weights. You may leave it out with --mode feasible.");
   add_text(command, "--certificate", "FILE", s.certificate,
@@ -267,7 +269,8 @@ Exit run_weights(const Arguments& arguments) {
   if (!s.output.path.empty()) outputs.expect_mesh(s.output, {s.edges});
   outputs.expect_text("--certificate", s.certificate, {s.input, s.edges});
 
-  Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
+  Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .flat = s.flat});
+  outputs.expect_space(s.output, input.file);
   print_warnings(input.warnings());
   if (!s.check.empty()) return check(s, input);
   if (s.options.constraints == Constraints::regular) s.options.edges = prescribed_edges(s.edges, input);

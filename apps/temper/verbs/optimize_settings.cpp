@@ -99,6 +99,7 @@ void add_rare(Command& command, OptimizeSettings& s) {
                    "Measure the errors of solvers before and after, as temper errors does, and print them.");
 #endif
   add_projection(command, s.projection);
+  add_flat(command, s.flat);
   add_tensor(command, s.metric, "Make meshes well-centered");
   add_text(command, "--size-data", "NAME", s.size_data, "Name of the point data in the file of --size.").default_text =
       "size";

@@ -21,6 +21,7 @@ namespace temper::app {
 struct OptimizeSettings {
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
   std::string projection;
+  bool flat = false;
   std::string input;
   MeshOutput output;
   std::vector<std::string> write;

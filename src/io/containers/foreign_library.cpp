@@ -57,8 +57,8 @@ void find_library(const ForeignLibrary& library, const std::function<bool(void*)
 
 void* symbol_of(void* handle, const char* name) { return dlsym(handle, name); }
 
-std::mutex& foreign_tables() {
-  static std::mutex tables;
+std::recursive_mutex& foreign_tables() {
+  static std::recursive_mutex tables;
   return tables;
 }
 

@@ -26,8 +26,9 @@ struct ForeignLibrary {
 void find_library(const ForeignLibrary& library, const std::function<bool(void* handle)>& take);
 
 /// Held while a file of libnetcdf or libhdf5 is open. Both keep tables for one thread at a time, and libnetcdf calls
-/// libhdf5. It keeps temper's threads apart, but not other users of the library in this process (h5py).
-[[nodiscard]] std::mutex& foreign_tables();
+/// libhdf5. It keeps temper's threads apart, but not other users of the library in this process (h5py). One thread may
+/// have several files open.
+[[nodiscard]] std::recursive_mutex& foreign_tables();
 
 /// The functions of the library, which functions_of(handle) takes from it, or null. In a Python that runs for days a
 /// missing library may be there at the next call. Takes foreign_tables().

@@ -169,7 +169,7 @@ class Hdf5Reader {
   std::string& bytes_;
   AllocationLimits& allocation_;
   const Hdf5Library& library_;
-  std::unique_lock<std::mutex> turn_;
+  std::unique_lock<std::recursive_mutex> turn_;
   QuietHdf5 quiet_;  // outlives what is open
   Hdf5Id links_;     // properties of access: links do not lead to other files
   Hdf5Id file_;
@@ -209,7 +209,7 @@ class Hdf5Writer {
 
   std::string path_;
   const Hdf5Library& library_;
-  std::unique_lock<std::mutex> turn_;
+  std::unique_lock<std::recursive_mutex> turn_;
   QuietHdf5 quiet_;  // outlives what is open
   Image image_;      // outlives the file
   Hdf5Id ordered_, utf8_, without_numbers_;

@@ -70,6 +70,8 @@ std::optional<Scalar> scalar_of_netcdf(nc_type type) {
 
 }  // namespace
 
+nc_type netcdf_type(Scalar scalar) { return kNetcdfTypes[static_cast<std::size_t>(scalar)]; }
+
 bool is_netcdf(std::string_view head) {
   using namespace std::string_view_literals;
   return head.starts_with("CDF\1"sv) || head.starts_with("CDF\2"sv) || head.starts_with("CDF\5"sv) || is_hdf5(head);
@@ -187,40 +189,10 @@ std::vector<std::int64_t> NetcdfReader::integers(const NetcdfVariable& v) const 
       all);
 }
 
-std::string NetcdfReader::text_attribute(const NetcdfVariable* v, const char* name) const {
-  const int id = v == nullptr ? NC_GLOBAL : v->id;
-  nc_type type = NC_NAT;
-  std::size_t n = 0;
-  if (library_.nc_inq_att(id_, id, name, &type, &n) != NC_NOERR) return {};
-  if (type == NC_STRING && n == 1) {
-    char* value = nullptr;
-    check(library_.nc_get_att_string(id_, id, name, &value), text("read attribute ", name));
-    std::string result = value == nullptr ? "" : value;
-    library_.nc_free_string(1, &value);
-    return result;
-  }
-  if (type != NC_CHAR || n > bytes_) return {};
-  std::string result(n, '\0');
-  if (n > 0) check(library_.nc_get_att_text(id_, id, name, result.data()), text("read attribute ", name));
-  while (!result.empty() && (result.back() == '\0' || result.back() == ' ')) result.pop_back();
-  return result;
-}
-
-std::optional<double> NetcdfReader::number_attribute(const NetcdfVariable* v, const char* name) const {
-  const int id = v == nullptr ? NC_GLOBAL : v->id;
-  nc_type type = NC_NAT;
-  std::size_t n = 0;
-  if (library_.nc_inq_att(id_, id, name, &type, &n) != NC_NOERR || n != 1 || !scalar_of_netcdf(type))
-    return std::nullopt;
-  double value = 0;
-  if (library_.nc_get_att_double(id_, id, name, &value) != NC_NOERR) return std::nullopt;
-  return value;
-}
-
 // --- writing ---------------------------------------------------------------------------------------------
 
 NetcdfWriter::NetcdfWriter(std::string path, bool large_types)
-    : path_(std::move(path)), library_(netcdf_library(path_)), id_(library_) {
+    : path_(std::move(path)), large_types_(large_types), library_(netcdf_library(path_)), id_(library_) {
   const int mode = large_types ? NC_64BIT_DATA : NC_64BIT_OFFSET;
   check(library_.nc_create_mem(path_.c_str(), mode, 0, id_.to_open()), "make a file");
   int ignored = 0;
@@ -263,7 +235,16 @@ void NetcdfWriter::attribute(int variable, const char* name, std::int32_t value)
   check(library_.nc_put_att_int(id_, variable, name, NC_INT, 1, &value), text("define attribute ", name));
 }
 
-void NetcdfWriter::finish(Output& out) {
+void NetcdfWriter::attribute(int variable, const char* name, const NetcdfReader::Numbers& numbers) {
+  const auto is_int = [](double x) { return x == std::trunc(x) && std::abs(x) <= std::numeric_limits<int>::max(); };
+  const nc_type type = large_types_ || numbers.type <= NC_DOUBLE                           ? numbers.type
+                       : std::all_of(numbers.values.begin(), numbers.values.end(), is_int) ? NC_INT
+                                                                                           : NC_DOUBLE;
+  check(library_.nc_put_att_double(id_, variable, name, type, numbers.values.size(), numbers.values.data()),
+        text("define attribute ", name));
+}
+
+void NetcdfWriter::finish(const std::function<void(std::string_view bytes)>& take) {
   check(library_.nc_enddef(id_), "define the file");
   for (auto& [id, values] : waiting_) {
     std::visit([&, v = id](const auto& each) { check(library_.nc_put_var(id_, v, each.data()), "write a variable"); },
@@ -275,7 +256,7 @@ void NetcdfWriter::finish(Output& out) {
   id_.is_closed();
   const std::unique_ptr<void, void (*)(void*)> owner(memory.memory, std::free);
   check(status, "finish the file");
-  out.put(std::string_view(static_cast<const char*>(memory.memory), memory.size));
+  take(std::string_view(static_cast<const char*>(memory.memory), memory.size));
 }
 
 bool needs_cdf5(const MeshFile& f, std::size_t most_values) {

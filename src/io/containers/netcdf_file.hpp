@@ -8,6 +8,7 @@
 #include <netcdf_mem.h>
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -21,13 +22,13 @@
 namespace temper::io {
 
 /// Every function of it that is called here.
-#define TEMPER_NETCDF_FUNCTIONS(use)                                                                               \
-  use(nc_abort) use(nc_close_memio) use(nc_create_mem) use(nc_def_dim) use(nc_def_var) use(nc_enddef)              \
-      use(nc_free_string) use(nc_get_att_double) use(nc_get_att_string) use(nc_get_att_text) use(nc_get_var)       \
-          use(nc_inq_att) use(nc_inq_dimid) use(nc_inq_dimlen) use(nc_inq_dimname) use(nc_inq_libvers)             \
-              use(nc_inq_nvars) use(nc_inq_var) use(nc_inq_vardimid) use(nc_inq_varid) use(nc_open_mem)            \
-                  use(nc_put_att_double) use(nc_put_att_int) use(nc_put_att_text) use(nc_put_var) use(nc_set_fill) \
-                      use(nc_strerror)
+#define TEMPER_NETCDF_FUNCTIONS(use)                                                                                 \
+  use(nc_abort) use(nc_close_memio) use(nc_create_mem) use(nc_def_dim) use(nc_def_var) use(nc_enddef)                \
+      use(nc_free_string) use(nc_get_att_double) use(nc_get_att_string) use(nc_get_att_text) use(nc_get_var)         \
+          use(nc_inq_att) use(nc_inq_attname) use(nc_inq_dimid) use(nc_inq_dimlen) use(nc_inq_dimname)               \
+              use(nc_inq_libvers) use(nc_inq_nvars) use(nc_inq_var) use(nc_inq_varnatts) use(nc_inq_vardimid)        \
+                  use(nc_inq_varid) use(nc_open_mem) use(nc_put_att_double) use(nc_put_att_int) use(nc_put_att_text) \
+                      use(nc_put_var) use(nc_set_fill) use(nc_strerror)
 
 /// Its functions by their own names, as members. Null as long as it is not loaded.
 struct NetcdfLibrary {
@@ -42,6 +43,8 @@ const NetcdfLibrary& netcdf_library(const std::string& path);
 
 /// The magic numbers of the classic formats and of HDF5.
 [[nodiscard]] bool is_netcdf(std::string_view head);
+
+[[nodiscard]] nc_type netcdf_type(Scalar scalar);
 
 /// Refuses a classic file whose header is wrong.
 void check_netcdf_header(const Source& source);
@@ -71,7 +74,7 @@ class NetcdfId {
   void is_closed() { id_ = -1; }
 
  private:
-  std::unique_lock<std::mutex> turn_;
+  std::unique_lock<std::recursive_mutex> turn_;
   const NetcdfLibrary& library_;
   int id_ = -1;
 };
@@ -91,11 +94,25 @@ class NetcdfReader {
   [[nodiscard]] const NetcdfVariable& variable(std::string_view name) const;
   [[nodiscard]] std::string dimension_name(int dimension) const;
   [[nodiscard]] Values values(const NetcdfVariable& variable) const;
+  /// The values as CF and NUG say: unpacked by scale_factor and add_offset, to float if both are, else to double.
+  /// Floating or packed numbers are NaN where _FillValue, missing_value, a valid range or the default fill value say
+  /// that they are missing. Other integers stay: they are labels.
+  [[nodiscard]] Values unpacked(const NetcdfVariable& variable) const;
+  [[nodiscard]] bool is_packed(const NetcdfVariable& variable) const;
+  /// The integers that stand for no value in a table.
+  [[nodiscard]] std::vector<double> fill_values(const NetcdfVariable& variable) const;
   /// Also floating types, if all values are whole. A value that is not a number becomes kNoInteger.
   [[nodiscard]] std::vector<std::int64_t> integers(const NetcdfVariable& variable) const;
-  /// Text of an attribute of a variable, or of the file when it is null; empty when there is none.
+  [[nodiscard]] std::vector<std::string> attribute_names(const NetcdfVariable* variable) const;
+  /// Text of an attribute of a variable, or of the file when it is null; empty when there is none. Several strings have
+  /// blanks between them.
   [[nodiscard]] std::string text_attribute(const NetcdfVariable* variable, const char* name) const;
   [[nodiscard]] std::optional<double> number_attribute(const NetcdfVariable* variable, const char* name) const;
+  struct Numbers {
+    std::vector<double> values;  ///< empty when there are none
+    nc_type type = NC_NAT;
+  };
+  [[nodiscard]] Numbers numbers_attribute(const NetcdfVariable* variable, const char* name) const;
 
  private:
   void check(int status, std::string_view doing) const;
@@ -125,12 +142,16 @@ class NetcdfWriter {
   void attribute(int variable, const char* name, std::string_view text);
   void attribute(int variable, const char* name, double value);
   void attribute(int variable, const char* name, std::int32_t value);
-  void finish(Output& out);
+  /// In their type, if this file may have it.
+  void attribute(int variable, const char* name, const NetcdfReader::Numbers& numbers);
+  /// Hands the bytes of the file on.
+  void finish(const std::function<void(std::string_view bytes)>& take);
 
  private:
   void check(int status, std::string_view doing) const;
 
   std::string path_;
+  bool large_types_;
   const NetcdfLibrary& library_;
   NetcdfId id_;
   std::vector<std::pair<int, Values>> waiting_;

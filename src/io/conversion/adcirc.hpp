@@ -7,15 +7,16 @@
 // more numbers. Their nodes are marked points with the same tag: a node, then its partner across the levee.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace temper::io {
 
 inline constexpr std::string_view kAdcircTitle = "adcirc:title";  ///< field data: bytes of the first line
-inline constexpr std::string_view kAdcircDepth = "depth";         ///< point data: positive downwards
 inline constexpr std::string_view kAdcircLevee =
     "adcirc:levee";                                             ///< of marked points: what follows the node in its row
 inline constexpr std::string_view kAdcircSide = "adcirc:side";  ///< of marked points: 0 the node, 1 its partner
@@ -35,5 +36,10 @@ struct AdcircRow {
   int numbers = 0;
 };
 [[nodiscard]] AdcircRow adcirc_row(const AdcircBoundary& boundary);
+
+/// Nodes in a row.
+using NodeString = std::vector<std::int32_t>;
+/// The edges, each given once, as strings in their given order.
+[[nodiscard]] std::vector<NodeString> node_strings(const std::vector<std::array<std::int32_t, 2>>& edges);
 
 }  // namespace temper::io

@@ -1,6 +1,7 @@
 #include "io/conversion/data_update.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -22,13 +23,32 @@ namespace {
 /// Flags of medit mark special points of the user's: a new point has none.
 bool is_flag(const DataArray& a) { return a.name == "medit:corner" || a.name == "medit:required"; }
 
+/// Linear between the corners that have a value (not NaN), if these have at least half of the shares; else NaN. So a
+/// missing value stays missing, but spreads no farther than half-way to the next corners.
+template <class AtCorner>
+double between_known(const Place& place, const AtCorner& at_corner) {
+  Place known = place;
+  known.n = 0;
+  double sum = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(place.n); ++k) {
+    if (std::isnan(at_corner(place.corners[k]))) continue;
+    const auto to = static_cast<std::size_t>(known.n++);
+    known.corners[to] = place.corners[k];
+    known.shares[to] = place.shares[k];
+    sum += place.shares[k];
+  }
+  if (known.n == 0 || (known.n < place.n && sum < 0.5)) return std::numeric_limits<double>::quiet_NaN();
+  if (known.n < place.n) std::ranges::for_each(known.shares, [sum](double& share) { share /= sum; });
+  return interpolated(known, [&](VertexId v) { return double{at_corner(v)}; });
+}
+
 /// The value at a place: the linear interpolation of floating numbers; the common value of integers at all corners, if
 /// any.
 template <class T>
 std::optional<T> value_at(const std::vector<T>& values, std::size_t n, std::size_t component, const Place& place) {
   const auto at_corner = [&](VertexId v) { return values[n * v.index + component]; };
   if constexpr (std::is_floating_point_v<T>) {
-    return static_cast<T>(interpolated(place, [&](VertexId v) { return double{at_corner(v)}; }));
+    return static_cast<T>(between_known(place, at_corner));
   } else {
     const T first = at_corner(place.corners[0]);
     for (std::size_t k = 1; k < static_cast<std::size_t>(place.n); ++k) {
@@ -190,6 +210,14 @@ class DataUpdater {
 };
 
 }  // namespace
+
+bool is_weighted(const MeshFile& file) {
+  return std::ranges::any_of(file.weights, [](double w) { return w != 0; });
+}
+
+void drop_zero_weights(MeshFile& file) {
+  if (!is_weighted(file)) std::vector<double>().swap(file.weights);
+}
 
 DataReport update_data(MeshFile& file, const Mesh& mesh, const Former& former, const UpdateOptions& options) {
   return DataUpdater(file, mesh, former, options).update();

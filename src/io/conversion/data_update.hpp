@@ -9,6 +9,11 @@
 
 namespace temper::io {
 
+/// Says whether some weight is not 0. A mesh without weights is a file without them, for which some programs have no
+/// place (DEVSIM).
+[[nodiscard]] bool is_weighted(const MeshFile& file);
+void drop_zero_weights(MeshFile& file);
+
 /// The former point of each vertex in a file, invalid for a new vertex; empty: equal numbers.
 using Former = IdVector<VertexId, VertexId>;
 

@@ -91,16 +91,18 @@ std::string where_is(std::size_t point, const InputNames& names) {
 }
 
 void warn_of_plane(MeshFile& file, const std::vector<Vec3>& points, const PlaneFit& plane, const InputNames& names) {
+  const std::string_view axis = name_of_axis(normal_of(file));
   if (plane.off > 0) {
-    file.warnings.push_back(text(where_is(plane.worst, names), names.point(plane.worst), " has z = ",
-                                 points[plane.worst].z, ", but ", names.point(plane.first), " has z = ", file.z(),
-                                 ": within ", kOff, " of the extent, so all are taken for a plane of this z"));
+    file.warnings.push_back(text(where_is(plane.worst, names), names.point(plane.worst), " has ", axis, " = ",
+                                 points[plane.worst].z, ", but ", names.point(plane.first), " has ", axis, " = ",
+                                 file.z(), ": within ", kOff, " of the extent, so all are taken for a plane of this ",
+                                 axis));
   }
   if (plane.unused.empty()) return;
   const std::size_t first = plane.unused.front(), n = plane.unused.size();
-  file.warnings.push_back(
-      text(where_is(first, names), names.point(first), " is of no triangle and has z = ", points[first].z,
-           n == 1 ? std::string() : text(", and so have ", n - 1, " more"), ": put into the plane of z = ", file.z()));
+  file.warnings.push_back(text(where_is(first, names), names.point(first), " is of no triangle and has ", axis, " = ",
+                               points[first].z, n == 1 ? std::string() : text(", and so have ", n - 1, " more"),
+                               ": put into the plane of ", axis, " = ", file.z()));
 }
 
 struct SphereFit {
@@ -153,10 +155,21 @@ std::string two_digits(double value) {
   const std::size_t off = find_used([&](Vec3 p) { return std::abs(p.z - z) > allowed; });
   fail(ErrorCode::not_planar, names.point_where(off), names.point(off), " has z = ", points[off].z, ", but ",
        names.point(plane.first), " has z = ", z,
-       "; expected a mesh in a plane of constant z, or on a sphere around the origin");
+       "; expected a mesh in a plane of constant x, y or z, or on a sphere around the origin. Next: --flat takes z as "
+       "data of a mesh of the plane (flat=True in Python)");
+}
+
+/// Puts points into the plane of their first two coordinates.
+void set_plane(MeshFile& file, const std::vector<Vec3>& points, const PlaneFit& plane, const InputNames& names) {
+  file.set_z(points.empty() ? 0 : points[plane.first].z);
+  warn_of_plane(file, points, plane, names);
+  file.points.clear();
+  for (const Vec3 p : points) file.points.push_back({p.x, p.y});
 }
 
 }  // namespace
+
+std::string_view name_of_axis(int axis) { return std::string_view("xyz").substr(static_cast<std::size_t>(axis), 1); }
 
 Vec3 east_of(Vec3 p) {
   const double across = std::hypot(p.x, p.y);
@@ -205,15 +218,22 @@ void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& n
   const std::vector<Vec3>& all = whole ? points : some;
   const PlaneFit plane = fit_plane(points, used);
   const auto radius = plane.off == 0 ? std::nullopt : common_radius(all);
-  if (plane.off <= kOff * extent(all) && !(radius && most_off(all, *radius).off < plane.off)) {
+  const auto fits = [&](const PlaneFit& fit) { return fit.off <= kOff * extent(all); };
+  if (fits(plane) && !(radius && most_off(all, *radius).off < plane.off)) {
     if (file.sphere() != nullptr) file.points_in = PlanePoints{};
-    file.set_z(points.empty() ? 0 : points[plane.first].z);
-    warn_of_plane(file, points, plane, names);
-    file.points.clear();
-    for (const Vec3 p : points) file.points.push_back({p.x, p.y});
-    return;
+    return set_plane(file, points, plane, names);
   }
   if (radius) return set_sphere(file, *radius, std::move(points));
+  const bool may_stand = file.periodic() == nullptr && file.degrees() == nullptr;
+  for (int normal = 0; may_stand && normal < kZAxis; ++normal) {
+    std::vector<Vec3> standing;
+    standing.reserve(points.size());
+    for (const Vec3 p : points) standing.push_back(turned(p, normal));
+    const PlaneFit vertical = fit_plane(standing, used);
+    if (!fits(vertical)) continue;
+    file.points_in = PlanePoints{.normal = normal};
+    return set_plane(file, standing, vertical, names);
+  }
   fail_in_space(points, used, plane, names);
 }
 

@@ -31,10 +31,28 @@ void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& n
 /// The radius of all points, to one part in a million; nothing if they have none in common.
 [[nodiscard]] std::optional<double> common_radius(const std::vector<Vec3>& points);
 
-/// The position of a point, in three coordinates.
+/// The position of a point in the space of its mesh, in three coordinates.
 [[nodiscard]] inline Vec3 position_of(const MeshFile& file, std::size_t point) {
   const Vec2 p = file.points[point];
   return file.sphere() != nullptr ? file.sphere()->places[point] : Vec3{p.x, p.y, file.z()};
+}
+
+/// The axis across the plane of the points: 0 x, 1 y, 2 z.
+inline constexpr int kZAxis = 2;
+[[nodiscard]] inline int normal_of(const MeshFile& file) {
+  const auto* const plane = std::get_if<PlanePoints>(&file.points_in);
+  return plane == nullptr ? kZAxis : plane->normal;
+}
+[[nodiscard]] std::string_view name_of_axis(int axis);
+/// Coordinates in the order of a plane across this axis, (y, z) or (x, z), and then the one along the axis.
+[[nodiscard]] inline Vec3 turned(Vec3 p, int normal) {
+  return normal == 0 ? Vec3{p.y, p.z, p.x} : normal == 1 ? Vec3{p.x, p.z, p.y} : p;
+}
+/// The three coordinates of a point in its file.
+[[nodiscard]] inline Vec3 place_of(const MeshFile& file, std::size_t point) {
+  const Vec3 p = position_of(file, point);
+  const int normal = normal_of(file);
+  return normal == 0 ? Vec3{p.z, p.x, p.y} : normal == 1 ? Vec3{p.x, p.z, p.y} : p;
 }
 
 /// The places of the points of a sphere; of other files none.
@@ -50,6 +68,9 @@ void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& n
 /// Guesses whether points are degrees, in a format that does not say it, with depths of water. They are when they fit
 /// longitude and latitude, and as lengths would be less than the depths. Models of shallow water make no sense there.
 [[nodiscard]] bool look_like_degrees(std::span<const Vec2> points, std::span<const double> depths);
+
+/// Point data with the third coordinate, when z is data.
+inline constexpr std::string_view kHeight = "z";
 
 /// Point data with the place on the globe of each point of a plane mesh: temper mesh writes them.
 inline constexpr std::string_view kLongitude = "longitude", kLatitude = "latitude";

@@ -84,12 +84,16 @@ void copy_sphere(MeshFile& file, const Mesh& mesh, const Former& former) {
 void copy_vertices(MeshFile& file, const Mesh& mesh, const Former& former) {
   switch (mesh.space().kind()) {
     case SpaceKind::plane:
-      return copy_plane(file, mesh);
+      copy_plane(file, mesh);
+      break;
     case SpaceKind::sphere:
-      return copy_sphere(file, mesh, former);
+      copy_sphere(file, mesh, former);
+      break;
     case SpaceKind::periodic_plane:
-      return copy_periodic(file, mesh, former);
+      copy_periodic(file, mesh, former);
+      break;
   }
+  drop_zero_weights(file);
 }
 
 void copy_triangles(MeshFile& file, const Mesh& mesh) {

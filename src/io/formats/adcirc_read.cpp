@@ -13,6 +13,7 @@
 #include <cctype>
 
 #include "io/conversion/adcirc.hpp"
+#include "io/conversion/bed.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/formats/format.hpp"
 #include "io/text/scanner.hpp"
@@ -107,7 +108,7 @@ class AdcircReader {
       scanner_.next_line();
     }
     if (look_like_degrees(f.points, depths)) f.points_in = DegreePoints{.is_guessed = true};
-    f.point_data.push_back({std::string(kAdcircDepth), 1, std::move(depths)});
+    f.point_data.push_back({std::string(kDepth), 1, std::move(depths)});
   }
   void elements(std::size_t n, const NumberLookup& lookup) {
     MeshFile& f = document_.file;

@@ -3,48 +3,18 @@
 // tags is in one boundary only: in those of its tags that are named so, or else in that of its first tag.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
 #include "io/conversion/adcirc.hpp"
+#include "io/conversion/bed.hpp"
 #include "io/formats/format.hpp"
 #include "io/text/values.hpp"
 
 namespace temper::io {
-namespace {
 
-using NodeString = std::vector<std::int32_t>;
-using DirectedEdge = std::array<std::int32_t, 2>;
-
-/// A boundary in the form that is written.
-struct AdcircString {
-  AdcircBoundary kind;
-  std::int32_t tag = 0;
-  NodeString nodes;
-};
-
-/// Edges of one triangle, with the domain on their left.
-std::set<DirectedEdge> boundary_edges(const MeshFile& f) {
-  std::vector<DirectedEdge> edges;
-  edges.reserve(3 * f.triangles.size());
-  for (const auto& t : f.triangles) {
-    const auto at = [&](std::size_t k) { return f.points[static_cast<std::size_t>(t[k])]; };
-    const bool clockwise = cross(at(1) - at(0), at(2) - at(0)) < 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t a = t[k], b = t[(k + 1) % 3];
-      edges.push_back(clockwise ? DirectedEdge{b, a} : DirectedEdge{a, b});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  std::set<DirectedEdge> boundary;
-  for (const auto& [a, b] : edges) {
-    if (!std::binary_search(edges.begin(), edges.end(), DirectedEdge{b, a})) boundary.insert({a, b});
-  }
-  return boundary;
-}
-
-/// The edges, each given once, as strings in their given order.
-std::vector<NodeString> strings_of(const std::vector<DirectedEdge>& edges) {
+std::vector<NodeString> node_strings(const std::vector<std::array<std::int32_t, 2>>& edges) {
   std::map<std::int32_t, std::int32_t> next;
   std::set<std::int32_t> targets;
   for (const auto& [a, b] : edges) {
@@ -65,6 +35,38 @@ std::vector<NodeString> strings_of(const std::vector<DirectedEdge>& edges) {
   }
   for (const auto& edge : edges) follow(edge[0]);  // loops
   return strings;
+}
+
+namespace {
+
+using DirectedEdge = std::array<std::int32_t, 2>;
+
+/// A boundary in the form that is written.
+struct AdcircString {
+  AdcircBoundary kind;
+  std::int32_t tag = 0;
+  NodeString nodes;
+};
+
+/// Edges of one triangle, with the domain on their left.
+std::set<DirectedEdge> boundary_edges(const MeshFile& f) {
+  std::vector<DirectedEdge> edges;
+  edges.reserve(3 * f.triangles.size());
+  for (const auto& t : f.triangles) {
+    const auto at = [&](std::size_t k) { return position_of(f, static_cast<std::size_t>(t[k])); };
+    const Vec3 normal = cross(at(1) - at(0), at(2) - at(0));
+    const bool clockwise = (f.sphere() != nullptr ? dot(normal, at(0)) : normal.z) < 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t a = t[k], b = t[(k + 1) % 3];
+      edges.push_back(clockwise ? DirectedEdge{b, a} : DirectedEdge{a, b});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::set<DirectedEdge> boundary;
+  for (const auto& [a, b] : edges) {
+    if (!std::binary_search(edges.begin(), edges.end(), DirectedEdge{b, a})) boundary.insert({a, b});
+  }
+  return boundary;
 }
 
 class AdcircWriter {
@@ -99,11 +101,13 @@ class AdcircWriter {
     out_.put(file_.triangles.size(), ' ', file_.points.size(), '\n');
   }
   void nodes() {
-    const DataArray* array = find(file_.point_data, kAdcircDepth);
+    const DataArray* array = find(file_.point_data, kDepth);
     const bool has_depth = array != nullptr && array->components == 1;
     const auto depths = has_depth ? to_doubles(Values(array->values)) : std::vector<double>(file_.points.size());
     for (std::size_t i = 0; i < file_.points.size(); ++i)
       out_.put(i + 1, ' ', file_.points[i].x, ' ', file_.points[i].y, ' ', depths[i], '\n');
+    const auto missing = std::ranges::count_if(depths, [](double depth) { return std::isnan(depth); });
+    if (missing > 0) job_.warn(missing, " points have no depth, which is written as nan");
   }
   void collect_boundaries() {
     const MeshFile& f = file_;
@@ -141,7 +145,7 @@ class AdcircWriter {
     }
     for (const std::int32_t tag : tags) {
       const AdcircBoundary kind = kind_of(tag);
-      for (NodeString& nodes : strings_of(edges[tag])) strings_.push_back({kind, tag, std::move(nodes)});
+      for (NodeString& nodes : node_strings(edges[tag])) strings_.push_back({kind, tag, std::move(nodes)});
     }
     for (AdcircString& s : strings_) levee_string(s);
   }
@@ -253,7 +257,7 @@ class AdcircWriter {
 
 // Files of the VTK family have the data of levees on all their cells.
 bool adcirc_keeps(ArraysOf of, const DataArray& array) {
-  if (of == &MeshFile::point_data) return array.name == kAdcircDepth;
+  if (of == &MeshFile::point_data) return array.name == kDepth;
   if (of == &MeshFile::field_data) return array.name == kAdcircTitle;
   return array.name == kAdcircLevee || array.name == kAdcircSide;
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 
+#include "io/conversion/bed.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/disk/files.hpp"
 #include "io/formats/format.hpp"
@@ -19,7 +20,7 @@ namespace temper::io {
 namespace {
 
 constexpr std::string_view kPoints = "nod2d.out", kTriangles = "elem2d.out", kDepths = "aux3d.out";
-constexpr std::string_view kFlag = "flag", kDepth = "depth", kLevels = "levels";
+constexpr std::string_view kFlag = "flag", kLevels = "levels";
 
 enum class FesomFile { none, points, triangles };
 
@@ -117,7 +118,7 @@ class FesomReader {
     std::vector<double> levels, depth;
     for (std::size_t n = scanner.count("levels", 2); levels.size() < n;) levels.push_back(scanner.real("a level"));
     while (depth.size() < f.points.size()) depth.push_back(scanner.real("the depth of a point"));
-    f.field_data.push_back({std::string(kLevels), 1, std::move(levels)});
+    if (!levels.empty()) f.field_data.push_back({std::string(kLevels), 1, std::move(levels)});
     f.point_data.push_back({std::string(kDepth), 1, std::move(depth)});
   }
 
@@ -154,17 +155,10 @@ std::vector<std::int32_t> flags_of(const MeshFile& f) {
   return flags;
 }
 
-/// Depths of points, and levels, when both are there.
-struct FesomDepths {
-  const std::vector<double>*levels = nullptr, *depth = nullptr;
-};
-FesomDepths depths_of(const MeshFile& f) {
-  const auto doubles = [](const std::vector<DataArray>& arrays, std::string_view name) {
-    const DataArray* array = find(arrays, name);
-    return array == nullptr || array->components != 1 ? nullptr : std::get_if<std::vector<double>>(&array->values);
-  };
-  const FesomDepths found{doubles(f.field_data, kLevels), doubles(f.point_data, kDepth)};
-  return found.levels != nullptr && found.depth != nullptr ? found : FesomDepths{};
+/// The numbers of that name; none when they are not there.
+std::vector<double> numbers_of(const std::vector<DataArray>& arrays, std::string_view name) {
+  const DataArray* array = find(arrays, name);
+  return array == nullptr || array->components != 1 ? std::vector<double>() : to_doubles(Values(array->values));
 }
 
 }  // namespace
@@ -195,12 +189,20 @@ void write_fesom(const WriteJob& job) {
   Output& triangles = job.outputs.open(base + std::string(kTriangles));
   triangles.put(f.triangles.size(), '\n');
   for (const auto& [a, b, c] : f.triangles) triangles.put(a + 1, ' ', b + 1, ' ', c + 1, '\n');
-  const auto [levels, depth] = depths_of(f);
-  if (levels == nullptr) return;
+  const std::vector<double> levels = numbers_of(f.field_data, kLevels), depth = numbers_of(f.point_data, kDepth);
+  if (depth.empty()) {
+    if (!levels.empty()) job.warn("field data ", kLevels, " are not written: FESOM has levels with depths alone");
+    return;
+  }
+  if (levels.empty()) {
+    job.warn("there are depths, and no levels: ", kDepths,
+             " has 0 levels. Next: put the number of levels of your model "
+             "on its first line, and the levels on the lines after it");
+  }
   Output& depths = job.outputs.open(base + std::string(kDepths));
-  depths.put(levels->size(), '\n');
-  for (const double level : *levels) depths.put(level, '\n');
-  for (const double d : *depth) depths.put(d, '\n');
+  depths.put(levels.size(), '\n');
+  for (const double level : levels) depths.put(level, '\n');
+  for (const double d : depth) depths.put(d, '\n');
 }
 
 }  // namespace temper::io

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <map>
 
+#include "io/conversion/data_update.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/disk/files.hpp"
 #include "io/text/names.hpp"
@@ -58,8 +59,8 @@ void warn_of_parallel(Document& d) {
 
 }  // namespace
 
-void check(Document& d) {
-  const MeshFile& f = d.file;
+void check(Document& d, bool flat) {
+  MeshFile& f = d.file;
   if (f.points.empty()) fail(ErrorCode::empty_input, d.names->path, "the file has no points");
   if (f.triangles.empty()) {
     // Other programs call JIGSAW's outlines meshes.
@@ -76,7 +77,16 @@ void check(Document& d) {
   }
   if (!std::isfinite(d.z)) fail(ErrorCode::not_finite, d.names->point_where(0), d.names->point(0), " has z = ", d.z);
   d.file.set_z(d.z);
-  if (!d.heights.empty()) {
+  if (!d.heights.empty() && flat) {
+    for (std::size_t i = 0; i < d.heights.size(); ++i) {
+      if (!std::isfinite(d.heights[i]))
+        fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has z = ", d.heights[i],
+             ", expected a finite number");
+    }
+    f.set_z(0);
+    f.z_is_data = true;
+    f.point_data.insert(f.point_data.begin(), {std::string(kHeight), 1, std::move(d.heights)});
+  } else if (!d.heights.empty()) {
     std::vector<Vec3> places;
     for (std::size_t i = 0; i < f.points.size(); ++i) places.push_back({f.points[i].x, f.points[i].y, d.heights[i]});
     const bool is_periodic = f.periodic() != nullptr;
@@ -144,8 +154,7 @@ void read_side_file(Document& document) {
 void write_side_file(const WriteJob& job) {
   const MeshFile& f = job.file;
   const std::string path = side_file_path(job.path);
-  bool weighted = false;
-  for (const double w : f.weights) weighted = weighted || w != 0 || std::signbit(w);
+  const bool weighted = is_weighted(f);
   if (is_stream(job.path)) {
     if (weighted)
       job.warn("the format has no place for weights, and a stream has no file next to it: they are left out");
@@ -203,8 +212,11 @@ void warn_of_losses(const WriteJob& job) {
   const MeshFile& f = job.file;
   const FormatRow& row = job.row;
   const auto lost = [&row](Content content) { return (row.holds & content) == 0; };
+  const std::string_view axis = name_of_axis(normal_of(f));
   if (lost(kZ) && f.sphere() == nullptr && !is_flat(f))
-    job.warn("z = ", f.z(), " of the points is", has_no_place_for(job, "it"));
+    job.warn(axis, " = ", f.z(), " of the points is", has_no_place_for(job, "it"));
+  if (!lost(kZ) && normal_of(f) != kZAxis && !row.is_in_space())
+    job.warn("the plane of ", axis, " = ", f.z(), " is written as one of z");
   const bool has_regions = std::any_of(f.regions.begin(), f.regions.end(), [](std::int32_t r) { return r != 0; });
   if (lost(kRegions) && has_regions) job.warn("regions are", has_no_place_for(job, "them"));
   if (lost(kLines) && !f.lines.empty()) job.warn("lines are", has_no_place_for(job, "them"));

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/conversion/bed.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/disk/files.hpp"
 #include "io/text/file_names.hpp"
@@ -24,8 +25,9 @@ struct Document {
 [[nodiscard]] Document new_document(const std::string& path);
 
 /// Checks what every format must satisfy once its arrays are read. Points and triangles exist, and numbers are in
-/// range. Coordinates and weights are finite. Points lie in a plane or on a sphere around the origin.
-void check(Document& document);
+/// range. Coordinates and weights are finite. Points lie in a plane or on a sphere around the origin. `flat`: as
+/// ReadOptions::flat.
+void check(Document& document, bool flat);
 
 /// Collects z, of one point after the other.
 class PlaneCheck {
@@ -90,6 +92,8 @@ struct FormatDetails {
   std::int64_t first_point = 1;     ///< the number of the first point in a file
   std::string_view name_ends = {};  ///< characters that would end a name: written as %22
   Degrees degrees = Degrees::as_they_came;
+  Bed bed = Bed::as_it_came;
+  bool has_heights = false;  ///< z of its points is data
 };
 
 struct FormatRow {
@@ -99,6 +103,11 @@ struct FormatRow {
   Document (*read)(Source& source);
   void (*write)(const WriteJob& job) = nullptr;  ///< null: read only
   FormatDetails details = {};
+
+  /// Says whether points have three coordinates in a file.
+  [[nodiscard]] bool is_in_space() const {
+    return (holds & kInSpace) == kInSpace && details.degrees == Degrees::as_they_came;
+  }
 };
 inline constexpr std::size_t kSniffBytes = 4096;
 /// The row of that name, or null.
@@ -115,7 +124,13 @@ struct WriteJob {
   Executor* executor;
   OutputSet& outputs;
   std::vector<std::string>& warnings;
+  std::vector<double> heights = {};  ///< z of each point, from data; empty: all have the z of the file
 
+  /// The three coordinates of a point, as they are written.
+  [[nodiscard]] Vec3 place(std::size_t point) const {
+    return heights.empty() ? place_of(file, point) : Vec3{file.points[point].x, file.points[point].y, heights[point]};
+  }
+  [[nodiscard]] bool is_flat() const { return heights.empty() && normal_of(file) == kZAxis && io::is_flat(file); }
   /// The message in parts, as for text().
   template <class... Parts>
   void warn(const Parts&... message) const {

@@ -148,7 +148,7 @@ class GmshWriter {
     out_.put("$EndEntities\n", "");
   }
   void put_place(std::size_t point) {
-    const Vec3 p = position_of(file_, point);
+    const Vec3 p = job_.place(point);
     put(p.x), put(p.y), put(p.z);
     end_line();
   }
@@ -305,7 +305,7 @@ class GmshWriter {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     std::array<double, 6> box = {kInfinity, kInfinity, kInfinity, -kInfinity, -kInfinity, -kInfinity};
     for (std::size_t i = 0; i < file_.points.size(); ++i) {
-      const Vec3 p = position_of(file_, i);
+      const Vec3 p = job_.place(i);
       box[0] = std::min(box[0], p.x), box[1] = std::min(box[1], p.y), box[2] = std::min(box[2], p.z);
       box[3] = std::max(box[3], p.x), box[4] = std::max(box[4], p.y), box[5] = std::max(box[5], p.z);
     }

@@ -224,11 +224,11 @@ bool jigsaw_keeps(ArraysOf of, const DataArray& array) {
 void write_jigsaw_mesh(const WriteJob& job) {
   const MeshFile& f = job.file;
   Output& out = job.outputs.open(job.path);
-  const bool flat = is_flat(f);
+  const bool flat = job.is_flat();
   out.put("MSHID=3;EUCLIDEAN-MESH\nNDIMS=", flat ? 2 : 3, "\nPOINT=", f.points.size(), '\n');
   const auto tags = one_tag_a_point(job);
   for (std::size_t i = 0; i < f.points.size(); ++i) {
-    const Vec3 p = position_of(f, i);
+    const Vec3 p = job.place(i);
     out.put(p.x, ';', p.y, ';');
     if (!flat) out.put(p.z, ';');
     out.put(tags[i], '\n');

@@ -184,7 +184,7 @@ class ObjWriter {
   void write() {
     const MeshFile& f = file_;
     for (std::size_t i = 0; i < f.points.size(); ++i) {
-      const Vec3 p = position_of(f, i);
+      const Vec3 p = job_.place(i);
       out_.put("v ", p.x, ' ', p.y, ' ', p.z, '\n');
     }
     for (std::size_t i = 0; i < f.triangles.size(); ++i) {

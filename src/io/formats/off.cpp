@@ -103,7 +103,7 @@ void write_off(const WriteJob& job) {
   Output& out = job.outputs.open(job.path);
   out.put("OFF\n", f.points.size(), ' ', f.triangles.size(), " 0\n");
   for (std::size_t i = 0; i < f.points.size(); ++i) {
-    const Vec3 p = position_of(f, i);
+    const Vec3 p = job.place(i);
     out.put(p.x, ' ', p.y, ' ', p.z, '\n');
   }
   for (const auto& t : f.triangles) out.put("3 ", t[0], ' ', t[1], ' ', t[2], '\n');

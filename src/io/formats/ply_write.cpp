@@ -27,7 +27,7 @@ class PlyWriter {
     tags_ = one_tag_a_point(job_);
     header();
     for (std::size_t i = 0; i < f.points.size(); ++i) {
-      const Vec3 p = position_of(f, i);
+      const Vec3 p = job_.place(i);
       put(p.x, true);
       put(p.y);
       put(p.z);

@@ -117,7 +117,6 @@ constexpr Known kKnown[] = {
               s.substr(0, s.find('\n')).find('=') != std::string_view::npos;
      },
      kMeshio},
-    {"a 2DM mesh", [](std::string_view h) { return h.starts_with("MESH2D"); }},
     {"a Netgen mesh", [](std::string_view h) { return h.starts_with("mesh3d") || h.starts_with("areamesh"); }, kMeshio},
     {"a compressed file", [](std::string_view h) { return h.starts_with("\x1f\x8b") || h.starts_with("PK\3\4"); }},
     {"a Selafin file of TELEMAC", is_selafin},

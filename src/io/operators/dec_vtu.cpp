@@ -211,7 +211,7 @@ void write_vtu(const WriteJob& job) {
   VtuDocument vtu(job.outputs.open(job.path), job.encoding.value_or(Encoding::base64), job.executor);
   vtu.fields(vtk_field_data(file));
   vtu.begin_piece(file.points.size(), n_vtk_cells(file));
-  vtu.section("Points", {vtk_points(file)});
+  vtu.section("Points", {vtk_points(job)});
   const VtkArray ends = vtk_cell_ends(file.triangles.size(), file.lines.size(), file.marked_points.size());
   vtu.section("Cells", {vtk_connectivity(file), ends, vtk_cell_types(file)});
   vtu.section("PointData", vtk_point_data(job));

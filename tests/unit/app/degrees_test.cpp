@@ -98,5 +98,22 @@ TEST_F(Degrees, PlainMeshesInTheRangeOfDegreesAreNot) {
   for (const char* input : {"in.vtu", "fort.14"}) temper_ok({"optimize", input, "-o", "out.vtu", "--quiet"});
 }
 
+TEST_F(Degrees, AFormatWithoutAPlaceForTheGlobeIsRefusedBeforeTheWork) {
+  write_sea("fort.14");
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"optimize", "fort.14", "--projection", "sphere", "--time-limit", "100"},
+                                             {"weights", "fort.14", "--projection", "sphere"},
+                                             {"mesh", "--sphere", "--size", "100"}}) {
+    std::vector<std::string> all = arguments;
+    all.insert(all.end(), {"-o", "out.node"});
+    const Outcome outcome = temper(all);
+    EXPECT_EQ(outcome.exit, 1) << arguments[0];
+    EXPECT_TRUE(contains(outcome.err, "points are on a sphere, which Triangle is not written with")) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+  temper_ok({"optimize", "fort.14", "-o", "globe.14", "--projection", "sphere", "--quiet"});
+  EXPECT_EQ(io::read("globe.14")->points.size(), io::read("fort.14")->points.size());
+}
+
 }  // namespace
 }  // namespace temper::test

@@ -74,8 +74,9 @@ const std::vector<Bad>& bad_files() {
        ErrorCode::non_manifold_vertex,
        "m.mesh:5: the mesh touches itself at point 1: its triangles are not one fan around it"},
       {"not_planar", "m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0.5\nf 1 2 3\n", ErrorCode::not_planar,
-       "m.obj:3: point 3 has z = 0.5, but point 1 has z = 0; expected a mesh in a plane of constant z, or on a sphere "
-       "around the origin"},
+       "m.obj:3: point 3 has z = 0.5, but point 1 has z = 0; expected a mesh in a plane of constant x, y or z, or on a "
+       "sphere "
+       "around the origin. Next: --flat takes z as data of a mesh of the plane (flat=True in Python)"},
       {"quadrilateral_in_medit", "m.mesh", medit(kSquare, "Triangles\n0\nQuadrilaterals\n1\n1 2 3 4 0\n"),
        ErrorCode::unsupported,
        "m.mesh:13: element 1 is a quadrilateral; temper reads meshes of linear triangles, with lines and points as "

@@ -242,5 +242,25 @@ TEST(DataRules, ThatMakeNoSenseAreRefusedByName) {
             "interpolated");
 }
 
+TEST(DataUpdate, AMissingValueSpreadsHalfWayToTheNextCorners) {
+  MeshFile f;
+  f.points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {2, 2}};
+  f.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  f.point_data = {{"depth", 1, std::vector<double>{kNone, 6, 6, 6, 8}}};
+  const auto value_at = [&](Vec2 p) {
+    MeshFile file = f;
+    auto loaded = make_mesh(file);
+    loaded->mesh.set_point(VertexId(4), {p.x, p.y, 0});
+    update(file, *loaded, loaded->mesh);
+    return std::get<std::vector<double>>(file.point_data[0].values)[4];
+  };
+  EXPECT_EQ(value_at({2, 2}), 8);
+  EXPECT_EQ(value_at({3, 2}), 7) << "without the missing corner nothing changes";
+  EXPECT_TRUE(std::isnan(value_at({0.9, 0.9}))) << "nearer to the missing corner";
+  EXPECT_EQ(value_at({1.1, 1.1}), 8) << "on the edge from it, nearer to the other end";
+  EXPECT_TRUE(value_at({2, 1.2}) >= 6 && value_at({2, 1.2}) <= 8) << "a quarter is missing";
+}
+
 }  // namespace
 }  // namespace temper::io

@@ -171,7 +171,6 @@ TEST(EdgeLines, PointsOfNoTriangleAndTheirLinesDoNotMatter) {
     for (std::int32_t& p : triangle) ++p;
   }
   file.points.insert(file.points.begin(), Vec2{9, 9});
-  file.weights.insert(file.weights.begin(), 0.0);
   file.lines.insert(file.lines.begin(), Line{0, 1});
   file.line_tags.insert(file.line_tags.begin(), kEdgeTag);
   auto made = make_mesh(file);

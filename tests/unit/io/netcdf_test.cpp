@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "io/containers/netcdf_file.hpp"
@@ -495,7 +496,8 @@ TEST_F(NetcdfFormats, MpasOfTheSphereIsReadBackBitForBit) {
 TEST_F(NetcdfFormats, MpasWithoutWeightsIsCrossedInTheMiddleAndWarnsOfNothing) {
   write_ok("m.mpas.nc", from_mesh(*icosahedral({.level = 2})));
   const Nc nc = Nc::open(path("m.mpas.nc"));
-  for (const double weight : nc.get<double>("weight")) EXPECT_EQ(weight, 0);
+  int weight = -1;
+  EXPECT_NE(nc_inq_varid(nc.id, "weight", &weight), NC_NOERR) << "weights of zero are none";
   MeshFile plane = bent_lattice();
   plane.weights.clear();
   write_ok("p.mpas.nc", plane);
@@ -614,6 +616,252 @@ TEST_F(NetcdfFormats, UgridMayHaveItsTablesInDoublesFilledUpWithNan) {
   EXPECT_EQ(plain(with(HUGE_VAL, -999).error().what()), "o.nc: variable fn has the value inf; expected whole numbers");
 }
 
+/// A square of two triangles, with these names of the topology and of its coordinates.
+Nc square(const std::string& path, const std::string& topology, const std::vector<double>& x,
+          const std::vector<double>& y, const std::string& axes = "x y") {
+  Nc nc = Nc::create(path);
+  const int nodes = nc.add_dimension("node", 4), faces = nc.add_dimension("face", 2),
+            three = nc.add_dimension("three", 3);
+  nc.add<double>("x", {nodes}, x);
+  nc.add<double>("y", {nodes}, y);
+  nc.add<std::int32_t>("fn", {faces, three}, {0, 1, 2, 0, 2, 3});
+  const int mesh = nc.add<std::int32_t>(topology.c_str(), {}, {0}, {{"topology_dimension", 2}});
+  nc.say(mesh, "cf_role", "mesh_topology");
+  nc.say(mesh, "node_coordinates", axes);
+  nc.say(mesh, "face_node_connectivity", "fn");
+  return nc;
+}
+Nc square(const std::string& path, const std::string& topology = "Mesh2") {
+  return square(path, topology, {0, 1, 1, 0}, {0, 0, 1, 1});
+}
+int id_of(const Nc& nc, const char* name) {
+  int v = -1;
+  EXPECT_EQ(nc_inq_varid(nc.id, name, &v), NC_NOERR) << name;
+  return v;
+}
+
+TEST_F(NetcdfFormats, PackedNumbersAreUnpackedAndDeclaredOnesAreMissing) {
+  {
+    Nc nc = square(path("o.nc"));
+    const std::vector<int> node = {0};
+    const int packed = nc.add<std::int32_t>("packed", node, {100, 200, -7, 9000}, {{"_FillValue", -7}});
+    nc.say(packed, "scale_factor", 0.01);
+    nc.say(packed, "add_offset", 5.0);
+    nc.say(packed, "valid_max", 10.0);  // of the unpacked numbers, by its type
+    nc.say(packed, "units", "m");
+    const int level = nc.add<double>("level", node, {1, -999, 3, NC_FILL_DOUBLE});
+    nc.say(level, "missing_value", -999.0);
+    nc.say(level, "standard_name", "altitude");
+    nc.add<std::int32_t>("label", node, {1, -7, 3, 4}, {{"_FillValue", -7}});
+  }
+  const auto f = read(path("o.nc"));
+  ASSERT_TRUE(f) << f.error().what();
+  const auto values = [](const MeshFile& file, const char* name) {
+    for (const DataArray& a : file.point_data)
+      if (a.name == name) return std::get<std::vector<double>>(a.values);
+    return std::vector<double>();
+  };
+  const auto packed = values(*f, "packed"), level = values(*f, "level");
+  ASSERT_EQ(packed.size(), 4u);
+  EXPECT_EQ(packed[0], 6);
+  EXPECT_EQ(packed[1], 7);
+  EXPECT_TRUE(std::isnan(packed[2]) && std::isnan(packed[3]));
+  EXPECT_TRUE(std::isnan(level[1]) && level[2] == 3);
+  write_ok("again.nc", *f);
+  const Nc nc = Nc::open(path("again.nc"));
+  EXPECT_EQ(nc.text("packed", "units"), "m");
+  double number = 0;
+  EXPECT_NE(nc_get_att_double(nc.id, id_of(nc, "packed"), "scale_factor", &number), NC_NOERR) << "it is unpacked";
+  EXPECT_EQ(nc.get<double>("level")[1], -999) << "as it came";
+  EXPECT_EQ(nc.get<std::int32_t>("label"), (std::vector<std::int32_t>{1, -7, 3, 4})) << "a label is no number";
+  int fill = 0;
+  EXPECT_EQ(nc_get_att_int(nc.id, id_of(nc, "label"), "_FillValue", &fill), NC_NOERR);
+  EXPECT_EQ(fill, -7);
+  const auto back = read(path("again.nc"));
+  ASSERT_TRUE(back);
+  EXPECT_TRUE(std::isnan(values(*back, "packed")[2]) && std::isnan(values(*back, "level")[1]));
+}
+
+// Through VTU, too, whose field data keep them.
+TEST_F(NetcdfFormats, AttributesSystemsNamesAndUnitsComeBack) {
+  {
+    Nc nc = square(path("o.nc"), "Mesh2", {0, 0, 1, 1}, {0, 1, 1, 0}, "x y");
+    nc.say(NC_GLOBAL, "title", "a basin");
+    nc.say(NC_GLOBAL, "Conventions", "CF-1.8 UGRID-1.0 Deltares-0.10");
+    for (const char* axis : {"x", "y"}) nc.say(id_of(nc, axis), "units", "km");
+    nc.say(id_of(nc, "x"), "standard_name", "projection_y_coordinate");  // they are told by what they say
+    nc.say(id_of(nc, "y"), "standard_name", "projection_x_coordinate");
+    nc.say(id_of(nc, "Mesh2"), "long_name", "the mesh");
+    const int map = nc.add<std::int32_t>("projected_coordinate_system", {}, {28992}, {{"epsg", 28992}});
+    nc.say(map, "grid_mapping_name", "oblique_stereographic");
+    nc.say(nc.add<double>("level", {0}, {1, 2, 3, 4}), "grid_mapping", "projected_coordinate_system");
+  }
+  auto f = read(path("o.nc"));
+  ASSERT_TRUE(f) << f.error().what();
+  EXPECT_EQ(f->points[1], (Vec2{1, 0}));
+  ASSERT_EQ(f->warnings.size(), 1u);
+  EXPECT_EQ(plain(f->warnings[0]), "o.nc: coordinates are in km: so are lengths and sizes");
+  ASSERT_TRUE(write(path("m.vtu"), *f));
+  f = read(path("m.vtu"));
+  ASSERT_TRUE(f);
+  ASSERT_TRUE(write(path("again.nc"), *f));
+  const Nc nc = Nc::open(path("again.nc"));
+  EXPECT_EQ(nc.text(nullptr, "title"), "a basin");
+  EXPECT_EQ(nc.text(nullptr, "Conventions"), "CF-1.8 UGRID-1.0 Deltares-0.10");
+  EXPECT_EQ(nc.text("Mesh2", "long_name"), "the mesh");
+  EXPECT_EQ(nc.text("Mesh2", "node_coordinates"), "y x") << "x first";
+  EXPECT_EQ(nc.text("y", "units"), "km");
+  EXPECT_EQ(nc.text("Mesh2_face_x", "units"), "km");
+  EXPECT_EQ(nc.get<double>("y"), (std::vector<double>{0, 1, 1, 0}));
+  EXPECT_EQ(nc.get<std::int32_t>("projected_coordinate_system"), std::vector<std::int32_t>{28992});
+  EXPECT_EQ(nc.text("projected_coordinate_system", "grid_mapping_name"), "oblique_stereographic");
+  EXPECT_EQ(nc.text("level", "grid_mapping"), "projected_coordinate_system");
+  ASSERT_TRUE(write(path("third.nc"), *read(path("again.nc"))));
+  EXPECT_EQ(slurp(path("third.nc")), slurp(path("again.nc")));
+}
+
+TEST_F(NetcdfFormats, RadiansAreDegreesInMemoryAndRadiansAgain) {
+  {
+    Nc nc = square(path("o.nc"), "grid", {0, 0.1, 0.1, 0}, {0.5, 0.5, 0.6, 0.6});
+    for (const char* axis : {"x", "y"}) nc.say(id_of(nc, axis), "units", "radian");
+    nc.say(id_of(nc, "x"), "long_name", "longitude");
+    nc.say(id_of(nc, "y"), "long_name", "latitude");
+  }
+  auto f = read(path("o.nc"));
+  ASSERT_TRUE(f) << f.error().what();
+  ASSERT_TRUE(f->degrees() != nullptr);
+  EXPECT_DOUBLE_EQ(f->points[1].x, 18 / std::numbers::pi);
+  ASSERT_TRUE(project(*f, "stereographic"));
+  ASSERT_TRUE(write(path("again.nc"), *f));
+  const Nc nc = Nc::open(path("again.nc"));
+  EXPECT_EQ(nc.text("x", "units"), "radian");
+  EXPECT_DOUBLE_EQ(nc.get<double>("x")[1], 0.1);
+}
+
+// D-Flow FM: mesh2d_node_z, positive up, is the depth of others, positive down.
+TEST_F(NetcdfFormats, DepthsAreBedLevelsAndComeBack) {
+  MeshFile f = bent_lattice();
+  f.weights.clear();
+  std::vector<double> depth;
+  for (const Vec2 p : f.points) depth.push_back(1 + p.x / 8);
+  f.point_data = {{"depth", 1, depth}};
+  write_ok("m.nc", f);
+  const Nc nc = Nc::open(path("m.nc"));
+  EXPECT_EQ(nc.get<double>("mesh2d_node_z")[3], -depth[3]);
+  EXPECT_EQ(nc.text("mesh2d_node_z", "standard_name"), "altitude");
+  EXPECT_EQ(nc.text("mesh2d_node_z", "positive"), "up");
+  const auto back = read(path("m.nc"));
+  ASSERT_TRUE(back);
+  for (const char* name : {"m.14", "m.2dm"}) {
+    ASSERT_TRUE(write(path(name), *back));
+    const auto again = read(path(name));
+    ASSERT_TRUE(again) << again.error().what();
+    const auto& values = std::get<std::vector<double>>(again->point_data.at(0).values);
+    EXPECT_EQ(values[3], again->z_is_data ? -depth[3] : depth[3]) << name;
+    ASSERT_TRUE(write(path("again.nc"), *again));
+    EXPECT_EQ(Nc::open(path("again.nc")).get<double>("mesh2d_node_z")[3], -depth[3]) << name;
+  }
+}
+
+TEST_F(NetcdfFormats, EdgesAloneEncloseTriangles) {
+  const MeshFile lattice = bent_lattice();
+  const auto net = [&](bool old, bool whole) {
+    Nc nc = Nc::create(path("o.nc"));
+    std::vector<double> x, y;
+    for (const Vec2 p : lattice.points) x.push_back(p.x), y.push_back(p.y);
+    std::set<std::pair<int, int>> edges;
+    for (const auto& t : lattice.triangles)
+      for (std::size_t k = 0; k < 3; ++k) edges.insert(std::minmax({t[k], t[(k + 1) % 3]}));
+    if (!whole) edges.erase(std::minmax({lattice.triangles[4][1], lattice.triangles[4][2]}));
+    std::vector<std::int32_t> ends, types(edges.size(), 2);
+    for (const auto& [a, b] : edges) ends.insert(ends.end(), {a + old, b + old});
+    const int nodes = nc.add_dimension("n", x.size()), links = nc.add_dimension("e", edges.size()),
+              two = nc.add_dimension("two", 2);
+    nc.add<double>(old ? "NetNode_x" : "x", {nodes}, x);
+    nc.add<double>(old ? "NetNode_y" : "y", {nodes}, y);
+    nc.add<double>(old ? "NetNode_z" : "level", {nodes}, x);
+    nc.add<std::int32_t>(old ? "NetLink" : "en", {links, two}, ends);
+    if (old) {
+      nc.add<std::int32_t>("NetLinkType", {links}, types);
+      return;
+    }
+    const int mesh = nc.add<std::int32_t>("m", {}, {0}, {{"topology_dimension", 2}});
+    nc.say(mesh, "cf_role", "mesh_topology");
+    nc.say(mesh, "node_coordinates", "x y");
+    nc.say(mesh, "edge_node_connectivity", "en");
+  };
+  const auto corners = [](MeshFile file) {
+    for (auto& t : file.triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    std::sort(file.triangles.begin(), file.triangles.end());
+    return file.triangles;
+  };
+  for (const bool old : {false, true}) {
+    net(old, true);
+    const auto f = read(path("o.nc"));
+    ASSERT_TRUE(f) << f.error().what();
+    EXPECT_EQ(corners(*f), corners(lattice));
+    EXPECT_EQ(f->point_data.at(0).name, old ? "mesh2d_node_z" : "level");
+    net(old, false);
+    const auto refused = read(path("o.nc"));
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("edges enclose a face with 4 sides, point "), std::string::npos)
+        << refused.error().message;
+  }
+}
+
+TEST_F(NetcdfFormats, IconIsAMeshOfTheSphereByItsTableOrByItsCorners) {
+  const MeshFile globe = from_mesh(*icosahedral({.level = 2, .radius = 6371229}));
+  const auto radians = [](double degrees) { return degrees * (std::numbers::pi / 180); };
+  for (const bool by_table : {true, false}) {
+    {
+      Nc nc = Nc::create(path("o.nc"));
+      const int cells = nc.add_dimension("cell", globe.triangles.size()), three = nc.add_dimension("nv", 3),
+                vertices = nc.add_dimension("vertex", globe.points.size());
+      nc.say(NC_GLOBAL, "sphere_radius", 6371229.0);
+      std::vector<double> lon, lat;
+      std::vector<std::int32_t> table(3 * globe.triangles.size());
+      for (std::size_t t = 0; t < globe.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Vec2 p = globe.points[static_cast<std::size_t>(globe.triangles[t][k])];
+          table[k * globe.triangles.size() + t] = globe.triangles[t][k] + 1;
+          if (!by_table) lon.push_back(radians(p.x)), lat.push_back(radians(p.y));
+        }
+      }
+      if (by_table) {
+        for (const Vec2 p : globe.points) lon.push_back(radians(p.x)), lat.push_back(radians(p.y));
+        nc.add<double>("vlon", {vertices}, lon);
+        nc.add<double>("vlat", {vertices}, lat);
+        nc.add<std::int32_t>("vertex_of_cell", {three, cells}, table);
+      } else {
+        nc.add<double>("clon_vertices", {cells, three}, lon);
+        nc.add<double>("clat_vertices", {cells, three}, lat);
+      }
+    }
+    const auto f = read(path("o.nc"));
+    ASSERT_TRUE(f) << f.error().what();
+    EXPECT_EQ(f->points.size(), globe.points.size());
+    const auto made = make_mesh(*f);
+    ASSERT_TRUE(made) << made.error().what();
+    EXPECT_EQ(made->mesh.space().radius(), 6371229);
+    EXPECT_EQ(made->mesh.n_triangles(), globe.triangles.size());
+    EXPECT_FALSE(made->mesh.validate());
+    EXPECT_EQ(made->reversed_triangles, 0u);
+  }
+}
+
+TEST_F(NetcdfFormats, PublicPackedDataStayInTheirRange) {
+  const std::string packed = TEMPER_SHARED "/reports/data_packed.nc";
+  if (!std::filesystem::exists(packed)) GTEST_SKIP() << "no " << packed;
+  const auto f = read(packed);
+  ASSERT_TRUE(f) << f.error().what();
+  for (const DataArray& a : f->point_data) {
+    if (a.name != "depth") continue;
+    for (const double d : std::get<std::vector<double>>(a.values))
+      EXPECT_TRUE(std::isnan(d) || (d >= 5 && d <= 11)) << d;
+  }
+  EXPECT_TRUE(read(TEMPER_SHARED "/reports/list_attr.nc"));
+}
+
 TEST_F(NetcdfFormats, HeadersOfAnyLengthAreRead) {
   for (std::size_t length = 500; length < 9000; length += 250) {
     {
@@ -730,12 +978,12 @@ TEST_F(NetcdfFormats, WhatIsNoPlanarMeshOfTrianglesIsNamed) {
     EXPECT_FALSE(f);
     return f ? "" : plain(f.error().what());
   };
-  EXPECT_EQ(
-      refused([](Nc& nc) {
-        nc.add<double>("x", {nc.add_dimension("n", 2)}, {0, 1});
-      }),
-      "o.nc: is NetCDF without a mesh that temper reads: neither MPAS nor a two-dimensional topology of UGRID. Next: "
-      "write the mesh as UGRID with its faces");
+  EXPECT_EQ(refused([](Nc& nc) {
+              nc.add<double>("x", {nc.add_dimension("n", 2)}, {0, 1});
+            }),
+            "o.nc: is NetCDF without a mesh that temper reads: neither MPAS, ICON nor a two-dimensional topology of "
+            "UGRID. Next: "
+            "write the mesh as UGRID with its faces");
   EXPECT_EQ(refused([](Nc& nc) {
               const int n = nc.add_dimension("nCells", 3), v = nc.add_dimension("nVertices", 1),
                         d = nc.add_dimension("vertexDegree", 3);
@@ -745,8 +993,9 @@ TEST_F(NetcdfFormats, WhatIsNoPlanarMeshOfTrianglesIsNamed) {
               nc.add<double>("zCell", {n}, {0, 0, 2});
               nc.add<std::int32_t>("cellsOnVertex", {v, d}, {1, 2, 3});
             }),
-            "o.nc: point 3 has z = 2, but point 1 has z = 0; expected a mesh in a plane of constant z, or on a sphere "
-            "around the origin");
+            "o.nc: point 3 has z = 2, but point 1 has z = 0; expected a mesh in a plane of constant x, y or z, or on a "
+            "sphere "
+            "around the origin. Next: --flat takes z as data of a mesh of the plane (flat=True in Python)");
   // What MPAS says of its coordinates must be so.
   const auto contradiction = [&](const char* on_a_sphere, double radius, double last_z) {
     return refused([&](Nc& nc) {

@@ -10,6 +10,10 @@ using Triangles = std::vector<std::array<std::int32_t, 3>>;
 using Lines = std::vector<std::array<std::int32_t, 2>>;
 using Tags = std::vector<std::int32_t>;
 
+std::string text_of_name(const Format& format) {
+  return "m" + std::string(format.suffixes.substr(0, format.suffixes.find(' ')));
+}
+
 class OtherFormats : public FileTest {
  protected:
   MeshFile read_ok(const std::string& name, const std::string& content) const {
@@ -344,6 +348,105 @@ TEST_F(OtherFormats, BadFort14IsNamed) {
             "fort.14:11: open boundary 1 uses vertex 8, but the file has 3 vertices, numbered from 1");
   EXPECT_EQ(refused("fort.14", head + "1 3 1 2 3\n1\n2\n2 0\n1\n"),
             "fort.14:11: the file ends where the number of a node was expected");
+}
+
+// --- 2DM -------------------------------------------------------------------------------------------------------
+
+TEST_F(OtherFormats, MeshesOfSmsHaveHeightsMaterialsAndNamedStrings) {
+  const std::string content =
+      "MESH2D\nMESHNAME \"bay\"\nNUM_MATERIALS_PER_ELEM 1\nE3T 5 10 20 30 2\nE3T 6 10 30 40 3\n"
+      "ND 10 0 0 -5\nND 20 10 0 -6.5\nND 30 10 10 1\nND 40 0 10 0\nNS 20 30\nNS -40 7 \"sea side\"\nBEGPARAMDEF\n";
+  const MeshFile f = read_ok("m.2dm", content);
+  EXPECT_EQ(f.format, "2dm");
+  EXPECT_EQ(f.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(f.regions, (Tags{2, 3}));
+  EXPECT_EQ(f.lines, (Lines{{1, 2}, {2, 3}}));
+  EXPECT_EQ(f.line_tags, (Tags{7, 7}));
+  ASSERT_EQ(f.names.size(), 1u);
+  EXPECT_EQ(f.names[0].name, "sea side");
+  EXPECT_EQ(f.warnings.size(), 1u);
+  ASSERT_TRUE(write(path("again.2dm"), f));
+  EXPECT_EQ(slurp(path("again.2dm")),
+            "MESH2D\nE3T 1 1 2 3 2\nE3T 2 1 3 4 3\nND 1 0 0 -5\nND 2 10 0 -6.5\nND 3 10 10 1\nND 4 0 10 0\n"
+            "NS 2 3 -4 7 \"sea side\"\n");
+  EXPECT_EQ(
+      refused("m.2dm", "MESH2D\nE4Q 1 1 2 3 4 1\n"),
+      "m.2dm:2: element 1 is a quadrilateral; temper reads meshes of linear triangles, with lines and points as tags");
+  EXPECT_EQ(refused("m.2dm", "MESH2D\nE3T 1 1 2 3 1\nND 1 0 0 0\nND 2 1 0 0\n"),
+            "m.2dm:2: triangle 1 uses vertex 3, but the file has 2 vertices and not this one");
+}
+
+// --- z as data, planes that stand, and weights of zero ----------------------------------------------------------
+
+TEST_F(OtherFormats, HeightsAreDataOfAFlatMeshAndComeBackAsZ) {
+  const std::string content = "OFF\n4 2 0\n0 0 1.5\n1 0 2\n1 1 -3\n0 1 4\n3 0 1 2\n3 0 2 3\n";
+  EXPECT_NE(refused("m.off", content).find("Next: --flat takes z as data"), std::string::npos);
+  const auto f = read(path("m.off"), {.flat = true});
+  ASSERT_TRUE(f) << f.error().what();
+  ASSERT_EQ(f->point_data.size(), 1u);
+  EXPECT_EQ(f->point_data[0].name, "z");
+  EXPECT_EQ(f->point_data[0].values, Values(std::vector<double>{1.5, 2, -3, 4}));
+  const auto loaded = make_mesh(*f);
+  ASSERT_TRUE(loaded);
+  EXPECT_TRUE(loaded->mesh.space().is_plane());
+  for (const Format& format : formats()) {
+    if (!writes_planes(format)) continue;
+    const std::string name = path(text_of_name(format));
+    ASSERT_TRUE(write(name, *f, {std::string(format.name), {}})) << format.name;
+    const auto back = read(name, {.flat = true});
+    ASSERT_TRUE(back) << format.name << back.error().what();
+    ASSERT_EQ(back->point_data.size(), 1u) << format.name;
+    const bool has_depth = format.name == "adcirc";  // and no place for z
+    EXPECT_TRUE(has_depth || back->point_data[0].values == f->point_data[0].values) << format.name;
+    EXPECT_EQ(back->points, f->points) << format.name;
+  }
+}
+
+TEST_F(OtherFormats, PlanesOfConstantXOrYStand) {
+  for (const auto& [vertices, points] :
+       {std::pair{"5 0 0\n5 1 0\n5 1 2\n5 0 2\n", std::vector<Vec2>{{0, 0}, {1, 0}, {1, 2}, {0, 2}}},
+        std::pair{"0 7 0\n1 7 0\n1 7 2\n0 7 2\n", std::vector<Vec2>{{0, 0}, {1, 0}, {1, 2}, {0, 2}}}}) {
+    const MeshFile f = read_ok("m.off", std::string("OFF\n4 2 0\n") + vertices + "3 0 1 2\n3 0 2 3\n");
+    EXPECT_EQ(f.points, points);
+    ASSERT_TRUE(make_mesh(f));
+    ASSERT_TRUE(write(path("again.off"), f));
+    EXPECT_NE(slurp(path("again.off")).find(vertices), std::string::npos) << slurp(path("again.off"));
+    const auto warnings = write(path("m.14"), f);
+    ASSERT_TRUE(warnings);
+    EXPECT_EQ(warnings->size(), 1u) << "the plane is lost, and said";
+  }
+}
+
+TEST_F(OtherFormats, WeightsOfZeroAreNoneInEveryFormat) {
+  MeshFile f = sample();
+  f.weights.clear();
+  for (const Format& format : formats()) {
+    if (!writes_planes(format)) continue;
+    const std::string name = path(text_of_name(format));
+    f.weights.clear();
+    ASSERT_TRUE(write(name, f, {std::string(format.name), {}})) << format.name;
+    const std::string without = slurp(name);
+    f.weights.assign(f.points.size(), 0);
+    ASSERT_TRUE(write(name, f, {std::string(format.name), {}})) << format.name;
+    EXPECT_TRUE(slurp(name) == without) << format.name;
+    EXPECT_TRUE(read(name)->weights.empty()) << format.name;
+  }
+}
+
+TEST_F(OtherFormats, FesomKeepsDepthsWithoutLevels) {
+  MeshFile f;
+  f.points = {{0, 0}, {1, 0}, {0, 1}};
+  f.points_in = DegreePoints{};
+  f.triangles = {{0, 1, 2}};
+  f.point_data = {{"depth", 1, std::vector<double>{10, 20, 30}}};
+  ASSERT_TRUE(project(f, "sphere"));
+  const auto warnings = write(path("m.nod2d.out"), f);
+  ASSERT_TRUE(warnings) << warnings.error().what();
+  ASSERT_EQ(warnings->size(), 1u);
+  EXPECT_NE((*warnings)[0].find("0 levels"), std::string::npos);
+  const auto back = read(path("m.nod2d.out"));
+  ASSERT_TRUE(back) << back.error().what();
+  EXPECT_EQ(back->point_data.at(1).values, f.point_data[0].values);
 }
 
 }  // namespace

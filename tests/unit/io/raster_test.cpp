@@ -76,14 +76,14 @@ TEST_F(RasterTest, PointsWithoutAValueAreLeftOut) {
 TEST_F(RasterTest, AWindowKeepsTwoMoreLinesOnEachSide) {
   const std::string header = "ncols 100\nnrows 80\nxllcenter 0\nyllcenter 0\ncellsize 1\n";
   const std::string content = grid(header, 100, 80, [](double x, double y) { return x + 1000 * y; });
-  const MeshFile part = read_grid(content, {nullptr, {{{{20.5, 30.5}, {23.5, 31.5}}}}});
+  const MeshFile part = read_grid(content, {nullptr, false, {{{{20.5, 30.5}, {23.5, 31.5}}}}});
   const auto whole = table(read_grid(content));
   EXPECT_EQ(part.points.size(), 7u * 5u);
   for (const auto& [place, value] : table(part)) {
     EXPECT_EQ(whole.at(place), value);
     EXPECT_TRUE(place.first >= 19 && place.first <= 25 && place.second >= 29 && place.second <= 33);
   }
-  EXPECT_EQ(read_grid(content, {nullptr, {{{{500, 500}, {501, 501}}}}}).points.size(), 4u) << "the nearest";
+  EXPECT_EQ(read_grid(content, {nullptr, false, {{{{500, 500}, {501, 501}}}}}).points.size(), 4u) << "the nearest";
 }
 
 double longitude_and_latitude(double x, double y) { return 1000 * x + y; }
@@ -91,7 +91,7 @@ double longitude_and_latitude(double x, double y) { return 1000 * x + y; }
 TEST_F(RasterTest, AGlobeIsClosedAtItsSeamAndAtThePoles) {
   // 8 columns of 45 degrees, rows from pole to pole.
   const std::string header = "ncols 8\nnrows 5\nxllcenter 0\nyllcenter -90\ncellsize 45\n";
-  MeshFile file = read_grid(grid(header, 8, 5, longitude_and_latitude), {nullptr, {}, true});
+  MeshFile file = read_grid(grid(header, 8, 5, longitude_and_latitude), {nullptr, false, {}, true});
   ASSERT_TRUE(file.degrees() != nullptr);
   EXPECT_EQ(file.points.size(), 3u * 8u + 2u);
   ASSERT_TRUE(project(file, "sphere:radius=2"));
@@ -103,7 +103,7 @@ TEST_F(RasterTest, AGlobeIsClosedAtItsSeamAndAtThePoles) {
 
 TEST_F(RasterTest, AColumnAt360DegreesIsTheFirstOneAgain) {
   const std::string header = "ncols 9\nnrows 3\nxllcenter 0\nyllcenter -45\ncellsize 45\n";
-  const MeshFile file = read_grid(grid(header, 9, 3, longitude_and_latitude), {nullptr, {}, true});
+  const MeshFile file = read_grid(grid(header, 9, 3, longitude_and_latitude), {nullptr, false, {}, true});
   EXPECT_EQ(file.points.size(), 3u * 8u);
   EXPECT_EQ(file.triangles.size(), 2u * 2u * 8u);
 }
@@ -111,7 +111,7 @@ TEST_F(RasterTest, AColumnAt360DegreesIsTheFirstOneAgain) {
 TEST_F(RasterTest, LongitudesMoveByWholeTurnsToTheWindow) {
   const std::string header = "ncols 36\nnrows 3\nxllcenter 0\nyllcenter 40\ncellsize 10\n";
   const MeshFile file =
-      read_grid(grid(header, 36, 3, longitude_and_latitude), {nullptr, {{{{-15, 45}, {15, 55}}}}, true});
+      read_grid(grid(header, 36, 3, longitude_and_latitude), {nullptr, false, {{{{-15, 45}, {15, 55}}}}, true});
   const auto all = table(file);
   EXPECT_EQ(all.at({-10, 50}), 35001);  // the column of 350 degrees
   EXPECT_EQ(all.at({0, 50}), 1);
@@ -178,7 +178,7 @@ TEST_F(RasterTest, GeoTiffIsReadThroughGdal) {
   EXPECT_EQ(file->degrees(), nullptr);
   EXPECT_EQ(file->point_data[0].name, "Band1");
   std::vector<float> many(100 * 80, 7);
-  const ReadOptions around = {nullptr, {{{{150, -60}, {160, -50}}}}};
+  const ReadOptions around = {nullptr, false, {{{{150, -60}, {160, -50}}}}};
   const auto part = read(make("many.tif", geotiff(100, 80, many)), around);
   ASSERT_TRUE(part) << part.error().what();
   EXPECT_LT(part->points.size(), 100u);

@@ -37,6 +37,7 @@ MeshFile grid() {
   f.marked_points = {at(0, 0), at(2, 2)};
   f.point_tags = {11, 12};
   std::vector<double> temperature, id;
+  f.weights.resize(f.points.size());
   for (std::size_t p = 0; p < f.points.size(); ++p) {
     f.weights[p] = 1e-3 * static_cast<double>(p % 5) / 3;
     temperature.push_back(1.0 / (3.0 + static_cast<double>(p)));
@@ -371,6 +372,7 @@ MeshFile rich_globe() {
   MeshFile f = from_mesh(*icosahedral({.level = 3, .radius = 6371220}));
   std::vector<double> height;
   std::vector<std::int32_t> basin, number;
+  f.weights.resize(f.points.size());
   for (std::size_t p = 0; p < f.points.size(); ++p) {
     f.weights[p] = 1e8 * static_cast<double>(p % 7);
     height.push_back(f.sphere()->places[p].z);

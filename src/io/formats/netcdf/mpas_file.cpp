@@ -10,6 +10,7 @@
 #include <numbers>
 #include <set>
 
+#include "io/conversion/data_update.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/formats/netcdf/mpas.hpp"
 #include "io/formats/netcdf/netcdf_extras.hpp"
@@ -52,9 +53,14 @@ const std::set<std::string_view> kMpasDerived = {"latCell",        "lonCell",
                                                  "boundaryVertex", "kiteAreasOnVertex",
                                                  "cullCell"};
 
+/// The attributes of the file that follow from the mesh, or say which one it is.
+const std::set<std::string_view> kMpasAttributes = {"Conventions",   "mesh_spec",   "on_a_sphere",
+                                                    "sphere_radius", "is_periodic", "x_period",
+                                                    "y_period",      "source",      "file_id"};
+
 class MpasReader {
  public:
-  MpasReader(const NetcdfReader& in, const std::string& path) : in_(in), document_(new_document(path)) {}
+  MpasReader(const NetcdfReader& in, const std::string& path) : in_(in), document_(new_document(path)), kept_(in) {}
 
   Document read() {
     document_.file.format = "mpas";
@@ -63,11 +69,13 @@ class MpasReader {
     triangles();
     if (const NetcdfVariable* w = in_.find(kMpasWeight);
         w != nullptr && w->sizes.size() == 1 && w->scalar && !is_netcdf_extra(in_, *w)) {
-      document_.file.weights = to_doubles(in_.values(*w));
+      document_.file.weights = to_doubles(in_.unpacked(*w));
       expect(document_.file.weights.size() == document_.file.points.size(), kMpasWeight);
     }
-    read_netcdf_extras(in_, document_);
+    read_netcdf_extras(in_, document_, kept_);
     data();
+    kept_.file([](std::string_view name, const std::string&) { return kMpasAttributes.contains(name); });
+    kept_.finish(document_.file);
     return std::move(document_);
   }
 
@@ -100,10 +108,7 @@ class MpasReader {
     document_.file.points_in = PeriodicPoints{periods};
   }
 
-  std::vector<double> coordinates(const char* name) const {
-    auto values = to_doubles(in_.values(in_.variable(name)));
-    return values;
-  }
+  std::vector<double> coordinates(const char* name) const { return to_doubles(in_.unpacked(in_.variable(name))); }
 
   void points() {
     const auto x = coordinates("xCell"), y = coordinates("yCell");
@@ -179,7 +184,7 @@ class MpasReader {
         corners[k] = static_cast<std::int32_t>(c[k] - 1);
       }
       document_.file.triangles.push_back(corners);
-      kept_.push_back(static_cast<std::int64_t>(t));
+      complete_.push_back(static_cast<std::int64_t>(t));
       document_.names->triangles.push_back(static_cast<std::int64_t>(t) + 1);
     }
     all_triangles_ = incomplete == 0;
@@ -196,11 +201,13 @@ class MpasReader {
       if (kMpasDerived.contains(v.name) || v.name == kMpasWeight || is_netcdf_extra(in_, v)) continue;
       const std::string dimension = v.dimensions.size() == 1 ? in_.dimension_name(v.dimensions[0]) : "";
       if (v.scalar && dimension == "nCells") {
-        add_netcdf_data(in_, v, document_.file.point_data);
+        add_netcdf_data(in_, v, document_.file.point_data, kept_);
       } else if (v.scalar && dimension == "nVertices") {
-        add_netcdf_data(in_, v, document_.file.cell_data);
+        add_netcdf_data(in_, v, document_.file.cell_data, kept_);
         DataArray& a = document_.file.cell_data.back();
-        if (!all_triangles_) a.values = gather(a.values, 1, kept_);
+        if (!all_triangles_) a.values = gather(a.values, 1, complete_);
+      } else if (is_kept_alone(in_, v)) {
+        kept_.variable(v);
       } else {
         dropped.push_back(v.name);
       }
@@ -211,7 +218,8 @@ class MpasReader {
 
   const NetcdfReader& in_;
   Document document_;
-  RunLength kept_;  // which vertices are triangles
+  NetcdfCollector kept_;
+  RunLength complete_;  // which vertices are triangles
   bool all_triangles_ = true;
 };
 
@@ -322,7 +330,7 @@ void refuse_too_wide(const WriteJob& job, const Mesh& mesh, std::size_t n_edges)
 /// Warns that with weights the edges do not cross midway between the cells.
 void warn_of_offsets(const WriteJob& job, const NetcdfMesh& m) {
   constexpr double kVisible = 0.01;
-  if (std::ranges::all_of(m.file.weights, [](double w) { return w == 0; })) return;
+  if (!is_weighted(m.file)) return;
   std::size_t visible = 0;
   double most = 0;
   for (const DecEdge& edge : m.complex.edges) {
@@ -356,6 +364,8 @@ void write_mpas(const WriteJob& job) {
             vertices = out.dimension("nVertices", m.mesh.n_triangles()),
             around = out.dimension("maxEdges", a.max_edges), around2 = out.dimension("maxEdges2", 2 * a.max_edges),
             two = out.dimension("TWO", 2), degree = out.dimension("vertexDegree", 3);
+  const NetcdfKept kept(m.file);
+  kept.copy(nullptr, out, NetcdfWriter::kFile);
   out.attribute(NetcdfWriter::kFile, "Conventions", "MPAS");
   out.attribute(NetcdfWriter::kFile, "mesh_spec", "1.0");
   out.attribute(NetcdfWriter::kFile, "on_a_sphere", m.file.sphere() != nullptr ? "YES" : "NO");
@@ -389,8 +399,8 @@ void write_mpas(const WriteJob& job) {
   out.variable("meshDensity", {cells}, std::vector<double>(m.mesh.n_vertices(), 1.0));
   out.variable("cullCell", {cells}, std::move(a.boundary_cell));
   if (!m.file.weights.empty()) out.variable(std::string(kMpasWeight), {cells}, m.file.weights);
-  write_netcdf_extras(out, job, m.file, {cells, vertices, {}});
-  out.finish(job.outputs.open(job.path));
+  write_netcdf_extras(out, job, m.file, {cells, vertices, kept});
+  out.finish([&](std::string_view bytes) { job.outputs.open(job.path).put(bytes); });
 }
 
 }  // namespace temper::io

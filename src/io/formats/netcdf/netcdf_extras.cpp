@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
+#include "io/conversion/bed.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
@@ -76,8 +78,11 @@ class ExtrasWriter {
       out_.variable(std::string(kPointTagsVariable), {marked_}, f.point_tags);
     }
     for (const ExtraKind& kind : kExtraKinds) {
-      for (const DataArray& a : f.*kind.data) data(kind, a);
+      for (const DataArray& a : f.*kind.data) {
+        if (a.name != kNetcdfAttributes) data(kind, a);
+      }
     }
+    places_.kept.write_values(out_);
   }
 
  private:
@@ -88,6 +93,36 @@ class ExtrasWriter {
       out_.attribute(id, "location", kind.location);
     }
     return id;
+  }
+
+  /// The number that stands for a missing value takes the place of NaN again.
+  static void put_fill(Values& values, double fill) {
+    std::visit(
+        [&](auto& numbers) {
+          using Number = ElementOf<decltype(numbers)>;
+          if constexpr (std::is_floating_point_v<Number>)
+            std::ranges::replace_if(
+                numbers, [](Number x) { return std::isnan(x); }, static_cast<Number>(fill));
+        },
+        values);
+  }
+  /// Says whether an array may hold the number: it may have got another type since it was read.
+  static bool can_be(const Values& values, double number) {
+    return std::visit(
+        [number](const auto& all) {
+          using Limits = std::numeric_limits<ElementOf<decltype(all)>>;
+          return !Limits::is_integer ||
+                 (number >= static_cast<double>(Limits::min()) && number <= static_cast<double>(Limits::max()));
+        },
+        values);
+  }
+  /// Declares the number that stands for a missing value, in the type of the values: NaN if no other is known.
+  void declare_fill(int id, const Values& values, std::optional<double> fill) {
+    const bool has_nan =
+        std::visit([](const auto& all) { return std::ranges::any_of(all, [](auto x) { return x != x; }); }, values);
+    if (!fill && !has_nan) return;
+    out_.attribute(id, "_FillValue",
+                   {{fill.value_or(std::numeric_limits<double>::quiet_NaN())}, netcdf_type(scalar_of(values))});
   }
 
   void data(const ExtraKind& kind, const DataArray& a) {
@@ -107,8 +142,23 @@ class ExtrasWriter {
                                                  : marked_);
     }
     if (components > 1) dimensions.push_back(out_.dimension(text("temper_components_", components), components));
-    const int id = put(kind, free_name(out_, kind, a.name), dimensions, a.values);
+    const std::string name = free_name(out_, kind, a.name);
+    const NetcdfVariable* const kept = places_.kept.find(name);
+    Values values = a.values;
+    auto fill = places_.kept.number_of(kept, "_FillValue");
+    if (!fill) fill = places_.kept.number_of(kept, "missing_value");
+    if (fill && !can_be(a.values, *fill)) fill.reset();
+    if (fill) put_fill(values, *fill);
+    const int id = put(kind, name, dimensions, std::move(values));
     if (a.name == kLongitude || a.name == kLatitude) name_degrees(out_, id, a.name);
+    if (a.name == kBedLevel && kept == nullptr) {
+      out_.attribute(id, "standard_name", "altitude");
+      out_.attribute(id, "long_name", "bed level");
+      out_.attribute(id, "units", "m");
+      out_.attribute(id, "positive", "up");
+    }
+    if (fill || is_floating(a.values)) declare_fill(id, a.values, fill);
+    if (kept != nullptr) places_.kept.copy(kept, out_, id);
     out_.attribute(id, kKindAttribute, kind.name);
     out_.attribute(id, kNameAttribute, a.name);
   }
@@ -149,17 +199,7 @@ void read_own_data(const NetcdfReader& in, Document& document, const NetcdfVaria
   if (kind.name == "line") expect_rows(document, v, f.lines.size());
   if (kind.name == "marked") expect_rows(document, v, f.marked_points.size());
   auto& arrays = f.*kind.data;
-  arrays.push_back({std::move(name), static_cast<int>(components), in.values(v)});
-}
-
-/// A number that stands for a missing value becomes NaN, so that no depth is interpolated from it.
-void make_nan(Values& values, double missing) {
-  const auto replace = [missing](auto& numbers) {
-    using Number = typename std::decay_t<decltype(numbers)>::value_type;
-    if constexpr (std::is_floating_point_v<Number>)
-      std::ranges::replace(numbers, static_cast<Number>(missing), std::numeric_limits<Number>::quiet_NaN());
-  };
-  std::visit(replace, values);
+  arrays.push_back({std::move(name), static_cast<int>(components), in.unpacked(v)});
 }
 
 }  // namespace
@@ -173,12 +213,17 @@ void write_netcdf_extras(NetcdfWriter& out, const WriteJob& job, const MeshFile&
   ExtrasWriter(out, job, file, places).write();
 }
 
+bool is_kept_alone(const NetcdfReader& in, const NetcdfVariable& v) {
+  const bool is_map = !in.text_attribute(&v, "grid_mapping_name").empty() || !in.text_attribute(&v, "crs_wkt").empty();
+  return in.text_attribute(&v, "cf_role").empty() && (is_map || (v.scalar && v.dimensions.empty()));
+}
+
 bool is_netcdf_extra(const NetcdfReader& in, const NetcdfVariable& v) {
   return v.name == kLinePointsVariable || v.name == kLineTagsVariable || v.name == kMarkedPointsVariable ||
          v.name == kPointTagsVariable || v.name == kRegionVariable || !in.text_attribute(&v, kKindAttribute).empty();
 }
 
-void read_netcdf_extras(const NetcdfReader& in, Document& document) {
+void read_netcdf_extras(const NetcdfReader& in, Document& document, NetcdfCollector& kept) {
   MeshFile& f = document.file;
   if (const auto z = in.number_attribute(nullptr, kZAttribute)) document.z = *z;
   const std::string names = in.text_attribute(nullptr, kNamesAttribute);
@@ -208,17 +253,17 @@ void read_netcdf_extras(const NetcdfReader& in, Document& document) {
   for (const NetcdfVariable& v : in.variables()) {
     const std::string kind = in.text_attribute(&v, kKindAttribute);
     for (const ExtraKind& row : kExtraKinds) {
-      if (kind == row.name) read_own_data(in, document, v, row);
+      if (kind != row.name) continue;
+      read_own_data(in, document, v, row);
+      kept.variable(v);
     }
   }
 }
 
-void add_netcdf_data(const NetcdfReader& in, const NetcdfVariable& v, std::vector<DataArray>& arrays) {
-  Values values = in.values(v);
-  for (const char* attribute : {"_FillValue", "missing_value"}) {
-    if (const auto missing = in.number_attribute(&v, attribute)) make_nan(values, *missing);
-  }
-  arrays.push_back({v.name, 1, std::move(values)});
+void add_netcdf_data(const NetcdfReader& in, const NetcdfVariable& v, std::vector<DataArray>& arrays,
+                     NetcdfCollector& kept, const std::string& name) {
+  arrays.push_back({name.empty() ? v.name : name, 1, in.unpacked(v)});
+  kept.variable(v, arrays.back().name);
 }
 
 NetcdfMesh mesh_for_netcdf(const WriteJob& job, std::string_view format) {
@@ -228,13 +273,118 @@ NetcdfMesh mesh_for_netcdf(const WriteJob& job, std::string_view format) {
   if (!made) {
     fail(made.error().code, job.path, format, " holds orthocenters and so needs a valid mesh: ", made.error().what());
   }
-  const bool weighted = !result.file.weights.empty();
   update(result.file, *made, made->mesh);
-  if (!weighted) result.file.weights.clear();
   for (const std::string& w : made->warnings) job.warnings.push_back(w);
   result.mesh = std::move(made->mesh);
   result.complex = dec_operators(result.mesh);
   return result;
+}
+
+// --- what is kept of a file that was read -------------------------------------------------------------------------
+
+namespace {
+
+/// Attributes that the numbers of memory do not have, or that the writer makes again.
+bool holds_no_more(std::string_view name, bool packed) {
+  constexpr std::array kNever = {"mesh",         "location", "scale_factor", "add_offset",  "_Unsigned",
+                                 "actual_range", "bounds",   "_ChunkSizes",  "coordinates", "_NCProperties"};
+  constexpr std::array kOfPacked = {"_FillValue", "missing_value", "valid_min", "valid_max", "valid_range"};
+  const auto is = [name](const char* other) { return name == other; };
+  return name.starts_with("temper_") || std::ranges::any_of(kNever, is) ||
+         (packed && std::ranges::any_of(kOfPacked, is));
+}
+
+}  // namespace
+
+NetcdfCollector::NetcdfCollector(const NetcdfReader& in) : in_(in), kept_(std::string(kNetcdfAttributes), false) {}
+
+void NetcdfCollector::file(const IsKnown& is_known) { attributes(nullptr, NetcdfWriter::kFile, is_known); }
+
+void NetcdfCollector::variable(const NetcdfVariable& v, const std::string& name, const IsKnown& is_known) {
+  // What belongs to an array has a dimension here, and no values.
+  const bool alone = is_kept_alone(in_, v);
+  const std::vector<int> dimensions = alone ? std::vector<int>() : std::vector<int>{kept_.dimension("array", 1)};
+  const bool has_value = alone && v.scalar && v.n_values() == 1;
+  const int to = kept_.variable(name, dimensions, has_value ? in_.values(v) : std::vector<std::int32_t>{0});
+  any_ = any_ || alone;
+  attributes(&v, to, is_known);
+}
+
+void NetcdfCollector::attributes(const NetcdfVariable* v, int to, const IsKnown& is_known) {
+  const bool packed = v != nullptr && in_.is_packed(*v);
+  for (const std::string& name : in_.attribute_names(v)) {
+    std::string value = in_.text_attribute(v, name.c_str());
+    const auto numbers = in_.numbers_attribute(v, name.c_str());
+    if ((value.empty() && numbers.values.empty()) || holds_no_more(name, packed) || (is_known && is_known(name, value)))
+      continue;
+    any_ = true;
+    if (value.empty()) {
+      kept_.attribute(to, name.c_str(), numbers);
+    } else {
+      kept_.attribute(to, name.c_str(), value);
+    }
+  }
+}
+
+void NetcdfCollector::finish(MeshFile& file) {
+  if (!any_) return;
+  kept_.finish([&](std::string_view bytes) {
+    file.field_data.push_back(
+        {std::string(kNetcdfAttributes), 1, std::vector<std::uint8_t>(bytes.begin(), bytes.end())});
+  });
+}
+
+NetcdfKept::NetcdfKept(const MeshFile& file) {
+  const DataArray* const array = io::find(file.field_data, kNetcdfAttributes);
+  const auto* const bytes = array == nullptr ? nullptr : std::get_if<std::vector<std::uint8_t>>(&array->values);
+  if (bytes == nullptr) return;
+  bytes_ = std::make_unique<Source>(Source{std::string(kNetcdfAttributes), std::string(bytes->begin(), bytes->end())});
+  if (!bytes_->bytes.starts_with("CDF"))
+    fail(ErrorCode::syntax, file.path, "field data ", kNetcdfAttributes, " are not the bytes of a classic NetCDF file");
+  in_ = std::make_unique<NetcdfReader>(*bytes_);
+}
+
+const NetcdfVariable* NetcdfKept::find(std::string_view name) const { return in_ ? in_->find(name) : nullptr; }
+
+const NetcdfVariable* NetcdfKept::find(const char* attribute, std::string_view value) const {
+  if (!in_) return nullptr;
+  const auto found = std::ranges::find_if(in_->variables(),
+                                          [&](const auto& v) { return in_->text_attribute(&v, attribute) == value; });
+  return found == in_->variables().end() ? nullptr : &*found;
+}
+
+std::string NetcdfKept::text_of(const NetcdfVariable* v, const char* attribute) const {
+  return in_ ? in_->text_attribute(v, attribute) : std::string();
+}
+
+std::optional<double> NetcdfKept::number_of(const NetcdfVariable* v, const char* attribute) const {
+  return v != nullptr ? in_->number_attribute(v, attribute) : std::nullopt;
+}
+
+void NetcdfKept::copy(const NetcdfVariable* from, NetcdfWriter& out, int variable, std::string_view only) const {
+  if (!in_) return;
+  for (const std::string& name : in_->attribute_names(from)) {
+    if ((!only.empty() && name != only) || name == "_FillValue" || name == "node_coordinates") continue;
+    if (const std::string value = in_->text_attribute(from, name.c_str()); !value.empty()) {
+      out.attribute(variable, name.c_str(), value);
+    } else {
+      out.attribute(variable, name.c_str(), in_->numbers_attribute(from, name.c_str()));
+    }
+  }
+}
+
+std::optional<std::string> netcdf_attribute(const MeshFile& file, std::string_view name, const char* attribute) {
+  if (io::find(file.field_data, kNetcdfAttributes) == nullptr || netcdf_version().empty()) return std::nullopt;
+  const NetcdfKept kept(file);
+  const NetcdfVariable* const variable = kept.find(name);
+  return variable == nullptr ? std::nullopt : std::optional(kept.text_of(variable, attribute));
+}
+
+void NetcdfKept::write_values(NetcdfWriter& out) const {
+  if (!in_) return;
+  for (const NetcdfVariable& v : in_->variables()) {
+    if (v.dimensions.empty() && v.scalar && !out.has(v.name)) copy(&v, out, out.variable(v.name, {}, in_->values(v)));
+  }
 }
 
 }  // namespace temper::io

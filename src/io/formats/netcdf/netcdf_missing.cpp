@@ -1,5 +1,6 @@
 // Replaces NetCDF's formats if its headers were missing when temper was built.
 #include "io/containers/hdf5_magic.hpp"
+#include "io/conversion/bed.hpp"
 #include "io/formats/format.hpp"
 
 namespace temper::io {
@@ -18,6 +19,8 @@ std::vector<std::string> netcdf_files(const std::string& path) {
 }
 void write_mpas(const WriteJob& job) { static_cast<void>(netcdf_files(job.path)); }
 void write_ugrid(const WriteJob& job) { static_cast<void>(netcdf_files(job.path)); }
+
+std::optional<std::string> netcdf_attribute(const MeshFile&, std::string_view, const char*) { return {}; }
 
 std::string netcdf_version() { return {}; }
 

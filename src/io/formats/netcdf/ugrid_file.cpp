@@ -8,12 +8,17 @@
 // The node variable MESH_node_weight holds weights. Other variables of nodes and faces with one number each are data.
 // MESH is the name that the data begin with, such as mesh2d of mesh2d_node_z, or mesh.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
+#include <utility>
 
 #include "io/containers/hdf5_magic.hpp"
+#include "io/conversion/bed.hpp"
 #include "io/conversion/globe.hpp"
+#include "io/conversion/planar_faces.hpp"
 #include "io/formats/format.hpp"
 #include "io/formats/netcdf/netcdf_extras.hpp"
 #include "io/text/names.hpp"
@@ -23,42 +28,67 @@ namespace temper::io {
 
 Document read_mpas_from(const NetcdfReader& in, const std::string& path);
 std::optional<Document> read_grid_from(const NetcdfReader& in, const Source& source);
+bool is_icon(const NetcdfReader& in);
+Document read_icon(const NetcdfReader& in, const std::string& path);
 
 bool sniff_ugrid(std::string_view head) { return is_netcdf(head); }
 
 namespace {
 
 constexpr std::int32_t kUgridNone = -1;  // the _FillValue of what temper writes
+constexpr std::string_view kConventions = "CF-1.8 UGRID-1.0", kUsualTopology = "mesh", kNodesLongName = "vertices",
+                           kProjectedX = "projection_x_coordinate", kProjectedY = "projection_y_coordinate";
+
+/// The variables of D-Flow FM's older nets (net.nc), which have no topology; numbers count from 1.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kOldNet = {
+    {{"node_coordinates", "NetNode_x NetNode_y"},
+     {"face_node_connectivity", "NetElemNode"},
+     {"edge_node_connectivity", "NetLink"}}};
+constexpr std::string_view kOldLevel = "NetNode_z";
+
+bool is_radian(std::string_view units) { return units.starts_with("rad"); }
+double in_degrees_of(double radians) { return radians * (180 / std::numbers::pi); }
+bool is_meter(std::string_view units) {
+  constexpr std::array kMeters = {"m", "meter", "meters", "metre", "metres", "1"};
+  return std::ranges::find(kMeters, units) != kMeters.end();
+}
 
 class UgridReader {
  public:
-  UgridReader(const NetcdfReader& in, const NetcdfVariable& topology, const std::string& path)
-      : in_(in), topology_(topology), document_(new_document(path)) {}
+  /// `topology`: null for the older nets of D-Flow FM, whose variables have fixed names.
+  UgridReader(const NetcdfReader& in, const NetcdfVariable* topology, const std::string& path)
+      : in_(in), topology_(topology), document_(new_document(path)), kept_(in) {}
 
   Document read() {
     document_.file.format = "ugrid";
     nodes();
     faces();
-    const NetcdfVariable* weight = in_.find(text(topology_.name, "_node_weight"));
+    const NetcdfVariable* weight = in_.find(text(name(), "_node_weight"));
     if (weight != nullptr && weight->sizes.size() == 1) {
       used_.insert(weight->name);
-      document_.file.weights = to_doubles(in_.values(*weight));
+      document_.file.weights = to_doubles(in_.unpacked(*weight));
       expect(document_.file.weights.size() == document_.file.points.size(), weight->name);
     }
-    read_netcdf_extras(in_, document_);
+    read_netcdf_extras(in_, document_, kept_);
     data();
+    keep_attributes();
     return std::move(document_);
   }
 
  private:
   const std::string& path() const { return document_.names->path; }
+  std::string name() const { return topology_ != nullptr ? topology_->name : "mesh2d"; }
   void expect(bool good, std::string_view variable) const {
     if (!good) fail(ErrorCode::size_mismatch, path(), "variable ", variable, " has a wrong size");
   }
 
   /// The names in an attribute of the topology.
   std::vector<std::string> named(const char* attribute) {
-    const std::string all = in_.text_attribute(&topology_, attribute);
+    std::string all = topology_ != nullptr ? in_.text_attribute(topology_, attribute) : std::string();
+    for (const auto& [role, variables] : kOldNet) {
+      if (topology_ == nullptr && role == attribute && in_.find(variables.substr(0, variables.find(' '))) != nullptr)
+        all = variables;
+    }
     Scanner scanner(path(), all);
     std::vector<std::string> names;
     while (!scanner.at_end()) names.emplace_back(scanner.word("a name"));
@@ -67,48 +97,99 @@ class UgridReader {
   }
 
   void nodes() {
-    const auto names = named("node_coordinates");
-    if (names.size() != 2)
-      fail(ErrorCode::unsupported, path(), "has ", names.size(), " node_coordinates; temper reads x and y");
-    const NetcdfVariable &vx = in_.variable(names[0]), &vy = in_.variable(names[1]);
-    expect(vx.sizes.size() == 1, vx.name);
-    expect(vy.sizes == vx.sizes, vy.name);
-    node_dimension_ = vx.dimensions[0];
-    const auto x = to_doubles(in_.values(vx)), y = to_doubles(in_.values(vy));
-    const std::string_view of_x = axis(vx), of_y = axis(vy);
-    const bool degrees = !of_x.empty() && !of_y.empty() && of_x != of_y, turned = degrees && of_x == kLatitude;
-    if (degrees) document_.file.points_in = DegreePoints{};
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      document_.file.points.push_back(turned ? Vec2{y[i], x[i]} : Vec2{x[i], y[i]});
+    const auto [vx, vy] = axes();
+    expect(vx->sizes.size() == 1, vx->name);
+    expect(vy->sizes == vx->sizes, vy->name);
+    node_dimension_ = vx->dimensions[0];
+    auto x = to_doubles(in_.unpacked(*vx)), y = to_doubles(in_.unpacked(*vy));
+    const std::string units = in_.text_attribute(vx, "units"), of_y = in_.text_attribute(vy, "units");
+    const bool is_globe = axis(*vx) == kLongitude && axis(*vy) == kLatitude;
+    if (is_globe) {
+      document_.file.points_in = DegreePoints{};
+      if (is_radian(units)) std::ranges::for_each(x, [](double& angle) { angle = in_degrees_of(angle); });
+      if (is_radian(of_y)) std::ranges::for_each(y, [](double& angle) { angle = in_degrees_of(angle); });
+    } else if (units != of_y) {
+      fail(ErrorCode::unsupported, path(), "variable ", vx->name, " is in ", in_quotes(units), ", and ", vy->name,
+           " in ", in_quotes(of_y), "; expected the same units");
+    } else if (!units.empty() && !is_meter(units)) {
+      document_.file.warnings.push_back(text(path(), ": coordinates are in ", units, ": so are lengths and sizes"));
     }
+    for (std::size_t i = 0; i < x.size(); ++i) document_.file.points.push_back({x[i], y[i]});
+    for (const NetcdfVariable* const v : {vx, vy}) {
+      kept_.variable(*v, [&](std::string_view name, const std::string& value) {
+        return (name == "standard_name" && value == (v == vx ? kProjectedX : kProjectedY)) ||
+               (name == "units" && value == "m") || (name == "long_name" && value == kNodesLongName);
+      });
+    }
+    coordinates_ = text(vx->name, " ", vy->name);
   }
 
-  /// Longitude or latitude, by CF's standard names and units (degrees_east, degree_N, degreesE, …), or neither.
-  /// Coordinates of a rotated pole are plain degrees.
+  /// The variables of x and y: by what they say of themselves, else in their order.
+  std::pair<const NetcdfVariable*, const NetcdfVariable*> axes() {
+    std::vector<const NetcdfVariable*> all;
+    for (const std::string& name : named("node_coordinates")) {
+      if (const NetcdfVariable* const v = in_.find(name)) all.push_back(v);
+    }
+    if (all.size() < 2) {
+      for (const NetcdfVariable& v : in_.variables()) {
+        const bool here = in_.text_attribute(&v, "mesh") == name() && in_.text_attribute(&v, "location") == "node";
+        if (here && !axis(v).empty()) all.push_back(&v);
+      }
+    }
+    const auto along = [&](std::string_view lon_lat, std::string_view projected) {
+      const auto found = std::ranges::find_if(all, [&](const NetcdfVariable* v) {
+        const std::string_view of = axis(*v);
+        return of == lon_lat || of == projected;
+      });
+      return found == all.end() ? nullptr : *found;
+    };
+    const NetcdfVariable *x = along(kLongitude, kProjectedX), *y = along(kLatitude, kProjectedY);
+    if ((x == nullptr || y == nullptr) && all.size() == 2) x = all[0], y = all[1];
+    if (x == nullptr || y == nullptr) {
+      fail(ErrorCode::unsupported, path(), "the topology ", name(), " has ", all.size(),
+           " node_coordinates, and none with the standard names or units of x and y, or of longitude and latitude");
+    }
+    used_.insert({x->name, y->name});
+    return {x, y};
+  }
+
+  /// The axis of a variable, by CF's standard name or units (degrees_east, degree_N, degreesE, …), or by `axis`; else
+  /// empty. Coordinates of a rotated pole are plain degrees.
   std::string_view axis(const NetcdfVariable& v) const {
-    const std::string name = in_.text_attribute(&v, "standard_name"), units = in_.text_attribute(&v, "units");
+    const std::string name = in_.text_attribute(&v, "standard_name"), units = in_.text_attribute(&v, "units"),
+                      letter = in_.text_attribute(&v, "axis"), long_name = in_.text_attribute(&v, "long_name");
     const auto ends = [&](std::string_view word) { return units.starts_with("degree") && units.ends_with(word); };
-    if (name == kLongitude || ends("_east") || ends("E")) return kLongitude;
-    if (name == kLatitude || ends("_north") || ends("N")) return kLatitude;
+    const auto says = [&](std::string_view word) {
+      return is_radian(units) && !name.starts_with("grid_") &&
+             (long_name.find(word) != std::string::npos || v.name.find(word) != std::string::npos);
+    };
+    if (name == kLongitude || ends("_east") || ends("E") || says("lon")) return kLongitude;
+    if (name == kLatitude || ends("_north") || ends("N") || says("lat")) return kLatitude;
+    if (name == kProjectedX || name == "grid_longitude" || letter == "X") return kProjectedX;
+    if (name == kProjectedY || name == "grid_latitude" || letter == "Y") return kProjectedY;
     return {};
+  }
+
+  /// The first number of points in a table.
+  std::int64_t start_of(const NetcdfVariable& table) const {
+    const double first = in_.number_attribute(&table, "start_index").value_or(topology_ != nullptr ? 0 : 1);
+    if (first != 0 && first != 1) fail(ErrorCode::unsupported, path(), "has start_index ", first, "; expected 0 or 1");
+    return first == 1 ? 1 : 0;
   }
 
   void faces() {
     const auto names = named("face_node_connectivity");
-    if (names.size() != 1)
-      fail(ErrorCode::unsupported, path(), "has no face_node_connectivity. Next: write the mesh with its faces");
+    if (names.size() != 1) return faces_of_edges();
     const NetcdfVariable& v = in_.variable(names[0]);
     expect(v.sizes.size() == 2, v.name);
     // Rows are faces, unless face_dimension names the columns.
-    const std::string face_dimension = in_.text_attribute(&topology_, "face_dimension");
+    const std::string face_dimension = topology_ != nullptr ? in_.text_attribute(topology_, "face_dimension") : "";
     const bool turned = !face_dimension.empty() && in_.dimension_name(v.dimensions[1]) == face_dimension &&
                         in_.dimension_name(v.dimensions[0]) != face_dimension;
     face_dimension_ = v.dimensions[turned ? 1 : 0];
     const std::size_t n = v.sizes[turned ? 1 : 0], most = v.sizes[turned ? 0 : 1];
-    const double first = in_.number_attribute(&v, "start_index").value_or(0);
-    if (first != 0 && first != 1) fail(ErrorCode::unsupported, path(), "has start_index ", first, "; expected 0 or 1");
-    const std::int64_t start = first == 1 ? 1 : 0;
-    const auto fill = in_.number_attribute(&v, "_FillValue");
+    const std::int64_t start = start_of(v);
+    const std::vector<double> fills = in_.fill_values(v);
     const auto all = in_.integers(v);
     document_.names->points = RunLength(start, document_.file.points.size());
     document_.names->triangles = RunLength(start, n);
@@ -117,7 +198,8 @@ class UgridReader {
       std::size_t count = 0;
       for (std::size_t k = 0; k < most; ++k) {
         const std::int64_t number = all[turned ? k * n + face : face * most + k];
-        if (number == NetcdfReader::kNoInteger || (fill && static_cast<double>(number) == *fill)) continue;
+        if (number == NetcdfReader::kNoInteger || std::ranges::find(fills, static_cast<double>(number)) != fills.end())
+          continue;
         if (!std::in_range<std::int32_t>(number)) {
           fail(ErrorCode::index_out_of_range, path(), "triangle ", static_cast<std::int64_t>(face) + start,
                " uses vertex ", number, ", which is beyond 32 bits");
@@ -133,6 +215,41 @@ class UgridReader {
     }
   }
 
+  /// Without a table of faces, they are what the edges enclose. One-dimensional edges (D-Flow FM's type 1) are none.
+  void faces_of_edges() {
+    const auto names = named("edge_node_connectivity");
+    if (names.size() != 1) {
+      fail(ErrorCode::unsupported, path(),
+           "has neither face_node_connectivity nor edge_node_connectivity. Next: write the mesh with its faces");
+    }
+    const NetcdfVariable& v = in_.variable(names[0]);
+    expect(v.sizes.size() == 2 && v.sizes[1] == 2, v.name);
+    const std::int64_t start = start_of(v);
+    const NetcdfVariable* const types = topology_ == nullptr ? in_.find("NetLinkType") : nullptr;
+    const auto all = in_.integers(v), type = types != nullptr ? in_.integers(*types) : std::vector<std::int64_t>();
+    const auto n_points = static_cast<std::int64_t>(document_.file.points.size());
+    document_.names->points = RunLength(start, document_.file.points.size());
+    std::vector<EdgeEnds> edges;
+    for (std::size_t e = 0; 2 * e < all.size(); ++e) {
+      constexpr std::int64_t kOfPlane = 2;
+      if (e < type.size() && type[e] != kOfPlane) continue;
+      const auto is_point = [&](std::int64_t number) { return number >= start && number < n_points + start; };
+      if (!is_point(all[2 * e]) || !is_point(all[2 * e + 1])) {
+        fail(ErrorCode::index_out_of_range, path(), "edge ", static_cast<std::int64_t>(e) + start, " joins vertices ",
+             all[2 * e], " and ", all[2 * e + 1], ", but the file has ", n_points, " vertices, numbered from ", start);
+      }
+      const std::int64_t a = all[2 * e] - start, b = all[2 * e + 1] - start;
+      const Vec2 p = document_.file.points[static_cast<std::size_t>(a)],
+                 q = document_.file.points[static_cast<std::size_t>(b)];
+      const bool is_finite = std::isfinite(p.x + p.y) && std::isfinite(q.x + q.y);  // else the point is named later
+      if (a != b && is_finite) edges.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)});
+    }
+    document_.file.triangles = planar_triangles(document_.file.points, edges, *document_.names, path());
+    document_.names->triangles = RunLength(start, document_.file.triangles.size());
+    document_.file.warnings.push_back(text(path(), ": has edges without faces: ", document_.file.triangles.size(),
+                                           " triangles are found between ", edges.size(), " edges"));
+  }
+
   /// Other variables become data of their location.
   void data() {
     for (const char* attribute :
@@ -140,15 +257,18 @@ class UgridReader {
           "boundary_node_connectivity", "face_coordinates", "edge_coordinates", "boundary_coordinates"}) {
       static_cast<void>(named(attribute));
     }
-    used_.insert(topology_.name);
+    used_.insert(topology_ != nullptr ? topology_->name : "NetLinkType");
     std::vector<std::string_view> dropped;
     for (const NetcdfVariable& v : in_.variables()) {
       if (used_.contains(v.name) || is_netcdf_extra(in_, v)) continue;
       const bool one = v.scalar && v.dimensions.size() == 1;
       if (one && v.dimensions[0] == node_dimension_) {
-        add_netcdf_data(in_, v, document_.file.point_data);
+        add_netcdf_data(in_, v, document_.file.point_data, kept_,
+                        topology_ == nullptr && v.name == kOldLevel ? std::string(kBedLevel) : v.name);
       } else if (one && v.dimensions[0] == face_dimension_) {
-        add_netcdf_data(in_, v, document_.file.cell_data);
+        add_netcdf_data(in_, v, document_.file.cell_data, kept_);
+      } else if (is_kept_alone(in_, v)) {
+        kept_.variable(v);
       } else {
         dropped.push_back(v.name);
       }
@@ -157,9 +277,28 @@ class UgridReader {
       document_.file.warnings.push_back(text(path(), ": variables are dropped: ", list_of(dropped)));
   }
 
+  /// The attributes of the file and of the topology; not the ones that every file of temper has.
+  void keep_attributes() {
+    kept_.file(
+        [](std::string_view name, const std::string& value) { return name == "Conventions" && value == kConventions; });
+    if (topology_ == nullptr) return kept_.finish(document_.file);
+    const bool usual = topology_->name == kUsualTopology &&
+                       coordinates_ == text(kUsualTopology, "_node_x ", kUsualTopology, "_node_y");
+    kept_.variable(*topology_, [&](std::string_view name, std::string& value) {
+      const auto ends = [&](std::string_view end) { return name.ends_with(end); };
+      if (name == "node_coordinates") value = coordinates_;
+      if (name == "node_coordinates" || name == "cf_role") return usual;
+      return name == "topology_dimension" || ends("_connectivity") || ends("_coordinates") || ends("_dimension") ||
+             ends("_dimensions");
+    });
+    kept_.finish(document_.file);
+  }
+
   const NetcdfReader& in_;
-  const NetcdfVariable& topology_;
+  const NetcdfVariable* const topology_;
   Document document_;
+  NetcdfCollector kept_;
+  std::string coordinates_;  // the names of x and y
   std::set<std::string> used_;
   int node_dimension_ = -1, face_dimension_ = -1;
 };
@@ -178,7 +317,7 @@ std::string name_of_topology(const MeshFile& file) {
       if (name.find_first_not_of(kPlain) == std::string::npos && name[0] > '9') return name;
     }
   }
-  return "mesh";
+  return std::string(kUsualTopology);
 }
 
 class UgridWriter {
@@ -186,14 +325,18 @@ class UgridWriter {
   explicit UgridWriter(const WriteJob& job)
       : job_(job),
         m_(mesh_for_netcdf(job, "UGRID")),
-        name_(name_of_topology(m_.file)),
+        kept_(m_.file),
+        topology_(kept_.find("cf_role", "mesh_topology")),
+        name_(topology_ != nullptr ? topology_->name : name_of_topology(m_.file)),
         out_(job.path, needs_cdf5(m_.file, std::max(2 * m_.complex.edges.size(), 3 * m_.mesh.n_triangles()))) {}
 
   void write() {
     nodes_ = out_.dimension(named("nodes"), m_.mesh.n_vertices());
     faces_ = out_.dimension(named("faces"), m_.mesh.n_triangles());
     edges_ = out_.dimension(named("edges"), m_.complex.edges.size());
-    out_.attribute(NetcdfWriter::kFile, "Conventions", "CF-1.8 UGRID-1.0");
+    kept_.copy(nullptr, out_, NetcdfWriter::kFile);
+    if (kept_.text_of(nullptr, "Conventions").find("UGRID") == std::string::npos)
+      out_.attribute(NetcdfWriter::kFile, "Conventions", kConventions);
     topology();
     coordinates();
     connectivity();
@@ -204,15 +347,15 @@ class UgridWriter {
           : m_.file.sphere() != nullptr ? text(" on the sphere of radius ", m_.file.sphere()->radius)
                                         : std::string();
       out_.attribute(id, "long_name", text("weight of the power diagram, a squared length", map));
-      out_.attribute(id, "units", "m2");
+      out_.attribute(id, "units", text(length_unit(), "2"));
       on(id, "node");
     }
     if (m_.file.sphere() != nullptr && m_.file.sphere()->radius != Projection{}.radius) {
       job_.warn("points are longitude and latitude, without the radius: give --projection sphere:radius=",
                 m_.file.sphere()->radius, " where the file is read again");
     }
-    write_netcdf_extras(out_, job_, m_.file, {nodes_, faces_, name_});
-    out_.finish(job_.outputs.open(job_.path));
+    write_netcdf_extras(out_, job_, m_.file, {nodes_, faces_, kept_, name_});
+    out_.finish([this](std::string_view bytes) { job_.outputs.open(job_.path).put(bytes); });
   }
 
  private:
@@ -226,9 +369,10 @@ class UgridWriter {
 
   void topology() {
     const int id = out_.variable(name_, {}, std::vector<std::int32_t>{0});
+    if (const NetcdfVariable* const kept = kept_.find(name_)) kept_.copy(kept, out_, id);
     out_.attribute(id, "cf_role", "mesh_topology");
     out_.attribute(id, "topology_dimension", std::int32_t{2});
-    out_.attribute(id, "node_coordinates", both("node"));
+    out_.attribute(id, "node_coordinates", text(node_axis(true), " ", node_axis(false)));
     out_.attribute(id, "face_node_connectivity", named("face_nodes"));
     out_.attribute(id, "edge_node_connectivity", named("edge_nodes"));
     out_.attribute(id, "face_edge_connectivity", named("face_edges"));
@@ -239,19 +383,40 @@ class UgridWriter {
     out_.attribute(id, "edge_dimension", named("edges"));
   }
 
-  void places(const std::string& what, int dimension, const std::vector<Vec2>& all, const char* long_name) {
-    const bool degrees = m_.file.map() != nullptr || m_.file.sphere() != nullptr;
+  /// The name of a coordinate of nodes: the one that the file came with, or the usual one.
+  [[nodiscard]] std::string node_axis(bool is_x) const {
+    const std::string both = kept_.text_of(topology_, "node_coordinates");
+    const std::size_t blank = both.find(' ');
+    if (topology_ == nullptr || blank == std::string::npos) return named(is_x ? "node_x" : "node_y");
+    return is_x ? both.substr(0, blank) : both.substr(blank + 1);
+  }
+  [[nodiscard]] std::string length_unit() const {
+    const std::string unit = is_globe() ? "" : kept_.text_of(kept_.find(node_axis(true)), "units");
+    return unit.empty() ? "m" : unit;
+  }
+  [[nodiscard]] bool is_globe() const { return m_.file.map() != nullptr || m_.file.sphere() != nullptr; }
+
+  void places(const std::string& what, int dimension, const std::vector<Vec2>& all, std::string_view long_name) {
+    const bool of_nodes = what == "node";
     for (const bool is_x : {true, false}) {
+      const NetcdfVariable* const kept = kept_.find(node_axis(is_x));
+      const std::string units = kept_.text_of(kept, "units");
+      const bool fits = kept != nullptr && (!is_globe() || is_radian(units) || units.starts_with("degree"));
+      const double unit = fits && is_globe() && is_radian(units) ? std::numbers::pi / 180 : 1;
       std::vector<double> values(all.size());
-      for (std::size_t i = 0; i < all.size(); ++i) values[i] = is_x ? all[i].x : all[i].y;
-      const int id = out_.variable(named(text(what, is_x ? "_x" : "_y")), {dimension}, std::move(values));
+      for (std::size_t i = 0; i < all.size(); ++i) values[i] = unit * (is_x ? all[i].x : all[i].y);
+      const int id = out_.variable(of_nodes ? node_axis(is_x) : named(text(what, is_x ? "_x" : "_y")), {dimension},
+                                   std::move(values));
       out_.attribute(id, "long_name", long_name);
-      if (degrees) {
+      if (is_globe()) {
         name_degrees(out_, id, is_x ? kLongitude : kLatitude);
       } else {
-        out_.attribute(id, "standard_name", is_x ? "projection_x_coordinate" : "projection_y_coordinate");
+        out_.attribute(id, "standard_name", is_x ? kProjectedX : kProjectedY);
         out_.attribute(id, "units", "m");
       }
+      if (!fits) continue;
+      if (of_nodes) kept_.copy(kept, out_, id);
+      for (const char* attribute : {"standard_name", "units", "grid_mapping"}) kept_.copy(kept, out_, id, attribute);
     }
   }
 
@@ -311,7 +476,9 @@ class UgridWriter {
 
   const WriteJob& job_;
   NetcdfMesh m_;
-  const std::string name_;  // of the topology
+  NetcdfKept kept_;
+  const NetcdfVariable* const topology_;  // as it was read, or null
+  const std::string name_;                // of the topology
   NetcdfWriter out_;
   int nodes_ = -1, faces_ = -1, edges_ = -1;
 };
@@ -323,8 +490,10 @@ Document read_ugrid_from(const NetcdfReader& in, const Source& source) {
   for (const NetcdfVariable& v : in.variables()) {
     if (in.text_attribute(&v, "cf_role") != "mesh_topology") continue;
     if (in.number_attribute(&v, "topology_dimension").value_or(2) != 2) continue;
-    return UgridReader(in, v, path).read();
+    return UgridReader(in, &v, path).read();
   }
+  if (in.find("NetNode_x") != nullptr && in.find("NetLink") != nullptr) return UgridReader(in, nullptr, path).read();
+  if (is_icon(in)) return read_icon(in, path);
   if (auto grid = read_grid_from(in, source)) return *std::move(grid);
   if (in.find("connect1") != nullptr)
     fail(ErrorCode::unsupported, path, "is an Exodus mesh, which temper does not read; meshio converts it");
@@ -332,7 +501,8 @@ Document read_ugrid_from(const NetcdfReader& in, const Source& source) {
   if (is_hdf5(source.bytes) && source.bytes.find("ENS_MAA") != std::string::npos)
     fail(ErrorCode::unsupported, path, "is a MED mesh, which temper does not read; meshio converts it");
   fail(ErrorCode::unsupported, path,
-       "is NetCDF without a mesh that temper reads: neither MPAS nor a two-dimensional topology of UGRID. Next: write "
+       "is NetCDF without a mesh that temper reads: neither MPAS, ICON nor a two-dimensional topology of UGRID. Next: "
+       "write "
        "the "
        "mesh as UGRID with its faces");
 }

@@ -39,7 +39,7 @@ class LegacyVtkWriter {
              "\nDATASET UNSTRUCTURED_GRID\n");
     if (const auto fields = vtk_field_data(file_); !fields.empty()) field(fields);
     out_.put("POINTS ", file_.points.size(), " double\n");
-    values(vtk_points(file_));
+    values(vtk_points(job_));
     offsets_ ? cells_with_offsets() : counted_cells();
     out_.put("CELL_TYPES ", n_vtk_cells(file_), '\n');
     const VtkArray types = vtk_cell_types(file_);

@@ -87,11 +87,11 @@ void put_big_endian(Output& out, const VtkArray& a) {
   });
 }
 
-VtkArray vtk_points(const MeshFile& f) {
+VtkArray vtk_points(const WriteJob& job) {
   return computed_vtk_array<double>(
-      "Points", Scalar::f64, 3 * f.points.size(),
-      [&f](std::size_t i) {
-        const Vec3 p = position_of(f, i / 3);
+      "Points", Scalar::f64, 3 * job.file.points.size(),
+      [&job](std::size_t i) {
+        const Vec3 p = job.place(i / 3);
         return i % 3 == 0 ? p.x : i % 3 == 1 ? p.y : p.z;
       },
       3);

@@ -24,7 +24,7 @@ void put_big_endian(Output& out, const VtkArray& array);
 [[nodiscard]] inline std::size_t n_vtk_cells(const MeshFile& f) {
   return f.triangles.size() + f.lines.size() + f.marked_points.size();
 }
-[[nodiscard]] VtkArray vtk_points(const MeshFile& f);
+[[nodiscard]] VtkArray vtk_points(const WriteJob& job);
 [[nodiscard]] VtkArray vtk_connectivity(const MeshFile& f);
 /// The index after the last point of cell i. Triangles come first, then lines, then points.
 [[nodiscard]] inline std::size_t vtk_cell_end(std::size_t i, std::size_t triangles, std::size_t lines) {

@@ -80,7 +80,7 @@ void write_vtkhdf(const WriteJob& job) {
   const Hdf5Id root = out.group(out.root(), std::string(kVtkhdfGroup));
   out.attribute(root, "Version", {1, 0});
   out.attribute(root, "Type", kVtkhdfType);
-  VtkArray points = vtk_points(f), types = vtk_cell_types(f), connectivity = vtkhdf_connectivity(f);
+  VtkArray points = vtk_points(job), types = vtk_cell_types(f), connectivity = vtkhdf_connectivity(f);
   const std::size_t n_ids = connectivity.n_values;
   points.name = "Points";
   types.name = "Types";

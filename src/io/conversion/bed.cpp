@@ -1,0 +1,67 @@
+#include "io/conversion/bed.hpp"
+
+#include <algorithm>
+#include <type_traits>
+#include <variant>
+
+#include "io/conversion/globe.hpp"
+#include "io/text/values.hpp"
+
+namespace temper::io {
+namespace {
+
+bool has_name_of_level(std::string_view name) { return name.ends_with("_node_z") || name == kHeight; }
+
+bool is_bed(const MeshFile& file, const DataArray& a) {
+  if (a.components != 1 || !is_floating(a.values)) return false;
+  const std::string said = netcdf_attribute(file, a.name, "standard_name").value_or("");
+  const bool is_height = a.name == kHeight;
+  if (is_height && said.empty()) return file.format == "2dm";
+  return a.name == kDepth || has_name_of_level(a.name) || said == "altitude" || said == "bedrock_altitude" ||
+         said.starts_with("sea_floor_");
+}
+
+bool is_level(const MeshFile& file, const DataArray& a) {
+  const std::string positive = netcdf_attribute(file, a.name, "positive").value_or("");
+  if (!positive.empty()) return positive == "up";
+  const std::string said = netcdf_attribute(file, a.name, "standard_name").value_or("");
+  return said.empty() ? has_name_of_level(a.name) : said.find("altitude") != std::string::npos;
+}
+
+/// The index of the bed among point data, or the number of these; `depth` comes first.
+std::size_t bed_of(const MeshFile& file) {
+  const auto& all = file.point_data;
+  const auto named = std::ranges::find_if(all, [&](const auto& a) { return a.name == kDepth && is_bed(file, a); });
+  const auto found =
+      named != all.end() ? named : std::ranges::find_if(all, [&](const auto& a) { return is_bed(file, a); });
+  return static_cast<std::size_t>(found - all.begin());
+}
+
+}  // namespace
+
+bool needs_turned_bed(Bed bed, const MeshFile& file) {
+  const std::size_t at = bed == Bed::as_it_came ? file.point_data.size() : bed_of(file);
+  if (at == file.point_data.size()) return false;
+  const DataArray& a = file.point_data[at];
+  if (bed == Bed::depth) return a.name != kDepth || is_level(file, a);
+  const auto is_free = [&](std::string_view name) { return a.name == name || find(file.point_data, name) == nullptr; };
+  if (bed == Bed::z) return !file.z_is_data && is_free(kHeight);
+  const bool is_of_netcdf = file.format == "ugrid" || file.format == "mpas" || netcdf_attribute(file, a.name, "units");
+  return (a.name == kHeight || a.name == kDepth) && !is_of_netcdf && is_free(kBedLevel);
+}
+
+void turn_bed(MeshFile& file, Bed bed) {
+  DataArray& a = file.point_data[bed_of(file)];
+  if (is_level(file, a) != (bed != Bed::depth)) {
+    std::visit(
+        [](auto& values) {
+          if constexpr (std::is_floating_point_v<ElementOf<decltype(values)>>)
+            std::ranges::for_each(values, [](auto& x) { x = -x; });
+        },
+        a.values);
+  }
+  a.name = bed == Bed::level ? kBedLevel : bed == Bed::depth ? kDepth : kHeight;
+  file.z_is_data = bed == Bed::z;
+}
+
+}  // namespace temper::io
