@@ -39,6 +39,11 @@ struct MesherOptions {
   std::optional<SizeField> field = {};        ///< Desired edge length at each place, if less than `size`
   std::vector<RegionSize> region_sizes = {};  ///< Desired edge lengths of these regions, if less than `size`
   Enclosed enclosed = Enclosed::by_points;
+  /// Tolerance: points that are nearer to each other or to a segment are joined. 0: nothing is joined. Absent: 1e-9 of
+  /// the extent of the outline, or 1e-8 of the radius of the sphere.
+  std::optional<double> snap = {};
+  /// Divide segments where they cross, and leave out what is outside. Else crossings are errors.
+  bool split_crossings = false;
   /// Options of the optimization; absent: the Delaunay mesh is returned.
   std::optional<OptimizeOptions> optimize = OptimizeOptions();
   int attempts = 8;                          ///< Largest number of divisions of the outline while triangles stay bad
@@ -68,8 +73,9 @@ struct OutlineMesh {
 ///
 /// Errors, with the outline's names:
 ///   - no points, indices of segment ends out of range, coordinates not finite or out of the range of exact arithmetic
-///   - two points at one place, segments of zero length, segments that cross
+///   - segments of zero length, segments that cross, parts that joins within `snap` leave nothing of
 ///   - nothing enclosed, holes or regions outside, parts that overlap, a domain that touches itself at a point
+///   - without joins: two points at one place
 ///   - sizes that are not positive or would make too many triangles
 ///   - stopped, if the time limit or the observer ends the run before there is a mesh; later the best mesh so far is
 ///     returned

@@ -76,13 +76,13 @@ void each_halfedge(TriangleId t, const F& f) {
 
 class AreaFinder {
  public:
-  AreaFinder(const Surface& surface, const Outline& outline, const std::vector<Vec3>& places,
-             const std::vector<OutlineEdge>& edges, const MesherOptions& options, double largest, Deadline& deadline)
+  AreaFinder(const Surface& surface, const Outline& outline, const Arrangement& arrangement,
+             const MesherOptions& options, double largest, Deadline& deadline)
       : surface_(surface),
         outline_(outline),
-        places_(places),
+        arrangement_(arrangement),
         names_(names_of(outline)),
-        edges_(edges),
+        edges_(arrangement.edges),
         options_(options),
         largest_(largest),
         deadline_(deadline) {}
@@ -94,14 +94,16 @@ class AreaFinder {
       pieces.push_back(
           {{static_cast<std::uint32_t>(ends[0]), static_cast<std::uint32_t>(ends[1])}, static_cast<std::uint32_t>(i)});
     }
-    Expected<Hull> hull = triangulate_hull(surface_, places_, pieces, deadline_);
+    Expected<Hull> hull = triangulate_hull(surface_, arrangement_.places, pieces, deadline_);
     if (!hull) return hull.error();
     hull_ = *std::move(hull);
     find_components();
     if (const Error error = take_by_rule()) return *error;
     if (std::find(inside_.begin(), inside_.end(), std::uint8_t{1}) == inside_.end()) return nothing_enclosed();
     if (const auto region_error = take_regions()) return *region_error;
-    return collect();
+    Areas areas = collect();
+    if (const Error error = check_touching(areas)) return *error;
+    return areas;
   }
 
  private:
@@ -222,13 +224,48 @@ class AreaFinder {
   }
 
   Error take_parts() {
-    const Parts parts = parts_from(from_outside_);
+    Parts parts = parts_from(from_outside_);
+    if (Error error = take_rings(parts)) return error;
     for (std::size_t c = 0; c < n_components_; ++c) {
       if (!parts[c].empty()) {
         if (Error error = take(c, parts[c])) return error;
       }
     }
     return {};
+  }
+
+  /// Takes the rings out of the parts of components: what a hole encloses is in its shell, and in no other hole of it.
+  Error take_rings(Parts& parts) const {
+    const auto n = static_cast<std::int32_t>(outline_.parts.size());
+    for (std::size_t c = 0; c < n_components_; ++c) {
+      const auto first = std::lower_bound(parts[c].begin(), parts[c].end(), n);
+      const std::vector<std::int32_t> around(first, parts[c].end());
+      parts[c].erase(first, parts[c].end());
+      std::vector<std::pair<std::int32_t, std::int32_t>> holes;  // shell and hole
+      for (const std::int32_t ring : around) {
+        const std::int32_t shell = outline_.rings[static_cast<std::size_t>(ring - n)].shell;
+        if (shell < 0) continue;
+        if (!std::binary_search(around.begin(), around.end(), shell + n))
+          return ring_error(ring - n, "lies outside " + names_.ring(static_cast<std::size_t>(shell)) + near(c) +
+                                          "; expected a hole inside its polygon. Next: correct the polygon, or make "
+                                          "the ring a polygon of its own");
+        holes.emplace_back(shell, ring - n);
+      }
+      std::sort(holes.begin(), holes.end());
+      for (std::size_t i = 1; i < holes.size(); ++i) {
+        if (holes[i].first != holes[i - 1].first) continue;
+        return ring_error(holes[i].second, "overlaps " + names_.ring(static_cast<std::size_t>(holes[i - 1].second)) +
+                                               near(c) + "; expected each hole once. Next: leave one of them out");
+      }
+    }
+    return {};
+  }
+  [[nodiscard]] InputError ring_error(std::int32_t ring, const std::string& what) const {
+    const auto i = static_cast<std::size_t>(ring);
+    const auto& segments = outline_.rings[i].segments;
+    return {ErrorCode::overlap,
+            segments.empty() ? std::string() : names_.segment_where(static_cast<std::size_t>(segments[0])),
+            names_.ring(i) + " " + what};
   }
 
   /// Puts a component into one part, with the properties of that part.
@@ -260,6 +297,7 @@ class AreaFinder {
     Parts parts = parts_from({{0, kNone}});
     extent_ = component_areas();
     if (Error error = turn_to_smaller_sides(parts)) return error;
+    if (Error error = take_rings(parts)) return error;
     const auto is_cut = [&](std::int32_t i) { return outline_.parts[static_cast<std::size_t>(i)].cut; };
     const bool all = std::all_of(outline_.parts.begin(), outline_.parts.end(), [](const auto& p) { return p.cut; });
     for (std::size_t c = 0; c < n_components_; ++c) {
@@ -290,13 +328,16 @@ class AreaFinder {
 
   Error turn_to_smaller_sides(Parts& parts) const {
     constexpr double kHalf = 1e-6;  // of the sphere: a loop that is nearer to half of it says nothing
-    std::vector<double> enclosed(outline_.parts.size(), 0);
+    const std::size_t n_parts = outline_.parts.size();
+    std::vector<double> enclosed(n_parts + outline_.rings.size(), 0);
     for (std::size_t c = 0; c < n_components_; ++c) {
       for (const std::int32_t part : parts[c]) enclosed[static_cast<std::size_t>(part)] += extent_[c];
     }
     std::vector<std::int32_t> turned;
     for (std::size_t i = 0; i < enclosed.size(); ++i) {
       const auto part = static_cast<std::int32_t>(i);
+      if (enclosed[i] > 0.5) turned.push_back(part);
+      if (i >= n_parts) continue;
       const auto error = [&](ErrorCode code, const std::string& what) {
         return InputError{code, part_where(part), names_.part(i) + " " + what};
       };
@@ -304,18 +345,16 @@ class AreaFinder {
       if (std::abs(enclosed[i] - 0.5) < kHalf)
         return error(ErrorCode::out_of_scale,
                      "divides the sphere into halves; expected a smaller side, which is what it encloses");
-      if (enclosed[i] > 0.5) turned.push_back(part);
     }
     for (auto& of_component : parts) of_component = odd_ones(of_component, turned);
     return {};
   }
 
-  /// " near (x, y)": a corner of the component, on the sphere in degrees.
+  /// " near (x, y)": a corner of the component, in the coordinates of the file.
   [[nodiscard]] std::string near(std::size_t c) const {
     for (const TriangleId t : hull_.mesh.triangles()) {
       if (component_[t] != c) continue;
-      const Vec2 p = surface_.space().as_shown(surface_.place(hull_.mesh.point(hull_.mesh.corners(t)[0])));
-      return " near (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
+      return " near " + text_of(surface_, names_, surface_.place(hull_.mesh.point(hull_.mesh.corners(t)[0])));
     }
     return {};
   }
@@ -356,17 +395,41 @@ class AreaFinder {
 
   [[nodiscard]] InputError nothing_enclosed() const {
     if (surface_.space().is_closed()) return {ErrorCode::empty_input, "", "nothing of the sphere is left to mesh"};
-    std::vector<std::uint32_t> degree(outline_.points.size(), 0);
+    std::vector<std::uint32_t> degree(arrangement_.places.size(), 0);
     for (const OutlineEdge& e : edges_) {
       for (const std::int32_t end : e.ends) ++degree[static_cast<std::size_t>(end)];
     }
     for (std::size_t i = 0; i < degree.size(); ++i) {
-      if (degree[i] == 1) {
-        return {ErrorCode::empty_input, names_.point_where(i),
-                "the outline is not closed: it encloses nothing, and at " + names_.point(i) + " only one segment ends"};
-      }
+      const std::uint32_t point = arrangement_.point[i];
+      if (degree[i] != 1 || point == Arrangement::kNoPoint) continue;
+      return {ErrorCode::empty_input, names_.point_where(point),
+              "the outline is not closed: it encloses nothing, and at " + names_.point(point) + " at " +
+                  text_of(surface_, names_, arrangement_.places[i]) + " only one segment ends"};
     }
     return {ErrorCode::empty_input, "", "the outline encloses nothing but holes"};
+  }
+
+  /// Refuses places where the inside touches itself: more than one fan of it begins at an edge there.
+  [[nodiscard]] Error check_touching(const Areas& areas) const {
+    std::vector<std::uint32_t> first(arrangement_.places.size(), kNone);
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const auto [left, right] = areas.sides[i];
+      if ((left == kOutside) == (right == kOutside)) continue;
+      const std::int32_t end = edges_[i].ends[left != kOutside ? 0 : 1];  // with the inside left of the edge
+      std::uint32_t& edge = first[static_cast<std::size_t>(end)];
+      if (edge == kNone) {
+        edge = static_cast<std::uint32_t>(i);
+        continue;
+      }
+      const std::size_t one = edges_[edge].segment, other = edges_[i].segment;
+      return InputError{ErrorCode::non_manifold_vertex, names_.segment_where(other),
+                        "the domain touches itself at " +
+                            text_of(surface_, names_, arrangement_.places[static_cast<std::size_t>(end)]) + ", where " +
+                            names_.segment(one) + " and " + names_.segment(other) +
+                            " meet; expected domains that share edges, or nothing. Next: move one of the two by more "
+                            "than the tolerance, or mesh them one by one"};
+    }
+    return {};
   }
 
   [[nodiscard]] Areas collect() const {
@@ -390,7 +453,7 @@ class AreaFinder {
 
   const Surface& surface_;
   const Outline& outline_;
-  const std::vector<Vec3>& places_;
+  const Arrangement& arrangement_;
   const OutlineNames& names_;
   const std::vector<OutlineEdge>& edges_;
   const MesherOptions& options_;
@@ -409,10 +472,9 @@ class AreaFinder {
 
 }  // namespace
 
-Expected<Areas> find_areas(const Surface& surface, const Outline& outline, const std::vector<Vec3>& places,
-                           const std::vector<OutlineEdge>& edges, const MesherOptions& options, double largest,
-                           Deadline& deadline) {
-  return AreaFinder(surface, outline, places, edges, options, largest, deadline).run();
+Expected<Areas> find_areas(const Surface& surface, const Outline& outline, const Arrangement& arrangement,
+                           const MesherOptions& options, double largest, Deadline& deadline) {
+  return AreaFinder(surface, outline, arrangement, options, largest, deadline).run();
 }
 
 Expected<Triangulated> triangulate(const Surface& surface, const DividedOutline& divided,

@@ -29,9 +29,9 @@ struct Areas {
 
 /// The areas that the outline encloses, or on the sphere the areas of its parts; without any, the whole sphere.
 /// `largest`: size of areas that have none of their own. Errors: nothing enclosed, hole and region points on an edge or
-/// outside, parts that overlap. On the sphere also parts that enclose half of it, and holes.
-[[nodiscard]] Expected<Areas> find_areas(const Surface& surface, const Outline& outline,
-                                         const std::vector<Vec3>& places, const std::vector<OutlineEdge>& edges,
+/// outside, parts that overlap, holes outside their shells or in each other, a domain that touches itself at a point.
+/// On the sphere also parts that enclose half of it, and holes.
+[[nodiscard]] Expected<Areas> find_areas(const Surface& surface, const Outline& outline, const Arrangement& arrangement,
                                          const MesherOptions& options, double largest, Deadline& deadline);
 
 /// The triangulation of points and pieces over their convex hull, with the area and piece of each triangle and

@@ -52,6 +52,9 @@ std::optional<InputError> check(const MesherOptions& options, const Space& space
                      std::to_string(r.size));
     }
   }
+  if (options.snap && !(*options.snap >= 0 && std::isfinite(*options.snap))) {
+    return invalid("expected a tolerance of joins of 0 or more, found " + std::to_string(*options.snap));
+  }
   if (!(options.time_limit >= 0)) return invalid("expected a time limit of 0 or more seconds");
   if (options.attempts < 1) return invalid("expected at least one attempt");
   return {};
@@ -62,13 +65,15 @@ class MeshNames final : public InputNames {
  public:
   MeshNames(const OutlineNames& names, const std::vector<std::uint32_t>& points) : names_(names), points_(points) {}
   std::string point(std::size_t i) const override {
-    return i < points_.size() ? names_.point(points_[i]) : "a point placed on the outline or inside";
+    return is_given(i) ? names_.point(points_[i]) : "a point placed on the outline or inside";
   }
   std::string point_where(std::size_t i) const override {
-    return i < points_.size() ? names_.point_where(points_[i]) : std::string();
+    return is_given(i) ? names_.point_where(points_[i]) : std::string();
   }
 
  private:
+  [[nodiscard]] bool is_given(std::size_t i) const { return i < points_.size() && points_[i] != Arrangement::kNoPoint; }
+
   const OutlineNames& names_;
   const std::vector<std::uint32_t>& points_;  // of each vertex that is one
 };
@@ -80,7 +85,7 @@ class Mesher {
          const OptimizeHooks& hooks)
       : surface_(space),
         outline_(outline),
-        places_(std::move(places)),
+        given_places_(std::move(places)),
         options_(options),
         hooks_(hooks),
         deadline_(options.time_limit, hooks_.observer) {}
@@ -88,12 +93,16 @@ class Mesher {
   Expected<OutlineMesh> run() {
     if (auto error = check(options_, surface_.space())) return *error;
     wanted_ = wanted();
-    Expected<std::vector<OutlineEdge>> edges = arrange(surface_, outline_, places_);
-    if (!edges) return edges.error();
-    edges_ = *std::move(edges);
-    Expected<Areas> areas = find_areas(surface_, outline_, places_, edges_, options_, wanted_.most, deadline_);
+    Expected<Arrangement> arrangement =
+        arrange(surface_, outline_, given_places_, {tolerance(), options_.split_crossings}, deadline_);
+    if (deadline_.stopped()) return stopped("joined");
+    if (!arrangement) return arrangement.error();
+    arrangement_ = *std::move(arrangement);
+    Expected<Areas> areas = find_areas(surface_, outline_, arrangement_, options_, wanted_.most, deadline_);
+    if (deadline_.stopped()) return stopped("searched for areas");
     if (!areas) return areas.error();
     areas_ = *std::move(areas);
+    leave_out_edges();
     if (auto error = check_count()) return *error;
     start_sources();
     return best_of_attempts();
@@ -101,6 +110,34 @@ class Mesher {
 
  private:
   [[nodiscard]] Vec3 point(std::int32_t i) const { return places_[static_cast<std::size_t>(i)]; }
+
+  /// The tolerance of joins. On a sphere places in degrees are known to the rounding of degrees only.
+  [[nodiscard]] double tolerance() const {
+    constexpr double kOfExtent = 1e-9, kOfRadius = 1e-8;
+    constexpr double kRounding = 1e-15, kRoundingOfDegrees = 1e-13;  // of the largest coordinate, of the radius
+    if (surface_.space().is_closed()) {
+      return surface_.space().radius() *
+             std::max(kRoundingOfDegrees, options_.snap ? *options_.snap / surface_.space().radius() : kOfRadius);
+    }
+    if (given_places_.empty() || (options_.snap && !options_.split_crossings)) return options_.snap.value_or(0);
+    BoundingBox box = box_of(given_places_[0], given_places_[0]);
+    for (const Vec3 p : given_places_) box = temper::united(box, box_of(p, p));
+    const double rounding =
+        kRounding * std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
+    return std::max(rounding, options_.snap.value_or(kOfExtent * length(box.high - box.low)));
+  }
+
+  /// Leaves out edges with nothing to mesh on either side.
+  void leave_out_edges() {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < arrangement_.edges.size(); ++i) {
+      if (areas_.sides[i][0] == kOutside && areas_.sides[i][1] == kOutside) continue;
+      if (kept != i) arrangement_.edges[kept] = std::move(arrangement_.edges[i]);
+      areas_.sides[kept++] = areas_.sides[i];
+    }
+    arrangement_.edges.resize(kept);
+    areas_.sides.resize(kept);
+  }
 
   [[nodiscard]] WantedSize wanted() const {
     if (!options_.field) return {options_.size, nullptr};
@@ -261,7 +298,7 @@ class Mesher {
   struct Inside {
     std::vector<Vec3> places;
     std::vector<std::int32_t> vertex;           ///< of each point of the triangulation, or -1
-    std::vector<std::uint32_t> outline_points;  ///< of the vertices that are one, which come first
+    std::vector<std::uint32_t> outline_places;  ///< of the vertices that are one, which come first
   };
 
   /// Nothing if a vertex that surrounds the sphere is still needed.
@@ -281,7 +318,7 @@ class Mesher {
       if (inside.vertex[i] < 0) continue;
       inside.vertex[i] = static_cast<std::int32_t>(inside.places.size());
       inside.places.push_back(i < divided.points.size() ? divided.points[i] : placed[i - divided.points.size()]);
-      if (i < outline_.points.size()) inside.outline_points.push_back(static_cast<std::uint32_t>(i));
+      if (i < places_.size()) inside.outline_places.push_back(static_cast<std::uint32_t>(i));
     }
     return inside;
   }
@@ -308,7 +345,9 @@ class Mesher {
       result.lines.push_back(
           {VertexId(static_cast<std::size_t>(a)), VertexId(static_cast<std::size_t>(b)), edges_[piece.edge].tag});
     }
-    const MeshNames names(names_of(outline_), inside->outline_points);
+    std::vector<std::uint32_t> points;
+    for (const std::uint32_t p : inside->outline_places) points.push_back(arrangement_.point[p]);
+    const MeshNames names(names_of(outline_), points);
     InputPositions places(surface_.space());
     for (const Vec3 p : inside->places) places.add(p);
     MeshInput input = places.input();
@@ -326,24 +365,32 @@ class Mesher {
 
   void number_points(const Inside& inside, OutlineMesh& made) const {
     made.vertex_of_point.resize(outline_.points.size());
-    for (const std::uint32_t p : inside.outline_points) {
-      made.vertex_of_point[p] = VertexId(static_cast<std::size_t>(inside.vertex[p]));
+    std::size_t outside = 0;
+    for (std::size_t i = 0; i < outline_.points.size(); ++i) {
+      const std::int32_t v = inside.vertex[place_of(i)];
+      if (v >= 0) made.vertex_of_point[i] = VertexId(static_cast<std::size_t>(v));
+      outside += v < 0 ? 1 : 0;
     }
-    if (const std::size_t outside = outline_.points.size() - inside.outline_points.size(); outside > 0) {
+    made.notes = arrangement_.notes;
+    if (outside > 0) {
       made.notes.push_back(
           "points of the outline that are not in the mesh, because they or their segments are outside: " +
           std::to_string(outside));
     }
   }
+  [[nodiscard]] std::size_t place_of(std::size_t point) const {
+    return static_cast<std::size_t>(arrangement_.place_of_point[point]);
+  }
 
   /// Points of no segment stay, too: they are the user's.
   void fix_points(OutlineMesh& made) const {
-    std::vector<std::uint8_t> on_edge(outline_.points.size(), 0);
+    std::vector<std::uint8_t> on_edge(places_.size(), 0);
     for (const OutlineEdge& e : edges_) {
       for (const std::int32_t end : e.ends) on_edge[static_cast<std::size_t>(end)] = 1;
     }
-    for (std::size_t i = 0; i < on_edge.size(); ++i) {
-      if (on_edge[i] == 0 && made.vertex_of_point[i].valid()) made.mesh.set_fixed(made.vertex_of_point[i], true);
+    for (std::size_t i = 0; i < outline_.points.size(); ++i) {
+      const VertexId v = made.vertex_of_point[i];
+      if (on_edge[place_of(i)] == 0 && v.valid()) made.mesh.set_fixed(v, true);
     }
   }
 
@@ -427,12 +474,14 @@ class Mesher {
 
   Surface surface_;
   const Outline& outline_;
-  std::vector<Vec3> places_;
+  std::vector<Vec3> given_places_;
   const MesherOptions& options_;
   const OptimizeHooks& hooks_;
   Deadline deadline_;
   WantedSize wanted_;
-  std::vector<OutlineEdge> edges_;
+  Arrangement arrangement_;
+  const std::vector<Vec3>& places_ = arrangement_.places;
+  const std::vector<OutlineEdge>& edges_ = arrangement_.edges;
   Areas areas_;
   CornerRadii corners_;
   std::vector<SizeSource> sources_;
@@ -451,17 +500,9 @@ Expected<OutlineMesh> mesh_sphere(const SphereOutline& outline, const MesherOpti
                                   const OptimizeHooks& hooks) {
   if (!(outline.radius > 0 && is_exact_coordinate(outline.radius)))
     return invalid("the radius of a sphere must be positive and finite");
-  Expected<JoinedOutline> joined = join(outline);
-  if (!joined) return joined.error();
-  Mesher mesher(Space::sphere(outline.radius), joined->outline, std::move(joined->places), options, hooks);
-  Expected<OutlineMesh> made = mesher.run();
-  if (!made) return made;
-  std::vector<VertexId> vertex_of_point;
-  vertex_of_point.reserve(joined->numbers.size());
-  for (const std::int32_t p : joined->numbers)
-    vertex_of_point.push_back(made->vertex_of_point[static_cast<std::size_t>(p)]);
-  made->vertex_of_point = std::move(vertex_of_point);
-  return made;
+  Expected<SphereOutlines> all = united(outline);
+  if (!all) return all.error();
+  return Mesher(Space::sphere(outline.radius), all->outline, std::move(all->places), options, hooks).run();
 }
 
 }  // namespace temper
