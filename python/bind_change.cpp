@@ -379,8 +379,7 @@ py::dict outline_to_dict(const Outline& outline) {
              "segments", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(ends)))(
              "segment_tags", array_of<std::int32_t>(tags))(
              "holes", rows_of<double>(std::span<const Vec2>(outline.holes)))("regions", regions)("parts", parts)(
-             "rings", rings)(
-             "names", outline.names ? py::cast(PyNames{outline.names}) : py::none())
+             "rings", rings)("names", outline.names ? py::cast(PyNames{outline.names}) : py::none())
       .dict;
 }
 
@@ -415,7 +414,7 @@ py::tuple outline_mesh_to_python(OutlineMesh result) {
                         Record()("lines", rows_of<VertexId>(std::span<const std::array<VertexId, 2>>(lines)))(
                             "line_tags", array_of<std::int32_t>(tags))("vertex_of_point", result.vertex_of_point)(
                             "bad", result.bad)("delaunay_bad", result.delaunay_bad)("attempts", result.attempts)(
-                            "report", report_to_dict(result.report))("notes", result.notes)
+                            "report", report_to_dict(result.report))("notes", result.notes)("warnings", result.warnings)
                             .dict);
 }
 

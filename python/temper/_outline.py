@@ -108,6 +108,8 @@ class OutlineMesh(Record):
     report: OptimizeReport = dataclasses.field(repr=False)
     """Report of the optimization, from the attempt that was kept."""
     notes: list[str]
+    warnings: list[str]
+    """Narrow places, and points that are lost; also given as ``TemperWarning``."""
 
 
 def mesh_outline(
@@ -144,7 +146,7 @@ def mesh_outline(
         else ``alternate``.
     snap : float, optional
         Tolerance of joins [length]: points that are nearer to each other, or to a segment, are joined. 0: nothing is
-        joined. None: 1e-9 of the extent of the outline, or 1e-8 of the radius of the sphere.
+        joined. None: 1e-9 of the extent of the outline, or 1e-7 of the radius of the sphere.
     split_crossings : bool
         Divide segments where they cross, and leave out what is outside. Else crossings are errors.
     optimize : OptimizeOptions or bool
@@ -292,4 +294,6 @@ def _meshed(
         handle, rest = mesher(outline, options, plain, threads, _observer(line, observer))
     finally:
         line.clear()
+    for message in rest["warnings"]:
+        warnings.warn(message, TemperWarning, stacklevel=3)
     return OutlineMesh(**merged(rest, mesh=Mesh._of(handle), report=_report(rest["report"])))

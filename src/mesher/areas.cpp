@@ -101,9 +101,7 @@ class AreaFinder {
     if (const Error error = take_by_rule()) return *error;
     if (std::find(inside_.begin(), inside_.end(), std::uint8_t{1}) == inside_.end()) return nothing_enclosed();
     if (const auto region_error = take_regions()) return *region_error;
-    Areas areas = collect();
-    if (const Error error = check_touching(areas)) return *error;
-    return areas;
+    return collect();
   }
 
  private:
@@ -279,7 +277,9 @@ class AreaFinder {
 
   [[nodiscard]] InputError overlap(std::size_t c, const std::vector<std::int32_t>& parts) const {
     const auto name = [&](std::size_t k) { return names_.part(static_cast<std::size_t>(parts[k])); };
-    return {ErrorCode::overlap, part_where(parts[1]), name(0) + " and " + name(1) + " overlap" + near(c)};
+    return {ErrorCode::overlap, part_where(parts[1]),
+            name(0) + " and " + name(1) + " overlap" + near(c) +
+                "; expected parts that share their borders only. Next: cut one of them out of the other"};
   }
 
   /// The place of the first segment of a part, for messages.
@@ -341,7 +341,8 @@ class AreaFinder {
       const auto error = [&](ErrorCode code, const std::string& what) {
         return InputError{code, part_where(part), names_.part(i) + " " + what};
       };
-      if (enclosed[i] == 0) return error(ErrorCode::zero_area, "encloses nothing of the sphere");
+      if (enclosed[i] == 0)
+        return error(ErrorCode::zero_area, "encloses nothing of the sphere; expected a ring with an area");
       if (std::abs(enclosed[i] - 0.5) < kHalf)
         return error(ErrorCode::out_of_scale,
                      "divides the sphere into halves; expected a smaller side, which is what it encloses");
@@ -369,7 +370,7 @@ class AreaFinder {
       const std::uint32_t c = locate(region.at);
       if (c == kNone || inside_[c] == 0) return error("lies outside; expected a place inside the outline");
       if (given[c] != kNone && region_[c] != region.region) {
-        return error("lies in the same area as " + names_.region(given[c]));
+        return error("lies in the same area as " + names_.region(given[c]) + "; expected one region in each area");
       }
       given[c] = i;
       region_[c] = region.region;
@@ -394,7 +395,8 @@ class AreaFinder {
   }
 
   [[nodiscard]] InputError nothing_enclosed() const {
-    if (surface_.space().is_closed()) return {ErrorCode::empty_input, "", "nothing of the sphere is left to mesh"};
+    if (surface_.space().is_closed())
+      return {ErrorCode::empty_input, "", "nothing of the sphere is left to mesh; expected an area outside the coasts"};
     std::vector<std::uint32_t> degree(arrangement_.places.size(), 0);
     for (const OutlineEdge& e : edges_) {
       for (const std::int32_t end : e.ends) ++degree[static_cast<std::size_t>(end)];
@@ -404,32 +406,10 @@ class AreaFinder {
       if (degree[i] != 1 || point == Arrangement::kNoPoint) continue;
       return {ErrorCode::empty_input, names_.point_where(point),
               "the outline is not closed: it encloses nothing, and at " + names_.point(point) + " at " +
-                  text_of(surface_, names_, arrangement_.places[i]) + " only one segment ends"};
+                  text_of(surface_, names_, arrangement_.places[i]) +
+                  " only one segment ends. Next: end it on another segment, or close the line"};
     }
-    return {ErrorCode::empty_input, "", "the outline encloses nothing but holes"};
-  }
-
-  /// Refuses places where the inside touches itself: more than one fan of it begins at an edge there.
-  [[nodiscard]] Error check_touching(const Areas& areas) const {
-    std::vector<std::uint32_t> first(arrangement_.places.size(), kNone);
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      const auto [left, right] = areas.sides[i];
-      if ((left == kOutside) == (right == kOutside)) continue;
-      const std::int32_t end = edges_[i].ends[left != kOutside ? 0 : 1];  // with the inside left of the edge
-      std::uint32_t& edge = first[static_cast<std::size_t>(end)];
-      if (edge == kNone) {
-        edge = static_cast<std::uint32_t>(i);
-        continue;
-      }
-      const std::size_t one = edges_[edge].segment, other = edges_[i].segment;
-      return InputError{ErrorCode::non_manifold_vertex, names_.segment_where(other),
-                        "the domain touches itself at " +
-                            text_of(surface_, names_, arrangement_.places[static_cast<std::size_t>(end)]) + ", where " +
-                            names_.segment(one) + " and " + names_.segment(other) +
-                            " meet; expected domains that share edges, or nothing. Next: move one of the two by more "
-                            "than the tolerance, or mesh them one by one"};
-    }
-    return {};
+    return {ErrorCode::empty_input, "", "the outline encloses nothing but holes; expected an area to mesh"};
   }
 
   [[nodiscard]] Areas collect() const {
@@ -475,6 +455,93 @@ class AreaFinder {
 Expected<Areas> find_areas(const Surface& surface, const Outline& outline, const Arrangement& arrangement,
                            const MesherOptions& options, double largest, Deadline& deadline) {
   return AreaFinder(surface, outline, arrangement, options, largest, deadline).run();
+}
+
+namespace {
+
+/// An end of an edge, seen from its place.
+struct Spoke {
+  std::size_t edge, end;  // 0 or 1
+  double angle;
+  bool left, right;  // is the inside there?
+};
+
+std::vector<Spoke> spokes_at(const Surface& surface, const Arrangement& arrangement, const Areas& areas,
+                             std::span<const std::size_t> ends) {
+  std::vector<Spoke> spokes;
+  for (const std::size_t i : ends) {
+    const std::size_t edge = i / 2, end = i % 2;
+    const auto at = [&](std::size_t k) {
+      return arrangement.places[static_cast<std::size_t>(arrangement.edges[edge].ends[k])];
+    };
+    const Vec3 p = at(end), d = surface.direction(p, at(1 - end)), first = surface.some_direction(p);
+    spokes.push_back({edge, end, std::atan2(dot(d, surface.to_the_left(first, p)), dot(d, first)),
+                      areas.sides[edge][end] != kOutside, areas.sides[edge][1 - end] != kOutside});
+  }
+  std::sort(spokes.begin(), spokes.end(), [](const Spoke& s, const Spoke& t) {
+    return s.angle < t.angle || (s.angle == t.angle && s.edge < t.edge);
+  });
+  return spokes;
+}
+
+}  // namespace
+
+//        \  1  /
+//         a   b         Fans 1 and 2 of the inside touch at p. Fan 1 keeps p. The edges around fan 2 get p′.
+//  outside  p  outside
+//         d p′ c
+//        /  2  \  .
+std::optional<InputError> split_touching(const Surface& surface, Arrangement& arrangement, const Areas& areas,
+                                         double within, const OutlineNames& names) {
+  const std::size_t n = arrangement.places.size();
+  std::vector<std::vector<std::size_t>> ends(n);  // twice the edge, and which end
+  std::vector<std::uint32_t> fans(n, 0);
+  for (std::size_t i = 0; i < arrangement.edges.size(); ++i) {
+    for (const std::size_t end : {0, 1}) {
+      const auto p = static_cast<std::size_t>(arrangement.edges[i].ends[end]);
+      ends[p].push_back(2 * i + end);
+      if (areas.sides[i][end] != kOutside && areas.sides[i][1 - end] == kOutside) ++fans[p];
+    }
+  }
+  std::size_t split = 0, first = 0;
+  for (std::size_t p = 0; p < n; ++p) {
+    if (fans[p] < 2) continue;
+    const std::vector<Spoke> spokes = spokes_at(surface, arrangement, areas, ends[p]);
+    const auto begins = [](const Spoke& s) { return s.left && !s.right; };
+    const auto start = static_cast<std::size_t>(std::find_if(spokes.begin(), spokes.end(), begins) - spokes.begin());
+    if (within == 0) {
+      const std::size_t one = arrangement.edges[spokes.front().edge].segment,
+                        other = arrangement.edges[spokes[start].edge].segment;
+      return InputError{ErrorCode::non_manifold_vertex, names.segment_where(one),
+                        "the domain touches itself at " + text_of(surface, names, arrangement.places[p]) +
+                            ", a point of " + names.segment(one) + " and " + names.segment(other) +
+                            ". Next: a tolerance --snap above 0 divides it there"};
+    }
+    if (split++ == 0) first = p;
+    std::int32_t to = static_cast<std::int32_t>(p);
+    for (std::size_t k = 0; k < spokes.size(); ++k) {
+      const Spoke& spoke = spokes[(start + k) % spokes.size()];
+      if (begins(spoke) && k > 0) {
+        double half = 0;  // of the angle of the fan
+        for (std::size_t m = k + 1; m <= spokes.size(); ++m) {
+          const Spoke& last = spokes[(start + m) % spokes.size()];
+          half = 0.5 * (last.angle - spoke.angle + (last.angle < spoke.angle ? 2 * std::numbers::pi : 0));
+          if (!last.left) break;
+        }
+        const Vec3 at = arrangement.places[p], x = surface.some_direction(at), y = surface.to_the_left(x, at);
+        const double angle = spoke.angle + half;
+        to = static_cast<std::int32_t>(arrangement.places.size());
+        arrangement.places.push_back(surface.below(at + (0.5 * within) * (std::cos(angle) * x + std::sin(angle) * y)));
+        arrangement.point.push_back(Arrangement::kNoPoint);
+      }
+      arrangement.edges[spoke.edge].ends[spoke.end] = to;
+    }
+  }
+  if (split > 0) {
+    arrangement.notes.push_back("points where the domain touched itself, and was divided: " + std::to_string(split) +
+                                "; the first is " + text_of(surface, names, arrangement.places[first]));
+  }
+  return {};
 }
 
 Expected<Triangulated> triangulate(const Surface& surface, const DividedOutline& divided,

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "mesher/deadline.hpp"
@@ -33,6 +34,11 @@ struct Areas {
 /// On the sphere also parts that enclose half of it, and holes.
 [[nodiscard]] Expected<Areas> find_areas(const Surface& surface, const Outline& outline, const Arrangement& arrangement,
                                          const MesherOptions& options, double largest, Deadline& deadline);
+
+/// If the inside touches itself at a place, it is divided there: each further fan gets a place of its own, half the
+/// tolerance inwards. A note says so. An error without a tolerance.
+[[nodiscard]] std::optional<InputError> split_touching(const Surface& surface, Arrangement& arrangement,
+                                                       const Areas& areas, double within, const OutlineNames& names);
 
 /// The triangulation of points and pieces over their convex hull, with the area and piece of each triangle and
 /// halfedge. If the points leave half of a sphere empty, it has further vertices after all others.

@@ -42,6 +42,7 @@ class Arranger {
     }
     number_places(result);
     if (snapped_.joins > 0) result.notes.push_back(note_of_joins());
+    warn_of_lost_points(result.warnings);
     return result;
   }
 
@@ -182,6 +183,20 @@ class Arranger {
       }
     }
     return parts;
+  }
+
+  /// Two points of no segment that became one are two of the user's things.
+  void warn_of_lost_points(std::vector<std::string>& warnings) const {
+    std::vector<std::uint8_t> is_alone(o_.points.size(), 1);
+    for (const OutlineSegment& s : o_.segments) {
+      for (const std::int32_t end : s.ends) is_alone[static_cast<std::size_t>(end)] = 0;
+    }
+    for (std::size_t i = 0; i < is_alone.size(); ++i) {
+      const auto to = static_cast<std::size_t>(snapped_.joined[i]);
+      if (to == i || is_alone[i] == 0 || is_alone[to] == 0) continue;
+      warnings.push_back(names_.point(i) + " and " + names_.point(to) + " are at one place, " + text(places_[to]) +
+                         ", and become one vertex");
+    }
   }
 
   std::vector<OutlineEdge> cut() {

@@ -29,7 +29,7 @@ struct Arrangement {
   std::vector<std::uint32_t> point;          ///< the first given point at each place, or kNoPoint
   std::vector<std::int32_t> place_of_point;  ///< of each given point
   std::vector<OutlineEdge> edges;            ///< in the order of the segments
-  std::vector<std::string> notes;            ///< on joins
+  std::vector<std::string> notes, warnings;  ///< on joins
 };
 
 /// Joins, divides and merges. Errors: everything that makes segments no planar graph. `places`: of the points. A whole
