@@ -351,6 +351,12 @@ Outline outline_from(const py::dict& d) {
     const auto numbers = as_span<std::int32_t>(segments);
     outline.parts.push_back({p[0].cast<std::int32_t>(), {numbers.begin(), numbers.end()}, size_or_none(p[2])});
   }
+  for (const auto& item : d["rings"]) {
+    const auto r = item.cast<py::tuple>();
+    const auto segments = r[0].cast<Int32s>();
+    const auto numbers = as_span<std::int32_t>(segments);
+    outline.rings.push_back({{numbers.begin(), numbers.end()}, r[1].cast<std::int32_t>()});
+  }
   if (!d["names"].is_none()) outline.names = d["names"].cast<PyNames>().names;
   return outline;
 }
@@ -359,18 +365,21 @@ py::dict outline_to_dict(const Outline& outline) {
   std::vector<std::array<std::int32_t, 2>> ends;
   std::vector<std::int32_t> tags;
   for (const OutlineSegment& s : outline.segments) ends.push_back(s.ends), tags.push_back(s.tag);
-  py::list regions, parts;
+  py::list regions, parts, rings;
   for (const OutlineRegion& r : outline.regions) {
     regions.append(py::make_tuple(r.at.x, r.at.y, r.region, to_python(r.size)));
   }
   for (const OutlinePart& p : outline.parts) {
     parts.append(py::make_tuple(p.region, array_of<std::int32_t>(p.segments), to_python(p.size)));
   }
+  for (const OutlineRing& r : outline.rings) {
+    rings.append(py::make_tuple(array_of<std::int32_t>(r.segments), r.shell));
+  }
   return Record()("points", rows_of<double>(std::span<const Vec2>(outline.points)))(
              "segments", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(ends)))(
              "segment_tags", array_of<std::int32_t>(tags))(
              "holes", rows_of<double>(std::span<const Vec2>(outline.holes)))("regions", regions)("parts", parts)(
-             "names", outline.names ? py::cast(PyNames{outline.names}) : py::none())
+             "rings", rings)("names", outline.names ? py::cast(PyNames{outline.names}) : py::none())
       .dict;
 }
 
@@ -384,6 +393,8 @@ MesherOptions mesher_options_from(const py::dict& d, const py::object& optimize_
     options.region_sizes.push_back({pair[0].cast<std::int32_t>(), pair[1].cast<double>()});
   }
   options.enclosed = from_name<Enclosed>("enclosed", d["enclosed"].cast<std::string>());
+  options.snap = size_or_none(d["snap"]);
+  options.split_crossings = d["split_crossings"].cast<bool>();
   options.attempts = d["attempts"].cast<int>();
   options.most_triangles = d["most_triangles"].cast<std::size_t>();
   options.time_limit = d["time_limit"].cast<double>();
@@ -403,7 +414,7 @@ py::tuple outline_mesh_to_python(OutlineMesh result) {
                         Record()("lines", rows_of<VertexId>(std::span<const std::array<VertexId, 2>>(lines)))(
                             "line_tags", array_of<std::int32_t>(tags))("vertex_of_point", result.vertex_of_point)(
                             "bad", result.bad)("delaunay_bad", result.delaunay_bad)("attempts", result.attempts)(
-                            "report", report_to_dict(result.report))("notes", result.notes)
+                            "report", report_to_dict(result.report))("notes", result.notes)("warnings", result.warnings)
                             .dict);
 }
 

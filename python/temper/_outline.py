@@ -40,6 +40,8 @@ class Outline:
     """x, y, region number, and the desired edge length or None, for everything that can be reached from (x, y)."""
     parts: Sequence[tuple[int, Sequence[int], float | None]] = ()
     """Region number, segments of its boundary, edge length or None. If there are any, they alone define the inside."""
+    rings: Sequence[tuple[Sequence[int], int]] = ()
+    """Segments of each ring of polygons, and the ring around it, or −1 for shells. They only serve checks."""
     _names: Any = dataclasses.field(default=None, repr=False)
 
     def _plain(self) -> dict[str, Any]:
@@ -54,6 +56,7 @@ class Outline:
             "holes": _doubles(self.holes, 2, "holes"),
             "regions": [(float(x), float(y), int(number), size) for x, y, number, size in self.regions],
             "parts": [(int(n), _ints(list(s), 0, "parts").astype(np.int32), size) for n, s, size in self.parts],
+            "rings": [(_ints(list(s), 0, "rings").astype(np.int32), int(shell)) for s, shell in self.rings],
             "names": self._names,
         }
 
@@ -105,6 +108,8 @@ class OutlineMesh(Record):
     report: OptimizeReport = dataclasses.field(repr=False)
     """Report of the optimization, from the attempt that was kept."""
     notes: list[str]
+    warnings: list[str]
+    """Narrow places, and points that are lost; also given as ``TemperWarning``."""
 
 
 def mesh_outline(
@@ -114,6 +119,8 @@ def mesh_outline(
     grade: float = 0.3,
     region_sizes: Mapping[int, float] | None = None,
     enclosed: Literal["by_points", "all", "alternate"] = "by_points",
+    snap: float | None = None,
+    split_crossings: bool = False,
     optimize: OptimizeOptions | bool = True,
     attempts: int = 8,
     most_triangles: int = 200_000_000,
@@ -137,6 +144,11 @@ def mesh_outline(
         Area that an outline without parts encloses. ``all``: everything that segments enclose, except the holes (as in
         Triangle). ``alternate``: nested loops alternate. ``by_points``: ``all`` if there are hole or region points,
         else ``alternate``.
+    snap : float, optional
+        Tolerance of joins [length]: points that are nearer to each other, or to a segment, are joined. 0: nothing is
+        joined. None: 1e-9 of the extent of the outline, or 1e-7 of the radius of the sphere.
+    split_crossings : bool
+        Divide segments where they cross, and leave out what is outside. Else crossings are errors.
     optimize : OptimizeOptions or bool
         Options of the optimization; False: the Delaunay mesh is returned.
     attempts : int
@@ -162,7 +174,8 @@ def mesh_outline(
     >>> temper.mesh_outline(square, 0.2).bad
     0
     """
-    options = _mesher_options(size, grade, region_sizes, attempts, most_triangles, time_limit, enclosed)
+    joins = (snap, split_crossings)
+    options = _mesher_options(size, grade, region_sizes, joins, attempts, most_triangles, time_limit, enclosed)
     return _meshed(_temper.mesh_outline, outline._plain(), options, optimize, threads, observer, progress)
 
 
@@ -175,6 +188,8 @@ def mesh_sphere(
     radius: float | None = None,
     grade: float = 0.3,
     region_sizes: Mapping[int, float] | None = None,
+    snap: float | None = None,
+    split_crossings: bool = False,
     optimize: OptimizeOptions | bool = True,
     attempts: int = 8,
     most_triangles: int = 200_000_000,
@@ -200,7 +215,7 @@ def mesh_sphere(
         Rivers and other lines that become constrained edges.
     radius : float, optional
         Radius of the sphere [length]; None: the radius of the size field, or 6371000.
-    grade, region_sizes, optimize, attempts, most_triangles, time_limit, threads, observer, progress
+    grade, region_sizes, snap, split_crossings, optimize, attempts, most_triangles, time_limit, threads, observer, progress
         The same as in ``mesh_outline``.
 
     Returns
@@ -231,7 +246,8 @@ def mesh_sphere(
         "coasts": (coasts or nothing)._plain(),
         "lines": (lines or nothing)._plain(),
     }
-    options = _mesher_options(size, grade, region_sizes, attempts, most_triangles, time_limit)
+    joins = (snap, split_crossings)
+    options = _mesher_options(size, grade, region_sizes, joins, attempts, most_triangles, time_limit)
     return _meshed(_temper.mesh_sphere, sphere, options, optimize, threads, observer, progress)
 
 
@@ -239,6 +255,7 @@ def _mesher_options(
     size: float | SizeField,
     grade: float,
     region_sizes: Mapping[int, float] | None,
+    joins: tuple[float | None, bool],
     attempts: int,
     most_triangles: int,
     time_limit: float,
@@ -251,6 +268,8 @@ def _mesher_options(
         "grade": float(grade),
         "region_sizes": [(int(r), float(s)) for r, s in (region_sizes or {}).items()],
         "enclosed": enclosed,
+        "snap": None if joins[0] is None else float(joins[0]),
+        "split_crossings": joins[1],
         "attempts": attempts,
         "most_triangles": most_triangles,
         "time_limit": float(time_limit),
@@ -275,4 +294,6 @@ def _meshed(
         handle, rest = mesher(outline, options, plain, threads, _observer(line, observer))
     finally:
         line.clear()
+    for message in rest["warnings"]:
+        warnings.warn(message, TemperWarning, stacklevel=3)
     return OutlineMesh(**merged(rest, mesh=Mesh._of(handle), report=_report(rest["report"])))

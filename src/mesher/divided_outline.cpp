@@ -85,14 +85,14 @@ double GradedSize::operator()(Vec3 x) const {
 namespace {
 
 /// Distances of the division points along a segment of given length: equal parts of the integral of 1/size.
-std::vector<double> divisions(const SurfacePath& path, const GradedSize& size, Deadline& deadline) {
+std::vector<double> divisions(const SurfacePath& path, const GradedSize& size, double most, Deadline& deadline) {
   constexpr double kStep = 0.125;      // of the local size: the integrand changes by less than grade/8 in a step
   constexpr double kStretch = 0.25;    // a piece may be longer than its size by this part, rather than be halved
   constexpr double kLeastStep = 1e-7;  // of the segment: what is finer takes fewer samples, not all memory
   const double whole = path.length();
   std::vector<double> at = {0}, integral = {0};
   double density = 1 / size(path.at(0));
-  while (at.back() < whole && !deadline.asked_to_stop()) {
+  while (at.back() < whole && integral.back() < most && !deadline.asked_to_stop()) {
     // The first step must not run past a finer stretch: the size falls by at most grade times the step.
     const double next = std::min(whole, at.back() + std::max(kStep / density, kLeastStep * whole));
     const double next_density = 1 / size(path.at(next));
@@ -189,16 +189,17 @@ CornerRadii corner_radii(const Surface& surface, const std::vector<Vec3>& points
 }
 
 DividedOutline divide(const Surface& surface, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
-                      const GradedSize& size, const CornerRadii& corners, Deadline& deadline) {
+                      const GradedSize& size, const CornerRadii& corners, std::size_t most, Deadline& deadline) {
   DividedOutline divided{points, {}};
-  for (std::size_t e = 0; e < edges.size(); ++e) {
+  for (std::size_t e = 0; e < edges.size() && divided.pieces.size() <= most && !deadline.stopped(); ++e) {
     const auto a = static_cast<std::uint32_t>(edges[e].ends[0]), b = static_cast<std::uint32_t>(edges[e].ends[1]);
     const SurfacePath path(surface, points[a], points[b]);
     const double whole = path.length();
     const double first = corners[a], last = whole - corners[b];
     std::vector<double> at;
     if (first > 0) at.push_back(first);
-    for (const double t : divisions(SurfacePath(surface, path.at(first), path.at(last)), size, deadline)) {
+    for (const double t : divisions(SurfacePath(surface, path.at(first), path.at(last)), size,
+                                    2.0 + static_cast<double>(most), deadline)) {
       at.push_back(first + t);
     }
     if (last < whole) at.push_back(last);

@@ -78,10 +78,11 @@ struct DividedOutline {
 /// edges of one corner are cut at one distance, so that the triangle in the corner is isosceles.
 using CornerRadii = std::vector<double>;
 
-/// Divides every edge so that its pieces follow the size. Edges that remain when it is time to stop are divided less.
+/// Divides every edge so that its pieces follow the size. Ends early when there are more than `most` pieces, or when it
+/// is time to stop.
 [[nodiscard]] DividedOutline divide(const Surface& surface, const std::vector<Vec3>& points,
                                     const std::vector<OutlineEdge>& edges, const GradedSize& size,
-                                    const CornerRadii& corners, Deadline& deadline);
+                                    const CornerRadii& corners, std::size_t most, Deadline& deadline);
 
 /// An estimate of the number of pieces.
 [[nodiscard]] double count_pieces(const Surface& surface, const std::vector<Vec3>& points,
