@@ -73,16 +73,22 @@ struct PyDec {
   }
 };
 
-PyDec make_dec(const PyMesh& self, const py::object& tensor) {
+/// `coefficient`: one value per triangle, or none at all.
+PyDec make_dec(const PyMesh& self, const py::object& tensor, const Doubles& coefficient) {
   const auto mesh = self.read();
+  const std::span<const double> k = as_span<double>(coefficient);
+  const auto operators = [k](const Mesh& measured) {
+    DecComplex plain = dec_operators(measured);
+    return k.empty() ? std::move(plain) : or_raise(with_coefficient(measured, std::move(plain), k));
+  };
   if (tensor.is_none()) {
     const py::gil_scoped_release release;
-    return {mesh, mesh, {}, std::make_shared<const DecComplex>(dec_operators(*mesh))};
+    return {mesh, mesh, {}, std::make_shared<const DecComplex>(operators(*mesh))};
   }
   const Metric metric = metric_from(tensor);
   const py::gil_scoped_release release;
   auto measured = std::make_shared<const Mesh>(or_raise(mapped(*mesh, metric)));
-  return {mesh, measured, metric, std::make_shared<const DecComplex>(mapped_back(dec_operators(*measured), metric))};
+  return {mesh, measured, metric, std::make_shared<const DecComplex>(mapped_back(operators(*measured), metric))};
 }
 
 py::dict dec_to_dict(const PyDec& d) {
@@ -96,7 +102,8 @@ py::dict dec_to_dict(const PyDec& d) {
              "star1", whole(owner, c.star1.raw()))("star2", whole(owner, c.star2.raw()))(
              "transmissibility", whole(owner, c.transmissibility.raw()))(
              "orthocenters", places(owner, c.orthocenters.raw(), c.sphere_orthocenters.raw()))(
-             "areas", whole(owner, c.areas.raw()))
+             "areas", whole(owner, c.areas.raw()))("coefficient", whole(owner, c.coefficient.raw()))(
+             "capacity", whole(owner, c.capacity.raw()))
       .dict;
 }
 

@@ -23,8 +23,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "temper/detail/error.hpp"
 #include "temper/detail/ids.hpp"
 #include "temper/detail/tensor.hpp"
 #include "temper/detail/vec.hpp"
@@ -75,6 +77,9 @@ struct DecComplex {
   IdVector<TriangleId, Vec2>
       orthocenters;                    ///< Dual vertices in the plane; in a periodic plane the image for `points(t)`
   IdVector<TriangleId, double> areas;  ///< Areas of the triangles, > 0
+  // With a coefficient, see with_coefficient(); else empty.
+  IdVector<TriangleId, double> coefficient;  ///< K of each triangle
+  IdVector<VertexId, double> capacity;  ///< ★0 with K: Σ K d_ij h_k / 2, for terms such as K ∂u/∂t [K length²]
   // On the sphere these replace midpoint and orthocenters, at its radius. Empty in the plane.
   IdVector<EdgeId, Vec3> sphere_midpoints;
   IdVector<TriangleId, Vec3> sphere_orthocenters;
@@ -82,6 +87,18 @@ struct DecComplex {
 
 /// Computes the operators of a mesh. Preconditions: no erased triangles; fewer than 2³¹ edges. O(n).
 [[nodiscard]] DecComplex dec_operators(const Mesh& mesh);
+
+/// The operators for −div(K ∇u), from those of the mesh. K > 0 is constant on each triangle.
+///
+///     ★1               (K_k h_k + K_l h_l) / ℓ      flux between two vertices, along both triangles of the edge
+///     transmissibility ℓ / (h_k / K_k + h_l / K_l)  flux between two orthocenters, one after the other: harmonic mean
+///
+/// On the boundary the missing term is left out. ★0 and ★2 are the mesh's; `capacity` is ★0 with K. If heights are
+/// negative, signs may differ from those of the mesh, and they are not exact. Errors: not one value per triangle; a
+/// value that is not finite or not above 0. Precondition: `complex` is dec_operators(mesh). O(n).
+[[nodiscard]] Expected<DecComplex> with_coefficient(const Mesh& mesh, DecComplex complex,
+                                                    std::span<const double> coefficient,
+                                                    const InputNames* names = nullptr);
 
 /// A summary of the operators, for a check before a solver uses them.
 struct DecSummary {

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from typing import Any, Literal, Sequence
+from typing import Any, Literal, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -159,10 +159,15 @@ class DecComplex(Record):
     """Dual vertices, (m, 2) [length]. On a sphere (m, 3), at its radius."""
     areas: npt.NDArray[np.float64]
     """Areas of the triangles, (m,), > 0 [length²]."""
+    coefficient: npt.NDArray[np.float64]
+    """Coefficient K of each triangle, (m,); empty without one."""
+    capacity: npt.NDArray[np.float64]
+    """★0 with K: Σ K d_ij h_k / 2, (n,) [K length²], for terms such as K ∂u/∂t; empty without a coefficient."""
     _handle: Any = dataclasses.field(repr=False, compare=False)
 
     def __reduce__(self) -> Any:
-        return _dec_of, (Mesh._of(self._handle.mesh()), self._handle.tensor())
+        coefficient = self.coefficient.copy() if len(self.coefficient) else None
+        return _dec_of, (Mesh._of(self._handle.mesh()), self._handle.tensor(), coefficient)
 
     def star(self, s: Literal[0, 1, 2]) -> Any:
         """★s as a diagonal ``scipy.sparse`` matrix. Needs SciPy."""
@@ -197,11 +202,41 @@ class DecComplex(Record):
         return self._handle.write(os.fspath(folder), list(formats), threads)
 
 
-def _dec_of(mesh: Mesh, tensor: tuple[float, float, float] | None) -> DecComplex:
-    return dec_operators(mesh, tensor=tensor)
+def _dec_of(
+    mesh: Mesh, tensor: tuple[float, float, float] | None, coefficient: npt.NDArray[np.float64] | None
+) -> DecComplex:
+    return dec_operators(mesh, tensor=tensor, coefficient=coefficient)
 
 
-def dec_operators(mesh: MeshLike, *, tensor: Sequence[float] | None = None) -> DecComplex:
+def _coefficient_of(mesh: Mesh, coefficient: npt.ArrayLike | Mapping[int, float] | None) -> npt.NDArray[np.float64]:
+    """One value per triangle; empty for None."""
+    if coefficient is None:
+        return np.empty(0)
+    if not isinstance(coefficient, Mapping):
+        values = np.ascontiguousarray(coefficient, dtype=np.float64)
+        if values.shape != (len(mesh.triangles),):
+            raise ValueError(
+                f"coefficient: expected one value per triangle, shape ({len(mesh.triangles)},), or a dictionary of "
+                f"regions; found shape {values.shape}"
+            )
+        return values
+    regions, which = np.unique(mesh.regions, return_inverse=True)
+    missing = [int(r) for r in regions if int(r) not in coefficient]
+    unknown = [r for r in coefficient if r not in regions]
+    if missing or unknown:
+        raise ValueError(
+            f"coefficient: expected a value for each of the regions {regions.tolist()}; "
+            + (f"there is none for {missing}" if missing else f"the mesh has no region {unknown}")
+        )
+    return np.array([float(coefficient[int(r)]) for r in regions])[which]
+
+
+def dec_operators(
+    mesh: MeshLike,
+    *,
+    tensor: Sequence[float] | None = None,
+    coefficient: npt.ArrayLike | Mapping[int, float] | None = None,
+) -> DecComplex:
     """The operators of a mesh, as exact as doubles allow.
 
     Parameters
@@ -210,6 +245,10 @@ def dec_operators(mesh: MeshLike, *, tensor: Sequence[float] | None = None) -> D
     tensor : sequence of float, optional
         kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u). Duals and lengths are measured in its metric. ★1
         and transmissibility are multiplied by √(det K) (docs/howto/anisotropic.md).
+    coefficient : array of float, or dict of region to float, optional
+        K > 0 of −div(K ∇u) on each triangle, (m,), or by region. With it ★1 = (K_k h_k + K_l h_l)/ℓ, for unknowns at
+        vertices. The transmissibility is ℓ/(h_k/K_k + h_l/K_l), the harmonic mean, for unknowns at orthocenters. On
+        the boundary the missing term is left out. ``capacity`` is ★0 with K. A tensor is multiplied by K.
 
     Returns
     -------
@@ -231,7 +270,9 @@ def dec_operators(mesh: MeshLike, *, tensor: Sequence[float] | None = None) -> D
     >>> complex.d0.shape
     (1240, 441)
     """
-    handle = _temper.dec_operators(as_mesh(mesh)._handle, None if tensor is None else tuple(tensor))
+    mesh = as_mesh(mesh)
+    k = _coefficient_of(mesh, coefficient)
+    handle = _temper.dec_operators(mesh._handle, None if tensor is None else tuple(tensor), k)
     arrays = handle.arrays()
     edges = DecEdges(**arrays.pop("edges"))
     d0, d1 = IncidenceMatrix(**arrays.pop("d0")), IncidenceMatrix(**arrays.pop("d1"))

@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import pathlib
+import pickle
 
 import numpy as np
 import pytest
@@ -77,6 +78,15 @@ def test_the_gradient_of_an_energy_is_its_derivative(ring):
 # --- operators ------------------------------------------------------------------------------------------------
 
 
+def test_a_coefficient_has_one_value_for_each_triangle_or_region():
+    mesh = temper.generate.sheared_grid()
+    by_region = temper.dec_operators(mesh, coefficient={0: 2.0})
+    assert by_region.transmissibility == pytest.approx(2 * temper.dec_operators(mesh).transmissibility)
+    for wrong, message in (([1.0], "shape \\(800,\\)"), ({5: 1.0}, "none for \\[0\\]"), ({0: 1.0, 7: 1.0}, "no region")):
+        with pytest.raises(ValueError, match=message):
+            temper.dec_operators(mesh, coefficient=wrong)
+
+
 @pytest.mark.parametrize("mesh", EVERY)
 def test_laws_of_the_operators_hold_for_any_weights(mesh):
     mesh = weighted(mesh)
@@ -92,6 +102,14 @@ def test_laws_of_the_operators_hold_for_any_weights(mesh):
     for linear in np.asarray(mesh.points).T:
         residual = np.abs(np.delete(laplacian @ linear, boundary))
         assert (residual <= 1e-10 * np.delete(scale, boundary) * np.abs(linear).max() + 1e-13).all()
+    k = np.where(np.arange(mesh.n_triangles) % 2, 3.0, 0.5)
+    of_k = pickle.loads(pickle.dumps(temper.dec_operators(mesh, coefficient=k)))
+    assert of_k.capacity.sum() == pytest.approx((k * c.areas).sum(), rel=1e-12)
+    assert (of_k.coefficient == k).all() and (of_k.star0 == c.star0).all() and not len(c.capacity)
+    sides = np.where(c.edges.triangles < 0, 0, k[c.edges.triangles])
+    assert of_k.star1 * c.edges.length == pytest.approx(
+        sides[:, 0] * c.edges.left_height + sides[:, 1] * c.edges.right_height, abs=1e-10
+    )
     cells = c.power_cells()
     assert cells.areas.sum() == pytest.approx(c.areas.sum(), rel=1e-10)
     assert len(cells.polygons()) == len(cells.vertices) == len(cells.polygon_areas)

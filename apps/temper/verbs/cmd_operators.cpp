@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "console.hpp"
+#include "files/coefficient_option.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
 #include "files/tensor_option.hpp"
@@ -30,7 +31,7 @@ constexpr Choice<io::DecFormat> kDecFormats[] = {{"npz", io::DecFormat::npz},   
 struct DecSettings {
   std::string projection;
   std::string input, output, formats = "npz,mtx,vtu";
-  std::string layers;
+  std::string layers, coefficient;
   double pinch_out = 0;
   std::optional<Metric> metric;
   std::uint64_t threads = 0;
@@ -47,7 +48,8 @@ void add_options(Command& command, DecSettings& s) {
            "holds the dual for ParaView. With --layers there are also 'disv' and 'disu' for MODFLOW 6, and 'tough' for "
            "TOUGH2 and TOUGH3.")
       .defaults_to([&s] { return s.formats; });
-  command.group("Diffusion tensor");
+  command.group("Coefficients");
+  add_coefficient(command, s.coefficient);
   add_tensor(command, s.metric, "Make stars, fluxes, orthocenters and power cells");
   command.group("Layers");
   add_text(command, "--layers", "FILE", s.layers,
@@ -65,6 +67,7 @@ void add_options(Command& command, DecSettings& s) {
   command.add_help({"IN -o DIR [options]",
                     "  temper operators in.vtu -o operators\n"
                     "  temper operators in.vtu -o operators --format npz --json\n"
+                    "  temper operators in.vtu -o operators --coefficient 0=2.5\n"
                     "  temper optimize in.vtu -o out.vtu\n"
                     "  temper operators out.vtu -o model --layers layers.csv --format disv,tough\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
@@ -110,6 +113,17 @@ void check_folder(const DecSettings& s, const std::vector<io::DecFormat>& format
   }
 }
 
+/// Takes K into the operators, if it is given.
+DecComplex with_k(const Command& command, const DecSettings& s, const Input& input, DecComplex complex) {
+  const std::vector<double> k = read_coefficient(command, s.coefficient, input);
+  if (k.empty()) return complex;
+  auto made = with_coefficient(input.mesh(), std::move(complex), k, input.names.get());
+  if (made) return *std::move(made);
+  InputError error = made.error();
+  if (error.where.empty()) error.where = s.input;
+  throw Failure(Exit::bad_input, error.what());
+}
+
 /// Nothing without --layers.
 std::optional<Columns> make_columns(const DecSettings& s, const Input& input, const DecComplex& complex,
                                     const PowerCells& cells) {
@@ -144,7 +158,7 @@ Exit run_operators(const Arguments& arguments) {
   Input input = read_input(s.input, {s.projection, {}, threads.get(), true});
   print_warnings(input.warnings());
   const std::optional<Mesh> plain = take_to_metric(input, s.metric);
-  DecComplex complex = dec_operators(input.mesh());
+  DecComplex complex = with_k(command, s, input, dec_operators(input.mesh()));
   PowerCells cells = power_cells(input.mesh(), complex);
   if (s.metric) {
     complex = mapped_back(std::move(complex), *s.metric);

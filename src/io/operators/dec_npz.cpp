@@ -149,6 +149,10 @@ void add_matrices(NpzWriter& npz, const DecComplex& c) {
   npz.add("star1", c.star1.raw());
   npz.add("star2", c.star2.raw());
   npz.add("transmissibility", c.transmissibility.raw());
+  if (!c.coefficient.empty()) {
+    npz.add("coefficient", c.coefficient.raw());
+    npz.add("capacity", c.capacity.raw());
+  }
 }
 
 void add_cells(NpzWriter& npz, const PowerCells& cells) {

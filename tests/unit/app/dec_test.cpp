@@ -4,7 +4,18 @@
 namespace temper::test {
 namespace {
 
-class Dec : public Workshop {};
+class Dec : public Workshop {
+ protected:
+  /// No file is made or changed, and nothing is printed but the message.
+  void expect_failure(const std::vector<std::string>& arguments, int code, const std::string& message) {
+    const auto before = names();
+    const auto outcome = temper(arguments);
+    EXPECT_EQ(outcome.exit, code) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, message)) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(names(), before);
+  }
+};
 
 TEST_F(Dec, WritesTheFormatsAskedForAndSaysWhatItWrote) {
   make_input();
@@ -34,6 +45,29 @@ TEST_F(Dec, AWellCenteredMeshGivesNoWarning) {
             "%%MatrixMarket matrix coordinate real general\n"
             "% edges x vertices: -1 at the lower vertex, +1 at the higher\n5 4 10\n"
             "1 1 -1\n1 2 1\n2 1 -1\n2 3 1\n3 2 -1\n3 3 1\n4 2 -1\n4 4 1\n5 3 -1\n5 4 1\n");
+}
+
+TEST_F(Dec, ACoefficientComesFromDataOrRegions) {
+  const auto mesh = [this](const std::string& regions) {
+    write("a.mesh",
+          "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n1 0 0\n0.5 0.9 0\n1.5 0.8 0\nTriangles\n2\n" +
+              regions + "End\n");
+  };
+  mesh("1 2 3 1\n2 4 3 2\n");
+  temper_ok({"operators", "a.mesh", "-o", "plain", "--format", "mtx"});
+  temper_ok({"operators", "a.mesh", "-o", "k", "--format", "npz,mtx", "--coefficient", "1=2,2=2"});
+  EXPECT_EQ(read("k/star0.mtx"), read("plain/star0.mtx"));
+  const auto line = [this](const std::string& file) {
+    const std::string all = read(file);
+    return std::stod(all.substr(all.rfind(' ')));
+  };
+  EXPECT_DOUBLE_EQ(line("k/star1.mtx"), 2 * line("plain/star1.mtx"));
+  EXPECT_TRUE(contains(read("k/operators.npz"), "capacity.npy"));
+  expect_failure({"operators", "a.mesh", "-o", "out", "--coefficient", "1=2"}, 2, "there is no value for region 2");
+  expect_failure({"operators", "a.mesh", "-o", "out", "--coefficient", "1=2,2=2,3=1"}, 2, "the mesh has no region 3");
+  expect_failure({"operators", "a.mesh", "-o", "out", "--coefficient", "1=2,2=0"}, 1,
+                 "a.mesh:12: triangle 2 has the coefficient 0; expected a finite number above 0");
+  expect_failure({"operators", "a.mesh", "-o", "out", "--coefficient", "k"}, 2, "there are no data 'k' of triangles");
 }
 
 TEST_F(Dec, LayersMakeColumns) {
@@ -69,14 +103,6 @@ TEST_F(Dec, BadInputWritesNothing) {
   make_input();
   write("file", "");
   write("bad.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices\n1\n0 0 0\nTriangles\n1\n1 2 3 0\nEnd\n");
-  const auto before = names();
-  const auto expect_failure = [&](const std::vector<std::string>& arguments, int code, const std::string& message) {
-    const auto outcome = temper(arguments);
-    EXPECT_EQ(outcome.exit, code) << outcome.err;
-    EXPECT_TRUE(contains(outcome.err, message));
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(names(), before);
-  };
   expect_failure({"operators", "bad.mesh", "-o", "out"}, 1, "bad.mesh:8: ");
   expect_failure({"operators", "in.vtu", "-o", "file"}, 1, "file: is not a folder; expected a folder, or a new name");
   expect_failure({"operators", "in.vtu", "-o", "no/such"}, 1, "no/such: cannot be made: No such file or directory");

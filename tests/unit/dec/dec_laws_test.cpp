@@ -177,6 +177,93 @@ TEST(DecLaws, LinearFunctionsAreHarmonicWhateverTheWeights) {
   EXPECT_GT(inner, 50u);
 }
 
+// --- with a coefficient -----------------------------------------------------------------------------------------
+
+/// Rows of a lattice below and above a straight line of edges, with a coefficient for each side.
+struct Layered {
+  Mesh mesh;
+  double line;
+  std::vector<double> coefficient;
+};
+Layered layered(double below, double above) {
+  Layered made = {test::lattice({.n = 9, .jitter = 0, .weight = 0.3}), 4 * std::sqrt(0.75), {}};
+  test::Noise noise(3);
+  for (const VertexId v : made.mesh.vertices()) {
+    const WeightedPoint p = made.mesh.point(v);
+    if (!made.mesh.is_boundary(v) && p.y != made.line)
+      made.mesh.set_point(v, {p.x + 0.2 * noise(), p.y + 0.2 * noise(), p.w});
+  }
+  EXPECT_FALSE(made.mesh.validate().has_value());
+  for (const TriangleId t : made.mesh.triangles()) {
+    double y = 0;
+    for (const VertexId v : made.mesh.corners(t)) y += made.mesh.position(v).y / 3;
+    made.coefficient.push_back(y < made.line ? below : above);
+  }
+  return made;
+}
+
+TEST(DecLaws, AConstantCoefficientIsAFactor) {
+  const Mesh mesh = rough();
+  const DecComplex plain = dec_operators(mesh);
+  const std::vector<double> four(mesh.n_triangles(), 4.0);  // a power of two: exact
+  const DecComplex c = *with_coefficient(mesh, plain, four);
+  expect_close(c.star0, plain.star0);
+  for (std::size_t i = 0; i < plain.edges.size(); ++i) {
+    const EdgeId e(i);
+    EXPECT_NEAR(c.star1[e], 4 * plain.star1[e], kRelative * std::abs(c.star1[e]));
+    EXPECT_NEAR(c.transmissibility[e], 4 * plain.transmissibility[e], kRelative * std::abs(c.transmissibility[e]));
+  }
+  for (const VertexId v : mesh.vertices()) EXPECT_NEAR(c.capacity[v], 4 * plain.star0[v], kRelative);
+}
+
+// u = x + (y − y₀) q / K has the flux q across the line on both sides, and the slope 1 along it.
+TEST(DecLaws, FluxesAreExactAcrossAStraightLineBetweenTwoCoefficients) {
+  constexpr double kFlux = 3;
+  const Layered m = layered(0.01, 7);
+  const DecComplex c = *with_coefficient(m.mesh, dec_operators(m.mesh), m.coefficient);
+  const auto u = [&](Vec2 p, double k) { return p.x + (p.y - m.line) * kFlux / k; };
+  const auto at_vertex = [&](VertexId v) {
+    const Vec2 p = m.mesh.position(v);
+    return u(p, p.y < m.line ? 0.01 : 7);
+  };
+  IdVector<VertexId, double> residual(m.mesh.n_vertices(), 0.0);
+  std::size_t on_line = 0;
+  for (std::size_t i = 0; i < c.edges.size(); ++i) {
+    const DecEdge& e = c.edges[EdgeId(i)];
+    const double along = c.star1[EdgeId(i)] * (at_vertex(e.to) - at_vertex(e.from));
+    residual[e.from] -= along, residual[e.to] += along;
+    if (e.is_boundary()) continue;
+    const double left = c.coefficient[e.left], right = c.coefficient[e.right];
+    const double across =
+        c.transmissibility[EdgeId(i)] * (u(c.orthocenters[e.left], left) - u(c.orthocenters[e.right], right));
+    // From right to left, along the normal on the left of the edge.
+    const Vec2 edge = m.mesh.position(e.to) - m.mesh.position(e.from);
+    const double expected = left != right ? kFlux * edge.x : left * dot(Vec2{1, kFlux / left}, Vec2{-edge.y, edge.x});
+    EXPECT_NEAR(across, expected, 1e-9) << i;
+    on_line += left != right ? 1 : 0;
+  }
+  EXPECT_EQ(on_line, 8u);
+  for (const VertexId v : m.mesh.vertices()) {
+    if (m.mesh.is_boundary(v)) continue;
+    EXPECT_NEAR(residual[v], 0, 1e-9);
+  }
+  double sum = 0, expected = 0;
+  for (const VertexId v : m.mesh.vertices()) sum += c.capacity[v];
+  for (const TriangleId t : m.mesh.triangles()) expected += c.coefficient[t] * c.areas[t];
+  EXPECT_NEAR(sum, expected, kRelative * expected);
+}
+
+TEST(DecLaws, ACoefficientIsOneFiniteNumberAboveZeroForEachTriangle) {
+  const Mesh mesh = rough();
+  std::vector<double> k(mesh.n_triangles(), 1.0);
+  k[3] = 0;
+  const auto zero = with_coefficient(mesh, dec_operators(mesh), k);
+  ASSERT_FALSE(zero);
+  EXPECT_EQ(zero.error().message, "triangle 3 has the coefficient 0; expected a finite number above 0");
+  k.pop_back();
+  EXPECT_FALSE(with_coefficient(mesh, dec_operators(mesh), k));
+}
+
 TEST(DecLaws, DualVerticesHaveEqualPowerAndDualEdgesAreWhatLiesBetweenThem) {
   const Mesh mesh = rough();
   const DecComplex c = dec_operators(mesh);
