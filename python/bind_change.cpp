@@ -394,6 +394,7 @@ MesherOptions mesher_options_from(const py::dict& d, const py::object& optimize_
   }
   options.enclosed = from_name<Enclosed>("enclosed", d["enclosed"].cast<std::string>());
   options.snap = size_or_none(d["snap"]);
+  options.drop_below = d["drop_below"].cast<double>();
   options.split_crossings = d["split_crossings"].cast<bool>();
   options.attempts = d["attempts"].cast<int>();
   options.most_triangles = d["most_triangles"].cast<std::size_t>();

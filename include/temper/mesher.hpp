@@ -42,6 +42,9 @@ struct MesherOptions {
   /// Tolerance: points that are nearer to each other or to a segment are joined. 0: nothing is joined. Absent: 1e-9 of
   /// the extent of the outline, or 1e-7 of the radius of the sphere.
   std::optional<double> snap = {};
+  /// Leave out rings of polygons whose extent is less, such as small islands, and rings that joins within `snap` leave
+  /// nothing of. 0: none
+  double drop_below = 0;
   /// Divide segments where they cross, and leave out what is outside. Else crossings are errors.
   bool split_crossings = false;
   /// Options of the optimization; absent: the Delaunay mesh is returned.

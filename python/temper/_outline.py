@@ -120,6 +120,7 @@ def mesh_outline(
     region_sizes: Mapping[int, float] | None = None,
     enclosed: Literal["by_points", "all", "alternate"] = "by_points",
     snap: float | None = None,
+    drop_below: float = 0.0,
     split_crossings: bool = False,
     optimize: OptimizeOptions | bool = True,
     attempts: int = 8,
@@ -147,6 +148,9 @@ def mesh_outline(
     snap : float, optional
         Tolerance of joins [length]: points that are nearer to each other, or to a segment, are joined. 0: nothing is
         joined. None: 1e-9 of the extent of the outline, or 1e-7 of the radius of the sphere.
+    drop_below : float
+        Rings of polygons whose extent is less, such as small islands, are left out, and so are rings that ``snap``
+        leaves nothing of.
     split_crossings : bool
         Divide segments where they cross, and leave out what is outside. Else crossings are errors.
     optimize : OptimizeOptions or bool
@@ -174,7 +178,7 @@ def mesh_outline(
     >>> temper.mesh_outline(square, 0.2).bad
     0
     """
-    joins = (snap, split_crossings)
+    joins = (snap, drop_below, split_crossings)
     options = _mesher_options(size, grade, region_sizes, joins, attempts, most_triangles, time_limit, enclosed)
     return _meshed(_temper.mesh_outline, outline._plain(), options, optimize, threads, observer, progress)
 
@@ -189,6 +193,7 @@ def mesh_sphere(
     grade: float = 0.3,
     region_sizes: Mapping[int, float] | None = None,
     snap: float | None = None,
+    drop_below: float = 0.0,
     split_crossings: bool = False,
     optimize: OptimizeOptions | bool = True,
     attempts: int = 8,
@@ -215,7 +220,8 @@ def mesh_sphere(
         Rivers and other lines that become constrained edges.
     radius : float, optional
         Radius of the sphere [length]; None: the radius of the size field, or 6371000.
-    grade, region_sizes, snap, split_crossings, optimize, attempts, most_triangles, time_limit, threads, observer, progress
+    grade, region_sizes, snap, drop_below, split_crossings, optimize, attempts, most_triangles, time_limit, threads,
+    observer, progress
         The same as in ``mesh_outline``.
 
     Returns
@@ -246,7 +252,7 @@ def mesh_sphere(
         "coasts": (coasts or nothing)._plain(),
         "lines": (lines or nothing)._plain(),
     }
-    joins = (snap, split_crossings)
+    joins = (snap, drop_below, split_crossings)
     options = _mesher_options(size, grade, region_sizes, joins, attempts, most_triangles, time_limit)
     return _meshed(_temper.mesh_sphere, sphere, options, optimize, threads, observer, progress)
 
@@ -255,7 +261,7 @@ def _mesher_options(
     size: float | SizeField,
     grade: float,
     region_sizes: Mapping[int, float] | None,
-    joins: tuple[float | None, bool],
+    joins: tuple[float | None, float, bool],
     attempts: int,
     most_triangles: int,
     time_limit: float,
@@ -269,7 +275,8 @@ def _mesher_options(
         "region_sizes": [(int(r), float(s)) for r, s in (region_sizes or {}).items()],
         "enclosed": enclosed,
         "snap": None if joins[0] is None else float(joins[0]),
-        "split_crossings": joins[1],
+        "drop_below": float(joins[1]),
+        "split_crossings": joins[2],
         "attempts": attempts,
         "most_triangles": most_triangles,
         "time_limit": float(time_limit),

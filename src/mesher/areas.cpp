@@ -337,7 +337,7 @@ class AreaFinder {
     for (std::size_t i = 0; i < enclosed.size(); ++i) {
       const auto part = static_cast<std::int32_t>(i);
       if (enclosed[i] > 0.5) turned.push_back(part);
-      if (i >= n_parts) continue;
+      if (i >= n_parts || arrangement_.kept[i] == 0) continue;
       const auto error = [&](ErrorCode code, const std::string& what) {
         return InputError{code, part_where(part), names_.part(i) + " " + what};
       };
@@ -533,6 +533,7 @@ std::optional<InputError> split_touching(const Surface& surface, Arrangement& ar
         to = static_cast<std::int32_t>(arrangement.places.size());
         arrangement.places.push_back(surface.below(at + (0.5 * within) * (std::cos(angle) * x + std::sin(angle) * y)));
         arrangement.point.push_back(Arrangement::kNoPoint);
+        arrangement.origin.push_back(static_cast<std::int32_t>(p));
       }
       arrangement.edges[spoke.edge].ends[spoke.end] = to;
     }

@@ -21,12 +21,13 @@ std::string coordinates(Vec2 p) { return "(" + to_text(p.x) + ", " + to_text(p.y
 class Arranger {
  public:
   Arranger(const Surface& surface, const Outline& outline, const std::vector<Vec3>& places, const SnapOptions& options,
-           Deadline& deadline)
+           double drop_below, Deadline& deadline)
       : surface_(surface),
         o_(outline),
         places_(places),
         names_(names_of(outline)),
         options_(options),
+        drop_below_(drop_below),
         deadline_(deadline) {}
 
   Expected<Arrangement> run() {
@@ -36,7 +37,7 @@ class Arranger {
     }
     Arrangement result;
     result.edges = cut_and_merge();
-    if (Error error = check_kept(result.edges)) return *std::move(error);
+    if (Error error = check_kept(result)) return *std::move(error);
     if (surface_.space().is_closed()) {
       if (Error error = check_closed(result.edges)) return *std::move(error);
     }
@@ -139,14 +140,49 @@ class Arranger {
   [[nodiscard]] std::string text(Vec3 place) const { return text_of(surface_, names_, place); }
 
   Error join() {
+    const std::vector<std::uint8_t> dropped = drop_small_rings();
     std::vector<SegmentPart> segments;
     segments.reserve(o_.segments.size());
-    for (const OutlineSegment& s : o_.segments) {
-      segments.push_back({s.ends, static_cast<std::uint32_t>(segments.size())});
+    for (std::size_t i = 0; i < dropped.size(); ++i) {
+      if (dropped[i] == 0) segments.push_back({o_.segments[i].ends, static_cast<std::uint32_t>(i)});
     }
     snapped_ = snap(surface_, places_, std::move(segments), options_, deadline_);
     if (snapped_.crossing) return crossing(*snapped_.crossing);
     return {};
+  }
+
+  /// Says which segments are left out. Points that have no other segment are ignored.
+  std::vector<std::uint8_t> drop_small_rings() {
+    std::vector<std::uint8_t> dropped(o_.segments.size(), 0), small(o_.rings.size(), 0);
+    if (drop_below_ == 0) return dropped;
+    for (std::size_t i = 0; i < o_.rings.size(); ++i) {
+      const OutlineRing& ring = o_.rings[i];
+      small[i] = extent_of(ring) < drop_below_ ? 1 : 0;
+      if (ring.shell >= 0 && static_cast<std::size_t>(ring.shell) < i) {
+        small[i] |= small[static_cast<std::size_t>(ring.shell)];
+      }
+      if (small[i] == 0) continue;
+      for (const std::int32_t s : ring.segments) dropped[static_cast<std::size_t>(s)] = 1;
+    }
+    options_.ignored.assign(o_.points.size(), 0);
+    for (const std::uint8_t pass :
+         {std::uint8_t{1}, std::uint8_t{0}}) {  // first all points of rings that go, then not those that others use
+      for (std::size_t i = 0; i < dropped.size(); ++i) {
+        if (dropped[i] != pass) continue;
+        for (const std::int32_t end : o_.segments[i].ends) options_.ignored[static_cast<std::size_t>(end)] = pass;
+      }
+    }
+    return dropped;
+  }
+  [[nodiscard]] double extent_of(const OutlineRing& ring) const {
+    if (ring.segments.empty()) return 0;
+    const auto ends = [&](std::int32_t s) { return o_.segments[static_cast<std::size_t>(s)].ends; };
+    const Vec3 first = point(ends(ring.segments[0])[0]);
+    BoundingBox box = {first, first};
+    for (const std::int32_t s : ring.segments) {
+      for (const std::int32_t end : ends(s)) box = temper::united(box, {point(end), point(end)});
+    }
+    return length(box.high - box.low);
   }
 
   [[nodiscard]] InputError crossing(const Crossing& crossing) const {
@@ -204,7 +240,7 @@ class Arranger {
     }
     for (std::size_t i = 0; i < is_alone.size(); ++i) {
       const auto to = static_cast<std::size_t>(snapped_.joined[i]);
-      if (to == i || is_alone[i] == 0 || is_alone[to] == 0) continue;
+      if (to == i || is_alone[i] == 0 || is_alone[to] == 0) continue;  // those left out are not alone
       warnings.push_back(names_.point(i) + " and " + names_.point(to) + " are at one place, " + text(places_[to]) +
                          ", and become one vertex");
     }
@@ -261,23 +297,27 @@ class Arranger {
   }
 
   /// A part or ring whose edges all went encloses nothing any more.
-  [[nodiscard]] Error check_kept(const std::vector<OutlineEdge>& edges) const {
-    std::vector<std::uint8_t> kept(o_.parts.size() + o_.rings.size(), 0);
-    for (const OutlineEdge& e : edges) {
+  [[nodiscard]] Error check_kept(Arrangement& result) {
+    std::vector<std::uint8_t>& kept = result.kept;
+    kept.assign(o_.parts.size() + o_.rings.size(), 0);
+    for (const OutlineEdge& e : result.edges) {
       for (const std::int32_t part : e.parts) kept[static_cast<std::size_t>(part)] = 1;
     }
-    for (std::size_t i = 0; i < kept.size(); ++i) {
+    for (std::size_t i = 0; i < kept.size() && drop_below_ == 0; ++i) {
       const bool ring = i >= o_.parts.size();
       const std::vector<std::int32_t>& segments = ring ? o_.rings[i - o_.parts.size()].segments : o_.parts[i].segments;
       if (kept[i] != 0 || segments.empty()) continue;
       const auto first = static_cast<std::size_t>(segments[0]);
       const std::string name = ring ? names_.ring(i - o_.parts.size()) : names_.part(i);
       return InputError{ErrorCode::zero_area, names_.segment_where(first),
-                        name + " at " + text(places_[static_cast<std::size_t>(o_.segments[first].ends[0])]) +
-                            " encloses nothing" +
-                            (options_.within > 0 ? " after joins within " + to_text(options_.within) +
-                                                       ". Next: leave it out, or join less with --snap"
-                                                 : std::string())};
+                        name + " at " + text(point(o_.segments[first].ends[0])) + " encloses nothing" +
+                            (options_.within > 0 ? " after joins within " + to_text(options_.within) : std::string()) +
+                            ". Next: leave it out with --drop-below, or join less with --snap"};
+    }
+    const auto gone = std::count(kept.end() - static_cast<std::ptrdiff_t>(o_.rings.size()), kept.end(), 0);
+    if (gone > 0) {
+      result.notes.push_back("rings left out, because their extent is below " + to_text(drop_below_) +
+                             " or joins leave nothing of them: " + std::to_string(gone));
     }
     return {};
   }
@@ -314,8 +354,11 @@ class Arranger {
     std::vector<std::int32_t> number(snapped_.places.size());
     for (std::size_t i = 0; i < number.size(); ++i) {
       const auto to = static_cast<std::size_t>(snapped_.joined[i]);
-      if (to == i) {
+      if (snapped_.joined[i] < 0) {
+        number[i] = -1;
+      } else if (to == i) {
         number[i] = static_cast<std::int32_t>(result.places.size());
+        result.origin.push_back(number[i]);
         result.places.push_back(snapped_.places[i]);
         result.point.push_back(i < places_.size() ? static_cast<std::uint32_t>(i) : Arrangement::kNoPoint);
       } else {
@@ -332,7 +375,8 @@ class Arranger {
   const Outline& o_;
   const std::vector<Vec3>& places_;
   const OutlineNames& names_;
-  const SnapOptions& options_;
+  SnapOptions options_;
+  double drop_below_;
   Deadline& deadline_;
   Snapped snapped_;
 };
@@ -360,8 +404,8 @@ std::string text_of(const Surface& surface, const OutlineNames& names, Vec3 plac
 }
 
 Expected<Arrangement> arrange(const Surface& surface, const Outline& outline, const std::vector<Vec3>& places,
-                              const SnapOptions& options, Deadline& deadline) {
-  return Arranger(surface, outline, places, options, deadline).run();
+                              const SnapOptions& options, double drop_below, Deadline& deadline) {
+  return Arranger(surface, outline, places, options, drop_below, deadline).run();
 }
 
 }  // namespace temper::mesher

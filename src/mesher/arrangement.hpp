@@ -28,16 +28,18 @@ struct Arrangement {
   static constexpr std::uint32_t kNoPoint = 0xffffffffu;
   std::vector<Vec3> places;                  ///< first of points, in their order; then of crossings
   std::vector<std::uint32_t> point;          ///< the first given point at each place, or kNoPoint
-  std::vector<std::int32_t> place_of_point;  ///< of each given point
+  std::vector<std::int32_t> place_of_point;  ///< of each given point; -1 if it was left out
+  std::vector<std::int32_t> origin;          ///< of each place: itself, or the place that it was split from
   std::vector<OutlineEdge> edges;            ///< in the order of the segments
+  std::vector<std::uint8_t> kept;            ///< of each part, then ring: does it have an edge?
   std::vector<std::string> notes, warnings;  ///< on joins
 };
 
-/// Joins, divides and merges. Errors: everything that makes segments no planar graph. `places`: of the points. A whole
-/// sphere needs no segments.
+/// Leaves out rings whose extent is below `drop_below`. Joins, divides and merges. Errors: everything that makes
+/// segments no planar graph. `places`: of the points. A whole sphere needs no segments.
 [[nodiscard]] Expected<Arrangement> arrange(const Surface& surface, const Outline& outline,
                                             const std::vector<Vec3>& places, const SnapOptions& options,
-                                            Deadline& deadline);
+                                            double drop_below, Deadline& deadline);
 
 /// An error if a tag is for none of the n elements of the outline.
 [[nodiscard]] std::optional<InputError> check_tags(const std::vector<OutlineTag>& tags, const std::string& what,

@@ -145,15 +145,16 @@ bool is_sharp(const Surface& surface, const std::vector<Vec3>& points, std::size
 }
 
 /// The nearest edge that does not end at the point, or `within`.
-double clearance(const Surface& surface, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
-                 const BoundingBoxTree& tree, std::size_t apex, double within) {
+double clearance(const Surface& surface, const Arrangement& arrangement, const BoundingBoxTree& tree, std::size_t apex,
+                 double within) {
   double least = within * within;
-  const Vec3 p = points[apex];
+  const Vec3 p = arrangement.places[apex];
   tree.visit(BoundingBox{p, p}.grown(within), [&](std::size_t i) {
-    const auto [a, b] = edges[i].ends;
-    if (static_cast<std::size_t>(a) != apex && static_cast<std::size_t>(b) != apex) {
-      least = std::min(
-          least, surface.squared_distance(p, points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]));
+    const auto a = static_cast<std::size_t>(arrangement.edges[i].ends[0]),
+               b = static_cast<std::size_t>(arrangement.edges[i].ends[1]);
+    const std::int32_t origin = arrangement.origin[apex];
+    if (arrangement.origin[a] != origin && arrangement.origin[b] != origin) {
+      least = std::min(least, surface.squared_distance(p, arrangement.places[a], arrangement.places[b]));
     }
     return true;
   });
@@ -162,8 +163,9 @@ double clearance(const Surface& surface, const std::vector<Vec3>& points, const 
 
 }  // namespace
 
-CornerRadii corner_radii(const Surface& surface, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
-                         double largest) {
+CornerRadii corner_radii(const Surface& surface, const Arrangement& arrangement, double largest) {
+  const std::vector<Vec3>& points = arrangement.places;
+  const std::vector<OutlineEdge>& edges = arrangement.edges;
   const auto around = neighbors(surface, points, edges);
   std::vector<std::uint8_t> sharp(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) sharp[i] = is_sharp(surface, points, i, around[i]) ? 1 : 0;
@@ -183,7 +185,7 @@ CornerRadii corner_radii(const Surface& surface, const std::vector<Vec3>& points
       radius = std::min(radius, reach * surface.distance(points[i], points[static_cast<std::size_t>(j)]));
     }
     constexpr double kApart = 0.5;  // of the way to the next thing
-    radii[i] = std::min(radius, kApart * clearance(surface, points, edges, tree, i, radius / kApart));
+    radii[i] = std::min(radius, kApart * clearance(surface, arrangement, tree, i, radius / kApart));
   }
   return radii;
 }

@@ -89,8 +89,8 @@ using CornerRadii = std::vector<double>;
                                   const std::vector<OutlineEdge>& edges, double size);
 
 /// Corners of the outline sharper than kSharpCosine, and their radii: half of their shortest edge, or a third when that
-/// has a sharp corner at its other end, too. They never come near anything that does not belong to the corner.
-[[nodiscard]] CornerRadii corner_radii(const Surface& surface, const std::vector<Vec3>& points,
-                                       const std::vector<OutlineEdge>& edges, double largest);
+/// has a sharp corner at its other end, too. They never come near anything that does not belong to the corner. Places
+/// that were split from one place do not face each other.
+[[nodiscard]] CornerRadii corner_radii(const Surface& surface, const Arrangement& arrangement, double largest);
 
 }  // namespace temper::mesher

@@ -57,6 +57,7 @@ std::optional<InputError> check(const MesherOptions& options, const Space& space
   if (options.snap && !(*options.snap >= 0 && std::isfinite(*options.snap))) {
     return invalid("expected a tolerance of joins of 0 or more, found " + std::to_string(*options.snap));
   }
+  if (!(options.drop_below >= 0)) return invalid("expected an extent of 0 or more to drop rings below");
   if (!(options.time_limit >= 0)) return invalid("expected a time limit of 0 or more seconds");
   if (options.attempts < 1) return invalid("expected at least one attempt");
   return {};
@@ -95,8 +96,8 @@ class Mesher {
   Expected<OutlineMesh> run() {
     if (auto error = check(options_, surface_.space())) return *error;
     wanted_ = wanted();
-    Expected<Arrangement> arrangement =
-        arrange(surface_, outline_, given_places_, {tolerance(), options_.split_crossings}, deadline_);
+    Expected<Arrangement> arrangement = arrange(
+        surface_, outline_, given_places_, {tolerance(), options_.split_crossings}, options_.drop_below, deadline_);
     if (deadline_.stopped()) return stopped("joined");
     if (!arrangement) return arrangement.error();
     arrangement_ = *std::move(arrangement);
@@ -219,7 +220,7 @@ class Mesher {
       }
     }
     if (options_.field) grade_field(*options_.field);
-    corners_ = corner_radii(surface_, places_, edges_, wanted_.most);
+    corners_ = corner_radii(surface_, arrangement_, wanted_.most);
   }
 
   void grade_field(const SizeField& field) {
@@ -294,7 +295,8 @@ class Mesher {
     return "the outline " + (edge ? "has an edge of " : std::string("is narrow: ")) + rounded(narrowest_->width) +
            " at " + text_of(surface_, names, narrowest_->at) + ", " +
            (edge ? side(one) : "between " + side(one) + " and " + side(other)) +
-           ". Next: if that is a mistake, join it by --snap " + rounded(1.05 * narrowest_->width);
+           ". Next: if that is a mistake, join it by --snap " +
+           rounded(std::max(1.05 * narrowest_->width, 4 * tolerance()));
   }
   /// Two digits, not less than the value.
   [[nodiscard]] static std::string rounded(double value) {
@@ -419,7 +421,7 @@ class Mesher {
     }
     std::size_t outside = 0;
     for (std::size_t i = 0; i < outline_.points.size(); ++i) {
-      const std::int32_t v = inside.vertex[place_of(i)];
+      const std::int32_t v = arrangement_.place_of_point[i] < 0 ? -1 : inside.vertex[place_of(i)];
       if (v >= 0) made.vertex_of_point[i] = VertexId(static_cast<std::size_t>(v));
       outside += v < 0 ? 1 : 0;
       if (v < 0 && is_alone[i] != 0) {
@@ -443,24 +445,20 @@ class Mesher {
 
   /// Points with a tag and points of no segment stay, too: they are the user's.
   void fix_points(OutlineMesh& made) const {
-    const auto mark = [&](std::size_t point, std::int32_t tag) {
-      const VertexId v = made.vertex_of_point[point];
-      if (!v.valid()) return;
-      made.mesh.set_fixed(v, true);
-      made.marked.push_back({v, tag});
-    };
     std::vector<std::uint8_t> known(places_.size(), 0);  // on an edge, or marked
     for (const OutlineEdge& e : edges_) {
       for (const std::int32_t end : e.ends) known[static_cast<std::size_t>(end)] = 1;
     }
-    for (const OutlineTag& p : outline_.point_tags) {
-      const auto point = static_cast<std::size_t>(p.element);
-      mark(point, p.tag);
-      known[place_of(point)] = 1;
-    }
-    for (std::size_t i = 0; i < outline_.points.size(); ++i) {
-      if (std::exchange(known[place_of(i)], 1) == 0) mark(i, 0);
-    }
+    const auto mark = [&](std::size_t point, std::int32_t tag) {
+      const VertexId v = made.vertex_of_point[point];
+      if (!v.valid()) return;
+      const bool was_known = std::exchange(known[place_of(point)], 1) != 0;
+      if (was_known && tag == 0) return;
+      made.mesh.set_fixed(v, true);
+      made.marked.push_back({v, tag});
+    };
+    for (const OutlineTag& p : outline_.point_tags) mark(static_cast<std::size_t>(p.element), p.tag);
+    for (std::size_t i = 0; i < outline_.points.size(); ++i) mark(i, 0);
     made.groups = outline_.groups;
     note_lost_groups(made);
   }

@@ -40,6 +40,9 @@ class Snapper {
     result_.parts = segments_;
     result_.joined.resize(n_places());
     std::iota(result_.joined.begin(), result_.joined.end(), 0);
+    for (std::size_t i = 0; i < options.ignored.size(); ++i) {
+      if (options.ignored[i] != 0) result_.joined[i] = -1;
+    }
     counted_.resize(n_places(), 0);
     fresh_.assign(segments_.size(), 1);
   }
@@ -86,6 +89,7 @@ class Snapper {
   void join_places(std::size_t first) {
     if (options_.within == 0) return;
     for (std::size_t i = first; i < n_places() && !deadline_.asked_to_stop(); ++i) {
+      if (result_.joined[i] < 0) continue;
       const Vec3 p = result_.places[i];
       double least = options_.within;
       std::int32_t nearest = -1;
@@ -148,8 +152,8 @@ class Snapper {
     result_.parts = std::move(parts);
     fresh_ = std::move(fresh);
     for (const auto& [p, q] : joins) {
-      const auto [low, high] = std::minmax(find(p), find(q));
-      joined(high) = low;
+      const std::int32_t one = find(p), other = find(q);
+      joined(std::max(one, other)) = std::min(one, other);
     }
     if (!joins.empty()) move_parts();
     return (changed || !joins.empty()) && !deadline_.stopped();
@@ -205,7 +209,9 @@ class Snapper {
     }
     result_.parts.resize(kept);
     fresh_.resize(kept);
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(n_places()); ++i) joined(i) = find(i);
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(n_places()); ++i) {
+      if (joined(i) >= 0) joined(i) = find(i);
+    }
   }
 
   /// Two great circles meet twice: arcs cross only if c and a are on opposite sides of each other's arc.

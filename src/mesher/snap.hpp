@@ -26,6 +26,7 @@ struct SegmentPart {
 struct SnapOptions {
   double within = 0;             ///< Tolerance [length]; 0: only places that lie exactly on segments divide them
   bool split_crossings = false;  ///< Divide segments where they cross; else given segments that cross are reported
+  std::vector<std::uint8_t> ignored = {};  ///< Places that take no part; empty: none
 };
 
 /// Two given segments that cross.
@@ -37,7 +38,7 @@ struct Crossing {
 struct Snapped {
   std::vector<Vec3> places;  ///< the given ones with their numbers, then crossings
   std::vector<std::int32_t>
-      joined;                      ///< of each place, the place that it is joined to, which is itself or an earlier one
+      joined;  ///< of each place, the place that it is joined to, which is itself or an earlier one; -1 if ignored
   std::vector<SegmentPart> parts;  ///< in the order of the segments, and along each; none of length 0
   std::size_t joins = 0;           ///< number of given places that were joined to another or to a segment
   double largest = 0;              ///< the largest distance of a join, more than rounding

@@ -76,6 +76,10 @@ void add_sizes(Command& command, MeshSettings& s) {
   add_number(command, "--snap", s.options.snap, kNotNegative,
              "Tolerance of joins. Points that are nearer to each other, or to a segment, are joined. 0 joins nothing. "
              "(default: 1e-9 of the extent of the outline, or 1e-7 of the radius of the sphere)");
+  add_number(
+      command, "--drop-below", s.options.drop_below, kNotNegative,
+      "Leave out rings of polygons whose extent is less, such as small islands. Rings that --snap leaves nothing "
+      "of are left out, too.");
   command.add_flag("--split-crossings", s.options.split_crossings,
                    "Divide lines where they cross each other or the boundary, and leave out what is outside. Without "
                    "this flag, crossings are errors.");
