@@ -375,6 +375,12 @@ Outline outline_from(const py::dict& d) {
     const auto s = item.cast<py::tuple>();
     outline.sizes.push_back({{s[0].cast<std::int32_t>(), s[1].cast<std::int32_t>()}, s[2].cast<double>()});
   }
+  for (const auto& item : d["rings"]) {
+    const auto r = item.cast<py::tuple>();
+    const auto segments = r[0].cast<Int32s>();
+    const auto numbers = as_span<std::int32_t>(segments);
+    outline.rings.push_back({{numbers.begin(), numbers.end()}, r[1].cast<std::int32_t>()});
+  }
   if (!d["names"].is_none()) outline.names = d["names"].cast<PyNames>().names;
   return outline;
 }
@@ -383,7 +389,7 @@ py::dict outline_to_dict(const Outline& outline) {
   std::vector<std::array<std::int32_t, 2>> ends;
   std::vector<std::int32_t> tags;
   for (const OutlineSegment& s : outline.segments) ends.push_back(s.ends), tags.push_back(s.tag);
-  py::list regions, parts;
+  py::list regions, parts, rings;
   for (const OutlineRegion& r : outline.regions) {
     regions.append(py::make_tuple(r.at.x, r.at.y, r.region, to_python(r.size)));
   }
@@ -392,12 +398,15 @@ py::dict outline_to_dict(const Outline& outline) {
   }
   py::list sizes;
   for (const OutlineSize& s : outline.sizes) sizes.append(py::make_tuple(s.points[0], s.points[1], s.size));
+  for (const OutlineRing& r : outline.rings) {
+    rings.append(py::make_tuple(array_of<std::int32_t>(r.segments), r.shell));
+  }
   return Record()("points", rows_of<double>(std::span<const Vec2>(outline.points)))("sizes", sizes)(
              "segments", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(ends)))(
              "segment_tags", array_of<std::int32_t>(tags))(
              "holes", rows_of<double>(std::span<const Vec2>(outline.holes)))("regions", regions)("parts", parts)(
-             "point_tags", rows_of_tags(outline.point_tags))("further_tags", rows_of_tags(outline.further_tags))(
-             "groups", physical_names_to_python(outline.groups))(
+             "rings", rings)("point_tags", rows_of_tags(outline.point_tags))(
+             "further_tags", rows_of_tags(outline.further_tags))("groups", physical_names_to_python(outline.groups))(
              "names", outline.names ? py::cast(PyNames{outline.names}) : py::none())
       .dict;
 }
@@ -412,6 +421,9 @@ MesherOptions mesher_options_from(const py::dict& d, const py::object& optimize_
     options.region_sizes.push_back({pair[0].cast<std::int32_t>(), pair[1].cast<double>()});
   }
   options.enclosed = from_name<Enclosed>("enclosed", d["enclosed"].cast<std::string>());
+  options.snap = size_or_none(d["snap"]);
+  options.drop_below = d["drop_below"].cast<double>();
+  options.split_crossings = d["split_crossings"].cast<bool>();
   options.attempts = d["attempts"].cast<int>();
   options.most_triangles = d["most_triangles"].cast<std::size_t>();
   options.time_limit = d["time_limit"].cast<double>();
@@ -454,7 +466,7 @@ py::tuple outline_mesh_to_python(OutlineMesh result, const GivenDegrees& degrees
           "marked", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(marked)))(
           "groups", physical_names_to_python(result.groups))("vertex_of_point", result.vertex_of_point)(
           "bad", result.bad)("delaunay_bad", result.delaunay_bad)("attempts", result.attempts)(
-          "report", report_to_dict(result.report))("notes", result.notes)
+          "report", report_to_dict(result.report))("notes", result.notes)("warnings", result.warnings)
           .dict);
 }
 

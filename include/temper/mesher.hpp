@@ -39,6 +39,14 @@ struct MesherOptions {
   std::optional<SizeField> field = {};        ///< Desired edge length at each place, if less than `size`
   std::vector<RegionSize> region_sizes = {};  ///< Desired edge lengths of these regions, if less than `size`
   Enclosed enclosed = Enclosed::by_points;
+  /// Tolerance: points that are nearer to each other or to a segment are joined. 0: nothing is joined. Absent: 1e-9 of
+  /// the extent of the outline, or 1e-7 of the radius of the sphere.
+  std::optional<double> snap = {};
+  /// Leave out rings of polygons whose extent is less, such as small islands, and rings that joins within `snap` leave
+  /// nothing of. 0: none
+  double drop_below = 0;
+  /// Divide segments where they cross, and leave out what is outside. Else crossings are errors.
+  bool split_crossings = false;
   /// Options of the optimization; absent: the Delaunay mesh is returned.
   std::optional<OptimizeOptions> optimize = OptimizeOptions();
   int attempts = 8;                          ///< Largest number of divisions of the outline while triangles stay bad
@@ -70,6 +78,7 @@ struct OutlineMesh {
   int attempts = 1;                       ///< Number of divisions of the outline that were tried
   OptimizeReport report;                  ///< Report of the optimization, from the attempt that was kept
   std::vector<std::string> notes;         ///< Notes for the user, in sentences
+  std::vector<std::string> warnings;      ///< Narrow places, and points that are lost
 };
 
 /// Meshes the inside of an outline. Equal outlines and options give equal meshes, bit for bit. Points of the outline
@@ -77,8 +86,9 @@ struct OutlineMesh {
 ///
 /// Errors, with the outline's names:
 ///   - no points, indices of segment ends out of range, coordinates not finite or out of the range of exact arithmetic
-///   - two points at one place, segments of zero length, segments that cross
-///   - nothing enclosed, holes or regions outside, parts that overlap, a domain that touches itself at a point
+///   - segments of zero length, segments that cross, parts that joins within `snap` leave nothing of
+///   - nothing enclosed, holes or regions outside, parts that overlap,
+///   - without joins: two points at one place, a domain that touches itself at a point
 ///   - sizes that are not positive or would make too many triangles
 ///   - stopped, if the time limit or the observer ends the run before there is a mesh; later the best mesh so far is
 ///     returned

@@ -49,6 +49,8 @@ class Outline:
     sizes: Sequence[tuple[int, int, float]] = ()
     """Two points and a size, > 0 [length]: desired edge length along the line between them, or at a point that is given
     twice. Away from it lengths grow by the grade."""
+    rings: Sequence[tuple[Sequence[int], int]] = ()
+    """Segments of each ring of polygons, and the ring around it, or −1 for shells. They only serve checks."""
     _names: Any = dataclasses.field(default=None, repr=False)
     _degrees: Any = dataclasses.field(default=None, repr=False)
     """Projection, and the points before it."""
@@ -69,6 +71,7 @@ class Outline:
             "further_tags": _ints(self.further_tags, 2, "further_tags").astype(np.int32),
             "groups": [(int(dimension), int(tag), str(name)) for dimension, tag, name in self.groups],
             "sizes": [(int(a), int(b), float(size)) for a, b, size in self.sizes],
+            "rings": [(_ints(list(s), 0, "rings").astype(np.int32), int(shell)) for s, shell in self.rings],
             "names": self._names,
             "degrees": self._degrees,
         }
@@ -126,6 +129,8 @@ class OutlineMesh(Record):
     report: OptimizeReport = dataclasses.field(repr=False)
     """Report of the optimization, from the attempt that was kept."""
     notes: list[str]
+    warnings: list[str]
+    """Narrow places, and points that are lost; also given as ``TemperWarning``."""
 
 
 def mesh_outline(
@@ -135,6 +140,9 @@ def mesh_outline(
     grade: float = 0.3,
     region_sizes: Mapping[int, float] | None = None,
     enclosed: Literal["by_points", "all", "alternate"] = "by_points",
+    snap: float | None = None,
+    drop_below: float = 0.0,
+    split_crossings: bool = False,
     optimize: OptimizeOptions | bool = True,
     attempts: int = 8,
     most_triangles: int = 200_000_000,
@@ -158,6 +166,14 @@ def mesh_outline(
         Area that an outline without parts encloses. ``all``: everything that segments enclose, except the holes (as in
         Triangle). ``alternate``: nested loops alternate. ``by_points``: ``all`` if there are hole or region points,
         else ``alternate``.
+    snap : float, optional
+        Tolerance of joins [length]: points that are nearer to each other, or to a segment, are joined. 0: nothing is
+        joined. None: 1e-9 of the extent of the outline, or 1e-7 of the radius of the sphere.
+    drop_below : float
+        Rings of polygons whose extent is less, such as small islands, are left out, and so are rings that ``snap``
+        leaves nothing of.
+    split_crossings : bool
+        Divide segments where they cross, and leave out what is outside. Else crossings are errors.
     optimize : OptimizeOptions or bool
         Options of the optimization; False: the Delaunay mesh is returned.
     attempts : int
@@ -183,7 +199,8 @@ def mesh_outline(
     >>> temper.mesh_outline(square, 0.2).bad
     0
     """
-    options = _mesher_options(size, grade, region_sizes, attempts, most_triangles, time_limit, enclosed)
+    joins = (snap, drop_below, split_crossings)
+    options = _mesher_options(size, grade, region_sizes, joins, attempts, most_triangles, time_limit, enclosed)
     return _meshed(_temper.mesh_outline, outline._plain(), options, optimize, threads, observer, progress)
 
 
@@ -196,6 +213,9 @@ def mesh_sphere(
     radius: float | None = None,
     grade: float = 0.3,
     region_sizes: Mapping[int, float] | None = None,
+    snap: float | None = None,
+    drop_below: float = 0.0,
+    split_crossings: bool = False,
     optimize: OptimizeOptions | bool = True,
     attempts: int = 8,
     most_triangles: int = 200_000_000,
@@ -221,7 +241,8 @@ def mesh_sphere(
         Rivers and other lines that become constrained edges.
     radius : float, optional
         Radius of the sphere [length]; None: the radius of the size field, or 6371000.
-    grade, region_sizes, optimize, attempts, most_triangles, time_limit, threads, observer, progress
+    grade, region_sizes, snap, drop_below, split_crossings, optimize, attempts, most_triangles, time_limit, threads,
+    observer, progress
         The same as in ``mesh_outline``.
 
     Returns
@@ -252,7 +273,8 @@ def mesh_sphere(
         "coasts": (coasts or nothing)._plain(),
         "lines": (lines or nothing)._plain(),
     }
-    options = _mesher_options(size, grade, region_sizes, attempts, most_triangles, time_limit)
+    joins = (snap, drop_below, split_crossings)
+    options = _mesher_options(size, grade, region_sizes, joins, attempts, most_triangles, time_limit)
     return _meshed(_temper.mesh_sphere, sphere, options, optimize, threads, observer, progress)
 
 
@@ -260,6 +282,7 @@ def _mesher_options(
     size: float | SizeField,
     grade: float,
     region_sizes: Mapping[int, float] | None,
+    joins: tuple[float | None, float, bool],
     attempts: int,
     most_triangles: int,
     time_limit: float,
@@ -272,6 +295,9 @@ def _mesher_options(
         "grade": float(grade),
         "region_sizes": [(int(r), float(s)) for r, s in (region_sizes or {}).items()],
         "enclosed": enclosed,
+        "snap": None if joins[0] is None else float(joins[0]),
+        "drop_below": float(joins[1]),
+        "split_crossings": joins[2],
         "attempts": attempts,
         "most_triangles": most_triangles,
         "time_limit": float(time_limit),
@@ -296,4 +322,6 @@ def _meshed(
         handle, rest = mesher(outline, options, plain, threads, _observer(line, observer))
     finally:
         line.clear()
+    for message in rest["warnings"]:
+        warnings.warn(message, TemperWarning, stacklevel=3)
     return OutlineMesh(**merged(rest, mesh=Mesh._of(handle), report=_report(rest["report"])))

@@ -48,6 +48,7 @@ class SegmentInserter {
       if (step.kind == Step::Kind::blocked) return crossing(segment, from, to, step.h);
       HalfedgeId edge = step.h;
       if (step.kind == Step::Kind::strip) edge = replace(step.strip);
+      if (!edge.valid()) return too_near(segment, from, to);
       mesh_.set_constrained(edge, true);
       segment_of_.emplace(key(mesh_.origin(edge), mesh_.target(edge)), Owner{segment, from, to});
       lawson_.run(mesh_, IgnoreFlips(), Lawson::kNoCap, t_.conflict_test());
@@ -105,12 +106,16 @@ class SegmentInserter {
     }
   }
 
-  /// Retriangulates both sides of a strip. Returns the edge from u to w.
+  /// Retriangulates both sides of a strip. Returns the edge from u to w; invalid, with nothing changed, if a triangle
+  /// would be turned over.
   HalfedgeId replace(const Strip& strip) {
     corners_.clear();
     triangulate_chain(strip.right, false);
     triangulate_chain(strip.left, true);
     TEMPER_ASSERT(corners_.size() == strip.triangles.size());
+    for (const auto& [a, b, c] : corners_) {
+      if (side(a, b, c) != Sign::positive) return {};
+    }
 
     std::unordered_map<std::uint64_t, inlined::OuterSide> outside;
     for (const TriangleId t : strip.triangles) {
@@ -171,6 +176,7 @@ class SegmentInserter {
       for (std::size_t k = i + 2; k < j; ++k) {
         if (is_nearer(chain[i], chain[j], chain[best], chain[k], chain_is_left)) best = k;
       }
+      if (!mesh_.space().is_plane()) best = innermost(chain, i, j, best);
       if (chain_is_left) {
         corners_.push_back({chain[i], chain[j], chain[best]});
       } else {
@@ -187,6 +193,24 @@ class SegmentInserter {
     if (candidate == best) return false;
     const inlined::Quad quad = left ? inlined::Quad{u, w, best, candidate} : inlined::Quad{w, u, best, candidate};
     return t_.conflict_test()(mesh_, quad) == Sign::positive;
+  }
+
+  /// On the sphere weights of vertices that nearly coincide are rounding, and circles mean nothing there. So the
+  /// triangle on a chord takes a vertex inside it instead, until it is empty.
+  [[nodiscard]] std::size_t innermost(const Chain& chain, std::size_t i, std::size_t j, std::size_t best) const {
+    for (std::size_t k = i + 1; k < j; ++k) {
+      const VertexId u = chain[i], w = chain[j], b = chain[best], v = chain[k];
+      if (v == b) continue;
+      const Sign turn = side(u, w, b);
+      if (side(u, w, v) == turn && side(w, b, v) == turn && side(b, u, v) == turn) best = k, k = i;
+    }
+    return best;
+  }
+
+  [[nodiscard]] InputError too_near(std::uint32_t segment, VertexId from, VertexId to) const {
+    return {ErrorCode::out_of_scale, "",
+            "segment " + std::to_string(segment) + " (" + t_.name(from) + " to " + t_.name(to) +
+                ") passes points that nearly coincide"};
   }
 
   InputError crossing(std::uint32_t segment, VertexId from, VertexId to, HalfedgeId constrained) const {

@@ -65,9 +65,9 @@ class Surface {
       const double along = std::clamp(dot(p - a, b - a) / squared_length(b - a), 0.0, 1.0);
       return squared_length(p - a - along * (b - a));
     }
-    const Vec3 normal = cross(a, b);
+    const Vec3 normal = cross(a, b - a);  // differences keep the digits of short arcs
     if (dot(cross(normal, a), p) > 0 && dot(cross(b, normal), p) > 0) {
-      const double height = dot(p, normal);
+      const double height = dot(p - a, normal);
       return height * height / squared_length(normal);
     }
     return std::min(squared_length(p - a), squared_length(p - b));

@@ -76,13 +76,13 @@ void each_halfedge(TriangleId t, const F& f) {
 
 class AreaFinder {
  public:
-  AreaFinder(const Surface& surface, const Outline& outline, const std::vector<Vec3>& places,
-             const std::vector<OutlineEdge>& edges, const MesherOptions& options, double largest, Deadline& deadline)
+  AreaFinder(const Surface& surface, const Outline& outline, const Arrangement& arrangement,
+             const MesherOptions& options, double largest, Deadline& deadline)
       : surface_(surface),
         outline_(outline),
-        places_(places),
+        arrangement_(arrangement),
         names_(names_of(outline)),
-        edges_(edges),
+        edges_(arrangement.edges),
         options_(options),
         largest_(largest),
         deadline_(deadline) {}
@@ -94,7 +94,7 @@ class AreaFinder {
       pieces.push_back(
           {{static_cast<std::uint32_t>(ends[0]), static_cast<std::uint32_t>(ends[1])}, static_cast<std::uint32_t>(i)});
     }
-    Expected<Hull> hull = triangulate_hull(surface_, places_, pieces, deadline_);
+    Expected<Hull> hull = triangulate_hull(surface_, arrangement_.places, pieces, deadline_);
     if (!hull) return hull.error();
     hull_ = *std::move(hull);
     find_components();
@@ -222,13 +222,48 @@ class AreaFinder {
   }
 
   Error take_parts() {
-    const Parts parts = parts_from(from_outside_);
+    Parts parts = parts_from(from_outside_);
+    if (Error error = take_rings(parts)) return error;
     for (std::size_t c = 0; c < n_components_; ++c) {
       if (!parts[c].empty()) {
         if (Error error = take(c, parts[c])) return error;
       }
     }
     return {};
+  }
+
+  /// Takes the rings out of the parts of components: what a hole encloses is in its shell, and in no other hole of it.
+  Error take_rings(Parts& parts) const {
+    const auto n = static_cast<std::int32_t>(outline_.parts.size());
+    for (std::size_t c = 0; c < n_components_; ++c) {
+      const auto first = std::lower_bound(parts[c].begin(), parts[c].end(), n);
+      const std::vector<std::int32_t> around(first, parts[c].end());
+      parts[c].erase(first, parts[c].end());
+      std::vector<std::pair<std::int32_t, std::int32_t>> holes;  // shell and hole
+      for (const std::int32_t ring : around) {
+        const std::int32_t shell = outline_.rings[static_cast<std::size_t>(ring - n)].shell;
+        if (shell < 0) continue;
+        if (!std::binary_search(around.begin(), around.end(), shell + n))
+          return ring_error(ring - n, "lies outside " + names_.ring(static_cast<std::size_t>(shell)) + near(c) +
+                                          "; expected a hole inside its polygon. Next: correct the polygon, or make "
+                                          "the ring a polygon of its own");
+        holes.emplace_back(shell, ring - n);
+      }
+      std::sort(holes.begin(), holes.end());
+      for (std::size_t i = 1; i < holes.size(); ++i) {
+        if (holes[i].first != holes[i - 1].first) continue;
+        return ring_error(holes[i].second, "overlaps " + names_.ring(static_cast<std::size_t>(holes[i - 1].second)) +
+                                               near(c) + "; expected each hole once. Next: leave one of them out");
+      }
+    }
+    return {};
+  }
+  [[nodiscard]] InputError ring_error(std::int32_t ring, const std::string& what) const {
+    const auto i = static_cast<std::size_t>(ring);
+    const auto& segments = outline_.rings[i].segments;
+    return {ErrorCode::overlap,
+            segments.empty() ? std::string() : names_.segment_where(static_cast<std::size_t>(segments[0])),
+            names_.ring(i) + " " + what};
   }
 
   /// Puts a component into one part, with the properties of that part.
@@ -242,7 +277,9 @@ class AreaFinder {
 
   [[nodiscard]] InputError overlap(std::size_t c, const std::vector<std::int32_t>& parts) const {
     const auto name = [&](std::size_t k) { return names_.part(static_cast<std::size_t>(parts[k])); };
-    return {ErrorCode::overlap, part_where(parts[1]), name(0) + " and " + name(1) + " overlap" + near(c)};
+    return {ErrorCode::overlap, part_where(parts[1]),
+            name(0) + " and " + name(1) + " overlap" + near(c) +
+                "; expected parts that share their borders only. Next: cut one of them out of the other"};
   }
 
   /// The place of the first segment of a part, for messages.
@@ -260,6 +297,7 @@ class AreaFinder {
     Parts parts = parts_from({{0, kNone}});
     extent_ = component_areas();
     if (Error error = turn_to_smaller_sides(parts)) return error;
+    if (Error error = take_rings(parts)) return error;
     const auto is_cut = [&](std::int32_t i) { return outline_.parts[static_cast<std::size_t>(i)].cut; };
     const bool all = std::all_of(outline_.parts.begin(), outline_.parts.end(), [](const auto& p) { return p.cut; });
     for (std::size_t c = 0; c < n_components_; ++c) {
@@ -290,32 +328,34 @@ class AreaFinder {
 
   Error turn_to_smaller_sides(Parts& parts) const {
     constexpr double kHalf = 1e-6;  // of the sphere: a loop that is nearer to half of it says nothing
-    std::vector<double> enclosed(outline_.parts.size(), 0);
+    const std::size_t n_parts = outline_.parts.size();
+    std::vector<double> enclosed(n_parts + outline_.rings.size(), 0);
     for (std::size_t c = 0; c < n_components_; ++c) {
       for (const std::int32_t part : parts[c]) enclosed[static_cast<std::size_t>(part)] += extent_[c];
     }
     std::vector<std::int32_t> turned;
     for (std::size_t i = 0; i < enclosed.size(); ++i) {
       const auto part = static_cast<std::int32_t>(i);
+      if (enclosed[i] > 0.5) turned.push_back(part);
+      if (i >= n_parts || arrangement_.kept[i] == 0) continue;
       const auto error = [&](ErrorCode code, const std::string& what) {
         return InputError{code, part_where(part), names_.part(i) + " " + what};
       };
-      if (enclosed[i] == 0) return error(ErrorCode::zero_area, "encloses nothing of the sphere");
+      if (enclosed[i] == 0)
+        return error(ErrorCode::zero_area, "encloses nothing of the sphere; expected a ring with an area");
       if (std::abs(enclosed[i] - 0.5) < kHalf)
         return error(ErrorCode::out_of_scale,
                      "divides the sphere into halves; expected a smaller side, which is what it encloses");
-      if (enclosed[i] > 0.5) turned.push_back(part);
     }
     for (auto& of_component : parts) of_component = odd_ones(of_component, turned);
     return {};
   }
 
-  /// " near (x, y)": a corner of the component, on the sphere in degrees.
+  /// " near (x, y)": a corner of the component, in the coordinates of the file.
   [[nodiscard]] std::string near(std::size_t c) const {
     for (const TriangleId t : hull_.mesh.triangles()) {
       if (component_[t] != c) continue;
-      const Vec2 p = surface_.space().as_shown(surface_.place(hull_.mesh.point(hull_.mesh.corners(t)[0])));
-      return " near (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
+      return " near " + text_of(surface_, names_, surface_.place(hull_.mesh.point(hull_.mesh.corners(t)[0])));
     }
     return {};
   }
@@ -330,7 +370,7 @@ class AreaFinder {
       const std::uint32_t c = locate(region.at);
       if (c == kNone || inside_[c] == 0) return error("lies outside; expected a place inside the outline");
       if (given[c] != kNone && region_[c] != region.region) {
-        return error("lies in the same area as " + names_.region(given[c]));
+        return error("lies in the same area as " + names_.region(given[c]) + "; expected one region in each area");
       }
       given[c] = i;
       region_[c] = region.region;
@@ -355,18 +395,21 @@ class AreaFinder {
   }
 
   [[nodiscard]] InputError nothing_enclosed() const {
-    if (surface_.space().is_closed()) return {ErrorCode::empty_input, "", "nothing of the sphere is left to mesh"};
-    std::vector<std::uint32_t> degree(outline_.points.size(), 0);
+    if (surface_.space().is_closed())
+      return {ErrorCode::empty_input, "", "nothing of the sphere is left to mesh; expected an area outside the coasts"};
+    std::vector<std::uint32_t> degree(arrangement_.places.size(), 0);
     for (const OutlineEdge& e : edges_) {
       for (const std::int32_t end : e.ends) ++degree[static_cast<std::size_t>(end)];
     }
     for (std::size_t i = 0; i < degree.size(); ++i) {
-      if (degree[i] == 1) {
-        return {ErrorCode::empty_input, names_.point_where(i),
-                "the outline is not closed: it encloses nothing, and at " + names_.point(i) + " only one segment ends"};
-      }
+      const std::uint32_t point = arrangement_.point[i];
+      if (degree[i] != 1 || point == Arrangement::kNoPoint) continue;
+      return {ErrorCode::empty_input, names_.point_where(point),
+              "the outline is not closed: it encloses nothing, and at " + names_.point(point) + " at " +
+                  text_of(surface_, names_, arrangement_.places[i]) +
+                  " only one segment ends. Next: end it on another segment, or close the line"};
     }
-    return {ErrorCode::empty_input, "", "the outline encloses nothing but holes"};
+    return {ErrorCode::empty_input, "", "the outline encloses nothing but holes; expected an area to mesh"};
   }
 
   [[nodiscard]] Areas collect() const {
@@ -390,7 +433,7 @@ class AreaFinder {
 
   const Surface& surface_;
   const Outline& outline_;
-  const std::vector<Vec3>& places_;
+  const Arrangement& arrangement_;
   const OutlineNames& names_;
   const std::vector<OutlineEdge>& edges_;
   const MesherOptions& options_;
@@ -409,10 +452,97 @@ class AreaFinder {
 
 }  // namespace
 
-Expected<Areas> find_areas(const Surface& surface, const Outline& outline, const std::vector<Vec3>& places,
-                           const std::vector<OutlineEdge>& edges, const MesherOptions& options, double largest,
-                           Deadline& deadline) {
-  return AreaFinder(surface, outline, places, edges, options, largest, deadline).run();
+Expected<Areas> find_areas(const Surface& surface, const Outline& outline, const Arrangement& arrangement,
+                           const MesherOptions& options, double largest, Deadline& deadline) {
+  return AreaFinder(surface, outline, arrangement, options, largest, deadline).run();
+}
+
+namespace {
+
+/// An end of an edge, seen from its place.
+struct Spoke {
+  std::size_t edge, end;  // 0 or 1
+  double angle;
+  bool left, right;  // is the inside there?
+};
+
+std::vector<Spoke> spokes_at(const Surface& surface, const Arrangement& arrangement, const Areas& areas,
+                             std::span<const std::size_t> ends) {
+  std::vector<Spoke> spokes;
+  for (const std::size_t i : ends) {
+    const std::size_t edge = i / 2, end = i % 2;
+    const auto at = [&](std::size_t k) {
+      return arrangement.places[static_cast<std::size_t>(arrangement.edges[edge].ends[k])];
+    };
+    const Vec3 p = at(end), d = surface.direction(p, at(1 - end)), first = surface.some_direction(p);
+    spokes.push_back({edge, end, std::atan2(dot(d, surface.to_the_left(first, p)), dot(d, first)),
+                      areas.sides[edge][end] != kOutside, areas.sides[edge][1 - end] != kOutside});
+  }
+  std::sort(spokes.begin(), spokes.end(), [](const Spoke& s, const Spoke& t) {
+    return s.angle < t.angle || (s.angle == t.angle && s.edge < t.edge);
+  });
+  return spokes;
+}
+
+}  // namespace
+
+//        \  1  /
+//         a   b         Fans 1 and 2 of the inside touch at p. Fan 1 keeps p. The edges around fan 2 get p′.
+//  outside  p  outside
+//         d p′ c
+//        /  2  \  .
+std::optional<InputError> split_touching(const Surface& surface, Arrangement& arrangement, const Areas& areas,
+                                         double within, const OutlineNames& names) {
+  const std::size_t n = arrangement.places.size();
+  std::vector<std::vector<std::size_t>> ends(n);  // twice the edge, and which end
+  std::vector<std::uint32_t> fans(n, 0);
+  for (std::size_t i = 0; i < arrangement.edges.size(); ++i) {
+    for (const std::size_t end : {0, 1}) {
+      const auto p = static_cast<std::size_t>(arrangement.edges[i].ends[end]);
+      ends[p].push_back(2 * i + end);
+      if (areas.sides[i][end] != kOutside && areas.sides[i][1 - end] == kOutside) ++fans[p];
+    }
+  }
+  std::size_t split = 0, first = 0;
+  for (std::size_t p = 0; p < n; ++p) {
+    if (fans[p] < 2) continue;
+    const std::vector<Spoke> spokes = spokes_at(surface, arrangement, areas, ends[p]);
+    const auto begins = [](const Spoke& s) { return s.left && !s.right; };
+    const auto start = static_cast<std::size_t>(std::find_if(spokes.begin(), spokes.end(), begins) - spokes.begin());
+    if (within == 0) {
+      const std::size_t one = arrangement.edges[spokes.front().edge].segment,
+                        other = arrangement.edges[spokes[start].edge].segment;
+      return InputError{ErrorCode::non_manifold_vertex, names.segment_where(one),
+                        "the domain touches itself at " + text_of(surface, names, arrangement.places[p]) +
+                            ", a point of " + names.segment(one) + " and " + names.segment(other) +
+                            ". Next: a tolerance --snap above 0 divides it there"};
+    }
+    if (split++ == 0) first = p;
+    std::int32_t to = static_cast<std::int32_t>(p);
+    for (std::size_t k = 0; k < spokes.size(); ++k) {
+      const Spoke& spoke = spokes[(start + k) % spokes.size()];
+      if (begins(spoke) && k > 0) {
+        double half = 0;  // of the angle of the fan
+        for (std::size_t m = k + 1; m <= spokes.size(); ++m) {
+          const Spoke& last = spokes[(start + m) % spokes.size()];
+          half = 0.5 * (last.angle - spoke.angle + (last.angle < spoke.angle ? 2 * std::numbers::pi : 0));
+          if (!last.left) break;
+        }
+        const Vec3 at = arrangement.places[p], x = surface.some_direction(at), y = surface.to_the_left(x, at);
+        const double angle = spoke.angle + half;
+        to = static_cast<std::int32_t>(arrangement.places.size());
+        arrangement.places.push_back(surface.below(at + (0.5 * within) * (std::cos(angle) * x + std::sin(angle) * y)));
+        arrangement.point.push_back(Arrangement::kNoPoint);
+        arrangement.origin.push_back(static_cast<std::int32_t>(p));
+      }
+      arrangement.edges[spoke.edge].ends[spoke.end] = to;
+    }
+  }
+  if (split > 0) {
+    arrangement.notes.push_back("points where the domain touched itself, and was divided: " + std::to_string(split) +
+                                "; the first is " + text_of(surface, names, arrangement.places[first]));
+  }
+  return {};
 }
 
 Expected<Triangulated> triangulate(const Surface& surface, const DividedOutline& divided,

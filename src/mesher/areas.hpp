@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "mesher/deadline.hpp"
@@ -29,10 +30,15 @@ struct Areas {
 
 /// The areas that the outline encloses, or on the sphere the areas of its parts; without any, the whole sphere.
 /// `largest`: size of areas that have none of their own. Errors: nothing enclosed, hole and region points on an edge or
-/// outside, parts that overlap. On the sphere also parts that enclose half of it, and holes.
-[[nodiscard]] Expected<Areas> find_areas(const Surface& surface, const Outline& outline,
-                                         const std::vector<Vec3>& places, const std::vector<OutlineEdge>& edges,
+/// outside, parts that overlap, holes outside their shells or in each other, a domain that touches itself at a point.
+/// On the sphere also parts that enclose half of it, and holes.
+[[nodiscard]] Expected<Areas> find_areas(const Surface& surface, const Outline& outline, const Arrangement& arrangement,
                                          const MesherOptions& options, double largest, Deadline& deadline);
+
+/// If the inside touches itself at a place, it is divided there: each further fan gets a place of its own, half the
+/// tolerance inwards. A note says so. An error without a tolerance.
+[[nodiscard]] std::optional<InputError> split_touching(const Surface& surface, Arrangement& arrangement,
+                                                       const Areas& areas, double within, const OutlineNames& names);
 
 /// The triangulation of points and pieces over their convex hull, with the area and piece of each triangle and
 /// halfedge. If the points leave half of a sphere empty, it has further vertices after all others.

@@ -1,13 +1,14 @@
-// Checks in a useful order: numbers, indices, places, crossings; then cutting and merging.
+// Checks in a useful order: numbers, indices, places; then joins, crossings, cutting and merging.
 #include "mesher/arrangement.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "base/text.hpp"
-#include "geometry/bounding_boxes.hpp"
 #include "temper/detail/geometry.hpp"
 
 namespace temper::mesher {
@@ -15,19 +16,35 @@ namespace {
 
 using Error = std::optional<InputError>;
 
-std::string coordinates(Vec2 p) { return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")"; }
+std::string coordinates(Vec2 p) { return "(" + to_text(p.x) + ", " + to_text(p.y) + ")"; }
 
 class Arranger {
  public:
-  Arranger(const Surface& surface, const Outline& outline, const std::vector<Vec3>& places)
-      : surface_(surface), o_(outline), places_(places), names_(names_of(outline)) {}
+  Arranger(const Surface& surface, const Outline& outline, const std::vector<Vec3>& places, const SnapOptions& options,
+           double drop_below, Deadline& deadline)
+      : surface_(surface),
+        o_(outline),
+        places_(places),
+        names_(names_of(outline)),
+        options_(options),
+        drop_below_(drop_below),
+        deadline_(deadline) {}
 
-  Expected<std::vector<OutlineEdge>> run() {
+  Expected<Arrangement> run() {
     for (const auto check : {&Arranger::check_points, &Arranger::check_segments, &Arranger::check_places,
-                             &Arranger::check_parts, &Arranger::find_meetings}) {
+                             &Arranger::check_parts, &Arranger::join}) {
       if (Error error = (this->*check)()) return *std::move(error);
     }
-    return cut_and_merge();
+    Arrangement result;
+    result.edges = cut_and_merge();
+    if (Error error = check_kept(result)) return *std::move(error);
+    if (surface_.space().is_closed()) {
+      if (Error error = check_closed(result.edges)) return *std::move(error);
+    }
+    number_places(result);
+    if (snapped_.joins > 0) result.notes.push_back(note_of_joins());
+    warn_of_lost_points(result.warnings);
+    return result;
   }
 
  private:
@@ -75,7 +92,9 @@ class Arranger {
     return check_tags(o_.further_tags, "segment", o_.segments.size());
   }
 
+  /// Two points at one place are an error if nothing is joined.
   Error check_places() {
+    if (options_.within > 0) return {};
     std::vector<std::uint32_t> order(o_.points.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto key = [&](std::uint32_t i) { return std::array{places_[i].x, places_[i].y, places_[i].z}; };
@@ -87,81 +106,104 @@ class Arranger {
       if (key(order[k - 1]) != key(order[k]) || (first && order[k] > least)) continue;
       least = order[k];
       first = at_point(ErrorCode::duplicate_point, order[k],
-                       "is at the same place as " + names_.point(order[k - 1]) + ", " + coordinates(o_.points[least]));
+                       "is at the same place as " + names_.point(order[k - 1]) + ", " + text(places_[least]));
     }
     return first;
   }
 
   Error check_parts() {
-    const auto n = static_cast<std::int32_t>(o_.segments.size());
     for (std::size_t i = 0; i < o_.parts.size(); ++i) {
-      for (const std::int32_t segment : o_.parts[i].segments) {
-        if (segment < 0 || segment >= n) {
-          return InputError{ErrorCode::index_out_of_range, "",
-                            names_.part(i) + " uses " +
-                                names_.segment(static_cast<std::size_t>(std::int64_t{segment})) +
-                                ", but the outline has " + std::to_string(n) + " segments"};
-        }
+      if (Error error = check_uses(names_.part(i), o_.parts[i].segments)) return error;
+    }
+    for (std::size_t i = 0; i < o_.rings.size(); ++i) {
+      if (Error error = check_uses(names_.ring(i), o_.rings[i].segments)) return error;
+      if (o_.rings[i].shell >= static_cast<std::int32_t>(o_.rings.size())) {
+        return InputError{ErrorCode::index_out_of_range, "",
+                          names_.ring(i) + " is a hole of ring " + std::to_string(o_.rings[i].shell) +
+                              ", but the outline has " + std::to_string(o_.rings.size()) + " rings"};
       }
     }
     return {};
   }
 
-  [[nodiscard]] bool strictly_inside(Vec3 p, Vec3 a, Vec3 b) const {
-    return surface_.orientation(a, b, p) == Sign::zero && surface_.is_between(p, a, b);
-  }
-
-  void note_meeting(std::size_t segment, std::int32_t p) {
-    const auto& ends = o_.segments[segment].ends;
-    if (p != ends[0] && p != ends[1] && strictly_inside(point(p), point(ends[0]), point(ends[1]))) {
-      on_segment_[segment].push_back(p);
+  [[nodiscard]] Error check_uses(const std::string& what, const std::vector<std::int32_t>& segments) const {
+    const auto n = static_cast<std::int32_t>(o_.segments.size());
+    for (const std::int32_t segment : segments) {
+      if (segment >= 0 && segment < n) continue;
+      return InputError{ErrorCode::index_out_of_range, "",
+                        what + " uses " + names_.segment(static_cast<std::size_t>(std::int64_t{segment})) +
+                            ", but the outline has " + std::to_string(n) + " segments"};
     }
-  }
-
-  Error cross(std::size_t i, std::size_t j) {
-    const auto [a, b] = o_.segments[i].ends;
-    const auto [c, d] = o_.segments[j].ends;
-    const auto side = [&](std::int32_t p, std::int32_t q, std::int32_t r) {
-      return surface_.orientation(point(p), point(q), point(r));
-    };
-    // Two great circles meet twice: the segments meet only if c and a are on opposite sides of each other's segment.
-    const Sign of_c = side(a, b, c), of_a = side(c, d, a);
-    if (of_c != Sign::zero && side(a, b, d) == -of_c && of_a == -of_c && side(c, d, b) == of_c) {
-      const auto name = [&](std::int32_t p) { return names_.point(static_cast<std::size_t>(p)); };
-      const std::string where = names_.segment_where(i);
-      return at_segment(ErrorCode::overlap, j,
-                        "(" + name(c) + " to " + name(d) + ") crosses " + names_.segment(i) + " (" + name(a) + " to " +
-                            name(b) + (where.empty() ? "" : ", " + where) +
-                            "); expected segments to meet at points only");
-    }
-    note_meeting(i, c), note_meeting(i, d), note_meeting(j, a), note_meeting(j, b);
     return {};
   }
 
-  Error find_meetings() {
-    std::vector<BoundingBox> boxes;
-    std::vector<std::uint8_t> used(o_.points.size(), 0);
-    for (const OutlineSegment& s : o_.segments) {
-      boxes.push_back(box_around(surface_, point(s.ends[0]), point(s.ends[1])));
-      for (const std::int32_t end : s.ends) used[static_cast<std::size_t>(end)] = 1;
+  [[nodiscard]] std::string text(Vec3 place) const { return text_of(surface_, names_, place); }
+
+  Error join() {
+    const std::vector<std::uint8_t> dropped = drop_small_rings();
+    std::vector<SegmentPart> segments;
+    segments.reserve(o_.segments.size());
+    for (std::size_t i = 0; i < dropped.size(); ++i) {
+      if (dropped[i] == 0) segments.push_back({o_.segments[i].ends, static_cast<std::uint32_t>(i)});
     }
-    const BoundingBoxTree tree(boxes);
-    on_segment_.resize(o_.segments.size());
-    Error error;
-    for (std::size_t i = 0; i < boxes.size() && !error; ++i) {
-      tree.visit(boxes[i], [&](std::size_t j) {
-        if (j > i && !error) error = cross(i, j);
-        return !error;
-      });
+    snapped_ = snap(surface_, places_, std::move(segments), options_, deadline_);
+    if (snapped_.crossing) return crossing(*snapped_.crossing);
+    return {};
+  }
+
+  /// Says which segments are left out. Points that have no other segment are ignored.
+  std::vector<std::uint8_t> drop_small_rings() {
+    std::vector<std::uint8_t> dropped(o_.segments.size(), 0), small(o_.rings.size(), 0);
+    if (drop_below_ == 0) return dropped;
+    for (std::size_t i = 0; i < o_.rings.size(); ++i) {
+      const OutlineRing& ring = o_.rings[i];
+      small[i] = extent_of(ring) < drop_below_ ? 1 : 0;
+      if (ring.shell >= 0 && static_cast<std::size_t>(ring.shell) < i) {
+        small[i] |= small[static_cast<std::size_t>(ring.shell)];
+      }
+      if (small[i] == 0) continue;
+      for (const std::int32_t s : ring.segments) dropped[static_cast<std::size_t>(s)] = 1;
     }
-    for (std::size_t p = 0; p < o_.points.size() && !error; ++p) {
-      if (used[p] != 0) continue;
-      tree.visit({places_[p], places_[p]}, [&](std::size_t i) {
-        note_meeting(i, static_cast<std::int32_t>(p));
-        return true;
-      });
+    options_.ignored.assign(o_.points.size(), 0);
+    for (const std::uint8_t pass :
+         {std::uint8_t{1}, std::uint8_t{0}}) {  // first all points of rings that go, then not those that others use
+      for (std::size_t i = 0; i < dropped.size(); ++i) {
+        if (dropped[i] != pass) continue;
+        for (const std::int32_t end : o_.segments[i].ends) options_.ignored[static_cast<std::size_t>(end)] = pass;
+      }
     }
-    return error;
+    return dropped;
+  }
+  [[nodiscard]] double extent_of(const OutlineRing& ring) const {
+    if (ring.segments.empty()) return 0;
+    const auto ends = [&](std::int32_t s) { return o_.segments[static_cast<std::size_t>(s)].ends; };
+    const Vec3 first = point(ends(ring.segments[0])[0]);
+    BoundingBox box = {first, first};
+    for (const std::int32_t s : ring.segments) {
+      for (const std::int32_t end : ends(s)) box = temper::united(box, {point(end), point(end)});
+    }
+    return length(box.high - box.low);
+  }
+
+  [[nodiscard]] InputError crossing(const Crossing& crossing) const {
+    const std::size_t i = crossing.first, j = crossing.second;
+    const auto ends = [&](std::size_t segment) {
+      const auto [a, b] = o_.segments[segment].ends;
+      return "(" + names_.point(static_cast<std::size_t>(a)) + " to " + names_.point(static_cast<std::size_t>(b));
+    };
+    const std::string where = names_.segment_where(i);
+    return at_segment(ErrorCode::overlap, j,
+                      ends(j) + ") crosses " + names_.segment(i) + " " + ends(i) + (where.empty() ? "" : ", " + where) +
+                          ") at " + text(crossing.at) +
+                          "; expected segments to meet at points only. Next: --split-crossings (split_crossings=True "
+                          "in Python) divides both there");
+  }
+
+  [[nodiscard]] std::string note_of_joins() const {
+    const auto farthest = static_cast<std::size_t>(snapped_.farthest);
+    return "points joined to a point or segment within " + to_text(options_.within) + ": " +
+           std::to_string(snapped_.joins) + "; the largest distance is " + to_text(snapped_.largest) + ", at " +
+           text(places_[farthest]);
   }
 
   [[nodiscard]] std::vector<std::vector<std::int32_t>> parts_of_segments() const {
@@ -169,6 +211,11 @@ class Arranger {
     for (std::size_t i = 0; i < o_.parts.size(); ++i) {
       for (const std::int32_t s : o_.parts[i].segments) {
         parts[static_cast<std::size_t>(s)].push_back(static_cast<std::int32_t>(i));
+      }
+    }
+    for (std::size_t i = 0; i < o_.rings.size(); ++i) {
+      for (const std::int32_t s : o_.rings[i].segments) {
+        parts[static_cast<std::size_t>(s)].push_back(static_cast<std::int32_t>(o_.parts.size() + i));
       }
     }
     return parts;
@@ -185,23 +232,26 @@ class Arranger {
     return tags;
   }
 
+  /// Two points of no segment that became one are two of the user's things.
+  void warn_of_lost_points(std::vector<std::string>& warnings) const {
+    std::vector<std::uint8_t> is_alone(o_.points.size(), 1);
+    for (const OutlineSegment& s : o_.segments) {
+      for (const std::int32_t end : s.ends) is_alone[static_cast<std::size_t>(end)] = 0;
+    }
+    for (std::size_t i = 0; i < is_alone.size(); ++i) {
+      const auto to = static_cast<std::size_t>(snapped_.joined[i]);
+      if (to == i || is_alone[i] == 0 || is_alone[to] == 0) continue;  // those left out are not alone
+      warnings.push_back(names_.point(i) + " and " + names_.point(to) + " are at one place, " + text(places_[to]) +
+                         ", and become one vertex");
+    }
+  }
+
   std::vector<OutlineEdge> cut() {
     const auto parts = parts_of_segments(), tags = tags_of_segments();
     std::vector<OutlineEdge> edges;
-    for (std::size_t i = 0; i < o_.segments.size(); ++i) {
-      std::vector<std::int32_t>& on = on_segment_[i];
-      const std::int32_t a = o_.segments[i].ends[0], b = o_.segments[i].ends[1];
-      std::sort(on.begin(), on.end(), [&](std::int32_t p, std::int32_t q) {
-        const double dp = squared_length(point(p) - point(a)), dq = squared_length(point(q) - point(a));
-        return dp < dq || (dp == dq && p < q);
-      });
-      on.erase(std::unique(on.begin(), on.end()), on.end());
-      std::int32_t from = a;
-      for (const std::int32_t p : on) {
-        edges.push_back({{from, p}, tags[i], parts[i]});
-        from = p;
-      }
-      edges.push_back({{from, b}, tags[i], parts[i]});
+    edges.reserve(snapped_.parts.size());
+    for (const SegmentPart& part : snapped_.parts) {
+      edges.push_back({part.ends, tags[part.segment], parts[part.segment], part.segment});
     }
     return edges;
   }
@@ -222,7 +272,7 @@ class Arranger {
     std::vector<OutlineEdge> merged;
     std::vector<std::size_t> place(edges.size());
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
-      if (first_of[i] == i) place[i] = merged.size(), merged.push_back({edges[i].ends, {}, {}});
+      if (first_of[i] == i) place[i] = merged.size(), merged.push_back({edges[i].ends, {}, {}, edges[i].segment});
       OutlineEdge& edge = merged[place[first_of[i]]];
       for (const std::int32_t tag : edges[i].tags) {
         if (std::find(edge.tags.begin(), edge.tags.end(), tag) == edge.tags.end()) edge.tags.push_back(tag);
@@ -246,11 +296,89 @@ class Arranger {
     values.resize(kept);
   }
 
+  /// A part or ring whose edges all went encloses nothing any more.
+  [[nodiscard]] Error check_kept(Arrangement& result) {
+    std::vector<std::uint8_t>& kept = result.kept;
+    kept.assign(o_.parts.size() + o_.rings.size(), 0);
+    for (const OutlineEdge& e : result.edges) {
+      for (const std::int32_t part : e.parts) kept[static_cast<std::size_t>(part)] = 1;
+    }
+    for (std::size_t i = 0; i < kept.size() && drop_below_ == 0; ++i) {
+      const bool ring = i >= o_.parts.size();
+      const std::vector<std::int32_t>& segments = ring ? o_.rings[i - o_.parts.size()].segments : o_.parts[i].segments;
+      if (kept[i] != 0 || segments.empty()) continue;
+      const auto first = static_cast<std::size_t>(segments[0]);
+      const std::string name = ring ? names_.ring(i - o_.parts.size()) : names_.part(i);
+      return InputError{ErrorCode::zero_area, names_.segment_where(first),
+                        name + " at " + text(point(o_.segments[first].ends[0])) + " encloses nothing" +
+                            (options_.within > 0 ? " after joins within " + to_text(options_.within) : std::string()) +
+                            ". Next: leave it out with --drop-below, or join less with --snap"};
+    }
+    const auto gone = std::count(kept.end() - static_cast<std::ptrdiff_t>(o_.rings.size()), kept.end(), 0);
+    if (gone > 0) {
+      result.notes.push_back("rings left out, because their extent is below " + to_text(drop_below_) +
+                             " or joins leave nothing of them: " + std::to_string(gone));
+    }
+    return {};
+  }
+
+  /// On the sphere a part is one of the sides of its lines, so they must be closed.
+  [[nodiscard]] Error check_closed(const std::vector<OutlineEdge>& edges) const {
+    struct End {
+      std::int32_t part, place;
+      std::size_t edge;
+      [[nodiscard]] bool meets(const End& other) const { return part == other.part && place == other.place; }
+    };
+    std::vector<End> ends;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      for (const std::int32_t part : edges[i].parts) {
+        for (const std::int32_t end : edges[i].ends) ends.push_back({part, end, i});
+      }
+    }
+    std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
+      return std::tie(a.part, a.place, a.edge) < std::tie(b.part, b.place, b.edge);
+    });
+    const End* open = nullptr;
+    for (std::size_t i = 0, next = 0; i < ends.size(); i = next) {
+      while (next < ends.size() && ends[next].meets(ends[i])) ++next;
+      if ((next - i) % 2 == 1 && (open == nullptr || ends[i].edge < open->edge)) open = &ends[i];
+    }
+    if (open == nullptr) return {};
+    return at_segment(ErrorCode::empty_input, edges[open->edge].segment,
+                      "ends at " + text(snapped_.places[static_cast<std::size_t>(open->place)]) +
+                          ", but no other segment goes on there; expected a closed coast");
+  }
+
+  /// Keeps one number for each place, in their order.
+  void number_places(Arrangement& result) const {
+    std::vector<std::int32_t> number(snapped_.places.size());
+    for (std::size_t i = 0; i < number.size(); ++i) {
+      const auto to = static_cast<std::size_t>(snapped_.joined[i]);
+      if (snapped_.joined[i] < 0) {
+        number[i] = -1;
+      } else if (to == i) {
+        number[i] = static_cast<std::int32_t>(result.places.size());
+        result.origin.push_back(number[i]);
+        result.places.push_back(snapped_.places[i]);
+        result.point.push_back(i < places_.size() ? static_cast<std::uint32_t>(i) : Arrangement::kNoPoint);
+      } else {
+        number[i] = number[to];
+      }
+      if (i < places_.size()) result.place_of_point.push_back(number[i]);
+    }
+    for (OutlineEdge& edge : result.edges) {
+      for (std::int32_t& end : edge.ends) end = number[static_cast<std::size_t>(end)];
+    }
+  }
+
   const Surface& surface_;
   const Outline& o_;
   const std::vector<Vec3>& places_;
   const OutlineNames& names_;
-  std::vector<std::vector<std::int32_t>> on_segment_;
+  SnapOptions options_;
+  double drop_below_;
+  Deadline& deadline_;
+  Snapped snapped_;
 };
 
 }  // namespace
@@ -288,9 +416,14 @@ std::optional<InputError> check_sizes(const Outline& outline) {
   return {};
 }
 
-Expected<std::vector<OutlineEdge>> arrange(const Surface& surface, const Outline& outline,
-                                           const std::vector<Vec3>& places) {
-  return Arranger(surface, outline, places).run();
+std::string text_of(const Surface& surface, const OutlineNames& names, Vec3 place) {
+  const Vec2 p = names.in_file(surface.space().as_shown(place));
+  return "(" + to_text(p.x) + ", " + to_text(p.y) + ")";
+}
+
+Expected<Arrangement> arrange(const Surface& surface, const Outline& outline, const std::vector<Vec3>& places,
+                              const SnapOptions& options, double drop_below, Deadline& deadline) {
+  return Arranger(surface, outline, places, options, drop_below, deadline).run();
 }
 
 }  // namespace temper::mesher

@@ -1,4 +1,5 @@
-// The outline as a planar graph: checked, segments cut where points lie on them, equal edges merged.
+// The outline as a planar graph: checked, joined within a tolerance, segments cut where places lie on them, equal edges
+// merged.
 #pragma once
 
 #include <array>
@@ -8,23 +9,37 @@
 #include <vector>
 
 #include "geometry/surface.hpp"
+#include "mesher/deadline.hpp"
+#include "mesher/snap.hpp"
 #include "temper/detail/error.hpp"
 #include "temper/detail/outline.hpp"
 
 namespace temper::mesher {
 
-/// An edge between two points of the outline that has no other point on it.
+/// An edge between two places of the outline that has no other place on it.
 struct OutlineEdge {
   std::array<std::int32_t, 2> ends = {};
   std::vector<std::int32_t> tags;   ///< of its segments, each once, without 0
-  std::vector<std::int32_t> parts;  ///< sorted: crossing the edge enters or leaves these
+  std::vector<std::int32_t> parts;  ///< sorted: crossing the edge enters or leaves these parts, then rings
+  std::uint32_t segment = 0;        ///< the first given one
 };
 
-/// The edges, in the order of the segments. Errors: everything that makes segments no planar graph. Exact predicates
-/// decide if points lie on segments and if segments cross. O(n log n) unless segments lie across each other's boxes.
-/// `places`: of the points. A whole sphere needs no segments.
-[[nodiscard]] Expected<std::vector<OutlineEdge>> arrange(const Surface& surface, const Outline& outline,
-                                                         const std::vector<Vec3>& places);
+struct Arrangement {
+  static constexpr std::uint32_t kNoPoint = 0xffffffffu;
+  std::vector<Vec3> places;                  ///< first of points, in their order; then of crossings
+  std::vector<std::uint32_t> point;          ///< the first given point at each place, or kNoPoint
+  std::vector<std::int32_t> place_of_point;  ///< of each given point; -1 if it was left out
+  std::vector<std::int32_t> origin;          ///< of each place: itself, or the place that it was split from
+  std::vector<OutlineEdge> edges;            ///< in the order of the segments
+  std::vector<std::uint8_t> kept;            ///< of each part, then ring: does it have an edge?
+  std::vector<std::string> notes, warnings;  ///< on joins
+};
+
+/// Leaves out rings whose extent is below `drop_below`. Joins, divides and merges. Errors: everything that makes
+/// segments no planar graph. `places`: of the points. A whole sphere needs no segments.
+[[nodiscard]] Expected<Arrangement> arrange(const Surface& surface, const Outline& outline,
+                                            const std::vector<Vec3>& places, const SnapOptions& options,
+                                            double drop_below, Deadline& deadline);
 
 /// An error if a tag is for none of the n elements of the outline.
 [[nodiscard]] std::optional<InputError> check_tags(const std::vector<OutlineTag>& tags, const std::string& what,
@@ -35,5 +50,8 @@ struct OutlineEdge {
 
 /// The names of the outline, or names that count from 0.
 [[nodiscard]] const OutlineNames& names_of(const Outline& outline);
+
+/// "(8.5, 53.25)": a place in the coordinates of the file.
+[[nodiscard]] std::string text_of(const Surface& surface, const OutlineNames& names, Vec3 place);
 
 }  // namespace temper::mesher

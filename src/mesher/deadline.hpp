@@ -17,10 +17,10 @@ class Deadline {
   Deadline(double time_limit, const Observer& observer)
       : limit_(time_limit), observer_(observer), start_(Clock::now()) {}
 
-  /// Returns true when it is time to stop, and then always. Cheap: most calls only count, for some hundredths of a
-  /// second. Shorter work is not stopped.
+  /// Returns true when it is time to stop, and then always. Cheap: most calls only count. Calls at most a millisecond
+  /// apart end the work within a second. Work of a tenth of a second and few calls is not stopped by the observer.
   bool asked_to_stop() {
-    constexpr std::size_t kCallsAtATime = 16384;
+    constexpr std::size_t kCallsAtATime = 256;
     if (!stopped_ && ++calls_ % kCallsAtATime == 0) stopped_ = out_of_time() || refused();
     return stopped_;
   }
@@ -36,12 +36,19 @@ class Deadline {
   using Clock = std::chrono::steady_clock;
 
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  [[nodiscard]] bool refused() const { return observer_ && observer_({}) == Continue::no; }
+  [[nodiscard]] bool refused() {
+    constexpr std::size_t kManyCalls = 16384;
+    constexpr double kInterval = 0.1;  // seconds
+    if (!observer_ || (calls_ % kManyCalls != 0 && seconds() - asked_ < kInterval)) return false;
+    asked_ = seconds();
+    return observer_({}) == Continue::no;
+  }
 
   double limit_;
   const Observer& observer_;
   Clock::time_point start_;
   std::size_t calls_ = 0;
+  double asked_ = 0;  // seconds
   bool stopped_ = false;
 };
 

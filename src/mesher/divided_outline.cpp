@@ -85,14 +85,14 @@ double GradedSize::operator()(Vec3 x) const {
 namespace {
 
 /// Distances of the division points along a segment of given length: equal parts of the integral of 1/size.
-std::vector<double> divisions(const SurfacePath& path, const GradedSize& size, Deadline& deadline) {
+std::vector<double> divisions(const SurfacePath& path, const GradedSize& size, double most, Deadline& deadline) {
   constexpr double kStep = 0.125;      // of the local size: the integrand changes by less than grade/8 in a step
   constexpr double kStretch = 0.25;    // a piece may be longer than its size by this part, rather than be halved
   constexpr double kLeastStep = 1e-7;  // of the segment: what is finer takes fewer samples, not all memory
   const double whole = path.length();
   std::vector<double> at = {0}, integral = {0};
   double density = 1 / size(path.at(0));
-  while (at.back() < whole && !deadline.asked_to_stop()) {
+  while (at.back() < whole && integral.back() < most && !deadline.asked_to_stop()) {
     // The first step must not run past a finer stretch: the size falls by at most grade times the step.
     const double next = std::min(whole, at.back() + std::max(kStep / density, kLeastStep * whole));
     const double next_density = 1 / size(path.at(next));
@@ -145,15 +145,16 @@ bool is_sharp(const Surface& surface, const std::vector<Vec3>& points, std::size
 }
 
 /// The nearest edge that does not end at the point, or `within`.
-double clearance(const Surface& surface, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
-                 const BoundingBoxTree& tree, std::size_t apex, double within) {
+double clearance(const Surface& surface, const Arrangement& arrangement, const BoundingBoxTree& tree, std::size_t apex,
+                 double within) {
   double least = within * within;
-  const Vec3 p = points[apex];
+  const Vec3 p = arrangement.places[apex];
   tree.visit(BoundingBox{p, p}.grown(within), [&](std::size_t i) {
-    const auto [a, b] = edges[i].ends;
-    if (static_cast<std::size_t>(a) != apex && static_cast<std::size_t>(b) != apex) {
-      least = std::min(
-          least, surface.squared_distance(p, points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]));
+    const auto a = static_cast<std::size_t>(arrangement.edges[i].ends[0]),
+               b = static_cast<std::size_t>(arrangement.edges[i].ends[1]);
+    const std::int32_t origin = arrangement.origin[apex];
+    if (arrangement.origin[a] != origin && arrangement.origin[b] != origin) {
+      least = std::min(least, surface.squared_distance(p, arrangement.places[a], arrangement.places[b]));
     }
     return true;
   });
@@ -162,8 +163,9 @@ double clearance(const Surface& surface, const std::vector<Vec3>& points, const 
 
 }  // namespace
 
-CornerRadii corner_radii(const Surface& surface, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
-                         double largest) {
+CornerRadii corner_radii(const Surface& surface, const Arrangement& arrangement, double largest) {
+  const std::vector<Vec3>& points = arrangement.places;
+  const std::vector<OutlineEdge>& edges = arrangement.edges;
   const auto around = neighbors(surface, points, edges);
   std::vector<std::uint8_t> sharp(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) sharp[i] = is_sharp(surface, points, i, around[i]) ? 1 : 0;
@@ -183,22 +185,23 @@ CornerRadii corner_radii(const Surface& surface, const std::vector<Vec3>& points
       radius = std::min(radius, reach * surface.distance(points[i], points[static_cast<std::size_t>(j)]));
     }
     constexpr double kApart = 0.5;  // of the way to the next thing
-    radii[i] = std::min(radius, kApart * clearance(surface, points, edges, tree, i, radius / kApart));
+    radii[i] = std::min(radius, kApart * clearance(surface, arrangement, tree, i, radius / kApart));
   }
   return radii;
 }
 
 DividedOutline divide(const Surface& surface, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
-                      const GradedSize& size, const CornerRadii& corners, Deadline& deadline) {
+                      const GradedSize& size, const CornerRadii& corners, std::size_t most, Deadline& deadline) {
   DividedOutline divided{points, {}};
-  for (std::size_t e = 0; e < edges.size(); ++e) {
+  for (std::size_t e = 0; e < edges.size() && divided.pieces.size() <= most && !deadline.stopped(); ++e) {
     const auto a = static_cast<std::uint32_t>(edges[e].ends[0]), b = static_cast<std::uint32_t>(edges[e].ends[1]);
     const SurfacePath path(surface, points[a], points[b]);
     const double whole = path.length();
     const double first = corners[a], last = whole - corners[b];
     std::vector<double> at;
     if (first > 0) at.push_back(first);
-    for (const double t : divisions(SurfacePath(surface, path.at(first), path.at(last)), size, deadline)) {
+    for (const double t : divisions(SurfacePath(surface, path.at(first), path.at(last)), size,
+                                    2.0 + static_cast<double>(most), deadline)) {
       at.push_back(first + t);
     }
     if (last < whole) at.push_back(last);

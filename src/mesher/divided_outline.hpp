@@ -78,18 +78,19 @@ struct DividedOutline {
 /// edges of one corner are cut at one distance, so that the triangle in the corner is isosceles.
 using CornerRadii = std::vector<double>;
 
-/// Divides every edge so that its pieces follow the size. Edges that remain when it is time to stop are divided less.
+/// Divides every edge so that its pieces follow the size. Ends early when there are more than `most` pieces, or when it
+/// is time to stop.
 [[nodiscard]] DividedOutline divide(const Surface& surface, const std::vector<Vec3>& points,
                                     const std::vector<OutlineEdge>& edges, const GradedSize& size,
-                                    const CornerRadii& corners, Deadline& deadline);
+                                    const CornerRadii& corners, std::size_t most, Deadline& deadline);
 
 /// An estimate of the number of pieces.
 [[nodiscard]] double count_pieces(const Surface& surface, const std::vector<Vec3>& points,
                                   const std::vector<OutlineEdge>& edges, double size);
 
 /// Corners of the outline sharper than kSharpCosine, and their radii: half of their shortest edge, or a third when that
-/// has a sharp corner at its other end, too. They never come near anything that does not belong to the corner.
-[[nodiscard]] CornerRadii corner_radii(const Surface& surface, const std::vector<Vec3>& points,
-                                       const std::vector<OutlineEdge>& edges, double largest);
+/// has a sharp corner at its other end, too. They never come near anything that does not belong to the corner. Places
+/// that were split from one place do not face each other.
+[[nodiscard]] CornerRadii corner_radii(const Surface& surface, const Arrangement& arrangement, double largest);
 
 }  // namespace temper::mesher

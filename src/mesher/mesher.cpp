@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <set>
 #include <string>
@@ -24,7 +25,7 @@ using namespace mesher;
 
 InputError invalid(const std::string& message) { return {ErrorCode::invalid_option, "", message}; }
 
-std::string text_of(const Space& space) {
+std::string kind_of(const Space& space) {
   switch (space.kind()) {
     case SpaceKind::plane:
       return "the plane";
@@ -38,8 +39,8 @@ std::string text_of(const Space& space) {
 std::optional<InputError> check(const MesherOptions& options, const Space& space) {
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
   if (options.field && !(options.field->mesh().space() == space)) {
-    return invalid("the size field is for " + text_of(options.field->mesh().space()) + ", but the outline is for " +
-                   text_of(space));
+    return invalid("the size field is for " + kind_of(options.field->mesh().space()) + ", but the outline is for " +
+                   kind_of(space));
   }
   if (!positive(options.size) && !(options.field && options.size == 0)) {
     return invalid("expected a size above 0, found " + std::to_string(options.size));
@@ -53,6 +54,10 @@ std::optional<InputError> check(const MesherOptions& options, const Space& space
                      std::to_string(r.size));
     }
   }
+  if (options.snap && !(*options.snap >= 0 && std::isfinite(*options.snap))) {
+    return invalid("expected a tolerance of joins of 0 or more, found " + std::to_string(*options.snap));
+  }
+  if (!(options.drop_below >= 0)) return invalid("expected an extent of 0 or more to drop rings below");
   if (!(options.time_limit >= 0)) return invalid("expected a time limit of 0 or more seconds");
   if (options.attempts < 1) return invalid("expected at least one attempt");
   return {};
@@ -63,13 +68,15 @@ class MeshNames final : public InputNames {
  public:
   MeshNames(const OutlineNames& names, const std::vector<std::uint32_t>& points) : names_(names), points_(points) {}
   std::string point(std::size_t i) const override {
-    return i < points_.size() ? names_.point(points_[i]) : "a point placed on the outline or inside";
+    return is_given(i) ? names_.point(points_[i]) : "a point placed on the outline or inside";
   }
   std::string point_where(std::size_t i) const override {
-    return i < points_.size() ? names_.point_where(points_[i]) : std::string();
+    return is_given(i) ? names_.point_where(points_[i]) : std::string();
   }
 
  private:
+  [[nodiscard]] bool is_given(std::size_t i) const { return i < points_.size() && points_[i] != Arrangement::kNoPoint; }
+
   const OutlineNames& names_;
   const std::vector<std::uint32_t>& points_;  // of each vertex that is one
 };
@@ -81,21 +88,26 @@ class Mesher {
          const OptimizeHooks& hooks)
       : surface_(space),
         outline_(outline),
-        places_(std::move(places)),
+        given_places_(std::move(places)),
         options_(options),
         hooks_(hooks),
         deadline_(options.time_limit, hooks_.observer) {}
 
   Expected<OutlineMesh> run() {
     if (auto error = check(options_, surface_.space())) return *error;
+    if (auto error = check_sizes(outline_)) return *error;
     wanted_ = wanted();
-    Expected<std::vector<OutlineEdge>> edges = arrange(surface_, outline_, places_);
-    if (!edges) return edges.error();
-    edges_ = *std::move(edges);
-    Expected<Areas> areas = find_areas(surface_, outline_, places_, edges_, options_, wanted_.most, deadline_);
+    Expected<Arrangement> arrangement = arrange(
+        surface_, outline_, given_places_, {tolerance(), options_.split_crossings}, options_.drop_below, deadline_);
+    if (deadline_.stopped()) return stopped("joined");
+    if (!arrangement) return arrangement.error();
+    arrangement_ = *std::move(arrangement);
+    Expected<Areas> areas = find_areas(surface_, outline_, arrangement_, options_, wanted_.most, deadline_);
+    if (deadline_.stopped()) return stopped("searched for areas");
     if (!areas) return areas.error();
     areas_ = *std::move(areas);
-    if (auto error = check_sizes(outline_)) return *error;
+    leave_out_edges();
+    if (auto error = split_touching(surface_, arrangement_, areas_, tolerance(), names_of(outline_))) return *error;
     if (auto error = check_count()) return *error;
     start_sources();
     Expected<OutlineMesh> made = best_of_attempts();
@@ -105,6 +117,36 @@ class Mesher {
 
  private:
   [[nodiscard]] Vec3 point(std::int32_t i) const { return places_[static_cast<std::size_t>(i)]; }
+  /// The place of a point of the outline before joins.
+  [[nodiscard]] Vec3 given(std::int32_t p) const { return given_places_[static_cast<std::size_t>(p)]; }
+
+  /// The tolerance of joins. On a sphere the square of a weighted vector has no digits for shorter edges.
+  [[nodiscard]] double tolerance() const {
+    constexpr double kOfExtent = 1e-9, kOfRadius = 1e-7, kLeastOfRadius = 1e-8;
+    constexpr double kRounding = 1e-15;  // of the largest coordinate
+    if (surface_.space().is_closed()) {
+      const double radius = surface_.space().radius();
+      return std::max(kLeastOfRadius * radius, options_.snap.value_or(kOfRadius * radius));
+    }
+    if (given_places_.empty() || (options_.snap && !options_.split_crossings)) return options_.snap.value_or(0);
+    BoundingBox box = box_of(given_places_[0], given_places_[0]);
+    for (const Vec3 p : given_places_) box = temper::united(box, box_of(p, p));
+    const double rounding =
+        kRounding * std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
+    return std::max(rounding, options_.snap.value_or(kOfExtent * length(box.high - box.low)));
+  }
+
+  /// Leaves out edges with nothing to mesh on either side.
+  void leave_out_edges() {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < arrangement_.edges.size(); ++i) {
+      if (areas_.sides[i][0] == kOutside && areas_.sides[i][1] == kOutside) continue;
+      if (kept != i) arrangement_.edges[kept] = std::move(arrangement_.edges[i]);
+      areas_.sides[kept++] = areas_.sides[i];
+    }
+    arrangement_.edges.resize(kept);
+    areas_.sides.resize(kept);
+  }
 
   [[nodiscard]] WantedSize wanted() const {
     if (!options_.field) return {options_.size, nullptr};
@@ -117,7 +159,7 @@ class Mesher {
   [[nodiscard]] std::optional<InputError> check_count() const {
     double triangles = 2 * count_pieces(surface_, places_, edges_, wanted_.most) + count_inside();
     for (const OutlineSize& s : outline_.sizes)
-      triangles += 2 * surface_.distance(point(s.points[0]), point(s.points[1])) / s.size;
+      triangles += 2 * surface_.distance(given(s.points[0]), given(s.points[1])) / s.size;
     if (triangles <= static_cast<double>(options_.most_triangles)) return {};
     return invalid((options_.field ? std::string("the size field") : "a size of " + std::to_string(options_.size)) +
                    " would make about " + std::to_string(static_cast<long long>(std::min(triangles, 9e18))) +
@@ -172,15 +214,17 @@ class Mesher {
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       const Vec3 a = point(edges_[i].ends[0]), b = point(edges_[i].ends[1]);
       const double whole = surface_.distance(a, b);
+      const auto edge = static_cast<std::uint32_t>(i);
+      if (!narrowest_ || whole < narrowest_->width) narrowest_ = {whole, a, {edge, edge}};
       for (const Vec3 end : {a, b}) sources_.push_back({end, whole});
       for (const std::int32_t area : areas_.sides[i]) {
         const double size = area == kOutside ? wanted_.most : areas_.areas[static_cast<std::size_t>(area)].size;
         add_sources(a, b, size);
       }
     }
-    for (const OutlineSize& s : outline_.sizes) add_sources(point(s.points[0]), point(s.points[1]), s.size);
+    for (const OutlineSize& s : outline_.sizes) add_sources(given(s.points[0]), given(s.points[1]), s.size);
     if (options_.field) grade_field(*options_.field);
-    corners_ = corner_radii(surface_, places_, edges_, wanted_.most);
+    corners_ = corner_radii(surface_, arrangement_, wanted_.most);
   }
 
   /// Sources of a size along a line, or at a point.
@@ -219,42 +263,84 @@ class Mesher {
   /// Divides the outline, finer at pieces that face each other, until nothing changes.
   Expected<DividedOutline> resolve() {
     constexpr int kRounds = 20;  // each finds what the last one's longer pieces hid; three or four do nearly always
-    DividedOutline divided = divide(surface_, places_, edges_, size(), corners_, deadline_);
-    if (deadline_.stopped()) return stopped("divided");
-    if (divided.pieces.size() > options_.most_triangles) return too_many();
+    const std::size_t most = most_pieces();
+    DividedOutline divided = divide(surface_, places_, edges_, size(), corners_, most, deadline_);
     for (int round = 0; round < kRounds; ++round) {
+      if (deadline_.stopped()) return stopped("divided");
+      if (divided.pieces.size() > most) return too_many();
       const Expected<Triangulated> triangulated = triangulate(surface_, divided, {}, areas_, deadline_);
       if (deadline_.stopped()) return stopped("divided");
       if (!triangulated) return too_fine(triangulated.error());
-      const std::vector<SizeSource> narrow = narrow_places(divided, *triangulated, size(), deadline_);
-      if (narrow.empty()) break;
-      sources_.insert(sources_.end(), narrow.begin(), narrow.end());
-      divided = divide(surface_, places_, edges_, size(), corners_, deadline_);
-      if (deadline_.stopped()) return stopped("divided");
-      if (divided.pieces.size() > options_.most_triangles) return too_many();
+      const NarrowPlaces narrow = narrow_places(divided, *triangulated, size(), deadline_);
+      if (narrow.narrowest && (!narrowest_ || narrow.narrowest->width < narrowest_->width)) {
+        narrowest_ = narrow.narrowest;
+      }
+      if (narrow.sources.empty()) break;
+      sources_.insert(sources_.end(), narrow.sources.begin(), narrow.sources.end());
+      divided = divide(surface_, places_, edges_, size(), corners_, most, deadline_);
     }
+    if (deadline_.stopped()) return stopped("divided");
+    if (divided.pieces.size() > most) return too_many();
     return divided;
   }
 
-  [[nodiscard]] static InputError stopped(const std::string& doing) {
+  /// Narrow places may make many more pieces than the sizes alone; more than this is a mistake in the outline.
+  [[nodiscard]] std::size_t most_pieces() const {
+    constexpr double kTimes = 20, kAtLeast = 50'000;
+    const double pieces = kAtLeast + kTimes * count_pieces(surface_, places_, edges_, wanted_.most);
+    return static_cast<std::size_t>(std::min(pieces, static_cast<double>(options_.most_triangles)));
+  }
+
+  /// The narrowest place, if it is far below the sizes: where, how wide, between what, and the tolerance that closes
+  /// it.
+  [[nodiscard]] std::string narrow_text(double far = 1e-3) const {
+    if (!narrowest_ || narrowest_->width > far * wanted_.most) return {};
+    const OutlineNames& names = names_of(outline_);
+    const auto side = [&](std::uint32_t s) {
+      if (s < Gap::kIsolated) return names.segment(edges_[s].segment);
+      const std::uint32_t point = arrangement_.point[s - Gap::kIsolated];
+      return point == Arrangement::kNoPoint ? std::string("a crossing") : names.point(point);
+    };
+    const auto [one, other] = narrowest_->sides;
+    const bool edge = one == other;
+    return "the outline " + (edge ? "has an edge of " : std::string("is narrow: ")) + rounded(narrowest_->width) +
+           " at " + text_of(surface_, names, narrowest_->at) + ", " +
+           (edge ? side(one) : "between " + side(one) + " and " + side(other)) +
+           ". Next: if that is a mistake, join it by --snap " +
+           rounded(std::max(1.05 * narrowest_->width, 4 * tolerance()));
+  }
+  /// Two digits, not less than the value.
+  [[nodiscard]] static std::string rounded(double value) {
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g", std::ceil(value / unit) * unit);
+    return text;
+  }
+
+  [[nodiscard]] InputError stopped(const std::string& doing) const {
+    const std::string narrow = narrow_text();
     return {ErrorCode::stopped, "",
-            "the run stopped without a mesh, while the outline was " + doing +
-                ". Sizes far below the sizes of the outline, and narrow places along its long edges, take many "
-                "triangles. Next: larger sizes, or more time"};
+            "the run stopped without a mesh, while the outline was " + doing + "; " +
+                (narrow.empty() ? "sizes far below the sizes of the outline, and narrow places along its long edges, "
+                                  "take many triangles. Next: larger sizes, or more time"
+                                : narrow + "; or more time")};
   }
   /// Division points meet or cross others: the outline is too narrow there for its coordinates.
-  [[nodiscard]] static InputError too_fine(const InputError& error) {
-    return {
-        ErrorCode::out_of_scale, "",
-        "the outline has places too narrow for the precision of its coordinates (dividing it, " + error.message + ")"};
+  [[nodiscard]] InputError too_fine(const InputError& error) const {
+    const std::string narrow = narrow_text(1);
+    return {ErrorCode::out_of_scale, "",
+            "the outline has places too narrow for the precision of its coordinates (" + error.message + "); " +
+                (narrow.empty() ? "Next: a larger tolerance --snap" : narrow)};
   }
   [[nodiscard]] InputError too_coarse() const {
     return invalid("edges of " + to_text(wanted_.most) + " are too long for a sphere of radius " +
                    to_text(surface_.space().radius()));
   }
   [[nodiscard]] InputError too_many() const {
-    return invalid("short edges and narrow places of the outline, with this grade, would make more than " +
-                   std::to_string(options_.most_triangles) + " triangles");
+    const std::string narrow = narrow_text();
+    return {narrow.empty() ? ErrorCode::invalid_option : ErrorCode::out_of_scale, "",
+            "short edges and narrow places of the outline, with this grade, would make too many edges and triangles" +
+                (narrow.empty() ? std::string() : "; " + narrow)};
   }
 
   Expected<OutlineMesh> make(const DividedOutline& divided) {
@@ -271,7 +357,7 @@ class Mesher {
   struct Inside {
     std::vector<Vec3> places;
     std::vector<std::int32_t> vertex;           ///< of each point of the triangulation, or -1
-    std::vector<std::uint32_t> outline_points;  ///< of the vertices that are one, which come first
+    std::vector<std::uint32_t> outline_places;  ///< of the vertices that are one, which come first
   };
 
   /// Nothing if a vertex that surrounds the sphere is still needed.
@@ -291,7 +377,7 @@ class Mesher {
       if (inside.vertex[i] < 0) continue;
       inside.vertex[i] = static_cast<std::int32_t>(inside.places.size());
       inside.places.push_back(i < divided.points.size() ? divided.points[i] : placed[i - divided.points.size()]);
-      if (i < outline_.points.size()) inside.outline_points.push_back(static_cast<std::uint32_t>(i));
+      if (i < places_.size()) inside.outline_places.push_back(static_cast<std::uint32_t>(i));
     }
     return inside;
   }
@@ -320,7 +406,9 @@ class Mesher {
       for (const std::int32_t tag : tags) result.lines.push_back({from, to, tag});
       if (tags.empty()) result.lines.push_back({from, to, 0});
     }
-    const MeshNames names(names_of(outline_), inside->outline_points);
+    std::vector<std::uint32_t> points;
+    for (const std::uint32_t p : inside->outline_places) points.push_back(arrangement_.point[p]);
+    const MeshNames names(names_of(outline_), points);
     InputPositions places(surface_.space());
     for (const Vec3 p : inside->places) places.add(p);
     MeshInput input = places.input();
@@ -329,7 +417,7 @@ class Mesher {
     input.constrained_edges = constrained;
     input.names = &names;
     Expected<BuiltMesh> built = Mesh::build(input);
-    if (!built) return built.error();
+    if (!built) return too_fine(built.error());
     result.mesh = std::move(built->mesh);
     number_points(*inside, result);
     fix_points(result);
@@ -338,35 +426,50 @@ class Mesher {
 
   void number_points(const Inside& inside, OutlineMesh& made) const {
     made.vertex_of_point.resize(outline_.points.size());
-    for (const std::uint32_t p : inside.outline_points) {
-      made.vertex_of_point[p] = VertexId(static_cast<std::size_t>(inside.vertex[p]));
+    std::vector<std::uint8_t> is_alone(outline_.points.size(), 1);
+    for (const OutlineSegment& s : outline_.segments) {
+      for (const std::int32_t end : s.ends) is_alone[static_cast<std::size_t>(end)] = 0;
     }
-    if (const std::size_t outside = outline_.points.size() - inside.outline_points.size(); outside > 0) {
+    std::size_t outside = 0;
+    for (std::size_t i = 0; i < outline_.points.size(); ++i) {
+      const std::int32_t v = arrangement_.place_of_point[i] < 0 ? -1 : inside.vertex[place_of(i)];
+      if (v >= 0) made.vertex_of_point[i] = VertexId(static_cast<std::size_t>(v));
+      outside += v < 0 ? 1 : 0;
+      if (v < 0 && is_alone[i] != 0) {
+        made.warnings.push_back(names_of(outline_).point(i) + " at " +
+                                text_of(surface_, names_of(outline_), given_places_[i]) +
+                                " is outside, and not in the mesh");
+      }
+    }
+    made.notes = arrangement_.notes;
+    made.warnings = arrangement_.warnings;
+    if (std::string narrow = narrow_text(); !narrow.empty()) made.warnings.push_back(std::move(narrow));
+    if (outside > 0) {
       made.notes.push_back(
           "points of the outline that are not in the mesh, because they or their segments are outside: " +
           std::to_string(outside));
     }
   }
+  [[nodiscard]] std::size_t place_of(std::size_t point) const {
+    return static_cast<std::size_t>(arrangement_.place_of_point[point]);
+  }
 
   /// Points with a tag and points of no segment stay, too: they are the user's.
   void fix_points(OutlineMesh& made) const {
-    const auto mark = [&](std::size_t point, std::int32_t tag) {
-      const VertexId v = made.vertex_of_point[point];
-      if (!v.valid()) return;
-      made.mesh.set_fixed(v, true);
-      made.marked.push_back({v, tag});
-    };
-    std::vector<std::uint8_t> known(outline_.points.size(), 0);  // on an edge, or marked
+    std::vector<std::uint8_t> known(places_.size(), 0);  // on an edge, or marked
     for (const OutlineEdge& e : edges_) {
       for (const std::int32_t end : e.ends) known[static_cast<std::size_t>(end)] = 1;
     }
-    for (const OutlineTag& p : outline_.point_tags) {
-      mark(static_cast<std::size_t>(p.element), p.tag);
-      known[static_cast<std::size_t>(p.element)] = 1;
-    }
-    for (std::size_t i = 0; i < known.size(); ++i) {
-      if (known[i] == 0) mark(i, 0);
-    }
+    const auto mark = [&](std::size_t point, std::int32_t tag) {
+      const VertexId v = made.vertex_of_point[point];
+      if (!v.valid()) return;
+      const bool was_known = std::exchange(known[place_of(point)], 1) != 0;
+      if (was_known && tag == 0) return;
+      made.mesh.set_fixed(v, true);
+      made.marked.push_back({v, tag});
+    };
+    for (const OutlineTag& p : outline_.point_tags) mark(static_cast<std::size_t>(p.element), p.tag);
+    for (std::size_t i = 0; i < outline_.points.size(); ++i) mark(i, 0);
     made.groups = outline_.groups;
     note_lost_groups(made);
   }
@@ -402,7 +505,7 @@ class Mesher {
     // Another division of the outline cures more than repairs of this one: repairs are for the last.
     OptimizeOptions options = *options_.optimize;
     options.repair = Repair::none;
-    if (auto error = improve(*made, options)) return *error;
+    if (const auto error = improve(*made, options)) return too_fine(*error);
     return made;
   }
 
@@ -484,15 +587,18 @@ class Mesher {
 
   Surface surface_;
   const Outline& outline_;
-  std::vector<Vec3> places_;
+  std::vector<Vec3> given_places_;
   const MesherOptions& options_;
   const OptimizeHooks& hooks_;
   Deadline deadline_;
   WantedSize wanted_;
-  std::vector<OutlineEdge> edges_;
+  Arrangement arrangement_;
+  const std::vector<Vec3>& places_ = arrangement_.places;
+  const std::vector<OutlineEdge>& edges_ = arrangement_.edges;
   Areas areas_;
   CornerRadii corners_;
   std::vector<SizeSource> sources_;
+  std::optional<Gap> narrowest_;
 };
 
 }  // namespace
@@ -508,17 +614,9 @@ Expected<OutlineMesh> mesh_sphere(const SphereOutline& outline, const MesherOpti
                                   const OptimizeHooks& hooks) {
   if (!(outline.radius > 0 && is_exact_coordinate(outline.radius)))
     return invalid("the radius of a sphere must be positive and finite");
-  Expected<JoinedOutline> joined = join(outline);
-  if (!joined) return joined.error();
-  Mesher mesher(Space::sphere(outline.radius), joined->outline, std::move(joined->places), options, hooks);
-  Expected<OutlineMesh> made = mesher.run();
-  if (!made) return made;
-  std::vector<VertexId> vertex_of_point;
-  vertex_of_point.reserve(joined->numbers.size());
-  for (const std::int32_t p : joined->numbers)
-    vertex_of_point.push_back(made->vertex_of_point[static_cast<std::size_t>(p)]);
-  made->vertex_of_point = std::move(vertex_of_point);
-  return made;
+  Expected<SphereOutlines> all = united(outline);
+  if (!all) return all.error();
+  return Mesher(Space::sphere(outline.radius), all->outline, std::move(all->places), options, hooks).run();
 }
 
 }  // namespace temper

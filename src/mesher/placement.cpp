@@ -29,13 +29,16 @@ class Narrow {
   Narrow(const DividedOutline& divided, const Triangulated& triangulated, const GradedSize& size)
       : divided_(divided), mesh_(triangulated.mesh), triangulated_(triangulated), size_(size) {
     around_.resize(divided.points.size());
+    edge_.resize(divided.points.size());
+    for (std::size_t i = 0; i < edge_.size(); ++i) edge_[i] = Gap::kIsolated + static_cast<std::uint32_t>(i);
     for (const Piece& p : divided.pieces) {
+      for (const std::uint32_t end : p.ends) edge_[end] = p.edge;
       around_[p.ends[0]].push_back(p.ends[1]);
       around_[p.ends[1]].push_back(p.ends[0]);
     }
   }
 
-  std::vector<SizeSource> run(Deadline& deadline) {
+  NarrowPlaces run(Deadline& deadline) {
     for (const HalfedgeId h : mesh_.halfedges()) {
       if (deadline.asked_to_stop()) break;
       if (triangulated_.area[Mesh::triangle(h)] == kOutside) continue;
@@ -45,7 +48,7 @@ class Narrow {
         along(h);
       }
     }
-    return std::move(sources_);
+    return std::move(result_);
   }
 
  private:
@@ -55,7 +58,10 @@ class Narrow {
   [[nodiscard]] bool isolated(VertexId v) const { return around_[v.index].empty(); }
 
   void add(Vec3 p, double size) {
-    if (size < kLess * size_(p)) sources_.push_back({p, size});
+    if (size < kLess * size_(p)) result_.sources.push_back({p, size});
+  }
+  void note(double width, Vec3 place, std::uint32_t one, std::uint32_t other) {
+    if (!result_.narrowest || width < result_.narrowest->width) result_.narrowest = {width, place, {one, other}};
   }
 
   /// Both are ends of pieces at one point, and those do not make a sharp corner.
@@ -76,6 +82,7 @@ class Narrow {
     if (helps(a) || helps(b) || neighbors(a, b)) return;
     const double gap = length(at(b) - at(a));
     const double size = isolated(a) || isolated(b) ? gap : kOfGap * gap;
+    note(gap, at(a), edge_[a.index], edge_[b.index]);
     add(at(a), size);
     add(at(b), size);
   }
@@ -92,6 +99,7 @@ class Narrow {
     const Vec3 foot = at(a) + part * ab;
     const double gap = length(at(c) - foot);
     const double size = isolated(c) ? gap : kOfGap * gap;
+    note(gap, at(c), divided_.pieces[triangulated_.piece[h]].edge, edge_[c.index]);
     add(foot, size);
     add(at(c), size);
   }
@@ -101,13 +109,14 @@ class Narrow {
   const Triangulated& triangulated_;
   const GradedSize& size_;
   std::vector<std::vector<std::uint32_t>> around_;
-  std::vector<SizeSource> sources_;
+  std::vector<std::uint32_t> edge_;  // of each point, as the sides of a gap
+  NarrowPlaces result_;
 };
 
 }  // namespace
 
-std::vector<SizeSource> narrow_places(const DividedOutline& divided, const Triangulated& triangulated,
-                                      const GradedSize& size, Deadline& deadline) {
+NarrowPlaces narrow_places(const DividedOutline& divided, const Triangulated& triangulated, const GradedSize& size,
+                           Deadline& deadline) {
   return Narrow(divided, triangulated, size).run(deadline);
 }
 

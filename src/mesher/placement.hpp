@@ -1,7 +1,10 @@
 // Points inside, about one size apart: a front that starts from the outline and moves inwards row by row.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "mesher/areas.hpp"
@@ -9,10 +12,24 @@
 
 namespace temper::mesher {
 
+/// A place where the outline faces itself through the inside.
+struct Gap {
+  double width = 0;
+  Vec3 at;
+  /// Edges of the arrangement on both sides; or a point of no edge, as `kIsolated` + its place.
+  std::array<std::uint32_t, 2> sides = {};
+  static constexpr std::uint32_t kIsolated = 0x80000000u;
+};
+
+struct NarrowPlaces {
+  std::vector<SizeSource> sources;
+  std::optional<Gap> narrowest;
+};
+
 /// Sizes that leave room for a row of vertices between facing pieces. Only sizes that are below `size` by more than a
 /// tenth. Isolated points count as pieces of no length.
-[[nodiscard]] std::vector<SizeSource> narrow_places(const DividedOutline& divided, const Triangulated& triangulated,
-                                                    const GradedSize& size, Deadline& deadline);
+[[nodiscard]] NarrowPlaces narrow_places(const DividedOutline& divided, const Triangulated& triangulated,
+                                         const GradedSize& size, Deadline& deadline);
 
 /// Places points. Each candidate is one size away from its point or piece. It is taken when nothing is too near and no
 /// piece lies between. The order is the order of the pieces, then of the points: deterministic. Ends when there are

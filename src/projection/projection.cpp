@@ -201,10 +201,34 @@ InputError torn(const std::string& where, const std::string& name) {
           name + " crosses the end of the map, 180 degrees from its center; choose another center"};
 }
 
+/// The names of an outline in degrees, for its map.
+class ProjectedNames final : public OutlineNames {
+ public:
+  ProjectedNames(std::shared_ptr<const OutlineNames> names, const Projection& projection)
+      : names_(names ? std::move(names) : std::make_shared<const OutlineNames>()), projection_(projection) {}
+
+  [[nodiscard]] std::string point(std::size_t i) const override { return names_->point(i); }
+  [[nodiscard]] std::string segment(std::size_t i) const override { return names_->segment(i); }
+  [[nodiscard]] std::string hole(std::size_t i) const override { return names_->hole(i); }
+  [[nodiscard]] std::string region(std::size_t i) const override { return names_->region(i); }
+  [[nodiscard]] std::string part(std::size_t i) const override { return names_->part(i); }
+  [[nodiscard]] std::string ring(std::size_t i) const override { return names_->ring(i); }
+  [[nodiscard]] Vec2 in_file(Vec2 place) const override { return names_->in_file(inverse(projection_, place)); }
+  [[nodiscard]] std::string point_where(std::size_t i) const override { return names_->point_where(i); }
+  [[nodiscard]] std::string segment_where(std::size_t i) const override { return names_->segment_where(i); }
+  [[nodiscard]] std::string hole_where(std::size_t i) const override { return names_->hole_where(i); }
+  [[nodiscard]] std::string region_where(std::size_t i) const override { return names_->region_where(i); }
+
+ private:
+  std::shared_ptr<const OutlineNames> names_;
+  Projection projection_;
+};
+
 }  // namespace
 
 Expected<Outline> project(const Outline& lon_lat, const Projection& projection) {
   Outline result = lon_lat;
+  result.names = std::make_shared<const ProjectedNames>(lon_lat.names, projection);
   const OutlineNames numbers_from_0;
   const OutlineNames& names = lon_lat.names ? *lon_lat.names : numbers_from_0;
   for (std::size_t i = 0; i < result.points.size(); ++i) {

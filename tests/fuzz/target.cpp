@@ -23,7 +23,7 @@ std::string content_of(const std::string& path) {
 
 std::vector<Target> targets() {
   std::vector<Target> all;
-  for (auto some : {mesh_file_targets, outline_targets, program_file_targets, optimize_targets}) {
+  for (auto some : {mesh_file_targets, outline_targets, outline_mesh_targets, program_file_targets, optimize_targets}) {
     auto list = some();
     all.insert(all.end(), std::make_move_iterator(list.begin()), std::make_move_iterator(list.end()));
   }

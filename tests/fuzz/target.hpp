@@ -19,6 +19,8 @@ struct Target {
 [[nodiscard]] std::vector<Target> mesh_file_targets();
 /// Outlines of each format, and JSON.
 [[nodiscard]] std::vector<Target> outline_targets();
+/// Outlines that are moved by rounding, through mesh_outline() and mesh_sphere().
+[[nodiscard]] std::vector<Target> outline_mesh_targets();
 /// Traces, certificates and layers of the program.
 [[nodiscard]] std::vector<Target> program_file_targets();
 /// Meshes and options made of the bytes, through optimize().

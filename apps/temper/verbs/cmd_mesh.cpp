@@ -78,6 +78,16 @@ void add_sizes(Command& command, MeshSettings& s) {
              "'alternate' nested loops alternate: land, lake, island. 'by-points' is 'all' if the file has hole or "
              "region points, else 'alternate'. If the file has polygons or parts, these decide.")
       .excludes = "--sphere";
+  add_number(command, "--snap", s.options.snap, kNotNegative,
+             "Tolerance of joins. Points that are nearer to each other, or to a segment, are joined. 0 joins nothing. "
+             "(default: 1e-9 of the extent of the outline, or 1e-7 of the radius of the sphere)");
+  add_number(
+      command, "--drop-below", s.options.drop_below, kNotNegative,
+      "Leave out rings of polygons whose extent is less, such as small islands. Rings that --snap leaves nothing "
+      "of are left out, too.");
+  command.add_flag("--split-crossings", s.options.split_crossings,
+                   "Divide lines where they cross each other or the boundary, and leave out what is outside. Without "
+                   "this flag, crossings are errors.");
   add_text(command, "--projection", "NAME[:lon,lat]", s.projection,
            "Map from longitude and latitude to meters: stereographic, mercator or transverse-mercator about this "
            "center. Without a center, the middle of the points is used. 'none' uses degrees as coordinates of a plane.")
@@ -316,6 +326,7 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   const auto [inputs, map, made] = s.sphere ? mesh_globe(s, threads.get()) : mesh_plane(s, threads.get());
   QualityOptions measuring;
   measuring.executor = threads.get();
+  print_warnings(made.warnings);
   const Quality after = quality(made.mesh, measuring);
 
   print_warnings(outputs.write_mesh(s.output, io::from_outline(made, map.lon_lat, map.projection), threads.get()));

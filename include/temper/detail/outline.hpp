@@ -57,6 +57,12 @@ struct OutlinePart {
   bool cut = false;                 ///< Leave out the area; only for parts on the sphere
 };
 
+/// A closed ring of a polygon. Rings only serve checks: each hole lies in its shell, and holes do not overlap.
+struct OutlineRing {
+  std::vector<std::int32_t> segments;
+  std::int32_t shell = -1;  ///< The ring around this hole; -1: this ring is a shell
+};
+
 /// The user's numbers of the elements of an outline, for errors. (Inline, as InputNames.)
 class OutlineNames {
  public:
@@ -66,6 +72,9 @@ class OutlineNames {
   [[nodiscard]] virtual std::string hole(std::size_t index) const { return "hole " + std::to_string(index); }
   [[nodiscard]] virtual std::string region(std::size_t index) const { return "region " + std::to_string(index); }
   [[nodiscard]] virtual std::string part(std::size_t index) const { return "part " + std::to_string(index); }
+  [[nodiscard]] virtual std::string ring(std::size_t index) const { return "ring " + std::to_string(index); }
+  /// A place in the coordinates of the file, if the outline was projected.
+  [[nodiscard]] virtual Vec2 in_file(Vec2 place) const { return place; }
   /// The place of the element in its file, such as "lake.poly:7", or nothing.
   [[nodiscard]] virtual std::string point_where(std::size_t /*index*/) const { return {}; }
   [[nodiscard]] virtual std::string segment_where(std::size_t /*index*/) const { return {}; }
@@ -79,6 +88,7 @@ struct Outline {
   std::vector<Vec2> holes;  ///< A place in each hole
   std::vector<OutlineRegion> regions;
   std::vector<OutlinePart> parts;             ///< Parts; if there are any, they alone define the inside
+  std::vector<OutlineRing> rings;             ///< Rings of polygons
   std::shared_ptr<const OutlineNames> names;  ///< Names for errors; null: counted from 0
   std::vector<OutlineTag> point_tags;         ///< Tags of points; their vertices are fixed and carry them
   std::vector<OutlineTag> further_tags;       ///< Tags of segments that have more than one

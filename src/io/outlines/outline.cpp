@@ -37,6 +37,7 @@ std::string OutlineFileNames::segment(std::size_t i) const {
 std::string OutlineFileNames::hole(std::size_t i) const { return numbered("hole ", holes, i); }
 std::string OutlineFileNames::region(std::size_t i) const { return numbered("region ", regions, i); }
 std::string OutlineFileNames::part(std::size_t i) const { return i < parts.size() ? parts[i] : text("part ", i); }
+std::string OutlineFileNames::ring(std::size_t i) const { return i < rings.size() ? rings[i] : text("ring ", i); }
 
 std::string OutlineFileNames::point_where(std::size_t i) const {
   return at_line(point_path.empty() ? path : point_path, point_lines, i);

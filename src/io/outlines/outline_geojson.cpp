@@ -262,12 +262,16 @@ class GeoJsonReader {
       const std::vector<JsonValue>& rings = array(*all[i], about.name);
       for (std::size_t k = 0; k < rings.size(); ++k) {
         const std::string name = text("ring ", k, all.size() > 1 ? text(" of polygon ", i) : "", " of ", about.name);
-        const std::size_t first = document_.file.outline.segments.size();
+        Outline& o = document_.file.outline;
+        OutlineRing ring;
+        if (k > 0) ring.shell = static_cast<std::int32_t>(o.rings.size() - k);
+        const std::size_t first = o.segments.size();
         line(rings[k], about, name);
-        for (std::size_t s = first; s < document_.file.outline.segments.size(); ++s) {
-          part.segments.push_back(static_cast<std::int32_t>(s));
-        }
-        check_ring(rings[k], name, document_.file.outline.segments.size() - first);
+        for (std::size_t s = first; s < o.segments.size(); ++s) ring.segments.push_back(static_cast<std::int32_t>(s));
+        check_ring(rings[k], name, ring.segments.size());
+        part.segments.insert(part.segments.end(), ring.segments.begin(), ring.segments.end());
+        o.rings.push_back(std::move(ring));
+        document_.names->rings.push_back(name);
       }
     }
     if (about.tag) name_segments(about, first_segment);

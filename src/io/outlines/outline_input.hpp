@@ -28,6 +28,7 @@ class OutlineFileNames final : public OutlineNames {
   [[nodiscard]] std::string hole(std::size_t i) const override;
   [[nodiscard]] std::string region(std::size_t i) const override;
   [[nodiscard]] std::string part(std::size_t i) const override;
+  [[nodiscard]] std::string ring(std::size_t i) const override;
   [[nodiscard]] std::string point_where(std::size_t i) const override;
   [[nodiscard]] std::string segment_where(std::size_t i) const override;
   [[nodiscard]] std::string hole_where(std::size_t i) const override;
@@ -38,7 +39,7 @@ class OutlineFileNames final : public OutlineNames {
   RunLength points, segments, holes, regions;  ///< numbers in the file; empty: counted from 0
   RunLength point_lines, segment_lines, hole_lines, region_lines;
   std::vector<Group> groups;
-  std::vector<std::string> parts;  ///< names
+  std::vector<std::string> parts, rings;  ///< names
 };
 
 struct OutlineDocument {
