@@ -5,7 +5,8 @@
 // sorted by their numbers: Gmsh gave them in this order, and other programs count by it.
 //
 // A partition divides entities into parts, and adds entities between the parts. A part belongs to its parent again; its
-// number is the data gmsh:partition. What lies between parts is left out.
+// number is the data gmsh:partition. What lies between parts is left out, and so are ghosts: triangles of other parts
+// in the file of one part.
 //
 //     surface 1, curve 5 |  gmsh    surface 3 of 1 | curve 8 of 1, | surface 4 of 1     (dimension 2 of 2, 1 of 2, …)
 //                        |  ---->   curve 9 of 5   | not of a curve| curve 10 of 5
@@ -60,7 +61,7 @@ struct Membership {
   std::int32_t physical = 0, entity = 0;
   std::int32_t partition = 0;       // 0: the mesh has none
   bool is_reversed = false;         // the physical group has the entity in the other direction
-  bool between_partitions = false;  // made by the partition
+  bool of_partition_alone = false;  // between its parts, or a ghost
 };
 
 /// Elements of one kind as they are read.
@@ -207,7 +208,13 @@ class GmshReader {
     if (partitioned) {
       get<std::uint64_t>("the number of partitions");
       const std::size_t n_ghosts = get_count("ghost entities", 4, 8);
-      for (std::size_t i = 0; i < 2 * n_ghosts; ++i) get<std::int32_t>("a ghost entity");
+      for (std::size_t i = 0; i < n_ghosts; ++i) {
+        const auto tag = get<std::int32_t>("the tag of a ghost entity");
+        Membership ghosts;
+        ghosts.of_partition_alone = true;
+        entities_[{2, tag}] = ghosts;
+        get<std::int32_t>("the partition of a ghost entity");
+      }
     }
     std::array<std::size_t, 4> counts;
     for (std::size_t& n : counts) n = get_count("entities", 10, 36);
@@ -223,9 +230,9 @@ class GmshReader {
     if (partitioned) {
       const auto parent_dimension = get<std::int32_t>("the dimension of a parent");
       of.entity = get<std::int32_t>("the tag of a parent");
-      of.between_partitions = parent_dimension != dimension;
+      of.of_partition_alone = parent_dimension != dimension;
       const auto found = entities_.find({dimension, of.entity});
-      if (!of.between_partitions && found != entities_.end()) parent = &found->second;
+      if (!of.of_partition_alone && found != entities_.end()) parent = &found->second;
       const std::size_t n_partitions = get_count("partitions", 2, 4);
       for (std::size_t k = 0; k < n_partitions; ++k) {
         const auto partition = get<std::int32_t>("a partition");
@@ -246,7 +253,7 @@ class GmshReader {
     if (parent != nullptr && parent->physical != 0) {
       of.physical = parent->physical;
       of.is_reversed = parent->is_reversed;
-    } else if (n_physical > 1 && !of.between_partitions) {
+    } else if (n_physical > 1 && !of.of_partition_alone) {
       ++with_further_tags_;
     }
     entities_[{dimension, tag}] = of;
@@ -338,7 +345,7 @@ class GmshReader {
       if (k >= 3 && tag > 0) ++n_partitions;
     }
     const std::int32_t dimension = type == kGmshPoint ? 0 : type == kGmshLine ? 1 : 2;
-    of.between_partitions = n_partitions > 1 && dimension < 2 && !is_named(dimension, of.physical);
+    of.of_partition_alone = n_partitions > 1 && dimension < 2 && !is_named(dimension, of.physical);
     return of;
   }
   void elements_4() {
@@ -512,9 +519,9 @@ class GmshReader {
       names.triangle_lines = std::move(triangles_.text_lines);
       names.line_lines = std::move(lines_.text_lines);
     }
-    if (n_between_ > 0) {
-      f.warnings.push_back(text(scanner_.path(), ": ", n_between_, n_between_ == 1 ? " element" : " elements",
-                                " between partitions ", n_between_ == 1 ? "is" : "are", " left out"));
+    if (n_of_partition_ > 0) {
+      f.warnings.push_back(text(scanner_.path(), ": ", n_of_partition_, n_of_partition_ == 1 ? " element" : " elements",
+                                " that the partition added ", n_of_partition_ == 1 ? "is" : "are", " left out"));
     }
     if (with_further_tags_ > 0) {
       const bool one = with_further_tags_ == 1;
@@ -544,16 +551,16 @@ class GmshReader {
     switch (type) {
       case kGmshTriangle: {
         const auto corners = nodes_of<3>("triangle", number);
-        return of.between_partitions ? leave_out(number) : triangles_.add(corners, of, number, line);
+        return of.of_partition_alone ? leave_out(number) : triangles_.add(corners, of, number, line);
       }
       case kGmshLine: {
         auto ends = nodes_of<2>("line", number);
         if (of.is_reversed) std::swap(ends[0], ends[1]);
-        return of.between_partitions ? leave_out(number) : lines_.add(ends, of, number, line);
+        return of.of_partition_alone ? leave_out(number) : lines_.add(ends, of, number, line);
       }
       case kGmshPoint: {
         const auto point = nodes_of<1>("point element", number);
-        return of.between_partitions ? leave_out(number) : points_.add(point, of, number, line);
+        return of.of_partition_alone ? leave_out(number) : points_.add(point, of, number, line);
       }
       default:
         refuse_element(where(), number, element_name(type));
@@ -561,7 +568,7 @@ class GmshReader {
   }
   void leave_out(std::int64_t number) {
     left_out_.push_back(number);
-    ++n_between_;
+    ++n_of_partition_;
   }
   template <std::size_t N>
   [[nodiscard]] std::array<std::int32_t, N> nodes_of(std::string_view kind, std::int64_t element) {
@@ -660,9 +667,9 @@ class GmshReader {
   Elements<2> lines_;
   Elements<1> points_;
   std::optional<NumberLookup> triangle_lookup_, line_lookup_, point_lookup_;
-  RunLength left_out_;  // the numbers of elements between partitions, and of triangles that are there already
+  RunLength left_out_;  // the numbers of elements of the partition alone, and of triangles that are there already
   std::optional<NumberLookup> left_out_lookup_;
-  std::size_t n_between_ = 0;
+  std::size_t n_of_partition_ = 0;
   std::set<std::string> node_data_, element_data_;  // names
 };
 

@@ -41,8 +41,8 @@ TEST_F(Draw, EveryOptionChangesThePicture) {
         "Triangles\n6\n1 2 5 1\n2 6 5 1\n1 5 6 1\n2 3 6 2\n3 4 6 2\n4 1 6 2\nEnd\n");
   write("a.mesh.weights.csv", "point,weight\n1,0\n2,0.01\n3,0\n4,-0.01\n5,0\n6,0\n");
   const std::vector<std::vector<std::string>> options = {
-      {"--no-primal"},    {"--color", "angle"}, {"--no-dual"}, {"--color", "none"},
-      {"--no-rings"},     {"--weights"},        {"--numbers"}, {"--zoom", "0,0,0.5,0.5"},
+      {"--no-primal"},    {"--color", "angle"}, {"--no-dual"},        {"--color", "none"},
+      {"--no-rings"},     {"--weights"},        {"--numbers"},        {"--zoom", "0,0,0.5,0.5"},
       {"--width", "300"}, {"--title", "a < b"}, {"--tensor", "4,0,1"}};
   temper_ok({"draw", "a.mesh", "-o", "plain.svg"});
   const std::string plain = read("plain.svg");
@@ -84,8 +84,7 @@ TEST_F(Draw, ColorsAreMeasuresOrDataOfTheFile) {
   }
   const Outcome outcome = temper({"draw", "a.vtu", "-o", "q.svg", "--color", "color"});
   EXPECT_EQ(outcome.exit, 2);
-  EXPECT_TRUE(
-      contains(outcome.err, "a.vtu: --color: there are no numbers 'color'; there are quality, angle"));
+  EXPECT_TRUE(contains(outcome.err, "a.vtu: --color: there are no numbers 'color'; there are quality, angle"));
   EXPECT_FALSE(exists("q.svg"));
   // Data of points are their mean over the corners: 3 and 6 here.
   write("p.vtk",

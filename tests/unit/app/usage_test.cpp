@@ -204,16 +204,16 @@ TEST_F(Usage, EveryVerbIsQuietButForJson) {
   temper_ok({"example", "annulus", "--around", "24", "--rings", "3", "-o", "in.vtu", "--quiet"});
   temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "t.jsonl", "--quiet"});
   write("a.poly", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n");
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {"check", "out.vtu"},
-           {"explain", "out.vtu"},
-           {"operators", "out.vtu", "-o", "dual", "--format", "npz"},
-           {"weights", "out.vtu", "-o", "w.vtu"},
-           {"mesh", "a.poly", "-o", "a.vtu", "--size", "0.5"},
-           {"optimize", "in.vtu", "-o", "out.vtu"},
-           {"draw", "in.vtu", "-o", "in.svg"},
-           {"convert", "in.vtu", "-o", "in.off"},
-           {"paper", "replay", "in.vtu", "t.jsonl", "-o", "again.vtu"}}) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"check", "out.vtu"},
+                                             {"explain", "out.vtu"},
+                                             {"operators", "out.vtu", "-o", "dual", "--format", "npz"},
+                                             {"weights", "out.vtu", "-o", "w.vtu"},
+                                             {"mesh", "a.poly", "-o", "a.vtu", "--size", "0.5"},
+                                             {"optimize", "in.vtu", "-o", "out.vtu"},
+                                             {"draw", "in.vtu", "-o", "in.svg"},
+                                             {"convert", "in.vtu", "-o", "in.off"},
+                                             {"paper", "replay", "in.vtu", "t.jsonl", "-o", "again.vtu"}}) {
     std::vector<std::string> quiet = words;
     quiet.emplace_back("--quiet");
     EXPECT_EQ(temper_ok(quiet).out, "") << words[0];

@@ -199,8 +199,8 @@ class Numbers {
 
 /// A square of two triangles with a well, a wall, and an inflow whose group has its curve in the other direction:
 ///
-///     4 ---- 3          In two parts there are, too, the edge 1-3 between them (curve 12, of surface 1) and
-///     |  20/ |          its end 3 (point 10, of curve 2).
+///     4 ---- 3          In two parts there are, too, the edge 1-3 between them (curve 12, of surface 1), its
+///     |  20/ |          end 3 (point 10, of curve 2), and the triangle 1 2 3 again as a ghost (surface 20).
 ///  32 |  / 10| 31
 ///     1 ---- 2 (well)
 std::string square_41(bool binary, bool partitioned) {
@@ -231,11 +231,11 @@ std::string square_41(bool binary, bool partitioned) {
   nodes(1u, 4u, 1u, 4u)(2, 1 + shift, 0, 4u)(1u)(2u)(3u)(4u)(0., 0., 0.)(1., 0., 0.)(1., 1., 0.)(0., 1., 0.);
   file += "$Nodes\n" + nodes.content + "\n$EndNodes\n$Elements\n";
   Numbers elements(binary);
-  elements(partitioned ? 7u : 5u, partitioned ? 7u : 5u, 1u, 7u);
+  elements(partitioned ? 8u : 5u, partitioned ? 8u : 5u, 1u, 8u);
   elements(0, 2 + shift, 15, 1u)(1u, 2u);
   elements(1, 2 + shift, 1, 1u)(2u, 2u, 3u)(1, 3 + shift, 1, 1u)(3u, 4u, 1u);
   elements(2, 1 + shift, 2, 1u)(4u, 1u, 2u, 3u)(2, 2 + shift, 2, 1u)(5u, 1u, 3u, 4u);
-  if (partitioned) elements(0, 10, 15, 1u)(6u, 3u)(1, 12, 1, 1u)(7u, 1u, 3u);
+  if (partitioned) elements(0, 10, 15, 1u)(6u, 3u)(1, 12, 1, 1u)(7u, 1u, 3u)(2, 20, 2, 1u)(8u, 1u, 2u, 3u);
   file += elements.content + "\n$EndElements\n";
   if (partitioned) file += "$ElementData\n1\n\"e\"\n1\n0\n3\n0\n1\n3\n";
   Numbers data(binary);
@@ -266,7 +266,7 @@ TEST_F(FileTest, APartitionedMeshIsTheMeshOfItsParts) {
     ASSERT_NE(partition, f->cell_data.end());
     EXPECT_EQ(std::get<std::vector<std::int32_t>>(partition->values), (std::vector<std::int32_t>{1, 2}));
     ASSERT_EQ(f->warnings.size(), 1u);
-    EXPECT_EQ(plain(f->warnings[0]), "parts.msh: 2 elements between partitions are left out");
+    EXPECT_EQ(plain(f->warnings[0]), "parts.msh: 3 elements that the partition added are left out");
     const auto made = make_mesh(*f);
     ASSERT_TRUE(made) << made.error().what();
     EXPECT_TRUE(made->warnings.empty());
@@ -288,7 +288,7 @@ TEST_F(FileTest, PartitionsOfVersion2AreDataAndTheEdgesBetweenThemAreLeftOut) {
   EXPECT_EQ(f->cell_data[0].name, "gmsh:partition");
   EXPECT_EQ(std::get<std::vector<std::int32_t>>(f->cell_data[0].values), (std::vector<std::int32_t>{2, 3}));
   ASSERT_EQ(f->warnings.size(), 1u);
-  EXPECT_EQ(plain(f->warnings[0]), "m.msh: 1 element between partitions is left out");
+  EXPECT_EQ(plain(f->warnings[0]), "m.msh: 1 element that the partition added is left out");
 }
 
 TEST_F(FileTest, ParametricNodesOfVersion22AreRead) {
