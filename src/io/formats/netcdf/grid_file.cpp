@@ -2,8 +2,11 @@
 // its own name. Axes are found by standard_name, units and axis, else by their order (y, x). A leading dimension of one
 // entry, such as a time, is left out.
 #include <algorithm>
-#include <cctype>
+#include <limits>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "io/formats/netcdf/netcdf_extras.hpp"
 #include "io/formats/raster.hpp"
@@ -68,8 +71,14 @@ class GridReader {
 
   [[nodiscard]] std::vector<double> rows_of(const NetcdfVariable& v) const {
     std::vector<DataArray> one;
-    add_netcdf_data(in_, v, one);
+    NetcdfCollector attributes(in_);  // a raster keeps none
+    add_netcdf_data(in_, v, one, attributes);
+    const bool whole = !is_floating(one.front().values);  // as they are in the file
     std::vector<double> values = to_doubles(std::move(one.front().values));
+    for (const char* attribute : {"_FillValue", "missing_value"}) {
+      const auto missing = in_.number_attribute(&v, attribute);
+      if (whole && missing) std::ranges::replace(values, *missing, std::numeric_limits<double>::quiet_NaN());
+    }
     if (!turned_) return values;
     const std::size_t nx = x_->n_values(), ny = y_->n_values();
     std::vector<double> rows(values.size());
