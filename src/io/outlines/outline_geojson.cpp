@@ -193,9 +193,9 @@ class GeoJsonReader {
     if (type == "MultiLineString") {
       for (const JsonValue& one : array(*coordinates, about.name)) line(one, about, about.name);
     }
-    if (type == "Point") point(*coordinates, about.name);
+    if (type == "Point") well(*coordinates, about);
     if (type == "MultiPoint") {
-      for (const JsonValue& one : array(*coordinates, about.name)) point(one, about.name);
+      for (const JsonValue& one : array(*coordinates, about.name)) well(one, about);
     }
   }
 
@@ -258,6 +258,15 @@ class GeoJsonReader {
       document_.names->segment_lines.push_back(positions[i - 1].line);
       from = to;
     }
+  }
+
+  /// A point of its own. Two of them at one place would be one vertex without a word.
+  void well(const JsonValue& position, const Feature& about) {
+    const std::int32_t p = point(position, about.name);
+    const auto [known, is_new] = document_.names->point_names.emplace(p, text("the point of ", about.name));
+    if (is_new) return;
+    warn_at(position, text("the point of ", about.name, " is at the place of ", known->second, ", (",
+                           position.numbers[0], ", ", position.numbers[1], "), and becomes one vertex with it"));
   }
 
   std::int32_t point(const JsonValue& position, const std::string& name) {
