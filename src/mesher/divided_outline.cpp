@@ -101,7 +101,7 @@ std::vector<double> divisions(const SurfacePath& path, const GradedSize& size, d
     density = next_density;
   }
   if (deadline.stopped()) return {};
-  const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil(integral.back() - kStretch)));
+  const auto n = static_cast<std::size_t>(std::clamp(std::ceil(integral.back() - kStretch), 1.0, most));
   std::vector<double> result;
   std::size_t k = 1;
   for (std::size_t i = 1; i < n; ++i) {

@@ -425,6 +425,8 @@ class Mesher {
   }
 
   void number_points(const Inside& inside, OutlineMesh& made) const {
+    made.notes = arrangement_.notes;
+    made.warnings = arrangement_.warnings;
     made.vertex_of_point.resize(outline_.points.size());
     std::vector<std::uint8_t> is_alone(outline_.points.size(), 1);
     for (const OutlineSegment& s : outline_.segments) {
@@ -441,8 +443,6 @@ class Mesher {
                                 " is outside, and not in the mesh");
       }
     }
-    made.notes = arrangement_.notes;
-    made.warnings = arrangement_.warnings;
     if (std::string narrow = narrow_text(); !narrow.empty()) made.warnings.push_back(std::move(narrow));
     if (outside > 0) {
       made.notes.push_back(

@@ -349,7 +349,7 @@ void add_degrees(MeshFile& file, const OutlineMesh& made, std::span<const Vec2> 
     longitudes.push_back(place.x);
     latitudes.push_back(place.y);
   }
-  for (std::size_t p = 0; p < lon_lat.size(); ++p) {  // bit for bit
+  for (std::size_t p = lon_lat.size(); p-- > 0;) {  // bit for bit; of joined points the first
     const VertexId v = made.vertex_of_point[p];
     if (v.valid()) longitudes[v.index] = lon_lat[p].x, latitudes[v.index] = lon_lat[p].y;
   }
@@ -383,7 +383,7 @@ MeshFile from_outline(const OutlineMesh& made, std::span<const Vec2> lon_lat, co
   file.names = made.groups;
   if (map) add_degrees(file, made, lon_lat, *map);
   if (made.mesh.space().is_plane()) return file;
-  for (std::size_t p = 0; p < lon_lat.size(); ++p) {  // bit for bit
+  for (std::size_t p = lon_lat.size(); p-- > 0;) {  // bit for bit; of joined points the first
     const VertexId v = made.vertex_of_point[p];
     if (v.valid()) file.points[v.index] = lon_lat[p];
   }

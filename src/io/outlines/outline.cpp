@@ -27,7 +27,10 @@ OutlineDocument read_document(Source& source) {
 
 }  // namespace
 
-std::string OutlineFileNames::point(std::size_t i) const { return numbered("point ", points, i); }
+std::string OutlineFileNames::point(std::size_t i) const {
+  const auto named = point_names.find(static_cast<std::int32_t>(i));
+  return named != point_names.end() ? named->second : numbered("point ", points, i);
+}
 std::string OutlineFileNames::segment(std::size_t i) const {
   if (groups.empty()) return numbered("segment ", segments, i);
   std::size_t group = groups.size() - 1;

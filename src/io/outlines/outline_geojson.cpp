@@ -2,8 +2,9 @@
 //
 // Equal positions are one point, so polygons that share a piece of boundary share its edges. The reader uses four
 // properties of a feature: "region" is a number (without it features count from 1 when there are several). "size" is
-// the edge length inside, on its lines or at its points, "tag" the tag of its points and of the edges on its lines. "name" names their group, see
-// NamedElements. Positions are longitude and latitude, unless a crs member of an older file names another system.
+// the edge length inside, on its lines or at its points, "tag" the tag of its points and of the edges on its lines.
+// "name" names their group, see NamedElements. Positions are longitude and latitude, unless a crs member of an older
+// file names another system.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -232,7 +233,7 @@ class GeoJsonReader {
 
   void marks(const std::vector<const JsonValue*>& positions, const Feature& about) {
     NamedElements named{0, about.tag.value_or(0), about.group, {}};
-    for (const JsonValue* position : positions) named.elements.push_back(point(*position, about.name));
+    for (const JsonValue* position : positions) named.elements.push_back(well(*position, about));
     for (const std::int32_t p : named.elements) add_tag(p, named.tag), add_size({p, p}, about);
     if (!about.group.empty()) named_.push_back(std::move(named));
   }
@@ -305,6 +306,16 @@ class GeoJsonReader {
       document_.names->segment_lines.push_back(positions[i - 1].line);
       from = to;
     }
+  }
+
+  /// A point of its own. Two of them at one place would be one vertex without a word.
+  std::int32_t well(const JsonValue& position, const Feature& about) {
+    const std::int32_t p = point(position, about.name);
+    const auto [known, is_new] = document_.names->point_names.emplace(p, text("the point of ", about.name));
+    if (is_new) return p;
+    warn_at(position, text("the point of ", about.name, " is at the place of ", known->second, ", (",
+                           position.numbers[0], ", ", position.numbers[1], "), and becomes one vertex with it"));
+    return p;
   }
 
   std::int32_t point(const JsonValue& position, const std::string& name) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -39,7 +40,8 @@ class OutlineFileNames final : public OutlineNames {
   RunLength points, segments, holes, regions;  ///< numbers in the file; empty: counted from 0
   RunLength point_lines, segment_lines, hole_lines, region_lines;
   std::vector<Group> groups;
-  std::vector<std::string> parts, rings;  ///< names
+  std::vector<std::string> parts, rings;            ///< names
+  std::map<std::int32_t, std::string> point_names;  ///< of points of their own
 };
 
 struct OutlineDocument {

@@ -279,7 +279,7 @@ TEST_F(OutlineFiles, BadPolyFilesAreNamedWithLineAndNumber) {
   expect_error(points + "4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n1\n7 5 5\n", "bad:12: hole 7 lies outside");
   expect_error(points + "4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n1\n1 .5 .5 1.5\n", "expected a whole number");
   expect_error("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 1 0\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n",
-               "bad:5: point 4 is at the same place as point 2");
+               "bad:2: the outline is not closed");
   expect_error("0 2 0 0\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n", "no points of its own");
 }
 
@@ -377,6 +377,58 @@ double part_of_sphere(const Mesh& mesh) {
     sum += solid_angle(mesh.weighted_vector(a), mesh.weighted_vector(b), mesh.weighted_vector(c));
   }
   return sum / (4 * std::numbers::pi);
+}
+
+TEST_F(OutlineFiles, RingsFollowTheSpecification) {
+  const std::string shell = R"({"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]])";
+  const std::string hole = ", [[1, 1], [2, 1], [2, 2], [1, 1]]", outside = ", [[5, 5], [6, 5], [6, 6], [5, 5]]";
+  expect_error(shell + outside + "]}", "ring 1 of the geometry lies outside ring 0 of the geometry near (");
+  expect_error(shell + hole + hole + "]}", "ring 2 of the geometry overlaps ring 1 of the geometry near (");
+  expect_error(shell + ", [[3, 1], [5, 1], [3, 2], [3, 1]]" + "]}", "crosses");
+}
+
+TEST_F(OutlineFiles, WellsOutsideOrAtOnePlaceAreWarnedOf) {
+  const io::OutlineFile file = read(R"({"type": "GeometryCollection", "geometries": [
+{"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]]]},
+{"type": "MultiPoint", "coordinates": [[1, 1], [7, 2], [1, 1], [1.000000001, 1]]}]})");
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_NE(file.warnings[0].find("(1, 1), and becomes one vertex"), std::string::npos);
+  MesherOptions options;
+  options.size = 1;
+  const auto made = mesh_outline(file.outline, options);
+  ASSERT_TRUE(made) << made.error().what();
+  ASSERT_EQ(made->warnings.size(), 2u);
+  EXPECT_NE(made->warnings[0].find("are at one place, (1, 1), and become one vertex"), std::string::npos);
+  EXPECT_NE(made->warnings[1].find("the point of the geometry at (7, 2) is outside"), std::string::npos);
+}
+
+// Small inputs that once showed a fault, with the size that shows it, and a part of what is said now.
+TEST(ReportedOutlines, AreMeshedOrNamed) {
+  const std::string reports = TEMPER_SHARED "/reports/";
+  if (!std::filesystem::exists(reports)) GTEST_SKIP() << "no reports here";
+  struct Row {
+    const char* file;
+    double size;
+    const char* error;  // or none
+  };
+  for (const Row& row : {Row{"tee_rounded", 0.15, nullptr}, Row{"shared_rounded", 6, nullptr},
+                         Row{"utm_2e-09", 100, nullptr}, Row{"touch_one_point", 0.5, nullptr},
+                         Row{"hole_outside", 0.5, "ring 1 of feature 0 lies outside ring 0 of feature 0"},
+                         Row{"narrow_1mm", 80, "narrow: 0.001 at ("}}) {
+    const auto file = io::read_outline(reports + row.file + ".geojson");
+    ASSERT_TRUE(file);
+    MesherOptions options;
+    options.size = row.size;
+    const auto made = mesh_outline(file->outline, options);
+    if (row.error != nullptr) {
+      ASSERT_FALSE(made) << row.file;
+      EXPECT_NE(made.error().what().find(row.error), std::string::npos) << made.error().what();
+      continue;
+    }
+    ASSERT_TRUE(made) << made.error().what();
+    EXPECT_EQ(made->bad, 0u) << row.file;
+    EXPECT_LT(made->mesh.n_vertices(), 600u) << row.file;
+  }
 }
 
 TEST(PublicOutlines, TheCoastsOfAGlobalOceanAreMeshedWellCenteredAndKept) {
