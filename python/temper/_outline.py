@@ -14,7 +14,7 @@ from . import _temper
 from ._errors import TemperWarning
 from ._mesh import Mesh, _doubles, _ints
 from ._optimize import OptimizeReport, _observer, _report
-from ._options import OptimizeOptions
+from ._options import OptimizeOptions, options_for
 from ._progress import Line, Progress
 from ._records import Record, merged
 from .size import SizeField
@@ -114,6 +114,7 @@ def mesh_outline(
     grade: float = 0.3,
     region_sizes: Mapping[int, float] | None = None,
     enclosed: Literal["by_points", "all", "alternate"] = "by_points",
+    target: str = "any",
     optimize: OptimizeOptions | bool = True,
     attempts: int = 8,
     most_triangles: int = 200_000_000,
@@ -137,8 +138,10 @@ def mesh_outline(
         Area that an outline without parts encloses. ``all``: everything that segments enclose, except the holes (as in
         Triangle). ``alternate``: nested loops alternate. ``by_points``: ``all`` if there are hole or region points,
         else ``alternate``.
+    target : str
+        Use of the mesh, as in ``options_for``. A target without weights, such as "mpas", makes a mesh without weights.
     optimize : OptimizeOptions or bool
-        Options of the optimization; False: the Delaunay mesh is returned.
+        Options of the optimization, instead of those for the target; False: the Delaunay mesh is returned.
     attempts : int
         Largest number of divisions of the outline while triangles stay bad.
     most_triangles : int
@@ -163,7 +166,7 @@ def mesh_outline(
     0
     """
     options = _mesher_options(size, grade, region_sizes, attempts, most_triangles, time_limit, enclosed)
-    return _meshed(_temper.mesh_outline, outline._plain(), options, optimize, threads, observer, progress)
+    return _meshed(_temper.mesh_outline, outline._plain(), options, target, optimize, threads, observer, progress)
 
 
 def mesh_sphere(
@@ -175,6 +178,7 @@ def mesh_sphere(
     radius: float | None = None,
     grade: float = 0.3,
     region_sizes: Mapping[int, float] | None = None,
+    target: str = "any",
     optimize: OptimizeOptions | bool = True,
     attempts: int = 8,
     most_triangles: int = 200_000_000,
@@ -200,7 +204,7 @@ def mesh_sphere(
         Rivers and other lines that become constrained edges.
     radius : float, optional
         Radius of the sphere [length]; None: the radius of the size field, or 6371000.
-    grade, region_sizes, optimize, attempts, most_triangles, time_limit, threads, observer, progress
+    grade, region_sizes, target, optimize, attempts, most_triangles, time_limit, threads, observer, progress
         The same as in ``mesh_outline``.
 
     Returns
@@ -232,7 +236,7 @@ def mesh_sphere(
         "lines": (lines or nothing)._plain(),
     }
     options = _mesher_options(size, grade, region_sizes, attempts, most_triangles, time_limit)
-    return _meshed(_temper.mesh_sphere, sphere, options, optimize, threads, observer, progress)
+    return _meshed(_temper.mesh_sphere, sphere, options, target, optimize, threads, observer, progress)
 
 
 def _mesher_options(
@@ -261,13 +265,16 @@ def _meshed(
     mesher: Callable[..., Any],
     outline: dict[str, Any],
     options: dict[str, Any],
+    target: str,
     optimize: OptimizeOptions | bool,
     threads: int | None,
     observer: Callable[[Progress], Any] | None,
     progress: bool | None,
 ) -> OutlineMesh:
     if isinstance(optimize, bool):
-        plain = OptimizeOptions()._plain() if optimize else None
+        plain = options_for(target)._plain() if optimize else None
+    elif target != "any":
+        raise ValueError("expected target or optimize, found both")
     else:
         plain = optimize._plain()
     line = Line(progress)
