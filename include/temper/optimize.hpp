@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -262,6 +263,22 @@ struct PaperSwitches {
   friend bool operator==(const PaperSwitches&, const PaperSwitches&) = default;
 };
 
+/// Bounds of the guard. A run for accuracy or the error of a solver makes none of these measures worse than in the
+/// input, or than the bound: the worse of the two is the limit. If a run cannot keep the limits, the input is returned.
+struct GuardOptions {
+  double angle = 10;  ///< Bound of the least angle [degrees], in [0, 60]. 60: the input's. 0: no limit
+  /// Bound of the least length of an inner edge over the size of its two triangles, in [0, 1]. 0: no limit.
+  double edge = 0.2;
+  double areas = 8;  ///< Bound of the largest ratio of the areas of two triangles that share an edge, >= 1
+  /// Bound of the least time [s] in which a long wave crosses a triangle or an edge, where there is a depth. Absent:
+  /// the input's.
+  std::optional<double> step = {};
+  std::optional<SizeField> depth = {};  ///< Water depth, where waves have the speed sqrt(9.81 depth)
+
+  /// No limits.
+  [[nodiscard]] static GuardOptions none() { return {0, 0, std::numeric_limits<double>::max(), {}, {}}; }
+};
+
 /// The solvers of other libraries. temper::solvers() returns the solvers of this build (temper/solvers.hpp).
 struct Solvers {
   /// Linear program solver for repairs. It finds weights for places that sweeps leave bad. Empty: repairs do not use
@@ -299,6 +316,7 @@ struct OptimizeOptions {
   /// regular. A repair checks only the triangles of its neighborhood. With a band, sweeps go vertex by vertex on one
   /// thread. Absent: no limit.
   std::optional<double> size_band = {};
+  GuardOptions guard = {};
   Repair repair = Repair::perturb;
   int repair_trials = 20000;  ///< Largest number of edits that repairs try, each on a copy of a neighborhood, 1 to 3 ms
                               ///< each. A linear program counts as 20

@@ -14,7 +14,7 @@ from . import _temper
 from ._errors import TemperWarning
 from ._mesh import Mesh, _doubles, _ints
 from ._optimize import OptimizeReport, _observer, _report
-from ._options import OptimizeOptions
+from ._options import OptimizeOptions, options_for
 from ._progress import Line, Progress
 from ._records import Record, merged
 from .size import SizeField
@@ -143,6 +143,7 @@ def mesh_outline(
     snap: float | None = None,
     drop_below: float = 0.0,
     split_crossings: bool = False,
+    target: str = "any",
     optimize: OptimizeOptions | bool = True,
     attempts: int = 8,
     most_triangles: int = 200_000_000,
@@ -174,8 +175,10 @@ def mesh_outline(
         leaves nothing of.
     split_crossings : bool
         Divide segments where they cross, and leave out what is outside. Else crossings are errors.
+    target : str
+        Use of the mesh, as in ``options_for``. A target without weights, such as "mpas", makes a mesh without weights.
     optimize : OptimizeOptions or bool
-        Options of the optimization; False: the Delaunay mesh is returned.
+        Options of the optimization, instead of those for the target; False: the Delaunay mesh is returned.
     attempts : int
         Largest number of divisions of the outline while triangles stay bad.
     most_triangles : int
@@ -201,7 +204,7 @@ def mesh_outline(
     """
     joins = (snap, drop_below, split_crossings)
     options = _mesher_options(size, grade, region_sizes, joins, attempts, most_triangles, time_limit, enclosed)
-    return _meshed(_temper.mesh_outline, outline._plain(), options, optimize, threads, observer, progress)
+    return _meshed(_temper.mesh_outline, outline._plain(), options, target, optimize, threads, observer, progress)
 
 
 def mesh_sphere(
@@ -216,6 +219,7 @@ def mesh_sphere(
     snap: float | None = None,
     drop_below: float = 0.0,
     split_crossings: bool = False,
+    target: str = "any",
     optimize: OptimizeOptions | bool = True,
     attempts: int = 8,
     most_triangles: int = 200_000_000,
@@ -241,8 +245,8 @@ def mesh_sphere(
         Rivers and other lines that become constrained edges.
     radius : float, optional
         Radius of the sphere [length]; None: the radius of the size field, or 6371000.
-    grade, region_sizes, snap, drop_below, split_crossings, optimize, attempts, most_triangles, time_limit, threads,
-    observer, progress
+    grade, region_sizes, snap, drop_below, split_crossings, target, optimize, attempts, most_triangles, time_limit,
+    threads, observer, progress
         The same as in ``mesh_outline``.
 
     Returns
@@ -275,7 +279,7 @@ def mesh_sphere(
     }
     joins = (snap, drop_below, split_crossings)
     options = _mesher_options(size, grade, region_sizes, joins, attempts, most_triangles, time_limit)
-    return _meshed(_temper.mesh_sphere, sphere, options, optimize, threads, observer, progress)
+    return _meshed(_temper.mesh_sphere, sphere, options, target, optimize, threads, observer, progress)
 
 
 def _mesher_options(
@@ -308,13 +312,16 @@ def _meshed(
     mesher: Callable[..., Any],
     outline: dict[str, Any],
     options: dict[str, Any],
+    target: str,
     optimize: OptimizeOptions | bool,
     threads: int | None,
     observer: Callable[[Progress], Any] | None,
     progress: bool | None,
 ) -> OutlineMesh:
     if isinstance(optimize, bool):
-        plain = OptimizeOptions()._plain() if optimize else None
+        plain = options_for(target)._plain() if optimize else None
+    elif target != "any":
+        raise ValueError("expected target or optimize, found both")
     else:
         plain = optimize._plain()
     line = Line(progress)

@@ -4,7 +4,9 @@
 #include <optional>
 #include <utility>
 
+#include "mesh/curve.hpp"
 #include "optimize/accuracy/accuracy_phase.hpp"
+#include "optimize/flips/guard.hpp"
 #include "optimize/result/report.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/run/run.hpp"
@@ -41,36 +43,101 @@ void improve(Candidate& best, const Settings& settings, Run& run, AccuracySizes&
   if (!before) return;
   const auto score_of = [&](const Candidate& c) {
     const VertexSizes own = sizes.of(c.work, settings.executor());
-    return score(c.work.mesh, settings, settings.model, &own);
+    return score(c.work.mesh, settings, settings.model, &own, c.work.units);
   };
   if (replaces(score_of(best), score_of(*before), Requirement::not_worse)) return;
   best = *std::move(before);
   driver.recorder().returned_to(best.sweep);
 }
 
-/// Runs in the plane of the mesh.
-Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks) {
-  if (auto error = expect_agreement(hooks, options, mesh)) return *std::move(error);
-  Run run(options, hooks, mesh);
-  auto made = make_settings(options, mesh, WorkingUnits::of(mesh), hooks);
-  if (!made) return made.error();
-  made->size_field = field_of_band(mesh, options, hooks.executor);
-  const Settings settings = *std::move(made);
-  SweepState state(settings);
-
-  std::optional<AccuracySizes> sizes;
-  const InputMeasures of_input(mesh, settings, sizes);
-  InputMesh input(mesh, hooks.exclusive && !options.size_band, hooks.executor);  // the band's field may refer to it
+/// Makes one attempt: restarts, repairs, and the phases for accuracy.
+Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepState& state, Run& run,
+                            std::optional<AccuracySizes>& sizes) {
+  const Mesh& mesh = input.restore_twins();
   auto found = is_ready_for_accuracy(mesh, settings)
-                   ? Candidate{WorkingCopy(mesh, settings.policy.order, hooks.executor)}
+                   ? Candidate{WorkingCopy(mesh, settings.policy.order, settings.executor())}
                    : best_restart(input, settings, state, run);
-  if (!found) return found.error();
+  if (!found) return found;
   Candidate best = *std::move(found);
+  // A tensor can make all triangles thin. Then sweeps pull vertices together, and repairs take long and cure little.
+  run.facts.gave_up =
+      settings.in_metric && 2 * count_bad(best.work.mesh, settings.executor()) > best.work.mesh.n_triangles();
+  if (run.facts.gave_up) {
+    return Candidate{WorkingCopy(input.restore_twins(), settings.policy.order, settings.executor())};
+  }
   input.drop_twins();
   best = reweighted(std::move(best), input, settings, state, run);
   best = repaired(std::move(best), settings, state, run);
   if (sizes) improve<AccuracyPhase>(best, settings, run, *sizes);
   if (settings.objective == Objective::solver_error) improve<SolverErrorPhase>(best, settings, run, *sizes);
+  return best;
+}
+
+/// Says whether the limits of the guard are the input's own measures, whatever they are. Most attempts without the
+/// guard would go beyond them.
+bool is_strict(const GuardOptions& guard) { return guard.angle == 60 && guard.edge == 1 && guard.areas == 1; }
+
+/// The bounds of a user who has set none yield to well-centered triangles: some outlines need extreme triangles.
+bool has_default_bounds(const GuardOptions& guard) {
+  const GuardOptions plain;
+  return guard.angle == plain.angle && guard.edge == plain.edge && guard.areas == plain.areas;
+}
+
+/// Says whether the attempt within the guard has no more bad triangles than the first one.
+bool is_as_good(const Candidate& now, const Candidate& first, const std::shared_ptr<const GuardLimits>& guard,
+                Executor* executor) {
+  return count_beyond(now.work.mesh, now.work.units, guard, executor) == 0 &&
+         count_bad(now.work.mesh, executor) <= count_bad(first.work.mesh, executor);
+}
+
+/// Runs in the plane of the mesh.
+Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks,
+                                       bool in_metric = false) {
+  if (auto error = expect_agreement(hooks, options, mesh)) return *std::move(error);
+  Run run(options, hooks, mesh);
+  auto made = make_settings(options, mesh, WorkingUnits::of(mesh), hooks);
+  if (!made) return made.error();
+  made->size_field = field_of_band(mesh, options, hooks.executor);
+  Settings settings = *std::move(made);
+  const auto guard = guard_limits(mesh, options, hooks.executor);
+  settings.in_metric = in_metric;
+  if (is_strict(options.guard)) settings.guard = guard;
+  SweepState state(settings);
+
+  std::optional<AccuracySizes> sizes;
+  const InputMeasures of_input(mesh, settings, sizes);
+  InputMesh input(mesh, hooks.exclusive && !options.size_band, hooks.executor);  // the band's field may refer to it
+  auto found = attempt(input, settings, state, run, sizes);
+  if (!found) return found.error();
+  Candidate best = *std::move(found);
+  if (!settings.guard && count_beyond(best.work.mesh, best.work.units, guard, hooks.executor) > 0) {
+    const bool yields = has_default_bounds(options.guard);
+    if (run.stopped_early()) {
+      if (!yields) settings.guard = guard;  // the input is returned
+    } else {
+      Candidate first = std::move(best);
+      const RunFacts facts_of_first = run.facts;
+      const SweepState state_of_first = state;
+      std::optional<AccuracySizes> sizes_of_first = std::move(sizes);
+      settings.guard = guard;
+      Recorder(hooks.tracer, first.work, 1).return_in(run.next_sweep(), -1);
+      run.begin_again();
+      sizes.emplace(NearbyCopy(input.restore_twins(), hooks.executor), options.size_field, hooks.executor);
+      state = SweepState(settings);
+      found = attempt(input, settings, state, run, sizes);
+      if (!found) return found.error();
+      best = *std::move(found);
+      if (yields && !is_as_good(best, first, guard, hooks.executor)) {
+        settings.guard.reset();
+        best = std::move(first);
+        sizes = std::move(sizes_of_first);
+        state = state_of_first;
+        run.facts = facts_of_first;
+        run.facts.guarded = true;
+        Recorder(hooks.tracer, best.work, 1).return_in(run.next_sweep(), best.sweep);
+      }
+    }
+  }
   give_back(input.restore_twins(), std::move(best), settings, state, of_input, std::move(sizes), run);
   return std::move(run.report);
 }
@@ -103,7 +170,7 @@ Expected<OptimizeReport> optimize_in_metric(Mesh& mesh, const OptimizeOptions& o
   }
   OptimizeOptions there_options = options;
   there_options.tensor.reset();
-  Expected<OptimizeReport> report = optimize_here(*there, there_options, hooks);
+  Expected<OptimizeReport> report = optimize_here(*there, there_options, hooks, true);
   if (!report) return report;
   Expected<Mesh> back = mapped_back(*there, mesh, *metric, report->vertices);
   if (!back) return back.error();

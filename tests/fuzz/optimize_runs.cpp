@@ -1,14 +1,16 @@
 // Bytes as a list of choices: a triangulation of a square by insertions and flips, with weights, constraints, regions
 // and fixed vertices; a value for some rows of the table of options; then optimize(). What comes out is valid and
-// regular, or the mesh of before with an error; a trace of it makes the same mesh again.
+// regular, or the mesh of before with an error. A trace of the run, written and read, makes the same bytes again.
 #include <algorithm>
 
 #include "base/rng.hpp"
+#include "files/trace_jsonl.hpp"
 #include "property/mesh_of_random_points.hpp"
 #include "target.hpp"
 #include "temper/detail/optimize_table.hpp"
 #include "temper/detail/trace.hpp"
 #include "temper/regularity.hpp"
+#include "temper/solvers.hpp"
 
 namespace temper::fuzz {
 namespace {
@@ -53,6 +55,17 @@ Mesh make_mesh(Choices& choices) {
   return mesh;
 }
 
+/// Takes the vertices to coordinates that are not round, far from the origin, or with a sign of zero.
+void take_elsewhere(Mesh& mesh, Choices& choices) {
+  const double scale = choices.one_in(3) ? 0.3 : 1, shift = choices.one_in(4) ? 7.7 : 0;
+  const double zero = choices.one_in(2) ? -0.0 : 0;
+  for (const VertexId v : mesh.vertices()) {
+    const auto place = [&](double x) { return x == 0 && shift == 0 ? zero : scale * x + shift; };
+    const auto [x, y, w] = mesh.point(v);
+    mesh.set_point(v, {place(x), place(y), scale * scale * w});
+  }
+}
+
 OptionValue some_value(const OptionRow& row, Choices& choices) {
   const double low = std::max(row.range.low, -4.0), high = std::min(row.range.high, std::max(low, 0.0) + 4);
   const double number = low + (high - low) * static_cast<double>(1 + choices.below(15)) / 16;
@@ -80,10 +93,12 @@ OptimizeOptions make_options(Choices& choices) {
       if (check_option(row, value)) row.set(options, value);
     }
   }
-  // What a run may cost.
-  options.max_sweeps = std::min(options.max_sweeps, 4);
-  options.accuracy.sweeps = std::min(options.accuracy.sweeps, 2);
-  options.repair_trials = std::min(options.repair_trials, 30);
+  // What a run may cost: restarts, searches and returns to earlier sweeps need long ones.
+  const int most = choices.one_in(8) ? 15 : 1;
+  options.max_sweeps = std::min(options.max_sweeps, 4 * most);
+  options.accuracy.sweeps = std::min(options.accuracy.sweeps, 2 * most);
+  options.solver_error.steps = std::min(options.solver_error.steps, 2 * most);
+  options.repair_trials = std::min(options.repair_trials, 30 * most);
   options.time_limit = 0;  // the same at every run
   return options;
 }
@@ -110,24 +125,43 @@ void insist_on_result(const Mesh& before, const Mesh& mesh, const OptimizeReport
   insist(count_non_regular_edges(mesh, false) == 0, "every free edge is regular");
 }
 
+/// The mesh as if it came from a file.
+app::Input input_of(const Mesh& mesh) {
+  app::Input input;
+  input.path = "mesh";
+  input.loaded.mesh = mesh;
+  input.loaded.vertex_of_point = io::VertexOfPoint(mesh.n_vertices());
+  input.n_vertices = mesh.n_vertices();
+  return input;
+}
+
 void run_optimize(std::string_view bytes) {
   Choices choices(bytes);
-  const Mesh before = make_mesh(choices);
-  insist(!before.validate(), "the mesh to begin with is valid");
+  Mesh before = make_mesh(choices);
   const OptimizeOptions options = make_options(choices);
-  Mesh mesh = before;
-  std::vector<TraceEvent> events;
+  take_elsewhere(before, choices);
+  insist(!before.validate(), "the mesh to begin with is valid");
+  const app::Input input = input_of(before);
+  std::string trace = app::trace_header(input);
+  std::size_t events = 0;
   OptimizeHooks hooks;
-  hooks.tracer = [&](const TraceEvent& event) { events.push_back(event); };
+  hooks.solvers = solvers();
+  hooks.tracer = [&](const TraceEvent& event) {
+    trace += app::trace_line(event, input);
+    ++events;
+  };
+  Mesh mesh = before;
   const auto report = optimize(mesh, options, hooks);
   if (!report) {
     insist(mesh == before, "an error leaves the mesh as it was");
     return insist(!report.error().message.empty(), "an error has a message");
   }
   insist_on_result(before, mesh, *report, options);
-  const auto again = replay(before, events);
+  static const Scratch scratch;
+  const app::Trace read = app::read_trace(scratch.make("t.jsonl", trace + app::trace_end(events, mesh, input)), input);
+  const auto again = replay(before, read.events);
   insist(again.has_value(), again ? "" : again.error().what());
-  insist(*again == mesh, "the trace makes the same mesh");
+  insist(*again == mesh && app::is_end_of(read.end, *again), "the trace makes the same bytes");
 }
 
 /// Bytes without meaning: each is a mesh and options.

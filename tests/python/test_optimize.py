@@ -395,6 +395,9 @@ def test_an_outline_is_meshed_well_centered():
     assert np.array_equal(made.mesh.points[made.vertex_of_point], np.array(points, dtype=float))
     assert temper.mesh_outline(outline, 0.4, optimize=False).bad >= 0
     assert np.array_equal(made.mesh.lines, made.lines) and np.array_equal(made.mesh.tags, made.line_tags)
+    assert not temper.mesh_outline(outline, 0.4, target="mpas").mesh.weights.any() and made.mesh.weights.any()
+    with pytest.raises(ValueError, match="target or optimize"):
+        temper.mesh_outline(outline, 0.4, target="mpas", optimize=temper.OptimizeOptions())
     with pytest.raises(temper.TemperError, match="segment"):
         temper.mesh_outline(temper.Outline(points, [(0, 99)]), 0.4)
     with pytest.raises(temper.TemperError):

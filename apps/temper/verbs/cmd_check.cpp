@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "console.hpp"
+#include "files/close_points.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
 #include "files/tensor_option.hpp"
@@ -90,6 +91,7 @@ class Checks {
   void add(const std::string& path) {
     Input input = read_input(path, {s_.projection, {}, threads_.get(), true, s_.flat});
     print_warnings(input.warnings());
+    if (const std::string crack = crack_warning(input); !crack.empty()) print_warnings(std::vector{crack});
     take_to_metric(input, s_.metric);
     Quality measured = quality(input.mesh(), options_);
     for (WorstTriangle& worst : measured.worst) {

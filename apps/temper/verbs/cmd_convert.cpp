@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "console.hpp"
+#include "files/close_points.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
 #include "help/help.hpp"
@@ -19,6 +20,7 @@ struct ConvertSettings {
   bool flat = false;
   std::string input;
   MeshOutput output;
+  std::optional<double> merge;
   std::uint64_t threads = 0;
 };
 
@@ -29,13 +31,16 @@ void add_options(Command& command, ConvertSettings& s) {
   add_flat(command, s.flat);
   add_mesh_output(command, s.output, "OUT", "File to write. Its suffix selects the format.");
   command.option("--output").require();
+  add_number(command, "--merge", s.merge, kNotNegative,
+             "Make points one that are at most this far apart, in the units of IN. This closes cracks.");
   add_count(command, "--threads", s.threads, 0,
             "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
   command.group("Help");
   command.add_help({"IN -o OUT [options]",
                     "  temper convert in.vtu -o out.msh\n"
                     "  temper convert in.vtu -o out.vtu --encoding ascii\n"
-                    "  temper convert in.vtu -o old.msh --format gmsh22\n",
+                    "  temper convert in.vtu -o old.msh --format gmsh22\n"
+                    "  temper convert cracked.vtu -o whole.vtu --merge 1e-8\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
@@ -53,9 +58,11 @@ Exit run_convert(const Arguments& arguments) {
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   io::MeshFile file = read_tried(s.input, {threads.get(), s.flat});
+  const std::size_t merged = s.merge ? merge_points(file, *s.merge) : 0;
   if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
   print_warnings(file.warnings);
   print_warnings(outputs.write_mesh(s.output, file, threads.get()));
+  if (s.merge) print(fmt::format("{} merged\n", plural(merged, "point", "points")));
   return Exit::done;
 }
 

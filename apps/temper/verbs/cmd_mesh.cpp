@@ -25,6 +25,7 @@
 #include "temper/quality.hpp"
 #include "temper/solvers.hpp"
 #include "threads.hpp"
+#include "verbs/optimize_settings.hpp"
 #include "verbs/progress_line.hpp"
 
 namespace temper::app {
@@ -38,6 +39,7 @@ constexpr OutputKind kMeshOutputs[] = {kReportKind, kPictureKind};
 struct MeshSettings {
   TimeLimit since;
   std::string input, coast, lines, size, size_data, from_depth, projection, region_sizes;
+  std::string target = std::string(targets()[0].name);
   MeshOutput output;
   std::vector<std::string> write;
   FurtherOutputs files;  ///< of `write`
@@ -106,6 +108,7 @@ void add_sphere(Command& command, MeshSettings& s) {
 }
 
 void add_optimization(Command& command, MeshSettings& s) {
+  add_target(command, s.target, false).excludes = "--no-optimize";
   command.add_flag("--no-optimize", s.no_optimize, "Write the Delaunay mesh without optimization.");
   add_count(command, "--attempts", s.options.attempts, 1,
             "Largest number of meshes made. If triangles stay bad, temper divides the outline finer around them and "
@@ -353,6 +356,7 @@ Exit run_mesh(const Arguments& arguments) {
   if (!command.parse(arguments)) return Exit::done;
   take_input(command, s);
   check_usage(command, s);
+  s.options.optimize = *options_for(s.target);
   s.files = sorted_outputs("mesh", s.write, kMeshOutputs);
   Outputs outputs("mesh");
   // The points of a .poly may be in the .node next to it.

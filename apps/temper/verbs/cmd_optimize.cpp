@@ -312,8 +312,8 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   warn(results, doubtful_options(command, s));
   if (s.options.unknowns == Unknowns::positions && has_weights(input.mesh())) {
     warn(results,
-         std::array{fmt::format("{}: the mesh has weights, and this run keeps them. If your solver ignores weights, "
-                                "start from a mesh without weights. Next: temper mesh --no-optimize makes one",
+         std::array{fmt::format("{0}: the mesh has weights, and this run keeps them. If your solver ignores weights, "
+                                "set them to zero first. Next: temper weights {0} --zero -o plain.vtu",
                                 s.input)});
   }
   if (!s.size.empty()) {
@@ -322,6 +322,7 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
     warn(results, sizes.warnings);
     s.options.size_field = std::move(sizes.field);
   }
+  if (!s.metric) s.options.guard.depth = depth_field(input);
   // The mesh has its geometry now, and on the largest meshes memory is scarce.
   io::release_geometry(input.file, input.loaded);
   agree_to_go_on();

@@ -17,6 +17,7 @@
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/lp.hpp"
 #include "temper/optimize.hpp"
+#include "temper/regularity.hpp"
 
 namespace temper::app {
 namespace {
@@ -51,7 +52,7 @@ struct WeightsSettings {
   std::string edges = "all";
   Connectivity connectivity = Connectivity::fixed;
   std::uint64_t whole = WeightOptions().whole, programs = ConnectivityOptions().programs;
-  bool json = false;
+  bool json = false, zero = false;
 };
 
 void add_conditions(Command& command, WeightsSettings& s) {
@@ -84,6 +85,9 @@ void add_options(Command& command, WeightsSettings& s) {
            "If no weights exist, write the proof as JSON. See docs/reference/formats/certificate.md.");
   add_text(command, "--check-certificate", "FILE", s.check,
            "Only check the proof in FILE against IN, in exact arithmetic.");
+  command.add_flag(
+      "--zero", s.zero,
+      "Set all weights to zero, and flip edges until they are Delaunay. Solvers without weights need this.");
   command.add_flag("--json", s.json, "Print the report as JSON, with vertices and triangles counted from 0.");
   command.group("Weights");
   add_choice(command, "--mode", kModes, s.mode,
@@ -113,6 +117,7 @@ void add_options(Command& command, WeightsSettings& s) {
   command.add_help({"IN -o OUT [options]",
                     "  temper example annulus -o ring.vtu && temper weights ring.vtu -o out.vtu\n"
                     "  temper weights ring.vtu -o least.vtu --mode barrier\n"
+                    "  temper weights least.vtu -o plain.vtu --zero\n"
                     "  temper weights ring.vtu -o inside.vtu --constraints heights-only\n"
                     "  # a mesh without such weights: write the proof, check it, and find the least violation\n"
                     "  temper example sparse-horseshoe -o shoe.vtu\n"
@@ -127,11 +132,18 @@ void add_options(Command& command, WeightsSettings& s) {
 
 void check_usage(const Command& command, const WeightsSettings& s) {
   const auto fail = [](const std::string& message) { refuse_usage("weights", message); };
+  if (!s.check.empty() && s.zero) fail("--check-certificate takes no --zero");
   if (!s.check.empty()) {
     for (const char* option : {"--output", "--certificate", "--mode", "--margin", "--from", "--energy", "--whole",
                                "--constraints", "--edges", "--connectivity", "--programs"}) {
       if (command.was_given(option)) fail(fmt::format("--check-certificate takes no {}", option));
     }
+  } else if (s.zero) {
+    for (const char* option : {"--certificate", "--mode", "--margin", "--from", "--energy", "--whole", "--constraints",
+                               "--edges", "--connectivity", "--programs"}) {
+      if (command.was_given(option)) fail(fmt::format("--zero takes no {}", option));
+    }
+    if (s.output.path.empty()) fail("--output is missing");
   } else if (s.output.path.empty() && s.mode != Mode::feasible) {
     fail("--output is missing");
   }
@@ -225,6 +237,32 @@ void lower_energy(const WeightsSettings& s, const Input& input, const Mesh& mesh
   report.weights = std::move(weights);
 }
 
+/// Writes the mesh without weights.
+Exit drop(const WeightsSettings& s, Input& input, Outputs& outputs) {
+  Mesh mesh = input.mesh();
+  std::size_t weighted = 0;
+  for (const VertexId v : mesh.vertices()) weighted += mesh.weight(v) != 0 ? 1 : 0;
+  mesh = with_weights(std::move(mesh), IdVector<VertexId, double>(mesh.n_vertices(), 0.0));
+  const std::size_t flips = restore_regularity(mesh).flips;
+  std::size_t bad = 0;
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [p, q, r] = mesh.points(t);
+    bad += is_well_centered(mesh.space(), p, q, r) ? 0 : 1;
+  }
+  const std::size_t known = input.file.warnings.size();
+  io::update(input.file, input.loaded, mesh);
+  print_warnings(std::span(input.file.warnings).subspan(known));
+  print_warnings(outputs.write_mesh(s.output, input.file));
+  if (s.json) {
+    print(fmt::format("{{\"zeroed\": {}, \"flips\": {}, \"bad\": {}}}\n", weighted, flips, bad));
+    return Exit::done;
+  }
+  print(fmt::format("{} set to zero, {} flipped, {} not well-centered\nwrote {}\n",
+                    plural(weighted, "weight", "weights"), plural(flips, "edge", "edges"),
+                    plural(bad, "triangle is", "triangles are"), s.output.path));
+  return Exit::done;
+}
+
 Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
   const auto solver = clp_solver();
   const std::optional<ConnectivityReport> search = searched(s, input, *solver);
@@ -273,6 +311,7 @@ Exit run_weights(const Arguments& arguments) {
   outputs.expect_space(s.output, input.file);
   print_warnings(input.warnings());
   if (!s.check.empty()) return check(s, input);
+  if (s.zero) return drop(s, input, outputs);
   if (s.options.constraints == Constraints::regular) s.options.edges = prescribed_edges(s.edges, input);
   return find(s, input, outputs);
 }

@@ -34,14 +34,9 @@ std::vector<std::pair<std::string, std::string>> meanings_of(std::span<const Pre
   return meanings;
 }
 
-void add_target(Command& command, OptimizeSettings& s) {
-  Option& target = add_name(
-      command, "--for", names_of(targets(), true), [&s](std::string_view name) { s.target = name; },
-      "Purpose of the mesh.");
-  target.value_name = "TARGET";
-  target.meanings = meanings_of(targets());
+void add_purpose(Command& command, OptimizeSettings& s) {
+  Option& target = add_target(command, s.target, true);
   target.meanings.emplace_back("paper", "Algorithm 1 of the paper, with the switches of --help-paper");
-  target.defaults_to([&s] { return s.target; });
   add_name(
       command, "--effort", names_of(efforts(), true), [&s](std::string_view name) { s.effort = name; },
       "Time to spend on repairs and lower errors.")
@@ -70,7 +65,7 @@ void add_common(Command& command, OptimizeSettings& s) {
   add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.");
   add_mesh_output(command, s.output, "OUT");
   command.option("--output").sentence = "File for the result. Its suffix selects the format. '-': standard output.";
-  add_target(command, s);
+  add_purpose(command, s);
   add_keep(command, s);
   add_flag_of(command, "boundary", s.assignments).sentence =
       "The boundary stays bit for bit, or its vertices slide along straight pieces, or long edges next to short ones "
@@ -145,6 +140,16 @@ void expect_one_value(const Assignments& assignments) {
 }
 
 }  // namespace
+
+Option& add_target(Command& command, std::string& target, bool research) {
+  Option& option = add_name(
+      command, "--for", names_of(targets(), research), [&target](std::string_view name) { target = name; },
+      "Purpose of the mesh.");
+  option.value_name = "TARGET";
+  option.meanings = meanings_of(targets());
+  option.defaults_to([&target] { return target; });
+  return option;
+}
 
 Command optimize_command(OptimizeSettings& settings) {
   Command command("optimize",

@@ -42,6 +42,9 @@ struct OptimizeSettings {
   io::DataRules rules;  ///< of point_data
 };
 
+/// --for, with the meanings of the targets; also with targets of research.
+Option& add_target(Command& command, std::string& target, bool research);
+
 /// The verb, whose options go into `settings`.
 [[nodiscard]] Command optimize_command(OptimizeSettings& settings);
 

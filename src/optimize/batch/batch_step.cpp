@@ -217,7 +217,7 @@ void BatchStep::settle(const Occupant& occupant, std::size_t lane, const StepOut
     return;
   }
   constexpr bool kMustPay = true;  // of all barriers
-  switch (flipper_.settle({v, from, energy, lower, kMustPay, nullptr, part_})) {
+  switch (flipper_.settle({v, from, energy, lower, kMustPay, nullptr, nullptr, part_})) {
     case Flipper::Settled::done:
       break;
     case Flipper::Settled::undone:

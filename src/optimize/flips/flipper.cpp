@@ -5,6 +5,7 @@
 
 #include "energy/patch.hpp"
 #include "mesh/blocks.hpp"
+#include "optimize/flips/guard.hpp"
 #include "optimize/flips/size_band.hpp"
 #include "regularity/hidden.hpp"
 
@@ -20,9 +21,11 @@ struct FlipWatch {
   std::optional<double>& change;     ///< if present, grows by the change of energy
   std::vector<FlipRecord>* records;  ///< of the trace; null without one
   SizeBand* band;                    ///< or null
+  Guard* guard;                      ///< or null
 
   void before(const Mesh& mesh, HalfedgeId h) {
     if (band != nullptr) band->about_to_flip(h);
+    if (guard != nullptr) guard->about_to_flip(h);
     if (!change && records == nullptr) return;
     const double energy = flip_energy(mesh, model, h);
     if (change) *change -= energy;
@@ -41,9 +44,11 @@ struct FlipWatch {
 }  // namespace
 
 /// Runs Lawson's algorithm on the queued edges. If `change` is present, the flips' change of energy is added to it.
-LawsonRun Flipper::run(std::optional<double>& change, std::size_t max_flips, SizeBand* band, const Part& part) {
+LawsonRun Flipper::run(std::optional<double>& change, std::size_t max_flips, SizeBand* band, Guard* guard,
+                       const Part& part) {
   if (band != nullptr) band->begin_flips();
-  FlipWatch watch{state_.model, change, recorder_.on() ? &records_ : nullptr, band};
+  if (guard != nullptr) guard->begin_flips();
+  FlipWatch watch{state_.model, change, recorder_.on() ? &records_ : nullptr, band, guard};
   return lawson_.run(mesh_, watch, max_flips, PowerTest(), part);
 }
 
@@ -66,13 +71,14 @@ Flipper::Settled Flipper::settle(const Step& step) {
   }
   std::optional<double> change;
   if (step.must_pay) change = step.after - step.before;
-  const LawsonRun result = run(change, kMostFlips, step.band, step.part);
+  const LawsonRun result = run(change, kMostFlips, step.band, step.guard, step.part);
   const bool pays = !change || *change < 0;
   const WeightedPoint there = mesh_.point(step.v);
   // In an unfinished run, the quad of a stuck edge may be partly outside.
   const bool hides = result.finished && !lawson_.stuck(mesh_).empty();
-  const bool leaves_band = step.band != nullptr && !step.band->allow_flips();
-  if (!result.finished || !pays || leaves_band || (hides && !accept_hidden())) {
+  const bool leaves_limits =
+      (step.band != nullptr && !step.band->allow_flips()) || (step.guard != nullptr && !step.guard->allow_flips());
+  if (!result.finished || !pays || leaves_limits || (hides && !accept_hidden())) {
     lawson_.rollback(mesh_);
     mesh_.set_point(step.v, step.origin);
     recorder_.undone(step.v, step.before, change ? step.before + *change : step.after);

@@ -14,6 +14,7 @@
 
 namespace temper {
 
+class Guard;
 class SizeBand;
 
 class Flipper {
@@ -28,6 +29,7 @@ class Flipper {
     double before = 0, after = 0;  ///< energy of v's patch
     bool must_pay = false;         ///< the energy must fall, flips included
     SizeBand* band = nullptr;      ///< of local sizes; flips must not leave it
+    Guard* guard = nullptr;        ///< flips must stay within it
     Part part = {};                ///< to which v and the flips are confined
   };
   /// The step is undone, too, if flips do not pay, hide a vertex against the policy, or would leave the part.
@@ -69,7 +71,8 @@ class Flipper {
   [[nodiscard]] bool has_removed() const { return changes_.removed > 0; }
 
  private:
-  LawsonRun run(std::optional<double>& change, std::size_t max_flips, SizeBand* band = nullptr, const Part& part = {});
+  LawsonRun run(std::optional<double>& change, std::size_t max_flips, SizeBand* band = nullptr, Guard* guard = nullptr,
+                const Part& part = {});
   void push_irregular();
   bool accept_hidden();
   void treat_hidden();

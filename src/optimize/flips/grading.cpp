@@ -22,6 +22,9 @@ constexpr double kLittleRoom = 1.3;
 constexpr double kNoConflict = std::numeric_limits<double>::infinity();
 // Largest number of splits per edge. Corners with few degrees could need more and more splits.
 constexpr std::size_t kMostSplits = 20;
+// Largest number of new vertices per vertex of the input, and in small meshes. Public meshes need at most 27 in small
+// ones, else 0.2 per vertex. In triangles of 0.004 degrees cuts ask for more cuts without end.
+constexpr std::size_t kMostPerVertex = 1, kMostInSmall = 100;
 
 using VertexMarks = IdVector<VertexId, std::uint8_t>;
 
@@ -169,8 +172,12 @@ class Lines {
 
 class BoundaryCutter {
  public:
-  BoundaryCutter(WorkingCopy& work, Flipper& flipper)
-      : work_(work), mesh_(work.mesh), flipper_(flipper), ratio_before_(length_ratio(work.mesh)) {}
+  BoundaryCutter(WorkingCopy& work, Flipper& flipper, const std::shared_ptr<const GuardLimits>& guard)
+      : work_(work),
+        mesh_(work.mesh),
+        flipper_(flipper),
+        guard_(work.mesh, work.units, guard),
+        ratio_before_(length_ratio(work.mesh)) {}
 
   /// Cuts the edge from a towards b. Each cut splits the rest of the edge.
   void cut(const EdgeSplits& edge) {
@@ -215,8 +222,9 @@ class BoundaryCutter {
     const double w = plan_.point.w;
     const TriangleId near = plan_.triangle;
     plan_ = plan_insertion(mesh_, {at.x, at.y, w}, near, std::move(plan_));
-    if (plan_.status != InsertionStatus::possible) return;
+    if (plan_.status != InsertionStatus::possible || !guard_.allows(plan_)) return;
     flipper_.commit(work_, plan_, kNoEnergy, kNoEnergy);
+    guard_.grow();
     ++inside_;
   }
 
@@ -237,18 +245,26 @@ class BoundaryCutter {
     const double w = split_weight(mesh_.weight(a), mesh_.weight(b), l2, t);
     plan_ = plan_split(mesh_, find_edge(a, b), WeightedPoint{at.x, at.y, w}, std::move(plan_));
     const std::pair<VertexId, VertexId> ends = std::minmax(a, b);
-    if (plan_.status != InsertionStatus::possible) {
+    if (plan_.status != InsertionStatus::possible || has_most() || !guard_.allows(plan_)) {
       refused_.insert(ends);
       return {};
     }
     refused_.erase(ends);
     ++vertices_;
-    return flipper_.commit(work_, plan_, kNoEnergy, kNoEnergy);
+    const VertexId fresh = flipper_.commit(work_, plan_, kNoEnergy, kNoEnergy);
+    guard_.grow();
+    return fresh;
+  }
+
+  [[nodiscard]] bool has_most() const {
+    const std::size_t most = std::max(kMostInSmall, kMostPerVertex * work_.n_input_vertices);
+    return work_.n_vertices_named - work_.n_input_vertices >= most;
   }
 
   WorkingCopy& work_;
   Mesh& mesh_;
   Flipper& flipper_;
+  Guard guard_;
   const double ratio_before_;
   InsertionPlan plan_;
   std::size_t vertices_ = 0, conflicts_ = 0, inside_ = 0;
@@ -283,9 +299,9 @@ SplitCounts operator+(const SplitCounts& a, const SplitCounts& b) {
           a.ratio_before,          b.ratio_after};
 }
 
-SplitCounts split_where_bad(WorkingCopy& work, Flipper& flipper) {
+SplitCounts split_where_bad(WorkingCopy& work, Flipper& flipper, const std::shared_ptr<const GuardLimits>& guard) {
   const Mesh& mesh = work.mesh;
-  BoundaryCutter cutter(work, flipper);
+  BoundaryCutter cutter(work, flipper, guard);
   VertexMarks near(mesh.n_vertices(), 0);
   std::vector<std::vector<Ends>> places;  // the lines at each bad triangle, longest first
   for (const TriangleId t : bad_triangles(mesh)) {
@@ -301,8 +317,9 @@ SplitCounts split_where_bad(WorkingCopy& work, Flipper& flipper) {
   return cutter.cuts();
 }
 
-SplitCounts split_boundary(WorkingCopy& work, Flipper& flipper, double ratio) {
-  BoundaryCutter cutter(work, flipper);
+SplitCounts split_boundary(WorkingCopy& work, Flipper& flipper, double ratio,
+                           const std::shared_ptr<const GuardLimits>& guard) {
+  BoundaryCutter cutter(work, flipper, guard);
   // Conflicts come first: after other cuts more splits are needed, and at sharp corners far more.
   cutter.resolve_conflicts();
   for (int pass = 0; pass < kGradingPasses; ++pass) {

@@ -11,6 +11,8 @@
 
 namespace temper {
 
+struct GuardLimits;
+
 /// The paper's switches of a run, and what follows from them for the driver and the steps.
 struct Policy : PaperSwitches {
   Flips flips = Flips::immediate;
@@ -61,10 +63,12 @@ struct Settings {
   EnergyModel collapse_model;                 ///< E_c
   AccuracyModel accuracy;                     ///< of the accuracy objective; has no unit
   std::shared_ptr<const DiscretizationError>
-      errors{};                             ///< errors of the solver, to be lowered or to compare meshes; or null
-  bool lacks_discretization_error = false;  ///< the run would use `errors`, but the build has none
-  std::shared_ptr<LpSolver> lp{};           ///< for repairs, or null
-  std::optional<SizeField> size_field{};    ///< of the size band, in the user's units; absent without a band
+      errors{};                                ///< errors of the solver, to be lowered or to compare meshes; or null
+  bool in_metric = false;                      ///< the mesh is in the plane of a tensor's metric
+  bool lacks_discretization_error = false;     ///< the run would use `errors`, but the build has none
+  std::shared_ptr<LpSolver> lp{};              ///< for repairs, or null
+  std::shared_ptr<const GuardLimits> guard{};  ///< of steps and of the judge, or null
+  std::optional<SizeField> size_field{};       ///< of the size band, in the user's units; absent without a band
 
   [[nodiscard]] const EnergyInfo& energy() const { return energy_info(model.kind); }
   [[nodiscard]] Executor* executor() const { return hooks.executor; }

@@ -135,6 +135,7 @@ using Paper = PaperSwitches;
 constexpr auto kAccuracy = &Options::accuracy;
 constexpr auto kError = &Options::solver_error;
 constexpr auto kPaper = &Options::paper;
+constexpr auto kGuard = &Options::guard;
 
 constexpr OptionRange at_least(double low) { return {.low = low}; }
 constexpr OptionRange more_than(double low) { return {.low = low, .open = true}; }
@@ -410,11 +411,32 @@ constexpr OptionRow kStoppingRows[] = {
                               "Seed of the jitter that frees symmetric grids, of repairs, and of `order=random`"),
 };
 
+constexpr OptionRow kGuardRows[] = {
+    row<kGuard, &GuardOptions::angle>(
+        "guard_angle",
+        "Bound of the guard for the least angle in degrees. The angle never falls below it, or below the least one of "
+        "the input if that is smaller. 60: the input's. 0: no limit",
+        {.range = from_to(0, 60), .needs = {kForAccuracy}}),
+    row<kGuard, &GuardOptions::edge>(
+        "guard_edge", "Bound of the guard for the least length of an inner edge over the size of its triangles",
+        {.range = from_to(0, 1), .needs = {kForAccuracy}}),
+    row<kGuard, &GuardOptions::areas>(
+        "guard_areas", "Bound of the guard for the largest ratio of the areas of two triangles that share an edge",
+        {.range = at_least(1), .needs = {kForAccuracy}}),
+    row<kGuard, &GuardOptions::step>(
+        "guard_step",
+        "Bound of the guard for the time in seconds in which a long wave crosses a triangle or an edge. It holds if "
+        "the mesh has point data with the name depth",
+        {.range = at_least(0),
+         .absent = "no time is shorter than the shortest one of the input",
+         .needs = {kForAccuracy}}),
+};
+
 constexpr OptionGroup kGroups[] = {
     {"Energy", kEnergyRows},     {"Accuracy", kAccuracyRows},
     {"Moves", kMoveRows},        {"Connectivity and constraints", kConnectivityRows},
     {"Size", kSizeRows},         {"The paper's switches", kPaperRows},
-    {"Stopping", kStoppingRows},
+    {"Stopping", kStoppingRows}, {"Guard", kGuardRows},
 };
 
 }  // namespace

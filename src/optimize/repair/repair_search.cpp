@@ -102,6 +102,8 @@ constexpr double kHelps = 0.01;
 constexpr std::uint32_t kSidewaysChoice = 4;
 // Cost of a linear program, in trials.
 constexpr int kTrialsOfAProgram = 20;
+// With a guard a trial takes this many times as long.
+constexpr std::size_t kVisitsByGuard = 4;
 
 bool helps(const LocalDefect& before, const LocalDefect& after) {
   return after.bad < before.bad || (after.bad == before.bad && after.violation < (1 - kHelps) * before.violation);
@@ -129,7 +131,7 @@ bool RepairSearch::improve_one_place() {
   const std::vector<TriangleId>& bad = bad_.empty() ? lacking : bad_;
   // With many bad places, each gets a try.
   const int most_failures = std::max(vertices ? kMostFailures : kMostFailuresOfMoves, static_cast<int>(bad.size()));
-  while (!bad.empty() && failures_ < most_failures && run_.repair_trials_left > 0) {
+  while (!bad.empty() && failures_ < most_failures && run_.repair_trials_left() > 0) {
     const TriangleId seed = bad[rng_.below(static_cast<std::uint32_t>(bad.size()))];
     const Neighborhood around = neighborhood_of(work_.mesh, seed, kRings + (failures_ >= kFailuresBeforeWider ? 1 : 0));
     const auto edit = choose(around, seed);
@@ -164,7 +166,7 @@ void RepairSearch::find_bad() {
 /// is not solved either if no mesh with an edge of the triangle has such weights.
 bool RepairSearch::assigns_weights(TriangleId seed) const {
   const Mesh& mesh = work_.mesh;
-  if (!asks_programs_ || run_.repair_trials_left < kTrialsOfAProgram ||
+  if (!asks_programs_ || run_.repair_trials_left() < kTrialsOfAProgram ||
       settings_.options.unknowns == Unknowns::positions || mesh.space().is_periodic() ||
       std::find(weighed_.begin(), weighed_.end(), seed) != weighed_.end())
     return false;
@@ -184,11 +186,11 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
   for (const auto& tier :
        edits_for(around, assigns_weights(seed), settings_.options.repair == Repair::vertices, rng_)) {
     for (const Edit& edit : tier) {
-      if (run_.repair_trials_left-- <= 0 || run_.asked_to_stop(0)) return best;
-      if (edit.kind == Edit::assign_weights) {
-        weighed_.push_back(seed);
-        run_.repair_trials_left -= kTrialsOfAProgram;
-      }
+      if (run_.repair_trials_left() == 0 || run_.asked_to_stop(0)) return best;
+      const bool program = edit.kind == Edit::assign_weights;
+      if (program) weighed_.push_back(seed);
+      const std::size_t visits = (settings_.guard != nullptr ? kVisitsByGuard : 1) * around.mesh.n_triangles();
+      run_.count_trials(program ? 1 + kTrialsOfAProgram : 1, visits);
       const TrialResult result = try_edit(around, edit, settings_, work_.units, false);
       if (!result.valid) continue;
       tried.push_back({edit, result.defect});

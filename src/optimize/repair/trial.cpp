@@ -174,12 +174,29 @@ class Trial {
     if (edit.kind != Edit::assign_weights) sweep();  // the first γ of sweeps would undo the weights
     TrialResult result;
     result.defect = defect_of(work_.mesh, settings_.accuracy);
-    result.valid = count_non_regular_edges(work_.mesh, false) == 0 && rim_is_regular(around_, work_.mesh);
+    result.valid =
+        count_non_regular_edges(work_.mesh, false) == 0 && rim_is_regular(around_, work_.mesh) && is_guarded();
     result.events = std::move(events_);
     return result;
   }
 
  private:
+  /// Says whether the guard allows the neighborhood as it is now, in place of what it was.
+  [[nodiscard]] bool is_guarded() const {
+    if (settings_.guard == nullptr) return true;
+    const Guard guard(work_.mesh, grid_, settings_.guard);
+    const Guard original(around_.mesh, grid_, settings_.guard);
+    return worst(guard, work_.mesh).hold(worst(original, around_.mesh), guard.limits());
+  }
+  [[nodiscard]] GuardValues worst(const Guard& guard, const Mesh& mesh) const {
+    GuardValues v = guard.worst();
+    for (std::size_t i = 0; i < around_.rim.size(); ++i) {
+      const HalfedgeId h = mesh.find_halfedge(around_.rim[i][0], around_.rim[i][1]);
+      if (h.valid()) v.take(guard.across(h, around_.beyond[i]));
+    }
+    return v;
+  }
+
   /// Newton steps on E_BP by temper's default method, with the unknowns and constraints of the run.
   static Settings of_trial(const Settings& settings, Tracer tracer) {
     OptimizeOptions o;

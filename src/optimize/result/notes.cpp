@@ -35,6 +35,13 @@ class Notes {
       note_splits(*facts.boundary_splits);
     }
     note_input_flips(facts.input_flips);
+    if (facts.guarded) {
+      const std::string beyond =
+          "the first result was beyond `guard_angle`, `guard_edge`, `guard_areas` or `guard_step`";
+      add(beyond + (settings_.guard != nullptr ? ": the run began again within them"
+                                               : ", and is returned: within them more triangles would stay bad. Other "
+                                                 "bounds than the default are kept in any case"));
+    }
     if (facts.weights_shrunk) add("weights left edges uncrossed that a barrier needs crossed: all were made smaller");
     if (facts.energy_rose) add("the energy rose in the last sweeps; the mesh with the least one is returned");
   }
@@ -168,8 +175,9 @@ class Notes {
     }
     if (cuts.refused > 0) {
       add(count_of(cuts.refused, "edge", "edges") +
-          " of the boundary or of lines could not be cut: coordinates are too coarse there, or weights would hide a "
-          "vertex");
+          " of the boundary or of lines could not be cut: coordinates are too coarse there, weights would hide a "
+          "vertex, "
+          "or there would be too many cuts for this mesh");
     }
   }
 
@@ -202,6 +210,11 @@ void add_notes(const Mesh& mesh, const Settings& settings, const RunFacts& facts
     notes.note_input_is_returned(facts, ending.flips_input);
   } else {
     notes.note_facts(facts);
+  }
+  if (facts.gave_up) {
+    notes.add(
+        "in the metric of the tensor most triangles stay bad, so that all vertices stay where they were; "
+        "expected triangles that are long along the larger conductivity");
   }
   const bool barrier = settings.energy().barrier;
   if (!barrier) notes.note_if_more_are_bad(ending.bad_part_before);

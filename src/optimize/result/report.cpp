@@ -132,7 +132,7 @@ void give_back(Mesh& mesh, Candidate best, const Settings& settings, const Sweep
   const double bad_part_before = bad_part(mesh, of_input.counts.bad);
   // Flips that make the input regular have priority over all other criteria.
   const bool may_be_better = before < result.score || result.score.bad > 0 || result.score.non_regular > 0;
-  const bool flips = may_be_better && lacks_flips(of_input.counts, settings, run.facts);
+  bool flips = may_be_better && lacks_flips(of_input.counts, settings, run.facts);
   Result input;
   input.score = before;
   if (flips) {
@@ -142,6 +142,11 @@ void give_back(Mesh& mesh, Candidate best, const Settings& settings, const Sweep
     if (for_accuracy)
       again.emplace(NearbyCopy(mesh, settings.executor()), settings.options.size_field, settings.executor());
     input = result_of(mesh, made_regular(mesh, silent, state, report.sweeps), settings, model, std::move(again));
+    if (input.score.beyond_guard > 0) {  // then the input is better as it was
+      flips = false;
+      input = {};
+      input.score = before;
+    }
   }
   const bool worse = !replaces(result.score, input.score, Requirement::not_worse);
   if (worse) {

@@ -6,6 +6,7 @@
 
 #include "base/sum.hpp"
 #include "energy/whole_mesh.hpp"
+#include "optimize/flips/guard.hpp"
 #include "optimize/run/run.hpp"
 #include "temper/detail/size.hpp"
 #include "temper/regularity.hpp"
@@ -53,14 +54,16 @@ bool has_all_for_accuracy(const Mesh& mesh, const Settings& settings) {
 }
 
 bool replaces(const MeshScore& now, const MeshScore& best, Requirement required) {
+  if (now.beyond_guard != best.beyond_guard) return now.beyond_guard < best.beyond_guard;
   if (required == Requirement::fewer_bad) return now.bad < best.bad;
   if (best < now) return false;
   return required == Requirement::not_worse || now.bad < best.bad || now.missing_lengths < best.missing_lengths;
 }
 
-bool replaces(const Mesh& now, const Mesh& best, Requirement required, const Settings& settings,
+bool replaces(const WorkingCopy& now, const WorkingCopy& best, Requirement required, const Settings& settings,
               const EnergyModel& model) {
-  return replaces(score(now, settings, model), score(best, settings, model), required);
+  return replaces(score(now.mesh, settings, model, nullptr, now.units),
+                  score(best.mesh, settings, model, nullptr, best.units), required);
 }
 
 double root_mean_square(const std::vector<double>& squared_errors) {
@@ -70,13 +73,15 @@ double root_mean_square(const std::vector<double>& squared_errors) {
   return std::exp(0.5 * sum / static_cast<double>(squared_errors.size()));
 }
 
-MeshScore count(const Mesh& mesh, const Settings& settings) {
-  return {settings.policy.allows_inversion() ? count_inverted(mesh) : 0,
+MeshScore count(const Mesh& mesh, const Settings& settings, const WorkingUnits& units) {
+  return {count_beyond(mesh, units, settings.guard, settings.executor()),
+          settings.policy.allows_inversion() ? count_inverted(mesh) : 0,
           count_non_regular_edges(mesh, false, settings.executor()), count_bad(mesh, settings.executor())};
 }
 
-MeshScore score(const Mesh& mesh, const Settings& settings, const EnergyModel& model, const VertexSizes* sizes) {
-  return score(mesh, count(mesh, settings), settings, model, sizes);
+MeshScore score(const Mesh& mesh, const Settings& settings, const EnergyModel& model, const VertexSizes* sizes,
+                const WorkingUnits& units) {
+  return score(mesh, count(mesh, settings, units), settings, model, sizes);
 }
 
 MeshScore score(const Mesh& mesh, const MeshScore& counts, const Settings& settings, const EnergyModel& model,

@@ -7,6 +7,7 @@
 
 #include "energy/accuracy_edge.hpp"
 #include "optimize/options/settings.hpp"
+#include "optimize/working/working_copy.hpp"
 #include "temper/detail/executor.hpp"
 #include "temper/mesh.hpp"
 
@@ -22,11 +23,11 @@ namespace temper {
 /// Says whether the mesh has all margins and lengths that the accuracy objective requires.
 [[nodiscard]] bool has_all_for_accuracy(const Mesh& mesh, const Settings& settings);
 
-/// A smaller score is better. Validity comes first. Then regularity, unless the user keeps hidden vertices. Then, for a
-/// barrier, the number of triangles that are not well-centered. Then the margins of the accuracy objective, and missing
-/// lengths. Then the energy, or the error of the solver.
+/// A smaller score is better. The guard comes first (guard.hpp). Then validity. Then regularity, unless the user keeps
+/// hidden vertices. Then, for a barrier, the number of triangles that are not well-centered. Then the margins of the
+/// accuracy objective, and missing lengths. Then the energy, or the error of the solver.
 struct MeshScore {
-  std::size_t inverted = 0, non_regular = 0, bad = 0;
+  std::size_t beyond_guard = 0, inverted = 0, non_regular = 0, bad = 0;
   bool lacks_margins = false;
   double missing_lengths = 0;  ///< if the options require lengths
   double energy = 0;
@@ -42,18 +43,18 @@ enum class Requirement {
 [[nodiscard]] bool replaces(const MeshScore& now, const MeshScore& best, Requirement required);
 
 /// Counts the parts of a score that do not depend on the energy. Inverted triangles are counted if they are allowed.
-[[nodiscard]] MeshScore count(const Mesh& mesh, const Settings& settings);
+[[nodiscard]] MeshScore count(const Mesh& mesh, const Settings& settings, const WorkingUnits& units = {});
 
 /// Returns the score by the energy `model`; or, with `sizes` at the vertices, by the accuracy objective.
 [[nodiscard]] MeshScore score(const Mesh& mesh, const Settings& settings, const EnergyModel& model,
-                              const VertexSizes* sizes = nullptr);
+                              const VertexSizes* sizes = nullptr, const WorkingUnits& units = {});
 /// Completes the score of a mesh from its counts.
 [[nodiscard]] MeshScore score(const Mesh& mesh, const MeshScore& counts, const Settings& settings,
                               const EnergyModel& model, const VertexSizes* sizes);
 
-/// Says whether a mesh replaces the best one, by the energy `model`.
-[[nodiscard]] bool replaces(const Mesh& now, const Mesh& best, Requirement required, const Settings& settings,
-                            const EnergyModel& model);
+/// Says whether a mesh of the run replaces the best one, by the energy `model`.
+[[nodiscard]] bool replaces(const WorkingCopy& now, const WorkingCopy& best, Requirement required,
+                            const Settings& settings, const EnergyModel& model);
 
 /// Returns the root of the geometric mean of the schemes' squared errors; +∞ without errors.
 [[nodiscard]] double root_mean_square(const std::vector<double>& squared_errors);

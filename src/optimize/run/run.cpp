@@ -94,11 +94,10 @@ void Run::offer(const WorkingCopy& now, const Settings& settings, const SweepSta
   if (!hooks_.best_so_far) return;
   hooks_.best_so_far([&](const std::function<void(const BestSoFar&)>& use) {
     const WorkingCopy* best = &now;
-    if (best_before != nullptr &&
-        !replaces(now.mesh, best_before->mesh, Requirement::not_worse, settings, state.model)) {
+    if (best_before != nullptr && !replaces(now, *best_before, Requirement::not_worse, settings, state.model)) {
       best = best_before;
     }
-    const MeshScore found = score(best->mesh, settings, state.model);
+    const MeshScore found = score(best->mesh, settings, state.model, nullptr, best->units);
     if (found.inverted > 0 || (found.non_regular > 0 && !settings.policy.keeps_connectivity())) return;
     Mesh mesh = best->in_user_terms(settings.executor());
     IdVector<VertexId, VertexId> vertices;
@@ -141,6 +140,14 @@ std::size_t count_inverted(const Mesh& mesh) {
     if (inlined::orientation(mesh, a, b, c) != Sign::positive) ++count;
   }
   return count;
+}
+
+/// Public meshes need at most 500 triangles of trials per triangle of the mesh, or 130,000 if it is small. In thin
+/// triangles a neighborhood reaches across the mesh: without this limit, a mesh of 483 triangles took 50 s.
+double Run::most_trial_triangles(const OptimizeOptions& options, const Mesh& input) {
+  constexpr double kLeast = 150'000, kPerTriangle = 750;
+  const double more = static_cast<double>(options.repair_trials) / OptimizeOptions().repair_trials;
+  return std::max(1.0, more) * (kLeast + kPerTriangle * static_cast<double>(input.n_triangles()));
 }
 
 std::optional<InputError> expect_agreement(const OptimizeHooks& hooks, const OptimizeOptions& options,

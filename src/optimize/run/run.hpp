@@ -1,6 +1,7 @@
 // One run of optimize(): the report that its phases write, the clock, and the caller, who may stop it.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -26,6 +27,8 @@ struct RunFacts {
   SplitCounts splits_where_bad;                ///< at bad triangles, before the last restart with such splits
   bool stays_unsplit = false;                  ///< the boundary, since cuts leave more triangles bad
   bool weights_shrunk = false;                 ///< all weights, since they left edges uncrossed
+  bool gave_up = false;                        ///< in a metric, restarts left most triangles bad
+  bool guarded = false;                        ///< an attempt without the guard went beyond it
   bool energy_rose = false;                    ///< in the last sweeps, which were undone
   bool lacks_programs = false;                 ///< a repair would use linear programs, but the build has no solver
 };
@@ -46,20 +49,39 @@ class Run {
  public:
   /// `input`: the caller's mesh, for the places of vertices that stay.
   Run(const OptimizeOptions& options, const OptimizeHooks& hooks, const Mesh& input)
-      : repair_trials_left(options.repair_trials),
-        options_(options),
+      : options_(options),
         hooks_(hooks),
         input_(input),
         start_(Clock::now()),
-        limit_from_(hooks.started.value_or(start_)) {}
+        limit_from_(hooks.started.value_or(start_)),
+        trials_left_(options.repair_trials),
+        trial_triangles_left_(most_trial_triangles(options, input)) {}
 
   [[nodiscard]] double seconds() const { return seconds_between(start_, Clock::now()); }
-  [[nodiscard]] bool sweeps_left() const { return report.sweeps < options_.max_sweeps; }
+  [[nodiscard]] bool sweeps_left() const { return sweeps() < options_.max_sweeps; }
+  /// Returns the sweeps of this attempt.
+  [[nodiscard]] int sweeps() const { return report.sweeps - sweeps_before_; }
+  /// Begins another attempt from the input, with the same budgets of sweeps and repairs.
+  void begin_again() {
+    sweeps_before_ = report.sweeps;
+    trials_left_ = options_.repair_trials;
+    trial_triangles_left_ = most_trial_triangles(options_, input_);
+    facts = {};
+    facts.guarded = true;
+  }
   /// Returns the number of the next sweep; 0 before the first sweep, while flips make the input regular.
   [[nodiscard]] int next_sweep() const { return report.sweeps == 0 ? 0 : report.sweeps + 1; }
   [[nodiscard]] bool stopped_early() const { return temper::stopped_early(report.stopped); }
   /// Says whether there is time for more.
   [[nodiscard]] bool goes_on() const { return !stopped_early() && sweeps_left(); }
+  /// Returns how many trials repairs may still make. Large neighborhoods use up a second budget, which depends on the
+  /// size of the mesh.
+  [[nodiscard]] int repair_trials_left() const { return trial_triangles_left_ > 0 ? std::max(0, trials_left_) : 0; }
+  /// Counts `trials` trials of a repair on a neighborhood of n triangles.
+  void count_trials(int trials, std::size_t n) {
+    trials_left_ -= trials;
+    trial_triangles_left_ -= static_cast<double>(trials) * static_cast<double>(n);
+  }
   /// Call this before the first sweep. The work so far, copies and measures of the whole mesh, is repeated at the end
   /// and takes about as long. The time limit includes all of it.
   void begin_sweeps() {
@@ -81,7 +103,6 @@ class Run {
 
   OptimizeReport report;
   RunFacts facts;
-  int repair_trials_left;
   const WorkingCopy* best_before = nullptr;  ///< of earlier stages, while a stage works on another mesh
 
  private:
@@ -90,13 +111,17 @@ class Run {
     return std::chrono::duration<double>(to - from).count();
   }
 
+  static double most_trial_triangles(const OptimizeOptions& options, const Mesh& input);
   void ask(double fraction_of_sweep);
 
   const OptimizeOptions& options_;
   const OptimizeHooks& hooks_;
   const Mesh& input_;
   Clock::time_point start_, limit_from_;
-  double ending_seconds_ = 0;  // estimated time from the last sweep to the end
+  int sweeps_before_ = 0;  // of earlier attempts
+  int trials_left_;
+  double trial_triangles_left_;  // triangles of all trials together
+  double ending_seconds_ = 0;    // estimated time from the last sweep to the end
 };
 
 // All ranks of a run must get the same input. Otherwise they wait for each other forever.

@@ -7,6 +7,7 @@
 #include "base/sum.hpp"
 #include "energy/whole_mesh.hpp"
 #include "mesh/blocks.hpp"
+#include "optimize/flips/guard.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/trace/recorder.hpp"
 #include "temper/detail/discretization_error.hpp"
@@ -99,6 +100,7 @@ SolverErrorPhase::SolverErrorPhase(WorkingCopy& work, const Settings& settings, 
 
 void SolverErrorPhase::begin() {
   raise_floors();
+  beyond_guard_ = count_beyond(mesh_, units_, settings_.guard, settings_.executor());
   start_ = settings_.errors->errors(mesh_, settings_.executor());
   now_ = value();
   history_ = {now_.lowered};
@@ -205,6 +207,7 @@ void SolverErrorPhase::add_gradient_of_energy(double factor, IdVector<VertexId, 
 /// Says exactly whether all triangles are well-centered and above their floors.
 bool SolverErrorPhase::is_inside() const {
   if (count_bad(mesh_, settings_.executor()) > bad_) return false;
+  if (count_beyond(mesh_, units_, settings_.guard, settings_.executor()) > beyond_guard_) return false;
   return std::all_of(mesh_.triangles().begin(), mesh_.triangles().end(), [this](TriangleId t) {
     return !domain_.floors.has(t) || triangle_margin(mesh_, t) > domain_.floors[t];
   });
@@ -220,7 +223,7 @@ void SolverErrorPhase::place(const IdVector<VertexId, WeightedPoint>& from, cons
       p.x = to.x, p.y = to.y;
     }
     p.w += s * domain_.sizes[v] * by[2];
-    mesh_.set_point(v, t == 0 ? from[v] : p);
+    mesh_.set_point(v, t == 0 || p == from[v] ? from[v] : p);
   }
 }
 

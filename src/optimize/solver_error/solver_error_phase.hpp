@@ -68,7 +68,8 @@ class SolverErrorPhase final : public SizedPhase {
 
   const WorkingUnits& units_;
   IdVector<VertexId, Dofs> dofs_;
-  std::vector<double> start_;  // errors at the start
+  std::vector<double> start_;     // errors at the start
+  std::size_t beyond_guard_ = 0;  // triangles at the start
   Value now_;
   Descent descent_;
   bool stuck_ = false;           // no step lowers the objective

@@ -208,8 +208,9 @@ void Driver::shift_weights_to_anchor() {
 
 void Driver::set_point(VertexId v, const WeightedPoint& p) {
   const WeightedPoint from = mesh_.point(v);
+  if (p == from) return;
   mesh_.set_point(v, p);
-  if (!(p == from)) recorder_.placed(v, from, p, kNoEnergy, kNoEnergy);
+  recorder_.placed(v, from, p, kNoEnergy, kNoEnergy);
 }
 
 void Driver::set_weight(VertexId v, double w) { set_point(v, mesh_.space().with_weight(mesh_.point(v), w)); }
@@ -239,14 +240,14 @@ bool Driver::make_regular() {
 void Driver::grade_boundary() {
   if (settings_.options.boundary != BoundaryVertices::split) return;
   TEMPER_ASSERT_SLOW(settings_.policy.keeps_hidden() || count_non_regular_edges(mesh_, false) == 0);
-  const SplitCounts cuts = split_boundary(work_, flipper_, settings_.options.boundary_ratio);
+  const SplitCounts cuts = split_boundary(work_, flipper_, settings_.options.boundary_ratio, settings_.guard);
   grow();
   TEMPER_ASSERT_SLOW(settings_.policy.keeps_hidden() || count_non_regular_edges(mesh_, false) == 0);
   run_.facts.boundary_splits = cuts;  // the same in each restart
 }
 
 void Driver::split_where_bad() {
-  run_.facts.splits_where_bad = temper::split_where_bad(work_, flipper_);
+  run_.facts.splits_where_bad = temper::split_where_bad(work_, flipper_, settings_.guard);
   grow();
 }
 

@@ -139,13 +139,13 @@ void note_splits(const Restart& restart, RunFacts& facts) {
 bool has_gained(const Candidate& now, const Candidate& before, const Settings& settings, const EnergyModel& model) {
   const bool same_vertices = now.work.n_vertices_named == before.work.n_vertices_named &&
                              now.work.mesh.n_vertices() == before.work.mesh.n_vertices();
-  return replaces(now.work.mesh, before.work.mesh, same_vertices ? Requirement::not_worse : Requirement::cures,
-                  settings, model);
+  return replaces(now.work, before.work, same_vertices ? Requirement::not_worse : Requirement::cures, settings, model);
 }
 
 Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, SweepState& state, Run& run) {
   std::optional<Candidate> best;
   std::vector<Restart> all(1);
+  const std::size_t flips = run.report.flips;
   std::size_t left = 0;  // bad triangles of the last restart that was not kept
   bool renewed = false;  // whether the best mesh is new since cuts at bad triangles failed
   // The second restart from the same beginning is more thorough and takes many sweeps. It does not help if the first
@@ -167,7 +167,7 @@ Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, Swe
     if (!best) {
       if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
       all = restarts_for(now.work.mesh, settings);
-      run.facts.input_flips = run.report.flips;
+      run.facts.input_flips = run.report.flips - flips;
     }
     input.drop_twins();
     const Restart& restart = all[i];
@@ -175,7 +175,7 @@ Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, Swe
     // The user asks for cuts, so a mesh without them must have fewer bad triangles.
     const Requirement required =
         restart.splitting == BoundarySplitting::graded ? Requirement::not_worse : Requirement::fewer_bad;
-    if (!best || replaces(now.work.mesh, best->work.mesh, required, settings, state.model)) {
+    if (!best || replaces(now.work, best->work, required, settings, state.model)) {
       best = std::move(now);
       left = 0;
       renewed = true;
@@ -195,7 +195,7 @@ Candidate reweighted(Candidate best, InputMesh& input, const Settings& settings,
   own.options.unknowns = Unknowns::weights;
   std::vector<Restart> planned(1);
   const bool may = settings.options.unknowns == Unknowns::positions_and_weights && repairs(settings) &&
-                   run.report.sweeps <= settings.options.max_sweeps / 2;  // the rest is for repairs
+                   run.sweeps() <= settings.options.max_sweeps / 2;  // the rest is for repairs
   if (!may || !run.goes_on() || !has_bad(best, settings) || are_apart(best, settings)) return best;
   const BestBefore kept(run.best_before, &best.work);
   for (std::size_t i = 0; i < planned.size(); ++i) {
@@ -210,7 +210,7 @@ Candidate reweighted(Candidate best, InputMesh& input, const Settings& settings,
       break;
     }
     now.sweep = driver.restart(planned[i], true);
-    if (replaces(now.work.mesh, best.work.mesh, Requirement::fewer_bad, settings, state.model)) {
+    if (replaces(now.work, best.work, Requirement::fewer_bad, settings, state.model)) {
       best = std::move(now);
       run.facts.stays_unsplit = settings.options.boundary == BoundaryVertices::split;
     } else {
@@ -223,7 +223,7 @@ Candidate reweighted(Candidate best, InputMesh& input, const Settings& settings,
 
 Candidate repaired(Candidate best, const Settings& settings, SweepState& state, Run& run) {
   const auto is_done = [&](const Candidate& c) {
-    return !run.goes_on() || run.repair_trials_left <= 0 || !needs_repair(c, settings);
+    return !run.goes_on() || run.repair_trials_left() == 0 || !needs_repair(c, settings);
   };
   const std::uint64_t searches = settings.lp != nullptr ? kSearches + 1 : kSearches;
   std::optional<Candidate> start;  // beginning of all searches on copies, if it is no longer the best mesh

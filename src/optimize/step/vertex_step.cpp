@@ -60,7 +60,7 @@ bool VertexStep::improve(VertexId v, const Part& part) {
 }
 
 bool VertexStep::suits_batches() const {
-  const bool only_steps = !collapses_ && !removes_ && !limits.band.on();
+  const bool only_steps = !collapses_ && !removes_ && !limits.in_order();
   return only_steps && (star_->keeps_edges_regular || makes_newton_steps());
 }
 
@@ -78,6 +78,7 @@ bool VertexStep::collapse(VertexId v) {
   plan_ = plan_removal(mesh, v, std::move(plan_));
   if (plan_.status != RemovalStatus::possible) return false;
   if (!settings.policy.defers_flips() && !is_regular(mesh, plan_)) return false;
+  if (!limits.guard.allows(plan_)) return false;
   flipper_.remove(EventKind::collapse, plan_, patch_energy(collapsing_, model, mesh.point(v)),
                   cavity_energy(mesh, model, plan_));
   return true;
@@ -96,6 +97,7 @@ void VertexStep::remove_if_better(VertexId v) {
   const PatchComparison e = compare_patch(mesh, star_->patch(), state.model, plan_, o.removal_measure);
   if (!by_weight && !is_better(e.without, e.with, o.removal_margin)) return;
   if (!settings.policy.defers_flips() && !is_regular(mesh, plan_)) return;
+  if (!limits.guard.allows(plan_)) return;
   flipper_.remove(EventKind::removal, plan_, e.with, e.without);
 }
 
@@ -169,7 +171,8 @@ double VertexStep::flip_limited(const Step& step, double t) const {
 
 WeightedPoint VertexStep::moved(const Step& step, double t) const {
   const WeightedPoint p = along(mesh.space(), origin_, step, t);
-  if (!mesh.space().is_plane() || (step[0] == 0 && step[1] == 0)) return p;
+  if (!mesh.space().is_plane()) return p;
+  if (step[0] == 0 && step[1] == 0) return {origin_.x, origin_.y, p.w};  // bit for bit: −0 + 0 is +0
   const Vec2 x = units.snap(p.position());
   return {x.x, x.y, p.w};
 }
@@ -262,14 +265,15 @@ bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
   mesh.set_point(vertex_, p);
   if (!keeps_connectivity() && settings.policy.flips_at_once()) {
     SizeBand* const band = limits.band.on() ? &limits.band : nullptr;
-    const auto settled = flipper_.settle({vertex_, origin_, energy_, energy, must_pay, band, part_});
+    Guard* const guard = limits.guard.on() ? &limits.guard : nullptr;
+    const auto settled = flipper_.settle({vertex_, origin_, energy_, energy, must_pay, band, guard, part_});
     escapes_ = settled == Flipper::Settled::escaped;
-    if (settled == Flipper::Settled::done && !only_weight) limits.band.moved(vertex_);
+    if (settled == Flipper::Settled::done && !only_weight) limits.moved(vertex_);
     return settled == Flipper::Settled::done;
   }
   const bool fits = !may_break_edges ||
                     std::all_of(regular_.begin(), regular_.end(), [this](HalfedgeId e) { return is_regular(mesh, e); });
-  if (fits && !only_weight) limits.band.moved(vertex_);
+  if (fits && !only_weight) limits.moved(vertex_);
   if (fits) {
     recorder.placed(vertex_, origin_, p, energy_, energy);
   } else {
@@ -278,10 +282,10 @@ bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
   return fits;
 }
 
-/// Says whether the band allows p. Call it before place(), which gives the band the new place of the vertex.
+/// Says whether band and guard allow p. Call it before place(), which gives them the new place of the vertex.
 bool VertexStep::keeps_size(const WeightedPoint& p) {
   const bool only_weight = mesh.space().same_place(p, origin_);
-  return only_weight || !limits.band.on() || limits.band.allows(star_->patch(), p.position());
+  return only_weight || limits.allow(star_->patch(), p);
 }
 
 /// Thresholds are computed in doubles, but an exact test decides whether an edge would flip.
@@ -296,6 +300,9 @@ void VertexStep::nudge(VertexId v, Vec2 by) {
   energy_ = star_->value(origin_);
   const WeightedPoint there = moved({by.x, by.y, 0}, 1);
   if (star_->is_valid(there) && keeps_size(there)) place(there, star_->value(there), false);
+  if (!waiting_) return;
+  recorder.placed(v, waiting_->from, mesh.point(v), waiting_->before, waiting_->after);  // v stays there
+  waiting_.reset();
 }
 
 void VertexStep::shake(double amount, Rng& rng) {

@@ -8,6 +8,7 @@
 
 #include "base/rng.hpp"
 #include "optimize/flips/flipper.hpp"
+#include "optimize/flips/guard.hpp"
 #include "optimize/flips/partition.hpp"
 #include "optimize/flips/size_band.hpp"
 #include "optimize/options/settings.hpp"
@@ -20,18 +21,32 @@
 
 namespace temper {
 
-/// The limits of each vertex: mobility and size band, shared by all that make steps on one mesh.
+/// The limits of each vertex: mobility, size band and guard, shared by all that make steps on one mesh.
 struct VertexLimits {
   VertexLimits(const Mesh& mesh, const Settings& settings, const WorkingUnits& units)
       : mobility(mobilities(mesh, settings.options, settings.executor())),
         degree(mesh.n_vertices(), 0),
         band(mesh, units, settings.size_field, settings.options.size_band),
+        guard(mesh, units, settings.guard),
         mesh_(mesh),
         options_(settings.options) {}
 
   IdVector<VertexId, Mobility> mobility;
   IdVector<VertexId, std::uint8_t> degree;  ///< number of triangles when a batch last took the vertex; 0: never
   SizeBand band;                            ///< keeps its last query, so with a band only one step runs at a time
+  Guard guard;                              ///< as the band does
+
+  /// Says whether one step may run at a time only.
+  [[nodiscard]] bool in_order() const { return band.on() || guard.on(); }
+  /// Says whether the center of the patch may go to p.
+  [[nodiscard]] bool allow(const Patch& patch, const WeightedPoint& p) {
+    return (!band.on() || band.allows(patch, p.position())) && (!guard.on() || guard.allows_move(patch.center, p));
+  }
+  /// Call this if it has gone to the p of the last allow().
+  void moved(VertexId v) {
+    band.moved(v);
+    guard.moved(v);
+  }
 
   /// Fixes the position and weight of v.
   void freeze(VertexId v) { mobility[v] = Mobility::frozen; }
@@ -40,6 +55,7 @@ struct VertexLimits {
     mobility = kept_of(mobility, kept.vertices);
     degree.resize(mobility.size());
     band.renumber(kept);
+    guard.renumber(kept);
   }
   /// Follows insertions and splits: new vertices are the last vertices of the mesh.
   void grow() {
@@ -48,6 +64,7 @@ struct VertexLimits {
     }
     degree.resize(mobility.size());
     band.grow();
+    guard.grow();
   }
 
  private:

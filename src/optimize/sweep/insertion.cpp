@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "optimize/flips/guard.hpp"
 #include "optimize/step/removal.hpp"
 #include "temper/detail/geometry.hpp"
 #include "topology/locate.hpp"
@@ -47,6 +48,7 @@ bool insert_where_energy_is_large(WorkingCopy& work, Flipper& flipper, const Set
     if (const double energy = own_energy(mesh, model, t); energy > limit) large.emplace_back(energy, t);
   }
   std::stable_sort(large.begin(), large.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  Guard guard(mesh, work.units, settings.guard);
   bool inserted = false;
   for (const auto& [energy_before, t] : large) {
     if (!(own_energy(mesh, model, t) > limit)) continue;  // earlier insertions may have changed it
@@ -54,7 +56,9 @@ bool insert_where_energy_is_large(WorkingCopy& work, Flipper& flipper, const Set
     if (plan.status != InsertionStatus::possible) continue;
     const PatchComparison e = compare_patch(mesh, model, plan, settings.policy.removal_measure);
     if (!is_better(e.with, e.without, settings.policy.removal_margin)) continue;
+    if (!guard.allows(plan)) continue;
     flipper.commit(work, plan, e.without, e.with);
+    guard.grow();
     inserted = true;
   }
   return inserted;

@@ -1,5 +1,7 @@
 #include "optimize/trace/recorder.hpp"
 
+#include <cmath>
+
 #include "temper/detail/trace.hpp"
 
 namespace temper {
@@ -30,7 +32,9 @@ void Recorder::record(TraceEvent e) const {
 void Recorder::placed(VertexId v, const WeightedPoint& from, const WeightedPoint& to, double before,
                       double after) const {
   if (!on()) return;
-  const bool moves = !work_.mesh.space().is_plane() || from.x != to.x || from.y != to.y;
+  // A zero may change its sign, and a replay must do so, too.
+  const auto differ = [](double x, double y) { return x != y || std::signbit(x) != std::signbit(y); };
+  const bool moves = !work_.mesh.space().is_plane() || differ(from.x, to.x) || differ(from.y, to.y);
   record({.kind = moves ? EventKind::move : EventKind::weight,
           .vertex = v,
           .before = before,

@@ -232,5 +232,19 @@ TEST_F(Draw, SpheresAreDrawnFromWhereOneLooks) {
   EXPECT_FALSE(exists("x.svg"));
 }
 
+TEST_F(Convert, MergesPointsThatACheckNames) {
+  write("in.off",
+        "OFF\n8 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n1.000000001 0 0\n2 0 0\n2 1 0\n1.000000001 1 0\n"
+        "3 0 1 2\n3 0 2 3\n3 4 5 6\n3 4 6 7\n");
+  const std::string crack = temper_ok({"check", "in.off"}).err;
+  EXPECT_TRUE(contains(crack, "2 pairs of boundary points are")) << crack;
+  EXPECT_TRUE(contains(crack, "at (1, 0); the widest is 1e-09")) << crack;
+  EXPECT_TRUE(contains(crack, "temper convert in.off --merge 1e-08 -o OUT")) << crack;
+  EXPECT_TRUE(contains(temper_ok({"convert", "in.off", "--merge", "1e-08", "-o", "out.off"}).out, "2 points merged"));
+  EXPECT_TRUE(contains(read("out.off"), "6 4"));
+  EXPECT_EQ(temper_ok({"check", "out.off"}).err, "");
+  EXPECT_TRUE(contains(temper({"convert", "in.off", "--merge", "1", "-o", "o.off"}).err, "two corners of triangle 0"));
+}
+
 }  // namespace
 }  // namespace temper::test

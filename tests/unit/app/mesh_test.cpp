@@ -45,6 +45,19 @@ TEST_F(MeshVerb, OneCommandMakesAWellCenteredMeshThatKeepsTheOutline) {
   EXPECT_GT(constrained, 4u);
 }
 
+TEST_F(MeshVerb, ATargetWithoutWeightsMakesNone) {
+  make_outline();
+  for (const char* target : {"mpas", "fem", "any"}) {
+    temper_ok({"mesh", "in.poly", "-o", "out.vtu", "--size", "0.2", "--for", target, "--write", "r.json"});
+    const auto mesh = io::make_mesh(*io::read("out.vtu"))->mesh;
+    std::size_t weights = 0;
+    for (const VertexId v : mesh.vertices()) weights += mesh.weight(v) != 0 ? 1 : 0;
+    EXPECT_EQ(weights > 0, target == std::string("any")) << target;
+    EXPECT_LT(2 * read_json("r.json")["bad"].get<int>(), read_json("r.json")["delaunay_bad"].get<int>()) << target;
+  }
+  EXPECT_EQ(temper({"mesh", "in.poly", "-o", "o.vtu", "--size", "0.2", "--for", "mpas", "--no-optimize"}).exit, 2);
+}
+
 TEST_F(MeshVerb, ExitsWith4JustWhereTheTimeLimitEndsTheRun) {
   make_outline();
   int cut = 0;

@@ -1,6 +1,7 @@
 // temper weights: every mode, what it writes, and that nothing else changes.
 #include "temper/feasibility.hpp"
 #include "temper/io.hpp"
+#include "temper/regularity.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -244,6 +245,26 @@ TEST_F(Weights, BadUsageIsRefused) {
     EXPECT_EQ(temper(arguments).exit, 2) << arguments.back();
   }
   EXPECT_EQ(names(), std::vector<std::string>{"in.vtu"});
+}
+
+TEST_F(Weights, AreSetToZero) {
+  temper_ok({"example", "random", "--vertices", "60", "-o", "in.vtu"});
+  temper_ok({"optimize", "in.vtu", "-o", "heavy.vtu", "--effort", "quick", "--quiet"});
+  const Outcome outcome = temper_ok({"weights", "heavy.vtu", "-o", "plain.vtu", "--zero"});
+  EXPECT_TRUE(contains(outcome.out, "set to zero, ")) << outcome.out;
+  const Mesh plain = io::make_mesh(*io::read("plain.vtu"))->mesh, heavy = io::make_mesh(*io::read("heavy.vtu"))->mesh;
+  std::size_t weights = 0;
+  for (const VertexId v : plain.vertices()) {
+    EXPECT_EQ(plain.weight(v), 0);
+    EXPECT_EQ(plain.position(v), heavy.position(v));
+    weights += heavy.weight(v) != 0 ? 1 : 0;
+  }
+  EXPECT_GT(weights, 10u);
+  EXPECT_EQ(count_non_regular_edges(plain, false), 0u);
+  EXPECT_EQ(temper({"optimize", "plain.vtu", "-o", "o.vtu", "--for", "mpas", "--effort", "quick", "--quiet"}).err, "");
+  EXPECT_TRUE(contains(temper({"optimize", "heavy.vtu", "-o", "o.vtu", "--for", "fem", "--effort", "quick"}).err,
+                       "temper weights heavy.vtu --zero"));
+  EXPECT_EQ(temper({"weights", "heavy.vtu", "-o", "o.vtu", "--zero", "--mode", "elastic"}).exit, 2);
 }
 
 }  // namespace

@@ -11,10 +11,10 @@ namespace {
 /// All scores of two values in each place, the better ones first.
 std::vector<MeshScore> ascending_scores() {
   std::vector<MeshScore> scores;
-  for (std::size_t i = 0; i < 64; ++i) {
-    const auto bit = [i](int k) { return i >> (5 - k) & 1; };
-    scores.push_back({bit(0), bit(1), bit(2), bit(3) != 0, 0.25 * static_cast<double>(bit(4)),
-                      1.5 - 1 / (1 + static_cast<double>(bit(5)))});
+  for (std::size_t i = 0; i < 128; ++i) {
+    const auto bit = [i](int k) { return i >> (6 - k) & 1; };
+    scores.push_back({bit(0), bit(1), bit(2), bit(3), bit(4) != 0, 0.25 * static_cast<double>(bit(5)),
+                      1.5 - 1 / (1 + static_cast<double>(bit(6)))});
   }
   return scores;
 }
@@ -25,9 +25,12 @@ TEST(Judge, ReplacesByTheFirstPlaceThatDiffersAndKeepsTiesOnlyWhereTheyWillDo) {
     for (std::size_t j = 0; j < scores.size(); ++j) {
       SCOPED_TRACE(testing::Message() << i << " for " << j);
       const MeshScore &now = scores[i], &best = scores[j];
-      const bool cures = now.bad < best.bad || now.missing_lengths < best.missing_lengths;
+      const bool cures =
+          now.beyond_guard < best.beyond_guard || now.bad < best.bad || now.missing_lengths < best.missing_lengths;
       ASSERT_EQ(replaces(now, best, Requirement::not_worse), i <= j);
-      ASSERT_EQ(replaces(now, best, Requirement::fewer_bad), now.bad < best.bad);
+      const bool fewer =
+          now.beyond_guard != best.beyond_guard ? now.beyond_guard < best.beyond_guard : now.bad < best.bad;
+      ASSERT_EQ(replaces(now, best, Requirement::fewer_bad), fewer);
       ASSERT_EQ(replaces(now, best, Requirement::cures), i <= j && cures);
     }
   }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
 #include <map>
 #include <string>
 #include <utility>
@@ -158,6 +160,35 @@ TEST(Trace, ChangesNothing) {
     ASSERT_EQ(a.has_value(), b.has_value()) << title;
     EXPECT_EQ(traced, silent) << title;
   }
+}
+
+// -0 == 0, so equal meshes are not enough.
+TEST(Trace, MakesTheSameBits) {
+  std::size_t zeros = 0, undone = 0;
+  OptimizeOptions deferred{.unknowns = Unknowns::positions, .repair = Repair::none, .max_sweeps = 60};
+  deferred.paper.position_updates = Updates::deferred;  // the second restart begins with a jitter
+  for (const OptimizeOptions& options : {OptimizeOptions{.max_sweeps = 40}, deferred}) {
+    Mesh input = *random_mesh({.vertices = 40});
+    for (const VertexId v : input.vertices()) {
+      const auto [x, y, w] = input.point(v);
+      input.set_point(v, {x == 0 ? -0.0 : x, y == 0 ? -0.0 : y, w});
+    }
+    std::vector<TraceEvent> events;
+    Mesh mesh = input;
+    ASSERT_TRUE(optimize(mesh, options, {.tracer = [&](const TraceEvent& e) { events.push_back(e); }}));
+    const auto again = replay(input, events);
+    ASSERT_TRUE(again);
+    for (const VertexId v : mesh.vertices()) {
+      const WeightedPoint p = mesh.point(v), q = again->point(v), old = input.point(v);
+      EXPECT_EQ(std::memcmp(&p, &q, sizeof p), 0);
+      if (!mesh.is_boundary(v)) continue;
+      EXPECT_EQ(std::memcmp(&p, &old, 2 * sizeof p.x), 0) << "the boundary stays bit for bit";
+      zeros += std::signbit(old.x) || std::signbit(old.y) ? 1 : 0;
+    }
+    for (const TraceEvent& e : events) undone += e.kind == EventKind::undo && e.to_sweep == -1 ? 1 : 0;
+  }
+  EXPECT_GT(zeros, 4u);
+  EXPECT_GT(undone, 0u);
 }
 
 TEST(Trace, SweepsNeverGoDown) {

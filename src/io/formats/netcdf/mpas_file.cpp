@@ -342,8 +342,8 @@ void warn_of_offsets(const WriteJob& job, const NetcdfMesh& m) {
   job.warn("with weights, ", visible, " of ", m.complex.edges.size(),
            " edges are crossed more than 1 % of dcEdge away from the middle of their cells, up to ",
            std::round(1000 * most) / 10,
-           " %. Models such as MPAS use xEdge as the midpoint, and need a mesh without weights. Next: temper optimize "
-           "--for mpas, on a mesh without weights");
+           " %. Models such as MPAS use xEdge as the midpoint, and need a mesh without weights. Next: temper weights "
+           "IN --zero -o PLAIN, then temper optimize PLAIN --for mpas");
 }
 
 }  // namespace

@@ -1,0 +1,133 @@
+#include "files/close_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <variant>
+
+#include "console.hpp"
+#include "exit.hpp"
+
+namespace temper::app {
+namespace {
+
+// A crack is narrower than this part of the boundary edges at it.
+constexpr double kCrack = 1e-6;
+
+std::vector<Vec3> places_of(const io::MeshFile& file) {
+  if (const io::SpherePoints* sphere = file.sphere()) return sphere->places;
+  std::vector<Vec3> places;
+  places.reserve(file.points.size());
+  for (const Vec2 p : file.points) places.push_back({p.x, p.y, 0});
+  return places;
+}
+
+/// Keeps the tuples whose points stay.
+template <class T>
+void keep(std::vector<T>& values, const std::vector<bool>& stays, std::size_t components = 1) {
+  std::size_t to = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (stays[i / components]) values[to++] = values[i];
+  }
+  values.resize(to);
+}
+
+}  // namespace
+
+/// Sorts by a direction in which rows of grids do not coincide.
+std::vector<std::pair<std::size_t, std::size_t>> pairs_within(std::span<const Vec3> points, double radius) {
+  constexpr Vec3 kDirection = {0.3717, 0.5573, 0.7425};  // shorter than 1
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < points.size(); ++i) order.emplace_back(dot(kDirection, points[i]), i);
+  std::sort(order.begin(), order.end());
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t j = i + 1; j < order.size() && order[j].first - order[i].first <= radius; ++j) {
+      const std::pair<std::size_t, std::size_t> pair = std::minmax(order[i].second, order[j].second);
+      if (length(points[pair.second] - points[pair.first]) <= radius) pairs.push_back(pair);
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::string crack_warning(const Input& input) {
+  const Mesh& mesh = input.mesh();
+  std::vector<VertexId> vertices;
+  std::vector<Vec3> places;
+  std::vector<double> widths;  // below which a crack is meant
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_boundary(h)) continue;
+    const VertexId v = mesh.origin(h);
+    const WeightedPoint p = mesh.point(v), q = mesh.point(mesh.target(h), p);
+    vertices.push_back(v);
+    places.push_back(mesh.space().place(p));
+    widths.push_back(kCrack * length(mesh.space().place(q) - places.back()));
+  }
+  if (widths.empty()) return {};
+  std::size_t n = 0;
+  double widest = 0;
+  std::pair<std::size_t, std::size_t> first;
+  for (const auto& [i, j] : pairs_within(places, *std::max_element(widths.begin(), widths.end()))) {
+    const double width = length(places[j] - places[i]);
+    if (vertices[i] == vertices[j] || width > std::min(widths[i], widths[j])) continue;
+    if (n++ == 0) first = {i, j};
+    widest = std::max(widest, width);
+  }
+  if (n == 0) return {};
+  const Vec2 at = mesh.space().as_shown(places[first.first]);
+  const std::string radius = widest > 0 ? fmt::format("{:.0e}", 10 * widest) : "0";
+  return fmt::format(
+      "{}: {} nearly at one place, as if the mesh had a crack: first {} and {} at ({:.6g}, {:.6g}); "
+      "the widest is {:.3g}. Next: temper convert {} --merge {} -o OUT joins them",
+      input.path, plural(n, "pair of boundary points is", "pairs of boundary points are"),
+      input.names->point(vertices[first.first].index), input.names->point(vertices[first.second].index), at.x, at.y,
+      widest, input.path, radius);
+}
+
+std::size_t merge_points(io::MeshFile& file, double radius) {
+  const std::vector<Vec3> places = places_of(file);
+  std::vector<std::size_t> first(places.size());  // of the points at the same place
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  const auto root = [&](std::size_t i) {
+    while (first[i] != i) i = first[i] = first[first[i]];
+    return i;
+  };
+  for (const auto& [i, j] : pairs_within(places, radius)) {
+    const auto [less, more] = std::minmax({root(i), root(j)});
+    first[more] = less;
+  }
+  std::vector<bool> stays(places.size());
+  std::vector<std::int32_t> number(places.size());
+  std::int32_t n = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    stays[i] = root(i) == i;
+    number[i] = stays[i] ? n++ : number[root(i)];
+  }
+  const std::size_t gone = places.size() - static_cast<std::size_t>(n);
+  if (gone == 0) return 0;
+  const auto renumber = [&](std::int32_t& point) { point = number[static_cast<std::size_t>(point)]; };
+  for (std::size_t t = 0; t < file.triangles.size(); ++t) {
+    auto& [a, b, c] = file.triangles[t];
+    for (std::int32_t* corner : {&a, &b, &c}) renumber(*corner);
+    if (a != b && b != c && c != a) continue;
+    const std::string name = file.numbering ? file.numbering->triangle(t) : InputNames().triangle(t);
+    throw Failure(Exit::bad_input,
+                  fmt::format("{}: --merge {} makes two corners of {} one; expected less than its edges", file.path,
+                              radius, name));
+  }
+  for (auto& line : file.lines) std::ranges::for_each(line, renumber);
+  std::ranges::for_each(file.marked_points, renumber);
+  keep(file.points, stays);
+  if (!file.weights.empty()) keep(file.weights, stays);
+  if (auto* sphere = std::get_if<io::SpherePoints>(&file.points_in)) keep(sphere->places, stays);
+  for (io::DataArray& array : file.point_data) {
+    std::visit([&](auto& values) { keep(values, stays, static_cast<std::size_t>(array.components)); }, array.values);
+  }
+  file.numbering = nullptr;  // points have other numbers now
+  return gone;
+}
+
+}  // namespace temper::app
