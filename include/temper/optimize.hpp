@@ -263,20 +263,20 @@ struct PaperSwitches {
   friend bool operator==(const PaperSwitches&, const PaperSwitches&) = default;
 };
 
-/// Bounds of the guard. A run for accuracy or the error of a solver makes none of these measures worse than in the
-/// input, or than the bound: the worse of the two is the limit. If a run cannot keep the limits, the input is returned.
+/// The guard: a run for accuracy or the error of a solver makes none of these measures worse than in the input, or than
+/// a bound. The worse of the two is the limit. If a run cannot keep the limits, the input is returned. By default there
+/// are no limits. With the guard, sweeps go vertex by vertex on one thread.
 struct GuardOptions {
-  double angle = 10;  ///< Bound of the least angle [degrees], in [0, 60]. 60: the input's. 0: no limit
-  /// Bound of the least length of an inner edge over the size of its two triangles, in [0, 1]. 0: no limit.
-  double edge = 0.2;
-  double areas = 8;  ///< Bound of the largest ratio of the areas of two triangles that share an edge, >= 1
+  double angle = 0;  ///< Bound of the least angle [degrees], in [0, 60]. 60: the input's. 0: no limit
+  /// Bound of the least length of an inner edge over the size of its two triangles, in [0, 1]. 1: the input's. 0: no
+  /// limit.
+  double edge = 0;
+  /// Bound of the largest ratio of the areas of two triangles that share an edge, >= 1. 1: the input's. 0: no limit.
+  double areas = 0;
   /// Bound of the least time [s] in which a long wave crosses a triangle or an edge, where there is a depth. Absent:
-  /// the input's.
+  /// the input's, if there is another limit.
   std::optional<double> step = {};
   std::optional<SizeField> depth = {};  ///< Water depth, where waves have the speed sqrt(9.81 depth)
-
-  /// No limits.
-  [[nodiscard]] static GuardOptions none() { return {0, 0, std::numeric_limits<double>::max(), {}, {}}; }
 };
 
 /// The solvers of other libraries. temper::solvers() returns the solvers of this build (temper/solvers.hpp).

@@ -324,7 +324,8 @@ FileInFormat file_in_format(const FormatRow& row, const MeshFile& file) {
   if (needs_turned_bed(row.details.bed, file)) turn_bed(change(), row.details.bed);
   const MeshFile& now = result.changed ? *result.changed : file;
   const bool has_place = row.details.has_heights || (row.is_in_space() && file.sphere() == nullptr);
-  if (now.z_is_data && has_place && find(now.point_data, kHeight) != nullptr)
+  const DataArray* const heights = now.z_is_data && has_place ? find(now.point_data, kHeight) : nullptr;
+  if (heights != nullptr && is_finite(heights->values))  // a missing height stays a number of data
     result.heights = to_doubles(std::move(take(change().point_data, kHeight)->values));
   return result;
 }

@@ -511,7 +511,7 @@ class Mesher {
 
   std::optional<InputError> improve(OutlineMesh& made, OptimizeOptions options) const {
     const double left = deadline_.time_left();
-    options.guard = GuardOptions::none();  // the Delaunay mesh is not the user's
+    options.guard = {};  // the Delaunay mesh is not the user's
     if (left > 0 && !(options.time_limit > 0 && options.time_limit < left)) options.time_limit = left;
     Expected<OptimizeReport> report = optimize(made.mesh, options, hooks_);
     if (!report) return report.error();

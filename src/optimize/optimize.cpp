@@ -73,23 +73,6 @@ Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepSta
   return best;
 }
 
-/// Says whether the limits of the guard are the input's own measures, whatever they are. Most attempts without the
-/// guard would go beyond them.
-bool is_strict(const GuardOptions& guard) { return guard.angle == 60 && guard.edge == 1 && guard.areas == 1; }
-
-/// The bounds of a user who has set none yield to well-centered triangles: some outlines need extreme triangles.
-bool has_default_bounds(const GuardOptions& guard) {
-  const GuardOptions plain;
-  return guard.angle == plain.angle && guard.edge == plain.edge && guard.areas == plain.areas;
-}
-
-/// Says whether the attempt within the guard has no more bad triangles than the first one.
-bool is_as_good(const Candidate& now, const Candidate& first, const std::shared_ptr<const GuardLimits>& guard,
-                Executor* executor) {
-  return count_beyond(now.work.mesh, now.work.units, guard, executor) == 0 &&
-         count_bad(now.work.mesh, executor) <= count_bad(first.work.mesh, executor);
-}
-
 /// Runs in the plane of the mesh.
 Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks,
                                        bool in_metric = false) {
@@ -99,9 +82,8 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   if (!made) return made.error();
   made->size_field = field_of_band(mesh, options, hooks.executor);
   Settings settings = *std::move(made);
-  const auto guard = guard_limits(mesh, options, hooks.executor);
+  settings.guard = guard_limits(mesh, options, hooks.executor);
   settings.in_metric = in_metric;
-  if (is_strict(options.guard)) settings.guard = guard;
   SweepState state(settings);
 
   std::optional<AccuracySizes> sizes;
@@ -110,34 +92,6 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   auto found = attempt(input, settings, state, run, sizes);
   if (!found) return found.error();
   Candidate best = *std::move(found);
-  if (!settings.guard && count_beyond(best.work.mesh, best.work.units, guard, hooks.executor) > 0) {
-    const bool yields = has_default_bounds(options.guard);
-    if (run.stopped_early()) {
-      if (!yields) settings.guard = guard;  // the input is returned
-    } else {
-      Candidate first = std::move(best);
-      const RunFacts facts_of_first = run.facts;
-      const SweepState state_of_first = state;
-      std::optional<AccuracySizes> sizes_of_first = std::move(sizes);
-      settings.guard = guard;
-      Recorder(hooks.tracer, first.work, 1).return_in(run.next_sweep(), -1);
-      run.begin_again();
-      sizes.emplace(NearbyCopy(input.restore_twins(), hooks.executor), options.size_field, hooks.executor);
-      state = SweepState(settings);
-      found = attempt(input, settings, state, run, sizes);
-      if (!found) return found.error();
-      best = *std::move(found);
-      if (yields && !is_as_good(best, first, guard, hooks.executor)) {
-        settings.guard.reset();
-        best = std::move(first);
-        sizes = std::move(sizes_of_first);
-        state = state_of_first;
-        run.facts = facts_of_first;
-        run.facts.guarded = true;
-        Recorder(hooks.tracer, best.work, 1).return_in(run.next_sweep(), best.sweep);
-      }
-    }
-  }
   give_back(input.restore_twins(), std::move(best), settings, state, of_input, std::move(sizes), run);
   return std::move(run.report);
 }

@@ -57,7 +57,7 @@ ELSEWHERE = {
 
 # Struct in C++, class in Python, fields that have another name or place there.
 STRUCTS = {
-    "OptimizeOptions": (temper.OptimizeOptions, {"size_field", "tensor", "paper", "accuracy", "solver_error"}),
+    "OptimizeOptions": (temper.OptimizeOptions, {"size_field", "tensor", "paper", "accuracy", "solver_error", "guard"}),
     "PaperSwitches": (temper.OptimizeOptions, set()),
     "OptimizeReport": (temper.types.OptimizeReport, set()),
     "SweepRecord": (temper.types.SweepRecord, set()),

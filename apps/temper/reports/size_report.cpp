@@ -6,10 +6,6 @@
 #include <iterator>
 #include <string_view>
 #include <utility>
-#include <cstddef>
-#include <iterator>
-#include <string_view>
-#include <utility>
 #include <variant>
 
 #include "console.hpp"

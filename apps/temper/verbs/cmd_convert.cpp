@@ -40,7 +40,7 @@ void add_options(Command& command, ConvertSettings& s) {
                     "  temper convert in.vtu -o out.msh\n"
                     "  temper convert in.vtu -o out.vtu --encoding ascii\n"
                     "  temper convert in.vtu -o old.msh --format gmsh22\n"
-                    "  temper convert cracked.vtu -o whole.vtu --merge 1e-8\n",
+                    "  temper convert in.vtu -o whole.vtu --merge 1e-8\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 

@@ -8,6 +8,7 @@
 // A string may continue on the next NS line. z is data: see ReadOptions::flat.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <map>
@@ -125,6 +126,11 @@ class Reader2dm {
   }
   void heights() {
     MeshFile& f = document_.file;
+    for (std::size_t i = 0; i < z_.size(); ++i) {
+      if (!std::isfinite(z_[i]))
+        fail(ErrorCode::not_finite, document_.names->point_where(i), document_.names->point(i), " has z = ", z_[i],
+             ", expected a finite number");
+    }
     std::vector<double> depths(z_.size());
     std::ranges::transform(z_, depths.begin(), [](double z) { return -z; });
     if (look_like_degrees(f.points, depths)) f.points_in = DegreePoints{.is_guessed = true};

@@ -158,7 +158,7 @@ class GeoJsonReader {
     const std::string_view type = shape.text("type");
     const bool polygon = type == "Polygon" || type == "MultiPolygon" || type == "GeometryCollection";
     if (about.region && !polygon)
-      warn_at(shape, text(about.name, ": \"region\" is for polygons and has no effect on a ", type));
+      warn_at(shape, text(about.name, ": 'region' is for polygons and has no effect on a ", type));
   }
 
   /// The name without blanks at its ends, which formats of text cannot keep, and without control characters.

@@ -60,6 +60,14 @@ std::size_t size(const Values& values) {
   return std::visit([](const auto& v) { return v.size(); }, values);
 }
 
+bool is_finite(const Values& values) {
+  return std::visit(
+      [](const auto& all) {
+        return std::all_of(all.begin(), all.end(), [](auto x) { return std::isfinite(static_cast<double>(x)); });
+      },
+      values);
+}
+
 Values zeros(Scalar scalar, std::size_t n) {
   return with_scalar(scalar, [n](auto zero) -> Values { return std::vector<decltype(zero)>(n); });
 }

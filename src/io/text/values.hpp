@@ -46,6 +46,8 @@ decltype(auto) with_scalar(Scalar scalar, F&& f) {
 template <class Vector>
 using ElementOf = typename std::remove_cvref_t<Vector>::value_type;
 
+/// Says whether all values are numbers, neither infinite nor NaN.
+[[nodiscard]] bool is_finite(const Values& values);
 [[nodiscard]] Values zeros(Scalar scalar, std::size_t n);
 /// The values as doubles; moved when they are doubles already.
 [[nodiscard]] std::vector<double> to_doubles(Values&& values);

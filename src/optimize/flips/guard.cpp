@@ -224,13 +224,13 @@ void Guard::renumber(const Compaction& kept) {
 std::shared_ptr<const GuardLimits> guard_limits(const Mesh& input, const OptimizeOptions& options, Executor* executor) {
   const GuardOptions& o = options.guard;
   if (objective_of(options) == Objective::energy) return nullptr;
-  if (o.angle == 0 && o.edge == 0 && o.areas == GuardOptions::none().areas && !o.depth) return nullptr;
+  if (o.angle == 0 && o.edge == 0 && o.areas == 0 && !o.step) return nullptr;
   auto limits = std::make_shared<GuardLimits>();
   limits->depth = o.depth;
   GuardValues bounds;
   bounds.value[GuardValues::sine] = std::sin(o.angle * std::numbers::pi / 180);
   bounds.value[GuardValues::edge] = o.edge * o.edge;
-  bounds.value[GuardValues::areas] = 1 / o.areas;
+  bounds.value[GuardValues::areas] = o.areas > 0 ? 1 / std::max(o.areas, 1.0) : 0;
   if (o.step) bounds.value[GuardValues::crossing] = bounds.value[GuardValues::edge_crossing] = *o.step;
   WorkingUnits same;
   same.space = input.space();

@@ -418,17 +418,19 @@ constexpr OptionRow kGuardRows[] = {
         "the input if that is smaller. 60: the input's. 0: no limit",
         {.range = from_to(0, 60), .needs = {kForAccuracy}}),
     row<kGuard, &GuardOptions::edge>(
-        "guard_edge", "Bound of the guard for the least length of an inner edge over the size of its triangles",
+        "guard_edge",
+        "Bound of the guard for the least length of an inner edge over the size of its triangles. 0: no limit",
         {.range = from_to(0, 1), .needs = {kForAccuracy}}),
-    row<kGuard, &GuardOptions::areas>(
-        "guard_areas", "Bound of the guard for the largest ratio of the areas of two triangles that share an edge",
-        {.range = at_least(1), .needs = {kForAccuracy}}),
+    row<kGuard, &GuardOptions::areas>("guard_areas",
+                                      "Bound of the guard for the largest ratio of the areas of two triangles that "
+                                      "share an edge, at least 1. 0: no limit",
+                                      {.range = at_least(0), .needs = {kForAccuracy}}),
     row<kGuard, &GuardOptions::step>(
         "guard_step",
         "Bound of the guard for the time in seconds in which a long wave crosses a triangle or an edge. It holds if "
         "the mesh has point data with the name depth",
         {.range = at_least(0),
-         .absent = "no time is shorter than the shortest one of the input",
+         .absent = "the shortest time of the input, if there is another limit",
          .needs = {kForAccuracy}}),
 };
 

@@ -35,13 +35,6 @@ class Notes {
       note_splits(*facts.boundary_splits);
     }
     note_input_flips(facts.input_flips);
-    if (facts.guarded) {
-      const std::string beyond =
-          "the first result was beyond `guard_angle`, `guard_edge`, `guard_areas` or `guard_step`";
-      add(beyond + (settings_.guard != nullptr ? ": the run began again within them"
-                                               : ", and is returned: within them more triangles would stay bad. Other "
-                                                 "bounds than the default are kept in any case"));
-    }
     if (facts.weights_shrunk) add("weights left edges uncrossed that a barrier needs crossed: all were made smaller");
     if (facts.energy_rose) add("the energy rose in the last sweeps; the mesh with the least one is returned");
   }

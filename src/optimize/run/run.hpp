@@ -28,7 +28,6 @@ struct RunFacts {
   bool stays_unsplit = false;                  ///< the boundary, since cuts leave more triangles bad
   bool weights_shrunk = false;                 ///< all weights, since they left edges uncrossed
   bool gave_up = false;                        ///< in a metric, restarts left most triangles bad
-  bool guarded = false;                        ///< an attempt without the guard went beyond it
   bool energy_rose = false;                    ///< in the last sweeps, which were undone
   bool lacks_programs = false;                 ///< a repair would use linear programs, but the build has no solver
 };
@@ -58,17 +57,7 @@ class Run {
         trial_triangles_left_(most_trial_triangles(options, input)) {}
 
   [[nodiscard]] double seconds() const { return seconds_between(start_, Clock::now()); }
-  [[nodiscard]] bool sweeps_left() const { return sweeps() < options_.max_sweeps; }
-  /// Returns the sweeps of this attempt.
-  [[nodiscard]] int sweeps() const { return report.sweeps - sweeps_before_; }
-  /// Begins another attempt from the input, with the same budgets of sweeps and repairs.
-  void begin_again() {
-    sweeps_before_ = report.sweeps;
-    trials_left_ = options_.repair_trials;
-    trial_triangles_left_ = most_trial_triangles(options_, input_);
-    facts = {};
-    facts.guarded = true;
-  }
+  [[nodiscard]] bool sweeps_left() const { return report.sweeps < options_.max_sweeps; }
   /// Returns the number of the next sweep; 0 before the first sweep, while flips make the input regular.
   [[nodiscard]] int next_sweep() const { return report.sweeps == 0 ? 0 : report.sweeps + 1; }
   [[nodiscard]] bool stopped_early() const { return temper::stopped_early(report.stopped); }
@@ -118,7 +107,6 @@ class Run {
   const OptimizeHooks& hooks_;
   const Mesh& input_;
   Clock::time_point start_, limit_from_;
-  int sweeps_before_ = 0;  // of earlier attempts
   int trials_left_;
   double trial_triangles_left_;  // triangles of all trials together
   double ending_seconds_ = 0;    // estimated time from the last sweep to the end

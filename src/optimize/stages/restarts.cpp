@@ -145,7 +145,6 @@ bool has_gained(const Candidate& now, const Candidate& before, const Settings& s
 Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, SweepState& state, Run& run) {
   std::optional<Candidate> best;
   std::vector<Restart> all(1);
-  const std::size_t flips = run.report.flips;
   std::size_t left = 0;  // bad triangles of the last restart that was not kept
   bool renewed = false;  // whether the best mesh is new since cuts at bad triangles failed
   // The second restart from the same beginning is more thorough and takes many sweeps. It does not help if the first
@@ -167,7 +166,7 @@ Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, Swe
     if (!best) {
       if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
       all = restarts_for(now.work.mesh, settings);
-      run.facts.input_flips = run.report.flips - flips;
+      run.facts.input_flips = run.report.flips;
     }
     input.drop_twins();
     const Restart& restart = all[i];
@@ -195,7 +194,7 @@ Candidate reweighted(Candidate best, InputMesh& input, const Settings& settings,
   own.options.unknowns = Unknowns::weights;
   std::vector<Restart> planned(1);
   const bool may = settings.options.unknowns == Unknowns::positions_and_weights && repairs(settings) &&
-                   run.sweeps() <= settings.options.max_sweeps / 2;  // the rest is for repairs
+                   run.report.sweeps <= settings.options.max_sweeps / 2;  // the rest is for repairs
   if (!may || !run.goes_on() || !has_bad(best, settings) || are_apart(best, settings)) return best;
   const BestBefore kept(run.best_before, &best.work);
   for (std::size_t i = 0; i < planned.size(); ++i) {

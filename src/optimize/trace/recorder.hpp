@@ -46,11 +46,6 @@ class Recorder {
   void undone(VertexId v, double before, double after) const {
     record({.kind = EventKind::undo, .vertex = v, .before = before, .after = after});
   }
-  /// Records in this sweep that everything since the end of sweep `to` was undone.
-  void return_in(int sweep, int to) {
-    begin_sweep(sweep);
-    returned_to(to);
-  }
   /// Records that everything since the end of this sweep was undone; −1: since the input.
   void returned_to(int sweep) const {
     record({.kind = EventKind::undo, .before = kNoEnergy, .after = kNoEnergy, .to_sweep = sweep});

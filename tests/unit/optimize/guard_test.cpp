@@ -82,7 +82,7 @@ TEST(Guard, HoldsForEveryTargetAndItsLimitsBind) {
       EXPECT_GE(after.time, before.time * (1 - kRounding)) << target;
       EXPECT_EQ(*replay(input, events), mesh);
       better += quality(mesh).well_centered_fraction > quality(input).well_centered_fraction ? 1 : 0;
-      options.guard = GuardOptions::none();
+      options.guard = {};
       ASSERT_TRUE(optimize(free, options));
       const Shape unguarded = shape(free, depth_of);
       worse_without += unguarded.angle < before.angle || unguarded.areas > before.areas ? 1 : 0;
@@ -90,17 +90,6 @@ TEST(Guard, HoldsForEveryTargetAndItsLimitsBind) {
   }
   EXPECT_GT(worse_without, 1u);
   EXPECT_GT(better, 8u);
-}
-
-TEST(Guard, ChangesNothingIfNothingGetsWorse) {
-  const Mesh input = *random_mesh({200, 5, {}});
-  OptimizeOptions options;
-  Mesh guarded = input, free = input;
-  ASSERT_TRUE(optimize(guarded, options));
-  options.guard = GuardOptions::none();
-  ASSERT_TRUE(optimize(free, options));
-  EXPECT_EQ(guarded, free);
-  EXPECT_NE(guarded, input);
 }
 
 TEST(Guard, HoldsIfVerticesAreSplitRemovedAndInserted) {
@@ -119,7 +108,7 @@ TEST(Guard, HoldsIfVerticesAreSplitRemovedAndInserted) {
 
 TEST(Guard, ABoundIsRefusedOutOfRange) {
   OptimizeOptions options;
-  options.guard.areas = 0.5;
+  options.guard.areas = -1;
   Mesh mesh = *random_mesh({20, 1, {}});
   const auto report = optimize(mesh, options);
   ASSERT_FALSE(report);

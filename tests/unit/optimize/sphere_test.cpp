@@ -122,8 +122,7 @@ TEST(Sphere, RepairsMendWhatSweepsOfPositionsAloneDoNot) {
   Mesh swept = before, mended = before, refined = before;
   optimized(swept, {.unknowns = Unknowns::positions, .repair = Repair::none});
   optimized(mended, {.unknowns = Unknowns::positions});
-  const OptimizeReport report =
-      optimized(refined, {.unknowns = Unknowns::positions, .guard = GuardOptions::none(), .repair = Repair::vertices});
+  const OptimizeReport report = optimized(refined, {.unknowns = Unknowns::positions, .repair = Repair::vertices});
   EXPECT_FALSE(bad_triangles(swept).empty());
   expect_well_centered(mended);
   EXPECT_EQ(mended.n_vertices(), before.n_vertices());
