@@ -21,17 +21,9 @@ constexpr double kLongEdge = 0.75, kLongDual = 0.3;
 
 void move_positions_alone(Options& o) { o.unknowns = Unknowns::positions; }
 
-/// For solvers that look at angles, time steps and sizes: none becomes worse than in the input.
-void guard_all(Options& o) {
-  o.guard.angle = 60;
-  o.guard.edge = 1;
-  o.guard.areas = 1;
-}
-
 /// For solvers that use circumcenters, or no dual: positions alone, with edges of at least these lengths.
 void place_vertices(Options& o, double min_dual) {
   move_positions_alone(o);
-  guard_all(o);
   o.repair = Repair::vertices;
   o.accuracy.min_edge = kLongEdge;
   o.accuracy.min_dual = min_dual;
@@ -57,11 +49,16 @@ constexpr auto kTargets = std::to_array<Preset>({
     {"dflowfm", "D-Flow FM: no weights, orthogonal; may add and remove vertices",
      [](Options& o) { place_vertices(o, kLongDual); }},
     {"adcirc", "ADCIRC, SCHISM: no weights, long edges; may add and remove vertices",
-     [](Options& o) { place_vertices(o, 0); }},
+     [](Options& o) {
+       place_vertices(o, 0);
+       // No angle, edge, ratio of areas or time step becomes worse than in the input.
+       o.guard.angle = 60;
+       o.guard.edge = 1;
+       o.guard.areas = 1;
+     }},
     {"fem", "Linear finite elements: no weights, good angles, the same vertices",
      [](Options& o) {
        move_positions_alone(o);
-       guard_all(o);
        o.scheme = Scheme::vertex;
        o.objective = Objective::accuracy;
        o.accuracy.min_edge = kLongEdge;
