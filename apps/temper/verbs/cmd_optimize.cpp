@@ -317,8 +317,8 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
                                 s.input)});
   }
   if (!s.size.empty()) {
-    ReadSizeField sizes = read_size_field(s.size, s.size_data,
-                                          {same_projection(input, s.projection), {}, threads.get(), true, s.flat});
+    ReadSizeField sizes =
+        read_size_field(s.size, s.size_data, {same_projection(input, s.projection), {}, threads.get(), true, s.flat});
     warn(results, sizes.warnings);
     s.options.size_field = std::move(sizes.field);
   }

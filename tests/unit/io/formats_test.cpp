@@ -22,8 +22,9 @@ TEST(Formats, HaveDistinctNamesAndASuffix) {
     EXPECT_TRUE(f.suffixes.starts_with('.')) << f.name;
     EXPECT_FALSE(f.description.empty());
   }
-  for (const char* name : {"vtu", "gmsh22", "gmsh41", "medit", "triangle", "obj", "vtk", "vtk51", "mfem", "jigsaw",
-                           "ply", "off", "adcirc", "vtkhdf", "mpas", "ugrid", "fesom", "esri", "geotiff", "ncgrid"}) {
+  for (const char* name :
+       {"vtu", "gmsh22", "gmsh41", "medit",  "triangle", "obj",   "vtk",   "vtk51", "mfem",    "jigsaw",
+        "ply", "off",    "adcirc", "vtkhdf", "mpas",     "ugrid", "fesom", "esri",  "geotiff", "ncgrid"}) {
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
   }
 }
