@@ -14,6 +14,7 @@
 #include "io/formats/format.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
+#include "io/text/values.hpp"
 #include "temper/detail/projection.hpp"
 #include "temper/detail/suggest.hpp"
 

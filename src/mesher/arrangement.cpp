@@ -20,13 +20,13 @@ std::string coordinates(Vec2 p) { return "(" + to_text(p.x) + ", " + to_text(p.y
 
 class Arranger {
  public:
-  Arranger(const Surface& surface, const Outline& outline, const std::vector<Vec3>& places, const SnapOptions& options,
+  Arranger(const Surface& surface, const Outline& outline, const std::vector<Vec3>& places, SnapOptions options,
            double drop_below, Deadline& deadline)
       : surface_(surface),
         o_(outline),
         places_(places),
         names_(names_of(outline)),
-        options_(options),
+        options_(std::move(options)),
         drop_below_(drop_below),
         deadline_(deadline) {}
 
@@ -391,9 +391,10 @@ const OutlineNames& names_of(const Outline& outline) {
 std::optional<InputError> check_tags(const std::vector<OutlineTag>& tags, const std::string& what, std::size_t n) {
   for (const OutlineTag& tag : tags) {
     if (tag.element >= 0 && static_cast<std::size_t>(tag.element) < n) continue;
-    return InputError{ErrorCode::index_out_of_range, "",
-                      "tag " + std::to_string(tag.tag) + " is for " + what + " " + std::to_string(tag.element) +
-                          ", but the outline has " + std::to_string(n) + " " + what + "s"};
+    std::string message = "tag " + std::to_string(tag.tag) + " is for ";
+    message.append(what).append(" ").append(std::to_string(tag.element));
+    message.append(", but the outline has ").append(std::to_string(n)).append(" ").append(what).append("s");
+    return InputError{ErrorCode::index_out_of_range, "", std::move(message)};
   }
   return {};
 }

@@ -486,7 +486,9 @@ class Mesher {
     for (const MeshLine& line : made.lines) lost.erase({1, line.tag});
     if (lost.empty()) return;
     std::string list;
-    for (const auto& [dimension, tag] : lost) {
+    for (const auto& group : lost) {
+      const int dimension = group.first;
+      const std::int32_t tag = group.second;
       const auto named = std::find_if(outline_.groups.begin(), outline_.groups.end(),
                                       [&](const PhysicalName& g) { return g.dimension == dimension && g.tag == tag; });
       list += (list.empty() ? "" : ", ") + (dimension == 0 ? "points " : std::string("lines ")) +
@@ -555,7 +557,7 @@ class Mesher {
     const auto inside = [&](VertexId v) { return !options_.field->at(made.mesh.point(v)).outside; };
     const auto vertices = made.mesh.vertices();
     if (std::any_of(vertices.begin(), vertices.end(), inside)) return;
-    made.notes.push_back(
+    made.notes.emplace_back(
         "the sizes are all outside the domain, so the nearest of them are used. Next: check that both have the same "
         "coordinates and units");
   }

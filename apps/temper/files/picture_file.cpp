@@ -42,7 +42,8 @@ class Scratch {
     std::string text;
     std::rewind(file_);
     std::array<char, 1 << 16> some;
-    for (std::size_t n; (n = std::fread(some.data(), 1, some.size(), file_)) > 0;) text.append(some.data(), n);
+    std::size_t n = 0;
+    while ((n = std::fread(some.data(), 1, some.size(), file_)) > 0) text.append(some.data(), n);
     return text;
   }
 
@@ -69,6 +70,7 @@ void convert(const std::string& path, std::vector<std::string> words, Scratch& i
   posix_spawn_file_actions_adddup2(&files, out.descriptor(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&files, said.descriptor(), STDERR_FILENO);
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   pid_t process = 0;

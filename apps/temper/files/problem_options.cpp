@@ -109,13 +109,16 @@ std::vector<double> read_coefficient(const Command& command, const std::string& 
 
 std::vector<double> read_source(const Command& command, const std::string& text, const Input& input) {
   if (text.empty()) return {};
-  if (const auto number = parse_number(text)) return std::vector<double>(input.mesh().n_vertices(), *number);
+  std::vector<double> source;
+  if (const auto number = parse_number(text)) {
+    source.assign(input.mesh().n_vertices(), *number);
+    return source;
+  }
   std::vector<std::string_view> names;
   for (const io::DataArray& array : input.file.point_data) {
     if (array.components != 1) continue;
     names.push_back(array.name);
     if (array.name != text) continue;
-    std::vector<double> source;
     for (const VertexId v : input.mesh().vertices()) {
       const std::size_t point = input.points.empty() ? v.index : input.points[v.index];
       source.push_back(

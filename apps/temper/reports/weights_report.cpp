@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "console.hpp"
 #include "files/certificate_json.hpp"
 #include "reports/reports.hpp"
 #include "temper/detail/geometry.hpp"

@@ -242,7 +242,8 @@ Exit drop(const WeightsSettings& s, Input& input, Outputs& outputs) {
   Mesh mesh = input.mesh();
   std::size_t weighted = 0;
   for (const VertexId v : mesh.vertices()) weighted += mesh.weight(v) != 0 ? 1 : 0;
-  mesh = with_weights(std::move(mesh), IdVector<VertexId, double>(mesh.n_vertices(), 0.0));
+  const IdVector<VertexId, double> zeros(mesh.n_vertices(), 0.0);
+  mesh = with_weights(std::move(mesh), zeros);
   const std::size_t flips = restore_regularity(mesh).flips;
   std::size_t bad = 0;
   for (const TriangleId t : mesh.triangles()) {

@@ -126,7 +126,8 @@ Values NetcdfReader::unpacked(const NetcdfVariable& v) const {
       if constexpr (std::is_floating_point_v<Raw>) {
         return x == static_cast<Raw>(fill);
       } else {
-        constexpr double kTurn = 2.0 * static_cast<double>(std::numeric_limits<Raw>::max() / 2 + 1);
+        constexpr Raw kHalf = std::numeric_limits<Raw>::max() / 2 + 1;
+        constexpr double kTurn = 2.0 * static_cast<double>(kHalf);
         return static_cast<double>(x) == (is_unsigned && fill < 0 ? fill + kTurn : fill);
       }
     };

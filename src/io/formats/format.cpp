@@ -264,6 +264,7 @@ std::vector<std::int32_t> one_tag_a_point(const WriteJob& job) {
     if (n.dimension == 0 && found != lost_tags.end()) found->second = n.name;
   }
   std::vector<std::string_view> names;
+  names.reserve(lost_tags.size());
   for (const auto& [tag, name] : lost_tags) names.push_back(name);
   job.warn(lost, lost == 1 ? " further tag of a point that has" : " further tags of points that have", " one already ",
            lost == 1 ? "is" : "are", " not written: ", list_of(names), "; ", job.row.description,

@@ -206,6 +206,8 @@ void VtuDocument::appended() {
   out_.put("\n</AppendedData>\n", "");
 }
 
+}  // namespace
+
 void write_vtu(const WriteJob& job) {
   const MeshFile& file = job.file;
   VtuDocument vtu(job.outputs.open(job.path), job.encoding.value_or(Encoding::base64), job.executor);
@@ -222,6 +224,8 @@ void write_vtu(const WriteJob& job) {
   vtu.section("CellData", cell_data);
   vtu.finish();
 }
+
+namespace {
 
 /// Three numbers per point; in the plane z is the mesh's.
 VtkArray dual_points(const DecPositions& places, double z) {

@@ -192,8 +192,7 @@ GuardValues Guard::worst(Executor* executor) const {
 
 GuardValues Guard::across(HalfedgeId h, const WeightedPoint& beyond) const {
   const Triangle inside = triangle(Mesh::triangle(h));
-  const auto [a, b] =
-      std::pair(mesh_.point(mesh_.origin(h)), mesh_.point(mesh_.target(h), mesh_.point(mesh_.origin(h))));
+  const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h), a);
   const auto place = [&](const WeightedPoint& p) {
     return position_in_space(mesh_.space(), mesh_.space().image(p, a));
   };

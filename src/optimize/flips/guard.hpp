@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,7 +30,7 @@ struct GuardValues {
   static constexpr std::size_t kMeasures = 5;
   std::array<double, kMeasures> value;
 
-  GuardValues() { value.fill(kInfinity); }
+  GuardValues() { value.fill(std::numeric_limits<double>::infinity()); }
   /// Takes the worse of the two, measure by measure.
   void take(const GuardValues& other);
   /// Says whether no measure is worse than here and beyond the limit.

@@ -118,8 +118,11 @@ class ExtrasWriter {
   }
   /// Declares the number that stands for a missing value, in the type of the values: NaN if no other is known.
   void declare_fill(int id, const Values& values, std::optional<double> fill) {
-    const bool has_nan =
-        std::visit([](const auto& all) { return std::ranges::any_of(all, [](auto x) { return x != x; }); }, values);
+    const bool has_nan = std::visit(
+        [](const auto& all) {
+          return std::ranges::any_of(all, [](auto x) { return std::isnan(static_cast<double>(x)); });
+        },
+        values);
     if (!fill && !has_nan) return;
     out_.attribute(id, "_FillValue",
                    {{fill.value_or(std::numeric_limits<double>::quiet_NaN())}, netcdf_type(scalar_of(values))});

@@ -97,7 +97,8 @@ class UgridReader {
   }
 
   void nodes() {
-    const auto [vx, vy] = axes();
+    const auto both = axes();
+    const NetcdfVariable *const vx = both.first, *const vy = both.second;
     expect(vx->sizes.size() == 1, vx->name);
     expect(vy->sizes == vx->sizes, vy->name);
     node_dimension_ = vx->dimensions[0];
