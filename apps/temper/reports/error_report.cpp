@@ -164,10 +164,6 @@ Json system_json(const ErrorSystem& system) {
           {"condition", system.condition ? number_json(*system.condition) : Json(nullptr)}};
 }
 
-}  // namespace
-
-namespace {
-
 /// A row of both meshes: the mesh itself first.
 std::string problem_row(const ProblemRecord& record, const std::string& label,
                         const std::function<std::string(const DiffusionErrors&)>& value) {
@@ -177,22 +173,12 @@ std::string problem_row(const ProblemRecord& record, const std::string& label,
 }
 
 Json problem_report_json(const DiffusionErrors& e) {
-  const auto norms = [](const ErrorNorms& n) {
-    return Json{{"l2", std::isfinite(n.l2) ? Json(n.l2) : Json()},
-                {"max", std::isfinite(n.max) ? Json(n.max) : Json()}};
-  };
-  const auto system = [](const ErrorSystem& s) {
-    return Json{{"unknowns", s.unknowns},
-                {"m_matrix", s.m_matrix},
-                {"definite", s.definite},
-                {"singular", s.singular},
-                {"negative", s.negative}};
-  };
+  const auto norms = [](const ErrorNorms& n) { return Json{{"l2", number_json(n.l2)}, {"max", number_json(n.max)}}; };
   Json json;
   json["vertex"] = norms(e.vertex);
   json["cell"] = norms(e.cell);
   json["reference"] = norms(e.reference);
-  json["matrices"] = {{"vertex", system(e.vertex_system)}, {"cell", system(e.cell_system)}};
+  json["matrices"] = {{"vertex", system_json(e.vertex_system)}, {"cell", system_json(e.cell_system)}};
   json["refinements"] = e.refinements;
   json["least"] = e.least;
   json["largest"] = e.largest;
@@ -223,6 +209,7 @@ std::string problem_text(const ProblemRecord& r) {
 
 std::string problem_json(const ProblemRecord& record) {
   Json json;
+  json["schema"] = kSchema;
   json["mesh"] = record.path;
   json["problem"] = problem_report_json(record.errors);
   if (record.reference)

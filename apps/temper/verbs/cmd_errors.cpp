@@ -156,7 +156,7 @@ Exit run_problem(const Command& command, const ErrorSettings& s, Executor* execu
   }
   ProblemRecord record = {s.input, measure_problem(command, s, s.input, s.projection, executor), s.against, {}};
   if (!s.against.empty()) record.reference = measure_problem(command, s, s.against, s.projection, executor);
-  print(s.json ? problem_json(record) : problem_text(record));
+  s.json ? print_data(problem_json(record)) : print(problem_text(record));
   return Exit::done;
 }
 
