@@ -110,6 +110,7 @@ class Runner:
         if send is not None:
             try:
                 process.wait(after)
+                begin = seconds_of_children()  # it ended before the signal
             except subprocess.TimeoutExpired:
                 begin += seconds_of(process)
                 process.send_signal(send)
