@@ -13,13 +13,13 @@ namespace temper::app {
 void print_error(std::string_view message);
 void print_warnings(std::span<const std::string> messages);
 
-/// Text to standard error. What cannot be written there is lost.
+/// Text to standard error. If it cannot be written, it is lost.
 void put_to_error(std::string_view text);
 
 /// Text for people to standard output, unless quiet. Throws Failure when it cannot be written. If the reader of a pipe
 /// has ended, the text is lost, and the program goes on: its files matter more.
 void print(std::string_view text);
-/// The same for data that were asked for, such as JSON: they are printed also when quiet.
+/// Data that the user asked for, such as JSON, to standard output, also when quiet. Failures are those of print().
 void print_data(std::string_view text);
 /// From now on print() prints nothing: --quiet.
 void be_quiet();

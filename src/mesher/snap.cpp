@@ -20,9 +20,9 @@ namespace temper::mesher {
 namespace {
 
 constexpr double kEnd = 0.75;  // of the tolerance: see above
-// Of the tolerance: shorter parts are divided at one place in a round, so that the parts get shorter for certain.
+// Parts that are shorter than this many tolerances are divided at one place in a round. So parts always get shorter.
 constexpr double kShort = 4;
-// Of the radius: longitudes and latitudes of one place in several conventions are this near. Such joins do not count.
+// Relative to the radius. One place in several conventions of longitude has points this near. Such joins do not count.
 constexpr double kRoundingOfDegrees = 1e-13;
 // Each round finds the crossings that the parts of the last one make. Nearly always one is enough.
 constexpr int kCrossingRounds = 100;

@@ -5,7 +5,7 @@
 // sorted by their numbers: Gmsh gave them in this order, and other programs count by it.
 //
 // A partition divides entities into parts, and adds entities between the parts. A part belongs to its parent again; its
-// number is the data gmsh:partition. What lies between parts is left out, and so are ghosts: triangles of other parts
+// number is the data gmsh:partition. Elements between parts are left out. So are ghosts, the triangles of other parts
 // in the file of one part.
 //
 //     surface 1, curve 5 |  gmsh    surface 3 of 1 | curve 8 of 1, | surface 4 of 1     (dimension 2 of 2, 1 of 2, …)
