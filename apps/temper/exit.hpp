@@ -44,6 +44,11 @@ inline Failure as_failure(const InputError& error) {
 }
 
 /// The value, or a Failure with the reason why there is none.
+/// The error, with the file as its place if it has none.
+[[nodiscard]] inline InputError located(InputError error, const std::string& path) {
+  if (error.where.empty()) error.where = path;
+  return error;
+}
 template <class T>
 T or_fail(Expected<T> expected) {
   if (!expected) throw as_failure(expected.error());

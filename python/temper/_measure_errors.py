@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _temper
-from ._dec import _coefficient_of
+from ._dec import _coefficient_of, _named_lines
 from ._mesh import Mesh, MeshLike, _doubles, as_mesh
 from ._records import Record, merged
 
@@ -251,12 +251,12 @@ def _boundary_part(mesh: Mesh, name: str | int) -> npt.NDArray[np.int32]:
     boundary = mesh.boundary_edges
     if name == "boundary":
         return boundary
-    tags = [tag for dimension, tag in [mesh.names.get(str(name), (1, name))] if dimension == 1]
-    lines = mesh.lines[np.isin(mesh.tags, [tag for tag in tags if not isinstance(tag, str)])]
+    named = _named_lines(mesh)
+    lines = named[name] if name in named else mesh.lines[mesh.tags == name] if not isinstance(name, str) else ()
     on_boundary = {frozenset(edge) for edge in boundary.tolist()}
-    edges = np.array([edge for edge in lines.tolist() if frozenset(edge) in on_boundary], dtype=np.int32)
+    edges = np.array([edge for edge in np.asarray(lines).tolist() if frozenset(edge) in on_boundary], dtype=np.int32)
     if not len(edges):
-        names = sorted(name for name, (dimension, _) in mesh.names.items() if dimension == 1)
+        names = sorted(named)
         raise ValueError(
             f"no boundary edge has the name or tag {name!r}; expected 'boundary', a tag of {sorted(set(mesh.tags.tolist()))}"
             + (f", or one of {', '.join(names)}" if names else "")

@@ -53,6 +53,24 @@ Input read_input(const std::string& path, const ReadingOptions& options) {
   return input;
 }
 
+std::vector<double> as_doubles(const io::DataArray& data) {
+  return std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); }, data.values);
+}
+
+const io::DataArray* find_numbers(const std::vector<io::DataArray>& data, const std::string& name) {
+  const auto named = std::ranges::find(data, name, &io::DataArray::name);
+  return named == data.end() || named->components != 1 ? nullptr : &*named;
+}
+
+std::vector<double> at_vertices(const Input& input, const io::DataArray& array) {
+  const std::vector<double> at_points = as_doubles(array);
+  std::vector<double> values;
+  values.reserve(input.mesh().n_vertices());
+  for (const VertexId v : input.mesh().vertices())
+    values.push_back(at_points[input.points.empty() ? v.index : input.points[v.index]]);
+  return values;
+}
+
 void expect_plane(const Mesh& mesh, const std::string& path, std::string_view what) {
   const auto error = temper::expect_plane(mesh, what);
   if (!error) return;

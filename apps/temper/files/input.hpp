@@ -47,6 +47,13 @@ struct ReadingOptions {
 /// Longitude and latitude, as in the file, of a place on the map of a file in degrees. Other places are unchanged.
 [[nodiscard]] Vec2 place_in_file(const io::MeshFile& file, Vec2 place);
 
+/// The numbers of an array.
+[[nodiscard]] std::vector<double> as_doubles(const io::DataArray& data);
+/// The array of single numbers with this name, or null.
+[[nodiscard]] const io::DataArray* find_numbers(const std::vector<io::DataArray>& data, const std::string& name);
+/// The numbers of an array of point data at the vertices of the mesh. Points of no triangle are left out.
+[[nodiscard]] std::vector<double> at_vertices(const Input& input, const io::DataArray& array);
+
 /// Failure when the mesh is one of the sphere, which `what` does not support.
 void expect_plane(const Mesh& mesh, const std::string& path, std::string_view what);
 

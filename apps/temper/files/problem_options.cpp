@@ -8,7 +8,6 @@
 #include <map>
 #include <string_view>
 #include <utility>
-#include <variant>
 
 #include "options/options.hpp"
 #include "temper/detail/suggest.hpp"
@@ -16,16 +15,19 @@
 namespace temper::app {
 namespace {
 
+/// The names of arrays of single numbers.
+std::vector<std::string_view> names_of_numbers(const std::vector<io::DataArray>& data) {
+  std::vector<std::string_view> names;
+  for (const io::DataArray& array : data) {
+    if (array.components == 1) names.push_back(array.name);
+  }
+  return names;
+}
+
 /// The data of triangles with this name.
 std::vector<double> from_data(const Command& command, const std::string& name, const Input& input) {
-  std::vector<std::string_view> names;
-  for (const io::DataArray& array : input.file.cell_data) {
-    if (array.components != 1) continue;
-    if (array.name == name)
-      return std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
-                        array.values);
-    names.push_back(array.name);
-  }
+  if (const io::DataArray* const found = find_numbers(input.file.cell_data, name)) return as_doubles(*found);
+  const std::vector<std::string_view> names = names_of_numbers(input.file.cell_data);
   throw Failure(Exit::bad_usage,
                 fmt::format("{}: {}: --coefficient: there are no data '{}' of triangles; {}. Next: give one of these, "
                             "or REGION=K,...",
@@ -109,23 +111,12 @@ std::vector<double> read_coefficient(const Command& command, const std::string& 
 
 std::vector<double> read_source(const Command& command, const std::string& text, const Input& input) {
   if (text.empty()) return {};
-  std::vector<double> source;
   if (const auto number = parse_number(text)) {
-    source.assign(input.mesh().n_vertices(), *number);
-    return source;
+    std::vector<double> everywhere(input.mesh().n_vertices(), *number);
+    return everywhere;
   }
-  std::vector<std::string_view> names;
-  for (const io::DataArray& array : input.file.point_data) {
-    if (array.components != 1) continue;
-    names.push_back(array.name);
-    if (array.name != text) continue;
-    for (const VertexId v : input.mesh().vertices()) {
-      const std::size_t point = input.points.empty() ? v.index : input.points[v.index];
-      source.push_back(
-          std::visit([point](const auto& values) { return static_cast<double>(values[point]); }, array.values));
-    }
-    return source;
-  }
+  if (const io::DataArray* const found = find_numbers(input.file.point_data, text)) return at_vertices(input, *found);
+  const std::vector<std::string_view> names = names_of_numbers(input.file.point_data);
   throw Failure(Exit::bad_usage, fmt::format("{}: {}: --source: expected a number or the name of point data, found "
                                              "'{}'; {}",
                                              command.name(), input.path, text,

@@ -27,10 +27,8 @@ void expect_without(const Command& command, const std::optional<Metric>& metric,
 
 Mesh in_metric(const Mesh& mesh, const Metric& metric, const Input& input) {
   auto there = mapped(mesh, metric, *input.names);
-  if (there) return *std::move(there);
-  InputError error = there.error();
-  if (error.where.empty()) error.where = input.path;
-  throw as_failure(error);
+  if (!there) throw as_failure(located(there.error(), input.path));
+  return *std::move(there);
 }
 
 std::optional<Mesh> take_to_metric(Input& input, const std::optional<Metric>& metric) {

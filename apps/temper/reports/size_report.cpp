@@ -58,20 +58,6 @@ const io::DataArray& find_data(const Input& input, const std::string& name, bool
                             others.empty() ? "none in this file" : others));
 }
 
-/// The numbers at the mesh's vertices: points of no triangle are not part of the field.
-std::vector<double> at_vertices(const Input& input, const io::DataArray& array) {
-  return std::visit(
-      [&input](const auto& values) {
-        std::vector<double> sizes;
-        for (const VertexId v : input.mesh().vertices()) {
-          const std::size_t point = input.points.empty() ? v.index : input.points[v.index];
-          sizes.push_back(static_cast<double>(values[point]));
-        }
-        return sizes;
-      },
-      array.values);
-}
-
 std::vector<double> from_depths(const Input& input, const std::string& data, const DepthRule& rule,
                                 std::vector<double> depths) {
   const DepthName* const known = depth_name(data);

@@ -75,16 +75,6 @@ void add_options(Command& command, DrawSettings& s) {
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
-std::vector<double> as_doubles(const io::DataArray& data) {
-  return std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); }, data.values);
-}
-
-/// The array of single numbers with this name, or null.
-const io::DataArray* find_numbers(const std::vector<io::DataArray>& data, const std::string& name) {
-  const auto named = std::ranges::find(data, name, &io::DataArray::name);
-  return named == data.end() || named->components != 1 ? nullptr : &*named;
-}
-
 /// A measure of the library, data of triangles, or the mean of data of points over the corners.
 IdVector<TriangleId, double> values_of(const Input& input, const std::string& name) {
   const Mesh& mesh = input.mesh();
@@ -95,11 +85,10 @@ IdVector<TriangleId, double> values_of(const Input& input, const std::string& na
   } else if (const io::DataArray* of_triangles = find_numbers(input.file.cell_data, name)) {
     for (const double value : as_doubles(*of_triangles)) values.push_back(value);
   } else if (const io::DataArray* of_points = find_numbers(input.file.point_data, name)) {
-    const std::vector<double> at_points = as_doubles(*of_points);
-    const auto at = [&](VertexId v) { return at_points[input.points.empty() ? v.index : input.points[v.index]]; };
+    const std::vector<double> at = at_vertices(input, *of_points);
     for (const TriangleId t : mesh.triangles()) {
       const auto [a, b, c] = mesh.corners(t);
-      values.push_back((at(a) + at(b) + at(c)) / 3);
+      values.push_back((at[a.index] + at[b.index] + at[c.index]) / 3);
     }
   } else {
     std::vector<std::string_view> names;

@@ -141,10 +141,8 @@ DiffusionErrors measure_problem(const Command& command, const ErrorSettings& s, 
   }
   const int refinements = s.refine > 0 ? s.refine : 2;
   auto errors = measure_diffusion_errors(input.mesh(), problem, refinements, input.names.get());
-  if (errors) return *std::move(errors);
-  InputError error = errors.error();
-  if (error.where.empty()) error.where = path;
-  throw Failure(Exit::bad_input, error.what());
+  if (!errors) throw Failure(Exit::bad_input, located(errors.error(), path).what());
+  return *std::move(errors);
 }
 
 /// The report of the user's own problem.

@@ -120,10 +120,8 @@ DecComplex with_k(const Command& command, const DecSettings& s, const Input& inp
   const std::vector<double> k = read_coefficient(command, s.coefficient, input);
   if (k.empty()) return complex;
   auto made = with_coefficient(input.mesh(), std::move(complex), k, input.names.get());
-  if (made) return *std::move(made);
-  InputError error = made.error();
-  if (error.where.empty()) error.where = s.input;
-  throw Failure(Exit::bad_input, error.what());
+  if (!made) throw Failure(Exit::bad_input, located(made.error(), s.input).what());
+  return *std::move(made);
 }
 
 /// Nothing without --layers.
@@ -133,11 +131,7 @@ std::optional<Columns> make_columns(const DecSettings& s, const Input& input, co
   expect_plane(input.mesh(), s.input, "--layers");
   const Layers layers = or_fail(io::read_layers(s.layers, input.file, input.loaded));
   auto made = columns(input.mesh(), complex, cells, layers, {s.pinch_out, input.names.get()});
-  if (!made) {
-    InputError error = made.error();
-    if (error.where.empty()) error.where = s.input;
-    throw as_failure(error);
-  }
+  if (!made) throw as_failure(located(made.error(), s.input));
   return *std::move(made);
 }
 

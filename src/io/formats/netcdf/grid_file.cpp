@@ -70,11 +70,9 @@ class GridReader {
   }
 
   [[nodiscard]] std::vector<double> rows_of(const NetcdfVariable& v) const {
-    std::vector<DataArray> one;
-    NetcdfCollector attributes(in_);  // a raster keeps none
-    add_netcdf_data(in_, v, one, attributes);
-    const bool whole = !is_floating(one.front().values);  // as they are in the file
-    std::vector<double> values = to_doubles(std::move(one.front().values));
+    Values unpacked = in_.unpacked(v);
+    const bool whole = !is_floating(unpacked);  // as they are in the file
+    std::vector<double> values = to_doubles(std::move(unpacked));
     for (const char* attribute : {"_FillValue", "missing_value"}) {
       const auto missing = in_.number_attribute(&v, attribute);
       if (whole && missing) std::ranges::replace(values, *missing, std::numeric_limits<double>::quiet_NaN());

@@ -112,8 +112,7 @@ class IconReader {
         dropped.push_back(v.name);
       }
     }
-    if (!dropped.empty())
-      document_.file.warnings.push_back(text(document_.names->path, ": variables are dropped: ", list_of(dropped)));
+    warn_of_dropped(document_, dropped);
   }
 
   const NetcdfReader& in_;

@@ -212,8 +212,7 @@ class MpasReader {
         dropped.push_back(v.name);
       }
     }
-    if (!dropped.empty())
-      document_.file.warnings.push_back(text(document_.names->path, ": variables are dropped: ", list_of(dropped)));
+    warn_of_dropped(document_, dropped);
   }
 
   const NetcdfReader& in_;

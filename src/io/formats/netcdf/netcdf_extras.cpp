@@ -269,6 +269,11 @@ void add_netcdf_data(const NetcdfReader& in, const NetcdfVariable& v, std::vecto
   kept.variable(v, arrays.back().name);
 }
 
+void warn_of_dropped(Document& document, const std::vector<std::string_view>& names) {
+  if (names.empty()) return;
+  document.file.warnings.push_back(text(document.names->path, ": variables are dropped: ", list_of(names)));
+}
+
 NetcdfMesh mesh_for_netcdf(const WriteJob& job, std::string_view format) {
   NetcdfMesh result{job.file, {}, {}};
   result.file.warnings.clear();
@@ -304,7 +309,7 @@ NetcdfCollector::NetcdfCollector(const NetcdfReader& in) : in_(in), kept_(std::s
 void NetcdfCollector::file(const IsKnown& is_known) { attributes(nullptr, NetcdfWriter::kFile, is_known); }
 
 void NetcdfCollector::variable(const NetcdfVariable& v, const std::string& name, const IsKnown& is_known) {
-  // What belongs to an array has a dimension here, and no values.
+  // Attributes of an array are those of a variable with a dimension, without values.
   const bool alone = is_kept_alone(in_, v);
   const std::vector<int> dimensions = alone ? std::vector<int>() : std::vector<int>{kept_.dimension("array", 1)};
   const bool has_value = alone && v.scalar && v.n_values() == 1;

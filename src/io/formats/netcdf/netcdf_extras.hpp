@@ -43,7 +43,7 @@ class NetcdfCollector {
   bool any_ = false;
 };
 
-/// What was kept when a file was read, for the file that is written.
+/// Gives a file that is written what NetcdfCollector kept of the file that was read.
 class NetcdfKept {
  public:
   explicit NetcdfKept(const MeshFile& file);
@@ -85,6 +85,9 @@ void read_netcdf_extras(const NetcdfReader& in, Document& document, NetcdfCollec
 /// one.
 void add_netcdf_data(const NetcdfReader& in, const NetcdfVariable& variable, std::vector<DataArray>& arrays,
                      NetcdfCollector& kept, const std::string& name = {});
+
+/// Warns of variables without a place in a mesh file.
+void warn_of_dropped(Document& document, const std::vector<std::string_view>& names);
 
 /// The file without unused points, with counter-clockwise triangles; also its mesh and operators.
 struct NetcdfMesh {

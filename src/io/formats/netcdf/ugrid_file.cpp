@@ -274,8 +274,7 @@ class UgridReader {
         dropped.push_back(v.name);
       }
     }
-    if (!dropped.empty())
-      document_.file.warnings.push_back(text(path(), ": variables are dropped: ", list_of(dropped)));
+    warn_of_dropped(document_, dropped);
   }
 
   /// The attributes of the file and of the topology; not the ones that every file of temper has.
