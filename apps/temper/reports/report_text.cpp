@@ -8,6 +8,7 @@
 #include "console.hpp"
 #include "options/options.hpp"
 #include "reports/quality_report.hpp"
+#include "reports/reports.hpp"
 
 namespace temper::app {
 namespace {
@@ -237,6 +238,18 @@ std::string comparison_text(const Quality& before, const Quality& after, int sta
     text += row(label, number(before.energy[i][column]), number(after.energy[i][column]));
   }
   return text;
+}
+
+std::string size_text(const SizeChange& size) {
+  const auto row = [&size](const char* label, double (*of)(const SizeReport&)) {
+    return pad_right(label, kLabelColumns) + pad_left(fmt::format("{:.6g}", of(size.before)), kNumberColumns) +
+           pad_left(fmt::format("{:.6g}", of(size.after)), kNumberColumns) + "\n";
+  };
+  return row("size over field, least", [](const SizeReport& r) { return r.over_field.min; }) +
+         row("size over field, median", [](const SizeReport& r) { return r.over_field.median; }) +
+         row("size over field, greatest", [](const SizeReport& r) { return r.over_field.max; }) +
+         row("gradation, 95 %", [](const SizeReport& r) { return r.gradation.p95; }) +
+         row("gradation, greatest", [](const SizeReport& r) { return r.gradation.max; });
 }
 
 }  // namespace temper::app

@@ -14,6 +14,7 @@
 #include "exit.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
+#include "files/size_options.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "reports/quality_report.hpp"

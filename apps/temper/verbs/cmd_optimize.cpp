@@ -16,6 +16,7 @@
 #include "files/input.hpp"
 #include "files/options_file.hpp"
 #include "files/outputs.hpp"
+#include "files/size_options.hpp"
 #include "files/trace_jsonl.hpp"
 #include "options/options.hpp"
 #include "options/ranks.hpp"

@@ -137,6 +137,23 @@ TEST_F(MeshVerb, WellsStayThroughOptimizeAndHaveTheirCells) {
   EXPECT_TRUE(contains(read("grid/MESH.csv"), "\nwells,point,1,A"));
 }
 
+TEST_F(MeshVerb, SizesComeFromDepthsWhoseSignIsKnown) {
+  write("square.poly", "4 2 0 0\n1 0 0\n2 400 0\n3 400 400\n4 0 400\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
+  write("bed.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 400\n-10 -20\n-10 -20\n");
+  const auto mesh = [&](const std::string& rule) {
+    return temper({"mesh", "square.poly", "--size", "bed.asc", "--from-depth", rule, "-o", "out.vtu", "--quiet"});
+  };
+  const std::string rule = "time_step=5,least=10";
+  const Outcome unknown = mesh(rule);
+  EXPECT_TRUE(contains(unknown.err, "does not say whether its numbers are depths or heights")) << unknown.err;
+  const Outcome land = mesh(rule + ",positive=down");
+  EXPECT_EQ(land.exit, 1);
+  EXPECT_TRUE(contains(land.err, "all points are on land, above the water. Next: turn the numbers by positive=up"))
+      << land.err;
+  EXPECT_FALSE(exists("out.vtu"));
+  EXPECT_EQ(mesh(rule + ",positive=up").exit, 0);
+}
+
 TEST_F(MeshVerb, BadUsageIsRefusedAndNothingWritten) {
   make_outline();
   for (const std::vector<std::string>& more :

@@ -153,6 +153,9 @@ TEST_F(SphereFiles, FesomMarksTheCoastAndCarriesDepths) {
   EXPECT_EQ(std::count(flags.begin(), flags.end(), 1), 3);
   EXPECT_EQ(back.point_data[1].name, "depth");
   EXPECT_EQ(back.field_data[0].name, "levels");
+  EXPECT_EQ(std::get<std::vector<double>>(back.point_data[1].values)[0], -4000);  // FESOM's sign
+  ASSERT_TRUE(write(path("fort.14"), back));
+  EXPECT_EQ(std::get<std::vector<double>>(read_back(path("fort.14")).point_data[0].values)[0], 4000);  // ADCIRC's
 }
 
 TEST_F(SphereFiles, DegreesGoOntoTheSphereAndOntoMaps) {

@@ -1,3 +1,5 @@
+#include "files/size_options.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,14 +8,10 @@
 #include <iterator>
 #include <string_view>
 #include <utility>
-#include <variant>
 
 #include "console.hpp"
 #include "exit.hpp"
-#include "files/input.hpp"
 #include "options/options.hpp"
-#include "reports/quality_report.hpp"
-#include "reports/reports.hpp"
 #include "temper/detail/suggest.hpp"
 
 namespace temper::app {
@@ -67,8 +65,15 @@ std::vector<double> from_depths(const Input& input, const std::string& data, con
                               "positive=down or positive=up to --from-depth",
                               input.path, data));
   }
-  if (rule.positive_up ? *rule.positive_up : known->positive_up) {
+  const bool is_up = rule.positive_up ? *rule.positive_up : known->positive_up;
+  if (is_up) {
     for (double& depth : depths) depth = -depth;
+  }
+  if (std::ranges::none_of(depths, [](double depth) { return depth > 0; })) {
+    throw Failure(Exit::bad_input,
+                  fmt::format("{}: with \"{}\" all points are on land, above the water. Next: turn the numbers by "
+                              "positive={} in --from-depth",
+                              input.path, data, is_up ? "down" : "up"));
   }
   return or_fail(sizes_from_depths(depths, rule.sizes));
 }
@@ -136,18 +141,6 @@ std::optional<SizeField> depth_field(const Input& input) {
   std::vector<double> depths = at_vertices(input, *found);
   for (double& depth : depths) depth = std::isfinite(depth) ? std::max(depth, kLeast) : kLeast;
   return *SizeField::from_values(input.mesh(), depths, input.names.get());
-}
-
-std::string size_text(const SizeChange& size) {
-  const auto row = [&size](const char* label, double (*of)(const SizeReport&)) {
-    return pad_right(label, kLabelColumns) + pad_left(fmt::format("{:.6g}", of(size.before)), kNumberColumns) +
-           pad_left(fmt::format("{:.6g}", of(size.after)), kNumberColumns) + "\n";
-  };
-  return row("size over field, least", [](const SizeReport& r) { return r.over_field.min; }) +
-         row("size over field, median", [](const SizeReport& r) { return r.over_field.median; }) +
-         row("size over field, greatest", [](const SizeReport& r) { return r.over_field.max; }) +
-         row("gradation, 95 %", [](const SizeReport& r) { return r.gradation.p95; }) +
-         row("gradation, greatest", [](const SizeReport& r) { return r.gradation.max; });
 }
 
 }  // namespace temper::app
