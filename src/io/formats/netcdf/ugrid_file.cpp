@@ -31,6 +31,7 @@ Document read_mpas_from(const NetcdfReader& in, const std::string& path);
 std::optional<Document> read_grid_from(const NetcdfReader& in, const Source& source);
 bool is_icon(const NetcdfReader& in);
 Document read_icon(const NetcdfReader& in, const std::string& path);
+Document read_exodus(const NetcdfReader& in, const std::string& path);
 
 bool sniff_ugrid(std::string_view head) { return is_netcdf(head); }
 
@@ -568,8 +569,7 @@ Document read_ugrid_from(const NetcdfReader& in, const Source& source) {
   if (in.find("NetNode_x") != nullptr && in.find("NetLink") != nullptr) return UgridReader(in, nullptr, path).read();
   if (is_icon(in)) return read_icon(in, path);
   if (auto grid = read_grid_from(in, source)) return *std::move(grid);
-  if (in.find("connect1") != nullptr)
-    fail(ErrorCode::unsupported, path, "is an Exodus mesh, which temper does not read; meshio converts it");
+  if (in.find("connect1") != nullptr) return read_exodus(in, path);
   // Recognized by the name of a group, which libnetcdf does not show among variables.
   if (is_hdf5(source.bytes) && source.bytes.find("ENS_MAA") != std::string::npos)
     fail(ErrorCode::unsupported, path, "is a MED mesh, which temper does not read; meshio converts it");
