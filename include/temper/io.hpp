@@ -337,11 +337,12 @@ void release_geometry(MeshFile& file, const LoadedMesh& loaded);
 struct OutlineFile {
   Outline outline;                    ///< Outline; its names are the file's own numbers and lines
   std::string path;                   ///< Path of the file that was read
-  std::string format;                 ///< Format: "poly", "jigsaw" or "geojson"
+  std::string format;                 ///< Format: "poly", "jigsaw", "geojson", or "gis" through GDAL
   bool geographic = false;            ///< Points are longitude and latitude [degrees]
   std::vector<std::string> warnings;  ///< Warnings about what was dropped in reading
 };
-/// Reads an outline: Triangle's .poly (with its .node), JIGSAW's geometry, or GeoJSON. The content decides the format.
+/// Reads an outline: Triangle's .poly (with its .node), JIGSAW's geometry, GeoJSON, and through GDAL shapefiles and
+/// GeoPackages. The content decides the format.
 [[nodiscard]] Expected<OutlineFile> read_outline(const std::string& path);
 
 /// A file that holds only this mesh. Its fixed vertices are marked points of tag 1.

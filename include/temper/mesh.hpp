@@ -184,10 +184,11 @@ class Mesh {
   /// Says whether the edge of h is on the boundary or constrained: no flip ever removes it.
   [[nodiscard]] bool is_unflippable(HalfedgeId h) const { return is_boundary(h) || is_constrained(h); }
   /// Marks the edge of h on both sides.
-  void set_constrained(HalfedgeId h, bool constrained) {
-    constrained_.set(h, constrained ? 1 : 0, n_halfedges());
-    if (twin(h).valid()) constrained_.set(twin(h), constrained ? 1 : 0, n_halfedges());
-  }
+  void set_constrained(HalfedgeId h, bool constrained) { mark(h, constrained ? 1 : 0); }
+  /// Says whether the edge is the diagonal of a quadrilateral, whose two triangles are one cell. It is constrained, too.
+  [[nodiscard]] bool is_diagonal(HalfedgeId h) const { return constrained_[h] == kDiagonal; }
+  /// Marks a diagonal on both sides. The caller constrains the sides of the quadrilateral and fixes its corners.
+  void set_diagonal(HalfedgeId h) { mark(h, kDiagonal); }
   /// Says whether h represents its edge. Each edge has one representative: the boundary halfedge, or the smaller of two
   /// twins.
   [[nodiscard]] bool is_edge_representative(HalfedgeId h) const { return !twin(h).valid() || h < twin(h); }
@@ -196,6 +197,10 @@ class Mesh {
   // --- triangles ---------------------------------------------------------------------------------
   [[nodiscard]] std::array<VertexId, 3> corners(TriangleId t) const {
     return {corners_[halfedge(t, 0)], corners_[halfedge(t, 1)], corners_[halfedge(t, 2)]};
+  }
+  /// Says whether t is half of a quadrilateral. No vertex is inserted there.
+  [[nodiscard]] bool is_half(TriangleId t) const {
+    return is_diagonal(halfedge(t, 0)) || is_diagonal(halfedge(t, 1)) || is_diagonal(halfedge(t, 2));
   }
   [[nodiscard]] std::int32_t region(TriangleId t) const { return regions_[t]; }
   void set_region(TriangleId t, std::int32_t region) { regions_.set(t, region, n_triangles()); }
@@ -245,6 +250,7 @@ class Mesh {
   friend class MeshPermuter;
 
   static constexpr std::uint32_t kFixed = 1;
+  static constexpr std::uint8_t kDiagonal = 2;
 
   // 32 bytes: a vertex is one half of a cache line and never lies in two.
   struct alignas(kVertexStride) VertexRecord {
@@ -281,6 +287,10 @@ class Mesh {
   };
 
   void repair_outgoing();
+  void mark(HalfedgeId h, std::uint8_t value) {
+    constrained_.set(h, value, n_halfedges());
+    if (twin(h).valid()) constrained_.set(twin(h), value, n_halfedges());
+  }
   VertexRecord& record(VertexId v) { return vertices_[v]; }
   [[nodiscard]] const VertexRecord& record(VertexId v) const { return vertices_[v]; }
 
@@ -289,7 +299,7 @@ class Mesh {
   IdVector<HalfedgeId, VertexId> corners_;  // origin of each halfedge
   IdVector<HalfedgeId, HalfedgeId> twins_;  // invalid on the boundary
   // Most meshes have no constrained edge and a single region 0. This saves 14 bytes per vertex.
-  ZeroUntilSet<HalfedgeId, std::uint8_t> constrained_;
+  ZeroUntilSet<HalfedgeId, std::uint8_t> constrained_;  // 1, or kDiagonal
   ZeroUntilSet<TriangleId, std::int32_t> regions_;
 };
 

@@ -104,7 +104,8 @@ enum class InsertionStatus {
   hidden,          ///< The weight is too small: no regular triangulation would have the vertex
   not_regular,  ///< The weight hides a neighbor, or the edges around were not regular. The plan is complete and may be
                 ///< committed, but leaves an edge that is not regular
-  inverted,     ///< For a split, the point is rounded so far off the edge that a new triangle turns over
+  in_quadrilateral,  ///< The point is in or on a quadrilateral, which stays whole
+  inverted,          ///< For a split, the point is rounded so far off the edge that a new triangle turns over
 };
 
 /// The plan that insert_vertex commits. It is a value: evaluate it or throw it away.

@@ -386,8 +386,7 @@ DecSummary summarize(const Mesh& mesh, const DecComplex& complex) {
   for (const double a : complex.areas) s.area += a;
   for (const double a : complex.star0) s.star0_sum += a;
   for (const TriangleId t : mesh.triangles()) {
-    const auto [p, q, r] = mesh.points(t);
-    s.not_well_centered += is_well_centered(mesh.space(), p, q, r) ? 0 : 1;
+    s.not_well_centered += is_bad(mesh, t);
   }
   return s;
 }

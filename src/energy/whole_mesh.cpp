@@ -10,6 +10,7 @@
 #include "base/sum.hpp"
 #include "energy/patch.hpp"
 #include "geometry/predicates_inline.hpp"
+#include "mesh/bad_triangles.hpp"
 
 namespace temper {
 namespace {
@@ -20,7 +21,8 @@ struct Batch {
   std::size_t size = 0;
 };
 
-/// Calls visit with all triangles of a block that are not erased, in batches. Several are filled before the first is
+/// Calls visit with all triangles of a block, in batches. Erased ones are left out, and quadrilaterals, since nothing
+/// changes them. Several are filled before the first is
 /// visited: reading eight numbers at once waits long for a number that has just been written.
 template <class Visit>
 void for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
@@ -36,11 +38,20 @@ void for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
   const std::size_t end = std::min(mesh.n_triangles(), (block + 1) * kBlockSize);
   for (std::size_t i = block * kBlockSize; i < end; ++i) {
     const TriangleId t(i);
-    if (mesh.is_erased(t)) continue;
+    if (mesh.is_erased(t) || mesh.is_half(t)) continue;
     batches[filled / kLanes].lanes.set(filled % kLanes, mesh.points(t));
     if (++filled == batches.size() * kLanes) visit_all();
   }
   visit_all();
+}
+
+/// The bad halves of quadrilaterals in a block.
+std::size_t count_bad_halves(const Mesh& mesh, std::size_t block) {
+  std::size_t bad = 0;
+  const std::size_t end = std::min(mesh.n_triangles(), (block + 1) * kBlockSize);
+  for (std::size_t i = block * kBlockSize; i < end; ++i)
+    bad += mesh.is_half(TriangleId(i)) && is_bad(mesh, TriangleId(i));
+  return bad;
 }
 
 }  // namespace
@@ -59,7 +70,7 @@ std::size_t count_bad(const Space& space, const TriangleLanes& triangles, std::s
 
 std::size_t count_bad(const Mesh& mesh, Executor* executor) {
   return static_cast<std::size_t>(sum_of_blocks(mesh.n_triangles(), executor, [&](std::size_t block) {
-    std::size_t bad = 0;
+    std::size_t bad = count_bad_halves(mesh, block);
     for_batches(mesh, block, [&](const Batch& batch) { bad += count_bad(mesh.space(), batch.lanes, batch.size); });
     return static_cast<double>(bad);
   }));
@@ -77,6 +88,7 @@ EnergyAndBad RunningEnergyAndBad::measure(const Mesh& mesh, const EnergyModel& m
   }
   const StarKernels& kernels = star_kernels(mesh.space());
   const auto add_block = [&](std::size_t block, std::span<double> of_block) {
+    of_block[1] += static_cast<double>(count_bad_halves(mesh, block));
     for_batches(mesh, block, [&](const Batch& batch) {
       of_block[0] += kernels.barrier_sum(formula, batch.lanes, batch.size);
       of_block[1] += static_cast<double>(count_bad(mesh.space(), batch.lanes, batch.size));

@@ -10,6 +10,7 @@
 #include "io/conversion/bed.hpp"
 #include "io/conversion/data_update.hpp"
 #include "io/conversion/globe.hpp"
+#include "io/conversion/quadrilaterals.hpp"
 #include "io/disk/files.hpp"
 #include "io/formats/format.hpp"
 #include "io/text/names.hpp"
@@ -45,11 +46,11 @@ constexpr FormatRow kRows[] = {
     // clang-format off
     // name, description, suffixes, what a file holds,
     // functions that recognize, read and write it, details
-    {"vtu", "VTK XML unstructured grid, temper's own", ".vtu", kAll | kSphere | kPeriod,
+    {"vtu", "VTK XML unstructured grid, temper's own", ".vtu", kAll | kSphere | kPeriod | kQuadrilaterals,
      sniff_vtu, read_vtu, write_vtu},
-    {"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", (kAll & ~kFieldData) | kSphere,
+    {"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", (kAll & ~kFieldData) | kSphere | kQuadrilaterals,
      sniff_gmsh41, read_gmsh, write_gmsh41, {.name_ends = "\""}},
-    {"gmsh22", "Gmsh MSH 2.2", ".msh2", (kAll & ~kFieldData) | kSphere,
+    {"gmsh22", "Gmsh MSH 2.2", ".msh2", (kAll & ~kFieldData) | kSphere | kQuadrilaterals,
      sniff_gmsh22, read_gmsh, write_gmsh22, {.name_ends = "\""}},
     {"medit", "medit (INRIA, Mmg)", ".mesh", kInSpace | kAllTags,
      sniff_medit, read_medit, write_medit, {.keeps = medit_keeps}},
@@ -61,16 +62,16 @@ constexpr FormatRow kRows[] = {
      sniff_off, read_off, write_off, {.first_point = 0}},
     // This row is before the formats whose first word may also be the first word of a title. It holds only those tags
     // and names that are boundaries; its writer names the others.
-    {"adcirc", "ADCIRC fort.14", ".14 .grd .gr3", kLines | kMarkedPoints | kNames | kSphere,
+    {"adcirc", "ADCIRC fort.14", ".14 .grd .gr3", kLines | kMarkedPoints | kNames | kSphere | kQuadrilaterals,
      sniff_adcirc, read_adcirc, write_adcirc, {.keeps = adcirc_keeps, .degrees = Degrees::where_known, .bed = Bed::depth}},
-    {"2dm", "2DM of SMS", ".2dm", kZ | kRegions | kLines | kNames,
+    {"2dm", "2DM of SMS", ".2dm", kZ | kRegions | kLines | kNames | kQuadrilaterals,
      sniff_2dm, read_2dm, write_2dm,
      {.name_ends = "\"", .bed = Bed::z, .has_heights = true}},
     {"obj", "Wavefront OBJ", ".obj", kInSpace | kAllTags | kNames,
      sniff_obj, read_obj, write_obj},
-    {"vtk", "legacy VTK 2.0 to 4.2", ".vtk", kAll | kSphere,
+    {"vtk", "legacy VTK 2.0 to 4.2", ".vtk", kAll | kSphere | kQuadrilaterals,
      sniff_legacy_vtk, read_legacy_vtk, write_legacy_vtk},
-    {"vtk51", "legacy VTK 5.1", ".vtk51", kAll | kSphere,
+    {"vtk51", "legacy VTK 5.1", ".vtk51", kAll | kSphere | kQuadrilaterals,
      sniff_vtk51, read_legacy_vtk, write_vtk51},
     {"mfem", "MFEM mesh v1.0", ".mesh", 0,
      sniff_mfem, read_mfem},
@@ -86,13 +87,14 @@ constexpr FormatRow kRows[] = {
      sniff_triangle, read_triangle, write_triangle,
      {.files_to_write = triangle_files, .files_to_read = triangle_files_to_read}},
     // This row is before the rows of NetCDF, which may be HDF5: it hands files of other contents on to them.
-    {"vtkhdf", "VTKHDF unstructured grid (HDF5)", ".vtkhdf .hdf .hdf5", kAll | kSphere | kPeriod,
+    {"vtkhdf", "VTKHDF unstructured grid (HDF5)", ".vtkhdf .hdf .hdf5", kAll | kSphere | kPeriod | kQuadrilaterals,
      sniff_vtkhdf, read_vtkhdf, write_vtkhdf, {.files_to_write = vtkhdf_files}},
     {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll | kSphere | kPeriod,
      sniff_mpas, read_mpas, write_mpas, {.files_to_write = netcdf_files, .degrees = Degrees::by_writer}},
-    {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll | kSphere,
+    {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll | kSphere | kQuadrilaterals,
      sniff_ugrid, read_ugrid, write_ugrid,
-     {.files_to_write = netcdf_files, .degrees = Degrees::by_writer, .bed = Bed::level}},
+     {.files_to_write = netcdf_files, .degrees = Degrees::by_writer, .bed = Bed::level,
+      .joins_halves = true}},
     {"ncgrid", "grid of CF or COARDS (NetCDF)", ".nc .grd", 0,
      sniff_ugrid, read_ugrid},
     // clang-format on
@@ -315,6 +317,7 @@ void expect_space(const FormatRow& row, const std::string& path, const MeshFile&
 struct FileInFormat {
   std::optional<MeshFile> changed;
   std::vector<double> heights;
+  std::vector<std::int32_t> fourth_corners;
 };
 FileInFormat file_in_format(const FormatRow& row, const MeshFile& file) {
   FileInFormat result;
@@ -328,6 +331,9 @@ FileInFormat file_in_format(const FormatRow& row, const MeshFile& file) {
   const DataArray* const heights = now.z_is_data && has_place ? find(now.point_data, kHeight) : nullptr;
   if (heights != nullptr && is_finite(heights->values))  // a missing height stays a number of data
     result.heights = to_doubles(std::move(take(change().point_data, kHeight)->values));
+  if ((row.holds & kQuadrilaterals) == 0 || row.details.joins_halves) return result;
+  if (const auto quadrilaterals = quadrilaterals_of(file); !quadrilaterals.empty())
+    result.fourth_corners = join_quadrilaterals(change(), quadrilaterals);
   return result;
 }
 
@@ -355,7 +361,8 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
                           options.executor,
                           outputs,
                           warnings,
-                          std::move(written.heights)};
+                          std::move(written.heights),
+                          std::move(written.fourth_corners)};
     if (goes_back_to_degrees(row, file)) warn_of_weights_beside_degrees(job, file);
     if (is_resized(row, file)) {
       job.warn("the radius is ", Projection{}.radius, " in ", row.description, ", not ", file.sphere()->radius,

@@ -1,18 +1,37 @@
 // The triangles that are not well-centered: optimization repairs them, explain explains them, and meshing counts them.
-// Also the erased triangles, which loops over all triangles must skip.
+// Also the erased triangles, which loops over all triangles must skip, and the halves of quadrilaterals.
 #pragma once
 
 #include <vector>
 
 #include "mesh/predicates.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
 
+/// is_centered_half says whether the orthocenter of half a quadrilateral is inside its two sides. It may be beyond the
+/// diagonal. On a rectangle both halves have it in the middle.
+///
+///     d-------c
+///     | o   / |    o is inside da and cd
+///     |   /   |
+///     a-------b
+[[nodiscard]] inline bool is_centered_half(const Mesh& mesh, TriangleId t) {
+  const auto p = mesh.points(t);
+  if (inlined::orientation(mesh.space(), p[0], p[1], p[2]) != Sign::positive) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (mesh.is_diagonal(Mesh::halfedge(t, static_cast<int>(k)))) continue;
+    const WeightedPoint &a = p.at(k), &b = p.at((k + 1) % 3), &c = p.at((k + 2) % 3);
+    if (signed_height_sign(mesh.space(), a, b, c) != Sign::positive || !inlined::crosses_edge(mesh.space(), a, b))
+      return false;
+  }
+  return true;
+}
 /// is_bad says whether triangle t is not well-centered, exactly. An erased triangle is not bad.
 [[nodiscard]] inline bool is_bad(const Mesh& mesh, TriangleId t) {
-  if (mesh.is_erased(t)) return false;
-  return !inlined::is_well_centered(mesh, t);
+  if (mesh.is_erased(t) || inlined::is_well_centered(mesh, t)) return false;
+  return !mesh.is_half(t) || !is_centered_half(mesh, t);
 }
 /// bad_triangles lists the triangles for which is_bad holds, in ascending order.
 [[nodiscard]] inline std::vector<TriangleId> bad_triangles(const Mesh& mesh) {
@@ -21,6 +40,14 @@ namespace temper {
     if (is_bad(mesh, t)) bad.push_back(t);
   }
   return bad;
+}
+
+/// Returns true if the mesh has a quadrilateral. O(n).
+[[nodiscard]] inline bool has_quadrilaterals(const Mesh& mesh) {
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.is_diagonal(h)) return true;
+  }
+  return false;
 }
 
 /// Returns true if a triangle of the mesh is erased: it stays until Mesh::compact drops it. O(n).

@@ -84,7 +84,14 @@ TriangleMeasure measure_triangle(const Space& space, const std::array<WeightedPo
 }
 
 TriangleMeasure measure_triangle(const Mesh& mesh, TriangleId t) {
-  return measure_triangle(mesh.space(), mesh.points(t));
+  TriangleMeasure m = measure_triangle(mesh.space(), mesh.points(t));
+  for (int k = 0; k < 3 && m.orientation == Sign::positive; ++k) {
+    if (!mesh.is_diagonal(Mesh::halfedge(t, k))) continue;
+    // No edge of its cell, the quadrilateral: it limits nothing.
+    m.h_sign[k] = Sign::positive, m.h_over_l[k] = kUnbounded;
+    m.crossed[k] = true, m.d_over_l[k] = kUnbounded;
+  }
+  return m;
 }
 
 // Numbers of single triangles.

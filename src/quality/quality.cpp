@@ -47,7 +47,7 @@ std::vector<double> transmissibilities(const Mesh& mesh, Executor* executor) {
   const auto for_edges = [&](std::size_t first, std::size_t last, auto&& visit) {
     for (std::size_t i = first; i < last; ++i) {
       const HalfedgeId h(i);
-      if (!mesh.is_boundary(h) && mesh.is_edge_representative(h)) visit(h);
+      if (!mesh.is_boundary(h) && mesh.is_edge_representative(h) && !mesh.is_diagonal(h)) visit(h);
     }
   };
   std::vector<std::size_t> place((n + kLoopBlock - 1) / kLoopBlock);  // of each block, in the array
@@ -130,8 +130,12 @@ void Tally::add(const Mesh& mesh, TriangleId t, TriangleId original) {
     min_angle_deg = std::min(min_angle_deg, m.angle_deg[k]);
     max_angle_deg = std::max(max_angle_deg, m.angle_deg[k]);
     count_in(angles, m.angle_deg[k]);
-    count_in(h_over_l, m.h_over_l[k]);
     const HalfedgeId h = Mesh::halfedge(t, k);
+    if (mesh.is_diagonal(h)) {
+      edges += mesh.is_edge_representative(h);
+      continue;
+    }
+    count_in(h_over_l, m.h_over_l[k]);
     if (mesh.is_edge_representative(h)) add_edge(mesh, h, m, k);
   }
 }

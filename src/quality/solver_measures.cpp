@@ -75,7 +75,15 @@ void merge(SolverMeasures& into, const SolverMeasures& from) {
 
 FlowCell flow_cell_of(const Mesh& mesh, TriangleId t, const WeightedPoint& near) {
   const auto [a, b, c] = mesh.corners(t);
-  return flow_cell(position_of(mesh, a, near), position_of(mesh, b, near), position_of(mesh, c, near));
+  FlowCell cell = flow_cell(position_of(mesh, a, near), position_of(mesh, b, near), position_of(mesh, c, near));
+  // Half a quadrilateral has its own center, but the area of the whole.
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeId h = Mesh::halfedge(t, k), other = mesh.twin(h);
+    if (!mesh.is_diagonal(h) || !other.valid()) continue;
+    const auto at = [&](VertexId v) { return position_of(mesh, v, near); };
+    cell.area += flow_cell(at(mesh.origin(other)), at(mesh.target(other)), at(mesh.opposite(other))).area;
+  }
+  return cell;
 }
 
 void add_flow_link(SolverMeasures& m, const Mesh& mesh, HalfedgeId h) {
@@ -109,6 +117,7 @@ double angle_across(double a, double b, double c) {
 bool is_obtuse(const Mesh& mesh, TriangleId t) {
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(t, k);
+    if (mesh.is_diagonal(h)) continue;
     const WeightedPoint from = mesh.point(mesh.origin(h));
     const Vec3 a = position_of(mesh, mesh.origin(h), from), b = position_of(mesh, mesh.target(h), from),
                c = position_of(mesh, mesh.opposite(h), from);
@@ -206,7 +215,8 @@ void add_triangles(SolverMeasures& m, const Mesh& mesh, const IdVector<VertexId,
     add_triangle(m, mesh, TriangleId(i));
     for (int k = 0; k < 3; ++k) {
       const HalfedgeId h = Mesh::halfedge(TriangleId(i), k);
-      if (!mesh.is_boundary(h) && mesh.is_edge_representative(h)) add_interior_edge(m, mesh, sizes, h);
+      if (!mesh.is_boundary(h) && mesh.is_edge_representative(h) && !mesh.is_diagonal(h))
+        add_interior_edge(m, mesh, sizes, h);
     }
   }
 }

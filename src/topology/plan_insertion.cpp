@@ -150,6 +150,10 @@ bool spokes_are_regular(const Mesh& mesh, const InsertionPlan& plan) {
 
 /// Completes the plan from the first cavity. Precondition: the first triangles are counter-clockwise.
 void complete(const Mesh& mesh, InsertionPlan& plan) {
+  if (std::ranges::any_of(plan.cavity, [&](TriangleId t) { return mesh.is_half(t); })) {
+    plan.status = InsertionStatus::in_quadrilateral;
+    return;
+  }
   const auto shows = [&](TriangleId t) { return conflicts(mesh, Mesh::halfedge(t, 0), plan.point); };
   if (!std::all_of(plan.cavity.begin(), plan.cavity.end(), shows)) {
     plan.status = InsertionStatus::hidden;

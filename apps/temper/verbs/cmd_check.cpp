@@ -108,7 +108,7 @@ class Checks {
       reports_.push_back(check_json(path, measured, input.points, outcomes));
     } else {
       print(std::exchange(first_, false) ? "" : "\n");
-      print(s_.details ? quality_text(measured, input, text_style()) : short_text(path, measured));
+      print(s_.details ? quality_text(measured, input, text_style()) : short_text(path, input.mesh(), measured));
       flush_output();  // before the verdict on standard error
     }
     if (const Exit verdict = report_unmet(outcomes, path); exit_ == Exit::done) exit_ = verdict;
@@ -130,9 +130,13 @@ class Checks {
   }
 
  private:
-  [[nodiscard]] std::string short_text(const std::string& path, const Quality& measured) const {
-    std::string text = fmt::format("{}: {}\n{}{}\n", path, mesh_size(measured.vertices, measured.triangles),
-                                   brief_text(measured), verdict(measured));
+  [[nodiscard]] std::string short_text(const std::string& path, const Mesh& mesh, const Quality& measured) const {
+    std::size_t quadrilaterals = 0;
+    for (const HalfedgeId h : mesh.halfedges()) quadrilaterals += mesh.is_diagonal(h) && mesh.is_edge_representative(h);
+    std::string text = fmt::format("{}: {}\n", path, mesh_size(measured.vertices, measured.triangles));
+    if (quadrilaterals > 0)
+      text += "of these, two each are " + plural(quadrilaterals, "quadrilateral", "quadrilaterals") + "\n";
+    text += fmt::format("{}{}\n", brief_text(measured), verdict(measured));
     if (bad_triangles(measured) > 0 && path != kStandardInput)
       text += fmt::format("Next: {} -o OUT, or {}\n", command_line("optimize", path, s_.projection),
                           command_line("explain", path, s_.projection));

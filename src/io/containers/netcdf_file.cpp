@@ -163,6 +163,23 @@ Values NetcdfReader::values(const NetcdfVariable& v) const {
   return result;
 }
 
+std::vector<std::string> NetcdfReader::texts(const NetcdfVariable& v) const {
+  nc_type type = NC_NAT;
+  check(library_.nc_inq_var(id_, v.id, nullptr, &type, nullptr, nullptr, nullptr), "look at a variable");
+  if (type != NC_CHAR || v.sizes.size() != 2 || v.n_values() == 0) return {};
+  allocation_.take(v.sizes[0], v.sizes[1], text(path_, ": variable ", v.name));
+  std::string all(v.n_values(), '\0');
+  check(library_.nc_get_var(id_, v.id, all.data()), text("read variable ", v.name));
+  std::vector<std::string> rows;
+  for (std::size_t i = 0; i < v.sizes[0]; ++i) {
+    std::string row = all.substr(i * v.sizes[1], v.sizes[1]);
+    row.resize(std::min(row.find('\0'), row.size()));
+    row.resize(row.find_last_not_of(' ') + 1);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 std::vector<std::int64_t> NetcdfReader::integers(const NetcdfVariable& v) const {
   const Values all = values(v);
   return std::visit(

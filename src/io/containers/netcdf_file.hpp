@@ -94,6 +94,8 @@ class NetcdfReader {
   [[nodiscard]] const NetcdfVariable& variable(std::string_view name) const;
   [[nodiscard]] std::string dimension_name(int dimension) const;
   [[nodiscard]] Values values(const NetcdfVariable& variable) const;
+  /// The rows of a table of characters, without what fills them up; empty if the variable is none.
+  [[nodiscard]] std::vector<std::string> texts(const NetcdfVariable& variable) const;
   /// The values as CF and NUG say: unpacked by scale_factor and add_offset, to float if both are, else to double.
   /// Floating or packed numbers are NaN where _FillValue, missing_value, a valid range or the default fill value say
   /// that they are missing. Other integers stay: they are labels.

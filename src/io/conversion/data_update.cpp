@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/conversion/globe.hpp"
+#include "io/conversion/quadrilaterals.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/file_names.hpp"
 #include "io/text/values.hpp"
@@ -161,7 +162,7 @@ class DataUpdater {
   }
   void update_cells() {
     for (DataArray& a : file_.cell_data) {
-      report_.of_triangles.push_back(a.name);
+      if (a.name != kQuadrilateral) report_.of_triangles.push_back(a.name);
       if (!sources_.empty()) a.values = at_triangles(a, sources_);
     }
   }

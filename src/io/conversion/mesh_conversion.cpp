@@ -13,6 +13,7 @@
 #include "io/conversion/adcirc.hpp"
 #include "io/conversion/data_update.hpp"
 #include "io/conversion/globe.hpp"
+#include "io/conversion/quadrilaterals.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/file_names.hpp"
 #include "io/text/values.hpp"
@@ -209,6 +210,7 @@ class MeshMaker {
     find_edges();
     take_edge_lines();
     constrain_lines();
+    keep_quadrilaterals();
     fix_ends_of_tags();
     fix_marked_points();
     return std::move(loaded_);
@@ -358,6 +360,23 @@ class MeshMaker {
                   n_dropped == 1 ? "line to a point of no triangle is dropped with it"
                                  : "lines to points of no triangle are dropped with them",
                   dropped));
+  }
+  /// Quadrilaterals stay as they are: their corners are fixed, their sides and their diagonal constrained.
+  void keep_quadrilaterals() {
+    Mesh& mesh = loaded_.mesh;
+    for (const Halves& q : quadrilaterals_of(file_)) {
+      for (const TriangleId t : {TriangleId(q.triangle), TriangleId(q.other)}) {
+        for (const VertexId v : mesh.corners(t)) mesh.set_fixed(v, true);
+        for (int k = 0; k < 3; ++k) {
+          const HalfedgeId h = Mesh::halfedge(t, k);
+          if (mesh.is_boundary(h) || mesh.is_diagonal(h)) continue;
+          if (Mesh::triangle(mesh.twin(h)) == TriangleId(t.index == q.other ? q.triangle : q.other))
+            mesh.set_diagonal(h);
+          else
+            mesh.set_constrained(h, true);
+        }
+      }
+    }
   }
   /// Fixes points of straight pieces of the boundary if tagged lines end there or the tag changes. If such a point
   /// slid, the user's groups would change their shape.

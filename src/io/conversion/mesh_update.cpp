@@ -12,6 +12,7 @@
 
 #include "io/conversion/data_update.hpp"
 #include "io/conversion/globe.hpp"
+#include "io/conversion/quadrilaterals.hpp"
 #include "io/disk/files.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/file_names.hpp"
@@ -394,13 +395,23 @@ MeshFile from_mesh(const Mesh& mesh) {
   MeshFile file;
   copy_vertices(file, mesh, {});
   copy_triangles(file, mesh);
+  std::vector<std::array<TriangleId, 2>> pairs;  // of halves of quadrilaterals
   for (const HalfedgeId h : mesh.halfedges()) {
     if (!mesh.is_constrained(h) || mesh.is_boundary(h) || !mesh.is_edge_representative(h)) continue;
     // An interface between regions is constrained by its regions; any other line has to be written.
-    if (mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(mesh.twin(h)))) continue;
+    const TriangleId t = Mesh::triangle(h), other = Mesh::triangle(mesh.twin(h));
+    if (mesh.is_diagonal(h)) pairs.push_back({t, other});
+    if (mesh.region(t) != mesh.region(other) || mesh.is_half(t) || mesh.is_half(other)) continue;
     file.lines.push_back(
         {static_cast<std::int32_t>(mesh.origin(h).index), static_cast<std::int32_t>(mesh.target(h).index)});
     file.line_tags.push_back(0);
+  }
+  if (!pairs.empty()) {
+    std::vector<std::int32_t> numbers(mesh.n_triangles());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      for (const TriangleId t : pairs[i]) numbers[t.index] = static_cast<std::int32_t>(i + 1);
+    }
+    file.cell_data.push_back({std::string(kQuadrilateral), 1, std::move(numbers)});
   }
   constexpr std::int32_t kFixed = 1;
   for (const VertexId v : mesh.vertices()) {

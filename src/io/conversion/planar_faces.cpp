@@ -58,25 +58,25 @@ class PlanarGraph {
 
 }  // namespace
 
-std::vector<std::array<std::int32_t, 3>> planar_triangles(std::span<const Vec2> points, std::span<const EdgeEnds> edges,
-                                                          const InputNames& names, const std::string& path) {
+std::vector<std::array<std::int32_t, 4>> planar_faces(std::span<const Vec2> points, std::span<const EdgeEnds> edges,
+                                                      const InputNames& names, const std::string& path) {
   constexpr std::size_t kMostSides = 6;
   PlanarGraph graph(points, edges);
-  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::array<std::int32_t, 4>> faces;
   for (std::size_t d = 0; d < 2 * edges.size(); ++d) {
     const std::vector<std::int32_t> corners = graph.face(d);
     if (corners.size() < 3 || corners.size() > kMostSides || !(graph.doubled_area(corners) > 0)) continue;
-    if (corners.size() == 3) {
-      triangles.push_back({corners[0], corners[1], corners[2]});
+    if (corners.size() <= 4) {
+      faces.push_back({corners[0], corners[1], corners[2], corners.size() == 4 ? corners[3] : -1});
       continue;
     }
     std::string all;
     for (const std::int32_t p : corners) all += text(all.empty() ? "" : ", ", names.point(static_cast<std::size_t>(p)));
     const Vec2 at = points[static_cast<std::size_t>(corners[0])];
     fail(ErrorCode::unsupported, path, "edges enclose a face with ", corners.size(), " sides, ", all, ", at (", at.x,
-         ", ", at.y, "); temper reads triangles. Next: cut such faces into triangles");
+         ", ", at.y, "); temper reads triangles and quadrilaterals. Next: cut such faces into these");
   }
-  return triangles;
+  return faces;
 }
 
 }  // namespace temper::io

@@ -1,5 +1,5 @@
-// ADCIRC's grid and boundary file, fort.14: a title, "NE NP", nodes "number x y depth", elements "number 3 a b c", then
-// strings of boundary nodes. The rest of a line is a comment.
+// ADCIRC's grid and boundary file, fort.14: a title, "NE NP", nodes "number x y depth", elements "number 3 a b c", in
+// SCHISM's hgrid.gr3 also "number 4 a b c d", then strings of boundary nodes. The rest of a line is a comment.
 //
 //   NOPE, NETA, and for each open boundary   NVDLL IBTYPEE, then its nodes
 //   NBOU, NVEL, and for each land boundary   NVELL IBTYPE, then its nodes, with more numbers where there are levees:
@@ -119,13 +119,12 @@ class AdcircReader {
       names.triangles.push_back(number);
       names.triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
       const std::int32_t corners = scanner_.integer("the number of corners");
-      if (corners == 4) refuse_element(scanner_.where(), number, "quadrilateral");
-      if (corners != 3) {
-        scanner_.fail_here(ErrorCode::syntax, "triangle ", number, " has ", corners, " corners; expected 3");
+      if (corners != 3 && corners != 4) {
+        scanner_.fail_here(ErrorCode::syntax, "element ", number, " has ", corners, " corners; expected 3 or 4");
       }
-      const std::string element = text("triangle ", number);
-      const std::int32_t a = node(lookup, element), b = node(lookup, element);
-      f.triangles.push_back({a, b, node(lookup, element)});
+      const std::string element = text(corners == 3 ? "triangle " : "quadrilateral ", number);
+      const std::int32_t a = node(lookup, element), b = node(lookup, element), c = node(lookup, element);
+      document_.add_face({a, b, c}, corners == 4 ? node(lookup, element) : -1);
       scanner_.next_line();
     }
   }
@@ -204,9 +203,12 @@ class AdcircReader {
     std::sort(wanted.begin(), wanted.end());
     std::vector<bool> gone(f.lines.size());
     for (const std::size_t line : closing_lines_) gone[line] = true;
-    for (const auto& t : f.triangles) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Ends ends = std::minmax({t[k], t[(k + 1) % 3]});
+    for (std::size_t i = 0; i < f.triangles.size(); ++i) {
+      const auto [a, b, c] = f.triangles[i];
+      const std::int32_t d = i < document_.fourth_corners.size() ? document_.fourth_corners[i] : -1;
+      const std::array corners = {a, b, c, d < 0 ? a : d};
+      for (std::size_t k = 0; k < 4; ++k) {
+        const Ends ends = std::minmax({corners[k], corners[(k + 1) % 4]});
         auto line = std::lower_bound(wanted.begin(), wanted.end(), std::pair(ends, std::size_t{0}));
         for (; line != wanted.end() && line->first == ends; ++line) gone[line->second] = false;
       }

@@ -82,8 +82,14 @@ class AdcircWriter {
     const MeshFile& f = file_;
     for (std::size_t i = 0; i < f.triangles.size(); ++i) {
       const auto& t = f.triangles[i];
-      out_.put(i + 1, " 3 ", t[0] + 1, ' ', t[1] + 1, ' ', t[2] + 1, '\n');
+      const bool is_triangle = i < job_.n_triangles();
+      out_.put(i + 1, is_triangle ? " 3 " : " 4 ", t[0] + 1, ' ', t[1] + 1, ' ', t[2] + 1);
+      if (!is_triangle) out_.put(' ', job_.fourth_corners[i - job_.n_triangles()] + 1);
+      out_.put('\n');
     }
+    if (const std::size_t n = job_.fourth_corners.size(); n > 0 && !job_.path.ends_with(".gr3"))
+      job_.warn(n, n == 1 ? " quadrilateral is" : " quadrilaterals are",
+                " written, which SCHISM reads; ADCIRC reads triangles alone");
     collect_levees();
     collect_boundaries();
     boundaries(true);
@@ -112,7 +118,7 @@ class AdcircWriter {
   void collect_boundaries() {
     const MeshFile& f = file_;
     if (f.lines.empty()) return;
-    const auto boundary = boundary_edges(f);
+    const auto boundary = boundary_edges(job_.measured);
     std::vector<std::pair<DirectedEdge, std::int32_t>> lines;  // on the boundary, and their tags
     std::map<DirectedEdge, std::int32_t> first_tag;            // named as a boundary if one is
     for (std::size_t i = 0; i < f.lines.size(); ++i) {

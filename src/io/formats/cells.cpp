@@ -37,14 +37,21 @@ void CellSorter::add(int type, const std::int32_t* p, std::size_t n, const std::
                     : type == kVtkLine     ? n == 2
                     : type == kVtkVertex   ? n == 1
                     : type == kVtkPolyLine ? n >= 2
+                    : type == kVtkPixel    ? n == 4
+                    : type == kVtkQuad     ? n == 4
                                            : true;
   if (!fits) fail(ErrorCode::syntax, where, "element ", cell, " is a ", vtk_cell_name(type), " with ", n, " vertices");
   switch (type) {
     case kVtkPolygon:
-      if (n != 3) refuse_element(where, cell, text("polygon with ", n, " corners"));
+      if (n != 3 && n != 4) refuse_element(where, cell, text("polygon with ", n, " corners"));
       [[fallthrough]];
     case kVtkTriangle:
-      f.triangles.push_back({p[0], p[1], p[2]});
+    case kVtkQuad:
+      document_.add_face({p[0], p[1], p[2]}, n == 4 ? p[3] : -1);
+      triangle_cells_.push_back(cell);
+      return;
+    case kVtkPixel:  // in rows
+      document_.add_face({p[0], p[1], p[3]}, p[2]);
       triangle_cells_.push_back(cell);
       return;
     case kVtkLine:

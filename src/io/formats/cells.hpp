@@ -1,4 +1,4 @@
-// Cells of the VTK family (VTU and legacy): sorted into triangles, lines and marked points, with their data.
+// Cells of the VTK family (VTU and legacy): sorted into faces, lines and marked points, with their data.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace temper::io {
 
 // Numbers of the cell types, vtkCellType.h.
 inline constexpr int kVtkEmptyCell = 0, kVtkVertex = 1, kVtkPolyVertex = 2, kVtkLine = 3, kVtkPolyLine = 4,
-                     kVtkTriangle = 5, kVtkPolygon = 7, kVtkPolyhedron = 42;
+                     kVtkTriangle = 5, kVtkPolygon = 7, kVtkPixel = 8, kVtkQuad = 9, kVtkPolyhedron = 42;
 /// "quadrilateral", … : for messages.
 [[nodiscard]] std::string_view vtk_cell_name(int type);
 /// Field data of VTU: the periods of a plane along x and y.

@@ -11,6 +11,7 @@
 
 #include "io/conversion/data_update.hpp"
 #include "io/conversion/globe.hpp"
+#include "io/conversion/quadrilaterals.hpp"
 #include "io/disk/files.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
@@ -41,6 +42,10 @@ void check_ranges(const Document& d) {
       if (outside(p)) check_range(d, p, d.names->line(l), d.names->line_where(l));
     }
   }
+  for (std::size_t t = 0; t < d.fourth_corners.size(); ++t) {
+    const std::int32_t p = d.fourth_corners[t];
+    if (p != -1 && outside(p)) check_range(d, p, d.names->triangle(t), d.names->triangle_where(t));
+  }
   for (const std::int32_t p : f.marked_points) {
     if (outside(p)) check_range(d, p, "a marked point", d.names->path);
   }
@@ -69,6 +74,7 @@ void check(Document& d, bool flat) {
          outline ? ": it is an outline, for `temper mesh` to mesh" : "");
   }
   check_ranges(d);
+  cut_quadrilaterals(f, *d.names, d.fourth_corners, d.heights);
   for (std::size_t i = 0; i < f.points.size(); ++i) {
     const Vec2 p = f.points[i];
     if (std::isfinite(p.x) && std::isfinite(p.y)) continue;
@@ -220,11 +226,15 @@ void warn_of_losses(const WriteJob& job) {
   const bool has_regions = std::any_of(f.regions.begin(), f.regions.end(), [](std::int32_t r) { return r != 0; });
   if (lost(kRegions) && has_regions) job.warn("regions are", has_no_place_for(job, "them"));
   if (lost(kLines) && !f.lines.empty()) job.warn("lines are", has_no_place_for(job, "them"));
+  if (const std::size_t n = lost(kQuadrilaterals) ? quadrilaterals_of(f).size() : 0; n > 0)
+    job.warn(n, n == 1 ? " quadrilateral is" : " quadrilaterals are", " written as two triangles each, ",
+             row.description, " has no place for ", n == 1 ? "it" : "them");
   if (lost(kMarkedPoints) && !f.marked_points.empty()) job.warn("marked points are", has_no_place_for(job, "them"));
   for (const auto& [content, name, of] : kKindsOfArrays) {
     if (!lost(content)) continue;
     std::vector<std::string_view> names;
     for (const DataArray& a : f.*of) {
+      if (a.name == kQuadrilateral) continue;
       if (row.details.keeps == nullptr || !row.details.keeps(of, a)) names.push_back(a.name);
     }
     warn_of_arrays(job, name, names);

@@ -19,8 +19,17 @@ namespace temper::io {
 struct Document {
   MeshFile file;
   std::shared_ptr<FileNames> names;
-  double z = 0;                      ///< of the first point
-  std::vector<double> heights = {};  ///< z of each point; empty while all points have the z of the first
+  double z = 0;                                   ///< of the first point
+  std::vector<double> heights = {};               ///< z of each point; empty while all points have the z of the first
+  std::vector<std::int32_t> fourth_corners = {};  ///< of the first faces that were read; −1 of a triangle
+
+  /// A quadrilateral is the next of the triangles, with its fourth corner beside it: quadrilaterals.hpp.
+  void add_face(const std::array<std::int32_t, 3>& corners, std::int32_t fourth = -1) {
+    file.triangles.push_back(corners);
+    if (fourth < 0) return;
+    fourth_corners.resize(file.triangles.size(), -1);
+    fourth_corners.back() = fourth;
+  }
 };
 [[nodiscard]] Document new_document(const std::string& path);
 
@@ -65,6 +74,7 @@ enum Content : unsigned {
   kFieldData = 1u << 10,
   kSphere = 1u << 11,  ///< points of a sphere, in three coordinates or in degrees
   kPeriod = 1u << 12,  ///< periods of a plane
+  kQuadrilaterals = 1u << 13,
 };
 using Contents = unsigned;
 inline constexpr Contents kAllTags = kRegions | kLines | kMarkedPoints;
@@ -93,7 +103,8 @@ struct FormatDetails {
   std::string_view name_ends = {};  ///< characters that would end a name: written as %22
   Degrees degrees = Degrees::as_they_came;
   Bed bed = Bed::as_it_came;
-  bool has_heights = false;  ///< z of its points is data
+  bool has_heights = false;   ///< z of its points is data
+  bool joins_halves = false;  ///< the writer makes the quadrilaterals of triangles itself
 };
 
 struct FormatRow {
@@ -124,8 +135,11 @@ struct WriteJob {
   Executor* executor;
   OutputSet& outputs;
   std::vector<std::string>& warnings;
-  std::vector<double> heights = {};  ///< z of each point, from data; empty: all have the z of the file
+  std::vector<double> heights = {};               ///< z of each point, from data; empty: all have the z of the file
+  std::vector<std::int32_t> fourth_corners = {};  ///< of the last triangles of the file, which are quadrilaterals
 
+  /// The number of triangles; the rest are quadrilaterals.
+  [[nodiscard]] std::size_t n_triangles() const { return file.triangles.size() - fourth_corners.size(); }
   /// The three coordinates of a point, as they are written.
   [[nodiscard]] Vec3 place(std::size_t point) const {
     return heights.empty() ? place_of(file, point) : Vec3{file.points[point].x, file.points[point].y, heights[point]};

@@ -41,9 +41,8 @@ std::string_view mesh_format_version(std::string_view head) {
   return first == std::string_view::npos ? std::string_view{} : rest.substr(first, 8);
 }
 
-// Names of the types from 3.
-constexpr std::array<std::string_view, 9> kElementNames = {"quadrilateral",
-                                                           "tetrahedron",
+// Names of the types from 4.
+constexpr std::array<std::string_view, 8> kElementNames = {"tetrahedron",
                                                            "hexahedron",
                                                            "prism",
                                                            "pyramid",
@@ -53,7 +52,7 @@ constexpr std::array<std::string_view, 9> kElementNames = {"quadrilateral",
                                                            "quadratic tetrahedron"};
 std::string_view element_name(std::int32_t type) {
   if (type == 16) return "quadratic quadrilateral";
-  return type >= 3 && type <= 11 ? kElementNames[static_cast<std::size_t>(type) - 3] : "element of an unknown type";
+  return type >= 4 && type <= 11 ? kElementNames[static_cast<std::size_t>(type) - 4] : "element of an unknown type";
 }
 
 /// What an element belongs to.
@@ -62,13 +61,14 @@ struct Membership {
   std::int32_t partition = 0;       // 0: the mesh has none
   bool is_reversed = false;         // the physical group has the entity in the other direction
   bool of_partition_alone = false;  // between its parts, or a ghost
+  std::int32_t fourth_corner = -1;  // of a quadrilateral
 };
 
 /// Elements of one kind as they are read.
 template <std::size_t N>
 struct Elements {
   std::vector<std::array<std::int32_t, N>> nodes;
-  std::vector<std::int32_t> physical, geometrical, partitions;
+  std::vector<std::int32_t> physical, geometrical, partitions, fourth_corners;
   RunLength numbers, text_lines;
 
   void add(const std::array<std::int32_t, N>& element_nodes, const Membership& of, std::int64_t number,
@@ -77,14 +77,17 @@ struct Elements {
     physical.push_back(of.physical);
     geometrical.push_back(of.entity);
     partitions.push_back(of.partition);
+    if (of.fourth_corner >= 0) fourth_corners.resize(nodes.size() - 1, -1);
+    if (!fourth_corners.empty()) fourth_corners.push_back(of.fourth_corner);
     numbers.push_back(number);
     text_lines.push_back(text_line);
   }
   /// Appends an element of another list.
   void add_from(const Elements& other, std::size_t i) {
     const auto row = static_cast<std::int64_t>(i);
-    add(other.nodes[i], {other.physical[i], other.geometrical[i], other.partitions[i]}, other.numbers[row],
-        other.text_lines[row]);
+    Membership of = {other.physical[i], other.geometrical[i], other.partitions[i]};
+    if (!other.fourth_corners.empty()) of.fourth_corner = other.fourth_corners[i];
+    add(other.nodes[i], of, other.numbers[row], other.text_lines[row]);
   }
   void sort_by_number();
 };
@@ -499,6 +502,7 @@ class GmshReader {
           std::any_of(elements.geometrical.begin(), elements.geometrical.end(), [](auto e) { return e != 0; });
       if (has_entities) data.push_back({std::string(kGmshEntity), 1, std::move(elements.geometrical)});
     };
+    document_.fourth_corners = std::move(triangles_.fourth_corners);
     auto& partitions = triangles_.partitions;
     if (std::any_of(partitions.begin(), partitions.end(), [](auto p) { return p != 0; }))
       f.cell_data.push_back({std::string(kGmshPartition), 1, std::move(partitions)});
@@ -552,6 +556,12 @@ class GmshReader {
       case kGmshTriangle: {
         const auto corners = nodes_of<3>("triangle", number);
         return of.of_partition_alone ? leave_out(number) : triangles_.add(corners, of, number, line);
+      }
+      case kGmshQuadrilateral: {
+        const auto [a, b, c, d] = nodes_of<4>("quadrilateral", number);
+        Membership of_face = of;
+        of_face.fourth_corner = d;
+        return of.of_partition_alone ? leave_out(number) : triangles_.add({a, b, c}, of_face, number, line);
       }
       case kGmshLine: {
         auto ends = nodes_of<2>("line", number);

@@ -177,41 +177,52 @@ class GmshWriter {
   void elements_2() {
     out_.put("$Elements\n", points_.n + lines_.n + triangles_.n, '\n');
     for (const Kind* kind : kinds()) {
-      if (binary_ && kind->n > 0) put(kind->type), put(static_cast<std::int32_t>(kind->n)), put(std::int32_t{2});
+      const std::size_t n_triangles = kind == &triangles_ ? job_.n_triangles() : kind->n;
       for (std::size_t i = 0; i < kind->n; ++i) {
+        const std::int32_t type = i < n_triangles ? kind->type : kGmshQuadrilateral;
+        const std::size_t n_alike = i < n_triangles ? n_triangles : kind->n - n_triangles;
+        if (binary_ && (i == 0 || i == n_triangles))
+          put(type), put(static_cast<std::int32_t>(n_alike)), put(std::int32_t{2});
         put(static_cast<std::int32_t>(kind->first_number + i));
-        if (!binary_) put(kind->type), put(std::int32_t{2});
+        if (!binary_) put(type), put(std::int32_t{2});
         put(kind->tag(i)), put(kind->entity(i));
-        for (std::size_t k = 0; k < kind->corners; ++k) put(kind->nodes[i * kind->corners + k] + 1);
-        end_line();
+        put_nodes<std::int32_t>(*kind, i);
       }
     }
     end_section();
     out_.put("$EndElements\n", "");
   }
+  [[nodiscard]] bool is_quadrilateral(const Kind& kind, std::size_t i) const {
+    return &kind == &triangles_ && i >= job_.n_triangles();
+  }
+  template <class Number>
+  void put_nodes(const Kind& kind, std::size_t i) {
+    for (std::size_t k = 0; k < kind.corners; ++k) put(static_cast<Number>(kind.nodes[i * kind.corners + k]) + 1);
+    if (is_quadrilateral(kind, i)) put(static_cast<Number>(job_.fourth_corners[i - job_.n_triangles()]) + 1);
+    end_line();
+  }
   void elements_4() {
     out_.put("$Elements\n", "");
     const std::uint64_t total = points_.n + lines_.n + triangles_.n;
-    std::uint64_t blocks = 0;
-    for (const Kind* kind : kinds()) blocks += kind->physical_of_entity.size();
-    put(blocks), put(total), put(std::uint64_t{1}), put(total);
+    // The elements of each entity, and there of each type.
+    std::array<std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>>, 3> blocks;
+    std::uint64_t n_blocks = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const Kind& kind = *kinds()[d];
+      for (std::size_t i = 0; i < kind.n; ++i)
+        blocks[d][{kind.entity(i), is_quadrilateral(kind, i) ? kGmshQuadrilateral : kind.type}].push_back(i);
+      n_blocks += blocks[d].size();
+    }
+    put(n_blocks), put(total), put(std::uint64_t{1}), put(total);
     end_line();
-    for (const Kind* kind : kinds()) {
-      std::map<std::int32_t, std::vector<std::uint32_t>> of_entity;
-      if (!kind->entities.empty()) {
-        for (std::size_t i = 0; i < kind->n; ++i) of_entity[kind->entities[i]].push_back(static_cast<std::uint32_t>(i));
-      }
-      for (const auto& [entity, physical] : kind->physical_of_entity) {
-        const auto& members = of_entity[entity];
-        const std::size_t n = kind->entities.empty() ? kind->n : members.size();
-        put(kind->dimension), put(entity), put(kind->type), put(std::uint64_t{n});
+    for (std::size_t d = 0; d < 3; ++d) {
+      const Kind& kind = *kinds()[d];
+      for (const auto& [of, members] : blocks[d]) {
+        put(kind.dimension), put(of.first), put(of.second), put(std::uint64_t{members.size()});
         end_line();
-        for (std::size_t m = 0; m < n; ++m) {
-          const std::size_t i = kind->entities.empty() ? m : members[m];
-          put(std::uint64_t{kind->first_number + i});
-          for (std::size_t k = 0; k < kind->corners; ++k)
-            put(static_cast<std::uint64_t>(kind->nodes[i * kind->corners + k]) + 1);
-          end_line();
+        for (const std::size_t i : members) {
+          put(std::uint64_t{kind.first_number + i});
+          put_nodes<std::uint64_t>(kind, i);
         }
       }
     }

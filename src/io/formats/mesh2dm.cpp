@@ -2,6 +2,7 @@
 //
 //   MESH2D
 //   E3T 1  1 2 3  7            a triangle: its number, its nodes counter-clockwise, its material: the region
+//   E4Q 2  2 4 5 3  7          a quadrilateral
 //   ND 1  0.0 0.0 -5.2         a node: its number, x, y, and z: the elevation of the bed, positive up
 //   NS 1 2 -3 4 "inflow"       a string of nodes ends with a negative node; its number and its name may follow: lines
 //
@@ -37,9 +38,10 @@ class Reader2dm {
     const NumberLookup lookup(document_.names->points);
     if (const auto twice = lookup.duplicate()) fail(ErrorCode::syntax, scanner_.path(), "has node ", *twice, " twice");
     for (std::size_t t = 0; t < corners_.size(); ++t) {
-      auto& triangle = f.triangles.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k)
-        triangle[k] = index(lookup, corners_[t][k], document_.names->triangle(t), document_.names->triangle_where(t));
+      const auto corner = [&](std::size_t k) {
+        return index(lookup, corners_[t][k], document_.names->triangle(t), document_.names->triangle_where(t));
+      };
+      document_.add_face({corner(0), corner(1), corner(2)}, corners_[t][3] == kNoNode ? -1 : corner(3));
     }
     for (std::size_t i = 0; i < ends_.size(); ++i) {
       auto& line = f.lines.emplace_back();
@@ -55,11 +57,10 @@ class Reader2dm {
  private:
   void card(std::string_view name) {
     if (name == "ND") return node();
-    if (name == "E3T") return triangle();
+    if (name == "E3T" || name == "E4Q") return face(name == "E3T" ? 3 : 4);
     if (name == "NS") return node_string();
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kOther = {
-        {{"E4Q", "quadrilateral"},
-         {"E6T", "quadratic triangle"},
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kOther = {
+        {{"E6T", "quadratic triangle"},
          {"E8Q", "quadratic quadrilateral"},
          {"E9Q", "quadratic quadrilateral"},
          {"E3L", "quadratic line"}}};
@@ -78,11 +79,12 @@ class Reader2dm {
     z_.push_back(scanner_.real("the z coordinate of a node"));
     scanner_.next_line();
   }
-  void triangle() {
+  void face(std::size_t n) {
     document_.names->triangles.push_back(scanner_.number<std::int64_t>("the number of an element"));
     document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
     auto& corners = corners_.emplace_back();
-    for (std::int64_t& corner : corners) corner = scanner_.number<std::int64_t>("a node of an element");
+    corners.fill(kNoNode);
+    for (std::size_t k = 0; k < n; ++k) corners[k] = scanner_.number<std::int64_t>("a node of an element");
     document_.file.regions.push_back(scanner_.more_on_line() ? scanner_.integer("the material of an element") : 0);
     scanner_.next_line();
   }
@@ -141,7 +143,8 @@ class Reader2dm {
 
   Scanner scanner_;
   Document document_;
-  std::vector<std::array<std::int64_t, 3>> corners_;  // numbers of nodes, which may follow
+  static constexpr std::int64_t kNoNode = std::numeric_limits<std::int64_t>::min();
+  std::vector<std::array<std::int64_t, 4>> corners_;  // numbers of nodes, which may follow
   std::vector<std::array<std::int64_t, 2>> ends_;
   std::vector<double> z_;
   std::int32_t last_tag_ = 0;
@@ -184,7 +187,10 @@ void write_2dm(const WriteJob& job) {
   out.put("MESH2D\n", "");
   for (std::size_t t = 0; t < f.triangles.size(); ++t) {
     const auto [a, b, c] = f.triangles[t];
-    out.put("E3T ", t + 1, ' ', a + 1, ' ', b + 1, ' ', c + 1, ' ', f.regions.empty() ? 0 : f.regions[t], '\n');
+    const bool is_triangle = t < job.n_triangles();
+    out.put(is_triangle ? "E3T " : "E4Q ", t + 1, ' ', a + 1, ' ', b + 1, ' ', c + 1, ' ');
+    if (!is_triangle) out.put(job.fourth_corners[t - job.n_triangles()] + 1, ' ');
+    out.put(f.regions.empty() ? 0 : f.regions[t], '\n');
   }
   for (std::size_t i = 0; i < f.points.size(); ++i) {
     const double z = job.heights.empty() ? f.z() : job.heights[i];

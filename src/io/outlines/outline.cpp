@@ -19,10 +19,12 @@ std::string numbered(std::string_view kind, const RunLength& numbers, std::size_
 OutlineDocument read_document(Source& source) {
   const std::string_view head(source.bytes);
   if (sniff_geojson(head)) return read_geojson(source);
+  if (sniff_gis(head)) return read_gis(source);
   if (sniff_jigsaw(head)) return read_jigsaw(source);
   if (sniff_poly(head)) return read_poly(source);
   fail(ErrorCode::unsupported, source.path,
-       "is no outline that temper reads: expected a .poly file of Triangle, a geometry of JIGSAW (MSHID=…) or GeoJSON");
+       "is no outline that temper reads: expected a .poly file of Triangle, a geometry of JIGSAW (MSHID=…), GeoJSON, a "
+       "shapefile or a GeoPackage");
 }
 
 }  // namespace

@@ -58,9 +58,10 @@ struct NamedElements {
 
 class GeoJsonReader {
  public:
-  explicit GeoJsonReader(Source& source) : path_(source.path), root_(parse_json(source.path, source.bytes)) {
-    document_.names = std::make_shared<OutlineFileNames>(source.path);
-    document_.file.format = "geojson";
+  GeoJsonReader(std::string path, std::string_view format, JsonValue root)
+      : path_(std::move(path)), root_(std::move(root)) {
+    document_.names = std::make_shared<OutlineFileNames>(path_);
+    document_.file.format = format;
   }
 
   OutlineDocument read() {
@@ -68,7 +69,8 @@ class GeoJsonReader {
     const std::string_view type = root_.text("type");
     if (type == "FeatureCollection") {
       const std::vector<JsonValue>& features = items(root_, "features");
-      for (std::size_t i = 0; i < features.size(); ++i) feature(features[i], text("feature ", i));
+      for (std::size_t i = 0; i < features.size(); ++i)
+        feature(features[i], features[i].string.empty() ? text("feature ", i) : features[i].string);
     } else if (type == "Feature") {
       feature(root_, "the feature");
     } else {
@@ -81,13 +83,18 @@ class GeoJsonReader {
                                              " the same as the one before"));
     }
     if (heights_) document_.file.warnings.push_back(text(path_, ": heights of positions are dropped"));
+    if (root_.line == 0) document_.names->point_lines = document_.names->segment_lines = {};
     return std::move(document_);
   }
 
  private:
+  /// The line of a value; the path alone if the file has no lines.
+  [[nodiscard]] std::string where(const JsonValue& value) const {
+    return value.line == 0 ? path_ : text(path_, ":", value.line);
+  }
   template <class... Parts>
   [[noreturn]] void fail_at(const JsonValue& value, ErrorCode code, const Parts&... message) const {
-    fail(code, text(path_, ":", value.line), message...);
+    fail(code, where(value), message...);
   }
 
   [[nodiscard]] bool is_geographic() const {
@@ -133,7 +140,7 @@ class GeoJsonReader {
   }
 
   void warn_at(const JsonValue& value, const std::string& message) {
-    document_.file.warnings.push_back(text(path_, ":", value.line, ": ", message));
+    document_.file.warnings.push_back(text(where(value), ": ", message));
   }
 
   /// Warns of numbers under a name that nearly has a meaning, and of values that should be numbers and are not.
@@ -425,6 +432,12 @@ bool sniff_geojson(std::string_view head) {
   return first != std::string_view::npos && head[first] == '{';
 }
 
-OutlineDocument read_geojson(Source& source) { return GeoJsonReader(source).read(); }
+OutlineDocument read_geojson(Source& source) {
+  return read_features(source.path, "geojson", parse_json(source.path, source.bytes));
+}
+
+OutlineDocument read_features(const std::string& path, std::string_view format, JsonValue root) {
+  return GeoJsonReader(path, format, std::move(root)).read();
+}
 
 }  // namespace temper::io

@@ -50,10 +50,13 @@ struct OutlineDocument {
 };
 
 bool sniff_geojson(std::string_view head);
+/// Shapefiles and GeoPackages.
+bool sniff_gis(std::string_view head);
 bool sniff_jigsaw(std::string_view head);
 bool sniff_poly(std::string_view head);
 
 OutlineDocument read_geojson(Source& source);
+OutlineDocument read_gis(Source& source);
 OutlineDocument read_jigsaw(Source& source);
 OutlineDocument read_poly(Source& source);
 
@@ -77,6 +80,10 @@ struct JsonValue {
   /// The member of that name, when it is a string; else empty.
   [[nodiscard]] std::string_view text(std::string_view name) const;
 };
+
+/// The outline of a FeatureCollection of GeoJSON from a file of any format. If the file has no lines, they are all 0;
+/// then the `string` of a feature is its name in messages.
+OutlineDocument read_features(const std::string& path, std::string_view format, JsonValue root);
 
 /// Fails with file and line on anything that is not JSON.
 [[nodiscard]] JsonValue parse_json(const std::string& path, std::string_view bytes);

@@ -257,6 +257,7 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
 
   Settings s;
   s.options = options;
+  if (has_quadrilaterals(mesh)) s.options.unknowns = Unknowns::positions;  // one center each, of equal weights
   s.hooks = hooks;
   s.objective = objective_of(options);
   s.policy = Policy(options);

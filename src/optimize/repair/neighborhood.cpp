@@ -87,6 +87,7 @@ Neighborhood neighborhood_of(const Mesh& mesh, TriangleId seed, int rings) {
   for (const HalfedgeId h : around.mesh.halfedges()) {
     const HalfedgeId whole(3 * std::size_t{triangles[h.index / 3].index} + h.index % 3);
     around.mesh.set_constrained(h, mesh.is_constrained(whole));
+    if (mesh.is_diagonal(whole)) around.mesh.set_diagonal(h);
     const HalfedgeId twin = mesh.twin(whole);
     if (!twin.valid()) continue;
     const auto at = std::lower_bound(triangles.begin(), triangles.end(), Mesh::triangle(twin));

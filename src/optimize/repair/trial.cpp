@@ -272,6 +272,7 @@ class Trial {
   /// Inserts a vertex with the weight that the corners have there.
   bool insert(TriangleId t, const WeightedPoint& place) {
     const Mesh& mesh = work_.mesh;
+    if (mesh.is_half(t)) return false;
     const auto [a, b, c] = mesh.points(t);
     // The weight comes first: on the sphere it moves the vertex by rounding.
     const WeightedPoint p = with_interpolated_weight(mesh.space(), grid_.snap(mesh.space().image(place, a)), a, b, c);

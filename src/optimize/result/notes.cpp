@@ -7,7 +7,7 @@
 #include "base/sum.hpp"
 #include "base/text.hpp"
 #include "energy/whole_mesh.hpp"
-#include "mesh/predicates.hpp"
+#include "mesh/bad_triangles.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/step/dofs.hpp"
 #include "temper/detail/necessity.hpp"
@@ -109,7 +109,7 @@ class Notes {
     std::size_t stuck = 0;
     bool along_boundary = false, along_lines = false;
     for (const TriangleId t : mesh_.triangles()) {
-      if (inlined::is_well_centered(mesh_, t)) continue;
+      if (!is_bad(mesh_, t)) continue;
       const auto corners = mesh_.corners(t);
       const auto is = [&](Mobility m, const OptimizeOptions& o) {
         return [this, m, &o](VertexId v) { return mobility(mesh_, v, o) == m; };
@@ -209,6 +209,7 @@ void add_notes(const Mesh& mesh, const Settings& settings, const RunFacts& facts
         "in the metric of the tensor most triangles stay bad, so that all vertices stay where they were; "
         "expected triangles that are long along the larger conductivity");
   }
+  if (has_quadrilaterals(mesh)) notes.add("quadrilaterals stay as they are, and the weights of all vertices");
   const bool barrier = settings.energy().barrier;
   if (!barrier) notes.note_if_more_are_bad(ending.bad_part_before);
   notes.note_what_is_not_regular();

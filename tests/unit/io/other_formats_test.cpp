@@ -205,8 +205,8 @@ TEST_F(OtherFormats, PlyKeepsArraysOfSeveralComponentsAndNames) {
 TEST_F(OtherFormats, BadPlyIsNamed) {
   const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n";
   const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0\n1 0\n0 1\n";
-  EXPECT_EQ(refused("m.ply", head + faces + "4 0 1 2 0\n"),
-            "m.ply:12: element 0 is a polygon with 4 corners; temper reads meshes of linear triangles, with lines and "
+  EXPECT_EQ(refused("m.ply", head + faces + "5 0 1 2 0 1\n"),
+            "m.ply:12: element 0 is a polygon with 5 corners; temper reads meshes of linear triangles, with lines and "
             "points as tags");
   EXPECT_EQ(refused("m.ply", head + "property quad w\n" + faces), "m.ply: expected a type of PLY, found 'quad'");
   EXPECT_EQ(refused("m.ply", "ply\nformat ascii 2.0\n"),
@@ -341,9 +341,9 @@ TEST_F(OtherFormats, BadFort14IsNamed) {
   const std::string head = "t\n1 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n";
   EXPECT_EQ(refused("fort.14", head + "1 3 1 2 9\n"),
             "fort.14:6: triangle 1 uses vertex 9, but the file has 3 vertices, numbered from 1");
-  EXPECT_EQ(refused("fort.14", head + "7 4 1 2 3 1\n"),
-            "fort.14:6: element 7 is a quadrilateral; temper reads meshes of linear triangles, with lines and points "
-            "as tags");
+  EXPECT_EQ(refused("fort.14", head + "7 5 1 2 3 1 2\n"), "fort.14:6: element 7 has 5 corners; expected 3 or 4");
+  EXPECT_EQ(refused("fort.14", head + "7 4 1 2 3 9\n"),
+            "fort.14:6: quadrilateral 7 uses vertex 9, but the file has 3 vertices, numbered from 1");
   EXPECT_EQ(refused("fort.14", head + "1 3 1 2 3\n1\n2\n2 0\n1\n8\n"),
             "fort.14:11: open boundary 1 uses vertex 8, but the file has 3 vertices, numbered from 1");
   EXPECT_EQ(refused("fort.14", head + "1 3 1 2 3\n1\n2\n2 0\n1\n"),
@@ -369,9 +369,9 @@ TEST_F(OtherFormats, MeshesOfSmsHaveHeightsMaterialsAndNamedStrings) {
   EXPECT_EQ(slurp(path("again.2dm")),
             "MESH2D\nE3T 1 1 2 3 2\nE3T 2 1 3 4 3\nND 1 0 0 -5\nND 2 10 0 -6.5\nND 3 10 10 1\nND 4 0 10 0\n"
             "NS 2 3 -4 7 \"sea side\"\n");
-  EXPECT_EQ(
-      refused("m.2dm", "MESH2D\nE4Q 1 1 2 3 4 1\n"),
-      "m.2dm:2: element 1 is a quadrilateral; temper reads meshes of linear triangles, with lines and points as tags");
+  EXPECT_EQ(refused("m.2dm", "MESH2D\nE8Q 1 1 2 3 4 5 6 7 8 1\n"),
+            "m.2dm:2: element 1 is a quadratic quadrilateral; temper reads meshes of linear triangles, with lines and "
+            "points as tags");
   EXPECT_EQ(refused("m.2dm", "MESH2D\nE3T 1 1 2 3 1\nND 1 0 0 0\nND 2 1 0 0\n"),
             "m.2dm:2: triangle 1 uses vertex 3, but the file has 2 vertices and not this one");
 }

@@ -168,7 +168,7 @@ std::string geotiff(std::uint16_t columns, std::uint16_t rows, const std::vector
 TEST_F(RasterTest, GeoTiffIsReadThroughGdal) {
   const auto file = read(make("bed.tif", geotiff(3, 2, {1, 2, 3, 4, -9, 6})));
   if (!file) {
-    EXPECT_EQ(plain(file.error().what()).find("bed.tif: GeoTIFF files need GDAL 3 or later"), 0u)
+    EXPECT_EQ(plain(file.error().what()).find("bed.tif: GeoTIFF, shapefiles and GeoPackages need GDAL 3 or later"), 0u)
         << file.error().what();
     return;
   }

@@ -113,9 +113,9 @@ TEST_F(FileTest, OtherDataSetsAreNamed) {
 // What nobody has the memory to write: 2³¹ points of cells are those of 716 million triangles.
 TEST(VtkCellEnds, AreOfSixtyFourBitsWhereThirtyTwoEnd) {
   constexpr std::size_t kLast = 715'827'882;  // of which the last one ends at 2³¹ − 2
-  EXPECT_EQ(vtk_cell_ends(kLast, 0, 0).scalar, Scalar::i32);
-  EXPECT_EQ(vtk_cell_ends(kLast, 0, 1).scalar, Scalar::i32);  // at 2³¹ − 1
-  const VtkArray ends = vtk_cell_ends(kLast, 1, 1);
+  EXPECT_EQ(vtk_cell_ends({kLast, 0, 0, 0}).scalar, Scalar::i32);
+  EXPECT_EQ(vtk_cell_ends({kLast, 0, 0, 1}).scalar, Scalar::i32);  // at 2³¹ − 1
+  const VtkArray ends = vtk_cell_ends({kLast, 0, 1, 1});
   ASSERT_EQ(ends.scalar, Scalar::i64);
   EXPECT_EQ(ends.bytes(), 8 * (kLast + 2));
   std::array<std::int64_t, 3> last = {};

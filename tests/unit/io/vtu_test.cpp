@@ -168,8 +168,8 @@ TEST_F(FileTest, VtuErrorsNameTheArrayAndItsLine) {
             "or on a sphere around the origin. Next: --flat takes z as data of a mesh of the plane (flat=True in "
             "Python)");
   EXPECT_EQ(
-      message(">5<", ">9<"),
-      "m.vtu: element 0 is a quadrilateral; temper reads meshes of linear triangles, with lines and points as tags");
+      message(">5<", ">10<"),
+      "m.vtu: element 0 is a tetrahedron; temper reads meshes of linear triangles, with lines and points as tags");
   EXPECT_EQ(message("offsets\" format=\"ascii\">3", "offsets\" format=\"ascii\">7"),
             "m.vtu: element 0 ends at 7 of 3 connectivity values, and starts at 0");
   EXPECT_EQ(message("\"offsets\"", "\"ofsets\""), "m.vtu: the array 'offsets' of the cells is missing");

@@ -19,6 +19,7 @@
 #include "io/conversion/bed.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/conversion/planar_faces.hpp"
+#include "io/conversion/quadrilaterals.hpp"
 #include "io/formats/format.hpp"
 #include "io/formats/netcdf/netcdf_extras.hpp"
 #include "io/text/names.hpp"
@@ -30,6 +31,7 @@ Document read_mpas_from(const NetcdfReader& in, const std::string& path);
 std::optional<Document> read_grid_from(const NetcdfReader& in, const Source& source);
 bool is_icon(const NetcdfReader& in);
 Document read_icon(const NetcdfReader& in, const std::string& path);
+Document read_exodus(const NetcdfReader& in, const std::string& path);
 
 bool sniff_ugrid(std::string_view head) { return is_netcdf(head); }
 
@@ -195,24 +197,24 @@ class UgridReader {
     document_.names->points = RunLength(start, document_.file.points.size());
     document_.names->triangles = RunLength(start, n);
     for (std::size_t face = 0; face < n; ++face) {
-      std::array<std::int32_t, 3> corners = {};
+      std::array<std::int32_t, 4> corners = {};
       std::size_t count = 0;
       for (std::size_t k = 0; k < most; ++k) {
         const std::int64_t number = all[turned ? k * n + face : face * most + k];
         if (number == NetcdfReader::kNoInteger || std::ranges::find(fills, static_cast<double>(number)) != fills.end())
           continue;
         if (!std::in_range<std::int32_t>(number)) {
-          fail(ErrorCode::index_out_of_range, path(), "triangle ", static_cast<std::int64_t>(face) + start,
-               " uses vertex ", number, ", which is beyond 32 bits");
+          fail(ErrorCode::index_out_of_range, path(), "face ", static_cast<std::int64_t>(face) + start, " uses vertex ",
+               number, ", which is beyond 32 bits");
         }
-        if (count < 3) corners[count] = static_cast<std::int32_t>(number - start);
+        if (count < 4) corners[count] = static_cast<std::int32_t>(number - start);
         ++count;
       }
-      if (count != 3) {
+      if (count != 3 && count != 4) {
         fail(ErrorCode::unsupported, path(), "face ", static_cast<std::int64_t>(face) + start, " has ", count,
-             " corners; temper reads triangles");
+             " corners; temper reads triangles and quadrilaterals");
       }
-      document_.file.triangles.push_back(corners);
+      document_.add_face({corners[0], corners[1], corners[2]}, count == 4 ? corners[3] : -1);
     }
   }
 
@@ -245,10 +247,13 @@ class UgridReader {
       const bool is_finite = std::isfinite(p.x + p.y) && std::isfinite(q.x + q.y);  // else the point is named later
       if (a != b && is_finite) edges.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)});
     }
-    document_.file.triangles = planar_triangles(document_.file.points, edges, *document_.names, path());
+    for (const auto& [a, b, c, d] : planar_faces(document_.file.points, edges, *document_.names, path()))
+      document_.add_face({a, b, c}, d);
     document_.names->triangles = RunLength(start, document_.file.triangles.size());
+    const bool has_quadrilaterals = !document_.fourth_corners.empty();
     document_.file.warnings.push_back(text(path(), ": has edges without faces: ", document_.file.triangles.size(),
-                                           " triangles are found between ", edges.size(), " edges"));
+                                           has_quadrilaterals ? " triangles and quadrilaterals" : " triangles",
+                                           " are found between ", edges.size(), " edges"));
   }
 
   /// Other variables become data of their location.
@@ -332,8 +337,9 @@ class UgridWriter {
 
   void write() {
     nodes_ = out_.dimension(named("nodes"), m_.mesh.n_vertices());
-    faces_ = out_.dimension(named("faces"), m_.mesh.n_triangles());
-    edges_ = out_.dimension(named("edges"), m_.complex.edges.size());
+    number_faces();
+    faces_ = out_.dimension(named("faces"), halves_.size());
+    edges_ = out_.dimension(named("edges"), edges_of_faces_.size());
     kept_.copy(nullptr, out_, NetcdfWriter::kFile);
     if (kept_.text_of(nullptr, "Conventions").find("UGRID") == std::string::npos)
       out_.attribute(NetcdfWriter::kFile, "Conventions", kConventions);
@@ -365,6 +371,32 @@ class UgridWriter {
   void on(int id, std::string_view location) {
     out_.attribute(id, "mesh", name_);
     out_.attribute(id, "location", location);
+  }
+
+  /// A quadrilateral is one face, the first of its two triangles, and its diagonal is no edge.
+  void number_faces() {
+    const Mesh& mesh = m_.mesh;
+    face_.resize(mesh.n_triangles());
+    edge_.resize(m_.complex.edges.size());
+    for (const TriangleId t : mesh.triangles()) {
+      TriangleId other;
+      for (int k = 0; k < 3; ++k) {
+        const HalfedgeId h = Mesh::halfedge(t, k);
+        if (mesh.is_diagonal(h))
+          other = Mesh::triangle(mesh.twin(h)), edge_[m_.complex.edge_of_halfedge[h]] = kUgridNone;
+      }
+      const bool is_second = other.valid() && other < t;
+      face_[t] = is_second ? face_[other] : static_cast<std::int32_t>(halves_.size());
+      if (!is_second) halves_.push_back(t.index);
+      has_quadrilaterals_ = has_quadrilaterals_ || is_second;
+    }
+    for (std::size_t i = 0; i < edge_.size(); ++i) {
+      const EdgeId e(i);
+      if (edge_[e] == kUgridNone) continue;
+      edge_[e] = static_cast<std::int32_t>(edges_of_faces_.size());
+      edges_of_faces_.push_back(e);
+    }
+    if (has_quadrilaterals_) gather_faces(m_.file, halves_);
   }
 
   void topology() {
@@ -431,36 +463,73 @@ class UgridWriter {
     return all;
   }
 
+  /// The middle of the orthocenters of each face.
+  template <class Place>
+  [[nodiscard]] std::vector<Place> of_faces(const IdVector<TriangleId, Place>& of_triangles) const {
+    std::vector<Place> all(halves_.size());
+    std::vector<int> n(halves_.size());
+    for (const TriangleId t : m_.mesh.triangles()) {
+      const auto f = static_cast<std::size_t>(face_[t]);
+      all[f] = n[f]++ == 0 ? of_triangles[t] : 0.5 * (all[f] + of_triangles[t]);
+    }
+    return all;
+  }
+
   void coordinates() {
     const DecComplex& c = m_.complex;
     std::vector<Vec2> midpoints;
     midpoints.reserve(c.edges.size());
-    for (const DecEdge& edge : c.edges) midpoints.push_back(edge.midpoint);
+    std::vector<Vec3> sphere_midpoints;
     const bool sphere = m_.file.sphere() != nullptr;
+    for (const EdgeId e : edges_of_faces_) {
+      midpoints.push_back(c.edges[e].midpoint);
+      if (sphere) sphere_midpoints.push_back(c.sphere_midpoints[e]);
+    }
     places("node", nodes_, m_.file.map() != nullptr ? *lon_lat_of_points(m_.file) : m_.file.points, "vertices");
-    places("face", faces_, sphere ? degrees_of(c.sphere_orthocenters.raw()) : unmapped(c.orthocenters.raw()),
+    places("face", faces_, sphere ? degrees_of(of_faces(c.sphere_orthocenters)) : unmapped(of_faces(c.orthocenters)),
            "orthocenters");
-    places("edge", edges_, sphere ? degrees_of(c.sphere_midpoints.raw()) : unmapped(midpoints), "weighted midpoints");
+    places("edge", edges_, sphere ? degrees_of(sphere_midpoints) : unmapped(midpoints), "weighted midpoints");
   }
 
   void connectivity() {
     const DecComplex& c = m_.complex;
-    const auto number = [](auto id) { return id.valid() ? static_cast<std::int32_t>(id.index) : kUgridNone; };
+    const Mesh& mesh = m_.mesh;
+    const auto number = [](VertexId v) { return static_cast<std::int32_t>(v.index); };
+    const auto face = [this](TriangleId t) { return t.valid() ? face_[t] : kUgridNone; };
     std::vector<std::int32_t> face_nodes, face_edges, edge_nodes, edge_faces;
-    for (const HalfedgeId h : m_.mesh.halfedges()) {
-      face_nodes.push_back(number(m_.mesh.origin(h)));
-      face_edges.push_back(number(c.edge_of_halfedge[h]));
+    const auto add_side = [&](HalfedgeId h) {
+      face_nodes.push_back(number(mesh.origin(h)));
+      face_edges.push_back(edge_[c.edge_of_halfedge[h]]);
+    };
+    const std::size_t most = has_quadrilaterals_ ? 4 : 3;
+    for (std::size_t f = 0; f < halves_.size(); ++f) {
+      for (int k = 0; k < 3; ++k) {
+        const TriangleId t(static_cast<std::size_t>(halves_[static_cast<std::int64_t>(f)]));
+        const HalfedgeId h = Mesh::halfedge(t, k);
+        if (!mesh.is_diagonal(h)) {
+          add_side(h);
+          continue;
+        }
+        add_side(Mesh::next(mesh.twin(h)));
+        add_side(Mesh::prev(mesh.twin(h)));
+      }
+      face_nodes.resize(most * (f + 1), kUgridNone);
+      face_edges.resize(most * (f + 1), kUgridNone);
     }
-    for (std::size_t i = 0; i < c.edges.size(); ++i) {
-      const DecEdge& e = c.edges[EdgeId(i)];
+    for (const EdgeId edge : edges_of_faces_) {
+      const DecEdge& e = c.edges[edge];
       // The triangle that exists comes first.
       const TriangleId first = e.left.valid() ? e.left : e.right, second = e.left.valid() ? e.right : e.left;
       edge_nodes.insert(edge_nodes.end(), {number(e.from), number(e.to)});
-      edge_faces.insert(edge_faces.end(), {number(first), number(second)});
+      edge_faces.insert(edge_faces.end(), {face(first), face(second)});
     }
-    const int two = out_.dimension("TWO", 2), three = out_.dimension("THREE", 3);
-    table(named("face_nodes"), "face_node_connectivity", {faces_, three}, std::move(face_nodes));
-    table(named("face_edges"), "face_edge_connectivity", {faces_, three}, std::move(face_edges));
+    const int two = out_.dimension("TWO", 2), sides = out_.dimension(most == 3 ? "THREE" : "FOUR", most);
+    const std::array of_faces = {
+        table(named("face_nodes"), "face_node_connectivity", {faces_, sides}, std::move(face_nodes)),
+        table(named("face_edges"), "face_edge_connectivity", {faces_, sides}, std::move(face_edges))};
+    for (const int table_of_faces : of_faces) {
+      if (has_quadrilaterals_) out_.attribute(table_of_faces, "_FillValue", kUgridNone);
+    }
     table(named("edge_nodes"), "edge_node_connectivity", {edges_, two}, std::move(edge_nodes));
     const int id = table(named("edge_faces"), "edge_face_connectivity", {edges_, two}, std::move(edge_faces));
     out_.attribute(id, "_FillValue", kUgridNone);
@@ -481,6 +550,11 @@ class UgridWriter {
   const std::string name_;                // of the topology
   NetcdfWriter out_;
   int nodes_ = -1, faces_ = -1, edges_ = -1;
+  RunLength halves_;                         // the first triangle of each face
+  IdVector<TriangleId, std::int32_t> face_;  // of each triangle
+  std::vector<EdgeId> edges_of_faces_;
+  IdVector<EdgeId, std::int32_t> edge_;  // the number of each edge in the file; kUgridNone of a diagonal
+  bool has_quadrilaterals_ = false;
 };
 
 /// NetCDF files of any kind: the first bytes do not determine the format, the variables do.
@@ -495,8 +569,7 @@ Document read_ugrid_from(const NetcdfReader& in, const Source& source) {
   if (in.find("NetNode_x") != nullptr && in.find("NetLink") != nullptr) return UgridReader(in, nullptr, path).read();
   if (is_icon(in)) return read_icon(in, path);
   if (auto grid = read_grid_from(in, source)) return *std::move(grid);
-  if (in.find("connect1") != nullptr)
-    fail(ErrorCode::unsupported, path, "is an Exodus mesh, which temper does not read; meshio converts it");
+  if (in.find("connect1") != nullptr) return read_exodus(in, path);
   // Recognized by the name of a group, which libnetcdf does not show among variables.
   if (is_hdf5(source.bytes) && source.bytes.find("ENS_MAA") != std::string::npos)
     fail(ErrorCode::unsupported, path, "is a MED mesh, which temper does not read; meshio converts it");

@@ -31,6 +31,7 @@ class LegacyVtkWriter {
   LegacyVtkWriter(const WriteJob& job, bool offsets)
       : job_(job),
         file_(job.file),
+        cells_(job),
         out_(job.outputs.open(job.path)),
         binary_(job.encoding.value_or(Encoding::ascii) != Encoding::ascii),
         offsets_(offsets) {}
@@ -41,15 +42,15 @@ class LegacyVtkWriter {
     out_.put("POINTS ", file_.points.size(), " double\n");
     values(vtk_points(job_));
     offsets_ ? cells_with_offsets() : counted_cells();
-    out_.put("CELL_TYPES ", n_vtk_cells(file_), '\n');
-    const VtkArray types = vtk_cell_types(file_);
+    out_.put("CELL_TYPES ", cells_.size(), '\n');
+    const VtkArray types = vtk_cell_types(job_);
     values(computed_vtk_array<std::int32_t>("types", Scalar::i32, types.n_values, [&types](std::size_t i) {
       std::uint8_t type = 0;
       types.fill(i, 1, reinterpret_cast<char*>(&type));
       return std::int32_t{type};
     }));
     data("POINT_DATA ", file_.points.size(), vtk_point_data(job_));
-    data("CELL_DATA ", n_vtk_cells(file_), vtk_cell_data(job_));
+    data("CELL_DATA ", cells_.size(), vtk_cell_data(job_));
   }
 
  private:
@@ -59,32 +60,34 @@ class LegacyVtkWriter {
     put_big_endian(out_, array);
     out_.put('\n');
   }
+  // Each cell: its number of points, and these.
   void counted_cells() {
-    const MeshFile& f = file_;
-    const std::size_t n4 = 4 * f.triangles.size(), n3 = 3 * f.lines.size(), n2 = 2 * f.marked_points.size();
-    out_.put("CELLS ", n_vtk_cells(f), ' ', n4 + n3 + n2, '\n');
-    if (!binary_) {
-      for (const auto& t : f.triangles) out_.put("3 ", t[0], ' ', t[1], ' ', t[2], '\n');
-      for (const auto& l : f.lines) out_.put("2 ", l[0], ' ', l[1], '\n');
-      for (const std::int32_t p : f.marked_points) out_.put("1 ", p, '\n');
-      return;
+    const VtkArray points = vtk_connectivity(job_);
+    std::vector<std::int32_t> numbers(points.n_values);
+    points.fill(0, numbers.size(), reinterpret_cast<char*>(numbers.data()));
+    const std::size_t n = cells_.size();
+    out_.put("CELLS ", n, ' ', n + numbers.size(), '\n');
+    std::vector<std::int32_t> all;
+    all.reserve(n + numbers.size());
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t first = cells_.points_of_first(i), end = cells_.points_of_first(i + 1);
+      all.push_back(static_cast<std::int32_t>(end - first));
+      for (std::size_t k = first; k < end; ++k) all.push_back(numbers[k]);
+      if (binary_) continue;
+      for (std::size_t k = all.size() - (end - first) - 1; k < all.size(); ++k)
+        out_.put(all[k], k + 1 == all.size() ? '\n' : ' ');
+      all.clear();
     }
-    values(computed_vtk_array<std::int32_t>("cells", Scalar::i32, n4 + n3 + n2, [&f, n4, n3](std::size_t i) {
-      if (i < n4) return i % 4 == 0 ? 3 : f.triangles[i / 4][i % 4 - 1];
-      i -= n4;
-      if (i < n3) return i % 3 == 0 ? 2 : f.lines[i / 3][i % 3 - 1];
-      i -= n3;
-      return i % 2 == 0 ? 1 : f.marked_points[i / 2];
-    }));
+    if (binary_)
+      values(
+          computed_vtk_array<std::int32_t>("cells", Scalar::i32, all.size(), [&all](std::size_t i) { return all[i]; }));
   }
   void cells_with_offsets() {
-    const VtkArray points = vtk_connectivity(file_);
+    const VtkArray points = vtk_connectivity(job_);
     // The first offset belongs to the first cell; as in VTK there is one more than cells.
-    const VtkArray offsets =
-        computed_vtk_array<std::int64_t>("OFFSETS", Scalar::i64, n_vtk_cells(file_) + 1, [this](std::size_t i) {
-          const std::size_t end = i == 0 ? 0 : vtk_cell_end(i - 1, file_.triangles.size(), file_.lines.size());
-          return static_cast<std::int64_t>(end);
-        });
+    const VtkArray offsets = computed_vtk_array<std::int64_t>(
+        "OFFSETS", Scalar::i64, cells_.size() + 1,
+        [this](std::size_t i) { return static_cast<std::int64_t>(cells_.points_of_first(i)); });
     const VtkArray connectivity =
         computed_vtk_array<std::int64_t>("CONNECTIVITY", Scalar::i64, points.n_values, [&points](std::size_t i) {
           std::int32_t point = 0;
@@ -119,6 +122,7 @@ class LegacyVtkWriter {
 
   const WriteJob& job_;
   const MeshFile& file_;
+  VtkCells cells_;
   Output& out_;
   bool binary_, offsets_;
 };

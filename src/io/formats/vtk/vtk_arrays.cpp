@@ -97,31 +97,40 @@ VtkArray vtk_points(const WriteJob& job) {
       3);
 }
 
-VtkArray vtk_connectivity(const MeshFile& f) {
-  const std::size_t n3 = 3 * f.triangles.size(), n2 = 2 * f.lines.size();
-  return computed_vtk_array<std::int32_t>("connectivity", Scalar::i32, n3 + n2 + f.marked_points.size(),
-                                          [&f, n3, n2](std::size_t i) {
-                                            if (i < n3) return f.triangles[i / 3][i % 3];
-                                            if (i < n3 + n2) return f.lines[(i - n3) / 2][(i - n3) % 2];
-                                            return f.marked_points[i - n3 - n2];
-                                          });
+VtkArray vtk_connectivity(const WriteJob& job) {
+  const VtkCells cells(job);
+  const std::size_t n3 = cells.points_of_first(cells.triangles),
+                    n4 = cells.points_of_first(cells.triangles + cells.quadrilaterals),
+                    n2 = cells.points_of_first(cells.size() - cells.points);
+  return computed_vtk_array<std::int32_t>(
+      "connectivity", Scalar::i32, cells.points_of_first(cells.size()), [&job, n3, n4, n2](std::size_t i) {
+        const MeshFile& f = job.file;
+        if (i < n3) return f.triangles[i / 3][i % 3];
+        if (i < n4) {
+          const std::size_t q = (i - n3) / 4, k = (i - n3) % 4;
+          return k < 3 ? f.triangles[n3 / 3 + q][k] : job.fourth_corners[q];
+        }
+        return i < n2 ? f.lines[(i - n4) / 2][(i - n4) % 2] : f.marked_points[i - n2];
+      });
 }
 
-VtkArray vtk_cell_ends(std::size_t triangles, std::size_t lines, std::size_t points) {
-  const std::size_t n = triangles + lines + points;
+VtkArray vtk_cell_ends(const VtkCells& cells) {
   const auto ends = [&]<class T>(T /*zero*/, Scalar scalar) {
-    return computed_vtk_array<T>("offsets", scalar, n, [triangles, lines](std::size_t i) {
-      return static_cast<T>(vtk_cell_end(i, triangles, lines));
-    });
+    return computed_vtk_array<T>("offsets", scalar, cells.size(),
+                                 [cells](std::size_t i) { return static_cast<T>(cells.points_of_first(i + 1)); });
   };
-  const bool fits = n == 0 || std::in_range<std::int32_t>(vtk_cell_end(n - 1, triangles, lines));
+  const bool fits = std::in_range<std::int32_t>(cells.points_of_first(cells.size()));
   return fits ? ends(std::int32_t{}, Scalar::i32) : ends(std::int64_t{}, Scalar::i64);
 }
 
-VtkArray vtk_cell_types(const MeshFile& f) {
-  const std::size_t t = f.triangles.size(), l = f.lines.size();
-  return computed_vtk_array<std::uint8_t>("types", Scalar::u8, n_vtk_cells(f), [t, l](std::size_t i) {
-    return static_cast<std::uint8_t>(i < t ? kVtkTriangle : i < t + l ? kVtkLine : kVtkVertex);
+VtkArray vtk_cell_types(const WriteJob& job) {
+  const VtkCells cells(job);
+  return computed_vtk_array<std::uint8_t>("types", Scalar::u8, cells.size(), [cells](std::size_t i) {
+    const std::size_t faces = cells.triangles + cells.quadrilaterals;
+    return static_cast<std::uint8_t>(i < cells.triangles       ? kVtkTriangle
+                                     : i < faces               ? kVtkQuad
+                                     : i < faces + cells.lines ? kVtkLine
+                                                               : kVtkVertex);
   });
 }
 
@@ -129,10 +138,11 @@ namespace {
 
 VtkArray regions(const MeshFile& f) {
   const std::size_t t = f.triangles.size(), l = f.lines.size();
-  return computed_vtk_array<std::int32_t>("region", Scalar::i32, n_vtk_cells(f), [&f, t, l](std::size_t i) {
-    if (i < t) return f.regions.empty() ? 0 : f.regions[i];
-    return i < t + l ? f.line_tags[i - t] : f.point_tags[i - t - l];
-  });
+  return computed_vtk_array<std::int32_t>("region", Scalar::i32, t + l + f.marked_points.size(),
+                                          [&f, t, l](std::size_t i) {
+                                            if (i < t) return f.regions.empty() ? 0 : f.regions[i];
+                                            return i < t + l ? f.line_tags[i - t] : f.point_tags[i - t - l];
+                                          });
 }
 
 }  // namespace
@@ -287,13 +297,13 @@ bool has_triangle_quality(const std::function<std::optional<TypeOfArray>(std::st
 std::vector<VtkArray> vtk_triangle_quality(const WriteJob& job) {
   const MeshFile& file = job.measured;
   if (file.degrees() != nullptr) return {};
-  if (file.triangles.empty()) return {};
+  if (file.triangles.empty() || !job.fourth_corners.empty()) return {};
   if (const std::string_view name = name_taken(file); !name.empty()) {
     job.warn("the quality of triangles is not written: the mesh has data ", in_quotes(name), " of its own");
     return {};
   }
   const auto columns = std::make_shared<const QualityColumns>(measure_all(file, job.executor));
-  const std::size_t n = file.triangles.size(), cells = n_vtk_cells(file);
+  const std::size_t n = file.triangles.size(), cells = VtkCells(job).size();
   std::vector<VtkArray> list = {computed_vtk_array<std::uint8_t>(
       std::string(kTriangleQuality[0].name), kTriangleQuality[0].scalar, cells,
       [columns, n](std::size_t i) { return i < n ? columns->well_centered[i] : std::uint8_t{0}; })};

@@ -1,6 +1,6 @@
-// The arrays of a mesh in a file of the VTK family (VTU and legacy). Triangles come first, then lines, then marked
-// points, so that cell i is triangle i. Cell data `region` is the region of a triangle, the tag of a line, the tag of a
-// point.
+// The arrays of a mesh in a file of the VTK family (VTU and legacy). Triangles come first, then quadrilaterals, lines
+// and marked points, so that cell i is triangle i. Cell data `region` is the region of a triangle, the tag of a line,
+// the tag of a point.
 #pragma once
 
 #include <algorithm>
@@ -21,19 +21,29 @@ void put_ascii(Output& out, const VtkArray& array);
 /// The bytes of the values, most significant first.
 void put_big_endian(Output& out, const VtkArray& array);
 
-[[nodiscard]] inline std::size_t n_vtk_cells(const MeshFile& f) {
-  return f.triangles.size() + f.lines.size() + f.marked_points.size();
-}
+/// The numbers of cells of each kind, in their order.
+struct VtkCells {
+  std::size_t triangles = 0, quadrilaterals = 0, lines = 0, points = 0;
+  explicit VtkCells(const WriteJob& job)
+      : triangles(job.n_triangles()),
+        quadrilaterals(job.fourth_corners.size()),
+        lines(job.file.lines.size()),
+        points(job.file.marked_points.size()) {}
+  VtkCells(std::size_t n3, std::size_t n4, std::size_t n2, std::size_t n1)
+      : triangles(n3), quadrilaterals(n4), lines(n2), points(n1) {}
+
+  [[nodiscard]] std::size_t size() const { return triangles + quadrilaterals + lines + points; }
+  /// The number of points of the first n cells.
+  [[nodiscard]] std::size_t points_of_first(std::size_t n) const {
+    const std::size_t t = std::min(n, triangles), q = std::min(n - t, quadrilaterals), l = std::min(n - t - q, lines);
+    return 3 * t + 4 * q + 2 * l + (n - t - q - l);
+  }
+};
 [[nodiscard]] VtkArray vtk_points(const WriteJob& job);
-[[nodiscard]] VtkArray vtk_connectivity(const MeshFile& f);
-/// The index after the last point of cell i. Triangles come first, then lines, then points.
-[[nodiscard]] inline std::size_t vtk_cell_end(std::size_t i, std::size_t triangles, std::size_t lines) {
-  const std::size_t t = std::min(i + 1, triangles), l = std::min(i + 1 - t, lines);
-  return 3 * t + 2 * l + (i + 1 - t - l);
-}
+[[nodiscard]] VtkArray vtk_connectivity(const WriteJob& job);
 /// The ends of all cells: in 32 bits, or in 64 if the last one does not fit.
-[[nodiscard]] VtkArray vtk_cell_ends(std::size_t triangles, std::size_t lines, std::size_t points);
-[[nodiscard]] VtkArray vtk_cell_types(const MeshFile& f);
+[[nodiscard]] VtkArray vtk_cell_ends(const VtkCells& cells);
+[[nodiscard]] VtkArray vtk_cell_types(const WriteJob& job);
 [[nodiscard]] std::vector<VtkArray> vtk_point_data(const WriteJob& job);
 [[nodiscard]] std::vector<VtkArray> vtk_cell_data(const WriteJob& job);
 [[nodiscard]] std::vector<VtkArray> vtk_field_data(const MeshFile& f);
@@ -63,8 +73,9 @@ struct TypeOfArray {
 [[nodiscard]] bool has_triangle_quality(
     const std::function<std::optional<TypeOfArray>(std::string_view name)>& type_of);
 
-/// The arrays of a mesh; zeros for lines and marked points. None without triangles, or when points are degrees and
-/// lengths therefore unknown. None either when data of the file have one of the names, which a warning says.
+/// The arrays of a mesh; zeros for lines and marked points. None without triangles or with quadrilaterals, or when
+/// points are degrees and lengths therefore unknown. None either when data of the file have one of the names, which a
+/// warning says.
 [[nodiscard]] std::vector<VtkArray> vtk_triangle_quality(const WriteJob& job);
 
 }  // namespace temper::io

@@ -31,8 +31,8 @@ VtkArray number_of(std::string name, std::size_t n) {
 }
 
 /// 64 bits per number, which all versions of VTK expect.
-VtkArray vtkhdf_connectivity(const MeshFile& f) {
-  const VtkArray narrow = vtk_connectivity(f);
+VtkArray vtkhdf_connectivity(const WriteJob& job) {
+  const VtkArray narrow = vtk_connectivity(job);
   return {"Connectivity", Scalar::i64, 1, narrow.n_values, [narrow](std::size_t first, std::size_t n, char* to) {
             std::vector<std::int32_t> numbers(n);
             narrow.fill(first, n, reinterpret_cast<char*>(numbers.data()));
@@ -43,13 +43,10 @@ VtkArray vtkhdf_connectivity(const MeshFile& f) {
           }};
 }
 
-VtkArray vtkhdf_offsets(const MeshFile& f) {
-  const std::size_t triangles = f.triangles.size(), lines = f.lines.size();
-  return computed_vtk_array<std::int64_t>("Offsets", Scalar::i64, n_vtk_cells(f) + 1,
-                                          [triangles, lines](std::size_t i) {
-                                            const std::size_t end = i == 0 ? 0 : vtk_cell_end(i - 1, triangles, lines);
-                                            return static_cast<std::int64_t>(end);
-                                          });
+VtkArray vtkhdf_offsets(const VtkCells& cells) {
+  return computed_vtk_array<std::int64_t>("Offsets", Scalar::i64, cells.size() + 1, [cells](std::size_t i) {
+    return static_cast<std::int64_t>(cells.points_of_first(i));
+  });
 }
 
 void put_group(Hdf5Writer& out, const Hdf5Id& in, const char* name, const std::vector<VtkArray>& arrays) {
@@ -80,12 +77,13 @@ void write_vtkhdf(const WriteJob& job) {
   const Hdf5Id root = out.group(out.root(), std::string(kVtkhdfGroup));
   out.attribute(root, "Version", {1, 0});
   out.attribute(root, "Type", kVtkhdfType);
-  VtkArray points = vtk_points(job), types = vtk_cell_types(f), connectivity = vtkhdf_connectivity(f);
+  VtkArray points = vtk_points(job), types = vtk_cell_types(job), connectivity = vtkhdf_connectivity(job);
   const std::size_t n_ids = connectivity.n_values;
   points.name = "Points";
   types.name = "Types";
-  for (VtkArray array : {number_of("NumberOfPoints", f.points.size()), number_of("NumberOfCells", n_vtk_cells(f)),
-                         number_of("NumberOfConnectivityIds", n_ids), points, connectivity, vtkhdf_offsets(f), types}) {
+  for (VtkArray array :
+       {number_of("NumberOfPoints", f.points.size()), number_of("NumberOfCells", VtkCells(job).size()),
+        number_of("NumberOfConnectivityIds", n_ids), points, connectivity, vtkhdf_offsets(VtkCells(job)), types}) {
     const std::string name = array.name;
     static_cast<void>(out.dataset(root, name, std::move(array)));
   }
