@@ -43,11 +43,14 @@ class SphereInserter {
   /// Helpers that stay are numbered after the points.
   void remove_helpers() {
     for (std::size_t k = 0; k < kHelpers; ++k) {
-      plan_ = plan_removal(result_.mesh, VertexId(k), std::move(plan_));
-      if (plan_.status != RemovalStatus::possible) continue;
-      remove_vertex(result_.mesh, plan_);
       lawson_.clear();
-      lawson_.push_removal(result_.mesh, plan_);
+      if (flip_spokes_away(VertexId(k))) {
+        plan_ = plan_removal(result_.mesh, VertexId(k), std::move(plan_));
+        if (plan_.status == RemovalStatus::possible) {
+          remove_vertex(result_.mesh, plan_);
+          lawson_.push_removal(result_.mesh, plan_);
+        }
+      }
       make_regular();
     }
     const Compaction kept = result_.mesh.compact();
@@ -67,6 +70,33 @@ class SphereInserter {
 
  private:
   void make_regular() { lawson_.run(result_.mesh, IgnoreFlips(), Lawson::kNoCap, result_.conflict_test()); }
+
+  /// A removal costs the cube of the number of spokes, and points that leave half of the sphere empty all face a
+  /// helper. So many spokes are flipped away first; Lawson restores what stays. Returns false if no flip is possible,
+  /// but there are still many: then the helper is needed.
+  bool flip_spokes_away(VertexId v) {
+    constexpr std::size_t kMany = 64;
+    Mesh& mesh = result_.mesh;
+    for (bool flipped = true; flipped;) {
+      flipped = false;
+      std::size_t n = 0;
+      for ([[maybe_unused]] const HalfedgeId h : mesh.star(v)) ++n;
+      if (n <= kMany) return true;
+      HalfedgeId spoke = mesh.outgoing(v);
+      for (std::size_t i = 0; i < n; ++i) {
+        const HalfedgeId next = mesh.rotate(spoke);  // its triangle is not one of the quad
+        if (can_flip(mesh, spoke) == FlipStatus::possible) {
+          const HalfedgeId edge = flip(mesh, spoke), other = mesh.twin(edge);
+          for (const HalfedgeId h : {edge, Mesh::next(edge), Mesh::prev(edge), Mesh::next(other), Mesh::prev(other)}) {
+            lawson_.push(h);
+          }
+          flipped = true;
+        }
+        spoke = next;
+      }
+    }
+    return false;
+  }
 
   /// The corner of t that has the direction of p.
   [[nodiscard]] VertexId vertex_at(TriangleId t, Vec3 p) const {

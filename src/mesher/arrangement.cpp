@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -44,6 +45,7 @@ class Arranger {
     number_places(result);
     if (snapped_.joins > 0) result.notes.push_back(note_of_joins());
     warn_of_lost_points(result.warnings);
+    warn_of_lost_lines(result.warnings);
     return result;
   }
 
@@ -246,6 +248,38 @@ class Arranger {
     }
   }
 
+  /// Segments with a common end and tag are one line. Lines of which joins leave no edge are named; what remains of
+  /// parts and rings is checked elsewhere.
+  void warn_of_lost_lines(std::vector<std::string>& warnings) const {
+    std::vector<std::uint8_t> left(o_.segments.size(), 0);
+    for (const SegmentPart& part : snapped_.parts) left[part.segment] = 1;
+    if (std::find(left.begin(), left.end(), 0) == left.end()) return;
+    const auto parts = parts_of_segments(), tags = tags_of_segments();
+    std::vector<std::size_t> line(left.size());  // its first segment
+    const auto first = [&](std::size_t i) {
+      while (line[i] != i) i = line[i] = line[line[i]];
+      return i;
+    };
+    std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> at_end;  // and of that tag
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      line[i] = i;
+      for (const std::int32_t end : o_.segments[i].ends) {
+        const std::size_t other = first(at_end.emplace(std::pair(end, o_.segments[i].tag), i).first->second);
+        const auto [less, more] = std::minmax({other, first(i)});
+        line[more] = less;
+      }
+    }
+    for (std::size_t i = 0; i < left.size(); ++i) left[first(i)] |= left[i];
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      if (first(i) != i || left[i] != 0 || !parts[i].empty()) continue;
+      std::string text_of_tags;
+      for (const std::int32_t tag : tags[i]) text_of_tags += ", " + name_of_tag(o_, 1, tag);
+      warnings.push_back("joins within " + to_text(options_.within) + " leave nothing of the line at " +
+                         text(point(o_.segments[i].ends[0])) + ", " + names_.segment(i) + text_of_tags +
+                         ". Next: a smaller --snap keeps it");
+    }
+  }
+
   std::vector<OutlineEdge> cut() {
     const auto parts = parts_of_segments(), tags = tags_of_segments();
     std::vector<OutlineEdge> edges;
@@ -386,6 +420,12 @@ class Arranger {
 const OutlineNames& names_of(const Outline& outline) {
   static const OutlineNames from_zero;
   return outline.names ? *outline.names : from_zero;
+}
+
+std::string name_of_tag(const Outline& outline, int dimension, std::int32_t tag) {
+  const auto named = std::find_if(outline.groups.begin(), outline.groups.end(),
+                                  [&](const PhysicalName& g) { return g.dimension == dimension && g.tag == tag; });
+  return named == outline.groups.end() ? "tag " + std::to_string(tag) : "'" + named->name + "'";
 }
 
 std::optional<InputError> check_tags(const std::vector<OutlineTag>& tags, const std::string& what, std::size_t n) {

@@ -51,6 +51,9 @@ struct Arrangement {
 /// The names of the outline, or names that count from 0.
 [[nodiscard]] const OutlineNames& names_of(const Outline& outline);
 
+/// "'river'", or "tag 5" without a name.
+[[nodiscard]] std::string name_of_tag(const Outline& outline, int dimension, std::int32_t tag);
+
 /// "(8.5, 53.25)": a place in the coordinates of the file.
 [[nodiscard]] std::string text_of(const Surface& surface, const OutlineNames& names, Vec3 place);
 

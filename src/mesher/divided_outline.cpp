@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "geometry/bounding_boxes.hpp"
-
 namespace temper::mesher {
 
 // The graded size by a tree over its sources: branches that cannot lower the best value so far are skipped.
@@ -144,24 +142,38 @@ bool is_sharp(const Surface& surface, const std::vector<Vec3>& points, std::size
   return false;
 }
 
-/// The nearest edge that does not end at the point, or `within`.
-double clearance(const Surface& surface, const Arrangement& arrangement, const BoundingBoxTree& tree, std::size_t apex,
-                 double within) {
+}  // namespace
+
+NearEdge nearest_edge(const Surface& surface, const Arrangement& arrangement, const BoundingBoxTree& tree,
+                      std::size_t place, double within) {
   double least = within * within;
-  const Vec3 p = arrangement.places[apex];
+  NearEdge nearest;
+  const Vec3 p = arrangement.places[place];
   tree.visit(BoundingBox{p, p}.grown(within), [&](std::size_t i) {
     const auto a = static_cast<std::size_t>(arrangement.edges[i].ends[0]),
                b = static_cast<std::size_t>(arrangement.edges[i].ends[1]);
-    const std::int32_t origin = arrangement.origin[apex];
-    if (arrangement.origin[a] != origin && arrangement.origin[b] != origin) {
-      least = std::min(least, surface.squared_distance(p, arrangement.places[a], arrangement.places[b]));
+    const std::int32_t origin = arrangement.origin[place];
+    if (arrangement.origin[a] == origin || arrangement.origin[b] == origin) return true;
+    const double squared = surface.squared_distance(p, arrangement.places[a], arrangement.places[b]);
+    if (squared < least) {
+      least = squared;
+      nearest.edge = static_cast<std::uint32_t>(i);
     }
     return true;
   });
-  return std::sqrt(least);
+  nearest.distance = std::sqrt(least);
+  return nearest;
 }
 
-}  // namespace
+BoundingBoxTree tree_of_edges(const Surface& surface, const Arrangement& arrangement) {
+  std::vector<BoundingBox> boxes;
+  boxes.reserve(arrangement.edges.size());
+  for (const OutlineEdge& e : arrangement.edges) {
+    boxes.push_back(box_around(surface, arrangement.places[static_cast<std::size_t>(e.ends[0])],
+                               arrangement.places[static_cast<std::size_t>(e.ends[1])]));
+  }
+  return BoundingBoxTree(boxes);
+}
 
 CornerRadii corner_radii(const Surface& surface, const Arrangement& arrangement, double largest) {
   const std::vector<Vec3>& points = arrangement.places;
@@ -169,13 +181,7 @@ CornerRadii corner_radii(const Surface& surface, const Arrangement& arrangement,
   const auto around = neighbors(surface, points, edges);
   std::vector<std::uint8_t> sharp(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) sharp[i] = is_sharp(surface, points, i, around[i]) ? 1 : 0;
-  std::vector<BoundingBox> boxes;
-  boxes.reserve(edges.size());
-  for (const OutlineEdge& e : edges) {
-    boxes.push_back(
-        box_around(surface, points[static_cast<std::size_t>(e.ends[0])], points[static_cast<std::size_t>(e.ends[1])]));
-  }
-  const BoundingBoxTree tree(boxes);
+  const BoundingBoxTree tree = tree_of_edges(surface, arrangement);
   CornerRadii radii(points.size(), 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (sharp[i] == 0) continue;
@@ -185,7 +191,7 @@ CornerRadii corner_radii(const Surface& surface, const Arrangement& arrangement,
       radius = std::min(radius, reach * surface.distance(points[i], points[static_cast<std::size_t>(j)]));
     }
     constexpr double kApart = 0.5;  // of the way to the next thing
-    radii[i] = std::min(radius, kApart * clearance(surface, arrangement, tree, i, radius / kApart));
+    radii[i] = std::min(radius, kApart * nearest_edge(surface, arrangement, tree, i, radius / kApart).distance);
   }
   return radii;
 }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/bounding_boxes.hpp"
 #include "geometry/surface.hpp"
 #include "mesher/arrangement.hpp"
 #include "mesher/deadline.hpp"
@@ -77,6 +78,17 @@ struct DividedOutline {
 /// The distance from each point of the outline to the first division of its edges: positive only at sharp corners. All
 /// edges of one corner are cut at one distance, so that the triangle in the corner is isosceles.
 using CornerRadii = std::vector<double>;
+
+/// The nearest edge to a place that does not end there.
+struct NearEdge {
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  double distance = 0;
+  std::uint32_t edge = kNone;
+};
+/// If it is nearer than `within`; else none, and that distance.
+[[nodiscard]] NearEdge nearest_edge(const Surface& surface, const Arrangement& arrangement, const BoundingBoxTree& tree,
+                                    std::size_t place, double within);
+[[nodiscard]] BoundingBoxTree tree_of_edges(const Surface& surface, const Arrangement& arrangement);
 
 /// Divides every edge so that its pieces follow the size. Ends early when there are more than `most` pieces, or when it
 /// is time to stop.

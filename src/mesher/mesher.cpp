@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <string>
@@ -122,18 +123,26 @@ class Mesher {
 
   /// The tolerance of joins. On a sphere the square of a weighted vector has no digits for shorter edges.
   [[nodiscard]] double tolerance() const {
-    constexpr double kOfExtent = 1e-9, kOfRadius = 1e-7, kLeastOfRadius = 1e-8;
-    constexpr double kRounding = 1e-15;  // of the largest coordinate
+    constexpr double kOfExtent = 1e-9, kOfRadius = 1e-7;
     if (surface_.space().is_closed()) {
-      const double radius = surface_.space().radius();
-      return std::max(kLeastOfRadius * radius, options_.snap.value_or(kOfRadius * radius));
+      return std::max(rounding(), options_.snap.value_or(kOfRadius * surface_.space().radius()));
     }
-    if (given_places_.empty() || (options_.snap && !options_.split_crossings)) return options_.snap.value_or(0);
+    if (given_places_.empty() || (options_.snap == 0 && !options_.split_crossings)) return 0;
+    const BoundingBox box = box_of_places();
+    return std::max(rounding(), options_.snap.value_or(kOfExtent * length(box.high - box.low)));
+  }
+  /// The least tolerance that joins what rounding moved apart.
+  [[nodiscard]] double rounding() const {
+    constexpr double kLeastOfRadius = 1e-8, kOfCoordinate = 1e-15;
+    if (surface_.space().is_closed()) return kLeastOfRadius * surface_.space().radius();
+    const BoundingBox box = box_of_places();
+    return kOfCoordinate *
+           std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
+  }
+  [[nodiscard]] BoundingBox box_of_places() const {
     BoundingBox box = box_of(given_places_[0], given_places_[0]);
     for (const Vec3 p : given_places_) box = temper::united(box, box_of(p, p));
-    const double rounding =
-        kRounding * std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
-    return std::max(rounding, options_.snap.value_or(kOfExtent * length(box.high - box.low)));
+    return box;
   }
 
   /// Leaves out edges with nothing to mesh on either side.
@@ -297,8 +306,8 @@ class Mesher {
     if (!narrowest_ || narrowest_->width > far * wanted_.most) return {};
     const OutlineNames& names = names_of(outline_);
     const auto side = [&](std::uint32_t s) {
-      if (s < Gap::kIsolated) return names.segment(edges_[s].segment);
-      const std::uint32_t point = arrangement_.point[s - Gap::kIsolated];
+      if (s < Gap::kPoint) return names.segment(edges_[s].segment);
+      const std::uint32_t point = arrangement_.point[s - Gap::kPoint];
       return point == Arrangement::kNoPoint ? std::string("a crossing") : names.point(point);
     };
     const auto [one, other] = narrowest_->sides;
@@ -307,10 +316,11 @@ class Mesher {
            " at " + text_of(surface_, names, narrowest_->at) + ", " +
            (edge ? side(one) : "between " + side(one) + " and " + side(other)) +
            ". Next: if that is a mistake, join it by --snap " +
-           rounded(std::max(1.05 * narrowest_->width, 4 * tolerance()));
+           rounded(std::max({1.05 * narrowest_->width, 4 * tolerance(), 4 * rounding()}));
   }
   /// Two digits, not less than the value.
   [[nodiscard]] static std::string rounded(double value) {
+    if (value == 0) return "0";
     const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
     char text[32];
     std::snprintf(text, sizeof text, "%.2g", std::ceil(value / unit) * unit);
@@ -326,11 +336,21 @@ class Mesher {
                                 : narrow + "; or more time")};
   }
   /// Division points meet or cross others: the outline is too narrow there for its coordinates.
-  [[nodiscard]] InputError too_fine(const InputError& error) const {
-    const std::string narrow = narrow_text(1);
+  [[nodiscard]] InputError too_fine(const InputError& error) {
+    find_narrowest();
+    const std::string narrow = narrow_text(std::numeric_limits<double>::infinity());
     return {ErrorCode::out_of_scale, "",
             "the outline has places too narrow for the precision of its coordinates (" + error.message + "); " +
-                (narrow.empty() ? "Next: a larger tolerance --snap" : narrow)};
+                (narrow.empty() ? "Next: larger sizes" : narrow)};
+  }
+  /// Looks for a place that is nearer to an edge than the narrowest one so far.
+  void find_narrowest() {
+    const BoundingBoxTree tree = tree_of_edges(surface_, arrangement_);
+    for (std::size_t p = 0; p < places_.size() && narrowest_; ++p) {
+      const NearEdge near = nearest_edge(surface_, arrangement_, tree, p, narrowest_->width);
+      if (near.edge == NearEdge::kNone) continue;
+      narrowest_ = {near.distance, places_[p], {near.edge, Gap::kPoint + static_cast<std::uint32_t>(p)}};
+    }
   }
   [[nodiscard]] InputError too_coarse() const {
     return invalid("edges of " + to_text(wanted_.most) + " are too long for a sphere of radius " +
@@ -474,7 +494,7 @@ class Mesher {
     note_lost_groups(made);
   }
 
-  /// Tells of tags that the outline has and the mesh has not: their points and segments are outside.
+  /// Tells of tags that the outline has and the mesh has not.
   void note_lost_groups(OutlineMesh& made) const {
     std::set<std::pair<int, std::int32_t>> lost;  // dimension and tag
     for (const OutlineTag& p : outline_.point_tags) lost.emplace(0, p.tag);
@@ -486,15 +506,11 @@ class Mesher {
     for (const MeshLine& line : made.lines) lost.erase({1, line.tag});
     if (lost.empty()) return;
     std::string list;
-    for (const auto& group : lost) {
-      const int dimension = group.first;
-      const std::int32_t tag = group.second;
-      const auto named = std::find_if(outline_.groups.begin(), outline_.groups.end(),
-                                      [&](const PhysicalName& g) { return g.dimension == dimension && g.tag == tag; });
-      list += (list.empty() ? "" : ", ") + (dimension == 0 ? "points " : std::string("lines ")) +
-              (named == outline_.groups.end() ? "of tag " + std::to_string(tag) : "'" + named->name + "'");
+    for (const auto& [dimension, tag] : lost) {
+      list += (list.empty() ? "" : ", ") + std::string(dimension == 0 ? "points " : "lines ") +
+              name_of_tag(outline_, dimension, tag);
     }
-    made.notes.push_back("outside, so the mesh has nothing of them: " + list);
+    made.notes.push_back("the mesh has nothing of these, because they are outside, left out or joined: " + list);
   }
 
   Expected<OutlineMesh> attempt() {

@@ -30,7 +30,7 @@ class Narrow {
       : divided_(divided), mesh_(triangulated.mesh), triangulated_(triangulated), size_(size) {
     around_.resize(divided.points.size());
     edge_.resize(divided.points.size());
-    for (std::size_t i = 0; i < edge_.size(); ++i) edge_[i] = Gap::kIsolated + static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < edge_.size(); ++i) edge_[i] = Gap::kPoint + static_cast<std::uint32_t>(i);
     for (const Piece& p : divided.pieces) {
       for (const std::uint32_t end : p.ends) edge_[end] = p.edge;
       around_[p.ends[0]].push_back(p.ends[1]);

@@ -16,9 +16,9 @@ namespace temper::mesher {
 struct Gap {
   double width = 0;
   Vec3 at;
-  /// Edges of the arrangement on both sides; or a point of no edge, as `kIsolated` + its place.
+  /// Edges of the arrangement on both sides; or a point, as `kPoint` + its place.
   std::array<std::uint32_t, 2> sides = {};
-  static constexpr std::uint32_t kIsolated = 0x80000000u;
+  static constexpr std::uint32_t kPoint = 0x80000000u;
 };
 
 struct NarrowPlaces {

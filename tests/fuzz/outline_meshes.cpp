@@ -1,13 +1,18 @@
 // Outlines that are moved by rounding, through the mesher: twenty kinds with touching lines and points.
 //
 // The bytes of an input choose a kind, the perturbation (0, or 1e-16 to 1e-3 of the extent), and the options. Each run
-// gives a mesh with all regions, or an error with a place and a cure, within 20 s. `fuzz_smoke 600 outline_mesh` makes
-// as many runs as fit into 600 s.
+// gives a mesh with all regions, tags and points, or an error with a place and a cure, within 20 s.
+// `fuzz_smoke 600 outline_mesh` makes as many runs as fit into 600 s.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <numbers>
+#include <numeric>
+#include <regex>
 #include <set>
 
 #include "base/rng.hpp"
@@ -112,19 +117,101 @@ Outline outline_of(const Kind& kind, double perturbation, double scale, Vec2 off
 
 bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
-void check_result(const Expected<OutlineMesh>& made, const Outline& outline, std::size_t n_points) {
+/// "(8.5, 53.25)" somewhere in the text.
+bool names_place(const std::string& text) {
+  static const std::regex place(R"(\(-?[0-9][-+.e0-9]*, -?[0-9][-+.e0-9]*\))");
+  return std::regex_search(text, place);
+}
+
+/// What came of all runs.
+struct Outcome {
+  std::set<std::uint64_t> inputs;
+  std::size_t meshes = 0, errors = 0, bad = 0;
+  double slowest = 0;  // seconds
+  std::string slow;    // that run
+};
+Outcome& outcome() {
+  static Outcome all;
+  return all;
+}
+
+/// Sets of vertices that edges of one tag connect.
+class Chains {
+ public:
+  Chains(const OutlineMesh& made, std::int32_t tag) : first_(made.mesh.n_vertices()) {
+    std::iota(first_.begin(), first_.end(), 0u);
+    for (const MeshLine& line : made.lines) {
+      insist(made.mesh.find_halfedge(line.a, line.b).valid() || made.mesh.find_halfedge(line.b, line.a).valid(),
+             "a line of the result is an edge of the mesh");
+      if (line.tag == tag) first_[root(line.a.index)] = root(line.b.index);
+    }
+  }
+  [[nodiscard]] bool connect(VertexId a, VertexId b) { return root(a.index) == root(b.index); }
+
+ private:
+  std::uint32_t root(std::uint32_t i) {
+    while (first_[i] != i) i = first_[i] = first_[first_[i]];
+    return i;
+  }
+  std::vector<std::uint32_t> first_;
+};
+
+/// The edges with a tag of a segment lead from one of its ends to the other, if both are in the mesh. Each domain is
+/// convex, so the segment is inside. A tag with no edge at all is named.
+void check_tags(const OutlineMesh& made, const Outline& outline, const std::vector<std::int32_t>& vertex_of_point,
+                const std::string& words) {
+  const bool divided = contains(words, "touched itself");  // then chains are cut, too
+  for (std::size_t first = 0, next = 0; first < outline.segments.size(); first = next) {
+    const std::int32_t tag = outline.segments[first].tag;
+    Chains chains(made, tag);
+    const bool any = std::any_of(made.lines.begin(), made.lines.end(), [&](const auto& l) { return l.tag == tag; });
+    insist(any || contains(words, "tag " + std::to_string(tag)), "a tag without edges is named: " + words);
+    for (next = first; next < outline.segments.size() && outline.segments[next].tag == tag; ++next) {
+      const auto [a, b] = outline.segments[next].ends;
+      const std::int32_t from = vertex_of_point[static_cast<std::size_t>(a)],
+                         to = vertex_of_point[static_cast<std::size_t>(b)];
+      if (from < 0 || to < 0 || divided) continue;
+      insist(chains.connect(VertexId(static_cast<std::size_t>(from)), VertexId(static_cast<std::size_t>(to))),
+             "the edges of tag " + std::to_string(tag) + " lead from point " + std::to_string(a) + " to point " +
+                 std::to_string(b));
+    }
+  }
+}
+
+/// `n_copies`: how often the points are in the result. Points of no segment are in the last copy.
+void check_result(const Expected<OutlineMesh>& made, const Outline& outline, std::size_t n_copies) {
   if (!made) {
+    ++outcome().errors;
     const std::string what = made.error().what();
     insist(contains(what, "Next") || contains(what, "expected"), "an error has a cure: " + what);
-    insist(contains(what, ", ") || made.error().code == ErrorCode::stopped, "an error has a place: " + what);
+    insist(names_place(what), "an error has a place: " + what);
     return;
   }
+  ++outcome().meshes;
+  outcome().bad += made->bad > 0 ? 1 : 0;
   insist(!made->mesh.validate().has_value(), "the mesh is valid");
-  insist(made->vertex_of_point.size() == n_points, "each point has a vertex or none");
+  const std::size_t n = outline.points.size();
+  insist(made->vertex_of_point.size() == n_copies * n, "each point has a vertex or none");
   std::set<std::int32_t> found, wanted;
   for (const TriangleId t : made->mesh.triangles()) found.insert(made->mesh.region(t));
   for (const OutlinePart& part : outline.parts) wanted.insert(part.region);
   insist(found == wanted, "all regions are there");
+  std::string words;
+  for (const auto* list : {&made->notes, &made->warnings}) {
+    for (const std::string& text : *list) words += text + "\n";
+  }
+  std::vector<std::int32_t> vertex_of_point(n, -1);  // of any copy
+  for (std::size_t i = 0; i < n_copies * n; ++i) {
+    const VertexId v = made->vertex_of_point[i];
+    if (v.valid()) vertex_of_point[i % n] = static_cast<std::int32_t>(v.index);
+  }
+  check_tags(*made, outline, vertex_of_point, words);
+  std::vector<bool> alone(n, true);
+  for (const OutlineSegment& s : outline.segments) alone[s.ends[0]] = alone[s.ends[1]] = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    insist(!alone[i] || vertex_of_point[i] >= 0 || contains(words, "point " + std::to_string(i) + " at"),
+           "a point without a vertex is named");
+  }
 }
 
 void mesh_moved_outline(std::string_view bytes) {
@@ -141,7 +228,8 @@ void mesh_moved_outline(std::string_view bytes) {
   options.attempts = 2;
   options.time_limit = 15;
   if (rng.below(4) == 0) options.snap = sphere ? 2e6 * perturbation : 20 * perturbation;
-  const auto start = std::chrono::steady_clock::now();
+  outcome().inputs.insert(words[0] ^ (words[1] << 1) ^ (words[2] << 2));
+  const std::clock_t start = std::clock();  // of the processor: other programs may run beside
   if (sphere) {
     const Outline outline = outline_of(kind, perturbation, 1, {rng.below(360) - 180.0, 20}, rng);
     SphereOutline on_sphere;
@@ -159,25 +247,37 @@ void mesh_moved_outline(std::string_view bytes) {
       if (closed[i] == 0) on_sphere.lines.segments.push_back(outline.segments[i]);
     }
     options.size = 150'000;
-    check_result(mesh_sphere(on_sphere, options), outline, 2 * outline.points.size());
+    check_result(mesh_sphere(on_sphere, options), outline, 2);
   } else {
     const double scale = std::pow(10.0, static_cast<int>(rng.below(7)) - 2.0);
     const Vec2 offset = rng.below(2) == 0 ? Vec2{} : Vec2{4e4 * scale, 6e5 * scale};
     const Outline outline = outline_of(kind, perturbation, scale, offset, rng);
     options.size = 1.5 * scale;
-    check_result(mesh_outline(outline, options), outline, outline.points.size());
+    check_result(mesh_outline(outline, options), outline, 1);
   }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  if (seconds > outcome().slowest) {
+    outcome().slowest = seconds;
+    outcome().slow =
+        fmt::format("kind {}, moved by {:.0e}, {}", &kind - all.data(), perturbation, sphere ? "sphere" : "plane");
+  }
   insist(seconds < 20, "a run ends in 20 s");
 }
 
 }  // namespace
 
 std::vector<Target> outline_mesh_targets() {
-  return {{"outline_mesh", mesh_moved_outline, [] {
+  return {{"outline_mesh", mesh_moved_outline,
+           [] {
              std::vector<std::string> seeds;
              for (char c = 'a'; c <= 'p'; ++c) seeds.emplace_back(24, c);
              return seeds;
+           },
+           [] {
+             const Outcome& o = outcome();
+             return fmt::format(
+                 "{} different inputs: {} meshes ({} with bad triangles), {} errors; slowest {:.1f} s ({})",
+                 o.inputs.size(), o.meshes, o.bad, o.errors, o.slowest, o.slow);
            }}};
 }
 

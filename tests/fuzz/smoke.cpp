@@ -1,7 +1,10 @@
 // The targets without libFuzzer, for any compiler and a few seconds: each seed, then mutations of seeds. It sees no
 // coverage; what it finds is what a reader does on nearly right files.
 //
-//   fuzz_smoke SECONDS [TARGET …]      seconds for each target; what ends a run is left in crash-TARGET
+//   fuzz_smoke SECONDS[:FROM] [TARGET …]
+//
+// SECONDS are for each target. FROM, 0 if it is not given, is the number of the first mutation. What ends a run is left
+// in crash-TARGET.
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -65,7 +68,7 @@ void mutate(std::string& bytes, const std::vector<std::string>& seeds, Rng& rng)
   }
 }
 
-std::size_t smoke(const Target& target, double seconds) {
+std::size_t smoke(const Target& target, double seconds, std::uint64_t from) {
   current_target = target.name;
   const std::vector<std::string> seeds = seeds_and_finds(target);
   insist(!seeds.empty(), "there are seeds of " + target.name);
@@ -77,7 +80,7 @@ std::size_t smoke(const Target& target, double seconds) {
     ++n;
   };
   for (const std::string& seed : seeds) once(seed);
-  for (std::uint64_t i = 0; Clock::now() < until; ++i) {
+  for (std::uint64_t i = from; Clock::now() < until; ++i) {
     Rng rng(i);
     std::string bytes = seeds[somewhere(rng, seeds.size())];
     for (std::uint32_t k = 0; k <= rng.below(4); ++k) mutate(bytes, seeds, rng);
@@ -91,16 +94,20 @@ std::size_t smoke(const Target& target, double seconds) {
 
 int main(int argc, char** argv) {
   using namespace temper::fuzz;
-  if (argc < 2) return std::fprintf(stderr, "usage: fuzz_smoke SECONDS [TARGET …]\n"), 2;
+  if (argc < 2) return std::fprintf(stderr, "usage: fuzz_smoke SECONDS[:FROM] [TARGET …]\n"), 2;
   if (__sanitizer_set_death_callback != nullptr) __sanitizer_set_death_callback(keep_input);
   std::signal(SIGABRT, keep_input_of_abort);
   std::vector<Target> chosen;
   for (int i = 2; i < argc; ++i) chosen.push_back(target(argv[i]));
   if (argc == 2) chosen = targets();
+  char* rest = nullptr;
+  const double seconds = std::strtod(argv[1], &rest);
+  const std::uint64_t from = *rest == ':' ? std::strtoull(rest + 1, nullptr, 10) : 0;
   std::size_t executions = 0;
   for (const Target& each : chosen) {
-    const std::size_t n = smoke(each, std::atof(argv[1]));
+    const std::size_t n = smoke(each, seconds, from);
     std::printf("%-20s %8zu executions\n", each.name.c_str(), n);
+    if (each.outcome) std::printf("%20s %s\n", "", each.outcome().c_str());
     executions += n;
   }
   std::printf("%zu targets, %zu executions, no finds\n", chosen.size(), executions);

@@ -13,6 +13,7 @@ struct Target {
   std::string name;
   std::function<void(std::string_view bytes)> run;  ///< ends the process when something does not hold
   std::function<std::vector<std::string>()> seeds;
+  std::function<std::string()> outcome = {};  ///< what came of all runs, if the target counts it
 };
 
 /// A target a format, as its row is called.

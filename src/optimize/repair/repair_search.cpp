@@ -104,6 +104,8 @@ constexpr std::uint32_t kSidewaysChoice = 4;
 constexpr int kTrialsOfAProgram = 20;
 // With a guard a trial takes this many times as long.
 constexpr std::size_t kVisitsByGuard = 4;
+// Repairs are local. Where most triangles are bad they gain little, so a trial counts this many times.
+constexpr std::size_t kVisitsWhereMostAreBad = 8;
 
 bool helps(const LocalDefect& before, const LocalDefect& after) {
   return after.bad < before.bad || (after.bad == before.bad && after.violation < (1 - kHelps) * before.violation);
@@ -189,7 +191,9 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
       if (run_.repair_trials_left() == 0 || run_.asked_to_stop(0)) return best;
       const bool program = edit.kind == Edit::assign_weights;
       if (program) weighed_.push_back(seed);
-      const std::size_t visits = (settings_.guard != nullptr ? kVisitsByGuard : 1) * around.mesh.n_triangles();
+      const std::size_t visits = (settings_.guard != nullptr ? kVisitsByGuard : 1) *
+                                 (2 * bad_.size() > work_.mesh.n_triangles() ? kVisitsWhereMostAreBad : 1) *
+                                 around.mesh.n_triangles();
       run_.count_trials(program ? 1 + kTrialsOfAProgram : 1, visits);
       const TrialResult result = try_edit(around, edit, settings_, work_.units, false);
       if (!result.valid) continue;

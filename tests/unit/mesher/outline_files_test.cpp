@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "outlines.hpp"
+#include "temper/detail/projection.hpp"
 #include "temper/io.hpp"
 #include "temper/mesher.hpp"
 
@@ -454,6 +457,87 @@ TEST(PublicOutlines, TheCoastsOfAGlobalOceanAreMeshedWellCenteredAndKept) {
       EXPECT_TRUE(made->mesh.is_boundary(made->vertex_of_point[i]));
     }
   }
+}
+
+/// Land on a globe: every triangle is well-centered, and every coast point within the tolerance of its vertex. Points
+/// on cuts at the end of the map, which end at a pole, are in the land.
+void expect_coast_kept(const io::OutlineFile& land, double size) {
+  SphereOutline sphere;
+  sphere.coasts = land.outline;
+  MesherOptions options;
+  options.size = size;
+  const auto made = mesh_sphere(sphere, options);
+  ASSERT_TRUE(made) << made.error().what();
+  EXPECT_EQ(made->bad, 0u);
+  for (std::size_t i = 0; i < land.outline.points.size(); ++i) {
+    const Vec2 p = land.outline.points[i];
+    const VertexId v = made->vertex_of_point[i];
+    if (!v.valid()) {
+      EXPECT_TRUE(std::abs(std::abs(p.x) - 180) < 1e-9 || p.y < -84) << p.x << " " << p.y;
+      continue;
+    }
+    EXPECT_LT(length(made->mesh.space().place(made->mesh.point(v)) - sphere.radius * direction_of(p)), 0.64) << i;
+    EXPECT_TRUE(made->mesh.is_boundary(v));
+  }
+}
+
+// As in Natural Earth: a continent on both sides of 180 degrees, which a rounded longitude ends; edges of 13 to 93 mm;
+// a lake as a hole; a cap around the pole, cut at the end of the map.
+TEST_F(OutlineFiles, CoastsOfAWorldMapAreKept) {
+  constexpr double kMillimeter = 9e-9;  // degrees of latitude
+  std::vector<Vec2> continent = {{180.00000000000014, 68.96},
+                                 {160, 70},
+                                 {120, 73},
+                                 {80, 72},
+                                 {45, 67},
+                                 {10, 60},
+                                 {-5, 48},
+                                 {-9, 38},
+                                 {10, 37},
+                                 {35, 31},
+                                 {45, 13},
+                                 {58, 20},
+                                 {72, 20},
+                                 {78, 8},
+                                 {88, 22},
+                                 {105, 10},
+                                 {120, 30},
+                                 {135, 45},
+                                 {155, 52},
+                                 {165, 60},
+                                 {180.00000000000014, 64.98}};
+  for (int i = 0; i < 9; ++i) {
+    const auto after = continent.begin() + 1 + 2 * i;
+    continent.insert(after + 1, {after->x, after->y + (13 + 10 * i) * kMillimeter});
+  }
+  const std::vector<Vec2> lake = {{47, 45}, {53, 46}, {53, 38}, {49, 38}},
+                          beyond = {{-180, 64.98}, {-172, 64.5}, {-170, 66}, {-175, 68}, {-180, 68.96}},
+                          cap = {{-180, -90}, {-180, -84.7}, {-150, -78}, {-100, -73}, {-60, -64},
+                                 {-40, -78},  {0, -70},      {60, -67},   {110, -66},  {150, -69},
+                                 {170, -78},  {180, -84.7},  {180, -90}};
+  const auto ring = [](std::vector<Vec2> points) {
+    points.push_back(points.front());
+    std::string text;
+    char pair[64];
+    for (const Vec2 p : points) {
+      std::snprintf(pair, sizeof pair, "%s[%.17g, %.17g]", text.empty() ? "[" : ", ", p.x, p.y);
+      text += pair;
+    }
+    return text + "]";
+  };
+  const io::OutlineFile land = read(R"({"type": "MultiPolygon", "coordinates": [[)" + ring(continent) + ", " +
+                                    ring(lake) + "], [" + ring(beyond) + "], [" + ring(cap) + "]]}");
+  EXPECT_EQ(land.outline.points.size(), 52u);
+  for (const double size : {6e5, 3e5}) expect_coast_kept(land, size);
+}
+
+TEST(PublicOutlines, NaturalEarthIsKept) {
+  const char* given = std::getenv("TEMPER_NATURAL_EARTH");
+  const std::string path = given != nullptr ? given : TEMPER_SHARED "/outlines/ne_110m_land.json";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path << ": set TEMPER_NATURAL_EARTH to the 110 m land";
+  const auto land = io::read_outline(path);
+  ASSERT_TRUE(land) << land.error().what();
+  for (const double size : {6e5, 1.5e5}) expect_coast_kept(*land, size);
 }
 
 }  // namespace

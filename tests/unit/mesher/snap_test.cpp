@@ -187,6 +187,25 @@ TEST(Snap, SmallIslandsAreLeftOutIfAskedFor) {
   EXPECT_NE(refused.error().what().find("encloses nothing after joins within 0.1"), std::string::npos);
 }
 
+TEST(Snap, LinesOfWhichJoinsLeaveNothingAreNamed) {
+  Outline o = square();
+  add_line(o, {{0.5, 0.5}, {0.51, 0.5}, {0.52, 0.5}}, false, 5);  // whole
+  add_line(o, {{0.7, 0.2}, {0.71, 0.2}, {0.9, 0.2}}, false, 6);   // its first segment
+  add_line(o, {{0.2, 0.8}, {0.21, 0.8}}, false, 6);               // another line of that tag
+  o.groups = {{1, 5, "brook"}};
+  MesherOptions options = of_size(0.2);
+  EXPECT_TRUE(mesh_outline(o, options)->warnings.empty());
+  options.snap = 0.03;
+  const auto made = mesh_outline(o, options);
+  ASSERT_TRUE(made) << made.error().what();
+  ASSERT_EQ(made->warnings.size(), 2u);
+  EXPECT_EQ(made->warnings[0],
+            "joins within 0.03 leave nothing of the line at (0.5, 0.5), segment 4, 'brook'. Next: a smaller --snap "
+            "keeps it");
+  EXPECT_NE(made->warnings[1].find("at (0.2, 0.8), segment 8, tag 6."), std::string::npos);
+  EXPECT_NE(made->notes.back().find("lines 'brook'"), std::string::npos);
+}
+
 TEST(Snap, CoastPointsThatNearlyCoincideAreNoTrouble) {
   std::vector<Vec2> coast;
   for (int i = 0; i < 30; ++i)

@@ -362,6 +362,17 @@ TEST(SphereMesher, RegionsOfBasinsHaveTheirNumbersAndSizes) {
   EXPECT_NEAR(area_of(made.mesh), area_of({{0, 0}, {20, 0}, {40, 0}, {40, 20}, {20, 20}, {0, 20}}, {20, 10}), 1e-9);
 }
 
+TEST(SphereMesher, ManyPointsThatFaceAnEmptyHalfCostNoMoreThanOthers) {
+  std::vector<Vec3> points;
+  for (const Vec2 p : blob({40, 30}, 20, 4000, 0.1)) points.push_back(kEarth * direction_of(p));
+  EXPECT_FALSE(spherical_delaunay(points, kEarth));
+  for (const Vec2 p : {Vec2{160, -20}, Vec2{-100, -30}, Vec2{30, -80}}) points.push_back(kEarth * direction_of(p));
+  const auto mesh = spherical_delaunay(points, kEarth);
+  ASSERT_TRUE(mesh) << mesh.error().what();
+  EXPECT_EQ(mesh->n_vertices(), points.size());
+  EXPECT_EQ(count_non_regular_edges(*mesh, false), 0u);
+}
+
 TEST(SphereMesher, RandomIslandsAreNoTrouble) {
   Rng rng(5);
   std::size_t meshed = 0;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/rng.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/trial.hpp"
 #include "optimize/stages/restarts.hpp"
@@ -262,6 +263,22 @@ TEST(Repair, NoTrialsMeansNoRepair) {
   EXPECT_EQ(report->vertices_removed + report->vertices_inserted, 0u);
   EXPECT_GT(n_bad(no_trials), 0u);
   EXPECT_FALSE(optimize(none, {.repair_trials = -1}));
+}
+
+TEST(Repair, TriesLittleWhereMostTrianglesAreBad) {
+  std::vector<Vec2> points;
+  Rng rng(1);
+  for (int i = 0; i < 120; ++i) points.push_back({100 * rng.uniform(), rng.uniform()});
+  Mesh strip = *constrained_delaunay({.points = points});
+  OptimizeHooks hooks;
+  std::size_t asked = 0;
+  hooks.observer = [&](const Progress&) {
+    ++asked;
+    return Continue::yes;
+  };
+  ASSERT_TRUE(optimize(strip, {}, hooks));
+  EXPECT_GT(2 * n_bad(strip), strip.n_triangles());
+  EXPECT_LT(asked, 700u);  // 1,968 if each trial counts once
 }
 
 TEST(Repair, SaysWhenAnEdgeMustBeSplitBeforeAnythingHelps) {
