@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs the solvers that docs/howto is about, as the package index has them, in versions that are pinned. Then scripts/docs/pages.py
-# runs the pages that need them and examples/benchmarks, and compares what they print. Not a part of scripts/test.sh.
+# runs examples/python with their clients, the pages that need them, and examples/benchmarks, and compares what pages and benchmarks
+# print. Not a part of scripts/test.sh, which runs examples/python with light clients.
 #
 #   scripts/clients.sh                       all pages
 #   scripts/clients.sh fipy landlab          these
@@ -43,4 +44,6 @@ done
 
 # One BLAS: the last digits are the same from run to run.
 export DEVSIM_MATH_LIBS=liblapack.so.3:libblas.so.3
+PYTHONPATH="$TEMPER_BUILD/python" TEMPER_PROGRAM_DIR="$TEMPER_BUILD/apps/temper" \
+  "$venv/bin/python" -m pytest -q -p no:cacheprovider -rs tests/python/test_docs.py -k an_example_runs
 exec "$venv/bin/python" scripts/docs/pages.py --clients "$TEMPER_BUILD/apps/temper/temper" "${arguments[@]}"

@@ -29,6 +29,9 @@ class OrthogonalMesh(Mesh2D):
     def _calcFaceCenters(self):
         return self.dual.edges.midpoint.T.copy()
 
+    def _calcCellVolumes(self):
+        return self.dual.areas.copy()
+
 
 def own(mesh):
     return Mesh2D(np.array(mesh.points).T, *faces_and_cells(temper.dec_operators(mesh)))

@@ -1,8 +1,9 @@
 """Every script of examples/python and every example in a docstring runs. scripts/docs/pages.py runs the pages of docs/."""
 
 import doctest
-import importlib
+import importlib.util
 import os
+import re
 import subprocess
 import sys
 
@@ -20,8 +21,12 @@ def run(arguments, **options):
 
 @pytest.mark.parametrize("example", sorted((ROOT / "examples" / "python").glob("*.py")), ids=lambda path: path.stem)
 def test_an_example_runs(example, in_scratch):
-    environment = {**os.environ, "MPLBACKEND": "agg"}
+    """With the checks of its client. Without the client the rest is run, and must hold; but the test has not passed."""
+    environment = {**os.environ, "MPLBACKEND": "agg", "DEVSIM_MATH_LIBS": "liblapack.so.3:libblas.so.3"}
     assert run([sys.executable, "-W", "error::temper.TemperWarning", example], env=environment).stdout
+    for client in re.findall(r'find_spec\("(\w+)"\)', example.read_text(encoding="utf-8")):
+        if not importlib.util.find_spec(client):
+            pytest.skip(f"{client} is not installed")
 
 
 def test_what_the_example_for_julia_writes_is_the_dual(in_scratch):

@@ -281,6 +281,7 @@ bool needs_cdf5(const MeshFile& f, std::size_t most_values) {
   if (most_values > kMostBytes / sizeof(double)) return true;
   for (const auto* arrays : {&f.point_data, &f.cell_data, &f.line_data, &f.marked_point_data, &f.field_data}) {
     for (const DataArray& a : *arrays) {
+      if (a.name == kNetcdfAttributes) continue;  // no variable of the file
       const Scalar s = scalar_of(a.values);
       const bool classic =
           s == Scalar::f64 || s == Scalar::f32 || s == Scalar::i32 || s == Scalar::i16 || s == Scalar::i8;

@@ -159,6 +159,11 @@ class NetcdfWriter {
   std::vector<std::pair<int, Values>> waiting_;
 };
 
+// Attributes, and variables without dimensions (coordinate systems), belong to no array. They are kept as the bytes of
+// a small classic NetCDF file with these alone, in the field data `netcdf:attributes`. So they survive in every format
+// with field data, and come back to NetCDF of any convention.
+inline constexpr std::string_view kNetcdfAttributes = "netcdf:attributes";
+
 /// Says whether a file with these data has to be CDF-5. It has to be for their types, or when a variable is too long
 /// for 64-bit offsets. The largest other variable has `most_values` values of at most eight bytes.
 [[nodiscard]] bool needs_cdf5(const MeshFile& file, std::size_t most_values);

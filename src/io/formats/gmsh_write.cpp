@@ -1,4 +1,4 @@
-// Writes Gmsh MSH 2.2 and 4.1, ASCII and binary.
+// Writes Gmsh MSH 2, 2.2 and 4.1, ASCII and binary.
 //
 // Elements are numbered points first, then lines, then triangles, so that the reader finds their order again. A Gmsh
 // entity has one physical group, so entities are the distinct pairs (entity, region). Their numbers come from the data
@@ -107,7 +107,9 @@ class GmshWriter {
     for (Kind* kind : kinds()) number_entities(*kind);
   }
   void write() {
-    out_.put("$MeshFormat\n", version4_ ? "4.1 " : "2.2 ", binary_ ? 1 : 0, " 8\n");
+    // WAVEWATCH III has depths in z, and reads a whole number. Without names, 2.2 is the same as 2.
+    const bool whole = !job_.heights.empty() && file_.names.empty();
+    out_.put("$MeshFormat\n", version4_ ? "4.1 " : whole ? "2 " : "2.2 ", binary_ ? 1 : 0, " 8\n");
     if (binary_) {
       out_.put_raw(std::int32_t{1});
       out_.put('\n');

@@ -1184,6 +1184,7 @@ TEST(Netcdf, HasNoLimitToAVariableWhereSixtyFourBitOffsetsHaveOne) {
   EXPECT_TRUE(needs_cdf5(file, kMost + 1));
   EXPECT_TRUE(needs_cdf5(file, std::size_t{20} << 31));  // edges on edges of a mesh of 2³¹ half-edges
   file.point_data.push_back({"depth", 1, std::vector<double>(3)});
+  file.field_data.push_back({std::string(kNetcdfAttributes), 1, std::vector<std::uint8_t>(3)});  // not written as such
   EXPECT_FALSE(needs_cdf5(file, 3));
   file.point_data.push_back({"number", 1, std::vector<std::int64_t>(3)});
   EXPECT_TRUE(needs_cdf5(file, 3));

@@ -393,6 +393,8 @@ TEST_F(OtherFormats, HeightsAreDataOfAFlatMeshAndComeBackAsZ) {
     if (!writes_planes(format)) continue;
     const std::string name = path(text_of_name(format));
     ASSERT_TRUE(write(name, *f, {std::string(format.name), {}})) << format.name;
+    const bool is_whole = slurp(name).starts_with("$MeshFormat\n2 0 8\n");  // the version, for WAVEWATCH III
+    EXPECT_TRUE(is_whole || format.name != "gmsh22");
     const auto back = read(name, {.flat = true});
     ASSERT_TRUE(back) << format.name << back.error().what();
     ASSERT_EQ(back->point_data.size(), 1u) << format.name;

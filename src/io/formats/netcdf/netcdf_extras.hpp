@@ -15,11 +15,6 @@
 
 namespace temper::io {
 
-// Attributes, and variables without dimensions (coordinate systems), belong to no array. They are kept as the bytes of
-// a small classic NetCDF file with these alone, in the field data `netcdf:attributes`. So they survive in every format
-// with field data, and come back to NetCDF of any convention.
-inline constexpr std::string_view kNetcdfAttributes = "netcdf:attributes";
-
 /// Collects from a file that is read what is to be kept.
 class NetcdfCollector {
  public:
