@@ -116,9 +116,6 @@ struct ReadSizeField {
 [[nodiscard]] ReadSizeField read_size_field(const std::string& path, const std::string& data,
                                             const ReadingOptions& options, const std::optional<DepthRule>& depths = {});
 
-/// The depths of the water, positive downwards, if the file has point data "depth".
-[[nodiscard]] std::optional<SizeField> depth_field(const Input& input);
-
 /// Rows of the table of `temper optimize`, below the rows of comparison_text.
 [[nodiscard]] std::string size_text(const SizeChange& size);
 
