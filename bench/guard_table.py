@@ -1,20 +1,24 @@
 #!/usr/bin/env python3
-"""What a target does to fort.14 files: least angle, time step and ratio of areas, before and after.
+"""What a target does to fort.14 files: obtuse triangles, least angle, time step and ratio of areas, before and after.
 
     bench/guard_table.py PROGRAM TARGET FILE.14 ...
 
-Time steps are heights of triangles over the speed of a long wave, from the depths of the files. Exits with 1 if one of
-the three measures is worse after, by more than a map of degrees can change it. Public files are in the repository
+Time steps are heights of triangles over the speed of a long wave in their mean depth. Exits with 1 if one of the last
+three measures is worse after, by more than a map of degrees can change it. Public files are in the repository
 adcirc/adcirc-testsuite.
 """
 
 import math
+import os
+import resource
 import subprocess
 import sys
 import tempfile
 
 TOLERANCE = 1e-3
+ROUNDING = 1e-9
 LEAST_DEPTH = 1.0  # on dry land waves need a speed, too
+RADIUS = 6371e3
 
 
 def read(path):
@@ -33,38 +37,54 @@ def has_degrees(nodes):
     return all(abs(x) <= 360 and abs(y) <= 90 for x, y, _ in nodes.values())
 
 
+def place(node, degrees):
+    """In meters; degrees are on the sphere."""
+    if not degrees:
+        return node[0], node[1], 0.0
+    longitude, latitude = math.radians(node[0]), math.radians(node[1])
+    across = RADIUS * math.cos(latitude)
+    return across * math.cos(longitude), across * math.sin(longitude), RADIUS * math.sin(latitude)
+
+
 def measure(path):
-    """Least angle, time step, ratio of areas, and the number of obtuse triangles."""
+    """Least angle, time step, ratio of areas, and the numbers of obtuse triangles and of nodes."""
     nodes, triangles = read(path)
-    radius = 6371e3 * math.pi / 180 if has_degrees(nodes) else 1
+    degrees = has_degrees(nodes)
+    places = {number: place(node, degrees) for number, node in nodes.items()}
     angle, step, ratio, obtuse, area_at = 180.0, math.inf, 1.0, 0, {}
     for corners in triangles:
-        p = [nodes[c] for c in corners]
-        shrink = math.cos(math.radians(sum(q[1] for q in p) / 3)) if radius != 1 else 1
-        x = [(radius * shrink * q[0], radius * q[1]) for q in p]
-        sides = [math.dist(x[k], x[(k + 1) % 3]) for k in range(3)]
-        area = abs((x[1][0] - x[0][0]) * (x[2][1] - x[0][1]) - (x[2][0] - x[0][0]) * (x[1][1] - x[0][1])) / 2
-        a, b, c = sorted(sides)
+        a, b, c = sorted(math.dist(places[corners[k]], places[corners[k - 1]]) for k in range(3))
+        # Kahan's form of Heron's formula
+        area = math.sqrt(max(0.0, (c + (b + a)) * (a - (c - b)) * (a + (c - b)) * (c + (b - a)))) / 4
         angle = min(angle, math.degrees(math.asin(min(1.0, 2 * area / (b * c)))))
-        obtuse += a * a + b * b < c * c
-        depth = max(sum(q[2] for q in p) / 3, LEAST_DEPTH)
+        obtuse += a * a + b * b < c * c * (1 - ROUNDING)
+        depth = max(sum(nodes[corner][2] for corner in corners) / 3, LEAST_DEPTH)
         step = min(step, 2 * area / c / math.sqrt(9.81 * depth))
         for k in range(3):
-            edge = frozenset((corners[k], corners[(k + 1) % 3]))
-            other = area_at.setdefault(edge, area)
+            other = area_at.setdefault(frozenset((corners[k], corners[k - 1])), area)
             ratio = max(ratio, area / other, other / area)
-    return angle, step, ratio, obtuse
+    return angle, step, ratio, obtuse, len(nodes)
+
+
+def projection_of(nodes):
+    if not has_degrees(nodes):
+        return "none"
+    longitudes = [node[0] for node in nodes.values()]
+    return "sphere" if max(longitudes) - min(longitudes) > 180 else "stereographic"
 
 
 def main(program, target, files):
     worse = 0
-    print("| grid | obtuse | least angle | time step | ratio of areas |\n|-|-|-|-|-|")
+    print("| grid | vertices | obtuse | least angle | time step | ratio of areas | CPU |\n|-|-|-|-|-|-|-|")
     for path in files:
-        projection = "stereographic" if has_degrees(read(path)[0]) else "none"
+        start = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        projection = projection_of(read(path)[0])
         with tempfile.NamedTemporaryFile(suffix=".14") as out:
             run = [program, "optimize", path, "-o", out.name, "--for", target, "--projection", projection, "--quiet"]
             if subprocess.run(run).returncode not in (0, 4):
+                worse += 1
                 continue
+            seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - start
             before, after = measure(path), measure(out.name)
         is_worse = (
             after[0] < before[0] * (1 - TOLERANCE)
@@ -73,8 +93,8 @@ def main(program, target, files):
         )
         worse += is_worse
         print(
-            f"| {path} | {before[3]} → {after[3]} | {before[0]:.1f}° → {after[0]:.1f}° "
-            f"| {before[1]:.3g} → {after[1]:.3g} s | {before[2]:.2f} → {after[2]:.2f} |" + (" worse" if is_worse else ""),
+            f"| {os.path.basename(path)} | {before[4]} | {before[3]} → {after[3]} | {before[0]:.1f}° → {after[0]:.1f}° "
+            f"| {before[1]:.3g} → {after[1]:.3g} s | {before[2]:.2f} → {after[2]:.2f} | {seconds:.1f} s |" + (" worse" if is_worse else ""),
             flush=True,
         )
     return 1 if worse else 0

@@ -127,12 +127,18 @@ struct RunArguments {
   Callbacks callbacks;
   py::object tensor;        ///< Tensor kxx, kxy, kyy
   py::object communicator;  ///< Communicator of mpi4py
+  py::object depth;         ///< Water depth at each vertex
 };
 
 /// The mesh gets its new state, whatever ended the run. Exceptions of Python callbacks are raised after that.
 py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& arguments) {
   OptimizeOptions options = options_from(given);
   options.size_field = size_field_from(arguments.size_field);
+  if (!arguments.depth.is_none()) {
+    const auto depths = arguments.depth.cast<Doubles>();
+    const auto values = as_span<double>(depths);
+    options.guard.depth.assign(values.begin(), values.end());
+  }
   const auto count = threads_from(arguments.threads);
   if (!arguments.tensor.is_none()) options.tensor = metric_from(arguments.tensor).tensor();
   Mesh mesh = *self.read();
@@ -185,8 +191,9 @@ TraceEvent event_from(const py::dict& d) {
 void bind_optimize(py::module_& m) {
   m.def("optimize", [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
                        const py::object& observer, const py::object& tracer, const py::object& snapshots,
-                       const py::object& tensor, const py::object& communicator) {
-    return optimize_mesh(self, options, {size_field, threads, {observer, tracer, snapshots}, tensor, communicator});
+                       const py::object& tensor, const py::object& communicator, const py::object& depth) {
+    return optimize_mesh(self, options,
+                         {size_field, threads, {observer, tracer, snapshots}, tensor, communicator, depth});
   });
   m.def("options_for", [](const std::string& target, const std::string& effort, const py::sequence& keep) {
     const std::vector<std::string> names = strings_from(keep);

@@ -265,7 +265,7 @@ struct PaperSwitches {
 
 /// The guard: a run for accuracy or the error of a solver makes none of these measures worse than in the input, or than
 /// a bound. The worse of the two is the limit. If a run cannot keep the limits, the input is returned. By default there
-/// are no limits. With the guard, sweeps go vertex by vertex on one thread.
+/// are no limits.
 struct GuardOptions {
   double angle = 0;  ///< Bound of the least angle [degrees], in [0, 60]. 60: the input's. 0: no limit
   /// Bound of the least length of an inner edge over the size of its two triangles, in [0, 1]. 1: the input's. 0: no
@@ -276,7 +276,9 @@ struct GuardOptions {
   /// Bound of the least time [s] in which a long wave crosses a triangle or an edge, where there is a depth. Absent:
   /// the input's, if there is another limit.
   std::optional<double> step = {};
-  std::optional<SizeField> depth = {};  ///< Water depth, where waves have the speed sqrt(9.81 depth)
+  /// Water depth at each vertex of the input [m], positive down; NaN: land. Depths belong to places, as point data do.
+  /// Waves have the speed √(9.81 H), with H the mean depth of a triangle, at least 1 m. Empty: no limits of times.
+  std::vector<double> depth = {};
 };
 
 /// The solvers of other libraries. temper::solvers() returns the solvers of this build (temper/solvers.hpp).

@@ -330,7 +330,7 @@ def optimize(
     try:
         watch = _observer(line, observer)
         report = _temper.optimize(
-            changed._handle, plain, field, threads, watch, trace, look, None if tensor is None else tuple(tensor), hooks.communicator
+            changed._handle, plain, field, threads, watch, trace, look, None if tensor is None else tuple(tensor), hooks.communicator, _depth(changed, plain)
         )
     finally:
         line.clear()
@@ -339,6 +339,14 @@ def optimize(
                 put_back(mesh, changed)
     data = DataReport._of(changed, threads) if changed._handle.has_data() else None
     return _report(report, data, None if original is None else (original, changed.copy()))
+
+
+def _depth(mesh: Mesh, options: dict[str, Any]) -> npt.NDArray[np.float64] | None:
+    """The depth of water that the guard takes, at each vertex: point data ``depth``, as in the program."""
+    if not any(options.get(f"guard_{name}") for name in ("angle", "edge", "areas", "step")):
+        return None
+    depth = mesh.point_data.get("depth")
+    return None if depth is None or depth.ndim > 1 else depth.astype(np.float64)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -82,7 +82,9 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   if (!made) return made.error();
   made->size_field = field_of_band(mesh, options, hooks.executor);
   Settings settings = *std::move(made);
-  settings.guard = guard_limits(mesh, options, hooks.executor);
+  auto guard = guard_limits(mesh, options, hooks.executor);
+  if (!guard) return guard.error();
+  settings.guard = *std::move(guard);
   settings.in_metric = in_metric;
   SweepState state(settings);
 
@@ -124,6 +126,7 @@ Expected<OptimizeReport> optimize_in_metric(Mesh& mesh, const OptimizeOptions& o
   }
   OptimizeOptions there_options = options;
   there_options.tensor.reset();
+  there_options.guard.depth.clear();  // waves do not know that plane
   Expected<OptimizeReport> report = optimize_here(*there, there_options, hooks, true);
   if (!report) return report;
   Expected<Mesh> back = mapped_back(*there, mesh, *metric, report->vertices);

@@ -228,6 +228,8 @@ class Sequence {
         return;
       case InsertionStatus::inverted:
         FAIL() << "only splits are rounded";
+      case InsertionStatus::in_quadrilateral:
+        FAIL() << "the mesh has none";
       case InsertionStatus::not_regular:
         ++counts_["insert leaves an edge not regular"];
         break;

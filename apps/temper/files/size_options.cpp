@@ -132,15 +132,4 @@ ReadSizeField read_size_field(const std::string& path, const std::string& data, 
   return {*field, input.warnings()};
 }
 
-std::optional<SizeField> depth_field(const Input& input) {
-  constexpr std::string_view kDepth = "depth";
-  constexpr double kLeast = 1;  // on dry land waves need a speed, too
-  const auto is_depth = [&](const io::DataArray& array) { return array.name == kDepth && array.components == 1; };
-  const auto found = std::ranges::find_if(input.file.point_data, is_depth);
-  if (found == input.file.point_data.end()) return std::nullopt;
-  std::vector<double> depths = at_vertices(input, *found);
-  for (double& depth : depths) depth = std::isfinite(depth) ? std::max(depth, kLeast) : kLeast;
-  return *SizeField::from_values(input.mesh(), depths, input.names.get());
-}
-
 }  // namespace temper::app

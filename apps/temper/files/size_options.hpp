@@ -27,7 +27,4 @@ struct ReadSizeField {
 [[nodiscard]] ReadSizeField read_size_field(const std::string& path, const std::string& data,
                                             const ReadingOptions& options, const std::optional<DepthRule>& depths = {});
 
-/// The depths of the water, positive downwards, if the file has point data "depth".
-[[nodiscard]] std::optional<SizeField> depth_field(const Input& input);
-
 }  // namespace temper::app

@@ -323,7 +323,9 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
     warn(results, sizes.warnings);
     s.options.size_field = std::move(sizes.field);
   }
-  if (!s.metric) s.options.guard.depth = depth_field(input);
+  if (const io::DataArray* const depth = find_numbers(input.file.point_data, "depth")) {
+    s.options.guard.depth = at_vertices(input, *depth);
+  }
   // The mesh has its geometry now, and on the largest meshes memory is scarce.
   io::release_geometry(input.file, input.loaded);
   agree_to_go_on();

@@ -21,6 +21,8 @@ inline constexpr std::string_view kAdcircLevee =
     "adcirc:levee";                                             ///< of marked points: what follows the node in its row
 inline constexpr std::string_view kAdcircSide = "adcirc:side";  ///< of marked points: 0 the node, 1 its partner
 inline constexpr int kAdcircLeveeNumbers = 6;
+inline constexpr std::int32_t kAdcircWall =
+    64;  ///< type of vertical element walls: both nodes of a pair are at one place
 
 struct AdcircBoundary {
   bool open = false;

@@ -25,9 +25,6 @@ namespace {
 // The cause of an error of the mesh, if the file shows it: meshes that their program accepts, and temper does not
 // support.
 
-// ADCIRC's IBTYPE of vertical element walls: weirs without width, whose sides are nodes at one place.
-constexpr std::int32_t kVerticalElementWall = 64;
-
 /// In a mesh that was made by hand, errors may come before all numbers are known to be right.
 bool numbers_are_right(const MeshFile& file) {
   const auto right = [&](std::int32_t p) { return p >= 0 && static_cast<std::size_t>(p) < file.points.size(); };
@@ -35,33 +32,6 @@ bool numbers_are_right(const MeshFile& file) {
          std::all_of(file.marked_points.begin(), file.marked_points.end(), right) &&
          std::all_of(file.triangles.begin(), file.triangles.end(),
                      [&](const auto& triangle) { return std::all_of(triangle.begin(), triangle.end(), right); });
-}
-
-/// Names the first node of a levee or wall at the place of its partner.
-std::optional<InputError> sides_at_one_place(const MeshFile& file, const InputNames& names) {
-  const DataArray* data = find(file.marked_point_data, kAdcircSide);
-  const auto sides = data == nullptr ? std::nullopt : to_int32(data->values);
-  if (!sides || sides->size() != file.marked_points.size()) return std::nullopt;
-  std::map<std::int32_t, std::string_view> boundaries;
-  for (const PhysicalName& n : file.names) {
-    if (n.dimension == 1) boundaries.emplace(n.tag, n.name);
-  }
-  for (std::size_t i = 1; i < sides->size(); ++i) {
-    const auto a = static_cast<std::size_t>(file.marked_points[i - 1]);
-    const auto b = static_cast<std::size_t>(file.marked_points[i]);
-    const bool pair = (*sides)[i - 1] == 0 && (*sides)[i] == 1 && file.point_tags[i - 1] == file.point_tags[i];
-    if (!pair || a == b || !(file.points[a] == file.points[b])) continue;
-    const auto name = boundaries.find(file.point_tags[i]);
-    const auto kind = name == boundaries.end() ? std::nullopt : adcirc_boundary(name->second);
-    if (!kind) continue;
-    const std::string_view what = kind->type == kVerticalElementWall ? "a vertical element wall" : "a levee";
-    return InputError{ErrorCode::duplicate_point, names.point_where(b),
-                      text(names.point(a), " and ", names.point(b), " are both at (", file.points[b].x, ", ",
-                           file.points[b].y, "): they are the two sides of ", what, " (", name->second,
-                           "). Next: move the two sides apart, as in a levee of type 24, or make each pair one node "
-                           "and leave the boundary out")};
-  }
-  return std::nullopt;
 }
 
 /// Degrees from the western to the eastern end of points.
@@ -92,14 +62,10 @@ std::string cyclic_in_longitude(const MeshFile& file) {
               "periodic plane, of MPAS, VTU or VTKHDF files");
 }
 
-/// The error that a mesh of the file was refused with, in words of its format if the cause is known. Causes are the
-/// sides of ADCIRC's vertical element walls, and meshes of FESOM that are cyclic in longitude.
-InputError with_known_cause(InputError error, const MeshFile& file, const InputNames& names) {
-  if (!numbers_are_right(file)) return error;
-  if (error.code == ErrorCode::duplicate_point) {
-    if (auto sides = sides_at_one_place(file, names)) return *std::move(sides);
-  }
-  if (file.format == "fesom") error.message += cyclic_in_longitude(file);
+/// The error that a mesh of the file was refused with, in words of its format if the cause is known: meshes of FESOM
+/// that are cyclic in longitude.
+InputError with_known_cause(InputError error, const MeshFile& file) {
+  if (file.format == "fesom" && numbers_are_right(file)) error.message += cyclic_in_longitude(file);
   return error;
 }
 
@@ -198,7 +164,7 @@ class MeshMaker {
     number_vertices();
     auto built = build(fixed_points(fixed_tags));
     if (!built) {
-      InputError error = with_known_cause(built.error(), file_, names());
+      InputError error = with_known_cause(built.error(), file_);
       if (error.where.empty()) error.where = file_.path;
       return error;
     }

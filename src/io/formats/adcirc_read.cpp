@@ -7,10 +7,16 @@
 //     4 24 64       node partner height coefficient coefficient
 //     5 25          node partner height coefficient coefficient, height, coefficient and diameter of a pipe
 //
+// Type 64 is a vertical element wall: a levee without width, whose two nodes are at one place. A mesh cannot have that.
+// So the partners go aside by a millionth of the wall's edges, and come back to their nodes when fort.14 is written.
+//
 // (ADCIRC users' manual, fort.14.) ADCIRC itself closes islands (types 1, 11, 21) whose last node is not their first.
 // SCHISM reads no types (hgrid.gr3): its files may have none, or type 1 for boundaries that are no islands.
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <limits>
+#include <map>
 
 #include "io/conversion/adcirc.hpp"
 #include "io/conversion/bed.hpp"
@@ -52,7 +58,7 @@ AdcircRow adcirc_row(const AdcircBoundary& b) {
       return {false, 2};
     case 4:
     case 24:
-    case 64:
+    case kAdcircWall:
       return {true, 3};
     case 5:
     case 25:
@@ -81,6 +87,7 @@ class AdcircReader {
     boundaries(true, lookup);
     boundaries(false, lookup);
     open_what_no_edge_closes();
+    part_walls();
     if (untyped_ > 0) {
       f.warnings.push_back(text(scanner_.path(), ": ", untyped_,
                                 untyped_ == 1 ? " land boundary has" : " land boundaries have",
@@ -157,7 +164,7 @@ class AdcircReader {
       f.point_tags.push_back(tag);
       sides_.push_back(side);
     };
-    std::int32_t first = -1, last = -1;
+    std::int32_t first = -1, last = -1, last_of_wall = -1;
     const auto connect = [&](std::int32_t to) {
       if (last == to) return;
       f.lines.push_back({last, to});
@@ -171,7 +178,12 @@ class AdcircReader {
       last = point;
       if (row.numbers > 0) {
         mark(point, 0);
-        if (row.paired) mark(node(lookup, name), 1);
+        if (row.paired) {
+          const std::int32_t partner = node(lookup, name);
+          mark(partner, 1);
+          if (kind.type == kAdcircWall && i > 0) walls_.emplace_back(std::minmax(last_of_wall, partner));
+          last_of_wall = partner;
+        }
         levees_.resize(sides_.size() * kAdcircLeveeNumbers);
         double* numbers = levees_.data() + (sides_.size() - (row.paired ? 2 : 1)) * kAdcircLeveeNumbers;
         for (int k = 0; k < row.numbers; ++k) numbers[k] = scanner_.real("a number of a levee");
@@ -191,6 +203,36 @@ class AdcircReader {
     if (const auto index = lookup.find(number)) return static_cast<std::int32_t>(*index);
     scanner_.fail_here(ErrorCode::index_out_of_range, element, " uses vertex ", number, ", but the file has ",
                        document_.file.points.size(), " vertices, numbered from ", document_.names->points[0]);
+  }
+  /// Moves the partners of walls aside, each into its own triangles.
+  void part_walls() {
+    MeshFile& f = document_.file;
+    std::sort(walls_.begin(), walls_.end());
+    struct Aside {
+      Vec2 normal;  // sum of those of the edges
+      double least2 = std::numeric_limits<double>::infinity();
+    };
+    std::map<std::int32_t, Aside> partners;
+    for (const auto& t : f.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t a = t[k], b = t[(k + 1) % 3];
+        if (!std::binary_search(walls_.begin(), walls_.end(), std::pair<std::int32_t, std::int32_t>(std::minmax(a, b))))
+          continue;
+        const auto at = [&](std::int32_t i) { return f.points[static_cast<std::size_t>(i)]; };
+        const Vec2 edge = at(b) - at(a), left = {-edge.y, edge.x};
+        const double side = dot(left, at(t[(k + 2) % 3]) - at(a)) < 0 ? -1 : 1, l2 = squared_length(edge);
+        for (const std::int32_t end : {a, b}) {
+          Aside& aside = partners[end];
+          aside.normal = aside.normal + (side / std::sqrt(l2)) * left;
+          aside.least2 = std::min(aside.least2, l2);
+        }
+      }
+    }
+    for (const auto& [partner, aside] : partners) {
+      constexpr double kPart = 1e-6;  // of an edge
+      Vec2& place = f.points[static_cast<std::size_t>(partner)];
+      place = place + kPart * std::sqrt(aside.least2) * aside.normal;
+    }
   }
   /// Removes the lines that close islands and are no edges of the mesh.
   void open_what_no_edge_closes() {
@@ -230,7 +272,8 @@ class AdcircReader {
   Document document_;
   std::int32_t last_tag_ = 0;
   std::size_t untyped_ = 0;
-  std::vector<std::size_t> closing_lines_;  // of islands whose last node is not their first
+  std::vector<std::size_t> closing_lines_;                    // of islands whose last node is not their first
+  std::vector<std::pair<std::int32_t, std::int32_t>> walls_;  // edges of partners
   std::vector<double> levees_;
   std::vector<std::int8_t> sides_;
 };

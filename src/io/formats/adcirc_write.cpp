@@ -77,6 +77,8 @@ class AdcircWriter {
     }
   }
   void write() {
+    collect_levees();
+    collect_boundaries();
     title();
     nodes();
     const MeshFile& f = file_;
@@ -90,8 +92,6 @@ class AdcircWriter {
     if (const std::size_t n = job_.fourth_corners.size(); n > 0 && !job_.path.ends_with(".gr3"))
       job_.warn(n, n == 1 ? " quadrilateral is" : " quadrilaterals are",
                 " written, which SCHISM reads; ADCIRC reads triangles alone");
-    collect_levees();
-    collect_boundaries();
     boundaries(true);
     boundaries(false);
     warn_of_lost();
@@ -110,10 +110,23 @@ class AdcircWriter {
     const DataArray* array = find(file_.point_data, kDepth);
     const bool has_depth = array != nullptr && array->components == 1;
     const auto depths = has_depth ? to_doubles(Values(array->values)) : std::vector<double>(file_.points.size());
-    for (std::size_t i = 0; i < file_.points.size(); ++i)
-      out_.put(i + 1, ' ', file_.points[i].x, ' ', file_.points[i].y, ' ', depths[i], '\n');
+    const std::map<std::int32_t, std::int32_t> nodes = nodes_of_partners();
+    for (std::size_t i = 0; i < file_.points.size(); ++i) {
+      const auto node = nodes.find(static_cast<std::int32_t>(i));
+      const Vec2 place = file_.points[node == nodes.end() ? i : static_cast<std::size_t>(node->second)];
+      out_.put(i + 1, ' ', place.x, ' ', place.y, ' ', depths[i], '\n');
+    }
     const auto missing = std::ranges::count_if(depths, [](double depth) { return std::isnan(depth); });
     if (missing > 0) job_.warn(missing, " points have no depth, which is written as nan");
+  }
+  /// The nodes to whose places the partners of vertical element walls return.
+  [[nodiscard]] std::map<std::int32_t, std::int32_t> nodes_of_partners() const {
+    std::map<std::int32_t, std::int32_t> nodes;
+    for (const AdcircString& s : strings_) {
+      if (s.kind.open || s.kind.type != kAdcircWall) continue;
+      for (const std::int32_t p : s.nodes) nodes.emplace(file_.marked_points[*levee(s, p) + 1], p);
+    }
+    return nodes;
   }
   void collect_boundaries() {
     const MeshFile& f = file_;
@@ -233,7 +246,8 @@ class AdcircWriter {
     const auto has_levee = [&](std::int32_t p) { return levee(string, p) != nullptr; };
     if (std::all_of(string.nodes.begin(), string.nodes.end(), has_levee)) return;
     constexpr std::int32_t kNatural = 20, kTypesOfOneKind = 10;
-    const std::int32_t type = string.kind.type == 64 ? kNatural : string.kind.type - string.kind.type % kTypesOfOneKind;
+    const std::int32_t type =
+        string.kind.type == kAdcircWall ? kNatural : string.kind.type - string.kind.type % kTypesOfOneKind;
     job_.warn("a boundary of type ", string.kind.type, " has nodes without their levee and is written as type ", type);
     string.kind.type = type;
   }

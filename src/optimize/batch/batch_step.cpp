@@ -211,22 +211,22 @@ void BatchStep::settle(const Occupant& occupant, std::size_t lane, const StepOut
   const WeightedPoint from = batch_.p.at(lane), to = batch_.to.at(lane);
   if (mesh.space().is_periodic() && !reaches_its_link(occupant, to)) return improve_alone(v);
   const double energy = batch_.before[lane], lower = batch_.after[lane];
+  Guard* const guard = alone_.guard().on() && !mesh.space().same_place(from, to) ? &alone_.guard() : nullptr;
+  if (guard != nullptr) {
+    guard->begin_step();
+    if (!guard->allows_move(v, to)) return improve_alone(v);
+  }
   mesh.set_point(v, to);
+  if (guard != nullptr) guard->moved(v);
   if (!flips && has(outcome.regular)) {
     recorder.placed(v, from, to, energy, lower);
     return;
   }
   constexpr bool kMustPay = true;  // of all barriers
-  switch (flipper_.settle({v, from, energy, lower, kMustPay, nullptr, nullptr, part_})) {
-    case Flipper::Settled::done:
-      break;
-    case Flipper::Settled::undone:
-      improve_alone(v);
-      break;
-    case Flipper::Settled::escaped:
-      left_->push_back(v);
-      break;
-  }
+  const Flipper::Settled settled = flipper_.settle({v, from, energy, lower, kMustPay, nullptr, guard, part_});
+  if (settled == Flipper::Settled::done) return;
+  if (guard != nullptr) guard->moved(v);
+  settled == Flipper::Settled::undone ? improve_alone(v) : left_->push_back(v);
 }
 
 void BatchStep::improve_alone(VertexId v) {

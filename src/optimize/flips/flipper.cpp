@@ -47,7 +47,7 @@ struct FlipWatch {
 LawsonRun Flipper::run(std::optional<double>& change, std::size_t max_flips, SizeBand* band, Guard* guard,
                        const Part& part) {
   if (band != nullptr) band->begin_flips();
-  if (guard != nullptr) guard->begin_flips();
+  if (guard != nullptr) guard->begin_flips(part);
   FlipWatch watch{state_.model, change, recorder_.on() ? &records_ : nullptr, band, guard};
   return lawson_.run(mesh_, watch, max_flips, PowerTest(), part);
 }
@@ -76,9 +76,9 @@ Flipper::Settled Flipper::settle(const Step& step) {
   const WeightedPoint there = mesh_.point(step.v);
   // In an unfinished run, the quad of a stuck edge may be partly outside.
   const bool hides = result.finished && !lawson_.stuck(mesh_).empty();
-  const bool leaves_limits =
-      (step.band != nullptr && !step.band->allow_flips()) || (step.guard != nullptr && !step.guard->allow_flips());
-  if (!result.finished || !pays || leaves_limits || (hides && !accept_hidden())) {
+  const bool in_limits = result.finished && (step.band == nullptr || step.band->allow_flips()) &&
+                         (step.guard == nullptr || step.guard->allow_flips());
+  if (!in_limits || !pays || (hides && !accept_hidden())) {
     lawson_.rollback(mesh_);
     mesh_.set_point(step.v, step.origin);
     recorder_.undone(step.v, step.before, change ? step.before + *change : step.after);

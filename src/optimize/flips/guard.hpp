@@ -16,17 +16,19 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "optimize/flips/partition.hpp"
 #include "optimize/working/working_units.hpp"
 #include "temper/optimize.hpp"
 #include "temper/topology.hpp"
 
 namespace temper {
 
-/// Values of which the least counts: larger is better. None depends on weights.
+/// Values of which the least counts: larger is better. None depends on weights. All but the ratio of areas are squares.
 struct GuardValues {
-  enum Measure { sine, edge, areas, crossing, edge_crossing };  // sine of the least angle; edge/size squared; times [s]
+  enum Measure { sine, edge, areas, crossing, edge_crossing };  // of the least angle; edge/size; times [s]
   static constexpr std::size_t kMeasures = 5;
   std::array<double, kMeasures> value;
 
@@ -37,13 +39,18 @@ struct GuardValues {
   [[nodiscard]] bool hold(const GuardValues& before, const GuardValues& limits) const;
 };
 
-/// The limits of a run. The field is in the user's units.
+/// The depths of the input, linear on its triangles. It is in the user's units.
+class DepthField;
+
+/// The limits of a run.
 struct GuardLimits {
   GuardValues values;     ///< of the judge
   GuardValues for_steps;  ///< tighter by a margin, since other maps and units give slightly other values
-  std::optional<SizeField> depth;
+  std::shared_ptr<const DepthField> depth;  ///< or null
 };
 
+/// Guards of different parts may work at once: a copy has working storage of its own, and shares the depths of
+/// vertices.
 class Guard {
  public:
   /// The guard of a mesh in working units. Without limits it is off.
@@ -51,17 +58,22 @@ class Guard {
 
   [[nodiscard]] bool on() const { return limits_ != nullptr; }
 
-  /// Say whether these changes are within the guard: v moves to p, a plan is committed.
+  /// Say whether these changes are within the guard: v moves to p, a plan is committed. Call begin_step() before the
+  /// moves that one step tries.
+  void begin_step() { star_.reset(); }
   [[nodiscard]] bool allows_move(VertexId v, const WeightedPoint& p);
   [[nodiscard]] bool allows(const RemovalPlan& plan);
   [[nodiscard]] bool allows(const InsertionPlan& plan);
-  /// Call this if v has gone to the p of the last allows_move().
+  /// Call this when v goes to the p of the last allows_move(), and again if it goes back.
   void moved(VertexId v) {
-    if (on() && has_depth()) depth_[v] = there_;
+    if (on() && has_depth()) std::swap((*depths_)[v], there_);
   }
+  /// Call this if v has moved without allows_move().
+  void follow(VertexId v);
 
-  // The flips of one step. Call begin_flips() first, about_to_flip() before each flip, and allow_flips() at the end.
-  void begin_flips();
+  // The flips of one step. Call begin_flips() first, about_to_flip() before each flip, and allow_flips() at the end, if
+  // no flip was to leave the part.
+  void begin_flips(const Part& part);
   void about_to_flip(HalfedgeId h);
   [[nodiscard]] bool allow_flips() const;
 
@@ -84,6 +96,11 @@ class Guard {
     std::array<double, 3> l2 = {};  // of the edges from corner k to k + 1
     double depth = 0;
   };
+  /// A depth of the field, and the triangle of the field in which it was found.
+  struct Depth {
+    double value = 0;
+    TriangleId near;
+  };
   /// A triangle of the mesh; or of plans, where the vertex `moving_` (invalid: a new one) is at `place_`.
   [[nodiscard]] Triangle triangle(const Corners& corners, bool of_plan = false) const;
   [[nodiscard]] Triangle triangle(TriangleId t) const { return triangle(mesh_.corners(t)); }
@@ -91,18 +108,20 @@ class Guard {
   [[nodiscard]] static GuardValues of_pair(const Triangle& s, const Triangle& t, double l2);
   /// Returns the values of t and of its pairs with neighbors, except those that are listed.
   [[nodiscard]] GuardValues around(TriangleId t, std::span<const TriangleId> except = {}) const;
+  [[nodiscard]] GuardValues around(std::span<const TriangleId> triangles) const;
   [[nodiscard]] bool allows(std::span<const TriangleId> old, std::span<const Corners> fresh);
-  [[nodiscard]] bool has_depth() const { return limits_->depth.has_value(); }
-  [[nodiscard]] double depth_at(const WeightedPoint& p);
+  [[nodiscard]] bool has_depth() const { return limits_->depth != nullptr; }
+  [[nodiscard]] Depth depth_at(const WeightedPoint& p, TriangleId near) const;
 
   const Mesh& mesh_;
   const WorkingUnits& units_;
   std::shared_ptr<const GuardLimits> limits_;
-  IdVector<VertexId, double> depth_;  // if there are depths
+  std::shared_ptr<IdVector<VertexId, Depth>> depths_;  // of all parts; if there are depths
   VertexId moving_;
   WeightedPoint place_;
-  double there_ = 0;                 // depth at place_
-  TriangleId near_;                  // of the field, at the last place
+  Depth there_;                      // at place_
+  std::optional<GuardValues> star_;  // of the present step, before it
+  Part part_;                        // of the present step
   std::vector<TriangleId> touched_;  // by flips
   GuardValues before_;               // of these
   std::vector<TriangleId> old_;
@@ -111,8 +130,10 @@ class Guard {
 };
 
 /// Returns the limits for an input, by the options, or null if they set none.
-[[nodiscard]] std::shared_ptr<const GuardLimits> guard_limits(const Mesh& input, const OptimizeOptions& options,
-                                                              Executor* executor = nullptr);
+/// Error: the number of depths is not that of the vertices.
+[[nodiscard]] Expected<std::shared_ptr<const GuardLimits>> guard_limits(const Mesh& input,
+                                                                        const OptimizeOptions& options,
+                                                                        Executor* executor = nullptr);
 
 /// Counts the triangles of a mesh that are beyond the limits. O(n).
 [[nodiscard]] std::size_t count_beyond(const Mesh& mesh, const WorkingUnits& units,

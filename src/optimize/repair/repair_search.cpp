@@ -103,7 +103,7 @@ constexpr std::uint32_t kSidewaysChoice = 4;
 // Cost of a linear program, in trials.
 constexpr int kTrialsOfAProgram = 20;
 // With a guard a trial takes this many times as long.
-constexpr std::size_t kVisitsByGuard = 4;
+constexpr std::size_t kVisitsByGuard = 2;
 // Repairs are local. Where most triangles are bad they gain little, so a trial counts this many times.
 constexpr std::size_t kVisitsWhereMostAreBad = 8;
 
@@ -131,8 +131,9 @@ bool RepairSearch::improve_one_place() {
   const std::vector<TriangleId> lacking =
       bad_.empty() && vertices ? triangles_lacking_length(work_.mesh, settings_.accuracy) : std::vector<TriangleId>();
   const std::vector<TriangleId>& bad = bad_.empty() ? lacking : bad_;
-  // With many bad places, each gets a try.
-  const int most_failures = std::max(vertices ? kMostFailures : kMostFailuresOfMoves, static_cast<int>(bad.size()));
+  // With many bad places, each gets a try; but a guard may leave none of them room, as in a grid of equal triangles.
+  const int places = settings_.guard == nullptr ? static_cast<int>(bad.size()) : 0;
+  const int most_failures = std::max(vertices ? kMostFailures : kMostFailuresOfMoves, places);
   while (!bad.empty() && failures_ < most_failures && run_.repair_trials_left() > 0) {
     const TriangleId seed = bad[rng_.below(static_cast<std::uint32_t>(bad.size()))];
     const Neighborhood around = neighborhood_of(work_.mesh, seed, kRings + (failures_ >= kFailuresBeforeWider ? 1 : 0));

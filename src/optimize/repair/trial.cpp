@@ -338,6 +338,7 @@ class Trial {
       for (const VertexId v : work_.mesh.vertices()) {
         if (!work_.mesh.is_isolated(v)) step_.improve(v);
       }
+      if (settings_.guard != nullptr && !step_.has_moved()) return;  // it refuses all steps
       gamma = std::max(kLeastGamma, kGammaFactor * gamma);
       if (gamma >= kSharp || settings_.accuracy.keeps_lengths()) continue;
       if (std::all_of(all.begin(), all.end(), is_good)) return;

@@ -41,6 +41,7 @@ WeightRange weights_that_cross(const Space& space, const WeightedPoint& p, const
 void VertexStep::begin_sweep(int sweep, Unknowns unknowns) {
   const Policy& policy = settings.policy;
   unknowns_ = unknowns;
+  has_moved_ = false;
   collapses_ = policy.collapse_from && sweep >= *policy.collapse_from;
   removes_ = policy.removal != Removal::none && sweep >= policy.removal_from;
   const double excess = (policy.overshoot - 1) * std::pow(policy.overshoot_factor, sweep);
@@ -60,7 +61,7 @@ bool VertexStep::improve(VertexId v, const Part& part) {
 }
 
 bool VertexStep::suits_batches() const {
-  const bool only_steps = !collapses_ && !removes_ && !limits.in_order();
+  const bool only_steps = !collapses_ && !removes_ && !limits.band.on();
   return only_steps && (star_->keeps_edges_regular || makes_newton_steps());
 }
 
@@ -78,7 +79,7 @@ bool VertexStep::collapse(VertexId v) {
   plan_ = plan_removal(mesh, v, std::move(plan_));
   if (plan_.status != RemovalStatus::possible) return false;
   if (!settings.policy.defers_flips() && !is_regular(mesh, plan_)) return false;
-  if (!limits.guard.allows(plan_)) return false;
+  if (!guard_.allows(plan_)) return false;
   flipper_.remove(EventKind::collapse, plan_, patch_energy(collapsing_, model, mesh.point(v)),
                   cavity_energy(mesh, model, plan_));
   return true;
@@ -97,7 +98,7 @@ void VertexStep::remove_if_better(VertexId v) {
   const PatchComparison e = compare_patch(mesh, star_->patch(), state.model, plan_, o.removal_measure);
   if (!by_weight && !is_better(e.without, e.with, o.removal_margin)) return;
   if (!settings.policy.defers_flips() && !is_regular(mesh, plan_)) return;
-  if (!limits.guard.allows(plan_)) return;
+  if (!guard_.allows(plan_)) return;
   flipper_.remove(EventKind::removal, plan_, e.with, e.without);
 }
 
@@ -131,6 +132,7 @@ void VertexStep::make_steps() {
 bool VertexStep::gather(VertexId v) {
   vertex_ = v;
   origin_ = mesh.point(v);
+  guard_.begin_step();
   return star_->gather(v);
 }
 
@@ -265,15 +267,23 @@ bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
   mesh.set_point(vertex_, p);
   if (!keeps_connectivity() && settings.policy.flips_at_once()) {
     SizeBand* const band = limits.band.on() ? &limits.band : nullptr;
-    Guard* const guard = limits.guard.on() ? &limits.guard : nullptr;
+    Guard* const guard = guard_.on() ? &guard_ : nullptr;
+    if (!only_weight) guard_.moved(vertex_);
     const auto settled = flipper_.settle({vertex_, origin_, energy_, energy, must_pay, band, guard, part_});
     escapes_ = settled == Flipper::Settled::escaped;
-    if (settled == Flipper::Settled::done && !only_weight) limits.moved(vertex_);
-    return settled == Flipper::Settled::done;
+    const bool done = settled == Flipper::Settled::done;
+    if (done && !only_weight) limits.band.moved(vertex_);
+    if (!done && !only_weight) guard_.moved(vertex_);
+    has_moved_ = has_moved_ || done;
+    return done;
   }
   const bool fits = !may_break_edges ||
                     std::all_of(regular_.begin(), regular_.end(), [this](HalfedgeId e) { return is_regular(mesh, e); });
-  if (fits && !only_weight) limits.moved(vertex_);
+  if (fits && !only_weight) {
+    limits.band.moved(vertex_);
+    guard_.moved(vertex_);
+  }
+  has_moved_ = has_moved_ || fits;
   if (fits) {
     recorder.placed(vertex_, origin_, p, energy_, energy);
   } else {
@@ -285,7 +295,9 @@ bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
 /// Says whether band and guard allow p. Call it before place(), which gives them the new place of the vertex.
 bool VertexStep::keeps_size(const WeightedPoint& p) {
   const bool only_weight = mesh.space().same_place(p, origin_);
-  return only_weight || limits.allow(star_->patch(), p);
+  if (only_weight) return true;
+  return (!limits.band.on() || limits.band.allows(star_->patch(), p.position())) &&
+         (!guard_.on() || guard_.allows_move(vertex_, p));
 }
 
 /// Thresholds are computed in doubles, but an exact test decides whether an edge would flip.

@@ -34,19 +34,7 @@ struct VertexLimits {
   IdVector<VertexId, Mobility> mobility;
   IdVector<VertexId, std::uint8_t> degree;  ///< number of triangles when a batch last took the vertex; 0: never
   SizeBand band;                            ///< keeps its last query, so with a band only one step runs at a time
-  Guard guard;                              ///< as the band does
-
-  /// Says whether one step may run at a time only.
-  [[nodiscard]] bool in_order() const { return band.on() || guard.on(); }
-  /// Says whether the center of the patch may go to p.
-  [[nodiscard]] bool allow(const Patch& patch, const WeightedPoint& p) {
-    return (!band.on() || band.allows(patch, p.position())) && (!guard.on() || guard.allows_move(patch.center, p));
-  }
-  /// Call this if it has gone to the p of the last allow().
-  void moved(VertexId v) {
-    band.moved(v);
-    guard.moved(v);
-  }
+  Guard guard;                              ///< of which each step has a copy
 
   /// Fixes the position and weight of v.
   void freeze(VertexId v) { mobility[v] = Mobility::frozen; }
@@ -86,7 +74,10 @@ struct StepContext {
 class VertexStep : StepContext {
  public:
   VertexStep(const StepContext& context, Flipper& flipper)
-      : StepContext(context), flipper_(flipper), star_(make_star_objective(mesh, settings, state)) {}
+      : StepContext(context),
+        flipper_(flipper),
+        guard_(limits.guard),
+        star_(make_star_objective(mesh, settings, state)) {}
 
   /// Prepares for a sweep, or for one of two visits: sets whether i ≥ i_c, and the overshoot of FlipLimit::after.
   void begin_sweep(int sweep, Unknowns unknowns);
@@ -109,6 +100,9 @@ class VertexStep : StepContext {
   /// Says whether batches make the same steps.
   [[nodiscard]] bool suits_batches() const;
   [[nodiscard]] bool makes_newton_steps() const;
+  [[nodiscard]] Guard& guard() { return guard_; }
+  /// Says whether a vertex has a new place or weight since begin_sweep().
+  [[nodiscard]] bool has_moved() const { return has_moved_; }
 
  private:
   enum class StepResult { accepted, not_lower, inverted, out_of_band, blocked_by_flip, escaped };
@@ -138,8 +132,9 @@ class VertexStep : StepContext {
   void note_regular_edges();
 
   Flipper& flipper_;
+  Guard guard_;
   Unknowns unknowns_ = Unknowns::positions_and_weights;
-  bool collapses_ = false, removes_ = false;
+  bool collapses_ = false, removes_ = false, has_moved_ = false;
   double overshoot_ = 1;
 
   VertexId vertex_;

@@ -18,7 +18,8 @@
 //  3. A part reads corners only of triangles with a corner in the part. By 1, no other part writes them. It reads twins
 //     and flags only of halfedges with an end in the part, around its own vertices, and of link edges after is_confined
 //     has seen both ends inside. By 2, no other part writes these. It reads coordinates and outgoing halfedges only of
-//     its own vertices: a step reads star, link and across the link; flips read quads.
+//     its own vertices: a step and the guard read star, link and across the link; flips read quads. Before a flip, the
+//     guard reads those of the four triangles around that are in the part, and the rest end the step by 4.
 //  4. A confined v stays confined until its step ends. A flip makes a new quad only from vertices of the part. Then
 //     every edge of a changed triangle is tested, and its quad must be inside; otherwise the whole step is undone and
 //     the vertex listed. Later reads (stuck edges, the patch again) are of changed triangles or of unchanged edges.
@@ -79,6 +80,7 @@ class Improver {
       WeightedPoint p = context_.mesh.point(v);
       reader.read(p);
       context_.mesh.set_point(v, p);
+      context_.limits.guard.follow(v);
     }
   }
 

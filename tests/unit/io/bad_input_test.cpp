@@ -107,13 +107,6 @@ const std::vector<Bad>& bad_files() {
       {"triangles_alone", "m.mesh", "2\n 1 2 3\n 1 3 4\n", ErrorCode::unsupported,
        "m.mesh: has triangles without points, as in files of METIS and FESOM. temper reads files of FESOM: expected a "
        "name that ends with elem2d.out, and the points in nod2d.out beside it"},
-      {"vertical_element_wall", "fort.14",
-       "wall\n2 6\n1 1 0 1\n2 0 0 1\n3 1 1 1\n4 2 1 1\n5 1 0 1\n6 1 1 1\n1 3 1 3 2\n2 3 5 4 6\n"
-       "0\n0\n1\n4\n2 64\n3 6 1 1 1\n1 5 1 1 1\n",
-       ErrorCode::duplicate_point,
-       "fort.14:8: point 3 and point 6 are both at (1, 1): they are the two sides of a vertical element wall (land "
-       "boundary 1, type 64). Next: move the two sides apart, as in a levee of type 24, or make each pair one node and "
-       "leave the boundary out"},
       {"ele_without_node", "m.ele", "1 3 0\n1 1 2 3\n", ErrorCode::not_found,
        "m.ele: is the triangles of a Triangle mesh; its points are expected in m.node, which does not exist"}};
   return kBad;

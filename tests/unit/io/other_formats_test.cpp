@@ -308,20 +308,31 @@ TEST_F(OtherFormats, Fort14IslandsAreNotClosedByWhatIsNoEdge) {
   EXPECT_TRUE(made->warnings.empty());
 }
 
-TEST_F(OtherFormats, Fort14WithVerticalElementWallsIsConvertedBitForBit) {
-  const std::string content =
-      "wall\n2 6\n1 1 0 9\n2 0 0 9\n3 1 1 9\n4 2 1 9\n5 1 0 9\n6 1 1 9\n1 3 1 3 2\n2 3 5 4 6\n"
-      "0\n0\n1\n4\n2 64\n3 6 1 1 1\n1 5 1 1 1\n";
-  const MeshFile f = read_ok("fort.14", content);
-  ASSERT_TRUE(write(path("m.vtu"), f));
-  const auto g = read(path("m.vtu"));
-  ASSERT_TRUE(g) << g.error().what();
-  ASSERT_TRUE(write(path("a.14"), f));
-  ASSERT_TRUE(write(path("b.14"), *g));
-  EXPECT_EQ(slurp(path("a.14")), slurp(path("b.14")));
-  const auto made = make_mesh(*g);
-  ASSERT_FALSE(made);
-  EXPECT_NE(made.error().what().find("vertical element wall (land boundary 1, type 64)"), std::string::npos);
+//   2 ── 3,6 ── 4     The wall has no width. Its partners 5 and 6 are at the places of the nodes 1 and 3.
+//     ╲   │   ╱
+//      ╲  │  ╱        Between reading and writing they are to the right of them, in the triangle 3 5 4 6.
+//        1,5
+TEST_F(OtherFormats, Fort14WithVerticalElementWallsIsAMeshAndComesBackBitForBit) {
+  const std::string nodes = "1 1 0 0.5\n2 0 1 0.5\n3 1 1 0.5\n4 2 1 0.5\n5 1 0 -2.5\n6 1 1 0.25\n";
+  const std::string wall = "2 64 = number of nodes and type of land boundary 1\n1 5 1 0.5 0.25\n3 6 1 1 1\n";
+  for (const char* const triangles : {"1 3 1 3 2\n2 3 5 4 6\n", "1 3 1 3 2\n2 3 6 4 5\n"}) {  // also clockwise
+    const MeshFile f = read_ok("fort.14", "wall\n2 6\n" + nodes + triangles + "0\n0\n1\n4\n" + wall);
+    for (const std::size_t partner : {std::size_t{4}, std::size_t{5}}) {
+      EXPECT_EQ(f.points[partner].y, partner == 4 ? 0 : 1);
+      EXPECT_NEAR(f.points[partner].x, 1 + 1e-6, 1e-9);
+    }
+    const auto made = make_mesh(f);
+    ASSERT_TRUE(made) << made.error().what();
+    ASSERT_TRUE(write(path("m.vtu"), f));
+    const auto g = read(path("m.vtu"));
+    ASSERT_TRUE(g) << g.error().what();
+    for (const MeshFile& file : {f, *g}) {
+      ASSERT_TRUE(write(path("n.14"), file));
+      const std::string out = slurp(path("n.14"));
+      EXPECT_NE(out.find("\n" + nodes), std::string::npos) << out;
+      EXPECT_NE(out.find(wall), std::string::npos) << out;
+    }
+  }
 }
 
 TEST_F(OtherFormats, Fort14OfLinesWithoutAKindSaysWhatItMakesOfThem) {

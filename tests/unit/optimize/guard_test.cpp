@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "base/rng.hpp"
+#include "temper/detail/location.hpp"
 #include "temper/detail/trace.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
@@ -25,7 +27,7 @@ double area(const Mesh& mesh, TriangleId t) {
   return 0.5 * cross(b.position() - a.position(), c.position() - a.position());
 }
 
-/// `depth`: of a point; waves have the speed √(g H), H the mean of the corners.
+/// `depth`: of a point; waves have the speed √(g H), H the mean of the corners, at least 1.
 template <class Depth>
 Shape shape(const Mesh& mesh, const Depth& depth) {
   Shape s;
@@ -36,7 +38,7 @@ Shape shape(const Mesh& mesh, const Depth& depth) {
     const double l = length(b - a);
     s.angle =
         std::min(s.angle, std::acos(dot(a - c, b - c) / (length(a - c) * length(b - c))) * 180 / std::numbers::pi);
-    const double speed = std::sqrt(9.81 * (depth(a) + depth(b) + depth(c)) / 3);
+    const double speed = std::sqrt(9.81 * std::max((depth(a) + depth(b) + depth(c)) / 3, 1.0));
     s.time = std::min(s.time, 2 * area(mesh, t) / l / speed);
     if (mesh.is_boundary(h)) continue;
     const double here = area(mesh, t), there = area(mesh, Mesh::triangle(mesh.twin(h)));
@@ -57,10 +59,10 @@ void expect_guarded(const Shape& before, const Shape& after, const GuardOptions&
 /// A bottom that slopes: linear, so that the field has it exactly.
 double depth_of(Vec2 p) { return 12 + 3 * p.x + p.y; }
 
-SizeField field_of_depth(const Mesh& mesh) {
+std::vector<double> depths_of(const Mesh& mesh) {
   std::vector<double> depths;
   for (const VertexId v : mesh.vertices()) depths.push_back(depth_of(mesh.position(v)));
-  return *SizeField::from_values(mesh, depths);
+  return depths;
 }
 
 TEST(Guard, HoldsForEveryTargetAndItsLimitsBind) {
@@ -73,7 +75,7 @@ TEST(Guard, HoldsForEveryTargetAndItsLimitsBind) {
       options.repair_trials = 100;
       options.guard.angle = 60;
       options.guard.areas = options.guard.edge = 1;
-      options.guard.depth = field_of_depth(input);
+      options.guard.depth = depths_of(input);
       Mesh mesh = input, free = input;
       std::vector<TraceEvent> events;
       ASSERT_TRUE(optimize(mesh, options, {.tracer = [&](const TraceEvent& e) { events.push_back(e); }}));
@@ -90,6 +92,37 @@ TEST(Guard, HoldsForEveryTargetAndItsLimitsBind) {
   }
   EXPECT_GT(worse_without, 1u);
   EXPECT_GT(better, 8u);
+}
+
+/// Land and water at random: times are of the depths that the input has at the new places.
+TEST(Guard, HoldsForRandomMeshesAndDepths) {
+  for (const std::uint64_t seed : {1, 2}) {
+    const Mesh input = *random_mesh({1100, seed, {}});  // enough for batches
+    Rng rng(seed);
+    OptimizeOptions options = *options_for("adcirc", "quick");
+    options.repair_trials = 30;
+    for (std::size_t i = 0; i < input.n_vertices(); ++i) options.guard.depth.push_back(rng.uniform(-40, 100));
+    const PointLocator places(input);
+    const auto depth = [&](Vec2 p) {
+      return interpolated(places.find(p), [&](VertexId v) { return options.guard.depth[v.index]; });
+    };
+    const Shape before = shape(input, depth);
+    Mesh mesh = input;
+    ASSERT_TRUE(optimize(mesh, options));
+    const Shape after = shape(mesh, depth);
+    expect_guarded(before, after, options.guard, "adcirc");
+    EXPECT_GE(after.time, before.time * (1 - kRounding));
+    EXPECT_GT(quality(mesh).well_centered_fraction, quality(input).well_centered_fraction);
+  }
+}
+
+TEST(Guard, DepthsAreOfAllVertices) {
+  OptimizeOptions options;
+  options.guard = {.angle = 60, .depth = {1, 2}};
+  Mesh mesh = *random_mesh({20, 1, {}});
+  const auto report = optimize(mesh, options);
+  ASSERT_FALSE(report);
+  EXPECT_NE(report.error().message.find("2 depths; expected one for each"), std::string::npos);
 }
 
 TEST(Guard, HoldsIfVerticesAreSplitRemovedAndInserted) {

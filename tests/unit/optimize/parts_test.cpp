@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "mesh/mesh_editor.hpp"
+#include "optimize/flips/guard.hpp"
 #include "optimize/flips/partition.hpp"
 #include "optimize/stages/driver.hpp"
 #include "support/sanitizers.hpp"
@@ -43,6 +44,7 @@ SweptMesh swept(const Mesh& input, const OptimizeOptions& options, std::size_t p
   WorkingCopy work(input, options.paper.order);
   Settings settings = *make_settings(options, work.mesh, work.units, hooks);
   if (options.size_band) settings.size_field = input_size_field_of(input);
+  settings.guard = *guard_limits(input, options);
   SweepState state(settings);
   Run run(options, hooks, input);
   Driver driver(work, settings, state, run, part_size);
@@ -75,6 +77,9 @@ TEST_P(SweepsInParts, GiveTheSameBytesOnAnyNumberOfThreadsAndRanksAndTraced) {
   const Mesh input = mesh_with_regions(kPartsVertices, 3);
   OptimizeOptions options = GetParam().options;
   options.max_sweeps = 4;
+  if (options.guard.step) {
+    for (const VertexId v : input.vertices()) options.guard.depth.push_back(3 + 7.0 * (v.index % 5));
+  }
   const SweptMesh alone = swept(input, options);
   EXPECT_EQ(alone.mesh.validate(), std::nullopt);
   EXPECT_EQ(count_non_regular_edges(alone.mesh, false), 0u);
@@ -119,6 +124,7 @@ INSTANTIATE_TEST_SUITE_P(
         PartsCase{"deferred_flips", {.flips = Flips::deferred, .paper = {.inner = 2}}},
         PartsCase{"deferred_weights", {.paper = {.solver = Solver::alternating, .weight_updates = Updates::deferred}}},
         PartsCase{"size_band", {.size_band = 2}},
+        PartsCase{"guard", {.guard = {.angle = 10, .edge = 0.3, .areas = 3, .step = 0.001}}},
         PartsCase{"removal", {.paper = {.removal = Removal::patch, .removal_from = 2}}},
         PartsCase{"collapse", {.energy = EnergyKind::T, .paper = {.collapse_from = 1}}},
         PartsCase{"hidden_removed", {.energy = EnergyKind::F, .paper = {.hidden = HiddenPolicy::remove}}},
