@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -105,5 +106,11 @@ struct DiffusionSubject {
 [[nodiscard]] Equations at_vertices(const DiffusionSubject& s);
 /// Orthocenters that coincide are nearly one unknown: `merged` counts their edges.
 [[nodiscard]] Equations at_orthocenters(const DiffusionSubject& s, std::size_t& merged);
+
+/// The model of errors of a problem: see make_discretization_error().
+[[nodiscard]] Expected<std::shared_ptr<const DiscretizationError>> make_problem_error(const Mesh& mesh,
+                                                                                      const DiffusionProblem& problem,
+                                                                                      Scheme scheme,
+                                                                                      const InputNames* names);
 
 }  // namespace temper::error_detail

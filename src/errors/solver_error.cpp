@@ -14,6 +14,7 @@
 #include "base/rng.hpp"
 #include "base/sine_cosine.hpp"
 #include "errors/adjoint.hpp"
+#include "errors/diffusion.hpp"
 #include "errors/fields.hpp"
 #include "errors/poisson.hpp"
 #include "temper/dec.hpp"
@@ -301,6 +302,9 @@ Expected<std::shared_ptr<const DiscretizationError>> make_discretization_error(
         "`objective=solver_error` is for a scheme that solves, and stars solve nothing; expected `scheme=vertex`, "
         "`scheme=cell` "
         "or `scheme=all`");
+  }
+  if (options.problem != nullptr) {
+    return error_detail::make_problem_error(mesh, *options.problem, options.scheme, options.names);
   }
   if (options.fields == 0) return refused("errors are averaged over no field; expected one at least");
   return std::shared_ptr<const DiscretizationError>(std::make_shared<error_detail::SolverErrorModel>(options));
