@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "convert.hpp"
+#include "temper/detail/discretization_error.hpp"
 #include "temper/detail/executor.hpp"
 #include "temper/detail/progress.hpp"
 #include "temper/detail/tensor.hpp"
@@ -129,6 +130,9 @@ Observer observer_of(Visitor& visitor, const py::object& observer);
 // Names of tags, as tuples of dimension, tag and name.
 py::list physical_names_to_python(const std::vector<PhysicalName>& names);
 std::vector<PhysicalName> physical_names_from(const py::handle& names);
+
+/// The user's own problem: coefficient, source, and tuples of boundary edges (k, 2), value, and whether it is a flux.
+DiffusionProblem problem_from(const py::tuple& given);
 
 /// The metric of the three numbers of a diffusion tensor.
 Metric metric_from(const py::handle& tensor);

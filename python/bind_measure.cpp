@@ -287,23 +287,9 @@ py::dict error_mesh(const PyMesh& self, const py::sequence& fields, const py::ob
 
 py::dict norms_to_dict(const ErrorNorms& n) { return Record()("l2", n.l2)("max", n.max).dict; }
 
-/// `boundary`: tuples of edges (k, 2), value, and whether it is a flux.
-py::dict diffusion_errors(const PyMesh& self, const Doubles& coefficient, const Doubles& source,
-                          const py::sequence& boundary, int refinements) {
+py::dict diffusion_errors(const PyMesh& self, const py::tuple& given, int refinements) {
   const auto mesh = self.read();
-  DiffusionProblem problem;
-  const auto k = as_span<double>(coefficient), f = as_span<double>(source);
-  problem.coefficient.assign(k.begin(), k.end());
-  problem.source.assign(f.begin(), f.end());
-  for (const auto& item : boundary) {
-    const auto part = item.cast<py::tuple>();
-    BoundaryValue& value = problem.boundary.emplace_back();
-    const auto edges = part[0].cast<Int32s>();
-    for (const auto& [a, b] : as_span<std::array<std::int32_t, 2>>(edges))
-      value.edges.push_back({VertexId(static_cast<std::size_t>(a)), VertexId(static_cast<std::size_t>(b))});
-    value.value = part[1].cast<double>();
-    value.is_flux = part[2].cast<bool>();
-  }
+  const DiffusionProblem problem = problem_from(given);
   const DiffusionErrors e = or_raise(aside([&] { return measure_diffusion_errors(*mesh, problem, refinements); }));
   return Record()("vertex", norms_to_dict(e.vertex))("cell", norms_to_dict(e.cell))(
              "reference", norms_to_dict(e.reference))("vertex_system", system_to_dict(e.vertex_system))(

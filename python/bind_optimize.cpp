@@ -116,6 +116,26 @@ void set_callbacks(OptimizeHooks& hooks, Visitor& visitor, const Callbacks& call
   }
 }
 
+}  // namespace
+
+DiffusionProblem problem_from(const py::tuple& given) {
+  const auto coefficient = given[0].cast<Doubles>(), source = given[1].cast<Doubles>();
+  const auto k = as_span<double>(coefficient), f = as_span<double>(source);
+  DiffusionProblem problem = {{k.begin(), k.end()}, {f.begin(), f.end()}, {}};
+  for (const auto& item : given[2]) {
+    const auto part = item.cast<py::tuple>();
+    BoundaryValue& value = problem.boundary.emplace_back();
+    const auto edges = part[0].cast<Int32s>();
+    for (const auto& [a, b] : as_span<std::array<std::int32_t, 2>>(edges))
+      value.edges.push_back({VertexId(static_cast<std::size_t>(a)), VertexId(static_cast<std::size_t>(b))});
+    value.value = part[1].cast<double>();
+    value.is_flux = part[2].cast<bool>();
+  }
+  return problem;
+}
+
+namespace {
+
 std::optional<SizeField> size_field_from(const py::object& field) {
   if (field.is_none()) return std::nullopt;
   return field.cast<SizeField>();
@@ -128,6 +148,7 @@ struct RunArguments {
   py::object tensor;        ///< Tensor kxx, kxy, kyy
   py::object communicator;  ///< Communicator of mpi4py
   py::object depth;         ///< Water depth at each vertex
+  py::object problem;       ///< Tuple of problem_from()
 };
 
 /// The mesh gets its new state, whatever ended the run. Exceptions of Python callbacks are raised after that.
@@ -142,6 +163,7 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
   const auto count = threads_from(arguments.threads);
   if (!arguments.tensor.is_none()) options.tensor = metric_from(arguments.tensor).tensor();
   Mesh mesh = *self.read();
+  if (!arguments.problem.is_none()) options.problem = problem_from(arguments.problem);
   Visitor visitor;
   const Observer observer = observer_of(visitor, arguments.callbacks.observer);
   OptimizeHooks hooks;
@@ -191,9 +213,16 @@ TraceEvent event_from(const py::dict& d) {
 void bind_optimize(py::module_& m) {
   m.def("optimize", [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
                        const py::object& observer, const py::object& tracer, const py::object& snapshots,
-                       const py::object& tensor, const py::object& communicator, const py::object& depth) {
+                       const py::object& tensor, const py::object& communicator, const py::object& depth,
+                       const py::object& problem) {
     return optimize_mesh(self, options,
-                         {size_field, threads, {observer, tracer, snapshots}, tensor, communicator, depth});
+                         {size_field, threads, {observer, tracer, snapshots}, tensor, communicator, depth, problem});
+  });
+  m.def("problem_warnings", [](const PyMesh& self, const py::tuple& problem) {
+    py::list sentences;
+    for (const std::string& sentence : problem_warnings(*self.read(), problem_from(problem)))
+      sentences.append(sentence);
+    return sentences;
   });
   m.def("options_for", [](const std::string& target, const std::string& effort, const py::sequence& keep) {
     const std::vector<std::string> names = strings_from(keep);

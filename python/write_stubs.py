@@ -13,6 +13,7 @@ from typing import Any, Callable, Literal, Sequence, TypedDict, TypeVar
 
 from typing_extensions import Unpack
 
+from ._measure_errors import DiffusionProblem
 from ._records import Record
 
 @dataclasses.dataclass(frozen=True)
@@ -31,6 +32,11 @@ EffortName = {effort}
 KeepName = {keep}
 
 class OptionChanges(TypedDict, total=False):
+'''
+
+PROBLEM = '''
+class OptionsAndProblem(OptionChanges, total=False):
+    problem: DiffusionProblem
 '''
 
 OPTIONS = '''
@@ -64,7 +70,7 @@ def main(folder):
     changes = "".join(f"    {name}: {kind}\n" for name, kind in fields)
     options = "".join(f"    {name}: {kind} = ...\n" for name, kind in fields)
     words = {name: f"Literal[{', '.join(map(repr, rows))}]" for name, rows in _temper.presets().items()}
-    text = HEAD.format(energy=kinds["energy"], objective=kinds["objective"].removesuffix(" | None"), **words) + changes + OPTIONS + options + TAIL
+    text = HEAD.format(energy=kinds["energy"], objective=kinds["objective"].removesuffix(" | None"), **words) + changes + PROBLEM + OPTIONS + options + TAIL
     (folder / "_options.pyi").write_text(text, encoding="utf-8")
 
 

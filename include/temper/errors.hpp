@@ -136,21 +136,6 @@ struct ErrorReport {
 
 // --- the user's own problem -----------------------------------------------------------------------------------------
 
-/// A piece of the boundary with a given value: of u (Dirichlet), or of the flux K ∂u/∂n into the domain (Neumann).
-struct BoundaryValue {
-  std::vector<std::array<VertexId, 2>> edges;  ///< Boundary edges, each by its ends in either order
-  double value = 0;
-  bool is_flux = false;
-};
-
-/// −div(K ∇u) = f in the plane. Boundary edges of no piece have no flux. A vertex between two pieces has the value of
-/// u; of two values it has the one of the later piece.
-struct DiffusionProblem {
-  std::vector<double> coefficient = {};  ///< K > 0 of each triangle; empty: 1
-  std::vector<double> source = {};       ///< f at each vertex, linear on triangles; empty: 0
-  std::vector<BoundaryValue> boundary = {};
-};
-
 /// The errors of both schemes for one problem.
 struct DiffusionErrors {
   ErrorNorms vertex, cell;  ///< Relative to the reference: its L2 norm, and its largest absolute value
@@ -174,11 +159,15 @@ struct DiscretizationErrorOptions {
   Scheme scheme = Scheme::all;  ///< Scheme; vertex: Poisson problems; cell: two-point flux; all: both
   std::size_t fields = 64;      ///< Number of waves in all directions, whose squared errors are averaged
   std::uint64_t seed = 1;       ///< Seed of their lengths and phases
+  /// A problem in place of the waves, on the mesh of the model. The error is that against its reference, see
+  /// measure_diffusion_errors(), plus the reference's own. Any triangle has the coefficient at its centroid.
+  const DiffusionProblem* problem = nullptr;
+  const InputNames* names = nullptr;  ///< Numbering of the user, for errors
 };
 /// Makes a model of errors for OptimizeOptions: the mean squared L2 errors of the schemes of this file over plane
 /// waves. The waves have 1 to 4 radians in half the bounding box. Each error is divided by the fourth power of its wave
 /// number, as such errors grow with it. Derivatives come from the discrete adjoint: one more solve each with the same
-/// factors. Errors: no field, Scheme::stars, a mesh of the sphere. O(n^1.5 + fields n log n).
+/// factors. Errors: no field, Scheme::stars, a mesh of the sphere, a wrong problem. O(n^1.5 + fields n log n).
 [[nodiscard]] Expected<std::shared_ptr<const DiscretizationError>> make_discretization_error(
     const Mesh& mesh, const DiscretizationErrorOptions& options = {});
 

@@ -281,13 +281,16 @@ struct GuardOptions {
   std::vector<double> depth = {};
 };
 
+struct OptimizeOptions;
+
 /// The solvers of other libraries. temper::solvers() returns the solvers of this build (temper/solvers.hpp).
 struct Solvers {
   /// Linear program solver for repairs. It finds weights for places that sweeps leave bad. Empty: repairs do not use
   /// it.
   std::function<std::unique_ptr<LpSolver>()> lp = {};
   /// Model of the errors of a scheme on a mesh. Empty: accuracy is lowered instead of the error, and a note reports it.
-  std::function<Expected<std::shared_ptr<const DiscretizationError>>(const Mesh& mesh, Scheme scheme)>
+  std::function<Expected<std::shared_ptr<const DiscretizationError>>(const Mesh& mesh, const OptimizeOptions& options,
+                                                                     const InputNames* names)>
       discretization_error = {};
 };
 
@@ -325,6 +328,9 @@ struct OptimizeOptions {
   /// Constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/detail/tensor.hpp). The
   /// report and snapshots are in that plane. Absent: K = 1.
   std::optional<Tensor> tensor = {};
+  /// The user's own problem. The run lowers its error, if it has a model of errors at all: see wants_error_model(). If
+  /// not, an error says why. Absent: the mean over many smooth solutions with K = 1.
+  std::optional<DiffusionProblem> problem = {};
   int max_sweeps = 1000;  ///< Largest number of sweeps; each repair counts as a sweep
   double time_limit = 0;  ///< Time limit of the whole run [s]; 0: none
   PaperSwitches paper = {};
@@ -339,6 +345,10 @@ struct OptimizeOptions {
 /// solver_error.most_vertices vertices. Then it becomes solver_error if the options have no objective. If they name
 /// accuracy, the model selects the mesh of least error; the input is compared too if it is well-centered.
 [[nodiscard]] bool wants_error_model(const OptimizeOptions& options, const Mesh& mesh);
+
+/// What a run may do to a problem, in sentences for a warning: edges across which the coefficient jumps, and which are
+/// not constrained, do not stay.
+[[nodiscard]] std::vector<std::string> problem_warnings(const Mesh& mesh, const DiffusionProblem& problem);
 
 /// Returns the options for a target, an effort, and parts of the mesh to keep. Their names and meanings are in
 /// targets(), efforts() and keeps() of optimize_table.hpp: `options_for("mpas", "high", {{"boundary"}})`. An unknown

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, Literal, Mapping, Sequence
+from typing import Any, Literal, Mapping, Sequence, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -232,18 +232,38 @@ def measure_diffusion_errors(
     True
     """
     given = as_mesh(mesh)
-    parts = [
-        (_boundary_part(given, name), float(value), is_flux)
-        for values, is_flux in ((neumann or {}, True), (dirichlet, False))
-        for name, value in values.items()
-    ]
-    f = np.broadcast_to(np.asarray(source, dtype=np.float64), given.n_vertices) if np.ndim(source) == 0 else source
-    d = _temper.measure_diffusion_errors(
-        given._handle, _coefficient_of(given, coefficient), _doubles(f, 0, "source"), parts, refinements
-    )
+    plain = _plain_problem(given, dirichlet=dirichlet, neumann=neumann, source=source, coefficient=coefficient)
+    d = _temper.measure_diffusion_errors(given._handle, plain, refinements)
     norms = {key: ErrorNorms(**d[key]) for key in ("vertex", "cell", "reference")}
     systems = {key: ErrorSystem(**d[key]) for key in ("vertex_system", "cell_system")}
     return DiffusionErrors(**merged(d, **norms, **systems))
+
+
+class DiffusionProblem(TypedDict, total=False):
+    """The user's own problem −div(K ∇u) = f: the arguments of ``measure_diffusion_errors``."""
+
+    dirichlet: Mapping[str | int, float]
+    neumann: Mapping[str | int, float] | None
+    source: npt.ArrayLike
+    coefficient: npt.ArrayLike | Mapping[int, float] | None
+
+
+def _plain_problem(
+    mesh: Mesh,
+    *,
+    dirichlet: Mapping[str | int, float],
+    neumann: Mapping[str | int, float] | None = None,
+    source: npt.ArrayLike = 0.0,
+    coefficient: npt.ArrayLike | Mapping[int, float] | None = None,
+) -> tuple[Any, ...]:
+    """Coefficient, source and parts of the boundary for the compiled module."""
+    parts = [
+        (_boundary_part(mesh, name), float(value), is_flux)
+        for values, is_flux in ((neumann or {}, True), (dirichlet, False))
+        for name, value in values.items()
+    ]
+    f = np.broadcast_to(np.asarray(source, dtype=np.float64), mesh.n_vertices) if np.ndim(source) == 0 else source
+    return _coefficient_of(mesh, coefficient), _doubles(f, 0, "source"), parts
 
 
 def _boundary_part(mesh: Mesh, name: str | int) -> npt.NDArray[np.int32]:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal, Sequence
+import warnings
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _temper
 from ._errors import TemperError, TemperWarning
+from ._measure_errors import _plain_problem
 from ._mesh import PICTURE, Mesh, MeshLike, as_mesh, put_back
 from ._options import EffortName, KeepName, ObjectiveName, OptimizeOptions, TargetName, lists_presets, settled
 from ._progress import Line, Progress, SweepRecord
@@ -17,7 +19,7 @@ from ._records import Record
 from .size import SizeField, SizeReport, Spread, _size_report
 
 if TYPE_CHECKING:
-    from ._options import OptionChanges
+    from ._options import OptionsAndProblem
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -222,7 +224,7 @@ def optimize(
     threads: int | None = None,
     progress: bool | Callable[[Progress], Any] | None = None,
     hooks: Hooks | None = None,
-    options: OptimizeOptions | OptionChanges | None = None,
+    options: OptimizeOptions | OptionsAndProblem | None = None,
 ) -> OptimizeReport:
     """Improves a mesh in place: moves vertices, changes weights and flips edges until every triangle is well-centered.
 
@@ -269,7 +271,9 @@ def optimize(
         Listeners and ranks.
     options : dict or OptimizeOptions, optional
         Further options by name, such as ``{"energy": "F", "max_sweeps": 20}``. They override the options that
-        ``target``, ``effort`` and ``keep`` set. ``help(temper.OptimizeOptions)`` explains each.
+        ``target``, ``effort`` and ``keep`` set. ``help(temper.OptimizeOptions)`` explains each. In a dict,
+        ``"problem"`` is your own problem, a dict of arguments of ``measure_diffusion_errors``. With the targets
+        ``vertex`` and ``cell`` the run lowers its error.
 
     Returns
     -------
@@ -319,8 +323,15 @@ def optimize(
                 raise ValueError(f"{name}: is of the mesh's plane, and does not go with tensor")
     observer = progress if callable(progress) else None
     line = Line(False if observer is not None or _is_helper(hooks.communicator) else progress)
+    own: Any = None
+    if isinstance(options, Mapping):
+        options = dict(options)  # type: ignore[assignment]
+        own = options.pop("problem", None)  # type: ignore[union-attr]
     plain = settled(target, effort, keep, options, boundary=boundary, time_limit=time_limit)._plain()
     changed = as_mesh(mesh, in_place=True)
+    problem = None if own is None else _plain_problem(changed, **own)
+    for sentence in () if problem is None else _temper.problem_warnings(changed._handle, problem):
+        warnings.warn(sentence, TemperWarning, stacklevel=2)
     tracer, snapshots = hooks.tracer, hooks.snapshots
     trace = (lambda event: tracer(TraceEvent(**event))) if tracer is not None else None
     look = (lambda shot: snapshots(Snapshot._of(shot))) if snapshots is not None else None
@@ -330,7 +341,8 @@ def optimize(
     try:
         watch = _observer(line, observer)
         report = _temper.optimize(
-            changed._handle, plain, field, threads, watch, trace, look, None if tensor is None else tuple(tensor), hooks.communicator, _depth(changed, plain)
+            changed._handle, plain, field, threads, watch, trace, look, None if tensor is None else tuple(tensor), hooks.communicator,
+            _depth(changed, plain), problem,
         )
     finally:
         line.clear()

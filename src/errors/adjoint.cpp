@@ -20,19 +20,27 @@ struct EdgeAdjoint {
   double length = 0, crossing = 0, left = 0, right = 0;
 };
 
-/// ★0 of the ends is d D/2 and (ℓ − d) D/2, ★1 D/ℓ, the flux ℓ/D, D = h_left + h_right.
-EdgeAdjoint of_operators(const DecEdge& edge, double star1, double flux, double from, double to) {
+/// ★0 of the ends is d D/2 and (ℓ − d) D/2 with D = h_left + h_right. ★1 is P/ℓ with P = Σ K h, the flux ℓ/S with
+/// S = Σ h/K.
+EdgeAdjoint of_operators(const DecComplex& dec, const DecEdge& edge, double star1, double flux, double from,
+                         double to) {
   const double l = edge.length, d = edge.crossing, dual = edge.dual_length;
+  const auto k_of = [&](TriangleId t) { return dec.coefficient.empty() || !t.valid() ? 1 : dec.coefficient[t]; };
+  const double left = k_of(edge.left), right = k_of(edge.right);
+  const bool plain = dec.coefficient.empty();
+  const double parallel = plain ? dual : left * edge.left_height + right * edge.right_height;
+  const double series = plain ? dual : edge.left_height / left + edge.right_height / right;
   EdgeAdjoint by;
-  by.length = -star1 * dual / (l * l) + 0.5 * dual * to;
+  by.length = -star1 * parallel / (l * l) + 0.5 * dual * to;
   by.crossing = 0.5 * dual * (from - to);
-  double by_dual = star1 / l + 0.5 * (d * from + (l - d) * to);
-  if (flux != 0) {
-    by.length += flux / dual;
-    by_dual -= flux * l / (dual * dual);
-  }
-  by.left = edge.left.valid() ? by_dual : 0;
-  by.right = edge.right.valid() ? by_dual : 0;
+  if (flux != 0) by.length += flux / series;
+  const auto by_height = [&](TriangleId t, double k) {
+    if (!t.valid()) return 0.0;
+    const double by_dual = star1 * k / l + 0.5 * (d * from + (l - d) * to);
+    return flux != 0 ? by_dual - flux * l / (series * series * k) : by_dual;
+  };
+  by.left = by_height(edge.left, left);
+  by.right = by_height(edge.right, right);
   return by;
 }
 
@@ -102,6 +110,21 @@ void Adjoint::add(const Adjoint& other) {
   add_all(area, other.area);
 }
 
+void Adjoint::add_star1(const DecComplex& dec, const std::vector<double>& v, const std::vector<double>& lambda) {
+  for (std::size_t e = 0; e < dec.edges.size(); ++e) {
+    const std::size_t i = dec.edges[EdgeId(e)].from.index, j = dec.edges[EdgeId(e)].to.index;
+    star1[EdgeId(e)] -= (lambda[i] - lambda[j]) * (v[i] - v[j]);
+  }
+}
+
+void Adjoint::add_flux(const DecComplex& dec, const std::vector<double>& v, const std::vector<double>& lambda) {
+  for (std::size_t e = 0; e < dec.edges.size(); ++e) {
+    if (dec.edges[EdgeId(e)].is_boundary()) continue;
+    const std::size_t k = dec.edges[EdgeId(e)].left.index, l = dec.edges[EdgeId(e)].right.index;
+    transmissibility[EdgeId(e)] -= (lambda[k] - lambda[l]) * (v[k] - v[l]);
+  }
+}
+
 Gradient pulled_back(const Mesh& mesh, const DecComplex& dec, const Adjoint& by) {
   Gradient gradient(mesh.n_vertices(), WeightedPoint{});
   for (const VertexId v : mesh.vertices()) add_place(gradient, v, by.vertex[v]);
@@ -110,7 +133,7 @@ Gradient pulled_back(const Mesh& mesh, const DecComplex& dec, const Adjoint& by)
     const EdgeId e(i);
     const DecEdge& edge = dec.edges[e];
     EdgeAdjoint of_edge =
-        of_operators(edge, by.star1[e], by.transmissibility[e], by.star0[edge.from], by.star0[edge.to]);
+        of_operators(dec, edge, by.star1[e], by.transmissibility[e], by.star0[edge.from], by.star0[edge.to]);
     of_edge.crossing += by.crossing[e];
     pull_back_edge(mesh, dec, edge, of_edge, orthocenter, gradient);
   }

@@ -6,6 +6,9 @@
 //
 //     c · e = (e² + w_i − w_j)/2,   c · f = (f² + w_i − w_k)/2
 //
+// With a coefficient K on triangles, heights count K h in ★1 and h/K in the transmissibility. K moves with its
+// triangle.
+//
 // An edge with its triangle on the left has  d = ℓ/2 + (w_i − w_j)/(2ℓ),  h = e × c / ℓ. Read backwards, a derivative
 // by c is λ_1 e + λ_2 f, and λ are the derivatives by the right sides.
 #pragma once
@@ -29,6 +32,10 @@ struct Adjoint {
   IdVector<TriangleId, double> area;
 
   void add(const Adjoint& other);
+  /// Adds the derivatives of −λᵀ A v by ★1, for unknowns at the vertices.
+  void add_star1(const DecComplex& dec, const std::vector<double>& v, const std::vector<double>& lambda);
+  /// The same by the transmissibility of inner edges, for unknowns at the orthocenters.
+  void add_flux(const DecComplex& dec, const std::vector<double>& v, const std::vector<double>& lambda);
 };
 
 /// The derivatives by the unknowns of each vertex. O(n).

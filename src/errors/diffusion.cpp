@@ -1,45 +1,22 @@
 // The user's own problem, see DiffusionProblem: both schemes, and the reference by finite elements.
+#include "errors/diffusion.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
-#include <optional>
 #include <string>
-#include <utility>
 
 #include "base/median.hpp"
 #include "base/text.hpp"
-#include "errors/poisson.hpp"
-#include "temper/dec.hpp"
-#include "temper/detail/location.hpp"
-#include "temper/errors.hpp"
 
 namespace temper {
 namespace error_detail {
 namespace {
 
 constexpr std::size_t kMostFine = 4'000'000;  // triangles of the reference: some five gigabytes with its factors
-constexpr std::size_t kGivenHere = static_cast<std::size_t>(-1);
 
 // --- the mesh as arrays, and its refinements -------------------------------------------------------------------------
-
-using Pair = std::array<std::uint32_t, 2>;
-Pair sorted(std::uint32_t a, std::uint32_t b) { return a < b ? Pair{a, b} : Pair{b, a}; }
-
-/// A boundary edge with its value.
-struct Side {
-  Pair ends;
-  std::optional<double> value, flux;
-};
-
-/// The problem on a triangulation. Refinements keep the vertices; the children of triangle t are 4 t to 4 t + 3.
-struct Discrete {
-  std::vector<Vec2> places;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<double> coefficient, source;
-  std::vector<Side> sides;
-};
 
 //        c
 //       / \        Children: a and its midpoints, b and its, c and its, the three midpoints.
@@ -51,7 +28,7 @@ Discrete refined(const Discrete& coarse) {
   fine.triangles.clear();
   fine.coefficient.clear();
   fine.sides.clear();
-  std::vector<std::pair<Pair, std::size_t>> edges;  // with their place among the corners of triangles
+  std::vector<std::pair<VertexPair, std::size_t>> edges;  // with their place among the corners of triangles
   edges.reserve(3 * coarse.triangles.size());
   for (std::size_t t = 0; t < coarse.triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -60,7 +37,7 @@ Discrete refined(const Discrete& coarse) {
   }
   std::sort(edges.begin(), edges.end());
   std::vector<std::uint32_t> middle(edges.size());
-  const auto add_middle = [&](const Pair& ends) {
+  const auto add_middle = [&](const VertexPair& ends) {
     fine.places.push_back(0.5 * (coarse.places[ends[0]] + coarse.places[ends[1]]));
     fine.source.push_back(0.5 * (coarse.source[ends[0]] + coarse.source[ends[1]]));
   };
@@ -82,139 +59,54 @@ Discrete refined(const Discrete& coarse) {
   return fine;
 }
 
-/// The values of u that sides give; later sides count.
-std::vector<std::optional<double>> given_values(const Discrete& d) {
-  std::vector<std::optional<double>> given(d.places.size());
+/// Equations at vertices, with the values of u that sides give; later sides count. An isolated vertex has the value 0.
+Equations without_matrix(const Discrete& d) {
+  std::vector<bool> given(d.places.size(), true);
+  Equations equations = {PointSystem({}), std::vector<double>(given.size()), std::vector<double>(given.size())};
+  for (const auto& corners : d.triangles) {
+    for (const std::uint32_t corner : corners) given[corner] = false;
+  }
   for (const Side& side : d.sides) {
     if (!side.value) continue;
-    for (const std::uint32_t end : side.ends) given[end] = side.value;
+    for (const std::uint32_t end : side.ends) given[end] = true, equations.values[end] = *side.value;
   }
-  return given;
+  equations.points = PointSystem(given);
+  return equations;
 }
 
-/// A system with unknowns at points. Points with given values have none.
-class PointSystem {
- public:
-  explicit PointSystem(std::vector<std::optional<double>> given) : given_(std::move(given)) {
-    for (const auto& value : given_) unknown_.push_back(value ? kGivenHere : linear_.unknowns++);
-    linear_.right_sides.emplace_back(linear_.unknowns, 0.0);
-  }
-
-  /// A flux coefficient (u_i − u_j).
-  void connect(std::size_t i, std::size_t j, double coefficient) {
-    for (const auto& [here, there] : {std::pair(i, j), std::pair(j, i)}) {
-      if (unknown_[here] == kGivenHere) continue;
-      linear_.lower.push_back({unknown_[here], unknown_[here], coefficient});
-      if (given_[there]) add(here, coefficient * *given_[there]);
-    }
-    if (unknown_[i] == kGivenHere || unknown_[j] == kGivenHere) return;
-    linear_.lower.push_back({std::max(unknown_[i], unknown_[j]), std::min(unknown_[i], unknown_[j]), -coefficient});
-  }
-  /// A flux coefficient (u_i − value).
-  void connect_to_value(std::size_t i, double value, double coefficient) {
-    linear_.lower.push_back({unknown_[i], unknown_[i], coefficient});
-    add(i, coefficient * value);
-  }
-  void add(std::size_t i, double amount) {
-    if (unknown_[i] != kGivenHere) linear_.right_sides[0][unknown_[i]] += amount;
-  }
-
-  /// The value at each point; nothing if the system is singular.
-  std::optional<std::vector<double>> solve(ErrorSystem* system) const {
-    const LinearSolution solution = error_detail::solve(linear_, false);
-    if (system != nullptr) {
-      system->unknowns = linear_.unknowns;
-      system->m_matrix = system->negative == 0 && !solution.singular;
-      system->definite = solution.definite;
-      system->singular = solution.singular;
-    }
-    if (solution.singular) return {};
-    std::vector<double> values;
-    for (std::size_t i = 0; i < given_.size(); ++i)
-      values.push_back(given_[i] ? *given_[i] : solution.solutions[0][unknown_[i]]);
-    return values;
-  }
-
- private:
-  std::vector<std::optional<double>> given_;
-  std::vector<std::size_t> unknown_;
-  LinearSystem linear_;
-};
+/// The values at all points; nothing if the system is singular.
+std::optional<std::vector<double>> solved(Equations e, ErrorSystem& system) {
+  const LinearSystem linear = {e.points.n_unknowns(), e.points.lower(), {e.points.right_side(e.sources, e.values)}};
+  const LinearSolution solution = solve(linear, false);
+  describe(linear, solution, system);
+  if (solution.singular) return {};
+  e.points.put(solution.solutions[0], e.values);
+  return std::move(e.values);
+}
 
 /// Linear finite elements: K cot/2 over each edge of a triangle, ∫ f φ with f linear.
 std::optional<std::vector<double>> finite_elements(const Discrete& d) {
-  PointSystem system(given_values(d));
+  Equations equations = without_matrix(d);
   for (std::size_t t = 0; t < d.triangles.size(); ++t) {
     const auto& corners = d.triangles[t];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t i = corners[k], j = corners[(k + 1) % 3], o = corners[(k + 2) % 3];
       const Vec2 a = d.places[i] - d.places[o], b = d.places[j] - d.places[o];
-      system.connect(i, j, 0.5 * d.coefficient[t] * dot(a, b) / cross(a, b));
+      equations.points.connect(i, j, 0.5 * d.coefficient[t] * dot(a, b) / cross(a, b));
       const double area = 0.5 * cross(a, b);
-      system.add(o, area / 12 * (2 * d.source[o] + d.source[i] + d.source[j]));
+      equations.sources[o] += area / 12 * (2 * d.source[o] + d.source[i] + d.source[j]);
     }
   }
   for (const Side& side : d.sides) {
     if (!side.flux) continue;
     const double half = 0.5 * length(d.places[side.ends[1]] - d.places[side.ends[0]]) * *side.flux;
-    for (const std::uint32_t end : side.ends) system.add(end, half);
+    for (const std::uint32_t end : side.ends) equations.sources[end] += half;
   }
-  return system.solve(nullptr);
+  ErrorSystem ignored;
+  return solved(std::move(equations), ignored);
 }
 
-/// The reference on refined triangles, at any place of the mesh.
-struct Reference {
-  Discrete fine;
-  std::vector<double> values;
-  int refinements;
-
-  [[nodiscard]] double at(const temper::Place& place, const Mesh& mesh) const {
-    std::array<double, 3> shares = {};  // of the corners of the triangle
-    const auto corners = mesh.corners(place.triangle);
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t i = 0; i < static_cast<std::size_t>(place.n); ++i)
-        shares[k] += place.corners[i] == corners[k] ? place.shares[i] : 0;
-    }
-    std::size_t t = place.triangle.index;
-    for (int level = 0; level < refinements; ++level) t = child(t, shares);
-    double value = 0;
-    for (std::size_t k = 0; k < 3; ++k) value += shares[k] * values[fine.triangles[t][k]];
-    return value;
-  }
-
- private:
-  /// The child that has the place, with its shares there.
-  static std::size_t child(std::size_t t, std::array<double, 3>& shares) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (shares[k] < 0.5) continue;
-      for (std::size_t i = 0; i < 3; ++i) shares[i] = i == k ? 2 * shares[i] - 1 : 2 * shares[i];
-      return 4 * t + k;
-    }
-    // ab, bc, ca: each is opposite the corner of the same rank, from c on.
-    shares = {1 - 2 * shares[2], 1 - 2 * shares[0], 1 - 2 * shares[1]};
-    return 4 * t + 3;
-  }
-};
-
-// --- the two schemes -------------------------------------------------------------------------------------------------
-
-struct DiffusionSubject {
-  const Mesh& mesh;
-  const Discrete& discrete;
-  DecComplex dec;
-  std::map<Pair, const Side*> side_of;
-
-  DiffusionSubject(const Mesh& m, const Discrete& d, DecComplex complex)
-      : mesh(m), discrete(d), dec(std::move(complex)) {
-    for (const Side& side : d.sides) side_of[side.ends] = &side;
-  }
-  [[nodiscard]] const Side* side(const DecEdge& edge) const {
-    const auto found = side_of.find(sorted(edge.from.index, edge.to.index));
-    return found == side_of.end() ? nullptr : found->second;
-  }
-};
-
-void describe(const IdVector<EdgeId, double>& coefficients, const DecComplex& dec, ErrorSystem& system) {
+void count_coefficients(const IdVector<EdgeId, double>& coefficients, const DecComplex& dec, ErrorSystem& system) {
   std::vector<double> inside;
   for (std::size_t e = 0; e < dec.edges.size(); ++e) {
     system.negative += coefficients[EdgeId(e)] < 0 ? 1 : 0;
@@ -223,53 +115,111 @@ void describe(const IdVector<EdgeId, double>& coefficients, const DecComplex& de
   system.largest_over_median = largest_over_median(std::move(inside));
 }
 
-std::optional<std::vector<double>> solve_at_vertices(const DiffusionSubject& s, ErrorSystem& system) {
-  describe(s.dec.star1, s.dec, system);
-  PointSystem points(given_values(s.discrete));
-  for (std::size_t i = 0; i < s.dec.edges.size(); ++i) {
-    const DecEdge& edge = s.dec.edges[EdgeId(i)];
-    points.connect(edge.from.index, edge.to.index, s.dec.star1[EdgeId(i)]);
-    const Side* const side = edge.is_boundary() ? s.side(edge) : nullptr;
-    if (side == nullptr || !side->flux) continue;
-    points.add(edge.from.index, edge.crossing * *side->flux);
-    points.add(edge.to.index, (edge.length - edge.crossing) * *side->flux);
+/// The child that has a place of triangle t, with its shares there.
+std::size_t child(std::size_t t, std::array<double, 3>& shares) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (shares[k] < 0.5) continue;
+    for (std::size_t i = 0; i < 3; ++i) shares[i] = i == k ? 2 * shares[i] - 1 : 2 * shares[i];
+    return 4 * t + k;
   }
-  for (const VertexId v : s.mesh.vertices()) points.add(v.index, s.dec.star0[v] * s.discrete.source[v.index]);
-  return points.solve(&system);
+  // ab, bc, ca: each is opposite the corner of the same rank, from c on.
+  shares = {1 - 2 * shares[2], 1 - 2 * shares[0], 1 - 2 * shares[1]};
+  return 4 * t + 3;
 }
 
-/// Orthocenters that coincide are one unknown.
-std::optional<std::vector<double>> solve_at_orthocenters(const DiffusionSubject& s, ErrorSystem& system) {
-  describe(s.dec.transmissibility, s.dec, system);
+}  // namespace
+
+std::array<Vec2, 3> gradients_of_shares(Vec2 a, Vec2 b, Vec2 c) {
+  const double inverse = 1 / cross(b - a, c - a);
+  const auto across = [inverse](Vec2 e) { return inverse * Vec2{-e.y, e.x}; };
+  return {across(c - b), across(a - c), across(b - a)};
+}
+
+std::array<double, 3> shares_of(const temper::Place& place, const Mesh& mesh) {
+  std::array<double, 3> shares = {};
+  const auto corners = mesh.corners(place.triangle);
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(place.n); ++i)
+      shares[k] += place.corners[i] == corners[k] ? place.shares[i] : 0;
+  }
+  return shares;
+}
+
+Sample Reference::at(std::size_t t, std::array<double, 3> shares) const {
+  for (int level = 0; level + 1 < refinements; ++level) t = child(t, shares);
+  std::array<std::size_t, 3> corners = {};
+  for (std::size_t k = 0; k < 3; ++k) corners[k] = fine.triangles[4 * t + k][k];
+  const auto& middles = fine.triangles[4 * t + 3];  // ab, bc, ca
+  const auto& p = fine.places;
+  const std::array<Vec2, 3> slopes = gradients_of_shares(p[corners[0]], p[corners[1]], p[corners[2]]);
+  Sample sample;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    const double at_corner = values[corners[k]], at_middle = values[middles[k]], s = shares[k], n = shares[next];
+    sample.value += at_corner * s * (2 * s - 1) + at_middle * 4 * s * n;
+    sample.gradient = sample.gradient + (at_corner * (4 * s - 1) + at_middle * 4 * n) * slopes[k] +
+                      (at_middle * 4 * s) * slopes[next];
+  }
+  return sample;
+}
+
+Expected<Reference> reference_of(const Discrete& coarse, int refinements) {
+  Discrete fine = coarse;
+  for (int i = 0; i + 1 < refinements; ++i) fine = refined(fine);
+  auto before = finite_elements(fine);
+  Reference reference{refined(fine), {}, refinements, {}};
+  auto values = finite_elements(reference.fine);
+  if (!before || !values) {
+    return InputError{ErrorCode::invalid_option, "",
+                      "the problem has no solution by finite elements: its matrix is singular"};
+  }
+  before->resize(coarse.places.size());
+  reference.before = *std::move(before);
+  reference.values = *std::move(values);
+  return reference;
+}
+
+Equations at_vertices(const DiffusionSubject& s) {
+  Equations equations = without_matrix(s.discrete);
+  std::vector<bool> given;
+  for (const VertexId v : s.mesh.vertices()) {
+    given.push_back(equations.points.is_given(v.index));
+    equations.sources[v.index] = s.dec.star0[v] * s.discrete.source[v.index];
+  }
+  equations.points = vertex_system(s.dec, given);
+  for (const DecEdge& edge : s.dec.edges) {
+    const double flux = s.flux(edge).value_or(0);
+    equations.sources[edge.from.index] += edge.crossing * flux;
+    equations.sources[edge.to.index] += (edge.length - edge.crossing) * flux;
+  }
+  return equations;
+}
+
+Equations at_orthocenters(const DiffusionSubject& s, std::size_t& merged) {
   constexpr double kLargest = 1e10;  // over the median: more would take as many digits from all others
   std::vector<double> sizes;
   for (const double value : s.dec.transmissibility) {
     if (std::isfinite(value)) sizes.push_back(std::abs(value));
   }
   const double bound = kLargest * median_of(std::move(sizes));
-  PointSystem cells(std::vector<std::optional<double>>(s.mesh.n_triangles()));
+  IdVector<EdgeId, double> flux = s.dec.transmissibility;
+  std::vector<double> sources(s.mesh.n_triangles());
+  for (const TriangleId t : s.mesh.triangles()) {
+    for (const VertexId v : s.mesh.corners(t)) sources[t.index] += s.dec.areas[t] * s.discrete.source[v.index] / 3;
+  }
   for (std::size_t i = 0; i < s.dec.edges.size(); ++i) {
     const DecEdge& edge = s.dec.edges[EdgeId(i)];
-    const double flux = std::clamp(s.dec.transmissibility[EdgeId(i)], -bound, bound);
-    if (std::abs(flux) == bound) ++system.merged;
-    if (!edge.is_boundary()) {
-      cells.connect(edge.left.index, edge.right.index, flux);
-      continue;
-    }
-    const std::size_t t = (edge.left.valid() ? edge.left : edge.right).index;
-    const Side* const side = s.side(edge);
-    if (side != nullptr && side->value) cells.connect_to_value(t, *side->value, flux);
-    if (side != nullptr && side->flux) cells.add(t, edge.length * *side->flux);
+    double& c = flux[EdgeId(i)];
+    merged += std::abs(c) >= bound ? 1 : 0;
+    c = std::clamp(c, -bound, bound);
+    if (!edge.is_boundary()) continue;
+    const std::optional<double> value = s.value(edge);
+    if (!value) c = 0;
+    sources[inner_triangle(edge).index] += c * value.value_or(0) + edge.length * s.flux(edge).value_or(0);
   }
-  for (const TriangleId t : s.mesh.triangles()) {
-    double f = 0;
-    for (const VertexId v : s.mesh.corners(t)) f += s.discrete.source[v.index] / 3;
-    cells.add(t.index, s.dec.areas[t] * f);
-  }
-  return cells.solve(&system);
+  return {cell_system(s.dec, flux), std::move(sources), std::vector<double>(s.mesh.n_triangles())};
 }
 
-/// Errors relative to the reference: in L2 with these weights, and at most.
 ErrorNorms relative(const std::vector<double>& weights, const std::vector<double>& values,
                     const std::vector<double>& reference) {
   std::vector<double> errors(values.size());
@@ -281,9 +231,13 @@ ErrorNorms relative(const std::vector<double>& weights, const std::vector<double
 
 // --- checks ----------------------------------------------------------------------------------------------------------
 
+namespace {
+
 InputError refused(const std::string& message, std::string where = {}) {
   return {ErrorCode::invalid_option, std::move(where), message};
 }
+
+}  // namespace
 
 std::optional<InputError> check_problem(const Mesh& mesh, const DiffusionProblem& problem, int refinements,
                                         const InputNames& names) {
@@ -333,7 +287,7 @@ Discrete discrete_of(const Mesh& mesh, const DiffusionProblem& problem) {
   if (d.coefficient.empty()) d.coefficient.assign(mesh.n_triangles(), 1.0);
   d.source = problem.source;
   if (d.source.empty()) d.source.assign(mesh.n_vertices(), 0.0);
-  std::map<Pair, std::size_t> known;
+  std::map<VertexPair, std::size_t> known;
   for (const BoundaryValue& part : problem.boundary) {
     for (const auto& [a, b] : part.edges) {
       const auto [at, is_new] = known.emplace(sorted(a.index, b.index), d.sides.size());
@@ -348,7 +302,6 @@ Discrete discrete_of(const Mesh& mesh, const DiffusionProblem& problem) {
   return d;
 }
 
-}  // namespace
 }  // namespace error_detail
 
 Expected<DiffusionErrors> measure_diffusion_errors(const Mesh& mesh, const DiffusionProblem& problem, int refinements,
@@ -362,35 +315,30 @@ Expected<DiffusionErrors> measure_diffusion_errors(const Mesh& mesh, const Diffu
   if (!complex) return complex.error();
   const DiffusionSubject subject(mesh, coarse, *std::move(complex));
 
-  Discrete fine = coarse;
-  for (int i = 0; i + 1 < refinements; ++i) fine = refined(fine);
-  const auto before = finite_elements(fine);
-  Reference reference{refined(fine), {}, refinements};
-  auto values = finite_elements(reference.fine);
-  if (!before || !values)
-    return InputError{ErrorCode::invalid_option, "",
-                      "the problem has no solution by finite elements: its matrix is singular"};
-  reference.values = *std::move(values);
+  const Expected<Reference> reference = reference_of(coarse, refinements);
+  if (!reference) return reference.error();
 
   DiffusionErrors result;
   result.refinements = refinements;
-  const std::vector<double> at_vertices(reference.values.begin(),
-                                        reference.values.begin() + static_cast<std::ptrdiff_t>(mesh.n_vertices()));
-  const auto [least, largest] = std::minmax_element(at_vertices.begin(), at_vertices.end());
+  const std::vector<double> exact = reference->at_vertices(mesh.n_vertices());
+  const auto [least, largest] = std::minmax_element(exact.begin(), exact.end());
   result.least = *least, result.largest = *largest;
   std::vector<double> cells;
   for (const double area : subject.dec.star0) cells.push_back(std::abs(area));
-  const std::vector<double> last(before->begin(), before->begin() + static_cast<std::ptrdiff_t>(mesh.n_vertices()));
-  result.reference = relative(cells, last, at_vertices);
+  result.reference = relative(cells, reference->before, exact);
 
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   result.vertex = result.cell = {kInfinity, kInfinity};
-  if (const auto u = solve_at_vertices(subject, result.vertex_system)) result.vertex = relative(cells, *u, at_vertices);
-  if (const auto u = solve_at_orthocenters(subject, result.cell_system)) {
+  count_coefficients(subject.dec.star1, subject.dec, result.vertex_system);
+  count_coefficients(subject.dec.transmissibility, subject.dec, result.cell_system);
+  if (const auto u = solved(at_vertices(subject), result.vertex_system)) result.vertex = relative(cells, *u, exact);
+  if (const auto u = solved(at_orthocenters(subject, result.cell_system.merged), result.cell_system)) {
     const PointLocator locator(mesh);
     std::vector<double> there;
-    for (const TriangleId t : mesh.triangles())
-      there.push_back(reference.at(locator.find(subject.dec.orthocenters[t], t), mesh));
+    for (const TriangleId t : mesh.triangles()) {
+      const temper::Place place = locator.find(subject.dec.orthocenters[t], t);
+      there.push_back(reference->at(place.triangle.index, shares_of(place, mesh)).value);
+    }
     result.cell = relative(subject.dec.areas.raw(), *u, there);
   }
   return result;

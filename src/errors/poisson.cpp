@@ -11,19 +11,16 @@
 namespace temper::error_detail {
 namespace {
 
-constexpr std::size_t kGiven = static_cast<std::size_t>(-1);
-
-/// Inner vertices in their order; kGiven of those on the boundary, or of the first one if there is none.
-std::vector<std::size_t> number_inner_vertices(const Setting& s, std::size_t& count) {
-  const Mesh& mesh = s.mesh;
-  std::vector<std::size_t> unknowns(mesh.n_vertices(), kGiven);
+/// Values are given on the boundary, and at the first vertex if there is none. Isolated vertices have no equation.
+std::vector<bool> given_vertices(const Setting& s) {
+  std::vector<bool> given;
   bool skip = s.is_closed;
-  for (const VertexId v : mesh.vertices()) {
-    if (mesh.is_isolated(v) || mesh.is_boundary(v)) continue;
-    if (!skip) unknowns[v.index] = count++;
-    skip = false;
+  for (const VertexId v : s.mesh.vertices()) {
+    const bool is_inside = !s.mesh.is_isolated(v) && !s.mesh.is_boundary(v);
+    given.push_back(!is_inside || skip);
+    if (is_inside) skip = false;
   }
-  return unknowns;
+  return given;
 }
 
 /// The deficit of ★0 f per area: on a closed mesh the sum must be zero.
@@ -37,46 +34,26 @@ double surplus(const Setting& s, const Field& field) {
   return sum / area;
 }
 
-std::vector<double> right_side(const Setting& s, const Field& field, const std::vector<std::size_t>& unknowns,
-                               std::size_t count) {
-  std::vector<double> right(count, 0.0);
-  std::vector<double> given(unknowns.size(), 0.0);
+std::vector<double> right_side(const Setting& s, const Field& field, const PointSystem& points) {
+  std::vector<double> sources, values;
   const double mean = surplus(s, field);
   for (const VertexId v : s.mesh.vertices()) {
     const FieldValue value = field.at(s.vertex(v));
-    given[v.index] = value.u;
-    if (unknowns[v.index] == kGiven) continue;
-    right[unknowns[v.index]] = -s.area_in_frame(s.dec.star0[v]) * (value.laplacian - mean);
+    values.push_back(value.u);
+    sources.push_back(-s.area_in_frame(s.dec.star0[v]) * (value.laplacian - mean));
   }
-  for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
-    const auto& edge = s.dec.edges[EdgeId(e)];
-    const std::size_t i = unknowns[edge.from.index], j = unknowns[edge.to.index];
-    if (i != kGiven && j == kGiven) right[i] += s.dec.star1[EdgeId(e)] * given[edge.to.index];
-    if (j != kGiven && i == kGiven) right[j] += s.dec.star1[EdgeId(e)] * given[edge.from.index];
-  }
-  return right;
+  return points.right_side(sources, values);
 }
 
-void assemble(const Setting& s, const std::vector<std::size_t>& unknowns, LinearSystem& linear, ErrorSystem& system) {
-  for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
-    const std::size_t i = unknowns[s.dec.edges[EdgeId(e)].from.index], j = unknowns[s.dec.edges[EdgeId(e)].to.index];
-    if (i == kGiven && j == kGiven) continue;
-    const double star1 = s.dec.star1[EdgeId(e)];
-    if (star1 < 0) ++system.negative;
-    if (i != kGiven) linear.lower.push_back({i, i, star1});
-    if (j != kGiven) linear.lower.push_back({j, j, star1});
-    if (i != kGiven && j != kGiven) linear.lower.push_back({std::max(i, j), std::min(i, j), -star1});
-  }
-}
-
-ErrorNorms poisson_norms(const Setting& s, const Field& field, const std::vector<std::size_t>& unknowns,
+ErrorNorms poisson_norms(const Setting& s, const Field& field, const PointSystem& points,
                          const std::vector<double>& solution) {
-  std::vector<double> weights, errors;
+  std::vector<double> exact, values, weights, errors;
+  for (const VertexId v : s.mesh.vertices()) exact.push_back(field.at(s.vertex(v)).u);
+  points.put(solution, values = exact);
   for (const VertexId v : s.mesh.vertices()) {
-    const std::size_t unknown = unknowns[v.index];
-    if (unknown == kGiven && (!s.is_closed || s.mesh.is_isolated(v))) continue;
+    if (points.is_given(v.index) && (!s.is_closed || s.mesh.is_isolated(v))) continue;
     weights.push_back(std::abs(s.area_in_frame(s.dec.star0[v])));
-    errors.push_back(unknown == kGiven ? 0 : solution[unknown] - field.at(s.vertex(v)).u);
+    errors.push_back(values[v.index] - exact[v.index]);
   }
   if (s.is_closed) forget_constant(weights, errors);
   const ErrorNorms norms = norms_of(weights, errors);
@@ -92,28 +69,55 @@ void forget_constant(const std::vector<double>& weights, std::vector<double>& er
   for (double& error : errors) error -= sum / weight;
 }
 
+PointSystem vertex_system(const DecComplex& dec, const std::vector<bool>& given) {
+  PointSystem points(given);
+  for (std::size_t e = 0; e < dec.edges.size(); ++e) {
+    points.connect(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index, dec.star1[EdgeId(e)]);
+  }
+  return points;
+}
+
+PointSystem cell_system(const DecComplex& dec, const IdVector<EdgeId, double>& flux) {
+  PointSystem points(std::vector<bool>(dec.areas.size(), false));
+  for (std::size_t i = 0; i < dec.edges.size(); ++i) {
+    const DecEdge& edge = dec.edges[EdgeId(i)];
+    if (edge.is_boundary()) {
+      points.connect_outside(inner_triangle(edge).index, flux[EdgeId(i)]);
+    } else {
+      points.connect(edge.left.index, edge.right.index, flux[EdgeId(i)]);
+    }
+  }
+  return points;
+}
+
+void describe(const LinearSystem& linear, const LinearSolution& solution, ErrorSystem& system) {
+  system.unknowns = linear.unknowns;
+  system.m_matrix = system.negative == 0 && !solution.singular;
+  system.definite = solution.definite;
+  system.singular = solution.singular;
+  system.condition = solution.condition;
+}
+
 SchemeErrors poisson_errors(const Setting& s, const std::vector<Field>& fields, bool condition) {
-  SchemeErrors result;
-  LinearSystem linear;
-  const std::vector<std::size_t> unknowns = number_inner_vertices(s, linear.unknowns);
-  assemble(s, unknowns, linear, result.system);
-  for (const Field& field : fields) linear.right_sides.push_back(right_side(s, field, unknowns, linear.unknowns));
+  const PointSystem points = vertex_system(s.dec, given_vertices(s));
+  LinearSystem linear = {points.n_unknowns(), points.lower(), {}};
+  for (const Field& field : fields) linear.right_sides.push_back(right_side(s, field, points));
   const LinearSolution solution = solve(linear, condition);
 
+  SchemeErrors result;
   std::vector<double> inside;
   for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
-    if (!s.dec.edges[EdgeId(e)].is_boundary()) inside.push_back(std::abs(s.dec.star1[EdgeId(e)]));
+    const DecEdge& edge = s.dec.edges[EdgeId(e)];
+    const double star1 = s.dec.star1[EdgeId(e)];
+    if (!edge.is_boundary()) inside.push_back(std::abs(star1));
+    if (star1 < 0 && !(points.is_given(edge.from.index) && points.is_given(edge.to.index))) ++result.system.negative;
   }
-  result.system.unknowns = linear.unknowns;
-  result.system.m_matrix = result.system.negative == 0 && !solution.singular;
-  result.system.definite = solution.definite;
-  result.system.singular = solution.singular;
+  describe(linear, solution, result.system);
   result.system.largest_over_median = largest_over_median(std::move(inside));
-  result.system.condition = solution.condition;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const double infinity = std::numeric_limits<double>::infinity();
     result.fields.push_back(solution.singular ? ErrorNorms{infinity, infinity}
-                                              : poisson_norms(s, fields[i], unknowns, solution.solutions[i]));
+                                              : poisson_norms(s, fields[i], points, solution.solutions[i]));
   }
   return result;
 }
@@ -127,7 +131,6 @@ SchemeErrors poisson_errors(const Setting& s, const std::vector<Field>& fields, 
 
 namespace {
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 // The dual length relative to the edge's: a coefficient beyond 1e10 would take as many digits from all others.
 constexpr double kCoincident = 1e-10;
 
@@ -140,13 +143,11 @@ std::size_t root_of(std::vector<std::size_t>& parents, std::size_t i) {
   return i;
 }
 
-TriangleId inner_triangle(const DecEdge& edge) { return edge.left.valid() ? edge.left : edge.right; }
-
 }  // namespace
 
-FluxScheme::FluxScheme(const Setting& setting) : setting_(setting) {
+FluxScheme::FluxScheme(const Setting& setting) : setting_(setting), points_({}) {
   merge();
-  number();
+  points_ = PointSystem(given_groups());
   assemble();
 }
 
@@ -166,7 +167,7 @@ void FluxScheme::merge() {
   for (std::size_t t = 0; t < groups_.size(); ++t) groups_[t] = root_of(groups_, t);
 }
 
-void FluxScheme::number() {
+std::vector<bool> FluxScheme::given_groups() {
   std::vector<bool> given(groups_.size(), false);
   given_at_.resize(groups_.size(), Place(0, 0));
   for (std::size_t e = 0; e < setting_.dec.edges.size(); ++e) {
@@ -180,10 +181,8 @@ void FluxScheme::number() {
     given[0] = true;
     given_at_[0] = setting_.orthocenter(TriangleId(0));
   }
-  unknowns_.assign(groups_.size(), kNone);
-  for (std::size_t t = 0; t < groups_.size(); ++t) {
-    if (groups_[t] == t && !given[t]) unknowns_[t] = linear_.unknowns++;
-  }
+  for (std::size_t t = 0; t < groups_.size(); ++t) given[t] = given[t] || groups_[t] != t;
+  return given;
 }
 
 void FluxScheme::assemble() {
@@ -195,63 +194,55 @@ void FluxScheme::assemble() {
     if (!edge.is_boundary()) inside.push_back(std::abs(flux));
     if (flux < 0) ++system_.negative;
     if (coincident(edge)) continue;
-    const std::size_t a = unknowns_[group(inner_triangle(edge))];
-    const std::size_t b = edge.is_boundary() ? kNone : unknowns_[group(edge.right)];
-    if (a == b) continue;  // both given; or merged by other edges, so that nothing flows between them
-    if (a != kNone) linear_.lower.push_back({a, a, flux});
-    if (b != kNone) linear_.lower.push_back({b, b, flux});
-    if (a != kNone && b != kNone) linear_.lower.push_back({std::max(a, b), std::min(a, b), -flux});
+    const std::size_t a = group(inner_triangle(edge));
+    if (edge.is_boundary()) {
+      points_.connect_outside(a, flux);
+    } else if (a != group(edge.right)) {  // else merged by other edges, so that nothing flows between them
+      points_.connect(a, group(edge.right), flux);
+    }
   }
-  system_.unknowns = linear_.unknowns;
-  system_.m_matrix = system_.negative == 0;
   system_.largest_over_median = largest_over_median(std::move(inside));
 }
 
 void FluxScheme::add_field(const Field& field, const IdVector<EdgeId, EdgeMeans>& means) {
-  std::vector<double> right(linear_.unknowns, 0.0);
-  const auto add = [&](TriangleId t, double value) {
-    if (const std::size_t i = unknowns_[group(t)]; i != kNone) right[i] += value;
-  };
-  const auto given = [&](TriangleId t) { return field.at(given_at_[group(t)]).u; };
+  std::vector<double> sources(groups_.size(), 0.0);
   for (std::size_t e = 0; e < means.size(); ++e) {
     const DecEdge& edge = setting_.dec.edges[EdgeId(e)];
     // ∫ f = −∮ ∇u · n, and n points to the right of the edge out of the triangle on its left.
     const Vec2 left = turned_left(direction(setting_, edge));
     const double flow = setting_.length_in_frame(edge.length) * dot(means[EdgeId(e)].gradient, left);
-    if (edge.left.valid()) add(edge.left, flow);
-    if (edge.right.valid()) add(edge.right, -flow);
-    if (coincident(edge)) continue;
-    const double coefficient = setting_.dec.transmissibility[EdgeId(e)];
-    if (edge.is_boundary()) {
-      add(inner_triangle(edge), coefficient * field.at(setting_.midpoint(EdgeId(e))).u);
-      continue;
-    }
-    if (unknowns_[group(edge.right)] == kNone) add(edge.left, coefficient * given(edge.right));
-    if (unknowns_[group(edge.left)] == kNone) add(edge.right, coefficient * given(edge.left));
+    if (edge.left.valid()) sources[group(edge.left)] += flow;
+    if (edge.right.valid()) sources[group(edge.right)] -= flow;
+    if (coincident(edge) || !edge.is_boundary()) continue;
+    const double value = field.at(setting_.midpoint(EdgeId(e))).u;
+    sources[group(inner_triangle(edge))] += setting_.dec.transmissibility[EdgeId(e)] * value;
   }
-  linear_.right_sides.push_back(std::move(right));
+  right_sides_.push_back(points_.right_side(sources, given_values(field)));
   fields_.push_back(field);
 }
 
+std::vector<double> FluxScheme::given_values(const Field& field) const {
+  std::vector<double> values;
+  for (const Place& place : given_at_) values.push_back(field.at(place).u);
+  return values;
+}
+
 SchemeErrors FluxScheme::solve(bool condition) {
-  const LinearSolution solution = error_detail::solve(linear_, condition);
+  const LinearSystem linear = {points_.n_unknowns(), points_.lower(), std::move(right_sides_)};
+  const LinearSolution solution = error_detail::solve(linear, condition);
   SchemeErrors result = {system_, {}};
-  result.system.m_matrix = system_.m_matrix && !solution.singular;
-  result.system.definite = solution.definite;
-  result.system.singular = solution.singular;
-  result.system.condition = solution.condition;
+  describe(linear, solution, result.system);
   const double infinity = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     if (solution.singular) {
       result.fields.push_back({infinity, infinity});
       continue;
     }
-    std::vector<double> weights, errors;
+    std::vector<double> weights, errors, values = given_values(fields_[f]);
+    points_.put(solution.solutions[f], values);
     for (const TriangleId t : setting_.mesh.triangles()) {
-      const std::size_t i = unknowns_[group(t)];
       weights.push_back(setting_.area_in_frame(setting_.dec.areas[t]));
-      const double value = i != kNone ? solution.solutions[f][i] : fields_[f].at(given_at_[group(t)]).u;
-      errors.push_back(value - fields_[f].at(setting_.orthocenter(t)).u);
+      errors.push_back(values[group(t)] - fields_[f].at(setting_.orthocenter(t)).u);
     }
     if (setting_.is_closed) forget_constant(weights, errors);
     const ErrorNorms norms = norms_of(weights, errors);

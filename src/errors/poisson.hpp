@@ -17,6 +17,13 @@ struct SchemeErrors {
   std::vector<ErrorNorms> fields;
 };
 
+/// The matrix d0ᵀ ★1 d0 at the vertices.
+[[nodiscard]] PointSystem vertex_system(const DecComplex& dec, const std::vector<bool>& given);
+/// The matrix of the two-point flux at the orthocenters. Boundary edges lead outside.
+[[nodiscard]] PointSystem cell_system(const DecComplex& dec, const IdVector<EdgeId, double>& flux);
+/// What a solution says about its system, whose negative coefficients are counted.
+void describe(const LinearSystem& linear, const LinearSolution& solution, ErrorSystem& system);
+
 /// Vertex-centered: d0ᵀ ★1 d0 u = ★0 f at inner vertices, f at the vertex. u is given at boundary vertices.
 [[nodiscard]] SchemeErrors poisson_errors(const Setting& setting, const std::vector<Field>& fields, bool condition);
 
@@ -33,16 +40,17 @@ class FluxScheme {
 
  private:
   void merge();
-  void number();
+  [[nodiscard]] std::vector<bool> given_groups();
   void assemble();
   [[nodiscard]] bool coincident(const DecEdge& edge) const;
   [[nodiscard]] std::size_t group(TriangleId t) const { return groups_[t.index]; }
+  [[nodiscard]] std::vector<double> given_values(const Field& field) const;  // of groups that have one
 
   const Setting& setting_;
-  std::vector<std::size_t> groups_;    // triangle → the group of coinciding orthocenters that it is in
-  std::vector<std::size_t> unknowns_;  // group → its unknown, or kGiven
-  std::vector<Place> given_at_;        // group → the boundary point that gives its value
-  LinearSystem linear_;
+  std::vector<std::size_t> groups_;  // triangle → the group of coinciding orthocenters that it is in, by its first
+  std::vector<Place> given_at_;      // group → the boundary point that gives its value
+  PointSystem points_;               // groups
+  std::vector<std::vector<double>> right_sides_;
   std::vector<Field> fields_;
   ErrorSystem system_;
 };

@@ -213,4 +213,38 @@ LinearSolution solve(const LinearSystem& system, bool with_condition) {
   return result;
 }
 
+PointSystem::PointSystem(const std::vector<bool>& given) {
+  for (const bool is : given) unknowns_.push_back(is ? kGiven : n_unknowns_++);
+}
+
+void PointSystem::connect(std::size_t i, std::size_t j, double c) {
+  for (const auto& [here, there] : {std::pair(i, j), std::pair(j, i)}) {
+    if (is_given(here)) continue;
+    connect_outside(here, c);
+    if (is_given(there)) from_given_.push_back({unknowns_[here], there, c});
+  }
+  if (is_given(i) || is_given(j)) return;
+  lower_.push_back({std::max(unknowns_[i], unknowns_[j]), std::min(unknowns_[i], unknowns_[j]), -c});
+}
+
+void PointSystem::connect_outside(std::size_t i, double c) {
+  if (!is_given(i)) lower_.push_back({unknowns_[i], unknowns_[i], c});
+}
+
+std::vector<double> PointSystem::right_side(const std::vector<double>& sources,
+                                            const std::vector<double>& values) const {
+  std::vector<double> right(n_unknowns_);
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    if (!is_given(i)) right[unknowns_[i]] = sources[i];
+  }
+  for (const auto& [unknown, given, c] : from_given_) right[unknown] += c * values[given];
+  return right;
+}
+
+void PointSystem::put(const std::vector<double>& solution, std::vector<double>& values) const {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!is_given(i)) values[i] = solution[unknowns_[i]];
+  }
+}
+
 }  // namespace temper::error_detail

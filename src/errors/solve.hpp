@@ -44,4 +44,36 @@ class Cholesky {
   std::shared_ptr<const Factors> factors_;
 };
 
+/// Equations Σ c_ij (u_i − u_j) = b_i at points. Some points have given values, and the others are unknowns.
+class PointSystem {
+ public:
+  explicit PointSystem(const std::vector<bool>& given);
+
+  /// Adds a flux c (u_i − u_j) between two points.
+  void connect(std::size_t i, std::size_t j, double c);
+  /// Adds a flux c (u_i − value) to the outside. The sources of i must have c value.
+  void connect_outside(std::size_t i, double c);
+
+  [[nodiscard]] bool is_given(std::size_t i) const { return unknowns_[i] == kGiven; }
+  [[nodiscard]] std::size_t n_unknowns() const { return n_unknowns_; }
+  [[nodiscard]] const std::vector<MatrixEntry>& lower() const { return lower_; }
+  /// The numbers at the unknowns: sources, and fluxes from given values. Both have one number per point.
+  [[nodiscard]] std::vector<double> right_side(const std::vector<double>& sources,
+                                               const std::vector<double>& values) const;
+  /// Replaces the values at the unknowns by those of a solution.
+  void put(const std::vector<double>& solution, std::vector<double>& values) const;
+
+ private:
+  static constexpr std::size_t kGiven = static_cast<std::size_t>(-1);
+  struct FromGiven {
+    std::size_t unknown, given;
+    double c;
+  };
+
+  std::size_t n_unknowns_ = 0;
+  std::vector<std::size_t> unknowns_;  // of each point, or kGiven
+  std::vector<MatrixEntry> lower_;
+  std::vector<FromGiven> from_given_;
+};
+
 }  // namespace temper::error_detail

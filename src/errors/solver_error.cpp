@@ -14,8 +14,9 @@
 #include "base/rng.hpp"
 #include "base/sine_cosine.hpp"
 #include "errors/adjoint.hpp"
+#include "errors/diffusion.hpp"
 #include "errors/fields.hpp"
-#include "errors/solve.hpp"
+#include "errors/poisson.hpp"
 #include "temper/dec.hpp"
 #include "temper/detail/discretization_error.hpp"
 #include "temper/errors.hpp"
@@ -26,7 +27,6 @@ namespace {
 
 constexpr double kLeastWaveNumber = 1, kMostWaveNumber = 4;
 constexpr std::size_t kBatch = 8;  // waves that a task takes: each has derivatives of its own to add up
-constexpr std::size_t kGivenValue = static_cast<std::size_t>(-1);
 
 /// sin(k · p + phase), in the coordinates of the mesh.
 struct Wave {
@@ -64,7 +64,11 @@ struct ErrorSubject {
 /// A scheme on a mesh, its matrix factored.
 class Solver {
  public:
-  Solver(const ErrorSubject& subject, double half_size) : s_(subject), half_size_(half_size) {}
+  Solver(const ErrorSubject& subject, double half_size, PointSystem points)
+      : s_(subject),
+        half_size_(half_size),
+        points_(std::move(points)),
+        matrix_(Cholesky::of(points_.n_unknowns(), points_.lower())) {}
   virtual ~Solver() = default;
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
@@ -74,17 +78,25 @@ class Solver {
   [[nodiscard]] virtual double error(const Wave& wave, Adjoint* by) const = 0;
 
  protected:
-  void factor(std::size_t unknowns, const std::vector<MatrixEntry>& lower) { matrix_ = Cholesky::of(unknowns, lower); }
-  [[nodiscard]] std::vector<double> solved(std::vector<double> right) const {
+  /// The solution at all points, with these values where they are given.
+  [[nodiscard]] std::vector<double> solved(const std::vector<double>& sources, std::vector<double> values) const {
+    std::vector<double> right = points_.right_side(sources, values);
     matrix_->solve(right);
-    return right;
+    points_.put(right, values);
+    return values;
+  }
+  /// The solution that is 0 at given points.
+  [[nodiscard]] std::vector<double> solved(const std::vector<double>& sources) const {
+    return solved(sources, std::vector<double>(sources.size(), 0.0));
   }
   [[nodiscard]] const ErrorSubject& subject() const { return s_; }
+  [[nodiscard]] const PointSystem& points() const { return points_; }
   [[nodiscard]] double factor_of(const Wave& wave) const { return s_.factor(wave, half_size_); }
 
  private:
   const ErrorSubject& s_;
   double half_size_;
+  PointSystem points_;
   std::optional<Cholesky> matrix_;
 };
 
@@ -93,88 +105,56 @@ class Solver {
 class VertexSolver final : public Solver {
  public:
   VertexSolver(const ErrorSubject& s, double half_size)
-      : Solver(s, half_size), unknown_(s.mesh.n_vertices(), kGivenValue) {
-    std::size_t n = 0;
-    for (const VertexId v : s.mesh.vertices()) {
-      if (!s.mesh.is_isolated(v) && !s.mesh.is_boundary(v)) unknown_[v] = n++, inner_.push_back(v);
-    }
-    std::vector<MatrixEntry> lower;
-    for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
-      const std::size_t i = unknown_[s.dec.edges[EdgeId(e)].from], j = unknown_[s.dec.edges[EdgeId(e)].to];
-      const double star1 = s.dec.star1[EdgeId(e)];
-      if (i != kGivenValue) lower.push_back({i, i, star1});
-      if (j != kGivenValue) lower.push_back({j, j, star1});
-      if (i != kGivenValue && j != kGivenValue) lower.push_back({std::max(i, j), std::min(i, j), -star1});
-    }
-    factor(n, lower);
-  }
+      : Solver(s, half_size, vertex_system(s.dec, given_vertices(s.mesh))) {}
 
   [[nodiscard]] double error(const Wave& wave, Adjoint* by) const override {
     const auto& [mesh, dec, waves, area] = subject();
-    std::vector<double> right(inner_.size());
-    for (std::size_t i = 0; i < inner_.size(); ++i) {
-      right[i] = dec.star0[inner_[i]] * wave.source(mesh.position(inner_[i]));
+    std::vector<double> sources(mesh.n_vertices()), exact(mesh.n_vertices());
+    for (const VertexId v : mesh.vertices()) {
+      exact[v.index] = wave.at(mesh.position(v));
+      sources[v.index] = dec.star0[v] * wave.source(mesh.position(v));
     }
-    IdVector<VertexId, double> value(mesh.n_vertices(), 0.0), adjoint(mesh.n_vertices(), 0.0);
-    for (const VertexId v : mesh.vertices()) value[v] = unknown_[v] == kGivenValue ? wave.at(mesh.position(v)) : 0;
-    for (std::size_t e = 0; e < dec.edges.size(); ++e) {
-      const auto& [from, to] = std::pair(dec.edges[EdgeId(e)].from, dec.edges[EdgeId(e)].to);
-      const std::size_t i = unknown_[from], j = unknown_[to];
-      if (i != kGivenValue && j == kGivenValue) right[i] += dec.star1[EdgeId(e)] * value[to];
-      if (j != kGivenValue && i == kGivenValue) right[j] += dec.star1[EdgeId(e)] * value[from];
-    }
-    const std::vector<double> solution = solved(std::move(right));
+    const std::vector<double> value = solved(sources, exact);
     const double c = factor_of(wave);
     double sum = 0;
-    std::vector<double> force(inner_.size());
-    for (std::size_t i = 0; i < inner_.size(); ++i) {
-      const double e = solution[i] - wave.at(mesh.position(inner_[i])), m = dec.star0[inner_[i]];
+    std::vector<double> force(mesh.n_vertices());
+    for (const VertexId v : mesh.vertices()) {
+      if (points().is_given(v.index)) continue;
+      const double e = value[v.index] - exact[v.index], m = dec.star0[v];
       sum += c * m * e * e;
-      force[i] = 2 * c * m * e;
+      force[v.index] = 2 * c * m * e;
     }
     if (by == nullptr) return sum;
     const std::vector<double> lambda = solved(force);
-    for (std::size_t i = 0; i < inner_.size(); ++i) {
-      const VertexId v = inner_[i];
-      const Vec2 p = mesh.position(v);
-      const double k2 = squared_length(wave.k), u = wave.at(p), e = solution[i] - u;
-      by->star0[v] += c * e * e + lambda[i] * k2 * u;
-      by->vertex[v] = by->vertex[v] + (lambda[i] * dec.star0[v] * k2 - force[i]) * wave.gradient(p);
-      value[v] = solution[i];
-      adjoint[v] = lambda[i];
+    for (const VertexId v : mesh.vertices()) {
+      if (points().is_given(v.index)) continue;
+      const double k2 = squared_length(wave.k), u = exact[v.index], e = value[v.index] - u;
+      by->star0[v] += c * e * e + lambda[v.index] * k2 * u;
+      by->vertex[v] =
+          by->vertex[v] + (lambda[v.index] * dec.star0[v] * k2 - force[v.index]) * wave.gradient(mesh.position(v));
     }
-    for (std::size_t e = 0; e < dec.edges.size(); ++e) {
-      const auto& [from, to] = std::pair(dec.edges[EdgeId(e)].from, dec.edges[EdgeId(e)].to);
-      by->star1[EdgeId(e)] -= (adjoint[from] - adjoint[to]) * (value[from] - value[to]);
-    }
+    by->add_star1(dec, value, lambda);
     return sum;
   }
 
  private:
-  IdVector<VertexId, std::size_t> unknown_;
-  std::vector<VertexId> inner_;
+  static std::vector<bool> given_vertices(const Mesh& mesh) {
+    std::vector<bool> given;
+    for (const VertexId v : mesh.vertices()) given.push_back(mesh.is_isolated(v) || mesh.is_boundary(v));
+    return given;
+  }
 };
 
 // --- unknowns at the orthocenters: Σ ℓ/D (u_k − u_l) = ∫ f -----------------------------------------------------------
 
 class CellSolver final : public Solver {
  public:
-  CellSolver(const ErrorSubject& s, double half_size) : Solver(s, half_size) {
-    std::vector<MatrixEntry> lower;
-    for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
-      const DecEdge& edge = s.dec.edges[EdgeId(e)];
-      const double flux = s.dec.transmissibility[EdgeId(e)];
-      const std::size_t k = edge.left.index, l = edge.right.index;
-      if (edge.left.valid()) lower.push_back({k, k, flux});
-      if (edge.right.valid()) lower.push_back({l, l, flux});
-      if (!edge.is_boundary()) lower.push_back({std::max(k, l), std::min(k, l), -flux});
-    }
-    factor(s.mesh.n_triangles(), lower);
-  }
+  CellSolver(const ErrorSubject& s, double half_size)
+      : Solver(s, half_size, cell_system(s.dec, s.dec.transmissibility)) {}
 
   [[nodiscard]] double error(const Wave& wave, Adjoint* by) const override {
     const auto& [mesh, dec, waves, area] = subject();
-    const std::vector<double> solution = solved(right_side(wave));
+    const std::vector<double> solution = solved(sources(wave));
     const double c = factor_of(wave);
     double sum = 0;
     std::vector<double> force(solution.size());
@@ -191,12 +171,13 @@ class CellSolver final : public Solver {
       by->area[t] += c * e * e;
       by->orthocenter[t] = by->orthocenter[t] - force[t.index] * wave.gradient(o);
     }
+    by->add_flux(dec, solution, lambda);
     for (std::size_t i = 0; i < dec.edges.size(); ++i) add_edge(EdgeId(i), wave, solution, lambda, *by);
     return sum;
   }
 
  private:
-  [[nodiscard]] std::vector<double> right_side(const Wave& wave) const {
+  [[nodiscard]] std::vector<double> sources(const Wave& wave) const {
     const auto& [mesh, dec, waves, area] = subject();
     std::vector<double> right(mesh.n_triangles(), 0.0);
     for (std::size_t i = 0; i < dec.edges.size(); ++i) {
@@ -204,12 +185,11 @@ class CellSolver final : public Solver {
       const double flow = wave.flow_to_left(mesh.position(edge.from), mesh.position(edge.to));
       if (edge.left.valid()) right[edge.left.index] += flow;
       if (edge.right.valid()) right[edge.right.index] -= flow;
-      if (edge.is_boundary()) right[inner(edge).index] += dec.transmissibility[EdgeId(i)] * wave.at(edge.midpoint);
+      if (edge.is_boundary())
+        right[inner_triangle(edge).index] += dec.transmissibility[EdgeId(i)] * wave.at(edge.midpoint);
     }
     return right;
   }
-
-  [[nodiscard]] static TriangleId inner(const DecEdge& edge) { return edge.left.valid() ? edge.left : edge.right; }
 
   void add_edge(EdgeId id, const Wave& wave, const std::vector<double>& solution, const std::vector<double>& lambda,
                 Adjoint& by) const {
@@ -217,13 +197,12 @@ class CellSolver final : public Solver {
     const DecEdge& edge = dec.edges[id];
     const Vec2 a = mesh.position(edge.from), b = mesh.position(edge.to), e = b - a;
     if (edge.is_boundary()) {
-      const std::size_t k = inner(edge).index;
+      const std::size_t k = inner_triangle(edge).index;
       by.transmissibility[id] -= lambda[k] * (solution[k] - wave.at(edge.midpoint));
       by.crossing[id] += lambda[k] * dec.transmissibility[id] * dot(wave.gradient(edge.midpoint), e) / edge.length;
       return;
     }
     const double difference = lambda[edge.left.index] - lambda[edge.right.index];
-    by.transmissibility[id] -= difference * (solution[edge.left.index] - solution[edge.right.index]);
     // ∫ f over the triangle on the left grows by f times the way if the edge moves to the right.
     const Vec2 right = difference * Vec2{e.y, -e.x};
     along_segment(a, b, [&](Vec2 p, double weight) {
@@ -323,6 +302,9 @@ Expected<std::shared_ptr<const DiscretizationError>> make_discretization_error(
         "`objective=solver_error` is for a scheme that solves, and stars solve nothing; expected `scheme=vertex`, "
         "`scheme=cell` "
         "or `scheme=all`");
+  }
+  if (options.problem != nullptr) {
+    return error_detail::make_problem_error(mesh, *options.problem, options.scheme, options.names);
   }
   if (options.fields == 0) return refused("errors are averaged over no field; expected one at least");
   return std::shared_ptr<const DiscretizationError>(std::make_shared<error_detail::SolverErrorModel>(options));

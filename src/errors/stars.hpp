@@ -43,6 +43,9 @@ struct Setting {
 /// +1 where the domain is on the left of a boundary edge, −1 where it is on the right.
 inline double inner_side(const DecEdge& edge) { return edge.left.valid() ? 1 : -1; }
 
+/// The triangle at a boundary edge.
+inline TriangleId inner_triangle(const DecEdge& edge) { return edge.left.valid() ? edge.left : edge.right; }
+
 /// Unit vector from `from` to `to`, in the coordinates of the edge's means: x and y of the plane, or on the sphere
 /// along the edge and to its left.
 inline Vec2 direction(const Setting& setting, const DecEdge& edge) {

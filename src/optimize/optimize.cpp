@@ -104,6 +104,7 @@ std::optional<InputError> check_metric(const OptimizeOptions& options, const Opt
     return InputError{ErrorCode::invalid_option, {}, std::string("a tensor cannot go with ") + what};
   };
   if (options.size_field) return refused("`size_field`: sizes are lengths of the plane of the mesh");
+  if (options.problem) return refused("a problem, whose coefficients are numbers");
   if (hooks.tracer) return refused("a trace: its events would be in the plane of the metric");
   return std::nullopt;
 }

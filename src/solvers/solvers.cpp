@@ -15,8 +15,9 @@ Solvers solvers() {
   all.lp = [] { return clp_solver(); };
 #endif
 #ifdef TEMPER_WITH_ERRORS
-  all.discretization_error = [](const Mesh& mesh, Scheme scheme) {
-    return make_discretization_error(mesh, {.scheme = scheme});
+  all.discretization_error = [](const Mesh& mesh, const OptimizeOptions& options, const InputNames* names) {
+    const DiffusionProblem* const problem = options.problem ? &*options.problem : nullptr;
+    return make_discretization_error(mesh, {.scheme = options.scheme, .problem = problem, .names = names});
   };
 #endif
   return all;

@@ -99,6 +99,18 @@ def test_a_problem_of_the_user_is_measured_by_the_names_of_its_boundary():
     assert max(errors.vertex.max, errors.cell.max, errors.reference.max) < 1e-10, "linear on both sides"
     flux = temper.measure_diffusion_errors(mesh, dirichlet={3: 0.0}, neumann={2: 2.0}, coefficient={7: 1.0, 8: 10.0})
     assert flux.largest == pytest.approx(2.2) and flux.cell.max < 1e-10
+    problem = {"dirichlet": {3: 0.0, 2: 1.1}, "coefficient": {7: 1.0, 8: 10.0}, "source": 3.0}
+    general, special = mesh.copy(), mesh.copy()
+    temper.optimize(general, target="cell")
+    report = temper.optimize(special, target="cell", options={"problem": problem})
+    assert report.objective == "solver_error" and report.objective_after < report.objective_before
+    errors = [temper.measure_diffusion_errors(m, **problem).cell.l2 for m in (mesh, general, special)]
+    assert errors[2] < 0.5 * min(errors[:2])
+    with pytest.raises(temper.TemperError, match="expected the target vertex or cell"):
+        temper.optimize(special, options={"problem": problem})
+    with pytest.warns(temper.TemperWarning, match="the coefficient jumps across"):
+        uneven = {**problem, "coefficient": 1.0 + np.arange(mesh.n_triangles) % 2}
+        temper.optimize(mesh.copy(), target="cell", options={"problem": uneven, "solver_error_steps": 1})
     with pytest.raises(ValueError, match="no boundary edge has the name or tag 'sea'"):
         temper.measure_diffusion_errors(mesh, dirichlet={"sea": 0.0})
     with pytest.raises(temper.TemperError, match="known up to a constant"):

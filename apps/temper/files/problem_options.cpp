@@ -109,6 +109,9 @@ std::vector<double> read_coefficient(const Command& command, const std::string& 
   return text.find('=') == std::string::npos ? from_data(command, text, input) : from_regions(command, text, input);
 }
 
+namespace {
+
+/// The number for all vertices, or the point data of that name; empty if the text is. Failure if there are none.
 std::vector<double> read_source(const Command& command, const std::string& text, const Input& input) {
   if (text.empty()) return {};
   if (const auto number = parse_number(text)) {
@@ -123,10 +126,11 @@ std::vector<double> read_source(const Command& command, const std::string& text,
                                              names.empty() ? "the file has no data" : "there are " + join(names)));
 }
 
-std::vector<NamedValue> read_boundary_values(const Command& command, const std::string& option, const std::string& text,
-                                             const Input& input) {
-  std::vector<NamedValue> values;
-  if (text.empty()) return values;
+/// Adds the parts of a text NAME=VALUE,…; "boundary" is all of it.
+void add_boundary_values(const Command& command, bool is_flux, const std::string& text, const Input& input,
+                         std::vector<BoundaryValue>& values) {
+  if (text.empty()) return;
+  const std::string option = is_flux ? "--neumann" : "--dirichlet";
   const Mesh& mesh = input.mesh();
   const auto on_boundary = [&mesh](VertexId a, VertexId b) {
     const HalfedgeId h = mesh.find_halfedge(a, b), other = mesh.find_halfedge(b, a);
@@ -134,7 +138,7 @@ std::vector<NamedValue> read_boundary_values(const Command& command, const std::
   };
   for (const std::string& entry : separated(text)) {
     const auto [name, value] = name_and_value(command, option, entry);
-    NamedValue part{name, value, {}};
+    BoundaryValue part{{}, value, is_flux};
     if (name == "boundary") {
       for (const HalfedgeId h : mesh.halfedges()) {
         if (mesh.is_boundary(h)) part.edges.push_back({mesh.origin(h), mesh.target(h)});
@@ -157,7 +161,33 @@ std::vector<NamedValue> read_boundary_values(const Command& command, const std::
     }
     values.push_back(std::move(part));
   }
-  return values;
+}
+
+}  // namespace
+
+void add_problem(Command& command, ProblemOptions& options, const std::string& effect) {
+  add_text(
+      command, "--dirichlet", "NAME=U,...", options.dirichlet,
+      "Values of u on parts of the boundary, by the name or tag of their lines; 'boundary' is all of it. " + effect);
+  add_text(command, "--neumann", "NAME=Q,...", options.neumann,
+           "Fluxes K du/dn into the domain, on parts of the boundary. Other edges have no flux.");
+  add_text(command, "--source", "F|NAME", options.source, "Source f: a number, or the name of point data.");
+  add_coefficient(command, options.coefficient);
+}
+
+void expect_complete(const Command& command, const ProblemOptions& options) {
+  for (const char* option : {"--neumann", "--source", "--coefficient"}) {
+    if (command.was_given(option) && !options.given())
+      refuse_usage(command.name(), std::string(option) + " needs --dirichlet, which makes the problem complete");
+  }
+}
+
+DiffusionProblem read_problem(const Command& command, const ProblemOptions& options, const Input& input) {
+  DiffusionProblem problem = {
+      read_coefficient(command, options.coefficient, input), read_source(command, options.source, input), {}};
+  add_boundary_values(command, true, options.neumann, input, problem.boundary);
+  add_boundary_values(command, false, options.dirichlet, input, problem.boundary);
+  return problem;
 }
 
 }  // namespace temper::app

@@ -6,6 +6,7 @@
 
 #include "files/input.hpp"
 #include "help/command.hpp"
+#include "temper/detail/discretization_error.hpp"
 
 namespace temper::app {
 
@@ -16,17 +17,20 @@ void add_coefficient(Command& command, std::string& target);
 /// value or is not in the file.
 [[nodiscard]] std::vector<double> read_coefficient(const Command& command, const std::string& text, const Input& input);
 
-/// The number for all vertices, or the point data of that name; empty if the text is. Failure if there are none.
-[[nodiscard]] std::vector<double> read_source(const Command& command, const std::string& text, const Input& input);
+/// The options of a problem, as text.
+struct ProblemOptions {
+  std::string dirichlet, neumann, source, coefficient;
 
-/// Boundary edges with a tag or name, and their value.
-struct NamedValue {
-  std::string name;
-  double value = 0;
-  std::vector<std::array<VertexId, 2>> edges;
+  [[nodiscard]] bool given() const { return !dirichlet.empty(); }
 };
-/// The parts of a text NAME=VALUE,…; "boundary" is all of it. Failure if a name is no part of the boundary.
-[[nodiscard]] std::vector<NamedValue> read_boundary_values(const Command& command, const std::string& option,
-                                                           const std::string& text, const Input& input);
+
+/// Adds --dirichlet, --neumann, --source and --coefficient. `effect`: what the verb does with the problem.
+void add_problem(Command& command, ProblemOptions& options, const std::string& effect);
+
+/// Refuses options of a problem that has no value of u.
+void expect_complete(const Command& command, const ProblemOptions& options);
+
+/// The problem on a mesh. Failure if a name is no part of the boundary, no data or no region.
+[[nodiscard]] DiffusionProblem read_problem(const Command& command, const ProblemOptions& options, const Input& input);
 
 }  // namespace temper::app

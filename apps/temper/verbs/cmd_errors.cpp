@@ -22,7 +22,7 @@ struct ErrorSettings {
   std::string projection;
   bool flat = false;
   std::string input, against, fields = "all", edges;
-  std::string coefficient, source, dirichlet, neumann;
+  ProblemOptions problem;
   int refine = 0;
   std::uint64_t threads = 0;
   bool condition = false, json = false;
@@ -73,14 +73,8 @@ void add_options(Command& command, ErrorSettings& s) {
   add_count(command, "--threads", s.threads, 0,
             "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
   command.group("Your own problem, -div(K grad u) = f");
-  add_text(
-      command, "--dirichlet", "NAME=U,...", s.dirichlet,
-      "Values of u on parts of the boundary, by the name or tag of their lines; 'boundary' is all of it. The report "
-      "is then about this problem: both schemes against finite elements on a refined mesh.");
-  add_text(command, "--neumann", "NAME=Q,...", s.neumann,
-           "Fluxes K du/dn into the domain, on parts of the boundary. Other edges have no flux.");
-  add_text(command, "--source", "F|NAME", s.source, "Source f: a number, or the name of point data.");
-  add_coefficient(command, s.coefficient);
+  add_problem(command, s.problem,
+              "The report is then about this problem: both schemes against finite elements on a refined mesh.");
   command.group("Help");
   command.add_help({"IN [options]",
                     "  temper errors in.vtu\n"
@@ -132,13 +126,7 @@ DiffusionErrors measure_problem(const Command& command, const ErrorSettings& s, 
                                 const std::string& projection, Executor* executor) {
   const Input input = read_input(path, {projection, {}, executor, true});
   print_warnings(input.warnings());
-  DiffusionProblem problem = {
-      read_coefficient(command, s.coefficient, input), read_source(command, s.source, input), {}};
-  for (const bool is_flux : {true, false}) {
-    for (NamedValue& part :
-         read_boundary_values(command, is_flux ? "--neumann" : "--dirichlet", is_flux ? s.neumann : s.dirichlet, input))
-      problem.boundary.push_back({std::move(part.edges), part.value, is_flux});
-  }
+  const DiffusionProblem problem = read_problem(command, s.problem, input);
   const int refinements = s.refine > 0 ? s.refine : 2;
   auto errors = measure_diffusion_errors(input.mesh(), problem, refinements, input.names.get());
   if (!errors) throw Failure(Exit::bad_input, located(errors.error(), path).what());
@@ -178,11 +166,8 @@ Exit run_errors(const Arguments& arguments) {
   outputs.expect_text("--edges", s.edges, inputs);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  for (const char* option : {"--neumann", "--source", "--coefficient"}) {
-    if (command.was_given(option) && s.dirichlet.empty())
-      refuse_usage("errors", std::string(option) + " needs --dirichlet, which makes the problem complete");
-  }
-  if (!s.dirichlet.empty()) return run_problem(command, s, threads.get());
+  expect_complete(command, s.problem);
+  if (s.problem.given()) return run_problem(command, s, threads.get());
   options.executor = threads.get();
   Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.flat});
   print_warnings(input.warnings());

@@ -326,6 +326,10 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   if (const io::DataArray* const depth = find_numbers(input.file.point_data, "depth")) {
     s.options.guard.depth = at_vertices(input, *depth);
   }
+  if (s.problem.given()) {
+    s.options.problem = read_problem(command, s.problem, input);
+    warn(results, problem_warnings(input.mesh(), *s.options.problem));
+  }
   // The mesh has its geometry now, and on the largest meshes memory is scarce.
   io::release_geometry(input.file, input.loaded);
   agree_to_go_on();
@@ -354,6 +358,8 @@ Exit run_command(Command& command, OptimizeSettings& settings) {
   take_input(command, settings);
   settle_options(command, settings);
   expect_without(command, settings.metric, "--size");
+  expect_without(command, settings.metric, "--dirichlet");
+  expect_complete(command, settings.problem);
   if (settings.metric && !(settings.files.page.empty() && settings.files.trace.empty()))
     refuse_usage("optimize",
                  "--tensor: the page and the trace of --write are in the plane of the mesh; expected neither");

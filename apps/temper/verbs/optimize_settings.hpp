@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "files/outputs.hpp"
+#include "files/problem_options.hpp"
 #include "files/tensor_option.hpp"
 #include "help/command.hpp"
 #include "options/ranks.hpp"
@@ -38,6 +39,7 @@ struct OptimizeSettings {
   std::vector<Requirement> requirements;
   std::string size, size_data;
   std::optional<Metric> metric;  ///< of the diffusion tensor
+  ProblemOptions problem;
   std::vector<std::string> point_data;
   io::DataRules rules;  ///< of point_data
 };

@@ -2,6 +2,7 @@
 // because solvers of systems of equations need a library. temper::errors has a model (make_discretization_error).
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "temper/detail/executor.hpp"
@@ -15,6 +16,21 @@ enum class Scheme {
   vertex,  ///< Unknowns at the vertices, as in discrete exterior calculus
   cell,    ///< Unknowns at the orthocenters, as in two-point flux finite volumes
   stars,   ///< The diagonal Hodge stars
+};
+
+/// A piece of the boundary with a given value: of u (Dirichlet), or of the flux K ∂u/∂n into the domain (Neumann).
+struct BoundaryValue {
+  std::vector<std::array<VertexId, 2>> edges;  ///< Boundary edges, each by its ends in either order
+  double value = 0;
+  bool is_flux = false;
+};
+
+/// −div(K ∇u) = f in the plane. Boundary edges of no piece have no flux. A vertex between two pieces has the value of
+/// u; of two values it has the one of the later piece.
+struct DiffusionProblem {
+  std::vector<double> coefficient = {};  ///< K > 0 of each triangle; empty: 1
+  std::vector<double> source = {};       ///< f at each vertex, linear on triangles; empty: 0
+  std::vector<BoundaryValue> boundary = {};
 };
 
 class DiscretizationError {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -169,12 +170,28 @@ AccuracyModel accuracy_model(const AccuracyOptions& a, Scheme scheme, Star star)
   return model;
 }
 
+/// Says why a run does not lower the error of the user's own problem.
+InputError no_use_of_problem(const OptimizeOptions& o, const Mesh& mesh) {
+  OptimizeOptions more = o;
+  more.solver_error.most_vertices = std::numeric_limits<int>::max();
+  if (!wants_error_model(more, mesh)) {
+    return invalid(
+        "a problem of one's own is for runs that lower the error of one solver; expected the target vertex or cell, "
+        "with the default objective and energy");
+  }
+  return invalid("the mesh has " + std::to_string(mesh.n_vertices()) +
+                 " vertices, but errors of a problem are lowered " + "up to " +
+                 std::to_string(o.solver_error.most_vertices) + " vertices; expected `solver_error_vertices=" +
+                 std::to_string(mesh.n_vertices()) + "`, which takes long");
+}
+
 /// Adds the model of errors that the options need, if the build has one.
 Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
   const OptimizeOptions& o = s.options;
   const bool wants = wants_error_model(o, mesh);
+  if (o.problem && !wants) return no_use_of_problem(o, mesh);
   if (wants && s.hooks.solvers.discretization_error) {
-    auto model = s.hooks.solvers.discretization_error(mesh, o.scheme);
+    auto model = s.hooks.solvers.discretization_error(mesh, o, s.hooks.names);
     if (!model) return model.error();
     s.errors = *std::move(model);
   }
@@ -216,6 +233,20 @@ bool wants_error_model(const OptimizeOptions& o, const Mesh& mesh) {
   const bool judges = of_one && mesh.space().kind() == SpaceKind::plane &&
                       mesh.n_vertices() <= static_cast<std::size_t>(o.solver_error.most_vertices);
   return objective == Objective::solver_error || (objective == Objective::accuracy && judges);
+}
+
+std::vector<std::string> problem_warnings(const Mesh& mesh, const DiffusionProblem& problem) {
+  std::size_t free = 0;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (problem.coefficient.empty() || mesh.is_unflippable(h) || !mesh.is_edge_representative(h)) continue;
+    const auto k_of = [&](HalfedgeId side) { return problem.coefficient[Mesh::triangle(side).index]; };
+    free += k_of(h) != k_of(mesh.twin(h)) ? 1 : 0;
+  }
+  if (free == 0) return {};
+  return {"the coefficient jumps across " + std::to_string(free) +
+          (free == 1 ? " edge that is no border of regions and may move"
+                     : " edges that are no borders of regions and may move") +
+          ". Next: give triangles of different coefficients different regions"};
 }
 
 SweepState::SweepState(const Settings& s) : model(s.model), relaxation(s.policy.relaxation.value_or(kRelaxation)) {

@@ -55,6 +55,15 @@ void add_options(Fingerprint& all, const OptimizeOptions& options) {
     }
   }
   all.add(text.data(), text.size());
+  if (options.problem) {
+    all.add(options.problem->coefficient.data(), options.problem->coefficient.size());
+    all.add(options.problem->source.data(), options.problem->source.size());
+    for (const BoundaryValue& part : options.problem->boundary) {
+      all.add(&part.value, 1);
+      all.add(part.is_flux ? 1 : 0);
+      for (const auto& [a, b] : part.edges) all.add(a.index), all.add(b.index);
+    }
+  }
   if (!options.size_field) return;
   add_mesh(all, options.size_field->mesh());
   for (const VertexId v : options.size_field->mesh().vertices()) {

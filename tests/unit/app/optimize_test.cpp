@@ -118,6 +118,36 @@ TEST_F(Optimize, InTheMetricOfATensorAndNowhereElse) {
 }
 
 // What comes back from a metric is rounded, and edges of squares, which are ties there, may lack a flip here.
+TEST_F(Optimize, LowersTheErrorOfTheUsersOwnProblem) {
+  temper_ok({"mesh", TEMPER_SOURCE_DIR "/examples/layers.geojson", "-o", "in.msh", "--size", "150"});
+  const std::vector<std::string> problem = {"--coefficient", "sand=1000,clay=1", "--dirichlet", "river=1",
+                                            "--neumann",     "drain=-1",         "--source",    "1e-3"};
+  const auto with_problem = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), problem.begin(), problem.end());
+    return arguments;
+  };
+  temper_ok({"optimize", "in.msh", "-o", "general.msh", "--for", "cell"});
+  temper_ok(with_problem({"optimize", "in.msh", "-o", "special.msh", "--for", "cell"}));
+  const auto error = [&](const std::string& mesh) {
+    const auto json = nlohmann::json::parse(temper_ok(with_problem({"errors", mesh, "--refine", "3", "--json"})).out);
+    return json["problem"]["cell"]["l2"].get<double>();
+  };
+  EXPECT_LT(error("special.msh"), 0.5 * error("general.msh"));
+  const auto refuse = [&](const std::vector<std::string>& more, const std::string& message) {
+    std::vector<std::string> arguments = {"optimize", "in.msh", "-o", "none.msh"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto outcome = temper(arguments);
+    EXPECT_NE(outcome.exit, 0);
+    EXPECT_TRUE(contains(outcome.err, message)) << outcome.err;
+    EXPECT_FALSE(exists("none.msh"));
+  };
+  refuse(with_problem({}), "expected the target vertex or cell");
+  refuse({"--for", "cell", "--source", "1"}, "--source needs --dirichlet");
+  refuse({"--for", "cell", "--dirichlet", "lake=1"}, "--dirichlet");
+  refuse(with_problem({"--for", "vertex", "--set", "solver_error_vertices=10"}), "solver_error_vertices=");
+  refuse(with_problem({"--for", "vertex", "--tensor", "2,0,1"}), "--tensor");
+}
+
 TEST_F(Optimize, ExitsWith4WhereEdgesThatMayFlipAreNotRegular) {
   temper_ok({"example", "sheared-grid", "--shear", "0", "--nx", "4", "--ny", "4", "-o", "squares.vtu"});
   const std::string regular = "nonregular=0";

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/rng.hpp"
 #include "optimize/solver_error/solver_error_phase.hpp"
 #include "support/std_threads.hpp"
 #include "temper/errors.hpp"
@@ -71,6 +72,96 @@ TEST(ErrorObjective, LowersTheErrorsOfItsSchemeBelowThoseOfTheAccuracyObjective)
       EXPECT_EQ(error.mesh.position(v), input.position(v));
     }
   }
+}
+
+/// Two layers with a straight border between them, and a problem whose coefficient jumps there.
+struct Layers {
+  Mesh mesh;
+  DiffusionProblem problem = {};
+
+  explicit Layers(int n) {
+    std::vector<Vec2> points;
+    Rng rng(8);
+    const auto jittered = [&](int i) {
+      const bool stays = i == 0 || i == n || 2 * i == n;
+      const double by = rng.uniform(-0.3, 0.3);
+      return (i + (stays ? 0 : by)) / n;
+    };
+    for (int y = 0; y <= n; ++y) {
+      for (int x = 0; x <= n; ++x) points.push_back({jittered(x), jittered(y)});
+    }
+    for (int y = 0; y <= n; ++y) {
+      points[static_cast<std::size_t>(y * (n + 1))].x = 0;
+      for (const int x : {0, n / 2, n})
+        points[static_cast<std::size_t>(y * (n + 1) + x)].y = static_cast<double>(y) / n;
+    }
+    mesh = *constrained_delaunay({.points = points});
+    for (const TriangleId t : mesh.triangles()) {
+      double x = 0;
+      for (const VertexId v : mesh.corners(t)) x += mesh.position(v).x / 3;
+      mesh.set_region(t, x < 0.5 ? 1 : 2);
+    }
+    problem.coefficient = coefficient(mesh);
+    EXPECT_FALSE(problem_warnings(mesh, problem).empty()) << "nothing holds the border";
+    problem.source.assign(mesh.n_vertices(), 1.0);
+    problem.boundary = {{{}, 1, false}, {{}, -1, true}};
+    for (const HalfedgeId h : mesh.halfedges()) {
+      const VertexId a = mesh.origin(h), b = mesh.target(h);
+      const double x = mesh.position(a).x;
+      if (x == mesh.position(b).x && mesh.is_boundary(h)) problem.boundary[x == 0 ? 0 : 1].edges.push_back({a, b});
+      if (x == mesh.position(b).x && x == 0.5) mesh.set_constrained(h, true);
+    }
+    EXPECT_TRUE(problem_warnings(mesh, problem).empty());
+  }
+  static std::vector<double> coefficient(const Mesh& of) {
+    std::vector<double> k;
+    for (const TriangleId t : of.triangles()) k.push_back(of.region(t) == 1 ? 1000 : 1);
+    return k;
+  }
+};
+
+// The reference of the measured errors is another one: on the new mesh, and finer.
+TEST(ErrorObjective, LowersTheErrorOfTheUsersOwnProblem) {
+  const Layers input(12);
+  for (const Scheme scheme : {Scheme::vertex, Scheme::cell}) {
+    OptimizeOptions options = options_for(scheme);
+    const Improved general = improved(input.mesh, options);
+    options.problem = input.problem;
+    const Improved special = improved(input.mesh, options);
+    const auto error = [&](const Mesh& mesh) {
+      DiffusionProblem problem = input.problem;  // its boundary stays
+      problem.coefficient = Layers::coefficient(mesh);
+      const DiffusionErrors errors = *measure_diffusion_errors(mesh, problem, 3);
+      return scheme == Scheme::vertex ? errors.vertex.l2 : errors.cell.l2;
+    };
+    EXPECT_LT(error(special.mesh), 0.5 * error(general.mesh));
+    EXPECT_LT(error(special.mesh), 0.5 * error(input.mesh));
+    EXPECT_LT(special.report.objective_after, special.report.objective_before);
+    for (const HalfedgeId h : input.mesh.halfedges()) {
+      if (!input.mesh.is_unflippable(h)) continue;
+      const VertexId a = input.mesh.origin(h), b = input.mesh.target(h);
+      EXPECT_EQ(special.mesh.position(a), input.mesh.position(a));
+      EXPECT_TRUE(special.mesh.find_halfedge(a, b).valid() || special.mesh.find_halfedge(b, a).valid());
+    }
+  }
+}
+
+TEST(ErrorObjective, AProblemThatNoRunWouldUseIsRefused) {
+  const Layers input(6);
+  const auto message = [&](OptimizeOptions options) {
+    options.problem = input.problem;
+    Mesh mesh = input.mesh;
+    const auto report = optimize(mesh, options, {.solvers = solvers()});
+    EXPECT_EQ(mesh, input.mesh);
+    return report ? std::string() : report.error().message;
+  };
+  EXPECT_NE(message({}).find("expected the target vertex or cell"), std::string::npos);
+  EXPECT_NE(message({.scheme = Scheme::cell, .energy = EnergyKind::T}).find("the default objective"), std::string::npos);
+  EXPECT_NE(message({.scheme = Scheme::cell, .tensor = Tensor{2, 0, 1}}).find("cannot go with a problem"),
+            std::string::npos);
+  OptimizeOptions few = options_for(Scheme::vertex);
+  few.solver_error.most_vertices = 48;
+  EXPECT_NE(message(few).find("expected `solver_error_vertices=49`"), std::string::npos);
 }
 
 // On rings errors cancel from neighbor to neighbor, which all that moves single vertices ends
