@@ -507,7 +507,7 @@ class Mesher {
     if (lost.empty()) return;
     std::string list;
     for (const auto& [dimension, tag] : lost) {
-      list += (list.empty() ? "" : ", ") + std::string(dimension == 0 ? "points " : "lines ") +
+      list += (list.empty() ? "" : ", ") + std::string(dimension == 0 ? "points of " : "lines of ") +
               name_of_tag(outline_, dimension, tag);
     }
     made.notes.push_back("the mesh has nothing of these, because they are outside, left out or joined: " + list);
