@@ -55,8 +55,8 @@ void cut_quadrilaterals(MeshFile& file, FileNames& names, const std::vector<std:
   std::int32_t n = 0;
   for (std::size_t f = 0; f < file.triangles.size(); ++f) {
     const auto [a, b, c] = file.triangles[f];
-    const std::int32_t d = f < fourth_corners.size() ? fourth_corners[f] : -1;
-    if (d < 0) {
+    const std::int32_t d = f < fourth_corners.size() ? fourth_corners[f] : kNoCorner;
+    if (d == kNoCorner) {
       add(f, {a, b, c}, 0);
       continue;
     }
