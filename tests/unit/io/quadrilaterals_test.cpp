@@ -154,7 +154,10 @@ TEST_F(Quadrilaterals, StayWhileTheMeshAroundThemIsOptimized) {
   auto loaded = make_mesh(f);
   ASSERT_TRUE(loaded) << loaded.error().what();
   std::size_t halves = 0;
-  for (const TriangleId t : loaded->mesh.triangles()) halves += loaded->mesh.is_half(t);
+  for (const TriangleId t : loaded->mesh.triangles()) {
+    halves += loaded->mesh.is_half(t);
+    for (const VertexId v : loaded->mesh.corners(t)) EXPECT_TRUE(!loaded->mesh.is_half(t) || loaded->mesh.is_fixed(v));
+  }
   EXPECT_EQ(halves, 36u);
   Mesh mesh = loaded->mesh;
   OptimizeOptions options;
