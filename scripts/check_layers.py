@@ -32,7 +32,7 @@ LAYERS = {
     "energy": _BELOW,
     "regularity": _BELOW + ["topology", "energy"],
     "feasibility": _BELOW + ["topology", "energy", "regularity"],
-    "optimize": _BELOW + ["size", "topology", "energy", "regularity", "feasibility"],
+    "optimize": _BELOW + ["location", "size", "topology", "energy", "regularity", "feasibility"],
     # These layers look at meshes. They do not depend on the optimization.
     "quality": _BELOW + ["size", "topology", "energy", "regularity", "feasibility"],
     "explain": _BELOW + ["topology", "energy", "regularity", "feasibility", "quality"],

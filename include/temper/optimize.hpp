@@ -328,8 +328,8 @@ struct OptimizeOptions {
   /// Constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/detail/tensor.hpp). The
   /// report and snapshots are in that plane. Absent: K = 1.
   std::optional<Tensor> tensor = {};
-  /// The user's own problem. The run lowers its error, if it has a model of errors at all: see wants_error_model(). If
-  /// not, an error says why. Absent: the mean over many smooth solutions with K = 1.
+  /// The user's own problem, whose error the run lowers. An error says why a run has no model of it: see
+  /// wants_error_model(). Absent: the mean error of many smooth solutions with K = 1.
   std::optional<DiffusionProblem> problem = {};
   int max_sweeps = 1000;  ///< Largest number of sweeps; each repair counts as a sweep
   double time_limit = 0;  ///< Time limit of the whole run [s]; 0: none

@@ -534,8 +534,8 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
     Parameters
     ----------
     mesh : meshio.Mesh
-        Its triangles become the mesh, and lines inside the domain become constrained edges. Vertex cells stay with
-        their points. Other cells, ``point_sets`` and ``cell_sets`` are left out, with a warning. Points may have a
+        Its triangles and quadrilaterals become the mesh, and lines inside the domain become constrained edges. A
+        quadrilateral becomes two triangles that stay. Vertex cells stay with their points. Other cells, ``point_sets`` and ``cell_sets`` are left out, with a warning. Points may have a
         third coordinate if it is the same for all. If all points have the same distance from the origin, to one part in
         a million, they are a mesh of the sphere. Point data ``weight`` are the weights [length²]. The regions are the
         integer cell data ``region``, ``gmsh:physical``, ``medit:ref`` or ``cell_tags``, the first that exists; tags of

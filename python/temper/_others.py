@@ -18,6 +18,7 @@ _WEIGHTS = ("weight", "weights")
 _WRITTEN = ("region", "gmsh:physical")  # cell data that to_meshio makes from the tags
 _REGIONS = ("region", "gmsh:physical", "medit:ref", "cell_tags")
 _QUALITY = ("well_centered", "min_h_over_l", "min_d_over_l", "min_angle_deg")  # that VTU has of the former mesh
+_QUADRILATERAL = "temper:quadrilateral"  # cell data: the number of the quadrilateral that a triangle is half of, or 0
 _NAMES = "physical_names"  # field data of VTU: a line "dimension tag name" for each name
 
 
@@ -58,8 +59,12 @@ def cells_of(mesh: Any) -> Any:
 # --- PyVista ----------------------------------------------------------------------------------------------------------
 
 _POLY_VERTEX, _POLY_LINE, _TRIANGLE, _STRIP, _POLYGON = 2, 4, 5, 6, 7  # types of VTK
-_WIDTHS = {1: ("vertex", 1), _POLY_VERTEX: ("vertex", 1), 3: ("line", 2), _POLY_LINE: ("line", 2)}
-_TYPES_OF_VTK = {_STRIP: "triangle strip", _POLYGON: "polygon", 8: "pixel", 9: "quad"}
+_QUAD = 9
+_WIDTHS = {
+    1: ("vertex", 1), _POLY_VERTEX: ("vertex", 1), 3: ("line", 2), _POLY_LINE: ("line", 2), _TRIANGLE: ("triangle", 3),
+    _QUAD: ("quad", 4),
+}  # fmt: skip
+_TYPES_OF_VTK = {_STRIP: "triangle strip", _POLYGON: "polygon", 8: "pixel"}
 
 
 def _poly_data(mesh: Any) -> Cells:
@@ -83,13 +88,13 @@ def _vtk_cells(mesh: Any, types: Any, offset: Any, connectivity: Any) -> Cells:
     sizes = np.diff(offset)
     rows: dict[str, list[Any]] = {}  # cells of each block, once for each of their parts
     parts: dict[str, list[Any]] = {}
+    polygons = types == _POLYGON
+    types = np.where(polygons & (sizes == 3), _TRIANGLE, np.where(polygons & (sizes == 4), _QUAD, types))
     for kind in np.unique(types):
-        of_kind = np.flatnonzero(types == kind)
-        name, width = _WIDTHS.get(int(kind), ("triangle", 3))
-        if kind == _POLYGON:
-            of_kind = of_kind[sizes[of_kind] == 3]
-        if len(of_kind) == 0 or (kind not in _WIDTHS and kind not in (_TRIANGLE, _POLYGON)):
+        if kind not in _WIDTHS:
             continue
+        of_kind = np.flatnonzero(types == kind)
+        name, width = _WIDTHS[int(kind)]
         n_parts = sizes[of_kind] - width + 1 if width < 3 else np.ones(len(of_kind), dtype=np.int64)
         cell = np.repeat(of_kind, n_parts)
         part = np.arange(len(cell)) - np.repeat(np.cumsum(n_parts) - n_parts, n_parts)
@@ -120,10 +125,12 @@ def _ugrid(grid: Any, variables: dict[str, Any]) -> Cells:
         cure = "Next: move it to a plane with to_crs, or read its file with temper.read(path, projection=…)"
         raise TemperError("geographic", "", f"the grid is in longitude and latitude. {cure}")
     faces = np.asarray(grid.face_node_connectivity)
-    triangular = (faces[:, :3] >= 0).all(axis=1) & (faces[:, 3:] < 0).all(axis=1)
-    result = Cells(np.asarray(grid.node_coordinates), [Block("triangle", faces[triangular, :3])])
-    if not triangular.all():
-        result.left_out.append(f"{(~triangular).sum()} faces that are no triangles are left out")
+    corners = (faces >= 0).sum(axis=1)
+    chosen = [np.flatnonzero(corners == n) for n in (3, 4)]
+    blocks = [Block(kind, faces[rows, :n]) for kind, n, rows in zip(("triangle", "quad"), (3, 4), chosen) if len(rows)]
+    result = Cells(np.asarray(grid.node_coordinates), blocks)
+    if others := len(faces) - sum(map(len, chosen)):
+        result.left_out.append(f"{others} faces that are neither triangles nor quadrilaterals are left out")
     for name, variable in variables.items():
         if name in own or not variable.dims:
             continue
@@ -131,7 +138,7 @@ def _ugrid(grid: Any, variables: dict[str, Any]) -> Cells:
             is_weight = name == f"{getattr(grid, 'name', '')}_node_weight"
             result.point_data["weight" if is_weight else str(name)] = np.asarray(variable.values)
         elif variable.dims == (grid.face_dimension,):
-            result.cell_data[str(name)] = [np.asarray(variable.values)[triangular]]
+            result.cell_data[str(name)] = [np.asarray(variable.values)[rows] for rows in chosen if len(rows)]
         else:
             result.left_out.append(f"variable '{name}' with dimensions {', '.join(variable.dims)} is left out")
     return result
@@ -186,6 +193,42 @@ def _cell_data(mesh: Any, blocks: list[int], dropped: list[str]) -> dict[str, An
     return result
 
 
+def _cut(points: Any, quads: Any) -> Any:
+    """Two triangles for each quadrilateral. Its diagonal is the one whose lesser triangle is larger: from the first to
+    the third corner if both are alike."""
+    a, b, c, d = (points[quads[:, k]] for k in range(4))
+
+    def area(p: Any, q: Any, r: Any) -> Any:
+        return np.cross(np.pad(q - p, ((0, 0), (0, 3 - p.shape[1]))), np.pad(r - p, ((0, 0), (0, 3 - p.shape[1]))))
+
+    normal = area(a, b, c) + area(a, c, d)
+    least = [
+        np.minimum((area(*t) * normal).sum(axis=1), (area(*u) * normal).sum(axis=1))
+        for t, u in (((a, b, c), (a, c, d)), ((a, b, d), (b, c, d)))
+    ]
+    other = least[1] > least[0] + 1e-6 * np.abs(least[0])
+    first = np.where(other[:, None], quads[:, [0, 1, 3]], quads[:, [0, 1, 2]])
+    second = np.where(other[:, None], quads[:, [1, 2, 3]], quads[:, [0, 2, 3]])
+    return np.stack([first, second], axis=1).reshape(-1, 3)
+
+
+def _joined_halves(triangles: Any, numbers: Any) -> tuple[Any, Any, Any]:
+    """The triangles that are whole, the quadrilaterals of the others, and the first triangle of each. Numbers that are
+    not on two triangles with a common edge count for nothing."""
+    order = np.argsort(numbers, kind="stable")
+    _, first, count = np.unique(numbers[order], return_index=True, return_counts=True)
+    pairs = first[(count == 2) & (numbers[order[first]] > 0)]
+    halves = np.column_stack([order[pairs], order[pairs + 1]])
+    same = triangles[halves[:, 0]][:, :, None] == triangles[halves[:, 1]][:, None, :]
+    halves = halves[same.sum(axis=(1, 2)) == 2]
+    t, u = triangles[halves[:, 0]], triangles[halves[:, 1]]
+    same = t[:, :, None] == u[:, None, :]
+    k, row = np.argmin(same.any(axis=2), axis=1), np.arange(len(t))
+    fourth = u[row, np.argmin(same.any(axis=1), axis=1)]
+    quads = np.column_stack([t[row, (k + 2) % 3], t[row, k], t[row, (k + 1) % 3], fourth])
+    return np.setdiff1d(np.arange(len(triangles)), halves), quads, halves[:, 0]
+
+
 def _tags(data: dict[str, Any], size: int) -> Any:
     for name in _REGIONS:
         values = data.get(name)
@@ -216,11 +259,11 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
     """A handle of a mesh in the form of meshio, and messages about omissions and changes."""
     dropped: list[str] = list(getattr(mesh, "left_out", ()))
     for block in mesh.cells:
-        if block.type not in ("triangle", "line", "vertex"):
+        if block.type not in ("triangle", "quad", "line", "vertex"):
             dropped.append(f"{len(block.data)} cells of type {block.type} are left out")
     points = _points(mesh.points)
-    triangles, lines = _blocks(mesh, "triangle"), _blocks(mesh, "line")
-    if not triangles:
+    triangles, quads, lines = _blocks(mesh, "triangle"), _blocks(mesh, "quad"), _blocks(mesh, "line")
+    if not triangles and not quads:
         found = [f"{len(block.data)} cells of type {block.type}" for block in mesh.cells] + dropped
         raise TemperError("empty_input", "", f"expected cells of type triangle; {'; '.join(found) or 'there are none'}")
     point_data = {}
@@ -230,8 +273,17 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
             weights = np.ascontiguousarray(np.asarray(values, dtype=np.float64).reshape(-1))
         elif (array := data_of(name, values, dropped)) is not None:
             point_data[name] = array
-    cell_data = _cell_data(mesh, triangles, dropped)
+    cell_data = _cell_data(mesh, triangles + quads, dropped)
     corners, ends = _joined(mesh, triangles, 3), _joined(mesh, lines, 2)
+    if quads:
+        of_quads = _joined(mesh, quads, 4)
+        n, n_quads = len(corners), len(of_quads)
+        if of_quads.size and (of_quads.min() < 0 or of_quads.max() >= len(points)):
+            raise TemperError("index_out_of_range", "", f"a quadrilateral uses a point that is none of the {len(points)}")
+        corners = np.concatenate([corners, _cut(points, of_quads)])
+        row = np.concatenate([np.arange(n), n + np.repeat(np.arange(n_quads), 2)])
+        cell_data = {name: np.ascontiguousarray(values[row]) for name, values in cell_data.items()}
+        cell_data[_QUADRILATERAL] = np.maximum(row - n + 1, 0).astype(np.int32)
     regions = _tags(cell_data, 0)
     line_data = _cell_data(mesh, lines, dropped)
     vertices = _blocks(mesh, "vertex")
@@ -256,9 +308,15 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
 def meshio_form(handle: Any) -> Cells:
     """The mesh in the form of meshio, with tags and names as in VTU."""
     file = _temper.file_as_dict(handle, True)
-    blocks = [Block("triangle", file["triangles"].astype(np.int64))]
-    tags = [file["regions"] if len(file["regions"]) else np.zeros(len(file["triangles"]), dtype=np.int32)]
-    data = [file["cell_data"]]
+    triangles, of_triangles = file["triangles"].astype(np.int64), dict(file["cell_data"])
+    regions = file["regions"] if len(file["regions"]) else np.zeros(len(triangles), dtype=np.int32)
+    blocks, tags, data = [Block("triangle", triangles)], [regions], [of_triangles]
+    if (numbers := of_triangles.pop(_QUADRILATERAL, None)) is not None:
+        whole, quads, halves = _joined_halves(triangles, numbers)
+        parts = [("triangle", triangles[whole], whole), ("quad", quads, halves)]
+        parts = [part for part in parts if len(part[1])]
+        blocks, tags = [Block(kind, cells) for kind, cells, _ in parts], [regions[rows] for _, _, rows in parts]
+        data = [{name: values[rows] for name, values in of_triangles.items()} for _, _, rows in parts]
     for kind, columns, cells, its_tags, its_data in (
         ("line", 2, "lines", "line_tags", "line_data"), ("vertex", 1, "marked_points", "point_tags", "marked_point_data")
     ):  # fmt: skip
@@ -300,13 +358,17 @@ def put_back_vtk(mesh: Any, handle: Any) -> None:
     """Replaces a ``PolyData`` or ``UnstructuredGrid`` by the mesh, with its data."""
     cells = meshio_form(handle)
     blocks = {block.type: np.asarray(block.data) for block in cells.cells}
-    order = [kind for kind in ("vertex", "line", "triangle") if kind in blocks]
+    order = [kind for kind in ("vertex", "line", "triangle", "quad") if kind in blocks]
     if hasattr(mesh, "celltypes"):
-        new = type(mesh)({{"vertex": 1, "line": 3, "triangle": _TRIANGLE}[kind]: blocks[kind] for kind in order}, cells.points)
+        types = {"vertex": 1, "line": 3, "triangle": _TRIANGLE, "quad": _QUAD}
+        new = type(mesh)({types[kind]: blocks[kind] for kind in order}, cells.points)
     else:
-        flat = {k: np.column_stack([np.full(len(b), b.shape[1]), b]).ravel() for k, b in blocks.items()}
-        names = {"vertex": "verts", "line": "lines", "triangle": "faces"}
-        new = type(mesh)(cells.points, **{names[kind]: flat[kind] for kind in order})
+        flat: dict[str, Any] = {}
+        for kind in order:
+            cell = np.column_stack([np.full(len(blocks[kind]), blocks[kind].shape[1]), blocks[kind]]).ravel()
+            name = {"vertex": "verts", "line": "lines"}.get(kind, "faces")
+            flat[name] = np.concatenate([flat[name], cell]) if name in flat else cell
+        new = type(mesh)(cells.points, **flat)
     of_kind = [block.type for block in cells.cells]
     for name, values in cells.point_data.items():
         new.point_data[name] = values

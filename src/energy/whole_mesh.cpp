@@ -22,8 +22,8 @@ struct Batch {
 };
 
 /// Calls visit with all triangles of a block, in batches. Erased ones are left out, and quadrilaterals, since nothing
-/// changes them. Several are filled before the first is
-/// visited: reading eight numbers at once waits long for a number that has just been written.
+/// changes them. Several batches are filled before the first is visited: reading eight numbers at once waits long for a
+/// number that has just been written.
 template <class Visit>
 void for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
   std::array<Batch, 4> batches;

@@ -46,7 +46,6 @@ class PlacedProblem {
     least_square_error_ = std::pow(std::max(kLeftByLastRefinement * change, kLeastError), 2);
   }
 
-  [[nodiscard]] const Mesh& mesh() const { return mesh_; }
   [[nodiscard]] double mean_square() const { return mean_square_; }
   /// The square of the reference's own relative error.
   [[nodiscard]] double least_square_error() const { return least_square_error_; }
@@ -181,8 +180,8 @@ class ProblemErrorModel final : public DiscretizationError {
   }
 
  private:
-  /// A scheme with its solution; c is that of J.
-  struct Solved {
+  /// A scheme with its matrix factored, and c of J.
+  struct Factored {
     const DiffusionSubject& s;
     const ProblemOnMesh& on;
     double c;
@@ -212,20 +211,21 @@ class ProblemErrorModel final : public DiscretizationError {
       Equations equations = scheme == Scheme::vertex ? at_vertices(subject) : at_orthocenters(subject, merged);
       auto matrix = Cholesky::of(equations.points.n_unknowns(), equations.points.lower());
       if (!matrix) return {};
-      const Solved solved = {subject, on, 1 / (area * problem_.mean_square()), std::move(equations),
-                             *std::move(matrix)};
+      const Factored factored = {subject, on, 1 / (area * problem_.mean_square()), std::move(equations),
+                                 *std::move(matrix)};
       std::optional<Adjoint> by;
       if (gradients != nullptr) by.emplace(mesh, subject.dec);
-      const double error = scheme == Scheme::vertex ? error_at_vertices(solved, by) : error_at_orthocenters(solved, by);
+      const double error =
+          scheme == Scheme::vertex ? error_at_vertices(factored, by) : error_at_orthocenters(factored, by);
       errors.push_back(error + problem_.least_square_error());
       if (by) gradients->push_back(pulled_back(mesh, subject.dec, *by));
     }
     return errors;
   }
 
-  static double error_at_vertices(const Solved& solved, std::optional<Adjoint>& by) {
-    const auto& [s, on, c, equations, matrix] = solved;
-    const std::vector<double> v = solved.solution(equations.sources, equations.values);
+  static double error_at_vertices(const Factored& scheme, std::optional<Adjoint>& by) {
+    const auto& [s, on, c, equations, matrix] = scheme;
+    const std::vector<double> v = scheme.solution(equations.sources, equations.values);
     const std::size_t n = s.mesh.n_vertices();
     std::vector<double> e(n), force(n);
     double sum = 0;
@@ -237,7 +237,7 @@ class ProblemErrorModel final : public DiscretizationError {
       force[i.index] = 2 * c * m * e[i.index];
     }
     if (!by) return sum;
-    const std::vector<double> lambda = solved.solution(force, std::vector<double>(n));
+    const std::vector<double> lambda = scheme.solution(force, std::vector<double>(n));
     for (const VertexId i : s.mesh.vertices()) {
       const double l = lambda[i.index];
       by->star0[i] += c * e[i.index] * e[i.index] + l * s.discrete.source[i.index];
@@ -252,9 +252,9 @@ class ProblemErrorModel final : public DiscretizationError {
     return sum;
   }
 
-  static double error_at_orthocenters(const Solved& solved, std::optional<Adjoint>& by) {
-    const auto& [s, on, c, equations, matrix] = solved;
-    const std::vector<double> v = solved.solution(equations.sources, equations.values);
+  static double error_at_orthocenters(const Factored& scheme, std::optional<Adjoint>& by) {
+    const auto& [s, on, c, equations, matrix] = scheme;
+    const std::vector<double> v = scheme.solution(equations.sources, equations.values);
     const std::size_t n = s.mesh.n_triangles();
     std::vector<double> e(n), force(n);
     std::vector<Vec2> slopes(n);
@@ -267,7 +267,7 @@ class ProblemErrorModel final : public DiscretizationError {
       force[t.index] = 2 * c * s.dec.areas[t] * e[t.index];
     }
     if (!by) return sum;
-    const std::vector<double> lambda = solved.solution(force, std::vector<double>(n));
+    const std::vector<double> lambda = scheme.solution(force, std::vector<double>(n));
     for (const TriangleId t : s.mesh.triangles()) {
       const double third = lambda[t.index] / 3;
       by->area[t] += c * e[t.index] * e[t.index];

@@ -315,8 +315,14 @@ class Mesher {
     return "the outline " + (edge ? "has an edge of " : std::string("is narrow: ")) + rounded(narrowest_->width) +
            " at " + text_of(surface_, names, narrowest_->at) + ", " +
            (edge ? side(one) : "between " + side(one) + " and " + side(other)) +
-           ". Next: if that is a mistake, join it by --snap " +
-           rounded(std::max({1.05 * narrowest_->width, 4 * tolerance(), 4 * rounding()}));
+           ". Next: if that is a mistake, join it by --snap " + rounded(closing_tolerance(narrowest_->width));
+  }
+  /// A place below the tolerance is in a sharp corner. Its width grows with the tolerance, and five times that is
+  /// enough.
+  [[nodiscard]] double closing_tolerance(double width) const {
+    const double within = tolerance(),
+                 corner = width < within ? std::min(5 * within * (within / width), wanted_.most) : 0;
+    return std::max({1.05 * width, 4 * within, 4 * rounding(), corner});
   }
   /// Two digits, not less than the value.
   [[nodiscard]] static std::string rounded(double value) {
@@ -507,7 +513,7 @@ class Mesher {
     if (lost.empty()) return;
     std::string list;
     for (const auto& [dimension, tag] : lost) {
-      list += (list.empty() ? "" : ", ") + std::string(dimension == 0 ? "points " : "lines ") +
+      list += (list.empty() ? "" : ", ") + std::string(dimension == 0 ? "points of " : "lines of ") +
               name_of_tag(outline_, dimension, tag);
     }
     made.notes.push_back("the mesh has nothing of these, because they are outside, left out or joined: " + list);

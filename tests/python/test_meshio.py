@@ -227,6 +227,32 @@ def test_edges_are_known_by_name_also_after_an_optimization():
     assert (mesh.tags == 31).sum() > 4
 
 
+def test_quadrilaterals_are_pairs_that_stay():
+    places = [(x, y) for y in range(4) for x in range(4)]
+    points = np.array(places, dtype=float)
+    points[10] = (2.3, 2.2)  # inside, of triangles alone
+    quads = [(0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6)]
+    corners = [(i, i + 1, i + 5, i + 4) for i in (4, 5, 6, 8, 9, 10)]
+    triangles = [t for a, b, c, d in corners for t in ((a, b, c), (a, c, d))]
+    data = {"gmsh:physical": [np.full(12, 4), np.array([7, 8, 9])], "k": [np.arange(12.0), np.arange(3.0)]}
+    given = meshio.Mesh(points, [("triangle", triangles), ("quad", quads)], cell_data=data)
+    mesh = temper.from_meshio(given)
+    assert mesh.n_triangles == 18 and mesh.regions.tolist()[12:] == [7, 7, 8, 8, 9, 9]
+    temper.optimize(mesh)
+    again = mesh.to_meshio()
+    assert [sorted(q) for q in again.cells_dict["quad"]] == [sorted(q) for q in quads]
+    assert again.cell_data_dict["gmsh:physical"]["quad"].tolist() == [7, 8, 9]
+    assert again.cell_data_dict["k"]["quad"].tolist() == [0, 1, 2] and not mesh.weights.any()
+    held = np.unique(quads)
+    assert np.array_equal(again.points[held, :2], points[held]) and not np.array_equal(again.points[10, :2], points[10])
+    assert temper.from_meshio(again) == mesh
+    arrow = [(0, 0), (2, 0), (1, 2), (1, 0.5)]  # the last corner turns inward: only one diagonal is inside
+    cut = temper.from_meshio(meshio.Mesh(arrow, [("quad", [(3, 1, 2, 0)])]))
+    assert all(3 in t for t in cut.triangles.tolist()) and cut.reversed_triangles == 0
+    with pytest.raises(temper.TemperError, match="a quadrilateral uses a point"):
+        temper.from_meshio(meshio.Mesh(points, [("quad", [(0, 1, 5, 99)])]))
+
+
 class Bare:
     """An object with these attributes: what temper needs of a class that the tests do not have."""
 
@@ -251,12 +277,12 @@ def test_meshes_of_pyvista_are_taken():
     assert mesh.marked_points.tolist() == [4] and mesh.point_tags.tolist() == [40]
     data = poly_data()
     grid = Bare(
-        points=data.points, celltypes=np.array([5, 1, 7, 3, 5, 9]), offset=np.array([0, 3, 4, 7, 9, 12, 16]),
+        points=data.points, celltypes=np.array([5, 1, 7, 3, 5, 10]), offset=np.array([0, 3, 4, 7, 9, 12, 16]),
         cell_connectivity=np.array([0, 1, 4, 4, 1, 2, 3, 0, 1, 1, 3, 4, 0, 1, 2, 3]), point_data=data.point_data,
         cell_data={"region": np.array([10, 40, 20, 31, 20, 9])},
         field_data={"physical_names": np.frombuffer(b"1 31 inflow\n2 20 clean sand\n", dtype=np.uint8)},
     )  # fmt: skip
-    with pytest.warns(temper.TemperWarning, match="1 cells of type quad are left out"):
+    with pytest.warns(temper.TemperWarning, match="1 cells of type VTK 10 are left out"):
         other = temper.as_mesh(grid)
     assert other == mesh and other.names == {"inflow": (1, 31), "clean sand": (2, 20)}
     assert other.lines.tolist() == [[0, 1]] and temper.quality(poly_data()) == temper.quality(mesh)

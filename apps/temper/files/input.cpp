@@ -45,7 +45,13 @@ Input read_input(const std::string& path, const ReadingOptions& options) {
   input.path = path;
   input.file = options.read ? options.read(path) : read_tried(path, {options.executor, options.flat});
   take_to_map(input.file, path, options.projection);
-  input.loaded = or_fail(io::make_mesh(input.file, options.fixed_tags, options.executor));
+  Expected<io::LoadedMesh> loaded = io::make_mesh(input.file, options.fixed_tags, options.executor);
+  if (!loaded && loaded.error().code == ErrorCode::duplicate_point) {
+    InputError error = loaded.error();
+    error.message += fmt::format(". Next: temper convert {} --merge 0 -o OUT joins them", path);
+    throw as_failure(error);
+  }
+  input.loaded = or_fail(std::move(loaded));
   if (!options.spheres) expect_plane(input.loaded.mesh, path, "this verb");
   input.n_vertices = input.loaded.mesh.n_vertices();
   input.points = invert(input.loaded);

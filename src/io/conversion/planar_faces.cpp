@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "io/conversion/quadrilaterals.hpp"
 #include "io/text/failure.hpp"
 
 namespace temper::io {
@@ -67,7 +68,7 @@ std::vector<std::array<std::int32_t, 4>> planar_faces(std::span<const Vec2> poin
     const std::vector<std::int32_t> corners = graph.face(d);
     if (corners.size() < 3 || corners.size() > kMostSides || !(graph.doubled_area(corners) > 0)) continue;
     if (corners.size() <= 4) {
-      faces.push_back({corners[0], corners[1], corners[2], corners.size() == 4 ? corners[3] : -1});
+      faces.push_back({corners[0], corners[1], corners[2], corners.size() == 4 ? corners[3] : kNoCorner});
       continue;
     }
     std::string all;

@@ -38,6 +38,7 @@ void gather_faces(MeshFile& file, const RunLength& from) {
 
 void cut_quadrilaterals(MeshFile& file, FileNames& names, const std::vector<std::int32_t>& fourth_corners,
                         const std::vector<double>& heights) {
+  if (fourth_corners.empty()) return;
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::int32_t> numbers;
   RunLength faces;
@@ -55,8 +56,8 @@ void cut_quadrilaterals(MeshFile& file, FileNames& names, const std::vector<std:
   std::int32_t n = 0;
   for (std::size_t f = 0; f < file.triangles.size(); ++f) {
     const auto [a, b, c] = file.triangles[f];
-    const std::int32_t d = f < fourth_corners.size() ? fourth_corners[f] : -1;
-    if (d < 0) {
+    const std::int32_t d = f < fourth_corners.size() ? fourth_corners[f] : kNoCorner;
+    if (d == kNoCorner) {
       add(f, {a, b, c}, 0);
       continue;
     }
@@ -64,7 +65,6 @@ void cut_quadrilaterals(MeshFile& file, FileNames& names, const std::vector<std:
     add(f, by_bd ? std::array{a, b, d} : std::array{a, b, c}, ++n);
     add(f, by_bd ? std::array{b, c, d} : std::array{a, c, d}, n);
   }
-  if (n == 0) return;
   file.triangles = std::move(triangles);
   gather_faces(file, faces);
   file.cell_data.push_back({std::string(kQuadrilateral), 1, std::move(numbers)});

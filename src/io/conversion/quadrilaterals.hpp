@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -16,10 +17,13 @@
 
 namespace temper::io {
 
+/// Instead of the fourth corner of a triangle. Other numbers below 0 are errors of the file.
+inline constexpr std::int32_t kNoCorner = std::numeric_limits<std::int32_t>::min();
+
 /// Cell data: the number of the quadrilateral, counted from 1, or 0 for a triangle.
 inline constexpr std::string_view kQuadrilateral = "temper:quadrilateral";
 
-/// Cuts the faces that have a fourth corner (not −1). Regions, cell data and names are those of faces before, and of
+/// Cuts the faces that have a fourth corner. Regions, cell data and names are those of faces before, and of
 /// triangles after it. `heights`: z of each point, or empty.
 void cut_quadrilaterals(MeshFile& file, FileNames& names, const std::vector<std::int32_t>& fourth_corners,
                         const std::vector<double>& heights);

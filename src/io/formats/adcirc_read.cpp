@@ -131,7 +131,7 @@ class AdcircReader {
       }
       const std::string element = text(corners == 3 ? "triangle " : "quadrilateral ", number);
       const std::int32_t a = node(lookup, element), b = node(lookup, element), c = node(lookup, element);
-      document_.add_face({a, b, c}, corners == 4 ? node(lookup, element) : -1);
+      document_.add_face({a, b, c}, corners == 4 ? node(lookup, element) : kNoCorner);
       scanner_.next_line();
     }
   }
@@ -247,8 +247,8 @@ class AdcircReader {
     for (const std::size_t line : closing_lines_) gone[line] = true;
     for (std::size_t i = 0; i < f.triangles.size(); ++i) {
       const auto [a, b, c] = f.triangles[i];
-      const std::int32_t d = i < document_.fourth_corners.size() ? document_.fourth_corners[i] : -1;
-      const std::array corners = {a, b, c, d < 0 ? a : d};
+      const std::int32_t d = i < document_.fourth_corners.size() ? document_.fourth_corners[i] : kNoCorner;
+      const std::array corners = {a, b, c, d == kNoCorner ? a : d};
       for (std::size_t k = 0; k < 4; ++k) {
         const Ends ends = std::minmax({corners[k], corners[(k + 1) % 4]});
         auto line = std::lower_bound(wanted.begin(), wanted.end(), std::pair(ends, std::size_t{0}));

@@ -47,7 +47,7 @@ void CellSorter::add(int type, const std::int32_t* p, std::size_t n, const std::
       [[fallthrough]];
     case kVtkTriangle:
     case kVtkQuad:
-      document_.add_face({p[0], p[1], p[2]}, n == 4 ? p[3] : -1);
+      document_.add_face({p[0], p[1], p[2]}, n == 4 ? p[3] : kNoCorner);
       triangle_cells_.push_back(cell);
       return;
     case kVtkPixel:  // in rows

@@ -11,7 +11,6 @@
 
 #include "io/conversion/data_update.hpp"
 #include "io/conversion/globe.hpp"
-#include "io/conversion/quadrilaterals.hpp"
 #include "io/disk/files.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
@@ -44,7 +43,7 @@ void check_ranges(const Document& d) {
   }
   for (std::size_t t = 0; t < d.fourth_corners.size(); ++t) {
     const std::int32_t p = d.fourth_corners[t];
-    if (p != -1 && outside(p)) check_range(d, p, d.names->triangle(t), d.names->triangle_where(t));
+    if (p != kNoCorner && outside(p)) check_range(d, p, d.names->triangle(t), d.names->triangle_where(t));
   }
   for (const std::int32_t p : f.marked_points) {
     if (outside(p)) check_range(d, p, "a marked point", d.names->path);

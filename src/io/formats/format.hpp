@@ -9,6 +9,7 @@
 
 #include "io/conversion/bed.hpp"
 #include "io/conversion/globe.hpp"
+#include "io/conversion/quadrilaterals.hpp"
 #include "io/disk/files.hpp"
 #include "io/text/file_names.hpp"
 #include "temper/io.hpp"
@@ -21,13 +22,13 @@ struct Document {
   std::shared_ptr<FileNames> names;
   double z = 0;                                   ///< of the first point
   std::vector<double> heights = {};               ///< z of each point; empty while all points have the z of the first
-  std::vector<std::int32_t> fourth_corners = {};  ///< of the first faces that were read; −1 of a triangle
+  std::vector<std::int32_t> fourth_corners = {};  ///< of the first faces that were read, or kNoCorner
 
   /// A quadrilateral is the next of the triangles, with its fourth corner beside it: quadrilaterals.hpp.
-  void add_face(const std::array<std::int32_t, 3>& corners, std::int32_t fourth = -1) {
+  void add_face(const std::array<std::int32_t, 3>& corners, std::int32_t fourth = kNoCorner) {
     file.triangles.push_back(corners);
-    if (fourth < 0) return;
-    fourth_corners.resize(file.triangles.size(), -1);
+    if (fourth == kNoCorner) return;
+    fourth_corners.resize(file.triangles.size(), kNoCorner);
     fourth_corners.back() = fourth;
   }
 };

@@ -58,10 +58,10 @@ std::string_view element_name(std::int32_t type) {
 /// What an element belongs to.
 struct Membership {
   std::int32_t physical = 0, entity = 0;
-  std::int32_t partition = 0;       // 0: the mesh has none
-  bool is_reversed = false;         // the physical group has the entity in the other direction
-  bool of_partition_alone = false;  // between its parts, or a ghost
-  std::int32_t fourth_corner = -1;  // of a quadrilateral
+  std::int32_t partition = 0;              // 0: the mesh has none
+  bool is_reversed = false;                // the physical group has the entity in the other direction
+  bool of_partition_alone = false;         // between its parts, or a ghost
+  std::int32_t fourth_corner = kNoCorner;  // of a quadrilateral
 };
 
 /// Elements of one kind as they are read.
@@ -77,7 +77,7 @@ struct Elements {
     physical.push_back(of.physical);
     geometrical.push_back(of.entity);
     partitions.push_back(of.partition);
-    if (of.fourth_corner >= 0) fourth_corners.resize(nodes.size() - 1, -1);
+    if (of.fourth_corner != kNoCorner) fourth_corners.resize(nodes.size() - 1, kNoCorner);
     if (!fourth_corners.empty()) fourth_corners.push_back(of.fourth_corner);
     numbers.push_back(number);
     text_lines.push_back(text_line);

@@ -41,7 +41,7 @@ class Reader2dm {
       const auto corner = [&](std::size_t k) {
         return index(lookup, corners_[t][k], document_.names->triangle(t), document_.names->triangle_where(t));
       };
-      document_.add_face({corner(0), corner(1), corner(2)}, corners_[t][3] == kNoNode ? -1 : corner(3));
+      document_.add_face({corner(0), corner(1), corner(2)}, corners_[t][3] == kNoNode ? kNoCorner : corner(3));
     }
     for (std::size_t i = 0; i < ends_.size(); ++i) {
       auto& line = f.lines.emplace_back();

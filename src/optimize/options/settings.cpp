@@ -179,10 +179,10 @@ InputError no_use_of_problem(const OptimizeOptions& o, const Mesh& mesh) {
         "a problem of one's own is for runs that lower the error of one solver; expected the target vertex or cell, "
         "with the default objective and energy");
   }
-  return invalid("the mesh has " + std::to_string(mesh.n_vertices()) +
-                 " vertices, but errors of a problem are lowered " + "up to " +
-                 std::to_string(o.solver_error.most_vertices) + " vertices; expected `solver_error_vertices=" +
-                 std::to_string(mesh.n_vertices()) + "`, which takes long");
+  return invalid(
+      "the mesh has " + std::to_string(mesh.n_vertices()) + " vertices, but errors of a problem are lowered " +
+      "up to " + std::to_string(o.solver_error.most_vertices) +
+      " vertices; expected `solver_error_vertices=" + std::to_string(mesh.n_vertices()) + "`, which takes long");
 }
 
 /// Adds the model of errors that the options need, if the build has one.
@@ -190,6 +190,11 @@ Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
   const OptimizeOptions& o = s.options;
   const bool wants = wants_error_model(o, mesh);
   if (o.problem && !wants) return no_use_of_problem(o, mesh);
+  if (o.problem && !s.hooks.solvers.discretization_error) {
+    return invalid(
+        "a problem of one's own needs a model of errors, and this run has none; builds with Eigen have one, "
+        "temper::solvers() in C++");
+  }
   if (wants && s.hooks.solvers.discretization_error) {
     auto model = s.hooks.solvers.discretization_error(mesh, o, s.hooks.names);
     if (!model) return model.error();

@@ -246,5 +246,16 @@ TEST_F(Convert, MergesPointsThatACheckNames) {
   EXPECT_TRUE(contains(temper({"convert", "in.off", "--merge", "1", "-o", "o.off"}).err, "two corners of triangle 0"));
 }
 
+TEST_F(Convert, MergesPointsAtOnePlaceAsTheErrorSays) {
+  write("in.off",
+        "OFF\n8 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n1 0 0\n2 0 0\n2 1 0\n1 1 0\n3 0 1 2\n3 0 2 3\n3 4 5 6\n3 4 6 7\n");
+  const Outcome doubled = temper({"check", "in.off"});
+  EXPECT_EQ(doubled.exit, 1);
+  EXPECT_TRUE(contains(doubled.err, "point 1 and point 4 are both at (1, 0)")) << doubled.err;
+  EXPECT_TRUE(contains(doubled.err, "Next: temper convert in.off --merge 0 -o OUT joins them")) << doubled.err;
+  temper_ok({"convert", "in.off", "--merge", "0", "-o", "out.off"});
+  EXPECT_EQ(temper_ok({"check", "out.off"}).err, "");
+}
+
 }  // namespace
 }  // namespace temper::test

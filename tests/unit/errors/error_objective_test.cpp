@@ -156,10 +156,14 @@ TEST(ErrorObjective, AProblemThatNoRunWouldUseIsRefused) {
     return report ? std::string() : report.error().message;
   };
   EXPECT_NE(message({}).find("expected the target vertex or cell"), std::string::npos);
-  EXPECT_NE(message({.scheme = Scheme::cell, .energy = EnergyKind::T}).find("the default objective"), std::string::npos);
+  EXPECT_NE(message({.scheme = Scheme::cell, .energy = EnergyKind::T}).find("the default objective"),
+            std::string::npos);
   EXPECT_NE(message({.scheme = Scheme::cell, .tensor = Tensor{2, 0, 1}}).find("cannot go with a problem"),
             std::string::npos);
   OptimizeOptions few = options_for(Scheme::vertex);
+  few.problem = input.problem;
+  Mesh mesh = input.mesh;
+  EXPECT_FALSE(optimize(mesh, few)) << "without a model";
   few.solver_error.most_vertices = 48;
   EXPECT_NE(message(few).find("expected `solver_error_vertices=49`"), std::string::npos);
 }

@@ -105,6 +105,22 @@ TEST_F(Quadrilaterals, AreTwoTrianglesWhereAFormatHasNone) {
   }
 }
 
+TEST_F(Quadrilaterals, HaveFourCornersThatExist) {
+  const auto error = [&](const std::string& cells) {
+    make("m.vtk",
+         "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0\n1 0 0\n"
+         "1 1 0\n0 1 0\nCELLS 1 5\n4 " +
+             cells + "\nCELL_TYPES 1\n9\n");
+    const auto f = read(path("m.vtk"));
+    return f ? std::to_string(f->triangles.size()) : plain(f.error().what());
+  };
+  EXPECT_EQ(error("0 1 2 3"), "2");
+  for (const char* wrong : {"4", "-1", "-7"}) {
+    EXPECT_NE(error(std::string("0 1 2 ") + wrong).find(std::string(" uses vertex ") + wrong), std::string::npos)
+        << error(std::string("0 1 2 ") + wrong);
+  }
+}
+
 // A vertex inside is free to move, quadrilaterals beside it are not. Rectangles are no fault, whose center is on the
 // diagonal of the triangles.
 TEST_F(Quadrilaterals, StayWhileTheMeshAroundThemIsOptimized) {
@@ -138,7 +154,10 @@ TEST_F(Quadrilaterals, StayWhileTheMeshAroundThemIsOptimized) {
   auto loaded = make_mesh(f);
   ASSERT_TRUE(loaded) << loaded.error().what();
   std::size_t halves = 0;
-  for (const TriangleId t : loaded->mesh.triangles()) halves += loaded->mesh.is_half(t);
+  for (const TriangleId t : loaded->mesh.triangles()) {
+    halves += loaded->mesh.is_half(t);
+    for (const VertexId v : loaded->mesh.corners(t)) EXPECT_TRUE(!loaded->mesh.is_half(t) || loaded->mesh.is_fixed(v));
+  }
   EXPECT_EQ(halves, 36u);
   Mesh mesh = loaded->mesh;
   OptimizeOptions options;

@@ -92,7 +92,7 @@ class ExodusReader {
         element.corners.at(k) = node(all[i * n + k], text("element ", elements_.size()));
       const auto [a, b, c, d] = element.corners;
       if (n >= 3) {
-        document_.add_face({a, b, c}, n == 4 ? d : -1);
+        document_.add_face({a, b, c}, n == 4 ? d : kNoCorner);
         document_.names->triangles.push_back(static_cast<std::int64_t>(elements_.size()));
         f.regions.push_back(tag);
       } else if (n == 2) {

@@ -214,7 +214,7 @@ class UgridReader {
         fail(ErrorCode::unsupported, path(), "face ", static_cast<std::int64_t>(face) + start, " has ", count,
              " corners; temper reads triangles and quadrilaterals");
       }
-      document_.add_face({corners[0], corners[1], corners[2]}, count == 4 ? corners[3] : -1);
+      document_.add_face({corners[0], corners[1], corners[2]}, count == 4 ? corners[3] : kNoCorner);
     }
   }
 
