@@ -142,7 +142,8 @@ void bind_insertion(py::module_& m) {
                           "What insert_vertex will do, for the mesh as it is: a value, to be priced or thrown away.")
       .def_property_readonly(
           "status", [](const PyInsertion& p) { return to_python(name_of(p.plan.status)); },
-          "possible, outside, at_vertex, on_boundary, on_constrained, hidden, not_regular, in_quadrilateral, or inverted.")
+          "possible, outside, at_vertex, on_boundary, on_constrained, hidden, not_regular, in_quadrilateral, or "
+          "inverted.")
       .def_property_readonly(
           "point", [](const PyInsertion& p) { return to_python(p.plan.point); }, "x, y, w of the new vertex.")
       .def_property_readonly(
