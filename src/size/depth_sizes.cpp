@@ -11,8 +11,6 @@
 namespace temper {
 namespace {
 
-constexpr double kGravity = 9.81;
-
 std::optional<InputError> check(const DepthSizes& rules) {
   const auto refused = [](const std::string& message) { return InputError{ErrorCode::invalid_option, "", message}; };
   struct Row {

@@ -67,6 +67,8 @@ class SizeField {
 /// The field of the local sizes without a copy of the mesh: the mesh must exist and not change.
 [[nodiscard]] SizeField input_size_field_of(const Mesh& mesh, Executor* executor = nullptr);
 
+inline constexpr double kGravity = 9.81;  ///< g [m/s²]: long waves have the speed √(g H) in water of depth H
+
 /// Rules that make sizes from depths of water. A wave of the period T in water of depth H has the length T √(g H); in a
 /// time step Δt it goes √(g H) Δt.
 struct DepthSizes {
@@ -78,7 +80,7 @@ struct DepthSizes {
   double largest = 0;         ///< Largest size [m]; 0: no bound
 };
 /// The size at each depth H [m], positive down: T √(g H) / per_wavelength, between `least` and `largest`, and not below
-/// √(g H) Δt / courant, which counts most. Land (H ≤ 0) and missing depths (NaN) have the least size. g is 9.81 m/s².
+/// √(g H) Δt / courant, which counts most. Land (H ≤ 0) and missing depths (NaN) have the least size.
 /// Errors: no rule; numbers that are not positive or not finite; `largest` below `least`. O(n).
 [[nodiscard]] Expected<std::vector<double>> sizes_from_depths(std::span<const double> depths, const DepthSizes& rules);
 

@@ -13,7 +13,6 @@
 namespace temper {
 namespace {
 
-constexpr double kGravity = 9.81;
 constexpr double kLeastDepth = 1;  // [m]: on dry land waves need a speed, too
 // Values in the user's units differ by rounding from those in the units of the run.
 constexpr double kRounding = 1e-9;

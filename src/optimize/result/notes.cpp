@@ -217,6 +217,8 @@ void add_notes(const Mesh& mesh, const Settings& settings, const RunFacts& facts
   notes.note_energy();
   notes.note_corners_that_stay(ending.bad);
   notes.note_edges_that_must_be_split(ending.bad);
+  if (settings.guard != nullptr && ending.bad > 0)
+    notes.add("the guard may keep triangles from becoming well-centered: a larger `guard_areas` leaves more room");
   if (settings.lacks_discretization_error) {
     notes.add(
         "the objective was accuracy, not the error of the solver: this run had no model of that error; builds with "

@@ -78,7 +78,11 @@ TEST(Guard, HoldsForEveryTargetAndItsLimitsBind) {
       options.guard.depth = depths_of(input);
       Mesh mesh = input, free = input;
       std::vector<TraceEvent> events;
-      ASSERT_TRUE(optimize(mesh, options, {.tracer = [&](const TraceEvent& e) { events.push_back(e); }}));
+      const auto report = optimize(mesh, options, {.tracer = [&](const TraceEvent& e) { events.push_back(e); }});
+      ASSERT_TRUE(report);
+      const bool names_guard = std::ranges::any_of(
+          report->notes, [](const std::string& note) { return note.find("guard_areas") != std::string::npos; });
+      EXPECT_EQ(names_guard, quality(mesh).well_centered_fraction < 1) << target;
       const Shape after = shape(mesh, depth_of);
       expect_guarded(before, after, options.guard, target);
       EXPECT_GE(after.time, before.time * (1 - kRounding)) << target;
