@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "mesh/bad_triangles.hpp"
 #include "temper/detail/optimize_table.hpp"
 
 namespace temper {
@@ -174,7 +175,7 @@ AccuracyModel accuracy_model(const AccuracyOptions& a, Scheme scheme, Star star)
 InputError no_use_of_problem(const OptimizeOptions& o, const Mesh& mesh) {
   OptimizeOptions more = o;
   more.solver_error.most_vertices = std::numeric_limits<int>::max();
-  if (!wants_error_model(more, mesh)) {
+  if (!wants_error_model(more, mesh) || o.objective == Objective::accuracy) {
     return invalid(
         "a problem of one's own is for runs that lower the error of one solver; expected the target vertex or cell, "
         "with the default objective and energy");
@@ -189,7 +190,7 @@ InputError no_use_of_problem(const OptimizeOptions& o, const Mesh& mesh) {
 Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
   const OptimizeOptions& o = s.options;
   const bool wants = wants_error_model(o, mesh);
-  if (o.problem && !wants) return no_use_of_problem(o, mesh);
+  if (o.problem && (!wants || o.objective == Objective::accuracy)) return no_use_of_problem(o, mesh);
   if (o.problem && !s.hooks.solvers.discretization_error) {
     return invalid(
         "a problem of one's own needs a model of errors, and this run has none; builds with Eigen have one, "

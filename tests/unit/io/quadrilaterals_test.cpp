@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "support.hpp"
 #include "temper/optimize.hpp"
 
@@ -90,6 +92,27 @@ TEST_F(Quadrilaterals, AreInEveryFormatWhatTheyWere) {
       ASSERT_TRUE(write(path("third"), read_ok("again"), {.format = format, .encoding = encoding}));
       EXPECT_EQ(slurp(path("third")), slurp(path("again")));
     }
+  }
+}
+
+TEST_F(Quadrilaterals, MayBeAlone) {
+  make("hgrid.gr3", "two\n2 6\n1 0 0 1\n2 1 0 2\n3 2 0 3\n4 0 1 4\n5 1 1 5\n6 2 1 6\n1 4 1 2 5 4\n2 4 2 3 6 5\n");
+  MeshFile f = read_ok("hgrid.gr3");
+  f.points_in = PlanePoints();
+  for (const std::string& format : formats_with_quadrilaterals()) {
+    ASSERT_TRUE(write(path(file_of(format)), f, {.format = format, .encoding = Encoding::ascii}));
+    EXPECT_EQ(cycles(read_ok(file_of(format))), kCycles) << format;
+  }
+}
+
+TEST_F(Quadrilaterals, WithACornerTwiceAreTriangles) {
+  for (const char* const corners : {"1 2 3 3", "1 1 2 3", "1 2 2 3", "1 2 3 1"}) {
+    make("hgrid.gr3", "one\n2 4\n1 0 0 1\n2 9 0 2\n3 9 9 3\n4 0 9 4\n1 4 " + std::string(corners) + "\n2 3 1 3 4\n");
+    const MeshFile f = read_ok("hgrid.gr3");
+    ASSERT_EQ(f.triangles.size(), 2u) << corners;
+    EXPECT_EQ(quadrilaterals_of(f).size(), 0u);
+    const auto [a, b, c] = f.triangles[0];
+    EXPECT_TRUE((std::set{a, b, c} == std::set{0, 1, 2})) << corners;
   }
 }
 
