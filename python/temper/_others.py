@@ -265,7 +265,7 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
     triangles, quads, lines = _blocks(mesh, "triangle"), _blocks(mesh, "quad"), _blocks(mesh, "line")
     if not triangles and not quads:
         found = [f"{len(block.data)} cells of type {block.type}" for block in mesh.cells] + dropped
-        raise TemperError("empty_input", "", f"expected cells of type triangle; {'; '.join(found) or 'there are none'}")
+        raise TemperError("empty_input", "", f"expected cells of type triangle or quad; {'; '.join(found) or 'there are none'}")
     point_data = {}
     weights = np.empty(0)
     for name, values in mesh.point_data.items():
@@ -279,7 +279,9 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
         of_quads = _joined(mesh, quads, 4)
         n, n_quads = len(corners), len(of_quads)
         if of_quads.size and (of_quads.min() < 0 or of_quads.max() >= len(points)):
-            raise TemperError("index_out_of_range", "", f"a quadrilateral uses a point that is none of the {len(points)}")
+            wrong = of_quads[(of_quads < 0) | (of_quads >= len(points))][0]
+            message = f"a quadrilateral uses point {wrong}, but there are {len(points)} points"
+            raise TemperError("index_out_of_range", "", message)
         corners = np.concatenate([corners, _cut(points, of_quads)])
         row = np.concatenate([np.arange(n), n + np.repeat(np.arange(n_quads), 2)])
         cell_data = {name: np.ascontiguousarray(values[row]) for name, values in cell_data.items()}

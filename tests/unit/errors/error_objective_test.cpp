@@ -155,7 +155,7 @@ TEST(ErrorObjective, AProblemThatNoRunWouldUseIsRefused) {
     EXPECT_EQ(mesh, input.mesh);
     return report ? std::string() : report.error().message;
   };
-  EXPECT_NE(message({}).find("expected the target vertex or cell"), std::string::npos);
+  EXPECT_NE(message({}).find("expected --for vertex or --for cell"), std::string::npos);
   EXPECT_NE(message({.scheme = Scheme::cell, .energy = EnergyKind::T}).find("the default objective"),
             std::string::npos);
   EXPECT_NE(message({.scheme = Scheme::cell, .tensor = Tensor{2, 0, 1}}).find("cannot go with a problem"),
@@ -165,7 +165,7 @@ TEST(ErrorObjective, AProblemThatNoRunWouldUseIsRefused) {
   Mesh mesh = input.mesh;
   EXPECT_FALSE(optimize(mesh, few)) << "without a model";
   few.solver_error.most_vertices = 48;
-  EXPECT_NE(message(few).find("expected `solver_error_vertices=49`"), std::string::npos);
+  EXPECT_NE(message(few).find("Next: `solver_error_vertices=49`"), std::string::npos);
 }
 
 // On rings errors cancel from neighbor to neighbor, which all that moves single vertices ends
