@@ -194,8 +194,8 @@ def _cell_data(mesh: Any, blocks: list[int], dropped: list[str]) -> dict[str, An
 
 
 def _cut(points: Any, quads: Any) -> Any:
-    """Two triangles for each quadrilateral. Its diagonal is the one whose lesser triangle is larger: from the first to
-    the third corner if both are alike."""
+    """Cuts each quadrilateral into two triangles, along the diagonal whose smaller triangle is larger. If both are alike,
+    the diagonal is from the first to the third corner."""
     a, b, c, d = (points[quads[:, k]] for k in range(4))
 
     def area(p: Any, q: Any, r: Any) -> Any:
@@ -213,8 +213,8 @@ def _cut(points: Any, quads: Any) -> Any:
 
 
 def _joined_halves(triangles: Any, numbers: Any) -> tuple[Any, Any, Any]:
-    """The triangles that are whole, the quadrilaterals of the others, and the first triangle of each. Numbers that are
-    not on two triangles with a common edge count for nothing."""
+    """Joins pairs of triangles with the same number to quadrilaterals. Returns the triangles of no pair, the
+    quadrilaterals, and the first triangle of each. A number counts only on two triangles with a common edge."""
     order = np.argsort(numbers, kind="stable")
     _, first, count = np.unique(numbers[order], return_index=True, return_counts=True)
     pairs = first[(count == 2) & (numbers[order[first]] > 0)]
