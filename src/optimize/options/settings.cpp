@@ -176,7 +176,7 @@ InputError no_use_of_problem(const OptimizeOptions& o, const Mesh& mesh) {
   more.solver_error.most_vertices = std::numeric_limits<int>::max();
   if (!wants_error_model(more, mesh)) {
     return invalid(
-        "this run does not lower the error of a problem; expected --for vertex or --for cell (in Python `target`), the "
+        "this run does not lower the error of a problem; expected --for vertex or --for cell (in Python target), the "
         "default objective and energy, and a mesh of the plane");
   }
   if (o.solver_error.most_vertices == 0) {

@@ -203,7 +203,7 @@ TEST(Snap, LinesOfWhichJoinsLeaveNothingAreNamed) {
             "joins within 0.03 (--snap) remove the whole line at (0.5, 0.5), segment 4, 'brook': its points become "
             "one. Next: a smaller --snap "
             "keeps it");
-  EXPECT_NE(made->warnings[1].find("at (0.2, 0.8), segment 8, tag 6."), std::string::npos);
+  EXPECT_NE(made->warnings[1].find("at (0.2, 0.8), segment 8, tag 6:"), std::string::npos);
   EXPECT_NE(made->notes.back().find("lines of 'brook'"), std::string::npos);
 }
 
