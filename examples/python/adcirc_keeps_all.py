@@ -2,8 +2,8 @@
 
     python3 adcirc_keeps_all.py        needs the program temper, and Matplotlib; with adcircpy it also reads both files there
 
-temper optimize works on a map in meters, and writes degrees again. Boundaries keep their type and their
-nodes, and may gain nodes. Depths are interpolated.
+temper optimize works on a map in meters, and writes degrees again. Boundaries keep their type and their nodes,
+and may gain nodes. Depths are interpolated.
 """
 
 import importlib.util

@@ -3,8 +3,8 @@
     python3 ww3_depth_in_z.py        needs the program temper, and Matplotlib; with meshio it also reads the file there
 
 WAVEWATCH III reads Gmsh's format 2: nodes in degrees with the depth as z, open boundary nodes as points, and triangles.
-temper optimize --flat takes z as data. The mesh has no weights, so the
-file has no other section, which the model would not read.
+temper optimize --flat takes z as data. The mesh has no weights, so the file has no other section,
+which the model would not read.
 """
 
 import importlib.util

@@ -194,8 +194,8 @@ def _cell_data(mesh: Any, blocks: list[int], dropped: list[str]) -> dict[str, An
 
 
 def _cut(points: Any, quads: Any) -> Any:
-    """Cuts each quadrilateral into two triangles, along the diagonal whose smaller triangle is larger. If both are alike,
-    the diagonal is from the first to the third corner."""
+    """Cuts each quadrilateral into two triangles, along the diagonal whose smaller triangle is larger. If both are
+    alike, the diagonal is from the first to the third corner."""
     a, b, c, d = (points[quads[:, k]] for k in range(4))
 
     def area(p: Any, q: Any, r: Any) -> Any:
@@ -280,7 +280,7 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
         n, n_quads = len(corners), len(of_quads)
         if of_quads.size and (of_quads.min() < 0 or of_quads.max() >= len(points)):
             wrong = of_quads[(of_quads < 0) | (of_quads >= len(points))][0]
-            message = f"a quadrilateral uses point {wrong}, but there are {len(points)} points"
+            message = f"a quadrilateral uses point {wrong}, but there are {len(points)} points, numbered from 0"
             raise TemperError("index_out_of_range", "", message)
         corners = np.concatenate([corners, _cut(points, of_quads)])
         row = np.concatenate([np.arange(n), n + np.repeat(np.arange(n_quads), 2)])
