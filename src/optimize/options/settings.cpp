@@ -176,13 +176,13 @@ InputError no_use_of_problem(const OptimizeOptions& o, const Mesh& mesh) {
   more.solver_error.most_vertices = std::numeric_limits<int>::max();
   if (!wants_error_model(more, mesh)) {
     return invalid(
-        "this run does not lower the error of a problem; expected --for vertex or --for cell (in Python target), the "
-        "default objective and energy, and a mesh of the plane");
+        "this run does not lower the error of a problem; expected the target vertex or cell (--for), the default "
+        "objective and energy, and a mesh of the plane");
   }
   if (o.solver_error.most_vertices == 0) {
     return invalid(
-        "--effort quick does not lower the error of a problem: it sets `solver_error_vertices=0`. Next: --effort "
-        "normal");
+        "the effort quick (`solver_error_vertices=0`) does not lower the error of a problem. Next: the effort normal "
+        "(--effort normal)");
   }
   return invalid("the mesh has " + std::to_string(mesh.n_vertices()) +
                  " vertices, more than `solver_error_vertices=" + std::to_string(o.solver_error.most_vertices) +

@@ -155,7 +155,7 @@ TEST(ErrorObjective, AProblemThatNoRunWouldUseIsRefused) {
     EXPECT_EQ(mesh, input.mesh);
     return report ? std::string() : report.error().message;
   };
-  EXPECT_NE(message({}).find("expected --for vertex or --for cell"), std::string::npos);
+  EXPECT_NE(message({}).find("expected the target vertex or cell"), std::string::npos);
   EXPECT_NE(message({.scheme = Scheme::cell, .energy = EnergyKind::T}).find("the default objective"),
             std::string::npos);
   EXPECT_NE(message({.scheme = Scheme::cell, .tensor = Tensor{2, 0, 1}}).find("cannot go with a problem"),
