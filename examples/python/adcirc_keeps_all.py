@@ -1,9 +1,9 @@
-"""A fort.14 in degrees, with depths and boundaries: the same after temper, with better triangles.
+"""Optimizes a fort.14 in degrees, and checks its depths and boundaries.
 
     python3 adcirc_keeps_all.py        needs the program temper, and Matplotlib; with adcircpy it also reads both files there
 
-temper optimize works on a map in meters, and writes degrees again. Boundaries stay strings of nodes with their type, and
-depths are interpolated.
+temper optimize works on a map in meters, and writes degrees again. Boundaries keep their type and their nodes,
+and may gain nodes. Depths are interpolated.
 """
 
 import importlib.util
@@ -49,13 +49,13 @@ for when, (least, largest) in zip(("before", "after"), angles):
     print(f"{when:6}  angles from {least:.1f}° to {largest:.1f}°")
 assert angles[1][0] > angles[0][0] and angles[1][1] < 91 < angles[0][1]
 
-# Each boundary has its type, and the old places in their order. The run may add nodes between them.
+# Each boundary keeps its type, and its old nodes in their order. The run may add nodes between them.
 for (kind, old), (same, new) in zip(before[2], after[2], strict=True):
     places = iter(after[0][new, :2].tolist())
     assert kind == same and all(place in places for place in before[0][old, :2].tolist()), kind
     print(f"boundary of type {kind or 'open'}: {len(old)} nodes before, {len(new)} after")
 
-# The depth is that of the old triangles. The map bends them by millimeters.
+# Depths are interpolated on the old triangles. On the map their edges are curves, which differ by millimeters.
 depth = LinearTriInterpolator(Triangulation(*before[0].T[:2], before[1]), before[0][:, 2])(*after[0].T[:2])
 difference = abs(depth - after[0][:, 2]).max()
 print(f"depth: at most {difference:.2g} m from the old one")

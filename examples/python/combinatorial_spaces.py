@@ -1,4 +1,4 @@
-"""A file that gives CombinatorialSpaces.jl its dual points: mesh, orthocenters and weighted midpoints, as plain CSV.
+"""Writes files that give CombinatorialSpaces.jl its dual points: mesh, orthocenters and weighted midpoints, as plain CSV.
 
     python3 combinatorial_spaces.py [IN [FOLDER]]
 

@@ -1,4 +1,4 @@
-"""From Gmsh to DEVSIM: regions, contacts and their interface by name, and a potential that is right to rounding.
+"""Takes regions, contacts and their interface from Gmsh to DEVSIM by name, and solves for a potential.
 
     python3 devsim_by_name.py        needs the programs gmsh and temper; with DEVSIM it also solves
 
@@ -30,7 +30,7 @@ assert text.partition("$Nodes")[0] == pathlib.Path("stack.msh").read_text(encodi
 
 
 def potential(x):
-    """1 on the right: the flux is the same in both."""
+    """The exact potential: 0 on the left, 1 on the right, and one flux through both insulators."""
     flux = 1 / (1 / PERMITTIVITY["oxide"] + 1 / PERMITTIVITY["nitride"])
     return flux * np.where(x < 1, x / PERMITTIVITY["oxide"], 1 / PERMITTIVITY["oxide"] + (x - 1) / PERMITTIVITY["nitride"])
 

@@ -1,9 +1,9 @@
-"""A net of D-Flow FM with bed levels: orthogonal after temper, by MeshKernel's own measure.
+"""Makes a net of D-Flow FM with bed levels orthogonal, and measures it with MeshKernel.
 
     python3 dflowfm_orthogonal.py        needs the program temper, and SciPy; with MeshKernel it also measures both nets there
 
-D-Flow FM wants an orthogonality of at most 0.01: the cosine of the angle between an edge and the line that joins the two
-circumcenters beside it.
+D-Flow FM wants an orthogonality of at most 0.01. It is the cosine of the angle between an edge and the line through the
+circumcenters of its two triangles.
 """
 
 import importlib.util

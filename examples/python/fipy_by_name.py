@@ -1,4 +1,4 @@
-"""From Gmsh to FiPy: two conductivities by the names of their groups, and a smaller error of the same solver.
+"""Takes a mesh from Gmsh to FiPy, gives two conductivities by the names of groups, and measures the error.
 
     python3 fipy_by_name.py        needs the program gmsh, and SciPy; with FiPy it also solves by FiPy
 

@@ -1,4 +1,4 @@
-"""From a map to MODFLOW: wells, river and lake of examples/aquifer.geojson in cells, by their names.
+"""Takes wells, river and lake of examples/aquifer.geojson to cells of MODFLOW, by their names.
 
     python3 modflow_by_name.py        needs the program temper; with FloPy it also makes the model
 

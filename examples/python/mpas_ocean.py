@@ -1,4 +1,4 @@
-"""From a coast and a raster of depths to an ocean for MPAS: without weights, with centered edges, and without a warning.
+"""Makes an ocean for MPAS from a coast and a raster of depths, without weights, and checks its edges.
 
     python3 mpas_ocean.py        needs the program temper, and SciPy; with uxarray it also validates the grid
 

@@ -1,9 +1,10 @@
-"""A mesh of WAVEWATCH III with depths in z: they come back in z, and the open boundary stays.
+"""Optimizes a mesh of WAVEWATCH III with depths in z, and checks depths and the open boundary.
 
     python3 ww3_depth_in_z.py        needs the program temper, and Matplotlib; with meshio it also reads the file there
 
 WAVEWATCH III reads Gmsh's format 2: nodes in degrees with the depth as z, open boundary nodes as points, and triangles.
-temper optimize --flat takes z as data. Without weights, the file has no other section, which the model would not read.
+temper optimize --flat takes z as data. The mesh has no weights, so the file has no other section,
+which the model would not read.
 """
 
 import importlib.util
@@ -20,7 +21,7 @@ BAY = pathlib.Path(__file__).parent.parent / "bay.14"
 def read_as_the_model(file):
     """Nodes, triangles and boundary nodes by the rules of READMSH. Nodes count from 0."""
     rows = [line.split() for line in pathlib.Path(file).read_text(encoding="utf-8").splitlines() if not line.startswith("$")]
-    assert rows.pop(0) == ["2", "0", "8"]  # whole numbers: 2.2 is an error
+    assert rows.pop(0) == ["2", "0", "8"]  # the model reads whole numbers, and stops at 2.2
     nodes = np.array([[float(word) for word in rows.pop(0)[1:4]] for _ in range(int(rows.pop(0)[0]))])
     elements = [[int(word) for word in rows.pop(0)] for _ in range(int(rows.pop(0)[0]))]
     assert not rows  # nothing behind

@@ -159,8 +159,9 @@ struct DiscretizationErrorOptions {
   Scheme scheme = Scheme::all;  ///< Scheme; vertex: Poisson problems; cell: two-point flux; all: both
   std::size_t fields = 64;      ///< Number of waves in all directions, whose squared errors are averaged
   std::uint64_t seed = 1;       ///< Seed of their lengths and phases
-  /// A problem in place of the waves, on the mesh of the model. The error is that against its reference, see
-  /// measure_diffusion_errors(), plus the reference's own. Any triangle has the coefficient at its centroid.
+  /// A problem in place of the waves, on the mesh of the model. The squared error is that against the
+  /// reference of measure_diffusion_errors(), plus the square of the reference's own. A triangle of any mesh has the
+  /// coefficient at its centroid.
   const DiffusionProblem* problem = nullptr;
   const InputNames* names = nullptr;  ///< Numbering of the user, for errors
 };

@@ -185,8 +185,7 @@ class Mesh {
   [[nodiscard]] bool is_unflippable(HalfedgeId h) const { return is_boundary(h) || is_constrained(h); }
   /// Marks the edge of h on both sides.
   void set_constrained(HalfedgeId h, bool constrained) { mark(h, constrained ? 1 : 0); }
-  /// Says whether the edge is the diagonal of a quadrilateral, whose two triangles are one cell. It is constrained,
-  /// too.
+  /// Says whether the edge is the diagonal of a quadrilateral. Its two triangles are one cell, and it is constrained.
   [[nodiscard]] bool is_diagonal(HalfedgeId h) const { return constrained_[h] == kDiagonal; }
   /// Marks a diagonal on both sides. The caller constrains the sides of the quadrilateral and fixes its corners.
   void set_diagonal(HalfedgeId h) { mark(h, kDiagonal); }

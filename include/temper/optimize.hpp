@@ -276,8 +276,9 @@ struct GuardOptions {
   /// Bound of the least time [s] in which a long wave crosses a triangle or an edge, where there is a depth. Absent:
   /// the input's, if there is another limit.
   std::optional<double> step = {};
-  /// Water depth at each vertex of the input [m], positive down; NaN: land. Depths belong to places, as point data do.
-  /// Waves have the speed √(9.81 H), with H the mean depth of a triangle, at least 1 m. Empty: no limits of times.
+  /// Water depth at each vertex of the input [m], positive down; NaN: land. A vertex that moves gets the depth of its
+  /// place. Waves have the speed √(9.81 H), with H the mean depth of a triangle, at least 1 m. Empty: no limits of
+  /// times.
   std::vector<double> depth = {};
 };
 
@@ -328,8 +329,8 @@ struct OptimizeOptions {
   /// Constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/detail/tensor.hpp). The
   /// report and snapshots are in that plane. Absent: K = 1.
   std::optional<Tensor> tensor = {};
-  /// The user's own problem, whose error the run lowers. An error says why a run has no model of it: see
-  /// wants_error_model(). Absent: the mean error of many smooth solutions with K = 1.
+  /// The user's own problem. The run lowers its error, or says why it cannot: see wants_error_model(). Absent: the
+  /// mean error of many smooth solutions with K = 1.
   std::optional<DiffusionProblem> problem = {};
   int max_sweeps = 1000;  ///< Largest number of sweeps; each repair counts as a sweep
   double time_limit = 0;  ///< Time limit of the whole run [s]; 0: none
@@ -346,8 +347,8 @@ struct OptimizeOptions {
 /// accuracy, the model selects the mesh of least error; the input is compared too if it is well-centered.
 [[nodiscard]] bool wants_error_model(const OptimizeOptions& options, const Mesh& mesh);
 
-/// What a run may do to a problem, in sentences for a warning: edges across which the coefficient jumps, and which are
-/// not constrained, do not stay.
+/// Warnings about a problem, as sentences. The run may move an edge across which the coefficient changes, unless the
+/// edge is constrained.
 [[nodiscard]] std::vector<std::string> problem_warnings(const Mesh& mesh, const DiffusionProblem& problem);
 
 /// Returns the options for a target, an effort, and parts of the mesh to keep. Their names and meanings are in

@@ -240,7 +240,7 @@ def measure_diffusion_errors(
 
 
 class DiffusionProblem(TypedDict, total=False):
-    """The user's own problem −div(K ∇u) = f: the arguments of ``measure_diffusion_errors``."""
+    """The user's own problem −div(K ∇u) = f. ``measure_diffusion_errors`` explains each; ``dirichlet`` is needed."""
 
     dirichlet: Mapping[str | int, float]
     neumann: Mapping[str | int, float] | None

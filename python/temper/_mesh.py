@@ -535,9 +535,10 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
     ----------
     mesh : meshio.Mesh
         Its triangles and quadrilaterals become the mesh, and lines inside the domain become constrained edges. A
-        quadrilateral becomes two triangles that stay. Vertex cells stay with their points. Other cells, ``point_sets`` and ``cell_sets`` are left out, with a warning. Points may have a
-        third coordinate if it is the same for all. If all points have the same distance from the origin, to one part in
-        a million, they are a mesh of the sphere. Point data ``weight`` are the weights [length²]. The regions are the
+        quadrilateral becomes two triangles, whose corners stay in place. So do points of vertex cells. Other cells,
+        ``point_sets`` and ``cell_sets`` are left out, with a warning. Points may have a third coordinate if it is the
+        same for all. If all points have the same distance from the origin, to one part in a million, they are a mesh of
+        the sphere. Point data ``weight`` are the weights [length²]. The regions are the
         integer cell data ``region``, ``gmsh:physical``, ``medit:ref`` or ``cell_tags``, the first that exists; tags of
         lines and vertex cells too. ``field_data`` of a tag and a dimension are ``names``. All other data are kept:
         ``to_meshio`` and ``write`` return them.

@@ -272,8 +272,9 @@ def optimize(
     options : dict or OptimizeOptions, optional
         Further options by name, such as ``{"energy": "F", "max_sweeps": 20}``. They override the options that
         ``target``, ``effort`` and ``keep`` set. ``help(temper.OptimizeOptions)`` explains each. In a dict,
-        ``"problem"`` is your own problem, a dict of arguments of ``measure_diffusion_errors``. With the targets
-        ``vertex`` and ``cell`` the run lowers its error.
+        ``"problem"`` is your own problem: a dict with ``dirichlet``, and perhaps ``neumann``, ``source`` and
+        ``coefficient``, as in ``measure_diffusion_errors``. The run lowers its error. This needs the target ``vertex``
+        or ``cell``.
 
     Returns
     -------

@@ -194,8 +194,8 @@ def _cell_data(mesh: Any, blocks: list[int], dropped: list[str]) -> dict[str, An
 
 
 def _cut(points: Any, quads: Any) -> Any:
-    """Two triangles for each quadrilateral. Its diagonal is the one whose lesser triangle is larger: from the first to
-    the third corner if both are alike."""
+    """Cuts each quadrilateral into two triangles, along the diagonal whose smaller triangle is larger. If both are
+    alike, the diagonal is from the first to the third corner."""
     a, b, c, d = (points[quads[:, k]] for k in range(4))
 
     def area(p: Any, q: Any, r: Any) -> Any:
@@ -213,8 +213,8 @@ def _cut(points: Any, quads: Any) -> Any:
 
 
 def _joined_halves(triangles: Any, numbers: Any) -> tuple[Any, Any, Any]:
-    """The triangles that are whole, the quadrilaterals of the others, and the first triangle of each. Numbers that are
-    not on two triangles with a common edge count for nothing."""
+    """Joins pairs of triangles with the same number to quadrilaterals. Returns the triangles of no pair, the
+    quadrilaterals, and the first triangle of each. A number counts only on two triangles with a common edge."""
     order = np.argsort(numbers, kind="stable")
     _, first, count = np.unique(numbers[order], return_index=True, return_counts=True)
     pairs = first[(count == 2) & (numbers[order[first]] > 0)]
@@ -265,7 +265,7 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
     triangles, quads, lines = _blocks(mesh, "triangle"), _blocks(mesh, "quad"), _blocks(mesh, "line")
     if not triangles and not quads:
         found = [f"{len(block.data)} cells of type {block.type}" for block in mesh.cells] + dropped
-        raise TemperError("empty_input", "", f"expected cells of type triangle; {'; '.join(found) or 'there are none'}")
+        raise TemperError("empty_input", "", f"expected cells of type triangle or quad; {'; '.join(found) or 'there are none'}")
     point_data = {}
     weights = np.empty(0)
     for name, values in mesh.point_data.items():
@@ -279,7 +279,9 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
         of_quads = _joined(mesh, quads, 4)
         n, n_quads = len(corners), len(of_quads)
         if of_quads.size and (of_quads.min() < 0 or of_quads.max() >= len(points)):
-            raise TemperError("index_out_of_range", "", f"a quadrilateral uses a point that is none of the {len(points)}")
+            wrong = of_quads[(of_quads < 0) | (of_quads >= len(points))][0]
+            message = f"a quadrilateral uses point {wrong}, but there are {len(points)} points, numbered from 0"
+            raise TemperError("index_out_of_range", "", message)
         corners = np.concatenate([corners, _cut(points, of_quads)])
         row = np.concatenate([np.arange(n), n + np.repeat(np.arange(n_quads), 2)])
         cell_data = {name: np.ascontiguousarray(values[row]) for name, values in cell_data.items()}

@@ -309,7 +309,10 @@ Expected<std::shared_ptr<const DiscretizationError>> make_problem_error(const Me
   auto model =
       std::make_shared<const ProblemErrorModel>(scheme, mesh, std::move(discrete), *std::move(reference), problem);
   if (!(model->problem().mean_square() > 0)) {
-    return InputError{ErrorCode::invalid_option, "", "the solution of the problem is 0 everywhere, and has no error"};
+    return InputError{
+        ErrorCode::invalid_option, "",
+        "the solution of the problem is 0 everywhere, and has no error. Next: give a source, or a boundary "
+        "value other than 0"};
   }
   return std::shared_ptr<const DiscretizationError>(std::move(model));
 }

@@ -274,9 +274,9 @@ class Arranger {
       if (first(i) != i || left[i] != 0 || !parts[i].empty()) continue;
       std::string text_of_tags;
       for (const std::int32_t tag : tags[i]) text_of_tags += ", " + name_of_tag(o_, 1, tag);
-      warnings.push_back("joins within " + to_text(options_.within) + " leave nothing of the line at " +
+      warnings.push_back("joins within " + to_text(options_.within) + " (--snap) remove the whole line at " +
                          text(point(o_.segments[i].ends[0])) + ", " + names_.segment(i) + text_of_tags +
-                         ". Next: a smaller --snap keeps it");
+                         ": its points become one. Next: a smaller --snap keeps it");
     }
   }
 

@@ -516,7 +516,7 @@ class Mesher {
       list += (list.empty() ? "" : ", ") + std::string(dimension == 0 ? "points of " : "lines of ") +
               name_of_tag(outline_, dimension, tag);
     }
-    made.notes.push_back("the mesh has nothing of these, because they are outside, left out or joined: " + list);
+    made.notes.push_back("these tags of the outline are missing in the mesh (outside, left out or joined): " + list);
   }
 
   Expected<OutlineMesh> attempt() {

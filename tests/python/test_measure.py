@@ -108,7 +108,7 @@ def test_a_problem_of_the_user_is_measured_by_the_names_of_its_boundary():
     assert errors[2] < 0.5 * min(errors[:2])
     with pytest.raises(temper.TemperError, match="expected the target vertex or cell"):
         temper.optimize(special, options={"problem": problem})
-    with pytest.warns(temper.TemperWarning, match="the coefficient jumps across"):
+    with pytest.warns(temper.TemperWarning, match="the coefficient changes across"):
         uneven = {**problem, "coefficient": 1.0 + np.arange(mesh.n_triangles) % 2}
         temper.optimize(mesh.copy(), target="cell", options={"problem": uneven, "solver_error_steps": 1})
     with pytest.raises(ValueError, match="no boundary edge has the name or tag 'sea'"):

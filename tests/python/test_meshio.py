@@ -67,7 +67,7 @@ def test_what_is_no_planar_triangle_mesh_is_refused():
     with pytest.raises(temper.TemperError, match="point 2 has z = 0.5") as caught:
         temper.from_meshio(meshio.Mesh(flat, [("triangle", [(0, 1, 2)])]))
     assert caught.value.code == "not_planar"
-    with pytest.raises(temper.TemperError, match="expected cells of type triangle; 1 cells of type line"):
+    with pytest.raises(temper.TemperError, match="expected cells of type triangle or quad; 1 cells of type line"):
         temper.from_meshio(meshio.Mesh(np.array(flat)[:, :2], [("line", [(0, 1)])]))
     with pytest.raises(temper.TemperError, match="triangle 0 uses point 9, but there are 3 points"):
         temper.from_meshio(meshio.Mesh(np.array(flat) * (1, 1, 0), [("triangle", [(0, 1, 9)])]))
@@ -249,7 +249,7 @@ def test_quadrilaterals_are_pairs_that_stay():
     arrow = [(0, 0), (2, 0), (1, 2), (1, 0.5)]  # the last corner turns inward: only one diagonal is inside
     cut = temper.from_meshio(meshio.Mesh(arrow, [("quad", [(3, 1, 2, 0)])]))
     assert all(3 in t for t in cut.triangles.tolist()) and cut.reversed_triangles == 0
-    with pytest.raises(temper.TemperError, match="a quadrilateral uses a point"):
+    with pytest.raises(temper.TemperError, match="a quadrilateral uses point 99, but there are 16 points"):
         temper.from_meshio(meshio.Mesh(points, [("quad", [(0, 1, 5, 99)])]))
 
 

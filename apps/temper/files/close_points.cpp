@@ -81,7 +81,7 @@ std::string crack_warning(const Input& input) {
   const std::string radius = widest > 0 ? fmt::format("{:.0e}", 10 * widest) : "0";
   return fmt::format(
       "{}: {} nearly at one place, as if the mesh had a crack: first {} and {} at ({:.6g}, {:.6g}); "
-      "the widest is {:.3g}. Next: temper convert {} --merge {} -o OUT joins them",
+      "the widest is {:.3g}. Next: join them with temper convert {} --merge {} -o OUT",
       input.path, plural(n, "pair of boundary points is", "pairs of boundary points are"),
       input.names->point(vertices[first.first].index), input.names->point(vertices[first.second].index), at.x, at.y,
       widest, input.path, radius);

@@ -48,7 +48,7 @@ Input read_input(const std::string& path, const ReadingOptions& options) {
   Expected<io::LoadedMesh> loaded = io::make_mesh(input.file, options.fixed_tags, options.executor);
   if (!loaded && loaded.error().code == ErrorCode::duplicate_point) {
     InputError error = loaded.error();
-    error.message += fmt::format(". Next: temper convert {} --merge 0 -o OUT joins them", path);
+    error.message += fmt::format(". Next: join them with temper convert {} --merge 0 -o OUT", path);
     throw as_failure(error);
   }
   input.loaded = or_fail(std::move(loaded));

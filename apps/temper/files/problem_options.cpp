@@ -111,7 +111,8 @@ std::vector<double> read_coefficient(const Command& command, const std::string& 
 
 namespace {
 
-/// The number for all vertices, or the point data of that name; empty if the text is. Failure if there are none.
+/// The source at each vertex, from a number or the name of point data. Empty if the text is. Failure if there are no
+/// such data.
 std::vector<double> read_source(const Command& command, const std::string& text, const Input& input) {
   if (text.empty()) return {};
   if (const auto number = parse_number(text)) {
@@ -195,7 +196,8 @@ void add_problem(Command& command, ProblemOptions& options, const std::string& e
 void expect_complete(const Command& command, const ProblemOptions& options) {
   for (const char* option : {"--neumann", "--source", "--coefficient"}) {
     if (command.was_given(option) && !options.given())
-      refuse_usage(command.name(), std::string(option) + " needs --dirichlet, which makes the problem complete");
+      refuse_usage(command.name(),
+                   std::string(option) + " needs --dirichlet: without a value of u there is more than one solution");
   }
 }
 

@@ -24,10 +24,11 @@ struct ProblemOptions {
   [[nodiscard]] bool given() const { return !dirichlet.empty(); }
 };
 
-/// Adds --dirichlet, --neumann, --source and --coefficient. `effect`: what the verb does with the problem.
+/// Adds --dirichlet, --neumann, --source and --coefficient. `effect` is a sentence of the help: what the verb does
+/// with the problem.
 void add_problem(Command& command, ProblemOptions& options, const std::string& effect);
 
-/// Refuses options of a problem that has no value of u.
+/// Refuses the other options of a problem without --dirichlet.
 void expect_complete(const Command& command, const ProblemOptions& options);
 
 /// The problem on a mesh. Failure if a name is no part of the boundary, no data or no region.

@@ -71,8 +71,8 @@ std::vector<double> from_depths(const Input& input, const std::string& data, con
   }
   if (std::ranges::none_of(depths, [](double depth) { return depth > 0; })) {
     throw Failure(Exit::bad_input,
-                  fmt::format("{}: with \"{}\" all points are on land, above the water. Next: turn the numbers by "
-                              "positive={} in --from-depth",
+                  fmt::format("{}: by the data \"{}\", no point is under water. Next: positive={} in --from-depth "
+                              "reverses the sign",
                               input.path, data, is_up ? "down" : "up"));
   }
   return or_fail(sizes_from_depths(depths, rule.sizes));

@@ -10,16 +10,16 @@
 
 namespace temper::app {
 
-/// Depths in the place of sizes: the rules, and the direction of the numbers.
+/// How depths become sizes, and whether the numbers are depths or heights.
 struct DepthRule {
   DepthSizes sizes;
   std::optional<bool> positive_up = {};  ///< none: by the name of the data
 };
-/// The rule of a text KEY=VALUE,…; Failure, with the keys, if it is none.
+/// The rule of a text KEY=VALUE,…. Failure if a key or value is wrong; it names the keys.
 [[nodiscard]] DepthRule parse_depth_rule(const std::string& verb, const std::string& text);
 
-/// The size field of a mesh file's point data of that name; without a name, of "size" or of the only data. With a rule
-/// the data are depths. Failure when there are no such data, or they are no size everywhere.
+/// The size field of the point data `data` of a mesh file. If `data` is empty, they are "size", or the only ones. With
+/// a rule, they are depths. Failure if there are no such data, or if a point has no size.
 struct ReadSizeField {
   SizeField field;
   std::vector<std::string> warnings;  ///< of reading the file

@@ -134,7 +134,8 @@ class Checks {
     const std::size_t quadrilaterals = count_quadrilaterals(mesh);
     std::string text = fmt::format("{}: {}\n", path, mesh_size(measured.vertices, measured.triangles));
     if (quadrilaterals > 0)
-      text += "of these, two each are " + plural(quadrilaterals, "quadrilateral", "quadrilaterals") + "\n";
+      text += fmt::format("{} of these triangles are halves of {}\n", 2 * quadrilaterals,
+                          plural(quadrilaterals, "quadrilateral", "quadrilaterals"));
     text += fmt::format("{}{}\n", brief_text(measured), verdict(measured));
     if (bad_triangles(measured) > 0 && path != kStandardInput)
       text += fmt::format("Next: {} -o OUT, or {}\n", command_line("optimize", path, s_.projection),

@@ -25,8 +25,8 @@ struct BoundaryValue {
   bool is_flux = false;
 };
 
-/// −div(K ∇u) = f in the plane. Boundary edges of no piece have no flux. A vertex between two pieces has the value of
-/// u; of two values it has the one of the later piece.
+/// −div(K ∇u) = f in the plane. Boundary edges of no piece have no flux. Where a value of u meets a flux, the
+/// vertex has the value of u. Where two values of u meet, it has that of the later piece.
 struct DiffusionProblem {
   std::vector<double> coefficient = {};  ///< K > 0 of each triangle; empty: 1
   std::vector<double> source = {};       ///< f at each vertex, linear on triangles; empty: 0

@@ -75,7 +75,7 @@ std::vector<std::array<std::int32_t, 4>> planar_faces(std::span<const Vec2> poin
     for (const std::int32_t p : corners) all += text(all.empty() ? "" : ", ", names.point(static_cast<std::size_t>(p)));
     const Vec2 at = points[static_cast<std::size_t>(corners[0])];
     fail(ErrorCode::unsupported, path, "edges enclose a face with ", corners.size(), " sides, ", all, ", at (", at.x,
-         ", ", at.y, "); temper reads triangles and quadrilaterals. Next: cut such faces into these");
+         ", ", at.y, "); temper reads triangles and quadrilaterals. Next: cut this face into these");
   }
   return faces;
 }

@@ -108,9 +108,12 @@ void check(Document& d, bool flat) {
   }
 }
 
-void refuse_element(const std::string& where, std::int64_t number, std::string_view kind) {
+void refuse_element(const std::string& where, std::int64_t number, std::string_view kind, Faces faces) {
+  const bool alone = faces == Faces::triangles;
   fail(ErrorCode::unsupported, where, "element ", number, kind.starts_with('e') ? " is an " : " is a ", kind,
-       "; temper reads meshes of linear triangles, with lines and points as tags");
+       alone ? "; in this format temper reads linear triangles, with lines and points as tags"
+             : "; temper reads linear triangles and quadrilaterals, with lines and points as tags",
+       alone && kind == "quadrilateral" ? kNextForQuadrilaterals : "");
 }
 
 std::string side_file_path(const std::string& path) { return path + ".weights.csv"; }
@@ -226,8 +229,8 @@ void warn_of_losses(const WriteJob& job) {
   if (lost(kRegions) && has_regions) job.warn("regions are", has_no_place_for(job, "them"));
   if (lost(kLines) && !f.lines.empty()) job.warn("lines are", has_no_place_for(job, "them"));
   if (const std::size_t n = lost(kQuadrilaterals) ? quadrilaterals_of(f).size() : 0; n > 0)
-    job.warn(n, n == 1 ? " quadrilateral is" : " quadrilaterals are", " written as two triangles each, ",
-             row.description, " has no place for ", n == 1 ? "it" : "them");
+    job.warn(n, n == 1 ? " quadrilateral is" : " quadrilaterals are",
+             " written as two triangles each, as temper writes ", "no quadrilaterals in ", row.description);
   if (lost(kMarkedPoints) && !f.marked_points.empty()) job.warn("marked points are", has_no_place_for(job, "them"));
   for (const auto& [content, name, of] : kKindsOfArrays) {
     if (!lost(content)) continue;

@@ -54,8 +54,13 @@ class PlaneCheck {
   Document& document_;
 };
 
-/// Refuses an element that is neither point, line nor triangle, with the reason.
-[[noreturn]] void refuse_element(const std::string& where, std::int64_t number, std::string_view kind);
+/// What temper reads as cells in a format.
+enum class Faces { triangles, triangles_and_quadrilaterals };
+inline constexpr std::string_view kNextForQuadrilaterals = ". Next: write meshes of quadrilaterals as VTU or Gmsh";
+
+/// Refuses an element that is neither point, line nor one of the faces, with the reason.
+[[noreturn]] void refuse_element(const std::string& where, std::int64_t number, std::string_view kind,
+                                 Faces faces = Faces::triangles_and_quadrilaterals);
 
 struct WriteJob;
 using ArraysOf = std::vector<DataArray> MeshFile::*;

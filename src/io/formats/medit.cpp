@@ -142,7 +142,7 @@ class MeditReader {
       if (keyword != unsupported) continue;
       if (scanner_.count("elements", 2) == 0) return;
       scanner_.skip_space();
-      refuse_element(scanner_.where(), 1, kind);
+      refuse_element(scanner_.where(), 1, kind, Faces::triangles);
     }
     document_.file.warnings.push_back(text(scanner_.where(), ": section ", in_quotes(keyword), " is dropped"));
     for (std::string_view next = scanner_.peek(); !next.empty(); next = scanner_.peek()) {

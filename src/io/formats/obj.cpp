@@ -87,7 +87,8 @@ class ObjReader {
     }
     if (n != 3) {
       fail(n > 3 ? ErrorCode::unsupported : ErrorCode::syntax, text(scanner_.path(), ":", text_line), "face ",
-           f.triangles.size() + 1, " has ", n, " corners; temper reads triangles");
+           f.triangles.size() + 1, " has ", n, " corners; temper reads triangles",
+           n == 4 ? kNextForQuadrilaterals : "");
     }
     f.triangles.push_back(corners);
     f.regions.push_back(tags_[2]);

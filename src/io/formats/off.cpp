@@ -64,7 +64,7 @@ class OffReader {
       const std::int32_t corners = scanner_.integer("the number of corners of a face");
       if (corners != 3) {
         scanner_.fail_here(corners > 3 ? ErrorCode::unsupported : ErrorCode::syntax, "face ", i, " has ", corners,
-                           " corners; temper reads triangles");
+                           " corners; temper reads triangles", corners == 4 ? kNextForQuadrilaterals : "");
       }
       document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
       const std::int32_t a = scanner_.vertex(0), b = scanner_.vertex(0);

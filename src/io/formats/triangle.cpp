@@ -257,7 +257,7 @@ class TriangleReader {
     MeshFile& f = document_.file;
     const std::size_t n = scanner.count("triangles", 8);
     const std::int32_t corners = scanner.integer("the number of corners");
-    if (corners == 6) refuse_element(scanner.where(), first_, "quadratic triangle");
+    if (corners == 6) refuse_element(scanner.where(), first_, "quadratic triangle", Faces::triangles);
     if (corners != 3) scanner.fail_here(ErrorCode::unsupported, "has triangles of ", corners, " corners; expected 3");
     const std::size_t n_attributes = scanner.more_on_line() ? scanner.count("attributes", 1) : 0;
     scanner.check_room(n, "triangles", 8 + 2 * n_attributes);

@@ -59,8 +59,9 @@ class GisReader {
     add(root, "features", std::move(features));
     OutlineDocument document = read_features(path_, "gis", std::move(root));
     if (has_no_system_) {
-      document.file.warnings.push_back(text(path_, ": has no coordinate system: taken for ",
-                                            *is_geographic_ ? "longitude and latitude" : "lengths in a plane"));
+      document.file.warnings.push_back(
+          text(path_, ": has no coordinate system (in shapefiles .prj). temper takes the numbers for ",
+               *is_geographic_ ? "longitude and latitude" : "lengths in a plane"));
     }
     return document;
   }
@@ -141,7 +142,9 @@ class GisReader {
                                                  : largest_[0] <= kMostLongitude && largest_[1] <= kMostLatitude;
     if (is_geographic_.value_or(is_geographic) != is_geographic)
       fail(ErrorCode::unsupported, path_, "layer ", in_quotes(gdal_->OGR_L_GetName(layer)),
-           " is in another kind of coordinates than the layers before it. Next: give all layers one coordinate system");
+           is_geographic ? " is in degrees, but the layers before it are not"
+                         : " is not in degrees, as the layers before it",
+           ". Next: give all layers one coordinate system");
     is_geographic_ = is_geographic;
   }
 

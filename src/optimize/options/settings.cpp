@@ -177,13 +177,17 @@ InputError no_use_of_problem(const OptimizeOptions& o, const Mesh& mesh) {
   more.solver_error.most_vertices = std::numeric_limits<int>::max();
   if (!wants_error_model(more, mesh) || o.objective == Objective::accuracy) {
     return invalid(
-        "a problem of one's own is for runs that lower the error of one solver; expected the target vertex or cell, "
-        "with the default objective and energy");
+        "this run does not lower the error of a problem; expected the target vertex or cell (--for), the default "
+        "objective and energy, and a mesh of the plane");
   }
-  return invalid(
-      "the mesh has " + std::to_string(mesh.n_vertices()) + " vertices, but errors of a problem are lowered " +
-      "up to " + std::to_string(o.solver_error.most_vertices) +
-      " vertices; expected `solver_error_vertices=" + std::to_string(mesh.n_vertices()) + "`, which takes long");
+  if (o.solver_error.most_vertices == 0) {
+    return invalid(
+        "the effort quick (`solver_error_vertices=0`) does not lower the error of a problem. Next: the effort normal "
+        "(--effort normal)");
+  }
+  return invalid("the mesh has " + std::to_string(mesh.n_vertices()) +
+                 " vertices, more than `solver_error_vertices=" + std::to_string(o.solver_error.most_vertices) +
+                 "`. Next: `solver_error_vertices=" + std::to_string(mesh.n_vertices()) + "`, which is slow");
 }
 
 /// Adds the model of errors that the options need, if the build has one.
@@ -193,8 +197,8 @@ Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
   if (o.problem && (!wants || o.objective == Objective::accuracy)) return no_use_of_problem(o, mesh);
   if (o.problem && !s.hooks.solvers.discretization_error) {
     return invalid(
-        "a problem of one's own needs a model of errors, and this run has none; builds with Eigen have one, "
-        "temper::solvers() in C++");
+        "this run cannot lower the error of a problem: it has no solvers. Next: take a build with Eigen, and in C++ "
+        "temper::solvers()");
   }
   if (wants && s.hooks.solvers.discretization_error) {
     auto model = s.hooks.solvers.discretization_error(mesh, o, s.hooks.names);
@@ -249,10 +253,9 @@ std::vector<std::string> problem_warnings(const Mesh& mesh, const DiffusionProbl
     free += k_of(h) != k_of(mesh.twin(h)) ? 1 : 0;
   }
   if (free == 0) return {};
-  return {"the coefficient jumps across " + std::to_string(free) +
-          (free == 1 ? " edge that is no border of regions and may move"
-                     : " edges that are no borders of regions and may move") +
-          ". Next: give triangles of different coefficients different regions"};
+  return {"the coefficient changes across " + std::to_string(free) +
+          (free == 1 ? " edge inside a region, which may move" : " edges inside a region, which may move") +
+          ". Next: give each coefficient its own region"};
 }
 
 SweepState::SweepState(const Settings& s) : model(s.model), relaxation(s.policy.relaxation.value_or(kRelaxation)) {

@@ -209,7 +209,7 @@ void add_notes(const Mesh& mesh, const Settings& settings, const RunFacts& facts
         "in the metric of the tensor most triangles stay bad, so that all vertices stay where they were; "
         "expected triangles that are long along the larger conductivity");
   }
-  if (has_quadrilaterals(mesh)) notes.add("quadrilaterals stay as they are, and the weights of all vertices");
+  if (has_quadrilaterals(mesh)) notes.add("the mesh has quadrilaterals: their corners and all weights are unchanged");
   const bool barrier = settings.energy().barrier;
   if (!barrier) notes.note_if_more_are_bad(ending.bad_part_before);
   notes.note_what_is_not_regular();

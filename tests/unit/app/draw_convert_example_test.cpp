@@ -252,7 +252,7 @@ TEST_F(Convert, MergesPointsAtOnePlaceAsTheErrorSays) {
   const Outcome doubled = temper({"check", "in.off"});
   EXPECT_EQ(doubled.exit, 1);
   EXPECT_TRUE(contains(doubled.err, "point 1 and point 4 are both at (1, 0)")) << doubled.err;
-  EXPECT_TRUE(contains(doubled.err, "Next: temper convert in.off --merge 0 -o OUT joins them")) << doubled.err;
+  EXPECT_TRUE(contains(doubled.err, "Next: join them with temper convert in.off --merge 0 -o OUT")) << doubled.err;
   temper_ok({"convert", "in.off", "--merge", "0", "-o", "out.off"});
   EXPECT_EQ(temper_ok({"check", "out.off"}).err, "");
 }

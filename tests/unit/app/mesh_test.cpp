@@ -148,8 +148,7 @@ TEST_F(MeshVerb, SizesComeFromDepthsWhoseSignIsKnown) {
   EXPECT_TRUE(contains(unknown.err, "does not say whether its numbers are depths or heights")) << unknown.err;
   const Outcome land = mesh(rule + ",positive=down");
   EXPECT_EQ(land.exit, 1);
-  EXPECT_TRUE(contains(land.err, "all points are on land, above the water. Next: turn the numbers by positive=up"))
-      << land.err;
+  EXPECT_TRUE(contains(land.err, "no point is under water. Next: positive=up in --from-depth reverses")) << land.err;
   EXPECT_FALSE(exists("out.vtu"));
   EXPECT_EQ(mesh(rule + ",positive=up").exit, 0);
 }

@@ -141,7 +141,8 @@ TEST_F(Optimize, LowersTheErrorOfTheUsersOwnProblem) {
     EXPECT_TRUE(contains(outcome.err, message)) << outcome.err;
     EXPECT_FALSE(exists("none.msh"));
   };
-  refuse(with_problem({}), "expected the target vertex or cell");
+  refuse(with_problem({}), "expected the target vertex or cell (--for)");
+  refuse(with_problem({"--for", "cell", "--effort", "quick"}), "Next: the effort normal (--effort normal)");
   refuse({"--for", "cell", "--source", "1"}, "--source needs --dirichlet");
   refuse({"--for", "cell", "--dirichlet", "lake=1"}, "--dirichlet");
   refuse(with_problem({"--for", "vertex", "--set", "solver_error_vertices=10"}), "solver_error_vertices=");

@@ -165,7 +165,7 @@ TEST(ErrorObjective, AProblemThatNoRunWouldUseIsRefused) {
   Mesh mesh = input.mesh;
   EXPECT_FALSE(optimize(mesh, few)) << "without a model";
   few.solver_error.most_vertices = 48;
-  EXPECT_NE(message(few).find("expected `solver_error_vertices=49`"), std::string::npos);
+  EXPECT_NE(message(few).find("Next: `solver_error_vertices=49`"), std::string::npos);
 }
 
 // On rings errors cancel from neighbor to neighbor, which all that moves single vertices ends

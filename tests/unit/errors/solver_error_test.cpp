@@ -166,7 +166,9 @@ TEST(SolverErrorModel, RefusesWhatItIsNotFor) {
   zero.boundary[1].value = 0, zero.boundary[0].edges.clear(), zero.source.clear();
   const auto model = make_discretization_error(mesh, {.problem = &zero});
   ASSERT_FALSE(model);
-  EXPECT_EQ(model.error().message, "the solution of the problem is 0 everywhere, and has no error");
+  EXPECT_EQ(model.error().message,
+            "the solution of the problem is 0 everywhere, and has no error. Next: give a source, or a boundary value "
+            "other than 0");
 }
 
 }  // namespace

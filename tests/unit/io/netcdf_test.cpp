@@ -1152,7 +1152,8 @@ TEST_F(NetcdfFormats, ExodusHasBlocksSetsNamesAndTheLastValues) {
             "o.e: side set 1 has side 5 of element 1, expected a side of a triangle or quadrilateral");
   write_exodus(4, "WEDGE");
   EXPECT_EQ(plain(read(path("o.e")).error().what()),
-            "o.e: element 2 is a cell of type WEDGE with 3 nodes; temper reads meshes of linear triangles, with lines "
+            "o.e: element 2 is a cell of type WEDGE with 3 nodes; temper reads linear triangles and quadrilaterals, "
+            "with lines "
             "and points as tags");
 }
 

@@ -69,8 +69,8 @@ TEST_F(OtherFormats, JigsawThatIsNoMeshOfTrianglesIsNamed) {
             "m.msh: the file has no triangles: it is an outline, for `temper mesh` to mesh");
   EXPECT_EQ(refused("m.msh", head + points), "m.msh: the file has no triangles");
   EXPECT_EQ(refused("m.msh", head + points + "QUAD4=1\n0;1;2;0;0\n"),
-            "m.msh:8: element 0 is a quadrilateral; temper reads meshes of linear triangles, with lines and points as "
-            "tags");
+            "m.msh:8: element 0 is a quadrilateral; in this format temper reads linear triangles, with lines and "
+            "points as tags. Next: write meshes of quadrilaterals as VTU or Gmsh");
   EXPECT_EQ(refused("m.msh", head + points + "POWER=2;1\n0\n1\nTRIA3=1\n0;1;2;0\n"),
             "m.msh: POWER has 2 rows, but there are 3 points");
   EXPECT_EQ(refused("m.msh", head + points + "TRIA3=1\n0;1;9;0\n"),
@@ -117,8 +117,9 @@ TEST_F(OtherFormats, OffWithColorsAndCommentsIsReadAndSaysWhatItDrops) {
 }
 
 TEST_F(OtherFormats, OffOfPolygonsOrInBinaryIsNamed) {
-  EXPECT_EQ(refused("m.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"),
-            "m.off:7: face 0 has 4 corners; temper reads triangles");
+  EXPECT_EQ(
+      refused("m.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"),
+      "m.off:7: face 0 has 4 corners; temper reads triangles. Next: write meshes of quadrilaterals as VTU or Gmsh");
   EXPECT_EQ(refused("m.off", "OFF BINARY\n"), "m.off:1: is an OFF file in binary; temper reads text");
   EXPECT_EQ(refused("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n"),
             "m.off:7: expected the end of the file after 1 faces, found '3'");
@@ -206,7 +207,8 @@ TEST_F(OtherFormats, BadPlyIsNamed) {
   const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n";
   const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0\n1 0\n0 1\n";
   EXPECT_EQ(refused("m.ply", head + faces + "5 0 1 2 0 1\n"),
-            "m.ply:12: element 0 is a polygon with 5 corners; temper reads meshes of linear triangles, with lines and "
+            "m.ply:12: element 0 is a polygon with 5 corners; temper reads linear triangles and quadrilaterals, with "
+            "lines and "
             "points as tags");
   EXPECT_EQ(refused("m.ply", head + "property quad w\n" + faces), "m.ply: expected a type of PLY, found 'quad'");
   EXPECT_EQ(refused("m.ply", "ply\nformat ascii 2.0\n"),
@@ -396,7 +398,8 @@ TEST_F(OtherFormats, MeshesOfSmsHaveHeightsMaterialsAndNamedStrings) {
             "MESH2D\nE3T 1 1 2 3 2\nE3T 2 1 3 4 3\nND 1 0 0 -5\nND 2 10 0 -6.5\nND 3 10 10 1\nND 4 0 10 0\n"
             "NS 2 3 -4 7 \"sea side\"\n");
   EXPECT_EQ(refused("m.2dm", "MESH2D\nE8Q 1 1 2 3 4 5 6 7 8 1\n"),
-            "m.2dm:2: element 1 is a quadratic quadrilateral; temper reads meshes of linear triangles, with lines and "
+            "m.2dm:2: element 1 is a quadratic quadrilateral; temper reads linear triangles and quadrilaterals, with "
+            "lines and "
             "points as tags");
   EXPECT_EQ(refused("m.2dm", "MESH2D\nE3T 1 1 2 3 1\nND 1 0 0 0\nND 2 1 0 0\n"),
             "m.2dm:2: triangle 1 uses vertex 3, but the file has 2 vertices and not this one");

@@ -324,7 +324,7 @@ TEST_F(Vtkhdf, WhatDoesNotFitIsNamed) {
   EXPECT_EQ(error_of(good.with(doubles("Connectivity", {0, 1, 2, 0, 1, 2}))),
             "m.hdf: the dataset 'Connectivity' holds no integers");
   EXPECT_EQ(error_of(good.with(array_of<std::uint8_t>("Types", Scalar::u8, {5, 10}))),
-            "m.hdf: element 1 is a tetrahedron; temper reads meshes of linear triangles, with lines "
+            "m.hdf: element 1 is a tetrahedron; temper reads linear triangles and quadrilaterals, with lines "
             "and points as tags");
   other = good;
   other.point_data = {doubles("depth", {1, 2, 3, 4})};

@@ -200,9 +200,10 @@ TEST(Snap, LinesOfWhichJoinsLeaveNothingAreNamed) {
   ASSERT_TRUE(made) << made.error().what();
   ASSERT_EQ(made->warnings.size(), 2u);
   EXPECT_EQ(made->warnings[0],
-            "joins within 0.03 leave nothing of the line at (0.5, 0.5), segment 4, 'brook'. Next: a smaller --snap "
+            "joins within 0.03 (--snap) remove the whole line at (0.5, 0.5), segment 4, 'brook': its points become "
+            "one. Next: a smaller --snap "
             "keeps it");
-  EXPECT_NE(made->warnings[1].find("at (0.2, 0.8), segment 8, tag 6."), std::string::npos);
+  EXPECT_NE(made->warnings[1].find("at (0.2, 0.8), segment 8, tag 6:"), std::string::npos);
   EXPECT_NE(made->notes.back().find("lines of 'brook'"), std::string::npos);
 }
 
