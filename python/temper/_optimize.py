@@ -351,6 +351,9 @@ def optimize(
             if changed is not mesh:
                 put_back(mesh, changed)
     data = DataReport._of(changed, threads) if changed._handle.has_data() else None
+    if data is not None and data.dropped:
+        what = f"point data {', '.join(data.dropped)} are dropped: their whole numbers differ around an inserted vertex"
+        warnings.warn(what, TemperWarning, stacklevel=2)
     return _report(report, data, None if original is None else (original, changed.copy()))
 
 

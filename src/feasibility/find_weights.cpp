@@ -358,6 +358,11 @@ double weight_change(const Mesh& mesh, const IdVector<VertexId, double>& from, c
 Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   if (auto error = expect_no_period(mesh, "find_weights()")) return *std::move(error);
+  if (has_quadrilaterals(mesh)) {
+    return InputError{ErrorCode::unsupported, "",
+                      "the mesh has quadrilaterals, whose corners keep their weights; expected triangles alone. Next: "
+                      "optimize moves the vertices around quadrilaterals"};
+  }
   for (const HalfedgeId h : options.edges) {
     if (h.index >= mesh.n_halfedges()) {
       return InputError{ErrorCode::index_out_of_range, "",

@@ -127,9 +127,13 @@ std::vector<double> read_source(const Command& command, const std::string& text,
                                              names.empty() ? "the file has no data" : "there are " + join(names)));
 }
 
-/// Adds the parts of a text NAME=VALUE,…; "boundary" is all of it.
+/// The name that gave a value to each edge, by its vertices.
+using NamesOfEdges = std::map<std::pair<VertexId, VertexId>, std::string>;
+
+/// Adds the parts of a text NAME=VALUE,…; "boundary" is all of it, except what has another name. Failure if two names
+/// give values to one edge.
 void add_boundary_values(const Command& command, bool is_flux, const std::string& text, const Input& input,
-                         std::vector<BoundaryValue>& values) {
+                         std::vector<BoundaryValue>& values, NamesOfEdges& names) {
   if (text.empty()) return;
   const std::string option = is_flux ? "--neumann" : "--dirichlet";
   const Mesh& mesh = input.mesh();
@@ -160,6 +164,19 @@ void add_boundary_values(const Command& command, bool is_flux, const std::string
       throw Failure(Exit::bad_usage, fmt::format("{}: {}: {}: no boundary edge has the tag '{}'", command.name(),
                                                  input.path, option, name));
     }
+    if (name == "boundary") {
+      values.insert(values.begin(), std::move(part));
+      continue;
+    }
+    for (const auto& [a, b] : part.edges) {
+      const auto [known, is_new] = names.emplace(std::minmax(a, b), name);
+      if (is_new) continue;
+      throw Failure(Exit::bad_usage,
+                    fmt::format("{}: {}: the boundary edge from {} to {} has two values: by '{}' and by '{}'. Next: "
+                                "give it one",
+                                command.name(), input.path, input.names->point(a.index), input.names->point(b.index),
+                                known->second, name));
+    }
     values.push_back(std::move(part));
   }
 }
@@ -187,8 +204,9 @@ void expect_complete(const Command& command, const ProblemOptions& options) {
 DiffusionProblem read_problem(const Command& command, const ProblemOptions& options, const Input& input) {
   DiffusionProblem problem = {
       read_coefficient(command, options.coefficient, input), read_source(command, options.source, input), {}};
-  add_boundary_values(command, true, options.neumann, input, problem.boundary);
-  add_boundary_values(command, false, options.dirichlet, input, problem.boundary);
+  NamesOfEdges names;
+  add_boundary_values(command, true, options.neumann, input, problem.boundary, names);
+  add_boundary_values(command, false, options.dirichlet, input, problem.boundary, names);
   return problem;
 }
 

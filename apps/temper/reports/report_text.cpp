@@ -169,6 +169,12 @@ std::size_t bad_triangles(const Quality& quality) {
   return quality.triangles - std::min(quality.triangles, static_cast<std::size_t>(std::lround(good)));
 }
 
+std::size_t count_quadrilaterals(const Mesh& mesh) {
+  std::size_t n = 0;
+  for (const HalfedgeId h : mesh.halfedges()) n += mesh.is_diagonal(h) && mesh.is_edge_representative(h) ? 1 : 0;
+  return n;
+}
+
 std::string well_centered(std::size_t bad, std::size_t triangles) {
   if (bad == 0)
     return triangles == 1 ? "the triangle is well-centered"

@@ -131,8 +131,7 @@ class Checks {
 
  private:
   [[nodiscard]] std::string short_text(const std::string& path, const Mesh& mesh, const Quality& measured) const {
-    std::size_t quadrilaterals = 0;
-    for (const HalfedgeId h : mesh.halfedges()) quadrilaterals += mesh.is_diagonal(h) && mesh.is_edge_representative(h);
+    const std::size_t quadrilaterals = count_quadrilaterals(mesh);
     std::string text = fmt::format("{}: {}\n", path, mesh_size(measured.vertices, measured.triangles));
     if (quadrilaterals > 0)
       text += fmt::format("{} of these triangles are halves of {}\n", 2 * quadrilaterals,

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -165,6 +166,11 @@ Exit run_operators(const Arguments& arguments) {
   const Columns* const columns = under_layers ? &*under_layers : nullptr;
   DecRecord record = {s.input, summary, cells, columns, {}};
   print_warnings(dec_warnings(record));
+  if (const std::size_t n = count_quadrilaterals(input.mesh()); n > 0) {
+    print_warnings(
+        std::array{fmt::format("{}: {} two triangles each in the operators, with the diagonal as an edge", s.input,
+                               n == 1 ? "1 quadrilateral is" : fmt::format("{} quadrilaterals are", n))});
+  }
   const std::vector<io::GroupCell> groups =
       columns != nullptr ? io::cells_of_groups(input.file, input.loaded, input.mesh()) : std::vector<io::GroupCell>();
   record.files = or_fail(

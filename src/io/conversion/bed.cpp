@@ -21,14 +21,7 @@ bool is_bed(const MeshFile& file, const DataArray& a) {
          said.starts_with("sea_floor_");
 }
 
-/// FESOM takes both signs: its program turns numbers above 0.
-bool is_below_water(const DataArray& a) {
-  const std::vector<double> values = to_doubles(Values(a.values));
-  return std::ranges::none_of(values, [](double x) { return x > 0; });
-}
-
 bool is_level(const MeshFile& file, const DataArray& a) {
-  if (file.format == "fesom" && a.name == kDepth) return is_below_water(a);
   const std::string positive = netcdf_attribute(file, a.name, "positive").value_or("");
   if (!positive.empty()) return positive == "up";
   const std::string said = netcdf_attribute(file, a.name, "standard_name").value_or("");

@@ -369,9 +369,9 @@ class MeshMaker {
   /// then they fix nothing:
   ///   - if all vertices are marked
   ///   - tags of vertices of the boundary, if all of these are marked (Triangle)
-  ///   - tags of lines that pass through one of their points (ADCIRC's levees), unless they have a name for points
+  ///   - tags of lines that pass through one of their points, unless they have a name for points
   ///
-  /// A tag of 0 is none.
+  /// A tag of 0 is none. Pairs of nodes across ADCIRC's levees stay opposite: they are fixed.
   void fix_marked_points() {
     Mesh& mesh = loaded_.mesh;
     IdVector<VertexId, std::uint8_t> marked(mesh.n_vertices());
@@ -397,8 +397,16 @@ class MeshMaker {
     for (const PhysicalName& n : file_.names) {
       if (n.dimension == 0) named.push_back(n.tag);
     }
+    std::vector<std::int32_t> paired;
+    if (const DataArray* const side = find(file_.marked_point_data, kAdcircSide)) {
+      const std::vector<double> sides = to_doubles(Values(side->values));
+      for (std::size_t i = 0; i < std::min(sides.size(), file_.point_tags.size()); ++i) {
+        if (sides[i] == 1 && !contains(paired, file_.point_tags[i])) paired.push_back(file_.point_tags[i]);
+      }
+    }
     for (const auto& mark : marks) {
       const auto [v, tag] = mark;
+      if (contains(paired, tag)) continue;
       const bool of_boundary = all_of_boundary && mesh.is_boundary(v);
       const bool of_line = !contains(named, tag) && std::binary_search(of_lines.begin(), of_lines.end(), mark);
       if (of_boundary || of_line) lists.push_back(tag);

@@ -57,8 +57,12 @@ void cut_quadrilaterals(MeshFile& file, FileNames& names, const std::vector<std:
   for (std::size_t f = 0; f < file.triangles.size(); ++f) {
     const auto [a, b, c] = file.triangles[f];
     const std::int32_t d = f < fourth_corners.size() ? fourth_corners[f] : kNoCorner;
-    if (d == kNoCorner) {
-      add(f, {a, b, c}, 0);
+    // Some formats write a triangle as a quadrilateral with one corner twice.
+    const std::array corners = {a, b, c, d == kNoCorner ? a : d};
+    std::size_t k = 0;
+    while (k < 4 && corners[k] != corners[(k + 3) % 4]) ++k;
+    if (k < 4) {
+      add(f, k == 0 ? std::array{a, b, c} : std::array{corners[k], corners[(k + 1) % 4], corners[(k + 2) % 4]}, 0);
       continue;
     }
     const bool by_bd = is_better_cut({place(a, a), place(b, a), place(c, a), place(d, a)});
@@ -67,7 +71,7 @@ void cut_quadrilaterals(MeshFile& file, FileNames& names, const std::vector<std:
   }
   file.triangles = std::move(triangles);
   gather_faces(file, faces);
-  file.cell_data.push_back({std::string(kQuadrilateral), 1, std::move(numbers)});
+  if (n > 0) file.cell_data.push_back({std::string(kQuadrilateral), 1, std::move(numbers)});
   names.triangles = gathered(names.triangles, faces);
   names.triangle_lines = gathered(names.triangle_lines, faces);
 }

@@ -181,6 +181,7 @@ class AdcircReader {
         if (row.paired) {
           const std::int32_t partner = node(lookup, name);
           mark(partner, 1);
+          if (kind.type == kAdcircWall) expect_one_place(point, partner, name);
           if (kind.type == kAdcircWall && i > 0) walls_.emplace_back(std::minmax(last_of_wall, partner));
           last_of_wall = partner;
         }
@@ -203,6 +204,16 @@ class AdcircReader {
     if (const auto index = lookup.find(number)) return static_cast<std::int32_t>(*index);
     scanner_.fail_here(ErrorCode::index_out_of_range, element, " uses vertex ", number, ", but the file has ",
                        document_.file.points.size(), " vertices, numbered from ", document_.names->points[0]);
+  }
+  void expect_one_place(std::int32_t point, std::int32_t partner, const std::string& wall) const {
+    constexpr double kRounding = 1e-7;  // of a coordinate
+    const Vec2 p = document_.file.points[static_cast<std::size_t>(point)],
+               q = document_.file.points[static_cast<std::size_t>(partner)];
+    if (length(q - p) <= kRounding * std::max({1.0, std::abs(p.x), std::abs(p.y)})) return;
+    const auto& numbers = document_.names->points;
+    scanner_.fail_here(ErrorCode::syntax, wall, ": node ", numbers[point], " and its partner ", numbers[partner],
+                       " are ", length(q - p),
+                       " apart; expected one place, as walls of type 64 have no width. Next: type 24 is a levee");
   }
   /// Moves the partners of walls aside, each into its own triangles.
   void part_walls() {

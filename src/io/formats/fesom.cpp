@@ -3,6 +3,7 @@
 //   nod2d.out    points, then: number longitude latitude flag     degrees; flag 1 on the coast, kept as data `flag`
 //   elem2d.out   triangles, then: a b c                           numbers from 1
 //   aux3d.out    levels, then the depth of each, then of each point: data `depth`, and field data `levels`
+//                FESOM turns depths above 0. The data are positive down, and are turned again beside levels below 0
 //
 // Before each name may be another one: pi.nod2d.out, pi.elem2d.out. The points are on a sphere of 6371 km.
 #include <algorithm>
@@ -45,6 +46,10 @@ FesomFile kind_of_fesom(std::string_view head) {
   }
   const bool three = row.size() == 3 && std::all_of(row.begin(), row.end(), is_whole_number);
   return three ? FesomFile::triangles : FesomFile::none;
+}
+
+void turn(std::vector<double>& depth) {
+  for (double& d : depth) d = 0 - d;
 }
 
 class FesomReader {
@@ -118,6 +123,7 @@ class FesomReader {
     std::vector<double> levels, depth;
     for (std::size_t n = scanner.count("levels", 2); levels.size() < n;) levels.push_back(scanner.real("a level"));
     while (depth.size() < f.points.size()) depth.push_back(scanner.real("the depth of a point"));
+    if (std::ranges::none_of(depth, [](double d) { return d > 0; })) turn(depth);
     if (!levels.empty()) f.field_data.push_back({std::string(kLevels), 1, std::move(levels)});
     f.point_data.push_back({std::string(kDepth), 1, std::move(depth)});
   }
@@ -189,7 +195,9 @@ void write_fesom(const WriteJob& job) {
   Output& triangles = job.outputs.open(base + std::string(kTriangles));
   triangles.put(f.triangles.size(), '\n');
   for (const auto& [a, b, c] : f.triangles) triangles.put(a + 1, ' ', b + 1, ' ', c + 1, '\n');
-  const std::vector<double> levels = numbers_of(f.field_data, kLevels), depth = numbers_of(f.point_data, kDepth);
+  const std::vector<double> levels = numbers_of(f.field_data, kLevels);
+  std::vector<double> depth = numbers_of(f.point_data, kDepth);
+  if (std::ranges::any_of(levels, [](double level) { return level < 0; })) turn(depth);
   if (depth.empty()) {
     if (!levels.empty()) job.warn("field data ", kLevels, " are not written: FESOM has levels with depths alone");
     return;

@@ -31,7 +31,8 @@ GuardValues scaled(GuardValues v, double factor) {
 
 class DepthField {
  public:
-  DepthField(const Mesh& mesh, std::span<const double> depths) : mesh_(mesh), depths_(depths.begin(), depths.end()) {
+  DepthField(Mesh mesh, std::span<const double> depths)
+      : mesh_(std::move(mesh)), depths_(depths.begin(), depths.end()) {
     for (double& depth : depths_) depth = std::isnan(depth) ? 0 : depth;
   }
   [[nodiscard]] double at(const WeightedPoint& p, TriangleId& near) const {
@@ -291,7 +292,8 @@ Expected<std::shared_ptr<const GuardLimits>> guard_limits(const Mesh& input, con
   same.space = input.space();
   limits->values = Guard(input, same, limits).worst(executor);
   GuardValues bounds;
-  const double sine = std::sin(o.angle * std::numbers::pi / 180), step = o.step.value_or(kInfinity);
+  const double sine = std::sin(o.angle * std::numbers::pi / 180),
+               step = o.step.value_or(std::numeric_limits<double>::infinity());
   bounds.value = {sine * sine, o.edge * o.edge, o.areas > 0 ? 1 / o.areas : 0, step * step, step * step};
   if (o.depth.empty()) bounds.value[GuardValues::crossing] = bounds.value[GuardValues::edge_crossing] = 0;
   limits->values.take(bounds);

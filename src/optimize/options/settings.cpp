@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "mesh/bad_triangles.hpp"
 #include "temper/detail/optimize_table.hpp"
 
 namespace temper {
@@ -174,7 +175,7 @@ AccuracyModel accuracy_model(const AccuracyOptions& a, Scheme scheme, Star star)
 InputError no_use_of_problem(const OptimizeOptions& o, const Mesh& mesh) {
   OptimizeOptions more = o;
   more.solver_error.most_vertices = std::numeric_limits<int>::max();
-  if (!wants_error_model(more, mesh)) {
+  if (!wants_error_model(more, mesh) || o.objective == Objective::accuracy) {
     return invalid(
         "this run does not lower the error of a problem; expected the target vertex or cell (--for), the default "
         "objective and energy, and a mesh of the plane");
@@ -193,7 +194,7 @@ InputError no_use_of_problem(const OptimizeOptions& o, const Mesh& mesh) {
 Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
   const OptimizeOptions& o = s.options;
   const bool wants = wants_error_model(o, mesh);
-  if (o.problem && !wants) return no_use_of_problem(o, mesh);
+  if (o.problem && (!wants || o.objective == Objective::accuracy)) return no_use_of_problem(o, mesh);
   if (o.problem && !s.hooks.solvers.discretization_error) {
     return invalid(
         "this run cannot lower the error of a problem: it has no solvers. Next: take a build with Eigen, and in C++ "

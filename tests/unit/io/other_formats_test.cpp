@@ -337,6 +337,21 @@ TEST_F(OtherFormats, Fort14WithVerticalElementWallsIsAMeshAndComesBackBitForBit)
   }
 }
 
+TEST_F(OtherFormats, Fort14HasPairsOfNodesThatStayOpposite) {
+  const std::string nodes = "1 0 0 1\n2 1 0 1\n3 2 0 1\n4 0 9 1\n5 0 20 1\n6 1 20 1\n7 2 20 1\n8 0 29 1\n";
+  const std::string rest = "1 3 1 2 4\n2 3 2 3 4\n3 3 5 8 6\n4 3 6 8 7\n0\n0\n1\n6\n";
+  const std::string pairs = "1 5 2 1 1\n2 6 2 1 1\n3 7 2 1 1\n";
+  const auto made = make_mesh(read_ok("fort.14", "levee\n4 8\n" + nodes + rest + "3 24\n" + pairs));
+  ASSERT_TRUE(made) << made.error().what();
+  std::size_t fixed = 0;
+  for (const VertexId v : made->mesh.vertices()) fixed += made->mesh.is_fixed(v) ? 1 : 0;
+  EXPECT_EQ(fixed, 6u);
+  EXPECT_EQ(
+      refused("fort.14", "wall\n4 8\n" + nodes + rest + "3 64\n" + pairs),
+      "fort.14:20: land boundary 1, type 64: node 1 and its partner 5 are 20 apart; expected one place, as walls of "
+      "type 64 have no width. Next: type 24 is a levee");
+}
+
 TEST_F(OtherFormats, Fort14OfLinesWithoutAKindSaysWhatItMakesOfThem) {
   MeshFile f = tamed(sample());
   const auto warnings = write(path("m.14"), f);

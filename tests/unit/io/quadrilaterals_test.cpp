@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "support.hpp"
 #include "temper/optimize.hpp"
 
@@ -93,6 +95,27 @@ TEST_F(Quadrilaterals, AreInEveryFormatWhatTheyWere) {
   }
 }
 
+TEST_F(Quadrilaterals, MayBeAlone) {
+  make("hgrid.gr3", "two\n2 6\n1 0 0 1\n2 1 0 2\n3 2 0 3\n4 0 1 4\n5 1 1 5\n6 2 1 6\n1 4 1 2 5 4\n2 4 2 3 6 5\n");
+  MeshFile f = read_ok("hgrid.gr3");
+  f.points_in = PlanePoints();
+  for (const std::string& format : formats_with_quadrilaterals()) {
+    ASSERT_TRUE(write(path(file_of(format)), f, {.format = format, .encoding = Encoding::ascii}));
+    EXPECT_EQ(cycles(read_ok(file_of(format))), kCycles) << format;
+  }
+}
+
+TEST_F(Quadrilaterals, WithACornerTwiceAreTriangles) {
+  for (const char* const corners : {"1 2 3 3", "1 1 2 3", "1 2 2 3", "1 2 3 1"}) {
+    make("hgrid.gr3", "one\n2 4\n1 0 0 1\n2 9 0 2\n3 9 9 3\n4 0 9 4\n1 4 " + std::string(corners) + "\n2 3 1 3 4\n");
+    const MeshFile f = read_ok("hgrid.gr3");
+    ASSERT_EQ(f.triangles.size(), 2u) << corners;
+    EXPECT_EQ(quadrilaterals_of(f).size(), 0u);
+    const auto [a, b, c] = f.triangles[0];
+    EXPECT_TRUE((std::set{a, b, c} == std::set{0, 1, 2})) << corners;
+  }
+}
+
 TEST_F(Quadrilaterals, AreTwoTrianglesWhereAFormatHasNone) {
   const MeshFile f = grid();
   for (const char* name : {"m.obj", "m.off", "m.mesh", "m.ply", "m.node"}) {
@@ -103,15 +126,6 @@ TEST_F(Quadrilaterals, AreTwoTrianglesWhereAFormatHasNone) {
     })) << name;
     EXPECT_EQ(read_ok(name).triangles.size(), 8u);
   }
-}
-
-TEST_F(Quadrilaterals, MayBeTheFirstElement) {
-  make("m.msh",
-       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 0\n$EndNodes\n"
-       "$Elements\n2\n1 3 2 1 1 1 2 3 4\n2 2 2 1 1 2 5 3\n$EndElements\n");
-  const MeshFile f = read_ok("m.msh");
-  EXPECT_EQ(f.triangles.size(), 3u);
-  EXPECT_EQ(cycles(f), (std::vector<std::array<std::int32_t, 4>>{{0, 1, 2, 3}}));
 }
 
 TEST_F(Quadrilaterals, HaveFourCornersThatExist) {

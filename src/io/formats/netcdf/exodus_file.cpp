@@ -83,7 +83,7 @@ class ExodusReader {
       refuse_element(path(), static_cast<std::int64_t>(elements_.size() + 1),
                      text("cell of type ", type, " with ", n, " nodes"));
     const auto all = in_.integers(v);
-    const std::int32_t tag = tag_of("eb", 2, number);
+    const std::int32_t tag = tag_of("eb", n >= 3 ? 2 : static_cast<int>(n) - 1, number);
     MeshFile& f = document_.file;
     for (std::size_t i = 0; i < v.sizes[0]; ++i) {
       Element& element = elements_.emplace_back();
@@ -154,7 +154,10 @@ class ExodusReader {
   /// The last time's values of a variable of n elements; NaN without the variable.
   [[nodiscard]] std::vector<double> last_values(const std::string& name, std::size_t n) {
     const NetcdfVariable* const v = in_.find(name);
-    if (v == nullptr) return std::vector<double>(n, std::numeric_limits<double>::quiet_NaN());
+    if (v == nullptr) {
+      std::vector<double> missing(n, std::numeric_limits<double>::quiet_NaN());
+      return missing;
+    }
     expect(v->sizes.size() == 2 && v->sizes[1] == n && v->sizes[0] > 0, name);
     has_times_ = has_times_ || v->sizes[0] > 1;
     auto values = to_doubles(in_.values(*v));
