@@ -77,9 +77,10 @@ struct Elements {
     physical.push_back(of.physical);
     geometrical.push_back(of.entity);
     partitions.push_back(of.partition);
-    const bool is_quadrilateral = of.fourth_corner != kNoCorner;
-    if (is_quadrilateral) fourth_corners.resize(nodes.size() - 1, kNoCorner);
-    if (is_quadrilateral || !fourth_corners.empty()) fourth_corners.push_back(of.fourth_corner);
+    if (of.fourth_corner != kNoCorner || !fourth_corners.empty()) {
+      fourth_corners.resize(nodes.size() - 1, kNoCorner);
+      fourth_corners.push_back(of.fourth_corner);
+    }
     numbers.push_back(number);
     text_lines.push_back(text_line);
   }

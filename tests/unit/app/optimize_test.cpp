@@ -147,6 +147,8 @@ TEST_F(Optimize, LowersTheErrorOfTheUsersOwnProblem) {
   refuse({"--for", "cell", "--dirichlet", "lake=1"}, "--dirichlet");
   refuse(with_problem({"--for", "vertex", "--set", "solver_error_vertices=10"}), "solver_error_vertices=");
   refuse(with_problem({"--for", "vertex", "--tensor", "2,0,1"}), "--tensor");
+  refuse(with_problem({"--for", "fem"}), "expected the target vertex or cell (--for)");
+  refuse({"--for", "cell", "--dirichlet", "river=1,river=2"}, "has two values: by 'river' and by 'river'");
 }
 
 TEST_F(Optimize, ExitsWith4WhereEdgesThatMayFlipAreNotRegular) {

@@ -128,15 +128,6 @@ TEST_F(Quadrilaterals, AreTwoTrianglesWhereAFormatHasNone) {
   }
 }
 
-TEST_F(Quadrilaterals, MayBeTheFirstElement) {
-  make("m.msh",
-       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 0\n$EndNodes\n"
-       "$Elements\n2\n1 3 2 1 1 1 2 3 4\n2 2 2 1 1 2 5 3\n$EndElements\n");
-  const MeshFile f = read_ok("m.msh");
-  EXPECT_EQ(f.triangles.size(), 3u);
-  EXPECT_EQ(cycles(f), (std::vector<std::array<std::int32_t, 4>>{{0, 1, 2, 3}}));
-}
-
 TEST_F(Quadrilaterals, HaveFourCornersThatExist) {
   const auto error = [&](const std::string& cells) {
     make("m.vtk",
