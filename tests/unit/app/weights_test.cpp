@@ -247,6 +247,14 @@ TEST_F(Weights, BadUsageIsRefused) {
   EXPECT_EQ(names(), std::vector<std::string>{"in.vtu"});
 }
 
+TEST_F(Weights, AreNotSoughtWithQuadrilaterals) {
+  write("m.gr3", "one\n1 4\n1 0 0 1\n2 900 0 1\n3 900 900 1\n4 0 900 1\n1 4 1 2 3 4\n");
+  const Outcome outcome = temper({"weights", "m.gr3", "-o", "out.vtu"});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.err, "the mesh has quadrilaterals, whose corners keep their weights")) << outcome.err;
+  EXPECT_FALSE(exists("out.vtu"));
+}
+
 TEST_F(Weights, AreSetToZero) {
   temper_ok({"example", "random", "--vertices", "60", "-o", "in.vtu"});
   temper_ok({"optimize", "in.vtu", "-o", "heavy.vtu", "--effort", "quick", "--quiet"});
