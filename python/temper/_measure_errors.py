@@ -206,7 +206,7 @@ def measure_diffusion_errors(
     ----------
     mesh : Mesh, meshio.Mesh, …
     dirichlet : mapping of name or tag to value
-        Values of u on parts of the boundary: the names or tags of ``mesh.lines``, or ``"boundary"`` for all of it.
+        Values of u on parts of the boundary: the names or tags of ``mesh.lines``, or ``"boundary"`` for the rest of it.
     neumann : mapping of name or tag to value, optional
         Fluxes K ∂u/∂n into the domain. Other boundary edges have no flux.
     source : float or array of float
@@ -221,7 +221,7 @@ def measure_diffusion_errors(
     TemperError
         Values that do not fit the mesh, no part with a value of u, a mesh that is not of the plane.
     ValueError
-        A name that is no part of the boundary.
+        A name that is no part of the boundary, or an edge with two values.
 
     Examples
     --------
@@ -257,11 +257,16 @@ def _plain_problem(
     coefficient: npt.ArrayLike | Mapping[int, float] | None = None,
 ) -> tuple[Any, ...]:
     """Coefficient, source and parts of the boundary for the compiled module."""
-    parts = [
-        (_boundary_part(mesh, name), float(value), is_flux)
-        for values, is_flux in ((neumann or {}, True), (dirichlet, False))
-        for name, value in values.items()
-    ]
+    given = [(name, float(value), is_flux) for values, is_flux in ((neumann or {}, True), (dirichlet, False)) for name, value in values.items()]
+    parts = []
+    names: dict[frozenset[int], str | int] = {}
+    for name, value, is_flux in sorted(given, key=lambda row: row[0] != "boundary"):  # later parts count more
+        edges = _boundary_part(mesh, name)
+        parts.append((edges, value, is_flux))
+        for edge in map(frozenset, edges.tolist() if name != "boundary" else ()):
+            if edge in names:
+                raise ValueError(f"the boundary edge {sorted(edge)} has two values: by {names[edge]!r} and by {name!r}")
+            names[edge] = name
     f = np.broadcast_to(np.asarray(source, dtype=np.float64), mesh.n_vertices) if np.ndim(source) == 0 else source
     return _coefficient_of(mesh, coefficient), _doubles(f, 0, "source"), parts
 

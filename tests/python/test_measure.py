@@ -113,6 +113,8 @@ def test_a_problem_of_the_user_is_measured_by_the_names_of_its_boundary():
         temper.optimize(mesh.copy(), target="cell", options={"problem": uneven, "solver_error_steps": 1})
     with pytest.raises(ValueError, match="no boundary edge has the name or tag 'sea'"):
         temper.measure_diffusion_errors(mesh, dirichlet={"sea": 0.0})
+    with pytest.raises(ValueError, match="has two values: by 3 and by 3"):
+        temper.measure_diffusion_errors(mesh, dirichlet={3: 0.0, "boundary": 1.0}, neumann={3: 1.0})
     with pytest.raises(temper.TemperError, match="known up to a constant"):
         temper.measure_diffusion_errors(mesh, dirichlet={}, neumann={3: 1.0})
 

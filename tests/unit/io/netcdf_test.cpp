@@ -783,6 +783,8 @@ TEST_F(NetcdfFormats, EdgesAloneEncloseTriangles) {
     nc.add<std::int32_t>(old ? "NetLink" : "en", {links, two}, ends);
     if (old) {
       nc.add<std::int32_t>("NetLinkType", {links}, types);
+      const std::vector<std::int32_t> of_another_net = {1, 2, static_cast<std::int32_t>(x.size()) + 1};
+      nc.add<std::int32_t>("NetElemNode", {nc.add_dimension("one", 1), nc.add_dimension("three", 3)}, of_another_net);
       return;
     }
     const int mesh = nc.add<std::int32_t>("m", {}, {0}, {{"topology_dimension", 2}});

@@ -194,6 +194,12 @@ class UgridReader {
     const std::int64_t start = start_of(v);
     const std::vector<double> fills = in_.fill_values(v);
     const auto all = in_.integers(v);
+    // D-Flow FM finds the faces of an old net itself. Editors have changed edges and points, and left the faces.
+    const auto n_points = static_cast<std::int64_t>(document_.file.points.size());
+    if (topology_ == nullptr && std::ranges::any_of(all, [&](std::int64_t number) { return number > n_points; })) {
+      document_.file.warnings.push_back(text(path(), ": ", v.name, " is of another net and is left out"));
+      return faces_of_edges();
+    }
     document_.names->points = RunLength(start, document_.file.points.size());
     document_.names->triangles = RunLength(start, n);
     for (std::size_t face = 0; face < n; ++face) {
