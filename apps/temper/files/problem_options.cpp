@@ -184,9 +184,9 @@ void add_boundary_values(const Command& command, bool is_flux, const std::string
 }  // namespace
 
 void add_problem(Command& command, ProblemOptions& options, const std::string& effect) {
-  add_text(
-      command, "--dirichlet", "NAME=U,...", options.dirichlet,
-      "Values of u on parts of the boundary, by the name or tag of their lines; 'boundary' is the rest of it. " + effect);
+  add_text(command, "--dirichlet", "NAME=U,...", options.dirichlet,
+           "Values of u on parts of the boundary, by the name or tag of their lines; 'boundary' is the rest of it. " +
+               effect);
   add_text(command, "--neumann", "NAME=Q,...", options.neumann,
            "Fluxes K du/dn into the domain, on parts of the boundary. Other edges have no flux.");
   add_text(command, "--source", "F|NAME", options.source, "Source f: a number, or the name of point data.");
