@@ -34,8 +34,21 @@ struct Adjoint {
   void add(const Adjoint& other);
   /// Adds the derivatives of −λᵀ A v by ★1, for unknowns at the vertices.
   void add_star1(const DecComplex& dec, const std::vector<double>& v, const std::vector<double>& lambda);
-  /// The same by the transmissibility of inner edges, for unknowns at the orthocenters.
+  /// Adds them by the transmissibility of inner edges, for unknowns at the orthocenters.
   void add_flux(const DecComplex& dec, const std::vector<double>& v, const std::vector<double>& lambda);
+};
+
+/// J = Σ w e², and its derivatives by the errors e at points.
+struct SquaredErrors {
+  explicit SquaredErrors(std::size_t n) : error(n), force(n) {}
+  void add(std::size_t i, double weight, double e) {
+    sum += weight * e * e;
+    error[i] = e;
+    force[i] = 2 * weight * e;
+  }
+
+  double sum = 0;
+  std::vector<double> error, force;  ///< 0 at given points
 };
 
 /// The derivatives by the unknowns of each vertex. O(n).

@@ -189,10 +189,7 @@ class ProblemErrorModel final : public DiscretizationError {
     Cholesky matrix;
 
     [[nodiscard]] std::vector<double> solution(const std::vector<double>& sources, std::vector<double> values) const {
-      std::vector<double> right = equations.points.right_side(sources, values);
-      matrix.solve(right);
-      equations.points.put(right, values);
-      return values;
+      return solution_at_points(equations.points, matrix, sources, std::move(values));
     }
   };
 
@@ -226,52 +223,42 @@ class ProblemErrorModel final : public DiscretizationError {
   static double error_at_vertices(const Factored& scheme, std::optional<Adjoint>& by) {
     const auto& [s, on, c, equations, matrix] = scheme;
     const std::vector<double> v = scheme.solution(equations.sources, equations.values);
-    const std::size_t n = s.mesh.n_vertices();
-    std::vector<double> e(n), force(n);
-    double sum = 0;
+    SquaredErrors j(s.mesh.n_vertices());
     for (const VertexId i : s.mesh.vertices()) {
-      if (equations.points.is_given(i.index)) continue;
-      const double m = s.dec.star0[i];
-      e[i.index] = v[i.index] - on.reference(i).value;
-      sum += c * m * e[i.index] * e[i.index];
-      force[i.index] = 2 * c * m * e[i.index];
+      if (!equations.points.is_given(i.index)) j.add(i.index, c * s.dec.star0[i], v[i.index] - on.reference(i).value);
     }
-    if (!by) return sum;
-    const std::vector<double> lambda = scheme.solution(force, std::vector<double>(n));
+    if (!by) return j.sum;
+    const std::vector<double> lambda = scheme.solution(j.force, std::vector<double>(v.size()));
     for (const VertexId i : s.mesh.vertices()) {
-      const double l = lambda[i.index];
-      by->star0[i] += c * e[i.index] * e[i.index] + l * s.discrete.source[i.index];
+      const double l = lambda[i.index], e = j.error[i.index];
+      by->star0[i] += c * e * e + l * s.discrete.source[i.index];
       by->vertex[i] =
-          by->vertex[i] + (l * s.dec.star0[i]) * on.source_gradient(i) - force[i.index] * on.reference(i).gradient;
+          by->vertex[i] + (l * s.dec.star0[i]) * on.source_gradient(i) - j.force[i.index] * on.reference(i).gradient;
     }
     by->add_star1(s.dec, v, lambda);
     for (std::size_t i = 0; i < s.dec.edges.size(); ++i) {
       const DecEdge& edge = s.dec.edges[EdgeId(i)];
       by->crossing[EdgeId(i)] += (lambda[edge.from.index] - lambda[edge.to.index]) * s.flux(edge).value_or(0);
     }
-    return sum;
+    return j.sum;
   }
 
   static double error_at_orthocenters(const Factored& scheme, std::optional<Adjoint>& by) {
     const auto& [s, on, c, equations, matrix] = scheme;
     const std::vector<double> v = scheme.solution(equations.sources, equations.values);
-    const std::size_t n = s.mesh.n_triangles();
-    std::vector<double> e(n), force(n);
-    std::vector<Vec2> slopes(n);
-    double sum = 0;
+    SquaredErrors j(s.mesh.n_triangles());
+    std::vector<Vec2> slopes(v.size());
     for (const TriangleId t : s.mesh.triangles()) {
       const Sample u = on.reference(s.dec.orthocenters[t], t);
       slopes[t.index] = u.gradient;
-      e[t.index] = v[t.index] - u.value;
-      sum += c * s.dec.areas[t] * e[t.index] * e[t.index];
-      force[t.index] = 2 * c * s.dec.areas[t] * e[t.index];
+      j.add(t.index, c * s.dec.areas[t], v[t.index] - u.value);
     }
-    if (!by) return sum;
-    const std::vector<double> lambda = scheme.solution(force, std::vector<double>(n));
+    if (!by) return j.sum;
+    const std::vector<double> lambda = scheme.solution(j.force, std::vector<double>(v.size()));
     for (const TriangleId t : s.mesh.triangles()) {
-      const double third = lambda[t.index] / 3;
-      by->area[t] += c * e[t.index] * e[t.index];
-      by->orthocenter[t] = by->orthocenter[t] - force[t.index] * slopes[t.index];
+      const double third = lambda[t.index] / 3, e = j.error[t.index];
+      by->area[t] += c * e * e;
+      by->orthocenter[t] = by->orthocenter[t] - j.force[t.index] * slopes[t.index];
       for (const VertexId i : s.mesh.corners(t)) {
         by->area[t] += third * s.discrete.source[i.index];
         by->vertex[i] = by->vertex[i] + (third * s.dec.areas[t]) * on.source_gradient(i);
@@ -285,7 +272,7 @@ class ProblemErrorModel final : public DiscretizationError {
       const std::size_t t = inner_triangle(edge).index;
       by->transmissibility[EdgeId(i)] -= lambda[t] * (v[t] - *value);
     }
-    return sum;
+    return j.sum;
   }
 
   Scheme scheme_;

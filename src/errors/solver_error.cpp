@@ -80,10 +80,7 @@ class Solver {
  protected:
   /// The solution at all points, with these values where they are given.
   [[nodiscard]] std::vector<double> solved(const std::vector<double>& sources, std::vector<double> values) const {
-    std::vector<double> right = points_.right_side(sources, values);
-    matrix_->solve(right);
-    points_.put(right, values);
-    return values;
+    return solution_at_points(points_, *matrix_, sources, std::move(values));
   }
   /// The solution that is 0 at given points.
   [[nodiscard]] std::vector<double> solved(const std::vector<double>& sources) const {
@@ -116,25 +113,21 @@ class VertexSolver final : public Solver {
     }
     const std::vector<double> value = solved(sources, exact);
     const double c = factor_of(wave);
-    double sum = 0;
-    std::vector<double> force(mesh.n_vertices());
+    SquaredErrors j(mesh.n_vertices());
     for (const VertexId v : mesh.vertices()) {
-      if (points().is_given(v.index)) continue;
-      const double e = value[v.index] - exact[v.index], m = dec.star0[v];
-      sum += c * m * e * e;
-      force[v.index] = 2 * c * m * e;
+      if (!points().is_given(v.index)) j.add(v.index, c * dec.star0[v], value[v.index] - exact[v.index]);
     }
-    if (by == nullptr) return sum;
-    const std::vector<double> lambda = solved(force);
+    if (by == nullptr) return j.sum;
+    const std::vector<double> lambda = solved(j.force);
     for (const VertexId v : mesh.vertices()) {
       if (points().is_given(v.index)) continue;
-      const double k2 = squared_length(wave.k), u = exact[v.index], e = value[v.index] - u;
-      by->star0[v] += c * e * e + lambda[v.index] * k2 * u;
+      const double k2 = squared_length(wave.k), e = j.error[v.index];
+      by->star0[v] += c * e * e + lambda[v.index] * k2 * exact[v.index];
       by->vertex[v] =
-          by->vertex[v] + (lambda[v.index] * dec.star0[v] * k2 - force[v.index]) * wave.gradient(mesh.position(v));
+          by->vertex[v] + (lambda[v.index] * dec.star0[v] * k2 - j.force[v.index]) * wave.gradient(mesh.position(v));
     }
     by->add_star1(dec, value, lambda);
-    return sum;
+    return j.sum;
   }
 
  private:
@@ -156,24 +149,19 @@ class CellSolver final : public Solver {
     const auto& [mesh, dec, waves, area] = subject();
     const std::vector<double> solution = solved(sources(wave));
     const double c = factor_of(wave);
-    double sum = 0;
-    std::vector<double> force(solution.size());
+    SquaredErrors j(solution.size());
+    for (const TriangleId t : mesh.triangles())
+      j.add(t.index, c * dec.areas[t], solution[t.index] - wave.at(dec.orthocenters[t]));
+    if (by == nullptr) return j.sum;
+    const std::vector<double> lambda = solved(j.force);
     for (const TriangleId t : mesh.triangles()) {
-      const double e = solution[t.index] - wave.at(dec.orthocenters[t]), a = dec.areas[t];
-      sum += c * a * e * e;
-      force[t.index] = 2 * c * a * e;
-    }
-    if (by == nullptr) return sum;
-    const std::vector<double> lambda = solved(force);
-    for (const TriangleId t : mesh.triangles()) {
-      const Vec2 o = dec.orthocenters[t];
-      const double e = solution[t.index] - wave.at(o);
+      const double e = j.error[t.index];
       by->area[t] += c * e * e;
-      by->orthocenter[t] = by->orthocenter[t] - force[t.index] * wave.gradient(o);
+      by->orthocenter[t] = by->orthocenter[t] - j.force[t.index] * wave.gradient(dec.orthocenters[t]);
     }
     by->add_flux(dec, solution, lambda);
     for (std::size_t i = 0; i < dec.edges.size(); ++i) add_edge(EdgeId(i), wave, solution, lambda, *by);
-    return sum;
+    return j.sum;
   }
 
  private:
