@@ -22,10 +22,11 @@ struct Batch {
 };
 
 /// Calls visit with all triangles of a block, in batches. Erased ones are left out, and quadrilaterals, since nothing
-/// changes them. Several batches are filled before the first is visited: reading eight numbers at once waits long for a
-/// number that has just been written.
+/// changes them. Returns how many of their halves are bad. Several batches are filled before the first is visited:
+/// reading eight numbers at once waits long for a number that has just been written.
 template <class Visit>
-void for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
+std::size_t for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
+  std::size_t bad_halves = 0;
   std::array<Batch, 4> batches;
   std::size_t filled = 0;
   const auto visit_all = [&] {
@@ -38,20 +39,16 @@ void for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
   const std::size_t end = std::min(mesh.n_triangles(), (block + 1) * kBlockSize);
   for (std::size_t i = block * kBlockSize; i < end; ++i) {
     const TriangleId t(i);
-    if (mesh.is_erased(t) || mesh.is_half(t)) continue;
+    if (mesh.is_erased(t)) continue;
+    if (mesh.is_half(t)) {
+      bad_halves += is_bad(mesh, t) ? 1 : 0;
+      continue;
+    }
     batches[filled / kLanes].lanes.set(filled % kLanes, mesh.points(t));
     if (++filled == batches.size() * kLanes) visit_all();
   }
   visit_all();
-}
-
-/// The bad halves of quadrilaterals in a block.
-std::size_t count_bad_halves(const Mesh& mesh, std::size_t block) {
-  std::size_t bad = 0;
-  const std::size_t end = std::min(mesh.n_triangles(), (block + 1) * kBlockSize);
-  for (std::size_t i = block * kBlockSize; i < end; ++i)
-    bad += mesh.is_half(TriangleId(i)) && is_bad(mesh, TriangleId(i));
-  return bad;
+  return bad_halves;
 }
 
 }  // namespace
@@ -70,9 +67,10 @@ std::size_t count_bad(const Space& space, const TriangleLanes& triangles, std::s
 
 std::size_t count_bad(const Mesh& mesh, Executor* executor) {
   return static_cast<std::size_t>(sum_of_blocks(mesh.n_triangles(), executor, [&](std::size_t block) {
-    std::size_t bad = count_bad_halves(mesh, block);
-    for_batches(mesh, block, [&](const Batch& batch) { bad += count_bad(mesh.space(), batch.lanes, batch.size); });
-    return static_cast<double>(bad);
+    std::size_t bad = 0;
+    const std::size_t bad_halves =
+        for_batches(mesh, block, [&](const Batch& batch) { bad += count_bad(mesh.space(), batch.lanes, batch.size); });
+    return static_cast<double>(bad + bad_halves);
   }));
 }
 
@@ -88,11 +86,11 @@ EnergyAndBad RunningEnergyAndBad::measure(const Mesh& mesh, const EnergyModel& m
   }
   const StarKernels& kernels = star_kernels(mesh.space());
   const auto add_block = [&](std::size_t block, std::span<double> of_block) {
-    of_block[1] += static_cast<double>(count_bad_halves(mesh, block));
-    for_batches(mesh, block, [&](const Batch& batch) {
+    const std::size_t bad_halves = for_batches(mesh, block, [&](const Batch& batch) {
       of_block[0] += kernels.barrier_sum(formula, batch.lanes, batch.size);
       of_block[1] += static_cast<double>(count_bad(mesh.space(), batch.lanes, batch.size));
     });
+    of_block[1] += static_cast<double>(bad_halves);
   };
   if (!changed || of_blocks_.empty()) {
     of_blocks_ = sums_by_block(mesh.n_triangles(), 2, engine, add_block);
