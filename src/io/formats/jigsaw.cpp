@@ -17,6 +17,7 @@
 
 #include "io/conversion/globe.hpp"
 #include "io/formats/format.hpp"
+#include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 #include "io/text/values.hpp"
 
@@ -30,12 +31,6 @@ constexpr std::pair<std::string_view, std::string_view> kOtherJigsawCells[] = {
 
 /// Sections of point data, and the names of their arrays.
 constexpr std::pair<std::string_view, std::string_view> kJigsawData[] = {{"VALUE", "value"}, {"SLOPE", "slope"}};
-
-std::string upper_case(std::string_view s) {
-  std::string result(s);
-  for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return result;
-}
 
 class JigsawMeshReader {
  public:

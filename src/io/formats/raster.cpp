@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
 #include <utility>
 
+#include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 
 namespace temper::io {
@@ -191,12 +191,6 @@ class RasterMesh {
 //   cellsize 50          or dx and dy
 //   NODATA_value -9999   may be left out
 //   1 2 3 4 …
-
-std::string lower_case(std::string_view s) {
-  std::string result(s);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
 
 bool is_header_name(std::string_view name) {
   constexpr std::array<std::string_view, 10> kNames = {

@@ -10,6 +10,7 @@
 
 #include "io/containers/gdal_library.hpp"
 #include "io/outlines/outline_input.hpp"
+#include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 
 namespace temper::io {
@@ -77,9 +78,8 @@ class GisReader {
       if (gdal_->OGR_F_IsFieldSetAndNotNull(feature, i) == 0) continue;
       void* const field = gdal_->OGR_F_GetFieldDefnRef(feature, i);
       std::string name = gdal_->OGR_Fld_GetNameRef(field);
-      std::string lower = name;
-      for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-      if (std::ranges::find(kProperties, lower) != kProperties.end()) name = lower;
+      if (const std::string lower = lower_case(name); std::ranges::find(kProperties, lower) != kProperties.end())
+        name = lower;
       constexpr int kInteger = 0, kReal = 2, kInteger64 = 12;
       const int type = gdal_->OGR_Fld_GetType(field);
       add(properties, name,

@@ -13,6 +13,7 @@
 #include <numbers>
 
 #include "io/outlines/outline_input.hpp"
+#include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 
 namespace temper::io {
@@ -66,8 +67,7 @@ class JigsawReader {
     }
     std::string name(line_.substr(0, equals));
     while (!name.empty() && name.back() == ' ') name.pop_back();
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](char c) { return static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c); });
+    name = upper_case(name);
     const std::string_view value = line_.substr(equals + 1);
     if (name == "MSHID") return kind(value);
     if (name == "NDIMS") return dimensions(value);

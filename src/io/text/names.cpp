@@ -32,6 +32,17 @@ void make_names_unique(std::vector<DataArray>& arrays) {
   for (DataArray& array : arrays) array.name = taken.take(std::move(array.name));
 }
 
+std::string upper_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return result;
+}
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return result;
+}
+
 void append_percent(std::string& text, char c) {
   constexpr std::string_view kHex = "0123456789ABCDEF";
   const auto code = static_cast<unsigned char>(c);

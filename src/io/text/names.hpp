@@ -25,6 +25,10 @@ class TakenNames {
 /// Gives new names to arrays whose name an earlier array has.
 void make_names_unique(std::vector<DataArray>& arrays);
 
+/// The text with ASCII letters of one case.
+[[nodiscard]] std::string upper_case(std::string_view text);
+[[nodiscard]] std::string lower_case(std::string_view text);
+
 /// Appends %20 for a blank.
 void append_percent(std::string& text, char c);
 

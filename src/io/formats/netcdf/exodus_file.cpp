@@ -70,8 +70,7 @@ class ExodusReader {
   void block(std::size_t number) {
     const NetcdfVariable& v = in_.variable(text("connect", number));
     expect(v.sizes.size() == 2, v.name);
-    std::string type = in_.text_attribute(&v, "elem_type");
-    for (char& c : type) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    const std::string type = upper_case(in_.text_attribute(&v, "elem_type"));
     const std::size_t n = v.sizes[1];
     const auto is = [&](std::initializer_list<std::string_view> words) {
       return std::ranges::any_of(words, [&](std::string_view word) { return type.starts_with(word); });

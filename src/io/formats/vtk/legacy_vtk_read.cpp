@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cstring>
 
 #include "io/formats/cells.hpp"
 #include "io/formats/format.hpp"
+#include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 #include "io/text/values.hpp"
 
@@ -49,12 +49,6 @@ constexpr LegacyType kTypes[] = {{"float", Scalar::f32},
                                  {"long_long", Scalar::i64},
                                  {"unsigned_long_long", Scalar::u64}};
 
-std::string lower(std::string_view s) {
-  std::string result(s);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
-
 /// Names of arrays encode blanks and similar characters as %20.
 std::string decoded(std::string_view name) {
   std::string result;
@@ -77,7 +71,7 @@ class LegacyVtkReader {
       : scanner_(source.path, source.bytes), document_(new_document(source.path)), allocation_(source.allocation) {}
   Document read() {
     header();
-    while (!scanner_.at_end()) keyword(lower(scanner_.word("a keyword")));
+    while (!scanner_.at_end()) keyword(lower_case(scanner_.word("a keyword")));
     if (!has_points_) scanner_.fail_truncated("POINTS");
     finish_cells();
     take_point_data(document_, std::move(point_data_));
@@ -103,14 +97,14 @@ class LegacyVtkReader {
            "; temper reads 2.0 to 5.1");
     }
     scanner_.rest_of_line();
-    const std::string encoding = lower(scanner_.word("ASCII or BINARY"));
+    const std::string encoding = lower_case(scanner_.word("ASCII or BINARY"));
     if (encoding != "ascii" && encoding != "binary")
       scanner_.fail_here(ErrorCode::syntax, "expected ASCII or BINARY, found ", in_quotes(encoding));
     binary_ = encoding == "binary";
   }
   void keyword(const std::string& word) {
     if (word == "dataset") {
-      const std::string kind = lower(scanner_.word("the kind of data set"));
+      const std::string kind = lower_case(scanner_.word("the kind of data set"));
       if (kind != "unstructured_grid" && kind != "polydata") {
         scanner_.fail_here(ErrorCode::unsupported, "is a data set of kind ", in_quotes(kind),
                            "; temper reads UNSTRUCTURED_GRID and POLYDATA");
@@ -194,7 +188,7 @@ class LegacyVtkReader {
   CellArray cells_with_offsets(std::size_t n_offsets, std::size_t n_points) {
     CellArray result;
     for (const std::string_view expected : {"offsets", "connectivity"}) {
-      const std::string found = lower(scanner_.word(expected));
+      const std::string found = lower_case(scanner_.word(expected));
       if (found != expected) scanner_.fail_here(ErrorCode::syntax, "expected ", expected, ", found ", in_quotes(found));
       const Scalar scalar = type(scanner_.word("a type"), found);
       auto all = integers(scalar, expected == "offsets" ? n_offsets : n_points, found);
@@ -270,7 +264,7 @@ class LegacyVtkReader {
       scanner_.fail_here(ErrorCode::syntax, "array ", in_quotes(name), " has ", components,
                          " components; expected 1 to 4");
     }
-    if (lower(scanner_.peek()) == "lookup_table") {
+    if (lower_case(scanner_.peek()) == "lookup_table") {
       scanner_.word("LOOKUP_TABLE");
       scanner_.word("a name");
     }
@@ -280,7 +274,7 @@ class LegacyVtkReader {
     scanner_.word("the name of a field");
     const std::size_t n = scanner_.count("arrays", 4);
     for (std::size_t i = 0; i < n; ++i) {
-      if (lower(scanner_.peek()) == "metadata") {
+      if (lower_case(scanner_.peek()) == "metadata") {
         scanner_.word("METADATA");
         skip_metadata();
       }
@@ -291,7 +285,7 @@ class LegacyVtkReader {
       if (components > 0 && tuples > scanner_.remaining() / components) {
         scanner_.fail_here(ErrorCode::truncated, "array ", in_quotes(name), " announces more than the file holds");
       }
-      if (lower(type_word) == "string") {
+      if (lower_case(type_word) == "string") {
         scanner_.next_line();
         for (std::size_t k = 0; k < components * tuples && !binary_; ++k) scanner_.next_line();
         if (binary_) scanner_.fail_here(ErrorCode::unsupported, "array ", in_quotes(name), " is text in binary");
@@ -361,7 +355,7 @@ class LegacyVtkReader {
   }
 
   Scalar type(std::string_view name, const std::string& array) {
-    const std::string plain = lower(name);
+    const std::string plain = lower_case(name);
     for (const LegacyType& row : kTypes) {
       if (row.name == plain) return row.scalar;
     }
