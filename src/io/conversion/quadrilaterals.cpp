@@ -55,16 +55,15 @@ void cut_quadrilaterals(MeshFile& file, FileNames& names, const std::vector<std:
   };
   std::int32_t n = 0;
   for (std::size_t f = 0; f < file.triangles.size(); ++f) {
-    const auto [a, b, c] = file.triangles[f];
-    const std::int32_t d = f < fourth_corners.size() ? fourth_corners[f] : kNoCorner;
-    // Some formats write a triangle as a quadrilateral with one corner twice.
-    const std::array corners = {a, b, c, d == kNoCorner ? a : d};
+    const std::array corners = corners_of_face(file.triangles[f], fourth_corners, f);
+    // Some formats write a triangle as a quadrilateral with one corner twice, and so does corners_of_face().
     std::size_t k = 0;
     while (k < 4 && corners[k] != corners[(k + 3) % 4]) ++k;
     if (k < 4) {
-      add(f, k == 0 ? std::array{a, b, c} : std::array{corners[k], corners[(k + 1) % 4], corners[(k + 2) % 4]}, 0);
+      add(f, {corners[k], corners[(k + 1) % 4], corners[(k + 2) % 4]}, 0);
       continue;
     }
+    const auto [a, b, c, d] = corners;
     const bool by_bd = is_better_cut({place(a, a), place(b, a), place(c, a), place(d, a)});
     add(f, by_bd ? std::array{a, b, d} : std::array{a, b, c}, ++n);
     add(f, by_bd ? std::array{b, c, d} : std::array{a, c, d}, n);

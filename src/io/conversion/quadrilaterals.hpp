@@ -20,6 +20,14 @@ namespace temper::io {
 /// Instead of the fourth corner of a triangle. Other numbers below 0 are errors of the file.
 inline constexpr std::int32_t kNoCorner = std::numeric_limits<std::int32_t>::min();
 
+/// The corners of a face in a cycle. A triangle has its first corner twice.
+[[nodiscard]] inline std::array<std::int32_t, 4> corners_of_face(const std::array<std::int32_t, 3>& first,
+                                                                 const std::vector<std::int32_t>& fourth_corners,
+                                                                 std::size_t face) {
+  const std::int32_t fourth = face < fourth_corners.size() ? fourth_corners[face] : kNoCorner;
+  return {first[0], first[1], first[2], fourth == kNoCorner ? first[0] : fourth};
+}
+
 /// Cell data: the number of the quadrilateral, counted from 1, or 0 for a triangle.
 inline constexpr std::string_view kQuadrilateral = "temper:quadrilateral";
 

@@ -257,9 +257,7 @@ class AdcircReader {
     std::vector<bool> gone(f.lines.size());
     for (const std::size_t line : closing_lines_) gone[line] = true;
     for (std::size_t i = 0; i < f.triangles.size(); ++i) {
-      const auto [a, b, c] = f.triangles[i];
-      const std::int32_t d = i < document_.fourth_corners.size() ? document_.fourth_corners[i] : kNoCorner;
-      const std::array corners = {a, b, c, d == kNoCorner ? a : d};
+      const std::array corners = corners_of_face(f.triangles[i], document_.fourth_corners, i);
       for (std::size_t k = 0; k < 4; ++k) {
         const Ends ends = std::minmax({corners[k], corners[(k + 1) % 4]});
         auto line = std::lower_bound(wanted.begin(), wanted.end(), std::pair(ends, std::size_t{0}));

@@ -230,7 +230,7 @@ void warn_of_losses(const WriteJob& job) {
   if (lost(kLines) && !f.lines.empty()) job.warn("lines are", has_no_place_for(job, "them"));
   if (const std::size_t n = lost(kQuadrilaterals) ? quadrilaterals_of(f).size() : 0; n > 0)
     job.warn(n, n == 1 ? " quadrilateral is" : " quadrilaterals are",
-             " written as two triangles each, as temper writes ", "no quadrilaterals in ", row.description);
+             " written as two triangles each, as temper writes no quadrilaterals in ", row.description);
   if (lost(kMarkedPoints) && !f.marked_points.empty()) job.warn("marked points are", has_no_place_for(job, "them"));
   for (const auto& [content, name, of] : kKindsOfArrays) {
     if (!lost(content)) continue;

@@ -54,7 +54,7 @@ class PlaneCheck {
   Document& document_;
 };
 
-/// What temper reads as cells in a format.
+/// The kinds of faces that temper reads in a format.
 enum class Faces { triangles, triangles_and_quadrilaterals };
 inline constexpr std::string_view kNextForQuadrilaterals = ". Next: write meshes of quadrilaterals as VTU or Gmsh";
 
