@@ -19,7 +19,7 @@ void put_to_error(std::string_view text);
 /// Text for people to standard output, unless quiet. Throws Failure when it cannot be written. If the reader of a pipe
 /// has ended, the text is lost, and the program goes on: its files matter more.
 void print(std::string_view text);
-/// Data that the user asked for, such as JSON, to standard output, also when quiet. Failures are those of print().
+/// Data that the user asked for, such as JSON, to standard output, also when quiet. It fails as print() does.
 void print_data(std::string_view text);
 /// From now on print() prints nothing: --quiet.
 void be_quiet();

@@ -43,12 +43,13 @@ inline Failure as_failure(const InputError& error) {
   return {exit, error.what()};
 }
 
-/// The value, or a Failure with the reason why there is none.
 /// The error, with the file as its place if it has none.
 [[nodiscard]] inline InputError located(InputError error, const std::string& path) {
   if (error.where.empty()) error.where = path;
   return error;
 }
+
+/// The value, or a Failure with the reason why there is none.
 template <class T>
 T or_fail(Expected<T> expected) {
   if (!expected) throw as_failure(expected.error());

@@ -257,7 +257,11 @@ def _plain_problem(
     coefficient: npt.ArrayLike | Mapping[int, float] | None = None,
 ) -> tuple[Any, ...]:
     """Coefficient, source and parts of the boundary for the compiled module."""
-    given = [(name, float(value), is_flux) for values, is_flux in ((neumann or {}, True), (dirichlet, False)) for name, value in values.items()]
+    given = [
+        (name, float(value), is_flux)
+        for values, is_flux in ((neumann or {}, True), (dirichlet, False))
+        for name, value in values.items()
+    ]
     parts = []
     names: dict[frozenset[int], str | int] = {}
     for name, value, is_flux in sorted(given, key=lambda row: row[0] != "boundary"):  # later parts count more

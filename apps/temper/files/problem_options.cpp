@@ -144,7 +144,8 @@ void add_boundary_values(const Command& command, bool is_flux, const std::string
   for (const std::string& entry : separated(text)) {
     const auto [name, value] = name_and_value(command, option, entry);
     BoundaryValue part{{}, value, is_flux};
-    if (name == "boundary") {
+    const bool is_rest = name == "boundary";
+    if (is_rest) {
       for (const HalfedgeId h : mesh.halfedges()) {
         if (mesh.is_boundary(h)) part.edges.push_back({mesh.origin(h), mesh.target(h)});
       }
@@ -164,7 +165,7 @@ void add_boundary_values(const Command& command, bool is_flux, const std::string
       throw Failure(Exit::bad_usage, fmt::format("{}: {}: {}: no boundary edge has the tag '{}'", command.name(),
                                                  input.path, option, name));
     }
-    if (name == "boundary") {
+    if (is_rest) {
       values.insert(values.begin(), std::move(part));
       continue;
     }

@@ -10,7 +10,7 @@
 
 namespace temper::app {
 
-/// How depths become sizes, and whether the numbers are depths or heights.
+/// A rule that makes sizes from depths. It also says whether the numbers are depths or heights.
 struct DepthRule {
   DepthSizes sizes;
   std::optional<bool> positive_up = {};  ///< none: by the name of the data

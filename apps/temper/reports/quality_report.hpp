@@ -52,6 +52,7 @@ struct TextStyle {
 
 /// Triangles that are not well-centered.
 [[nodiscard]] std::size_t bad_triangles(const Quality& quality);
+/// Quadrilaterals, which are two triangles each.
 [[nodiscard]] std::size_t count_quadrilaterals(const Mesh& mesh);
 
 // Reports as JSON, for programs. Infinite energies are null. Vertices and triangles count from 0, in the order of the

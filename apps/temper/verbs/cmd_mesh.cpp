@@ -53,8 +53,7 @@ struct MeshSettings {
 void add_files(Command& command, MeshSettings& s) {
   add_argument(command, "OUTLINE", s.input,
                "Outline file: .poly of Triangle, geometry of JIGSAW, GeoJSON, shapefile or GeoPackage. Its content "
-               "shows the format. With "
-               "--sphere you may leave it out.");
+               "shows the format. With --sphere you may leave it out.");
   add_mesh_output(command, s.output, "MESH");
   command.option("--output").require();
   add_write(command, s.write, kMeshOutputs);

@@ -167,9 +167,8 @@ Exit run_operators(const Arguments& arguments) {
   DecRecord record = {s.input, summary, cells, columns, {}};
   print_warnings(dec_warnings(record));
   if (const std::size_t n = count_quadrilaterals(input.mesh()); n > 0) {
-    print_warnings(
-        std::array{fmt::format("{}: {} two triangles each in the operators, with the diagonal as an edge", s.input,
-                               n == 1 ? "1 quadrilateral is" : fmt::format("{} quadrilaterals are", n))});
+    print_warnings(std::array{fmt::format("{}: {} two triangles each in the operators, with the diagonal as an edge",
+                                          s.input, plural(n, "quadrilateral is", "quadrilaterals are"))});
   }
   const std::vector<io::GroupCell> groups =
       columns != nullptr ? io::cells_of_groups(input.file, input.loaded, input.mesh()) : std::vector<io::GroupCell>();
