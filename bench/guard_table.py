@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a target does to fort.14 files: obtuse triangles, least angle, time step and ratio of areas, before and after.
+"""Measures fort.14 files before and after a target: obtuse triangles, least angle, time step and ratio of areas.
 
     bench/guard_table.py PROGRAM TARGET FILE.14 ...
 

@@ -86,4 +86,4 @@ if importlib.util.find_spec("fipy"):
 
     own, (u, error) = solved(before, Mesh2D)[1], solved(after, OrthogonalMesh)
     print(f"FiPy: error {own:.2e} before, {error:.2e} after")
-    assert np.allclose(u, after.u, rtol=1e-9, atol=0) and error < own / 10  # its fluxes are those of dec_operators
+    assert np.allclose(u, after.u, rtol=1e-9, atol=0) and error < own / 10  # FiPy has the fluxes of dec_operators

@@ -53,7 +53,7 @@ assert abs(middle - edges).max() < 1e-12 and abs(slant).max() < 1e-12
 assert m["dcEdge"].min() > 0 and m["dvEdge"].min() > 0 and m["areaCell"].min() > 0 and m["kiteAreasOnVertex"].min() >= 0
 assert math.isclose(m["areaCell"].sum(), m["areaTriangle"].sum(), rel_tol=1e-12)
 
-# The sizes are those of the depths.
+# Edges are short where the water is shallow.
 shallow = 20 + 4000 * np.sin(2 * m["lonEdge"]) ** 2 < 1000
 lengths = [np.median(m["dcEdge"][inner & where]) / 1000 for where in (shallow, ~shallow)]
 print(f"{len(cells)} cells, {m['cullCell'].sum()} of them at the coast, for MPAS-Tools' culler")

@@ -21,7 +21,7 @@ struct SchemeErrors {
 [[nodiscard]] PointSystem vertex_system(const DecComplex& dec, const std::vector<bool>& given);
 /// The matrix of the two-point flux at the orthocenters. Boundary edges lead outside.
 [[nodiscard]] PointSystem cell_system(const DecComplex& dec, const IdVector<EdgeId, double>& flux);
-/// What a solution says about its system, whose negative coefficients are counted.
+/// Describes a system by its solution. Precondition: its negative coefficients are counted.
 void describe(const LinearSystem& linear, const LinearSolution& solution, ErrorSystem& system);
 
 /// Vertex-centered: d0ᵀ ★1 d0 u = ★0 f at inner vertices, f at the vertex. u is given at boundary vertices.

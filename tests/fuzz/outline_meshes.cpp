@@ -123,7 +123,7 @@ bool names_place(const std::string& text) {
   return std::regex_search(text, place);
 }
 
-/// What came of all runs.
+/// Counts the results of all runs.
 struct Outcome {
   std::set<std::uint64_t> inputs;
   std::size_t meshes = 0, errors = 0, bad = 0;
