@@ -66,6 +66,7 @@ class EnergyPhase final : public Phase {
 
  private:
   void take_energy(EnergyKind kind);
+  [[nodiscard]] bool is_ready_for_accuracy() const;
   bool converged(double before, double after);
   bool stagnates();
 
