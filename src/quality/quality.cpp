@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -203,7 +204,10 @@ EnergiesByStar all_energies(const Mesh& mesh, const QualityOptions& options) {
 
 std::size_t count_regions(const Mesh& mesh) {
   std::set<std::int32_t> regions;
-  for (TriangleId t : mesh.triangles()) regions.insert(mesh.region(t));
+  std::optional<std::int32_t> last;
+  for (const TriangleId t : mesh.triangles()) {
+    if (last != mesh.region(t)) regions.insert(*(last = mesh.region(t)));
+  }
   return regions.size();
 }
 
@@ -215,7 +219,7 @@ Quality quality(const Mesh& original, const QualityOptions& options) {
   const Mesh& mesh = near.mesh();
   const Tally sums = tally(near, options);
   Quality q;
-  static_cast<SolverMeasures&>(q) = solver_measures(mesh, options.executor);
+  static_cast<SolverMeasures&>(q) = solver_measures(mesh, options.brief, options.executor);
   q.vertices = mesh.n_vertices();
   q.triangles = mesh.n_triangles();
   q.edges = sums.edges;
@@ -239,7 +243,7 @@ Quality quality(const Mesh& original, const QualityOptions& options) {
   const Transmissibilities transmissibilities = compare_transmissibilities(mesh, options.executor);
   q.max_transmissibility_over_median = transmissibilities.max_over_median;
   q.transmissibility_ratio = transmissibilities.max_over_min;
-  q.energy = all_energies(mesh, options);
+  if (!options.brief) q.energy = all_energies(mesh, options);
   for (const Ranked& ranked : sums.worst.sorted()) q.worst.push_back(describe(original, ranked.triangle));
   return q;
 }
