@@ -23,6 +23,9 @@ struct QualityOptions {
   LengthParameter gamma = {1.0, LengthScale::absolute};  ///< Parameter γ of E_BP in the report
   LengthParameter h0 = {0.0, LengthScale::absolute};     ///< Parameter −h° of E_BHs in the report
   std::size_t worst = 5;                                 ///< Number of the worst triangles to list
+  /// Measure no energies, and no SolverMeasures but the edges and duals over the local size. The others keep the values
+  /// that they have without a mesh.
+  bool brief = false;
   Executor* executor = nullptr;
 };
 

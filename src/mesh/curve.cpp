@@ -133,19 +133,22 @@ IdVector<TriangleId, TriangleId> triangles_by_vertex(const Mesh& mesh, const IdV
       std::sort(found.begin() + before, found.end());
     }
   });
-  IdVector<TriangleId, TriangleId> triangles;
-  triangles.reserve(mesh.n_triangles());
-  for (std::vector<TriangleId>& found : of_blocks) {
-    for (const TriangleId t : found) triangles.push_back(t);
-    found = {};
-  }
+  std::vector<std::size_t> place;  // of each block, among all triangles
+  std::size_t count = 0;
+  for (const std::vector<TriangleId>& found : of_blocks) place.push_back(std::exchange(count, count + found.size()));
+  IdVector<TriangleId, TriangleId> triangles(count);
+  or_serial(executor).run(of_blocks.size(), [&](std::size_t b) {
+    std::size_t next = place[b];
+    for (const TriangleId t : of_blocks[b]) triangles[TriangleId(next++)] = t;
+    of_blocks[b] = {};
+  });
   return triangles;
 }
 
 template <class IdType>
-IdVector<IdType, IdType> inverse(const IdVector<IdType, IdType>& order) {
+IdVector<IdType, IdType> inverse(const IdVector<IdType, IdType>& order, Executor* executor) {
   IdVector<IdType, IdType> result(order.size());
-  for (const IdType i : IdRange<IdType>(order.size())) result[order[i]] = i;
+  for_each_index(order.size(), executor, [&](std::size_t i) { result[order[IdType(i)]] = IdType(i); });
   return result;
 }
 
@@ -162,7 +165,7 @@ struct Found {
 Found find_order(const Mesh& mesh, Executor* executor) {
   Found found;
   found.order.vertices = vertices_by_hilbert(mesh, executor);
-  found.new_vertex = inverse(found.order.vertices);
+  found.new_vertex = inverse(found.order.vertices, executor);
   found.order.triangles = triangles_by_vertex(mesh, found.order.vertices, found.new_vertex, executor);
   return found;
 }
@@ -191,7 +194,7 @@ Mesh MeshPermuter::copy(const Mesh& mesh, Found& found, Executor* executor) {
     for (std::size_t k = 0; k < 3; ++k) result.corners_[HalfedgeId(3 * i + k)] = found.new_vertex[corners[k]];
   });
   found.new_vertex = {};
-  const auto new_triangle = inverse(order.triangles);
+  const auto new_triangle = inverse(order.triangles, executor);
   result.twins_.resize(mesh.n_halfedges());
   for_each_index(mesh.n_triangles(), executor, [&](std::size_t i) {
     for (int k = 0; k < 3; ++k) {

@@ -75,8 +75,8 @@ class WorstList {
 [[nodiscard]] std::string rounded(double value, int digits = 4);
 [[nodiscard]] std::string degrees(double angle);
 
-/// Two passes, over triangles and over vertices. All executors give equal results. Precondition: no erased triangles.
-/// O(n).
-[[nodiscard]] SolverMeasures solver_measures(const Mesh& mesh, Executor* executor);
+/// Two passes, over triangles and over vertices; if brief, one over the edges for the measures over the local size. All
+/// executors give equal results. Precondition: no erased triangles. O(n).
+[[nodiscard]] SolverMeasures solver_measures(const Mesh& mesh, bool brief, Executor* executor);
 
 }  // namespace temper

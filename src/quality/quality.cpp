@@ -3,15 +3,18 @@
 #include "temper/quality.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "base/assert.hpp"
-#include "base/median.hpp"
 #include "energy/whole_mesh.hpp"
 #include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
@@ -41,37 +44,55 @@ double transmissibility(const Mesh& mesh, HalfedgeId h) {
   return distance(mesh.space(), a, b) / std::abs(dual_length(mesh.space(), a, b, c, d));
 }
 
-/// The values of all interior edges, in an array that is made once: lists that grow would take twice its room.
-std::vector<double> transmissibilities(const Mesh& mesh, Executor* executor) {
-  const std::size_t n = mesh.n_halfedges();
-  const auto for_edges = [&](std::size_t first, std::size_t last, auto&& visit) {
+/// Calls take(b, value) for each interior edge; b is the number of its block.
+template <class Take>
+void for_transmissibilities(const Mesh& mesh, Executor* executor, Take&& take) {
+  for_blocks(mesh.n_halfedges(), executor, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const HalfedgeId h(i);
-      if (!mesh.is_boundary(h) && mesh.is_edge_representative(h) && !mesh.is_diagonal(h)) visit(h);
+      if (mesh.is_boundary(h) || !mesh.is_edge_representative(h) || mesh.is_diagonal(h)) continue;
+      take(first / kLoopBlock, transmissibility(mesh, h));
     }
-  };
-  std::vector<std::size_t> place((n + kLoopBlock - 1) / kLoopBlock);  // of each block, in the array
-  for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
-    for_edges(first, last, [&](HalfedgeId) { ++place[first / kLoopBlock]; });
   });
-  std::size_t count = 0;
-  for (std::size_t& of_block : place) count += std::exchange(of_block, count);
-  std::vector<double> values(count);
-  for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
-    std::size_t next = place[first / kLoopBlock];
-    for_edges(first, last, [&](HalfedgeId h) { values[next++] = transmissibility(mesh, h); });
-  });
-  return values;
 }
 
-/// O(n), with 8 bytes per edge while it lasts.
+/// Numbers that are not negative are in the order of their bits: the upper half of these is a coarse rank.
+std::size_t coarse_rank(double value) { return std::bit_cast<std::uint64_t>(value) >> 48; }
+
+/// O(n), with two passes over the edges: the first finds the extremes and the coarse rank of the median, the second
+/// keeps the values of that rank. An array of all values would raise the memory of a run, whose maximum is here.
 Transmissibilities compare_transmissibilities(const Mesh& mesh, Executor* executor) {
-  std::vector<double> values = transmissibilities(mesh, executor);
-  if (values.empty()) return {};
-  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+  constexpr std::size_t kRanks = std::size_t{1} << 15;
+  std::vector<std::atomic<std::uint32_t>> counts(kRanks);
+  const std::size_t blocks = (mesh.n_halfedges() + kLoopBlock - 1) / kLoopBlock;
+  std::vector<double> least(blocks, std::numeric_limits<double>::infinity()), largest(blocks, 0.0);
+  for_transmissibilities(mesh, executor, [&](std::size_t b, double value) {
+    counts[coarse_rank(value)].fetch_add(1, std::memory_order_relaxed);
+    least[b] = std::min(least[b], value), largest[b] = std::max(largest[b], value);
+  });
+  std::size_t n = 0;
+  for (const auto& count : counts) n += count;
+  if (n == 0) return {};
+
+  // The middle value, or the middle two: all values of their ranks, and of those between.
+  std::size_t first = 0, below = 0;
+  while (below + counts[first] <= (n - 1) / 2) below += counts[first++];
+  std::size_t last = first, up_to = below + counts[first];
+  while (up_to <= n / 2) up_to += counts[++last];
+  std::vector<std::vector<double>> of_blocks(blocks);
+  for_transmissibilities(mesh, executor, [&](std::size_t b, double value) {
+    if (const std::size_t rank = coarse_rank(value); first <= rank && rank <= last) of_blocks[b].push_back(value);
+  });
+  std::vector<double> middle;
+  for (const std::vector<double>& values : of_blocks) middle.insert(middle.end(), values.begin(), values.end());
+  std::sort(middle.begin(), middle.end());
+  const double lower = middle[(n - 1) / 2 - below], upper = middle[n / 2 - below];
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double median = upper < infinity ? upper + (lower - upper) / 2 : upper;
+  const double most = *std::max_element(largest.begin(), largest.end());
   Transmissibilities all;
-  all.max_over_min = *largest < std::numeric_limits<double>::infinity() ? *largest / *least : *largest;
-  all.max_over_median = largest_over_median(std::move(values));
+  all.max_over_min = most < infinity ? most / *std::min_element(least.begin(), least.end()) : most;
+  all.max_over_median = median > 0 && most < infinity ? most / median : infinity;
   return all;
 }
 
@@ -203,7 +224,10 @@ EnergiesByStar all_energies(const Mesh& mesh, const QualityOptions& options) {
 
 std::size_t count_regions(const Mesh& mesh) {
   std::set<std::int32_t> regions;
-  for (TriangleId t : mesh.triangles()) regions.insert(mesh.region(t));
+  std::optional<std::int32_t> last;
+  for (const TriangleId t : mesh.triangles()) {
+    if (last != mesh.region(t)) regions.insert(*(last = mesh.region(t)));
+  }
   return regions.size();
 }
 
@@ -215,7 +239,7 @@ Quality quality(const Mesh& original, const QualityOptions& options) {
   const Mesh& mesh = near.mesh();
   const Tally sums = tally(near, options);
   Quality q;
-  static_cast<SolverMeasures&>(q) = solver_measures(mesh, options.executor);
+  static_cast<SolverMeasures&>(q) = solver_measures(mesh, options.brief, options.executor);
   q.vertices = mesh.n_vertices();
   q.triangles = mesh.n_triangles();
   q.edges = sums.edges;
@@ -239,7 +263,7 @@ Quality quality(const Mesh& original, const QualityOptions& options) {
   const Transmissibilities transmissibilities = compare_transmissibilities(mesh, options.executor);
   q.max_transmissibility_over_median = transmissibilities.max_over_median;
   q.transmissibility_ratio = transmissibilities.max_over_min;
-  q.energy = all_energies(mesh, options);
+  if (!options.brief) q.energy = all_energies(mesh, options);
   for (const Ranked& ranked : sums.worst.sorted()) q.worst.push_back(describe(original, ranked.triangle));
   return q;
 }

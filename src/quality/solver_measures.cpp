@@ -202,21 +202,17 @@ void add_closed_cell(SolverMeasures& m, const Space& space, const Ring& ring, do
 
 // --- all -----------------------------------------------------------------------------------------------------
 
-void add_interior_edge(SolverMeasures& m, const Mesh& mesh, const IdVector<VertexId, double>& sizes, HalfedgeId h) {
-  const auto [edge, dual] = relative_lengths(mesh, sizes, h);
-  m.min_edge_over_size = std::min(m.min_edge_over_size, edge);
-  m.min_dual_over_size = std::min(m.min_dual_over_size, dual);
-  add_flow_link(m, mesh, h);
-}
-
-void add_triangles(SolverMeasures& m, const Mesh& mesh, const IdVector<VertexId, double>& sizes, std::size_t first,
-                   std::size_t last) {
+void add_triangles(SolverMeasures& m, const Mesh& mesh, const IdVector<VertexId, double>& sizes, bool brief,
+                   std::size_t first, std::size_t last) {
   for (std::size_t i = first; i < last; ++i) {
-    add_triangle(m, mesh, TriangleId(i));
+    if (!brief) add_triangle(m, mesh, TriangleId(i));
     for (int k = 0; k < 3; ++k) {
       const HalfedgeId h = Mesh::halfedge(TriangleId(i), k);
-      if (!mesh.is_boundary(h) && mesh.is_edge_representative(h) && !mesh.is_diagonal(h))
-        add_interior_edge(m, mesh, sizes, h);
+      if (mesh.is_boundary(h) || !mesh.is_edge_representative(h) || mesh.is_diagonal(h)) continue;
+      const auto [edge, dual] = relative_lengths(mesh, sizes, h);
+      m.min_edge_over_size = std::min(m.min_edge_over_size, edge);
+      m.min_dual_over_size = std::min(m.min_dual_over_size, dual);
+      if (!brief) add_flow_link(m, mesh, h);
     }
   }
 }
@@ -240,12 +236,13 @@ SolverMeasures over(std::size_t n, Executor* executor, Add&& add) {
 
 }  // namespace
 
-SolverMeasures solver_measures(const Mesh& mesh, Executor* executor) {
+SolverMeasures solver_measures(const Mesh& mesh, bool brief, Executor* executor) {
   const Walk walk(mesh, executor);
   const IdVector<VertexId, double> sizes = local_sizes(mesh, walk, executor);
   SolverMeasures all = over(mesh.n_triangles(), executor, [&](SolverMeasures& m, std::size_t first, std::size_t last) {
-    add_triangles(m, mesh, sizes, first, last);
+    add_triangles(m, mesh, sizes, brief, first, last);
   });
+  if (brief) return all;
   merge(all, over(mesh.n_vertices(), executor, [&](SolverMeasures& m, std::size_t first, std::size_t last) {
           Ring ring;
           for (std::size_t i = first; i < last; ++i) add_cell(m, ring, mesh, sizes, walk[i]);

@@ -79,6 +79,7 @@ class Checks {
     options_.h0 = s_.h0.value_or(options_.h0);
     options_.worst = s_.worst;
     options_.executor = threads_.get();
+    options_.brief = !s_.details && !s_.json && s_.write.empty() && requirements_.empty();
     files_ = sorted_outputs("check", s_.write, kCheckOutputs);
     if (!s_.write.empty() && s_.inputs.size() > 1) {
       refuse_usage("check", fmt::format("--write: expected one mesh, found {}", s_.inputs.size()));
@@ -92,6 +93,7 @@ class Checks {
     Input input = read_input(path, {s_.projection, {}, threads_.get(), true, s_.flat});
     print_warnings(input.warnings());
     if (const std::string crack = crack_warning(input); !crack.empty()) print_warnings(std::vector{crack});
+    if (files_.page.empty()) io::release_geometry(input.file, input.loaded);
     take_to_metric(input, s_.metric);
     Quality measured = quality(input.mesh(), options_);
     for (WorstTriangle& worst : measured.worst) {

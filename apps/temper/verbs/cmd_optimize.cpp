@@ -151,6 +151,7 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
   look_at();
   if (!s.files.picture.empty() || !s.files.page.empty()) results.original = *seen;
   const bool shown = !s.files.report.empty() || !s.files.page.empty() || !s.files.picture.empty();
+  measuring.brief = !shown && !s.details && s.requirements.empty();
   const bool measured = !is_quiet() || shown || !s.requirements.empty();  // else nobody would see it
   if (measured) results.before = quality(*seen, measuring);
   catch_interrupts();

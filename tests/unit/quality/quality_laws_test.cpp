@@ -163,6 +163,22 @@ TEST(QualityLaws, ScalingLeavesRatiosAndMultipliesEnergies) {
   }
 }
 
+TEST(QualityLaws, BriefLeavesOutMeasuresAndChangesNone) {
+  const Mesh mesh = bad_mesh();
+  const Quality all = quality(mesh), brief = quality(mesh, {.brief = true}), none;
+  std::size_t left_out = 0;
+  for (const QualityMeasure& measure : quality_measures()) {
+    if (measure.of(brief) == measure.of(all)) continue;
+    EXPECT_EQ(measure.of(brief), measure.of(none)) << measure.key;
+    ++left_out;
+  }
+  EXPECT_GT(left_out, 0U);
+  EXPECT_EQ(brief.energy, none.energy);
+  EXPECT_EQ(brief.min_edge_over_size, all.min_edge_over_size);
+  EXPECT_EQ(brief.max_transmissibility_over_median, all.max_transmissibility_over_median);
+  EXPECT_EQ(brief.min_h_over_l, all.min_h_over_l);
+}
+
 // The same mesh with vertices and triangles in another order, and other first corners.
 Mesh relabeled(const Mesh& mesh, std::uint64_t seed) {
   Noise noise(seed);
