@@ -26,6 +26,8 @@ namespace error_detail {
 namespace {
 
 constexpr double kLeastWaveNumber = 1, kMostWaveNumber = 4;
+constexpr std::size_t kWaves = 64, kWavesOfLarge = 24;
+constexpr std::size_t kLarge = 4000;  // vertices: smaller meshes lose more by fewer waves
 
 /// sin(k · p + phase).
 struct Wave {
@@ -274,11 +276,12 @@ class CellSolver final : public Solver {
 // --- the model -------------------------------------------------------------------------------------------------------
 
 /// In the frame: half the bounding box has length 1.
-std::vector<Wave> waves_of(const DiscretizationErrorOptions& options) {
+std::vector<Wave> waves_of(const Mesh& mesh, const DiscretizationErrorOptions& options) {
+  const std::size_t n = options.fields.value_or(mesh.n_vertices() > kLarge ? kWavesOfLarge : kWaves);
   Rng rng(options.seed);
   std::vector<Wave> waves;
-  for (std::size_t i = 0; i < options.fields; ++i) {
-    const double turn = (static_cast<double>(i) + rng.uniform()) / static_cast<double>(options.fields);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double turn = (static_cast<double>(i) + rng.uniform()) / static_cast<double>(n);
     const double k = rng.uniform(kLeastWaveNumber, kMostWaveNumber);
     const auto [sine, cosine] = sine_cosine(std::numbers::pi * turn);
     waves.push_back({{k * cosine, k * sine}, rng.uniform(0, 2 * std::numbers::pi)});
@@ -288,8 +291,8 @@ std::vector<Wave> waves_of(const DiscretizationErrorOptions& options) {
 
 class SolverErrorModel final : public DiscretizationError {
  public:
-  explicit SolverErrorModel(const DiscretizationErrorOptions& options)
-      : scheme_(options.scheme), waves_(waves_of(options)) {}
+  SolverErrorModel(const Mesh& mesh, const DiscretizationErrorOptions& options)
+      : scheme_(options.scheme), waves_(waves_of(mesh, options)) {}
 
   [[nodiscard]] std::vector<double> errors(const Mesh& mesh, Executor* executor) const override {
     return measure(mesh, nullptr, executor);
@@ -377,7 +380,7 @@ Expected<std::shared_ptr<const DiscretizationError>> make_discretization_error(
     return error_detail::make_problem_error(mesh, *options.problem, options.scheme, options.names);
   }
   if (options.fields == 0) return refused("errors are averaged over no field; expected one at least");
-  return std::shared_ptr<const DiscretizationError>(std::make_shared<error_detail::SolverErrorModel>(options));
+  return std::shared_ptr<const DiscretizationError>(std::make_shared<error_detail::SolverErrorModel>(mesh, options));
 }
 
 }  // namespace temper
