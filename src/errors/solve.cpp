@@ -197,6 +197,37 @@ void Cholesky::solve(std::vector<double>& right) const {
   std::copy(x.begin(), x.end(), right.begin());
 }
 
+// Eigen solves one column after the other. This reads each entry of L once for all lanes.
+void Cholesky::solve(const PointSystem& points, std::vector<Lanes>& at_points) const {
+  const Matrix& l = factors_->ldlt.matrixL().nestedExpression();  // its diagonal is left out
+  const auto& place = factors_->ldlt.permutationP().indices();
+  const auto place_of = [&](std::size_t point) {
+    return static_cast<std::size_t>(place[static_cast<Index>(points.unknown(point))]);
+  };
+  std::vector<Lanes> x(points.n_unknowns());
+  for (std::size_t p = 0; p < at_points.size(); ++p) {
+    if (!points.is_given(p)) x[place_of(p)] = at_points[p];
+  }
+  for (Index j = 0; j < l.outerSize(); ++j) {
+    const Lanes here = x[static_cast<std::size_t>(j)];
+    for (Matrix::InnerIterator entry(l, j); entry; ++entry) {
+      Lanes& there = x[static_cast<std::size_t>(entry.row())];
+      for (std::size_t i = 0; i < kLanes; ++i) there[i] -= entry.value() * here[i];
+    }
+  }
+  const Vector pivots = factors_->ldlt.vectorD();
+  for (Index j = l.outerSize(); j-- > 0;) {
+    Lanes here = x[static_cast<std::size_t>(j)];
+    for (double& value : here) value /= pivots[j];
+    for (Matrix::InnerIterator entry(l, j); entry; ++entry) {
+      const Lanes& there = x[static_cast<std::size_t>(entry.row())];
+      for (std::size_t i = 0; i < kLanes; ++i) here[i] -= entry.value() * there[i];
+    }
+    x[static_cast<std::size_t>(j)] = here;
+  }
+  for (std::size_t p = 0; p < at_points.size(); ++p) at_points[p] = points.is_given(p) ? Lanes{} : x[place_of(p)];
+}
+
 LinearSolution solve(const LinearSystem& system, bool with_condition) {
   LinearSolution result;
   if (system.unknowns == 0) {

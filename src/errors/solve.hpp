@@ -1,6 +1,7 @@
 // Sparse symmetric systems, by Eigen, which solve.cpp alone includes.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -31,6 +32,12 @@ struct LinearSolution {
 /// with a residual of the size of rounding.
 [[nodiscard]] LinearSolution solve(const LinearSystem& system, bool with_condition);
 
+class PointSystem;
+
+/// One number of each of several systems with the same matrix.
+inline constexpr std::size_t kLanes = 8;
+using Lanes = std::array<double, kLanes>;
+
 /// A positive definite matrix, factored for many right sides.
 class Cholesky {
  public:
@@ -38,6 +45,8 @@ class Cholesky {
   [[nodiscard]] static std::optional<Cholesky> of(std::size_t unknowns, const std::vector<MatrixEntry>& lower);
   /// Solves for the right side, in its place.
   void solve(std::vector<double>& right) const;
+  /// Solves for several right sides at once, in their place. They are at points, and given points get 0.
+  void solve(const PointSystem& points, std::vector<Lanes>& at_points) const;
 
  private:
   struct Factors;
@@ -55,6 +64,8 @@ class PointSystem {
   void connect_outside(std::size_t i, double c);
 
   [[nodiscard]] bool is_given(std::size_t i) const { return unknowns_[i] == kGiven; }
+  /// Precondition: it is not given.
+  [[nodiscard]] std::size_t unknown(std::size_t i) const { return unknowns_[i]; }
   [[nodiscard]] std::size_t n_unknowns() const { return n_unknowns_; }
   [[nodiscard]] const std::vector<MatrixEntry>& lower() const { return lower_; }
   /// The numbers at the unknowns: sources, and fluxes from given values. Both have one number per point.

@@ -26,108 +26,146 @@ namespace error_detail {
 namespace {
 
 constexpr double kLeastWaveNumber = 1, kMostWaveNumber = 4;
-constexpr std::size_t kBatch = 8;  // waves that a task takes: each has derivatives of its own to add up
+constexpr std::size_t kWaves = 64, kWavesOfLarge = 24;
+constexpr std::size_t kLarge = 4000;  // vertices: smaller meshes lose more by fewer waves
 
-/// sin(k · p + phase), in the coordinates of the mesh.
+/// sin(k · p + phase).
 struct Wave {
   Vec2 k;
   double phase = 0;
+};
 
-  [[nodiscard]] double angle(Vec2 p) const { return dot(k, p) + phase; }
-  [[nodiscard]] double at(Vec2 p) const { return sine_cosine(angle(p)).sine; }
-  [[nodiscard]] Vec2 gradient(Vec2 p) const { return sine_cosine(angle(p)).cosine * k; }
-  /// −Δ of it.
-  [[nodiscard]] double source(Vec2 p) const { return squared_length(k) * at(p); }
-  /// ∫ ∇u · n over the segment, n to its left.
-  [[nodiscard]] double flow_to_left(Vec2 a, Vec2 b) const {
-    const Vec2 e = b - a;
-    const double half = 0.5 * dot(k, e);
-    const double sinc = std::abs(half) < 1e-4 ? 1 - half * half / 6 : sine_cosine(half).sine / half;
-    return (k.y * e.x - k.x * e.y) * sine_cosine(angle(0.5 * (a + b))).cosine * sinc;
+/// ½∫ cos(s h) ds and ½∫ s sin(s h) ds over [−1, 1]: a wave's means over a segment on which its angle changes by 2h.
+struct SegmentMeans {
+  double even = 1, odd = 0;
+
+  explicit SegmentMeans(double h) {
+    const double z = h * h;
+    if (z < 0.06) {  // the next terms are below 1e-16
+      even = 1 - z / 6 * (1 - z / 20 * (1 - z / 42 * (1 - z / 72 * (1 - z / 110))));
+      odd = h / 3 * (1 - z / 10 * (1 - z / 28 * (1 - z / 54 * (1 - z / 88))));
+    } else {
+      const auto [sine, cosine] = sine_cosine(h);
+      even = sine / h, odd = (sine - h * cosine) / z;
+    }
   }
+};
+
+/// Waves side by side in the coordinates of the mesh.
+struct WaveBlock {
+  Lanes x = {}, y = {}, phase = {};  // of k · p + phase
+  Lanes k2 = {};
+  Lanes share = {};  // c of J, relative to the mean square ½, over k⁴ in the frame, in the mean; 0 if there is no wave
+
+  [[nodiscard]] SineCosine at(std::size_t i, Vec2 p) const { return sine_cosine(x[i] * p.x + y[i] * p.y + phase[i]); }
 };
 
 /// A mesh with its operators, and the waves in its units.
 struct ErrorSubject {
   const Mesh& mesh;
   DecComplex dec;
-  std::vector<Wave> waves;
-  double area = 0;
-
-  /// c of J: relative to the wave's mean square ½, over the fourth power of its number in the frame, in the mean.
-  [[nodiscard]] double factor(const Wave& wave, double half_size) const {
-    const double k2 = squared_length(wave.k) * half_size * half_size;
-    return 2 / (area * k2 * k2 * static_cast<double>(waves.size()));
-  }
+  std::vector<WaveBlock> waves;
 };
 
-/// A scheme on a mesh, its matrix factored.
+/// A scheme on a mesh, its matrix factored. It solves for e directly: A e = b − A u.
 class Solver {
  public:
-  Solver(const ErrorSubject& subject, double half_size, PointSystem points)
-      : s_(subject),
-        half_size_(half_size),
-        points_(std::move(points)),
-        matrix_(Cholesky::of(points_.n_unknowns(), points_.lower())) {}
+  Solver(const ErrorSubject& subject, PointSystem points)
+      : s_(subject), points_(std::move(points)), matrix_(Cholesky::of(points_.n_unknowns(), points_.lower())) {}
   virtual ~Solver() = default;
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
   [[nodiscard]] bool is_definite() const { return matrix_.has_value(); }
-  /// The squared error of one wave. If `by` is not null, adds its derivatives there.
-  [[nodiscard]] virtual double error(const Wave& wave, Adjoint* by) const = 0;
+  /// The squared error of a block of waves. If `by` is not null, adds its derivatives there.
+  [[nodiscard]] virtual double error(const WaveBlock& waves, Adjoint* by) const = 0;
 
  protected:
-  /// The solution at all points, with these values where they are given.
-  [[nodiscard]] std::vector<double> solved(const std::vector<double>& sources, std::vector<double> values) const {
-    return solution_at_points(points_, *matrix_, sources, std::move(values));
-  }
-  /// The solution that is 0 at given points.
-  [[nodiscard]] std::vector<double> solved(const std::vector<double>& sources) const {
-    return solved(sources, std::vector<double>(sources.size(), 0.0));
+  /// The solution at all points, 0 where it is given.
+  [[nodiscard]] std::vector<Lanes> solved(std::vector<Lanes> sources) const {
+    matrix_->solve(points_, sources);
+    return sources;
   }
   [[nodiscard]] const ErrorSubject& subject() const { return s_; }
   [[nodiscard]] const PointSystem& points() const { return points_; }
-  [[nodiscard]] double factor_of(const Wave& wave) const { return s_.factor(wave, half_size_); }
+
+  /// J = c Σ m e², with masses 0 at given points; `force` is its derivative by e.
+  template <class Masses>
+  static double squared(const WaveBlock& waves, const Masses& masses, const std::vector<Lanes>& errors,
+                        std::vector<Lanes>& force) {
+    force.resize(errors.size());
+    Lanes sums = {};
+    for (std::size_t p = 0; p < errors.size(); ++p) {
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        const double me = waves.share[i] * masses.begin()[p] * errors[p][i];
+        sums[i] += me * errors[p][i];
+        force[p][i] = 2 * me;
+      }
+    }
+    double sum = 0;
+    for (const double part : sums) sum += part;
+    return sum;
+  }
 
  private:
   const ErrorSubject& s_;
-  double half_size_;
   PointSystem points_;
   std::optional<Cholesky> matrix_;
 };
+
+/// The derivative of −λᵀ A v by the coefficient between two points.
+double by_coefficient(const Lanes& lambda_a, const Lanes& lambda_b, const Lanes& a, const Lanes& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < kLanes; ++i) sum -= (lambda_a[i] - lambda_b[i]) * (a[i] - b[i]);
+  return sum;
+}
 
 // --- unknowns at the vertices: d0ᵀ ★1 d0 u = ★0 f --------------------------------------------------------------------
 
 class VertexSolver final : public Solver {
  public:
-  VertexSolver(const ErrorSubject& s, double half_size)
-      : Solver(s, half_size, vertex_system(s.dec, given_vertices(s.mesh))) {}
+  explicit VertexSolver(const ErrorSubject& s) : Solver(s, vertex_system(s.dec, given_vertices(s.mesh))) {}
 
-  [[nodiscard]] double error(const Wave& wave, Adjoint* by) const override {
-    const auto& [mesh, dec, waves, area] = subject();
-    std::vector<double> sources(mesh.n_vertices()), exact(mesh.n_vertices());
+  [[nodiscard]] double error(const WaveBlock& waves, Adjoint* by) const override {
+    const auto& [mesh, dec, all] = subject();
+    std::vector<Lanes> value(mesh.n_vertices()), slope(value.size()), sources(value.size()), force;
     for (const VertexId v : mesh.vertices()) {
-      exact[v.index] = wave.at(mesh.position(v));
-      sources[v.index] = dec.star0[v] * wave.source(mesh.position(v));
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        const auto [sine, cosine] = waves.at(i, mesh.position(v));
+        value[v.index][i] = sine, slope[v.index][i] = cosine;
+        sources[v.index][i] = dec.star0[v] * waves.k2[i] * sine;
+      }
     }
-    const std::vector<double> value = solved(sources, exact);
-    const double c = factor_of(wave);
-    SquaredErrors j(mesh.n_vertices());
+    const std::vector<Lanes> exact = value;
+    for (std::size_t e = 0; e < dec.edges.size(); ++e) {
+      const auto& [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        const double flux = dec.star1[EdgeId(e)] * (exact[from][i] - exact[to][i]);
+        sources[from][i] -= flux, sources[to][i] += flux;
+      }
+    }
+    const std::vector<Lanes> errors = solved(std::move(sources));
+    const double sum = squared(waves, dec.star0, errors, force);
+    if (by == nullptr) return sum;
+    const std::vector<Lanes> lambda = solved(force);
     for (const VertexId v : mesh.vertices()) {
-      if (!points().is_given(v.index)) j.add(v.index, c * dec.star0[v], value[v.index] - exact[v.index]);
+      const std::size_t p = v.index;
+      if (points().is_given(p)) continue;
+      Vec2 by_place;
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        const double source = lambda[p][i] * waves.k2[i];
+        by->star0[v] += waves.share[i] * errors[p][i] * errors[p][i] + source * exact[p][i];
+        const double by_u = (source * dec.star0[v] - force[p][i]) * slope[p][i];
+        by_place = by_place + by_u * Vec2{waves.x[i], waves.y[i]};
+        value[p][i] += errors[p][i];
+      }
+      by->vertex[v] = by->vertex[v] + by_place;
     }
-    if (by == nullptr) return j.sum;
-    const std::vector<double> lambda = solved(j.force);
-    for (const VertexId v : mesh.vertices()) {
-      if (points().is_given(v.index)) continue;
-      const double k2 = squared_length(wave.k), e = j.error[v.index];
-      by->star0[v] += c * e * e + lambda[v.index] * k2 * exact[v.index];
-      by->vertex[v] =
-          by->vertex[v] + (lambda[v.index] * dec.star0[v] * k2 - j.force[v.index]) * wave.gradient(mesh.position(v));
+    for (std::size_t e = 0; e < dec.edges.size(); ++e) {
+      const auto& [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
+      by->star1[EdgeId(e)] += by_coefficient(lambda[from], lambda[to], value[from], value[to]);
     }
-    by->add_star1(dec, value, lambda);
-    return j.sum;
+    return sum;
   }
 
  private:
@@ -142,73 +180,108 @@ class VertexSolver final : public Solver {
 
 class CellSolver final : public Solver {
  public:
-  CellSolver(const ErrorSubject& s, double half_size)
-      : Solver(s, half_size, cell_system(s.dec, s.dec.transmissibility)) {}
+  explicit CellSolver(const ErrorSubject& s) : Solver(s, cell_system(s.dec, s.dec.transmissibility)) {}
 
-  [[nodiscard]] double error(const Wave& wave, Adjoint* by) const override {
-    const auto& [mesh, dec, waves, area] = subject();
-    const std::vector<double> solution = solved(sources(wave));
-    const double c = factor_of(wave);
-    SquaredErrors j(solution.size());
-    for (const TriangleId t : mesh.triangles())
-      j.add(t.index, c * dec.areas[t], solution[t.index] - wave.at(dec.orthocenters[t]));
-    if (by == nullptr) return j.sum;
-    const std::vector<double> lambda = solved(j.force);
+  [[nodiscard]] double error(const WaveBlock& waves, Adjoint* by) const override {
+    const auto& [mesh, dec, all] = subject();
+    std::vector<Lanes> value(mesh.n_triangles()), slope(value.size()), sources(value.size()), force;
     for (const TriangleId t : mesh.triangles()) {
-      const double e = j.error[t.index];
-      by->area[t] += c * e * e;
-      by->orthocenter[t] = by->orthocenter[t] - j.force[t.index] * wave.gradient(dec.orthocenters[t]);
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        const auto [sine, cosine] = waves.at(i, dec.orthocenters[t]);
+        value[t.index][i] = sine, slope[t.index][i] = cosine;
+      }
     }
-    by->add_flux(dec, solution, lambda);
-    for (std::size_t i = 0; i < dec.edges.size(); ++i) add_edge(EdgeId(i), wave, solution, lambda, *by);
-    return j.sum;
+    std::vector<EdgeWaves> on_edges(dec.edges.size());
+    for (std::size_t e = 0; e < dec.edges.size(); ++e) {
+      const DecEdge& edge = dec.edges[EdgeId(e)];
+      on_edges[e] = edge_waves(waves, edge);
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        const double flow = on_edges[e].flow[i], coefficient = dec.transmissibility[EdgeId(e)];
+        if (edge.is_boundary()) {
+          const std::size_t k = inner_triangle(edge).index;
+          sources[k][i] += (edge.left.valid() ? flow : -flow) - coefficient * (value[k][i] - on_edges[e].first[i]);
+        } else {
+          const double flux = flow - coefficient * (value[edge.left.index][i] - value[edge.right.index][i]);
+          sources[edge.left.index][i] += flux, sources[edge.right.index][i] -= flux;
+        }
+      }
+    }
+    const std::vector<Lanes> errors = solved(std::move(sources));
+    const double sum = squared(waves, dec.areas, errors, force);
+    if (by == nullptr) return sum;
+    const std::vector<Lanes> lambda = solved(force);
+    for (const TriangleId t : mesh.triangles()) {
+      const std::size_t p = t.index;
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        by->area[t] += waves.share[i] * errors[p][i] * errors[p][i];
+        by->orthocenter[t] = by->orthocenter[t] - (force[p][i] * slope[p][i]) * Vec2{waves.x[i], waves.y[i]};
+        value[p][i] += errors[p][i];
+      }
+    }
+    for (std::size_t e = 0; e < dec.edges.size(); ++e) add_edge(EdgeId(e), waves, on_edges[e], value, lambda, *by);
+    return sum;
   }
 
  private:
-  [[nodiscard]] std::vector<double> sources(const Wave& wave) const {
-    const auto& [mesh, dec, waves, area] = subject();
-    std::vector<double> right(mesh.n_triangles(), 0.0);
-    for (std::size_t i = 0; i < dec.edges.size(); ++i) {
-      const DecEdge& edge = dec.edges[EdgeId(i)];
-      const double flow = wave.flow_to_left(mesh.position(edge.from), mesh.position(edge.to));
-      if (edge.left.valid()) right[edge.left.index] += flow;
-      if (edge.right.valid()) right[edge.right.index] -= flow;
-      if (edge.is_boundary())
-        right[inner_triangle(edge).index] += dec.transmissibility[EdgeId(i)] * wave.at(edge.midpoint);
+  /// The waves on an edge. On the boundary: value and slope at the weighted midpoint. Inside: ∫ f (1 − t) and ∫ f t,
+  /// t from 0 to 1.
+  struct EdgeWaves {
+    Lanes flow;  // ∫ ∇u · n, n to its left
+    Lanes first, second;
+  };
+  [[nodiscard]] EdgeWaves edge_waves(const WaveBlock& waves, const DecEdge& edge) const {
+    const Vec2 a = subject().mesh.position(edge.from), e = subject().mesh.position(edge.to) - a, middle = a + 0.5 * e;
+    EdgeWaves result;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const auto [sine, cosine] = waves.at(i, middle);
+      const SegmentMeans means(0.5 * (waves.x[i] * e.x + waves.y[i] * e.y));
+      result.flow[i] = (waves.y[i] * e.x - waves.x[i] * e.y) * cosine * means.even;
+      const double half = 0.5 * waves.k2[i];
+      result.first[i] = half * (sine * means.even - cosine * means.odd);
+      result.second[i] = half * (sine * means.even + cosine * means.odd);
+      if (!edge.is_boundary()) continue;
+      const auto [value, slope] = waves.at(i, edge.midpoint);
+      result.first[i] = value, result.second[i] = slope;
     }
-    return right;
+    return result;
   }
 
-  void add_edge(EdgeId id, const Wave& wave, const std::vector<double>& solution, const std::vector<double>& lambda,
-                Adjoint& by) const {
-    const auto& [mesh, dec, waves, area] = subject();
+  void add_edge(EdgeId id, const WaveBlock& waves, const EdgeWaves& on, const std::vector<Lanes>& value,
+                const std::vector<Lanes>& lambda, Adjoint& by) const {
+    const auto& [mesh, dec, all] = subject();
     const DecEdge& edge = dec.edges[id];
-    const Vec2 a = mesh.position(edge.from), b = mesh.position(edge.to), e = b - a;
+    const Vec2 e = mesh.position(edge.to) - mesh.position(edge.from);
     if (edge.is_boundary()) {
       const std::size_t k = inner_triangle(edge).index;
-      by.transmissibility[id] -= lambda[k] * (solution[k] - wave.at(edge.midpoint));
-      by.crossing[id] += lambda[k] * dec.transmissibility[id] * dot(wave.gradient(edge.midpoint), e) / edge.length;
+      by.transmissibility[id] += by_coefficient(lambda[k], {}, value[k], on.first);
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        const double along = (waves.x[i] * e.x + waves.y[i] * e.y) / edge.length;
+        by.crossing[id] += lambda[k][i] * dec.transmissibility[id] * on.second[i] * along;
+      }
       return;
     }
-    const double difference = lambda[edge.left.index] - lambda[edge.right.index];
+    const std::size_t left = edge.left.index, right = edge.right.index;
+    by.transmissibility[id] += by_coefficient(lambda[left], lambda[right], value[left], value[right]);
     // ∫ f over the triangle on the left grows by f times the way if the edge moves to the right.
-    const Vec2 right = difference * Vec2{e.y, -e.x};
-    along_segment(a, b, [&](Vec2 p, double weight) {
-      const double t = dot(p - a, e) / squared_length(e), f = weight * wave.source(p);
-      by.vertex[edge.from] = by.vertex[edge.from] + (f * (1 - t)) * right;
-      by.vertex[edge.to] = by.vertex[edge.to] + (f * t) * right;
-    });
+    double at_from = 0, at_to = 0;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      at_from += (lambda[left][i] - lambda[right][i]) * on.first[i];
+      at_to += (lambda[left][i] - lambda[right][i]) * on.second[i];
+    }
+    by.vertex[edge.from] = by.vertex[edge.from] + at_from * Vec2{e.y, -e.x};
+    by.vertex[edge.to] = by.vertex[edge.to] + at_to * Vec2{e.y, -e.x};
   }
 };
 
 // --- the model -------------------------------------------------------------------------------------------------------
 
 /// In the frame: half the bounding box has length 1.
-std::vector<Wave> waves_of(const DiscretizationErrorOptions& options) {
+std::vector<Wave> waves_of(const Mesh& mesh, const DiscretizationErrorOptions& options) {
+  const std::size_t n = options.fields.value_or(mesh.n_vertices() > kLarge ? kWavesOfLarge : kWaves);
   Rng rng(options.seed);
   std::vector<Wave> waves;
-  for (std::size_t i = 0; i < options.fields; ++i) {
-    const double turn = (static_cast<double>(i) + rng.uniform()) / static_cast<double>(options.fields);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double turn = (static_cast<double>(i) + rng.uniform()) / static_cast<double>(n);
     const double k = rng.uniform(kLeastWaveNumber, kMostWaveNumber);
     const auto [sine, cosine] = sine_cosine(std::numbers::pi * turn);
     waves.push_back({{k * cosine, k * sine}, rng.uniform(0, 2 * std::numbers::pi)});
@@ -218,8 +291,8 @@ std::vector<Wave> waves_of(const DiscretizationErrorOptions& options) {
 
 class SolverErrorModel final : public DiscretizationError {
  public:
-  explicit SolverErrorModel(const DiscretizationErrorOptions& options)
-      : scheme_(options.scheme), waves_(waves_of(options)) {}
+  SolverErrorModel(const Mesh& mesh, const DiscretizationErrorOptions& options)
+      : scheme_(options.scheme), waves_(waves_of(mesh, options)) {}
 
   [[nodiscard]] std::vector<double> errors(const Mesh& mesh, Executor* executor) const override {
     return measure(mesh, nullptr, executor);
@@ -233,18 +306,12 @@ class SolverErrorModel final : public DiscretizationError {
  private:
   [[nodiscard]] std::vector<double> measure(const Mesh& mesh, std::vector<Gradient>* gradients,
                                             Executor* executor) const {
-    const FieldFrame frame = field_frame(mesh);
-    ErrorSubject subject{mesh, dec_operators(mesh), {}, 0};
-    for (const double area : subject.dec.areas) subject.area += area;
-    for (const Wave& wave : waves_) {
-      const Vec2 k = (1 / frame.half_size) * wave.k;
-      subject.waves.push_back({k, wave.phase - dot(k, frame.center)});
-    }
+    const ErrorSubject subject = subject_of(mesh);
     std::optional<VertexSolver> at_vertices;
     std::optional<CellSolver> in_cells;
     std::vector<const Solver*> solvers;
-    if (scheme_ != Scheme::cell) solvers.push_back(&at_vertices.emplace(subject, frame.half_size));
-    if (scheme_ != Scheme::vertex) solvers.push_back(&in_cells.emplace(subject, frame.half_size));
+    if (scheme_ != Scheme::cell) solvers.push_back(&at_vertices.emplace(subject));
+    if (scheme_ != Scheme::vertex) solvers.push_back(&in_cells.emplace(subject));
     if (!std::all_of(solvers.begin(), solvers.end(), [](const Solver* s) { return s->is_definite(); })) return {};
 
     std::vector<double> errors;
@@ -257,15 +324,33 @@ class SolverErrorModel final : public DiscretizationError {
     return errors;
   }
 
+  [[nodiscard]] ErrorSubject subject_of(const Mesh& mesh) const {
+    const FieldFrame frame = field_frame(mesh);
+    ErrorSubject subject{mesh, dec_operators(mesh), {}};
+    double area = 0;
+    for (const double of_triangle : subject.dec.areas) area += of_triangle;
+    subject.waves.resize((waves_.size() + kLanes - 1) / kLanes);
+    for (std::size_t i = 0; i < waves_.size(); ++i) {
+      WaveBlock& block = subject.waves[i / kLanes];
+      const Vec2 k = (1 / frame.half_size) * waves_[i].k;
+      const double k2 = squared_length(waves_[i].k);
+      const std::size_t lane = i % kLanes;
+      block.x[lane] = k.x, block.y[lane] = k.y;
+      block.phase[lane] = waves_[i].phase - dot(k, frame.center);
+      block.k2[lane] = squared_length(k);
+      block.share[lane] = 2 / (area * k2 * k2 * static_cast<double>(waves_.size()));
+    }
+    return subject;
+  }
+
   /// The sum over all waves, and over their derivatives, in an order independent of the number of threads.
   static double mean_error(const Solver& solver, const ErrorSubject& subject, Adjoint* by, Executor* executor) {
-    const std::vector<Wave>& waves = subject.waves;
-    std::vector<double> sums((waves.size() + kBatch - 1) / kBatch, 0.0);
-    std::vector<std::optional<Adjoint>> parts(by != nullptr ? sums.size() : 0);
-    or_serial(executor).run(sums.size(), [&](std::size_t batch) {
-      Adjoint* part = by != nullptr ? &parts[batch].emplace(subject.mesh, subject.dec) : nullptr;
-      const std::size_t end = std::min(waves.size(), (batch + 1) * kBatch);
-      for (std::size_t i = batch * kBatch; i < end; ++i) sums[batch] += solver.error(waves[i], part);
+    const std::vector<WaveBlock>& waves = subject.waves;
+    std::vector<double> sums(waves.size(), 0.0);
+    std::vector<std::optional<Adjoint>> parts(by != nullptr ? waves.size() : 0);
+    or_serial(executor).run(waves.size(), [&](std::size_t block) {
+      Adjoint* part = by != nullptr ? &parts[block].emplace(subject.mesh, subject.dec) : nullptr;
+      sums[block] = solver.error(waves[block], part);
     });
     double sum = 0;
     for (const double part : sums) sum += part;
@@ -295,7 +380,7 @@ Expected<std::shared_ptr<const DiscretizationError>> make_discretization_error(
     return error_detail::make_problem_error(mesh, *options.problem, options.scheme, options.names);
   }
   if (options.fields == 0) return refused("errors are averaged over no field; expected one at least");
-  return std::shared_ptr<const DiscretizationError>(std::make_shared<error_detail::SolverErrorModel>(options));
+  return std::shared_ptr<const DiscretizationError>(std::make_shared<error_detail::SolverErrorModel>(mesh, options));
 }
 
 }  // namespace temper

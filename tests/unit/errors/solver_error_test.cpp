@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -145,6 +146,19 @@ TEST(SolverErrorModel, IsTheSameForAnyThreads) {
     StdThreads executor(threads);
     EXPECT_EQ(model->errors(mesh, many, &executor), alone);
     EXPECT_EQ(many, one);
+  }
+}
+
+TEST(SolverErrorModel, TakesFewerWavesForALargeMesh) {
+  const auto errors = [](const Mesh& mesh, std::optional<std::size_t> fields) {
+    return (*make_discretization_error(mesh, {.scheme = Scheme::vertex, .fields = fields}))->errors(mesh);
+  };
+  for (const int n : {30, 70}) {
+    const Mesh grid = *sheared_grid({.nx = n, .ny = n});
+    const auto few = errors(grid, 24), many = errors(grid, 64);
+    ASSERT_EQ(few.size(), 1u);
+    EXPECT_NEAR(few[0] / many[0], 1, 0.3);
+    EXPECT_EQ(errors(grid, {}), grid.n_vertices() > 4000 ? few : many);
   }
 }
 
