@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "errors/poisson.hpp"
 
@@ -116,6 +118,25 @@ Expected<std::vector<FieldErrors>> error_ratios(const ErrorReport& after, const 
     for (const ErrorMeasure& measure : kMeasures) {
       measure.at(ratios[i].errors) = ratio(measure.of(after.fields[i].errors), measure.of(before.fields[i].errors));
     }
+  }
+  return ratios;
+}
+
+std::vector<double> solver_error_ratios(const Mesh& after, const Mesh& before, Scheme scheme, Executor* executor) {
+  const std::string chosen(name(FieldGroup::chosen));
+  const auto of_after = measure_errors(after, {.fields = {chosen}, .executor = executor});
+  const auto of_before = measure_errors(before, {.fields = {chosen}, .executor = executor});
+  if (!of_after || !of_before) return {};
+  const auto sum_of_squares = [](const ErrorReport& report, double& (*at)(OperatorErrors&)) {
+    double sum = 0;
+    for (FieldErrors row : report.fields) sum += at(row.errors) * at(row.errors);
+    return sum;
+  };
+  std::vector<double> ratios;
+  for (const auto at : {poisson_l2, poisson_max, flux_l2, flux_max}) {
+    const bool of_vertices = at == poisson_l2 || at == poisson_max;
+    if (scheme == (of_vertices ? Scheme::cell : Scheme::vertex)) continue;
+    ratios.push_back(std::sqrt(ratio(sum_of_squares(*of_after, at), sum_of_squares(*of_before, at))));
   }
   return ratios;
 }

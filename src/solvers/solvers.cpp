@@ -19,6 +19,7 @@ Solvers solvers() {
     const DiffusionProblem* const problem = options.problem ? &*options.problem : nullptr;
     return make_discretization_error(mesh, {.scheme = options.scheme, .problem = problem, .names = names});
   };
+  all.error_ratios = solver_error_ratios;
 #endif
   return all;
 }

@@ -46,6 +46,16 @@ class Notes {
                 : "no better mesh was found: the input is returned as it was");
   }
 
+  /// Measured errors on structured grids may rise.
+  void note_errors(double ratio, bool input_returned) {
+    const std::string times = to_text(std::round(1000 * ratio) / 1000);
+    add(input_returned
+            ? "the input is well-centered, and a change would make measured errors up to " + times + " times as large"
+            : "measured errors are up to " + times +
+                  " times the input's: where errors of neighbors cancel, "
+                  "a change of the mesh makes some of them larger");
+  }
+
   /// HOT energies may make more triangles bad. `bad_before`: bad part of the input's triangles.
   void note_if_more_are_bad(double bad_before) {
     const auto percent = [](double part) { return to_text(std::round(1000 * part) / 10) + " %"; };
@@ -204,6 +214,7 @@ void add_notes(const Mesh& mesh, const Settings& settings, const RunFacts& facts
   } else {
     notes.note_facts(facts);
   }
+  if (facts.error_ratio) notes.note_errors(*facts.error_ratio, ending.returns_input);
   if (facts.gave_up) {
     notes.add(
         "in the metric of the tensor most triangles stay bad, so that all vertices stay where they were; "

@@ -148,7 +148,7 @@ void give_back(Mesh& mesh, Candidate best, const Settings& settings, const Sweep
       input.score = before;
     }
   }
-  const bool worse = !replaces(result.score, input.score, Requirement::not_worse);
+  const bool worse = run.facts.keeps_input || !replaces(result.score, input.score, Requirement::not_worse);
   if (worse) {
     recorder.returned_to(-1);
     if (flips && recorder.on()) static_cast<void>(made_regular(mesh, settings, state, report.sweeps));

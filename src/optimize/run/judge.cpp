@@ -66,6 +66,29 @@ bool replaces(const WorkingCopy& now, const WorkingCopy& best, Requirement requi
                   score(best.mesh, settings, model, nullptr, best.units), required);
 }
 
+bool is_judged_by_errors(const Mesh& input, const Settings& settings) {
+  const OptimizeOptions& o = settings.options;
+  const bool is_free = !o.objective && settings.objective != Objective::energy && o.accuracy.sweeps > 0 &&
+                       o.unknowns != Unknowns::positions && o.boundary != BoundaryVertices::split && !o.problem;
+  return is_free && o.scheme != Scheme::stars && settings.hooks.solvers.error_ratios &&
+         !settings.accuracy.keeps_lengths() && input.space().kind() == SpaceKind::plane &&
+         input.n_vertices() <= static_cast<std::size_t>(o.solver_error.most_vertices);
+}
+
+bool is_sound(const Mesh& input, const Settings& settings) {
+  const double margin = settings.options.accuracy.margin.value_or(scheme_weights(Scheme::vertex).margin);  // the least
+  return count(input, settings) == MeshScore{} && has_margins(input, margin, settings.executor());
+}
+
+double largest_error_ratio(const Mesh& after, const Mesh& input, const Settings& settings) {
+  double largest = 0;
+  for (const double ratio :
+       settings.hooks.solvers.error_ratios(after, input, settings.options.scheme, settings.executor())) {
+    largest = std::max(largest, ratio);
+  }
+  return largest;
+}
+
 double root_mean_square(const std::vector<double>& squared_errors) {
   if (squared_errors.empty()) return kInfinity;
   double sum = 0;

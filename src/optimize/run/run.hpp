@@ -28,6 +28,8 @@ struct RunFacts {
   bool stays_unsplit = false;                  ///< the boundary, since cuts leave more triangles bad
   bool weights_shrunk = false;                 ///< all weights, since they left edges uncrossed
   bool gave_up = false;                        ///< in a metric, restarts left most triangles bad
+  std::optional<double> error_ratio;           ///< above 1: of measured errors on the mesh of the run to the input's
+  bool keeps_input = false;                    ///< for that reason
   bool energy_rose = false;                    ///< in the last sweeps, which were undone
   bool lacks_programs = false;                 ///< a repair would use linear programs, but the build has no solver
 };

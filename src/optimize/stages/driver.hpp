@@ -21,6 +21,9 @@ class Driver {
   void grade_boundary();
   /// Splits such edges at bad triangles alone.
   void split_where_bad();
+  /// Adds `amount` of their shortest edge squared to the heavier ends of ties (ties.hpp), and flips, as one sweep.
+  /// Returns true if this is enough: then sweeps with a large γ would undo it.
+  bool reweight_ties(double amount);
   /// Makes one restart on the input. Returns the sweep whose mesh the copy is then. `may_give_up`: as in EnergyPhase.
   int restart(const Restart& restart, bool may_give_up);
   /// Makes the sweeps of one phase. `sweep`: the sweep whose mesh the working copy is. Returns as restart().
@@ -39,9 +42,6 @@ class Driver {
 
   /// Moves free vertices by up to `amount` of their shortest edge, since symmetric grids are stationary in positions.
   void jitter(double amount);
-  /// Adds `amount` of their shortest edge squared to the heavier ends of ties (ties.hpp), and flips, as one sweep.
-  /// Returns true if this is enough: then sweeps with a large γ would undo it.
-  bool reweight_ties(double amount);
   /// Counts and records the changes since the last sweep as one more sweep.
   void end_sweep_of_its_own();
   void begin(Phase& phase, int sweep);

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -285,6 +287,57 @@ TEST(Descent, LearnsNothingFromStepsWithoutCurvature) {
   EXPECT_EQ(descent.direction({2, 0}), (std::vector<double>{-1, 0}));
   descent.forget();
   EXPECT_TRUE(descent.knows_nothing());
+}
+
+// --- never worse -----------------------------------------------------------------------------------------------------
+
+/// A grid of rows of n cells, each row shifted by `shift` of a cell and `height` high. Diagonals go along the shift's
+/// short side.
+Mesh rows_of_cells(std::int32_t n, double shift, double height) {
+  std::vector<Vec2> points;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (std::int32_t j = 0; j <= n; ++j) {
+    for (std::int32_t i = 0; i <= n; ++i) points.push_back({i + shift * j, height * j});
+  }
+  for (std::int32_t j = 0; j < n; ++j) {
+    for (std::int32_t i = 0; i < n; ++i) {
+      const std::int32_t a = i + (n + 1) * j, b = a + 1, d = a + n + 1, c = d + 1;
+      triangles.push_back({a, b, d});
+      triangles.push_back({b, c, d});
+    }
+  }
+  return Mesh::build({.points = points, .triangles = triangles})->mesh;
+}
+
+TEST(NeverWorse, AnEquilateralGridComesBackAsItWas) {
+  const Mesh input = rows_of_cells(12, 0.5, std::sqrt(0.75));
+  Mesh mesh = input;
+  const auto report = optimize(mesh, {}, {.solvers = solvers()});
+  ASSERT_TRUE(report);
+  for (const VertexId v : input.vertices()) EXPECT_EQ(mesh.point(v), input.point(v));
+  ASSERT_FALSE(report->notes.empty());
+  EXPECT_NE(report->notes.back().find("times as large"), std::string::npos);
+}
+
+TEST(NeverWorse, RightAngledGridsKeepTheirErrorsUpToAFewPercent) {
+  for (const double height : {1.0, 0.3}) {
+    const Mesh input = rows_of_cells(12, 0, height);
+    std::vector<Mesh> meshes;
+    for (const unsigned threads : {1u, 2u, 3u}) {
+      StdThreads executor(threads);
+      meshes.push_back(input);
+      ASSERT_TRUE(optimize(meshes.back(), {}, {.executor = &executor, .solvers = solvers()}));
+      EXPECT_EQ(measure_errors(meshes.back())->not_well_centered, 0u);
+    }
+    for (const VertexId v : input.vertices()) {
+      EXPECT_EQ(meshes[0].position(v), input.position(v));
+      EXPECT_EQ(meshes[0].point(v), meshes[1].point(v));
+      EXPECT_EQ(meshes[0].point(v), meshes[2].point(v));
+    }
+    const std::vector<double> ratios = solver_error_ratios(meshes[0], input, Scheme::all);
+    ASSERT_EQ(ratios.size(), 4u);
+    for (const double ratio : ratios) EXPECT_LT(ratio, 1.05);
+  }
 }
 
 }  // namespace
