@@ -66,7 +66,6 @@ class EnergyPhase final : public Phase {
 
  private:
   void take_energy(EnergyKind kind);
-  [[nodiscard]] bool is_ready_for_accuracy() const;
   bool converged(double before, double after);
   bool stagnates();
 
