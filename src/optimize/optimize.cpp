@@ -79,12 +79,16 @@ Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepSta
 /// weights.
 Candidate least_error(Candidate best, const Mesh& input, const Settings& settings, SweepState state, Run& run) {
   constexpr double kTieWeight = 0.01;  // errors change by a percent or two
+  constexpr double kTiedPart = 0.1;    // least part of the vertices at ties in a grid
   Settings by_weights = settings;
   by_weights.options.unknowns = Unknowns::weights;
-  const bool sound = is_sound(input, settings), tied = has_tied_quads(input, by_weights.options);
-  if (run.stopped_early() || !(sound || tied) || !is_judged_by_errors(input, settings)) return best;
+  if (run.stopped_early() || !is_judged_by_errors(input, settings)) return best;
+  const auto ties = static_cast<double>(heavier_ends_of_ties(input, by_weights.options).size());
+  const bool sound = is_sound(input, settings), tied = ties >= kTiedPart * static_cast<double>(input.n_vertices());
+  if (!sound && !tied) return best;
   double ratio = largest_error_ratio(best.work.mesh, input, settings);
   if (ratio > 1 && tied && !sound) {
+    const std::size_t sweeps = run.report.history.size();
     Candidate now{WorkingCopy(input, settings.policy.order, settings.executor())};
     Driver driver(now.work, by_weights, state, run);
     driver.recorder().returned_to(-1);
@@ -96,6 +100,7 @@ Candidate least_error(Candidate best, const Mesh& input, const Settings& setting
       best = std::move(now);
     } else {
       driver.recorder().returned_to(best.sweep);
+      run.report.history.resize(sweeps);  // its last record is of the returned mesh
     }
   }
   run.facts.keeps_input = ratio > 1 && sound;
