@@ -148,6 +148,7 @@ std::vector<FieldErrors> convergence_orders(const std::vector<ErrorLevel>& level
   for (std::size_t field = 0; field < orders.size(); ++field) {
     for (const ErrorMeasure& measure : kMeasures) {
       std::vector<double> errors;
+      errors.reserve(levels.size());
       for (const ErrorLevel& level : levels) errors.push_back(measure.of(level.fields[field].errors));
       measure.at(orders[field].errors) = order_of(errors);
     }

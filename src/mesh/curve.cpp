@@ -134,6 +134,7 @@ IdVector<TriangleId, TriangleId> triangles_by_vertex(const Mesh& mesh, const IdV
     }
   });
   std::vector<std::size_t> place;  // of each block, among all triangles
+  place.reserve(of_blocks.size());
   std::size_t count = 0;
   for (const std::vector<TriangleId>& found : of_blocks) place.push_back(std::exchange(count, count + found.size()));
   IdVector<TriangleId, TriangleId> triangles(count);
