@@ -78,8 +78,9 @@ Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepSta
 /// neighbors cancel, which vertices that move end. The rivals are a sound input, and a grid whose ties get small
 /// weights.
 Candidate least_error(Candidate best, const Mesh& input, const Settings& settings, SweepState state, Run& run) {
-  constexpr double kTieWeight = 0.01;  // errors change by a percent or two
-  constexpr double kTiedPart = 0.1;    // least part of the vertices at ties in a grid
+  // With the least, errors change by a percent or two. Trapezoids of rings need more.
+  constexpr double kTieWeights[] = {0.01, 0.04, 0.16};
+  constexpr double kTiedPart = 0.1;  // least part of the vertices at ties in a grid
   Settings by_weights = settings;
   by_weights.options.unknowns = Unknowns::weights;
   if (run.stopped_early() || !is_judged_by_errors(input, settings)) return best;
@@ -88,19 +89,22 @@ Candidate least_error(Candidate best, const Mesh& input, const Settings& setting
   if (!sound && !tied) return best;
   double ratio = largest_error_ratio(best.work.mesh, input, settings);
   if (ratio > 1 && tied && !sound) {
-    const std::size_t sweeps = run.report.history.size();
-    Candidate now{WorkingCopy(input, settings.policy.order, settings.executor())};
-    Driver driver(now.work, by_weights, state, run);
-    driver.recorder().returned_to(-1);
-    const bool good = driver.make_regular() && driver.reweight_ties(kTieWeight);
-    now.sweep = run.report.sweeps;
-    const double of_weights = good ? largest_error_ratio(now.work.mesh, input, settings) : ratio;
-    if (of_weights < ratio) {
-      ratio = of_weights;
-      best = std::move(now);
-    } else {
-      driver.recorder().returned_to(best.sweep);
-      run.report.history.resize(sweeps);  // its last record is of the returned mesh
+    for (const double amount : kTieWeights) {
+      const std::size_t sweeps = run.report.history.size();
+      Candidate now{WorkingCopy(input, settings.policy.order, settings.executor())};
+      Driver driver(now.work, by_weights, state, run);
+      driver.recorder().returned_to(-1);
+      const bool good = driver.make_regular() && driver.reweight_ties(amount);
+      now.sweep = run.report.sweeps;
+      const double of_weights = good ? largest_error_ratio(now.work.mesh, input, settings) : ratio;
+      if (of_weights < ratio) {
+        ratio = of_weights;
+        best = std::move(now);
+      } else {
+        driver.recorder().returned_to(best.sweep);
+        run.report.history.resize(sweeps);  // its last record is of the returned mesh
+      }
+      if (good) break;
     }
   }
   run.facts.keeps_input = ratio > 1 && sound;
