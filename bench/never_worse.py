@@ -1,23 +1,21 @@
 #!/usr/bin/env python3
-"""Whether runs make solutions worse: errors after over errors before, on structured grids and on public meshes.
+"""Prints a table for each target: how runs change the errors of solvers on structured grids and on public meshes.
 
     bench/never_worse.py TEMPER [TARGET…]
 
-Errors are those of temper errors on the held-back fields, which no objective has seen: root mean squares over the fields,
-since a grid solves some of them exactly. Ratios above 1 are marked. A row is the errors before and after one run. Public
-meshes are in the folder that TEMPER_SHARED names (default: ../shared), and left out if it is not there.
+Each number is an error after a run over the error before it. Numbers above 1 are bold if the target names the measure.
+`temper errors` measures on the held-back fields, which no objective has seen. The table takes root mean squares over the
+fields, since a grid solves some fields exactly. Public meshes are those of targets_table.py.
 """
 
 import json
 import math
-import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-PUBLIC = pathlib.Path(os.environ.get("TEMPER_SHARED", ROOT.parent / "shared")) / "meshes"
+from targets_table import public_meshes, run
+
 MEASURES = [(scheme, norm) for scheme in ("poisson", "flux") for norm in ("l2", "max")]
 NAMED = {"any": MEASURES, "vertex": MEASURES[:2], "cell": MEASURES[2:]}  # measures that must not become worse
 ROUNDING = 1e-6  # larger ratios count as worse
@@ -76,11 +74,6 @@ def write_medit(mesh, path):
     path.write_text("\n".join([*rows, "End", ""]))
 
 
-def run(*words):
-    done = subprocess.run(words := [*map(str, words)], capture_output=True, text=True)
-    return done.stdout if done.returncode == 0 else sys.exit(f"{' '.join(words)}: {done.stderr}")
-
-
 def errors(temper, mesh):
     fields = json.loads(run(temper, "errors", mesh, "--fields", "held-back", "--json"))["errors"]["fields"]
     # null is an infinite error
@@ -92,9 +85,7 @@ def meshes(folder, n=20):
     for name, mesh in structured(n).items():
         write_medit(mesh, path := folder / f"{name.replace(' ', '-')}.mesh")
         yield name, path
-    for path in sorted(PUBLIC.glob("*")):
-        if path.is_file() and path.suffix in (".mesh", ".msh", ".vtk", ".vtu"):
-            yield path.stem, path
+    yield from ((path.stem, path) for path in public_meshes())
 
 
 def main():
@@ -103,13 +94,14 @@ def main():
     temper, targets = sys.argv[1], sys.argv[2:] or list(NAMED)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
+        inputs = [(mesh, path, errors(temper, path)) for mesh, path in meshes(folder)]
         for target in targets:
             print(f"\n--for {target}\n\n| mesh | {' | '.join(' '.join(m) for m in MEASURES)} | notes |\n|-|" + "-:|" * 4 + "-|")
             rows = []
-            for mesh, path in meshes(folder):
+            for mesh, path, before in inputs:
                 report = folder / "report.json"
                 run(temper, "optimize", path, "-o", out := folder / "out.vtu", "--for", target, "--quiet", "--write", report)
-                ratios = [after / before if before else (math.inf if after else 1) for after, before in zip(errors(temper, out), errors(temper, path))]
+                ratios = [new / old if old else (math.inf if new else 1) for new, old in zip(errors(temper, out), before)]
                 notes = [note for note in json.loads(report.read_text())["notes"] if "errors" in note]
                 cells = [f"**{r:.3f}**" if r > 1 + ROUNDING and m in NAMED[target] else f"{r:.3f}" for r, m in zip(ratios, MEASURES)]
                 print(f"| {mesh} | {' | '.join(cells)} | {'; '.join(notes)} |", flush=True)

@@ -1,5 +1,5 @@
-// How a run from file to file would use many threads, counted on one: processor time inside and outside of parallel
-// regions, and the longest block of each region. See docs/internals/performance.md.
+// Makes a run from file to file on one thread, and predicts its time on many. It takes the processor time inside and
+// outside of parallel regions, and the longest block of each region. See docs/internals/performance.md.
 //
 //   bench_serial_share IN OUT
 #include <dlfcn.h>

@@ -45,6 +45,10 @@ def used():
     return sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
 
 
+def public_meshes():
+    return sorted(path for path in PUBLIC.glob("*") if path.is_file() and path.suffix in (".mesh", ".msh", ".vtk", ".vtu"))
+
+
 class Bench:
     def __init__(self, temper, folder):
         self.temper, self.folder, self.done = temper, folder, {}
@@ -105,8 +109,7 @@ def main():
         sys.exit(__doc__)
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(sys.argv[1], pathlib.Path(folder))
-        meshes = sorted(path for path in PUBLIC.glob("*") if path.is_file() and path.suffix in (".mesh", ".msh", ".vtk", ".vtu"))
-        meshes = [path for path in meshes if "beam-tri" not in path.name] or bench.examples()  # beam-tri has no vertex inside
+        meshes = [path for path in public_meshes() if "beam-tri" not in path.name] or bench.examples()  # beam-tri has no vertex inside
         print(f"{len(meshes)} meshes: {', '.join(path.stem for path in meshes)}\n")
         tables = {"targets": bench.table(meshes, ["", *TARGETS]), "efforts": bench.table(meshes, EFFORTS, 9), "keep": bench.table(meshes, KEEPS, 9)}
         tables |= {"regular": bench.regular_table(), "results": bench.results(meshes)}
