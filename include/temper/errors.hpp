@@ -192,11 +192,9 @@ struct ErrorMeasure {
 /// Error: different fields or frames.
 [[nodiscard]] Expected<std::vector<FieldErrors>> error_ratios(const ErrorReport& after, const ErrorReport& before);
 
-/// Measures the solver errors on two meshes of one domain, `after` over `before`: in L2 and at most, of Poisson
-/// problems at vertices (Scheme::vertex), two-point flux (Scheme::cell), or both (Scheme::all). Errors are root mean
-/// squares over the chosen fields, because a grid solves some fields exactly. Empty if there is nothing to measure.
-/// O(n^1.5).
-[[nodiscard]] std::vector<double> solver_error_ratios(const Mesh& after, const Mesh& before, Scheme scheme,
-                                                      Executor* executor = nullptr);
+/// The squared errors of Poisson problems at vertices (Scheme::vertex), of two-point flux (Scheme::cell), or of both
+/// (Scheme::all): in L2 and at most, of each. They are sums over the chosen fields, because a grid solves some fields
+/// exactly. Empty if the mesh cannot be measured. O(n^1.5).
+[[nodiscard]] std::vector<double> squared_solver_errors(const Mesh& mesh, Scheme scheme, Executor* executor = nullptr);
 
 }  // namespace temper

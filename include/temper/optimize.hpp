@@ -293,10 +293,9 @@ struct Solvers {
   std::function<Expected<std::shared_ptr<const DiscretizationError>>(const Mesh& mesh, const OptimizeOptions& options,
                                                                      const InputNames* names)>
       discretization_error = {};
-  /// Errors of a scheme measured on one mesh over those on another of the same domain: in L2 and at most, of each
-  /// scheme. Empty: a run returns its mesh even if the errors of the input are smaller.
-  std::function<std::vector<double>(const Mesh& after, const Mesh& before, Scheme scheme, Executor* executor)>
-      error_ratios = {};
+  /// Squared errors of a scheme on a mesh, in L2 and at most, of each scheme that is meant; empty if there are none.
+  /// Without this function a run returns its mesh even if the errors of the input are smaller.
+  std::function<std::vector<double>(const Mesh& mesh, Scheme scheme, Executor* executor)> squared_errors = {};
 };
 
 struct OptimizeOptions {
@@ -460,8 +459,9 @@ struct OptimizeReport {
 /// So a HOT energy may leave more triangles that are not well-centered; a note then reports it. Errors leave the mesh
 /// unchanged: a value out of range; weights that hide a vertex; a mesh outside the barrier of E_BH or E_BHs.
 ///
-/// For a target with a solver, measured errors come first, if the hooks can measure and the input is well-centered with
-/// margins or a grid with ties: then the mesh with the least errors is returned, or the input.
+/// Measured errors come first for some inputs: those that are well-centered with margins, and grids with ties. Then the
+/// run returns the mesh with the least errors, which may be the input. The target must have a solver, and the hooks
+/// must be able to measure.
 [[nodiscard]] Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options = {},
                                                 const OptimizeHooks& hooks = {});
 

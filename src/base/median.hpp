@@ -9,23 +9,31 @@
 
 namespace temper {
 
+/// The median, if these two numbers are in the middle; they are one number if there is an odd number of values.
+inline double median_of_middle(double lower, double upper) {
+  return upper < std::numeric_limits<double>::infinity() ? upper + (lower - upper) / 2 : upper;
+}
+
 /// The mean of the middle two for an even number; 0 without values. Precondition: no NaN.
 inline double median_of(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1 || !(*middle < std::numeric_limits<double>::infinity())) return *middle;
-  return *middle + (*std::max_element(values.begin(), middle) - *middle) / 2;
+  return median_of_middle(values.size() % 2 == 1 ? *middle : *std::max_element(values.begin(), middle), *middle);
 }
 
-/// The largest of the values over their median; all are ≥ 0. Without values the result is 1. If the median is 0 or +∞
-/// there is nothing to compare with, and the result is +∞.
+/// The largest of values ≥ 0 over their median. If the median is 0 or +∞ there is nothing to compare with, and the
+/// result is +∞.
+inline double over_median(double largest, double median) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return median > 0 && largest < infinity ? largest / median : infinity;
+}
+
+/// The same of a list; 1 without values.
 inline double largest_over_median(std::vector<double> values) {
   if (values.empty()) return 1;
   const double largest = *std::max_element(values.begin(), values.end());
-  const double median = median_of(std::move(values));
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  return median > 0 && largest < infinity ? largest / median : infinity;
+  return over_median(largest, median_of(std::move(values)));
 }
 
 }  // namespace temper

@@ -38,19 +38,6 @@ struct Adjoint {
   void add_flux(const DecComplex& dec, const std::vector<double>& v, const std::vector<double>& lambda);
 };
 
-/// J = Σ w e², and its derivatives by the errors e at points.
-struct SquaredErrors {
-  explicit SquaredErrors(std::size_t n) : error(n), force(n) {}
-  void add(std::size_t i, double weight, double e) {
-    sum += weight * e * e;
-    error[i] = e;
-    force[i] = 2 * weight * e;
-  }
-
-  double sum = 0;
-  std::vector<double> error, force;  ///< 0 at given points
-};
-
 /// The derivatives by the unknowns of each vertex. O(n).
 [[nodiscard]] IdVector<VertexId, WeightedPoint> pulled_back(const Mesh& mesh, const DecComplex& dec, const Adjoint& by);
 

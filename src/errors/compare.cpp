@@ -122,23 +122,19 @@ Expected<std::vector<FieldErrors>> error_ratios(const ErrorReport& after, const 
   return ratios;
 }
 
-std::vector<double> solver_error_ratios(const Mesh& after, const Mesh& before, Scheme scheme, Executor* executor) {
+std::vector<double> squared_solver_errors(const Mesh& mesh, Scheme scheme, Executor* executor) {
   const std::string chosen(name(FieldGroup::chosen));
-  const auto of_after = measure_errors(after, {.fields = {chosen}, .executor = executor});
-  const auto of_before = measure_errors(before, {.fields = {chosen}, .executor = executor});
-  if (!of_after || !of_before) return {};
-  const auto sum_of_squares = [](const ErrorReport& report, double& (*at)(OperatorErrors&)) {
+  const auto report = measure_errors(mesh, {.fields = {chosen}, .executor = executor});
+  std::vector<double> squared;
+  if (!report) return squared;
+  for (const ErrorMeasure& measure : kMeasures) {
+    const bool at_vertices = measure.key.starts_with("poisson."), in_cells = measure.key.starts_with("flux.");
+    if (!(at_vertices && scheme != Scheme::cell) && !(in_cells && scheme != Scheme::vertex)) continue;
     double sum = 0;
-    for (FieldErrors row : report.fields) sum += at(row.errors) * at(row.errors);
-    return sum;
-  };
-  std::vector<double> ratios;
-  for (const auto at : {poisson_l2, poisson_max, flux_l2, flux_max}) {
-    const bool of_vertices = at == poisson_l2 || at == poisson_max;
-    if (scheme == (of_vertices ? Scheme::cell : Scheme::vertex)) continue;
-    ratios.push_back(std::sqrt(ratio(sum_of_squares(*of_after, at), sum_of_squares(*of_before, at))));
+    for (const FieldErrors& row : report->fields) sum += measure.of(row.errors) * measure.of(row.errors);
+    squared.push_back(sum);
   }
-  return ratios;
+  return squared;
 }
 
 namespace error_detail {

@@ -22,6 +22,19 @@ constexpr double kLeastError = 1e-12;             // of the reference: solutions
 constexpr double kInward = 1e-9;                  // part of the way from the boundary to a centroid
 constexpr double kLeftByLastRefinement = 1. / 3;  // of its change: errors of second order fall to a quarter
 
+/// J = Σ w e², and its derivatives by the errors e at points.
+struct SquaredErrors {
+  explicit SquaredErrors(std::size_t n) : error(n), force(n) {}
+  void add(std::size_t i, double weight, double e) {
+    sum += weight * e * e;
+    error[i] = e;
+    force[i] = 2 * weight * e;
+  }
+
+  double sum = 0;
+  std::vector<double> error, force;  ///< 0 at given points
+};
+
 /// A problem and its reference as functions of place. Meshes may have other units and numbers than the problem's.
 class PlacedProblem {
  public:
@@ -189,7 +202,10 @@ class ProblemErrorModel final : public DiscretizationError {
     Cholesky matrix;
 
     [[nodiscard]] std::vector<double> solution(const std::vector<double>& sources, std::vector<double> values) const {
-      return solution_at_points(equations.points, matrix, sources, std::move(values));
+      std::vector<double> right = equations.points.right_side(sources, values);
+      matrix.solve(right);
+      equations.points.put(right, values);
+      return values;
     }
   };
 

@@ -278,12 +278,4 @@ void PointSystem::put(const std::vector<double>& solution, std::vector<double>& 
   }
 }
 
-std::vector<double> solution_at_points(const PointSystem& points, const Cholesky& matrix,
-                                       const std::vector<double>& sources, std::vector<double> values) {
-  std::vector<double> right = points.right_side(sources, values);
-  matrix.solve(right);
-  points.put(right, values);
-  return values;
-}
-
 }  // namespace temper::error_detail

@@ -87,8 +87,4 @@ class PointSystem {
   std::vector<FromGiven> from_given_;
 };
 
-/// The solution at all points, by the factored matrix of the unknowns. `values` are those of given points.
-[[nodiscard]] std::vector<double> solution_at_points(const PointSystem& points, const Cholesky& matrix,
-                                                     const std::vector<double>& sources, std::vector<double> values);
-
 }  // namespace temper::error_detail

@@ -89,7 +89,7 @@ class Solver {
   [[nodiscard]] const ErrorSubject& subject() const { return s_; }
   [[nodiscard]] const PointSystem& points() const { return points_; }
 
-  /// J = c Σ m e², with masses 0 at given points; `force` is its derivative by e.
+  /// J = c Σ m e²; `force` is its derivative by e. At given points e is 0.
   template <class Masses>
   static double squared(const WaveBlock& waves, const Masses& masses, const std::vector<Lanes>& errors,
                         std::vector<Lanes>& force) {

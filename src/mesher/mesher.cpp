@@ -536,7 +536,7 @@ class Mesher {
   std::optional<InputError> improve(OutlineMesh& made, OptimizeOptions options) const {
     const double left = deadline_.time_left();
     OptimizeHooks hooks = hooks_;
-    options.guard = {}, hooks.solvers.error_ratios = {};  // the Delaunay mesh is not the user's
+    options.guard = {}, hooks.solvers.squared_errors = {};  // the Delaunay mesh is not the user's
     if (left > 0 && !(options.time_limit > 0 && options.time_limit < left)) options.time_limit = left;
     Expected<OptimizeReport> report = optimize(made.mesh, options, hooks);
     if (!report) return report.error();

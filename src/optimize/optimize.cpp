@@ -74,39 +74,49 @@ Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepSta
   return best;
 }
 
-/// Returns the mesh of the run, or a rival on which measured errors are smaller. On structured grids errors of
-/// neighbors cancel, which vertices that move end. The rivals are a sound input, and a grid whose ties get small
-/// weights.
-Candidate least_error(Candidate best, const Mesh& input, const Settings& settings, SweepState state, Run& run) {
+/// Says whether so many vertices are at ties that the mesh is a grid.
+bool is_grid(const Mesh& mesh, const Settings& settings) {
+  constexpr double kTiedPart = 0.1;
+  const std::size_t ties = heavier_ends_of_ties(mesh, settings.options).size();
+  return static_cast<double>(ties) >= kTiedPart * static_cast<double>(mesh.n_vertices());
+}
+
+/// Takes the input with small weights at its ties instead, if errors are smaller there. Returns the ratio of errors.
+double weigh_ties_instead(Candidate& best, double ratio, const ErrorJudge& judge, const Mesh& input,
+                          const Settings& settings, SweepState state, Run& run) {
   // With the least, errors change by a percent or two. Trapezoids of rings need more.
-  constexpr double kTieWeights[] = {0.01, 0.04, 0.16};
-  constexpr double kTiedPart = 0.1;  // least part of the vertices at ties in a grid
+  for (const double amount : {0.01, 0.04, 0.16}) {
+    const std::size_t records = run.report.history.size();
+    Candidate now{WorkingCopy(input, settings.policy.order, settings.executor())};
+    Driver driver(now.work, settings, state, run);
+    driver.recorder().returned_to(-1);
+    const bool is_good = driver.make_regular() && driver.reweight_ties(amount);
+    now.sweep = run.report.sweeps;
+    const double now_ratio = is_good ? judge.largest_ratio(now.work.mesh) : ratio;
+    if (now_ratio < ratio) {
+      best = std::move(now);
+      return now_ratio;
+    }
+    driver.recorder().returned_to(best.sweep);
+    run.report.history.resize(records);  // its last record is of the returned mesh
+    if (is_good) break;
+  }
+  return ratio;
+}
+
+/// Returns the mesh of the run, or a rival on which measured errors are smaller. On structured grids errors of
+/// neighbors cancel, and vertices that move end this. A sound input is a rival, and so is a grid whose ties get small
+/// weights.
+Candidate least_error(Candidate best, const Mesh& input, const MeshScore& counts, const Settings& settings,
+                      const SweepState& state, Run& run) {
+  if (run.stopped_early() || !is_judged_by_errors(input, settings)) return best;
   Settings by_weights = settings;
   by_weights.options.unknowns = Unknowns::weights;
-  if (run.stopped_early() || !is_judged_by_errors(input, settings)) return best;
-  const auto ties = static_cast<double>(heavier_ends_of_ties(input, by_weights.options).size());
-  const bool sound = is_sound(input, settings), tied = ties >= kTiedPart * static_cast<double>(input.n_vertices());
-  if (!sound && !tied) return best;
-  double ratio = largest_error_ratio(best.work.mesh, input, settings);
-  if (ratio > 1 && tied && !sound) {
-    for (const double amount : kTieWeights) {
-      const std::size_t sweeps = run.report.history.size();
-      Candidate now{WorkingCopy(input, settings.policy.order, settings.executor())};
-      Driver driver(now.work, by_weights, state, run);
-      driver.recorder().returned_to(-1);
-      const bool good = driver.make_regular() && driver.reweight_ties(amount);
-      now.sweep = run.report.sweeps;
-      const double of_weights = good ? largest_error_ratio(now.work.mesh, input, settings) : ratio;
-      if (of_weights < ratio) {
-        ratio = of_weights;
-        best = std::move(now);
-      } else {
-        driver.recorder().returned_to(best.sweep);
-        run.report.history.resize(sweeps);  // its last record is of the returned mesh
-      }
-      if (good) break;
-    }
-  }
+  const bool sound = is_sound(input, counts, settings);
+  if (!sound && !is_grid(input, by_weights)) return best;
+  const ErrorJudge judge(input, settings);
+  double ratio = judge.largest_ratio(best.work.mesh);
+  if (ratio > 1 && !sound) ratio = weigh_ties_instead(best, ratio, judge, input, by_weights, state, run);
   run.facts.keeps_input = ratio > 1 && sound;
   if (ratio > 1) run.facts.error_ratio = ratio;
   return best;
@@ -133,7 +143,7 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   auto found = attempt(input, settings, state, run, sizes);
   if (!found) return found.error();
   Candidate best = *std::move(found);
-  best = least_error(std::move(best), input.restore_twins(), settings, state, run);
+  best = least_error(std::move(best), input.restore_twins(), of_input.counts, settings, state, run);
   give_back(input.restore_twins(), std::move(best), settings, state, of_input, std::move(sizes), run);
   return std::move(run.report);
 }

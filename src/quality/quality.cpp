@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/assert.hpp"
+#include "base/median.hpp"
 #include "energy/whole_mesh.hpp"
 #include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
@@ -60,7 +61,7 @@ void for_transmissibilities(const Mesh& mesh, Executor* executor, Take&& take) {
 std::size_t coarse_rank(double value) { return std::bit_cast<std::uint64_t>(value) >> 48; }
 
 /// O(n), with two passes over the edges: the first finds the extremes and the coarse rank of the median, the second
-/// keeps the values of that rank. An array of all values would raise the memory of a run, whose maximum is here.
+/// keeps the values of that rank. An array of all values would raise the memory of `temper check` by a twelfth.
 Transmissibilities compare_transmissibilities(const Mesh& mesh, Executor* executor) {
   constexpr std::size_t kRanks = std::size_t{1} << 15;
   std::vector<std::atomic<std::uint32_t>> counts(kRanks);
@@ -86,13 +87,11 @@ Transmissibilities compare_transmissibilities(const Mesh& mesh, Executor* execut
   std::vector<double> middle;
   for (const std::vector<double>& values : of_blocks) middle.insert(middle.end(), values.begin(), values.end());
   std::sort(middle.begin(), middle.end());
-  const double lower = middle[(n - 1) / 2 - below], upper = middle[n / 2 - below];
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const double median = upper < infinity ? upper + (lower - upper) / 2 : upper;
   const double most = *std::max_element(largest.begin(), largest.end());
   Transmissibilities all;
-  all.max_over_min = most < infinity ? most / *std::min_element(least.begin(), least.end()) : most;
-  all.max_over_median = median > 0 && most < infinity ? most / median : infinity;
+  all.max_over_min =
+      most < std::numeric_limits<double>::infinity() ? most / *std::min_element(least.begin(), least.end()) : most;
+  all.max_over_median = over_median(most, median_of_middle(middle[(n - 1) / 2 - below], middle[n / 2 - below]));
   return all;
 }
 

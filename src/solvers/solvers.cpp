@@ -19,7 +19,7 @@ Solvers solvers() {
     const DiffusionProblem* const problem = options.problem ? &*options.problem : nullptr;
     return make_discretization_error(mesh, {.scheme = options.scheme, .problem = problem, .names = names});
   };
-  all.error_ratios = solver_error_ratios;
+  all.squared_errors = squared_solver_errors;
 #endif
   return all;
 }

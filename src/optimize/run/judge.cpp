@@ -70,23 +70,29 @@ bool is_judged_by_errors(const Mesh& input, const Settings& settings) {
   const OptimizeOptions& o = settings.options;
   const bool is_free = !o.objective && settings.objective != Objective::energy && o.accuracy.sweeps > 0 &&
                        o.unknowns != Unknowns::positions && o.boundary != BoundaryVertices::split && !o.problem;
-  return is_free && o.scheme != Scheme::stars && settings.hooks.solvers.error_ratios &&
+  return is_free && o.scheme != Scheme::stars && settings.hooks.solvers.squared_errors &&
          !settings.accuracy.keeps_lengths() && input.space().kind() == SpaceKind::plane &&
          input.n_vertices() <= static_cast<std::size_t>(o.solver_error.most_vertices);
 }
 
-bool is_sound(const Mesh& input, const Settings& settings) {
+bool is_sound(const Mesh& input, const MeshScore& counts, const Settings& settings) {
   const double margin = settings.options.accuracy.margin.value_or(scheme_weights(Scheme::vertex).margin);  // the least
-  return count(input, settings) == MeshScore{} && has_margins(input, margin, settings.executor());
+  return counts == MeshScore{} && has_margins(input, margin, settings.executor());
 }
 
-double largest_error_ratio(const Mesh& after, const Mesh& input, const Settings& settings) {
+ErrorJudge::ErrorJudge(const Mesh& input, const Settings& settings) : settings_(settings), of_input_(squared(input)) {}
+
+std::vector<double> ErrorJudge::squared(const Mesh& mesh) const {
+  return settings_.hooks.solvers.squared_errors(mesh, settings_.options.scheme, settings_.executor());
+}
+
+double ErrorJudge::largest_ratio(const Mesh& mesh) const {
+  const std::vector<double> of_mesh = squared(mesh);
   double largest = 0;
-  for (const double ratio :
-       settings.hooks.solvers.error_ratios(after, input, settings.options.scheme, settings.executor())) {
-    largest = std::max(largest, ratio);
+  for (std::size_t i = 0; i < std::min(of_mesh.size(), of_input_.size()); ++i) {
+    largest = std::max(largest, of_mesh[i] == of_input_[i] ? 1 : of_mesh[i] / of_input_[i]);
   }
-  return largest;
+  return std::sqrt(largest);
 }
 
 double root_mean_square(const std::vector<double>& squared_errors) {

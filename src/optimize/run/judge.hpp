@@ -56,15 +56,26 @@ enum class Requirement {
 [[nodiscard]] bool replaces(const WorkingCopy& now, const WorkingCopy& best, Requirement required,
                             const Settings& settings, const EnergyModel& model);
 
-/// Says whether measured errors of the solver decide between the mesh of the run and its rivals: the target has a
-/// solver, the options leave the objective to the run, and this build can measure.
+/// Says whether measured errors of the solver decide between the mesh of the run and its rivals. For this the target
+/// must have a solver, the objective must be left to the run, and the build must be able to measure.
 [[nodiscard]] bool is_judged_by_errors(const Mesh& input, const Settings& settings);
 
 /// Says whether the input needs no change: it is well-centered with margins.
-[[nodiscard]] bool is_sound(const Mesh& input, const Settings& settings);
+[[nodiscard]] bool is_sound(const Mesh& input, const MeshScore& counts, const Settings& settings);
 
-/// Returns the largest ratio of the measured errors over the input's.
-[[nodiscard]] double largest_error_ratio(const Mesh& after, const Mesh& input, const Settings& settings);
+/// Compares measured errors with those of the input.
+class ErrorJudge {
+ public:
+  ErrorJudge(const Mesh& input, const Settings& settings);
+  /// Returns the largest ratio of an error on the mesh to the input's; 0 if one of them cannot be measured.
+  [[nodiscard]] double largest_ratio(const Mesh& mesh) const;
+
+ private:
+  [[nodiscard]] std::vector<double> squared(const Mesh& mesh) const;
+
+  const Settings& settings_;
+  std::vector<double> of_input_;
+};
 
 /// Returns the root of the geometric mean of the schemes' squared errors; +∞ without errors.
 [[nodiscard]] double root_mean_square(const std::vector<double>& squared_errors);
