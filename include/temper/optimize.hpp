@@ -169,7 +169,7 @@ struct AccuracyOptions {
   double barrier = 0.003;
   /// Largest number of sweeps, ≥ 0, after the sweeps that make every triangle well-centered. Three times as many if a
   /// least length is set.
-  int sweeps = 30;
+  int sweeps = 32;
   double tolerance = 1e-5;  ///< Relative tolerance, ≥ 0: the run stops after a sweep that changes E and barrier by less
                             ///< than this part of E
 };

@@ -85,7 +85,7 @@ template <class T>
   return s;
 }
 
-/// A triangle's barrier: m = μ s_t² and ε.
+/// A triangle's barrier: its factor m and its floor.
 template <class T>
 struct TriangleBarrier {
   T factor, floor;

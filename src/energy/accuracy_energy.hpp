@@ -18,8 +18,9 @@
 // comparisons of meshes use its absolute value. (The units of E_F suggest s⁻⁴. But with sizes tied to vertices its
 // minimum has ℓ ~ s², so that grading grows; s⁻² is neutral.)
 //
-// Behind it stands the barrier − μ Σ_triangles s_t² Σ_edges [ln(h/ℓ − ε) + ½ ln(d_ij/ℓ − ε) + ½ ln(d_ji/ℓ − ε)]. It is
-// +∞ if a triangle is out of its margin ε: see AccuracyFloors.
+// Behind it stands the barrier − μ Σ_triangles k s_t² Σ_edges [ln(h/ℓ − f) + ½ ln(d_ij/ℓ − f) + ½ ln(d_ji/ℓ − f)], with
+// the floor f ≤ ε of the triangle and k = 1 + 10 (ε²/f² − 1). It is +∞ if a triangle is below its floor: see
+// AccuracyFloors.
 #pragma once
 
 #include <cstddef>

@@ -67,10 +67,13 @@ template <class T>
   return 4.0 / ((s + t) * (s + t));
 }
 
-/// The factor s_t² of a triangle.
+/// The factor μ k s_t² of a triangle's barrier, with its floor f ≤ ε. k = 1 + 10 (ε²/f² − 1), but at most 1000: the
+/// thinnest triangles gain most.
 template <class T>
-[[nodiscard]] TEMPER_INLINE T triangle_scale(const T& s, const T& t, const T& u) {
-  return (1.0 / 9) * ((s + t + u) * (s + t + u));
+[[nodiscard]] TEMPER_INLINE T barrier_factor(const AccuracyModel& model, const T& s, const T& t, const T& u,
+                                             const T& floor) {
+  const T most = all<T>(1000), lack = all<T>(model.margin) / floor, k = 10 * (lack * lack) - all<T>(9);
+  return (model.barrier / 9) * select(k < most, k, most) * ((s + t + u) * (s + t + u));
 }
 
 /// A point of the mesh and its size.
@@ -103,7 +106,7 @@ TEMPER_INLINE void set_triangle(const AccuracyStarOf<In>& star, std::size_t i, c
   const typename In::Spoke back = spoke(from, q.at);
   const T outer = triangle_shape(back, spoke(from, o), q.at, o).pq.g, inverse_l2 = 1.0 / back.l2;
   AccuracyTriangle<In>& t = star.triangles[i];
-  t.barrier = {model.barrier * triangle_scale(size, q.size, r.size), floor};
+  t.barrier = {barrier_factor(model, size, q.size, r.size, floor), floor};
   t.crossing_room = crossing_room(back.dw * inverse_l2, floor);
   t.link.scale = edge_scale(q.size, r.size);
   t.link.height = select(inner, all<T>(model.height), all<T>(model.boundary_height));

@@ -32,7 +32,7 @@ class Triangles {
     return shapes_[i / kLanes].edges[static_cast<std::size_t>(k)].at(i % kLanes);
   }
 
-  /// Calls visit(i, logarithm) for each triangle that has a floor: its barrier, without sign and factor μ s_t².
+  /// Calls visit(i, logarithm) for each triangle that has a floor: its barrier, without sign and factor.
   template <class Visit>
   void for_logarithms(const AccuracyFloors& floors, Visit&& visit) const {
     const StarKernels& kernels = star_kernels(mesh_.space());
@@ -143,11 +143,11 @@ AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const A
       }
       triangles.for_logarithms(floors, [&](std::size_t i, double logarithm) {
         const auto [p, q, r] = mesh.corners(triangles[i]);
-        barrier -= triangle_scale(sizes[p], sizes[q], sizes[r]) * logarithm;
+        barrier -= barrier_factor(model, sizes[p], sizes[q], sizes[r], floors[triangles[i]]) * logarithm;
       });
     });
     of_block[0] = energy;
-    of_block[1] = model.barrier * barrier + of_lengths;
+    of_block[1] = barrier + of_lengths;
   });
   return {sums[0], sums[1]};
 }

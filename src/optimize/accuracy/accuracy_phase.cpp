@@ -11,6 +11,10 @@ namespace {
 
 // Edges that must become longer take this many times more sweeps.
 constexpr int kSweepsForLengths = 3;
+// Over-relaxation of the first sweeps: in 33 sweeps from random points it lowers the energy more than 1.7 does in 60.
+// Near the minimum it overshoots, so sweeps that gain little go on with 1.7.
+constexpr double kFirstRelaxation = 1.97;
+constexpr double kLittleGain = 1e-4;  // part of the energy
 
 /// Returns the settings of the second phase: always Newton steps along the curve, which keep all edges.
 Settings of_accuracy(Settings s) {
@@ -47,6 +51,8 @@ AccuracyTotal SizedPhase::sum(bool with_energy) const {
 AccuracyPhase::AccuracyPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)
     : SizedPhase(work, of_accuracy(settings), run, std::move(sizes)) {
   state_.flip_limit = FlipLimit::unlimited;
+  const double first = settings_.accuracy.keeps_lengths() ? kRelaxation : kFirstRelaxation;  // lengths need care
+  state_.relaxation = settings_.policy.relaxation.value_or(first);
   energy_unit_ = state_.energy_unit(work.units);
 }
 
@@ -76,6 +82,8 @@ Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool changed) {
     if (raised) return Verdict::improving;
   }
   const double change = (before_.energy + before_.barrier) - (now_.energy + now_.barrier);
+  if (change < kLittleGain * std::abs(now_.energy))
+    state_.relaxation = settings_.policy.relaxation.value_or(kRelaxation);
   if (std::abs(change) > settings_.options.accuracy.tolerance * std::abs(now_.energy)) return Verdict::improving;
   run_.report.stopped = Stopped::converged;
   return Verdict::settled;

@@ -83,7 +83,8 @@ struct Limits {
 
 Limits limits_of(std::span<const SweepRecord> history, const OptimizeOptions& o) {
   if (history.back().objective == Objective::energy) {
-    return {o.paper.tolerance, o.max_sweeps, objective_of(o) == Objective::energy ? 0 : o.accuracy.sweeps};
+    if (objective_of(o) == Objective::energy) return {o.paper.tolerance, o.max_sweeps};
+    return {std::max(o.paper.tolerance, kGainOfLastSweep), o.max_sweeps, o.accuracy.sweeps};
   }
   if (history.back().objective == Objective::solver_error) {
     const auto first = std::ranges::find(history, Objective::solver_error, &SweepRecord::objective);

@@ -63,8 +63,7 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
     take_last_energy();
     return Verdict::restarted;
   }
-  if (settings_.objective != Objective::energy && !before_switch_ && run_.report.history.back().bad == 0 &&
-      has_all_for_accuracy(work_.mesh, settings_)) {
+  if (is_ready_for_accuracy(changed)) {
     run_.report.stopped = Stopped::converged;  // the next phase needs no more of this energy
     return Verdict::settled;
   }
@@ -89,6 +88,15 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
   state_.relaxation = settings_.policy.relaxation.value_or(gamma_schedule_.relaxation());
   before_ = !sharper ? after : gamma_schedule_.compares_energies() ? total() : kInfinity;
   return Verdict::improving;
+}
+
+/// Says whether the accuracy phase may follow: nothing is bad, and the margins are there or grow slowly.
+bool EnergyPhase::is_ready_for_accuracy(bool changed) const {
+  const SweepRecord& last = run_.report.history.back();
+  if (settings_.objective == Objective::energy || before_switch_ || last.bad > 0) return false;
+  const bool is_late = gamma_schedule_.settled() && !changed;
+  const bool gains_little = is_late && before_ - last.energy < kGainOfLastSweep * std::abs(before_);
+  return gains_little || has_all_for_accuracy(work_.mesh, settings_);
 }
 
 /// The paper's rule takes a rise for convergence. The relative rule waits for the energy to fall again.

@@ -66,6 +66,7 @@ class EnergyPhase final : public Phase {
 
  private:
   void take_energy(EnergyKind kind);
+  [[nodiscard]] bool is_ready_for_accuracy(bool changed) const;
   bool converged(double before, double after);
   bool stagnates();
 

@@ -43,6 +43,8 @@ struct Twin {
   const StarOf& star;
   Real offset, boundary_offset, barrier;
   const AccuracyFloors* lengths = nullptr;  ///< where those of edges count too
+  const AccuracyFloors* floors = nullptr;   ///< of triangles that have less than `margin`
+  Real margin = kMargin;
 };
 
 /// Moment and offset of an edge as they are defined, from d and h; its barrier from each triangle by itself.
@@ -73,9 +75,10 @@ Real twin_total(const Mesh& mesh, const VertexSizes& sizes, const Twin& twin, Ve
       }
     }
     const Real s = (Real(sizes[i]) + Real(sizes[j]) + Real(sizes[mesh.opposite(h)])) / 3;
-    sum -= twin.barrier * s * s *
-           (std::log(e.h_left / e.l - Real(kMargin)) + std::log(e.d_ij / e.l - Real(kMargin)) / 2 +
-            std::log(e.d_ji / e.l - Real(kMargin)) / 2);
+    const Real f = twin.floors != nullptr ? Real((*twin.floors)[Mesh::triangle(h)]) : twin.margin;
+    const Real factor = std::min<Real>(1000, 1 + 10 * (twin.margin * twin.margin / (f * f) - 1));
+    sum -= twin.barrier * factor * s * s *
+           (std::log(e.h_left / e.l - f) + std::log(e.d_ij / e.l - f) / 2 + std::log(e.d_ji / e.l - f) / 2);
   }
   return sum;
 }
@@ -293,37 +296,56 @@ AccuracyFloors floors_with_lengths(const Mesh& mesh, const VertexSizes& sizes, c
   return floors;
 }
 
+/// Expects the twin's total, changes and derivatives, to which its differences converge with order two.
+void expect_twin(Mesh mesh, const VertexSizes& sizes, const AccuracyModel& model, const AccuracyFloors& floors,
+                 const Twin& twin, double scale) {
+  AccuracyPatch star;
+  const AccuracyTotal total = accuracy_total(mesh, sizes, floors, model);
+  EXPECT_NEAR((total.energy + total.barrier) / static_cast<double>(twin_total(mesh, sizes, twin, {}, {})), 1, 1e-12);
+  for (const std::size_t v : {12, 6, 2, 10, 0, 4, 24}) {
+    const VertexId center(v);
+    const WeightedPoint p = mesh.point(center);
+    ASSERT_TRUE(star.gather(mesh, sizes, floors, model, center));
+    ASSERT_TRUE(std::isfinite(star.value(p)));
+    const VertexDerivatives exact = star.derivatives();
+    const auto errors = [&](Real step) { return errors_at(mesh, sizes, twin, center, exact, step, scale); };
+    const AccuracyErrors coarse = errors(1e-3L), fine = errors(5e-4L);
+    EXPECT_NEAR(static_cast<double>(coarse.gradient / fine.gradient), 4, 0.2) << v;
+    EXPECT_NEAR(static_cast<double>(coarse.hessian / fine.hessian), 4, 0.2) << v;
+    EXPECT_LT(fine.gradient, 1e-3L) << v;
+    EXPECT_LT(fine.hessian, 1e-3L) << v;
+    const WeightedPoint there = along(mesh.space(), p, {0.01 * scale, -0.008 * scale, 0.005 * scale * scale}, 1);
+    const double change = star.value(there) - star.value(p);
+    mesh.set_point(center, there);
+    const AccuracyTotal after = accuracy_total(mesh, sizes, floors, model);
+    EXPECT_NEAR((after.energy + after.barrier) - (total.energy + total.barrier), change, 1e-12 * total.energy) << v;
+    mesh.set_point(center, p);
+  }
+}
+
 TEST(AccuracyPatch, HasTheBarrierOfLengthsOfTheTwin) {
   struct Place {
     double scale, radius;
   };
-  AccuracyPatch star;
   for (const auto& [scale, radius] : {Place{1, 0}, Place{0x1p-30, 0}, Place{1, 20}}) {
-    Mesh mesh = small_lattice(scale, {3 * scale, -scale}, radius);
+    const Mesh mesh = small_lattice(scale, {3 * scale, -scale}, radius);
     const VertexSizes sizes = uneven_sizes(mesh, scale);
     const AccuracyModel model = with_lengths(model_of(kStarsOf[1], 10, 18));
     const AccuracyFloors floors = floors_with_lengths(mesh, sizes, model);
-    const Twin twin{kStarsOf[1], 10, 18, Real(kBarrier), &floors};
-    const AccuracyTotal total = accuracy_total(mesh, sizes, floors, model);
-    EXPECT_NEAR((total.energy + total.barrier) / static_cast<double>(twin_total(mesh, sizes, twin, {}, {})), 1, 1e-12);
-    for (const std::size_t v : {12, 6, 2, 10, 0, 4, 24}) {
-      const VertexId center(v);
-      const WeightedPoint p = mesh.point(center);
-      ASSERT_TRUE(star.gather(mesh, sizes, floors, model, center));
-      ASSERT_TRUE(std::isfinite(star.value(p)));
-      const VertexDerivatives exact = star.derivatives();
-      const auto errors = [&](Real step) { return errors_at(mesh, sizes, twin, center, exact, step, scale); };
-      const AccuracyErrors coarse = errors(1e-3L), fine = errors(5e-4L);
-      EXPECT_NEAR(static_cast<double>(coarse.gradient / fine.gradient), 4, 0.2) << v;
-      EXPECT_NEAR(static_cast<double>(coarse.hessian / fine.hessian), 4, 0.2) << v;
-      EXPECT_LT(fine.gradient, 1e-3L) << v;
-      EXPECT_LT(fine.hessian, 1e-3L) << v;
-      const WeightedPoint there = along(mesh.space(), p, {0.01 * scale, -0.008 * scale, 0.005 * scale * scale}, 1);
-      const double change = star.value(there) - star.value(p);
-      mesh.set_point(center, there);
-      const AccuracyTotal after = accuracy_total(mesh, sizes, floors, model);
-      EXPECT_NEAR((after.energy + after.barrier) - (total.energy + total.barrier), change, 1e-12 * total.energy) << v;
-      mesh.set_point(center, p);
+    expect_twin(mesh, sizes, model, floors, {kStarsOf[1], 10, 18, Real(kBarrier), &floors}, scale);
+  }
+}
+
+TEST(AccuracyPatch, HasTheFactorsOfThinTrianglesOfTheTwin) {
+  for (const double radius : {0.0, 20.0}) {
+    const Mesh mesh = small_lattice(1, {}, radius);
+    const VertexSizes sizes = uneven_sizes(mesh);
+    AccuracyModel model = model_of(kStarsOf[1], 10, 18);
+    for (const double margin : {0.3, 8.0}) {  // with the second, factors have their upper limit
+      model.margin = margin;
+      AccuracyFloors floors;
+      floors.raise(mesh, margin);
+      expect_twin(mesh, sizes, model, floors, {kStarsOf[1], 10, 18, Real(kBarrier), nullptr, &floors, margin}, 1);
     }
   }
 }
@@ -398,7 +420,7 @@ TEST(AccuracyFloors, AreOfEachTriangleAndNeverFall) {
     if (margin > 0.2) {
       EXPECT_EQ(floors[t], 0.2);
     } else if (margin > 0) {
-      EXPECT_NEAR(floors[t], 0.9 * margin, 1e-15);
+      EXPECT_NEAR(floors[t], 0.9 * margin * std::min(1.0, std::sqrt(margin / 0.1)), 1e-15);
     }
     ++(margin > 0.2 ? whole : margin > 0 ? part : none);
   }
