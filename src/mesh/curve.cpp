@@ -1,10 +1,9 @@
 #include "mesh/curve.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
-#include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -146,48 +145,57 @@ Found find_order(const Mesh& mesh, Executor* executor) {
 /// Has access to the arrays of meshes.
 class MeshPermuter {
  public:
-  static Mesh copy(const Mesh& mesh, Found& found, Executor* executor);
+  template <class M>
+  static Mesh ordered(M& mesh, Found& found, Executor* executor);
   static void restore(Mesh& mesh, const MeshOrder& order, Executor* executor);
 };
 
 /// Copies one array after the other, and drops each renumbering before it makes the next one: on the largest meshes the
-/// memory in use at once counts.
-Mesh MeshPermuter::copy(const Mesh& mesh, Found& found, Executor* executor) {
+/// memory in use at once counts. If M is not const, it uses the mesh up.
+template <class M>
+Mesh MeshPermuter::ordered(M& mesh, Found& found, Executor* executor) {
   Mesh result;
   result.space_ = mesh.space();
   const MeshOrder& order = found.order;
+  const std::size_t n = mesh.n_triangles();
+  const auto release = [](auto& array) {
+    if constexpr (!std::is_const_v<M>) array = {};
+  };
   result.vertices_.resize(mesh.n_vertices());
   for_each_index(mesh.n_vertices(), executor,
                  [&](std::size_t i) { result.vertices_[VertexId(i)] = mesh.vertices_[order.vertices[VertexId(i)]]; });
-  result.corners_.resize(mesh.n_halfedges());
-  for_each_index(mesh.n_triangles(), executor, [&](std::size_t i) {
+  release(mesh.vertices_);
+  result.corners_.resize(3 * n);
+  for_each_index(n, executor, [&](std::size_t i) {
     const auto corners = mesh.corners(order.triangles[TriangleId(i)]);
     for (std::size_t k = 0; k < 3; ++k) result.corners_[HalfedgeId(3 * i + k)] = found.new_vertex[corners[k]];
   });
   found.new_vertex = {};
+  release(mesh.corners_);
   const auto new_triangle = inverse(order.triangles, executor);
-  result.twins_.resize(mesh.n_halfedges());
-  for_each_index(mesh.n_triangles(), executor, [&](std::size_t i) {
+  result.twins_.resize(3 * n);
+  for_each_index(n, executor, [&](std::size_t i) {
     for (int k = 0; k < 3; ++k) {
       const HalfedgeId h = Mesh::halfedge(order.triangles[TriangleId(i)], k);
       result.twins_[Mesh::halfedge(TriangleId(i), k)] = renumbered(mesh.twin(h), new_triangle);
     }
   });
+  release(mesh.twins_);
   if (!mesh.constrained_.all_zero()) {
     for (const HalfedgeId h : result.halfedges()) {
       const HalfedgeId from = Mesh::halfedge(order.triangles[Mesh::triangle(h)], static_cast<int>(h.index % 3));
-      result.constrained_.set(h, mesh.constrained_[from], mesh.n_halfedges());
+      result.constrained_.set(h, mesh.constrained_[from], 3 * n);
     }
   }
   if (!mesh.regions_.all_zero()) {
-    for (const TriangleId t : result.triangles()) result.set_region(t, mesh.region(order.triangles[t]));
+    for (const TriangleId t : result.triangles()) result.set_region(t, mesh.regions_[order.triangles[t]]);
   }
   result.repair_outgoing();
   return result;
 }
 
 /// The halfedge that stands for a vertex depends on the numbering (Mesh::repair_outgoing): the boundary halfedge, or at
-/// an inner vertex the halfedge of the greatest number. As in copy(), one array after the other.
+/// an inner vertex the halfedge of the greatest number. As in ordered(), one array after the other.
 void MeshPermuter::restore(Mesh& mesh, const MeshOrder& order, Executor* executor) {
   const std::size_t n = mesh.n_triangles();
   const auto former = [&](HalfedgeId h) { return renumbered(h, order.triangles); };
@@ -230,15 +238,17 @@ void MeshPermuter::restore(Mesh& mesh, const MeshOrder& order, Executor* executo
 
 OrderedMesh hilbert_ordered(const Mesh& mesh, Executor* executor) {
   Found found = find_order(mesh, executor);
-  Mesh ordered = MeshPermuter::copy(mesh, found, executor);
+  Mesh ordered = MeshPermuter::ordered(mesh, found, executor);
   return {std::move(ordered), std::move(found.order)};
 }
 
-MeshOrder hilbert_order(Mesh& mesh) {
-  OrderedMesh ordered = hilbert_ordered(mesh);
-  mesh = std::move(ordered.mesh);
-  return std::move(ordered.order);
+MeshOrder hilbert_order_in_place(Mesh& mesh, Executor* executor) {
+  Found found = find_order(mesh, executor);
+  mesh = MeshPermuter::ordered(mesh, found, executor);
+  return std::move(found.order);
 }
+
+MeshOrder hilbert_order(Mesh& mesh) { return hilbert_order_in_place(mesh, nullptr); }
 
 void restore_order(Mesh& mesh, const MeshOrder& order, Executor* executor) {
   MeshPermuter::restore(mesh, order, executor);

@@ -164,9 +164,10 @@ std::string VtuDocument::packed_block(const VtkArray& a, std::size_t i, Redundan
 /// Strings of bytes repeat in point numbers and in coordinates of grids, but not in coordinates of other meshes.
 Redundancy VtuDocument::redundancy_of(const VtkArray& a) {
   if (a.scalar != Scalar::f64 && a.scalar != Scalar::f32) return Redundancy::strings;
-  const std::size_t each = info(a.scalar).bytes, n = std::min(kBlockBytes / each, a.n_values);
+  constexpr std::size_t kSample = std::size_t{1} << 14;
+  const std::size_t each = info(a.scalar).bytes, n = std::min(kSample / each, a.n_values);
   std::vector<char> bytes(n * each);
-  a.fill(0, n, bytes.data());
+  a.fill((a.n_values - n) / 2, n, bytes.data());  // the first points often are on the boundary, where zeros repeat
   return choose_redundancy({bytes.data(), bytes.size()});
 }
 
