@@ -261,6 +261,7 @@ void write_all(const Command& command, const OptimizeSettings& s, Input& input, 
   const std::size_t known = input.file.warnings.size();
   results.data =
       io::update(input.file, input.loaded, input.loaded.mesh, results.report.vertices, {s.rules, files.threads});
+  if (s.files.page.empty()) input.loaded.mesh = {};  // the file has it, and on the largest meshes memory is scarce
   warn(results, std::span(input.file.warnings).subspan(known));
   warn(results, outputs.write_mesh(s.output, input.file, files.threads));
   if (files.trace != nullptr) outputs.commit(s.files.trace, files.trace->stream);
