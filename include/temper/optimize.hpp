@@ -393,9 +393,12 @@ struct OptimizeHooks {
   std::function<void(const Snapshot&)> snapshots = {};
   /// Function that may save the best mesh so far; called between sweeps and between repairs.
   BestListener best_so_far = {};
-  /// Nobody reads the mesh before optimize() returns, not even observers. Then memory of 24 bytes per vertex is freed
-  /// during the run.
+  /// Nobody reads the mesh before optimize() returns, not even observers. Then the run needs memory for one mesh less.
   bool exclusive = false;
+  /// Function that looks at the input, and at the result if it is another mesh. Vertices and triangles may have other
+  /// numbers there.
+  std::function<void(const Mesh&)> viewer = {};
+  bool measures_sizes = true;  ///< Measure OptimizeReport::size, which takes time. Notes on a size field need it anyway
   Solvers solvers = {};
   /// Start of the time limit. A program may have read files before, and may need as long to write them. Absent: the
   /// time of the call.

@@ -145,5 +145,8 @@ struct TriangleValue {
 
 /// Measures a mesh. The report does not depend on the executor. Precondition: no erased triangles. O(n).
 [[nodiscard]] Quality quality(const Mesh& mesh, const QualityOptions& options = {});
+/// Measures a mesh that nobody else reads meanwhile. A large one with scattered numbers is not copied, but ordered in
+/// place, and gets its order back.
+[[nodiscard]] Quality quality_in_place(Mesh& mesh, const QualityOptions& options = {});
 
 }  // namespace temper

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -15,20 +16,36 @@ namespace temper {
 
 inline constexpr int kHilbertBits = 24;  // of each coordinate: finer than any mesh that fits in memory
 
+/// The curve through 16 × 16 cells in each of its four orientations: in the second half of these both coordinates are
+/// mirrored, and in every second one they are swapped.
+struct HilbertStep {
+  std::uint8_t index;        ///< of the cell
+  std::uint8_t orientation;  ///< inside of the cell
+};
+inline constexpr auto kHilbertSteps = [] {
+  std::array<HilbertStep, 4 * 256> steps{};
+  for (std::uint32_t i = 0; i < steps.size(); ++i) {
+    std::uint32_t index = 0, mirrored = i >> 9, swapped = i >> 8 & 1;
+    for (int bit = 3; bit >= 0; --bit) {
+      std::uint32_t rx = (i >> (4 + bit) & 1) ^ mirrored, ry = (i >> bit & 1) ^ mirrored;
+      if (swapped != 0) std::swap(rx, ry);
+      index = 4 * index + ((3 * rx) ^ ry);
+      mirrored ^= rx & ~ry & 1;
+      swapped ^= ry ^ 1;
+    }
+    steps[i] = {static_cast<std::uint8_t>(index), static_cast<std::uint8_t>(2 * mirrored + swapped)};
+  }
+  return steps;
+}();
+
 /// Position of cell (x, y) along the Hilbert curve of 2^bits × 2^bits cells.
 constexpr std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y) {
   std::uint64_t index = 0;
-  for (std::uint32_t s = 1u << (kHilbertBits - 1); s > 0; s /= 2) {
-    const std::uint32_t rx = (x & s) != 0 ? 1 : 0;
-    const std::uint32_t ry = (y & s) != 0 ? 1 : 0;
-    index = 4 * index + ((3 * rx) ^ ry);
-    if (ry == 0) {
-      if (rx == 1) {
-        x = ~x;
-        y = ~y;
-      }
-      std::swap(x, y);
-    }
+  std::uint32_t orientation = 0;
+  for (int shift = kHilbertBits - 4; shift >= 0; shift -= 4) {
+    const HilbertStep step = kHilbertSteps[orientation << 8 | (x >> shift & 15) << 4 | (y >> shift & 15)];
+    index = index << 8 | step.index;
+    orientation = step.orientation;
   }
   return index;
 }

@@ -213,6 +213,7 @@ void CellBuilder::add_faces(const CellPiece& piece) {
 
 /// In a plain triangle the cells of its corners meet on the heights of the orthocenter.
 void CellBuilder::add_plain_faces() {
+  cells_.faces.reserve(cells_.faces.size() + complex_.edges.size());
   for (const DecEdge& edge : complex_.edges) {
     double width = 0;
     if (edge.left.valid() && plain_[edge.left] != 0) width += edge.left_height;
@@ -243,6 +244,16 @@ PowerCells CellBuilder::build() {
   add_plain_faces();
   join_faces();
   cells_.areas.assign(mesh_.n_vertices(), 0.0);
+  const std::size_t n = mesh_.n_vertices(),
+                    n_sides = mesh_.n_halfedges() + 3 * (2 * complex_.edges.size() - mesh_.n_halfedges());
+  cells_.vertices.reserve(n);
+  cells_.starts.reserve(n + 1);
+  cells_.polygon_areas.reserve(n);
+  // One corner in each triangle, and three at each boundary vertex. Cells in pieces may have more.
+  if (mesh_.space().is_plane())
+    cells_.corners.reserve(n_sides);
+  else
+    cells_.sphere_corners.reserve(n_sides);
   cells_.starts.push_back(0);
   std::size_t first = 0;
   for (const VertexId v : mesh_.vertices()) {

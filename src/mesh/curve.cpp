@@ -1,10 +1,9 @@
 #include "mesh/curve.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
-#include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -15,28 +14,49 @@
 namespace temper {
 namespace {
 
-/// The place of each vertex along the curve, and its number of bits.
-struct Keys {
-  IdVector<VertexId, std::uint64_t> of;
-  int bits;
-};
-Keys keys_on_sphere(const Mesh& mesh, Executor* executor) {
-  Keys keys{IdVector<VertexId, std::uint64_t>(mesh.n_vertices()), kCubeBits};
-  for_each_index(mesh.n_vertices(), executor,
-                 [&](std::size_t i) { keys.of[VertexId(i)] = cube_hilbert_index(mesh.weighted_vector(VertexId(i))); });
-  return keys;
-}
-Keys keys_in_plane(const Mesh& mesh, Executor* executor) {
-  Box box;
-  for (const VertexId v : mesh.vertices()) box.add(mesh.position(v));
-  const HilbertGrid curve(box);
-  Keys keys{IdVector<VertexId, std::uint64_t>(mesh.n_vertices()), 2 * kHilbertBits};
-  for_each_index(mesh.n_vertices(), executor,
-                 [&](std::size_t i) { keys.of[VertexId(i)] = curve(mesh.position(VertexId(i))); });
-  return keys;
-}
+constexpr std::size_t kLot = std::size_t{1} << 20;  // keys that are dealt out by one thread
 
-constexpr std::size_t kLot = std::size_t{1} << 20;  // vertices that are dealt out by one thread
+/// The ids 0 … n − 1 by their keys of so many bits, and equal keys by number. Splits them into lots with common leading
+/// digits, then sorts each lot: both on all threads.
+template <class IdType, class Key, class KeyOf>
+IdVector<IdType, IdType> sorted_by_key(std::size_t n, int bits, Executor* executor, KeyOf&& key_of) {
+  constexpr int kFew = 8, kMostDigits = 12;  // of which lots have about 2⁸ keys, or more
+  const std::size_t blocks = (n + kLot - 1) / kLot;
+  const int digits = std::clamp(static_cast<int>(std::bit_width(n)) - kFew, 0, std::min(bits, kMostDigits));
+  const std::size_t lots = std::size_t{1} << digits;
+  const auto for_lots_of = [&, shift = bits - digits](auto&& visit) {  // each index of a block with its key and lot
+    or_serial(executor).run(blocks, [&](std::size_t b) {
+      for (std::size_t i = b * kLot; i < std::min(n, (b + 1) * kLot); ++i) {
+        const Key key = key_of(i);
+        visit(b, static_cast<std::size_t>(key >> shift), key, i);
+      }
+    });
+  };
+  std::vector<std::uint32_t> place(blocks * lots, 0);  // of the next one of this block in this lot
+  for_lots_of([&](std::size_t b, std::size_t lot, Key, std::size_t) { ++place[b * lots + lot]; });
+  std::vector<std::uint32_t> first(lots + 1, 0);
+  std::uint32_t next = 0;
+  for (std::size_t lot = 0; lot < lots; ++lot) {
+    first[lot] = next;
+    for (std::size_t b = 0; b < blocks; ++b) next += std::exchange(place[b * lots + lot], next);
+  }
+  first[lots] = next;
+  struct Keyed {
+    Key key;
+    IdType id;
+    bool operator<(const Keyed& other) const { return key != other.key ? key < other.key : id < other.id; }
+  };
+  std::vector<Keyed> sorted(n);
+  for_lots_of([&](std::size_t b, std::size_t lot, Key key, std::size_t i) {
+    sorted[place[b * lots + lot]++] = {key, IdType(i)};
+  });
+  IdVector<IdType, IdType> order(n);
+  or_serial(executor).run(lots, [&](std::size_t lot) {
+    std::sort(sorted.begin() + first[lot], sorted.begin() + first[lot + 1]);
+    for (std::size_t i = first[lot]; i < first[lot + 1]; ++i) order[IdType(i)] = sorted[i].id;
+  });
+  return order;
+}
 
 }  // namespace
 
@@ -58,45 +78,18 @@ bool is_scattered(const Mesh& mesh) {
   return 4 * far > seen;
 }
 
-// Splits keys into lots with common leading digits, then sorts each lot: both on all threads.
 IdVector<VertexId, VertexId> vertices_by_hilbert(const Mesh& mesh, Executor* executor) {
-  constexpr int kFew = 8, kMostDigits = 12;  // of which lots have about 2⁸ keys, or more
-  const auto [of, bits] =
-      mesh.space().dimension() == 2 ? keys_in_plane(mesh, executor) : keys_on_sphere(mesh, executor);
-  const IdVector<VertexId, std::uint64_t>& keys = of;  // lambdas may not capture structured bindings before clang 16
-  const std::size_t n = mesh.n_vertices(), blocks = (n + kLot - 1) / kLot;
-  const int digits = std::clamp(static_cast<int>(std::bit_width(n)) - kFew, 0, kMostDigits);
-  const std::size_t lots = std::size_t{1} << digits;
-  const auto lot_of = [&keys, shift = bits - digits](std::size_t i) { return keys[VertexId(i)] >> shift; };
-  const auto for_lots_of = [&](auto&& visit) {  // each index of a block with its lot
-    or_serial(executor).run(blocks, [&](std::size_t b) {
-      for (std::size_t i = b * kLot; i < std::min(n, (b + 1) * kLot); ++i) visit(b, lot_of(i), i);
-    });
+  const std::size_t n = mesh.n_vertices();
+  IdVector<VertexId, std::uint64_t> keys(n);
+  const auto sorted = [&](int bits, auto&& key_of) {
+    for_each_index(n, executor, [&](std::size_t i) { keys[VertexId(i)] = key_of(VertexId(i)); });
+    return sorted_by_key<VertexId, std::uint64_t>(n, bits, executor, [&](std::size_t i) { return keys[VertexId(i)]; });
   };
-  std::vector<std::uint32_t> place(blocks * lots, 0);  // of the next one of this block in this lot
-  for_lots_of([&](std::size_t b, std::size_t lot, std::size_t) { ++place[b * lots + lot]; });
-  std::vector<std::uint32_t> first(lots + 1, 0);
-  std::uint32_t next = 0;
-  for (std::size_t lot = 0; lot < lots; ++lot) {
-    first[lot] = next;
-    for (std::size_t b = 0; b < blocks; ++b) next += std::exchange(place[b * lots + lot], next);
-  }
-  first[lots] = next;
-  struct Keyed {
-    std::uint64_t key;
-    VertexId v;
-    bool operator<(const Keyed& other) const { return key != other.key ? key < other.key : v < other.v; }
-  };
-  std::vector<Keyed> sorted(n);
-  for_lots_of([&](std::size_t b, std::size_t lot, std::size_t i) {
-    sorted[place[b * lots + lot]++] = {keys[VertexId(i)], VertexId(i)};
-  });
-  IdVector<VertexId, VertexId> order(n);
-  or_serial(executor).run(lots, [&](std::size_t lot) {
-    std::sort(sorted.begin() + first[lot], sorted.begin() + first[lot + 1]);
-    for (std::size_t i = first[lot]; i < first[lot + 1]; ++i) order[VertexId(i)] = sorted[i].v;
-  });
-  return order;
+  if (mesh.space().dimension() == 3)
+    return sorted(kCubeBits, [&](VertexId v) { return cube_hilbert_index(mesh.weighted_vector(v)); });
+  Box box;
+  for (const VertexId v : mesh.vertices()) box.add(mesh.position(v));
+  return sorted(2 * kHilbertBits, [&, curve = HilbertGrid(box)](VertexId v) { return curve(mesh.position(v)); });
 }
 
 Walk::Walk(const Mesh& mesh, Executor* executor) {
@@ -111,39 +104,15 @@ NearbyCopy::NearbyCopy(const Mesh& mesh, Executor* executor) : mesh_(&mesh) {
 
 namespace {
 
-/// Triangles by their least corner in the new numbering, then by number. Each is found in the star of that corner, from
-/// vertex to vertex along the curve: neighbors of neighbors are in the cache.
-IdVector<TriangleId, TriangleId> triangles_by_vertex(const Mesh& mesh, const IdVector<VertexId, VertexId>& order,
-                                                     const IdVector<VertexId, VertexId>& new_vertex,
+/// Triangles by their least corner in the new numbering, then by number.
+IdVector<TriangleId, TriangleId> triangles_by_vertex(const Mesh& mesh, const IdVector<VertexId, VertexId>& new_vertex,
                                                      Executor* executor) {
-  const std::size_t n = mesh.n_vertices();
-  const auto for_triangles_of = [&](std::size_t i, auto&& visit) {
-    const VertexId first(i);
-    for (const HalfedgeId h : mesh.star(order[first])) {
-      if (first < new_vertex[mesh.target(h)] && first < new_vertex[mesh.opposite(h)]) visit(Mesh::triangle(h));
-    }
+  const auto least_corner = [&](std::size_t i) {
+    const auto [a, b, c] = mesh.corners(TriangleId(i));
+    return std::min({new_vertex[a], new_vertex[b], new_vertex[c]}).index;
   };
-  std::vector<std::vector<TriangleId>> of_blocks((n + kLoopBlock - 1) / kLoopBlock);
-  for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
-    std::vector<TriangleId>& found = of_blocks[first / kLoopBlock];
-    found.reserve(2 * (last - first));
-    for (std::size_t i = first; i < last; ++i) {
-      const auto before = static_cast<std::ptrdiff_t>(found.size());
-      for_triangles_of(i, [&](TriangleId t) { found.push_back(t); });
-      std::sort(found.begin() + before, found.end());
-    }
-  });
-  std::vector<std::size_t> place;  // of each block, among all triangles
-  place.reserve(of_blocks.size());
-  std::size_t count = 0;
-  for (const std::vector<TriangleId>& found : of_blocks) place.push_back(std::exchange(count, count + found.size()));
-  IdVector<TriangleId, TriangleId> triangles(count);
-  or_serial(executor).run(of_blocks.size(), [&](std::size_t b) {
-    std::size_t next = place[b];
-    for (const TriangleId t : of_blocks[b]) triangles[TriangleId(next++)] = t;
-    of_blocks[b] = {};
-  });
-  return triangles;
+  const int bits = static_cast<int>(std::bit_width(mesh.n_vertices()));
+  return sorted_by_key<TriangleId, std::uint32_t>(mesh.n_triangles(), bits, executor, least_corner);
 }
 
 template <class IdType>
@@ -167,7 +136,7 @@ Found find_order(const Mesh& mesh, Executor* executor) {
   Found found;
   found.order.vertices = vertices_by_hilbert(mesh, executor);
   found.new_vertex = inverse(found.order.vertices, executor);
-  found.order.triangles = triangles_by_vertex(mesh, found.order.vertices, found.new_vertex, executor);
+  found.order.triangles = triangles_by_vertex(mesh, found.new_vertex, executor);
   return found;
 }
 
@@ -176,48 +145,57 @@ Found find_order(const Mesh& mesh, Executor* executor) {
 /// Has access to the arrays of meshes.
 class MeshPermuter {
  public:
-  static Mesh copy(const Mesh& mesh, Found& found, Executor* executor);
+  template <class M>
+  static Mesh ordered(M& mesh, Found& found, Executor* executor);
   static void restore(Mesh& mesh, const MeshOrder& order, Executor* executor);
 };
 
 /// Copies one array after the other, and drops each renumbering before it makes the next one: on the largest meshes the
-/// memory in use at once counts.
-Mesh MeshPermuter::copy(const Mesh& mesh, Found& found, Executor* executor) {
+/// memory in use at once counts. If M is not const, it uses the mesh up.
+template <class M>
+Mesh MeshPermuter::ordered(M& mesh, Found& found, Executor* executor) {
   Mesh result;
   result.space_ = mesh.space();
   const MeshOrder& order = found.order;
+  const std::size_t n = mesh.n_triangles();
+  const auto release = [](auto& array) {
+    if constexpr (!std::is_const_v<M>) array = {};
+  };
   result.vertices_.resize(mesh.n_vertices());
   for_each_index(mesh.n_vertices(), executor,
                  [&](std::size_t i) { result.vertices_[VertexId(i)] = mesh.vertices_[order.vertices[VertexId(i)]]; });
-  result.corners_.resize(mesh.n_halfedges());
-  for_each_index(mesh.n_triangles(), executor, [&](std::size_t i) {
+  release(mesh.vertices_);
+  result.corners_.resize(3 * n);
+  for_each_index(n, executor, [&](std::size_t i) {
     const auto corners = mesh.corners(order.triangles[TriangleId(i)]);
     for (std::size_t k = 0; k < 3; ++k) result.corners_[HalfedgeId(3 * i + k)] = found.new_vertex[corners[k]];
   });
   found.new_vertex = {};
+  release(mesh.corners_);
   const auto new_triangle = inverse(order.triangles, executor);
-  result.twins_.resize(mesh.n_halfedges());
-  for_each_index(mesh.n_triangles(), executor, [&](std::size_t i) {
+  result.twins_.resize(3 * n);
+  for_each_index(n, executor, [&](std::size_t i) {
     for (int k = 0; k < 3; ++k) {
       const HalfedgeId h = Mesh::halfedge(order.triangles[TriangleId(i)], k);
       result.twins_[Mesh::halfedge(TriangleId(i), k)] = renumbered(mesh.twin(h), new_triangle);
     }
   });
+  release(mesh.twins_);
   if (!mesh.constrained_.all_zero()) {
     for (const HalfedgeId h : result.halfedges()) {
       const HalfedgeId from = Mesh::halfedge(order.triangles[Mesh::triangle(h)], static_cast<int>(h.index % 3));
-      result.constrained_.set(h, mesh.constrained_[from], mesh.n_halfedges());
+      result.constrained_.set(h, mesh.constrained_[from], 3 * n);
     }
   }
   if (!mesh.regions_.all_zero()) {
-    for (const TriangleId t : result.triangles()) result.set_region(t, mesh.region(order.triangles[t]));
+    for (const TriangleId t : result.triangles()) result.set_region(t, mesh.regions_[order.triangles[t]]);
   }
   result.repair_outgoing();
   return result;
 }
 
 /// The halfedge that stands for a vertex depends on the numbering (Mesh::repair_outgoing): the boundary halfedge, or at
-/// an inner vertex the halfedge of the greatest number. As in copy(), one array after the other.
+/// an inner vertex the halfedge of the greatest number. As in ordered(), one array after the other.
 void MeshPermuter::restore(Mesh& mesh, const MeshOrder& order, Executor* executor) {
   const std::size_t n = mesh.n_triangles();
   const auto former = [&](HalfedgeId h) { return renumbered(h, order.triangles); };
@@ -260,15 +238,17 @@ void MeshPermuter::restore(Mesh& mesh, const MeshOrder& order, Executor* executo
 
 OrderedMesh hilbert_ordered(const Mesh& mesh, Executor* executor) {
   Found found = find_order(mesh, executor);
-  Mesh ordered = MeshPermuter::copy(mesh, found, executor);
+  Mesh ordered = MeshPermuter::ordered(mesh, found, executor);
   return {std::move(ordered), std::move(found.order)};
 }
 
-MeshOrder hilbert_order(Mesh& mesh) {
-  OrderedMesh ordered = hilbert_ordered(mesh);
-  mesh = std::move(ordered.mesh);
-  return std::move(ordered.order);
+MeshOrder hilbert_order_in_place(Mesh& mesh, Executor* executor) {
+  Found found = find_order(mesh, executor);
+  mesh = MeshPermuter::ordered(mesh, found, executor);
+  return std::move(found.order);
 }
+
+MeshOrder hilbert_order(Mesh& mesh) { return hilbert_order_in_place(mesh, nullptr); }
 
 void restore_order(Mesh& mesh, const MeshOrder& order, Executor* executor) {
   MeshPermuter::restore(mesh, order, executor);

@@ -2,6 +2,15 @@
 
 namespace temper {
 
+Mesh MeshEditor::blank(const Space& space, std::size_t n_vertices, std::size_t n_triangles) {
+  Mesh mesh;
+  mesh.space_ = space;
+  mesh.vertices_.resize(n_vertices);
+  mesh.corners_.resize(3 * n_triangles);
+  mesh.twins_.resize(3 * n_triangles);
+  return mesh;
+}
+
 VertexId MeshEditor::add_vertex(WeightedPoint p) {
   mesh_.vertices_.push_back({p.x, p.y, p.w, HalfedgeId::kInvalid, 0});
   return VertexId(mesh_.n_vertices() - 1);

@@ -11,6 +11,8 @@ class MeshEditor {
  public:
   explicit MeshEditor(Mesh& mesh) : mesh_(mesh) {}
 
+  /// A mesh of that many isolated vertices at 0 and triangles without corners.
+  [[nodiscard]] static Mesh blank(const Space& space, std::size_t n_vertices, std::size_t n_triangles);
   /// The new vertex is in no triangle.
   VertexId add_vertex(WeightedPoint p);
   /// Three halfedges without twins; the caller links them.
@@ -23,8 +25,7 @@ class MeshEditor {
   }
   /// Makes every halfedge a boundary halfedge.
   void unlink_all() { mesh_.twins_.assign(mesh_.n_halfedges(), HalfedgeId()); }
-  /// After this, twins must not be read until find_twins().
-  void release_twins() { mesh_.twins_ = {}; }
+  void repair_outgoing() { mesh_.repair_outgoing(); }
   void set_outgoing(VertexId v, HalfedgeId h) { mesh_.record(v).outgoing = h.index; }
   /// Marks a triangle for compact(). Its neighbors get a boundary there; the caller must repair outgoing() of its
   /// corners.

@@ -54,19 +54,14 @@ void improve(Candidate& best, const Settings& settings, Run& run, AccuracySizes&
 /// Makes one attempt: restarts, repairs, and the phases for accuracy.
 Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepState& state, Run& run,
                             std::optional<AccuracySizes>& sizes) {
-  const Mesh& mesh = input.restore_twins();
-  auto found = is_ready_for_accuracy(mesh, settings)
-                   ? Candidate{WorkingCopy(mesh, settings.policy.order, settings.executor())}
-                   : best_restart(input, settings, state, run);
+  auto found = is_ready_for_accuracy(input.any_order(), settings) ? Candidate{input.copy()}
+                                                                  : best_restart(input, settings, state, run);
   if (!found) return found;
   Candidate best = *std::move(found);
   // A tensor can make all triangles thin. Then sweeps pull vertices together, and repairs take long and cure little.
   run.facts.gave_up =
       settings.in_metric && 2 * count_bad(best.work.mesh, settings.executor()) > best.work.mesh.n_triangles();
-  if (run.facts.gave_up) {
-    return Candidate{WorkingCopy(input.restore_twins(), settings.policy.order, settings.executor())};
-  }
-  input.drop_twins();
+  if (run.facts.gave_up) return Candidate{input.copy()};
   best = reweighted(std::move(best), input, settings, state, run);
   best = repaired(std::move(best), settings, state, run);
   if (sizes) improve<AccuracyPhase>(best, settings, run, *sizes);
@@ -107,9 +102,10 @@ double weigh_ties_instead(Candidate& best, double ratio, const ErrorJudge& judge
 /// Returns the mesh of the run, or a rival on which measured errors are smaller. On structured grids errors of
 /// neighbors cancel, and vertices that move end this. A sound input is a rival, and so is a grid whose ties get small
 /// weights.
-Candidate least_error(Candidate best, const Mesh& input, const MeshScore& counts, const Settings& settings,
+Candidate least_error(Candidate best, InputMesh& given, const MeshScore& counts, const Settings& settings,
                       const SweepState& state, Run& run) {
-  if (run.stopped_early() || !is_judged_by_errors(input, settings)) return best;
+  if (run.stopped_early() || !is_judged_by_errors(given.n_vertices(), best.work.units.space, settings)) return best;
+  const Mesh& input = given.whole();
   Settings by_weights = settings;
   by_weights.options.unknowns = Unknowns::weights;
   const bool sound = is_sound(input, counts, settings);
@@ -138,13 +134,15 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   SweepState state(settings);
 
   std::optional<AccuracySizes> sizes;
-  const InputMeasures of_input(mesh, settings, sizes);
-  InputMesh input(mesh, hooks.exclusive && !options.size_band, hooks.executor);  // the band's field may refer to it
+  // A listener, the field of a band and a model of errors may refer to the mesh.
+  const bool is_free = hooks.exclusive && !hooks.best_so_far && !options.size_band && settings.errors == nullptr;
+  InputMesh input(mesh, is_free, settings.policy.order, hooks.executor);
+  const InputMeasures of_input(input, settings, sizes);
   auto found = attempt(input, settings, state, run, sizes);
   if (!found) return found.error();
   Candidate best = *std::move(found);
-  best = least_error(std::move(best), input.restore_twins(), of_input.counts, settings, state, run);
-  give_back(input.restore_twins(), std::move(best), settings, state, of_input, std::move(sizes), run);
+  best = least_error(std::move(best), input, of_input.counts, settings, state, run);
+  give_back(input, std::move(best), settings, state, of_input, std::move(sizes), run);
   return std::move(run.report);
 }
 

@@ -194,13 +194,14 @@ void Tally::merge(const Tally& other) {
 
 constexpr std::size_t kBlock = 8192;  // triangles: some milliseconds of work, some hundred blocks for a million
 
-Tally tally(const NearbyCopy& near, const QualityOptions& options) {
-  const Mesh& mesh = near.mesh();
+/// `originals`: the number of each triangle in messages; empty if all are equal.
+Tally tally(const Mesh& mesh, const IdVector<TriangleId, TriangleId>& originals, const QualityOptions& options) {
   const std::size_t n = mesh.n_triangles();
   std::vector<Tally> blocks((n + kBlock - 1) / kBlock, Tally(options.worst));
   or_serial(options.executor).run(blocks.size(), [&](std::size_t i) {
     const std::size_t end = std::min(n, (i + 1) * kBlock);
-    for (std::size_t t = i * kBlock; t < end; ++t) blocks[i].add(mesh, TriangleId(t), near.original(TriangleId(t)));
+    for (std::size_t t = i * kBlock; t < end; ++t)
+      blocks[i].add(mesh, TriangleId(t), originals.empty() ? TriangleId(t) : originals[TriangleId(t)]);
   });
   Tally all(options.worst);
   for (const Tally& block : blocks) all.merge(block);
@@ -230,14 +231,11 @@ std::size_t count_regions(const Mesh& mesh) {
   return regions.size();
 }
 
-}  // namespace
-
-Quality quality(const Mesh& original, const QualityOptions& options) {
-  TEMPER_ASSERT_SLOW(!has_erased_triangles(original));
-  const NearbyCopy near(original, options.executor);
-  const Mesh& mesh = near.mesh();
-  const Tally sums = tally(near, options);
-  Quality q;
+/// All but the worst triangles, which it returns.
+WorstList measure(Quality& q, const Mesh& mesh, const IdVector<TriangleId, TriangleId>& originals,
+                  const QualityOptions& options) {
+  TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
+  const Tally sums = tally(mesh, originals, options);
   static_cast<SolverMeasures&>(q) = solver_measures(mesh, options.brief, options.executor);
   q.vertices = mesh.n_vertices();
   q.triangles = mesh.n_triangles();
@@ -247,7 +245,7 @@ Quality quality(const Mesh& original, const QualityOptions& options) {
   q.angles = sums.angles;
   q.h_over_l = sums.h_over_l;
   q.d_over_l = sums.d_over_l;
-  if (q.triangles == 0) return q;
+  if (q.triangles == 0) return sums.worst;
 
   q.inverted_triangles = sums.inverted_triangles;
   q.non_regular_edges = sums.non_regular_edges;
@@ -263,7 +261,29 @@ Quality quality(const Mesh& original, const QualityOptions& options) {
   q.max_transmissibility_over_median = transmissibilities.max_over_median;
   q.transmissibility_ratio = transmissibilities.max_over_min;
   if (!options.brief) q.energy = all_energies(mesh, options);
-  for (const Ranked& ranked : sums.worst.sorted()) q.worst.push_back(describe(original, ranked.triangle));
+  return sums.worst;
+}
+
+void describe_all(Quality& q, const Mesh& original, const WorstList& worst) {
+  for (const Ranked& ranked : worst.sorted()) q.worst.push_back(describe(original, ranked.triangle));
+}
+
+}  // namespace
+
+Quality quality(const Mesh& original, const QualityOptions& options) {
+  const NearbyCopy near(original, options.executor);
+  Quality q;
+  describe_all(q, original, measure(q, near.mesh(), near.original_triangles(), options));
+  return q;
+}
+
+Quality quality_in_place(Mesh& mesh, const QualityOptions& options) {
+  if (!is_scattered(mesh)) return quality(mesh, options);
+  Quality q;
+  const MeshOrder order = hilbert_order_in_place(mesh, options.executor);
+  const WorstList worst = measure(q, mesh, order.triangles, options);
+  restore_order(mesh, order, options.executor);
+  describe_all(q, mesh, worst);
   return q;
 }
 

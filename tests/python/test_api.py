@@ -49,7 +49,7 @@ ELSEWHERE = {
     "replay_with_vertices": "replay",
     "distance": "numpy.linalg.norm; the library asks a space for it",
     "hilbert_order": "Python keeps the user's numbers", "restore_order": "as hilbert_order",
-    "hilbert_ordered": "as hilbert_order", "or_serial": "threads=1",
+    "hilbert_ordered": "as hilbert_order", "quality_in_place": "as hilbert_order", "or_serial": "threads=1",
     "unflip": "flip three times more", "split_edge": "plan_split and insert_vertex, which check",
     "insert_in_triangle": "plan_insertion and insert_vertex, which check",
     "input_size_field_of": "input_size_field: Python's meshes may go before their views",

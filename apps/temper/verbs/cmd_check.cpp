@@ -95,7 +95,7 @@ class Checks {
     if (const std::string crack = crack_warning(input); !crack.empty()) print_warnings(std::vector{crack});
     if (files_.page.empty()) io::release_geometry(input.file, input.loaded);
     take_to_metric(input, s_.metric);
-    Quality measured = quality(input.mesh(), options_);
+    Quality measured = quality_in_place(input.loaded.mesh, options_);
     for (WorstTriangle& worst : measured.worst) {
       if (s_.metric) worst.at = s_.metric->from_metric(worst.at);
     }

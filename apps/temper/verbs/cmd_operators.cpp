@@ -154,6 +154,7 @@ Exit run_operators(const Arguments& arguments) {
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.flat});
   print_warnings(input.warnings());
+  if (s.layers.empty()) io::release_geometry(input.file, input.loaded);  // the mesh has it
   const std::optional<Mesh> plain = take_to_metric(input, s.metric);
   DecComplex complex = with_k(command, s, input, dec_operators(input.mesh()));
   PowerCells cells = power_cells(input.mesh(), complex);

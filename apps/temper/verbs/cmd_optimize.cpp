@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -86,8 +87,10 @@ auto saver(const OptimizeSettings& s, const Input& input, const RunFiles& files)
   };
 }
 
+using Viewer = std::function<void(const Mesh&)>;
+
 OptimizeReport run_library(const OptimizeSettings& s, const Input& input, Mesh& mesh, const RunFiles& files,
-                           Tracer tracer) {
+                           Tracer tracer, Viewer viewer, bool measures_sizes) {
   ProgressLine line(!is_quiet() && error_is_terminal());
   const Observer observer = [&line](const Progress& progress) {
     line.show(progress);
@@ -98,6 +101,8 @@ OptimizeReport run_library(const OptimizeSettings& s, const Input& input, Mesh& 
   hooks.communicator = communicator();
   hooks.names = input.names.get();
   hooks.exclusive = true;
+  hooks.viewer = std::move(viewer);
+  hooks.measures_sizes = measures_sizes;
   hooks.solvers = solvers();
   hooks.started = s.started;
   hooks.observer = observer;
@@ -153,10 +158,19 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
   const bool shown = !s.files.report.empty() || !s.files.page.empty() || !s.files.picture.empty();
   measuring.brief = !shown && !s.details && s.requirements.empty();
   const bool measured = !is_quiet() || shown || !s.requirements.empty();  // else nobody would see it
-  if (measured) results.before = quality(*seen, measuring);
+  // The run looks at the mesh in an order for which no copy is needed. It has no names for the worst triangles.
+  Viewer viewer;
+  if (measured && measuring.brief && !s.metric) {
+    viewer = [&, first = true](const Mesh& now) mutable {
+      results.after = quality(now, measuring);
+      if (std::exchange(first, false)) results.before = results.after;
+    };
+  } else if (measured) {
+    results.before = quality(*seen, measuring);
+  }
   catch_interrupts();
   on_first_rank([&] {
-    print(fmt::format("{}: {}", s.input, mesh_size(results.before.vertices, results.before.triangles)));
+    print(fmt::format("{}: {}", s.input, mesh_size(mesh.n_vertices(), mesh.n_triangles())));
     print(s.set_by_target.empty() ? "\n" : fmt::format("; --for {} sets {}\n", s.target, s.set_by_target));
     flush_output();
   });
@@ -167,13 +181,13 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
     if (s.measure_errors) errors.emplace(*seen, files.threads);
   });
 #endif
-  results.report = run_library(s, input, mesh, files, tracer);
+  results.report = run_library(s, input, mesh, files, tracer, viewer, !measuring.brief);
   look_at();
 #ifdef TEMPER_WITH_ERRORS
   if (errors) error_result(*errors, *seen, results);
 #endif
   if (files.trace != nullptr) files.trace->stream.write(trace_end(files.trace->events, mesh, input));
-  if (measured) results.after = quality(*seen, measuring);
+  if (measured && !viewer) results.after = quality(*seen, measuring);
   const bool all_regular = measured && results.after.non_regular_edges == 0;  // those that may not be flipped, too
   results.lacks_flips = !all_regular && lacks_flips(s.options, *seen, files.threads);
   results.outcomes = judge(s.requirements, results.after);
@@ -247,6 +261,7 @@ void write_all(const Command& command, const OptimizeSettings& s, Input& input, 
   const std::size_t known = input.file.warnings.size();
   results.data =
       io::update(input.file, input.loaded, input.loaded.mesh, results.report.vertices, {s.rules, files.threads});
+  if (s.files.page.empty()) input.loaded.mesh = {};  // the file has it, and on the largest meshes memory is scarce
   warn(results, std::span(input.file.warnings).subspan(known));
   warn(results, outputs.write_mesh(s.output, input.file, files.threads));
   if (files.trace != nullptr) outputs.commit(s.files.trace, files.trace->stream);

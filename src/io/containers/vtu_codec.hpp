@@ -55,7 +55,7 @@ struct Packing {
 enum class Redundancy { strings, runs };
 /// One block of numbers, compressed fast rather than small.
 [[nodiscard]] std::string compress_block(std::string_view bytes, Redundancy redundancy);
-/// Returns runs, when they make a first block hardly larger.
+/// Returns runs, when they make a sample hardly larger.
 [[nodiscard]] Redundancy choose_redundancy(std::string_view bytes);
 
 }  // namespace temper::io

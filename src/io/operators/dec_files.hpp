@@ -24,14 +24,15 @@ struct DecJob {
   [[nodiscard]] Output& open(std::string_view name) const;
 };
 
-/// Places in the coordinates of the files: two in the plane, three on the sphere.
+/// Places in the coordinates of the files: two in the plane, three on the sphere. They refer to the mesh or its
+/// operators.
 struct DecPositions {
-  std::size_t coordinates = 2;
-  std::vector<Vec3> at;  // z is 0 in the plane
+  std::size_t coordinates, size;
+  std::function<Vec3(std::size_t)> at;  // z is 0 in the plane
 
-  [[nodiscard]] std::size_t size() const { return at.size(); }
   [[nodiscard]] double coordinate(std::size_t i, std::size_t k) const {
-    return k == 0 ? at[i].x : k == 1 ? at[i].y : at[i].z;
+    const Vec3 p = at(i);
+    return k == 0 ? p.x : k == 1 ? p.y : p.z;
   }
 };
 /// The positions of vertices; on the sphere without weights.

@@ -40,7 +40,7 @@ void put_columns(Output& out, std::size_t rows, std::size_t columns, std::string
 
 void put_positions(const DecJob& job, std::string_view name, const DecPositions& places, std::string_view of_what) {
   const std::string_view axes = places.coordinates == 2 ? "x, y " : "x, y, z ";
-  put_columns(job.open(name), places.size(), places.coordinates, text(axes, of_what),
+  put_columns(job.open(name), places.size, places.coordinates, text(axes, of_what),
               [&](std::size_t row, std::size_t column) { return places.coordinate(row, column); });
 }
 

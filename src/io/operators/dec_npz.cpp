@@ -82,11 +82,11 @@ std::vector<T> of_edges(const DecComplex& c, std::size_t width, F value) {
 /// Places as rows: x and y in the plane, x, y and z on the sphere.
 void add_positions(NpzWriter& npz, std::string_view name, const DecPositions& places) {
   std::vector<double> values;
-  values.reserve(places.coordinates * places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  values.reserve(places.coordinates * places.size);
+  for (std::size_t i = 0; i < places.size; ++i) {
     for (std::size_t k = 0; k < places.coordinates; ++k) values.push_back(places.coordinate(i, k));
   }
-  npz.add(name, values, {places.size(), places.coordinates});
+  npz.add(name, values, {places.size, places.coordinates});
 }
 
 void add_mesh(NpzWriter& npz, const DecJob& job) {

@@ -164,9 +164,10 @@ std::string VtuDocument::packed_block(const VtkArray& a, std::size_t i, Redundan
 /// Strings of bytes repeat in point numbers and in coordinates of grids, but not in coordinates of other meshes.
 Redundancy VtuDocument::redundancy_of(const VtkArray& a) {
   if (a.scalar != Scalar::f64 && a.scalar != Scalar::f32) return Redundancy::strings;
-  const std::size_t each = info(a.scalar).bytes, n = std::min(kBlockBytes / each, a.n_values);
+  constexpr std::size_t kSample = std::size_t{1} << 14;
+  const std::size_t each = info(a.scalar).bytes, n = std::min(kSample / each, a.n_values);
   std::vector<char> bytes(n * each);
-  a.fill(0, n, bytes.data());
+  a.fill((a.n_values - n) / 2, n, bytes.data());  // the first points often are on the boundary, where zeros repeat
   return choose_redundancy({bytes.data(), bytes.size()});
 }
 
@@ -229,7 +230,7 @@ namespace {
 /// Three numbers per point; in the plane z is the mesh's.
 VtkArray dual_points(const DecPositions& places, double z) {
   return computed_vtk_array<double>(
-      "Points", Scalar::f64, 3 * places.size(),
+      "Points", Scalar::f64, 3 * places.size,
       [&places, z](std::size_t i) { return i % 3 < places.coordinates ? places.coordinate(i / 3, i % 3) : z; }, 3);
 }
 
@@ -237,7 +238,7 @@ VtkArray dual_points(const DecPositions& places, double z) {
 void write_cells(const DecJob& job) {
   const PowerCells& cells = job.cells;
   const DecPositions places = corner_positions(cells);
-  const std::size_t n = cells.n_polygons(), n_points = places.size();
+  const std::size_t n = cells.n_polygons(), n_points = places.size;
   const auto owner = [&cells](std::size_t p) { return cells.vertices[p]; };
   VtuDocument vtu(job.open("dual.vtu"), Encoding::base64, job.options.executor);
   vtu.begin_piece(n_points, n);
@@ -259,10 +260,11 @@ void write_cells(const DecJob& job) {
 // edge to the triangle on the right. A boundary line runs from the orthocenter to the midpoint.
 void write_dual_edges(const DecJob& job) {
   const DecComplex& c = job.complex;
-  DecPositions places = orthocenter_positions(c);
-  const std::size_t n_triangles = places.size(), n = c.edges.size(), n_points = n_triangles + n;
-  const DecPositions midpoints = midpoint_positions(c);
-  places.at.insert(places.at.end(), midpoints.at.begin(), midpoints.at.end());
+  const DecPositions orthocenters = orthocenter_positions(c), midpoints = midpoint_positions(c);
+  const std::size_t n_triangles = orthocenters.size, n = c.edges.size(), n_points = n_triangles + n;
+  const DecPositions places = {orthocenters.coordinates, n_points, [&](std::size_t i) {
+                                 return i < n_triangles ? orthocenters.at(i) : midpoints.at(i - n_triangles);
+                               }};
   const auto edge = [&c](std::size_t i) -> const DecEdge& { return c.edges[EdgeId(i)]; };
   const auto end = [edge, n_triangles](std::size_t i) -> std::size_t {
     const DecEdge& e = edge(i / 2);

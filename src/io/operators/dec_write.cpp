@@ -60,12 +60,14 @@ std::vector<std::string> write_dec_or_throw(const std::string& name, const Mesh&
   return written;
 }
 
-DecPositions positions_in(const std::vector<Vec2>& plane, const std::vector<Vec3>& sphere) {
-  if (!sphere.empty()) return {3, sphere};
-  DecPositions places;
-  places.at.reserve(plane.size());
-  for (const Vec2 p : plane) places.at.push_back({p.x, p.y, 0});
-  return places;
+/// n places of the plane, or those of the sphere if there are any.
+template <class At>
+DecPositions positions_in(std::size_t n, At plane, const std::vector<Vec3>& sphere) {
+  if (!sphere.empty()) return {3, sphere.size(), [&sphere](std::size_t i) { return sphere[i]; }};
+  return {2, n, [plane](std::size_t i) {
+            const Vec2 p = plane(i);
+            return Vec3{p.x, p.y, 0};
+          }};
 }
 
 }  // namespace
@@ -114,21 +116,26 @@ Expected<std::vector<std::string>> write_dec(const std::string& folder, const Me
 }
 
 DecPositions vertex_positions(const Mesh& mesh) {
-  DecPositions places = {static_cast<std::size_t>(mesh.space().dimension()), {}};
-  for (const VertexId v : mesh.vertices()) places.at.push_back(mesh.space().place(mesh.point(v)));
-  return places;
+  return {static_cast<std::size_t>(mesh.space().dimension()), mesh.n_vertices(),
+          [&mesh](std::size_t i) { return mesh.space().place(mesh.point(VertexId(i))); }};
 }
 
 DecPositions orthocenter_positions(const DecComplex& complex) {
-  return positions_in(complex.orthocenters.raw(), complex.sphere_orthocenters.raw());
+  const std::vector<Vec2>& plane = complex.orthocenters.raw();
+  return positions_in(
+      plane.size(), [&plane](std::size_t i) { return plane[i]; }, complex.sphere_orthocenters.raw());
 }
 
 DecPositions midpoint_positions(const DecComplex& complex) {
-  std::vector<Vec2> midpoints;
-  for (const DecEdge& edge : complex.edges) midpoints.push_back(edge.midpoint);
-  return positions_in(midpoints, complex.sphere_midpoints.raw());
+  return positions_in(
+      complex.edges.size(), [&edges = complex.edges](std::size_t i) { return edges[EdgeId(i)].midpoint; },
+      complex.sphere_midpoints.raw());
 }
 
-DecPositions corner_positions(const PowerCells& cells) { return positions_in(cells.corners, cells.sphere_corners); }
+DecPositions corner_positions(const PowerCells& cells) {
+  const std::vector<Vec2>& plane = cells.corners;
+  return positions_in(
+      plane.size(), [&plane](std::size_t i) { return plane[i]; }, cells.sphere_corners);
+}
 
 }  // namespace temper::io

@@ -51,22 +51,22 @@ VertexSizes sizes_of_field(const Mesh& mesh, const SizeField& field, Executor* e
 
 }  // namespace
 
-AccuracySizes::AccuracySizes(const NearbyCopy& input, const std::optional<SizeField>& field, Executor* executor) {
-  const Mesh& mesh = input.mesh();
+AccuracySizes::AccuracySizes(const Mesh& mesh, const IdVector<VertexId, VertexId>& numbers,
+                             const std::optional<SizeField>& field, Executor* executor) {
   VertexSizes sizes =
       smoothed(mesh, field ? sizes_of_field(mesh, *field, executor) : local_sizes(mesh, executor), executor);
-  if (input.is_original()) {
+  if (numbers.empty()) {
     input_ = std::move(sizes);
     return;
   }
   input_.resize(sizes.size());
-  for (const VertexId v : mesh.vertices()) input_[input.original(v)] = sizes[v];
+  for (const VertexId v : mesh.vertices()) input_[numbers[v]] = sizes[v];
 }
 
 VertexSizes AccuracySizes::of(const WorkingCopy& work, Executor* executor) const {
   VertexSizes sizes(work.mesh.n_vertices());
   for_each_index(sizes.size(), executor, [&](std::size_t i) {
-    const VertexId v(i), number = work.order.vertices[v];
+    const VertexId v(i), number = work.order->vertices[v];
     // Both scales are powers of two, so this is exact.
     sizes[v] = number.index < input_.size() ? input_[number] / work.units.scale : local_size(work.mesh, v);
   });
@@ -83,7 +83,7 @@ void AccuracySizes::take_back(VertexSizes lent, const WorkingCopy& work, Executo
   if (!input_.empty()) return;
   input_.resize(lent.size());
   for_each_index(lent.size(), executor, [&](std::size_t i) {
-    input_[work.order.vertices[VertexId(i)]] = lent[VertexId(i)] * work.units.scale;
+    input_[work.order->vertices[VertexId(i)]] = lent[VertexId(i)] * work.units.scale;
   });
 }
 
@@ -96,7 +96,7 @@ VertexSizes AccuracySizes::in_user_units(const WorkingCopy& work, Executor* exec
 VertexSizes AccuracySizes::in_user_terms(const WorkingCopy& work, Executor* executor) const {
   const VertexSizes here = in_user_units(work, executor);
   std::vector<double> by_number(work.n_vertices_named, 0.0);  // 0: removed
-  for (const VertexId v : work.mesh.vertices()) by_number[work.order.vertices[v].index] = here[v];
+  for (const VertexId v : work.mesh.vertices()) by_number[work.order->vertices[v].index] = here[v];
   VertexSizes sizes;
   sizes.reserve(here.size());
   for (const double size : by_number) {

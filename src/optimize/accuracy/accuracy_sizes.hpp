@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "energy/accuracy_energy.hpp"
-#include "mesh/curve.hpp"
 #include "optimize/working/working_copy.hpp"
 #include "temper/detail/executor.hpp"
 #include "temper/detail/size.hpp"
@@ -17,8 +16,9 @@ namespace temper {
 
 class AccuracySizes {
  public:
-  /// Computes the sizes of a mesh in the user's terms.
-  AccuracySizes(const NearbyCopy& input, const std::optional<SizeField>& field, Executor* executor);
+  /// Computes the sizes of the input. `numbers`: the user's number of each vertex; empty if all numbers are equal.
+  AccuracySizes(const Mesh& mesh, const IdVector<VertexId, VertexId>& numbers, const std::optional<SizeField>& field,
+                Executor* executor);
 
   /// Returns the sizes of the input in the user's units.
   [[nodiscard]] const VertexSizes& of_input() const { return input_; }

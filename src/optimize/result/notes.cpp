@@ -59,7 +59,7 @@ class Notes {
   /// HOT energies may make more triangles bad. `bad_before`: bad part of the input's triangles.
   void note_if_more_are_bad(double bad_before) {
     const auto percent = [](double part) { return to_text(std::round(1000 * part) / 10) + " %"; };
-    const double bad = bad_part(mesh_, count_bad(mesh_, settings_.executor()));
+    const double bad = bad_part(mesh_.n_triangles(), count_bad(mesh_, settings_.executor()));
     if (bad > bad_before) {
       add(percent(bad) + " of the triangles are not well-centered, " + percent(bad_before) +
           " of the input's: energy " + std::string(settings_.energy().name) + " does not ask for that, energy BP does");

@@ -9,8 +9,8 @@
 namespace temper {
 
 /// Returns the part of the triangles that is not well-centered.
-[[nodiscard]] inline double bad_part(const Mesh& mesh, std::size_t bad) {
-  return static_cast<double>(bad) / static_cast<double>(mesh.n_triangles());
+[[nodiscard]] inline double bad_part(std::size_t n_triangles, std::size_t bad) {
+  return static_cast<double>(bad) / static_cast<double>(n_triangles);
 }
 
 /// Facts about the end of a run that are not in the report.

@@ -29,40 +29,44 @@ std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, const Settings& setti
   return restore_regularity(copy).hidden;
 }
 
-/// A mesh that may be returned to the user.
+/// A mesh that may be returned to the user: in the user's units, and in an order in which stars are near in memory.
 struct Result {
-  Mesh mesh;
+  WorkingCopy work;
   IdVector<VertexId, VertexId> vertices;  ///< for OptimizeReport
   MeshScore score;
   SizeReport size;
 };
 
-/// `model`: in the user's units. Measures that the user's order would scatter over memory come before the change of
-/// order. Data that are no longer needed are freed before the next measure.
-Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, const EnergyModel& model,
+/// Sizes take time. Besides the user only some notes need them.
+bool wants_sizes(const Settings& settings) {
+  return settings.hooks.measures_sizes || settings.options.size_field || settings.size_field;
+}
+
+/// `model`: in the user's units. Data that are no longer needed are freed before the next measure.
+Result result_of(InputMesh& input, WorkingCopy work, const Settings& settings, const EnergyModel& model,
                  std::optional<AccuracySizes> sizes) {
   Executor* const executor = settings.executor();
   Result result;
-  const bool for_accuracy = sizes.has_value(), scattered = is_scattered(input);
+  const bool for_accuracy = sizes.has_value(), scattered = input.is_scattered();
   VertexSizes own;
   if (for_accuracy) own = scattered ? sizes->in_user_units(work, executor) : sizes->in_user_terms(work, executor);
   sizes.reset();
-  const auto measure = [&](const Mesh& mesh, const IdVector<VertexId, VertexId>& numbers) {
-    result.score = score(mesh, settings, model, for_accuracy ? &own : nullptr);
-    own = {};
-    result.size = measure_size(mesh, field_of(input, settings), executor, numbers);
-  };
   if (work.has_gaps || work.has_inserted()) result.vertices = work.user_vertices();
+  const bool on_sphere = !work.units.space.is_plane();  // elsewhere nothing is rounded
+  work.leave_frame();
   if (scattered) {
-    work.leave_frame();
-    take_back_rounding(input, work.order.vertices, work.mesh);
-    measure(work.mesh, work.order.vertices);
-    result.mesh = std::move(work).in_user_order(executor);
+    if (on_sphere) take_back_rounding(input.whole(), work.order->vertices, work.mesh);
   } else {
-    result.mesh = std::move(work).in_user_terms(executor);  // frees the data of the order
-    take_back_rounding(input, result.vertices, result.mesh);
-    measure(result.mesh, result.vertices);
+    work.mesh = std::move(work).in_user_order(executor);
+    if (on_sphere) take_back_rounding(input.whole(), result.vertices, work.mesh);
   }
+  result.score = score(work.mesh, settings, model, for_accuracy ? &own : nullptr);
+  own = {};
+  if (wants_sizes(settings)) {
+    const auto& numbers = scattered ? work.order->vertices : result.vertices;
+    result.size = measure_size(work.mesh, field_of(input.whole(), settings), executor, numbers);
+  }
+  result.work = std::move(work);
   return result;
 }
 
@@ -76,12 +80,21 @@ WorkingCopy made_regular(const Mesh& mesh, const Settings& settings, SweepState 
   return work;
 }
 
+/// Returns the numbers in the original; none if all are equal.
+IdVector<VertexId, VertexId> numbers_of(const NearbyCopy& near) {
+  IdVector<VertexId, VertexId> numbers;
+  if (near.is_original()) return numbers;
+  numbers.reserve(near.mesh().n_vertices());
+  for (const VertexId v : near.mesh().vertices()) numbers.push_back(near.original(v));
+  return numbers;
+}
+
 /// Counts removed and inserted vertices.
-void count_changes(const Mesh& input, OptimizeReport& report) {
+void count_changes(std::size_t n_input_vertices, OptimizeReport& report) {
   report.vertices_removed = report.vertices_inserted = 0;
   if (report.vertices.empty()) return;
   for (const VertexId v : report.vertices) report.vertices_inserted += v.valid() ? 0 : 1;
-  report.vertices_removed = input.n_vertices() - (report.vertices.size() - report.vertices_inserted);
+  report.vertices_removed = n_input_vertices - (report.vertices.size() - report.vertices_inserted);
 }
 
 /// Says whether flips alone improve a returned input. Edges that hidden vertices keep irregular do not count.
@@ -99,25 +112,27 @@ std::string_view name(Stopped stopped) {
   return kNames[static_cast<std::size_t>(stopped)];
 }
 
-InputMeasures::InputMeasures(const Mesh& mesh, const Settings& settings, std::optional<AccuracySizes>& sizes) {
+InputMeasures::InputMeasures(InputMesh& input, const Settings& settings, std::optional<AccuracySizes>& sizes) {
   Executor* const executor = settings.executor();
-  const NearbyCopy near(mesh, executor);
-  counts = count(near.mesh(), settings);
-  IdVector<VertexId, VertexId> numbers;
-  if (!near.is_original()) {
-    for (const VertexId v : near.mesh().vertices()) numbers.push_back(near.original(v));
-  }
+  const NearbyCopy near(input.any_order(), executor);
+  const Mesh& mesh = near.mesh();
+  if (settings.hooks.viewer) settings.hooks.viewer(mesh);
+  counts = count(mesh, settings);
+  const IdVector<VertexId, VertexId> copied = numbers_of(near);
+  const IdVector<VertexId, VertexId>& numbers = near.is_original() ? input.numbers() : copied;
   const bool has_field = settings.size_field || settings.options.size_field;
-  size = has_field ? measure_size(near.mesh(), field_of(mesh, settings), executor, numbers)
-                   : measure_size(near.mesh(), field_of(near.mesh(), settings), executor);
+  if (wants_sizes(settings)) {
+    size = has_field ? measure_size(mesh, field_of(mesh, settings), executor, numbers)
+                     : measure_size(mesh, field_of(mesh, settings), executor);
+  }
   if (settings.objective == Objective::energy) return;
-  sizes.emplace(near, settings.options.size_field, executor);
+  sizes.emplace(mesh, numbers, settings.options.size_field, executor);
   VertexSizes there;
   for (const VertexId v : numbers) there.push_back(sizes->of_input()[v]);
-  score = temper::score(near.mesh(), counts, settings, settings.model, numbers.empty() ? &sizes->of_input() : &there);
+  score = temper::score(mesh, counts, settings, settings.model, numbers.empty() ? &sizes->of_input() : &there);
 }
 
-void give_back(Mesh& mesh, Candidate best, const Settings& settings, const SweepState& state,
+void give_back(InputMesh& input, Candidate best, const Settings& settings, const SweepState& state,
                const InputMeasures& of_input, std::optional<AccuracySizes> sizes, Run& run) {
   OptimizeReport& report = run.report;
   report.objective = settings.objective;
@@ -125,42 +140,48 @@ void give_back(Mesh& mesh, Candidate best, const Settings& settings, const Sweep
   recorder.begin_sweep(run.next_sweep());
   const EnergyModel model = in_user_units(state.model, best.work.units);
   const bool for_accuracy = sizes.has_value();
-  Result result = result_of(mesh, std::move(best.work), settings, model, std::move(sizes));
-  const MeshScore before = of_input.score ? *of_input.score : score(mesh, of_input.counts, settings, model, nullptr);
+  Result result = result_of(input, std::move(best.work), settings, model, std::move(sizes));
+  const MeshScore before =
+      of_input.score ? *of_input.score : score(input.whole(), of_input.counts, settings, model, nullptr);
   report.size.before = report.size.after = of_input.size;
   report.objective_before = before.energy;
-  const double bad_part_before = bad_part(mesh, of_input.counts.bad);
+  const double bad_part_before = bad_part(input.n_triangles(), of_input.counts.bad);
   // Flips that make the input regular have priority over all other criteria.
   const bool may_be_better = before < result.score || result.score.bad > 0 || result.score.non_regular > 0;
   bool flips = may_be_better && lacks_flips(of_input.counts, settings, run.facts);
-  Result input;
-  input.score = before;
+  Result as_given;
+  as_given.score = before;
   if (flips) {
     Settings silent = settings;
     silent.hooks.tracer = {};
     std::optional<AccuracySizes> again;
-    if (for_accuracy)
-      again.emplace(NearbyCopy(mesh, settings.executor()), settings.options.size_field, settings.executor());
-    input = result_of(mesh, made_regular(mesh, silent, state, report.sweeps), settings, model, std::move(again));
-    if (input.score.beyond_guard > 0) {  // then the input is better as it was
+    if (for_accuracy) {
+      const NearbyCopy near(input.whole(), settings.executor());
+      again.emplace(near.mesh(), numbers_of(near), settings.options.size_field, settings.executor());
+    }
+    as_given =
+        result_of(input, made_regular(input.whole(), silent, state, report.sweeps), settings, model, std::move(again));
+    if (as_given.score.beyond_guard > 0) {  // then the input is better as it was
       flips = false;
-      input = {};
-      input.score = before;
+      as_given = {};
+      as_given.score = before;
     }
   }
-  const bool worse = run.facts.keeps_input || !replaces(result.score, input.score, Requirement::not_worse);
+  const bool worse = run.facts.keeps_input || !replaces(result.score, as_given.score, Requirement::not_worse);
   if (worse) {
     recorder.returned_to(-1);
-    if (flips && recorder.on()) static_cast<void>(made_regular(mesh, settings, state, report.sweeps));
-    result = std::move(input);
+    if (flips && recorder.on()) static_cast<void>(made_regular(input.whole(), settings, state, report.sweeps));
+    result = std::move(as_given);
   }
   report.vertices = std::move(result.vertices);
   report.objective_after = result.score.energy;
-  count_changes(mesh, report);
+  count_changes(input.n_vertices(), report);
   if (!worse || flips) {
     report.size.after = result.size;
-    mesh = std::move(result.mesh);
+    if (settings.hooks.viewer) settings.hooks.viewer(result.work.mesh);
+    input.replace(std::move(result.work));
   }
+  const Mesh& mesh = input.whole();
   report.hidden = hidden_vertices_of(mesh, settings);
 
   add_notes(mesh, settings, run.facts, {worse, flips, for_accuracy, result.score.bad, bad_part_before}, report);

@@ -7,6 +7,7 @@
 #include "optimize/options/settings.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/run/run.hpp"
+#include "optimize/working/input_mesh.hpp"
 
 namespace temper {
 
@@ -14,16 +15,16 @@ namespace temper {
 /// sweeps need not wait. Run::begin_sweeps() takes their time as an estimate of the time at the end.
 struct InputMeasures {
   /// `sizes`: also computed, for objectives other than `energy`.
-  InputMeasures(const Mesh& mesh, const Settings& settings, std::optional<AccuracySizes>& sizes);
+  InputMeasures(InputMesh& input, const Settings& settings, std::optional<AccuracySizes>& sizes);
 
   MeshScore counts;
   SizeReport size;
   std::optional<MeshScore> score;  ///< if it does not depend on the run's energies
 };
 
-/// Puts the candidate into `mesh`, unless `mesh` is better, and completes the report. `sizes`: the accuracy
-/// objective's.
-void give_back(Mesh& mesh, Candidate best, const Settings& settings, const SweepState& state,
+/// Puts the candidate in the place of the input, unless the input is better, and completes the report. `sizes`: the
+/// accuracy objective's.
+void give_back(InputMesh& input, Candidate best, const Settings& settings, const SweepState& state,
                const InputMeasures& of_input, std::optional<AccuracySizes> sizes, Run& run);
 
 }  // namespace temper

@@ -66,13 +66,13 @@ bool replaces(const WorkingCopy& now, const WorkingCopy& best, Requirement requi
                   score(best.mesh, settings, model, nullptr, best.units), required);
 }
 
-bool is_judged_by_errors(const Mesh& input, const Settings& settings) {
+bool is_judged_by_errors(std::size_t n_vertices, const Space& space, const Settings& settings) {
   const OptimizeOptions& o = settings.options;
   const bool is_free = !o.objective && settings.objective != Objective::energy && o.accuracy.sweeps > 0 &&
                        o.unknowns != Unknowns::positions && o.boundary != BoundaryVertices::split && !o.problem;
   return is_free && o.scheme != Scheme::stars && settings.hooks.solvers.squared_errors &&
-         !settings.accuracy.keeps_lengths() && input.space().kind() == SpaceKind::plane &&
-         input.n_vertices() <= static_cast<std::size_t>(o.solver_error.most_vertices);
+         !settings.accuracy.keeps_lengths() && space.kind() == SpaceKind::plane &&
+         n_vertices <= static_cast<std::size_t>(o.solver_error.most_vertices);
 }
 
 bool is_sound(const Mesh& input, const MeshScore& counts, const Settings& settings) {

@@ -58,7 +58,7 @@ enum class Requirement {
 
 /// Says whether measured errors of the solver decide between the mesh of the run and its rivals. For this the target
 /// must have a solver, the objective must be left to the run, and the build must be able to measure.
-[[nodiscard]] bool is_judged_by_errors(const Mesh& input, const Settings& settings);
+[[nodiscard]] bool is_judged_by_errors(std::size_t n_vertices, const Space& space, const Settings& settings);
 
 /// Says whether the input needs no change: it is well-centered with margins.
 [[nodiscard]] bool is_sound(const Mesh& input, const MeshScore& counts, const Settings& settings);

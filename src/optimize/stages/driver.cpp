@@ -341,13 +341,13 @@ void Driver::keep(const Phase& phase, double energy, int sweep) {
 }
 
 int Driver::return_best(const Phase& phase, int last_sweep) {
-  const bool has_best = best_.has_value() || !best_points_.empty();
+  const auto points = std::exchange(best_points_, {});  // frees them in any case
+  const bool has_best = best_.has_value() || !points.empty();
   if (!has_best || !(best_energy_ < run_.report.history.back().energy)) return last_sweep;
   if (best_) {
     work_ = (*std::exchange(best_, std::nullopt)).work;
   } else {
-    for (const VertexId v : mesh_.vertices()) mesh_.set_point(v, best_points_[v]);
-    best_points_ = {};
+    for (const VertexId v : mesh_.vertices()) mesh_.set_point(v, points[v]);
   }
   recorder_.returned_to(best_sweep_);
   if (phase.keeps() == Phase::Keeps::best_sweep) run_.facts.energy_rose = true;

@@ -113,13 +113,13 @@ std::vector<Restart> restarts_by_weights(const Mesh& mesh, const Settings& setti
 }
 
 /// Makes the input regular and cuts its boundary for a restart; or cuts the best mesh at its bad triangles.
-std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Settings& settings, const Restart& restart) {
+std::optional<InputError> prepare(Driver& driver, InputMesh& input, const Settings& settings, const Restart& restart) {
   if (restart.splitting == BoundarySplitting::where_bad) {
     driver.split_where_bad();
     return std::nullopt;
   }
   if (!settings.policy.keeps_connectivity() && !driver.make_regular()) {
-    return hidden_vertices_error(input, settings.hooks.names);
+    return hidden_vertices_error(input.whole(), settings.hooks.names);
   }
   if (restart.splitting == BoundarySplitting::graded) driver.grade_boundary();
   return std::nullopt;
@@ -158,17 +158,15 @@ Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, Swe
     if (best && !may_gain(i)) continue;
     const BestBefore kept(run.best_before, best ? &best->work : nullptr);
     const bool goes_on = all[i].splitting == BoundarySplitting::where_bad;
-    Candidate now =
-        goes_on ? *best : Candidate{WorkingCopy(input.restore_twins(), settings.policy.order, settings.executor())};
+    Candidate now = goes_on ? *best : Candidate{input.copy()};
     Driver driver(now.work, settings, state, run);
     if (best) driver.recorder().returned_to(goes_on ? best->sweep : -1);
-    if (auto error = prepare(driver, input.restore_twins(), settings, all[i])) return *std::move(error);
+    if (auto error = prepare(driver, input, settings, all[i])) return *std::move(error);
     if (!best) {
       if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
       all = restarts_for(now.work.mesh, settings);
       run.facts.input_flips = run.report.flips;
     }
-    input.drop_twins();
     const Restart& restart = all[i];
     now.sweep = driver.restart(restart, i + 1 < all.size() || repairs(settings));
     // The user asks for cuts, so a mesh without them must have fewer bad triangles.
@@ -198,12 +196,11 @@ Candidate reweighted(Candidate best, InputMesh& input, const Settings& settings,
   if (!may || !run.goes_on() || !has_bad(best, settings) || are_apart(best, settings)) return best;
   const BestBefore kept(run.best_before, &best.work);
   for (std::size_t i = 0; i < planned.size(); ++i) {
-    Candidate now{WorkingCopy(input.restore_twins(), own.policy.order, own.executor())};
+    Candidate now{input.copy()};
     Driver driver(now.work, own, state, run);
     driver.recorder().returned_to(-1);
     driver.make_regular();  // cannot fail: it succeeded in the first restart
     if (i == 0) planned = restarts_by_weights(now.work.mesh, own);
-    input.drop_twins();
     if (planned.empty()) {
       driver.recorder().returned_to(best.sweep);
       break;

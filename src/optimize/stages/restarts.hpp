@@ -2,7 +2,7 @@
 #pragma once
 
 #include "optimize/run/run.hpp"
-#include "optimize/working/working_copy.hpp"
+#include "optimize/working/input_mesh.hpp"
 
 namespace temper {
 

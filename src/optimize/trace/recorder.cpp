@@ -18,7 +18,7 @@ void Recorder::record(TraceEvent e) const {
   e.before *= energy_unit_;
   e.after *= energy_unit_;
   const auto name = [this](VertexId& v) {
-    if (v.valid()) v = work_.order.vertices[v];
+    if (v.valid()) v = work_.order->vertices[v];
   };
   name(e.vertex);
   for (VertexId& v : e.quad) name(v);

@@ -26,15 +26,22 @@ IdVector<IdType, IdType> ranks(const IdVector<IdType, IdType>& order) {
 WorkingCopy::WorkingCopy(const Mesh& user, SweepOrder sweeps, Executor* executor) : units(WorkingUnits::of(user)) {
   if (sweeps == SweepOrder::hilbert) {
     OrderedMesh ordered = hilbert_ordered(user, executor);
-    mesh = std::move(ordered.mesh);
-    order = std::move(ordered.order);
-    n_vertices_named = mesh.n_vertices();
-    n_triangles_named = mesh.n_triangles();
+    *this = WorkingCopy(std::move(ordered.mesh), SharedOrder(std::move(ordered.order)));
   } else {
     mesh = user;
     name_new();
+    n_input_vertices = n_vertices_named;
+    units.enter(mesh);
   }
-  n_input_vertices = n_vertices_named;
+}
+
+WorkingCopy::WorkingCopy(Mesh ordered, SharedOrder of)
+    : mesh(std::move(ordered)),
+      units(WorkingUnits::of(mesh)),
+      order(std::move(of)),
+      n_input_vertices(mesh.n_vertices()),
+      n_vertices_named(mesh.n_vertices()),
+      n_triangles_named(mesh.n_triangles()) {
   units.enter(mesh);
 }
 
@@ -47,19 +54,21 @@ WorkingCopy WorkingCopy::part(const Mesh& part) {
 }
 
 VertexId WorkingCopy::from_user(VertexId v) const {
-  const auto found = std::find(order.vertices.begin(), order.vertices.end(), v);
-  if (found == order.vertices.end()) return {};
-  return VertexId(static_cast<std::size_t>(found - order.vertices.begin()));
+  const auto found = std::find(order->vertices.begin(), order->vertices.end(), v);
+  if (found == order->vertices.end()) return {};
+  return VertexId(static_cast<std::size_t>(found - order->vertices.begin()));
 }
 
 void WorkingCopy::name_new() {
-  while (order.vertices.size() < mesh.n_vertices()) order.vertices.push_back(VertexId(n_vertices_named++));
-  while (order.triangles.size() < mesh.n_triangles()) order.triangles.push_back(TriangleId(n_triangles_named++));
+  if (order->vertices.size() == mesh.n_vertices() && order->triangles.size() == mesh.n_triangles()) return;
+  auto& [vertices, triangles] = order.own();
+  while (vertices.size() < mesh.n_vertices()) vertices.push_back(VertexId(n_vertices_named++));
+  while (triangles.size() < mesh.n_triangles()) triangles.push_back(TriangleId(n_triangles_named++));
 }
 
 Compaction WorkingCopy::compact() {
   Compaction kept = mesh.compact();
-  order = {kept_of(order.vertices, kept.vertices), kept_of(order.triangles, kept.triangles)};
+  order = SharedOrder({kept_of(order->vertices, kept.vertices), kept_of(order->triangles, kept.triangles)});
   has_gaps = true;
   return kept;
 }
@@ -81,17 +90,18 @@ void WorkingCopy::leave_frame() {
 }
 
 Mesh WorkingCopy::in_user_order(Executor* executor) && {
+  if (order->vertices.empty()) return std::move(mesh);
   if (has_gaps) {
-    restore_order(mesh, {ranks(order.vertices), ranks(order.triangles)}, executor);
+    restore_order(mesh, {ranks(order->vertices), ranks(order->triangles)}, executor);
   } else {
-    restore_order(mesh, order, executor);
+    restore_order(mesh, *order, executor);
   }
   order = {};
   return std::move(mesh);
 }
 
 IdVector<VertexId, VertexId> WorkingCopy::user_vertices() const {
-  IdVector<VertexId, VertexId> numbers = order.vertices;
+  IdVector<VertexId, VertexId> numbers = order->vertices;
   for (VertexId& v : numbers) {
     if (v.index >= n_input_vertices) v = VertexId();
   }

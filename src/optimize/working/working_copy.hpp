@@ -4,8 +4,9 @@
 // mesh that is never compacted, as in a replay, slots and numbers are equal.
 #pragma once
 
-#include "mesh/mesh_editor.hpp"
-#include "mesh/twins.hpp"
+#include <memory>
+#include <utility>
+
 #include "optimize/working/working_units.hpp"
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
@@ -21,10 +22,27 @@ template <class Id, class T>
   return result;
 }
 
+/// An order that copies share until one of them changes it. Copies belong to one thread.
+class SharedOrder {
+ public:
+  SharedOrder() : SharedOrder(MeshOrder()) {}
+  explicit SharedOrder(MeshOrder order) : order_(std::make_shared<MeshOrder>(std::move(order))) {}
+
+  const MeshOrder* operator->() const { return order_.get(); }
+  const MeshOrder& operator*() const { return *order_; }
+  MeshOrder& own() {
+    if (order_.use_count() > 1) order_ = std::make_shared<MeshOrder>(*order_);
+    return *order_;
+  }
+
+ private:
+  std::shared_ptr<MeshOrder> order_;
+};
+
 struct WorkingCopy {
   Mesh mesh;
   WorkingUnits units;
-  MeshOrder order;                    ///< the user's numbers, and further ones for new elements
+  SharedOrder order;                  ///< the user's numbers, and further ones for new elements
   bool has_gaps = false;              ///< in the numbers, after vertices have been removed
   std::size_t n_input_vertices = 0;   ///< in the user's mesh; vertices from this number on are inserted
   std::size_t n_vertices_named = 0;   ///< numbers given so far, input included; none is given twice
@@ -33,6 +51,8 @@ struct WorkingCopy {
   /// An empty copy.
   WorkingCopy() = default;
   WorkingCopy(const Mesh& user, SweepOrder sweeps, Executor* executor = nullptr);
+  /// Takes a mesh in the user's units that is in this order already.
+  WorkingCopy(Mesh ordered, SharedOrder order);
   /// The working copy of a part of a mesh that has the right units already: numbers and coordinates stay.
   [[nodiscard]] static WorkingCopy part(const Mesh& part);
 
@@ -48,7 +68,7 @@ struct WorkingCopy {
   /// is used up.
   [[nodiscard]] Mesh in_user_terms(Executor* executor = nullptr) const&;
   [[nodiscard]] Mesh in_user_terms(Executor* executor = nullptr) &&;
-  /// The two steps of in_user_terms().
+  /// The two steps of in_user_terms(). The second one changes nothing if it is made again.
   void leave_frame();
   [[nodiscard]] Mesh in_user_order(Executor* executor) &&;
   /// Returns the number in the input of each vertex of in_user_terms(), invalid if inserted.
@@ -59,36 +79,6 @@ struct WorkingCopy {
 struct Candidate {
   WorkingCopy work;
   int sweep = 0;
-};
-
-// The caller's mesh while a run works on copies of it. If the caller says that nobody reads the mesh, its twins take no
-// memory meanwhile: they follow from the corners.
-
-class InputMesh {
- public:
-  /// `may_fold`: whether nobody else reads the mesh during the life of this object.
-  InputMesh(Mesh& mesh, bool may_fold, Executor* executor) : mesh_(mesh), may_fold_(may_fold), executor_(executor) {}
-  InputMesh(const InputMesh&) = delete;
-  InputMesh& operator=(const InputMesh&) = delete;
-  ~InputMesh() { restore_twins(); }
-
-  /// Returns the mesh as the caller gave it.
-  Mesh& restore_twins() {
-    if (folded_) find_twins(mesh_, executor_);
-    folded_ = false;
-    return mesh_;
-  }
-  /// Nobody may read the mesh until restore_twins() is called.
-  void drop_twins() {
-    if (!may_fold_) return;
-    MeshEditor(mesh_).release_twins();
-    folded_ = true;
-  }
-
- private:
-  Mesh& mesh_;
-  bool may_fold_, folded_ = false;
-  Executor* executor_;
 };
 
 }  // namespace temper

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "mesh/curve.hpp"
+#include "mesh/folded_mesh.hpp"
 #include "support/std_threads.hpp"
 #include "temper/generate.hpp"
 #include "unit/mesh/random_soup.hpp"
@@ -94,6 +95,24 @@ TEST(HilbertOrder, OfACopyIsThatOfTheMeshForAnyNumberOfThreads) {
       }
     }
   }
+}
+
+TEST(FoldedMesh, UnfoldsBitForBit) {
+  Rng rng(26);
+  Mesh mesh = built(shuffled(test::squares(150), rng));
+  const auto folds = [&] {
+    test::StdThreads threads(3);
+    return FoldedMesh(mesh).unfold(&threads) == mesh;
+  };
+  EXPECT_TRUE(folds());  // in any order
+  hilbert_order(mesh);
+  EXPECT_TRUE(folds());
+  mesh.set_weight(VertexId(6), -0.0);
+  EXPECT_TRUE(std::signbit(FoldedMesh(mesh).unfold(nullptr).weight(VertexId(6))));
+  mesh.set_weight(VertexId(5), -0.25), mesh.set_fixed(VertexId(7), true), mesh.set_region(TriangleId(3), -5);
+  EXPECT_TRUE(folds());
+  mesh.set_constrained(HalfedgeId(7), true), mesh.set_diagonal(HalfedgeId(70));
+  EXPECT_TRUE(folds());
 }
 
 TEST(HilbertOrder, IsUndoneForAnyNumberOfThreads) {
@@ -206,7 +225,7 @@ TEST(NearbyCopy, IsTheMeshItselfUnlessThatIsScattered) {
     ASSERT_EQ(copy.mesh().point(v), scattered.point(copy.original(v)));
   }
   for (const TriangleId t : copy.mesh().triangles()) {
-    const auto here = copy.mesh().corners(t), there = scattered.corners(copy.original(t));
+    const auto here = copy.mesh().corners(t), there = scattered.corners(copy.original_triangles()[t]);
     for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(copy.original(here[k]), there[k]);
   }
   const NearbyCopy again(copy.mesh(), nullptr);

@@ -277,7 +277,7 @@ Mesh second_phase(const Mesh& input, const OptimizeOptions& options, std::size_t
   WorkingCopy work(input, options.paper.order);
   const Settings settings = *make_settings(options, work.mesh, work.units, hooks);
   Run run(options, hooks, input);
-  AccuracySizes sizes(NearbyCopy(input, hooks.executor), options.size_field, hooks.executor);
+  AccuracySizes sizes(input, {}, options.size_field, hooks.executor);
   AccuracyPhase phase(work, settings, run, sizes.lend(work, hooks.executor));
   Driver(work, phase.settings(), phase.state(), run, part_size).run(phase, 0);
   EXPECT_GT(run.report.sweeps, 0);
@@ -401,8 +401,7 @@ TEST(Accuracy, WorksAroundWhatCannotBeWellCentered) {
 
 TEST(Accuracy, SizesAreSmoothedAndGoWithTheirVertices) {
   const Mesh mesh = *graded_mesh({.finest = 1.0 / 16});
-  const NearbyCopy near(mesh, nullptr);
-  const AccuracySizes sizes(near, {}, nullptr);
+  const AccuracySizes sizes(mesh, {}, {}, nullptr);
   ASSERT_EQ(sizes.of_input().size(), mesh.n_vertices());
   double rough = 0, smooth = 0;
   for (const HalfedgeId h : mesh.halfedges()) {
@@ -415,13 +414,13 @@ TEST(Accuracy, SizesAreSmoothedAndGoWithTheirVertices) {
   WorkingCopy work(mesh, SweepOrder::hilbert);
   const VertexSizes here = sizes.of(work, nullptr), back = sizes.in_user_terms(work, nullptr);
   for (const VertexId v : mesh.vertices()) {
-    EXPECT_EQ(here[v] * work.units.scale, sizes.of_input()[work.order.vertices[v]]);
+    EXPECT_EQ(here[v] * work.units.scale, sizes.of_input()[work.order->vertices[v]]);
     EXPECT_EQ(back[v], sizes.of_input()[v]);
   }
-  const AccuracySizes own(near, input_size_field(mesh), nullptr);
+  const AccuracySizes own(mesh, {}, input_size_field(mesh), nullptr);
   for (const VertexId v : mesh.vertices()) EXPECT_EQ(own.of_input()[v], sizes.of_input()[v]) << "the same field";
   const std::vector<double> twos(mesh.n_vertices(), 2.0);
-  const AccuracySizes even(near, *SizeField::from_values(mesh, twos), nullptr);
+  const AccuracySizes even(mesh, {}, *SizeField::from_values(mesh, twos), nullptr);
   for (const VertexId v : mesh.vertices()) EXPECT_NEAR(even.of_input()[v], 2, 1e-14);
 }
 
@@ -438,7 +437,7 @@ std::string refusal_of(OptimizeOptions options) {
 TEST(Accuracy, SizesThatWereLentAreWhatTheyWere) {
   const auto mesh = random_mesh({.vertices = 500, .seed = 3});
   ASSERT_TRUE(mesh);
-  AccuracySizes sizes(NearbyCopy(*mesh, nullptr), {}, nullptr);
+  AccuracySizes sizes(*mesh, {}, {}, nullptr);
   const VertexSizes before = sizes.of_input();
   const WorkingCopy work(*mesh, SweepOrder::hilbert);
   const VertexSizes own = sizes.of(work, nullptr);

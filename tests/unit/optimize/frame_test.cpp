@@ -1,8 +1,10 @@
 // The way into the optimizer's units and back is exact.
 #include <gtest/gtest.h>
 
+#include "optimize/working/input_mesh.hpp"
 #include "optimize/working/working_units.hpp"
 #include "support/lattice.hpp"
+#include "temper/generate.hpp"
 
 namespace temper::test {
 namespace {
@@ -48,6 +50,22 @@ TEST(WorkingUnits, SnapsToWhatTheUsersCoordinatesCanHold) {
     const Vec2 p = units.snap(Vec2{noise(), noise()});
     const double user = p.x * units.scale + units.center.x;
     EXPECT_EQ((user - units.center.x) / units.scale, p.x);
+  }
+}
+
+TEST(InputMesh, ComesBackBitForBit) {
+  for (const std::size_t n : {400u, 33000u}) {
+    const Mesh original = *random_mesh({.vertices = n, .seed = 4});
+    const Mesh expected = WorkingCopy(original, SweepOrder::hilbert).mesh;
+    Mesh mesh = original;
+    {
+      InputMesh input(mesh, true, SweepOrder::hilbert, nullptr);
+      EXPECT_EQ(input.copy().mesh, expected);
+      EXPECT_EQ(input.whole(), original);
+      for (int i = 0; i < 2; ++i) EXPECT_EQ(input.copy().mesh, expected);
+      EXPECT_LT(mesh.memory_bytes(), original.memory_bytes());
+    }
+    EXPECT_EQ(mesh, original);
   }
 }
 

@@ -141,6 +141,18 @@ TEST(Optimize, OfAMeshThatNobodyLooksAtIsTheSame) {
     EXPECT_EQ(unseen, seen);
     EXPECT_EQ(unseen.validate(), std::nullopt);
   }
+  const auto scattered = random_mesh({.vertices = 33000, .seed = 4});
+  ASSERT_TRUE(scattered);
+  const OptimizeOptions one_sweep = {.repair = Repair::none, .max_sweeps = 1};
+  Mesh seen = *scattered, unseen = *scattered;
+  std::vector<std::size_t> viewed;
+  const auto view = [&](const Mesh& mesh) { viewed.push_back(mesh.n_vertices()); };
+  const auto expected = optimize(seen, one_sweep),
+             report = optimize(unseen, one_sweep, {.exclusive = true, .viewer = view});
+  ASSERT_TRUE(expected && report);
+  EXPECT_EQ(unseen, seen);
+  EXPECT_EQ(report->objective_after, expected->objective_after);
+  EXPECT_EQ(viewed, std::vector<std::size_t>(2, 33000));
   Mesh refused = *made;
   EXPECT_FALSE(optimize(refused, {.max_sweeps = -1}, {.exclusive = true}));
   EXPECT_EQ(refused, *made);

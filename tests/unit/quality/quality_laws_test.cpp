@@ -225,11 +225,16 @@ TEST(QualityLaws, OtherNumbersForVerticesAndTrianglesChangeNothing) {
 TEST(QualityLaws, ScatteredNumbersChangeNothingEither) {
   const Mesh scattered = *random_mesh({.vertices = 60000, .seed = 4});
   const OrderedMesh ordered = hilbert_ordered(scattered);
-  const Quality of_scattered = quality(scattered), of_ordered = quality(ordered.mesh);
+  Mesh in_place = scattered;
+  const Quality of_scattered = quality(scattered), of_ordered = quality(ordered.mesh),
+                there = quality_in_place(in_place);
+  EXPECT_EQ(in_place, scattered);
+  expect_same_energies(of_scattered, there);
   expect_same_shape(of_scattered, of_ordered);
   expect_same_energies(of_scattered, of_ordered);
   ASSERT_EQ(of_scattered.worst.size(), of_ordered.worst.size());
   for (std::size_t i = 0; i < of_ordered.worst.size(); ++i) {
+    EXPECT_EQ(of_scattered.worst[i].triangle, there.worst[i].triangle);
     EXPECT_EQ(of_scattered.worst[i].triangle, ordered.order.triangles[of_ordered.worst[i].triangle]);
   }
 }
