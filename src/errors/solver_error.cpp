@@ -6,12 +6,13 @@
 // of J by any of them is the derivative of J − λᵀ(A v − b) with v and λ kept.
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <iterator>
+#include <memory>
+#include <mutex>
 #include <numbers>
 #include <optional>
 #include <utility>
 
-#include "base/rng.hpp"
 #include "base/sine_cosine.hpp"
 #include "errors/adjoint.hpp"
 #include "errors/diffusion.hpp"
@@ -25,15 +26,11 @@ namespace temper {
 namespace error_detail {
 namespace {
 
-constexpr double kLeastWaveNumber = 1, kMostWaveNumber = 4;
-constexpr std::size_t kWaves = 64, kWavesOfLarge = 24;
-constexpr std::size_t kLarge = 4000;  // vertices: smaller meshes lose more by fewer waves
-
-/// sin(k · p + phase).
-struct Wave {
-  Vec2 k;
-  double phase = 0;
-};
+// Wave numbers in radians per half of the bounding box, one for each block of waves.
+constexpr double kWaveNumbers[] = {2, 4};
+// A block has a sine and a cosine in each direction. So the sum of their squares does not depend on the place. The sum
+// of k k k k over four directions does not depend on directions.
+constexpr std::size_t kDirections = kLanes / 2;
 
 /// ½∫ cos(s h) ds and ½∫ s sin(s h) ds over [−1, 1]: a wave's means over a segment on which its angle changes by 2h.
 struct SegmentMeans {
@@ -55,7 +52,7 @@ struct SegmentMeans {
 struct WaveBlock {
   Lanes x = {}, y = {}, phase = {};  // of k · p + phase
   Lanes k2 = {};
-  Lanes share = {};  // c of J, relative to the mean square ½, over k⁴ in the frame, in the mean; 0 if there is no wave
+  Lanes share = {};  // c of J, relative to the mean square ½, over k⁴ in the frame, in the mean
 
   [[nodiscard]] SineCosine at(std::size_t i, Vec2 p) const { return sine_cosine(x[i] * p.x + y[i] * p.y + phase[i]); }
 };
@@ -70,20 +67,23 @@ struct ErrorSubject {
 /// A scheme on a mesh, its matrix factored. It solves for e directly: A e = b − A u.
 class Solver {
  public:
-  Solver(const ErrorSubject& subject, PointSystem points)
-      : s_(subject), points_(std::move(points)), matrix_(Cholesky::of(points_.n_unknowns(), points_.lower())) {}
+  Solver(const ErrorSubject& subject, PointSystem points, Cholesky& matrix)
+      : s_(subject),
+        points_(std::move(points)),
+        matrix_(matrix),
+        is_definite_(matrix_.factor(points_.n_unknowns(), points_.lower())) {}
   virtual ~Solver() = default;
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
-  [[nodiscard]] bool is_definite() const { return matrix_.has_value(); }
+  [[nodiscard]] bool is_definite() const { return is_definite_; }
   /// The squared error of a block of waves. If `by` is not null, adds its derivatives there.
   [[nodiscard]] virtual double error(const WaveBlock& waves, Adjoint* by) const = 0;
 
  protected:
   /// The solution at all points, 0 where it is given.
   [[nodiscard]] std::vector<Lanes> solved(std::vector<Lanes> sources) const {
-    matrix_->solve(points_, sources);
+    matrix_.solve(points_, sources);
     return sources;
   }
   [[nodiscard]] const ErrorSubject& subject() const { return s_; }
@@ -110,7 +110,8 @@ class Solver {
  private:
   const ErrorSubject& s_;
   PointSystem points_;
-  std::optional<Cholesky> matrix_;
+  Cholesky& matrix_;
+  bool is_definite_;
 };
 
 /// The derivative of −λᵀ A v by the coefficient between two points.
@@ -124,7 +125,8 @@ double by_coefficient(const Lanes& lambda_a, const Lanes& lambda_b, const Lanes&
 
 class VertexSolver final : public Solver {
  public:
-  explicit VertexSolver(const ErrorSubject& s) : Solver(s, vertex_system(s.dec, given_vertices(s.mesh))) {}
+  VertexSolver(const ErrorSubject& s, Cholesky& matrix)
+      : Solver(s, vertex_system(s.dec, given_vertices(s.mesh)), matrix) {}
 
   [[nodiscard]] double error(const WaveBlock& waves, Adjoint* by) const override {
     const auto& [mesh, dec, all] = subject();
@@ -180,7 +182,7 @@ class VertexSolver final : public Solver {
 
 class CellSolver final : public Solver {
  public:
-  explicit CellSolver(const ErrorSubject& s) : Solver(s, cell_system(s.dec, s.dec.transmissibility)) {}
+  CellSolver(const ErrorSubject& s, Cholesky& matrix) : Solver(s, cell_system(s.dec, s.dec.transmissibility), matrix) {}
 
   [[nodiscard]] double error(const WaveBlock& waves, Adjoint* by) const override {
     const auto& [mesh, dec, all] = subject();
@@ -275,24 +277,51 @@ class CellSolver final : public Solver {
 
 // --- the model -------------------------------------------------------------------------------------------------------
 
-/// In the frame: half the bounding box has length 1.
-std::vector<Wave> waves_of(const Mesh& mesh, const DiscretizationErrorOptions& options) {
-  const std::size_t n = options.fields.value_or(mesh.n_vertices() > kLarge ? kWavesOfLarge : kWaves);
-  Rng rng(options.seed);
-  std::vector<Wave> waves;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double turn = (static_cast<double>(i) + rng.uniform()) / static_cast<double>(n);
-    const double k = rng.uniform(kLeastWaveNumber, kMostWaveNumber);
-    const auto [sine, cosine] = sine_cosine(std::numbers::pi * turn);
-    waves.push_back({{k * cosine, k * sine}, rng.uniform(0, 2 * std::numbers::pi)});
+/// The waves of all blocks, in the units of a mesh. The directions of one block are halfway between those of the other.
+std::vector<WaveBlock> waves_of(const FieldFrame& frame, double area) {
+  constexpr std::size_t kBlocks = std::size(kWaveNumbers);
+  std::vector<WaveBlock> blocks(kBlocks);
+  for (std::size_t b = 0; b < kBlocks; ++b) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const std::size_t direction = 2 * (i / 2 * kBlocks + b) + 1;
+      const auto [sine, cosine] =
+          sine_cosine(std::numbers::pi * static_cast<double>(direction) / (2 * kBlocks * kDirections));
+      const double in_frame = kWaveNumbers[b], number = in_frame / frame.half_size;
+      const Vec2 k = number * Vec2{cosine, sine};
+      blocks[b].x[i] = k.x, blocks[b].y[i] = k.y;
+      blocks[b].phase[i] = (i % 2 == 0 ? 0 : std::numbers::pi / 2) - dot(k, frame.center);
+      blocks[b].k2[i] = number * number;
+      blocks[b].share[i] = 2 / (area * in_frame * in_frame * in_frame * in_frame * kBlocks * kLanes);
+    }
   }
-  return waves;
+  return blocks;
 }
+
+/// Matrices that the measurement of one mesh leaves to the next, whose connectivity is mostly the same.
+struct Matrices {
+  Cholesky at_vertices, in_cells;
+};
+
+/// Lends the last matrices, or new ones while they are lent.
+class LastMatrices {
+ public:
+  [[nodiscard]] auto take() {
+    const std::lock_guard lock(mutex_);
+    const auto give_back = [this](Matrices* m) {
+      const std::lock_guard here(mutex_);
+      last_.reset(m);
+    };
+    return std::unique_ptr<Matrices, decltype(give_back)>(last_ ? last_.release() : new Matrices, give_back);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unique_ptr<Matrices> last_;
+};
 
 class SolverErrorModel final : public DiscretizationError {
  public:
-  SolverErrorModel(const Mesh& mesh, const DiscretizationErrorOptions& options)
-      : scheme_(options.scheme), waves_(waves_of(mesh, options)) {}
+  explicit SolverErrorModel(Scheme scheme) : scheme_(scheme) {}
 
   [[nodiscard]] std::vector<double> errors(const Mesh& mesh, Executor* executor) const override {
     return measure(mesh, nullptr, executor);
@@ -307,11 +336,12 @@ class SolverErrorModel final : public DiscretizationError {
   [[nodiscard]] std::vector<double> measure(const Mesh& mesh, std::vector<Gradient>* gradients,
                                             Executor* executor) const {
     const ErrorSubject subject = subject_of(mesh);
+    const auto matrices = last_.take();
     std::optional<VertexSolver> at_vertices;
     std::optional<CellSolver> in_cells;
     std::vector<const Solver*> solvers;
-    if (scheme_ != Scheme::cell) solvers.push_back(&at_vertices.emplace(subject));
-    if (scheme_ != Scheme::vertex) solvers.push_back(&in_cells.emplace(subject));
+    if (scheme_ != Scheme::cell) solvers.push_back(&at_vertices.emplace(subject, matrices->at_vertices));
+    if (scheme_ != Scheme::vertex) solvers.push_back(&in_cells.emplace(subject, matrices->in_cells));
     if (!std::all_of(solvers.begin(), solvers.end(), [](const Solver* s) { return s->is_definite(); })) return {};
 
     std::vector<double> errors;
@@ -325,21 +355,10 @@ class SolverErrorModel final : public DiscretizationError {
   }
 
   [[nodiscard]] ErrorSubject subject_of(const Mesh& mesh) const {
-    const FieldFrame frame = field_frame(mesh);
     ErrorSubject subject{mesh, dec_operators(mesh), {}};
     double area = 0;
     for (const double of_triangle : subject.dec.areas) area += of_triangle;
-    subject.waves.resize((waves_.size() + kLanes - 1) / kLanes);
-    for (std::size_t i = 0; i < waves_.size(); ++i) {
-      WaveBlock& block = subject.waves[i / kLanes];
-      const Vec2 k = (1 / frame.half_size) * waves_[i].k;
-      const double k2 = squared_length(waves_[i].k);
-      const std::size_t lane = i % kLanes;
-      block.x[lane] = k.x, block.y[lane] = k.y;
-      block.phase[lane] = waves_[i].phase - dot(k, frame.center);
-      block.k2[lane] = squared_length(k);
-      block.share[lane] = 2 / (area * k2 * k2 * static_cast<double>(waves_.size()));
-    }
+    subject.waves = waves_of(field_frame(mesh), area);
     return subject;
   }
 
@@ -359,7 +378,7 @@ class SolverErrorModel final : public DiscretizationError {
   }
 
   Scheme scheme_;
-  std::vector<Wave> waves_;
+  mutable LastMatrices last_;
 };
 
 }  // namespace
@@ -379,8 +398,7 @@ Expected<std::shared_ptr<const DiscretizationError>> make_discretization_error(
   if (options.problem != nullptr) {
     return error_detail::make_problem_error(mesh, *options.problem, options.scheme, options.names);
   }
-  if (options.fields == 0) return refused("errors are averaged over no field; expected one at least");
-  return std::shared_ptr<const DiscretizationError>(std::make_shared<error_detail::SolverErrorModel>(mesh, options));
+  return std::shared_ptr<const DiscretizationError>(std::make_shared<error_detail::SolverErrorModel>(options.scheme));
 }
 
 }  // namespace temper
