@@ -5,6 +5,7 @@
 // areas. The adjoint λ solves A λ = 2 c m e. Now v depends on A, b, m and u. The total derivative
 // of J by any of them is the derivative of J − λᵀ(A v − b) with v and λ kept.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -48,13 +49,35 @@ struct SegmentMeans {
   }
 };
 
-/// Waves side by side in the coordinates of the mesh.
+/// Waves side by side: in each direction the sine of its angle k · p + phase, then the cosine.
 struct WaveBlock {
-  Lanes x = {}, y = {}, phase = {};  // of k · p + phase
-  Lanes k2 = {};
-  Lanes share = {};  // c of J, relative to the mean square ½, over k⁴ in the frame, in the mean
+  std::array<Vec2, kDirections> k = {};
+  std::array<double, kDirections> phase = {};
+  double k2 = 0;     // |k|²
+  double share = 0;  // c of J, relative to the mean square ½, over k⁴ in the frame, in the mean
 
-  [[nodiscard]] SineCosine at(std::size_t i, Vec2 p) const { return sine_cosine(x[i] * p.x + y[i] * p.y + phase[i]); }
+  [[nodiscard]] Lanes at(Vec2 p) const {
+    Lanes values;
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const auto [sine, cosine] = sine_cosine(dot(k[d], p) + phase[d]);
+      values[2 * d] = sine, values[2 * d + 1] = cosine;
+    }
+    return values;
+  }
+  /// The derivatives by the angles, from the values.
+  static Lanes slopes(const Lanes& values) {
+    Lanes slopes;
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      slopes[2 * d] = values[2 * d + 1], slopes[2 * d + 1] = -values[2 * d];
+    }
+    return slopes;
+  }
+  /// Σ by_angle k.
+  [[nodiscard]] Vec2 by_place(const Lanes& by_angle) const {
+    Vec2 sum;
+    for (std::size_t d = 0; d < kDirections; ++d) sum = sum + (by_angle[2 * d] + by_angle[2 * d + 1]) * k[d];
+    return sum;
+  }
 };
 
 /// A mesh with its operators, and the waves in its units.
@@ -81,29 +104,36 @@ class Solver {
   [[nodiscard]] virtual double error(const WaveBlock& waves, Adjoint* by) const = 0;
 
  protected:
-  /// The solution at all points, 0 where it is given.
-  [[nodiscard]] std::vector<Lanes> solved(std::vector<Lanes> sources) const {
-    matrix_.solve(points_, sources);
-    return sources;
-  }
+  /// Replaces sources by the solution at all points, 0 where it is given.
+  void solve(std::vector<Lanes>& sources) const { matrix_.solve(points_, sources); }
   [[nodiscard]] const ErrorSubject& subject() const { return s_; }
   [[nodiscard]] const PointSystem& points() const { return points_; }
 
-  /// J = c Σ m e²; `force` is its derivative by e. At given points e is 0.
+  /// J = c Σ m e². At given points e is 0.
   template <class Masses>
-  static double squared(const WaveBlock& waves, const Masses& masses, const std::vector<Lanes>& errors,
-                        std::vector<Lanes>& force) {
-    force.resize(errors.size());
+  static double squared(const WaveBlock& waves, const Masses& masses, const std::vector<Lanes>& errors) {
     Lanes sums = {};
     for (std::size_t p = 0; p < errors.size(); ++p) {
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        const double me = waves.share[i] * masses.begin()[p] * errors[p][i];
-        sums[i] += me * errors[p][i];
-        force[p][i] = 2 * me;
-      }
+      for (std::size_t i = 0; i < kLanes; ++i) sums[i] += masses.begin()[p] * errors[p][i] * errors[p][i];
     }
     double sum = 0;
     for (const double part : sums) sum += part;
+    return waves.share * sum;
+  }
+  /// The adjoint λ, from the derivative of J by e.
+  template <class Masses>
+  [[nodiscard]] std::vector<Lanes> adjoint(const WaveBlock& waves, const Masses& masses,
+                                           const std::vector<Lanes>& errors) const {
+    std::vector<Lanes> lambda(errors.size());
+    for (std::size_t p = 0; p < errors.size(); ++p) {
+      for (std::size_t i = 0; i < kLanes; ++i) lambda[p][i] = 2 * waves.share * masses.begin()[p] * errors[p][i];
+    }
+    solve(lambda);
+    return lambda;
+  }
+  static double squared(const Lanes& a) {
+    double sum = 0;
+    for (const double x : a) sum += x * x;
     return sum;
   }
 
@@ -130,38 +160,36 @@ class VertexSolver final : public Solver {
 
   [[nodiscard]] double error(const WaveBlock& waves, Adjoint* by) const override {
     const auto& [mesh, dec, all] = subject();
-    std::vector<Lanes> value(mesh.n_vertices()), slope(value.size()), sources(value.size()), force;
+    std::vector<Lanes> value(mesh.n_vertices()), errors(value.size());
     for (const VertexId v : mesh.vertices()) {
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        const auto [sine, cosine] = waves.at(i, mesh.position(v));
-        value[v.index][i] = sine, slope[v.index][i] = cosine;
-        sources[v.index][i] = dec.star0[v] * waves.k2[i] * sine;
-      }
+      value[v.index] = waves.at(mesh.position(v));
+      for (std::size_t i = 0; i < kLanes; ++i) errors[v.index][i] = dec.star0[v] * waves.k2 * value[v.index][i];
     }
-    const std::vector<Lanes> exact = value;
     for (std::size_t e = 0; e < dec.edges.size(); ++e) {
       const auto& [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
       for (std::size_t i = 0; i < kLanes; ++i) {
-        const double flux = dec.star1[EdgeId(e)] * (exact[from][i] - exact[to][i]);
-        sources[from][i] -= flux, sources[to][i] += flux;
+        const double flux = dec.star1[EdgeId(e)] * (value[from][i] - value[to][i]);
+        errors[from][i] -= flux, errors[to][i] += flux;
       }
     }
-    const std::vector<Lanes> errors = solved(std::move(sources));
-    const double sum = squared(waves, dec.star0, errors, force);
+    solve(errors);
+    const double sum = squared(waves, dec.star0, errors);
     if (by == nullptr) return sum;
-    const std::vector<Lanes> lambda = solved(force);
+    const std::vector<Lanes> lambda = adjoint(waves, dec.star0, errors);
     for (const VertexId v : mesh.vertices()) {
       const std::size_t p = v.index;
       if (points().is_given(p)) continue;
-      Vec2 by_place;
+      const Lanes slopes = WaveBlock::slopes(value[p]);
+      Lanes by_angle;
+      double by_area = 0;
       for (std::size_t i = 0; i < kLanes; ++i) {
-        const double source = lambda[p][i] * waves.k2[i];
-        by->star0[v] += waves.share[i] * errors[p][i] * errors[p][i] + source * exact[p][i];
-        const double by_u = (source * dec.star0[v] - force[p][i]) * slope[p][i];
-        by_place = by_place + by_u * Vec2{waves.x[i], waves.y[i]};
+        const double by_source = waves.k2 * lambda[p][i], by_error = 2 * waves.share * errors[p][i];
+        by_area += by_source * value[p][i];
+        by_angle[i] = dec.star0[v] * (by_source - by_error) * slopes[i];
         value[p][i] += errors[p][i];
       }
-      by->vertex[v] = by->vertex[v] + by_place;
+      by->star0[v] += waves.share * squared(errors[p]) + by_area;
+      by->vertex[v] = by->vertex[v] + waves.by_place(by_angle);
     }
     for (std::size_t e = 0; e < dec.edges.size(); ++e) {
       const auto& [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
@@ -186,92 +214,87 @@ class CellSolver final : public Solver {
 
   [[nodiscard]] double error(const WaveBlock& waves, Adjoint* by) const override {
     const auto& [mesh, dec, all] = subject();
-    std::vector<Lanes> value(mesh.n_triangles()), slope(value.size()), sources(value.size()), force;
-    for (const TriangleId t : mesh.triangles()) {
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        const auto [sine, cosine] = waves.at(i, dec.orthocenters[t]);
-        value[t.index][i] = sine, slope[t.index][i] = cosine;
-      }
-    }
-    std::vector<EdgeWaves> on_edges(dec.edges.size());
+    std::vector<Lanes> value(mesh.n_triangles()), errors(value.size());
+    for (const TriangleId t : mesh.triangles()) value[t.index] = waves.at(dec.orthocenters[t]);
     for (std::size_t e = 0; e < dec.edges.size(); ++e) {
       const DecEdge& edge = dec.edges[EdgeId(e)];
-      on_edges[e] = edge_waves(waves, edge);
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        const double flow = on_edges[e].flow[i], coefficient = dec.transmissibility[EdgeId(e)];
-        if (edge.is_boundary()) {
-          const std::size_t k = inner_triangle(edge).index;
-          sources[k][i] += (edge.left.valid() ? flow : -flow) - coefficient * (value[k][i] - on_edges[e].first[i]);
-        } else {
-          const double flux = flow - coefficient * (value[edge.left.index][i] - value[edge.right.index][i]);
-          sources[edge.left.index][i] += flux, sources[edge.right.index][i] -= flux;
+      const double coefficient = dec.transmissibility[EdgeId(e)];
+      const Lanes flow = flow_through(waves, edge);
+      if (edge.is_boundary()) {
+        const std::size_t k = inner_triangle(edge).index;
+        const Lanes outside = waves.at(edge.midpoint);
+        for (std::size_t i = 0; i < kLanes; ++i) {
+          errors[k][i] += (edge.left.valid() ? flow[i] : -flow[i]) - coefficient * (value[k][i] - outside[i]);
+        }
+      } else {
+        const std::size_t left = edge.left.index, right = edge.right.index;
+        for (std::size_t i = 0; i < kLanes; ++i) {
+          const double flux = flow[i] - coefficient * (value[left][i] - value[right][i]);
+          errors[left][i] += flux, errors[right][i] -= flux;
         }
       }
     }
-    const std::vector<Lanes> errors = solved(std::move(sources));
-    const double sum = squared(waves, dec.areas, errors, force);
+    solve(errors);
+    const double sum = squared(waves, dec.areas, errors);
     if (by == nullptr) return sum;
-    const std::vector<Lanes> lambda = solved(force);
+    const std::vector<Lanes> lambda = adjoint(waves, dec.areas, errors);
     for (const TriangleId t : mesh.triangles()) {
       const std::size_t p = t.index;
+      Lanes by_angle = WaveBlock::slopes(value[p]);
       for (std::size_t i = 0; i < kLanes; ++i) {
-        by->area[t] += waves.share[i] * errors[p][i] * errors[p][i];
-        by->orthocenter[t] = by->orthocenter[t] - (force[p][i] * slope[p][i]) * Vec2{waves.x[i], waves.y[i]};
+        by_angle[i] *= -2 * waves.share * dec.areas[t] * errors[p][i];
         value[p][i] += errors[p][i];
       }
+      by->area[t] += waves.share * squared(errors[p]);
+      by->orthocenter[t] = by->orthocenter[t] + waves.by_place(by_angle);
     }
-    for (std::size_t e = 0; e < dec.edges.size(); ++e) add_edge(EdgeId(e), waves, on_edges[e], value, lambda, *by);
+    for (std::size_t e = 0; e < dec.edges.size(); ++e) add_edge(EdgeId(e), waves, value, lambda, *by);
     return sum;
   }
 
  private:
-  /// The waves on an edge. On the boundary: value and slope at the weighted midpoint. Inside: ∫ f (1 − t) and ∫ f t,
-  /// t from 0 to 1.
-  struct EdgeWaves {
-    Lanes flow;  // ∫ ∇u · n, n to its left
-    Lanes first, second;
-  };
-  [[nodiscard]] EdgeWaves edge_waves(const WaveBlock& waves, const DecEdge& edge) const {
-    const Vec2 a = subject().mesh.position(edge.from), e = subject().mesh.position(edge.to) - a, middle = a + 0.5 * e;
-    EdgeWaves result;
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      const auto [sine, cosine] = waves.at(i, middle);
-      const SegmentMeans means(0.5 * (waves.x[i] * e.x + waves.y[i] * e.y));
-      result.flow[i] = (waves.y[i] * e.x - waves.x[i] * e.y) * cosine * means.even;
-      const double half = 0.5 * waves.k2[i];
-      result.first[i] = half * (sine * means.even - cosine * means.odd);
-      result.second[i] = half * (sine * means.even + cosine * means.odd);
-      if (!edge.is_boundary()) continue;
-      const auto [value, slope] = waves.at(i, edge.midpoint);
-      result.first[i] = value, result.second[i] = slope;
+  /// ∫ ∇u · n over an edge, n to its left.
+  [[nodiscard]] Lanes flow_through(const WaveBlock& waves, const DecEdge& edge) const {
+    const Vec2 a = subject().mesh.position(edge.from), e = subject().mesh.position(edge.to) - a;
+    Lanes flow = WaveBlock::slopes(waves.at(a + 0.5 * e));
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const double factor = cross(e, waves.k[d]) * SegmentMeans(0.5 * dot(waves.k[d], e)).even;
+      flow[2 * d] *= factor, flow[2 * d + 1] *= factor;
     }
-    return result;
+    return flow;
   }
 
-  void add_edge(EdgeId id, const WaveBlock& waves, const EdgeWaves& on, const std::vector<Lanes>& value,
-                const std::vector<Lanes>& lambda, Adjoint& by) const {
+  void add_edge(EdgeId id, const WaveBlock& waves, const std::vector<Lanes>& value, const std::vector<Lanes>& lambda,
+                Adjoint& by) const {
     const auto& [mesh, dec, all] = subject();
     const DecEdge& edge = dec.edges[id];
-    const Vec2 e = mesh.position(edge.to) - mesh.position(edge.from);
+    const Vec2 from = mesh.position(edge.from), e = mesh.position(edge.to) - from;
     if (edge.is_boundary()) {
       const std::size_t k = inner_triangle(edge).index;
-      by.transmissibility[id] += by_coefficient(lambda[k], {}, value[k], on.first);
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        const double along = (waves.x[i] * e.x + waves.y[i] * e.y) / edge.length;
-        by.crossing[id] += lambda[k][i] * dec.transmissibility[id] * on.second[i] * along;
-      }
+      const Lanes outside = waves.at(edge.midpoint);
+      by.transmissibility[id] += by_coefficient(lambda[k], {}, value[k], outside);
+      Lanes by_angle = WaveBlock::slopes(outside);
+      for (std::size_t i = 0; i < kLanes; ++i) by_angle[i] *= lambda[k][i] * dec.transmissibility[id];
+      by.crossing[id] += dot(waves.by_place(by_angle), e) / edge.length;
       return;
     }
-    const std::size_t left = edge.left.index, right = edge.right.index;
-    by.transmissibility[id] += by_coefficient(lambda[left], lambda[right], value[left], value[right]);
-    // ∫ f over the triangle on the left grows by f times the way if the edge moves to the right.
-    double at_from = 0, at_to = 0;
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      at_from += (lambda[left][i] - lambda[right][i]) * on.first[i];
-      at_to += (lambda[left][i] - lambda[right][i]) * on.second[i];
+    const Lanes &left = lambda[edge.left.index], &right = lambda[edge.right.index];
+    by.transmissibility[id] += by_coefficient(left, right, value[edge.left.index], value[edge.right.index]);
+    // ∫ f over the triangle on the left grows by f times the way if the edge moves to the right. The ends take ∫ f (1 −
+    // t) and ∫ f t, t from 0 to 1.
+    const Lanes middle = waves.at(from + 0.5 * e);
+    const Lanes slopes = WaveBlock::slopes(middle);
+    double even = 0, odd = 0;
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const SegmentMeans means(0.5 * dot(waves.k[d], e));
+      for (const std::size_t i : {2 * d, 2 * d + 1}) {
+        even += (left[i] - right[i]) * middle[i] * means.even;
+        odd += (left[i] - right[i]) * slopes[i] * means.odd;
+      }
     }
-    by.vertex[edge.from] = by.vertex[edge.from] + at_from * Vec2{e.y, -e.x};
-    by.vertex[edge.to] = by.vertex[edge.to] + at_to * Vec2{e.y, -e.x};
+    const double half = 0.5 * waves.k2;
+    by.vertex[edge.from] = by.vertex[edge.from] + half * (even - odd) * Vec2{e.y, -e.x};
+    by.vertex[edge.to] = by.vertex[edge.to] + half * (even + odd) * Vec2{e.y, -e.x};
   }
 };
 
@@ -282,16 +305,14 @@ std::vector<WaveBlock> waves_of(const FieldFrame& frame, double area) {
   constexpr std::size_t kBlocks = std::size(kWaveNumbers);
   std::vector<WaveBlock> blocks(kBlocks);
   for (std::size_t b = 0; b < kBlocks; ++b) {
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      const std::size_t direction = 2 * (i / 2 * kBlocks + b) + 1;
-      const auto [sine, cosine] =
-          sine_cosine(std::numbers::pi * static_cast<double>(direction) / (2 * kBlocks * kDirections));
-      const double in_frame = kWaveNumbers[b], number = in_frame / frame.half_size;
-      const Vec2 k = number * Vec2{cosine, sine};
-      blocks[b].x[i] = k.x, blocks[b].y[i] = k.y;
-      blocks[b].phase[i] = (i % 2 == 0 ? 0 : std::numbers::pi / 2) - dot(k, frame.center);
-      blocks[b].k2[i] = number * number;
-      blocks[b].share[i] = 2 / (area * in_frame * in_frame * in_frame * in_frame * kBlocks * kLanes);
+    const double in_frame = kWaveNumbers[b], number = in_frame / frame.half_size;
+    blocks[b].k2 = number * number;
+    blocks[b].share = 2 / (area * in_frame * in_frame * in_frame * in_frame * kBlocks * kLanes);
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const double turn = static_cast<double>(2 * (d * kBlocks + b) + 1) / (2 * kBlocks * kDirections);
+      const auto [sine, cosine] = sine_cosine(std::numbers::pi * turn);
+      blocks[b].k[d] = number * Vec2{cosine, sine};
+      blocks[b].phase[d] = -dot(blocks[b].k[d], frame.center);
     }
   }
   return blocks;
