@@ -166,7 +166,7 @@ class VertexSolver final : public Solver {
       for (std::size_t i = 0; i < kLanes; ++i) errors[v.index][i] = dec.star0[v] * waves.k2 * value[v.index][i];
     }
     for (std::size_t e = 0; e < dec.edges.size(); ++e) {
-      const auto& [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
+      const auto [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
       for (std::size_t i = 0; i < kLanes; ++i) {
         const double flux = dec.star1[EdgeId(e)] * (value[from][i] - value[to][i]);
         errors[from][i] -= flux, errors[to][i] += flux;
@@ -192,7 +192,7 @@ class VertexSolver final : public Solver {
       by->vertex[v] = by->vertex[v] + waves.by_place(by_angle);
     }
     for (std::size_t e = 0; e < dec.edges.size(); ++e) {
-      const auto& [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
+      const auto [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
       by->star1[EdgeId(e)] += by_coefficient(lambda[from], lambda[to], value[from], value[to]);
     }
     return sum;

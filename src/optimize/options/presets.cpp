@@ -122,7 +122,7 @@ constexpr auto kEfforts = std::to_array<Preset>({
        o.repair = Repair::vertices;
        o.repair_trials = 100'000;
        o.solver_error.steps = 200;
-       o.solver_error.most_vertices = 4'000'000;
+       o.solver_error.most_vertices = 1'000'000;
      }},
 });
 
