@@ -164,8 +164,8 @@ struct DiscretizationErrorOptions {
   const InputNames* names = nullptr;  ///< Numbering of the user, for errors
 };
 /// Makes a model of errors for OptimizeOptions: the mean squared L2 errors of the schemes of this file over 16 plane
-/// waves. They are sines and cosines in eight directions, with 2 or 4 radians in half the bounding box. Each error is
-/// divided by the fourth power of its wave number, as such errors grow with it. Derivatives come from the discrete
+/// waves. They are sines and cosines in eight directions, with 1.5 or 3.5 radians in half the bounding box. Each error
+/// is divided by the fourth power of its wave number, as such errors grow with it. Derivatives come from the discrete
 /// adjoint: one more solve each with the same factors. Errors: Scheme::stars, a mesh of the sphere, a wrong problem.
 /// O(n^1.5).
 [[nodiscard]] Expected<std::shared_ptr<const DiscretizationError>> make_discretization_error(

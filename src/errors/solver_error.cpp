@@ -28,7 +28,7 @@ namespace error_detail {
 namespace {
 
 // Wave numbers in radians per half of the bounding box, one for each block of waves.
-constexpr double kWaveNumbers[] = {2, 4};
+constexpr double kWaveNumbers[] = {1.5, 3.5};
 // A block has a sine and a cosine in each direction. So the sum of their squares does not depend on the place. The sum
 // of k k k k over four directions does not depend on directions.
 constexpr std::size_t kDirections = kLanes / 2;

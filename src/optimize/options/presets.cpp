@@ -111,11 +111,9 @@ constexpr auto kEfforts = std::to_array<Preset>({
        o.repair_trials = 2000;
        o.solver_error.most_vertices = 0;
      }},
-    {"normal",
-     "Sweeps until little is gained. Targets vertex and cell also lower the error of the solver itself",
+    {"normal", "Sweeps until little is gained. Targets vertex and cell also lower the error of the solver itself",
      [](Options&) {}},
-    {"high",
-     "More sweeps and repairs, which may add and remove vertices. More steps lower the solver's own error",
+    {"high", "More sweeps and repairs, which may add and remove vertices. More steps lower the solver's own error",
      [](Options& o) {
        if (o.accuracy.sweeps > 0) o.accuracy.sweeps = 200;
        o.accuracy.tolerance = 1e-7;
