@@ -222,10 +222,10 @@ class ProblemErrorModel final : public DiscretizationError {
       if (scheme_ != Scheme::all && scheme_ != scheme) continue;
       std::size_t merged = 0;
       Equations equations = scheme == Scheme::vertex ? at_vertices(subject) : at_orthocenters(subject, merged);
-      auto matrix = Cholesky::of(equations.points.n_unknowns(), equations.points.lower());
-      if (!matrix) return {};
+      Cholesky matrix;
+      if (!matrix.factor(equations.points.n_unknowns(), equations.points.lower())) return {};
       const Factored factored = {subject, on, 1 / (area * problem_.mean_square()), std::move(equations),
-                                 *std::move(matrix)};
+                                 std::move(matrix)};
       std::optional<Adjoint> by;
       if (gradients != nullptr) by.emplace(mesh, subject.dec);
       const double error =

@@ -169,40 +169,80 @@ bool factor_and_solve(const LinearSystem& system, bool with_condition, LinearSol
 }  // namespace
 
 struct Cholesky::Factors {
-  Eigen::SimplicialLDLT<Matrix> ldlt;
+  Eigen::Matrix<int, Eigen::Dynamic, 1> place;  // of an unknown in the order of elimination
+  Matrix upper;                                 // the matrix in this order
+  std::vector<MatrixEntry> entries;             // of the matrix that gave the order
+  std::vector<int> slots;                       // of the entries among the values of `upper`
+  Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt;
+
+  [[nodiscard]] bool has_entries(const std::vector<MatrixEntry>& lower) const {
+    return std::equal(
+        entries.begin(), entries.end(), lower.begin(), lower.end(),
+        [](const MatrixEntry& a, const MatrixEntry& b) { return a.row == b.row && a.column == b.column; });
+  }
+  void order(std::size_t unknowns, const std::vector<MatrixEntry>& lower);
 };
 
-std::optional<Cholesky> Cholesky::of(std::size_t unknowns, const std::vector<MatrixEntry>& lower) {
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(lower.size());
-  for (const auto& [row, column, value] : lower) {
-    if (!std::isfinite(value)) return std::nullopt;
-    entries.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
-  }
+void Cholesky::Factors::order(std::size_t unknowns, const std::vector<MatrixEntry>& lower) {
   const auto n = static_cast<Index>(unknowns);
-  Matrix matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  auto factors = std::make_shared<Factors>();
-  factors->ldlt.compute(matrix);
-  const bool definite = factors->ldlt.info() == Eigen::Success && (factors->ldlt.vectorD().array() > 0).all();
-  if (!definite) return std::nullopt;
-  Cholesky cholesky;
-  cholesky.factors_ = std::move(factors);
-  return cholesky;
+  entries = lower;
+  std::vector<Eigen::Triplet<double>> triplets;
+  triplets.reserve(lower.size());
+  for (const auto& [row, column, value] : lower) {
+    triplets.emplace_back(static_cast<int>(row), static_cast<int>(column), 1.0);
+  }
+  Matrix of_entries(n, n);
+  of_entries.setFromTriplets(triplets.begin(), triplets.end());
+  Matrix whole;
+  whole = of_entries.selfadjointView<Eigen::Lower>();
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> at_places;
+  Eigen::AMDOrdering<int>()(whole, at_places);
+  place = at_places.inverse().eval().indices();
+  triplets.clear();
+  for (const auto& [row, column, value] : lower) {
+    const auto [first, last] = std::minmax(place[static_cast<Index>(row)], place[static_cast<Index>(column)]);
+    triplets.emplace_back(first, last, 1.0);
+  }
+  upper.resize(n, n);
+  upper.setFromTriplets(triplets.begin(), triplets.end());
+  slots.clear();
+  for (const auto& triplet : triplets) {
+    const int* const rows = upper.innerIndexPtr();
+    const int *const from = rows + upper.outerIndexPtr()[triplet.col()], *const to =
+                                                                             rows +
+                                                                             upper.outerIndexPtr()[triplet.col() + 1];
+    slots.push_back(static_cast<int>(std::lower_bound(from, to, triplet.row()) - rows));
+  }
+  ldlt.analyzePattern(upper);
+}
+
+bool Cholesky::factor(std::size_t unknowns, const std::vector<MatrixEntry>& lower) {
+  const bool has_order = factors_ && factors_->has_entries(lower);
+  if (!factors_) factors_ = std::make_shared<Factors>();
+  Factors& f = *factors_;
+  if (!has_order) f.order(unknowns, lower);
+  std::fill_n(f.upper.valuePtr(), f.upper.nonZeros(), 0.0);
+  for (std::size_t i = 0; i < lower.size(); ++i) {
+    if (!std::isfinite(lower[i].value)) return false;
+    f.upper.valuePtr()[f.slots[i]] += lower[i].value;
+  }
+  f.ldlt.factorize(f.upper);
+  return f.ldlt.info() == Eigen::Success && (f.ldlt.vectorD().array() > 0).all();
 }
 
 void Cholesky::solve(std::vector<double>& right) const {
   if (right.empty()) return;
-  const Vector x = factors_->ldlt.solve(to_vector(right));
-  std::copy(x.begin(), x.end(), right.begin());
+  Vector x(static_cast<Index>(right.size()));
+  for (Index i = 0; i < x.size(); ++i) x[factors_->place[i]] = right[static_cast<std::size_t>(i)];
+  x = factors_->ldlt.solve(x).eval();
+  for (Index i = 0; i < x.size(); ++i) right[static_cast<std::size_t>(i)] = x[factors_->place[i]];
 }
 
 // Eigen solves one column after the other. This reads each entry of L once for all lanes.
 void Cholesky::solve(const PointSystem& points, std::vector<Lanes>& at_points) const {
   const Matrix& l = factors_->ldlt.matrixL().nestedExpression();  // its diagonal is left out
-  const auto& place = factors_->ldlt.permutationP().indices();
   const auto place_of = [&](std::size_t point) {
-    return static_cast<std::size_t>(place[static_cast<Index>(points.unknown(point))]);
+    return static_cast<std::size_t>(factors_->place[static_cast<Index>(points.unknown(point))]);
   };
   std::vector<Lanes> x(points.n_unknowns());
   for (std::size_t p = 0; p < at_points.size(); ++p) {
@@ -246,6 +286,7 @@ LinearSolution solve(const LinearSystem& system, bool with_condition) {
 
 PointSystem::PointSystem(const std::vector<bool>& given) {
   for (const bool is : given) unknowns_.push_back(is ? kGiven : n_unknowns_++);
+  for (std::size_t i = 0; i < n_unknowns_; ++i) lower_.push_back({i, i, 0});
 }
 
 void PointSystem::connect(std::size_t i, std::size_t j, double c) {
@@ -259,7 +300,7 @@ void PointSystem::connect(std::size_t i, std::size_t j, double c) {
 }
 
 void PointSystem::connect_outside(std::size_t i, double c) {
-  if (!is_given(i)) lower_.push_back({unknowns_[i], unknowns_[i], c});
+  if (!is_given(i)) lower_[unknowns_[i]].value += c;
 }
 
 std::vector<double> PointSystem::right_side(const std::vector<double>& sources,

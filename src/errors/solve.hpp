@@ -41,8 +41,13 @@ using Lanes = std::array<double, kLanes>;
 /// A positive definite matrix, factored for many right sides.
 class Cholesky {
  public:
-  /// Nothing if a pivot is not positive, or an entry not finite.
-  [[nodiscard]] static std::optional<Cholesky> of(std::size_t unknowns, const std::vector<MatrixEntry>& lower);
+  Cholesky() = default;
+  Cholesky(Cholesky&&) = default;
+  Cholesky& operator=(Cholesky&&) = default;
+
+  /// Factors a matrix in place of the last. Returns false if a pivot is not positive, or an entry not finite. A matrix
+  /// with the entries of the last in the same order keeps the order of elimination.
+  [[nodiscard]] bool factor(std::size_t unknowns, const std::vector<MatrixEntry>& lower);
   /// Solves for the right side, in its place.
   void solve(std::vector<double>& right) const;
   /// Solves for several right sides at once, in their place. They are at points, and given points get 0.
@@ -50,7 +55,7 @@ class Cholesky {
 
  private:
   struct Factors;
-  std::shared_ptr<const Factors> factors_;
+  std::shared_ptr<Factors> factors_;
 };
 
 /// Equations Σ c_ij (u_i − u_j) = b_i at points. Some points have given values, and the others are unknowns.
@@ -83,7 +88,7 @@ class PointSystem {
 
   std::size_t n_unknowns_ = 0;
   std::vector<std::size_t> unknowns_;  // of each point, or kGiven
-  std::vector<MatrixEntry> lower_;
+  std::vector<MatrixEntry> lower_;     // first the diagonal
   std::vector<FromGiven> from_given_;
 };
 

@@ -5,13 +5,15 @@
 // areas. The adjoint λ solves A λ = 2 c m e. Now v depends on A, b, m and u. The total derivative
 // of J by any of them is the derivative of J − λᵀ(A v − b) with v and λ kept.
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
+#include <iterator>
+#include <memory>
+#include <mutex>
 #include <numbers>
 #include <optional>
 #include <utility>
 
-#include "base/rng.hpp"
 #include "base/sine_cosine.hpp"
 #include "errors/adjoint.hpp"
 #include "errors/diffusion.hpp"
@@ -25,15 +27,11 @@ namespace temper {
 namespace error_detail {
 namespace {
 
-constexpr double kLeastWaveNumber = 1, kMostWaveNumber = 4;
-constexpr std::size_t kWaves = 64, kWavesOfLarge = 24;
-constexpr std::size_t kLarge = 4000;  // vertices: smaller meshes lose more by fewer waves
-
-/// sin(k · p + phase).
-struct Wave {
-  Vec2 k;
-  double phase = 0;
-};
+// Wave numbers in radians per half of the bounding box, one for each block of waves.
+constexpr double kWaveNumbers[] = {1.5, 3.5};
+// A block has a sine and a cosine in each direction. So the sum of their squares does not depend on the place. The sum
+// of k k k k over four directions does not depend on directions.
+constexpr std::size_t kDirections = kLanes / 2;
 
 /// ½∫ cos(s h) ds and ½∫ s sin(s h) ds over [−1, 1]: a wave's means over a segment on which its angle changes by 2h.
 struct SegmentMeans {
@@ -51,13 +49,35 @@ struct SegmentMeans {
   }
 };
 
-/// Waves side by side in the coordinates of the mesh.
+/// Waves side by side: in each direction the sine of its angle k · p + phase, then the cosine.
 struct WaveBlock {
-  Lanes x = {}, y = {}, phase = {};  // of k · p + phase
-  Lanes k2 = {};
-  Lanes share = {};  // c of J, relative to the mean square ½, over k⁴ in the frame, in the mean; 0 if there is no wave
+  std::array<Vec2, kDirections> k = {};
+  std::array<double, kDirections> phase = {};
+  double k2 = 0;     // |k|²
+  double share = 0;  // c of J, relative to the mean square ½, over k⁴ in the frame, in the mean
 
-  [[nodiscard]] SineCosine at(std::size_t i, Vec2 p) const { return sine_cosine(x[i] * p.x + y[i] * p.y + phase[i]); }
+  [[nodiscard]] Lanes at(Vec2 p) const {
+    Lanes values;
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const auto [sine, cosine] = sine_cosine(dot(k[d], p) + phase[d]);
+      values[2 * d] = sine, values[2 * d + 1] = cosine;
+    }
+    return values;
+  }
+  /// The derivatives by the angles, from the values.
+  static Lanes slopes(const Lanes& values) {
+    Lanes slopes;
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      slopes[2 * d] = values[2 * d + 1], slopes[2 * d + 1] = -values[2 * d];
+    }
+    return slopes;
+  }
+  /// Σ by_angle k.
+  [[nodiscard]] Vec2 by_place(const Lanes& by_angle) const {
+    Vec2 sum;
+    for (std::size_t d = 0; d < kDirections; ++d) sum = sum + (by_angle[2 * d] + by_angle[2 * d + 1]) * k[d];
+    return sum;
+  }
 };
 
 /// A mesh with its operators, and the waves in its units.
@@ -70,47 +90,58 @@ struct ErrorSubject {
 /// A scheme on a mesh, its matrix factored. It solves for e directly: A e = b − A u.
 class Solver {
  public:
-  Solver(const ErrorSubject& subject, PointSystem points)
-      : s_(subject), points_(std::move(points)), matrix_(Cholesky::of(points_.n_unknowns(), points_.lower())) {}
+  Solver(const ErrorSubject& subject, PointSystem points, Cholesky& matrix)
+      : s_(subject),
+        points_(std::move(points)),
+        matrix_(matrix),
+        is_definite_(matrix_.factor(points_.n_unknowns(), points_.lower())) {}
   virtual ~Solver() = default;
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
-  [[nodiscard]] bool is_definite() const { return matrix_.has_value(); }
+  [[nodiscard]] bool is_definite() const { return is_definite_; }
   /// The squared error of a block of waves. If `by` is not null, adds its derivatives there.
   [[nodiscard]] virtual double error(const WaveBlock& waves, Adjoint* by) const = 0;
 
  protected:
-  /// The solution at all points, 0 where it is given.
-  [[nodiscard]] std::vector<Lanes> solved(std::vector<Lanes> sources) const {
-    matrix_->solve(points_, sources);
-    return sources;
-  }
+  /// Replaces sources by the solution at all points, 0 where it is given.
+  void solve(std::vector<Lanes>& sources) const { matrix_.solve(points_, sources); }
   [[nodiscard]] const ErrorSubject& subject() const { return s_; }
   [[nodiscard]] const PointSystem& points() const { return points_; }
 
-  /// J = c Σ m e²; `force` is its derivative by e. At given points e is 0.
+  /// J = c Σ m e². At given points e is 0.
   template <class Masses>
-  static double squared(const WaveBlock& waves, const Masses& masses, const std::vector<Lanes>& errors,
-                        std::vector<Lanes>& force) {
-    force.resize(errors.size());
+  static double squared(const WaveBlock& waves, const Masses& masses, const std::vector<Lanes>& errors) {
     Lanes sums = {};
     for (std::size_t p = 0; p < errors.size(); ++p) {
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        const double me = waves.share[i] * masses.begin()[p] * errors[p][i];
-        sums[i] += me * errors[p][i];
-        force[p][i] = 2 * me;
-      }
+      for (std::size_t i = 0; i < kLanes; ++i) sums[i] += masses.begin()[p] * errors[p][i] * errors[p][i];
     }
     double sum = 0;
     for (const double part : sums) sum += part;
+    return waves.share * sum;
+  }
+  /// The adjoint λ, from the derivative of J by e.
+  template <class Masses>
+  [[nodiscard]] std::vector<Lanes> adjoint(const WaveBlock& waves, const Masses& masses,
+                                           const std::vector<Lanes>& errors) const {
+    std::vector<Lanes> lambda(errors.size());
+    for (std::size_t p = 0; p < errors.size(); ++p) {
+      for (std::size_t i = 0; i < kLanes; ++i) lambda[p][i] = 2 * waves.share * masses.begin()[p] * errors[p][i];
+    }
+    solve(lambda);
+    return lambda;
+  }
+  static double squared(const Lanes& a) {
+    double sum = 0;
+    for (const double x : a) sum += x * x;
     return sum;
   }
 
  private:
   const ErrorSubject& s_;
   PointSystem points_;
-  std::optional<Cholesky> matrix_;
+  Cholesky& matrix_;
+  bool is_definite_;
 };
 
 /// The derivative of −λᵀ A v by the coefficient between two points.
@@ -124,45 +155,44 @@ double by_coefficient(const Lanes& lambda_a, const Lanes& lambda_b, const Lanes&
 
 class VertexSolver final : public Solver {
  public:
-  explicit VertexSolver(const ErrorSubject& s) : Solver(s, vertex_system(s.dec, given_vertices(s.mesh))) {}
+  VertexSolver(const ErrorSubject& s, Cholesky& matrix)
+      : Solver(s, vertex_system(s.dec, given_vertices(s.mesh)), matrix) {}
 
   [[nodiscard]] double error(const WaveBlock& waves, Adjoint* by) const override {
     const auto& [mesh, dec, all] = subject();
-    std::vector<Lanes> value(mesh.n_vertices()), slope(value.size()), sources(value.size()), force;
+    std::vector<Lanes> value(mesh.n_vertices()), errors(value.size());
     for (const VertexId v : mesh.vertices()) {
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        const auto [sine, cosine] = waves.at(i, mesh.position(v));
-        value[v.index][i] = sine, slope[v.index][i] = cosine;
-        sources[v.index][i] = dec.star0[v] * waves.k2[i] * sine;
-      }
+      value[v.index] = waves.at(mesh.position(v));
+      for (std::size_t i = 0; i < kLanes; ++i) errors[v.index][i] = dec.star0[v] * waves.k2 * value[v.index][i];
     }
-    const std::vector<Lanes> exact = value;
     for (std::size_t e = 0; e < dec.edges.size(); ++e) {
-      const auto& [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
+      const auto [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
       for (std::size_t i = 0; i < kLanes; ++i) {
-        const double flux = dec.star1[EdgeId(e)] * (exact[from][i] - exact[to][i]);
-        sources[from][i] -= flux, sources[to][i] += flux;
+        const double flux = dec.star1[EdgeId(e)] * (value[from][i] - value[to][i]);
+        errors[from][i] -= flux, errors[to][i] += flux;
       }
     }
-    const std::vector<Lanes> errors = solved(std::move(sources));
-    const double sum = squared(waves, dec.star0, errors, force);
+    solve(errors);
+    const double sum = squared(waves, dec.star0, errors);
     if (by == nullptr) return sum;
-    const std::vector<Lanes> lambda = solved(force);
+    const std::vector<Lanes> lambda = adjoint(waves, dec.star0, errors);
     for (const VertexId v : mesh.vertices()) {
       const std::size_t p = v.index;
       if (points().is_given(p)) continue;
-      Vec2 by_place;
+      const Lanes slopes = WaveBlock::slopes(value[p]);
+      Lanes by_angle;
+      double by_area = 0;
       for (std::size_t i = 0; i < kLanes; ++i) {
-        const double source = lambda[p][i] * waves.k2[i];
-        by->star0[v] += waves.share[i] * errors[p][i] * errors[p][i] + source * exact[p][i];
-        const double by_u = (source * dec.star0[v] - force[p][i]) * slope[p][i];
-        by_place = by_place + by_u * Vec2{waves.x[i], waves.y[i]};
+        const double by_source = waves.k2 * lambda[p][i], by_error = 2 * waves.share * errors[p][i];
+        by_area += by_source * value[p][i];
+        by_angle[i] = dec.star0[v] * (by_source - by_error) * slopes[i];
         value[p][i] += errors[p][i];
       }
-      by->vertex[v] = by->vertex[v] + by_place;
+      by->star0[v] += waves.share * squared(errors[p]) + by_area;
+      by->vertex[v] = by->vertex[v] + waves.by_place(by_angle);
     }
     for (std::size_t e = 0; e < dec.edges.size(); ++e) {
-      const auto& [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
+      const auto [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
       by->star1[EdgeId(e)] += by_coefficient(lambda[from], lambda[to], value[from], value[to]);
     }
     return sum;
@@ -180,119 +210,139 @@ class VertexSolver final : public Solver {
 
 class CellSolver final : public Solver {
  public:
-  explicit CellSolver(const ErrorSubject& s) : Solver(s, cell_system(s.dec, s.dec.transmissibility)) {}
+  CellSolver(const ErrorSubject& s, Cholesky& matrix) : Solver(s, cell_system(s.dec, s.dec.transmissibility), matrix) {}
 
   [[nodiscard]] double error(const WaveBlock& waves, Adjoint* by) const override {
     const auto& [mesh, dec, all] = subject();
-    std::vector<Lanes> value(mesh.n_triangles()), slope(value.size()), sources(value.size()), force;
-    for (const TriangleId t : mesh.triangles()) {
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        const auto [sine, cosine] = waves.at(i, dec.orthocenters[t]);
-        value[t.index][i] = sine, slope[t.index][i] = cosine;
-      }
-    }
-    std::vector<EdgeWaves> on_edges(dec.edges.size());
+    std::vector<Lanes> value(mesh.n_triangles()), errors(value.size());
+    for (const TriangleId t : mesh.triangles()) value[t.index] = waves.at(dec.orthocenters[t]);
     for (std::size_t e = 0; e < dec.edges.size(); ++e) {
       const DecEdge& edge = dec.edges[EdgeId(e)];
-      on_edges[e] = edge_waves(waves, edge);
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        const double flow = on_edges[e].flow[i], coefficient = dec.transmissibility[EdgeId(e)];
-        if (edge.is_boundary()) {
-          const std::size_t k = inner_triangle(edge).index;
-          sources[k][i] += (edge.left.valid() ? flow : -flow) - coefficient * (value[k][i] - on_edges[e].first[i]);
-        } else {
-          const double flux = flow - coefficient * (value[edge.left.index][i] - value[edge.right.index][i]);
-          sources[edge.left.index][i] += flux, sources[edge.right.index][i] -= flux;
+      const double coefficient = dec.transmissibility[EdgeId(e)];
+      const Lanes flow = flow_through(waves, edge);
+      if (edge.is_boundary()) {
+        const std::size_t k = inner_triangle(edge).index;
+        const Lanes outside = waves.at(edge.midpoint);
+        for (std::size_t i = 0; i < kLanes; ++i) {
+          errors[k][i] += (edge.left.valid() ? flow[i] : -flow[i]) - coefficient * (value[k][i] - outside[i]);
+        }
+      } else {
+        const std::size_t left = edge.left.index, right = edge.right.index;
+        for (std::size_t i = 0; i < kLanes; ++i) {
+          const double flux = flow[i] - coefficient * (value[left][i] - value[right][i]);
+          errors[left][i] += flux, errors[right][i] -= flux;
         }
       }
     }
-    const std::vector<Lanes> errors = solved(std::move(sources));
-    const double sum = squared(waves, dec.areas, errors, force);
+    solve(errors);
+    const double sum = squared(waves, dec.areas, errors);
     if (by == nullptr) return sum;
-    const std::vector<Lanes> lambda = solved(force);
+    const std::vector<Lanes> lambda = adjoint(waves, dec.areas, errors);
     for (const TriangleId t : mesh.triangles()) {
       const std::size_t p = t.index;
+      Lanes by_angle = WaveBlock::slopes(value[p]);
       for (std::size_t i = 0; i < kLanes; ++i) {
-        by->area[t] += waves.share[i] * errors[p][i] * errors[p][i];
-        by->orthocenter[t] = by->orthocenter[t] - (force[p][i] * slope[p][i]) * Vec2{waves.x[i], waves.y[i]};
+        by_angle[i] *= -2 * waves.share * dec.areas[t] * errors[p][i];
         value[p][i] += errors[p][i];
       }
+      by->area[t] += waves.share * squared(errors[p]);
+      by->orthocenter[t] = by->orthocenter[t] + waves.by_place(by_angle);
     }
-    for (std::size_t e = 0; e < dec.edges.size(); ++e) add_edge(EdgeId(e), waves, on_edges[e], value, lambda, *by);
+    for (std::size_t e = 0; e < dec.edges.size(); ++e) add_edge(EdgeId(e), waves, value, lambda, *by);
     return sum;
   }
 
  private:
-  /// The waves on an edge. On the boundary: value and slope at the weighted midpoint. Inside: ∫ f (1 − t) and ∫ f t,
-  /// t from 0 to 1.
-  struct EdgeWaves {
-    Lanes flow;  // ∫ ∇u · n, n to its left
-    Lanes first, second;
-  };
-  [[nodiscard]] EdgeWaves edge_waves(const WaveBlock& waves, const DecEdge& edge) const {
-    const Vec2 a = subject().mesh.position(edge.from), e = subject().mesh.position(edge.to) - a, middle = a + 0.5 * e;
-    EdgeWaves result;
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      const auto [sine, cosine] = waves.at(i, middle);
-      const SegmentMeans means(0.5 * (waves.x[i] * e.x + waves.y[i] * e.y));
-      result.flow[i] = (waves.y[i] * e.x - waves.x[i] * e.y) * cosine * means.even;
-      const double half = 0.5 * waves.k2[i];
-      result.first[i] = half * (sine * means.even - cosine * means.odd);
-      result.second[i] = half * (sine * means.even + cosine * means.odd);
-      if (!edge.is_boundary()) continue;
-      const auto [value, slope] = waves.at(i, edge.midpoint);
-      result.first[i] = value, result.second[i] = slope;
+  /// ∫ ∇u · n over an edge, n to its left.
+  [[nodiscard]] Lanes flow_through(const WaveBlock& waves, const DecEdge& edge) const {
+    const Vec2 a = subject().mesh.position(edge.from), e = subject().mesh.position(edge.to) - a;
+    Lanes flow = WaveBlock::slopes(waves.at(a + 0.5 * e));
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const double factor = cross(e, waves.k[d]) * SegmentMeans(0.5 * dot(waves.k[d], e)).even;
+      flow[2 * d] *= factor, flow[2 * d + 1] *= factor;
     }
-    return result;
+    return flow;
   }
 
-  void add_edge(EdgeId id, const WaveBlock& waves, const EdgeWaves& on, const std::vector<Lanes>& value,
-                const std::vector<Lanes>& lambda, Adjoint& by) const {
+  void add_edge(EdgeId id, const WaveBlock& waves, const std::vector<Lanes>& value, const std::vector<Lanes>& lambda,
+                Adjoint& by) const {
     const auto& [mesh, dec, all] = subject();
     const DecEdge& edge = dec.edges[id];
-    const Vec2 e = mesh.position(edge.to) - mesh.position(edge.from);
+    const Vec2 from = mesh.position(edge.from), e = mesh.position(edge.to) - from;
     if (edge.is_boundary()) {
       const std::size_t k = inner_triangle(edge).index;
-      by.transmissibility[id] += by_coefficient(lambda[k], {}, value[k], on.first);
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        const double along = (waves.x[i] * e.x + waves.y[i] * e.y) / edge.length;
-        by.crossing[id] += lambda[k][i] * dec.transmissibility[id] * on.second[i] * along;
-      }
+      const Lanes outside = waves.at(edge.midpoint);
+      by.transmissibility[id] += by_coefficient(lambda[k], {}, value[k], outside);
+      Lanes by_angle = WaveBlock::slopes(outside);
+      for (std::size_t i = 0; i < kLanes; ++i) by_angle[i] *= lambda[k][i] * dec.transmissibility[id];
+      by.crossing[id] += dot(waves.by_place(by_angle), e) / edge.length;
       return;
     }
-    const std::size_t left = edge.left.index, right = edge.right.index;
-    by.transmissibility[id] += by_coefficient(lambda[left], lambda[right], value[left], value[right]);
-    // ∫ f over the triangle on the left grows by f times the way if the edge moves to the right.
-    double at_from = 0, at_to = 0;
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      at_from += (lambda[left][i] - lambda[right][i]) * on.first[i];
-      at_to += (lambda[left][i] - lambda[right][i]) * on.second[i];
+    const Lanes &left = lambda[edge.left.index], &right = lambda[edge.right.index];
+    by.transmissibility[id] += by_coefficient(left, right, value[edge.left.index], value[edge.right.index]);
+    // ∫ f over the triangle on the left grows by f times the way if the edge moves to the right. The ends take ∫ f (1 −
+    // t) and ∫ f t, t from 0 to 1.
+    const Lanes middle = waves.at(from + 0.5 * e);
+    const Lanes slopes = WaveBlock::slopes(middle);
+    double even = 0, odd = 0;
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const SegmentMeans means(0.5 * dot(waves.k[d], e));
+      for (const std::size_t i : {2 * d, 2 * d + 1}) {
+        even += (left[i] - right[i]) * middle[i] * means.even;
+        odd += (left[i] - right[i]) * slopes[i] * means.odd;
+      }
     }
-    by.vertex[edge.from] = by.vertex[edge.from] + at_from * Vec2{e.y, -e.x};
-    by.vertex[edge.to] = by.vertex[edge.to] + at_to * Vec2{e.y, -e.x};
+    const double half = 0.5 * waves.k2;
+    by.vertex[edge.from] = by.vertex[edge.from] + half * (even - odd) * Vec2{e.y, -e.x};
+    by.vertex[edge.to] = by.vertex[edge.to] + half * (even + odd) * Vec2{e.y, -e.x};
   }
 };
 
 // --- the model -------------------------------------------------------------------------------------------------------
 
-/// In the frame: half the bounding box has length 1.
-std::vector<Wave> waves_of(const Mesh& mesh, const DiscretizationErrorOptions& options) {
-  const std::size_t n = options.fields.value_or(mesh.n_vertices() > kLarge ? kWavesOfLarge : kWaves);
-  Rng rng(options.seed);
-  std::vector<Wave> waves;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double turn = (static_cast<double>(i) + rng.uniform()) / static_cast<double>(n);
-    const double k = rng.uniform(kLeastWaveNumber, kMostWaveNumber);
-    const auto [sine, cosine] = sine_cosine(std::numbers::pi * turn);
-    waves.push_back({{k * cosine, k * sine}, rng.uniform(0, 2 * std::numbers::pi)});
+/// The waves of all blocks, in the units of a mesh. The directions of one block are halfway between those of the other.
+std::vector<WaveBlock> waves_of(const FieldFrame& frame, double area) {
+  constexpr std::size_t kBlocks = std::size(kWaveNumbers);
+  std::vector<WaveBlock> blocks(kBlocks);
+  for (std::size_t b = 0; b < kBlocks; ++b) {
+    const double in_frame = kWaveNumbers[b], number = in_frame / frame.half_size;
+    blocks[b].k2 = number * number;
+    blocks[b].share = 2 / (area * in_frame * in_frame * in_frame * in_frame * kBlocks * kLanes);
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const double turn = static_cast<double>(2 * (d * kBlocks + b) + 1) / (2 * kBlocks * kDirections);
+      const auto [sine, cosine] = sine_cosine(std::numbers::pi * turn);
+      blocks[b].k[d] = number * Vec2{cosine, sine};
+      blocks[b].phase[d] = -dot(blocks[b].k[d], frame.center);
+    }
   }
-  return waves;
+  return blocks;
 }
+
+/// Matrices that the measurement of one mesh leaves to the next, whose connectivity is mostly the same.
+struct Matrices {
+  Cholesky at_vertices, in_cells;
+};
+
+/// Lends the last matrices, or new ones while they are lent.
+class LastMatrices {
+ public:
+  [[nodiscard]] auto take() {
+    const std::lock_guard lock(mutex_);
+    const auto give_back = [this](Matrices* m) {
+      const std::lock_guard here(mutex_);
+      last_.reset(m);
+    };
+    return std::unique_ptr<Matrices, decltype(give_back)>(last_ ? last_.release() : new Matrices, give_back);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unique_ptr<Matrices> last_;
+};
 
 class SolverErrorModel final : public DiscretizationError {
  public:
-  SolverErrorModel(const Mesh& mesh, const DiscretizationErrorOptions& options)
-      : scheme_(options.scheme), waves_(waves_of(mesh, options)) {}
+  explicit SolverErrorModel(Scheme scheme) : scheme_(scheme) {}
 
   [[nodiscard]] std::vector<double> errors(const Mesh& mesh, Executor* executor) const override {
     return measure(mesh, nullptr, executor);
@@ -307,11 +357,12 @@ class SolverErrorModel final : public DiscretizationError {
   [[nodiscard]] std::vector<double> measure(const Mesh& mesh, std::vector<Gradient>* gradients,
                                             Executor* executor) const {
     const ErrorSubject subject = subject_of(mesh);
+    const auto matrices = last_.take();
     std::optional<VertexSolver> at_vertices;
     std::optional<CellSolver> in_cells;
     std::vector<const Solver*> solvers;
-    if (scheme_ != Scheme::cell) solvers.push_back(&at_vertices.emplace(subject));
-    if (scheme_ != Scheme::vertex) solvers.push_back(&in_cells.emplace(subject));
+    if (scheme_ != Scheme::cell) solvers.push_back(&at_vertices.emplace(subject, matrices->at_vertices));
+    if (scheme_ != Scheme::vertex) solvers.push_back(&in_cells.emplace(subject, matrices->in_cells));
     if (!std::all_of(solvers.begin(), solvers.end(), [](const Solver* s) { return s->is_definite(); })) return {};
 
     std::vector<double> errors;
@@ -325,21 +376,10 @@ class SolverErrorModel final : public DiscretizationError {
   }
 
   [[nodiscard]] ErrorSubject subject_of(const Mesh& mesh) const {
-    const FieldFrame frame = field_frame(mesh);
     ErrorSubject subject{mesh, dec_operators(mesh), {}};
     double area = 0;
     for (const double of_triangle : subject.dec.areas) area += of_triangle;
-    subject.waves.resize((waves_.size() + kLanes - 1) / kLanes);
-    for (std::size_t i = 0; i < waves_.size(); ++i) {
-      WaveBlock& block = subject.waves[i / kLanes];
-      const Vec2 k = (1 / frame.half_size) * waves_[i].k;
-      const double k2 = squared_length(waves_[i].k);
-      const std::size_t lane = i % kLanes;
-      block.x[lane] = k.x, block.y[lane] = k.y;
-      block.phase[lane] = waves_[i].phase - dot(k, frame.center);
-      block.k2[lane] = squared_length(k);
-      block.share[lane] = 2 / (area * k2 * k2 * static_cast<double>(waves_.size()));
-    }
+    subject.waves = waves_of(field_frame(mesh), area);
     return subject;
   }
 
@@ -359,7 +399,7 @@ class SolverErrorModel final : public DiscretizationError {
   }
 
   Scheme scheme_;
-  std::vector<Wave> waves_;
+  mutable LastMatrices last_;
 };
 
 }  // namespace
@@ -379,8 +419,7 @@ Expected<std::shared_ptr<const DiscretizationError>> make_discretization_error(
   if (options.problem != nullptr) {
     return error_detail::make_problem_error(mesh, *options.problem, options.scheme, options.names);
   }
-  if (options.fields == 0) return refused("errors are averaged over no field; expected one at least");
-  return std::shared_ptr<const DiscretizationError>(std::make_shared<error_detail::SolverErrorModel>(mesh, options));
+  return std::shared_ptr<const DiscretizationError>(std::make_shared<error_detail::SolverErrorModel>(options.scheme));
 }
 
 }  // namespace temper

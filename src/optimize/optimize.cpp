@@ -31,9 +31,11 @@ std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& 
   return options.size_field ? options.size_field : input_size_field_of(mesh, executor);
 }
 
-/// Runs one more phase. If a model of errors says that the mesh is worse, the phase is undone.
+/// Runs one more phase. If a model of errors says that the mesh is worse, the phase is undone. `known`: the score of
+/// `best`, if the phase before has measured it.
 template <class Improving>
-void improve(Candidate& best, const Settings& settings, Run& run, AccuracySizes& sizes) {
+void improve(Candidate& best, std::optional<MeshScore>& known, const Settings& settings, Run& run,
+             AccuracySizes& sizes) {
   if (run.stopped_early() || run.report.stopped == Stopped::hidden) return;
   std::optional<Candidate> before;
   if (settings.errors != nullptr) before = best;
@@ -46,7 +48,12 @@ void improve(Candidate& best, const Settings& settings, Run& run, AccuracySizes&
     const VertexSizes own = sizes.of(c.work, settings.executor());
     return score(c.work.mesh, settings, settings.model, &own, c.work.units);
   };
-  if (replaces(score_of(best), score_of(*before), Requirement::not_worse)) return;
+  const MeshScore now = score_of(best);
+  if (!known) known = score_of(*before);
+  if (replaces(now, *known, Requirement::not_worse)) {
+    known = now;
+    return;
+  }
   best = *std::move(before);
   driver.recorder().returned_to(best.sweep);
 }
@@ -64,8 +71,9 @@ Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepSta
   if (run.facts.gave_up) return Candidate{input.copy()};
   best = reweighted(std::move(best), input, settings, state, run);
   best = repaired(std::move(best), settings, state, run);
-  if (sizes) improve<AccuracyPhase>(best, settings, run, *sizes);
-  if (settings.objective == Objective::solver_error) improve<SolverErrorPhase>(best, settings, run, *sizes);
+  std::optional<MeshScore> known;
+  if (sizes) improve<AccuracyPhase>(best, known, settings, run, *sizes);
+  if (settings.objective == Objective::solver_error) improve<SolverErrorPhase>(best, known, settings, run, *sizes);
   return best;
 }
 

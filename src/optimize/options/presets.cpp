@@ -111,18 +111,16 @@ constexpr auto kEfforts = std::to_array<Preset>({
        o.repair_trials = 2000;
        o.solver_error.most_vertices = 0;
      }},
-    {"normal",
-     "Sweeps until little is gained. Targets vertex and cell lower the error of the solver itself on small meshes",
+    {"normal", "Sweeps until little is gained. Targets vertex and cell also lower the error of the solver itself",
      [](Options&) {}},
-    {"high",
-     "More sweeps and repairs, which may add and remove vertices. The solver's own error is lowered on larger "
-     "meshes too",
+    {"high", "More sweeps and repairs, which may add and remove vertices. More steps lower the solver's own error",
      [](Options& o) {
        if (o.accuracy.sweeps > 0) o.accuracy.sweeps = 200;
        o.accuracy.tolerance = 1e-7;
        o.repair = Repair::vertices;
        o.repair_trials = 100'000;
-       o.solver_error.most_vertices = 200'000;
+       o.solver_error.steps = 200;
+       o.solver_error.most_vertices = 1'000'000;
      }},
 });
 

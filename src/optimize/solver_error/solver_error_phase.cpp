@@ -20,6 +20,7 @@ constexpr double kFirstStep = 0.05;        // the largest change of an unknown i
 constexpr double kLeastCurvature = 1e-12;  // least cosine between step and change
 
 constexpr double kLongestStep = 0.3;      // of a scaled unknown in a step
+constexpr double kKeptRoom = 0.2;         // part of a triangle's room above its floor that a step must leave
 constexpr int kMostHalvings = 25;         // halvings of a step
 constexpr double kArmijo = 1e-4;          // part of the gradient's prediction that a step must reach (Armijo)
 constexpr std::size_t kStepsToGain = 10;  // number of steps that together must gain the tolerance
@@ -101,7 +102,6 @@ SolverErrorPhase::SolverErrorPhase(WorkingCopy& work, const Settings& settings, 
 void SolverErrorPhase::begin() {
   raise_floors();
   beyond_guard_ = count_beyond(mesh_, units_, settings_.guard, settings_.executor());
-  start_ = settings_.errors->errors(mesh_, settings_.executor());
   now_ = value();
   history_ = {now_.lowered};
 }
@@ -119,10 +119,7 @@ std::optional<bool> SolverErrorPhase::move_all(const Recorder& recorder) {
   IdVector<VertexId, WeightedPoint> before(mesh_.n_vertices());
   for (const VertexId v : mesh_.vertices()) before[v] = mesh_.point(v);
   Vector step = descent_.direction(now_.gradient);
-  const double most = largest(step);
-  if (most > kLongestStep) {
-    for (double& x : step) x *= kLongestStep / most;
-  }
+  shorten(before, step);
   const double slope = dot(now_.gradient, step);
   Value there;
   double t = 1;
@@ -169,15 +166,17 @@ Phase::Verdict SolverErrorPhase::judge(bool /*changed*/) {
   return Verdict::settled;
 }
 
-SolverErrorPhase::Value SolverErrorPhase::value() const {
+SolverErrorPhase::Value SolverErrorPhase::value() {
   Executor* executor = settings_.executor();
   Value result;
   result.lowered = result.error = kInfinity;
   const auto [energy, barrier] = sum();
+  const double total = energy + barrier, share = settings_.options.solver_error.offset_share;
+  if (!std::isfinite(total) || !(total > 0)) return result;
   std::vector<DiscretizationError::Gradient> gradients;
   const std::vector<double> errors = settings_.errors->errors(mesh_, gradients, executor);
-  const double total = energy + barrier, share = settings_.options.solver_error.offset_share;
-  if (!std::isfinite(total) || !(total > 0) || errors.empty() || start_.size() != errors.size()) return result;
+  if (start_.empty()) start_ = errors;
+  if (errors.empty()) return result;
   result.error = root_mean_square(errors);
   result.lowered = std::log(mean_ratio(errors, start_)) + share * std::log(total);
   DiscretizationError::Gradient gradient(mesh_.n_vertices(), WeightedPoint{});
@@ -204,13 +203,45 @@ void SolverErrorPhase::add_gradient_of_energy(double factor, IdVector<VertexId, 
   });
 }
 
-/// Says exactly whether all triangles are well-centered and above their floors.
+/// Says exactly whether all triangles are well-centered. The barrier says whether they are above their floors.
 bool SolverErrorPhase::is_inside() const {
-  if (count_bad(mesh_, settings_.executor()) > bad_) return false;
-  if (count_beyond(mesh_, units_, settings_.guard, settings_.executor()) > beyond_guard_) return false;
-  return std::all_of(mesh_.triangles().begin(), mesh_.triangles().end(), [this](TriangleId t) {
-    return !domain_.floors.has(t) || triangle_margin(mesh_, t) > domain_.floors[t];
+  return count_bad(mesh_, settings_.executor()) <= bad_ &&
+         count_beyond(mesh_, units_, settings_.guard, settings_.executor()) <= beyond_guard_;
+}
+
+void SolverErrorPhase::shorten(const IdVector<VertexId, WeightedPoint>& from, Vector& step) {
+  const auto scale = [&](VertexId v, double factor) {
+    for (double* x = &step[3 * std::size_t{v.index}]; x != &step[3 * std::size_t{v.index}] + 3; ++x) *x *= factor;
+  };
+  for (const VertexId v : mesh_.vertices()) {
+    const double* by = &step[3 * std::size_t{v.index}];
+    const double most = std::max({std::abs(by[0]), std::abs(by[1]), std::abs(by[2])});
+    if (most > kLongestStep) scale(v, kLongestStep / most);
+  }
+  const auto room = [this](TriangleId t) {
+    return triangle_margin(mesh_, t) - (domain_.floors.has(t) ? domain_.floors[t] : 0);
+  };
+  IdVector<TriangleId, double> least(mesh_.n_triangles(), 0.0);
+  for_each_index(least.size(), settings_.executor(), [&](std::size_t i) {
+    const TriangleId t(i);
+    least[t] = kKeptRoom * room(t);
   });
+  std::vector<std::uint8_t> is_short(least.size());
+  for (int i = 0; i < kMostHalvings; ++i) {
+    place(from, step, 1);
+    for_each_index(least.size(), settings_.executor(), [&](std::size_t k) {
+      const TriangleId t(k);
+      is_short[k] = room(t) >= least[t] ? 0 : 1;
+    });
+    IdVector<VertexId, std::uint8_t> halved(mesh_.n_vertices(), 0);
+    for (const TriangleId t : mesh_.triangles()) {
+      if (is_short[t.index] == 0) continue;
+      for (const VertexId v : mesh_.corners(t)) {
+        if (std::exchange(halved[v], 1) == 0) scale(v, 0.5);
+      }
+    }
+    if (std::find(is_short.begin(), is_short.end(), 1) == is_short.end()) break;
+  }
 }
 
 void SolverErrorPhase::place(const IdVector<VertexId, WeightedPoint>& from, const Vector& step, double t) {

@@ -77,6 +77,18 @@ TEST(ErrorObjective, LowersTheErrorsOfItsSchemeBelowThoseOfTheAccuracyObjective)
   }
 }
 
+// Some triangle of a random mesh is always close to its floor.
+TEST(ErrorObjective, TightTrianglesHoldBackNoOtherVertices) {
+  const Mesh input = *random_mesh({.vertices = 400, .seed = 8});
+  OptimizeOptions options = options_for(Scheme::vertex);
+  options.solver_error.steps = 8;
+  const Improved error = improved(input, options);
+  const Improved accuracy = improved(input, {.objective = Objective::accuracy, .scheme = Scheme::vertex});
+  const double ratio =
+      errors_on(error.mesh, input, Scheme::vertex).at(0) / errors_on(accuracy.mesh, input, Scheme::vertex).at(0);
+  EXPECT_LT(std::sqrt(ratio), 0.7);
+}
+
 /// Two layers with a straight border between them, and a problem whose coefficient jumps there.
 struct Layers {
   Mesh mesh;

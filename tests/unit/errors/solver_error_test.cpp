@@ -56,7 +56,7 @@ double error_of_derivatives(const DiscretizationError& model, const Mesh& mesh, 
 
 TEST(SolverErrorModel, DerivativesAreThoseOfDifferencesAtSecondOrder) {
   const Mesh mesh = well_centered_mesh(60);
-  const auto model = *make_discretization_error(mesh, {.fields = 5});
+  const auto model = *make_discretization_error(mesh);
   for (const std::size_t scheme : {0u, 1u}) {
     const double whole = error_of_derivatives(*model, mesh, scheme, 2e-5),
                  half = error_of_derivatives(*model, mesh, scheme, 1e-5);
@@ -149,17 +149,28 @@ TEST(SolverErrorModel, IsTheSameForAnyThreads) {
   }
 }
 
-TEST(SolverErrorModel, TakesFewerWavesForALargeMesh) {
-  const auto errors = [](const Mesh& mesh, std::optional<std::size_t> fields) {
-    return (*make_discretization_error(mesh, {.scheme = Scheme::vertex, .fields = fields}))->errors(mesh);
-  };
-  for (const int n : {30, 70}) {
-    const Mesh grid = *sheared_grid({.nx = n, .ny = n});
-    const auto few = errors(grid, 24), many = errors(grid, 64);
-    ASSERT_EQ(few.size(), 1u);
-    EXPECT_NEAR(few[0] / many[0], 1, 0.3);
-    EXPECT_EQ(errors(grid, {}), grid.n_vertices() > 4000 ? few : many);
+TEST(SolverErrorModel, KnowsNoRightAngle) {
+  const Mesh mesh = well_centered_mesh(100);
+  Mesh turned = mesh;
+  for (const VertexId v : mesh.vertices()) {
+    const WeightedPoint p = mesh.point(v);
+    turned.set_point(v, {-p.y, p.x, p.w});
   }
+  const auto model = *make_discretization_error(mesh);
+  const auto here = model->errors(mesh), there = model->errors(turned);
+  ASSERT_EQ(here.size(), 2u);
+  for (std::size_t i = 0; i < here.size(); ++i) EXPECT_NEAR(there.at(i) / here[i], 1, 1e-9);
+}
+
+TEST(SolverErrorModel, RemembersNothingOfTheMeshesBefore) {
+  const Mesh mesh = well_centered_mesh(100);
+  const auto model = *make_discretization_error(mesh);
+  const auto first = model->errors(mesh);
+  EXPECT_EQ(model->errors(mesh), first);
+  for (const Mesh& other : {well_centered_mesh(100, 4), well_centered_mesh(50)}) {
+    EXPECT_EQ(model->errors(other), (*make_discretization_error(other))->errors(other));
+  }
+  EXPECT_EQ(model->errors(mesh), first);
 }
 
 TEST(SolverErrorModel, HasNoErrorsWhereAMatrixIsNotDefinite) {
@@ -174,7 +185,6 @@ TEST(SolverErrorModel, HasNoErrorsWhereAMatrixIsNotDefinite) {
 TEST(SolverErrorModel, RefusesWhatItIsNotFor) {
   const Mesh mesh = well_centered_mesh(20);
   EXPECT_FALSE(make_discretization_error(mesh, {.scheme = Scheme::stars}));
-  EXPECT_FALSE(make_discretization_error(mesh, {.fields = 0}));
   EXPECT_FALSE(make_discretization_error(*icosahedral({.level = 1})));
   DiffusionProblem zero = two_conductivities(mesh);
   zero.boundary[1].value = 0, zero.boundary[0].edges.clear(), zero.source.clear();
