@@ -161,7 +161,28 @@ Five neighbors(const TetMesh& mesh, Random& random) {
           mesh.point(mesh.opposite(mesh.twin(h)))};
 }
 
+Five random_points(Random& random) {
+  return five(random, [](Random& r) -> WeightedPoint { return {real(r), real(r), real(r), real(r)}; });
+}
+/// The weight of the third point puts the orthocenter of the face onto its first edge, as well as doubles can.
+Five nearly_on_an_edge(Random& random) {
+  Five f = random_points(random);
+  const auto& [p, q, r, s, t] = f;
+  const Vec3 pq = q.position() - p.position(), pr = r.position() - p.position(), qr = r.position() - q.position();
+  const double at_p = dot(pq, pr), at_q = -dot(pq, qr);
+  f[2].w = dot(pr, qr) + (at_p * q.w + at_q * p.w) / (at_p + at_q);
+  return f;
+}
+/// The weight of the second point puts the crossing onto the first.
+Five nearly_at_a_vertex(Random& random) {
+  Five f = random_points(random);
+  f[1].w = f[0].w + squared_length(f[1].position() - f[0].position());
+  return f;
+}
+
 constexpr FamilyOfFive kFamilies[] = {
+    {"orthocenter of a face nearly on an edge", nearly_on_an_edge},
+    {"crossing nearly at a vertex", nearly_at_a_vertex},
     {"corners of a cube", [](Random& r) { return five(r, on_cube); }},
     {"corners of a cube of tenths, off the origin",
      [](Random& r) {
@@ -229,7 +250,7 @@ TEST(TetOracle, NoSignIsWrongOnRandomPoints) {
   Random random(3);
   std::array<int, 3> seen = {};
   for (int round = 0; round < 600; ++round) {
-    const Five f = five(random, [](Random& r) -> WeightedPoint { return {real(r), real(r), real(r), real(r)}; });
+    const Five f = random_points(random);
     EXPECT_EQ(wrong_signs(f, {0, 1, 2, 3, 4}), 0);
     ++seen[std::size_t(static_cast<int>(power_test(f[0], f[1], f[2], f[3], f[4])) + 1)];
   }

@@ -109,7 +109,8 @@ class TetMeshBuilder {
   [[nodiscard]] std::string near(const Corners& corners) const {
     Vec3 sum;
     for (const VertexId v : corners) sum = sum + in_.points[v.index];
-    return ", near " + coordinates(1.0 / static_cast<double>(corners.size()) * sum);
+    const Vec3 p = 1.0 / static_cast<double>(corners.size()) * sum;
+    return ", near (" + rounded(p.x, 6) + ", " + rounded(p.y, 6) + ", " + rounded(p.z, 6) + ")";
   }
   [[nodiscard]] InputError error_of(ErrorCode code, TetId t, const std::string& message) const {
     return {code, names_.tetrahedron_where(t.index), message};
@@ -467,8 +468,7 @@ class TetMeshBuilder {
     const std::array<VertexId, 2> ends = {c[std::size_t((*found)[0])], c[std::size_t((*found)[1])]};
     return error_of(ErrorCode::overlap, t,
                     "the tetrahedra around the edge from " + name(ends[0]) + " to " + name(ends[1]) +
-                        " overlap: together they make " + to_text(std::round(100 * turns) / 100) + " turns around it" +
-                        near(ends));
+                        " overlap: together they make " + rounded(turns, 3) + " turns around it" + near(ends));
   }
 
   /// The solid angles at an inner vertex add up to 4 π times the number of layers on top of each other.
@@ -489,7 +489,7 @@ class TetMeshBuilder {
       if (angle[v] <= most) continue;
       return error_of(ErrorCode::overlap, v,
                       "the tetrahedra around " + name(v) + " overlap: together they fill " +
-                          to_text(std::round(1000 * angle[v] / kSphere) / 10) + " % of the sphere around " +
+                          rounded(100 * angle[v] / kSphere) + " % of the sphere around " +
                           coordinates(mesh_.position(v)));
     }
     return std::nullopt;
