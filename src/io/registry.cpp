@@ -84,7 +84,7 @@ constexpr FormatRow kRows[] = {
      sniff_fesom, read_fesom, write_fesom,
      {.keeps = fesom_keeps, .files_to_write = fesom_files, .files_to_read = fesom_files, .degrees = Degrees::always,
       .bed = Bed::depth}},
-    {"triangle", "Triangle and TetGen", ".node .ele",
+    {"triangle", "Triangle", ".node .ele",
      (kAll & ~(kLineData | kMarkedPointData | kFieldData)) | kTetrahedra,
      sniff_triangle, read_triangle, write_triangle,
      {.files_to_write = triangle_files, .files_to_read = triangle_files_to_read}},
@@ -324,7 +324,7 @@ Expected<MeshFile> read(const std::string& path, const ReadOptions& options) {
     if (n > 0) {
       fail(ErrorCode::unsupported, document.names->tetrahedron_where(0), "has ", n,
            n == 1 ? " tetrahedron" : " tetrahedra",
-           "; expected a mesh of triangles. Next: temper check takes tetrahedra");
+           "; expected a mesh of triangles. Next: temper check and convert take tetrahedra");
     }
     return mesh_file(std::move(document), path, options.flat);
   });

@@ -48,6 +48,15 @@ struct TetInput {
 /// Builds the mesh of a file; Failure when anything is wrong with it.
 [[nodiscard]] TetInput make_input(const std::string& path, io::TetFile file, Executor* executor);
 
+/// An option, and if it is given.
+struct GivenOption {
+  bool is_given;
+  std::string_view name;
+};
+/// Failure (bad usage of the verb) for the first option that is given, although it is for triangles alone.
+void refuse_for_tetrahedra(const std::string& verb, const std::string& path,
+                           std::initializer_list<GivenOption> options);
+
 /// Options for reading a file.
 struct ReadingOptions {
   std::string projection = {};  ///< of points in degrees: as --projection has it

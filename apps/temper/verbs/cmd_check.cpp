@@ -144,7 +144,13 @@ class Checks {
   };
 
   void add_tetrahedra(const std::string& path, io::TetFile file) {
-    refuse_options_of_triangles(path);
+    refuse_for_tetrahedra("check", path,
+                          {{!s_.projection.empty(), "--projection"},
+                           {s_.flat, "--flat"},
+                           {s_.gamma.has_value(), "--gamma"},
+                           {s_.h0.has_value(), "--h0"},
+                           {s_.metric.has_value(), "--tensor"},
+                           {!files_.page.empty(), "--write with a page of HTML"}});
     const std::vector<Requirement>& requirements = requirements_.of(MeshKind::tetrahedra);
     const TetInput input = make_input(path, std::move(file), threads_.get());
     print_warnings(input.warnings());
@@ -156,18 +162,6 @@ class Checks {
            s_.details ? quality_text(measured, input, text_style())
                       : fmt::format("{}: {}\n{}{}\n", path, size, brief_text(measured), verdict(measured)));
   }
-  void refuse_options_of_triangles(const std::string& path) const {
-    const std::pair<bool, std::string_view> given[] = {
-        {!s_.projection.empty(), "--projection"}, {s_.flat, "--flat"},
-        {s_.gamma.has_value(), "--gamma"},        {s_.h0.has_value(), "--h0"},
-        {s_.metric.has_value(), "--tensor"},      {!files_.page.empty(), "--write " + files_.page}};
-    for (const auto& [is_given, option] : given) {
-      if (is_given)
-        refuse_usage("check",
-                     fmt::format("{} has tetrahedra, and {} is for triangles alone. Next: leave it out", path, option));
-    }
-  }
-
   /// Prints or keeps the report, writes it where --write asks for it, and gives the verdict on the requirements.
   void report(const std::string& path, const std::vector<Outcome>& outcomes, const std::string& json,
               const std::string& text) {

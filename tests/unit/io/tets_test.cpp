@@ -1,33 +1,11 @@
 // Files of tetrahedra: round trips through every format that holds them, bad files, and public meshes.
+#include <random>
+
 #include "support.hpp"
-#include "temper/tets/io.hpp"
 #include "temper/tets/quality.hpp"
 
 namespace temper::io {
 namespace {
-
-/// Two tetrahedra in two regions, with tags and data on everything. Numbers that are hard on text.
-TetFile tet_sample() {
-  TetFile f;
-  f.points = {{0, 0, -0.0}, {1, 0, 1.0 / 3}, {0, 0.1 + 0.2, 0}, {0, 0, 1}, {2, 2, 2}};
-  f.weights = {0, 1.0 / 3, -1e-30, 0.25, 7};
-  f.tetrahedra = {{0, 1, 2, 3}, {1, 2, 3, 4}};
-  f.regions = {3, -4};
-  f.faces = {{1, 2, 3}, {0, 2, 1}};
-  f.face_tags = {7, 8};
-  f.lines = {{3, 4}};
-  f.line_tags = {5};
-  f.marked_points = {4, 0};
-  f.point_tags = {2, 9};
-  f.names = {{0, 9, "corner"}, {1, 5, "pipe"}, {2, 7, "fracture of old"}, {3, 3, "clay"}};
-  f.point_data = {{"depth", 1, std::vector<double>{0.1, 2, 3, 4, 1e300}},
-                  {"id", 1, std::vector<std::int32_t>{9, 8, 7, 6, 5}}};
-  f.cell_data = {{"flux", 3, std::vector<double>{0.1, 2, 3, 4, 5, 6}}};
-  f.face_data = {{"load", 1, std::vector<double>{0.5, 0.1}}};
-  f.line_data = {{"width", 1, std::vector<double>{0.3}}};
-  f.marked_point_data = {{"rate", 1, std::vector<double>{0.7, 0.9}}};
-  return f;
-}
 
 std::vector<std::string> tet_formats() {
   std::vector<std::string> names;
@@ -215,6 +193,35 @@ TEST_F(TetFiles, ErrorsHaveTheNumbersAndTheLinesOfTheFile) {
                             "CELLS 1 11\n10 0 1 2 3 4 5 6 7 8 9\nCELL_TYPES 1\n24\n"),
       "m.vtk:8: element 0 is a quadratic tetrahedron; temper reads linear triangles, quadrilaterals and tetrahedra, "
       "with lines and points as tags");
+}
+
+TEST_F(TetFiles, DamagedFilesAreMeshesOrErrors) {
+  std::mt19937 random(5);
+  std::size_t meshes = 0, errors = 0;
+  for (const std::string& format : tet_formats()) {
+    if (format == "vtkhdf") continue;  // libhdf5 may never return
+    for (const Encoding encoding : {Encoding::ascii, Encoding::appended}) {
+      SCOPED_TRACE(format);
+      const std::string file = path(tet_file_name(format));
+      ASSERT_TRUE(write(file, tet_sample(), {.format = format, .encoding = encoding}));
+      const std::string whole = slurp(file);
+      for (int round = 0; round < 60; ++round) {
+        std::string bytes = whole.substr(0, round % 4 == 0 ? random() % whole.size() + 1 : whole.size());
+        for (int k = 0; k < round % 4; ++k)
+          bytes[random() % bytes.size()] = static_cast<char>(random() % 3 == 0 ? random() : '0' + random() % 10);
+        spill(file, bytes);
+        const auto read = read_any(file);
+        const auto* tets = read ? std::get_if<TetFile>(&*read) : nullptr;
+        const auto made = tets == nullptr ? Expected<LoadedTetMesh>(InputError{}) : make_mesh(*tets);
+        ++(made ? meshes : errors);
+        if (made) {
+          EXPECT_EQ(made->mesh.validate(), std::nullopt);
+        }
+      }
+    }
+  }
+  EXPECT_GT(meshes, 100U);
+  EXPECT_GT(errors, 100U);
 }
 
 TEST_F(TetFiles, FilesOfTetgenHaveTheirOwnNumbersAndRegions) {
