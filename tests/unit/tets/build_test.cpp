@@ -166,6 +166,28 @@ TEST(TetMeshBuild, NamesEdgesAndVerticesWhereTheMeshTouchesItself) {
   expect_error(arrays, ErrorCode::non_manifold_vertex, "the mesh touches itself at point 0");
 }
 
+/// Tetrahedra from the origin to triangles in the plane z = 1.
+TetArrays cone(const std::vector<std::array<double, 2>>& points, const std::vector<std::array<int, 3>>& triangles) {
+  TetArrays arrays;
+  arrays.points.push_back({0, 0, 0});
+  for (const auto& [x, y] : points) arrays.points.push_back({x, y, 1});
+  for (const auto& [a, b, c] : triangles) arrays.tetrahedra.push_back({0, a + 1, b + 1, c + 1});
+  return arrays;
+}
+
+TEST(TetMeshBuild, NamesEdgesAndVerticesWhereConnectedTetrahedraAreNoBall) {
+  // A ring of triangles around a hole, whose ends meet in the corner 0 alone, and a whole ring.
+  const std::vector<std::array<double, 2>> corners = {{-2, -2}, {2, -2}, {2, 2},  {-2, 2},
+                                                      {1, -1},  {1, 1},  {-1, 1}, {-1, -1}};
+  std::vector<std::array<int, 3>> ring = {{0, 1, 4}, {1, 2, 4}, {4, 2, 5}, {2, 3, 5}, {5, 3, 6}, {3, 0, 6}};
+  TetArrays pinched = cone(corners, ring);
+  pinched.points.pop_back();
+  expect_error(pinched, ErrorCode::non_manifold_edge, "the mesh touches itself along the edge from point 0 to point 1");
+  ring.push_back({6, 0, 7});
+  ring.push_back({0, 4, 7});
+  expect_error(cone(corners, ring), ErrorCode::non_manifold_vertex, "the mesh touches itself at point 0");
+}
+
 TEST(TetMeshBuild, FindsAnEdgeThatWindsTwice) {
   // Around the edge from (0, 0, 0) to (0, 0, 1) twelve tetrahedra make two turns. All faces fit.
   TetArrays arrays;
