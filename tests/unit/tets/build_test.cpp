@@ -75,8 +75,8 @@ TEST(TetMeshBuild, NegativeTetrahedraAreReversedAndCounted) {
 TEST(TetMeshBuild, TagsAreFoundAndWhatIsNoFaceOrEdgeIsCounted) {
   const TetArrays arrays = test::cubes(1, test::kSixTets);  // corners by the bits x, y, z
   TetMeshInput input = arrays.input();
-  const std::vector<std::array<std::int32_t, 3>> faces = {{0, 2, 1}, {0, 1, 3}, {0, 7, 1}, {1, 2, 4}};
-  const std::vector<std::int32_t> face_tags = {5, 6, 7, 8}, regions = {1, 1, 2, 2, 3, 3}, line_tags = {4, 3},
+  const std::vector<std::array<std::int32_t, 3>> faces = {{0, 2, 1}, {0, 1, 3}, {0, 7, 1}, {1, 2, 4}, {0, 1, 7}};
+  const std::vector<std::int32_t> face_tags = {5, 6, 7, 8, 7}, regions = {1, 1, 2, 2, 3, 3}, line_tags = {4, 3},
                                   point_tags = {9};
   const std::vector<std::array<std::int32_t, 2>> lines = {{7, 0}, {1, 2}};
   const std::vector<std::int32_t> points = {6};
@@ -86,11 +86,12 @@ TEST(TetMeshBuild, TagsAreFoundAndWhatIsNoFaceOrEdgeIsCounted) {
   EXPECT_EQ(result.dangling_faces, (std::vector<std::size_t>{0, 3}));  // the bottom has the diagonal 0-3
   EXPECT_EQ(result.dangling_lines, (std::vector<std::size_t>{1}));
   const TetMesh& mesh = result.mesh;
-  ASSERT_EQ(mesh.tagged_faces().size(), 2U);
+  ASSERT_EQ(mesh.tagged_faces().size(), 3U);
   EXPECT_EQ(mesh.tagged_faces()[0].tag, 6);
   EXPECT_TRUE(mesh.is_boundary(mesh.tagged_faces()[0].face));
   const auto [a, b, c] = mesh.vertices(mesh.tagged_faces()[1].face);  // the side with the user's orientation 0 → 7 → 1
   EXPECT_EQ(b.index, a.index == 0 ? 7U : a.index == 7 ? 1U : 0U) << a.index << b.index << c.index;
+  EXPECT_EQ(mesh.tagged_faces()[2].face, mesh.twin(mesh.tagged_faces()[1].face));
   EXPECT_EQ(mesh.tagged_lines(), (std::vector<TaggedLine>{{{VertexId(7), VertexId(0)}, 4}}));
   EXPECT_EQ(mesh.tagged_points(), (std::vector<TaggedPoint>{{VertexId(6), 9}}));
   EXPECT_EQ(mesh.region(TetId(5)), 3);
@@ -150,7 +151,12 @@ TEST(TetMeshBuild, NamesTheTetrahedronThatIsInvertedInTruth) {
   arrays.points[13] = {1.13, 1.07, 2.2};  // the middle, pushed through the top: some tetrahedra turn over
   const InputError error = error_of(arrays.input());
   EXPECT_EQ(error.code, ErrorCode::overlap);
-  EXPECT_NE(error.message.find(" is inverted. Next: "), std::string::npos) << error.message;
+  const std::size_t end = error.message.find(" is inverted. Next: ");
+  ASSERT_NE(end, std::string::npos) << error.message;
+  const std::size_t number = error.message.rfind(' ', end - 1) + 1;
+  const auto& named = arrays.tetrahedra[std::stoul(error.message.substr(number, end - number))];
+  const auto at = [&](std::size_t k) { return arrays.points[std::size_t(named[k])]; };
+  EXPECT_EQ(orientation(at(0), at(1), at(2), at(3)), Sign::negative) << error.message;
 }
 
 TEST(TetMeshBuild, NamesEdgesAndVerticesWhereTheMeshTouchesItself) {
@@ -199,6 +205,22 @@ TEST(TetMeshBuild, FindsAnEdgeThatWindsTwice) {
   for (std::int32_t k = 0; k < 12; ++k) arrays.tetrahedra.push_back({0, 1, 2 + k, 2 + (k + 1) % 12});
   expect_error(arrays, ErrorCode::overlap,
                "the tetrahedra around the edge from point 0 to point 1 overlap: together they make 2 turns around it");
+}
+
+TEST(TetMeshBuild, FindsAnInnerVertexThatIsCoveredTwice) {
+  // The same ring, joined to two poles: the link of the origin is a sphere that covers the directions twice.
+  TetArrays arrays;
+  arrays.points = {{0, 0, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (int k = 0; k < 12; ++k) {
+    const double angle = std::acos(-1.0) * k / 3, r = k < 6 ? 1 : 2;
+    arrays.points.push_back({r * std::cos(angle), r * std::sin(angle), 0});
+  }
+  for (std::int32_t k = 0; k < 12; ++k) {
+    arrays.tetrahedra.push_back({0, 1, 3 + k, 3 + (k + 1) % 12});
+    arrays.tetrahedra.push_back({0, 2, 3 + (k + 1) % 12, 3 + k});
+  }
+  expect_error(arrays, ErrorCode::overlap,
+               "the tetrahedra around point 0 overlap: together they fill 200 % of the sphere around (0, 0, 0)");
 }
 
 }  // namespace
