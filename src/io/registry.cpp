@@ -13,6 +13,7 @@
 #include "io/conversion/quadrilaterals.hpp"
 #include "io/disk/files.hpp"
 #include "io/formats/format.hpp"
+#include "io/tet_files.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 #include "io/text/values.hpp"
@@ -177,41 +178,6 @@ MeshFile mesh_file(Document&& document, const std::string& path, bool flat) {
   return std::move(document.file);
 }
 
-TetFile tet_file(Document&& document, const std::string& path) {
-  check_tetrahedra(document);
-  document.file.path = path;
-  finish(document);
-  MeshFile& f = document.file;
-  Tetrahedra& tets = document.tetrahedra;
-  for (DataArray& array : tets.data) array.name = plain_name(array.name);
-  make_names_unique(tets.data);
-  TetFile result;
-  result.points.reserve(f.points.size());
-  for (std::size_t i = 0; i < f.points.size(); ++i) result.points.push_back(document.place(i));
-  result.weights = std::move(f.weights);
-  result.tetrahedra = std::move(tets.corners);
-  result.regions = std::move(tets.regions);
-  result.cell_data = std::move(tets.data);
-  result.faces = std::move(f.triangles);
-  result.face_tags = std::move(f.regions);
-  result.face_tags.resize(result.faces.size());
-  result.face_data = std::move(f.cell_data);
-  result.lines = std::move(f.lines);
-  result.line_tags = std::move(f.line_tags);
-  result.line_data = std::move(f.line_data);
-  result.marked_points = std::move(f.marked_points);
-  result.point_tags = std::move(f.point_tags);
-  result.marked_point_data = std::move(f.marked_point_data);
-  result.names = std::move(f.names);
-  result.point_data = std::move(f.point_data);
-  result.field_data = std::move(f.field_data);
-  result.path = path;
-  result.format = std::move(f.format);
-  result.warnings = std::move(f.warnings);
-  result.numbering = std::move(document.names);
-  return result;
-}
-
 bool ends_with(std::string_view path, std::string_view suffix, bool any_case) {
   const auto lower = [any_case](char c) { return any_case && c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
   return path.size() >= suffix.size() &&
@@ -335,7 +301,10 @@ Expected<std::variant<MeshFile, TetFile>> read_any(const std::string& path, cons
   return guarded<Any>(path, [&]() -> Any {
     Document document = read_document(path, options);
     if (document.tetrahedra.corners.empty()) return mesh_file(std::move(document), path, options.flat);
-    return tet_file(std::move(document), path);
+    check_tetrahedra(document);
+    document.file.path = path;
+    finish(document);
+    return tet_file(std::move(document));
   });
 }
 
@@ -443,47 +412,6 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
   });
 }
 
-namespace {
-
-/// The faces, lines and points of a mesh of tetrahedra as a mesh of triangles, with x and y alone.
-MeshFile tags_of_file(const TetFile& file) {
-  MeshFile f;
-  f.points.reserve(file.points.size());
-  for (const Vec3& p : file.points) f.points.push_back({p.x, p.y});
-  if (std::any_of(file.weights.begin(), file.weights.end(), [](double w) { return w != 0; })) f.weights = file.weights;
-  f.triangles = file.faces;
-  f.regions = file.face_tags;
-  f.cell_data = file.face_data;
-  f.lines = file.lines;
-  f.line_tags = file.line_tags;
-  f.line_data = file.line_data;
-  f.marked_points = file.marked_points;
-  f.point_tags = file.point_tags;
-  f.marked_point_data = file.marked_point_data;
-  f.names = file.names;
-  f.point_data = file.point_data;
-  f.field_data = file.field_data;
-  return f;
-}
-
-void check_sizes_of_tetrahedra(const std::string& path, const TetFile& f) {
-  const auto insist = [&](bool good, std::string_view what) {
-    if (!good) fail(ErrorCode::size_mismatch, path, "the mesh to be written has ", what);
-  };
-  insist(f.regions.empty() || f.regions.size() == f.tetrahedra.size(), "another number of regions than of tetrahedra");
-  insist(f.face_tags.size() == f.faces.size(), "another number of face tags than of faces");
-  for (const DataArray& a : f.cell_data)
-    insist(a.components >= 1 && size(a.values) == f.tetrahedra.size() * static_cast<std::size_t>(a.components),
-           text("cell data ", in_quotes(a.name), " with ", size(a.values), " values, expected ", f.tetrahedra.size(),
-                " times ", a.components));
-  for (const auto& t : f.tetrahedra)
-    insist(std::all_of(t.begin(), t.end(),
-                       [&](std::int32_t p) { return p >= 0 && static_cast<std::size_t>(p) < f.points.size(); }),
-           "a tetrahedron with a vertex that is none");
-}
-
-}  // namespace
-
 Expected<std::vector<std::string>> write(const std::string& path, const TetFile& file, const WriteOptions& options) {
   return guarded<std::vector<std::string>>(path, [&] {
     const FormatRow& row = row_to_write(path, options.format);
@@ -496,7 +424,7 @@ Expected<std::vector<std::string>> write(const std::string& path, const TetFile&
            " is several files; expected the name of a file, found a stream");
     }
     const MeshFile tags = tags_of_file(file);
-    check_sizes_of_tetrahedra(path, file);
+    check_sizes(path, file);
     check_sizes(path, tags);
     check_names(path, tags);
     std::vector<double> z;

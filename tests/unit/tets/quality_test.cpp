@@ -47,6 +47,7 @@ TEST(TetQuality, CountsFitTheMesh) {
   EXPECT_EQ(q.faces, (4 * q.tetrahedra + q.boundary_faces) / 2);
   EXPECT_EQ(q.vertices + q.faces, q.edges + q.tetrahedra + 1);
   EXPECT_EQ(q.regions, 1U);
+  EXPECT_EQ(q.faces_not_crossed, q.faces - 4U * 27);  // only the faces of the middle tetrahedra are not right-angled
   EXPECT_NEAR(q.volume, 27, 1e-12);
   EXPECT_NEAR(q.max_volume, 1.0 / 3, 1e-15);
   EXPECT_NEAR(q.min_volume, 1.0 / 6, 1e-15);
