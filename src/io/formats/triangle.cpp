@@ -266,6 +266,7 @@ class TriangleReader {
     Declarations declared = declarations(source.bytes);
     AttributeColumns columns(std::move(declared.arrays), n_attributes, scanner);
     FileNames& names = *document_.names;
+    tets ? document_.tetrahedra.corners.reserve(n) : f.triangles.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
       TriangleRow row(scanner, tets ? "the number of a tetrahedron" : "the number of a triangle",
                       1 + static_cast<std::size_t>(corners) + n_attributes);
@@ -436,11 +437,15 @@ void write_ele(const WriteJob& job, const std::string& base, const std::vector<s
 }
 
 /// The file of tagged faces or edges of a mesh of TetGen. An old one would give its tags to this mesh, so it has to be
-/// replaced.
+/// replaced. `kind`: of the elements, for the warning on those that the reader will not take for tagged.
 template <std::size_t N>
 void write_tagged(const WriteJob& job, const std::string& path,
-                  const std::vector<std::array<std::int32_t, N>>& elements, const std::vector<std::int32_t>& tags) {
+                  const std::vector<std::array<std::int32_t, N>>& elements, const std::vector<std::int32_t>& tags,
+                  std::string_view kind) {
   if (elements.empty() && !exists(path)) return;
+  if (const auto n = std::count(tags.begin(), tags.end(), 0); n > 0)
+    job.warn(n, " ", kind, n == 1 ? "" : "s", " of tag 0 ", n == 1 ? "is" : "are",
+             " written with marker 0, which TetGen's files have for none");
   Output& out = job.outputs.open(path);
   out.put(elements.size(), " 1\n");
   for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -489,8 +494,8 @@ void write_triangle(const WriteJob& job) {
     return write_poly(job, base);
   }
   write_ele(job, base, job.tetrahedra->corners, job.tetrahedra->regions, job.tetrahedra->data);
-  write_tagged(job, base + ".face", f.triangles, f.regions);
-  write_tagged(job, base + ".edge", f.lines, f.line_tags);
+  write_tagged(job, base + ".face", f.triangles, f.regions, "face");
+  write_tagged(job, base + ".edge", f.lines, f.line_tags, "line");
 }
 
 }  // namespace temper::io

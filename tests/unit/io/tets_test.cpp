@@ -195,6 +195,13 @@ TEST_F(TetFiles, ErrorsHaveTheNumbersAndTheLinesOfTheFile) {
       "with lines and points as tags");
 }
 
+TEST_F(TetFiles, FacesWithoutATagAreNoTagsInFilesOfTetgen) {
+  TetFile file = tet_sample();
+  file.face_tags[1] = 0;
+  EXPECT_EQ(through(file, "triangle").face_tags, std::vector<std::int32_t>{7});
+  EXPECT_NE(warnings.find("m.node: 1 face of tag 0 is written with marker 0"), std::string::npos) << warnings;
+}
+
 TEST_F(TetFiles, DamagedFilesAreMeshesOrErrors) {
   std::mt19937 random(5);
   std::size_t meshes = 0, errors = 0;
