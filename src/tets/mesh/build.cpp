@@ -101,6 +101,7 @@ class TetMeshBuilder {
   template <class Corners>
   [[nodiscard]] std::string numbers(const Corners& corners) const {
     std::vector<std::string> all;
+    all.reserve(corners.size());
     for (const VertexId v : corners) all.push_back(number(v));
     return listed(all);
   }
@@ -322,6 +323,7 @@ class TetMeshBuilder {
   }
   InputError crowded_face(HalffaceId h, const std::vector<TetId>& tetrahedra) const {
     std::vector<std::string> all;
+    all.reserve(tetrahedra.size());
     for (const TetId t : tetrahedra) all.push_back(number(t));
     const auto corners = mesh_.vertices(h);
     return error_of(ErrorCode::non_manifold_face, tetrahedra.back(),
