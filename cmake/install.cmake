@@ -1,5 +1,5 @@
-# Installs the libraries, and what find_package(temper COMPONENTS core io lp tbb mpi errors solvers) and pkg-config need. The flags of
-# temper's own code (temper_flags) stay here: they are linked for the build alone and are in no export.
+# Installs the libraries, and what find_package(temper COMPONENTS core tets io lp tbb mpi errors solvers) and pkg-config
+# need. The flags of temper's own code (temper_flags) stay here: they are linked for the build alone and are in no export.
 #
 # Components: `program` (apps/temper), `libraries` (shared ones, for programs to run), `development`, `python`.
 include(CMakePackageConfigHelpers)
@@ -37,10 +37,12 @@ endfunction()
 
 temper_install(temper core "Primal-dual triangle meshes that solvers can trust: the core")
 
+temper_install(temper_tets tets "temper's meshes of tetrahedra")
+
 # Static libraries: whoever links the installed ones needs their libraries too, which temperConfig.cmake finds.
 if(TARGET temper_io)
   target_link_libraries(temper_io PRIVATE $<INSTALL_INTERFACE:pugixml::pugixml>)
-  temper_install(temper_io io "temper's mesh files" REQUIRES pugixml zlib LIBS ${CMAKE_DL_LIBS})
+  temper_install(temper_io io "temper's mesh files" REQUIRES temper-tets pugixml zlib LIBS ${CMAKE_DL_LIBS})
 endif()
 if(TARGET temper_lp)
   target_link_libraries(temper_lp PRIVATE $<INSTALL_INTERFACE:Clp::Clp>)

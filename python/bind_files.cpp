@@ -406,10 +406,10 @@ void bind_files(py::module_& m) {
   m.def("formats", [] {
     py::list list;
     for (const io::Format& f : io::formats()) {
-      list.append(
-          Record()("name", f.name)("description", f.description)("suffixes", f.suffixes)("writes", f.writes)(
-              "holds_weights", f.holds_weights)("holds_planes", f.holds_planes)("holds_spheres", f.holds_spheres)
-              .dict);
+      list.append(Record()("name", f.name)("description", f.description)("suffixes", f.suffixes)("writes", f.writes)(
+                      "holds_weights", f.holds_weights)("holds_planes", f.holds_planes)(
+                      "holds_spheres", f.holds_spheres)("holds_tetrahedra", f.holds_tetrahedra)
+                      .dict);
     }
     return list;
   });

@@ -40,8 +40,10 @@ LAYERS = {
     "draw": _BELOW + ["topology", "energy", "regularity", "quality"],
     "generate": _BELOW + ["topology", "energy", "regularity", "projection"],
     "mesher": _BELOW + ["size", "topology", "energy", "regularity", "feasibility", "optimize", "generate", "projection"],
-    # A library of its own: sees the core's public headers, and no other folder of src/.
-    "io": _BELOW + ["projection", "location", "size", "quality", "dec", "mesher"],
+    # A library of its own, with the rules of the core: meshes of tetrahedra, on what does not know of triangles.
+    "tets": _BELOW + ["quality"],
+    # A library of its own: sees the public headers of the core and of tets, and no other folder of src/.
+    "io": _BELOW + ["projection", "location", "size", "quality", "dec", "mesher", "tets"],
     "lp": _BELOW + ["feasibility"],
     "tbb": ["base"],
     "mpi": ["base"],
@@ -49,7 +51,8 @@ LAYERS = {
     "solvers": _BELOW + ["size", "energy", "regularity", "feasibility", "optimize", "quality", "lp", "errors", "io"],
     "build_info": ["base", "io"],
 }
-CORE = set(LAYERS) - {"io", "lp", "tbb", "mpi", "errors", "solvers", "build_info"}
+LIBRARIES = {"tets", "io", "lp", "tbb", "mpi", "errors", "solvers", "build_info"}  # of their own
+CORE = set(LAYERS) - LIBRARIES | {"tets"}  # what keeps the rules of the core
 
 # Public headers whose name is not that of their layer.
 HEADER_LAYER = {name: "base" for name in ["ids", "vec", "space", "error", "progress", "executor", "instruction_set", "outline", "read_number", "suggest", "version"]} | {"temper": "solvers", "trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "tbb_executor": "tbb", "mpi_communicator": "mpi", "columns": "dec", "tensor": "mesh", "discretization_error": "mesh", "dec_io": "io", "html": "io"}
@@ -78,6 +81,8 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 def layer_of_header(header):
     """The layer of "temper/NAME.hpp", or None when there is no such layer."""
     name = pathlib.PurePath(header).stem
+    if "/tets/" in header:
+        return "io" if name == "io" else "tets"
     return HEADER_LAYER.get(name, name if name in LAYERS else None)
 
 
@@ -129,7 +134,7 @@ def sources(root):
         if parts[0] == "src":
             yield path, parts[1] if parts[1] in LAYERS else None
         elif parts[:2] == ("include", "temper"):
-            yield path, layer_of_header(parts[-1])
+            yield path, layer_of_header("/".join(parts[1:]))
         elif parts[0] == "apps":
             yield path, "app"
 
@@ -178,7 +183,7 @@ def picture():
         row[layer] = max((row[b] + 1 for b in below), default=0)
     rows = [["apps/temper", "python", "gallery"]]
     for height in range(max(row.values()), -1, -1):
-        rows.append([layer + ("" if layer in CORE else "*") for layer in LAYERS if row[layer] == height])
+        rows.append([layer + ("*" if layer in LIBRARIES else "") for layer in LAYERS if row[layer] == height])
     lines = ["+" + "-" * width + "+"]
     for bricks in rows:
         wall = "|".join(brick.center(width // len(bricks)) for brick in bricks)

@@ -148,6 +148,7 @@ struct Format {
   bool holds_weights;         ///< Format can hold weights; else weights go to PATH.weights.csv, with a warning
   bool holds_planes;          ///< Format can hold any mesh of the plane; else only meshes that were read in degrees
   bool holds_spheres;         ///< Format can hold meshes of the sphere
+  bool holds_tetrahedra;      ///< Format can hold meshes of tetrahedra (temper/tets/io.hpp)
 };
 [[nodiscard]] std::span<const Format> formats();
 /// The version of libnetcdf, such as "4.9.0"; empty if there is none. The library is loaded now, if no file has needed

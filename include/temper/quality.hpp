@@ -1,7 +1,9 @@
 // The report on a primal-dual mesh: counts decided exactly, margins and energies in doubles.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -48,6 +50,16 @@ struct Histogram {
   double low = 0;
   double high = 0;
   std::vector<std::size_t> counts;
+
+  void add(double value) {
+    const double bins = static_cast<double>(counts.size());
+    const double bin = std::floor((value - low) / (high - low) * bins);
+    ++counts[static_cast<std::size_t>(std::clamp(bin, 0.0, bins - 1))];
+  }
+  /// Adds the counts of a histogram with the same bins.
+  void merge(const Histogram& other) {
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
+  }
 };
 
 /// Total energies of a mesh, as [EnergyKind, the row of energies()][star]. A value is +∞ outside the domain of the
@@ -114,10 +126,11 @@ enum class Preference : std::uint8_t {
   less,    ///< A maximum or energy must be at most this number
 };
 
-/// A row of the table of measures, for each number of Quality except energies. Requirements, reports and tables are
+/// A row of the table of measures, for each number of a report except energies. Requirements, reports and tables are
 /// made from these rows.
-struct QualityMeasure {
-  std::string_view key;    ///< Key in reports, and name of the member of Quality
+template <class Report>
+struct MeasureRow {
+  std::string_view key;    ///< Key in reports, and name of the member of Report
   std::string_view alias;  ///< Short name, or the name that its community uses; or empty
   std::string_view label;  ///< Label in tables
   /// Community whose codes use the measure; empty for measures of primal-dual meshes in general.
@@ -126,8 +139,9 @@ struct QualityMeasure {
   Preference better;
   bool count;                    ///< Measure is a whole number
   std::optional<double> wanted;  ///< Requirement by default, if the user gives no other
-  double (*of)(const Quality&);
+  double (*of)(const Report&);
 };
+using QualityMeasure = MeasureRow<Quality>;
 [[nodiscard]] std::span<const QualityMeasure> quality_measures();
 
 /// A number per triangle, for pictures.

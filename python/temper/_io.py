@@ -28,6 +28,7 @@ class Format(Record):
     holds_planes: bool
     """The format can hold any mesh of the plane; else only meshes that were read in degrees."""
     holds_spheres: bool
+    holds_tetrahedra: bool
 
 
 def formats() -> list[Format]:

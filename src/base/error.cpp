@@ -32,6 +32,10 @@ std::string_view name(ErrorCode code) {
       return "unused_point";
     case ErrorCode::zero_area:
       return "zero_area";
+    case ErrorCode::zero_volume:
+      return "zero_volume";
+    case ErrorCode::non_manifold_face:
+      return "non_manifold_face";
     case ErrorCode::non_manifold_edge:
       return "non_manifold_edge";
     case ErrorCode::non_manifold_vertex:

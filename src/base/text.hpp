@@ -14,4 +14,11 @@ inline std::string to_text(double value) {
   return {buffer, result.ptr};
 }
 
+/// "0.1234": rounded for people, to whom four digits are enough. Reports have the numbers in full.
+inline std::string rounded(double value, int digits = 4) {
+  char buffer[64];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits);
+  return {buffer, result.ptr};
+}
+
 }  // namespace temper

@@ -13,11 +13,13 @@
 #include "io/conversion/quadrilaterals.hpp"
 #include "io/disk/files.hpp"
 #include "io/formats/format.hpp"
+#include "io/tet_files.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 #include "io/text/values.hpp"
 #include "temper/detail/projection.hpp"
 #include "temper/detail/suggest.hpp"
+#include "temper/tets/io.hpp"
 
 namespace temper::io {
 
@@ -46,13 +48,13 @@ constexpr FormatRow kRows[] = {
     // clang-format off
     // name, description, suffixes, what a file holds,
     // functions that recognize, read and write it, details
-    {"vtu", "VTK XML unstructured grid, temper's own", ".vtu", kAll | kSphere | kPeriod | kQuadrilaterals,
+    {"vtu", "VTK XML unstructured grid, temper's own", ".vtu", kAll | kSphere | kPeriod | kQuadrilaterals | kTetrahedra,
      sniff_vtu, read_vtu, write_vtu},
-    {"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", (kAll & ~kFieldData) | kSphere | kQuadrilaterals,
+    {"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", (kAll & ~kFieldData) | kSphere | kQuadrilaterals | kTetrahedra,
      sniff_gmsh41, read_gmsh, write_gmsh41, {.name_ends = "\""}},
-    {"gmsh22", "Gmsh MSH 2.2", ".msh2", (kAll & ~kFieldData) | kSphere | kQuadrilaterals,
+    {"gmsh22", "Gmsh MSH 2.2", ".msh2", (kAll & ~kFieldData) | kSphere | kQuadrilaterals | kTetrahedra,
      sniff_gmsh22, read_gmsh, write_gmsh22, {.name_ends = "\""}},
-    {"medit", "medit (INRIA, Mmg)", ".mesh", kInSpace | kAllTags,
+    {"medit", "medit (INRIA, Mmg)", ".mesh", kInSpace | kAllTags | kTetrahedra,
      sniff_medit, read_medit, write_medit, {.keeps = medit_keeps}},
     {"jigsaw", "JIGSAW mesh", ".jigsaw.msh", kInSpace | kWeights | kAllTags,
      sniff_jigsaw, read_jigsaw_mesh, write_jigsaw_mesh, {.keeps = jigsaw_keeps}},
@@ -69,9 +71,9 @@ constexpr FormatRow kRows[] = {
      {.name_ends = "\"", .bed = Bed::z, .has_heights = true}},
     {"obj", "Wavefront OBJ", ".obj", kInSpace | kAllTags | kNames,
      sniff_obj, read_obj, write_obj},
-    {"vtk", "legacy VTK 2.0 to 4.2", ".vtk", kAll | kSphere | kQuadrilaterals,
+    {"vtk", "legacy VTK 2.0 to 4.2", ".vtk", kAll | kSphere | kQuadrilaterals | kTetrahedra,
      sniff_legacy_vtk, read_legacy_vtk, write_legacy_vtk},
-    {"vtk51", "legacy VTK 5.1", ".vtk51", kAll | kSphere | kQuadrilaterals,
+    {"vtk51", "legacy VTK 5.1", ".vtk51", kAll | kSphere | kQuadrilaterals | kTetrahedra,
      sniff_vtk51, read_legacy_vtk, write_vtk51},
     {"mfem", "MFEM mesh v1.0", ".mesh", 0,
      sniff_mfem, read_mfem},
@@ -83,11 +85,13 @@ constexpr FormatRow kRows[] = {
      sniff_fesom, read_fesom, write_fesom,
      {.keeps = fesom_keeps, .files_to_write = fesom_files, .files_to_read = fesom_files, .degrees = Degrees::always,
       .bed = Bed::depth}},
-    {"triangle", "Triangle", ".node .ele", kAll & ~(kLineData | kMarkedPointData | kFieldData),
+    {"triangle", "Triangle", ".node .ele",
+     (kAll & ~(kLineData | kMarkedPointData | kFieldData)) | kTetrahedra,
      sniff_triangle, read_triangle, write_triangle,
      {.files_to_write = triangle_files, .files_to_read = triangle_files_to_read}},
     // This row is before the rows of NetCDF, which may be HDF5: it hands files of other contents on to them.
-    {"vtkhdf", "VTKHDF unstructured grid (HDF5)", ".vtkhdf .hdf .hdf5", kAll | kSphere | kPeriod | kQuadrilaterals,
+    {"vtkhdf", "VTKHDF unstructured grid (HDF5)", ".vtkhdf .hdf .hdf5",
+     kAll | kSphere | kPeriod | kQuadrilaterals | kTetrahedra,
      sniff_vtkhdf, read_vtkhdf, write_vtkhdf, {.files_to_write = vtkhdf_files}},
     {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll | kSphere | kPeriod,
      sniff_mpas, read_mpas, write_mpas, {.files_to_write = netcdf_files, .degrees = Degrees::by_writer}},
@@ -104,7 +108,7 @@ template <std::size_t... I>
 constexpr std::array<Format, sizeof...(I)> columns(std::index_sequence<I...>) {
   return {Format{kRows[I].name, kRows[I].description, kRows[I].suffixes, kRows[I].write != nullptr,
                  (kRows[I].holds & kWeights) != 0, kRows[I].details.degrees != Degrees::always,
-                 (kRows[I].holds & kSphere) != 0}...};
+                 (kRows[I].holds & kSphere) != 0, (kRows[I].holds & kTetrahedra) != 0}...};
 }
 // Not constexpr: GCC with sanitizers does not take the address of a function for a constant.
 const auto kFormats = columns(std::make_index_sequence<std::size(kRows)>());
@@ -142,7 +146,8 @@ void tidy_warnings(MeshFile& file) {
   file.warnings.push_back(text(file.path, ": ", n - kMost + 1, " more warnings like these"));
 }
 
-MeshFile read_or_throw(const std::string& path, const ReadOptions& options) {
+/// The arrays of a file, not yet checked.
+Document read_document(const std::string& path, const ReadOptions& options) {
   Source source = load(path);
   source.executor = options.executor;
   source.window = options.window;
@@ -151,15 +156,25 @@ MeshFile read_or_throw(const std::string& path, const ReadOptions& options) {
   Document document = row.read(source);
   std::string().swap(source.bytes);
   if (document.file.format.empty()) document.file.format = row.name;
-  check(document, options.flat);
+  return document;
+}
+
+/// What is the same for all meshes, after the checks.
+void finish(Document& document) {
   read_side_file(document);
   drop_zero_weights(document.file);
-  document.file.path = path;
-  document.file.numbering = document.names;
   tidy_names(document.file);
   tidy_warnings(document.file);
   constexpr std::size_t kLarge = std::size_t{1} << 20;  // below it does not count, and reading is fast
-  if (document.file.points.size() + document.file.triangles.size() > kLarge) give_memory_back();
+  if (document.file.points.size() + document.file.triangles.size() + document.tetrahedra.corners.size() > kLarge)
+    give_memory_back();
+}
+
+MeshFile mesh_file(Document&& document, const std::string& path, bool flat) {
+  check(document, flat);
+  document.file.path = path;
+  document.file.numbering = document.names;
+  finish(document);
   return std::move(document.file);
 }
 
@@ -269,7 +284,28 @@ const FormatRow* find_row(std::string_view name) {
 }
 
 Expected<MeshFile> read(const std::string& path, const ReadOptions& options) {
-  return guarded<MeshFile>(path, [&] { return read_or_throw(path, options); });
+  return guarded<MeshFile>(path, [&] {
+    Document document = read_document(path, options);
+    const std::size_t n = document.tetrahedra.corners.size();
+    if (n > 0) {
+      fail(ErrorCode::unsupported, document.names->tetrahedron_where(0), "has ", n,
+           n == 1 ? " tetrahedron" : " tetrahedra",
+           "; expected a mesh of triangles. Next: temper check and convert take tetrahedra");
+    }
+    return mesh_file(std::move(document), path, options.flat);
+  });
+}
+
+Expected<std::variant<MeshFile, TetFile>> read_any(const std::string& path, const ReadOptions& options) {
+  using Any = std::variant<MeshFile, TetFile>;
+  return guarded<Any>(path, [&]() -> Any {
+    Document document = read_document(path, options);
+    if (document.tetrahedra.corners.empty()) return mesh_file(std::move(document), path, options.flat);
+    check_tetrahedra(document);
+    document.file.path = path;
+    finish(document);
+    return tet_file(std::move(document));
+  });
 }
 
 namespace {
@@ -368,6 +404,37 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
       job.warn("the radius is ", Projection{}.radius, " in ", row.description, ", not ", file.sphere()->radius,
                "; weights are scaled along");
     }
+    row.write(job);
+    warn_of_losses(job);
+    if ((row.holds & kWeights) == 0) write_side_file(job);
+    outputs.commit();
+    return warnings;
+  });
+}
+
+Expected<std::vector<std::string>> write(const std::string& path, const TetFile& file, const WriteOptions& options) {
+  return guarded<std::vector<std::string>>(path, [&] {
+    const FormatRow& row = row_to_write(path, options.format);
+    if ((row.holds & kTetrahedra) == 0) {
+      fail(ErrorCode::unsupported, path, row.description, " is not written with tetrahedra; expected one of ",
+           names_with(kTetrahedra));
+    }
+    if (row.details.files_to_write != nullptr && row.details.files_to_write(path).size() > 1 && is_stream(path)) {
+      fail(ErrorCode::not_writable, path, row.description,
+           " is several files; expected the name of a file, found a stream");
+    }
+    const MeshFile tags = tags_of_file(file);
+    check_sizes(path, file);
+    check_sizes(path, tags);
+    check_names(path, tags);
+    std::vector<double> z;
+    z.reserve(file.points.size());
+    for (const Vec3& p : file.points) z.push_back(p.z);
+    const Tetrahedra tetrahedra = {file.tetrahedra, file.regions, file.cell_data};
+    std::vector<std::string> warnings;
+    OutputSet outputs;
+    const WriteJob job = {path,    tags,     tags,         row, options.encoding, false, options.executor,
+                          outputs, warnings, std::move(z), {},  &tetrahedra};
     row.write(job);
     warn_of_losses(job);
     if ((row.holds & kWeights) == 0) write_side_file(job);

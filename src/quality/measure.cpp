@@ -265,13 +265,6 @@ std::string number_of(TriangleId t, const InputNames* names) {
   return names == nullptr ? std::to_string(t.index) : last_word(names->triangle(t.index));
 }
 
-// Four digits are enough for people; the report has the numbers in full.
-std::string rounded(double value, int digits) {
-  char buffer[64];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits);
-  return {buffer, result.ptr};
-}
-
 std::string degrees(double angle) {
   char buffer[64];
   const auto result = std::to_chars(buffer, buffer + sizeof buffer, angle, std::chars_format::fixed, 1);

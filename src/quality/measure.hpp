@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/mesh.hpp"
 #include "temper/quality.hpp"
@@ -71,8 +72,7 @@ class WorstList {
 /// The number of a vertex or a triangle in reports: the last word of its name, "12" of "point 12".
 [[nodiscard]] std::string number_of(VertexId v, const InputNames* names);
 [[nodiscard]] std::string number_of(TriangleId t, const InputNames* names);
-/// "0.1234", and "138.3°": numbers rounded for people.
-[[nodiscard]] std::string rounded(double value, int digits = 4);
+/// "138.3°": rounded for people.
 [[nodiscard]] std::string degrees(double angle);
 
 /// Two passes, over triangles and over vertices; if brief, one over the edges for the measures over the local size. All

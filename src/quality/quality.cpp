@@ -105,13 +105,6 @@ Histogram empty_angle_histogram() { return {0, 180, std::vector<std::size_t>(18)
 Histogram empty_height_histogram() { return {-0.5, 1, std::vector<std::size_t>(15)}; }
 Histogram empty_crossing_histogram() { return {-0.1, 0.5, std::vector<std::size_t>(12)}; }
 
-void count_in(Histogram& histogram, double value) {
-  const double last = static_cast<double>(histogram.counts.size() - 1);
-  const double bins = static_cast<double>(histogram.counts.size());
-  const double bin = std::floor((value - histogram.low) / (histogram.high - histogram.low) * bins);
-  ++histogram.counts[static_cast<std::size_t>(std::clamp(bin, 0.0, last))];
-}
-
 struct Tally {
   explicit Tally(std::size_t n_worst) : worst(n_worst) {}
 
@@ -135,10 +128,6 @@ struct Tally {
   void add_edge(const Mesh& mesh, HalfedgeId h, const TriangleMeasure& m, int k);
 };
 
-void merge_counts(Histogram& into, const Histogram& from) {
-  for (std::size_t i = 0; i < into.counts.size(); ++i) into.counts[i] += from.counts[i];
-}
-
 void Tally::add(const Mesh& mesh, TriangleId t, TriangleId original) {
   const TriangleMeasure m = measure_triangle(mesh, t);
   inverted_triangles += m.orientation == Sign::negative;
@@ -149,13 +138,13 @@ void Tally::add(const Mesh& mesh, TriangleId t, TriangleId original) {
     min_h_over_l = std::min(min_h_over_l, m.h_over_l[k]);
     min_angle_deg = std::min(min_angle_deg, m.angle_deg[k]);
     max_angle_deg = std::max(max_angle_deg, m.angle_deg[k]);
-    count_in(angles, m.angle_deg[k]);
+    angles.add(m.angle_deg[k]);
     const HalfedgeId h = Mesh::halfedge(t, k);
     if (mesh.is_diagonal(h)) {
       edges += mesh.is_edge_representative(h);
       continue;
     }
-    count_in(h_over_l, m.h_over_l[k]);
+    h_over_l.add(m.h_over_l[k]);
     if (mesh.is_edge_representative(h)) add_edge(mesh, h, m, k);
   }
 }
@@ -164,7 +153,7 @@ void Tally::add_edge(const Mesh& mesh, HalfedgeId h, const TriangleMeasure& m, i
   ++edges;
   edges_not_crossed += !m.crossed[k];
   min_d_over_l = std::min(min_d_over_l, m.d_over_l[k]);
-  count_in(d_over_l, m.d_over_l[k]);
+  d_over_l.add(m.d_over_l[k]);
   if (mesh.is_boundary(h)) {
     ++boundary_edges;
     negative_boundary_duals += m.h_sign[k] == Sign::negative;
@@ -187,9 +176,9 @@ void Tally::merge(const Tally& other) {
   min_angle_deg = std::min(min_angle_deg, other.min_angle_deg);
   max_angle_deg = std::max(max_angle_deg, other.max_angle_deg);
   worst.merge(other.worst);
-  merge_counts(angles, other.angles);
-  merge_counts(h_over_l, other.h_over_l);
-  merge_counts(d_over_l, other.d_over_l);
+  angles.merge(other.angles);
+  h_over_l.merge(other.h_over_l);
+  d_over_l.merge(other.d_over_l);
 }
 
 constexpr std::size_t kBlock = 8192;  // triangles: some milliseconds of work, some hundred blocks for a million

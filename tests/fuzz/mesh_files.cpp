@@ -55,12 +55,30 @@ void write_and_read_again(const Scratch& scratch, const io::MeshFile& file, cons
   insist(again->triangles.size() == file.triangles.size(), "as many triangles are read as were written");
 }
 
+void run_tetrahedra(const Scratch& scratch, const io::TetFile& file, std::string_view bytes) {
+  const auto made = io::make_mesh(file);
+  if (!made) return insist_on_message(made.error());
+  const auto wrong = made->mesh.validate();
+  insist(!wrong, wrong.value_or(""));
+  const io::Format& format = chosen_format(bytes);
+  if (!format.holds_tetrahedra) return;
+  const std::string out = scratch.path("out" + std::string(names_of(format.name).points).substr(1));
+  const auto written = io::write(out, file, {std::string(format.name), {}});
+  if (!written) return insist_on_message(written.error());
+  const auto again = io::read_any(out);
+  insist(again.has_value(), again ? "" : std::string(format.name) + ": " + again.error().what());
+  const auto* tets = std::get_if<io::TetFile>(&*again);
+  insist(tets != nullptr && tets->tetrahedra == file.tetrahedra, "the tetrahedra are read that were written");
+}
+
 void run(const std::string& format, std::string_view bytes) {
   static const Scratch scratch;
   scratch.clear();
   if (bytes.starts_with("\x89HDF")) return;  // libhdf5 reads it, which may never return
-  const auto file = io::read(place(scratch, format, bytes));
-  if (!file) return insist_on_message(file.error());
+  const auto any = io::read_any(place(scratch, format, bytes));
+  if (!any) return insist_on_message(any.error());
+  if (const auto* const tets = std::get_if<io::TetFile>(&*any)) return run_tetrahedra(scratch, *tets, bytes);
+  const auto* const file = std::get_if<io::MeshFile>(&*any);
   insist(printable(file->warnings.empty() ? "" : file->warnings[0]).size() < 100000, "warnings are short");
   const auto made = io::make_mesh(*file);
   if (!made) return insist_on_message(made.error());
@@ -81,14 +99,16 @@ std::vector<std::string> seeds(const io::Format& format) {
   const std::string out = scratch.path(std::string(names.points));
   io::MeshFile globe = io::from_mesh(*icosahedral({.level = 1}));
   globe.triangles.pop_back();
-  for (const auto& file : {io::tamed(io::sample()), io::tamed(io::rich_sample()), globe}) {
+  const auto add = [&](const auto& file) {
     for (const auto encoding : {io::Encoding::ascii, io::Encoding::base64, io::Encoding::appended}) {
       if (!io::write(out, file, {std::string(format.name), encoding})) continue;
       std::string bytes = io::slurp(out);
       if (!names.triangles.empty()) bytes += kBetweenFiles + io::slurp(scratch.path(std::string(names.triangles)));
       if (std::find(all.begin(), all.end(), bytes) == all.end()) all.push_back(std::move(bytes));
     }
-  }
+  };
+  for (const auto& file : {io::tamed(io::sample()), io::tamed(io::rich_sample()), globe}) add(file);
+  if (format.holds_tetrahedra) add(io::tet_sample());
   return all;
 }
 

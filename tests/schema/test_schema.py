@@ -51,13 +51,15 @@ def main(program, schema_path):
 
         temper("example", "random", "--vertices", "60", "-o", "in.vtu")
         one = json.loads(temper("check", "in.vtu", "--json", "--require", "outside=0,energy.BH.1=1", exit=3))
-        two = json.loads(temper("check", "in.vtu", "in.vtu", "--json"))
+        pathlib.Path(folder, "tet.mesh").write_text("MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\nTetrahedra\n1\n1 2 3 4 0\nEnd\n", encoding="utf-8")
+        tetrahedra = json.loads(temper("check", "tet.mesh", "--json", "--require", "outside=0", exit=3))
+        two = json.loads(temper("check", "in.vtu", "tet.mesh", "--json"))
         reports = [report(), report("--set", "objective=accuracy"), report("--require", "regions=2", exit=3),
                    report("--for", "paper", "--set", "max_sweeps=2"), report("--time-limit", "1e-9", exit=4)]
         others = other_documents(temper, folder)
 
     assert len(two) == 2 and one["energy"]["BH"][1] is None and not one["requirements"][1]["met"]
-    documents = [("check", one), *(("report", r) for r in reports), *others]
+    documents = [("check", one), ("check_tetrahedra", tetrahedra), *(("report", r) for r in reports), *others]
     assert {kind for kind, _ in documents} == set(kinds)
     for found in [two, *(found for _, found in documents)]:
         whole.validate(found)

@@ -28,7 +28,8 @@ TEMPER_EXPORT(formats) void answer_formats() {
                     {"writes", f.writes},
                     {"holds_weights", f.holds_weights},
                     {"holds_planes", f.holds_planes},
-                    {"holds_spheres", f.holds_spheres}});
+                    {"holds_spheres", f.holds_spheres},
+                    {"holds_tetrahedra", f.holds_tetrahedra}});
   }
   answer(rows);
 }

@@ -18,11 +18,11 @@ namespace {
 std::string last_word(const std::string& text) { return text.substr(text.rfind(' ') + 1); }
 
 /// Mesh vertex → point; empty when they are the same.
-std::vector<std::size_t> invert(const io::LoadedMesh& loaded) {
-  if (loaded.vertex_of_point.size() == loaded.mesh.n_vertices()) return {};
-  std::vector<std::size_t> points(loaded.mesh.n_vertices());
-  for (std::size_t point = 0; point < loaded.vertex_of_point.size(); ++point) {
-    const std::int32_t vertex = loaded.vertex_of_point[point];
+std::vector<std::size_t> invert(const io::VertexOfPoint& vertex_of_point) {
+  if (vertex_of_point.size() == vertex_of_point.n_kept()) return {};
+  std::vector<std::size_t> points(vertex_of_point.n_kept());
+  for (std::size_t point = 0; point < vertex_of_point.size(); ++point) {
+    const std::int32_t vertex = vertex_of_point[point];
     if (vertex >= 0) points[static_cast<std::size_t>(vertex)] = point;
   }
   return points;
@@ -54,9 +54,41 @@ Input read_input(const std::string& path, const ReadingOptions& options) {
   input.loaded = or_fail(std::move(loaded));
   if (!options.spheres) expect_plane(input.loaded.mesh, path, "this verb");
   input.n_vertices = input.loaded.mesh.n_vertices();
-  input.points = invert(input.loaded);
+  input.points = invert(input.loaded.vertex_of_point);
   input.names = std::make_shared<VertexNames>(input.file.numbering, input.points, input.n_vertices);
   return input;
+}
+
+std::string TetInput::vertex_number(VertexId v) const {
+  return last_word(file.numbering->point(points.empty() ? v.index : points[v.index]));
+}
+
+std::string TetInput::tetrahedron_number(tets::TetId t) const {
+  return last_word(file.numbering->tetrahedron(t.index));
+}
+
+std::vector<std::string> TetInput::warnings() const {
+  std::vector<std::string> all = file.warnings;
+  all.insert(all.end(), loaded.warnings.begin(), loaded.warnings.end());
+  return all;
+}
+
+TetInput make_input(const std::string& path, io::TetFile file, Executor* executor) {
+  TetInput input;
+  input.path = path;
+  input.file = std::move(file);
+  input.loaded = or_fail(io::make_mesh(input.file, executor));
+  input.points = invert(input.loaded.vertex_of_point);
+  return input;
+}
+
+void refuse_for_tetrahedra(const std::string& verb, const std::string& path,
+                           std::initializer_list<GivenOption> options) {
+  for (const auto& [is_given, name] : options) {
+    if (is_given)
+      refuse_usage(verb,
+                   fmt::format("{} has tetrahedra, and {} is for triangles alone. Next: leave it out", path, name));
+  }
 }
 
 std::vector<double> as_doubles(const io::DataArray& data) {
@@ -96,7 +128,7 @@ std::string same_projection(const Input& input, const std::string& projection) {
 }
 
 std::string renumber(const std::string& text, const std::function<std::string(VertexId)>& name) {
-  static constexpr std::array<std::string_view, 2> kBefore = {"vertex ", "edge "};
+  static constexpr std::array<std::string_view, 3> kBefore = {"vertex ", "edge ", "face "};
   std::string result;
   std::size_t at = 0;
   const auto copy_number = [&] {
@@ -114,9 +146,10 @@ std::string renumber(const std::string& text, const std::function<std::string(Ve
       result += word;
       at += word.size();
       found = true;
-      if (copy_number() && at < text.size() && text[at] == '-') {
+      bool is_number = copy_number();
+      while (is_number && at < text.size() && text[at] == '-') {
         result += text[at++];
-        copy_number();
+        is_number = copy_number();
       }
       break;
     }

@@ -7,11 +7,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "exit.hpp"
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"
+#include "temper/tets/io.hpp"
 
 namespace temper::app {
 
@@ -30,6 +32,30 @@ struct Input {
   /// Warnings of reading and of building.
   [[nodiscard]] std::vector<std::string> warnings() const;
 };
+
+/// The same of a mesh of tetrahedra.
+struct TetInput {
+  std::string path;
+  io::TetFile file;
+  io::LoadedTetMesh loaded;
+  std::vector<std::size_t> points;  ///< mesh vertex → point of the file, both from 0; empty: the same
+
+  [[nodiscard]] const tets::TetMesh& mesh() const { return loaded.mesh; }
+  [[nodiscard]] std::string vertex_number(VertexId v) const;
+  [[nodiscard]] std::string tetrahedron_number(tets::TetId t) const;
+  [[nodiscard]] std::vector<std::string> warnings() const;
+};
+/// Builds the mesh of a file; Failure when anything is wrong with it.
+[[nodiscard]] TetInput make_input(const std::string& path, io::TetFile file, Executor* executor);
+
+/// An option, and if it is given.
+struct GivenOption {
+  bool is_given;
+  std::string_view name;
+};
+/// Failure (bad usage of the verb) for the first option that is given, although it is for triangles alone.
+void refuse_for_tetrahedra(const std::string& verb, const std::string& path,
+                           std::initializer_list<GivenOption> options);
 
 /// Options for reading a file.
 struct ReadingOptions {
@@ -60,7 +86,7 @@ void expect_plane(const Mesh& mesh, const std::string& path, std::string_view wh
 /// The projection of another file onto the same map: with the center that was chosen for this one.
 [[nodiscard]] std::string same_projection(const Input& input, const std::string& projection);
 
-/// The text with another name for each vertex number in it ("vertex 3", "edge 3-9").
+/// The text with another name for each vertex number in it ("vertex 3", "edge 3-9", "face 3-9-12").
 [[nodiscard]] std::string renumber(const std::string& text, const std::function<std::string(VertexId)>& name);
 
 /// The file's own numbers for the vertices of a mesh, if points of the file that no triangle uses were dropped. Also
@@ -107,5 +133,8 @@ inline constexpr int kDeepestJson = 16;
 /// loop forever or crash, and then only the child does. Failure when the file cannot be used, or the child exceeds its
 /// budget of time and memory. A pipe can be read only once, and is read at once.
 [[nodiscard]] io::MeshFile read_tried(const std::string& path, const io::ReadOptions& options = {});
+/// io::read_any(), in the same way.
+[[nodiscard]] std::variant<io::MeshFile, io::TetFile> read_any_tried(const std::string& path,
+                                                                     const io::ReadOptions& options = {});
 
 }  // namespace temper::app

@@ -214,13 +214,22 @@ void Outputs::fail(const InputError& error) const {
   throw Failure(Exit::bad_input, message);
 }
 
-std::vector<std::string> Outputs::write_mesh(const MeshOutput& output, const io::MeshFile& file, Executor* executor) {
+template <class File>
+std::vector<std::string> Outputs::write_any(const MeshOutput& output, const File& file, Executor* executor) {
   io::WriteOptions options = output.options;
   options.executor = executor;
   Expected<std::vector<std::string>> warnings = io::write(output.path, file, options);
   if (!warnings) fail(warnings.error());
   written_.push_back(output.path);
   return *std::move(warnings);
+}
+
+std::vector<std::string> Outputs::write_mesh(const MeshOutput& output, const io::MeshFile& file, Executor* executor) {
+  return write_any(output, file, executor);
+}
+
+std::vector<std::string> Outputs::write_mesh(const MeshOutput& output, const io::TetFile& file, Executor* executor) {
+  return write_any(output, file, executor);
 }
 
 void Outputs::write_text(const std::string& path, std::string_view text) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "options/options.hpp"
-#include "temper/io.hpp"
+#include "temper/tets/io.hpp"
 
 namespace temper::app {
 
@@ -63,6 +63,7 @@ class Outputs {
 
   /// The warnings of writing.
   std::vector<std::string> write_mesh(const MeshOutput& output, const io::MeshFile& file, Executor* executor = nullptr);
+  std::vector<std::string> write_mesh(const MeshOutput& output, const io::TetFile& file, Executor* executor = nullptr);
   void write_text(const std::string& path, std::string_view text);
   void write_picture(const std::string& path, std::string_view svg);
   /// Text that is written piece by piece: opened before the work, put in its place after it.
@@ -77,6 +78,8 @@ class Outputs {
     std::string option, path, file;
   };
   void expect(const std::string& option, const std::string& path, const std::vector<std::string>& files);
+  template <class File>
+  std::vector<std::string> write_any(const MeshOutput& output, const File& file, Executor* executor);
   [[noreturn]] void refuse(const std::string& option, const std::string& message) const;
   [[noreturn]] void fail(const InputError& error) const;
 

@@ -72,7 +72,7 @@ void limit_this_process(const Budget& budget) {
                                const io::ReadOptions& options) {
   limit_this_process(budget);
   std::string said = {kDone};
-  if (const auto file = io::read(path, {.flat = options.flat}); !file) {
+  if (const auto file = io::read_any(path, {.flat = options.flat}); !file) {
     said = {kFailed, static_cast<char>(file.error().code)};
     said.append(file.error().where).append(1, '\0').append(file.error().message);
   }
@@ -141,9 +141,22 @@ Expected<void> try_in_child(const std::string& path, const Budget& budget, const
 
 }  // namespace
 
-io::MeshFile read_tried(const std::string& path, const io::ReadOptions& options) {
+namespace {
+
+void try_hdf5(const std::string& path, const io::ReadOptions& options) {
   if (const auto size = size_of_hdf5(path)) or_fail(try_in_child(path, budget_of(*size), options));
+}
+
+}  // namespace
+
+io::MeshFile read_tried(const std::string& path, const io::ReadOptions& options) {
+  try_hdf5(path, options);
   return or_fail(io::read(path, options));
+}
+
+std::variant<io::MeshFile, io::TetFile> read_any_tried(const std::string& path, const io::ReadOptions& options) {
+  try_hdf5(path, options);
+  return or_fail(io::read_any(path, options));
 }
 
 }  // namespace temper::app

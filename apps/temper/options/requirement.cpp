@@ -28,11 +28,27 @@ std::vector<EnergyKey> energy_keys() {
   return keys;
 }
 
-const QualityMeasure* find_measure(std::string_view key) {
-  for (const QualityMeasure& measure : quality_measures()) {
-    if (key == measure.key || (!measure.alias.empty() && key == measure.alias)) return &measure;
+template <class Row>
+const Row* find_row(std::span<const Row> rows, std::string_view key) {
+  for (const Row& row : rows) {
+    if (key == row.key || (!row.alias.empty() && key == row.alias)) return &row;
   }
   return nullptr;
+}
+
+/// A measure without its function, for meshes of either kind.
+struct Key {
+  std::string_view key, alias;
+  Preference better;
+  std::optional<double> wanted;
+};
+std::vector<Key> keys_of(MeshKind kind) {
+  std::vector<Key> keys;
+  const auto add = [&](const auto& rows) {
+    for (const auto& row : rows) keys.push_back({row.key, row.alias, row.better, row.wanted});
+  };
+  kind == MeshKind::triangles ? add(quality_measures()) : add(tets::quality_measures());
+  return keys;
 }
 
 bool is_energy_key(std::string_view key) {
@@ -44,20 +60,22 @@ bool is_energy_key(std::string_view key) {
 
 [[noreturn]] void refuse(const std::string& message) { throw BadValue(message); }
 
-[[noreturn]] void refuse_key(std::string_view key) {
+[[noreturn]] void refuse_key(std::string_view key, std::span<const Key> keys, MeshKind kind) {
   std::vector<std::string_view> names;
-  for (const QualityMeasure& measure : quality_measures()) {
-    if (!measure.alias.empty()) names.push_back(measure.alias);
-    names.push_back(measure.key);
+  for (const Key& each : keys) {
+    if (!each.alias.empty()) names.push_back(each.alias);
+    names.push_back(each.key);
   }
   const std::string_view guess = nearest(key, names);
-  refuse(fmt::format("unknown key '{}'{}; the keys are {}, and energy.NAME.STAR (energy.BP.1)", key,
-                     guess.empty() ? "" : fmt::format(", did you mean '{}'?", guess), join(names)));
+  const bool triangles = kind == MeshKind::triangles;
+  refuse(fmt::format(
+      "unknown key '{}'{}; the keys{} are {}{}", key, guess.empty() ? "" : fmt::format(", did you mean '{}'?", guess),
+      triangles ? "" : " for tetrahedra", join(names), triangles ? ", and energy.NAME.STAR (energy.BP.1)" : ""));
 }
 
 /// A key alone stands for the usual requirement.
-Requirement usual_requirement(std::string_view key) {
-  const QualityMeasure* measure = find_measure(key);
+Requirement usual_requirement(std::string_view key, std::span<const Key> keys) {
+  const Key* measure = find_row(keys, key);
   if (measure == nullptr) refuse(fmt::format("'{}' is not key=value", key));
   if (!measure->wanted) {
     refuse(fmt::format("'{0}' has no usual value: write {0}{1}VALUE", key, sign(measure->better)));
@@ -65,17 +83,18 @@ Requirement usual_requirement(std::string_view key) {
   return {std::string(key), std::string(measure->key), measure->better, *measure->wanted};
 }
 
-Requirement parse_requirement(std::string_view text) {
+Requirement parse_requirement(std::string_view text, std::span<const Key> keys, MeshKind kind) {
   const std::size_t at = text.find_first_of("<>=");
-  if (at == std::string_view::npos) return usual_requirement(text);
+  if (at == std::string_view::npos) return usual_requirement(text, keys);
   const std::string_view key = text.substr(0, at);
   const bool two = text.substr(at).size() > 1 && text[at + 1] == '=';
   if (!two && text[at] != '=') refuse(fmt::format("'{}': write <= or >=, both include the value", text));
 
   Requirement requirement;
   requirement.text = text;
-  const QualityMeasure* measure = find_measure(key);
-  if (measure == nullptr && !is_energy_key(key)) refuse_key(key);
+  const Key* measure = find_row(keys, key);
+  const bool known = measure != nullptr || (kind == MeshKind::triangles && is_energy_key(key));
+  if (!known) refuse_key(key, keys, kind);
   requirement.key = measure != nullptr ? measure->key : key;
   if (two) {
     requirement.better = text[at] == '<' ? Preference::less : text[at] == '>' ? Preference::larger : Preference::equal;
@@ -90,11 +109,16 @@ Requirement parse_requirement(std::string_view text) {
 }
 
 double value_of(const std::string& key, const Quality& quality) {
-  if (const QualityMeasure* measure = find_measure(key)) return measure->of(quality);
+  if (const QualityMeasure* measure = find_row(quality_measures(), key)) return measure->of(quality);
   for (const EnergyKey& energy : energy_keys()) {
     if (energy.key == key) return quality.energy[energy.row][energy.star];
   }
   return std::nan("");
+}
+
+double value_of(const std::string& key, const tets::Quality& quality) {
+  const tets::QualityMeasure* measure = find_row(tets::quality_measures(), key);
+  return measure == nullptr ? std::nan("") : measure->of(quality);
 }
 
 bool holds(Preference better, double found, double wanted) {
@@ -115,32 +139,44 @@ bool contradict(const Requirement& a, const Requirement& b) {
 }
 
 /// The keys and short names, for --help.
-std::string requirement_keys() {
+std::string requirement_keys(MeshKind kind) {
   std::string text;
-  for (const QualityMeasure& measure : quality_measures()) {
+  for (const Key& each : keys_of(kind)) {
     if (!text.empty()) text += ", ";
-    text += measure.key;
-    if (!measure.alias.empty()) text += fmt::format(" ({})", measure.alias);
+    text += each.key;
+    if (!each.alias.empty()) text += fmt::format(" ({})", each.alias);
   }
-  return text + ", energy.NAME.STAR";
+  return text;
+}
+
+template <class Report>
+std::vector<Outcome> outcomes_of(std::span<const Requirement> requirements, const Report& quality) {
+  std::vector<Outcome> outcomes;
+  for (const Requirement& requirement : requirements) {
+    const double found = value_of(requirement.key, quality);
+    outcomes.push_back({requirement, found, holds(requirement.better, found, requirement.value)});
+  }
+  return outcomes;
 }
 
 }  // namespace
 
-Option& add_requirements(Command& command, std::vector<std::string>& lists) {
+Option& add_requirements(Command& command, std::vector<std::string>& lists, bool tetrahedra) {
   return add_texts(
       command, "--require", "LIST", Values::repeated, lists,
       "Requirements key=value, key>=value or key<=value, separated by commas. If one is not met, exit with 3. For a "
       "count, key=value requires equality. For a minimum or a fraction it means at least, and for a maximum or an "
       "energy at most. A key alone stands for its usual value, see docs/reference/limits.md. Keys: " +
-          requirement_keys());
+          requirement_keys(MeshKind::triangles) + ", energy.NAME.STAR" +
+          (tetrahedra ? ". Keys for tetrahedra: " + requirement_keys(MeshKind::tetrahedra) : ""));
 }
 
-std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists) {
+std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists, MeshKind kind) {
+  const std::vector<Key> keys = keys_of(kind);
   std::vector<Requirement> requirements;
   try {
     for (const std::string& list : lists) {
-      for (const std::string& word : separated(list)) requirements.push_back(parse_requirement(word));
+      for (const std::string& word : separated(list)) requirements.push_back(parse_requirement(word, keys, kind));
     }
   } catch (const BadValue& bad) {
     refuse_usage(std::string(verb), fmt::format("--require: {}", bad.what()));
@@ -158,12 +194,11 @@ std::string_view sign(Preference better) {
 }
 
 std::vector<Outcome> judge(std::span<const Requirement> requirements, const Quality& quality) {
-  std::vector<Outcome> outcomes;
-  for (const Requirement& requirement : requirements) {
-    const double found = value_of(requirement.key, quality);
-    outcomes.push_back({requirement, found, holds(requirement.better, found, requirement.value)});
-  }
-  return outcomes;
+  return outcomes_of(requirements, quality);
+}
+
+std::vector<Outcome> judge(std::span<const Requirement> requirements, const tets::Quality& quality) {
+  return outcomes_of(requirements, quality);
 }
 
 Exit report_unmet(std::span<const Outcome> outcomes, const std::string& path) {

@@ -12,6 +12,7 @@
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
+#include "temper/tets/quality.hpp"
 
 namespace temper::app {
 
@@ -44,6 +45,12 @@ struct TextStyle {
 
 /// "46 of 96 triangles are not well-centered, every edge is regular"
 [[nodiscard]] std::string verdict(const Quality& quality);
+
+// The same of meshes of tetrahedra.
+[[nodiscard]] std::string quality_text(const tets::Quality& quality, const TetInput& input, const TextStyle& style);
+[[nodiscard]] std::string brief_text(const tets::Quality& quality);
+[[nodiscard]] std::string verdict(const tets::Quality& quality);
+
 /// "2 of 9 triangles are not well-centered", or "all 9 triangles are well-centered".
 [[nodiscard]] std::string well_centered(std::size_t bad, std::size_t triangles);
 
@@ -65,6 +72,8 @@ inline constexpr int kSchema = 1;
 [[nodiscard]] std::string quality_json(const Quality& quality, std::span<const std::size_t> points);
 /// `temper check --json`: these, and the outcomes of --require.
 [[nodiscard]] std::string check_json(const std::string& path, const Quality& quality,
+                                     std::span<const std::size_t> points, std::span<const Outcome> outcomes);
+[[nodiscard]] std::string check_json(const std::string& path, const tets::Quality& quality,
                                      std::span<const std::size_t> points, std::span<const Outcome> outcomes);
 /// One JSON text made of several.
 [[nodiscard]] std::string json_list(std::span<const std::string> reports);

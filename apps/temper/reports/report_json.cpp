@@ -32,23 +32,48 @@ Json worst_triangle(const WorstTriangle& worst, Points points) {
           {"why", renumber(worst.why, name)}};
 }
 
-Json to_json(const Quality& quality, Points points) {
+Json worst_tetrahedron(const tets::WorstTet& worst, Points points) {
+  Json vertices = Json::array();
+  for (const VertexId v : worst.vertices) vertices.push_back(point_of(points, v));
+  const auto name = [points](VertexId v) { return std::to_string(point_of(points, v)); };
+  return {{"tetrahedron", worst.tetrahedron.index},
+          {"vertices", std::move(vertices)},
+          {"at", {worst.at.x, worst.at.y, worst.at.z}},
+          {"h_over_l", number_or_null(worst.h_over_l)},
+          {"dihedral_deg", number_or_null(worst.dihedral_deg)},
+          {"why", renumber(worst.why, name)}};
+}
+
+template <class Report>
+Json measures_json(std::span<const MeasureRow<Report>> rows, const Report& quality) {
   Json json;
-  for (const QualityMeasure& measure : quality_measures()) {
+  for (const MeasureRow<Report>& measure : rows) {
     const double value = measure.of(quality);
     json[std::string(measure.key)] = measure.count ? Json(static_cast<std::uint64_t>(value)) : number_or_null(value);
   }
+  return json;
+}
+
+Json to_json(const Histogram& h) { return {{"low", h.low}, {"high", h.high}, {"counts", h.counts}}; }
+
+Json to_json(const tets::Quality& quality, Points points) {
+  Json json = measures_json(tets::quality_measures(), quality);
+  json["histograms"] = {{"dihedrals", to_json(quality.dihedrals)}, {"h_over_l", to_json(quality.h_over_l)}};
+  json["worst"] = Json::array();
+  for (const tets::WorstTet& worst : quality.worst) json["worst"].push_back(worst_tetrahedron(worst, points));
+  return json;
+}
+
+Json to_json(const Quality& quality, Points points) {
+  Json json = measures_json(quality_measures(), quality);
   Json& energy = json["energy"];
   for (std::size_t row = 0; row < energies().size(); ++row) {
     Json& stars = energy[std::string(energies()[row].name)] = Json::array();
     for (const double value : quality.energy[row]) stars.push_back(number_or_null(value));
   }
-  const auto histogram = [](const Histogram& h) -> Json {
-    return {{"low", h.low}, {"high", h.high}, {"counts", h.counts}};
-  };
-  json["histograms"] = {{"angles", histogram(quality.angles)},
-                        {"h_over_l", histogram(quality.h_over_l)},
-                        {"d_over_l", histogram(quality.d_over_l)}};
+  json["histograms"] = {{"angles", to_json(quality.angles)},
+                        {"h_over_l", to_json(quality.h_over_l)},
+                        {"d_over_l", to_json(quality.d_over_l)}};
   json["worst"] = Json::array();
   for (const WorstTriangle& worst : quality.worst) json["worst"].push_back(worst_triangle(worst, points));
   return json;
@@ -119,12 +144,27 @@ std::string quality_json(const Quality& quality, std::span<const std::size_t> po
   return dump(to_json(quality, points));
 }
 
-std::string check_json(const std::string& path, const Quality& quality, std::span<const std::size_t> points,
+namespace {
+
+template <class Report>
+std::string dump_check(const std::string& path, const Report& quality, Points points,
                        std::span<const Outcome> outcomes) {
   Json json = {{"schema", kSchema}, {"file", path}};
   json.update(to_json(quality, points));
   json["requirements"] = to_json(outcomes);
   return dump(json);
+}
+
+}  // namespace
+
+std::string check_json(const std::string& path, const Quality& quality, std::span<const std::size_t> points,
+                       std::span<const Outcome> outcomes) {
+  return dump_check(path, quality, points, outcomes);
+}
+
+std::string check_json(const std::string& path, const tets::Quality& quality, std::span<const std::size_t> points,
+                       std::span<const Outcome> outcomes) {
+  return dump_check(path, quality, points, outcomes);
 }
 
 std::string json_list(std::span<const std::string> reports) {

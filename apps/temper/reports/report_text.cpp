@@ -18,7 +18,8 @@ constexpr std::size_t kRangeColumns = 12;
 constexpr std::size_t kBarColumns = 10;
 constexpr std::size_t kPanelGap = 3;
 
-std::string measure_text(const QualityMeasure& measure, const Quality& quality) {
+template <class Report>
+std::string measure_text(const MeasureRow<Report>& measure, const Report& quality) {
   const double value = measure.of(quality);
   return measure.count ? fmt::format("{}", static_cast<std::size_t>(value)) : fmt::format("{:.6g}", value);
 }
@@ -98,13 +99,9 @@ std::string beside(const std::vector<std::vector<std::string>>& panels) {
   return text;
 }
 
-std::string histograms(const Quality& quality, const TextStyle& style) {
-  const std::string ell = style.utf8 ? "ℓ" : "l";
-  const std::vector<std::vector<std::string>> panels = {
-      histogram_panel("angles (degrees)", quality.angles, style),
-      histogram_panel("h/" + ell, quality.h_over_l, style),
-      histogram_panel("d/" + ell, quality.d_over_l, style),
-  };
+std::string ell(const TextStyle& style) { return style.utf8 ? "ℓ" : "l"; }
+
+std::string histograms(const std::vector<std::vector<std::string>>& panels, const TextStyle& style) {
   std::string text;
   if (style.columns >= 90 + 2 * kPanelGap) {
     text = beside(panels);
@@ -112,6 +109,31 @@ std::string histograms(const Quality& quality, const TextStyle& style) {
     for (const auto& panel : panels) text += beside({panel});
   }
   return text + "The first and the last bar also count all values beyond them.\n";
+}
+
+/// The reason that is given for an element, in the numbers of the file.
+std::string why_text(const std::string& why, const std::function<std::string(VertexId)>& name, const TextStyle& style) {
+  const std::string renumbered = renumber(why, name);
+  std::string text;
+  for (const std::string& line :
+       wrap(style.utf8 ? renumbered : in_ascii(renumbered), style.columns > 20 ? style.columns - 4 : 20)) {
+    text += "    " + line + "\n";
+  }
+  return text;
+}
+
+std::string worst_text(const tets::Quality& quality, const TetInput& input, const TextStyle& style) {
+  if (quality.worst.empty()) return "";
+  std::string text = "\nworst tetrahedra\n";
+  for (const tets::WorstTet& worst : quality.worst) {
+    const auto name = [&input](VertexId v) { return input.vertex_number(v); };
+    text += fmt::format("  {} ({} {} {} {}) at {:.9g} {:.9g} {:.9g}: h/l {:.4g}, largest dihedral {:.5g}\n",
+                        input.tetrahedron_number(worst.tetrahedron), name(worst.vertices[0]), name(worst.vertices[1]),
+                        name(worst.vertices[2]), name(worst.vertices[3]), worst.at.x, worst.at.y, worst.at.z,
+                        worst.h_over_l, worst.dihedral_deg);
+    text += why_text(worst.why, name, style);
+  }
+  return text;
 }
 
 std::string worst_text(const Quality& quality, const Input& input, const TextStyle& style) {
@@ -122,24 +144,32 @@ std::string worst_text(const Quality& quality, const Input& input, const TextSty
     text += fmt::format("  {} ({} {} {}) at {:.9g} {:.9g}: h/l {:.4g}, largest angle {:.5g}\n",
                         input.triangle_number(worst.triangle), name(worst.vertices[0]), name(worst.vertices[1]),
                         name(worst.vertices[2]), worst.at.x, worst.at.y, worst.h_over_l, worst.angle_deg);
-    const std::string why = renumber(worst.why, name);
-    for (const std::string& line :
-         wrap(style.utf8 ? why : in_ascii(why), style.columns > 20 ? style.columns - 4 : 20)) {
-      text += "    " + line + "\n";
-    }
+    text += why_text(worst.why, name, style);
   }
   return text;
 }
 
 /// A row of the short report.
+template <class Report>
 struct BriefRow {
   const char* label;
-  std::string (*text)(const Quality&);
+  std::string (*text)(const Report&);
 };
 
 std::string brief_number(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "infinite"; }
 
-const BriefRow kBriefRows[] = {
+const BriefRow<tets::Quality> kBriefTetRows[] = {
+    {"tetrahedra not well-centered", [](const tets::Quality& q) { return std::to_string(q.orthocenters_outside); }},
+    {"least margin", [](const tets::Quality& q) { return brief_number(q.min_h_over_l); }},
+    {"completely well-centered",
+     [](const tets::Quality& q) { return fmt::format("{:.1f} %", 100 * q.completely_well_centered_fraction); }},
+    {"transmissibility, max/median",
+     [](const tets::Quality& q) { return brief_number(q.max_transmissibility_over_median); }},
+    {"dihedral angles (degrees)",
+     [](const tets::Quality& q) { return fmt::format("{:.1f} - {:.1f}", q.min_dihedral_deg, q.max_dihedral_deg); }},
+};
+
+const BriefRow<Quality> kBriefRows[] = {
     {"triangles not well-centered", [](const Quality& q) { return std::to_string(bad_triangles(q)); }},
     {"least margin", [](const Quality& q) { return brief_number(std::min(q.min_h_over_l, q.min_d_over_l)); }},
     {"transmissibility, max/median", [](const Quality& q) { return brief_number(q.max_transmissibility_over_median); }},
@@ -175,12 +205,26 @@ std::size_t count_quadrilaterals(const Mesh& mesh) {
   return n;
 }
 
-std::string well_centered(std::size_t bad, std::size_t triangles) {
+namespace {
+
+std::string well_centered(std::size_t bad, std::size_t all, const char* one, const char* several) {
   if (bad == 0)
-    return triangles == 1 ? "the triangle is well-centered"
-                          : fmt::format("all {} triangles are well-centered", triangles);
-  return fmt::format("{} of {} {} not well-centered", bad, plural(triangles, "triangle", "triangles"),
-                     bad == 1 ? "is" : "are");
+    return all == 1 ? fmt::format("the {} is well-centered", one)
+                    : fmt::format("all {} {} are well-centered", all, several);
+  return fmt::format("{} of {} {} not well-centered", bad, plural(all, one, several), bad == 1 ? "is" : "are");
+}
+
+}  // namespace
+
+std::string well_centered(std::size_t bad, std::size_t triangles) {
+  return well_centered(bad, triangles, "triangle", "triangles");
+}
+
+std::string verdict(const tets::Quality& quality) {
+  return well_centered(quality.orthocenters_outside, quality.tetrahedra, "tetrahedron", "tetrahedra") +
+         (quality.non_regular_faces == 0
+              ? ", every face is regular"
+              : ", " + plural(quality.non_regular_faces, "face is not regular", "faces are not regular"));
 }
 
 std::string verdict(const Quality& quality) {
@@ -200,17 +244,34 @@ std::string next_step(const Quality& quality, const std::string& path, const std
   return fmt::format("Next: {}\n", command_line("explain", path, projection));
 }
 
-std::string brief_text(const Quality& quality) {
+namespace {
+
+template <class Rows, class Report>
+std::string rows_text(const Rows& rows, const Report& quality) {
   std::string text;
-  for (const BriefRow& row : kBriefRows)
+  for (const auto& row : rows)
     text += pad_right(row.label, kLabelColumns) + pad_left(row.text(quality), kNumberColumns) + "\n";
   return text;
 }
 
+template <class Report>
+std::string measures_text(std::span<const MeasureRow<Report>> rows, const Report& quality) {
+  std::string text;
+  for (const MeasureRow<Report>& measure : rows)
+    text += pad_right(measure.label, kLabelColumns) + pad_left(measure_text(measure, quality), kNumberColumns) + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string brief_text(const Quality& quality) { return rows_text(kBriefRows, quality); }
+
+std::string brief_text(const tets::Quality& quality) { return rows_text(kBriefTetRows, quality); }
+
 std::string brief_text(const Quality& before, const Quality& after) {
   std::string text =
       pad_right("", kLabelColumns) + pad_left("before", kNumberColumns) + pad_left("after", kNumberColumns) + "\n";
-  for (const BriefRow& row : kBriefRows) {
+  for (const auto& row : kBriefRows) {
     text += pad_right(row.label, kLabelColumns) + pad_left(row.text(before), kNumberColumns) +
             pad_left(row.text(after), kNumberColumns) + "\n";
   }
@@ -219,11 +280,21 @@ std::string brief_text(const Quality& before, const Quality& after) {
 
 std::string quality_text(const Quality& quality, const Input& input, const TextStyle& style) {
   std::string text = fmt::format("{}: {}\n\n", input.path, verdict(quality));
-  for (const QualityMeasure& measure : quality_measures()) {
-    text += pad_right(measure.label, kLabelColumns) + pad_left(measure_text(measure, quality), kNumberColumns) + "\n";
-  }
+  text += measures_text(quality_measures(), quality);
   text += "\n" + energy_table(quality, style);
-  text += "\n" + histograms(quality, style);
+  text += "\n" + histograms({histogram_panel("angles (degrees)", quality.angles, style),
+                             histogram_panel("h/" + ell(style), quality.h_over_l, style),
+                             histogram_panel("d/" + ell(style), quality.d_over_l, style)},
+                            style);
+  return text + worst_text(quality, input, style);
+}
+
+std::string quality_text(const tets::Quality& quality, const TetInput& input, const TextStyle& style) {
+  std::string text = fmt::format("{}: {}\n\n", input.path, verdict(quality));
+  text += measures_text(tets::quality_measures(), quality);
+  text += "\n" + histograms({histogram_panel("dihedrals (degrees)", quality.dihedrals, style),
+                             histogram_panel("h/" + ell(style), quality.h_over_l, style)},
+                            style);
   return text + worst_text(quality, input, style);
 }
 

@@ -1,4 +1,5 @@
-// temper check IN...: the quality of meshes in a few lines, in full or as JSON, and requirements on it.
+// temper check IN...: the quality of meshes in a few lines, in full or as JSON, and requirements on it. The content of
+// a file decides if it is measured as triangles or as tetrahedra.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include "options/requirement.hpp"
 #include "reports/quality_report.hpp"
 #include "temper/quality.hpp"
+#include "temper/tets/quality.hpp"
 #include "threads.hpp"
 
 namespace temper::app {
@@ -37,16 +39,19 @@ struct CheckSettings {
 void add_options(Command& command, CheckSettings& s) {
   command.group("Report");
   add_texts(command, "IN", "", Values::words, s.inputs,
-            "One or more mesh files. The content of each file shows its format. '-' reads standard input.")
+            "One or more mesh files, of triangles or tetrahedra. The content of each file shows its format. '-' reads "
+            "standard "
+            "input.")
       .require();
   add_projection(command, s.projection);
   add_flat(command, s.flat);
-  command.add_flag("--details", s.details, "Print all measures, energies, histograms and the worst triangles.");
+  command.add_flag("--details", s.details,
+                   "Print all measures, energies, histograms and the worst triangles or tetrahedra.");
   command.add_flag(
       "--json", s.json,
-      "Print the report as JSON, with vertices and triangles counted from 0. For several meshes, print a list.");
+      "Print the report as JSON, with vertices and elements counted from 0. For several meshes, print a list.");
   add_write(command, s.write, kCheckOutputs);
-  add_count(command, "--worst", s.worst, 0, "Number of worst triangles to list.");
+  add_count(command, "--worst", s.worst, 0, "Number of worst triangles or tetrahedra to list.");
   add_length_parameter(command, "--gamma", s.gamma, kPositive,
                        "Gamma of E_BP: a multiple of each edge's length, or a length. (default: 1:absolute)");
   add_length_parameter(
@@ -57,7 +62,7 @@ void add_options(Command& command, CheckSettings& s) {
   add_count(command, "--threads", s.threads, 0,
             "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
   command.group("Requirements");
-  add_requirements(command, s.require);
+  add_requirements(command, s.require, true);
   command.group("Help");
   command.add_help({"IN ... [options]",
                     "  temper check in.vtu\n"
@@ -70,16 +75,13 @@ void add_options(Command& command, CheckSettings& s) {
 
 class Checks {
  public:
-  Checks(const Command& command, const CheckSettings& settings, std::vector<Requirement> requirements)
-      : command_(command),
-        s_(settings),
-        requirements_(std::move(requirements)),
-        threads_(make_threads(settings.threads)) {
+  Checks(const Command& command, const CheckSettings& settings)
+      : command_(command), s_(settings), requirements_(settings.require), threads_(make_threads(settings.threads)) {
     options_.gamma = s_.gamma.value_or(options_.gamma);
     options_.h0 = s_.h0.value_or(options_.h0);
     options_.worst = s_.worst;
     options_.executor = threads_.get();
-    options_.brief = !s_.details && !s_.json && s_.write.empty() && requirements_.empty();
+    options_.brief = !s_.details && !s_.json && s_.write.empty() && s_.require.empty();
     files_ = sorted_outputs("check", s_.write, kCheckOutputs);
     if (!s_.write.empty() && s_.inputs.size() > 1) {
       refuse_usage("check", fmt::format("--write: expected one mesh, found {}", s_.inputs.size()));
@@ -90,30 +92,10 @@ class Checks {
   }
 
   void add(const std::string& path) {
-    Input input = read_input(path, {s_.projection, {}, threads_.get(), true, s_.flat});
-    print_warnings(input.warnings());
-    if (const std::string crack = crack_warning(input); !crack.empty()) print_warnings(std::vector{crack});
-    if (files_.page.empty()) io::release_geometry(input.file, input.loaded);
-    take_to_metric(input, s_.metric);
-    Quality measured = quality_in_place(input.loaded.mesh, options_);
-    for (WorstTriangle& worst : measured.worst) {
-      if (s_.metric) worst.at = s_.metric->from_metric(worst.at);
-    }
-    const std::vector<Outcome> outcomes = judge(requirements_, measured);
-    if (!files_.page.empty()) {
-      expect_plane(input.mesh(), path, "--write " + files_.page);
-      outputs_.write_text(files_.page, check_html(command_line(command_, {path}), input, measured));
-    }
-    for (WorstTriangle& worst : measured.worst) worst.at = place_in_file(input.file, worst.at);
-    if (!files_.report.empty()) outputs_.write_text(files_.report, check_json(path, measured, input.points, outcomes));
-    if (s_.json) {
-      reports_.push_back(check_json(path, measured, input.points, outcomes));
-    } else {
-      print(std::exchange(first_, false) ? "" : "\n");
-      print(s_.details ? quality_text(measured, input, text_style()) : short_text(path, input.mesh(), measured));
-      flush_output();  // before the verdict on standard error
-    }
-    if (const Exit verdict = report_unmet(outcomes, path); exit_ == Exit::done) exit_ = verdict;
+    auto file = read_any_tried(path, {threads_.get(), s_.flat});
+    if (auto* const tets = std::get_if<io::TetFile>(&file)) return add_tetrahedra(path, std::move(*tets));
+    const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
+    add_triangles(path, read_input(path, {s_.projection, {}, threads_.get(), true, s_.flat, read}));
   }
 
   /// An error in one mesh does not stop the check of the others.
@@ -132,6 +114,88 @@ class Checks {
   }
 
  private:
+  /// The requirements on meshes of both kinds. A list may make sense for one kind alone.
+  class Requirements {
+   public:
+    explicit Requirements(const std::vector<std::string>& lists)
+        : triangles_(lists, MeshKind::triangles), tetrahedra_(lists, MeshKind::tetrahedra) {
+      if (triangles_.refusal && tetrahedra_.refusal) throw Failure(*triangles_.refusal);
+    }
+    /// Failure when the lists make no sense for this kind.
+    [[nodiscard]] const std::vector<Requirement>& of(MeshKind kind) const {
+      const Parsed& parsed = kind == MeshKind::triangles ? triangles_ : tetrahedra_;
+      if (parsed.refusal) throw Failure(*parsed.refusal);
+      return parsed.list;
+    }
+
+   private:
+    struct Parsed {
+      Parsed(const std::vector<std::string>& lists, MeshKind kind) {
+        try {
+          list = parse_requirements("check", lists, kind);
+        } catch (const Failure& failure) {
+          refusal = failure;
+        }
+      }
+      std::vector<Requirement> list;
+      std::optional<Failure> refusal;
+    };
+    Parsed triangles_, tetrahedra_;
+  };
+
+  void add_tetrahedra(const std::string& path, io::TetFile file) {
+    refuse_for_tetrahedra("check", path,
+                          {{!s_.projection.empty(), "--projection"},
+                           {s_.flat, "--flat"},
+                           {s_.gamma.has_value(), "--gamma"},
+                           {s_.h0.has_value(), "--h0"},
+                           {s_.metric.has_value(), "--tensor"},
+                           {!files_.page.empty(), "--write with a page of HTML"}});
+    const std::vector<Requirement>& requirements = requirements_.of(MeshKind::tetrahedra);
+    const TetInput input = make_input(path, std::move(file), threads_.get());
+    print_warnings(input.warnings());
+    const tets::Quality measured = quality(input.mesh(), {s_.worst, threads_.get()});
+    const std::string size =
+        fmt::format("{} ({} inside), {}", plural(measured.vertices, "vertex", "vertices"), measured.inner_vertices,
+                    plural(measured.tetrahedra, "tetrahedron", "tetrahedra"));
+    report(path, judge(requirements, measured), check_json(path, measured, input.points, judge(requirements, measured)),
+           s_.details ? quality_text(measured, input, text_style())
+                      : fmt::format("{}: {}\n{}{}\n", path, size, brief_text(measured), verdict(measured)));
+  }
+  /// Prints or keeps the report, writes it where --write asks for it, and gives the verdict on the requirements.
+  void report(const std::string& path, const std::vector<Outcome>& outcomes, const std::string& json,
+              const std::string& text) {
+    if (!files_.report.empty()) outputs_.write_text(files_.report, json);
+    if (s_.json) {
+      reports_.push_back(json);
+    } else {
+      print(std::exchange(first_, false) ? "" : "\n");
+      print(text);
+      flush_output();  // before the verdict on standard error
+    }
+    if (const Exit verdict = report_unmet(outcomes, path); exit_ == Exit::done) exit_ = verdict;
+  }
+
+  void add_triangles(const std::string& path, Input input) {
+    const std::vector<Requirement>& requirements = requirements_.of(MeshKind::triangles);
+    print_warnings(input.warnings());
+    if (const std::string crack = crack_warning(input); !crack.empty()) print_warnings(std::vector{crack});
+    if (files_.page.empty()) io::release_geometry(input.file, input.loaded);
+    take_to_metric(input, s_.metric);
+    Quality measured = quality_in_place(input.loaded.mesh, options_);
+    for (WorstTriangle& worst : measured.worst) {
+      if (s_.metric) worst.at = s_.metric->from_metric(worst.at);
+    }
+    const std::vector<Outcome> outcomes = judge(requirements, measured);
+    if (!files_.page.empty()) {
+      expect_plane(input.mesh(), path, "--write " + files_.page);
+      outputs_.write_text(files_.page, check_html(command_line(command_, {path}), input, measured));
+    }
+    for (WorstTriangle& worst : measured.worst) worst.at = place_in_file(input.file, worst.at);
+    report(path, outcomes, check_json(path, measured, input.points, outcomes),
+           s_.details ? quality_text(measured, input, text_style()) : short_text(path, input.mesh(), measured));
+  }
+
   [[nodiscard]] std::string short_text(const std::string& path, const Mesh& mesh, const Quality& measured) const {
     const std::size_t quadrilaterals = count_quadrilaterals(mesh);
     std::string text = fmt::format("{}: {}\n", path, mesh_size(measured.vertices, measured.triangles));
@@ -149,7 +213,7 @@ class Checks {
   const CheckSettings& s_;
   FurtherOutputs files_;
   Outputs outputs_ = Outputs("check");
-  std::vector<Requirement> requirements_;
+  Requirements requirements_;
   std::unique_ptr<Executor> threads_;
   QualityOptions options_;
   std::vector<std::string> reports_;
@@ -165,7 +229,7 @@ Exit run_check(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   std::ranges::replace(s.inputs, "-", kStandardInput);
-  Checks checks(command, s, parse_requirements("check", s.require));
+  Checks checks(command, s);
   if (s.inputs.size() == 1) {
     checks.add(s.inputs.front());
   } else {

@@ -26,7 +26,8 @@ struct ConvertSettings {
 
 void add_options(Command& command, ConvertSettings& s) {
   command.group("Files");
-  add_argument(command, "IN", s.input, "File to read. Its content shows the format.").require();
+  add_argument(command, "IN", s.input, "File to read, of triangles or tetrahedra. Its content shows the format.")
+      .require();
   add_projection(command, s.projection);
   add_flat(command, s.flat);
   add_mesh_output(command, s.output, "OUT", "File to write. Its suffix selects the format.");
@@ -57,7 +58,16 @@ Exit run_convert(const Arguments& arguments) {
   outputs.expect_mesh(s.output);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  io::MeshFile file = read_tried(s.input, {threads.get(), s.flat});
+  auto any = read_any_tried(s.input, {threads.get(), s.flat});
+  if (const auto* const tets = std::get_if<io::TetFile>(&any)) {
+    refuse_for_tetrahedra(
+        "convert", s.input,
+        {{!s.projection.empty(), "--projection"}, {s.flat, "--flat"}, {s.merge.has_value(), "--merge"}});
+    print_warnings(tets->warnings);
+    print_warnings(outputs.write_mesh(s.output, *tets, threads.get()));
+    return Exit::done;
+  }
+  auto& file = std::get<io::MeshFile>(any);
   const std::size_t merged = s.merge ? merge_points(file, *s.merge) : 0;
   if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
   print_warnings(file.warnings);

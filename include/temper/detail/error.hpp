@@ -16,7 +16,7 @@ enum class ErrorCode {
   empty_input,          ///< No bytes, no points or no triangles
   truncated,            ///< The file ends before what its header announces
   syntax,               ///< Bytes that do not follow the format
-  unsupported,          ///< A valid file that is not a planar triangle mesh, or a variant temper does not read
+  unsupported,          ///< A valid file that temper does not read, or that this function does not take
   index_out_of_range,   ///< A negative or too large vertex number
   size_mismatch,        ///< Arrays of one mesh whose lengths disagree
   not_finite,           ///< NaN or infinity
@@ -25,9 +25,11 @@ enum class ErrorCode {
   duplicate_point,      ///< Two vertices at exactly the same place
   unused_point,         ///< A point of no triangle
   zero_area,            ///< A triangle with collinear corners or a repeated vertex
-  non_manifold_edge,    ///< An edge with more than two triangles
+  zero_volume,          ///< A tetrahedron with coplanar corners or a repeated vertex
+  non_manifold_face,    ///< A face with more than two tetrahedra
+  non_manifold_edge,    ///< An edge with more than two triangles, or where tetrahedra touch along the edge alone
   non_manifold_vertex,  ///< A vertex where the mesh touches itself (bow tie)
-  overlap,              ///< Triangles that cover the same place twice
+  overlap,              ///< Triangles or tetrahedra that cover the same place twice
   missing_edge,         ///< A constrained edge that is no edge of the mesh
   geographic,           ///< Longitude and latitude, although a plane is needed
   out_of_scale,         ///< Coordinates too large or too small for exact arithmetic

@@ -16,6 +16,7 @@
 #include "io/conversion/quadrilaterals.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/file_names.hpp"
+#include "io/text/names.hpp"
 #include "io/text/values.hpp"
 #include "temper/io.hpp"
 
@@ -85,14 +86,6 @@ class KeptNames final : public InputNames {
   const InputNames& all_;
   std::vector<std::int32_t> points_;  // empty: all
 };
-
-/// "3 things …: first, second, third", with at most ten named.
-std::string listed(std::size_t n, std::string_view what, const std::vector<std::string>& names) {
-  std::string result = text(n, " ", what, ": ");
-  for (std::size_t i = 0; i < names.size(); ++i) result += (i == 0 ? "" : ", ") + names[i];
-  return n > names.size() ? result + ", …" : result;
-}
-constexpr std::size_t kNamed = 10;
 
 /// A tag, as a user writes it: its number or its physical name.
 struct TagSet {

@@ -26,20 +26,22 @@ std::string_view vtk_cell_name(int type) {
   if (type >= 0 && static_cast<std::size_t>(type) < kNames.size()) return kNames[static_cast<std::size_t>(type)];
   if (type == 21) return "quadratic edge";
   if (type == 22) return "quadratic triangle";
+  if (type == 24) return "quadratic tetrahedron";
   if (type == 69) return "Lagrange triangle";
-  return "cell of a type that is no triangle";
+  return "cell of a type that is no simplex";
 }
 
 void CellSorter::add(int type, const std::int32_t* p, std::size_t n, const std::string& where) {
   MeshFile& f = document_.file;
   const auto cell = static_cast<std::int64_t>(n_cells_++);
-  const bool fits = type == kVtkTriangle   ? n == 3
-                    : type == kVtkLine     ? n == 2
-                    : type == kVtkVertex   ? n == 1
-                    : type == kVtkPolyLine ? n >= 2
-                    : type == kVtkPixel    ? n == 4
-                    : type == kVtkQuad     ? n == 4
-                                           : true;
+  const bool fits = type == kVtkTriangle      ? n == 3
+                    : type == kVtkLine        ? n == 2
+                    : type == kVtkVertex      ? n == 1
+                    : type == kVtkPolyLine    ? n >= 2
+                    : type == kVtkPixel       ? n == 4
+                    : type == kVtkQuad        ? n == 4
+                    : type == kVtkTetrahedron ? n == 4
+                                              : true;
   if (!fits) fail(ErrorCode::syntax, where, "element ", cell, " is a ", vtk_cell_name(type), " with ", n, " vertices");
   switch (type) {
     case kVtkPolygon:
@@ -49,6 +51,10 @@ void CellSorter::add(int type, const std::int32_t* p, std::size_t n, const std::
     case kVtkQuad:
       document_.add_face({p[0], p[1], p[2]}, n == 4 ? p[3] : kNoCorner);
       triangle_cells_.push_back(cell);
+      return;
+    case kVtkTetrahedron:
+      document_.tetrahedra.corners.push_back({p[0], p[1], p[2], p[3]});
+      tet_cells_.push_back(cell);
       return;
     case kVtkPixel:  // in rows
       document_.add_face({p[0], p[1], p[3]}, p[2]);
@@ -71,7 +77,7 @@ void CellSorter::add(int type, const std::int32_t* p, std::size_t n, const std::
     case kVtkEmptyCell:
       return;
     default:
-      refuse_element(where, cell, vtk_cell_name(type));
+      refuse_element(where, cell, vtk_cell_name(type), Cells::all);
   }
 }
 
@@ -91,9 +97,10 @@ void CellSorter::distribute(std::vector<DataArray>&& cell_data) {
   MeshFile& f = document_.file;
   make_names_unique(cell_data);
   const bool only_triangles = triangle_cells_.size() == n_cells_ && triangle_cells_.counts_from(0);
+  const bool only_tetrahedra = !tet_cells_.empty() && tet_cells_.size() == n_cells_;
   for (DataArray& array : cell_data) {
-    if (only_triangles) {
-      f.cell_data.push_back(std::move(array));
+    if (only_triangles || only_tetrahedra) {
+      (only_triangles ? f.cell_data : document_.tetrahedra.data).push_back(std::move(array));
       continue;
     }
     // One cell may be many lines or points, and each gets the cell's data.
@@ -101,17 +108,20 @@ void CellSorter::distribute(std::vector<DataArray>&& cell_data) {
       allocation_.take(cells.size(), static_cast<std::uint64_t>(array.components), document_.names->path);
       return DataArray{array.name, array.components, gather(array.values, array.components, cells)};
     };
-    f.cell_data.push_back(part(triangle_cells_));
+    if (!tet_cells_.empty()) document_.tetrahedra.data.push_back(part(tet_cells_));
+    if (tet_cells_.empty() || !triangle_cells_.empty()) f.cell_data.push_back(part(triangle_cells_));
     if (!line_cells_.empty()) f.line_data.push_back(part(line_cells_));
     if (!point_cells_.empty()) f.marked_point_data.push_back(part(point_cells_));
   }
   take_tags();
+  document_.names->tetrahedra = std::move(tet_cells_);
   document_.names->triangles = std::move(triangle_cells_);
   document_.names->lines = std::move(line_cells_);
 }
 
 void CellSorter::take_tags() {
   MeshFile& f = document_.file;
+  document_.tetrahedra.regions = tags_of(document_.tetrahedra.data);
   f.regions = tags_of(f.cell_data);
   f.line_tags = tags_of(f.line_data);
   f.line_tags.resize(f.lines.size());

@@ -1,4 +1,4 @@
-// Cells of the VTK family (VTU and legacy): sorted into faces, lines and marked points, with their data.
+// Cells of the VTK family (VTU and legacy): sorted into tetrahedra, faces, lines and marked points, with their data.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,8 @@ namespace temper::io {
 
 // Numbers of the cell types, vtkCellType.h.
 inline constexpr int kVtkEmptyCell = 0, kVtkVertex = 1, kVtkPolyVertex = 2, kVtkLine = 3, kVtkPolyLine = 4,
-                     kVtkTriangle = 5, kVtkPolygon = 7, kVtkPixel = 8, kVtkQuad = 9, kVtkPolyhedron = 42;
+                     kVtkTriangle = 5, kVtkPolygon = 7, kVtkPixel = 8, kVtkQuad = 9, kVtkTetrahedron = 10,
+                     kVtkPolyhedron = 42;
 /// "quadrilateral", … : for messages.
 [[nodiscard]] std::string_view vtk_cell_name(int type);
 /// Field data of VTU: the periods of a plane along x and y.
@@ -24,7 +25,7 @@ class CellSorter {
   void reserve(std::size_t triangles) { document_.file.triangles.reserve(triangles); }
   /// The next cell of the file. `where`: for errors.
   void add(int type, const std::int32_t* points, std::size_t n, const std::string& where);
-  /// Hands cell data to triangles, lines and marked points, and takes regions and tags out of them.
+  /// Hands cell data to tetrahedra, triangles, lines and marked points, and takes regions and tags out of them.
   void distribute(std::vector<DataArray>&& cell_data);
   [[nodiscard]] std::size_t n_cells() const { return n_cells_; }
 
@@ -33,7 +34,7 @@ class CellSorter {
   Document& document_;
   AllocationLimits& allocation_;
   std::size_t n_cells_ = 0;
-  RunLength triangle_cells_, line_cells_, point_cells_;  // which cell of the file each one was
+  RunLength tet_cells_, triangle_cells_, line_cells_, point_cells_;  // which cell of the file each one was
 };
 
 /// Takes the regions or tags out of the arrays of triangles, lines or points, if they are there. `region` itself is

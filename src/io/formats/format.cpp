@@ -36,6 +36,11 @@ void check_ranges(const Document& d) {
       if (outside(p)) check_range(d, p, d.names->triangle(t), d.names->triangle_where(t));
     }
   }
+  for (std::size_t t = 0; t < d.tetrahedra.corners.size(); ++t) {
+    for (const std::int32_t p : d.tetrahedra.corners[t]) {
+      if (outside(p)) check_range(d, p, d.names->tetrahedron(t), d.names->tetrahedron_where(t));
+    }
+  }
   for (std::size_t l = 0; l < f.lines.size(); ++l) {
     for (const std::int32_t p : f.lines[l]) {
       if (outside(p)) check_range(d, p, d.names->line(l), d.names->line_where(l));
@@ -47,6 +52,15 @@ void check_ranges(const Document& d) {
   }
   for (const std::int32_t p : f.marked_points) {
     if (outside(p)) check_range(d, p, "a marked point", d.names->path);
+  }
+}
+
+void check_weights(const Document& d) {
+  const std::vector<double>& weights = d.file.weights;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (std::isfinite(weights[i])) continue;
+    fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has weight ", weights[i],
+         ", expected a finite number");
   }
 }
 
@@ -101,19 +115,39 @@ void check(Document& d, bool flat) {
   } else if (d.z != 0 && f.sphere() == nullptr) {
     warn_of_parallel(d);
   }
-  for (std::size_t i = 0; i < f.weights.size(); ++i) {
-    if (std::isfinite(f.weights[i])) continue;
-    fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has weight ", f.weights[i],
-         ", expected a finite number");
-  }
+  check_weights(d);
 }
 
-void refuse_element(const std::string& where, std::int64_t number, std::string_view kind, Faces faces) {
-  const bool alone = faces == Faces::triangles;
-  fail(ErrorCode::unsupported, where, "element ", number, kind.starts_with('e') ? " is an " : " is a ", kind,
-       alone ? "; in this format temper reads linear triangles, with lines and points as tags"
-             : "; temper reads linear triangles and quadrilaterals, with lines and points as tags",
-       alone && kind == "quadrilateral" ? kNextForQuadrilaterals : "");
+void check_tetrahedra(const Document& d) {
+  const MeshFile& f = d.file;
+  if (f.points.empty()) fail(ErrorCode::empty_input, d.names->path, "the file has no points");
+  const auto quadrilateral = std::find_if(d.fourth_corners.begin(), d.fourth_corners.end(),
+                                          [](std::int32_t corner) { return corner != kNoCorner; });
+  if (quadrilateral != d.fourth_corners.end()) {
+    const auto t = static_cast<std::size_t>(quadrilateral - d.fourth_corners.begin());
+    fail(ErrorCode::unsupported, d.names->triangle_where(t), d.names->triangle(t),
+         " is a quadrilateral beside tetrahedra; expected triangles as their tagged faces. Next: split it into "
+         "triangles, or remove it");
+  }
+  check_ranges(d);
+  for (std::size_t i = 0; i < f.points.size(); ++i) {
+    const Vec3 p = d.place(i);
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+    fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has coordinates (", p.x, ", ", p.y, ", ",
+         p.z, "), expected finite numbers");
+  }
+  check_weights(d);
+}
+
+void refuse_element(const std::string& where, std::int64_t number, std::string_view kind, Cells read) {
+  constexpr std::string_view kRead[] = {"in this format temper reads linear triangles",
+                                        "temper reads linear triangles and quadrilaterals",
+                                        "in this format temper reads linear triangles and tetrahedra",
+                                        "temper reads linear triangles, quadrilaterals and tetrahedra"};
+  const bool without_quadrilaterals = read == Cells::triangles || read == Cells::simplices;
+  fail(ErrorCode::unsupported, where, "element ", number, kind.starts_with('e') ? " is an " : " is a ", kind, "; ",
+       kRead[static_cast<std::size_t>(read)], ", with lines and points as tags",
+       without_quadrilaterals && kind == "quadrilateral" ? kNextForQuadrilaterals : "");
 }
 
 std::string side_file_path(const std::string& path) { return path + ".weights.csv"; }
@@ -220,8 +254,9 @@ void warn_of_losses(const WriteJob& job) {
   const MeshFile& f = job.file;
   const FormatRow& row = job.row;
   const auto lost = [&row](Content content) { return (row.holds & content) == 0; };
+  const bool tets = job.tetrahedra != nullptr;
   const std::string_view axis = name_of_axis(normal_of(f));
-  if (lost(kZ) && f.sphere() == nullptr && !is_flat(f))
+  if (!tets && lost(kZ) && f.sphere() == nullptr && !is_flat(f))
     job.warn(axis, " = ", f.z(), " of the points is", has_no_place_for(job, "it"));
   if (!lost(kZ) && normal_of(f) != kZAxis && !row.is_in_space())
     job.warn("the plane of ", axis, " = ", f.z(), " is written as one of z");
@@ -233,13 +268,19 @@ void warn_of_losses(const WriteJob& job) {
              " written as two triangles each, as temper writes no quadrilaterals in ", row.description);
   if (lost(kMarkedPoints) && !f.marked_points.empty()) job.warn("marked points are", has_no_place_for(job, "them"));
   for (const auto& [content, name, of] : kKindsOfArrays) {
-    if (!lost(content)) continue;
+    const bool of_faces = tets && content == kCellData;  // a format with data of lines has data of faces
+    if (!lost(of_faces ? kLineData : content)) continue;
     std::vector<std::string_view> names;
     for (const DataArray& a : f.*of) {
       if (a.name == kQuadrilateral) continue;
       if (row.details.keeps == nullptr || !row.details.keeps(of, a)) names.push_back(a.name);
     }
-    warn_of_arrays(job, name, names);
+    warn_of_arrays(job, of_faces ? "face data" : name, names);
+  }
+  if (tets && lost(kCellData)) {
+    std::vector<std::string_view> names;
+    for (const DataArray& a : job.tetrahedra->data) names.push_back(a.name);
+    warn_of_arrays(job, "cell data", names);
   }
   if (lost(kNames)) warn_of_names(job, f.names);
 }

@@ -16,6 +16,13 @@
 
 namespace temper::io {
 
+/// The tetrahedra of a file. The triangles beside them are tagged faces: their regions are tags.
+struct Tetrahedra {
+  std::vector<std::array<std::int32_t, 4>> corners = {};
+  std::vector<std::int32_t> regions = {};  ///< one per tetrahedron, or empty
+  std::vector<DataArray> data = {};
+};
+
 /// The result of a reader: the arrays, and the file's own numbers for them.
 struct Document {
   MeshFile file;
@@ -23,7 +30,12 @@ struct Document {
   double z = 0;                                   ///< of the first point
   std::vector<double> heights = {};               ///< z of each point; empty while all points have the z of the first
   std::vector<std::int32_t> fourth_corners = {};  ///< of the first faces that were read, or kNoCorner
+  Tetrahedra tetrahedra = {};
 
+  /// The three coordinates of a point, as they were read.
+  [[nodiscard]] Vec3 place(std::size_t point) const {
+    return {file.points[point].x, file.points[point].y, heights.empty() ? z : heights[point]};
+  }
   /// A quadrilateral is the next of the triangles, with its fourth corner beside it: quadrilaterals.hpp.
   void add_face(const std::array<std::int32_t, 3>& corners, std::int32_t fourth = kNoCorner) {
     file.triangles.push_back(corners);
@@ -38,6 +50,8 @@ struct Document {
 /// range. Coordinates and weights are finite. Points lie in a plane or on a sphere around the origin. `flat`: as
 /// ReadOptions::flat.
 void check(Document& document, bool flat);
+/// The same of a document with tetrahedra: numbers are in range, coordinates and weights finite.
+void check_tetrahedra(const Document& document);
 
 /// Collects z, of one point after the other.
 class PlaneCheck {
@@ -54,13 +68,18 @@ class PlaneCheck {
   Document& document_;
 };
 
-/// The kinds of faces that temper reads in a format.
-enum class Faces { triangles, triangles_and_quadrilaterals };
+/// The kinds of elements that temper reads in a format, beside lines and points.
+enum class Cells {
+  triangles,
+  faces,      ///< triangles and quadrilaterals
+  simplices,  ///< triangles and tetrahedra
+  all,
+};
 inline constexpr std::string_view kNextForQuadrilaterals = ". Next: write meshes of quadrilaterals as VTU or Gmsh";
 
-/// Refuses an element that is neither point, line nor one of the faces, with the reason.
+/// Refuses an element that is neither point, line nor one of these, with the reason.
 [[noreturn]] void refuse_element(const std::string& where, std::int64_t number, std::string_view kind,
-                                 Faces faces = Faces::triangles_and_quadrilaterals);
+                                 Cells read = Cells::faces);
 
 struct WriteJob;
 using ArraysOf = std::vector<DataArray> MeshFile::*;
@@ -81,6 +100,7 @@ enum Content : unsigned {
   kSphere = 1u << 11,  ///< points of a sphere, in three coordinates or in degrees
   kPeriod = 1u << 12,  ///< periods of a plane
   kQuadrilaterals = 1u << 13,
+  kTetrahedra = 1u << 14,
 };
 using Contents = unsigned;
 inline constexpr Contents kAllTags = kRegions | kLines | kMarkedPoints;
@@ -143,9 +163,11 @@ struct WriteJob {
   std::vector<std::string>& warnings;
   std::vector<double> heights = {};               ///< z of each point, from data; empty: all have the z of the file
   std::vector<std::int32_t> fourth_corners = {};  ///< of the last triangles of the file, which are quadrilaterals
+  const Tetrahedra* tetrahedra = nullptr;         ///< null: a mesh of triangles; else these are tagged faces
 
   /// The number of triangles; the rest are quadrilaterals.
   [[nodiscard]] std::size_t n_triangles() const { return file.triangles.size() - fourth_corners.size(); }
+  [[nodiscard]] std::size_t n_tetrahedra() const { return tetrahedra == nullptr ? 0 : tetrahedra->corners.size(); }
   /// The three coordinates of a point, as they are written.
   [[nodiscard]] Vec3 place(std::size_t point) const {
     return heights.empty() ? place_of(file, point) : Vec3{file.points[point].x, file.points[point].y, heights[point]};

@@ -6,7 +6,8 @@
 
 namespace temper::io {
 
-inline constexpr std::int32_t kGmshLine = 1, kGmshTriangle = 2, kGmshQuadrilateral = 3, kGmshPoint = 15;
+inline constexpr std::int32_t kGmshLine = 1, kGmshTriangle = 2, kGmshQuadrilateral = 3, kGmshTetrahedron = 4,
+                              kGmshPoint = 15;
 /// Data array with the number of the geometric entity of each element, as meshio names it.
 inline constexpr std::string_view kGmshEntity = "gmsh:geometrical";
 /// Data array with the partition of each triangle.

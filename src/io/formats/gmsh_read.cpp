@@ -1,8 +1,8 @@
 // Gmsh MSH 2 and 4.1, ASCII and binary, either byte order.
 //
-// A physical tag is the region of a triangle, or the tag of a line or point. The number of the geometric entity is kept
-// as data gmsh:geometrical. NodeData and ElementData become data; the NodeData "weight" are the weights. Elements are
-// sorted by their numbers: Gmsh gave them in this order, and other programs count by it.
+// A physical tag is the region of a triangle or tetrahedron, or the tag of a line or point. The number of the geometric
+// entity is kept as data gmsh:geometrical. NodeData and ElementData become data; the NodeData "weight" are the weights.
+// Elements are sorted by their numbers: Gmsh gave them in this order, and other programs count by it.
 //
 // A partition divides entities into parts, and adds entities between the parts. A part belongs to its parent again; its
 // number is the data gmsh:partition. Elements between parts are left out. So are ghosts, the triangles of other parts
@@ -193,12 +193,13 @@ class GmshReader {
   /// A name without a dimension is for all dimensions whose elements carry its tag.
   void settle_names() {
     MeshFile& f = document_.file;
-    const std::array<std::set<std::int32_t>, 3> tags = {std::set(f.point_tags.begin(), f.point_tags.end()),
-                                                        std::set(f.line_tags.begin(), f.line_tags.end()),
-                                                        std::set(f.regions.begin(), f.regions.end())};
+    const std::vector<std::int32_t>& regions = document_.tetrahedra.regions;
+    const std::array<std::set<std::int32_t>, 4> tags = {
+        std::set(f.point_tags.begin(), f.point_tags.end()), std::set(f.line_tags.begin(), f.line_tags.end()),
+        std::set(f.regions.begin(), f.regions.end()), std::set(regions.begin(), regions.end())};
     for (const PhysicalName& name : names_without_dimension_) {
       bool used = false;
-      for (const std::int32_t dimension : {0, 1, 2}) {
+      for (const std::int32_t dimension : {0, 1, 2, 3}) {
         if (!tags[static_cast<std::size_t>(dimension)].contains(name.tag)) continue;
         f.names.push_back({dimension, name.tag, name.name});
         used = true;
@@ -349,7 +350,7 @@ class GmshReader {
       if (k == 3 || (k == 2 && n_tags == 3)) of.partition = tag;
       if (k >= 3 && tag > 0) ++n_partitions;
     }
-    const std::int32_t dimension = type == kGmshPoint ? 0 : type == kGmshLine ? 1 : 2;
+    const std::int32_t dimension = type == kGmshPoint ? 0 : type == kGmshLine ? 1 : type == kGmshTetrahedron ? 3 : 2;
     of.of_partition_alone = n_partitions > 1 && dimension < 2 && !is_named(dimension, of.physical);
     return of;
   }
@@ -450,7 +451,8 @@ class GmshReader {
       std::vector<double> values;
       std::size_t given = 0;
     };
-    std::array<Target, 3> targets = {{{&*triangle_lookup_, triangles_.nodes.size(), &f.cell_data, {}},
+    std::array<Target, 4> targets = {{{&*tet_lookup_, tets_.nodes.size(), &document_.tetrahedra.data, {}},
+                                      {&*triangle_lookup_, triangles_.nodes.size(), &f.cell_data, {}},
                                       {&*line_lookup_, lines_.nodes.size(), &f.line_data, {}},
                                       {&*point_lookup_, points_.nodes.size(), &f.marked_point_data, {}}}};
     for (std::size_t i = 0; i < entries; ++i) {
@@ -505,12 +507,16 @@ class GmshReader {
       if (has_entities) data.push_back({std::string(kGmshEntity), 1, std::move(elements.geometrical)});
     };
     document_.fourth_corners = std::move(triangles_.fourth_corners);
-    auto& partitions = triangles_.partitions;
-    if (std::any_of(partitions.begin(), partitions.end(), [](auto p) { return p != 0; }))
-      f.cell_data.push_back({std::string(kGmshPartition), 1, std::move(partitions)});
-    hand_over(triangles_, f.triangles, f.regions, f.cell_data);
-    // No physical group at all: no regions.
-    if (std::count(f.regions.begin(), f.regions.end(), 0) == std::ssize(f.regions)) f.regions.clear();
+    const auto hand_over_cells = [&](auto& elements, auto& nodes, auto& regions, auto& data) {
+      auto& partitions = elements.partitions;
+      if (std::any_of(partitions.begin(), partitions.end(), [](auto p) { return p != 0; }))
+        data.push_back({std::string(kGmshPartition), 1, std::move(partitions)});
+      hand_over(elements, nodes, regions, data);
+      // No physical group at all: no regions.
+      if (std::count(regions.begin(), regions.end(), 0) == std::ssize(regions)) regions.clear();
+    };
+    hand_over_cells(triangles_, f.triangles, f.regions, f.cell_data);
+    hand_over_cells(tets_, document_.tetrahedra.corners, document_.tetrahedra.regions, document_.tetrahedra.data);
     hand_over(lines_, f.lines, f.line_tags, f.line_data);
     f.marked_points.reserve(points_.nodes.size());
     for (const auto& [node] : points_.nodes) f.marked_points.push_back(node);
@@ -521,7 +527,9 @@ class GmshReader {
     FileNames& names = *document_.names;
     names.triangles = std::move(triangles_.numbers);
     names.lines = std::move(lines_.numbers);
+    names.tetrahedra = std::move(tets_.numbers);
     if (!binary_) {
+      names.tetrahedron_lines = std::move(tets_.text_lines);
       names.triangle_lines = std::move(triangles_.text_lines);
       names.line_lines = std::move(lines_.text_lines);
     }
@@ -531,9 +539,10 @@ class GmshReader {
     }
     if (with_further_tags_ > 0) {
       const bool one = with_further_tags_ == 1;
-      const std::string_view what = version4_ ? one ? " entity has" : " entities have"
-                                    : one     ? " triangle has"
-                                              : " triangles have";
+      const std::string_view what = version4_                              ? one ? " entity has" : " entities have"
+                                    : document_.tetrahedra.corners.empty() ? one ? " triangle has" : " triangles have"
+                                    : one                                  ? " element has"
+                                                                           : " elements have";
       f.warnings.push_back(text(scanner_.path(), ": ", with_further_tags_, what,
                                 " several physical tags: only the first ", one ? "" : "of each ", "is kept"));
     }
@@ -555,6 +564,10 @@ class GmshReader {
   void add_element(std::int32_t type, std::int64_t number, const Membership& of) {
     const auto line = static_cast<std::int64_t>(scanner_.line());
     switch (type) {
+      case kGmshTetrahedron: {
+        const auto corners = nodes_of<4>("tetrahedron", number);
+        return of.of_partition_alone ? leave_out(number) : tets_.add(corners, of, number, line);
+      }
       case kGmshTriangle: {
         const auto corners = nodes_of<3>("triangle", number);
         return of.of_partition_alone ? leave_out(number) : triangles_.add(corners, of, number, line);
@@ -575,7 +588,7 @@ class GmshReader {
         return of.of_partition_alone ? leave_out(number) : points_.add(point, of, number, line);
       }
       default:
-        refuse_element(where(), number, element_name(type));
+        refuse_element(where(), number, element_name(type), Cells::all);
     }
   }
   void leave_out(std::int64_t number) {
@@ -599,12 +612,13 @@ class GmshReader {
          contiguous ? text(n, " vertices, numbered from 1") : "no vertex of that number");
   }
   // In version 2 an element with several physical groups is listed once for each.
-  void keep_one_of_each_triangle() {
-    const std::vector<std::int32_t>& physical = triangles_.physical;
+  template <std::size_t N>
+  void keep_one_of_each(Elements<N>& elements) {
+    const std::vector<std::int32_t>& physical = elements.physical;
     if (std::adjacent_find(physical.begin(), physical.end(), std::not_equal_to<>()) == physical.end()) return;
-    std::vector<std::pair<std::array<std::int32_t, 3>, std::size_t>> all;
+    std::vector<std::pair<std::array<std::int32_t, N>, std::size_t>> all;
     all.reserve(physical.size());
-    for (std::array<std::int32_t, 3> corners : triangles_.nodes) {
+    for (std::array<std::int32_t, N> corners : elements.nodes) {
       std::sort(corners.begin(), corners.end());
       all.emplace_back(corners, all.size());
     }
@@ -613,20 +627,20 @@ class GmshReader {
     for (std::size_t first = 0, i = 1; i < all.size(); ++i) {
       const std::size_t a = all[first].second, b = all[i].second;
       const bool same = all[i].first == all[first].first && physical[a] != physical[b] &&
-                        triangles_.geometrical[a] == triangles_.geometrical[b];
+                        elements.geometrical[a] == elements.geometrical[b];
       repeated[b] = same;
       if (!same) first = i;
       if (same && i == first + 1) ++with_further_tags_;
     }
-    if (with_further_tags_ == 0) return;
-    Elements<3> kept;
+    if (std::find(repeated.begin(), repeated.end(), true) == repeated.end()) return;
+    Elements<N> kept;
     for (std::size_t i = 0; i < repeated.size(); ++i) {
       if (repeated[i])
-        left_out_.push_back(triangles_.numbers[static_cast<std::int64_t>(i)]);
+        left_out_.push_back(elements.numbers[static_cast<std::int64_t>(i)]);
       else
-        kept.add_from(triangles_, i);
+        kept.add_from(elements, i);
     }
-    triangles_ = std::move(kept);
+    elements = std::move(kept);
   }
   void finish_elements() {
     if (has_elements_) fail(ErrorCode::syntax, where(), "has two sections $Elements");
@@ -634,7 +648,9 @@ class GmshReader {
     triangles_.sort_by_number();
     lines_.sort_by_number();
     points_.sort_by_number();
-    if (!version4_) keep_one_of_each_triangle();
+    tets_.sort_by_number();
+    if (!version4_) keep_one_of_each(triangles_), keep_one_of_each(tets_);
+    tet_lookup_.emplace(tets_.numbers);
     triangle_lookup_.emplace(triangles_.numbers);
     left_out_lookup_.emplace(left_out_);
     line_lookup_.emplace(lines_.numbers);
@@ -672,13 +688,14 @@ class GmshReader {
   bool binary_ = false, swap_ = false, version4_ = false, has_nodes_ = false, has_elements_ = false;
   std::optional<NumberLookup> lookup_;
   std::map<std::pair<std::int32_t, std::int32_t>, Membership> entities_;  // by dimension and tag
-  std::size_t with_further_tags_ = 0;                                     // entities in 4.1, triangles in 2
+  std::size_t with_further_tags_ = 0;                                     // entities in 4.1, elements in 2
   std::vector<PhysicalName> names_without_dimension_;
   std::set<std::pair<std::int32_t, std::int32_t>> named_;  // dimension and tag
+  Elements<4> tets_;
   Elements<3> triangles_;
   Elements<2> lines_;
   Elements<1> points_;
-  std::optional<NumberLookup> triangle_lookup_, line_lookup_, point_lookup_;
+  std::optional<NumberLookup> tet_lookup_, triangle_lookup_, line_lookup_, point_lookup_;
   RunLength left_out_;  // the numbers of elements of the partition alone, and of triangles that are there already
   std::optional<NumberLookup> left_out_lookup_;
   std::size_t n_of_partition_ = 0;

@@ -1,8 +1,8 @@
 // Writes Gmsh MSH 2, 2.2 and 4.1, ASCII and binary.
 //
-// Elements are numbered points first, then lines, then triangles, so that the reader finds their order again. A Gmsh
-// entity has one physical group, so entities are the distinct pairs (entity, region). Their numbers come from the data
-// gmsh:geometrical, or else from the region. NodeData and ElementData hold doubles alone.
+// Elements are numbered points first, then lines, triangles and tetrahedra, so that the reader finds their order again.
+// A Gmsh entity has one physical group, so entities are the distinct pairs (entity, region). Their numbers come from
+// the data gmsh:geometrical, or else from the region. NodeData and ElementData hold doubles alone.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,6 +19,8 @@
 namespace temper::io {
 namespace {
 
+const std::vector<DataArray> kNoData;
+
 /// Elements of one kind, whatever their number of corners.
 struct Kind {
   std::int32_t dimension = 0;
@@ -27,7 +29,7 @@ struct Kind {
   std::size_t corners = 1;
   const std::int32_t* nodes = nullptr;
   const std::vector<std::int32_t>* tags = nullptr;  // empty: all 0
-  const std::vector<DataArray>* data = nullptr;
+  const std::vector<DataArray>* data = &kNoData;
   std::size_t first_number = 1;
   std::vector<std::int32_t> entities;  // of each element; empty: all `only_entity`
   std::int32_t only_entity = 1;
@@ -104,6 +106,20 @@ class GmshWriter {
         2,          kGmshTriangle, f.triangles.size(),       3,  f.triangles.empty() ? nullptr : f.triangles[0].data(),
         &f.regions, &f.cell_data,  1 + points_.n + lines_.n, {}, 1,
         {}};
+    if (job.tetrahedra != nullptr) {
+      const auto& [corners, regions, data] = *job.tetrahedra;
+      tets_ = {3,
+               kGmshTetrahedron,
+               corners.size(),
+               4,
+               corners.empty() ? nullptr : corners[0].data(),
+               &regions,
+               &data,
+               triangles_.first_number + triangles_.n,
+               {},
+               1,
+               {}};
+    }
     for (Kind* kind : kinds()) number_entities(*kind);
   }
   void write() {
@@ -133,7 +149,6 @@ class GmshWriter {
   void entities() {
     out_.put("$Entities\n", "");
     for (const Kind* kind : kinds()) put(std::uint64_t{kind->physical_of_entity.size()});
-    put(std::uint64_t{0});
     end_line();
     const std::array<double, 6> box = bounding_box();
     for (const Kind* kind : kinds()) {
@@ -166,9 +181,9 @@ class GmshWriter {
     } else {
       for (const std::uint64_t v : {std::uint64_t{1}, std::uint64_t{n}, std::uint64_t{1}, std::uint64_t{n}}) put(v);
       end_line();
-      const std::int32_t surface =
-          triangles_.physical_of_entity.empty() ? 1 : triangles_.physical_of_entity.begin()->first;
-      put(std::int32_t{2}), put(surface), put(std::int32_t{0}), put(std::uint64_t{n});
+      const Kind& cells = tets_.n > 0 ? tets_ : triangles_;
+      const std::int32_t entity = cells.physical_of_entity.empty() ? 1 : cells.physical_of_entity.begin()->first;
+      put(tets_.n > 0 ? 3 : 2), put(entity), put(std::int32_t{0}), put(std::uint64_t{n});
       end_line();
       for (std::size_t i = 0; i < n; ++i) put(std::uint64_t{i + 1}), end_line();
       for (std::size_t i = 0; i < n; ++i) put_place(i);
@@ -177,7 +192,7 @@ class GmshWriter {
     out_.put("$EndNodes\n", "");
   }
   void elements_2() {
-    out_.put("$Elements\n", points_.n + lines_.n + triangles_.n, '\n');
+    out_.put("$Elements\n", n_elements(), '\n');
     for (const Kind* kind : kinds()) {
       const std::size_t n_triangles = kind == &triangles_ ? job_.n_triangles() : kind->n;
       for (std::size_t i = 0; i < kind->n; ++i) {
@@ -205,11 +220,11 @@ class GmshWriter {
   }
   void elements_4() {
     out_.put("$Elements\n", "");
-    const std::uint64_t total = points_.n + lines_.n + triangles_.n;
+    const std::uint64_t total = n_elements();
     // The elements of each entity, and there of each type.
-    std::array<std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>>, 3> blocks;
+    std::array<std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>>, 4> blocks;
     std::uint64_t n_blocks = 0;
-    for (std::size_t d = 0; d < 3; ++d) {
+    for (std::size_t d = 0; d < blocks.size(); ++d) {
       const Kind& kind = *kinds()[d];
       for (std::size_t i = 0; i < kind.n; ++i)
         blocks[d][{kind.entity(i), is_quadrilateral(kind, i) ? kGmshQuadrilateral : kind.type}].push_back(i);
@@ -217,7 +232,7 @@ class GmshWriter {
     }
     put(n_blocks), put(total), put(std::uint64_t{1}), put(total);
     end_line();
-    for (std::size_t d = 0; d < 3; ++d) {
+    for (std::size_t d = 0; d < blocks.size(); ++d) {
       const Kind& kind = *kinds()[d];
       for (const auto& [of, members] : blocks[d]) {
         put(kind.dimension), put(of.first), put(of.second), put(std::uint64_t{members.size()});
@@ -258,7 +273,8 @@ class GmshWriter {
     std::set<std::string_view> done = {kGmshEntity};
     const std::pair<const Kind*, ArraysByName> named[] = {{&points_, ArraysByName(*points_.data)},
                                                           {&lines_, ArraysByName(*lines_.data)},
-                                                          {&triangles_, ArraysByName(*triangles_.data)}};
+                                                          {&triangles_, ArraysByName(*triangles_.data)},
+                                                          {&tets_, ArraysByName(*tets_.data)}};
     for (const Kind* leading : kinds()) {
       for (const DataArray& a : *leading->data) {
         if (!done.insert(a.name).second) continue;
@@ -324,7 +340,8 @@ class GmshWriter {
     }
     return box;
   }
-  [[nodiscard]] std::array<Kind*, 3> kinds() { return {&points_, &lines_, &triangles_}; }
+  [[nodiscard]] std::array<Kind*, 4> kinds() { return {&points_, &lines_, &triangles_, &tets_}; }
+  [[nodiscard]] std::size_t n_elements() const { return points_.n + lines_.n + triangles_.n + tets_.n; }
 
   /// A number: text with a blank behind it, or its bytes.
   template <class T>
@@ -345,7 +362,7 @@ class GmshWriter {
   const MeshFile& file_;
   Output& out_;
   bool version4_, binary_;
-  Kind points_, lines_, triangles_;
+  Kind points_, lines_, triangles_, tets_;
 };
 
 }  // namespace

@@ -181,7 +181,7 @@ class JigsawMeshReader {
     for (const auto& [cells, kind] : kOtherJigsawCells) {
       if (name != cells || n == 0) continue;
       scanner_.next_line();
-      refuse_element(scanner_.where(), 0, kind, Faces::triangles);
+      refuse_element(scanner_.where(), 0, kind, Cells::triangles);
     }
     if (n > 0) document_.file.warnings.push_back(text(scanner_.where(), ": section ", in_quotes(name), " is dropped"));
     scanner_.next_line();

@@ -2,9 +2,11 @@
 // many lines.
 //
 //   Vertices  x y [z] reference        Edges  a b reference        Triangles  a b c reference
+//                                                                  Tetrahedra  a b c d reference
 //
-// Vertices count from 1. The reference of a triangle is its region, of an edge its tag, and of a vertex, when it is not
-// 0, a tag. Corners, Ridges and Required… are lists of numbers; they are kept as uint8 data named medit:corner, …
+// Vertices count from 1. The reference of a triangle or tetrahedron is its region, of an edge its tag, and of a vertex,
+// when it is not 0, a tag. Corners, Ridges and Required… are lists of numbers; they are kept as uint8 data named
+// medit:corner, …
 #include <algorithm>
 
 #include "io/conversion/globe.hpp"
@@ -35,7 +37,6 @@ constexpr FlagSection kFlagSections[] = {{"Corners", &MeshFile::point_data, "med
 
 constexpr std::pair<std::string_view, std::string_view> kUnsupported[] = {
     {"Quadrilaterals", "quadrilateral"},
-    {"Tetrahedra", "tetrahedron"},
     {"Hexahedra", "hexahedron"},
     {"Prisms", "prism"},
     {"Pentahedra", "prism"},
@@ -60,11 +61,13 @@ class MeditReader {
       ended = keyword == "End";
       if (!ended) section(keyword);
     }
-    if (!ended && document_.file.triangles.empty()) scanner_.fail_truncated("the section Triangles");
+    if (!ended && document_.file.triangles.empty() && document_.tetrahedra.corners.empty())
+      scanner_.fail_truncated("the section Triangles");
     for (const auto& [flag_section, numbers] : flags_) set_flags(*flag_section, numbers);
     document_.names->points = RunLength(1, document_.file.points.size());
     document_.names->triangles = RunLength(1, document_.file.triangles.size());
     document_.names->lines = RunLength(1, document_.file.lines.size());
+    document_.names->tetrahedra = RunLength(1, document_.tetrahedra.corners.size());
     return std::move(document_);
   }
 
@@ -81,6 +84,8 @@ class MeditReader {
       edges();
     } else if (keyword == "Triangles") {
       triangles();
+    } else if (keyword == "Tetrahedra") {
+      tetrahedra();
     } else {
       for (const FlagSection& flag_section : kFlagSections) {
         if (flag_section.keyword != keyword) continue;
@@ -134,6 +139,19 @@ class MeditReader {
       f.regions.push_back(scanner_.integer("the reference of a triangle"));
     }
   }
+  void tetrahedra() {
+    Tetrahedra& all = document_.tetrahedra;
+    const std::size_t n = scanner_.count("tetrahedra", 10);
+    all.corners.reserve(n);
+    all.regions.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::int32_t a = scanner_.vertex(1);
+      document_.names->tetrahedron_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+      const std::int32_t b = scanner_.vertex(1), c = scanner_.vertex(1);
+      all.corners.push_back({a, b, c, scanner_.vertex(1)});
+      all.regions.push_back(scanner_.integer("the reference of a tetrahedron"));
+    }
+  }
   void refuse_or_skip(std::string_view keyword) {
     const bool known_keyword =
         !keyword.empty() && ((keyword[0] >= 'A' && keyword[0] <= 'Z') || (keyword[0] >= 'a' && keyword[0] <= 'z'));
@@ -142,7 +160,7 @@ class MeditReader {
       if (keyword != unsupported) continue;
       if (scanner_.count("elements", 2) == 0) return;
       scanner_.skip_space();
-      refuse_element(scanner_.where(), 1, kind, Faces::triangles);
+      refuse_element(scanner_.where(), 1, kind, Cells::simplices);
     }
     document_.file.warnings.push_back(text(scanner_.where(), ": section ", in_quotes(keyword), " is dropped"));
     for (std::string_view next = scanner_.peek(); !next.empty(); next = scanner_.peek()) {
@@ -232,10 +250,18 @@ void write_medit(const WriteJob& job) {
     for (std::size_t i = 0; i < f.lines.size(); ++i)
       out.put(f.lines[i][0] + 1, ' ', f.lines[i][1] + 1, ' ', f.line_tags[i], '\n');
   }
-  out.put("\nTriangles\n", f.triangles.size(), '\n');
+  if (job.tetrahedra == nullptr || !f.triangles.empty()) out.put("\nTriangles\n", f.triangles.size(), '\n');
   for (std::size_t i = 0; i < f.triangles.size(); ++i) {
     const auto& t = f.triangles[i];
     out.put(t[0] + 1, ' ', t[1] + 1, ' ', t[2] + 1, ' ', f.regions.empty() ? 0 : f.regions[i], '\n');
+  }
+  if (job.tetrahedra != nullptr) {
+    out.put("\nTetrahedra\n", job.n_tetrahedra(), '\n');
+    const auto& [corners, regions, data] = *job.tetrahedra;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto& [a, b, c, d] = corners[i];
+      out.put(a + 1, ' ', b + 1, ' ', c + 1, ' ', d + 1, ' ', regions.empty() ? 0 : regions[i], '\n');
+    }
   }
   write_flags(out, f);
   out.put("\nEnd\n", "");

@@ -60,7 +60,7 @@ class MfemReader {
       document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
       const std::int32_t geometry = scanner_.integer("the geometry of an element");
       if (geometry != kTriangle)
-        refuse_element(scanner_.where(), static_cast<std::int64_t>(i), geometry_name(geometry), Faces::triangles);
+        refuse_element(scanner_.where(), static_cast<std::int64_t>(i), geometry_name(geometry), Cells::triangles);
       const std::int32_t a = scanner_.vertex(0), b = scanner_.vertex(0);
       f.triangles.push_back({a, b, scanner_.vertex(0)});
     }

@@ -1,9 +1,11 @@
-// Triangle's .node and .ele (Shewchuk), and the segments of .poly and .edge if these files exist.
+// Triangle's .node and .ele (Shewchuk), and the segments of .poly and .edge if these files exist. TetGen's files are
+// the same with a dimension more: points x y z, tetrahedra a b c d, and tagged faces in .face.
 //
 //   NAME.node   points 2 attributes markers(0|1), then: number x y attributes… [marker]
 //   NAME.ele    triangles 3 attributes, then: number a b c attributes…
 //   NAME.poly   (points, none when they are in .node), segments markers, then: number a b [marker]
 //   NAME.edge   edges markers, then the same; only those with a marker other than 0 are lines
+//   NAME.face   faces markers, then: number a b c [marker]; only those with a marker other than 0
 //
 // Attributes have no names in this format, so temper declares them in comments, which Triangle skips.
 //   # temper attribute float64 1 weight        type, components, name: one line for each array, in order
@@ -56,7 +58,7 @@ TriangleFile kind_of(std::string_view head) {
   const std::size_t columns = only_header ? 0 : lines[1].size();
   if (first[1] == "2" && first.size() != 3 && (only_header || columns >= 3)) return TriangleFile::node;
   if (first[1] == "2" && first.size() == 3 && columns >= 4) return TriangleFile::node;
-  // Files of TetGen, for the reader to refuse.
+  // Files of TetGen.
   if (first[1] == "3" && first.size() == 4 && columns >= 4) return TriangleFile::node;
   if ((first[1] == "4" || first[1] == "10") && first.size() <= 3 && columns >= 5) return TriangleFile::ele;
   if ((first[1] == "3" || first[1] == "6") && first.size() <= 3 && (only_header || columns >= 4))
@@ -180,42 +182,34 @@ class TriangleReader {
   Document read() {
     const TriangleFile kind = kind_of(std::string_view(source_.bytes).substr(0, kSniffBytes));
     const bool is_node = kind == TriangleFile::node;
-    refuse_tetrahedra(is_node);
     const std::string base = without_suffix(source_.path, is_node ? ".node" : ".ele");
     const std::string other_path = base + (is_node ? ".ele" : ".node");
     if (!exists(other_path)) {
-      fail(ErrorCode::not_found, source_.path, "is the ", is_node ? "points" : "triangles", " of a Triangle mesh; its ",
-           is_node ? "triangles" : "points", " are expected in ", other_path, ", which does not exist");
+      fail(ErrorCode::not_found, source_.path, "is the ", is_node ? "points" : "elements",
+           " of a mesh of Triangle or TetGen; its ", is_node ? "elements" : "points", " are expected in ", other_path,
+           ", which does not exist");
     }
     Source other = load(other_path);
     document_.names->path = is_node ? source_.path : other_path;
-    document_.names->triangle_path = is_node ? other_path : source_.path;
+    document_.names->triangle_path = document_.names->tetrahedron_path = is_node ? other_path : source_.path;
     nodes(is_node ? source_ : other);
     elements(is_node ? other : source_);
-    if (exists(base + ".poly"))
+    if (dimension_ == 2 && exists(base + ".poly"))
       segments(base + ".poly", false);
     else if (exists(base + ".edge"))
       segments(base + ".edge", true);
+    if (dimension_ == 3 && exists(base + ".face")) faces(base + ".face");
     return std::move(document_);
   }
 
  private:
-  // This comes before the other file of the pair is opened.
-  void refuse_tetrahedra(bool is_node) const {
-    Scanner header(source_.path, source_.bytes, '#');
-    static_cast<void>(header.count("rows", 1));
-    const std::int32_t number = header.integer(is_node ? "the dimension" : "the number of corners");
-    if (is_node ? number != 3 : number != 4 && number != 10) return;
-    header.fail_here(ErrorCode::unsupported, is_node ? "has points of dimension 3, as TetGen's; expected 2"
-                                                     : "has tetrahedra, as TetGen's; expected triangles");
-  }
   void nodes(Source& source) {
     Scanner scanner(source.path, source.bytes, '#');
     MeshFile& f = document_.file;
     const std::size_t n = scanner.count("points", 6);
-    const std::int32_t dimension = scanner.integer("the dimension");
-    if (dimension != 2)
-      scanner.fail_here(ErrorCode::unsupported, "has points of dimension ", dimension, "; expected 2");
+    dimension_ = scanner.integer("the dimension");
+    if (dimension_ != 2 && dimension_ != 3)
+      scanner.fail_here(ErrorCode::unsupported, "has points of dimension ", dimension_, "; expected 2 or 3");
     const std::size_t n_attributes = scanner.more_on_line() ? scanner.count("attributes", 1) : 0;
     const bool markers = scanner.more_on_line() && scanner.count("markers", 1) != 0;
     scanner.check_room(n, "points", 6 + 2 * n_attributes);
@@ -223,8 +217,10 @@ class TriangleReader {
     AttributeColumns columns(std::move(declared.arrays), n_attributes, scanner);
     document_.z = declared.z;
     f.names = std::move(declared.names);
+    PlaneCheck plane(document_);
     for (std::size_t i = 0; i < n; ++i) {
-      TriangleRow row(scanner, "the number of a point", 3 + n_attributes + (markers ? 1 : 0));
+      TriangleRow row(scanner, "the number of a point",
+                      1 + static_cast<std::size_t>(dimension_) + n_attributes + (markers ? 1 : 0));
       const std::int32_t number = row.number();
       if (i == 0) first_ = number;
       if (number != first_ + static_cast<std::int64_t>(i)) {
@@ -235,6 +231,7 @@ class TriangleReader {
       document_.names->point_lines.push_back(static_cast<std::int64_t>(scanner.line()));
       const auto x = row.next<double>("the x coordinate of a point");
       f.points.push_back({x, row.next<double>("the y coordinate of a point")});
+      if (dimension_ == 3) plane.add(i, row.next<double>("the z coordinate of a point"));
       columns.read(row);
       const auto marker = markers ? row.next<std::int32_t>("the marker of a point") : 0;
       row.end();
@@ -255,33 +252,68 @@ class TriangleReader {
   void elements(Source& source) {
     Scanner scanner(source.path, source.bytes, '#');
     MeshFile& f = document_.file;
-    const std::size_t n = scanner.count("triangles", 8);
+    const bool tets = dimension_ == 3;
+    const std::string_view kind = tets ? "tetrahedra" : "triangles";
+    const std::size_t n = scanner.count(kind, 8);
     const std::int32_t corners = scanner.integer("the number of corners");
-    if (corners == 6) refuse_element(scanner.where(), first_, "quadratic triangle", Faces::triangles);
-    if (corners != 3) scanner.fail_here(ErrorCode::unsupported, "has triangles of ", corners, " corners; expected 3");
+    if (corners == 6) refuse_element(scanner.where(), first_, "quadratic triangle", Cells::simplices);
+    if (corners == 10) refuse_element(scanner.where(), first_, "quadratic tetrahedron", Cells::simplices);
+    if (corners != dimension_ + 1)
+      scanner.fail_here(ErrorCode::unsupported, "has elements of ", corners, " corners, and points of dimension ",
+                        dimension_, "; expected ", kind, " of ", dimension_ + 1);
     const std::size_t n_attributes = scanner.more_on_line() ? scanner.count("attributes", 1) : 0;
-    scanner.check_room(n, "triangles", 8 + 2 * n_attributes);
+    scanner.check_room(n, kind, 8 + 2 * n_attributes);
     Declarations declared = declarations(source.bytes);
     AttributeColumns columns(std::move(declared.arrays), n_attributes, scanner);
-    f.triangles.reserve(n);
+    FileNames& names = *document_.names;
+    tets ? document_.tetrahedra.corners.reserve(n) : f.triangles.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
-      TriangleRow row(scanner, "the number of a triangle", 4 + n_attributes);
-      document_.names->triangles.push_back(row.number());
-      document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner.line()));
-      const std::int32_t a = row.next_vertex(first_), b = row.next_vertex(first_);
-      f.triangles.push_back({a, b, row.next_vertex(first_)});
+      TriangleRow row(scanner, tets ? "the number of a tetrahedron" : "the number of a triangle",
+                      1 + static_cast<std::size_t>(corners) + n_attributes);
+      (tets ? names.tetrahedra : names.triangles).push_back(row.number());
+      (tets ? names.tetrahedron_lines : names.triangle_lines).push_back(static_cast<std::int64_t>(scanner.line()));
+      const std::int32_t a = row.next_vertex(first_), b = row.next_vertex(first_), c = row.next_vertex(first_);
+      if (tets)
+        document_.tetrahedra.corners.push_back({a, b, c, row.next_vertex(first_)});
+      else
+        f.triangles.push_back({a, b, c});
       columns.read(row);
       row.end();
     }
     const bool last_is_region = columns.undeclared() > 0;
-    f.cell_data = columns.take();
-    const std::string region = last_is_region ? f.cell_data.back().name : "region";
-    const DataArray* array = find(f.cell_data, region);
+    std::vector<DataArray>& data = tets ? document_.tetrahedra.data : f.cell_data;
+    data = columns.take();
+    const std::string region = last_is_region ? data.back().name : "region";
+    const DataArray* array = find(data, region);
     if (array == nullptr || array->components != 1) return;
     if (auto regions = to_int32(array->values)) {
-      f.regions = std::move(*regions);
-      static_cast<void>(take(f.cell_data, region));
+      (tets ? document_.tetrahedra.regions : f.regions) = std::move(*regions);
+      static_cast<void>(take(data, region));
     }
+  }
+  void faces(const std::string& path) {
+    const Source source = load(path);
+    Scanner scanner(path, source.bytes, '#');
+    MeshFile& f = document_.file;
+    document_.names->triangle_path = path;
+    const std::size_t n = scanner.count("faces", 8);
+    const bool markers = scanner.more_on_line() && scanner.count("markers", 1) != 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto number = scanner.integer("the number of a face");
+      const auto text_line = static_cast<std::int64_t>(scanner.line());
+      const std::int32_t a = scanner.vertex(first_), b = scanner.vertex(first_), c = scanner.vertex(first_);
+      const std::int32_t marker = markers ? scanner.integer("the marker of a face") : 0;
+      skip_neighbors(scanner);
+      if (marker == 0) continue;
+      document_.names->triangles.push_back(number);
+      document_.names->triangle_lines.push_back(text_line);
+      f.triangles.push_back({a, b, c});
+      f.regions.push_back(marker);
+    }
+  }
+  /// TetGen -nn adds the numbers of tetrahedra to faces and edges.
+  static void skip_neighbors(Scanner& scanner) {
+    while (scanner.more_on_line()) static_cast<void>(scanner.word("a number"));
   }
   void segments(const std::string& path, bool edges) {
     const Source source = load(path);
@@ -300,6 +332,7 @@ class TriangleReader {
       const auto text_line = static_cast<std::int64_t>(scanner.line());
       const std::int32_t a = scanner.vertex(first_), b = scanner.vertex(first_);
       const std::int32_t marker = markers ? scanner.integer("the marker of a segment") : 0;
+      if (dimension_ == 3) skip_neighbors(scanner);
       if (edges && (marker == 0 || b + first_ == -1)) continue;
       document_.names->lines.push_back(number);
       document_.names->line_lines.push_back(text_line);
@@ -310,7 +343,8 @@ class TriangleReader {
 
   Source& source_;
   Document document_;
-  std::int32_t first_ = 0;  // number of the first point
+  std::int32_t first_ = 0;      // number of the first point
+  std::int32_t dimension_ = 2;  // of points: 3 in TetGen's files
 };
 
 // --- writing ---------------------------------------------------------------------------------------------
@@ -340,6 +374,15 @@ void put_row(Output& out, const std::vector<DataArray>& arrays, std::size_t row)
   }
 }
 
+/// Numbers of points, with a blank between two.
+template <std::size_t N>
+void put_corners(Output& out, const std::array<std::int32_t, N>& corners) {
+  for (std::size_t k = 0; k < N; ++k) {
+    if (k > 0) out.put(' ');
+    out.put(corners[k] + 1);
+  }
+}
+
 std::vector<DataArray> without(const std::vector<DataArray>& arrays, std::string_view name, const WriteJob& job) {
   std::vector<DataArray> result;
   for (const DataArray& a : arrays) {
@@ -358,12 +401,14 @@ void write_node(const WriteJob& job, const std::string& base) {
   const auto arrays = f.weights.empty() ? f.point_data : without(f.point_data, "weight", job);
   if (!f.weights.empty()) declare(out, "float64", 1, "weight");
   const std::size_t columns = declare_all(out, arrays) + (f.weights.empty() ? 0 : 1);
-  if (!is_flat(f)) out.put(kDeclaredZ, f.z(), '\n');
+  const bool in_space = job.tetrahedra != nullptr;
+  if (!in_space && !is_flat(f)) out.put(kDeclaredZ, f.z(), '\n');
   for (const PhysicalName& n : f.names) out.put(kDeclaredName, n.dimension, ' ', n.tag, ' ', n.name, '\n');
   const bool marked = !f.marked_points.empty();
-  out.put(f.points.size(), " 2 ", columns, ' ', marked ? 1 : 0, '\n');
+  out.put(f.points.size(), in_space ? " 3 " : " 2 ", columns, ' ', marked ? 1 : 0, '\n');
   for (std::size_t i = 0; i < f.points.size(); ++i) {
     out.put(i + 1, ' ', f.points[i].x, ' ', f.points[i].y);
+    if (in_space) out.put(' ', job.place(i).z);
     if (!f.weights.empty()) out.put(' ', f.weights[i]);
     put_row(out, arrays, i);
     if (marked) out.put(' ', markers[i]);
@@ -371,22 +416,42 @@ void write_node(const WriteJob& job, const std::string& base) {
   }
 }
 
-void write_ele(const WriteJob& job, const std::string& base) {
-  const MeshFile& f = job.file;
+template <std::size_t N>
+void write_ele(const WriteJob& job, const std::string& base, const std::vector<std::array<std::int32_t, N>>& elements,
+               const std::vector<std::int32_t>& regions, const std::vector<DataArray>& data) {
   Output& out = job.outputs.open(base + ".ele");
-  const auto arrays = f.regions.empty() ? f.cell_data : without(f.cell_data, "region", job);
+  const auto arrays = regions.empty() ? data : without(data, "region", job);
   std::size_t columns = declare_all(out, arrays);
-  if (!f.regions.empty()) {
+  if (!regions.empty()) {
     declare(out, "int32", 1, "region");
     ++columns;
   }
-  out.put(f.triangles.size(), " 3 ", columns, '\n');
-  for (std::size_t i = 0; i < f.triangles.size(); ++i) {
-    const auto& t = f.triangles[i];
-    out.put(i + 1, ' ', t[0] + 1, ' ', t[1] + 1, ' ', t[2] + 1);
+  out.put(elements.size(), ' ', N, ' ', columns, '\n');
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    out.put(i + 1, ' ');
+    put_corners(out, elements[i]);
     put_row(out, arrays, i);
-    if (!f.regions.empty()) out.put(' ', f.regions[i]);
+    if (!regions.empty()) out.put(' ', regions[i]);
     out.put('\n');
+  }
+}
+
+/// The file of tagged faces or edges of a mesh of TetGen. An old one would give its tags to this mesh, so it has to be
+/// replaced. `kind`: of the elements, for the warning on those that the reader will not take for tagged.
+template <std::size_t N>
+void write_tagged(const WriteJob& job, const std::string& path,
+                  const std::vector<std::array<std::int32_t, N>>& elements, const std::vector<std::int32_t>& tags,
+                  std::string_view kind) {
+  if (elements.empty() && !exists(path)) return;
+  if (const auto n = std::count(tags.begin(), tags.end(), 0); n > 0)
+    job.warn(n, " ", kind, n == 1 ? "" : "s", " of tag 0 ", n == 1 ? "is" : "are",
+             " written with marker 0, which TetGen's files have for none");
+  Output& out = job.outputs.open(path);
+  out.put(elements.size(), " 1\n");
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    out.put(i + 1, ' ');
+    put_corners(out, elements[i]);
+    out.put(' ', tags[i], '\n');
   }
 }
 
@@ -417,14 +482,20 @@ std::vector<std::string> triangle_files(const std::string& path) {
 
 std::vector<std::string> triangle_files_to_read(const std::string& path) {
   const std::string base = base_path(path);
-  return {base + ".node", base + ".ele", base + (exists(base + ".poly") ? ".poly" : ".edge")};
+  return {base + ".node", base + ".ele", base + (exists(base + ".poly") ? ".poly" : ".edge"), base + ".face"};
 }
 
 void write_triangle(const WriteJob& job) {
   const std::string base = base_path(job.path);
+  const MeshFile& f = job.file;
   write_node(job, base);
-  write_ele(job, base);
-  write_poly(job, base);
+  if (job.tetrahedra == nullptr) {
+    write_ele(job, base, f.triangles, f.regions, f.cell_data);
+    return write_poly(job, base);
+  }
+  write_ele(job, base, job.tetrahedra->corners, job.tetrahedra->regions, job.tetrahedra->data);
+  write_tagged(job, base + ".face", f.triangles, f.regions, "face");
+  write_tagged(job, base + ".edge", f.lines, f.line_tags, "line");
 }
 
 }  // namespace temper::io

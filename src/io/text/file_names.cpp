@@ -71,11 +71,15 @@ std::string at_line(const std::string& path, const RunLength& lines, std::size_t
 
 std::string FileNames::point(std::size_t index) const { return named("point ", points, index); }
 std::string FileNames::triangle(std::size_t index) const { return named("triangle ", triangles, index); }
+std::string FileNames::tetrahedron(std::size_t index) const { return named("tetrahedron ", tetrahedra, index); }
 std::string FileNames::line(std::size_t index) const { return named("line ", lines, index); }
 
 std::string FileNames::point_where(std::size_t index) const { return at_line(path, point_lines, index); }
 std::string FileNames::triangle_where(std::size_t index) const {
   return at_line(triangle_path.empty() ? path : triangle_path, triangle_lines, index);
+}
+std::string FileNames::tetrahedron_where(std::size_t index) const {
+  return at_line(tetrahedron_path.empty() ? path : tetrahedron_path, tetrahedron_lines, index);
 }
 std::string FileNames::line_where(std::size_t index) const { return at_line(path, line_lines, index); }
 

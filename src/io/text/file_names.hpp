@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "temper/mesh.hpp"
+#include "temper/tets/mesh.hpp"
 
 namespace temper::io {
 
@@ -60,7 +60,7 @@ class NumberLookup {
 /// "coast.msh:41", for the line of an element; the path alone if lines are unknown.
 [[nodiscard]] std::string at_line(const std::string& path, const RunLength& lines, std::size_t index);
 
-class FileNames final : public InputNames {
+class FileNames final : public tets::InputNames {
  public:
   explicit FileNames(std::string of) : path(std::move(of)) {}
 
@@ -68,13 +68,16 @@ class FileNames final : public InputNames {
   [[nodiscard]] std::string triangle(std::size_t index) const override;
   [[nodiscard]] std::string point_where(std::size_t index) const override;
   [[nodiscard]] std::string triangle_where(std::size_t index) const override;
-  [[nodiscard]] std::string line(std::size_t index) const;
+  [[nodiscard]] std::string tetrahedron(std::size_t index) const override;
+  [[nodiscard]] std::string tetrahedron_where(std::size_t index) const override;
+  [[nodiscard]] std::string line(std::size_t index) const override;
   [[nodiscard]] std::string line_where(std::size_t index) const;
 
   std::string path;
-  std::string triangle_path;                          ///< when triangles are in another file than points
-  RunLength points, triangles, lines;                 ///< numbers in the file
-  RunLength point_lines, triangle_lines, line_lines;  ///< lines of text; empty: unknown
+  std::string triangle_path;                       ///< when triangles are in another file than points
+  std::string tetrahedron_path;                    ///< when tetrahedra are
+  RunLength points, triangles, lines, tetrahedra;  ///< numbers in the file
+  RunLength point_lines, triangle_lines, line_lines, tetrahedron_lines;  ///< lines of text; empty: unknown
 };
 
 }  // namespace temper::io

@@ -70,6 +70,12 @@ std::string plain_name(std::string_view name) {
   return plain;
 }
 
+std::string listed(std::size_t n, std::string_view what, const std::vector<std::string>& names) {
+  std::string result = text(n, " ", what, ": ");
+  for (std::size_t i = 0; i < names.size(); ++i) result += (i == 0 ? "" : ", ") + names[i];
+  return n > names.size() ? result + ", …" : result;
+}
+
 void make_names_plain(MeshFile& file) {
   std::size_t n = 0;
   std::string first;

@@ -35,6 +35,10 @@ void append_percent(std::string& text, char c);
 /// "a, b, c"; of a long list the first ones, and the number of the others.
 [[nodiscard]] std::string list_of(const std::vector<std::string_view>& names);
 
+/// "12 things …: first, second, third, …", with the first kNamed of them or fewer in `names`.
+[[nodiscard]] std::string listed(std::size_t n, std::string_view what, const std::vector<std::string>& names);
+inline constexpr std::size_t kNamed = 10;
+
 /// The name with its control characters written out (\x0a), in UTF-8.
 [[nodiscard]] std::string plain_name(std::string_view name);
 /// Makes all names plain, with a warning.

@@ -3,6 +3,7 @@
 
 #include "temper/energy.hpp"
 #include "temper/quality.hpp"
+#include "temper/tets/quality.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -223,6 +224,79 @@ TEST_F(Check, SeveralMeshesAreAListAndNoneKeepsAnotherFromBeingLookedAt) {
   EXPECT_TRUE(contains(outcome.out, "\n\nb.vtu: "));
   EXPECT_TRUE(contains(outcome.err, "missing.vtu: cannot be read"));
   EXPECT_TRUE(contains(outcome.err, "b.vtu: requirement not met: regions=7"));
+}
+
+// --- tetrahedra ------------------------------------------------------------------------------------------------
+
+// Two tetrahedra on the sides of the face 2 3 4, the second one flat enough to be bad; the first point is of none.
+constexpr const char* kTwoTetrahedra =
+    "MeshVersionFormatted 2\nDimension 3\nVertices\n6\n9 9 9 0\n0 0 0 0\n2 0 0 0\n1 1.7 0 0\n1 0.6 1.6 0\n1 0.6 -0.3 "
+    "0\n"
+    "Tetrahedra\n2\n2 3 4 5 1\n2 4 3 6 2\nEnd\n";
+
+TEST_F(Check, TetrahedraAreMeasuredInTheNumbersOfTheirFile) {
+  write("two.mesh", kTwoTetrahedra);
+  const Outcome short_report = temper_ok({"check", "two.mesh"});
+  EXPECT_TRUE(
+      contains(short_report.out, "two.mesh: 5 vertices (0 inside), 2 tetrahedra\ntetrahedra not well-centered"));
+  EXPECT_TRUE(contains(short_report.out, "\n1 of 2 tetrahedra is not well-centered, 1 face is not regular\n"));
+  EXPECT_TRUE(contains(short_report.err, "two.mesh: 1 point of no tetrahedron is dropped: point 1"));
+  const Outcome details = temper_ok({"check", "two.mesh", "--details", "--worst", "1"});
+  EXPECT_TRUE(contains(details.out, "worst tetrahedra\n  2 (2 4 3 6) at 1 0.575 -0.075: h/l "));
+  EXPECT_TRUE(contains(details.out, "orthocenter outside across face 2-4-3: h/"));
+  for (const tets::QualityMeasure& m : tets::quality_measures())
+    EXPECT_TRUE(contains(details.out, "\n" + std::string(m.label) + " "));
+}
+
+TEST_F(Check, JsonOfTetrahedraHasExactlyTheKeysOfTheReport) {
+  write("two.mesh", kTwoTetrahedra);
+  const OrderedJson report = check({"two.mesh"});
+  std::vector<std::string> keys, all = {"schema", "file"};
+  for (const auto& item : report.items()) keys.push_back(item.key());
+  for (const tets::QualityMeasure& m : tets::quality_measures()) all.emplace_back(m.key);
+  for (const char* key : {"histograms", "worst", "requirements"}) all.emplace_back(key);
+  EXPECT_EQ(keys, all);
+  EXPECT_EQ(report["regions"], 2);
+  EXPECT_EQ(report["worst"][0]["tetrahedron"], 1);
+  EXPECT_EQ(report["worst"][0]["vertices"], (OrderedJson{1, 3, 2, 5}));  // points[i] of the file, from 0
+  EXPECT_TRUE(contains(report["worst"][0]["why"].get<std::string>(), "face 1-3-2"));
+}
+
+TEST_F(Check, RequirementsOnTetrahedraHaveTheirOwnKeys) {
+  write("two.mesh", kTwoTetrahedra);
+  make_input();
+  EXPECT_EQ(temper({"check", "two.mesh", "--require", "tetrahedra=2,min_dihedral>=1,inverted"}).exit, 0);
+  const Outcome unmet = temper({"check", "two.mesh", "--require", "outside=0"});
+  EXPECT_EQ(unmet.exit, 3);
+  EXPECT_TRUE(contains(unmet.err, "outside=0 means orthocenters_outside = 0, found 1"));
+  const Outcome triangles = temper({"check", "in.vtu", "--require", "min_dihedral>=1"});
+  EXPECT_EQ(triangles.exit, 2);
+  EXPECT_TRUE(contains(triangles.err, "unknown key 'min_dihedral'"));
+  const Outcome tetrahedra = temper({"check", "two.mesh", "--require", "energy.BP.1=0"});
+  EXPECT_EQ(tetrahedra.exit, 2);
+  EXPECT_TRUE(
+      contains(tetrahedra.err, "unknown key 'energy.BP.1'; the keys for tetrahedra are vertices, inner_vertices"));
+  // A list that makes sense for both is judged on both.
+  EXPECT_EQ(temper({"check", "in.vtu", "two.mesh", "--require", "inverted=0"}).exit, 0);
+}
+
+TEST_F(Check, OptionsForTrianglesAloneAreRefusedForTetrahedraByName) {
+  write("two.mesh", kTwoTetrahedra);
+  const std::vector<std::vector<std::string>> refused = {
+      {"--flat"},           {"--gamma", "1"}, {"--h0", "1"}, {"--projection", "sphere"}, {"--tensor", "1,0,1"},
+      {"--write", "a.html"}};
+  for (const auto& option : refused) {
+    std::vector<std::string> all = {"check", "two.mesh"};
+    all.insert(all.end(), option.begin(), option.end());
+    const Outcome outcome = temper(all);
+    EXPECT_EQ(outcome.exit, 2) << option[0] << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "two.mesh has tetrahedra, and " + option[0])) << outcome.err;
+  }
+  EXPECT_EQ(names(), std::vector<std::string>{"two.mesh"});
+  const Outcome other_verb = temper({"optimize", "two.mesh", "-o", "out.mesh"});
+  EXPECT_EQ(other_verb.exit, 1);
+  EXPECT_TRUE(
+      contains(other_verb.err, "two.mesh:13: has 2 tetrahedra; expected a mesh of triangles. Next: temper check"));
 }
 
 }  // namespace

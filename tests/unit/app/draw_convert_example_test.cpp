@@ -104,6 +104,25 @@ TEST_F(Convert, GoesThereAndBack) {
   }
 }
 
+TEST_F(Convert, TetrahedraGoThroughOtherFormatsAndBack) {
+  const std::string medit =
+      "MeshVersionFormatted 2\nDimension 3\n\nVertices\n5\n0 0 0 7\n2 0 0 0\n1 1.7 0 0\n1 0.6 1.6 0\n1 0.6 -0.3 9\n"
+      "\nEdges\n1\n1 4 5\n\nTriangles\n1\n1 2 3 6\n\nTetrahedra\n2\n1 2 3 4 1\n1 3 2 5 2\n\nEnd\n";
+  write("a.mesh", medit);
+  const char* from = "a.mesh";
+  for (const char* to : {"b.vtu", "c.msh", "d.msh2", "e.vtk", "f.node", "g.mesh"}) {
+    temper_ok({"convert", from, "-o", to});
+    from = to;
+  }
+  EXPECT_EQ(read("g.mesh"), medit);
+  const Outcome merged = temper({"convert", "a.mesh", "-o", "x.mesh", "--merge", "0"});
+  EXPECT_EQ(merged.exit, 2);
+  EXPECT_TRUE(contains(merged.err, "a.mesh has tetrahedra, and --merge is for triangles alone"));
+  const Outcome planar = temper({"convert", "a.mesh", "-o", "x.off"});
+  EXPECT_EQ(planar.exit, 1);
+  EXPECT_TRUE(contains(planar.err, "x.off: OFF is not written with tetrahedra; expected one of vtu, gmsh41, gmsh22"));
+}
+
 TEST_F(Convert, ANameMayHaveAsManyBytesAsTheFileSystemAllows) {
   make_input();
   const std::string longest = std::string(251, 'x') + ".vtu";

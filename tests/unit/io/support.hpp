@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "temper/io.hpp"
+#include "temper/tets/io.hpp"
 
 namespace temper::io {
 
@@ -95,6 +95,29 @@ inline MeshFile sample() {
   f.line_tags = {4, 4, 9};
   f.marked_points = {0, 3};
   f.point_tags = {11, 12};
+  return f;
+}
+
+/// Two tetrahedra in two regions, with tags and data on everything. Numbers that are hard on text.
+inline TetFile tet_sample() {
+  TetFile f;
+  f.points = {{0, 0, -0.0}, {1, 0, 1.0 / 3}, {0, 0.1 + 0.2, 0}, {0, 0, 1}, {2, 2, 2}};
+  f.weights = {0, 1.0 / 3, -1e-30, 0.25, 7};
+  f.tetrahedra = {{0, 1, 2, 3}, {1, 2, 3, 4}};
+  f.regions = {3, -4};
+  f.faces = {{1, 2, 3}, {0, 2, 1}};
+  f.face_tags = {7, 8};
+  f.lines = {{3, 4}};
+  f.line_tags = {5};
+  f.marked_points = {4, 0};
+  f.point_tags = {2, 9};
+  f.names = {{0, 9, "corner"}, {1, 5, "pipe"}, {2, 7, "fracture of old"}, {3, 3, "clay"}};
+  f.point_data = {{"depth", 1, std::vector<double>{0.1, 2, 3, 4, 1e300}},
+                  {"id", 1, std::vector<std::int32_t>{9, 8, 7, 6, 5}}};
+  f.cell_data = {{"flux", 3, std::vector<double>{0.1, 2, 3, 4, 5, 6}}};
+  f.face_data = {{"load", 1, std::vector<double>{0.5, 0.1}}};
+  f.line_data = {{"width", 1, std::vector<double>{0.3}}};
+  f.marked_point_data = {{"rate", 1, std::vector<double>{0.7, 0.9}}};
   return f;
 }
 

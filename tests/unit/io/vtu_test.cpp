@@ -167,8 +167,9 @@ TEST_F(FileTest, VtuErrorsNameTheArrayAndItsLine) {
             "m.vtu: point 2 has z = 2, but point 0 has z = 0; expected a mesh in a plane of constant x, y or z, "
             "or on a sphere around the origin. Next: --flat takes z as data of a mesh of the plane (flat=True in "
             "Python)");
-  EXPECT_EQ(message(">5<", ">10<"),
-            "m.vtu: element 0 is a tetrahedron; temper reads linear triangles and quadrilaterals, with lines and "
+  EXPECT_EQ(message(">5<", ">10<"), "m.vtu: element 0 is a tetrahedron with 3 vertices");
+  EXPECT_EQ(message(">5<", ">13<"),
+            "m.vtu: element 0 is a wedge; temper reads linear triangles, quadrilaterals and tetrahedra, with lines and "
             "points as tags");
   EXPECT_EQ(message("offsets\" format=\"ascii\">3", "offsets\" format=\"ascii\">7"),
             "m.vtu: element 0 ends at 7 of 3 connectivity values, and starts at 0");

@@ -220,6 +220,7 @@ export interface Format {
   /** Holds meshes of the plane. If false, it only holds meshes that were read in degrees. */
   holds_planes: boolean;
   holds_spheres: boolean;
+  holds_tetrahedra: boolean;
 }
 
 export interface Restoration {

@@ -324,7 +324,7 @@ class LegacyVtkReader {
            " CELL_TYPES");
     }
     CellSorter sorter(document_, allocation_);
-    RunLength triangle_lines, line_lines;
+    RunLength tet_lines, triangle_lines, line_lines;
     const auto add_all = [&](const CellArray& array, auto type_of) {
       std::int32_t start = 0;
       for (std::size_t i = 0; i < array.ends.size(); ++i) {
@@ -332,6 +332,8 @@ class LegacyVtkReader {
         const std::string here = array.text_lines.empty() ? scanner_.path() : text(scanner_.path(), ":", line);
         sorter.add(type_of(i), array.points.data() + start, static_cast<std::size_t>(array.ends[i] - start), here);
         start = array.ends[i];
+        while (!array.text_lines.empty() && tet_lines.size() < document_.tetrahedra.corners.size())
+          tet_lines.push_back(line);
         while (!array.text_lines.empty() && triangle_lines.size() < document_.file.triangles.size())
           triangle_lines.push_back(line);
         while (!array.text_lines.empty() && line_lines.size() < document_.file.lines.size()) line_lines.push_back(line);
@@ -350,6 +352,7 @@ class LegacyVtkReader {
            " values, expected ", sorter.n_cells(), " times ", a.components);
     }
     sorter.distribute(std::move(cell_data_));
+    document_.names->tetrahedron_lines = std::move(tet_lines);
     document_.names->triangle_lines = std::move(triangle_lines);
     document_.names->line_lines = std::move(line_lines);
   }

@@ -99,11 +99,12 @@ VtkArray vtk_points(const WriteJob& job) {
 
 VtkArray vtk_connectivity(const WriteJob& job) {
   const VtkCells cells(job);
-  const std::size_t n3 = cells.points_of_first(cells.triangles),
-                    n4 = cells.points_of_first(cells.triangles + cells.quadrilaterals),
-                    n2 = cells.points_of_first(cells.size() - cells.points);
+  const std::size_t n_tets = 4 * cells.tetrahedra, n3 = 3 * cells.triangles, n4 = n3 + 4 * cells.quadrilaterals,
+                    n2 = n4 + 2 * cells.lines;
   return computed_vtk_array<std::int32_t>(
-      "connectivity", Scalar::i32, cells.points_of_first(cells.size()), [&job, n3, n4, n2](std::size_t i) {
+      "connectivity", Scalar::i32, cells.points_of_first(cells.size()), [&job, n_tets, n3, n4, n2](std::size_t i) {
+        if (i < n_tets) return job.tetrahedra->corners[i / 4][i % 4];
+        i -= n_tets;
         const MeshFile& f = job.file;
         if (i < n3) return f.triangles[i / 3][i % 3];
         if (i < n4) {
@@ -126,6 +127,8 @@ VtkArray vtk_cell_ends(const VtkCells& cells) {
 VtkArray vtk_cell_types(const WriteJob& job) {
   const VtkCells cells(job);
   return computed_vtk_array<std::uint8_t>("types", Scalar::u8, cells.size(), [cells](std::size_t i) {
+    if (i < cells.tetrahedra) return static_cast<std::uint8_t>(kVtkTetrahedron);
+    i -= cells.tetrahedra;
     const std::size_t faces = cells.triangles + cells.quadrilaterals;
     return static_cast<std::uint8_t>(i < cells.triangles       ? kVtkTriangle
                                      : i < faces               ? kVtkQuad
@@ -136,10 +139,16 @@ VtkArray vtk_cell_types(const WriteJob& job) {
 
 namespace {
 
-VtkArray regions(const MeshFile& f) {
-  const std::size_t t = f.triangles.size(), l = f.lines.size();
-  return computed_vtk_array<std::int32_t>("region", Scalar::i32, t + l + f.marked_points.size(),
-                                          [&f, t, l](std::size_t i) {
+VtkArray regions(const WriteJob& job) {
+  const MeshFile& f = job.file;
+  const std::size_t s = job.n_tetrahedra(), t = f.triangles.size(), l = f.lines.size();
+  return computed_vtk_array<std::int32_t>("region", Scalar::i32, s + t + l + f.marked_points.size(),
+                                          [&job, &f, s, t, l](std::size_t i) {
+                                            if (i < s) {
+                                              const auto& of_tets = job.tetrahedra->regions;
+                                              return of_tets.empty() ? 0 : of_tets[i];
+                                            }
+                                            i -= s;
                                             if (i < t) return f.regions.empty() ? 0 : f.regions[i];
                                             return i < t + l ? f.line_tags[i - t] : f.point_tags[i - t - l];
                                           });
@@ -167,12 +176,14 @@ std::vector<VtkArray> vtk_point_data(const WriteJob& job) {
 std::vector<VtkArray> vtk_cell_data(const WriteJob& job) {
   const MeshFile& f = job.file;
   std::vector<VtkArray> list;
-  const bool tagged = !f.regions.empty() || !f.lines.empty() || !f.marked_points.empty();
-  if (tagged) list.push_back(regions(f));
+  static const Tetrahedra kNone;
+  const Tetrahedra& tets = job.tetrahedra == nullptr ? kNone : *job.tetrahedra;
+  const bool tagged = !tets.regions.empty() || !f.regions.empty() || !f.lines.empty() || !f.marked_points.empty();
+  if (tagged) list.push_back(regions(job));
 
-  const std::vector<DataArray>* kinds[] = {&f.cell_data, &f.line_data, &f.marked_point_data};
-  const std::size_t counts[] = {f.triangles.size(), f.lines.size(), f.marked_points.size()};
-  const ArraysByName named[] = {ArraysByName(f.cell_data), ArraysByName(f.line_data),
+  const std::vector<DataArray>* kinds[] = {&tets.data, &f.cell_data, &f.line_data, &f.marked_point_data};
+  const std::size_t counts[] = {tets.corners.size(), f.triangles.size(), f.lines.size(), f.marked_points.size()};
+  const ArraysByName named[] = {ArraysByName(tets.data), ArraysByName(f.cell_data), ArraysByName(f.line_data),
                                 ArraysByName(f.marked_point_data)};
   std::set<std::string_view> done;
   for (const auto* kind : kinds) {
@@ -183,12 +194,14 @@ std::vector<VtkArray> vtk_cell_data(const WriteJob& job) {
         continue;
       }
       std::vector<Part> parts;
-      for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < std::size(kinds); ++k) {
         const DataArray* other = named[k].find(a.name);
         const bool alike =
             other != nullptr && other->components == a.components && other->values.index() == a.values.index();
         if (other != nullptr && !alike) {
-          job.warn("data ", a.name, " of lines or points have another type than data of triangles and are not written");
+          job.warn("data ", a.name, " of ", tets.corners.empty() ? "" : "faces, ",
+                   "lines or points have another type than data of ", tets.corners.empty() ? "triangles" : "tetrahedra",
+                   " and are not written");
         }
         parts.push_back({alike ? &other->values : nullptr, counts[k] * static_cast<std::size_t>(a.components)});
       }

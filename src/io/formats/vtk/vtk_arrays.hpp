@@ -1,6 +1,6 @@
-// The arrays of a mesh in a file of the VTK family (VTU and legacy). Triangles come first, then quadrilaterals, lines
-// and marked points, so that cell i is triangle i. Cell data `region` is the region of a triangle, the tag of a line,
-// the tag of a point.
+// The arrays of a mesh in a file of the VTK family (VTU and legacy). Tetrahedra come first, then triangles,
+// quadrilaterals, lines and marked points, so that cell i is triangle i, or tetrahedron i. Cell data `region` is the
+// region of a tetrahedron or triangle, the tag of a face, the tag of a line, the tag of a point.
 #pragma once
 
 #include <algorithm>
@@ -23,20 +23,22 @@ void put_big_endian(Output& out, const VtkArray& array);
 
 /// The numbers of cells of each kind, in their order.
 struct VtkCells {
-  std::size_t triangles = 0, quadrilaterals = 0, lines = 0, points = 0;
+  std::size_t tetrahedra = 0, triangles = 0, quadrilaterals = 0, lines = 0, points = 0;
   explicit VtkCells(const WriteJob& job)
-      : triangles(job.n_triangles()),
+      : tetrahedra(job.n_tetrahedra()),
+        triangles(job.n_triangles()),
         quadrilaterals(job.fourth_corners.size()),
         lines(job.file.lines.size()),
         points(job.file.marked_points.size()) {}
   VtkCells(std::size_t n3, std::size_t n4, std::size_t n2, std::size_t n1)
       : triangles(n3), quadrilaterals(n4), lines(n2), points(n1) {}
 
-  [[nodiscard]] std::size_t size() const { return triangles + quadrilaterals + lines + points; }
+  [[nodiscard]] std::size_t size() const { return tetrahedra + triangles + quadrilaterals + lines + points; }
   /// The number of points of the first n cells.
   [[nodiscard]] std::size_t points_of_first(std::size_t n) const {
-    const std::size_t t = std::min(n, triangles), q = std::min(n - t, quadrilaterals), l = std::min(n - t - q, lines);
-    return 3 * t + 4 * q + 2 * l + (n - t - q - l);
+    const std::size_t s = std::min(n, tetrahedra), t = std::min(n - s, triangles),
+                      q = std::min(n - s - t, quadrilaterals), l = std::min(n - s - t - q, lines);
+    return 4 * s + 3 * t + 4 * q + 2 * l + (n - s - t - q - l);
   }
 };
 [[nodiscard]] VtkArray vtk_points(const WriteJob& job);

@@ -1,0 +1,166 @@
+// From the arrays of a file with tetrahedra to a mesh.
+//
+// Points of no tetrahedron are left out of the mesh, with the faces, lines and marks at them. Everything that is
+// dropped or repaired is named in warnings, in the numbers of the file.
+#include <utility>
+
+#include "io/text/failure.hpp"
+#include "io/text/names.hpp"
+#include "temper/tets/io.hpp"
+
+namespace temper::io {
+namespace {
+
+/// The names of the points that are left.
+class NamesOfKept final : public tets::InputNames {
+ public:
+  NamesOfKept(const tets::InputNames& all, const VertexOfPoint& vertices) : all_(all) {
+    if (vertices.n_kept() == vertices.size()) return;
+    for (std::size_t p = 0; p < vertices.size(); ++p) {
+      if (vertices[p] >= 0) points_.push_back(p);
+    }
+  }
+  [[nodiscard]] std::string point(std::size_t i) const override { return all_.point(kept(i)); }
+  [[nodiscard]] std::string point_where(std::size_t i) const override { return all_.point_where(kept(i)); }
+  [[nodiscard]] std::string tetrahedron(std::size_t i) const override { return all_.tetrahedron(i); }
+  [[nodiscard]] std::string tetrahedron_where(std::size_t i) const override { return all_.tetrahedron_where(i); }
+
+ private:
+  [[nodiscard]] std::size_t kept(std::size_t i) const { return i < points_.size() ? points_[i] : i; }
+  const tets::InputNames& all_;
+  std::vector<std::size_t> points_;  // empty: all
+};
+
+class TetMeshMaker {
+ public:
+  TetMeshMaker(const TetFile& file, Executor* executor) : file_(file), executor_(executor) {}
+
+  Expected<LoadedTetMesh> make() {
+    number_vertices();
+    const auto tetrahedra = renumbered(file_.tetrahedra);
+    const auto faces = renumbered(file_.faces);
+    const auto lines = renumbered(file_.lines);
+    const auto [points, weights] = kept_points();
+    const auto [marked, tags] = kept_marks();
+    const NamesOfKept names(names_of_file(), loaded_.vertex_of_point);
+    tets::TetMeshInput input;
+    input.points = points;
+    input.weights = weights;
+    input.tetrahedra = tetrahedra;
+    input.regions = file_.regions;
+    input.faces = faces;
+    input.face_tags = file_.face_tags;
+    input.lines = lines;
+    input.line_tags = file_.line_tags;
+    input.marked_points = marked;
+    input.point_tags = tags;
+    input.names = &names;
+    input.executor = executor_;
+    auto built = tets::TetMesh::build(input);
+    if (!built) {
+      InputError error = built.error();
+      if (error.where.empty()) error.where = file_.path;
+      return error;
+    }
+    loaded_.mesh = std::move(built->mesh);
+    const std::size_t n = built->reversed_tetrahedra;
+    if (n > 0) {
+      warn(text(n, n == 1 ? " negative tetrahedron is" : " negative tetrahedra are",
+                " reversed: two corners are exchanged, the shape stays"));
+    }
+    warn_of_dangling(built->dangling_faces, "face is no face", "faces are no faces",
+                     [&](std::size_t i) { return names_of_file().triangle(i); });
+    warn_of_dangling(built->dangling_lines, "line is no edge", "lines are no edges",
+                     [&](std::size_t i) { return names_of_file().line(i); });
+    return std::move(loaded_);
+  }
+
+ private:
+  void warn(std::string message) {
+    loaded_.warnings.push_back(file_.path.empty() ? std::move(message) : text(file_.path, ": ", message));
+  }
+  template <class Name>
+  void warn_of(const std::vector<std::size_t>& indices, std::string_view what, const Name& name) {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < std::min(indices.size(), kNamed); ++k) names.push_back(name(indices[k]));
+    warn(listed(indices.size(), what, names));
+  }
+  template <class Name>
+  void warn_of_dangling(const std::vector<std::size_t>& indices, std::string_view one, std::string_view several,
+                        const Name& name) {
+    if (indices.empty()) return;
+    warn_of(indices,
+            text(indices.size() == 1 ? one : several, " of the mesh and ", indices.size() == 1 ? "tags" : "tag",
+                 " nothing"),
+            name);
+  }
+  [[nodiscard]] const tets::InputNames& names_of_file() const { return file_.numbering ? *file_.numbering : counting_; }
+  [[nodiscard]] bool is_point(std::int32_t p) const {
+    return p >= 0 && static_cast<std::size_t>(p) < file_.points.size();
+  }
+
+  void number_vertices() {
+    std::vector<bool> used(file_.points.size());
+    for (const auto& corners : file_.tetrahedra) {
+      for (const std::int32_t p : corners) {
+        if (is_point(p)) used[static_cast<std::size_t>(p)] = true;
+      }
+    }
+    loaded_.vertex_of_point = VertexOfPoint(used);
+    std::vector<std::size_t> dropped;
+    for (std::size_t p = 0; p < used.size(); ++p) {
+      if (!used[p]) dropped.push_back(p);
+    }
+    if (dropped.empty()) return;
+    warn_of(dropped,
+            dropped.size() == 1 ? "point of no tetrahedron is dropped" : "points of no tetrahedron are dropped",
+            [&](std::size_t p) { return names_of_file().point(p); });
+  }
+  /// Numbers out of range stay, for TetMesh::build to refuse.
+  template <std::size_t N>
+  [[nodiscard]] std::vector<std::array<std::int32_t, N>> renumbered(
+      std::vector<std::array<std::int32_t, N>> elements) const {
+    const VertexOfPoint& vertex = loaded_.vertex_of_point;
+    if (vertex.n_kept() == vertex.size()) return elements;
+    for (auto& element : elements) {
+      for (std::int32_t& p : element) p = is_point(p) ? vertex[static_cast<std::size_t>(p)] : std::int32_t{-1};
+    }
+    return elements;
+  }
+  [[nodiscard]] std::pair<std::vector<Vec3>, std::vector<double>> kept_points() const {
+    const VertexOfPoint& vertex = loaded_.vertex_of_point;
+    if (vertex.n_kept() == vertex.size()) return {file_.points, file_.weights};
+    std::vector<Vec3> points;
+    std::vector<double> weights;
+    for (std::size_t p = 0; p < vertex.size(); ++p) {
+      if (vertex[p] < 0) continue;
+      points.push_back(file_.points[p]);
+      if (p < file_.weights.size()) weights.push_back(file_.weights[p]);
+    }
+    return {std::move(points), std::move(weights)};
+  }
+  [[nodiscard]] std::pair<std::vector<std::int32_t>, std::vector<std::int32_t>> kept_marks() const {
+    std::vector<std::int32_t> marked, tags;
+    for (std::size_t i = 0; i < file_.marked_points.size(); ++i) {
+      const std::int32_t p = file_.marked_points[i];
+      const std::int32_t v = is_point(p) ? loaded_.vertex_of_point[static_cast<std::size_t>(p)] : p;
+      if (is_point(p) && v < 0) continue;  // dropped with its point, which a warning names
+      marked.push_back(v);
+      if (i < file_.point_tags.size()) tags.push_back(file_.point_tags[i]);
+    }
+    return {std::move(marked), std::move(tags)};
+  }
+
+  const TetFile& file_;
+  Executor* executor_;
+  tets::InputNames counting_;
+  LoadedTetMesh loaded_;
+};
+
+}  // namespace
+
+Expected<LoadedTetMesh> make_mesh(const TetFile& file, Executor* executor) {
+  return guarded<LoadedTetMesh>(file.path, [&] { return TetMeshMaker(file, executor).make(); });
+}
+
+}  // namespace temper::io

@@ -1,0 +1,212 @@
+// The report: one pass over the tetrahedra with their faces, and one over the edges, in blocks of a fixed size. Blocks
+// go to the executor; the merge is in their order, so the report does not depend on threads.
+#include "temper/tets/quality.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "base/median.hpp"
+#include "base/sum.hpp"
+#include "mesh/blocks.hpp"
+#include "tets/mesh/tables.hpp"
+#include "tets/quality/measure.hpp"
+
+namespace temper::tets {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kBlock = 4096;  // tetrahedra: some milliseconds of work
+
+using Ranked = std::pair<double, TetId>;  // margin first, ties by number
+
+/// Keeps the n least.
+void keep_least(std::vector<Ranked>& ranked, std::size_t n) {
+  const auto middle = ranked.begin() + static_cast<std::ptrdiff_t>(std::min(n, ranked.size()));
+  std::partial_sort(ranked.begin(), middle, ranked.end());
+  ranked.erase(middle, ranked.end());
+}
+
+/// Bins of 10°, and of 0.1 with a bin edge at h = 0.
+Histogram empty_dihedral_histogram() { return {0, 180, std::vector<std::size_t>(18)}; }
+Histogram empty_height_histogram() { return {-0.5, 1, std::vector<std::size_t>(15)}; }
+
+/// The sums of the report over a run of tetrahedra. Each face is counted by the halfface that stands for it.
+struct Tally {
+  std::size_t boundary_faces = 0, inverted = 0, non_regular = 0, negative_boundary = 0, outside = 0;
+  std::size_t faces_not_crossed = 0, completely = 0;
+  double min_h = kInfinity, min_face_h = kInfinity, min_dihedral = kInfinity, max_dihedral = 0;
+  double volume = 0, min_volume = kInfinity, max_volume = -kInfinity;
+  std::vector<double> transmissibilities = {};
+  std::vector<Ranked> worst = {};
+  Histogram dihedrals = empty_dihedral_histogram(), h_over_l = empty_height_histogram();
+
+  void add(const TetMesh& mesh, TetId t);
+  void merge(const Tally& other);
+
+ private:
+  void add_face(const TetMesh& mesh, HalffaceId h, const TetMeasure& m);
+};
+
+void Tally::add(const TetMesh& mesh, TetId t) {
+  const TetMeasure m = measure_tetrahedron(mesh, t);
+  inverted += m.orientation != Sign::positive;
+  outside += !m.orthocenter_inside();
+  completely += m.orthocenter_inside() && has_all_crossed(mesh, t);
+  worst.emplace_back(m.margin(), t);
+  volume += m.volume;
+  min_volume = std::min(min_volume, m.volume), max_volume = std::max(max_volume, m.volume);
+  for (const double angle : m.dihedral_deg) {
+    min_dihedral = std::min(min_dihedral, angle), max_dihedral = std::max(max_dihedral, angle);
+    dihedrals.add(angle);
+  }
+  for (int f = 0; f < 4; ++f) {
+    min_h = std::min(min_h, m.h_over_l[std::size_t(f)]);
+    h_over_l.add(m.h_over_l[std::size_t(f)]);
+    const HalffaceId h = TetMesh::halfface(t, f);
+    if (mesh.is_face_representative(h)) add_face(mesh, h, m);
+  }
+}
+
+void Tally::add_face(const TetMesh& mesh, HalffaceId h, const TetMeasure& m) {
+  const FacePoints face = points_of(mesh, h);
+  const auto& [a, b, c] = face;
+  faces_not_crossed += !is_crossed(face);
+  for (const auto& [p, q, r] : {FacePoints{a, b, c}, FacePoints{b, c, a}, FacePoints{c, a, b}})
+    min_face_h = std::min(min_face_h, signed_height(p, q, r) / length(q.position() - p.position()));
+  const std::size_t f = h.index % 4;
+  if (mesh.is_boundary(h)) {
+    ++boundary_faces;
+    negative_boundary += m.h_sign[f] == Sign::negative;
+    return;
+  }
+  const WeightedPoint d = mesh.point(mesh.opposite(h)), e = mesh.point(mesh.opposite(mesh.twin(h)));
+  const Sign conflict = power_test(a, b, c, d, e);
+  non_regular += conflict == Sign::positive;
+  const double dual = std::abs(m.h[f] + signed_height(a, c, b, e));
+  transmissibilities.push_back(conflict == Sign::zero || dual == 0 ? kInfinity : area(face) / dual);
+}
+
+void Tally::merge(const Tally& other) {
+  boundary_faces += other.boundary_faces;
+  inverted += other.inverted;
+  non_regular += other.non_regular;
+  negative_boundary += other.negative_boundary;
+  outside += other.outside;
+  faces_not_crossed += other.faces_not_crossed;
+  completely += other.completely;
+  min_h = std::min(min_h, other.min_h);
+  min_face_h = std::min(min_face_h, other.min_face_h);
+  min_dihedral = std::min(min_dihedral, other.min_dihedral);
+  max_dihedral = std::max(max_dihedral, other.max_dihedral);
+  volume += other.volume;
+  min_volume = std::min(min_volume, other.min_volume);
+  max_volume = std::max(max_volume, other.max_volume);
+  transmissibilities.insert(transmissibilities.end(), other.transmissibilities.begin(), other.transmissibilities.end());
+  worst.insert(worst.end(), other.worst.begin(), other.worst.end());
+  dihedrals.merge(other.dihedrals);
+  h_over_l.merge(other.h_over_l);
+}
+
+Tally tally(const TetMesh& mesh, const QualityOptions& options) {
+  const std::size_t n = mesh.n_tetrahedra();
+  std::vector<Tally> blocks((n + kBlock - 1) / kBlock);
+  or_serial(options.executor).run(blocks.size(), [&](std::size_t i) {
+    for (std::size_t t = i * kBlock; t < std::min(n, (i + 1) * kBlock); ++t) blocks[i].add(mesh, TetId(t));
+    keep_least(blocks[i].worst, options.worst);
+  });
+  Tally all;
+  for (const Tally& block : blocks) all.merge(block);
+  keep_least(all.worst, options.worst);
+  return all;
+}
+
+struct EdgeTally {
+  std::size_t not_crossed = 0;
+  double min_d = kInfinity;
+};
+
+EdgeTally tally_edges(const TetMesh& mesh, const EdgeTable& edges, Executor* executor) {
+  std::vector<EdgeTally> blocks((mesh.n_vertices() + kLoopBlock - 1) / kLoopBlock);
+  for_blocks(mesh.n_vertices(), executor, [&](std::size_t first, std::size_t last) {
+    EdgeTally& sums = blocks[first / kLoopBlock];
+    for (std::size_t a = first; a < last; ++a) {
+      const WeightedPoint p = mesh.point(VertexId(a));
+      for (const VertexId b : edges.greater(VertexId(a))) {
+        const WeightedPoint q = mesh.point(b);
+        const double d = dual_crossing(p, q) / length(q.position() - p.position());
+        sums.not_crossed += !is_crossed(p, q);
+        sums.min_d = std::min({sums.min_d, d, 1 - d});
+      }
+    }
+  });
+  EdgeTally all;
+  for (const EdgeTally& block : blocks) {
+    all.not_crossed += block.not_crossed;
+    all.min_d = std::min(all.min_d, block.min_d);
+  }
+  return all;
+}
+
+std::size_t count_regions(const TetMesh& mesh) {
+  std::set<std::int32_t> regions;
+  for (const TetId t : mesh.tetrahedra()) {
+    if (t.index == 0 || mesh.region(t) != mesh.region(TetId(t.index - 1))) regions.insert(mesh.region(t));
+  }
+  return regions.size();
+}
+
+void compare_transmissibilities(Quality& q, std::vector<double>& values) {
+  q.max_transmissibility_over_median = q.transmissibility_ratio = 1;
+  if (values.empty()) return;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const double min = *least, max = *most;
+  q.transmissibility_ratio = max < kInfinity ? max / min : max;
+  q.max_transmissibility_over_median = over_median(max, median_of(values));
+}
+
+}  // namespace
+
+Quality quality(const TetMesh& mesh, const QualityOptions& options) {
+  Quality q;
+  Tally sums = tally(mesh, options);
+  const EdgeTable edges(mesh, options.executor);
+  const EdgeTally of_edges = tally_edges(mesh, edges, options.executor);
+  const auto on_boundary = boundary_vertices(mesh);
+  q.vertices = mesh.n_vertices();
+  q.inner_vertices = static_cast<std::size_t>(std::count(on_boundary.begin(), on_boundary.end(), 0));
+  q.tetrahedra = mesh.n_tetrahedra();
+  q.faces = mesh.n_faces();
+  q.boundary_faces = sums.boundary_faces;
+  q.edges = edges.n_edges();
+  q.regions = count_regions(mesh);
+  q.dihedrals = sums.dihedrals;
+  q.h_over_l = sums.h_over_l;
+  if (q.tetrahedra == 0) return q;
+
+  const auto fraction = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(q.tetrahedra); };
+  q.inverted_tetrahedra = sums.inverted;
+  q.non_regular_faces = sums.non_regular;
+  q.negative_boundary_duals = sums.negative_boundary;
+  q.orthocenters_outside = sums.outside;
+  q.faces_not_crossed = sums.faces_not_crossed;
+  q.edges_not_crossed = of_edges.not_crossed;
+  q.well_centered_fraction = fraction(q.tetrahedra - sums.outside);
+  q.completely_well_centered_fraction = fraction(sums.completely);
+  q.min_h_over_l = sums.min_h;
+  q.min_face_h_over_l = sums.min_face_h;
+  q.min_d_over_l = of_edges.min_d;
+  q.min_dihedral_deg = sums.min_dihedral;
+  q.max_dihedral_deg = sums.max_dihedral;
+  q.volume = sums.volume;
+  q.min_volume = sums.min_volume;
+  q.max_volume = sums.max_volume;
+  compare_transmissibilities(q, sums.transmissibilities);
+  for (const auto& [margin, t] : sums.worst) q.worst.push_back(describe(mesh, t, on_boundary));
+  return q;
+}
+
+}  // namespace temper::tets
