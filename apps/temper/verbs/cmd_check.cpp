@@ -118,9 +118,7 @@ class Checks {
   class Requirements {
    public:
     explicit Requirements(const std::vector<std::string>& lists)
-        : triangles_(lists, MeshKind::triangles), tetrahedra_(lists, MeshKind::tetrahedra) {
-      if (triangles_.refusal && tetrahedra_.refusal) throw Failure(*triangles_.refusal);
-    }
+        : triangles_(lists, MeshKind::triangles), tetrahedra_(lists, MeshKind::tetrahedra) {}
     /// Failure when the lists make no sense for this kind.
     [[nodiscard]] const std::vector<Requirement>& of(MeshKind kind) const {
       const Parsed& parsed = kind == MeshKind::triangles ? triangles_ : tetrahedra_;
@@ -158,7 +156,8 @@ class Checks {
     const std::string size =
         fmt::format("{} ({} inside), {}", plural(measured.vertices, "vertex", "vertices"), measured.inner_vertices,
                     plural(measured.tetrahedra, "tetrahedron", "tetrahedra"));
-    report(path, judge(requirements, measured), check_json(path, measured, input.points, judge(requirements, measured)),
+    const std::vector<Outcome> outcomes = judge(requirements, measured);
+    report(path, outcomes, check_json(path, measured, input.points, outcomes),
            s_.details ? quality_text(measured, input, text_style())
                       : fmt::format("{}: {}\n{}{}\n", path, size, brief_text(measured), verdict(measured)));
   }
