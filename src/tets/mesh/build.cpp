@@ -332,14 +332,14 @@ class TetMeshBuilder {
                     "the face of points " + numbers(corners) + " belongs to " + quantity(all.size(), "tetrahedra (") +
                         listed(all) + ")" + near(corners) + "; expected at most 2");
   }
-  /// If nearly all tetrahedra turn in one way, the other one of the two is inverted.
+  /// If three of four tetrahedra turn in one way, the one of the two that does not is inverted.
   InputError overlap(HalffaceId h, TetId s, TetId t) const {
     const auto corners = mesh_.vertices(h);
     std::string message = name(s) + " and " + name(t) + " lie on the same side of their common face of points " +
                           numbers(corners) + near(corners);
     const std::size_t reversed = built_.reversed_tetrahedra, others = in_.tetrahedra.size() - reversed;
     TetId at = t;
-    if (is_reversed(s) != is_reversed(t) && 10 * std::min(reversed, others) < reversed + others) {
+    if (is_reversed(s) != is_reversed(t) && 4 * std::min(reversed, others) < reversed + others) {
       if (is_reversed(t) == (reversed > others)) at = s;
       message += ": " + name(at) + " is inverted. Next: move its vertices, so that it turns as most tetrahedra";
     } else {

@@ -169,9 +169,7 @@ TEST_F(TetFiles, ErrorsHaveTheNumbersAndTheLinesOfTheFile) {
       "remove it from the mesh, or mesh this place again");
   EXPECT_EQ(error_of("m.msh", gmsh("2\n5 4 2 0 1 11 12 13 14\n6 4 2 0 1 11 12 13 18\n")),
             "m.msh:18: tetrahedron 5 and tetrahedron 6 lie on the same side of their common face of points 11, 12 and "
-            "13, near "
-            "(0.333333, "
-            "0.333333, 0)");
+            "13, near (0.333333, 0.333333, 0). Next: move their vertices, or mesh this place again");
   EXPECT_EQ(error_of("m.msh", gmsh("1\n5 4 2 0 1 11 12 13 99\n")),
             "m.msh:17: tetrahedron 5 uses vertex 99, but the file has no vertex of that number");
   EXPECT_EQ(error_of("m.msh", gmsh("1\n5 4 2 0 1 11 12 13 14\n", "0 nan 1")),
