@@ -40,8 +40,7 @@ void add_options(Command& command, CheckSettings& s) {
   command.group("Report");
   add_texts(command, "IN", "", Values::words, s.inputs,
             "One or more mesh files, of triangles or tetrahedra. The content of each file shows its format. '-' reads "
-            "standard "
-            "input.")
+            "standard input.")
       .require();
   add_projection(command, s.projection);
   add_flat(command, s.flat);
@@ -114,11 +113,13 @@ class Checks {
   }
 
  private:
-  /// The requirements on meshes of both kinds. A list may make sense for one kind alone.
+  /// The requirements on meshes of both kinds. A list may make sense for one kind alone, but not for none.
   class Requirements {
    public:
     explicit Requirements(const std::vector<std::string>& lists)
-        : triangles_(lists, MeshKind::triangles), tetrahedra_(lists, MeshKind::tetrahedra) {}
+        : triangles_(lists, MeshKind::triangles), tetrahedra_(lists, MeshKind::tetrahedra) {
+      if (triangles_.refusal && tetrahedra_.refusal) throw Failure(*triangles_.refusal);
+    }
     /// Failure when the lists make no sense for this kind.
     [[nodiscard]] const std::vector<Requirement>& of(MeshKind kind) const {
       const Parsed& parsed = kind == MeshKind::triangles ? triangles_ : tetrahedra_;
