@@ -80,8 +80,7 @@ const std::vector<Bad>& bad_files() {
       {"quadrilateral_in_medit", "m.mesh", medit(kSquare, "Triangles\n0\nQuadrilaterals\n1\n1 2 3 4 0\n"),
        ErrorCode::unsupported,
        "m.mesh:13: element 1 is a quadrilateral; in this format temper reads linear triangles and tetrahedra, with "
-       "lines "
-       "and points as tags. Next: write meshes of quadrilaterals as VTU or Gmsh"},
+       "lines and points as tags. Next: write meshes of quadrilaterals as VTU or Gmsh"},
       {"tetrahedron_in_gmsh", "m.msh",
        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n$EndNodes\n$Elements\n2\n"
        "1 2 2 0 1 1 2 3\n2 4 2 0 1 1 2 3 4\n$EndElements\n",
