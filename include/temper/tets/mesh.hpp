@@ -157,13 +157,8 @@ class TetMesh {
   /// Checks the arrays and the geometry: ids in range, twins mutual and of the same vertices, every tetrahedron
   /// positive (exact). Returns the first fault, or nothing. O(n).
   [[nodiscard]] std::optional<std::string> validate() const;
-  /// The size of the arrays in bytes.
-  [[nodiscard]] std::size_t memory_bytes() const;
 
   // --- as it lies in memory, for views from other languages: valid until the mesh changes ----------
-  [[nodiscard]] std::span<const double> x_data() const { return x_.raw(); }
-  [[nodiscard]] std::span<const double> y_data() const { return y_.raw(); }
-  [[nodiscard]] std::span<const double> z_data() const { return z_.raw(); }
   [[nodiscard]] std::span<const double> weight_data() const { return w_.raw(); }
   [[nodiscard]] std::span<const std::array<VertexId, 4>> corner_data() const { return corners_.raw(); }
   [[nodiscard]] std::span<const HalffaceId> twin_data() const { return twins_.raw(); }
