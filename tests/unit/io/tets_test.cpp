@@ -155,7 +155,7 @@ TEST_F(TetFiles, AMeshOfAFileHasItsTagsAndWarnsOfWhatItDrops) {
   EXPECT_EQ(made->warnings,
             (std::vector<std::string>{"1 point of no tetrahedron is dropped: point 1",
                                       "1 negative tetrahedron is reversed: two corners are exchanged, the shape stays",
-                                      "1 face is no face of the mesh and tags nothing: triangle 2"}));
+                                      "1 face is no face of the mesh and tags nothing: face 2"}));
 }
 
 TEST_F(TetFiles, ErrorsHaveTheNumbersAndTheLinesOfTheFile) {
