@@ -163,11 +163,11 @@ class Bare:
 
 def test_grids_of_pyvista_are_taken():
     points, tetrahedra = cubes(1)
-    cells = [*tetrahedra, [0, 1, 3], [0, 1], [7]]
+    cells = [*tetrahedra, [0, 1, 3], [0, 8], [0, 1], [7]]  # the point 8 is of no tetrahedron
     grid = Bare(
-        points=np.vstack([points, [9, 9, 9]]), celltypes=np.array([10] * 6 + [5, 3, 1]),
+        points=np.vstack([points, [9, 9, 9]]), celltypes=np.array([10] * 6 + [5, 3, 3, 1]),
         offset=np.cumsum([0, *map(len, cells)]), cell_connectivity=np.concatenate(cells),
-        point_data={"u": np.arange(9.0), "weight": np.full(9, 0.25)}, cell_data={"region": np.arange(9), "c": np.arange(9.0)},
+        point_data={"u": np.arange(9.0), "weight": np.full(9, 0.25)}, cell_data={"region": np.arange(10), "c": np.arange(10.0)},
         field_data={},
     )  # fmt: skip
     with pytest.warns(temper.TemperWarning, match="1 point of no tetrahedron is dropped: point 8") as said:
@@ -175,8 +175,8 @@ def test_grids_of_pyvista_are_taken():
     assert said[0].filename == __file__
     assert mesh.regions.tolist() == list(range(6)) and np.array_equal(mesh.points, points) and (mesh.weights == 0.25).all()
     assert mesh.tagged_faces.tolist() == [[0, 1, 3]] and mesh.face_tags.tolist() == [6]
-    assert mesh.lines.tolist() == [[0, 1]] and mesh.line_tags.tolist() == [7]
-    assert mesh.marked_points.tolist() == [7] and mesh.point_tags.tolist() == [8]
+    assert mesh.lines.tolist() == [[0, 1]] and mesh.line_tags.tolist() == [8]
+    assert mesh.marked_points.tolist() == [7] and mesh.point_tags.tolist() == [9]
     assert mesh.point_data["u"].tolist() == list(range(8)) and mesh.cell_data["c"].tolist() == list(range(6))
     with pytest.warns(temper.TemperWarning):
         assert temper.quality(grid) == temper.quality(mesh)
