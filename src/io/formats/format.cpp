@@ -138,18 +138,29 @@ void check_tetrahedra(const Document& d) {
   check_weights(d);
 }
 
+namespace {
+
+/// The next step for an element that is not read, or nothing.
+std::string_view next_for(std::string_view kind, Cells read) {
+  constexpr std::string_view kSolids[] = {"hexahedron", "voxel", "prism", "wedge", "pyramid"};
+  const bool quadrilaterals = read == Cells::faces || read == Cells::all;
+  const bool tetrahedra = read == Cells::simplices || read == Cells::all;
+  if (kind.starts_with("quadratic") || kind.starts_with("Lagrange")) return ". Next: write linear elements";
+  if (kind == "quadrilateral" && !quadrilaterals) return kNextForQuadrilaterals;
+  if (kind == "tetrahedron" && !tetrahedra) return kNextForTetrahedra;
+  if (tetrahedra && std::ranges::find(kSolids, kind) != std::end(kSolids)) return ". Next: split it into tetrahedra";
+  return {};
+}
+
+}  // namespace
+
 void refuse_element(const std::string& where, std::int64_t number, std::string_view kind, Cells read) {
   constexpr std::string_view kRead[] = {"in this format temper reads linear triangles",
                                         "temper reads linear triangles and quadrilaterals",
                                         "in this format temper reads linear triangles and tetrahedra",
                                         "temper reads linear triangles, quadrilaterals and tetrahedra"};
-  const bool without_quadrilaterals = read == Cells::triangles || read == Cells::simplices;
-  const bool without_tetrahedra = read == Cells::triangles || read == Cells::faces;
   fail(ErrorCode::unsupported, where, "element ", number, kind.starts_with('e') ? " is an " : " is a ", kind, "; ",
-       kRead[static_cast<std::size_t>(read)], ", with lines and points as tags",
-       without_quadrilaterals && kind == "quadrilateral" ? kNextForQuadrilaterals
-       : without_tetrahedra && kind == "tetrahedron"     ? kNextForTetrahedra
-                                                         : "");
+       kRead[static_cast<std::size_t>(read)], ", with lines and points as tags", next_for(kind, read));
 }
 
 void refuse_beside_tetrahedra(const std::string& where, std::string_view name) {

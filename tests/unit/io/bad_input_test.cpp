@@ -92,7 +92,7 @@ const std::vector<Bad>& bad_files() {
        "CELLS 1 7\n6 0 1 2 3 4 5\nCELL_TYPES 1\n22\n",
        ErrorCode::unsupported,
        "m.vtk:8: element 0 is a quadratic triangle; temper reads linear triangles, quadrilaterals and tetrahedra, with "
-       "lines and points as tags"},
+       "lines and points as tags. Next: write linear elements"},
       {"square_in_mfem", "m.mesh",
        "MFEM mesh v1.0\ndimension\n2\nelements\n1\n1 3 0 1 2 3\nboundary\n0\nvertices\n4\n2\n0 0\n1 0\n1 1\n0 1\n",
        ErrorCode::unsupported,

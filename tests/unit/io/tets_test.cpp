@@ -177,7 +177,7 @@ TEST_F(TetFiles, ErrorsHaveTheNumbersAndTheLinesOfTheFile) {
   EXPECT_EQ(
       error_of("m.msh", gmsh("2\n4 5 2 0 1 11 12 13 14 15 16 17 18\n5 4 2 0 1 11 12 13 14\n")),
       "m.msh:17: element 4 is a hexahedron; temper reads linear triangles, quadrilaterals and tetrahedra, with lines "
-      "and points as tags");
+      "and points as tags. Next: split it into tetrahedra");
   EXPECT_EQ(
       error_of("m.msh", gmsh("2\n4 3 2 0 1 11 12 15 13\n5 4 2 0 1 11 12 13 14\n")),
       "m.msh:17: triangle 4 is a quadrilateral beside tetrahedra; expected triangles as their tagged faces. Next: "
@@ -208,7 +208,7 @@ TEST_F(TetFiles, ErrorsHaveTheNumbersAndTheLinesOfTheFile) {
                             std::string("0 0 0 1 0 0 0 1 0 0 0 1 2 2 2 3 3 3 4 4 4 5 5 5 6 6 6 7 7 7\n") +
                             "CELLS 1 11\n10 0 1 2 3 4 5 6 7 8 9\nCELL_TYPES 1\n24\n"),
       "m.vtk:8: element 0 is a quadratic tetrahedron; temper reads linear triangles, quadrilaterals and tetrahedra, "
-      "with lines and points as tags");
+      "with lines and points as tags. Next: write linear elements");
 }
 
 TEST_F(TetFiles, FacesWithoutATagAreNoTagsInFilesOfTetgen) {
