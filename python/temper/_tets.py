@@ -193,7 +193,7 @@ class TetMesh:
             ("marked_points", "point_tags", "marked_point_data"),
         ):  # fmt: skip
             numbered = number[file[elements]]
-            kept = (numbered >= 0).reshape(len(numbered), -1).all(axis=1)
+            kept = numbered >= 0 if numbered.ndim == 1 else (numbered >= 0).all(axis=1)
             file[elements], file[tags] = numbered[kept], file[tags][kept]
             file[data] = {name: values[kept] for name, values in file[data].items()}
         file["point_data"] = {name: values[number >= 0] for name, values in file["point_data"].items()}

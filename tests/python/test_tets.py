@@ -116,6 +116,7 @@ def test_what_is_repaired_is_said_and_written_without_the_fault(in_scratch):
         "1 face is no face of the mesh and tags nothing: face 0",
     ]  # fmt: skip
     assert (volumes(mesh.points, mesh.tetrahedra) > 0).all() and said[0].filename == __file__
+    assert mesh.lines.shape == (0, 2) and mesh.marked_points.shape == (0,) and mesh.names == {}
     temper.write("m.vtu", mesh)
     with pytest.warns(temper.TemperWarning, match="is no face of the mesh") as said:
         assert temper.read("m.vtu") == mesh
