@@ -1,6 +1,8 @@
 // TetMesh::build: connectivity and tags of good meshes, and what it says of bad ones.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
