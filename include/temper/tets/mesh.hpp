@@ -37,8 +37,8 @@ using TetId = Id<struct TetTag>;
 /// A face as one tetrahedron has it. Halfface 4 t + f is opposite corner f of tetrahedron t.
 using HalffaceId = Id<struct HalffaceTag>;
 
-/// The user's numbers of points, tetrahedra, tagged faces and lines, for errors. The base class counts from 0 and has no
-/// file.
+/// The user's numbers of points, tetrahedra, tagged faces and lines, for errors. The base class counts from 0 and has
+/// no file.
 class InputNames : public temper::InputNames {
  public:
   /// The name of a tagged face, which is a triangle in files.
