@@ -5,7 +5,7 @@
 //   key          a number of the JSON report, its short name, or energy.NAME.STAR (of triangles)
 //
 // A plain = stands for the useful comparison: counts are equal, minima and fractions at least, maxima and energies at
-// most. A key alone stands for the usual value of its row.
+// most. Other numbers, such as the volume, have none. A key alone stands for the usual value of its row.
 #pragma once
 
 #include <span>
@@ -41,6 +41,9 @@ Option& add_requirements(Command& command, std::vector<std::string>& lists, bool
 /// The requirements of the lists; Failure (bad usage of the verb) for a key or a value that makes no sense.
 [[nodiscard]] std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists,
                                                           MeshKind kind = MeshKind::triangles);
+
+/// Says whether all keys of the lists are of this kind of meshes.
+[[nodiscard]] bool knows_keys(std::span<const std::string> lists, MeshKind kind);
 
 /// "=", ">=" or "<=".
 [[nodiscard]] std::string_view sign(Preference better);

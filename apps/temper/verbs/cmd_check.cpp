@@ -118,7 +118,9 @@ class Checks {
    public:
     explicit Requirements(const std::vector<std::string>& lists)
         : triangles_(lists, MeshKind::triangles), tetrahedra_(lists, MeshKind::tetrahedra) {
-      if (triangles_.refusal && tetrahedra_.refusal) throw Failure(*triangles_.refusal);
+      if (!triangles_.refusal || !tetrahedra_.refusal) return;
+      const bool of_triangles = knows_keys(lists, MeshKind::triangles) || !knows_keys(lists, MeshKind::tetrahedra);
+      throw Failure(of_triangles ? *triangles_.refusal : *tetrahedra_.refusal);
     }
     /// Failure when the lists make no sense for this kind.
     [[nodiscard]] const std::vector<Requirement>& of(MeshKind kind) const {
