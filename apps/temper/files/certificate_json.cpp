@@ -119,7 +119,7 @@ Json certificate_json(const Certificate& certificate, const Input& input) {
   const auto point = [&](VertexId v) { return input.points.empty() ? std::size_t{v.index} : input.points[v.index]; };
   Json terms = Json::array();
   for (const auto& [constraint, multiplier] : certificate.terms) {
-    const auto [kind, p, q, r, s] = constraint;
+    const auto [kind, p, q, r, s, t] = constraint;
     Json term;
     term["kind"] = name(kind);
     if (kind != Kind::crossing) term["triangle"] = {point(p), point(q), point(r)};

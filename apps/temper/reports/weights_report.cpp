@@ -115,7 +115,7 @@ Json search_json(const WeightsRecord& r) {
 
 Json violation_json(const Violation& v, const Input& input, const Mesh& mesh) {
   const auto point = [&](VertexId u) { return input.points.empty() ? std::size_t{u.index} : input.points[u.index]; };
-  const auto [kind, p, q, r, s] = v.constraint;
+  const auto [kind, p, q, r, s, t] = v.constraint;
   Json json;
   json["kind"] = name(kind);
   json["edge"] = {point(p), point(q)};
