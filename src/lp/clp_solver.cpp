@@ -143,14 +143,19 @@ constexpr Attempt kAttempts[] = {
 LpSolution attempt(const LpProblem& problem, const Attempt& how) {
   constexpr int kNoPerturbation = 100, kPerturbation = 50, kNoScaling = 0, kAutomaticScaling = 3;  // Clp's codes
   const Model model = load(problem);
-  Clp_setPerturbation(model.get(), how.perturb ? kPerturbation : kNoPerturbation);
-  Clp_scaling(model.get(), how.scale ? kAutomaticScaling : kNoScaling);
-  if (how.dual) {
-    Clp_dual(model.get(), 0);
-  } else {
-    Clp_primal(model.get(), 0);
-  }
-  return result(model.get(), problem);
+  const auto run = [&](const Attempt& step) {
+    Clp_setPerturbation(model.get(), step.perturb ? kPerturbation : kNoPerturbation);
+    Clp_scaling(model.get(), step.scale ? kAutomaticScaling : kNoScaling);
+    if (step.dual) {
+      Clp_dual(model.get(), 0);
+    } else {
+      Clp_primal(model.get(), 0);
+    }
+    return result(model.get(), problem);
+  };
+  const LpSolution solution = run(how);
+  if (solution.status != LpStatus::optimal || is_good(problem, solution)) return solution;
+  return run({false, false, false});  // from this basis: mostly without a step
 }
 
 LpSolution solve_carefully(const LpProblem& problem) {

@@ -59,13 +59,13 @@ class Parts {
       add(corners);
     }
   }
-  /// Says whether these are all distinct corners of one tetrahedron.
+  /// Says whether the valid ones of these, at least two, are distinct corners of one tetrahedron.
   [[nodiscard]] bool has(std::array<VertexId, 4> vertices) const {
     std::sort(vertices.begin(), vertices.end());
     return parts_.count(vertices) > 0;
   }
   [[nodiscard]] bool has_positive(VertexId p, VertexId q, VertexId r, VertexId s) const {
-    return has({p, q, r, s}) &&
+    return std::max({p, q, r, s}).valid() && has({p, q, r, s}) &&
            orientation(mesh_.position(p), mesh_.position(q), mesh_.position(r), mesh_.position(s)) == Sign::positive;
   }
 
@@ -88,9 +88,10 @@ class Parts {
 bool is_of(const Parts& parts, const WeightConstraint& c) {
   switch (c.kind) {
     case Kind::crossing:
-      return parts.has({c.p, c.q, VertexId(), VertexId()}) && !c.r.valid() && !c.s.valid() && !c.t.valid();
+      return std::max(c.p, c.q).valid() && parts.has({c.p, c.q, VertexId(), VertexId()}) && !c.r.valid() &&
+             !c.s.valid() && !c.t.valid();
     case Kind::height:
-      return parts.has({c.p, c.q, c.r, VertexId()}) && c.p.valid() && c.q.valid() && c.r.valid() && !c.s.valid() &&
+      return std::max({c.p, c.q, c.r}).valid() && parts.has({c.p, c.q, c.r, VertexId()}) && !c.s.valid() &&
              !c.t.valid();
     case Kind::height_over_face:
       return parts.has_positive(c.p, c.q, c.r, c.s) && !c.t.valid();

@@ -125,14 +125,25 @@ LinearForm TetDemand::form_over_face(VertexId p, VertexId q, VertexId r, VertexI
   return form;
 }
 
+// The weight of p has no influence if the other four vertices are coplanar. Rounding must not give it one: weights of
+// 2^53 ℓ² would seem to help. Smaller influences than the one dropped are within the reach of certificates.
+LinearForm TetDemand::dual_form(const WeightConstraint& c) const {
+  constexpr double kNoInfluence = 0x1p-44;
+  const LinearForm up = form_over_face(c.p, c.q, c.r, c.s), down = form_over_face(c.p, c.r, c.q, c.t);
+  const auto& [a, b] = std::tie(up.coefficients, down.coefficients);
+  LinearForm form = {
+      5, {c.p, c.q, c.r, c.s, c.t}, {a[0] + b[0], a[1] + b[2], a[2] + b[1], a[3], b[3]}, up.constant + down.constant};
+  double largest = 0;
+  for (const double x : {a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]}) largest = std::max(largest, std::abs(x));
+  for (double& x : form.coefficients) {
+    if (std::abs(x) <= kNoInfluence * largest) x = 0;
+  }
+  return form;
+}
+
 LinearForm TetDemand::linear_form(const WeightConstraint& c) const {
   if (c.kind == Kind::height_over_face) return form_over_face(c.p, c.q, c.r, c.s);
-  if (c.kind == Kind::dual_of_face) {
-    const LinearForm up = form_over_face(c.p, c.q, c.r, c.s), down = form_over_face(c.p, c.r, c.q, c.t);
-    const auto& [a, b] = std::tie(up.coefficients, down.coefficients);
-    return {
-        5, {c.p, c.q, c.r, c.s, c.t}, {a[0] + b[0], a[1] + b[2], a[2] + b[1], a[3], b[3]}, up.constant + down.constant};
-  }
+  if (c.kind == Kind::dual_of_face) return dual_form(c);
   const Vec3 pq = mesh_.position(c.q) - mesh_.position(c.p);
   if (c.kind == Kind::crossing) return crossing_form(c, pq);
   const Vec3 pr = mesh_.position(c.r) - mesh_.position(c.p);

@@ -38,6 +38,7 @@ class TetDemand final : public Demand {
   /// Precondition: h is inside the mesh.
   [[nodiscard]] WeightConstraint dual(HalffaceId h) const;
   [[nodiscard]] LinearForm form_over_face(VertexId p, VertexId q, VertexId r, VertexId s) const;
+  [[nodiscard]] LinearForm dual_form(const WeightConstraint& constraint) const;
 
   const TetMesh& mesh_;
   std::vector<std::uint32_t> star_start_;  ///< of the tetrahedra around each vertex
