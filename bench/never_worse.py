@@ -5,7 +5,7 @@
 
 Each number is an error after a run over the error before it. Numbers above 1 are bold if the target names the measure.
 `temper errors` measures on the held-back fields, which no objective has seen. The table takes root mean squares over the
-fields, since a grid solves some fields exactly. Public meshes are those of targets_table.py.
+fields, since a grid solves some fields exactly. targets_table.py finds the public meshes.
 """
 
 import json

@@ -23,7 +23,7 @@ struct HilbertStep {
   std::uint8_t orientation;  ///< inside of the cell
 };
 inline constexpr auto kHilbertSteps = [] {
-  std::array<HilbertStep, 4 * 256> steps{};
+  std::array<HilbertStep, 1024> steps{};
   for (std::uint32_t i = 0; i < steps.size(); ++i) {
     std::uint32_t index = 0, mirrored = i >> 9, swapped = i >> 8 & 1;
     for (int bit = 3; bit >= 0; --bit) {

@@ -29,7 +29,7 @@ inline double over_median(double largest, double median) {
   return median > 0 && largest < infinity ? largest / median : infinity;
 }
 
-/// The same of a list; 1 without values.
+/// The largest of these values over their median. Without values the result is 1.
 inline double largest_over_median(std::vector<double> values) {
   if (values.empty()) return 1;
   const double largest = *std::max_element(values.begin(), values.end());

@@ -68,12 +68,13 @@ template <class T>
 }
 
 /// The factor μ k s_t² of a triangle's barrier, with its floor f ≤ ε. k = 1 + 10 (ε²/f² − 1), but at most 1000: the
-/// thinnest triangles gain most.
+/// thinnest triangles gain most. Where edges must become longer, k = 1: their barriers are the urgent ones.
 template <class T>
 [[nodiscard]] TEMPER_INLINE T barrier_factor(const AccuracyModel& model, const T& s, const T& t, const T& u,
                                              const T& floor) {
   const T most = all<T>(1000), lack = all<T>(model.margin) / floor, k = 10 * (lack * lack) - all<T>(9);
-  return (model.barrier / 9) * select(k < most, k, most) * ((s + t + u) * (s + t + u));
+  const T scale = (model.barrier / 9) * ((s + t + u) * (s + t + u));
+  return model.keeps_lengths() ? scale : scale * select(k < most, k, most);
 }
 
 /// A point of the mesh and its size.

@@ -42,8 +42,11 @@ using Lanes = std::array<double, kLanes>;
 class Cholesky {
  public:
   Cholesky() = default;
+  Cholesky(const Cholesky&) = delete;
+  Cholesky& operator=(const Cholesky&) = delete;
   Cholesky(Cholesky&&) = default;
   Cholesky& operator=(Cholesky&&) = default;
+  ~Cholesky() = default;
 
   /// Factors a matrix in place of the last. Returns false if a pivot is not positive, or an entry not finite. A matrix
   /// with the entries of the last in the same order keeps the order of elimination.

@@ -158,7 +158,7 @@ Mesh MeshPermuter::ordered(M& mesh, Found& found, Executor* executor) {
   result.space_ = mesh.space();
   const MeshOrder& order = found.order;
   const std::size_t n = mesh.n_triangles();
-  const auto release = [](auto& array) {
+  const auto release = []([[maybe_unused]] auto& array) {
     if constexpr (!std::is_const_v<M>) array = {};
   };
   result.vertices_.resize(mesh.n_vertices());

@@ -47,8 +47,8 @@ class NearbyCopy {
   [[nodiscard]] VertexId original(VertexId v) const { return copy_ ? copy_->order.vertices[v] : v; }
   /// The triangles in the original, or none if it is the original.
   [[nodiscard]] const IdVector<TriangleId, TriangleId>& original_triangles() const {
-    static const IdVector<TriangleId, TriangleId> kNone;
-    return copy_ ? copy_->order.triangles : kNone;
+    static const IdVector<TriangleId, TriangleId> none;
+    return copy_ ? copy_->order.triangles : none;
   }
   /// Says whether it is the original.
   [[nodiscard]] bool is_original() const { return !copy_.has_value(); }

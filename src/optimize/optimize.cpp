@@ -77,7 +77,7 @@ Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepSta
   return best;
 }
 
-/// Says whether so many vertices are at ties that the mesh is a grid.
+/// Says whether the mesh is a grid: in a grid at least a tenth of the vertices are at ties.
 bool is_grid(const Mesh& mesh, const Settings& settings) {
   constexpr double kTiedPart = 0.1;
   const std::size_t ties = heavier_ends_of_ties(mesh, settings.options).size();

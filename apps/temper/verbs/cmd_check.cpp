@@ -40,8 +40,7 @@ void add_options(Command& command, CheckSettings& s) {
   command.group("Report");
   add_texts(command, "IN", "", Values::words, s.inputs,
             "One or more mesh files, of triangles or tetrahedra. The content of each file shows its format. '-' reads "
-            "standard "
-            "input.")
+            "standard input.")
       .require();
   add_projection(command, s.projection);
   add_flat(command, s.flat);
@@ -114,7 +113,7 @@ class Checks {
   }
 
  private:
-  /// The requirements on meshes of both kinds. A list may make sense for one kind alone.
+  /// The requirements on meshes of both kinds. A list may make sense for one kind alone, but not for none.
   class Requirements {
    public:
     explicit Requirements(const std::vector<std::string>& lists)
@@ -158,7 +157,8 @@ class Checks {
     const std::string size =
         fmt::format("{} ({} inside), {}", plural(measured.vertices, "vertex", "vertices"), measured.inner_vertices,
                     plural(measured.tetrahedra, "tetrahedron", "tetrahedra"));
-    report(path, judge(requirements, measured), check_json(path, measured, input.points, judge(requirements, measured)),
+    const std::vector<Outcome> outcomes = judge(requirements, measured);
+    report(path, outcomes, check_json(path, measured, input.points, outcomes),
            s_.details ? quality_text(measured, input, text_style())
                       : fmt::format("{}: {}\n{}{}\n", path, size, brief_text(measured), verdict(measured)));
   }

@@ -84,7 +84,7 @@ void check(Document& d, bool flat) {
     // Other programs call JIGSAW's outlines meshes.
     const bool outline = f.format == "jigsaw" && !f.lines.empty();
     fail(ErrorCode::empty_input, d.names->path, "the file has no triangles",
-         outline ? ": it is an outline, for `temper mesh` to mesh" : "");
+         outline ? ": it is an outline, for `temper mesh` to mesh" : " or tetrahedra");
   }
   check_ranges(d);
   cut_quadrilaterals(f, *d.names, d.fourth_corners, d.heights);

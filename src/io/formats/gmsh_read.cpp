@@ -649,7 +649,10 @@ class GmshReader {
     lines_.sort_by_number();
     points_.sort_by_number();
     tets_.sort_by_number();
-    if (!version4_) keep_one_of_each(triangles_), keep_one_of_each(tets_);
+    if (!version4_) {
+      if (tets_.nodes.empty()) keep_one_of_each(triangles_);  // beside tetrahedra they are tags, of which all stay
+      keep_one_of_each(tets_);
+    }
     tet_lookup_.emplace(tets_.numbers);
     triangle_lookup_.emplace(triangles_.numbers);
     left_out_lookup_.emplace(left_out_);

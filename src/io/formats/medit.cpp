@@ -41,6 +41,7 @@ constexpr std::pair<std::string_view, std::string_view> kUnsupported[] = {
     {"Prisms", "prism"},
     {"Pentahedra", "prism"},
     {"Pyramids", "pyramid"},
+    {"TetrahedraP2", "quadratic tetrahedron"},
     {"TrianglesP2", "quadratic triangle"},
     {"EdgesP2", "quadratic edge"},
     {"QuadrilateralsQ2", "quadratic quadrilateral"}};
@@ -62,7 +63,7 @@ class MeditReader {
       if (!ended) section(keyword);
     }
     if (!ended && document_.file.triangles.empty() && document_.tetrahedra.corners.empty())
-      scanner_.fail_truncated("the section Triangles");
+      scanner_.fail_truncated("the section Triangles or Tetrahedra");
     for (const auto& [flag_section, numbers] : flags_) set_flags(*flag_section, numbers);
     document_.names->points = RunLength(1, document_.file.points.size());
     document_.names->triangles = RunLength(1, document_.file.triangles.size());

@@ -444,8 +444,8 @@ void write_tagged(const WriteJob& job, const std::string& path,
                   std::string_view kind) {
   if (elements.empty() && !exists(path)) return;
   if (const auto n = std::count(tags.begin(), tags.end(), 0); n > 0)
-    job.warn(n, " ", kind, n == 1 ? "" : "s", " of tag 0 ", n == 1 ? "is" : "are",
-             " written with marker 0, which TetGen's files have for none");
+    job.warn(n, " ", kind, n == 1 ? " has" : "s have", " tag 0, which is no tag in files of TetGen: nobody can read ",
+             n == 1 ? "it" : "them", " again");
   Output& out = job.outputs.open(path);
   out.put(elements.size(), " 1\n");
   for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -477,7 +477,7 @@ Document read_triangle(Source& source) { return TriangleReader(source).read(); }
 
 std::vector<std::string> triangle_files(const std::string& path) {
   const std::string base = base_path(path);
-  return {base + ".node", base + ".ele", base + ".poly"};
+  return {base + ".node", base + ".ele", base + ".poly", base + ".face", base + ".edge"};
 }
 
 std::vector<std::string> triangle_files_to_read(const std::string& path) {

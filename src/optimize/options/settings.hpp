@@ -58,6 +58,12 @@ inline constexpr double kRelaxation = 1.7;
 /// barrier goes on with thin triangles. With 1e-3 they stay thinner, by a fifth on osteonT1.
 inline constexpr double kGainOfLastSweep = 1e-4;
 
+/// Returns the largest number of steps for the error of the solver. The user's own problem has one right-hand side: it
+/// needs more steps, and each takes less time.
+[[nodiscard]] inline int most_solver_error_steps(const OptimizeOptions& o) {
+  return o.solver_error.steps * (o.problem ? 10 : 1);
+}
+
 struct Settings {
   OptimizeOptions options;
   OptimizeHooks hooks;

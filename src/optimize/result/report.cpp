@@ -57,7 +57,7 @@ Result result_of(InputMesh& input, WorkingCopy work, const Settings& settings, c
   if (scattered) {
     if (on_sphere) take_back_rounding(input.whole(), work.order->vertices, work.mesh);
   } else {
-    work.mesh = std::move(work).in_user_order(executor);
+    work.take_user_order(executor);
     if (on_sphere) take_back_rounding(input.whole(), result.vertices, work.mesh);
   }
   result.score = score(work.mesh, settings, model, for_accuracy ? &own : nullptr);

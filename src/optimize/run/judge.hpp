@@ -63,7 +63,7 @@ enum class Requirement {
 /// Says whether the input needs no change: it is well-centered with margins.
 [[nodiscard]] bool is_sound(const Mesh& input, const MeshScore& counts, const Settings& settings);
 
-/// Compares measured errors with those of the input.
+/// Measures the solver's errors on meshes, and divides them by its errors on the input.
 class ErrorJudge {
  public:
   ErrorJudge(const Mesh& input, const Settings& settings);

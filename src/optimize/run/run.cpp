@@ -88,7 +88,7 @@ Limits limits_of(std::span<const SweepRecord> history, const OptimizeOptions& o)
   }
   if (history.back().objective == Objective::solver_error) {
     const auto first = std::ranges::find(history, Objective::solver_error, &SweepRecord::objective);
-    return {o.solver_error.tolerance, std::min(o.max_sweeps, first->sweep + o.solver_error.steps)};
+    return {o.solver_error.tolerance, std::min(o.max_sweeps, first->sweep + most_solver_error_steps(o))};
   }
   const auto first = std::ranges::find(history, Objective::accuracy, &SweepRecord::objective);
   return {o.accuracy.tolerance, std::min(o.max_sweeps, first->sweep + o.accuracy.sweeps)};

@@ -108,7 +108,7 @@ void SolverErrorPhase::begin() {
 
 bool SolverErrorPhase::may_sweep() const {
   const bool can = bad_ == 0 && std::isfinite(now_.lowered);
-  const bool steps_left = iteration < settings_.options.solver_error.steps;
+  const bool steps_left = iteration < most_solver_error_steps(settings_.options);
   if (!can) run_.report.stopped = Stopped::converged;
   if (can && !steps_left) run_.report.stopped = Stopped::sweep_limit;
   return can && steps_left && run_.sweeps_left();

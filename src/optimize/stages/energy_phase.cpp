@@ -94,7 +94,7 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
 bool EnergyPhase::is_ready_for_accuracy(bool changed) const {
   const SweepRecord& last = run_.report.history.back();
   if (settings_.objective == Objective::energy || before_switch_ || last.bad > 0) return false;
-  const bool is_late = gamma_schedule_.settled() && !changed;
+  const bool is_late = gamma_schedule_.settled() && !changed && !settings_.accuracy.keeps_lengths();
   const bool gains_little = is_late && before_ - last.energy < kGainOfLastSweep * std::abs(before_);
   return gains_little || has_all_for_accuracy(work_.mesh, settings_);
 }

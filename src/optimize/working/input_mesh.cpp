@@ -43,7 +43,8 @@ void InputMesh::replace(WorkingCopy result) {
   folded_ = {};
   folded_up_ = false;
   order_ = {};
-  mesh_ = std::move(result).in_user_order(executor_);
+  result.take_user_order(executor_);
+  mesh_ = std::move(result.mesh);
 }
 
 }  // namespace temper

@@ -80,7 +80,8 @@ Mesh WorkingCopy::in_user_terms(Executor* executor) const& {
 
 Mesh WorkingCopy::in_user_terms(Executor* executor) && {
   leave_frame();
-  return std::move(*this).in_user_order(executor);
+  take_user_order(executor);
+  return std::move(mesh);
 }
 
 void WorkingCopy::leave_frame() {
@@ -89,15 +90,14 @@ void WorkingCopy::leave_frame() {
   units.space = mesh.space();
 }
 
-Mesh WorkingCopy::in_user_order(Executor* executor) && {
-  if (order->vertices.empty()) return std::move(mesh);
+void WorkingCopy::take_user_order(Executor* executor) {
+  if (order->vertices.empty()) return;
   if (has_gaps) {
     restore_order(mesh, {ranks(order->vertices), ranks(order->triangles)}, executor);
   } else {
     restore_order(mesh, *order, executor);
   }
   order = {};
-  return std::move(mesh);
 }
 
 IdVector<VertexId, VertexId> WorkingCopy::user_vertices() const {

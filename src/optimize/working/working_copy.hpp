@@ -68,9 +68,9 @@ struct WorkingCopy {
   /// is used up.
   [[nodiscard]] Mesh in_user_terms(Executor* executor = nullptr) const&;
   [[nodiscard]] Mesh in_user_terms(Executor* executor = nullptr) &&;
-  /// The two steps of in_user_terms(). The second one changes nothing if it is made again.
+  /// The two steps of in_user_terms(). Each one changes nothing if it is made again.
   void leave_frame();
-  [[nodiscard]] Mesh in_user_order(Executor* executor) &&;
+  void take_user_order(Executor* executor);
   /// Returns the number in the input of each vertex of in_user_terms(), invalid if inserted.
   [[nodiscard]] IdVector<VertexId, VertexId> user_vertices() const;
 };

@@ -25,9 +25,10 @@ struct Range {
   double low, high;
   [[nodiscard]] bool allows(double x) const { return x == 0 || (std::abs(x) >= low && std::abs(x) <= high); }
   [[nodiscard]] Range squared() const { return {low * low, high * high}; }
-  [[nodiscard]] std::string text() const {
+  [[nodiscard]] std::string text(double found) const {
     return "expected 0 or a magnitude from " + to_text(low) + " to " + to_text(high) +
-           ", which exact arithmetic needs. Next: write smaller numbers as 0";
+           ", which exact arithmetic needs. Next: " +
+           (std::abs(found) > high ? "choose a larger unit of length" : "write smaller numbers as 0");
   }
 };
 
@@ -164,10 +165,11 @@ class TetMeshBuilder {
       const auto [x, y, z, w] = mesh_.point(v);
       if (!range.allows(x) || !range.allows(y) || !range.allows(z))
         return error_of(ErrorCode::out_of_scale, v,
-                        name(v) + " has coordinates " + coordinates({x, y, z}) + "; " + range.text());
+                        name(v) + " has coordinates " + coordinates({x, y, z}) + "; " +
+                            range.text(std::max({std::abs(x), std::abs(y), std::abs(z)})));
       if (!range.squared().allows(w))
         return error_of(ErrorCode::out_of_scale, v,
-                        name(v) + " has weight " + to_text(w) + "; " + range.squared().text());
+                        name(v) + " has weight " + to_text(w) + "; " + range.squared().text(w));
     }
     return std::nullopt;
   }
@@ -330,16 +332,20 @@ class TetMeshBuilder {
                     "the face of points " + numbers(corners) + " belongs to " + quantity(all.size(), "tetrahedra (") +
                         listed(all) + ")" + near(corners) + "; expected at most 2");
   }
+  /// If three of four tetrahedra turn in one way, the one of the two that does not is inverted.
   InputError overlap(HalffaceId h, TetId s, TetId t) const {
     const auto corners = mesh_.vertices(h);
-    std::string message = name(s) + " and " + number(t) + " lie on the same side of their common face of points " +
+    std::string message = name(s) + " and " + name(t) + " lie on the same side of their common face of points " +
                           numbers(corners) + near(corners);
-    if (is_reversed(s) != is_reversed(t)) {
-      const bool most_are_reversed = 2 * built_.reversed_tetrahedra > in_.tetrahedra.size();
-      message += ": " + name(is_reversed(t) != most_are_reversed ? t : s) +
-                 " is inverted. Next: move its vertices, so that it turns as most tetrahedra";
+    const std::size_t reversed = built_.reversed_tetrahedra, others = in_.tetrahedra.size() - reversed;
+    TetId at = t;
+    if (is_reversed(s) != is_reversed(t) && 4 * std::min(reversed, others) < reversed + others) {
+      if (is_reversed(t) == (reversed > others)) at = s;
+      message += ": " + name(at) + " is inverted. Next: move its vertices, so that it turns as most tetrahedra";
+    } else {
+      message += ". Next: move their vertices, or mesh this place again";
     }
-    return error_of(ErrorCode::overlap, t, message);
+    return error_of(ErrorCode::overlap, at, message);
   }
 
   /// The link of a vertex consists of a triangle for each tetrahedron there, an edge for each face, and a vertex for

@@ -102,7 +102,7 @@ const std::vector<Bad>& bad_files() {
       {"polygon_in_obj", "m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", ErrorCode::unsupported,
        "m.obj:5: face 1 has 4 corners; temper reads triangles. Next: write meshes of quadrilaterals as VTU or Gmsh"},
       {"no_triangles", "m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\n", ErrorCode::empty_input,
-       "m.obj: the file has no triangles"},
+       "m.obj: the file has no triangles or tetrahedra"},
       {"outline_for_a_mesh", "m.msh", "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=2\n0;0;0\n1;0;0\nEDGE2=1\n0;1;0\n",
        ErrorCode::empty_input, "m.msh: the file has no triangles: it is an outline, for `temper mesh` to mesh"},
       {"triangles_alone", "m.mesh", "2\n 1 2 3\n 1 3 4\n", ErrorCode::unsupported,

@@ -67,7 +67,7 @@ TEST_F(OtherFormats, JigsawThatIsNoMeshOfTrianglesIsNamed) {
             "m.msh:1: is of kind 'EUCLIDEAN-GRID'; temper reads EUCLIDEAN-MESH and ELLIPSOID-MESH");
   EXPECT_EQ(refused("m.msh", head + points + "EDGE2=1\n0;1;0\n"),
             "m.msh: the file has no triangles: it is an outline, for `temper mesh` to mesh");
-  EXPECT_EQ(refused("m.msh", head + points), "m.msh: the file has no triangles");
+  EXPECT_EQ(refused("m.msh", head + points), "m.msh: the file has no triangles or tetrahedra");
   EXPECT_EQ(refused("m.msh", head + points + "QUAD4=1\n0;1;2;0;0\n"),
             "m.msh:8: element 0 is a quadrilateral; in this format temper reads linear triangles, with lines and "
             "points as tags. Next: write meshes of quadrilaterals as VTU or Gmsh");

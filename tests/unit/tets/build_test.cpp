@@ -138,8 +138,9 @@ TEST(TetMeshBuild, NamesRepeatedCrowdedAndOverlappingTetrahedra) {
   arrays = one_tetrahedron();
   arrays.points.push_back({0.5, 0.5, 2});
   arrays.tetrahedra.push_back({0, 1, 2, 4});
-  expect_error(arrays, ErrorCode::overlap,
-               "tetrahedron 0 and 1 lie on the same side of their common face of points 0, 1 and 2, near (0.33");
+  expect_error(
+      arrays, ErrorCode::overlap,
+      "tetrahedron 0 and tetrahedron 1 lie on the same side of their common face of points 0, 1 and 2, near (0.33");
 
   arrays.points.push_back({0.2, 0.2, -1});
   arrays.tetrahedra.push_back({0, 1, 2, 5});

@@ -176,8 +176,8 @@ std::vector<VtkArray> vtk_point_data(const WriteJob& job) {
 std::vector<VtkArray> vtk_cell_data(const WriteJob& job) {
   const MeshFile& f = job.file;
   std::vector<VtkArray> list;
-  static const Tetrahedra kNone;
-  const Tetrahedra& tets = job.tetrahedra == nullptr ? kNone : *job.tetrahedra;
+  static const Tetrahedra none;
+  const Tetrahedra& tets = job.tetrahedra == nullptr ? none : *job.tetrahedra;
   const bool tagged = !tets.regions.empty() || !f.regions.empty() || !f.lines.empty() || !f.marked_points.empty();
   if (tagged) list.push_back(regions(job));
 
