@@ -107,10 +107,12 @@ struct MeshRecord {
 /// --point-data, whose words are checked as they come.
 void add_point_data(Command& command, std::vector<std::string>& words);
 
-/// The rules of those words, for the data of a file; Failure when it has no array of a name.
-[[nodiscard]] io::DataRules data_rules(const std::vector<std::string>& words, const io::MeshFile& file);
+/// The rules of those words, for the point data of a file; Failure when it has no array of a name.
+[[nodiscard]] io::DataRules data_rules(const std::vector<std::string>& words, const std::string& path,
+                                       const std::vector<io::DataArray>& point_data);
 
-/// Lines of `temper optimize`; none if nothing moved that carries data.
-[[nodiscard]] std::string data_text(const io::DataReport& report);
+/// Lines of `temper optimize`; none if nothing moved that carries data. `one`, `several`: the elements.
+[[nodiscard]] std::string data_text(const io::DataReport& report, std::string_view one = "triangle",
+                                    std::string_view several = "triangles");
 
 }  // namespace temper::app

@@ -15,8 +15,10 @@
 namespace temper::tets {
 
 struct OptimizeOptions {
-  int max_sweeps = 1000;  ///< Largest number of sweeps
-  double time_limit = 0;  ///< Time limit of the whole run [s]; 0: none
+  int max_sweeps = 1000;        ///< Largest number of sweeps
+  double time_limit = 0;        ///< Time limit of the whole run [s]; 0: none
+  bool keep_positions = false;  ///< All vertices stay, and only weights change
+  bool keep_weights = false;    ///< All weights stay, and only positions change
 };
 
 struct OptimizeHooks {
@@ -40,8 +42,9 @@ struct OptimizeReport {
 ///   - of tagged faces and lines
 ///   - marked points, unless marks list all corners of a tetrahedron
 ///
-/// Every tetrahedron stays positive. The result never has more tetrahedra with outside orthocenters than the input. An
-/// error (max_sweeps < 0, time_limit < 0) leaves the mesh unchanged. O(sweeps · n).
+/// Every tetrahedron stays positive. The result never has more tetrahedra with outside orthocenters than the input.
+/// Wrong options (max_sweeps < 0, time_limit < 0, positions and weights both kept) are an error, which leaves the mesh
+/// unchanged. O(sweeps · n).
 [[nodiscard]] Expected<OptimizeReport> optimize(TetMesh& mesh, const OptimizeOptions& options = {},
                                                 const OptimizeHooks& hooks = {});
 

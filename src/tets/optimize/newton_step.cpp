@@ -63,13 +63,16 @@ NewtonStep newton_step(const PointDerivatives<double>& d, Mobility mobility, dou
   const double r2 = radius * radius;
   const auto& [g, g_w] = d.gradient;
   const auto& [xx, xy, xz, xw, yy, yz, yw, zz, zw, ww] = d.hessian;
+  if (mobility == Mobility::none) return {};
   if (mobility == Mobility::weight) {
     const double slope = -r2 * g_w, curvature = std::abs(r2 * r2 * ww);
     const double step = std::clamp(curvature > 0 ? slope / curvature : slope, -kTrustRadius, kTrustRadius);
     return {{0, 0, 0, r2 * step}, step * slope};
   }
-  const Unknowns scale = {radius, radius, radius, r2}, down = {-g.x, -g.y, -g.z, -g_w};
+  const Unknowns scale = {radius, radius, radius, r2},
+                 down = {-g.x, -g.y, -g.z, mobility == Mobility::position ? 0 : -g_w};
   Matrix h = {{{xx, xy, xz, xw}, {xy, yy, yz, yw}, {xz, yz, zz, zw}, {xw, yw, zw, ww}}};
+  if (mobility == Mobility::position) h[3] = {}, h[0][3] = h[1][3] = h[2][3] = 0;
   Unknowns slope;
   for (std::size_t i = 0; i < 4; ++i) {
     slope[i] = scale[i] * down[i];

@@ -8,7 +8,7 @@
 namespace temper::tets {
 
 /// The unknowns of a vertex that may change.
-enum class Mobility : std::uint8_t { weight, free };
+enum class Mobility : std::uint8_t { none, weight, position, free };
 
 struct NewtonStep {
   WeightedPoint step;

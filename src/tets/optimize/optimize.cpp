@@ -51,6 +51,8 @@ std::optional<InputError> wrong_option(const OptimizeOptions& options) {
   if (options.max_sweeps < 0)
     return InputError{
         ErrorCode::invalid_option, {}, "max_sweeps: expected at least 0, found " + std::to_string(options.max_sweeps)};
+  if (options.keep_positions && options.keep_weights)
+    return InputError{ErrorCode::invalid_option, {}, "positions and weights are both to be kept; expected one"};
   if (!(options.time_limit >= 0))
     return InputError{
         ErrorCode::invalid_option, {}, "time_limit: expected at least 0, found " + to_text(options.time_limit)};
@@ -60,7 +62,7 @@ std::optional<InputError> wrong_option(const OptimizeOptions& options) {
 class Run {
  public:
   Run(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks)
-      : mesh_(mesh), options_(options), hooks_(hooks), sweeper_(mesh) {}
+      : mesh_(mesh), options_(options), hooks_(hooks), sweeper_(mesh, options) {}
 
   OptimizeReport run() {
     report_.objective_before = total_energy(mesh_, kLastGamma);
@@ -101,7 +103,7 @@ class Run {
   }
 
   bool is_stopped(double fraction) {
-    if (options_.time_limit > 0 && seconds_since(limit_from_) > options_.time_limit) {
+    if (options_.time_limit > 0 && seconds_since(start_) > options_.time_limit - 2 * seconds_before_) {
       report_.stopped = Stopped::time_limit;
     } else if (hooks_.observer &&
                hooks_.observer({report_.history.back(), fraction, options_.max_sweeps}) == Continue::no) {
@@ -139,7 +141,9 @@ class Run {
   const OptimizeOptions& options_;
   const OptimizeHooks& hooks_;
   Sweeper sweeper_;
-  Clock::time_point start_ = Clock::now(), limit_from_ = hooks_.started.value_or(start_);
+  Clock::time_point start_ = Clock::now();
+  // What reading took, writing will take, too: both are parts of the limit.
+  double seconds_before_ = std::chrono::duration<double>(start_ - hooks_.started.value_or(start_)).count();
   OptimizeReport report_;
   double gamma_ = kFirstGamma;
   std::size_t best_bad_ = 0;

@@ -44,7 +44,7 @@ void fix_marked_points(const TetMesh& mesh, IdVector<VertexId, Mobility>& all) {
 
 }  // namespace
 
-IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh) {
+IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptions& options) {
   IdVector<VertexId, Mobility> all(mesh.n_vertices());
   for (const VertexId v : mesh.vertices()) all[v] = Mobility::free;
   const auto fix = [&](HalffaceId h) {
@@ -59,6 +59,10 @@ IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh) {
     for (const VertexId v : tagged.ends) all[v] = Mobility::weight;
   }
   fix_marked_points(mesh, all);
+  for (const VertexId v : mesh.vertices()) {
+    if (options.keep_positions) all[v] = Mobility::weight;
+    if (options.keep_weights) all[v] = all[v] == Mobility::free ? Mobility::position : Mobility::none;
+  }
   return all;
 }
 
@@ -85,6 +89,7 @@ bool Sweeper::is_valid(const WeightedPoint& p, Mobility mobility) const {
 }
 
 void Sweeper::improve(VertexId v, const Parameters& parameters) {
+  if (mobility_[v] == Mobility::none) return;
   collect_link(mesh_, v, halffaces_);
   link_.clear();
   for (const HalffaceId h : halffaces_) link_.push_back(link_face(mesh_, h));
@@ -98,8 +103,8 @@ void Sweeper::improve(VertexId v, const Parameters& parameters) {
   for (int trial = 0; trial < kTrials; ++trial) {
     const WeightedPoint p = along(origin, step, t);
     if (star_energy(link_, p, parameters.gamma) < here.value && is_valid(p, mobility_[v])) {
-      if (mobility_[v] == Mobility::free) mesh_.set_point(v, p);
-      mesh_.set_weight(v, p.w);
+      // Zero steps may still change the sign of a zero.
+      mesh_.set_point(v, mobility_[v] == Mobility::weight ? WeightedPoint{origin.x, origin.y, origin.z, p.w} : p);
       return;
     }
     t *= trial == 0 && parameters.relaxation > 1 ? 1 / parameters.relaxation : 0.5;

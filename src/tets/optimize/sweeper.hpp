@@ -3,17 +3,19 @@
 
 #include <vector>
 
+#include "temper/tets/optimize.hpp"
 #include "tets/energy/star.hpp"
 #include "tets/optimize/newton_step.hpp"
 
 namespace temper::tets {
 
 /// What of each vertex may change. Positions stay on the boundary, between regions, and at tags of any kind.
-[[nodiscard]] IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh);
+[[nodiscard]] IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptions& options = {});
 
 class Sweeper {
  public:
-  explicit Sweeper(TetMesh& mesh) : mesh_(mesh), mobility_(mobilities(mesh)) {}
+  explicit Sweeper(TetMesh& mesh, const OptimizeOptions& options = {})
+      : mesh_(mesh), mobility_(mobilities(mesh, options)) {}
 
   /// Parameters of one sweep.
   struct Parameters {

@@ -150,6 +150,7 @@ TEST(TetEnergy, IsInfiniteUnlessTheTetrahedronIsPositive) {
   const auto face = link_face<double>({0, 0, 0, 0}, {1, 0, 0, 0}, {0, 1, 0, 0});
   EXPECT_TRUE(std::isfinite(tet_energy<double>(face, {0.3, 0.3, 0.5}, 0, 1)));
   EXPECT_EQ(tet_energy<double>(face, {0.3, 0.3, 0}, 0, 1), HUGE_VAL);
+  EXPECT_EQ(tet_energy<double>(face, {0.3, 0.3, -0.5}, 0, 1), HUGE_VAL);
   EXPECT_EQ(tet_derivatives<double>(face, {0.3, 0.3, -0.5}, 0, 1).value, HUGE_VAL);
 }
 

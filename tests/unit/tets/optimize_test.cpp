@@ -65,7 +65,81 @@ TEST(TetOptimize, EveryStepLowersTheEnergyOfItsStar) {
   }
 }
 
-TEST(TetOptimize, KeepsInterfacesAndTagsAndSinglePoints) {
+/// Of a symmetric matrix with eigenvalues of both signs.
+PointDerivatives<double> saddle() {
+  PointDerivatives<double> d = {};
+  d.gradient = {{1, -2, 0.5}, 0.25};
+  d.hessian = {-3, 0.5, 0, 0.1, 2, 0.2, 0, 0.5, 0, 1};
+  return d;
+}
+
+TEST(TetOptimize, StepsGoDownhillWithinTheTrustRadiusAlongWhatMayChange) {
+  for (const double radius : {1e-3, 1.0, 1e3}) {
+    for (const Mobility mobility : {Mobility::none, Mobility::weight, Mobility::position, Mobility::free}) {
+      const PointDerivatives<double> d = saddle();
+      const auto [step, predicted] = newton_step(d, mobility, radius);
+      const double along = dot(d.gradient.at, Vector<double>{step.x, step.y, step.z}) + d.gradient.w * step.w;
+      EXPECT_NEAR(along, -predicted, 1e-12 * predicted);
+      EXPECT_EQ(predicted > 0, mobility != Mobility::none);
+      const double moved = length(step.position()) / radius, weighed = step.w / (radius * radius);
+      EXPECT_LE(moved * moved + weighed * weighed, 0.25 * (1 + 1e-12));
+      EXPECT_EQ(step.w == 0, mobility == Mobility::none || mobility == Mobility::position);
+      EXPECT_EQ(moved == 0, mobility == Mobility::none || mobility == Mobility::weight);
+    }
+  }
+}
+
+TEST(TetOptimize, PositionsOrWeightsStayWhenTheyAreKept) {
+  const TetMesh input = test::mesh_of(input_arrays());
+  TetMesh weighed = input, moved = input;
+  OptimizeOptions positions, weights;
+  positions.keep_positions = true, weights.keep_weights = true;
+  ASSERT_TRUE(optimize(weighed, positions));
+  ASSERT_TRUE(optimize(moved, weights));
+  EXPECT_NE(weighed, input);
+  EXPECT_NE(moved, input);
+  for (const VertexId v : input.vertices()) {
+    EXPECT_EQ(weighed.position(v), input.position(v));
+    EXPECT_EQ(moved.weight(v), input.weight(v));
+  }
+  weights.keep_positions = true;
+  EXPECT_FALSE(optimize(moved, weights));
+}
+
+TEST(TetOptimize, TaggedFacesAndLinesStay) {
+  const test::TetArrays arrays = input_arrays();
+  const TetMesh plain = test::mesh_of(arrays);
+  const auto on_boundary = boundary_vertices(plain);
+  const auto inside = [&](const auto& corners) {
+    return std::all_of(corners.begin(), corners.end(), [&](VertexId v) { return on_boundary[v] == 0; });
+  };
+  std::vector<std::array<std::int32_t, 3>> faces;
+  std::vector<std::array<std::int32_t, 2>> lines;
+  for (const HalffaceId h : plain.halffaces()) {
+    const auto corners = plain.vertices(h);
+    if (!inside(corners)) continue;
+    const auto at = [&](std::size_t k) { return static_cast<std::int32_t>(corners[k].index); };
+    if (faces.empty()) faces.push_back({at(0), at(1), at(2)});
+    const bool apart = std::none_of(corners.begin(), corners.end(), [&](VertexId v) {
+      return std::count(faces[0].begin(), faces[0].end(), static_cast<std::int32_t>(v.index)) > 0;
+    });
+    if (apart && lines.empty()) lines.push_back({at(0), at(1)});
+  }
+  ASSERT_EQ(lines.size(), 1U);
+  const std::vector<std::int32_t> tag = {1};
+  TetMeshInput in = arrays.input();
+  in.faces = faces, in.face_tags = tag, in.lines = lines, in.line_tags = tag;
+  const TetMesh input = test::built(in).mesh;
+  TetMesh mesh = input;
+  ASSERT_TRUE(optimize(mesh));
+  for (const std::int32_t p : {faces[0][0], faces[0][1], faces[0][2], lines[0][0], lines[0][1]}) {
+    const VertexId v(static_cast<std::size_t>(p));
+    EXPECT_EQ(mesh.position(v), input.position(v));
+    EXPECT_NE(mesh.weight(v), input.weight(v));
+  }
+}
+
+TEST(TetOptimize, KeepsInterfacesAndSinglePoints) {
   const test::TetArrays arrays = input_arrays();
   const TetMesh plain = test::mesh_of(arrays);
   std::vector<VertexId> inside;
@@ -127,6 +201,19 @@ TEST(TetOptimize, TheObserverAndTheClockStopARunWithAMeshThatIsNoWorse) {
     EXPECT_LE(report->sweeps, 2);
     EXPECT_EQ(mesh.validate(), std::nullopt);
     EXPECT_LE(quality(mesh).orthocenters_outside, bad);
+  }
+  // Sweeps of a large γ make a good mesh worse at first.
+  TetMesh good = input;
+  ASSERT_TRUE(optimize(good));
+  WeightedPoint p = good.point(VertexId(good.n_vertices() / 2));
+  p.w += 0.4;
+  good.set_point(VertexId(good.n_vertices() / 2), p);
+  const std::size_t few = quality(good).orthocenters_outside;
+  EXPECT_GT(few, 0U);
+  for (int sweeps = 1; sweeps < 4; ++sweeps) {
+    TetMesh mesh = good;
+    ASSERT_TRUE(optimize(mesh, {sweeps, 0}));
+    EXPECT_LE(quality(mesh).orthocenters_outside, few);
   }
   TetMesh mesh = input;
   EXPECT_FALSE(optimize(mesh, {-1, 0}));
