@@ -8,6 +8,7 @@
 // most. A key alone stands for the usual value of its row.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,6 +42,38 @@ Option& add_requirements(Command& command, std::vector<std::string>& lists, bool
 /// The requirements of the lists; Failure (bad usage of the verb) for a key or a value that makes no sense.
 [[nodiscard]] std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists,
                                                           MeshKind kind = MeshKind::triangles);
+
+/// The requirements on meshes of both kinds, for verbs that see the kind when they have read the file.
+class RequirementLists {
+ public:
+  RequirementLists() = default;
+  /// Lists may make sense for one kind alone. Failure if they do for none.
+  RequirementLists(std::string_view verb, std::span<const std::string> lists)
+      : triangles_(verb, lists, MeshKind::triangles), tetrahedra_(verb, lists, MeshKind::tetrahedra) {
+    if (triangles_.refusal && tetrahedra_.refusal) throw Failure(*triangles_.refusal);
+  }
+  /// Failure when the lists make no sense for this kind.
+  [[nodiscard]] const std::vector<Requirement>& of(MeshKind kind) const {
+    const Parsed& parsed = kind == MeshKind::triangles ? triangles_ : tetrahedra_;
+    if (parsed.refusal) throw Failure(*parsed.refusal);
+    return parsed.list;
+  }
+
+ private:
+  struct Parsed {
+    Parsed() = default;
+    Parsed(std::string_view verb, std::span<const std::string> lists, MeshKind kind) {
+      try {
+        list = parse_requirements(verb, lists, kind);
+      } catch (const Failure& failure) {
+        refusal = failure;
+      }
+    }
+    std::vector<Requirement> list;
+    std::optional<Failure> refusal;
+  };
+  Parsed triangles_, tetrahedra_;
+};
 
 /// "=", ">=" or "<=".
 [[nodiscard]] std::string_view sign(Preference better);
