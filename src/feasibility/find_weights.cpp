@@ -108,12 +108,18 @@ class WeightFinder {
         Bound bound = bound_of(ring_of(demand_, cell));
         if (bound.best.status != LpStatus::optimal || !is_hopeless(bound.best.margin)) continue;
         if (!bound_ || bound.best.margin < bound_->best.margin) bound_ = std::move(bound);
+        // No best margin of dual lengths is less than zero: the first proof is as good as any.
+        if (demand_.has_duals() && proves(*bound_)) return true;
       }
     }
-    if (!bound_) return false;
-    refuted_ = certify_bound(*bound_, refuted_margin());
-    if (refuted_->terms.empty()) refuted_.reset();
+    return bound_ && proves(*bound_);
+  }
+
+  /// Keeps the certificate of a ring's bound, if there is one.
+  bool proves(const Bound& bound) {
     bound_is_exact_ = false;
+    refuted_ = certify_bound(bound, refuted_margin());
+    if (refuted_->terms.empty()) refuted_.reset();
     return refuted_.has_value();
   }
 

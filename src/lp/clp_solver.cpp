@@ -21,7 +21,7 @@ constexpr double kTolerance = 1e-9;
 // Ten times that, because Clp's own scaling of rows and columns adds an error.
 constexpr double kAccepted = 1e-8;
 
-constexpr int kMostSize = 10'000'000;  // of rows and columns together, for the limit of steps
+constexpr std::size_t kMostSize = 100'000'000;  // of rows and columns, for the limit of steps
 
 constexpr int kOptimal = 0, kInfeasible = 1, kUnboundedStatus = 2;  // Clp_status
 
@@ -72,9 +72,9 @@ Model load(const LpProblem& problem) {
                   finite(problem.row_upper).data());
   Clp_setPrimalTolerance(model.get(), kTolerance);
   Clp_setDualTolerance(model.get(), kTolerance);
-  // Clp's dual simplex may cycle on degenerate programs. Usual programs take one or two steps per row and column.
-  const auto size = static_cast<int>(problem.n_columns() + problem.n_rows());
-  Clp_setMaximumIterations(model.get(), 1000 + 10 * std::min(size, kMostSize));
+  // Clp may cycle on degenerate programs: the next attempt does not. Others take one or two steps per row and column.
+  const std::size_t size = std::min(problem.n_columns() + problem.n_rows(), kMostSize);
+  Clp_setMaximumIterations(model.get(), static_cast<int>(1000 + 10 * size));
   return model;
 }
 
