@@ -148,9 +148,7 @@ void add_options(Command& command, WeightsSettings& s) {
                     "  temper weights shoe.vtu -o out.vtu --mode elastic --json\n"
                     "  # bring orthocenters inside by other diagonals\n"
                     "  temper example random --vertices 40 -o random.vtu\n"
-                    "  temper weights random.vtu -o flipped.vtu --constraints heights-only --connectivity search\n"
-                    "  # tetrahedra: make every face regular\n"
-                    "  temper weights box.msh -o box.vtu --constraints regular\n",
+                    "  temper weights random.vtu -o flipped.vtu --constraints heights-only --connectivity search\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal, Exit::infeasible}});
 }
 

@@ -335,12 +335,12 @@ TEST_F(TetWeightsVerb, InfeasibleIsSaidProvedAndChecked) {
 }
 
 TEST_F(TetWeightsVerb, CertificatesOfAllConstraintsAreReadAsTheyWereWritten) {
-  make_pinwheel();
-  for (const char* constraints : {"well-centered", "completely-well-centered", "regular"}) {
-    const Outcome outcome = temper(
-        {"weights", "pinwheel.mesh", "--mode", "feasible", "--constraints", constraints, "--certificate", "why.json"});
+  make_curable();
+  for (const char* constraints : {"well-centered", "completely-well-centered"}) {
+    const Outcome outcome = temper({"weights", "in.mesh", "-o", "out.vtu", "--margin", "0.45", "--constraints",
+                                    constraints, "--certificate", "why.json"});
     EXPECT_EQ(outcome.exit, 6) << constraints << outcome.out;
-    temper_ok({"weights", "pinwheel.mesh", "--check-certificate", "why.json"});
+    temper_ok({"weights", "in.mesh", "--check-certificate", "why.json"});
   }
 }
 
