@@ -21,6 +21,7 @@ constexpr double kTolerance = 1e-9;
 // Ten times that, because Clp's own scaling of rows and columns adds an error.
 constexpr double kAccepted = 1e-8;
 
+constexpr std::size_t kLarge = 4000;  // rows from which an attempt goes on from its basis: a new one takes long
 constexpr std::size_t kMostSize = 100'000'000;  // of rows and columns, for the limit of steps
 
 constexpr int kOptimal = 0, kInfeasible = 1, kUnboundedStatus = 2;  // Clp_status
@@ -159,7 +160,7 @@ LpSolution attempt(const LpProblem& problem, const Attempt& how) {
     return result(model.get(), problem);
   };
   const LpSolution solution = run(how);
-  if (solution.status != LpStatus::optimal || is_good(problem, solution)) return solution;
+  if (solution.status != LpStatus::optimal || problem.n_rows() < kLarge || is_good(problem, solution)) return solution;
   return run({false, false, false});  // from this basis: mostly without a step
 }
 
