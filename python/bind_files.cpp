@@ -83,7 +83,7 @@ void set_data(PyMesh& self, bool of_points, const std::string& name, const py::o
 io::DataRules data_rules_from(const PyMesh& self, const py::sequence& words) {
   const auto rules = io::parse_data_rules(strings_from(words));
   if (!rules) throw BadInput{rules.error()};
-  or_raise(io::check_data_rules(*rules, self.source() ? self.source()->file : io::MeshFile()));
+  or_raise(io::check_data_rules(*rules, self.source() ? self.source()->file.point_data : std::vector<io::DataArray>()));
   return *rules;
 }
 

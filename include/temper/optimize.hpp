@@ -405,22 +405,6 @@ struct OptimizeHooks {
   std::optional<std::chrono::steady_clock::time_point> started = {};
 };
 
-enum class Stopped {
-  converged,
-  max_sweeps,
-  max_outer,
-  time_limit,
-  canceled,
-  tangled,      ///< Triangles are inverted (Inversion::allow), and no flips can make the mesh regular
-  sweep_limit,  ///< All sweeps of AccuracyOptions, or steps of SolverErrorOptions, are done: a normal end
-  hidden,       ///< Deferred flips hid a vertex against the policy: the mesh is the last or best regular one
-};
-[[nodiscard]] std::string_view name(Stopped stopped);
-/// Says whether the time limit or the observer ended the run. With more time the run would have continued.
-[[nodiscard]] constexpr bool stopped_early(Stopped stopped) {
-  return stopped == Stopped::time_limit || stopped == Stopped::canceled;
-}
-
 /// The change of the sizes: both meshes compared with the size field.
 struct SizeChange {
   SizeReport before, after;

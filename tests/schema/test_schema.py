@@ -56,10 +56,12 @@ def main(program, schema_path):
         two = json.loads(temper("check", "in.vtu", "tet.mesh", "--json"))
         reports = [report(), report("--set", "objective=accuracy"), report("--require", "regions=2", exit=3),
                    report("--for", "paper", "--set", "max_sweeps=2"), report("--time-limit", "1e-9", exit=4)]
+        temper("optimize", "tet.mesh", "-o", "out.mesh", "--write", "tets.json", "--require", "outside")
+        of_tetrahedra = json.loads(pathlib.Path(folder, "tets.json").read_text(encoding="utf-8"))
         others = other_documents(temper, folder)
 
     assert len(two) == 2 and one["energy"]["BH"][1] is None and not one["requirements"][1]["met"]
-    documents = [("check", one), ("check_tetrahedra", tetrahedra), *(("report", r) for r in reports), *others]
+    documents = [("check", one), ("check_tetrahedra", tetrahedra), *(("report", r) for r in reports), ("report_tetrahedra", of_tetrahedra), *others]
     assert {kind for kind, _ in documents} == set(kinds)
     for found in [two, *(found for _, found in documents)]:
         whole.validate(found)

@@ -8,6 +8,7 @@
 // most. Other numbers, such as the volume, have none. A key alone stands for the usual value of its row.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -44,6 +45,40 @@ Option& add_requirements(Command& command, std::vector<std::string>& lists, bool
 
 /// Says whether all keys of the lists are of this kind of meshes.
 [[nodiscard]] bool knows_keys(std::span<const std::string> lists, MeshKind kind);
+
+/// The requirements on meshes of both kinds, for verbs that see the kind when they have read the file.
+class RequirementLists {
+ public:
+  RequirementLists() = default;
+  /// Lists may make sense for one kind alone. Failure if they do for none: that of the kind whose keys they have.
+  RequirementLists(std::string_view verb, std::span<const std::string> lists)
+      : triangles_(verb, lists, MeshKind::triangles), tetrahedra_(verb, lists, MeshKind::tetrahedra) {
+    if (!triangles_.refusal || !tetrahedra_.refusal) return;
+    const bool of_triangles = knows_keys(lists, MeshKind::triangles) || !knows_keys(lists, MeshKind::tetrahedra);
+    throw Failure(of_triangles ? *triangles_.refusal : *tetrahedra_.refusal);
+  }
+  /// Failure when the lists make no sense for this kind.
+  [[nodiscard]] const std::vector<Requirement>& of(MeshKind kind) const {
+    const Parsed& parsed = kind == MeshKind::triangles ? triangles_ : tetrahedra_;
+    if (parsed.refusal) throw Failure(*parsed.refusal);
+    return parsed.list;
+  }
+
+ private:
+  struct Parsed {
+    Parsed() = default;
+    Parsed(std::string_view verb, std::span<const std::string> lists, MeshKind kind) {
+      try {
+        list = parse_requirements(verb, lists, kind);
+      } catch (const Failure& failure) {
+        refusal = failure;
+      }
+    }
+    std::vector<Requirement> list;
+    std::optional<Failure> refusal;
+  };
+  Parsed triangles_, tetrahedra_;
+};
 
 /// "=", ">=" or "<=".
 [[nodiscard]] std::string_view sign(Preference better);

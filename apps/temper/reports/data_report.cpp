@@ -7,26 +7,25 @@
 namespace temper::app {
 namespace {
 
-std::string line(const char* what, const std::vector<std::string>& names) {
+std::string line(const std::string& what, const std::vector<std::string>& names) {
   return names.empty() ? std::string() : fmt::format("  {}: {}\n", what, fmt::join(names, ", "));
 }
 
-std::string points_text(const io::DataReport& r) {
+std::string points_text(const io::DataReport& r, std::string_view several) {
   if (r.points_moved + r.points_inserted == 0 || r.interpolated.size() + r.kept.size() + r.dropped.size() == 0)
     return {};
   std::string text = fmt::format("point data: {} of {} moved", r.points_moved, plural(r.points, "point", "points"));
   if (r.points_moved > 0)
     text += fmt::format(", by {:.3g} in the median and {:.3g} at most", r.distance.median, r.distance.max);
   if (r.points_inserted > 0) text += fmt::format("; {} new", plural(r.points_inserted, "point is", "points are"));
-  return text + "\n" + line("interpolated on the triangles of the input", r.interpolated) +
+  return text + "\n" + line(fmt::format("interpolated on the {} of the input", several), r.interpolated) +
          line("kept with their points", r.kept) + line("dropped", r.dropped);
 }
 
-std::string cells_text(const io::DataReport& r) {
+std::string cells_text(const io::DataReport& r, std::string_view one, std::string_view several) {
   if (r.triangles_changed == 0 || r.of_triangles.empty()) return {};
-  return fmt::format("cell data: {} of {} have changed\n", r.triangles_changed,
-                     plural(r.triangles, "triangle", "triangles")) +
-         line("taken from the input's triangle at the same place", r.of_triangles);
+  return fmt::format("cell data: {} of {} have changed\n", r.triangles_changed, plural(r.triangles, one, several)) +
+         line(fmt::format("taken from the input's {} at the same place", one), r.of_triangles);
 }
 
 }  // namespace
@@ -49,15 +48,18 @@ void add_point_data(Command& command, std::vector<std::string>& words) {
       .default_text = "interpolate";
 }
 
-io::DataRules data_rules(const std::vector<std::string>& words, const io::MeshFile& file) {
+io::DataRules data_rules(const std::vector<std::string>& words, const std::string& path,
+                         const std::vector<io::DataArray>& point_data) {
   const Expected<io::DataRules> rules = io::parse_data_rules(words);
   if (!rules) throw as_failure(rules.error());
-  if (const auto checked = io::check_data_rules(*rules, file); !checked) {
-    throw Failure(Exit::bad_usage, fmt::format("{}: --point-data: {}", file.path, checked.error().message));
+  if (const auto checked = io::check_data_rules(*rules, point_data); !checked) {
+    throw Failure(Exit::bad_usage, fmt::format("{}: --point-data: {}", path, checked.error().message));
   }
   return *rules;
 }
 
-std::string data_text(const io::DataReport& report) { return points_text(report) + cells_text(report); }
+std::string data_text(const io::DataReport& report, std::string_view one, std::string_view several) {
+  return points_text(report, several) + cells_text(report, one, several);
+}
 
 }  // namespace temper::app

@@ -12,6 +12,7 @@
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
+#include "temper/tets/optimize.hpp"
 #include "temper/tets/quality.hpp"
 
 namespace temper::app {
@@ -38,6 +39,7 @@ struct TextStyle {
 /// Counts, margins and the energies of one star, before and after: `temper optimize --details`.
 [[nodiscard]] std::string comparison_text(const Quality& before, const Quality& after, int star,
                                           const TextStyle& style);
+[[nodiscard]] std::string comparison_text(const tets::Quality& before, const tets::Quality& after);
 
 /// The few numbers that most users need, of a mesh, or before and after a run.
 [[nodiscard]] std::string brief_text(const Quality& quality);
@@ -49,7 +51,10 @@ struct TextStyle {
 // The same of meshes of tetrahedra.
 [[nodiscard]] std::string quality_text(const tets::Quality& quality, const TetInput& input, const TextStyle& style);
 [[nodiscard]] std::string brief_text(const tets::Quality& quality);
+[[nodiscard]] std::string brief_text(const tets::Quality& before, const tets::Quality& after);
 [[nodiscard]] std::string verdict(const tets::Quality& quality);
+/// "5 vertices (0 inside), 2 tetrahedra".
+[[nodiscard]] std::string mesh_size(const tets::Quality& quality);
 
 /// "2 of 9 triangles are not well-centered", or "all 9 triangles are well-centered".
 [[nodiscard]] std::string well_centered(std::size_t bad, std::size_t triangles);
@@ -79,23 +84,27 @@ inline constexpr int kSchema = 1;
 [[nodiscard]] std::string json_list(std::span<const std::string> reports);
 
 /// Everything in the report of `temper optimize --write`.
-struct OptimizeRecord {
+template <class AnyQuality, class AnyReport>
+struct RunRecord {
   std::string command;
   std::string options;   ///< JSON: options that were given, which --options reads
   std::string settings;  ///< JSON: all options with their values
-  const Quality& before;
+  const AnyQuality& before;
   std::span<const std::size_t> points_before;  ///< of IN; OUT has the points of the mesh
-  const Quality& after;
-  const OptimizeReport& report;
+  const AnyQuality& after;
+  const AnyReport& report;
   const io::DataReport& data;
   std::span<const Outcome> outcomes;  ///< of --require, on `after`
   std::vector<std::string> warnings;
   std::string solver_errors = {};  ///< JSON, of --measure-errors; or nothing
 };
+using OptimizeRecord = RunRecord<Quality, OptimizeReport>;
+using TetOptimizeRecord = RunRecord<tets::Quality, tets::OptimizeReport>;
 [[nodiscard]] std::string optimize_json(const OptimizeRecord& record);
+[[nodiscard]] std::string optimize_json(const TetOptimizeRecord& record);
 
 /// The history of `temper optimize --write`: a header and one line per sweep.
-[[nodiscard]] std::string history_csv(const OptimizeReport& report);
+[[nodiscard]] std::string history_csv(std::span<const SweepRecord> history);
 
 // The page of `--write` of check and optimize: the HTML report (temper/detail/html.hpp). It has the numbers of the JSON
 // reports, the reasons of temper explain, and the command to run again. Nothing in it depends on the time a run

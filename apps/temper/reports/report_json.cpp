@@ -110,7 +110,8 @@ Json to_json(const SizeReport& size) {
           {"vertices_outside_field", size.outside}};
 }
 
-Json to_json(const io::DataReport& data) {
+/// `elements`: "triangles" or "tetrahedra".
+Json to_json(const io::DataReport& data, const std::string& elements) {
   return {{"points", data.points},
           {"points_moved", data.points_moved},
           {"distance", to_json(data.distance)},
@@ -118,9 +119,9 @@ Json to_json(const io::DataReport& data) {
           {"interpolated", data.interpolated},
           {"kept", data.kept},
           {"dropped", data.dropped},
-          {"triangles", data.triangles},
-          {"triangles_changed", data.triangles_changed},
-          {"of_triangles", data.of_triangles}};
+          {elements, data.triangles},
+          {elements + "_changed", data.triangles_changed},
+          {"of_" + elements, data.of_triangles}};
 }
 
 Json to_json(const SweepRecord& record) {
@@ -174,7 +175,11 @@ std::string json_list(std::span<const std::string> reports) {
   return (list.empty() ? "[" : list + "\n") + "]\n";
 }
 
-std::string optimize_json(const OptimizeRecord& record) {
+namespace {
+
+/// The members that the reports of both kinds of meshes begin with.
+template <class Record>
+Json begin_report(const Record& record) {
   Json json;
   json["schema"] = kSchema;
   json["command"] = record.command;
@@ -187,6 +192,30 @@ std::string optimize_json(const OptimizeRecord& record) {
   json["sweeps"] = record.report.sweeps;
   json["seconds"] = record.report.seconds;
   json["stopped"] = name(record.report.stopped);
+  return json;
+}
+
+/// The members that they end with.
+template <class Record>
+std::string end_report(Json json, const Record& record) {
+  json["warnings"] = record.warnings;
+  json["history"] = Json::array();
+  for (const SweepRecord& sweep : record.report.history) json["history"].push_back(to_json(sweep));
+  return dump(json);
+}
+
+}  // namespace
+
+std::string optimize_json(const TetOptimizeRecord& record) {
+  Json json = begin_report(record);
+  json["objective_before"] = number_or_null(record.report.objective_before);
+  json["objective_after"] = number_or_null(record.report.objective_after);
+  json["data"] = to_json(record.data, "tetrahedra");
+  return end_report(std::move(json), record);
+}
+
+std::string optimize_json(const OptimizeRecord& record) {
+  Json json = begin_report(record);
   json["objective"] = name(record.report.objective);
   json["objective_before"] = number_or_null(record.report.objective_before);
   json["objective_after"] = number_or_null(record.report.objective_after);
@@ -196,18 +225,15 @@ std::string optimize_json(const OptimizeRecord& record) {
   json["vertices_inserted"] = record.report.vertices_inserted;
   json["flips"] = record.report.flips;
   json["size"] = {{"before", to_json(record.report.size.before)}, {"after", to_json(record.report.size.after)}};
-  json["data"] = to_json(record.data);
+  json["data"] = to_json(record.data, "triangles");
   if (!record.solver_errors.empty()) json["errors"] = Json::parse(record.solver_errors);
   json["notes"] = record.report.notes;
-  json["warnings"] = record.warnings;
-  json["history"] = Json::array();
-  for (const SweepRecord& sweep : record.report.history) json["history"].push_back(to_json(sweep));
-  return dump(json);
+  return end_report(std::move(json), record);
 }
 
-std::string history_csv(const OptimizeReport& report) {
+std::string history_csv(std::span<const SweepRecord> history) {
   std::string csv = "sweep,energy,bad,flips,length_parameter,seconds,objective\n";
-  for (const SweepRecord& record : report.history) {
+  for (const SweepRecord& record : history) {
     csv += fmt::format("{},{},{},{},{},{},{}\n", record.sweep, record.energy, record.bad, record.flips,
                        record.length_parameter, record.seconds, name(record.objective));
   }

@@ -227,6 +227,11 @@ std::string verdict(const tets::Quality& quality) {
               : ", " + plural(quality.non_regular_faces, "face is not regular", "faces are not regular"));
 }
 
+std::string mesh_size(const tets::Quality& quality) {
+  return fmt::format("{} ({} inside), {}", plural(quality.vertices, "vertex", "vertices"), quality.inner_vertices,
+                     plural(quality.tetrahedra, "tetrahedron", "tetrahedra"));
+}
+
 std::string verdict(const Quality& quality) {
   const std::size_t bad = bad_triangles(quality);
   std::string text = well_centered(bad, quality.triangles);
@@ -262,20 +267,36 @@ std::string measures_text(std::span<const MeasureRow<Report>> rows, const Report
   return text;
 }
 
+std::string two_numbers(std::string_view label, const std::string& from, const std::string& to) {
+  return pad_right(std::string(label), kLabelColumns) + pad_left(from, kNumberColumns) + pad_left(to, kNumberColumns) +
+         "\n";
+}
+
+template <class Rows, class Report>
+std::string two_columns(const Rows& rows, const Report& before, const Report& after) {
+  std::string text = two_numbers("", "before", "after");
+  for (const auto& row : rows) text += two_numbers(row.label, row.text(before), row.text(after));
+  return text;
+}
+
+template <class Report>
+std::string measures_text(std::span<const MeasureRow<Report>> rows, const Report& before, const Report& after) {
+  std::string text = two_numbers("", "before", "after");
+  for (const MeasureRow<Report>& measure : rows)
+    text += two_numbers(measure.label, measure_text(measure, before), measure_text(measure, after));
+  return text;
+}
+
 }  // namespace
 
 std::string brief_text(const Quality& quality) { return rows_text(kBriefRows, quality); }
 
 std::string brief_text(const tets::Quality& quality) { return rows_text(kBriefTetRows, quality); }
 
-std::string brief_text(const Quality& before, const Quality& after) {
-  std::string text =
-      pad_right("", kLabelColumns) + pad_left("before", kNumberColumns) + pad_left("after", kNumberColumns) + "\n";
-  for (const auto& row : kBriefRows) {
-    text += pad_right(row.label, kLabelColumns) + pad_left(row.text(before), kNumberColumns) +
-            pad_left(row.text(after), kNumberColumns) + "\n";
-  }
-  return text;
+std::string brief_text(const Quality& before, const Quality& after) { return two_columns(kBriefRows, before, after); }
+
+std::string brief_text(const tets::Quality& before, const tets::Quality& after) {
+  return two_columns(kBriefTetRows, before, after);
 }
 
 std::string quality_text(const Quality& quality, const Input& input, const TextStyle& style) {
@@ -299,22 +320,20 @@ std::string quality_text(const tets::Quality& quality, const TetInput& input, co
 }
 
 std::string comparison_text(const Quality& before, const Quality& after, int star, const TextStyle& style) {
-  const auto row = [](const std::string& label, const std::string& from, const std::string& to) {
-    return pad_right(label, kLabelColumns) + pad_left(from, kNumberColumns) + pad_left(to, kNumberColumns) + "\n";
-  };
-  std::string text = row("", "before", "after");
-  for (const QualityMeasure& measure : quality_measures()) {
-    text += row(std::string(measure.label), measure_text(measure, before), measure_text(measure, after));
-  }
+  std::string text = measures_text(quality_measures(), before, after);
   const auto number = [&style](double value) {
     return std::isinf(value) ? energy_text(value, style) : fmt::format("{:.6g}", value);
   };
   const auto column = static_cast<std::size_t>(star);
   for (std::size_t i = 0; i < energies().size(); ++i) {
     const std::string label = fmt::format("E_{}, {}", energies()[i].name, star_name(column, style));
-    text += row(label, number(before.energy[i][column]), number(after.energy[i][column]));
+    text += two_numbers(label, number(before.energy[i][column]), number(after.energy[i][column]));
   }
   return text;
+}
+
+std::string comparison_text(const tets::Quality& before, const tets::Quality& after) {
+  return measures_text(tets::quality_measures(), before, after);
 }
 
 std::string size_text(const SizeChange& size) {

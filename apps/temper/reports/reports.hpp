@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,12 +53,16 @@ struct DecRecord {
 struct WeightsRecord {
   std::string_view mode;
   const WeightOptions& options;
+  const ConstraintsInfo& constraints;
   const WeightReport& report;
-  const Input& input;
-  const Mesh& mesh;                                 ///< that the report is of: the input's, or with edges flipped
-  const std::optional<ConnectivityReport>& search;  ///< with --connectivity search
-  std::string_view output;                          ///< empty: not written
-  std::string_view certificate;                     ///< the same
+  std::string_view path;                                             ///< of the mesh
+  std::string size;                                                  ///< "12 vertices, 10 triangles"
+  const std::vector<std::size_t>& points;                            ///< of Input or TetInput
+  std::function<std::string(const WeightConstraint&)> text;          ///< constraint_text
+  std::function<TriangleId(const WeightConstraint&)> triangle = {};  ///< of a height; none for tetrahedra
+  const std::optional<ConnectivityReport>& search = std::nullopt;    ///< with --connectivity search
+  std::string_view output = {};                                      ///< empty: not written
+  std::string_view certificate = {};                                 ///< the same
 };
 
 [[nodiscard]] std::string weights_text(const WeightsRecord& record);
@@ -65,6 +70,9 @@ struct WeightsRecord {
 
 /// "h over edge 3-9 of triangle 17 (angle of 138.3 degrees at vertex 10)", in the file's numbers.
 [[nodiscard]] std::string constraint_text(const WeightConstraint& constraint, const Input& input, const Mesh& mesh);
+[[nodiscard]] std::string constraint_text(const WeightConstraint& constraint, const TetInput& input);
+/// The triangle of a height.
+[[nodiscard]] TriangleId triangle_of(const Mesh& mesh, const WeightConstraint& constraint);
 
 // The reports of `temper mesh` on the mesh it made: as text, and as JSON.
 
@@ -107,10 +115,12 @@ struct MeshRecord {
 /// --point-data, whose words are checked as they come.
 void add_point_data(Command& command, std::vector<std::string>& words);
 
-/// The rules of those words, for the data of a file; Failure when it has no array of a name.
-[[nodiscard]] io::DataRules data_rules(const std::vector<std::string>& words, const io::MeshFile& file);
+/// The rules of those words, for the point data of a file; Failure when it has no array of a name.
+[[nodiscard]] io::DataRules data_rules(const std::vector<std::string>& words, const std::string& path,
+                                       const std::vector<io::DataArray>& point_data);
 
-/// Lines of `temper optimize`; none if nothing moved that carries data.
-[[nodiscard]] std::string data_text(const io::DataReport& report);
+/// Lines of `temper optimize`; none if nothing moved that carries data. `one`, `several`: the elements.
+[[nodiscard]] std::string data_text(const io::DataReport& report, std::string_view one = "triangle",
+                                    std::string_view several = "triangles");
 
 }  // namespace temper::app

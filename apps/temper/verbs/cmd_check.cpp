@@ -75,7 +75,10 @@ void add_options(Command& command, CheckSettings& s) {
 class Checks {
  public:
   Checks(const Command& command, const CheckSettings& settings)
-      : command_(command), s_(settings), requirements_(settings.require), threads_(make_threads(settings.threads)) {
+      : command_(command),
+        s_(settings),
+        requirements_("check", settings.require),
+        threads_(make_threads(settings.threads)) {
     options_.gamma = s_.gamma.value_or(options_.gamma);
     options_.h0 = s_.h0.value_or(options_.h0);
     options_.worst = s_.worst;
@@ -113,37 +116,6 @@ class Checks {
   }
 
  private:
-  /// The requirements on meshes of both kinds. A list may make sense for one kind alone, but not for none.
-  class Requirements {
-   public:
-    explicit Requirements(const std::vector<std::string>& lists)
-        : triangles_(lists, MeshKind::triangles), tetrahedra_(lists, MeshKind::tetrahedra) {
-      if (!triangles_.refusal || !tetrahedra_.refusal) return;
-      const bool of_triangles = knows_keys(lists, MeshKind::triangles) || !knows_keys(lists, MeshKind::tetrahedra);
-      throw Failure(of_triangles ? *triangles_.refusal : *tetrahedra_.refusal);
-    }
-    /// Failure when the lists make no sense for this kind.
-    [[nodiscard]] const std::vector<Requirement>& of(MeshKind kind) const {
-      const Parsed& parsed = kind == MeshKind::triangles ? triangles_ : tetrahedra_;
-      if (parsed.refusal) throw Failure(*parsed.refusal);
-      return parsed.list;
-    }
-
-   private:
-    struct Parsed {
-      Parsed(const std::vector<std::string>& lists, MeshKind kind) {
-        try {
-          list = parse_requirements("check", lists, kind);
-        } catch (const Failure& failure) {
-          refusal = failure;
-        }
-      }
-      std::vector<Requirement> list;
-      std::optional<Failure> refusal;
-    };
-    Parsed triangles_, tetrahedra_;
-  };
-
   void add_tetrahedra(const std::string& path, io::TetFile file) {
     refuse_for_tetrahedra("check", path,
                           {{!s_.projection.empty(), "--projection"},
@@ -156,13 +128,11 @@ class Checks {
     const TetInput input = make_input(path, std::move(file), threads_.get());
     print_warnings(input.warnings());
     const tets::Quality measured = quality(input.mesh(), {s_.worst, threads_.get()});
-    const std::string size =
-        fmt::format("{} ({} inside), {}", plural(measured.vertices, "vertex", "vertices"), measured.inner_vertices,
-                    plural(measured.tetrahedra, "tetrahedron", "tetrahedra"));
     const std::vector<Outcome> outcomes = judge(requirements, measured);
     report(path, outcomes, check_json(path, measured, input.points, outcomes),
-           s_.details ? quality_text(measured, input, text_style())
-                      : fmt::format("{}: {}\n{}{}\n", path, size, brief_text(measured), verdict(measured)));
+           s_.details
+               ? quality_text(measured, input, text_style())
+               : fmt::format("{}: {}\n{}{}\n", path, mesh_size(measured), brief_text(measured), verdict(measured)));
   }
   /// Prints or keeps the report, writes it where --write asks for it, and gives the verdict on the requirements.
   void report(const std::string& path, const std::vector<Outcome>& outcomes, const std::string& json,
@@ -215,7 +185,7 @@ class Checks {
   const CheckSettings& s_;
   FurtherOutputs files_;
   Outputs outputs_ = Outputs("check");
-  Requirements requirements_;
+  RequirementLists requirements_;
   std::unique_ptr<Executor> threads_;
   QualityOptions options_;
   std::vector<std::string> reports_;

@@ -31,6 +31,7 @@
 #include "temper/solvers.hpp"
 #include "threads.hpp"
 #include "verbs/optimize_settings.hpp"
+#include "verbs/optimize_tetrahedra.hpp"
 #include "verbs/progress_line.hpp"
 #ifdef TEMPER_WITH_ERRORS
 #include "reports/error_report.hpp"
@@ -218,7 +219,7 @@ void find_vertices(OptimizeSettings& s, const Input& input) {
   }
 }
 
-std::string ending(const OptimizeReport& report) {
+std::string work_done(const OptimizeReport& report) {
   std::string work =
       fmt::format("{} in {:.3g} s, {}", plural(static_cast<std::size_t>(report.sweeps), "sweep", "sweeps"),
                   report.seconds, plural(report.flips, "flip", "flips"));
@@ -229,25 +230,7 @@ std::string ending(const OptimizeReport& report) {
   add_vertices(report.vertices_inserted, "inserted");
   if (report.objective == Objective::solver_error && std::isfinite(report.objective_before))
     work += fmt::format("; solver error {:.3g} times the input's", report.objective_after / report.objective_before);
-  switch (report.stopped) {
-    case Stopped::converged:
-      return "converged after " + work;
-    case Stopped::max_sweeps:
-      return "stopped by max_sweeps after " + work;
-    case Stopped::max_outer:
-      return "stopped by outer after " + work;
-    case Stopped::sweep_limit:
-      return "finished after " + work;
-    case Stopped::tangled:
-      return "stopped by inverted triangles, among which no edges can be flipped, after " + work;
-    case Stopped::hidden:
-      return "stopped by a vertex that the flips would hide, after " + work;
-    case Stopped::time_limit:
-      return "stopped early by --time-limit after " + work;
-    case Stopped::canceled:
-      return "stopped early by a signal after " + work;
-  }
-  return work;
+  return ending(report.stopped) + work;
 }
 
 void warn(RunResults& results, std::span<const std::string> warnings) {
@@ -281,7 +264,7 @@ void write_all(const Command& command, const OptimizeSettings& s, Input& input, 
     if (!s.files.page.empty())
       outputs.write_text(s.files.page, optimize_html({record, input, results.original, input.loaded.mesh}));
   }
-  if (!s.files.history.empty()) outputs.write_text(s.files.history, history_csv(results.report));
+  if (!s.files.history.empty()) outputs.write_text(s.files.history, history_csv(results.report.history));
   if (!s.files.picture.empty()) outputs.write_picture(s.files.picture, results.picture);
 }
 
@@ -306,7 +289,7 @@ void print_result(const OptimizeSettings& s, const RunResults& results, const Ou
   if (s.details) print_details(s, results);
   if (!results.errors_text.empty()) print("\n" + results.errors_text + "\n");
   const std::size_t notes = s.details ? 0 : results.report.notes.size();
-  print(ending(results.report) +
+  print(work_done(results.report) +
         (notes == 0 ? "\n" : fmt::format("; --details has {}\n", plural(notes, "note", "notes"))));
   std::string written;
   for (const std::string& path : outputs.written()) written += (written.empty() ? "wrote " : ", ") + path;
@@ -319,13 +302,18 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   std::optional<TraceFile> trace;
   if (!s.files.trace.empty()) trace.emplace(TraceFile{outputs.open(s.files.trace), {}});
   const RunFiles files = {threads.get(), trace ? &*trace : nullptr};
-  Input input = read_input(s.input, {s.projection, s.fix, threads.get(), true, s.flat});
+  auto file = read_any_tried(s.input, {threads.get(), s.flat});
+  if (auto* const tets = std::get_if<io::TetFile>(&file))
+    return optimize_tetrahedra(command, s, outputs, {std::move(*tets), threads.get()});
+  s.requirements = s.requirement_lists.of(MeshKind::triangles);
+  const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
+  Input input = read_input(s.input, {s.projection, s.fix, threads.get(), true, s.flat, read});
   outputs.expect_space(s.output, input.file);
   if (!s.files.page.empty()) expect_plane(input.mesh(), s.input, "--write " + s.files.page);
   RunResults results;
   warn(results, input.warnings());
   find_vertices(s, input);
-  s.rules = data_rules(s.point_data, input.file);
+  s.rules = data_rules(s.point_data, input.path, input.file.point_data);
   warn(results, doubtful_options(command, s));
   if (s.options.unknowns == Unknowns::positions && has_weights(input.mesh())) {
     warn(results,
@@ -363,7 +351,7 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
 void leave_outputs_to_first_rank(OptimizeSettings& s) {
   s.output.path.clear();
   s.files = {};
-  s.requirements.clear();
+  s.requirement_lists = {};
   s.save_every.reset();
   s.measure_errors = false;
   be_quiet();
@@ -380,8 +368,7 @@ Exit run_command(Command& command, OptimizeSettings& settings) {
     refuse_usage("optimize",
                  "--tensor: the page and the trace of --write are in the plane of the mesh; expected neither");
   if (settings.metric) settings.output.options.triangle_quality = false;  // which is of the plane
-  settings.requirements = parse_requirements("optimize", settings.require);
-
+  settings.requirement_lists = RequirementLists("optimize", settings.require);
   settings.traced = !settings.files.trace.empty();
   if (!is_first_rank()) leave_outputs_to_first_rank(settings);
 

@@ -61,7 +61,7 @@ Exit replay(const ReplaySettings& s) {
   Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .flat = s.flat});
   outputs.expect_space(s.output, input.file);
   print_warnings(input.warnings());
-  const io::DataRules rules = data_rules(s.point_data, input.file);
+  const io::DataRules rules = data_rules(s.point_data, input.path, input.file.point_data);
   const Trace trace = read_trace(s.trace, input);
   const std::vector<TraceEvent>& events = trace.events;
   const auto applied = wanted(events, s.sweeps);

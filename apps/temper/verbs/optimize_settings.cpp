@@ -62,7 +62,7 @@ void add_keep(Command& command, OptimizeSettings& s) {
 void add_common(Command& command, OptimizeSettings& s) {
   command.group("Options");
   // These two are not marked as required: see take_input.
-  add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.");
+  add_argument(command, "IN", s.input, "Mesh file, of triangles or tetrahedra. Its content shows the format.");
   add_mesh_output(command, s.output, "OUT");
   command.option("--output").sentence = "File for the result. Its suffix selects the format. '-': standard output.";
   add_purpose(command, s);
@@ -75,7 +75,8 @@ void add_common(Command& command, OptimizeSettings& s) {
   add_text(command, "--size", "FILE", s.size, "Mesh file with the target edge length at each of its points.");
   add_flag_of(command, "min_edge", s.assignments).sentence = "Least length of interior edges over the local size.";
   add_flag_of(command, "min_dual", s.assignments).sentence = "Least length of their duals over the local size.";
-  add_requirements(command, s.require).sentence = "Requirements, such as outside=0. If one is not met, exit with 3.";
+  add_requirements(command, s.require, true).sentence =
+      "Requirements, such as outside=0. If one is not met, exit with 3.";
   add_flag_of(command, "time_limit", s.assignments).value_name = "SECONDS";
   add_write(command, s.write, kRunOutputs);
 }
@@ -216,6 +217,28 @@ void settle_options(Command& command, OptimizeSettings& s) {
   for (const auto& checked : {check_target(s.options, s.target), check_kept(s.options, keep)}) {
     if (!checked) refuse_usage("optimize", spell_options(checked.error()).message);
   }
+}
+
+std::string ending(Stopped stopped) {
+  switch (stopped) {
+    case Stopped::converged:
+      return "converged after ";
+    case Stopped::max_sweeps:
+      return "stopped by max_sweeps after ";
+    case Stopped::max_outer:
+      return "stopped by outer after ";
+    case Stopped::sweep_limit:
+      return "finished after ";
+    case Stopped::tangled:
+      return "stopped by inverted triangles, among which no edges can be flipped, after ";
+    case Stopped::hidden:
+      return "stopped by a vertex that the flips would hide, after ";
+    case Stopped::time_limit:
+      return "stopped early by --time-limit after ";
+    case Stopped::canceled:
+      return "stopped early by a signal after ";
+  }
+  return {};
 }
 
 std::vector<std::string> doubtful_options(const Command& command, const OptimizeSettings& s) {

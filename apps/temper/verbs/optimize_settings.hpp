@@ -34,9 +34,10 @@ struct OptimizeSettings {
   std::string set_by_target;  ///< options that the target sets, for people
   std::uint64_t threads = 0;
   bool details = false, measure_errors = false;
-  bool traced = false;               ///< by any writer of the trace
-  std::optional<double> save_every;  ///< seconds between two times that the best mesh so far is written
-  std::vector<Requirement> requirements;
+  bool traced = false;                    ///< by any writer of the trace
+  std::optional<double> save_every;       ///< seconds between two times that the best mesh so far is written
+  RequirementLists requirement_lists;     ///< of `require`
+  std::vector<Requirement> requirements;  ///< the list for the kind of the mesh
   std::string size, size_data;
   std::optional<Metric> metric;  ///< of the diffusion tensor
   ProblemOptions problem;
@@ -56,6 +57,9 @@ void take_input(Command& command, OptimizeSettings& settings);
 
 /// Finds the options that follow from the command line and the options file. Failure if they contradict each other.
 void settle_options(Command& command, OptimizeSettings& settings);
+
+/// "converged after ", to be followed by the work that was done.
+[[nodiscard]] std::string ending(Stopped stopped);
 
 /// Options that were given and cannot have their usual effect.
 [[nodiscard]] std::vector<std::string> doubtful_options(const Command& command, const OptimizeSettings& settings);

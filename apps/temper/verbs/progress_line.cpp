@@ -27,8 +27,9 @@ void ProgressLine::show(const Progress& progress) {
 
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const double sweeps = progress.last.sweep + progress.fraction;
-  std::string text = fmt::format("sweep {} of at most {}, {} triangles bad, energy {:.6g}, {}", progress.last.sweep,
-                                 progress.max_sweeps, progress.last.bad, progress.last.energy, duration(seconds));
+  std::string text =
+      fmt::format("sweep {} of at most {}, {} {} bad, energy {:.6g}, {}", progress.last.sweep, progress.max_sweeps,
+                  progress.last.bad, elements_, progress.last.energy, duration(seconds));
   if (progress.sweeps_left && sweeps > 0) {
     const double left = std::max(0.0, *progress.sweeps_left - progress.fraction);
     text += fmt::format(", about {} left", duration(seconds / sweeps * left));

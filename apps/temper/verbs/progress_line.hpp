@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string_view>
 
 #include "temper/detail/progress.hpp"
 
@@ -11,7 +12,8 @@ namespace temper::app {
 class ProgressLine {
  public:
   /// Not shown in a pipe: enabled = standard error is a terminal.
-  explicit ProgressLine(bool enabled) : enabled_(enabled), start_(Clock::now()) {}
+  explicit ProgressLine(bool enabled, std::string_view elements = "triangles")
+      : enabled_(enabled), elements_(elements), start_(Clock::now()) {}
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -23,6 +25,7 @@ class ProgressLine {
  private:
   using Clock = std::chrono::steady_clock;
   bool enabled_;
+  std::string_view elements_;
   bool shown_ = false;
   Clock::time_point start_, last_ = {};
 };

@@ -34,8 +34,8 @@ struct Place {
 
 /// The value at a place of the linear function with value_at(v) at vertices. It is never outside the range of the
 /// values at the corners that count. If they agree, it is exactly their value.
-template <class ValueAt>
-[[nodiscard]] double interpolated(const Place& place, const ValueAt& value_at) {
+template <class AtPlace, class ValueAt>
+[[nodiscard]] double interpolated(const AtPlace& place, const ValueAt& value_at) {
   const double first = value_at(place.corners[0]);
   double low = first, high = first, value = first;
   for (std::size_t k = 1; k < static_cast<std::size_t>(place.n); ++k) {

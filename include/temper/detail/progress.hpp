@@ -39,6 +39,23 @@ struct Progress {
   std::optional<double> sweeps_left = {};
 };
 
+/// The reason why a run ended.
+enum class Stopped {
+  converged,
+  max_sweeps,
+  max_outer,
+  time_limit,
+  canceled,
+  tangled,      ///< Triangles are inverted (Inversion::allow), and no flips can make the mesh regular
+  sweep_limit,  ///< All sweeps of AccuracyOptions, or steps of SolverErrorOptions, are done: a normal end
+  hidden,       ///< Deferred flips hid a vertex against the policy: the mesh is the last or best regular one
+};
+[[nodiscard]] std::string_view name(Stopped stopped);
+/// Says whether the time limit or the observer ended the run. With more time the run would have continued.
+[[nodiscard]] constexpr bool stopped_early(Stopped stopped) {
+  return stopped == Stopped::time_limit || stopped == Stopped::canceled;
+}
+
 enum class Continue { yes, no };
 
 /// Function that returns Continue::no to stop early. The mesh is then the best valid one so far.

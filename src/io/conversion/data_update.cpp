@@ -21,44 +21,6 @@
 namespace temper::io {
 namespace {
 
-/// Flags of medit mark special points of the user's: a new point has none.
-bool is_flag(const DataArray& a) { return a.name == "medit:corner" || a.name == "medit:required"; }
-
-/// Linear between the corners that have a value (not NaN), if these have at least half of the shares; else NaN. So a
-/// missing value stays missing, but spreads no farther than half-way to the next corners.
-template <class AtCorner>
-double between_known(const Place& place, const AtCorner& at_corner) {
-  Place known = place;
-  known.n = 0;
-  double sum = 0;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(place.n); ++k) {
-    if (std::isnan(at_corner(place.corners[k]))) continue;
-    const auto to = static_cast<std::size_t>(known.n++);
-    known.corners[to] = place.corners[k];
-    known.shares[to] = place.shares[k];
-    sum += place.shares[k];
-  }
-  if (known.n == 0 || (known.n < place.n && sum < 0.5)) return std::numeric_limits<double>::quiet_NaN();
-  if (known.n < place.n) std::ranges::for_each(known.shares, [sum](double& share) { share /= sum; });
-  return interpolated(known, [&](VertexId v) { return double{at_corner(v)}; });
-}
-
-/// The value at a place: the linear interpolation of floating numbers; the common value of integers at all corners, if
-/// any.
-template <class T>
-std::optional<T> value_at(const std::vector<T>& values, std::size_t n, std::size_t component, const Place& place) {
-  const auto at_corner = [&](VertexId v) { return values[n * v.index + component]; };
-  if constexpr (std::is_floating_point_v<T>) {
-    return static_cast<T>(between_known(place, at_corner));
-  } else {
-    const T first = at_corner(place.corners[0]);
-    for (std::size_t k = 1; k < static_cast<std::size_t>(place.n); ++k) {
-      if (at_corner(place.corners[k]) != first) return {};
-    }
-    return first;
-  }
-}
-
 Values at_triangles(const DataArray& a, const IdVector<TriangleId, TriangleId>& sources) {
   const auto n = static_cast<std::ptrdiff_t>(a.components);
   return std::visit(
@@ -196,9 +158,7 @@ class DataUpdater {
         a.values);
   }
   void warn_of_dropped(std::string_view why) const {
-    std::string names;
-    for (const std::string& name : report_.dropped) names += text(names.empty() ? "" : ", ", name);
-    if (!names.empty()) file_.warnings.push_back(text("data are dropped, because ", why, ": ", names));
+    if (auto warning = warning_of_dropped(report_.dropped, why)) file_.warnings.push_back(*std::move(warning));
   }
 
   MeshFile& file_;
@@ -211,6 +171,21 @@ class DataUpdater {
 };
 
 }  // namespace
+
+bool is_flag(const DataArray& a) { return a.name == "medit:corner" || a.name == "medit:required"; }
+
+void take_rows(std::vector<DataArray>& arrays, const std::vector<std::size_t>& indices) {
+  RunLength rows;
+  for (const std::size_t i : indices) rows.push_back(static_cast<std::int64_t>(i));
+  for (DataArray& a : arrays) a.values = gather(a.values, a.components, rows);
+}
+
+std::optional<std::string> warning_of_dropped(const std::vector<std::string>& names, std::string_view why) {
+  std::string all;
+  for (const std::string& name : names) all += text(all.empty() ? "" : ", ", name);
+  if (all.empty()) return {};
+  return text("data are dropped, because ", why, ": ", all);
+}
 
 bool is_weighted(const MeshFile& file) {
   return std::ranges::any_of(file.weights, [](double w) { return w != 0; });
@@ -267,11 +242,11 @@ Expected<DataRules> parse_data_rules(std::span<const std::string> words) {
   return rules;
 }
 
-Expected<void> check_data_rules(const DataRules& rules, const MeshFile& file) {
+Expected<void> check_data_rules(const DataRules& rules, const std::vector<DataArray>& point_data) {
   for (const auto& [name, rule] : rules.exceptions) {
-    const DataArray* array = find(file.point_data, name);
+    const DataArray* array = find(point_data, name);
     if (array == nullptr)
-      return wrong_rule(text("there is no point data '", name, "'; there are: ", names_of(file.point_data)));
+      return wrong_rule(text("there is no point data '", name, "'; there are: ", names_of(point_data)));
     if (rule == DataRule::interpolate && !is_floating(array->values)) {
       return wrong_rule(text("point data '", name, "' are integers (", type_name(array->values),
                              "), which stay with their points: only floating point data are interpolated"));
@@ -379,21 +354,6 @@ std::int32_t point(VertexId v) { return static_cast<std::int32_t>(v.index); }
 
 bool is_edge(const Mesh& mesh, VertexId a, VertexId b) {
   return mesh.find_halfedge(a, b).valid() || mesh.find_halfedge(b, a).valid();
-}
-
-template <class T>
-std::vector<T> at(const std::vector<T>& values, const std::vector<std::size_t>& indices) {
-  std::vector<T> result;
-  result.reserve(indices.size());
-  for (const std::size_t i : indices) result.push_back(values[i]);
-  return result;
-}
-
-/// Rows of data by indices that may repeat.
-void take_rows(std::vector<DataArray>& arrays, const std::vector<std::size_t>& indices) {
-  RunLength rows;
-  for (const std::size_t i : indices) rows.push_back(static_cast<std::int64_t>(i));
-  for (DataArray& a : arrays) a.values = gather(a.values, a.components, rows);
 }
 
 void cut_edges(MeshFile& file, const Mesh& mesh, const Chains& chains) {

@@ -1,10 +1,15 @@
 // The parts of a file that follow a changed mesh: data of points and triangles, and lines.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
+#include "temper/detail/location.hpp"
 #include "temper/io.hpp"
 
 namespace temper::io {
@@ -20,6 +25,59 @@ using Former = IdVector<VertexId, VertexId>;
 /// Data of the file for the vertices and triangles of the mesh: see update(). Reads the former points, triangles and
 /// regions, which the file still has.
 DataReport update_data(MeshFile& file, const Mesh& mesh, const Former& former, const UpdateOptions& options);
+
+/// Flags of medit mark special points of the user's: a new point has none.
+[[nodiscard]] bool is_flag(const DataArray& a);
+
+/// Linear between the corners that have a value (not NaN), if these have at least half of the shares; else NaN. So a
+/// missing value stays missing, but spreads no farther than half-way to the next corners.
+template <class AtPlace, class AtCorner>
+double between_known(const AtPlace& place, const AtCorner& at_corner) {
+  AtPlace known = place;
+  known.n = 0;
+  double sum = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(place.n); ++k) {
+    if (std::isnan(at_corner(place.corners[k]))) continue;
+    const auto to = static_cast<std::size_t>(known.n++);
+    known.corners[to] = place.corners[k];
+    known.shares[to] = place.shares[k];
+    sum += place.shares[k];
+  }
+  if (known.n == 0 || (known.n < place.n && sum < 0.5)) return std::numeric_limits<double>::quiet_NaN();
+  if (known.n < place.n) std::ranges::for_each(known.shares, [sum](double& share) { share /= sum; });
+  return interpolated(known, [&](VertexId v) { return double{at_corner(v)}; });
+}
+
+/// The value at a place: the linear interpolation of floating numbers; the common value of integers at all corners, if
+/// any.
+template <class T, class AtPlace>
+std::optional<T> value_at(const std::vector<T>& values, std::size_t n, std::size_t component, const AtPlace& place) {
+  const auto at_corner = [&](VertexId v) { return values[n * v.index + component]; };
+  if constexpr (std::is_floating_point_v<T>) {
+    return static_cast<T>(between_known(place, at_corner));
+  } else {
+    const T first = at_corner(place.corners[0]);
+    for (std::size_t k = 1; k < static_cast<std::size_t>(place.n); ++k) {
+      if (at_corner(place.corners[k]) != first) return {};
+    }
+    return first;
+  }
+}
+
+/// Elements by indices that may repeat.
+template <class T>
+std::vector<T> at(const std::vector<T>& values, const std::vector<std::size_t>& indices) {
+  std::vector<T> result;
+  result.reserve(indices.size());
+  for (const std::size_t i : indices) result.push_back(values[i]);
+  return result;
+}
+/// Rows of data by indices that may repeat.
+void take_rows(std::vector<DataArray>& arrays, const std::vector<std::size_t>& indices);
+
+/// The warning that names data which are dropped; nothing if there are none.
+[[nodiscard]] std::optional<std::string> warning_of_dropped(const std::vector<std::string>& names,
+                                                            std::string_view why);
 
 /// Cuts the lines of the file at vertices that the mesh has inserted on them (`vertices` invalid). The lines have the
 /// numbers of the mesh. In files with a marker for every boundary point (Triangle, medit), a new boundary point gets

@@ -34,6 +34,9 @@ struct Estimate {
 template <class T>
 struct Vector {
   T x, y, z;
+  friend Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vector operator*(const T& s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
 };
 template <class T>
 Vector<T> from_to(const WeightedPoint& a, const WeightedPoint& b) {

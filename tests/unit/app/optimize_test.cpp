@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <sstream>
 
+#include "support/tet_lattice.hpp"
 #include "temper/detail/optimize_table.hpp"
-#include "temper/io.hpp"
+#include "temper/tets/io.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -455,6 +456,114 @@ TEST_F(Optimize, NamesWhatIsWrongWithASizeField) {
   refused({"--size", "sizes.vtk"}, {"sizes.vtk", "point 2 has size 0", "expected a finite, positive length"});
   refused({"--size", "sizes.vtk", "--size-data", "h"}, {"sizes.vtk", "no point data \"h\"", "size"});
   refused({"--size", "none.vtk"}, {"none.vtk"});
+}
+
+// --- tetrahedra ------------------------------------------------------------------------------------------------
+
+/// A body-centered lattice with inner vertices off their places, two physical parts of its boundary, and data.
+io::TetFile lattice_file() {
+  const TetArrays exact = body_centered(3);
+  TetArrays moved = shaken(exact, 0.18, 0);
+  const tets::TetMesh mesh = mesh_of(exact);
+  const auto on_boundary = tets::boundary_vertices(mesh);
+  io::TetFile file;
+  std::vector<double> depth;
+  std::vector<std::int32_t> number;
+  for (const VertexId v : mesh.vertices()) {
+    const Vec3 p = on_boundary[v] != 0 ? exact.points[v.index] : moved.points[v.index];
+    file.points.push_back(p);
+    depth.push_back(p.x - 2 * p.y + 3 * p.z);
+    number.push_back(static_cast<std::int32_t>(v.index));
+  }
+  file.tetrahedra = exact.tetrahedra;
+  for (const tets::HalffaceId h : mesh.halffaces()) {
+    if (!mesh.is_boundary(h)) continue;
+    auto& face = file.faces.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) face[k] = static_cast<std::int32_t>(mesh.vertices(h)[k].index);
+    file.face_tags.push_back(h.index % 2 == 0 ? 4 : 9);
+  }
+  file.names = {{2, 4, "inflow"}};
+  file.point_data = {{"depth", 1, depth}, {"number", 1, number}};
+  return file;
+}
+
+class OptimizeTetrahedra : public Workshop {
+ protected:
+  void SetUp() override { EXPECT_TRUE(io::write("in.vtu", lattice_file(), {})); }
+  static io::TetFile tets(const std::string& path) { return std::get<io::TetFile>(*io::read_any(path)); }
+};
+
+TEST_F(OptimizeTetrahedra, AreMadeWellCenteredAndTheReportHasTheNumbersOfTheFile) {
+  EXPECT_EQ(temper({"check", "in.vtu", "--require", "outside=0"}).exit, 3);
+  const Outcome outcome = temper_ok(
+      {"optimize", "in.vtu", "-o", "out.vtu", "--require", "outside=0,nonregular=0", "--write", "r.json", "h.csv"});
+  for (const char* part : {"in.vtu: ", " inside), ", "before", "after", "tetrahedra not well-centered",
+                           "converged after ", "wrote out.vtu, r.json, h.csv"})
+    EXPECT_TRUE(contains(outcome.out, part)) << part;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(names(), (std::vector<std::string>{"h.csv", "in.vtu", "out.vtu", "r.json"}));
+  const nlohmann::json report = read_json("r.json");
+  EXPECT_EQ(report["after"], numbers_of("out.vtu"));
+  EXPECT_EQ(report["after"]["orthocenters_outside"], 0);
+  EXPECT_EQ(report["history"].size(), report["sweeps"].get<std::size_t>() + 1);
+  EXPECT_EQ(report["data"]["interpolated"], nlohmann::json({"depth"}));
+
+  const io::TetFile before = tets("in.vtu"), after = tets("out.vtu");
+  EXPECT_EQ(after.faces, before.faces);
+  EXPECT_EQ(after.face_tags, before.face_tags);
+  EXPECT_EQ(after.names.at(0).name, "inflow");
+  EXPECT_EQ(after.point_data[1].values, before.point_data[1].values);
+  const auto& depth = std::get<std::vector<double>>(after.point_data[0].values);
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < after.points.size(); ++i) {
+    const Vec3 p = after.points[i];
+    EXPECT_NEAR(depth[i], p.x - 2 * p.y + 3 * p.z, 1e-12);
+    moved += p == before.points[i] ? 0 : 1;
+  }
+  EXPECT_GT(moved, 4U);
+  for (const auto& face : after.faces) {
+    for (const std::int32_t p : face) EXPECT_EQ(after.points[std::size_t(p)], before.points[std::size_t(p)]);
+  }
+}
+
+TEST_F(OptimizeTetrahedra, PositionsOrWeightsMayBeKept) {
+  temper_ok({"optimize", "in.vtu", "-o", "w.vtu", "--keep", "positions"});
+  temper_ok({"optimize", "in.vtu", "-o", "p.vtu", "--keep", "weights,boundary"});
+  EXPECT_EQ(tets("w.vtu").points, tets("in.vtu").points);
+  EXPECT_FALSE(tets("w.vtu").weights.empty());
+  EXPECT_NE(tets("p.vtu").points, tets("in.vtu").points);
+  EXPECT_TRUE(tets("p.vtu").weights.empty());
+}
+
+TEST_F(OptimizeTetrahedra, OptionsForTrianglesAloneAreRefusedByNameAndNothingIsWritten) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
+      {{"--for", "cell"}, "--for"},
+      {{"--boundary", "slide"}, "--boundary"},
+      {{"--keep", "sizes"}, "--keep sizes"},
+      {{"--set", "energy=F"}, "--set energy"},
+      {{"--min-edge", "0.5"}, "--min-edge"},
+      {{"--write", "p.svg"}, "--write p.svg"},
+      {{"--projection", "sphere"}, "--projection"},
+      {{"--save-every", "1"}, "--save-every"},
+      {{"--measure-errors"}, "--measure-errors"}};
+  for (const auto& [option, name] : refused) {
+    std::vector<std::string> all = {"optimize", "in.vtu", "-o", "out.vtu"};
+    all.insert(all.end(), option.begin(), option.end());
+    const Outcome outcome = temper(all);
+    EXPECT_EQ(outcome.exit, 2) << name << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "in.vtu has tetrahedra, and " + name)) << outcome.err;
+  }
+  EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.obj"}).exit, 1);  // holds no tetrahedra
+  EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.vtu", "--require", "min_angle>=1"}).exit, 2);
+  EXPECT_EQ(names(), std::vector<std::string>{"in.vtu"});
+}
+
+TEST_F(OptimizeTetrahedra, ATimeLimitWritesTheBestMeshAndExitsWith4) {
+  const Outcome outcome = temper({"optimize", "in.vtu", "-o", "out.vtu", "--time-limit", "1e-9", "--write", "r.json"});
+  EXPECT_EQ(outcome.exit, 4);
+  EXPECT_TRUE(contains(outcome.out, "stopped early by --time-limit after 0 sweeps"));
+  EXPECT_EQ(read_json("r.json")["stopped"], "time_limit");
+  EXPECT_EQ(tets("out.vtu").points, tets("in.vtu").points);
 }
 
 }  // namespace

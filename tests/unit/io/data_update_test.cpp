@@ -226,7 +226,7 @@ TEST(DataRules, ThatMakeNoSenseAreRefusedByName) {
   const auto error = [](const std::vector<std::string>& words) {
     const auto rules = parse_data_rules(words);
     if (!rules) return rules.error().message;
-    const auto checked = check_data_rules(*rules, file_with_data());
+    const auto checked = check_data_rules(*rules, file_with_data().point_data);
     return checked ? std::string() : checked.error().message;
   };
   EXPECT_EQ(error({}), "");

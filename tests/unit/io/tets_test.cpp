@@ -263,6 +263,108 @@ TEST_F(TetFiles, FilesOfTetgenHaveTheirOwnNumbersAndRegions) {
   EXPECT_EQ(tets.marked_points, std::vector<std::int32_t>{2});
 }
 
+/// A cube of six tetrahedra around an inner point, with a point of none before it, data of all kinds and tags.
+TetFile centered_cube() {
+  TetFile f;
+  f.points = {{9, 9, 9}, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0},
+              {0, 0, 2}, {2, 0, 2}, {0, 2, 2}, {2, 2, 2}, {1, 1, 1}};
+  for (const std::array<std::int32_t, 4>& side :
+       {std::array{1, 2, 4, 3}, std::array{5, 6, 8, 7}, std::array{1, 2, 6, 5}, std::array{3, 4, 8, 7},
+        std::array{1, 3, 7, 5}, std::array{2, 4, 8, 6}}) {
+    f.tetrahedra.push_back({side[0], side[1], side[2], 9});
+    f.tetrahedra.push_back({side[0], side[2], side[3], 9});
+    f.regions.insert(f.regions.end(), {3, 3});
+  }
+  f.faces = {{1, 2, 4}, {0, 1, 2}};
+  f.face_tags = {7, 8};
+  f.lines = {{1, 2}, {0, 3}};
+  f.line_tags = {5, 6};
+  f.marked_points = {0, 4};
+  f.point_tags = {2, 9};
+  f.names = {{2, 7, "floor"}};
+  std::vector<double> at_points;
+  std::vector<std::int32_t> numbers, cells;
+  for (const Vec3& p : f.points) {
+    at_points.push_back(1 + 2 * p.x - 3 * p.y + 5 * p.z);
+    numbers.push_back(static_cast<std::int32_t>(numbers.size()));
+  }
+  for (std::int32_t t = 0; t < 12; ++t) cells.push_back(t);
+  f.point_data = {{"linear", 1, at_points}, {"stays", 1, at_points}, {"id", 1, numbers}};
+  f.cell_data = {{"cell", 1, cells}};
+  f.face_data = {{"load", 1, std::vector<double>{0.5, 0.1}}};
+  return f;
+}
+
+TEST_F(TetFiles, DataFollowMovedVerticesAndAllElseStays) {
+  TetFile file = centered_cube();
+  const LoadedTetMesh loaded = *make_mesh(file);
+  tets::TetMesh mesh = loaded.mesh;
+  mesh.set_point(VertexId(8), {0.5, 0.75, 1.625, 0.25});
+  UpdateOptions options;
+  options.rules.exceptions["stays"] = DataRule::keep;
+  const DataReport report = update(file, loaded, mesh, {}, options);
+  EXPECT_EQ(file.points.size(), 9U);
+  EXPECT_EQ(file.points[8], (Vec3{0.5, 0.75, 1.625}));
+  EXPECT_EQ(file.weights[8], 0.25);
+  EXPECT_EQ(file.regions, std::vector<std::int32_t>(12, 3));
+  EXPECT_EQ(file.faces, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 3}}));  // without those at the unused point
+  EXPECT_EQ(file.face_tags, std::vector<std::int32_t>{7});
+  EXPECT_EQ(file.face_data[0].values, Values(std::vector<double>{0.5}));
+  EXPECT_EQ(file.lines, (std::vector<std::array<std::int32_t, 2>>{{0, 1}}));
+  EXPECT_EQ(file.marked_points, std::vector<std::int32_t>{3});
+  EXPECT_EQ(file.names[0].name, "floor");
+  const auto& linear = std::get<std::vector<double>>(file.point_data[0].values);
+  for (std::size_t v = 0; v < 9; ++v) {
+    const Vec3 p = file.points[v];
+    EXPECT_NEAR(linear[v], 1 + 2 * p.x - 3 * p.y + 5 * p.z, 1e-14);
+  }
+  EXPECT_EQ(std::get<std::vector<double>>(file.point_data[1].values)[8], 1 + 2 - 3 + 5);
+  EXPECT_EQ(std::get<std::vector<std::int32_t>>(file.point_data[2].values)[8], 9);
+  // The middle of each tetrahedron is still in the same one, but for those at the bottom: the point has come up.
+  EXPECT_EQ(report.points_moved, 1U);
+  EXPECT_EQ(report.triangles_changed, 12U);
+  EXPECT_EQ(report.interpolated, std::vector<std::string>{"linear"});
+  EXPECT_EQ(report.kept, (std::vector<std::string>{"stays", "id"}));
+  const auto again = make_mesh(file);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->mesh.point(VertexId(8)), mesh.point(VertexId(8)));
+}
+
+TEST_F(TetFiles, NewVerticesTakeTheDataOfTheirPlace) {
+  TetFile file = centered_cube();
+  const LoadedTetMesh loaded = *make_mesh(file);
+  const TetFile before = file;
+  // The first tetrahedron of the file becomes four. The vertices come in another order, the new one first.
+  const Vec3 middle = {1.25, 0.5, 0.25};
+  std::vector<Vec3> points = {middle};
+  for (const VertexId v : loaded.mesh.vertices()) points.push_back(loaded.mesh.position(v));
+  std::vector<std::array<std::int32_t, 4>> tetrahedra;
+  for (const tets::TetId t : loaded.mesh.tetrahedra()) {
+    std::array<std::int32_t, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = static_cast<std::int32_t>(loaded.mesh.corners(t)[k].index) + 1;
+    if (t.index > 0) tetrahedra.push_back(corners);
+    for (std::size_t k = 0; k < 4 && t.index == 0; ++k) {
+      tetrahedra.push_back(corners);
+      tetrahedra.back()[k] = 0;
+    }
+  }
+  tets::TetMeshInput input;
+  input.points = points, input.tetrahedra = tetrahedra;
+  const tets::TetMesh mesh = tets::TetMesh::build(input)->mesh;
+  IdVector<VertexId, VertexId> vertices(mesh.n_vertices());
+  for (std::size_t v = 1; v < points.size(); ++v) vertices[VertexId(v)] = VertexId(v - 1);
+  const DataReport report = update(file, loaded, mesh, vertices);
+  EXPECT_EQ(report.points_inserted, 1U);
+  EXPECT_EQ(std::get<std::vector<double>>(file.point_data[0].values)[0], 1 + 2 * 1.25 - 3 * 0.5 + 5 * 0.25);
+  EXPECT_EQ(report.dropped, std::vector<std::string>{"id"});
+  EXPECT_NE(std::find(file.warnings.begin(), file.warnings.end(),
+                      "data are dropped, because integers differ around a new point: id"),
+            file.warnings.end());
+  const auto& cells = std::get<std::vector<std::int32_t>>(file.cell_data[0].values);
+  EXPECT_EQ(cells, (std::vector<std::int32_t>{0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));
+  EXPECT_EQ(file.lines, (std::vector<std::array<std::int32_t, 2>>{{1, 2}}));
+}
+
 struct TetRow {
   const char* file;
   std::size_t vertices, inner, tetrahedra, bad, negative;

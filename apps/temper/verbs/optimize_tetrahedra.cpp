@@ -1,0 +1,175 @@
+#include "verbs/optimize_tetrahedra.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "console.hpp"
+#include "files/input.hpp"
+#include "files/options_file.hpp"
+#include "reports/quality_report.hpp"
+#include "reports/reports.hpp"
+#include "temper/tets/optimize.hpp"
+#include "verbs/progress_line.hpp"
+
+namespace temper::app {
+namespace {
+
+/// The options that have a meaning for tetrahedra. All others are refused by name.
+constexpr auto kOptions = std::to_array<std::string_view>(
+    {"IN", "--output", "--format", "--encoding", "--keep", "--boundary", "--require", "--time-limit", "--write",
+     "--set", "--options", "--details", "--quiet", "--point-data", "--threads"});
+/// The rows of the table that have one. The boundary stays.
+constexpr auto kRows = std::to_array<std::string_view>({"max_sweeps", "time_limit", "unknowns", "boundary"});
+constexpr auto kKept = std::to_array<std::string_view>({"positions", "weights", "edges", "boundary"});
+
+template <class Names>
+bool has(const Names& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+void refuse_options(const Command& command, const OptimizeSettings& s) {
+  const auto refuse = [&](bool given, const std::string& name) {
+    refuse_for_tetrahedra("optimize", s.input, {{given, name}});
+  };
+  for (const Option& option : command.options()) {
+    const std::string name = long_name(option.names);
+    const bool is_default = (name == "--for" && s.target == "any") || (name == "--effort" && s.effort == "normal");
+    refuse(!option.given.empty() && !is_default && !has(kOptions, name), name);
+  }
+  for (const Assignment& a : s.assignments) {
+    const std::string name(a.row->name);
+    refuse(!has(kRows, name) && a.row->get(s.options) != a.row->get({}),
+           a.row->common ? spell_options(fmt::format("`{}`", name)) : "--set " + name);
+  }
+  refuse(s.options.boundary != BoundaryVertices::keep, "--boundary, other than keep,");
+  for (const std::string& part : s.keep) refuse(!has(kKept, part), "--keep " + part);
+  for (const auto& [path, what] : {std::pair(s.files.page, "a page"), std::pair(s.files.trace, "a trace"),
+                                   std::pair(s.files.picture, "a picture")})
+    refuse(!path.empty(), fmt::format("--write {}, {},", path, what));
+}
+
+tets::OptimizeOptions options_of(const OptimizeSettings& s) {
+  tets::OptimizeOptions options;
+  options.keep_positions = s.options.unknowns == Unknowns::weights;
+  options.keep_weights = s.options.unknowns == Unknowns::positions;
+  options.max_sweeps = s.options.max_sweeps;
+  options.time_limit = s.options.time_limit;
+  return options;
+}
+
+std::string settings_json(const tets::OptimizeOptions& options) {
+  return nlohmann::ordered_json({{"keep_positions", options.keep_positions},
+                                 {"keep_weights", options.keep_weights},
+                                 {"max_sweeps", options.max_sweeps},
+                                 {"time_limit", options.time_limit}})
+      .dump();
+}
+
+class TetRun {
+ public:
+  TetRun(const Command& command, const OptimizeSettings& s, Outputs& outputs, TetInput input, Executor* threads)
+      : command_(command), s_(s), outputs_(outputs), input_(std::move(input)), threads_(threads) {}
+
+  Exit run() {
+    warn(input_.warnings());
+    if (!(s_.files.report.empty()) && same_file(s_.input, s_.output.path))
+      warn(std::vector<std::string>{
+          "--output replaces the input: the command in the report would start from the improved mesh"});
+    rules_ = data_rules(s_.point_data, input_.path, input_.file.point_data);
+    before_ = quality(input_.mesh(), {kWorst, threads_});
+    improve();
+    after_ = quality(mesh_, {kWorst, threads_});
+    outcomes_ = judge(s_.requirements, after_);
+    write();
+    if (!is_quiet()) print_result();
+    flush_output();  // before the verdict on standard error
+    if (const Exit verdict = report_unmet(outcomes_, s_.output.path); verdict != Exit::done) return verdict;
+    return stopped_early(report_.stopped) ? Exit::stopped_early : Exit::done;
+  }
+
+ private:
+  static constexpr std::size_t kWorst = tets::QualityOptions().worst;
+
+  void warn(std::span<const std::string> warnings) {
+    print_warnings(warnings);
+    warnings_.insert(warnings_.end(), warnings.begin(), warnings.end());
+  }
+  void improve() {
+    catch_interrupts();
+    print(fmt::format("{}: {}\n", s_.input, mesh_size(before_)));
+    flush_output();
+    ProgressLine line(!is_quiet() && error_is_terminal(), "tetrahedra");
+    tets::OptimizeHooks hooks;
+    hooks.started = s_.started;
+    hooks.observer = [&line](const Progress& progress) {
+      line.show(progress);
+      return interrupted() ? Continue::no : Continue::yes;
+    };
+    mesh_ = input_.mesh();
+    Expected<tets::OptimizeReport> report = optimize(mesh_, options_of(s_), hooks);
+    if (!report) throw as_failure(spell_options(report.error()));
+    report_ = *std::move(report);
+  }
+  /// Writes the mesh first, as it took the most time.
+  void write() {
+    const std::size_t known = input_.file.warnings.size();
+    data_ = io::update(input_.file, input_.loaded, mesh_, {}, {rules_, threads_});
+    warn(std::span(input_.file.warnings).subspan(known));
+    warn(outputs_.write_mesh(s_.output, input_.file, threads_));
+    if (!s_.files.report.empty())
+      outputs_.write_text(s_.files.report, optimize_json(TetOptimizeRecord{
+                                               command_line(command_, {s_.input}),
+                                               options_json(command_, s_.assignments), settings_json(options_of(s_)),
+                                               before_, input_.points, after_, report_, data_, outcomes_, warnings_}));
+    if (!s_.files.history.empty()) outputs_.write_text(s_.files.history, history_csv(report_.history));
+  }
+  void print_result() const {
+    print(brief_text(before_, after_));
+    if (s_.details) print_details();
+    print(fmt::format("{}{} in {:.3g} s\n", ending(report_.stopped),
+                      plural(static_cast<std::size_t>(report_.sweeps), "sweep", "sweeps"), report_.seconds));
+    print(fmt::format("wrote {}\n", fmt::join(outputs_.written(), ", ")));
+    if (after_.orthocenters_outside > 0 && s_.output.path != kStandardOutput)
+      print(fmt::format("Next: {} --details\n", command_line("check", s_.output.path, {})));
+  }
+  void print_details() const {
+    print("\n" + comparison_text(before_, after_));
+    if (const std::string data = data_text(data_, "tetrahedron", "tetrahedra"); !data.empty()) print("\n" + data);
+    print(fmt::format("objective energy: {:.6g} before, {:.6g} after\n\n", report_.objective_before,
+                      report_.objective_after));
+  }
+
+  const Command& command_;
+  const OptimizeSettings& s_;
+  Outputs& outputs_;
+  TetInput input_;
+  Executor* threads_;
+  io::DataRules rules_;
+  tets::TetMesh mesh_;
+  tets::Quality before_, after_;
+  tets::OptimizeReport report_;
+  io::DataReport data_;
+  std::vector<Outcome> outcomes_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+Exit optimize_tetrahedra(const Command& command, OptimizeSettings& settings, Outputs& outputs, TetsToOptimize tets) {
+  refuse_options(command, settings);
+  settings.requirements = settings.requirement_lists.of(MeshKind::tetrahedra);
+  TetInput input = make_input(settings.input, std::move(tets.file), tets.threads);
+  agree_to_go_on();
+  if (!is_first_rank()) return Exit::done;
+  return TetRun(command, settings, outputs, std::move(input), tets.threads).run();
+}
+
+}  // namespace temper::app

@@ -1,0 +1,293 @@
+// From a mesh of tetrahedra back to the arrays of the file that it came from.
+//
+// Points, weights, tetrahedra and regions are the mesh's. Everything else is the file's, and goes with its point, its
+// face, its line or its tetrahedron. Data belong to places, as in the plane: a walk finds the former tetrahedron.
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "io/conversion/data_update.hpp"
+#include "io/text/failure.hpp"
+#include "io/text/file_names.hpp"
+#include "io/text/values.hpp"
+#include "temper/tets/io.hpp"
+
+namespace temper::io {
+namespace {
+
+using tets::HalffaceId;
+using tets::TetId;
+using tets::TetMesh;
+
+// The longest walk before all tetrahedra are tried. A vertex step crosses a few, and a walk that circles must end.
+constexpr int kLongestWalk = 200;
+
+/// A point as a weighted mean of the corners around it: temper::Place, with a dimension more.
+struct TetPlace {
+  TetId tetrahedron;
+  int n = 0;
+  std::array<VertexId, 4> corners = {};
+  std::array<double, 4> shares = {1, 0, 0, 0};
+};
+
+/// A face of t that has p on its outer side; nothing if p is in t.
+std::optional<int> face_towards(const TetMesh& mesh, TetId t, Vec3 p, int first) {
+  for (int k = 0; k < 4; ++k) {
+    const int f = (first + k) % 4;
+    const auto [a, b, c] = mesh.vertices(TetMesh::halfface(t, f));
+    if (tets::orientation(mesh.position(a), mesh.position(b), mesh.position(c), p) == Sign::negative) return f;
+  }
+  return std::nullopt;
+}
+
+/// The tetrahedron that contains p, found from one nearby. Without one, the result is `near`.
+TetId locate(const TetMesh& mesh, Vec3 p, TetId near) {
+  TetId t = near;
+  for (int steps = 0; steps < kLongestWalk; ++steps) {
+    const std::optional<int> face = face_towards(mesh, t, p, steps);
+    if (!face) return t;
+    const HalffaceId beyond = mesh.twin(TetMesh::halfface(t, *face));
+    if (!beyond.valid()) break;  // the domain need not be convex: p may still be inside
+    t = TetMesh::tetrahedron(beyond);
+  }
+  const auto all = mesh.tetrahedra();
+  const auto found = std::find_if(all.begin(), all.end(), [&](TetId s) { return !face_towards(mesh, s, p, 0); });
+  return found == all.end() ? near : *found;
+}
+
+/// The place of p, which is in t.
+TetPlace place_in(const TetMesh& mesh, TetId t, Vec3 p) {
+  const auto& corners = mesh.corners(t);
+  TetPlace place{t};
+  double sum = 0;
+  for (int f = 0; f < 4; ++f) {
+    const VertexId v = corners[static_cast<std::size_t>(f)];
+    if (mesh.position(v) == p) return {t, 1, {v}, {1}};
+    const auto [a, b, c] = mesh.vertices(TetMesh::halfface(t, f));
+    const double share = tets::six_volumes(mesh.position(a), mesh.position(b), mesh.position(c), p);
+    if (!(share > 0)) continue;
+    const auto to = static_cast<std::size_t>(place.n++);
+    place.corners[to] = v;
+    sum += place.shares[to] = share;
+  }
+  if (place.n == 0) return {t, 1, {corners[0]}, {1}};  // in a tetrahedron that is all rounding
+  for (double& share : place.shares) share /= sum;
+  return place;
+}
+
+template <std::size_t N>
+void renumber(std::vector<std::array<std::int32_t, N>>& elements, const std::vector<std::int32_t>& number) {
+  for (auto& element : elements) {
+    for (std::int32_t& p : element) p = number[static_cast<std::size_t>(p)];
+  }
+}
+void renumber(std::vector<std::int32_t>& points, const std::vector<std::int32_t>& number) {
+  for (std::int32_t& p : points) p = number[static_cast<std::size_t>(p)];
+}
+
+bool is_there(std::int32_t point) { return point >= 0; }
+template <std::size_t N>
+bool is_there(const std::array<std::int32_t, N>& element) {
+  return std::ranges::all_of(element, [](std::int32_t p) { return p >= 0; });
+}
+
+/// Drops the elements that lost a point, with their tags and data.
+template <class Elements>
+void drop_lost(Elements& elements, std::vector<std::int32_t>& tags, std::vector<DataArray>& data) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (is_there(elements[i])) kept.push_back(i);
+  }
+  if (kept.size() == elements.size()) return;
+  elements = at(elements, kept);
+  tags = at(tags, kept);
+  take_rows(data, kept);
+}
+
+class TetFileUpdater {
+ public:
+  TetFileUpdater(TetFile& file, const LoadedTetMesh& loaded, const TetMesh& mesh,
+                 const IdVector<VertexId, VertexId>& vertices, const UpdateOptions& options)
+      : file_(file), loaded_(loaded), before_(loaded.mesh), mesh_(mesh), vertices_(vertices), options_(options) {}
+
+  DataReport update() {
+    drop_unused_points();
+    if (!file_.point_data.empty() || !file_.cell_data.empty()) update_data();
+    if (!vertices_.empty()) follow_vertices();
+    copy_mesh();
+    return std::move(report_);
+  }
+
+ private:
+  [[nodiscard]] VertexId former(VertexId v) const { return vertices_.empty() ? v : vertices_[v]; }
+  [[nodiscard]] bool stays(VertexId v) const {
+    const VertexId was = former(v);
+    return was.valid() && before_.position(was) == mesh_.position(v);
+  }
+  void drop_unused_points() {
+    const VertexOfPoint& vertex = loaded_.vertex_of_point;
+    if (vertex.n_kept() == vertex.size() || file_.points.size() != vertex.size()) return;
+    std::vector<std::int32_t> number;
+    std::vector<std::size_t> used;
+    for (std::size_t p = 0; p < vertex.size(); ++p) {
+      number.push_back(vertex[p]);
+      if (vertex[p] >= 0) used.push_back(p);
+    }
+    take_rows(file_.point_data, used);
+    renumber_tags(number);
+    file_.numbering = nullptr;  // its numbers no longer fit the points
+  }
+  void renumber_tags(const std::vector<std::int32_t>& number) {
+    renumber(file_.faces, number);
+    renumber(file_.lines, number);
+    renumber(file_.marked_points, number);
+    drop_lost(file_.faces, file_.face_tags, file_.face_data);
+    drop_lost(file_.lines, file_.line_tags, file_.line_data);
+    drop_lost(file_.marked_points, file_.point_tags, file_.marked_point_data);
+  }
+  void follow_vertices() {
+    std::vector<std::int32_t> number(before_.n_vertices(), -1);
+    for (const VertexId v : mesh_.vertices()) {
+      if (former(v).valid()) number[former(v).index] = static_cast<std::int32_t>(v.index);
+    }
+    const auto n_tags = [&] { return file_.faces.size() + file_.lines.size() + file_.marked_points.size(); };
+    const std::size_t before = n_tags();
+    renumber_tags(number);
+    if (const std::size_t lost = before - n_tags(); lost > 0)
+      file_.warnings.push_back(text(lost, " faces, lines or marked points have lost their vertices and are dropped"));
+    file_.numbering = nullptr;
+  }
+  void copy_mesh() {
+    file_.points.clear();
+    file_.weights.clear();
+    bool weighted = false;
+    for (const VertexId v : mesh_.vertices()) {
+      file_.points.push_back(mesh_.position(v));
+      file_.weights.push_back(mesh_.weight(v));
+      weighted = weighted || mesh_.weight(v) != 0;
+    }
+    if (!weighted) file_.weights = {};
+    bool regions = !file_.regions.empty();
+    file_.tetrahedra.clear();
+    for (const TetId t : mesh_.tetrahedra()) {
+      auto& corners = file_.tetrahedra.emplace_back();
+      for (std::size_t k = 0; k < 4; ++k) corners[k] = static_cast<std::int32_t>(mesh_.corners(t)[k].index);
+      regions = regions || mesh_.region(t) != 0;
+    }
+    file_.regions.clear();
+    for (const TetId t : mesh_.tetrahedra()) {
+      if (regions) file_.regions.push_back(mesh_.region(t));
+    }
+  }
+
+  // --- data ------------------------------------------------------------------------------------------
+  void update_data() {
+    measure();
+    const auto moves = [&](const DataArray& a) { return options_.rules.of(a) == DataRule::interpolate; };
+    if (report_.points_inserted > 0 || (report_.points_moved > 0 && std::ranges::any_of(file_.point_data, moves)))
+      find_places();
+    update_points();
+    for (DataArray& a : file_.cell_data) report_.of_triangles.push_back(a.name);
+    if (report_.triangles_changed > 0 && !file_.cell_data.empty()) take_rows(file_.cell_data, sources());
+  }
+  void measure() {
+    std::vector<double> distances;
+    for (const VertexId v : mesh_.vertices()) {
+      const VertexId was = former(v);
+      ++(was.valid() ? report_.points : report_.points_inserted);
+      if (was.valid() && !stays(v)) distances.push_back(length(mesh_.position(v) - before_.position(was)));
+    }
+    report_.points_moved = distances.size();
+    report_.distance = spread(std::move(distances));
+    report_.triangles = mesh_.n_tetrahedra();
+    for (const TetId t : mesh_.tetrahedra()) report_.triangles_changed += is_same(t) ? 0 : 1;
+  }
+  /// Says whether tetrahedron t has the same corners as in the file, at the same places.
+  [[nodiscard]] bool is_same(TetId t) const {
+    if (t.index >= before_.n_tetrahedra()) return false;
+    std::array<VertexId, 4> now, then = before_.corners(t);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const VertexId v = mesh_.corners(t)[k];
+      if (!stays(v)) return false;
+      now[k] = former(v);
+    }
+    std::ranges::sort(now), std::ranges::sort(then);
+    return now == then;
+  }
+  /// A former tetrahedron near t, to start a walk from.
+  [[nodiscard]] TetId near(TetId t) const {
+    for (const VertexId v : mesh_.corners(t)) {
+      if (former(v).valid()) return before_.incident(former(v));
+    }
+    return TetId(0);
+  }
+  void find_places() {
+    for (const VertexId v : mesh_.vertices()) {
+      const VertexId was = former(v);
+      const TetId from = was.valid() ? before_.incident(was) : near(mesh_.incident(v));
+      places_.push_back(stays(v) ? TetPlace{from, 1, {was}, {1}}
+                                 : place_in(before_, locate(before_, mesh_.position(v), from), mesh_.position(v)));
+    }
+  }
+  /// The former tetrahedron of each.
+  [[nodiscard]] std::vector<std::size_t> sources() const {
+    std::vector<std::size_t> all;
+    for (const TetId t : mesh_.tetrahedra()) {
+      Vec3 sum;
+      for (const VertexId v : mesh_.corners(t)) sum = sum + mesh_.position(v);
+      all.push_back(is_same(t) ? t.index : locate(before_, 0.25 * sum, near(t)).index);
+    }
+    return all;
+  }
+  void update_points() {
+    std::vector<DataArray> left;
+    for (DataArray& a : file_.point_data) {
+      const bool follows = options_.rules.of(a) == DataRule::interpolate;
+      std::optional<Values> values = at_vertices(a);
+      (!values ? report_.dropped : follows ? report_.interpolated : report_.kept).push_back(a.name);
+      if (values) left.push_back({std::move(a.name), a.components, *std::move(values)});
+    }
+    file_.point_data = std::move(left);
+    if (auto warning = warning_of_dropped(report_.dropped, "integers differ around a new point"))
+      file_.warnings.push_back(*std::move(warning));
+  }
+  /// The array at the vertices of the mesh; nothing when integers around a new vertex differ.
+  [[nodiscard]] std::optional<Values> at_vertices(const DataArray& a) const {
+    const bool keeps = options_.rules.of(a) == DataRule::keep || places_.empty();
+    const auto n = static_cast<std::size_t>(a.components);
+    return std::visit(
+        [&](const auto& values) -> std::optional<Values> {
+          std::remove_cvref_t<decltype(values)> result;
+          for (const VertexId v : mesh_.vertices()) {
+            const VertexId was = former(v);
+            for (std::size_t i = 0; i < n; ++i) {
+              const auto value = keeps && was.valid() ? std::optional(values[n * was.index + i])
+                                 : is_flag(a)         ? std::optional(ElementOf<decltype(values)>())
+                                                      : value_at(values, n, i, places_[v.index]);
+              if (!value) return {};
+              result.push_back(*value);
+            }
+          }
+          return result;
+        },
+        a.values);
+  }
+
+  TetFile& file_;
+  const LoadedTetMesh& loaded_;
+  const TetMesh &before_, &mesh_;
+  const IdVector<VertexId, VertexId>& vertices_;
+  const UpdateOptions& options_;
+  std::vector<TetPlace> places_;  // of the vertices in the former mesh; empty: not needed
+  DataReport report_;
+};
+
+}  // namespace
+
+DataReport update(TetFile& file, const LoadedTetMesh& loaded, const tets::TetMesh& mesh,
+                  const IdVector<VertexId, VertexId>& vertices, const UpdateOptions& options) {
+  return TetFileUpdater(file, loaded, mesh, vertices, options).update();
+}
+
+}  // namespace temper::io

@@ -1,0 +1,42 @@
+#include "tets/energy/star.hpp"
+
+#include <algorithm>
+
+namespace temper::tets {
+
+void collect_link(const TetMesh& mesh, VertexId v, std::vector<HalffaceId>& link) {
+  const auto opposite = [&](TetId t) {
+    const auto& corners = mesh.corners(t);
+    return TetMesh::halfface(t, static_cast<int>(std::find(corners.begin(), corners.end(), v) - corners.begin()));
+  };
+  link.assign(1, opposite(mesh.incident(v)));
+  for (std::size_t i = 0; i < link.size(); ++i) {
+    const HalffaceId here = link[i];
+    for (int f = 0; f < 4; ++f) {
+      const HalffaceId side = TetMesh::halfface(TetMesh::tetrahedron(here), f);
+      if (side == here || mesh.is_boundary(side)) continue;
+      const HalffaceId next = opposite(TetMesh::tetrahedron(mesh.twin(side)));
+      if (std::find(link.begin(), link.end(), next) == link.end()) link.push_back(next);
+    }
+  }
+}
+
+LinkFace<double> link_face(const TetMesh& mesh, HalffaceId h) {
+  const auto [q, r, s] = mesh.vertices(h);
+  return link_face<double>(mesh.point(q), mesh.point(r), mesh.point(s));
+}
+
+double star_energy(std::span<const LinkFace<double>> link, const WeightedPoint& p, double gamma) {
+  double sum = 0;
+  for (const LinkFace<double>& face : link) sum += tet_energy<double>(face, {p.x, p.y, p.z}, p.w, gamma);
+  return sum;
+}
+
+PointDerivatives<double> star_derivatives(std::span<const LinkFace<double>> link, const WeightedPoint& p,
+                                          double gamma) {
+  PointDerivatives<double> sum = {};
+  for (const LinkFace<double>& face : link) sum += tet_derivatives<double>(face, {p.x, p.y, p.z}, p.w, gamma);
+  return sum;
+}
+
+}  // namespace temper::tets

@@ -1,0 +1,225 @@
+// Sweeps over meshes of tetrahedra: what stays, what falls, and how a run ends.
+#include "temper/tets/optimize.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/tet_lattice.hpp"
+#include "temper/tets/quality.hpp"
+#include "tets/optimize/sweeper.hpp"
+
+namespace temper::tets {
+namespace {
+
+/// The body-centered lattice with inner vertices off their places.
+test::TetArrays input_arrays() {
+  test::TetArrays arrays = test::shaken(test::body_centered(4), 0.18, 0.1);
+  const test::TetArrays exact = test::body_centered(4);
+  const TetMesh mesh = test::mesh_of(exact);
+  const auto on_boundary = boundary_vertices(mesh);
+  for (const VertexId v : mesh.vertices()) {
+    if (on_boundary[v] != 0) arrays.points[v.index] = exact.points[v.index];
+  }
+  return arrays;
+}
+
+TEST(TetOptimize, MakesAllTetrahedraGoodAndKeepsTheBoundary) {
+  const TetMesh input = test::mesh_of(input_arrays());
+  TetMesh mesh = input;
+  const auto report = optimize(mesh);
+  ASSERT_TRUE(report);
+  const Quality before = quality(input), after = quality(mesh);
+  EXPECT_GT(before.orthocenters_outside, before.tetrahedra / 10);
+  EXPECT_EQ(after.orthocenters_outside, 0U);
+  EXPECT_EQ(mesh.validate(), std::nullopt);
+  EXPECT_LT(report->objective_after, report->objective_before);
+  const auto on_boundary = boundary_vertices(input);
+  std::size_t moved = 0;
+  for (const VertexId v : mesh.vertices()) {
+    if (on_boundary[v] != 0) {
+      EXPECT_EQ(mesh.position(v), input.position(v));
+    }
+    moved += mesh.position(v) == input.position(v) ? 0 : 1;
+  }
+  EXPECT_GT(moved, 20U);
+  const auto& history = report->history;
+  ASSERT_EQ(history.size(), std::size_t(report->sweeps) + 1);
+  for (std::size_t i = 1; i < history.size(); ++i) {  // energies of one γ fall
+    if (history[i].length_parameter == history[i - 1].length_parameter) {
+      EXPECT_LE(history[i].energy, history[i - 1].energy);
+    }
+  }
+}
+
+TEST(TetOptimize, EveryStepLowersTheEnergyOfItsStar) {
+  TetMesh mesh = test::mesh_of(input_arrays());
+  Sweeper sweeper(mesh);
+  std::vector<HalffaceId> halffaces;
+  for (const VertexId v : mesh.vertices()) {
+    collect_link(mesh, v, halffaces);
+    std::vector<LinkFace<double>> link;
+    for (const HalffaceId h : halffaces) link.push_back(link_face(mesh, h));
+    const WeightedPoint before = mesh.point(v);
+    sweeper.improve(v, {0.1, 1.7});
+    if (mesh.point(v) == before) continue;
+    EXPECT_LT(star_energy(link, mesh.point(v), 0.1), star_energy(link, before, 0.1));
+  }
+}
+
+/// Of a symmetric matrix with eigenvalues of both signs.
+PointDerivatives<double> saddle() {
+  PointDerivatives<double> d = {};
+  d.gradient = {{1, -2, 0.5}, 0.25};
+  d.hessian = {-3, 0.5, 0, 0.1, 2, 0.2, 0, 0.5, 0, 1};
+  return d;
+}
+
+TEST(TetOptimize, StepsGoDownhillWithinTheTrustRadiusAlongWhatMayChange) {
+  for (const double radius : {1e-3, 1.0, 1e3}) {
+    for (const Mobility mobility : {Mobility::none, Mobility::weight, Mobility::position, Mobility::free}) {
+      const PointDerivatives<double> d = saddle();
+      const auto [step, predicted] = newton_step(d, mobility, radius);
+      const double along = dot(d.gradient.at, Vector<double>{step.x, step.y, step.z}) + d.gradient.w * step.w;
+      EXPECT_NEAR(along, -predicted, 1e-12 * predicted);
+      EXPECT_EQ(predicted > 0, mobility != Mobility::none);
+      const double moved = length(step.position()) / radius, weighed = step.w / (radius * radius);
+      EXPECT_LE(moved * moved + weighed * weighed, 0.25 * (1 + 1e-12));
+      EXPECT_EQ(step.w == 0, mobility == Mobility::none || mobility == Mobility::position);
+      EXPECT_EQ(moved == 0, mobility == Mobility::none || mobility == Mobility::weight);
+    }
+  }
+}
+
+TEST(TetOptimize, PositionsOrWeightsStayWhenTheyAreKept) {
+  const TetMesh input = test::mesh_of(input_arrays());
+  TetMesh weighed = input, moved = input;
+  OptimizeOptions positions, weights;
+  positions.keep_positions = true, weights.keep_weights = true;
+  ASSERT_TRUE(optimize(weighed, positions));
+  ASSERT_TRUE(optimize(moved, weights));
+  EXPECT_NE(weighed, input);
+  EXPECT_NE(moved, input);
+  for (const VertexId v : input.vertices()) {
+    EXPECT_EQ(weighed.position(v), input.position(v));
+    EXPECT_EQ(moved.weight(v), input.weight(v));
+  }
+  weights.keep_positions = true;
+  EXPECT_FALSE(optimize(moved, weights));
+}
+
+TEST(TetOptimize, TaggedFacesAndLinesStay) {
+  const test::TetArrays arrays = input_arrays();
+  const TetMesh plain = test::mesh_of(arrays);
+  const auto on_boundary = boundary_vertices(plain);
+  const auto inside = [&](const auto& corners) {
+    return std::all_of(corners.begin(), corners.end(), [&](VertexId v) { return on_boundary[v] == 0; });
+  };
+  std::vector<std::array<std::int32_t, 3>> faces;
+  std::vector<std::array<std::int32_t, 2>> lines;
+  for (const HalffaceId h : plain.halffaces()) {
+    const auto corners = plain.vertices(h);
+    if (!inside(corners)) continue;
+    const auto at = [&](std::size_t k) { return static_cast<std::int32_t>(corners[k].index); };
+    if (faces.empty()) faces.push_back({at(0), at(1), at(2)});
+    const bool apart = std::none_of(corners.begin(), corners.end(), [&](VertexId v) {
+      return std::count(faces[0].begin(), faces[0].end(), static_cast<std::int32_t>(v.index)) > 0;
+    });
+    if (apart && lines.empty()) lines.push_back({at(0), at(1)});
+  }
+  ASSERT_EQ(lines.size(), 1U);
+  const std::vector<std::int32_t> tag = {1};
+  TetMeshInput in = arrays.input();
+  in.faces = faces, in.face_tags = tag, in.lines = lines, in.line_tags = tag;
+  const TetMesh input = test::built(in).mesh;
+  TetMesh mesh = input;
+  ASSERT_TRUE(optimize(mesh));
+  for (const std::int32_t p : {faces[0][0], faces[0][1], faces[0][2], lines[0][0], lines[0][1]}) {
+    const VertexId v(static_cast<std::size_t>(p));
+    EXPECT_EQ(mesh.position(v), input.position(v));
+    EXPECT_NE(mesh.weight(v), input.weight(v));
+  }
+}
+
+TEST(TetOptimize, KeepsInterfacesAndSinglePoints) {
+  const test::TetArrays arrays = input_arrays();
+  const TetMesh plain = test::mesh_of(arrays);
+  std::vector<VertexId> inside;
+  const auto on_boundary = boundary_vertices(plain);
+  for (const VertexId v : plain.vertices()) {
+    if (on_boundary[v] == 0) inside.push_back(v);
+  }
+  std::vector<std::int32_t> regions;
+  for (const TetId t : plain.tetrahedra()) {
+    double x = 0;
+    for (const VertexId v : plain.corners(t)) x += plain.position(v).x / 4;
+    regions.push_back(x < 1.5 ? 1 : 2);
+  }
+  const std::vector<std::int32_t> point = {static_cast<std::int32_t>(inside.front().index)}, tag = {7};
+  test::TetArrays copy = arrays;
+  TetMeshInput in = copy.input();
+  in.regions = regions, in.marked_points = point, in.point_tags = tag;
+  const TetMesh input = test::built(in).mesh;
+  TetMesh mesh = input;
+  ASSERT_TRUE(optimize(mesh));
+  std::size_t at_interface = 0;
+  for (const HalffaceId h : input.halffaces()) {
+    if (input.is_boundary(h)) continue;
+    if (input.region(TetMesh::tetrahedron(h)) == input.region(TetMesh::tetrahedron(input.twin(h)))) continue;
+    for (const VertexId v : input.vertices(h)) {
+      EXPECT_EQ(mesh.position(v), input.position(v));
+      ++at_interface;
+    }
+  }
+  EXPECT_GT(at_interface, 0U);
+  EXPECT_EQ(mesh.position(inside.front()), input.position(inside.front()));
+  EXPECT_NE(mesh, input);
+}
+
+TEST(TetOptimize, PointsThatListAllVerticesStayFree) {
+  test::TetArrays arrays = input_arrays();
+  TetMeshInput in = arrays.input();
+  std::vector<std::int32_t> all(arrays.points.size()), tags(arrays.points.size(), 1);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int32_t>(i);
+  in.marked_points = all, in.point_tags = tags;
+  EXPECT_EQ(mobilities(test::built(in).mesh), mobilities(test::mesh_of(arrays)));
+}
+
+TEST(TetOptimize, TheObserverAndTheClockStopARunWithAMeshThatIsNoWorse) {
+  const TetMesh input = test::mesh_of(input_arrays());
+  const std::size_t bad = quality(input).orthocenters_outside;
+  OptimizeHooks canceled, late;
+  int calls = 0;
+  canceled.observer = [&](const Progress&) { return ++calls < 3 ? Continue::yes : Continue::no; };
+  late.started = std::chrono::steady_clock::now() - std::chrono::hours(1);
+  for (const auto& [hooks, options, stopped] :
+       {std::tuple{canceled, OptimizeOptions{}, Stopped::canceled},
+        std::tuple{late, OptimizeOptions{1000, 60}, Stopped::time_limit},
+        std::tuple{OptimizeHooks{}, OptimizeOptions{2, 0}, Stopped::max_sweeps}}) {
+    TetMesh mesh = input;
+    const auto report = optimize(mesh, options, hooks);
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->stopped, stopped);
+    EXPECT_LE(report->sweeps, 2);
+    EXPECT_EQ(mesh.validate(), std::nullopt);
+    EXPECT_LE(quality(mesh).orthocenters_outside, bad);
+  }
+  // Sweeps of a large γ make a good mesh worse at first.
+  TetMesh good = input;
+  ASSERT_TRUE(optimize(good));
+  WeightedPoint p = good.point(VertexId(good.n_vertices() / 2));
+  p.w += 0.4;
+  good.set_point(VertexId(good.n_vertices() / 2), p);
+  const std::size_t few = quality(good).orthocenters_outside;
+  EXPECT_GT(few, 0U);
+  for (int sweeps = 1; sweeps < 4; ++sweeps) {
+    TetMesh mesh = good;
+    ASSERT_TRUE(optimize(mesh, {sweeps, 0}));
+    EXPECT_LE(quality(mesh).orthocenters_outside, few);
+  }
+  TetMesh mesh = input;
+  EXPECT_FALSE(optimize(mesh, {-1, 0}));
+  EXPECT_FALSE(optimize(mesh, {1, -1}));
+  EXPECT_EQ(mesh, input);
+}
+
+}  // namespace
+}  // namespace temper::tets
