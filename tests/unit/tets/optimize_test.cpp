@@ -52,7 +52,8 @@ TEST(TetOptimize, MakesAllTetrahedraGoodAndKeepsTheBoundary) {
 
 TEST(TetOptimize, EveryStepLowersTheEnergyOfItsStar) {
   TetMesh mesh = test::mesh_of(input_arrays());
-  Sweeper sweeper(mesh);
+  const auto mobility = mobilities(mesh);
+  Sweeper sweeper(mesh, mobility);
   std::vector<HalffaceId> halffaces;
   for (const VertexId v : mesh.vertices()) {
     collect_link(mesh, v, halffaces);
@@ -172,6 +173,39 @@ TEST(TetOptimize, KeepsInterfacesAndSinglePoints) {
   EXPECT_GT(at_interface, 0U);
   EXPECT_EQ(mesh.position(inside.front()), input.position(inside.front()));
   EXPECT_NE(mesh, input);
+}
+
+/// Corners of this cube have tetrahedra whose four corners are on the boundary.
+TEST(TetOptimize, VerticesAreInsertedWhereMovesAloneLeaveBadTetrahedra) {
+  const TetMesh input = test::mesh_of(test::shaken(test::cubes(2, test::kSixTets), 0.3, 0));
+  TetMesh moved = input, changed = input;
+  OptimizeOptions keep;
+  keep.keep_edges = true;
+  const auto before = optimize(moved, keep), report = optimize(changed);
+  ASSERT_TRUE(before && report);
+  EXPECT_GT(quality(moved).orthocenters_outside, 0U);
+  EXPECT_EQ(moved.corner_data().size(), input.corner_data().size());
+  EXPECT_TRUE(before->vertices.empty());
+  const Quality after = quality(changed);
+  EXPECT_EQ(after.orthocenters_outside, 0U);
+  EXPECT_EQ(changed.validate(), std::nullopt);
+  EXPECT_GT(report->vertices_inserted, 0U);
+  EXPECT_EQ(changed.n_vertices() + report->vertices_removed, input.n_vertices() + report->vertices_inserted);
+  ASSERT_EQ(report->vertices.size(), changed.n_vertices());
+  const auto on_boundary = boundary_vertices(input), still = boundary_vertices(changed);
+  std::size_t kept = 0;
+  for (const VertexId v : changed.vertices()) {
+    const VertexId was = report->vertices[v];
+    EXPECT_EQ(still[v] != 0, was.valid() && on_boundary[was] != 0);
+    if (still[v] == 0) continue;
+    EXPECT_EQ(changed.position(v), input.position(was));
+    ++kept;
+  }
+  EXPECT_EQ(kept, 26U);
+  EXPECT_EQ(after.boundary_faces, quality(input).boundary_faces);
+  TetMesh again = input;
+  ASSERT_TRUE(optimize(again));
+  EXPECT_EQ(again, changed);
 }
 
 TEST(TetOptimize, PointsThatListAllVerticesStayFree) {
