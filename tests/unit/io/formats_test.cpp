@@ -114,7 +114,7 @@ TEST_F(FileTest, MeshesOfTetgenAreRefusedWhereTrianglesAreExpected) {
             "not exist");
   EXPECT_EQ(
       refused("m.1.ele", "1 4 0\n1 1 2 3 4\n"),
-      "m.1.ele:2: has 1 tetrahedron; expected a mesh of triangles. Next: temper check and convert take tetrahedra");
+      "m.1.ele:2: has 1 tetrahedron; expected a mesh of triangles. Next: temper check, convert and optimize take tetrahedra");
   EXPECT_EQ(refused("m.1.ele", "1 3 0\n1 1 2 3\n"),
             "m.1.ele:1: has elements of 3 corners, and points of dimension 3; expected tetrahedra of 4");
 }
