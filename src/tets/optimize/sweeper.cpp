@@ -13,6 +13,23 @@ constexpr double kNoGain = 1e-15;
 // A step goes at most this part of the way to the first tetrahedron's inversion.
 constexpr double kInversionFraction = 0.9;
 
+// A step may not lower the shape of a tetrahedron, its volume over (Σ length²)^(3/2), below this part of the regular
+// one's; a worse shape may not fall at all. Else heights that no place makes positive would flatten the tetrahedra.
+constexpr double kLeastShape = 0.1;
+const double kRegularShape = 1 / std::sqrt(432.0);  // six volumes over this power of the lengths: 1/√2 over 6^(3/2)
+
+double shape(const LinkFace<double>& face, const WeightedPoint& p) {
+  const Apex<double> apex(face, {p.x, p.y, p.z}, p.w);
+  return apex.volume6 / (apex.length2 * std::sqrt(apex.length2));
+}
+
+bool keeps_shapes(std::span<const LinkFace<double>> link, const WeightedPoint& origin, const WeightedPoint& p) {
+  return std::all_of(link.begin(), link.end(), [&](const LinkFace<double>& face) {
+    const double now = shape(face, p);
+    return now >= kLeastShape * kRegularShape || now >= shape(face, origin);
+  });
+}
+
 /// Root mean square of the lengths of the spokes.
 double radius_of(std::span<const LinkFace<double>> link, const WeightedPoint& p) {
   double sum = 0;
@@ -106,7 +123,9 @@ WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> halfface
   for (int trial = 0; trial < kTrials; ++trial) {
     WeightedPoint p = along(origin, step, t);
     if (mobility == Mobility::weight) p = {origin.x, origin.y, origin.z, p.w};  // -0.0 + 0 is another zero
-    if (star_energy(link, p, parameters.gamma) < here.value && is_valid(mesh, halffaces, p, mobility)) return p;
+    if (star_energy(link, p, parameters.gamma) < here.value &&
+        (mobility == Mobility::weight || keeps_shapes(link, origin, p)) && is_valid(mesh, halffaces, p, mobility))
+      return p;
     t *= trial == 0 && parameters.relaxation > 1 ? 1 / parameters.relaxation : 0.5;
   }
   return origin;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "support/tet_lattice.hpp"
 #include "temper/tets/quality.hpp"
 #include "tets/optimize/sweeper.hpp"
@@ -138,6 +140,27 @@ TEST(TetOptimize, TaggedFacesAndLinesStay) {
     EXPECT_EQ(mesh.position(v), input.position(v));
     EXPECT_NE(mesh.weight(v), input.weight(v));
   }
+}
+
+TEST(TetOptimize, HeightsThatNoPlaceMakesPositiveFlattenNoTetrahedron) {
+  TetMesh mesh = test::mesh_of(test::shaken(test::cubes(3, test::kSixTets), 0.3, 0, 3));
+  const auto shape = [&mesh](TetId t) {
+    const auto [p, q, r, s] = mesh.points(t);
+    double length2 = 0;
+    for (const auto& [a, b] : {std::pair(p, q), {p, r}, {p, s}, {q, r}, {q, s}, {r, s}})
+      length2 += squared_length(a.position() - b.position());
+    return six_volumes(p.position(), q.position(), r.position(), s.position()) / std::pow(length2 / 6, 1.5) *
+           std::numbers::sqrt2;  // 1 for a regular one
+  };
+  std::vector<double> before;
+  for (const TetId t : mesh.tetrahedra()) before.push_back(shape(t));
+  const auto mobility = mobilities(mesh);
+  Sweeper sweeper(mesh, mobility);
+  for (int sweep = 0; sweep < 60; ++sweep) {
+    for (const VertexId v : mesh.vertices()) sweeper.improve(v, {0.0005, 1.7});
+  }
+  EXPECT_GT(quality(mesh).orthocenters_outside, 0U);
+  for (const TetId t : mesh.tetrahedra()) EXPECT_GE(shape(t), std::min(0.1, before[t.index]) * (1 - 1e-9));
 }
 
 TEST(TetOptimize, KeepsInterfacesAndSinglePoints) {

@@ -173,6 +173,25 @@ TEST(TetTopology, InterfacesAndTagsAreInNoCavity) {
   EXPECT_GT(refused, 0U);
 }
 
+TEST(TetTopology, AVertexOnATaggedLineIsInNoCavity) {
+  const test::TetArrays arrays = test::shaken(test::body_centered(2), 0, 0);
+  const TetMesh plain = test::mesh_of(arrays);
+  std::size_t inner = 0;
+  for (const VertexId v : plain.vertices()) {
+    if (!Cavities(plain).of_vertex(v)) continue;
+    ++inner;
+    const auto& corners = plain.corners(plain.incident(v));
+    const VertexId other = corners[0] == v ? corners[1] : corners[0];
+    const std::vector<std::array<std::int32_t, 2>> lines = {
+        {static_cast<std::int32_t>(v.index), static_cast<std::int32_t>(other.index)}};
+    const std::vector<std::int32_t> tag = {1};
+    TetMeshInput in = arrays.input();
+    in.lines = lines, in.line_tags = tag;
+    EXPECT_FALSE(Cavities(test::built(in).mesh).of_vertex(v));
+  }
+  EXPECT_GT(inner, 0U);
+}
+
 TEST(TetTopology, TagsAndRegionsOfOtherPartsStay) {
   const test::TetArrays arrays = test::shaken(test::body_centered(2), 0, 0);
   const TetMesh plain = test::mesh_of(arrays);
