@@ -1,6 +1,8 @@
 // Public meshes that nobody here made, read in place where they are: each ends well-centered with default options.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <ostream>
@@ -10,6 +12,9 @@
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
+#include "temper/tets/io.hpp"
+#include "temper/tets/optimize.hpp"
+#include "temper/tets/quality.hpp"
 
 namespace temper::test {
 namespace {
@@ -77,6 +82,59 @@ TEST_P(PublicMeshes, EndWellCenteredWithTheirBoundaryAndInterfacesBitForBit) {
 
 INSTANTIATE_TEST_SUITE_P(All, PublicMeshes, testing::ValuesIn(kMeshes), [](const auto& mesh) {
   std::string name = mesh.param.file;
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  }
+  return name;
+});
+
+// --- tetrahedra ------------------------------------------------------------------------------------------------
+
+/// Meshes that end without bad tetrahedra. perfusion_micro3d, cut-cylinder and cylinder_in_box do not yet.
+constexpr const char* kTets[] = {
+    "sfepy_cube_medium_tetra.mesh", "sfepy_cube_sphere.mesh", "sfepy_cylinder.mesh", "sfepy_elbow.mesh",
+    "sfepy_msh_tetra.msh",          "sfepy_unit_ball.mesh",   "skfem_beams.msh",     "skfem_box.msh",
+    "skfem_cube_oriented_sub.msh",  "skfem_cuubat.msh"};
+
+class PublicTets : public testing::TestWithParam<const char*> {};
+
+TEST_P(PublicTets, EndWellCenteredWithTheirBoundaryAndInterfacesBitForBit) {
+  const std::string path = std::string(TEMPER_SHARED "/tets/") + GetParam();
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  const auto file = io::read_any(path);
+  ASSERT_TRUE(file) << file.error().what();
+  const auto loaded = io::make_mesh(std::get<io::TetFile>(*file));
+  ASSERT_TRUE(loaded) << loaded.error().what();
+  const tets::TetMesh& before = loaded->mesh;
+  tets::TetMesh mesh = before;
+  const auto report = optimize(mesh);
+  ASSERT_TRUE(report) << report.error().what();
+  const tets::Quality q = tets::quality(mesh);
+  EXPECT_EQ(q.orthocenters_outside, 0u);
+  EXPECT_EQ(q.non_regular_faces, 0u);
+  EXPECT_EQ(mesh.validate(), std::nullopt);
+
+  // The faces that must stay, by the places of their corners, sorted.
+  const auto faces_of = [](const tets::TetMesh& m) {
+    std::vector<std::array<std::array<double, 3>, 3>> all;
+    for (const tets::HalffaceId h : m.halffaces()) {
+      const bool inner = !m.is_boundary(h);
+      if (inner && m.region(tets::TetMesh::tetrahedron(h)) == m.region(tets::TetMesh::tetrahedron(m.twin(h)))) continue;
+      auto& face = all.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 p = m.position(m.vertices(h)[k]);
+        face[k] = {p.x, p.y, p.z};
+      }
+      std::sort(face.begin(), face.end());
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  EXPECT_EQ(faces_of(mesh), faces_of(before));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PublicTets, testing::ValuesIn(kTets), [](const auto& mesh) {
+  std::string name = mesh.param;
   for (char& c : name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
   }

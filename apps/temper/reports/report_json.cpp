@@ -210,6 +210,9 @@ std::string optimize_json(const TetOptimizeRecord& record) {
   Json json = begin_report(record);
   json["objective_before"] = number_or_null(record.report.objective_before);
   json["objective_after"] = number_or_null(record.report.objective_after);
+  json["vertices_removed"] = record.report.vertices_removed;
+  json["vertices_inserted"] = record.report.vertices_inserted;
+  json["flips"] = record.report.flips;
   json["data"] = to_json(record.data, "tetrahedra");
   return end_report(std::move(json), record);
 }

@@ -219,15 +219,8 @@ void find_vertices(OptimizeSettings& s, const Input& input) {
   }
 }
 
-std::string work_done(const OptimizeReport& report) {
-  std::string work =
-      fmt::format("{} in {:.3g} s, {}", plural(static_cast<std::size_t>(report.sweeps), "sweep", "sweeps"),
-                  report.seconds, plural(report.flips, "flip", "flips"));
-  const auto add_vertices = [&work](std::size_t n, const char* what) {
-    if (n > 0) work += fmt::format(", {} {}", plural(n, "vertex", "vertices"), what);
-  };
-  add_vertices(report.vertices_removed, "removed");
-  add_vertices(report.vertices_inserted, "inserted");
+std::string ending_of(const OptimizeReport& report) {
+  std::string work = work_done(report);
   if (report.objective == Objective::solver_error && std::isfinite(report.objective_before))
     work += fmt::format("; solver error {:.3g} times the input's", report.objective_after / report.objective_before);
   return ending(report.stopped) + work;
@@ -289,7 +282,7 @@ void print_result(const OptimizeSettings& s, const RunResults& results, const Ou
   if (s.details) print_details(s, results);
   if (!results.errors_text.empty()) print("\n" + results.errors_text + "\n");
   const std::size_t notes = s.details ? 0 : results.report.notes.size();
-  print(work_done(results.report) +
+  print(ending_of(results.report) +
         (notes == 0 ? "\n" : fmt::format("; --details has {}\n", plural(notes, "note", "notes"))));
   std::string written;
   for (const std::string& path : outputs.written()) written += (written.empty() ? "wrote " : ", ") + path;

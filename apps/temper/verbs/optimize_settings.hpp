@@ -1,12 +1,15 @@
 // The options of temper optimize, and the settings that follow from them.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "console.hpp"
 #include "files/outputs.hpp"
 #include "files/problem_options.hpp"
 #include "files/tensor_option.hpp"
@@ -58,6 +61,19 @@ void take_input(Command& command, OptimizeSettings& settings);
 /// Finds the options that follow from the command line and the options file. Failure if they contradict each other.
 void settle_options(Command& command, OptimizeSettings& settings);
 
+/// "12 sweeps in 0.3 s, 4 flips, 2 vertices inserted".
+template <class Report>
+[[nodiscard]] std::string work_done(const Report& report) {
+  std::string work =
+      fmt::format("{} in {:.3g} s, {}", plural(static_cast<std::size_t>(report.sweeps), "sweep", "sweeps"),
+                  report.seconds, plural(report.flips, "flip", "flips"));
+  const auto add_vertices = [&work](std::size_t n, const char* what) {
+    if (n > 0) work += fmt::format(", {} {}", plural(n, "vertex", "vertices"), what);
+  };
+  add_vertices(report.vertices_removed, "removed");
+  add_vertices(report.vertices_inserted, "inserted");
+  return work;
+}
 /// "converged after ", to be followed by the work that was done.
 [[nodiscard]] std::string ending(Stopped stopped);
 

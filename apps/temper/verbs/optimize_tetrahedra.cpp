@@ -24,8 +24,8 @@ namespace {
 
 /// The options that have a meaning for tetrahedra. All others are refused by name.
 constexpr auto kOptions = std::to_array<std::string_view>(
-    {"IN", "--output", "--format", "--encoding", "--keep", "--boundary", "--require", "--time-limit", "--write",
-     "--set", "--options", "--details", "--quiet", "--point-data", "--threads"});
+    {"IN", "--output", "--format", "--encoding", "--effort", "--keep", "--boundary", "--require", "--time-limit",
+     "--write", "--set", "--options", "--details", "--quiet", "--point-data", "--threads"});
 /// The rows of the table that have one. The boundary stays.
 constexpr auto kRows = std::to_array<std::string_view>({"max_sweeps", "time_limit", "unknowns", "boundary"});
 constexpr auto kKept = std::to_array<std::string_view>({"positions", "weights", "edges", "boundary"});
@@ -41,7 +41,7 @@ void refuse_options(const Command& command, const OptimizeSettings& s) {
   };
   for (const Option& option : command.options()) {
     const std::string name = long_name(option.names);
-    const bool is_default = (name == "--for" && s.target == "any") || (name == "--effort" && s.effort == "normal");
+    const bool is_default = name == "--for" && s.target == "any";
     refuse(!option.given.empty() && !is_default && !has(kOptions, name), name);
   }
   for (const Assignment& a : s.assignments) {
@@ -56,10 +56,19 @@ void refuse_options(const Command& command, const OptimizeSettings& s) {
     refuse(!path.empty(), fmt::format("--write {}, {},", path, what));
 }
 
+/// The changes that an effort tries. "quick" moves vertices alone.
+struct Effort {
+  std::string_view name;
+  int repair_trials;
+};
+constexpr Effort kEfforts[] = {{"quick", 0}, {"normal", tets::OptimizeOptions().repair_trials}, {"high", 1000}};
+
 tets::OptimizeOptions options_of(const OptimizeSettings& s) {
   tets::OptimizeOptions options;
   options.keep_positions = s.options.unknowns == Unknowns::weights;
   options.keep_weights = s.options.unknowns == Unknowns::positions;
+  options.repair_trials = std::ranges::find(kEfforts, s.effort, &Effort::name)->repair_trials;
+  options.keep_edges = s.options.flips == Flips::none || options.repair_trials == 0;
   options.max_sweeps = s.options.max_sweeps;
   options.time_limit = s.options.time_limit;
   return options;
@@ -68,6 +77,8 @@ tets::OptimizeOptions options_of(const OptimizeSettings& s) {
 std::string settings_json(const tets::OptimizeOptions& options) {
   return nlohmann::ordered_json({{"keep_positions", options.keep_positions},
                                  {"keep_weights", options.keep_weights},
+                                 {"keep_edges", options.keep_edges},
+                                 {"repair_trials", options.repair_trials},
                                  {"max_sweeps", options.max_sweeps},
                                  {"time_limit", options.time_limit}})
       .dump();
@@ -121,7 +132,7 @@ class TetRun {
   /// Writes the mesh first, as it took the most time.
   void write() {
     const std::size_t known = input_.file.warnings.size();
-    data_ = io::update(input_.file, input_.loaded, mesh_, {}, {rules_, threads_});
+    data_ = io::update(input_.file, input_.loaded, mesh_, report_.vertices, {rules_, threads_});
     warn(std::span(input_.file.warnings).subspan(known));
     warn(outputs_.write_mesh(s_.output, input_.file, threads_));
     if (!s_.files.report.empty())
@@ -134,8 +145,7 @@ class TetRun {
   void print_result() const {
     print(brief_text(before_, after_));
     if (s_.details) print_details();
-    print(fmt::format("{}{} in {:.3g} s\n", ending(report_.stopped),
-                      plural(static_cast<std::size_t>(report_.sweeps), "sweep", "sweeps"), report_.seconds));
+    print(fmt::format("{}{}\n", ending(report_.stopped), work_done(report_)));
     print(fmt::format("wrote {}\n", fmt::join(outputs_.written(), ", ")));
     if (after_.orthocenters_outside > 0 && s_.output.path != kStandardOutput)
       print(fmt::format("Next: {} --details\n", command_line("check", s_.output.path, {})));

@@ -2,7 +2,8 @@
 // of which takes its own Newton step in (x, y, z, w).
 //
 // The energy keeps the orthocenter of each tetrahedron inside (src/tets/energy/star_kernel.hpp). Its γ shrinks from
-// sweep to sweep, so that bad tetrahedra can first get better and then become good.
+// sweep to sweep, so that bad tetrahedra can first get better and then become good. Where some stay bad, cavities are
+// filled in other ways (src/tets/topology/cavity.hpp).
 #pragma once
 
 #include <chrono>
@@ -19,6 +20,8 @@ struct OptimizeOptions {
   double time_limit = 0;        ///< Time limit of the whole run [s]; 0: none
   bool keep_positions = false;  ///< All vertices stay, and only weights change
   bool keep_weights = false;    ///< All weights stay, and only positions change
+  bool keep_edges = false;      ///< The connectivity stays: no flips, no new vertices
+  int repair_trials = 100;      ///< Largest number of changes that are tried one by one, after those at once
 };
 
 struct OptimizeHooks {
@@ -33,18 +36,24 @@ struct OptimizeReport {
   double seconds = 0;           ///< Time of the optimization alone [s]
   double objective_before = 0;  ///< Energy of the input, at the least γ
   double objective_after = 0;
+  std::size_t vertices_inserted = 0, vertices_removed = 0;
+  std::size_t flips = 0;  ///< Changes of connectivity without a new or removed vertex
+  /// Number of each vertex in the input, invalid for new ones. Empty: all are the input's.
+  IdVector<VertexId, VertexId> vertices;
   std::vector<SweepRecord> history;  ///< History of the sweeps; history[0] is the input
 };
 
-/// Improves the mesh in place. The connectivity stays. Weights change everywhere. These vertices keep their position,
-/// bit for bit:
+/// Improves the mesh in place. Weights change everywhere. Connectivity changes only around tetrahedra that moves alone
+/// leave bad, by flips and by vertices that are inserted or removed; not if positions, weights or edges are kept. The
+/// boundary, faces between regions, and tagged faces and lines keep their connectivity, and these vertices their
+/// position, bit for bit:
 ///   - on the boundary, and on faces between regions
 ///   - of tagged faces and lines
 ///   - marked points, unless marks list all corners of a tetrahedron
 ///
 /// Every tetrahedron stays positive. The result never has more tetrahedra with outside orthocenters than the input.
-/// Wrong options (max_sweeps < 0, time_limit < 0, positions and weights both kept) are an error, which leaves the mesh
-/// unchanged. O(sweeps · n).
+/// Wrong options (numbers < 0, positions and weights both kept) are an error, which leaves the mesh unchanged.
+/// O((sweeps + changes) · n).
 [[nodiscard]] Expected<OptimizeReport> optimize(TetMesh& mesh, const OptimizeOptions& options = {},
                                                 const OptimizeHooks& hooks = {});
 

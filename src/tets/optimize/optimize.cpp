@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "tets/optimize/repair.hpp"
 #include "tets/optimize/sweeper.hpp"
 #include "tets/quality/measure.hpp"
 
@@ -20,6 +21,14 @@ constexpr double kRelaxation = 1.7;
 // At the last γ the run ends when a sweep lowers the energy by less than this part of it, or after so many sweeps.
 constexpr double kTolerance = 1e-4;
 constexpr int kLastSweeps = 100;
+// Sweeps after changes of connectivity: within so many rings of tetrahedra, from γ to γ, in steps of kGammaFactor, with
+// so many sweeps at each and at the last one. The last γ is smaller than in a whole mesh: some tetrahedra are good only
+// by a margin of 0.001.
+constexpr int kRings = 2, kRingsOfTrial = 3;
+constexpr double kFirstLocalGamma = 0.3, kLastLocalGamma = 0.0005;
+constexpr int kLocalSweeps = 2, kLastLocalSweeps = 10;
+// Rounds end after so many without fewer bad tetrahedra, trials after so many.
+constexpr int kRoundsInVain = 4, kTrialsInVain = 40;
 // Vertices between two looks at the clock.
 constexpr std::size_t kVerticesPerLook = 1024;
 
@@ -53,6 +62,10 @@ std::optional<InputError> wrong_option(const OptimizeOptions& options) {
         ErrorCode::invalid_option, {}, "max_sweeps: expected at least 0, found " + std::to_string(options.max_sweeps)};
   if (options.keep_positions && options.keep_weights)
     return InputError{ErrorCode::invalid_option, {}, "positions and weights are both to be kept; expected one"};
+  if (options.repair_trials < 0)
+    return InputError{ErrorCode::invalid_option,
+                      {},
+                      "repair_trials: expected at least 0, found " + std::to_string(options.repair_trials)};
   if (!(options.time_limit >= 0))
     return InputError{
         ErrorCode::invalid_option, {}, "time_limit: expected at least 0, found " + to_text(options.time_limit)};
@@ -62,25 +75,129 @@ std::optional<InputError> wrong_option(const OptimizeOptions& options) {
 class Run {
  public:
   Run(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks)
-      : mesh_(mesh), options_(options), hooks_(hooks), sweeper_(mesh, options) {}
+      : mesh_(mesh), options_(options), hooks_(hooks), of_input_(mobilities(mesh, options)), mobility_(of_input_) {
+    for (const VertexId v : mesh.vertices()) changes_.vertices.push_back(v);
+  }
 
   OptimizeReport run() {
     report_.objective_before = total_energy(mesh_, kLastGamma);
     record();
-    for (double gamma = best_bad_ == 0 ? kLastGamma : kFirstGamma; gamma > kLastGamma; gamma *= kGammaFactor) {
-      for (int i = 0; i < kLevelSweeps; ++i) {
-        if (!sweep(gamma)) return end();
-      }
-    }
-    for (int i = 0; i < kLastSweeps; ++i) {
-      if (!sweep(kLastGamma)) return end();
-      const auto last = report_.history.end() - 1;
-      if (i > 0 && (last - 1)->energy - last->energy <= kTolerance * last->energy) break;
-    }
+    const bool repairs = !options_.keep_positions && !options_.keep_weights && !options_.keep_edges;
+    if (anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma, kLevelSweeps, kLastSweeps) && repairs) repair();
     return end();
   }
 
  private:
+  /// Sweeps along the schedule of γ. False: the run must end.
+  bool anneal(double first_gamma, int level_sweeps, int last_sweeps) {
+    for (double gamma = first_gamma; gamma > kLastGamma; gamma *= kGammaFactor) {
+      for (int i = 0; i < level_sweeps; ++i) {
+        if (!sweep(gamma)) return false;
+      }
+    }
+    for (int i = 0; i < last_sweeps; ++i) {
+      if (!sweep(kLastGamma)) return false;
+      const auto last = report_.history.end() - 1;
+      if (i > 0 && (last - 1)->energy - last->energy <= kTolerance * last->energy) break;
+    }
+    return true;
+  }
+
+  /// Changes the connectivity at bad tetrahedra: first at all of them at once, then, from the best mesh, at one after
+  /// the other.
+  void repair() {
+    for (int in_vain = 0; best_bad_ > 0 && in_vain < kRoundsInVain;) {
+      const std::size_t before = best_bad_;
+      if (!change(search_repairs(bad_tetrahedra(), kAllowance, 0), kRings)) break;
+      in_vain = best_bad_ < before ? 0 : in_vain + 1;
+    }
+    int in_vain = 0;
+    for (int trial = 0; trial < options_.repair_trials && in_vain < kTrialsInVain; ++trial) {
+      if (best_bad_ == 0 || report_.stopped != Stopped::converged) break;
+      const std::size_t before = best_bad_, k = static_cast<std::size_t>(in_vain);
+      go_back_to_best();
+      const std::vector<TetId> bad = bad_tetrahedra();
+      change(search_repairs({bad[k % bad.size()]}, kAllowanceOfTrial, k / bad.size()), kRingsOfTrial);
+      in_vain = best_bad_ < before ? 0 : in_vain + 1;
+    }
+  }
+  std::vector<Filling> search_repairs(const std::vector<TetId>& bad, double allowance, std::size_t rank) {
+    return repairs(mesh_, bad, mobility_, {allowance, rank, [this] { return is_stopped(0); }});
+  }
+  [[nodiscard]] std::vector<TetId> bad_tetrahedra() const {
+    std::vector<TetId> bad;
+    for (const TetId t : mesh_.tetrahedra()) {
+      if (is_bad(mesh_, t)) bad.push_back(t);
+    }
+    return bad;
+  }
+  void go_back_to_best() {
+    mesh_ = best_;
+    changes_ = best_changes_;
+    number_mobility();
+  }
+  void number_mobility() {
+    mobility_.clear();
+    for (const VertexId v : changes_.vertices) mobility_.push_back(v.valid() ? of_input_[v] : Mobility::free);
+  }
+
+  /// Fills cavities and improves the vertices around them, which counts as one sweep. False: there was nothing to do,
+  /// or the run must end.
+  bool change(const std::vector<Filling>& fillings, int rings) {
+    if (fillings.empty() || stopped_early(report_.stopped)) return false;
+    if (report_.sweeps == options_.max_sweeps) {
+      report_.stopped = Stopped::max_sweeps;
+      return false;
+    }
+    const std::vector<VertexId> near = fill(fillings, rings);
+    Sweeper sweeper(mesh_, mobility_);
+    std::size_t steps = 0;
+    for (double gamma = kFirstLocalGamma;; gamma = std::max(gamma * kGammaFactor, kLastLocalGamma)) {
+      const bool last = gamma == kLastLocalGamma;
+      for (int i = 0; i < (last ? kLastLocalSweeps : kLocalSweeps); ++i) {
+        for (const VertexId v : near) {
+          if (steps++ % kVerticesPerLook == 0 && is_stopped(0)) return false;
+          sweeper.improve(v, {gamma, kRelaxation});
+        }
+      }
+      if (last) break;
+    }
+    gamma_ = kLastGamma;
+    ++report_.sweeps;
+    record();
+    return true;
+  }
+  /// Fills cavities. Returns the vertices at most so many rings from them.
+  std::vector<VertexId> fill(const std::vector<Filling>& fillings, int rings) {
+    IdVector<VertexId, std::uint8_t> near(mesh_.n_vertices()), removed(mesh_.n_vertices());
+    for (const Filling& f : fillings) {
+      for (const TetId t : f.cavity.tetrahedra) {
+        for (const VertexId v : mesh_.corners(t)) near[v] = 1;
+      }
+      if (f.removed.valid()) removed[f.removed] = 1;
+      changes_.flips += f.apex.valid() && !f.removed.valid() ? 1 : 0;
+    }
+    for (int ring = 0; ring < rings; ++ring) {
+      const auto inner = near;
+      for (const TetId t : mesh_.tetrahedra()) {
+        const auto& corners = mesh_.corners(t);
+        if (std::none_of(corners.begin(), corners.end(), [&](VertexId v) { return inner[v] != 0; })) continue;
+        for (const VertexId v : corners) near[v] = 1;
+      }
+    }
+    std::vector<VertexId> result;
+    std::size_t next = 0;  // the number of a vertex in the next mesh
+    for (const VertexId v : mesh_.vertices()) {
+      if (removed[v] != 0) continue;
+      if (near[v] != 0) result.emplace_back(next);
+      ++next;
+    }
+    mesh_ = filled(mesh_, fillings, changes_.vertices);
+    number_mobility();
+    for (; next < mesh_.n_vertices(); ++next) result.emplace_back(next);
+    return result;
+  }
+
   using Clock = std::chrono::steady_clock;
   [[nodiscard]] static double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -93,9 +210,10 @@ class Run {
       return false;
     }
     gamma_ = gamma;
+    Sweeper sweeper(mesh_, mobility_);
     for (const VertexId v : mesh_.vertices()) {
       if (v.index % kVerticesPerLook == 0 && is_stopped(double(v.index) / double(mesh_.n_vertices()))) break;
-      sweeper_.improve(v, {gamma, kRelaxation});
+      sweeper.improve(v, {gamma, kRelaxation});
     }
     if (!stopped_early(report_.stopped)) ++report_.sweeps;
     record();
@@ -117,8 +235,8 @@ class Run {
     const std::size_t bad = count_bad(mesh_);
     if (report_.history.empty() || bad <= best_bad_) {
       best_bad_ = bad;
-      best_.clear();
-      for (const VertexId v : mesh_.vertices()) best_.push_back(mesh_.point(v));
+      best_ = mesh_;
+      best_changes_ = changes_;
     }
     if (stopped_early(report_.stopped)) return;
     SweepRecord now;
@@ -131,23 +249,40 @@ class Run {
   }
 
   OptimizeReport end() {
-    for (const VertexId v : mesh_.vertices()) mesh_.set_point(v, best_[v.index]);
+    mesh_ = std::move(best_);
+    report_changes();
     report_.objective_after = total_energy(mesh_, kLastGamma);
     report_.seconds = seconds_since(start_);
     return std::move(report_);
   }
 
+  void report_changes() {
+    IdVector<VertexId, VertexId>& vertices = best_changes_.vertices;
+    const auto kept =
+        static_cast<std::size_t>(std::count_if(vertices.begin(), vertices.end(), [](VertexId v) { return v.valid(); }));
+    report_.vertices_inserted = vertices.size() - kept;
+    report_.vertices_removed = of_input_.size() - kept;
+    report_.flips = best_changes_.flips;
+    if (report_.vertices_inserted + report_.vertices_removed > 0) report_.vertices = std::move(vertices);
+  }
+
   TetMesh& mesh_;
   const OptimizeOptions& options_;
   const OptimizeHooks& hooks_;
-  Sweeper sweeper_;
+  IdVector<VertexId, Mobility> of_input_, mobility_;
+  /// What has changed since the input: the numbers that the vertices had there, and flips.
+  struct Changes {
+    IdVector<VertexId, VertexId> vertices;
+    std::size_t flips = 0;
+  };
+  Changes changes_, best_changes_;
   Clock::time_point start_ = Clock::now();
   // What reading took, writing will take, too: both are parts of the limit.
   double seconds_before_ = std::chrono::duration<double>(start_ - hooks_.started.value_or(start_)).count();
   OptimizeReport report_;
   double gamma_ = kFirstGamma;
   std::size_t best_bad_ = 0;
-  std::vector<WeightedPoint> best_;
+  TetMesh best_;
 };
 
 }  // namespace

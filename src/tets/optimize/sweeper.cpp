@@ -13,6 +13,23 @@ constexpr double kNoGain = 1e-15;
 // A step goes at most this part of the way to the first tetrahedron's inversion.
 constexpr double kInversionFraction = 0.9;
 
+// A step may not lower the shape of a tetrahedron, its volume over (Σ length²)^(3/2), below this part of the regular
+// one's; a worse shape may not fall at all. Else heights that no place makes positive would flatten the tetrahedra.
+constexpr double kLeastShape = 0.1;
+const double kRegularShape = 1 / std::sqrt(432.0);  // six volumes over this power of the lengths: 1/√2 over 6^(3/2)
+
+double shape(const LinkFace<double>& face, const WeightedPoint& p) {
+  const Apex<double> apex(face, {p.x, p.y, p.z}, p.w);
+  return apex.volume6 / (apex.length2 * std::sqrt(apex.length2));
+}
+
+bool keeps_shapes(std::span<const LinkFace<double>> link, const WeightedPoint& origin, const WeightedPoint& p) {
+  return std::all_of(link.begin(), link.end(), [&](const LinkFace<double>& face) {
+    const double now = shape(face, p);
+    return now >= kLeastShape * kRegularShape || now >= shape(face, origin);
+  });
+}
+
 /// Root mean square of the lengths of the spokes.
 double radius_of(std::span<const LinkFace<double>> link, const WeightedPoint& p) {
   double sum = 0;
@@ -66,10 +83,12 @@ IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptio
   return all;
 }
 
-/// Signed volumes are linear along a step.
-double Sweeper::farthest(const WeightedPoint& origin, const WeightedPoint& step) const {
+namespace {
+
+/// How much of a step goes before the first tetrahedron is nearly flat. Signed volumes are linear along a step.
+double farthest(std::span<const LinkFace<double>> link, const WeightedPoint& origin, const WeightedPoint& step) {
   double limit = 1;
-  for (const LinkFace<double>& face : link_) {
+  for (const LinkFace<double>& face : link) {
     const double volume = dot(face.normal, Vector<double>{origin.x, origin.y, origin.z} - face.origin);
     const double slope = dot(face.normal, Vector<double>{step.x, step.y, step.z});
     if (volume + limit * slope < (1 - kInversionFraction) * volume) limit = -kInversionFraction * volume / slope;
@@ -78,37 +97,44 @@ double Sweeper::farthest(const WeightedPoint& origin, const WeightedPoint& step)
 }
 
 /// Says whether all tetrahedra with p are positive, and the predicates exact for p.
-bool Sweeper::is_valid(const WeightedPoint& p, Mobility mobility) const {
+bool is_valid(const TetMesh& mesh, std::span<const HalffaceId> link, const WeightedPoint& p, Mobility mobility) {
   if (!is_exact_weight(p.w)) return false;
   if (mobility == Mobility::weight) return true;
   if (!is_exact_coordinate(p.x) || !is_exact_coordinate(p.y) || !is_exact_coordinate(p.z)) return false;
-  return std::all_of(halffaces_.begin(), halffaces_.end(), [&](HalffaceId h) {
-    const auto [q, r, s] = mesh_.vertices(h);
-    return orientation(mesh_.position(q), mesh_.position(r), mesh_.position(s), p.position()) == Sign::positive;
+  return std::all_of(link.begin(), link.end(), [&](HalffaceId h) {
+    const auto [q, r, s] = mesh.vertices(h);
+    return orientation(mesh.position(q), mesh.position(r), mesh.position(s), p.position()) == Sign::positive;
   });
 }
 
-void Sweeper::improve(VertexId v, const Parameters& parameters) {
-  if (mobility_[v] == Mobility::none) return;
-  collect_link(mesh_, v, halffaces_);
-  link_.clear();
-  for (const HalffaceId h : halffaces_) link_.push_back(link_face(mesh_, h));
-  const WeightedPoint origin = mesh_.point(v);
-  const PointDerivatives<double> here = star_derivatives(link_, origin, parameters.gamma);
-  if (!std::isfinite(here.value)) return;
-  auto [step, predicted] = newton_step(here, mobility_[v], radius_of(link_, origin));
-  if (!(predicted > kNoGain * here.value)) return;
+}  // namespace
+
+WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> halffaces, const WeightedPoint& origin,
+                       Mobility mobility, const SweepParameters& parameters) {
+  thread_local std::vector<LinkFace<double>> link;
+  link.clear();
+  for (const HalffaceId h : halffaces) link.push_back(link_face(mesh, h));
+  const PointDerivatives<double> here = star_derivatives(link, origin, parameters.gamma);
+  if (!std::isfinite(here.value)) return origin;
+  auto [step, predicted] = newton_step(here, mobility, radius_of(link, origin));
+  if (!(predicted > kNoGain * here.value)) return origin;
   step = along({}, step, parameters.relaxation);
-  double t = farthest(origin, step);
+  double t = farthest(link, origin, step);
   for (int trial = 0; trial < kTrials; ++trial) {
-    const WeightedPoint p = along(origin, step, t);
-    if (star_energy(link_, p, parameters.gamma) < here.value && is_valid(p, mobility_[v])) {
-      // Zero steps may still change the sign of a zero.
-      mesh_.set_point(v, mobility_[v] == Mobility::weight ? WeightedPoint{origin.x, origin.y, origin.z, p.w} : p);
-      return;
-    }
+    WeightedPoint p = along(origin, step, t);
+    if (mobility == Mobility::weight) p = {origin.x, origin.y, origin.z, p.w};  // -0.0 + 0 is another zero
+    if (star_energy(link, p, parameters.gamma) < here.value &&
+        (mobility == Mobility::weight || keeps_shapes(link, origin, p)) && is_valid(mesh, halffaces, p, mobility))
+      return p;
     t *= trial == 0 && parameters.relaxation > 1 ? 1 / parameters.relaxation : 0.5;
   }
+  return origin;
+}
+
+void Sweeper::improve(VertexId v, const SweepParameters& parameters) {
+  if (mobility_[v] == Mobility::none) return;
+  collect_link(mesh_, v, link_);
+  mesh_.set_point(v, improved(mesh_, link_, mesh_.point(v), mobility_[v], parameters));
 }
 
 }  // namespace temper::tets

@@ -12,28 +12,28 @@ namespace temper::tets {
 /// What of each vertex may change. Positions stay on the boundary, between regions, and at tags of any kind.
 [[nodiscard]] IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptions& options = {});
 
+/// Parameters of one sweep.
+struct SweepParameters {
+  double gamma = 1;
+  double relaxation = 1;  ///< factor of Newton steps; a longer step is taken only if the energy falls
+};
+
+/// Takes one Newton step of p among the faces of its link: over-relaxed, then plain, then halved, until the energy
+/// falls. Otherwise p stays as it was. All tetrahedra stay positive, exactly.
+[[nodiscard]] WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> link, const WeightedPoint& p,
+                                     Mobility mobility, const SweepParameters& parameters);
+
 class Sweeper {
  public:
-  explicit Sweeper(TetMesh& mesh, const OptimizeOptions& options = {})
-      : mesh_(mesh), mobility_(mobilities(mesh, options)) {}
+  Sweeper(TetMesh& mesh, const IdVector<VertexId, Mobility>& mobility) : mesh_(mesh), mobility_(mobility) {}
 
-  /// Parameters of one sweep.
-  struct Parameters {
-    double gamma = 1;
-    double relaxation = 1;  ///< factor of Newton steps; a longer step is taken only if the energy falls
-  };
-  /// Improves v: takes a Newton step, over-relaxed, then plain, then halved, until the energy of the star falls. No
-  /// tetrahedron becomes flat or negative, by the exact predicate. Otherwise v stays as it was.
-  void improve(VertexId v, const Parameters& parameters);
+  /// Improves v by one step. No tetrahedron becomes flat or negative, by the exact predicate.
+  void improve(VertexId v, const SweepParameters& parameters);
 
  private:
-  [[nodiscard]] double farthest(const WeightedPoint& origin, const WeightedPoint& step) const;
-  [[nodiscard]] bool is_valid(const WeightedPoint& p, Mobility mobility) const;
-
   TetMesh& mesh_;
-  IdVector<VertexId, Mobility> mobility_;
-  std::vector<HalffaceId> halffaces_;  // of the link of the present vertex
-  std::vector<LinkFace<double>> link_;
+  const IdVector<VertexId, Mobility>& mobility_;
+  std::vector<HalffaceId> link_;  // of the present vertex
 };
 
 }  // namespace temper::tets

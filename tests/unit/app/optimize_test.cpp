@@ -2,7 +2,10 @@
 #include "temper/optimize.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <sstream>
+#include <thread>
 
 #include "support/tet_lattice.hpp"
 #include "temper/detail/optimize_table.hpp"
@@ -461,8 +464,8 @@ TEST_F(Optimize, NamesWhatIsWrongWithASizeField) {
 // --- tetrahedra ------------------------------------------------------------------------------------------------
 
 /// A body-centered lattice with inner vertices off their places, two physical parts of its boundary, and data.
-io::TetFile lattice_file() {
-  const TetArrays exact = body_centered(3);
+io::TetFile lattice_file(int n = 3) {
+  const TetArrays exact = body_centered(n);
   TetArrays moved = shaken(exact, 0.18, 0);
   const tets::TetMesh mesh = mesh_of(exact);
   const auto on_boundary = tets::boundary_vertices(mesh);
@@ -564,6 +567,18 @@ TEST_F(OptimizeTetrahedra, ATimeLimitWritesTheBestMeshAndExitsWith4) {
   EXPECT_TRUE(contains(outcome.out, "stopped early by --time-limit after 0 sweeps"));
   EXPECT_EQ(read_json("r.json")["stopped"], "time_limit");
   EXPECT_EQ(tets("out.vtu").points, tets("in.vtu").points);
+}
+
+TEST_F(OptimizeTetrahedra, TheFirstSignalWritesTheBestMeshAndExitsWith4) {
+  EXPECT_TRUE(io::write("large.vtu", lattice_file(20), {}));
+  const pid_t process = start({"optimize", "large.vtu", "-o", "out.vtu", "--write", "r.json"}, "out.txt", "err.txt");
+  for (int i = 0; i < 3000 && read("out.txt").find("vertices") == std::string::npos; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  kill(process, SIGINT);
+  EXPECT_EQ(wait_for(process), 4);
+  EXPECT_EQ(read_json("r.json")["stopped"], "canceled");
+  EXPECT_TRUE(contains(read("out.txt"), "stopped early by a signal"));
+  EXPECT_EQ(tets("out.vtu").tetrahedra.size(), tets("large.vtu").tetrahedra.size());
 }
 
 }  // namespace

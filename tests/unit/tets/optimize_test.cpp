@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "support/tet_lattice.hpp"
 #include "temper/tets/quality.hpp"
 #include "tets/optimize/sweeper.hpp"
@@ -52,7 +54,8 @@ TEST(TetOptimize, MakesAllTetrahedraGoodAndKeepsTheBoundary) {
 
 TEST(TetOptimize, EveryStepLowersTheEnergyOfItsStar) {
   TetMesh mesh = test::mesh_of(input_arrays());
-  Sweeper sweeper(mesh);
+  const auto mobility = mobilities(mesh);
+  Sweeper sweeper(mesh, mobility);
   std::vector<HalffaceId> halffaces;
   for (const VertexId v : mesh.vertices()) {
     collect_link(mesh, v, halffaces);
@@ -139,6 +142,27 @@ TEST(TetOptimize, TaggedFacesAndLinesStay) {
   }
 }
 
+TEST(TetOptimize, HeightsThatNoPlaceMakesPositiveFlattenNoTetrahedron) {
+  TetMesh mesh = test::mesh_of(test::shaken(test::cubes(3, test::kSixTets), 0.3, 0, 3));
+  const auto shape = [&mesh](TetId t) {
+    const auto [p, q, r, s] = mesh.points(t);
+    double length2 = 0;
+    for (const auto& [a, b] : {std::pair(p, q), {p, r}, {p, s}, {q, r}, {q, s}, {r, s}})
+      length2 += squared_length(a.position() - b.position());
+    return six_volumes(p.position(), q.position(), r.position(), s.position()) / std::pow(length2 / 6, 1.5) *
+           std::numbers::sqrt2;  // 1 for a regular one
+  };
+  std::vector<double> before;
+  for (const TetId t : mesh.tetrahedra()) before.push_back(shape(t));
+  const auto mobility = mobilities(mesh);
+  Sweeper sweeper(mesh, mobility);
+  for (int sweep = 0; sweep < 60; ++sweep) {
+    for (const VertexId v : mesh.vertices()) sweeper.improve(v, {0.0005, 1.7});
+  }
+  EXPECT_GT(quality(mesh).orthocenters_outside, 0U);
+  for (const TetId t : mesh.tetrahedra()) EXPECT_GE(shape(t), std::min(0.1, before[t.index]) * (1 - 1e-9));
+}
+
 TEST(TetOptimize, KeepsInterfacesAndSinglePoints) {
   const test::TetArrays arrays = input_arrays();
   const TetMesh plain = test::mesh_of(arrays);
@@ -172,6 +196,39 @@ TEST(TetOptimize, KeepsInterfacesAndSinglePoints) {
   EXPECT_GT(at_interface, 0U);
   EXPECT_EQ(mesh.position(inside.front()), input.position(inside.front()));
   EXPECT_NE(mesh, input);
+}
+
+/// Corners of this cube have tetrahedra whose four corners are on the boundary.
+TEST(TetOptimize, VerticesAreInsertedWhereMovesAloneLeaveBadTetrahedra) {
+  const TetMesh input = test::mesh_of(test::shaken(test::cubes(2, test::kSixTets), 0.3, 0));
+  TetMesh moved = input, changed = input;
+  OptimizeOptions keep;
+  keep.keep_edges = true;
+  const auto before = optimize(moved, keep), report = optimize(changed);
+  ASSERT_TRUE(before && report);
+  EXPECT_GT(quality(moved).orthocenters_outside, 0U);
+  EXPECT_EQ(moved.corner_data().size(), input.corner_data().size());
+  EXPECT_TRUE(before->vertices.empty());
+  const Quality after = quality(changed);
+  EXPECT_EQ(after.orthocenters_outside, 0U);
+  EXPECT_EQ(changed.validate(), std::nullopt);
+  EXPECT_GT(report->vertices_inserted, 0U);
+  EXPECT_EQ(changed.n_vertices() + report->vertices_removed, input.n_vertices() + report->vertices_inserted);
+  ASSERT_EQ(report->vertices.size(), changed.n_vertices());
+  const auto on_boundary = boundary_vertices(input), still = boundary_vertices(changed);
+  std::size_t kept = 0;
+  for (const VertexId v : changed.vertices()) {
+    const VertexId was = report->vertices[v];
+    EXPECT_EQ(still[v] != 0, was.valid() && on_boundary[was] != 0);
+    if (still[v] == 0) continue;
+    EXPECT_EQ(changed.position(v), input.position(was));
+    ++kept;
+  }
+  EXPECT_EQ(kept, 26U);
+  EXPECT_EQ(after.boundary_faces, quality(input).boundary_faces);
+  TetMesh again = input;
+  ASSERT_TRUE(optimize(again));
+  EXPECT_EQ(again, changed);
 }
 
 TEST(TetOptimize, PointsThatListAllVerticesStayFree) {

@@ -1,0 +1,84 @@
+// The one change of connectivity: a cavity is filled by the cone over its faces, from one apex.
+//
+// A cavity is a tetrahedron, the two at a face, the ring around an edge, or the star of a vertex. The apex is a new
+// vertex inside, or a corner, whose own faces need no tetrahedron. So all usual operations are cones:
+//
+//     cavity         apex                       apex a corner
+//
+//     tetrahedron    new: 1-4 split
+//
+//     face           new: split                 d: flip 2-3, which makes the edge de
+//
+//            d                                         d
+//          / | \                                     / | \          before: abcd and the one below, acbe
+//         a--|--c                                   a--|--c         after:  abde, bcde, cade
+//          \ | /                                     \ | /
+//            b      e is below                         e
+//
+//     edge           new: split                 a: flip 3-2, 4-4, edge removal
+//
+//         b-----c                                 b-----c           the edge is seen from its end, in the middle;
+//        / \   / \                                 \   / \          before: one tetrahedron for each spoke
+//       a---edge---d                          a     \ /   d         after:  two for each triangle of the fan at a
+//        \ /   \ /
+//         f-----e
+//
+//     vertex v       -                          u, a neighbor: v is merged into u
+//
+// A cone is valid if all its tetrahedra are positive, by the exact predicate: then they fill the cavity.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "temper/tets/mesh.hpp"
+
+namespace temper::tets {
+
+struct Cavity {
+  std::vector<TetId> tetrahedra;
+  std::vector<HalffaceId> faces;  ///< Faces around it, of its tetrahedra
+};
+
+/// The cavities of a mesh. No face of the boundary, between regions or with a tag is inside a cavity, and no tagged
+/// line. So these parts stay whatever fills a cavity.
+class Cavities {
+ public:
+  explicit Cavities(const TetMesh& mesh);
+
+  [[nodiscard]] Cavity of_tetrahedron(TetId t) const;
+  [[nodiscard]] std::optional<Cavity> of_face(HalffaceId h) const;
+  /// The ring around the edge from a to b of t.
+  [[nodiscard]] std::optional<Cavity> of_edge(TetId t, VertexId a, VertexId b) const;
+  /// Nothing for vertices on faces or lines that stay.
+  [[nodiscard]] std::optional<Cavity> of_vertex(VertexId v) const;
+
+ private:
+  [[nodiscard]] Cavity around(std::vector<TetId> tetrahedra) const;
+
+  const TetMesh& mesh_;
+  IdVector<HalffaceId, std::uint8_t> stays_;
+  std::vector<std::array<VertexId, 2>> lines_;  // tagged, sorted
+  IdVector<VertexId, std::uint8_t> on_line_;
+};
+
+/// Fills a cavity.
+struct Filling {
+  Cavity cavity;
+  VertexId apex;             ///< Invalid: a new vertex
+  WeightedPoint point = {};  ///< Of a new vertex
+  VertexId removed = {};     ///< The vertex inside, if there is one
+
+  /// The faces that get a tetrahedron: those without the apex.
+  [[nodiscard]] std::vector<HalffaceId> base(const TetMesh& mesh) const;
+};
+/// Says whether all new tetrahedra are positive. Exact.
+[[nodiscard]] bool is_valid(const TetMesh& mesh, const Filling& filling);
+
+/// The mesh with all cavities filled. They share no tetrahedron. `vertices`: the number of each vertex in some former
+/// mesh, invalid for new ones; it is brought up to date. New vertices come last. O(n).
+[[nodiscard]] TetMesh filled(const TetMesh& mesh, std::span<const Filling> fillings,
+                             IdVector<VertexId, VertexId>& vertices);
+
+}  // namespace temper::tets

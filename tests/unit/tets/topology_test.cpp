@@ -1,0 +1,221 @@
+// Cavities and cones: each operation by its numbers, and the laws that hold for all.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "support/tet_lattice.hpp"
+#include "temper/tets/quality.hpp"
+#include "tets/topology/cavity.hpp"
+
+namespace temper::tets {
+namespace {
+
+IdVector<VertexId, VertexId> own_numbers(const TetMesh& mesh) {
+  IdVector<VertexId, VertexId> all;
+  for (const VertexId v : mesh.vertices()) all.push_back(v);
+  return all;
+}
+
+WeightedPoint middle(const TetMesh& mesh, const Cavity& cavity) {
+  WeightedPoint p;
+  for (const HalffaceId h : cavity.faces) {
+    for (const VertexId v : mesh.vertices(h))
+      p = {p.x + mesh.point(v).x, p.y + mesh.point(v).y, p.z + mesh.point(v).z, 0};
+  }
+  const double n = 3 * static_cast<double>(cavity.faces.size());
+  return {p.x / n, p.y / n, p.z / n, 0};
+}
+
+std::vector<VertexId> corners_of(const TetMesh& mesh, const Cavity& cavity) {
+  std::vector<VertexId> all;
+  for (const HalffaceId h : cavity.faces) {
+    for (const VertexId v : mesh.vertices(h)) {
+      if (std::find(all.begin(), all.end(), v) == all.end()) all.push_back(v);
+    }
+  }
+  return all;
+}
+
+/// Expects what each filling keeps, and returns the mesh.
+TetMesh fill(const TetMesh& mesh, const Filling& filling) {
+  auto vertices = own_numbers(mesh);
+  const TetMesh after = filled(mesh, {&filling, 1}, vertices);
+  EXPECT_EQ(after.validate(), std::nullopt);
+  const Quality a = quality(mesh), b = quality(after);
+  EXPECT_NEAR(b.volume, a.volume, 1e-12 * a.volume);
+  EXPECT_EQ(b.boundary_faces, a.boundary_faces);
+  EXPECT_EQ(b.inverted_tetrahedra, 0U);
+  EXPECT_EQ(vertices.size(), after.n_vertices());
+  for (const VertexId v : after.vertices())
+    EXPECT_EQ(after.point(v), vertices[v].valid() ? mesh.point(vertices[v]) : filling.point);
+  return after;
+}
+
+std::ptrdiff_t gained(const TetMesh& before, const TetMesh& after) {
+  return static_cast<std::ptrdiff_t>(after.n_tetrahedra()) - static_cast<std::ptrdiff_t>(before.n_tetrahedra());
+}
+
+struct Tally {
+  std::size_t valid = 0, refused = 0;
+};
+
+/// Tries each corner of a cavity as an apex, and a new vertex in the middle.
+void try_all(const TetMesh& mesh, const Cavity& cavity, Tally& tally, VertexId removed = {}) {
+  if (!removed.valid()) {
+    const Filling split{cavity, {}, middle(mesh, cavity), {}};
+    if (is_valid(mesh, split)) {
+      EXPECT_EQ(gained(mesh, fill(mesh, split)),
+                std::ptrdiff_t(cavity.faces.size()) - std::ptrdiff_t(cavity.tetrahedra.size()));
+      ++tally.valid;
+    }
+  }
+  for (const VertexId v : corners_of(mesh, cavity)) {
+    const Filling cone{cavity, v, {}, removed};
+    if (!is_valid(mesh, cone)) {
+      ++tally.refused;
+      continue;
+    }
+    const TetMesh after = fill(mesh, cone);
+    EXPECT_EQ(after.n_vertices(), mesh.n_vertices() - (removed.valid() ? 1 : 0));
+    ++tally.valid;
+  }
+}
+
+TEST(TetTopology, EveryValidConeFillsItsCavityExactly) {
+  const TetMesh mesh = test::mesh_of(test::shaken(test::body_centered(2), 0.2, 0.1));
+  const Cavities cavities(mesh);
+  std::map<std::string, Tally> tallies;
+  for (const TetId t : mesh.tetrahedra()) {
+    try_all(mesh, cavities.of_tetrahedron(t), tallies["tetrahedron"]);
+    for (int f = 0; f < 4; ++f) {
+      if (const auto cavity = cavities.of_face(TetMesh::halfface(t, f))) try_all(mesh, *cavity, tallies["face"]);
+    }
+    const auto& corners = mesh.corners(t);
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        const auto cavity = cavities.of_edge(t, corners[i], corners[j]);
+        if (cavity && t.index % 4 == 0) try_all(mesh, *cavity, tallies["edge"]);
+      }
+    }
+  }
+  const auto on_boundary = boundary_vertices(mesh);
+  for (const VertexId v : mesh.vertices()) {
+    const auto cavity = cavities.of_vertex(v);
+    EXPECT_EQ(cavity.has_value(), on_boundary[v] == 0);
+    if (cavity) try_all(mesh, *cavity, tallies["vertex"], v);
+  }
+  for (const char* kind : {"tetrahedron", "face", "edge"}) {
+    EXPECT_GT(tallies[kind].valid, 10U) << kind;
+    EXPECT_TRUE(std::string(kind) == "tetrahedron" || tallies[kind].refused > 0) << kind;
+  }
+  EXPECT_GT(tallies["vertex"].valid, 0U);
+  EXPECT_GT(tallies["vertex"].refused, 0U);
+}
+
+TEST(TetTopology, Flips23And32AreInverse) {
+  test::TetArrays two;
+  two.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 1}, {0.3, 0.3, -1}};
+  two.tetrahedra = {{0, 1, 2, 3}, {0, 2, 1, 4}};
+  const TetMesh mesh = test::mesh_of(two);
+  const auto face = Cavities(mesh).of_face(TetMesh::halfface(TetId(0), 3));
+  ASSERT_TRUE(face);
+  const TetMesh three = fill(mesh, {*face, VertexId(3), {}, {}});
+  EXPECT_EQ(three.n_tetrahedra(), 3U);
+  const auto edge = Cavities(three).of_edge(TetId(0), VertexId(3), VertexId(4));
+  ASSERT_TRUE(edge);
+  EXPECT_EQ(edge->tetrahedra.size(), 3U);
+  const TetMesh again = fill(three, {*edge, VertexId(0), {}, {}});
+  EXPECT_EQ(again.n_tetrahedra(), 2U);
+  EXPECT_EQ(fill(three, {*edge, VertexId(3), {}, {}}).n_tetrahedra(), 3U);  // the cone of an end of the edge: the same
+}
+
+TEST(TetTopology, InterfacesAndTagsAreInNoCavity) {
+  const test::TetArrays arrays = test::shaken(test::body_centered(2), 0, 0);
+  const TetMesh plain = test::mesh_of(arrays);
+  TetId t;
+  HalffaceId inner;
+  for (const HalffaceId h : plain.halffaces()) {
+    if (!plain.is_boundary(h)) inner = h;
+  }
+  t = TetMesh::tetrahedron(inner);
+  const auto corners = plain.vertices(inner);
+  const auto at = [&](std::size_t k) { return static_cast<std::int32_t>(corners[k].index); };
+  ASSERT_TRUE(Cavities(plain).of_face(inner));
+  const std::vector<std::int32_t> tag = {1};
+
+  const std::vector<std::array<std::int32_t, 3>> faces = {{at(0), at(1), at(2)}};
+  TetMeshInput in = arrays.input();
+  in.faces = faces, in.face_tags = tag;
+  const TetMesh tagged = test::built(in).mesh;
+  EXPECT_FALSE(Cavities(tagged).of_face(inner));
+  EXPECT_FALSE(Cavities(tagged).of_face(tagged.twin(inner)));
+  EXPECT_FALSE(Cavities(tagged).of_edge(t, corners[0], corners[1]));
+
+  std::vector<std::int32_t> regions(arrays.tetrahedra.size(), 0);
+  regions[t.index] = 1;
+  in = arrays.input();
+  in.regions = regions;
+  const TetMesh two = test::built(in).mesh;
+  EXPECT_FALSE(Cavities(two).of_face(inner));
+  EXPECT_FALSE(Cavities(two).of_edge(t, corners[0], corners[1]));
+
+  std::size_t refused = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto ring = Cavities(plain).of_edge(t, corners[k], corners[(k + 1) % 3]);
+    const std::vector<std::array<std::int32_t, 2>> lines = {{at((k + 1) % 3), at(k)}};
+    in = arrays.input();
+    in.lines = lines, in.line_tags = tag;
+    const TetMesh lined = test::built(in).mesh;
+    EXPECT_FALSE(Cavities(lined).of_edge(t, corners[k], corners[(k + 1) % 3]));
+    EXPECT_FALSE(Cavities(lined).of_vertex(corners[k]));
+    refused += ring ? 1 : 0;
+  }
+  EXPECT_GT(refused, 0U);
+}
+
+TEST(TetTopology, AVertexOnATaggedLineIsInNoCavity) {
+  const test::TetArrays arrays = test::shaken(test::body_centered(2), 0, 0);
+  const TetMesh plain = test::mesh_of(arrays);
+  std::size_t inner = 0;
+  for (const VertexId v : plain.vertices()) {
+    if (!Cavities(plain).of_vertex(v)) continue;
+    ++inner;
+    const auto& corners = plain.corners(plain.incident(v));
+    const VertexId other = corners[0] == v ? corners[1] : corners[0];
+    const std::vector<std::array<std::int32_t, 2>> lines = {
+        {static_cast<std::int32_t>(v.index), static_cast<std::int32_t>(other.index)}};
+    const std::vector<std::int32_t> tag = {1};
+    TetMeshInput in = arrays.input();
+    in.lines = lines, in.line_tags = tag;
+    EXPECT_FALSE(Cavities(test::built(in).mesh).of_vertex(v));
+  }
+  EXPECT_GT(inner, 0U);
+}
+
+TEST(TetTopology, TagsAndRegionsOfOtherPartsStay) {
+  const test::TetArrays arrays = test::shaken(test::body_centered(2), 0, 0);
+  const TetMesh plain = test::mesh_of(arrays);
+  std::vector<std::array<std::int32_t, 3>> faces;
+  std::vector<std::int32_t> tags, regions(arrays.tetrahedra.size(), 5), point = {0}, point_tag = {3};
+  for (const HalffaceId h : plain.halffaces()) {
+    if (!plain.is_boundary(h)) continue;
+    const auto [a, b, c] = plain.vertices(h);
+    faces.push_back({std::int32_t(a.index), std::int32_t(b.index), std::int32_t(c.index)});
+    tags.push_back(static_cast<std::int32_t>(h.index));
+  }
+  TetMeshInput in = arrays.input();
+  in.faces = faces, in.face_tags = tags, in.regions = regions, in.marked_points = point, in.point_tags = point_tag;
+  const TetMesh mesh = test::built(in).mesh;
+  const Cavity cavity = Cavities(mesh).of_tetrahedron(TetId(3));
+  const TetMesh after = fill(mesh, {cavity, {}, middle(mesh, cavity), {}});
+  ASSERT_EQ(after.tagged_faces().size(), faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    EXPECT_EQ(after.tagged_faces()[i].tag, tags[i]);
+    EXPECT_EQ(after.vertices(after.tagged_faces()[i].face), mesh.vertices(mesh.tagged_faces()[i].face));
+  }
+  EXPECT_EQ(after.tagged_points(), mesh.tagged_points());
+  for (const TetId t : after.tetrahedra()) EXPECT_EQ(after.region(t), 5);
+}
+
+}  // namespace
+}  // namespace temper::tets
