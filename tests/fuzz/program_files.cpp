@@ -38,11 +38,13 @@ void survive(Work work) {
 
 void read_certificate(std::string_view bytes) {
   static const Scratch scratch;
+  const auto read = [](const std::string& path) {
+    return app::read_certificate(path, input().loaded.vertex_of_point, "triangle");
+  };
   survive([&] {
-    const Certificate certificate = app::read_certificate(scratch.make("c.json", bytes), input());
+    const Certificate certificate = read(scratch.make("c.json", bytes));
     static_cast<void>(check_certificate(input().mesh(), certificate));
-    static_cast<void>(
-        app::read_certificate(scratch.make("d.json", app::certificate_text(certificate, input())), input()));
+    static_cast<void>(read(scratch.make("d.json", app::certificate_text(certificate, input().points))));
   });
 }
 
@@ -83,7 +85,7 @@ std::vector<std::string> certificates() {
         {{WeightConstraint::Kind::dual, mesh.origin(h), mesh.target(h), mesh.opposite(h), mesh.opposite(mesh.twin(h))},
          0.5});
   }
-  return {app::certificate_text(certificate, input()), app::certificate_text(of_duals, input())};
+  return {app::certificate_text(certificate, input().points), app::certificate_text(of_duals, input().points)};
 }
 
 std::vector<std::string> traces() {
