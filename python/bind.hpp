@@ -16,6 +16,7 @@
 #include "temper/detail/tensor.hpp"
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"
+#include "temper/tets/io.hpp"
 
 namespace temper::python {
 
@@ -85,6 +86,17 @@ class PyMesh {
   bool erased_ = false, running_ = false;
 };
 
+/// A mesh of tetrahedra, and its file. It does not change, so all views and calls share it.
+struct PyTetMesh {
+  std::shared_ptr<const io::TetFile> file;
+  std::shared_ptr<const io::LoadedTetMesh> loaded;
+
+  [[nodiscard]] const tets::TetMesh& mesh() const { return loaded->mesh; }
+};
+
+/// The mesh of a file, and the warnings.
+[[nodiscard]] py::tuple load_tetrahedra(io::TetFile file, Executor* executor);
+
 /// Returns the result of `work`, and releases the GIL meanwhile.
 template <class Work>
 auto aside(const Work& work) {
@@ -148,6 +160,7 @@ HalfedgeId halfedge_id(const Mesh& mesh, std::int64_t index);
 
 void bind_mesh(py::module_& m);
 void bind_files(py::module_& m);
+void bind_tets(py::module_& m);
 void bind_generate(py::module_& m);
 void bind_geometry(py::module_& m);
 void bind_change(py::module_& m);

@@ -1,73 +1,14 @@
 // Files of meshes, and the data, lines, tags and names that came with a mesh from a file. See io.hpp.
 #include <algorithm>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
 #include "bind.hpp"
+#include "data_arrays.hpp"
 
 namespace temper::python {
 namespace {
-
-py::object to_python_array(const io::DataArray& data) {
-  return std::visit(
-      [&data](const auto& values) -> py::object {
-        using T = typename std::decay_t<decltype(values)>::value_type;
-        const auto n = static_cast<py::ssize_t>(values.size());
-        if (data.components == 1) return py::array(py::dtype::of<T>(), Shape{n}, values.data());
-        return py::array(py::dtype::of<T>(), Shape{n / data.components, py::ssize_t{data.components}}, values.data());
-      },
-      data.values);
-}
-
-py::dict to_python_dict(const std::vector<io::DataArray>& arrays) {
-  py::dict dict;
-  for (const io::DataArray& array : arrays) dict[py::str(array.name)] = to_python_array(array);
-  return dict;
-}
-
-template <class T>
-bool take_values(io::DataArray& data, const py::array& array) {
-  if (!array.dtype().is(py::dtype::of<T>()) && !array.dtype().equal(py::dtype::of<T>())) return false;
-  const auto same = py::array_t<T, py::array::c_style | py::array::forcecast>(array);
-  data.values = std::vector<T>(same.data(), same.data() + same.size());
-  return true;
-}
-
-/// One- or two-dimensional arrays of the types in files. The Python package has converted other types to these.
-io::DataArray from_python_array(const std::string& name, const py::array& array) {
-  io::DataArray data{name, array.ndim() > 1 ? static_cast<int>(array.shape(1)) : 1, {}};
-  const bool taken = take_values<double>(data, array) || take_values<float>(data, array) ||
-                     take_values<std::int64_t>(data, array) || take_values<std::int32_t>(data, array) ||
-                     take_values<std::uint8_t>(data, array) || take_values<std::int8_t>(data, array) ||
-                     take_values<std::int16_t>(data, array) || take_values<std::uint16_t>(data, array) ||
-                     take_values<std::uint32_t>(data, array) || take_values<std::uint64_t>(data, array);
-  if (!taken) throw py::type_error("data '" + name + "': " + std::string(py::str(array.dtype())) + " is not supported");
-  return data;
-}
-
-/// An array with the given number of rows.
-io::DataArray from_python_array(const std::string& name, const py::array& array, std::size_t size, const char* kind) {
-  if (static_cast<std::size_t>(array.shape(0)) != size) {
-    fail(ErrorCode::size_mismatch, std::string(kind) + " '" + name + "': expected " + std::to_string(size) +
-                                       " values, found " + std::to_string(array.shape(0)));
-  }
-  return from_python_array(name, array);
-}
-
-std::vector<io::DataArray> from_python_dict(const py::dict& dict, std::size_t size, const char* kind) {
-  std::vector<io::DataArray> arrays;
-  for (const auto& [name, value] : dict)
-    arrays.push_back(from_python_array(name.cast<std::string>(), value.cast<py::array>(), size, kind));
-  return arrays;
-}
-
-template <class T, class Array>
-std::vector<T> copy_of(const Array& array) {
-  const auto values = as_span<T>(array);
-  return {values.begin(), values.end()};
-}
 
 /// A file, on the map of the projection if one is named, and its mesh.
 std::shared_ptr<Source> source_of(io::MeshFile file, const std::string& projection,
@@ -168,17 +109,8 @@ py::dict data_report(const PyMesh& self, const py::object& threads) {
 /// The contents of a file that Python gets unchanged. Points are not included, because they may be in the plane or on a
 /// sphere.
 Record arrays_of(const io::MeshFile& file) {
-  return Record()("weights", file.weights)(
-      "triangles", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 3>>(file.triangles)))(
-      "regions", array_of<std::int32_t>(file.regions))(
-      "lines", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(file.lines)))(
-      "line_tags", array_of<std::int32_t>(file.line_tags))("marked_points", array_of<std::int32_t>(file.marked_points))(
-      "point_tags", array_of<std::int32_t>(file.point_tags))("names", py::object(physical_names_to_python(file.names)))(
-      "point_data", py::object(to_python_dict(file.point_data)))(
-      "cell_data", py::object(to_python_dict(file.cell_data)))("line_data", py::object(to_python_dict(file.line_data)))(
-      "marked_point_data", py::object(to_python_dict(file.marked_point_data)))(
-      "field_data", py::object(to_python_dict(file.field_data)))("path", file.path)("format", file.format)(
-      "warnings", file.warnings);
+  return contents_of(file)("triangles",
+                           rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 3>>(file.triangles)));
 }
 
 /// The file of the mesh as it is now. Without data of points and triangles, nothing has to be interpolated.
@@ -212,41 +144,13 @@ py::object vertices_of_points(const PyMesh& self) {
   return array_of<std::int32_t>(vertices);
 }
 
-template <std::size_t n>
-void check_range(const std::vector<std::array<std::int32_t, n>>& cells, std::size_t n_points, const char* kind) {
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    for (const std::int32_t p : cells[i]) {
-      if (p >= 0 && static_cast<std::size_t>(p) < n_points) continue;
-      fail(ErrorCode::index_out_of_range, std::string(kind) + " " + std::to_string(i) + " uses point " +
-                                              std::to_string(p) + ", but there are " + std::to_string(n_points) +
-                                              " points");
-    }
-  }
-}
-
 /// A file of these arrays, without the points; their number is given.
 io::MeshFile file_of_arrays(const py::dict& d, std::size_t n_points) {
   io::MeshFile file;
-  file.weights = copy_of<double>(d["weights"].cast<Doubles>());
   file.triangles = narrow<3>(d["triangles"].cast<Int64s>(), "triangle");
-  file.regions = copy_of<std::int32_t>(d["regions"].cast<Int32s>());
-  file.lines = narrow<2>(d["lines"].cast<Int64s>(), "line");
-  file.line_tags = copy_of<std::int32_t>(d["line_tags"].cast<Int32s>());
-  file.point_data = from_python_dict(d["point_data"].cast<py::dict>(), n_points, "point data");
-  file.cell_data = from_python_dict(d["cell_data"].cast<py::dict>(), file.triangles.size(), "cell data");
-  file.line_data = from_python_dict(d["line_data"].cast<py::dict>(), file.lines.size(), "line data");
-  const auto vertex_cells = narrow<1>(d["marked_points"].cast<Int64s>(), "vertex cell");
-  check_range<1>(vertex_cells, n_points, "vertex cell");
-  for (const auto& [point] : vertex_cells) file.marked_points.push_back(point);
-  file.point_tags = copy_of<std::int32_t>(d["point_tags"].cast<Int32s>());
-  file.marked_point_data =
-      from_python_dict(d["marked_point_data"].cast<py::dict>(), file.marked_points.size(), "data of vertex cells");
+  take_contents(file, d, n_points, file.triangles.size());
   check_range<3>(file.triangles, n_points, "triangle");
   check_range<2>(file.lines, n_points, "line");
-  file.names = physical_names_from(d["names"]);
-  for (const auto& [name, array] : d["field_data"].cast<py::dict>()) {
-    file.field_data.push_back(from_python_array(name.cast<std::string>(), array.cast<py::array>()));
-  }
   return file;
 }
 
@@ -265,8 +169,20 @@ py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, con
                     const py::object& threads) {
   const auto tags = strings_from(fixed_tags);
   const auto executor = make_threads(threads_from(threads));
-  auto file = aside([&] { return io::read(path, {executor.get(), flat}); });
-  return load(or_raise(std::move(file)), projection, tags, executor.get());
+  auto read = aside([&] { return io::read_any(path, {executor.get(), flat}); });
+  auto file = or_raise(std::move(read));
+  if (auto* const tets = std::get_if<io::TetFile>(&file)) {
+    const char* const given = !tags.empty()         ? "fixed_tags"
+                              : !projection.empty() ? "projection"
+                              : flat                ? "flat"
+                                                    : nullptr;
+    if (given != nullptr) {
+      throw BadInput{{ErrorCode::invalid_option, path,
+                      "has tetrahedra, and " + std::string(given) + " is for triangles alone. Next: leave it out"}};
+    }
+    return load_tetrahedra(std::move(*tets), executor.get());
+  }
+  return load(std::move(std::get<io::MeshFile>(file)), projection, tags, executor.get());
 }
 
 py::object write_file(const std::string& path, const PyMesh& self, const std::string& format,

@@ -11,16 +11,10 @@
 #include "temper/errors.hpp"
 #endif
 
-TEMPER_PYTHON_NAMES(temper::Preference, "equal", "larger", "less");
-
 namespace temper::python {
 namespace {
 
 // --- quality and energies ---------------------------------------------------------------------------------------
-
-py::dict histogram_to_dict(const Histogram& h) {
-  return Record()("low", h.low)("high", h.high)("counts", h.counts).dict;
-}
 
 py::dict quality_to_dict(const Quality& q) {
   py::dict energy;
@@ -33,25 +27,11 @@ py::dict quality_to_dict(const Quality& q) {
                      "angle_deg", w.angle_deg)("why", w.why)
                      .dict);
   }
-  Record r;
-  for (const QualityMeasure& m : quality_measures()) {
-    const std::string key(m.key);
-    m.count ? r(key.c_str(), static_cast<std::size_t>(m.of(q))) : r(key.c_str(), m.of(q));
-  }
+  Record r = measures_of(quality_measures(), q);
   r("energy", energy)("worst", worst);
   r("angles", histogram_to_dict(q.angles))("h_over_l", histogram_to_dict(q.h_over_l))("d_over_l",
                                                                                       histogram_to_dict(q.d_over_l));
   return r.dict;
-}
-
-py::list quality_measures_list() {
-  py::list list;
-  for (const QualityMeasure& m : quality_measures()) {
-    list.append(Record()("key", m.key)("alias", m.alias)("label", m.label)("community", m.community)(
-                    "definition", m.definition)("better", name_of(m.better))("count", m.count)("wanted", m.wanted)
-                    .dict);
-  }
-  return list;
 }
 
 py::dict triangle_quality_to_dict(const PyMesh& self) {
@@ -116,7 +96,7 @@ void bind_energy(py::module_& m) {
       return quality(*mesh, options);
     }));
   });
-  m.def("quality_measures", quality_measures_list);
+  m.def("quality_measures", [] { return measures_list(quality_measures()); });
   m.def("triangle_quality", triangle_quality_to_dict);
   m.def("energies", energies_list);
   m.def("total_energy", [](const PyMesh& self, const py::dict& model, const py::object& threads) {

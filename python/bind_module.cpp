@@ -272,6 +272,7 @@ PYBIND11_MODULE(_temper, m) {
   m.attr("knows_numpy_2") = kKnowsNumPy2;
   bind_mesh(m);
   bind_files(m);
+  bind_tets(m);
   bind_generate(m);
   bind_geometry(m);
   bind_change(m);

@@ -8,8 +8,8 @@
 #include "temper/feasibility.hpp"
 
 TEMPER_PYTHON_NAMES(temper::LpStatus, "optimal", "infeasible", "unbounded", "failed");
-TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "crossing", "dual");
-TEMPER_PYTHON_NAMES(temper::Constraints, "well_centered", "heights_only", "regular");
+TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "crossing", "dual", "height_over_face", "dual_of_face");
+TEMPER_PYTHON_NAMES(temper::Constraints, "well_centered", "heights_only", "regular", "completely_well_centered");
 TEMPER_PYTHON_NAMES(temper::WeightGoal, "feasible", "minimal", "elastic");
 
 namespace temper::python {

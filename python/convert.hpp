@@ -23,6 +23,7 @@
 #include "temper/detail/vec.hpp"
 #include "temper/energy.hpp"
 #include "temper/io.hpp"
+#include "temper/quality.hpp"
 
 namespace temper::python {
 
@@ -178,6 +179,53 @@ struct Record {
   }
 };
 
+// --- enums: their names in the order of their values -----------------------------------------------------
+
+/// The index of `text` in the names, or an error that lists them.
+std::size_t choose(std::string_view option, std::string_view text, std::span<const std::string_view> names);
+
+template <class Enum>
+struct Names;  // static constexpr std::string_view list[]
+
+template <class Enum>
+std::string_view name_of(Enum value) {
+  return Names<Enum>::list[static_cast<std::size_t>(value)];
+}
+template <class Enum>
+Enum from_name(std::string_view option, std::string_view text) {
+  return static_cast<Enum>(choose(option, text, Names<Enum>::list));
+}
+
+// --- reports on triangles and tetrahedra ----------------------------------------------------------------
+
+inline py::dict histogram_to_dict(const Histogram& h) {
+  return Record()("low", h.low)("high", h.high)("counts", h.counts).dict;
+}
+
+/// All numbers of a report that have a row.
+template <class Report>
+Record measures_of(std::span<const MeasureRow<Report>> rows, const Report& report) {
+  Record r;
+  for (const MeasureRow<Report>& m : rows) {
+    const std::string key(m.key);
+    m.count ? r(key.c_str(), static_cast<std::size_t>(m.of(report))) : r(key.c_str(), m.of(report));
+  }
+  return r;
+}
+
+template <class Report>
+py::list measures_list(std::span<const MeasureRow<Report>> rows) {
+  py::list list;
+  for (const MeasureRow<Report>& m : rows) {
+    list.append(Record()("key", m.key)("alias", m.alias)("label", m.label)("community", m.community)(
+                    "definition", m.definition)("better", name_of(m.better))("count", m.count)("wanted", m.wanted)
+                    .dict);
+  }
+  return list;
+}
+
+// --- ids and texts from Python --------------------------------------------------------------------------
+
 /// Numbers from Python as ids; a negative number is invalid.
 template <class T, std::size_t n>
 std::array<T, n> ids_from(const py::handle& sequence) {
@@ -197,23 +245,6 @@ inline std::vector<std::string> strings_from(const py::sequence& sequence) {
   return strings;
 }
 
-// --- enums: their names in the order of their values -----------------------------------------------------
-
-/// The index of `text` in the names, or an error that lists them.
-std::size_t choose(std::string_view option, std::string_view text, std::span<const std::string_view> names);
-
-template <class Enum>
-struct Names;  // static constexpr std::string_view list[]
-
-template <class Enum>
-std::string_view name_of(Enum value) {
-  return Names<Enum>::list[static_cast<std::size_t>(value)];
-}
-template <class Enum>
-Enum from_name(std::string_view option, std::string_view text) {
-  return static_cast<Enum>(choose(option, text, Names<Enum>::list));
-}
-
 #define TEMPER_PYTHON_NAMES(ENUM, ...)                        \
   template <>                                                 \
   struct temper::python::Names<ENUM> {                        \
@@ -227,6 +258,7 @@ std::string spelled(std::string_view text);
 
 }  // namespace temper::python
 
+TEMPER_PYTHON_NAMES(temper::Preference, "equal", "larger", "less");
 TEMPER_PYTHON_NAMES(temper::LengthScale, "absolute", "relative");
 TEMPER_PYTHON_NAMES(temper::BoundaryTreatment, "as_is", "absolute", "mirrored");
 TEMPER_PYTHON_NAMES(temper::ProjectionKind, "stereographic", "mercator", "transverse_mercator");

@@ -70,9 +70,10 @@ class LpSolver {
 
 /// The inequalities to satisfy.
 enum class Constraints {
-  well_centered,  ///< Heights and crossings
-  heights_only,   ///< Orthocenters inside their triangles; dual edges need not cross their own edges
-  regular,        ///< Dual lengths of interior edges: all of them, or the prescribed ones
+  well_centered,             ///< Heights and crossings
+  heights_only,              ///< Orthocenters inside their triangles; dual edges need not cross their own edges
+  regular,                   ///< Dual lengths of interior edges: all of them, or the prescribed ones
+  completely_well_centered,  ///< Of tetrahedra alone (temper/tets/weights.hpp)
 };
 
 /// A row of the table of constraints.
@@ -83,7 +84,7 @@ struct ConstraintsInfo {
   std::string_view success;  ///< Sentence about success: "weights make every triangle well-centered"
   std::string_view failure;  ///< Sentence about failure: "no weights make every triangle well-centered"
 };
-/// One row for each of Constraints, in the same order.
+/// One row for each of Constraints that triangles can have, in the same order.
 [[nodiscard]] std::span<const ConstraintsInfo> constraints_table();
 [[nodiscard]] std::string_view name(Constraints constraints);
 
@@ -92,17 +93,20 @@ struct ConstraintsInfo {
 /// One inequality of the constraints.
 struct WeightConstraint {
   enum class Kind {
-    height,    ///< Height h over edge pq of the triangle pqr, counter-clockwise
-    crossing,  ///< Crossing d from p towards q, for any edge pq
-    dual,      ///< Dual length of pq: the sum of h over pq in the triangles pqr and qps, both counter-clockwise
+    height,            ///< Height h over edge pq of the triangle pqr, counter-clockwise
+    crossing,          ///< Crossing d from p towards q, for any edge pq
+    dual,              ///< Dual length of pq: the sum of h over pq in the triangles pqr and qps, both counter-clockwise
+    height_over_face,  ///< Height over the face pqr of the positive tetrahedron pqrs
+    dual_of_face,      ///< Dual length of pqr: the sum of the heights over it in the tetrahedra pqrs and prqt
   };
   Kind kind = Kind::height;
   VertexId p, q, r;  ///< Vertices; r is invalid for a crossing
-  VertexId s = {};   ///< Only for a dual
+  VertexId s = {};   ///< Invalid for a crossing and a height
+  VertexId t = {};   ///< Only for a dual of a face
 
   friend bool operator==(const WeightConstraint&, const WeightConstraint&) = default;
 };
-/// "height", "crossing", "dual".
+/// "height", "crossing", "dual", "height_over_face", "dual_of_face".
 [[nodiscard]] std::string_view name(WeightConstraint::Kind kind);
 
 /// Reach of certificates of `regular`: they assume that weights differ by less than this many ℓ² along the edges of

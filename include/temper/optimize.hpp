@@ -185,7 +185,7 @@ struct SchemeWeights {
 /// vertices at once. E and its barrier are those in AccuracyOptions.
 struct SolverErrorOptions {
   double offset_share = 1;   ///< Factor κ ≥ 0, which keeps other errors from rising
-  int steps = 20;            ///< Largest number of steps, ≥ 0. Ten times as many for the user's own problem
+  int steps = 15;            ///< Largest number of steps, ≥ 0. Ten times as many for the user's own problem
   double tolerance = 0.005;  ///< Tolerance ≥ 0: stop if ten steps lower the sum of logarithms by less than this
   /// Largest number of vertices for which the errors of a scheme are modeled, unless `objective` is solver_error.
   int most_vertices = 200'000;

@@ -43,6 +43,7 @@ from ._plot import plot, plot_history
 from ._space import Space
 from ._temper import __version__, build_info, instruction_set, instruction_sets, use_instruction_set
 from ._tensor import mapped, mapped_back
+from ._tets import TetMesh
 from ._measure_errors import arithmetic_mean, error_ratios, geometric_mean, measure_diffusion_errors, measure_errors, error_fields, field_frame, error_measures
 from ._weights import (
     best_connectivity,

@@ -9,8 +9,9 @@ from typing import Literal
 
 from . import _temper
 from ._errors import TemperWarning
-from ._mesh import Mesh, MeshLike, _warn, as_mesh
+from ._mesh import Mesh, _warn
 from ._records import Record
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh
 
 
 @dataclasses.dataclass(frozen=True)
@@ -43,8 +44,8 @@ def read(
     projection: str | None = None,
     flat: bool = False,
     threads: int | None = None,
-) -> Mesh:
-    """Reads a mesh file. Its content decides the format, never its name.
+) -> Mesh | TetMesh:
+    """Reads a mesh file. Its content decides the format, never its name. A file with tetrahedra gives a ``TetMesh``.
 
     Parameters
     ----------
@@ -61,12 +62,13 @@ def read(
     flat : bool
         Take the mesh as one of the plane of x and y, with z as point data ``z``, which follow the vertices. Formats
         with three coordinates get z back.
+        ``fixed_tags``, ``projection`` and ``flat`` are for triangles alone.
     threads : int, optional
         Threads that unpack; None or 0: all of the machine. The result does not depend on them.
 
     Returns
     -------
-    Mesh
+    Mesh or TetMesh
         The mesh, with all other contents of the file (data, tags, names) for ``write``. ``Mesh.warnings`` lists repairs
         and losses.
 
@@ -82,12 +84,14 @@ def read(
         Each of ``Mesh.warnings``.
     """
     handle, messages = _temper.read(os.fspath(path), [str(tag) for tag in fixed_tags], projection or "", flat, threads)
+    if isinstance(handle, _temper.TetMesh):
+        return TetMesh._of(handle, messages, 2)
     return _warn(Mesh._of(handle), messages, 2)
 
 
 def write(
     path: str | os.PathLike[str],
-    mesh: MeshLike,
+    mesh: AnyMeshLike,
     *,
     format: str | None = None,
     encoding: Literal["ascii", "base64", "appended"] | None = None,
@@ -102,7 +106,8 @@ def write(
         Path of the file. It is written under a temporary name first, so that an error leaves the old file unchanged. If
         a mesh needs several files, they are renamed one after the other when all are complete. If one cannot be
         renamed, the files before it are new, and the error names them.
-    mesh : MeshLike
+    mesh : Mesh, TetMesh, or of another library
+        Points of no tetrahedron, which a ``TetMesh`` has not, are written if they were in its file.
     format : str, optional
         A name of ``formats()``; by default the suffix of the path decides.
     encoding : {"ascii", "base64", "appended"}, optional
@@ -124,9 +129,10 @@ def write(
     TemperError
         The code is ``not_writable``, or ``invalid_option`` for an unknown format.
     """
-    handle = as_mesh(mesh)._handle
-    messages: list[str] = _temper.write(
-        os.fspath(path), handle, format or "", encoding or "", triangle_quality, threads
+    any_mesh = as_any_mesh(mesh)
+    how = os.fspath(path), any_mesh._handle, format or "", encoding or ""
+    messages: list[str] = (
+        _temper.write_tets(*how, threads) if isinstance(any_mesh, TetMesh) else _temper.write(*how, triangle_quality, threads)
     )
     for message in messages:
         warnings.warn(message, TemperWarning, stacklevel=2)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, Literal
+from typing import Any, Literal, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,10 @@ from . import _temper
 from ._mesh import MeshLike, as_mesh
 from ._options import LengthParameter, LengthParameterLike, _length_parameter
 from ._records import Record, merged, table
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh
+
+
+_GAMMA, _H0 = LengthParameter(1.0, "absolute"), LengthParameter(0.0, "absolute")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -116,25 +120,109 @@ class Quality(Record):
         return table("Quality", rows, table("worst triangles", worst) if worst else "")
 
 
+@dataclasses.dataclass(frozen=True)
+class WorstTet(Record):
+    """A tetrahedron whose least h/ℓ is among the smallest of the mesh."""
+
+    tetrahedron: int
+    vertices: tuple[int, int, int, int]
+    at: tuple[float, float, float]
+    """Centroid."""
+    h_over_l: float
+    """Least h/ℓ of its four faces."""
+    dihedral_deg: float
+    """Largest of its six dihedral angles."""
+    why: str
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetQuality(Record):
+    """The result of ``quality`` for tetrahedra: counts decided exactly, margins in doubles. The length ℓ of a face is
+    the side of the equilateral triangle with its area, the length ℓ of an edge its own."""
+
+    vertices: int
+    inner_vertices: int
+    tetrahedra: int
+    faces: int
+    boundary_faces: int
+    edges: int
+    regions: int
+    inverted_tetrahedra: int
+    non_regular_faces: int
+    """Interior faces with negative dual edge."""
+    negative_boundary_duals: int
+    """Boundary faces with h < 0."""
+    orthocenters_outside: int
+    """Tetrahedra with some h ≤ 0."""
+    faces_not_crossed: int
+    """Faces whose orthocenter is not strictly inside."""
+    edges_not_crossed: int
+    """Edges without 0 < d < ℓ, where d = (ℓ² + w_p − w_q)/(2 ℓ) for the edge from p to q."""
+    well_centered_fraction: float
+    """Fraction of tetrahedra with all h > 0."""
+    completely_well_centered_fraction: float
+    """The same, if all four faces and all six edges are crossed, too."""
+    min_h_over_l: float
+    """Least h/ℓ of tetrahedra over their faces."""
+    min_face_h_over_l: float
+    """Least h/ℓ of faces over their edges."""
+    min_d_over_l: float
+    """Least of d/ℓ and 1 − d/ℓ over edges."""
+    min_dihedral_deg: float
+    max_dihedral_deg: float
+    volume: float
+    """Of all tetrahedra together [length³]."""
+    min_volume: float
+    max_volume: float
+    max_transmissibility_over_median: float
+    """Largest over median transmissibility A/\\|h_k + h_l\\| of interior faces. inf if a dual edge has exactly length
+    zero; 1 without interior faces."""
+    transmissibility_ratio: float
+    """Largest over least transmissibility."""
+    worst: list[WorstTet]
+    """Worst tetrahedra, the worst first."""
+    dihedrals: Histogram = dataclasses.field(repr=False)
+    """Histogram of all dihedral angles [degrees]."""
+    h_over_l: Histogram = dataclasses.field(repr=False)
+
+    def _repr_html_(self) -> str:
+        rows = [row for row in self._rows() if row[0] != "worst"]
+        worst = [(f"tetrahedron {w.tetrahedron}", w.why) for w in self.worst]
+        return table("TetQuality", rows, table("worst tetrahedra", worst) if worst else "")
+
+
+@overload
 def quality(
-    mesh: MeshLike,
+    mesh: TetMesh, *, gamma: LengthParameterLike = ..., h0: LengthParameterLike = ..., worst: int = ..., threads: int | None = ...
+) -> TetQuality: ...
+@overload
+def quality(
+    mesh: MeshLike, *, gamma: LengthParameterLike = ..., h0: LengthParameterLike = ..., worst: int = ..., threads: int | None = ...
+) -> Quality: ...
+def quality(
+    mesh: AnyMeshLike,
     *,
-    gamma: LengthParameterLike = LengthParameter(1.0, "absolute"),
-    h0: LengthParameterLike = LengthParameter(0.0, "absolute"),
+    gamma: LengthParameterLike = _GAMMA,
+    h0: LengthParameterLike = _H0,
     worst: int = 5,
     threads: int | None = None,
-) -> Quality:
+) -> Quality | TetQuality:
     """Measures a mesh: is it valid, regular, well-centered, and with what margins?
 
     Parameters
     ----------
-    mesh : MeshLike
+    mesh : Mesh, TetMesh, or of another library
     gamma, h0 : LengthParameter or float
-        Parameters γ of E_BP and −h° of E_BHs in the report; plain numbers are relative to each edge.
+        Parameters γ of E_BP and −h° of E_BHs in the report; plain numbers are relative to each edge. They are for
+        triangles alone.
     worst : int
-        Number of the worst triangles to list.
+        Number of the worst triangles or tetrahedra to list.
     threads : int, optional
         Number of threads; None or 0: all of the machine. The report does not depend on it.
+
+    Returns
+    -------
+    Quality, or TetQuality for tetrahedra
 
     Examples
     --------
@@ -142,7 +230,15 @@ def quality(
     >>> temper.quality(temper.generate.horseshoe()).orthocenters_outside
     58
     """
-    d = _temper.quality(as_mesh(mesh)._handle, _length_parameter("gamma", gamma), _length_parameter("h0", h0), worst, threads)
+    any_mesh = as_any_mesh(mesh)
+    if isinstance(any_mesh, TetMesh):
+        for name, value, default in (("gamma", gamma, _GAMMA), ("h0", h0, _H0)):
+            if value != default:
+                raise TypeError(f"{name} is for triangles alone. Next: leave it out")
+        d = _temper.tet_quality(any_mesh._handle, worst, threads)
+        histograms = {name: Histogram(**d[name]) for name in ("dihedrals", "h_over_l")}
+        return TetQuality(**merged(d, worst=[WorstTet(**w) for w in d["worst"]], **histograms))
+    d = _temper.quality(any_mesh._handle, _length_parameter("gamma", gamma), _length_parameter("h0", h0), worst, threads)
     histograms = {name: Histogram(**d[name]) for name in ("angles", "h_over_l", "d_over_l")}
     return Quality(**merged(d, worst=[WorstTriangle(**w) for w in d["worst"]], **histograms))
 
@@ -165,14 +261,15 @@ class QualityMeasure(Record):
     """Requirement by default, if the user gives no other."""
 
 
-def quality_measures() -> list[QualityMeasure]:
-    """All numbers of ``Quality`` except energies.
+def quality_measures(*, tetrahedra: bool = False) -> list[QualityMeasure]:
+    """All numbers of ``Quality`` except energies, or of ``TetQuality``.
 
     >>> import temper
     >>> {row.key: row.wanted for row in temper.quality_measures() if row.community == "D-Flow FM"}
     {'max_orthogonality': 0.01, 'max_smoothness': None, 'min_flow_link': 0.1, 'small_flow_links': 0.0}
     """
-    return [QualityMeasure(**row) for row in _temper.quality_measures()]
+    rows = _temper.tet_quality_measures() if tetrahedra else _temper.quality_measures()
+    return [QualityMeasure(**row) for row in rows]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -508,6 +508,8 @@ def as_mesh(mesh: MeshLike, *, in_place: bool = False) -> Mesh:
     """
     if isinstance(mesh, Mesh):
         return mesh
+    if isinstance(getattr(mesh, "_handle", None), _temper.TetMesh):
+        raise TypeError("expected a mesh of triangles, found a TetMesh. Next: temper.quality and temper.write take it")
     cells = cells_of(mesh)
     if cells is None:
         raise TypeError(f"expected a temper.Mesh, or a mesh of meshio, PyVista or xugrid, found {type(mesh).__name__}")
@@ -520,9 +522,14 @@ def as_mesh(mesh: MeshLike, *, in_place: bool = False) -> Mesh:
 def _warn(mesh: Mesh, messages: list[str], level: int) -> Mesh:
     """The mesh, with its messages also as warnings at the line ``level`` calls up."""
     mesh.warnings = messages
+    repeat_warnings(messages, level + 1)
+    return mesh
+
+
+def repeat_warnings(messages: list[str], level: int) -> None:
+    """Gives the messages as warnings at the line ``level`` calls up."""
     for message in messages:
         warnings.warn(message, TemperWarning, stacklevel=level + 1)
-    return mesh
 
 
 # --- meshio's meshes ------------------------------------------------------------------------------------------

@@ -59,10 +59,10 @@ def cells_of(mesh: Any) -> Any:
 # --- PyVista ----------------------------------------------------------------------------------------------------------
 
 _POLY_VERTEX, _POLY_LINE, _TRIANGLE, _STRIP, _POLYGON = 2, 4, 5, 6, 7  # types of VTK
-_QUAD = 9
+_QUAD, _TETRA = 9, 10
 _WIDTHS = {
     1: ("vertex", 1), _POLY_VERTEX: ("vertex", 1), 3: ("line", 2), _POLY_LINE: ("line", 2), _TRIANGLE: ("triangle", 3),
-    _QUAD: ("quad", 4),
+    _QUAD: ("quad", 4), _TETRA: ("tetra", 4),
 }  # fmt: skip
 _TYPES_OF_VTK = {_STRIP: "triangle strip", _POLYGON: "polygon", 8: "pixel"}
 
@@ -262,19 +262,13 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
         if block.type not in ("triangle", "quad", "line", "vertex"):
             dropped.append(f"{len(block.data)} cells of type {block.type} are left out")
     points = _points(mesh.points)
-    triangles, quads, lines = _blocks(mesh, "triangle"), _blocks(mesh, "quad"), _blocks(mesh, "line")
+    triangles, quads = _blocks(mesh, "triangle"), _blocks(mesh, "quad")
     if not triangles and not quads:
-        found = [f"{len(block.data)} cells of type {block.type}" for block in mesh.cells] + dropped
-        raise TemperError("empty_input", "", f"expected cells of type triangle or quad; {'; '.join(found) or 'there are none'}")
-    point_data = {}
-    weights = np.empty(0)
-    for name, values in mesh.point_data.items():
-        if name in _WEIGHTS and weights.size == 0 and np.asarray(values).size == len(points):
-            weights = np.ascontiguousarray(np.asarray(values, dtype=np.float64).reshape(-1))
-        elif (array := data_of(name, values, dropped)) is not None:
-            point_data[name] = array
+        cure = ". Next: temper.TetMesh.from_meshio takes tetrahedra" if _blocks(mesh, "tetra") else ""
+        raise TemperError("empty_input", "", f"expected cells of type triangle or quad; {_found(mesh)}{cure}")
+    weights, point_data = _point_data(mesh, len(points), dropped)
     cell_data = _cell_data(mesh, triangles + quads, dropped)
-    corners, ends = _joined(mesh, triangles, 3), _joined(mesh, lines, 2)
+    corners = _joined(mesh, triangles, 3)
     if quads:
         of_quads = _joined(mesh, quads, 4)
         n, n_quads = len(corners), len(of_quads)
@@ -287,24 +281,78 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
         cell_data = {name: np.ascontiguousarray(values[row]) for name, values in cell_data.items()}
         cell_data[_QUADRILATERAL] = np.maximum(row - n + 1, 0).astype(np.int32)
     regions = _tags(cell_data, 0)
-    line_data = _cell_data(mesh, lines, dropped)
-    vertices = _blocks(mesh, "vertex")
-    vertex_data = _cell_data(mesh, vertices, dropped)
-    vertex_cells = _joined(mesh, vertices, 1).reshape(-1)
-    vertex_tags, line_tags = _tags(vertex_data, len(vertex_cells)), _tags(line_data, len(ends))
-    for data, tags in ((cell_data, regions), (line_data, line_tags), (vertex_data, vertex_tags)):
-        for name in _WRITTEN:
-            if name in data and np.array_equal(data[name], tags):
-                del data[name]
-    names, field_data = _names(mesh, dropped)
+    _drop_written(cell_data, regions)
     arrays = {
-        "points": points, "weights": weights, "triangles": corners, "regions": regions, "lines": ends,
-        "line_tags": line_tags, "point_data": point_data, "cell_data": cell_data, "line_data": line_data,
-        "marked_points": vertex_cells, "point_tags": vertex_tags, "marked_point_data": vertex_data,
-        "names": names, "field_data": field_data,
+        "points": points, "weights": weights, "triangles": corners, "regions": regions, "point_data": point_data,
+        "cell_data": cell_data, **_lines_and_points(mesh, dropped),
     }  # fmt: skip
     handle, messages = _temper.mesh_from_file_arrays(arrays, [str(tag) for tag in fixed_tags])
     return handle, dropped + list(messages)
+
+
+def tet_arrays(mesh: Any) -> tuple[dict[str, Any], list[str]]:
+    """The arrays of a mesh of tetrahedra in the form of meshio, and messages about omissions."""
+    dropped: list[str] = list(getattr(mesh, "left_out", ()))
+    for block in mesh.cells:
+        if block.type not in ("tetra", "triangle", "line", "vertex"):
+            dropped.append(f"{len(block.data)} cells of type {block.type} are left out")
+    points = _points(mesh.points)
+    if points.shape[1] != 3:
+        raise TemperError("size_mismatch", "", f"points: expected shape (n, 3), found {points.shape}")
+    if not _blocks(mesh, "tetra"):
+        raise TemperError("empty_input", "", f"expected cells of type tetra; {_found(mesh)}")
+    weights, point_data = _point_data(mesh, len(points), dropped)
+    tetrahedra, regions, cell_data = _tagged(mesh, "tetra", 4, dropped)
+    faces, face_tags, face_data = _tagged(mesh, "triangle", 3, dropped)
+    arrays = {
+        "points": points, "weights": weights, "tetrahedra": tetrahedra, "regions": regions, "faces": faces,
+        "face_tags": face_tags, "point_data": point_data, "cell_data": cell_data, "face_data": face_data,
+        **_lines_and_points(mesh, dropped),
+    }  # fmt: skip
+    return arrays, dropped
+
+
+def _found(mesh: Any) -> str:
+    found = [f"{len(block.data)} cells of type {block.type}" for block in mesh.cells]
+    return "; ".join(found + list(getattr(mesh, "left_out", ()))) or "there are none"
+
+
+def _point_data(mesh: Any, n_points: int, dropped: list[str]) -> tuple[Any, dict[str, Any]]:
+    """The weights, and the other data of points."""
+    weights, point_data = np.empty(0), {}
+    for name, values in mesh.point_data.items():
+        if name in _WEIGHTS and weights.size == 0 and np.asarray(values).size == n_points:
+            weights = np.ascontiguousarray(np.asarray(values, dtype=np.float64).reshape(-1))
+        elif (array := data_of(name, values, dropped)) is not None:
+            point_data[name] = array
+    return weights, point_data
+
+
+def _drop_written(data: dict[str, Any], tags: Any) -> None:
+    """Drops the data that are the tags."""
+    for name in _WRITTEN:
+        if name in data and np.array_equal(data[name], tags):
+            del data[name]
+
+
+def _tagged(mesh: Any, kind: str, columns: int, dropped: list[str]) -> tuple[Any, Any, dict[str, Any]]:
+    """Cells of one type, their tags and their other data."""
+    blocks = _blocks(mesh, kind)
+    cells, data = _joined(mesh, blocks, columns), _cell_data(mesh, blocks, dropped)
+    tags = _tags(data, len(cells))
+    _drop_written(data, tags)
+    return cells, tags, data
+
+
+def _lines_and_points(mesh: Any, dropped: list[str]) -> dict[str, Any]:
+    """Lines, marked points, names and field data."""
+    lines, line_tags, line_data = _tagged(mesh, "line", 2, dropped)
+    vertices, vertex_tags, vertex_data = _tagged(mesh, "vertex", 1, dropped)
+    names, field_data = _names(mesh, dropped)
+    return {
+        "lines": lines, "line_tags": line_tags, "line_data": line_data, "marked_points": vertices.reshape(-1),
+        "point_tags": vertex_tags, "marked_point_data": vertex_data, "names": names, "field_data": field_data,
+    }  # fmt: skip
 
 
 def meshio_form(handle: Any) -> Cells:
@@ -319,10 +367,19 @@ def meshio_form(handle: Any) -> Cells:
         parts = [part for part in parts if len(part[1])]
         blocks, tags = [Block(kind, cells) for kind, cells, _ in parts], [regions[rows] for _, _, rows in parts]
         data = [{name: values[rows] for name, values in of_triangles.items()} for _, _, rows in parts]
-    for kind, columns, cells, its_tags, its_data in (
-        ("line", 2, "lines", "line_tags", "line_data"), ("vertex", 1, "marked_points", "point_tags", "marked_point_data")
-    ):  # fmt: skip
-        if len(file[cells]):
+    return _with_tags(file, file["points"], blocks, tags, data)
+
+
+_TAGGED = (
+    ("triangle", 3, "faces", "face_tags", "face_data"), ("line", 2, "lines", "line_tags", "line_data"),
+    ("vertex", 1, "marked_points", "point_tags", "marked_point_data"),
+)  # fmt: skip
+
+
+def _with_tags(file: dict[str, Any], points: Any, blocks: list[Block], tags: list[Any], data: list[dict[str, Any]]) -> Cells:
+    """The cells with their tags and data, and blocks of everything in the file that carries a tag."""
+    for kind, columns, cells, its_tags, its_data in _TAGGED:
+        if len(file.get(cells, ())):
             blocks.append(Block(kind, file[cells].astype(np.int64).reshape(-1, columns)))
             tags.append(file[its_tags])
             data.append(file[its_data])
@@ -334,19 +391,28 @@ def meshio_form(handle: Any) -> Cells:
             arrays[name] if name in arrays else np.zeros((len(block.data), *like.shape[1:]), dtype=like.dtype)
             for block, arrays in zip(blocks, data)
         ]
-    weights = file["weights"] if len(file["weights"]) else np.zeros(len(file["points"]))
+    weights = file["weights"] if len(file["weights"]) else np.zeros(len(points))
     field_data = dict(file["field_data"])
     if lines := "".join(f"{dimension} {tag} {name}\n" for dimension, tag, name in file["names"]):
         field_data[_NAMES] = np.frombuffer(lines.encode(), dtype=np.uint8)
-    return Cells(file["points"], blocks, {"weight": weights, **file["point_data"]}, cell_data, field_data)
+    return Cells(points, blocks, {"weight": weights, **file["point_data"]}, cell_data, field_data)
 
 
 def meshio_of(handle: Any) -> Any:
     """The mesh as a ``meshio.Mesh``: see ``Mesh.to_meshio``."""
+    handle.require_no_period("to_meshio()")
+    return _meshio(meshio_form(handle))
+
+
+def meshio_of_tets(points: Any, weights: Any, tetrahedra: Any, regions: Any, file: dict[str, Any]) -> Any:
+    """The mesh as a ``meshio.Mesh``: see ``TetMesh.to_meshio``."""
+    blocks = [Block("tetra", tetrahedra.astype(np.int64))]
+    return _meshio(_with_tags({**file, "weights": weights}, points, blocks, [regions], [file["cell_data"]]))
+
+
+def _meshio(form: Cells) -> Any:
     import meshio
 
-    handle.require_no_period("to_meshio()")
-    form = meshio_form(handle)
     names, field_data = _names(form, [])
     field_data.update((name, np.array([tag, dimension])) for dimension, tag, name in sorted(names))
     cell_data = form.cell_data

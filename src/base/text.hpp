@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <string>
 
+#include "temper/detail/vec.hpp"
+
 namespace temper {
 
 /// Shortest decimal that reads back to the same double.
@@ -20,5 +22,14 @@ inline std::string rounded(double value, int digits = 4) {
   const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits);
   return {buffer, result.ptr};
 }
+
+/// "3 points"
+inline std::string quantity(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what; }
+
+inline std::string coordinates(Vec2 p) { return "(" + to_text(p.x) + ", " + to_text(p.y) + ")"; }
+inline std::string coordinates(Vec3 p) { return "(" + to_text(p.x) + ", " + to_text(p.y) + ", " + to_text(p.z) + ")"; }
+
+/// The number in the name of an element: "12" of "point 12".
+inline std::string last_word(const std::string& name) { return name.substr(name.rfind(' ') + 1); }
 
 }  // namespace temper

@@ -413,8 +413,7 @@ Expected<std::shared_ptr<const DiscretizationError>> make_discretization_error(
   if (options.scheme == Scheme::stars) {
     return refused(
         "`objective=solver_error` is for a scheme that solves, and stars solve nothing; expected `scheme=vertex`, "
-        "`scheme=cell` "
-        "or `scheme=all`");
+        "`scheme=cell` or `scheme=all`");
   }
   if (options.problem != nullptr) {
     return error_detail::make_problem_error(mesh, *options.problem, options.scheme, options.names);

@@ -106,7 +106,7 @@ Trial judge(const Mesh& mesh, const std::vector<Triple>& excused, LpSolver& solv
     if (orientation(mesh.space(), mesh.point(p), mesh.point(q), mesh.point(r)) != Sign::positive) return {};
     if (std::find(excused.begin(), excused.end(), sorted_corners(mesh, t)) == excused.end()) asked.push_back(t);
   }
-  const Bound bound = bound_margin(mesh, asked, solver, Demand(mesh, Constraints::well_centered, {}));
+  const Bound bound = bound_margin(TriangleDemand(mesh, Constraints::well_centered), as_cells(asked), solver);
   if (bound.best.status != LpStatus::optimal) return {};
   return {bound.best.margin, asked.size(), bound.best.margin > kCured && suits(mesh, asked, bound.best)};
 }

@@ -19,7 +19,6 @@
 #include "base/assert.hpp"
 #include "explain/conflict.hpp"
 #include "explain/cures.hpp"
-#include "feasibility/region.hpp"
 #include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "quality/measure.hpp"
@@ -196,7 +195,7 @@ class Explainer {
     for (std::size_t i = 0; i < bad_.size(); ++i) {
       const bool beat = options_.progress && i % kBeats == 0;
       if (beat && options_.progress(i, bad_.size()) == Continue::no) return false;
-      find_conflicts(ring_of(mesh_, bad_[i].triangle), bad_[i].triangle);
+      find_conflicts(triangles_around(mesh_, {&bad_[i].triangle, 1}), bad_[i].triangle);
     }
     return !options_.progress || options_.progress(bad_.size(), bad_.size()) == Continue::yes;
   }
@@ -216,7 +215,7 @@ class Explainer {
       group.bad = {bad.triangle};
       seen[bad.triangle] = 1;
       for (std::size_t i = 0; i < group.bad.size(); ++i) {
-        for (const TriangleId t : ring_of(mesh_, group.bad[i])) {
+        for (const TriangleId t : triangles_around(mesh_, {&group.bad[i], 1})) {
           if (state_[t] != kUnexplained || seen[t] != 0) continue;
           seen[t] = 1;
           group.bad.push_back(t);
@@ -288,7 +287,8 @@ class Explainer {
       reason.each = true;
       reason.margin = kUnbounded, reason.checked = 0;
       found = true;
-      for (const TriangleId t : reason.bad) found = have_weights(reason, without_owned(ring_of(mesh_, t))) && found;
+      for (const TriangleId t : reason.bad)
+        found = have_weights(reason, without_owned(triangles_around(mesh_, {&t, 1}))) && found;
     }
     reason.kind = found || result_.verdict == Feasibility::feasible ? ReasonKind::weights : ReasonKind::undecided;
   }

@@ -22,22 +22,19 @@
 #include <map>
 #include <optional>
 
-#include "base/assert.hpp"
-#include "feasibility/exact_number.hpp"
+#include "feasibility/certificate_sum.hpp"
 #include "feasibility/potential.hpp"
 #include "temper/feasibility.hpp"
 
 namespace temper {
 namespace {
 
-using exact::Number;
-using Kind = WeightConstraint::Kind;
+using namespace certified;
 
 // After scaling coordinates are below 1 and multiples of 2^-53 times the least of them. The product of four differences
 // and a multiplier must be a multiple of 2^-1074: 4 · (120 + 53) + 250 + 53 = 995 bits. On the sphere a bound is
 // another factor, a double of 53 bits above 2^-106: 4 · (90 + 53) + 250 + 53 + 159 = 1034.
 constexpr double kLeastCoordinate = 0x1p-120, kLeastOnSphere = 0x1p-90;
-constexpr double kLeastMultiplier = 0x1p-250;
 
 struct Vector {
   Number x, y;
@@ -46,26 +43,10 @@ Vector difference(Vec2 a, Vec2 b) { return {Number::difference(a.x, b.x), Number
 Number dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
 Number cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
 
-/// N − t M of one constraint: coefficients of the weights of its vertices, and the rest.
-struct Polynomial {
-  std::array<Number, 4> coefficients;
-  Number constant;
-};
-
 Polynomial height_polynomial(Vec2 p, Vec2 q, Vec2 r, double margin) {
-  const Vector pq = difference(q, p), pr = difference(r, p), qr = difference(r, q);
-  const Number at_p = dot(pq, pr), at_q = -dot(pq, qr), at_r = dot(pr, qr);
-  const Number l2 = at_p + at_q;
-  Polynomial polynomial = {{at_q, at_p, -l2, Number()}, l2 * at_r};
-  if (margin != 0) polynomial.constant += -(Number(2 * margin) * l2 * cross(pq, pr));
-  return polynomial;
-}
-
-Polynomial crossing_polynomial(Vec2 p, Vec2 q, double margin) {
-  const Vector pq = difference(q, p);
-  const Number l2 = dot(pq, pq);
-  Polynomial polynomial = {{Number(1), Number(-1), Number(), Number()}, l2};
-  if (margin != 0) polynomial.constant += -(Number(2 * margin) * l2);
+  const Vector pq = difference(q, p), pr = difference(r, p);
+  Polynomial polynomial = polynomial_of_height(pq, pr, difference(r, q));
+  if (margin != 0) polynomial.constant += -(Number(2 * margin) * dot(pq, pq) * cross(pq, pr));
   return polynomial;
 }
 
@@ -80,13 +61,6 @@ Polynomial dual_polynomial(Vec2 p, Vec2 q, Vec2 r, Vec2 s, double margin) {
 
 // --- on the sphere ------------------------------------------------------------------------------------------------
 
-struct Vector3 {
-  Number x, y, z;
-};
-Number dot(const Vector3& a, const Vector3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 Vector3 exact_vector(Vec3 p) { return {Number(p.x), Number(p.y), Number(p.z)}; }
 Number determinant(Vec3 p, Vec3 q, Vec3 r) { return dot(exact_vector(p), cross(exact_vector(q), exact_vector(r))); }
 double volume(Vec3 p, Vec3 q, Vec3 r) { return dot(p, cross(q - p, r - p)); }
@@ -105,7 +79,7 @@ Polynomial height_polynomial(Vec3 p, Vec3 q, Vec3 r, double radius, double margi
   return polynomial;
 }
 
-Polynomial crossing_polynomial(Vec3 p, Vec3 q, double /*radius*/, double margin) {
+Polynomial crossing_polynomial(Vec3 p, Vec3 q, double margin) {
   const Vector3 x = exact_vector(p);
   Polynomial polynomial = {{-dot(x, exact_vector(q)), dot(x, x), Number(), Number()}, Number()};
   take_margin(polynomial, margin, squared_length(q - p));
@@ -134,6 +108,8 @@ bool counts(Constraints constraints, Kind kind) {
       return kind == Kind::height;
     case Constraints::regular:
       return kind == Kind::dual;
+    case Constraints::completely_well_centered:
+      return false;
   }
   return false;
 }
@@ -147,75 +123,11 @@ bool is_of(const Mesh& mesh, const WeightConstraint& c) {
   return c.kind == Kind::height || (back.valid() && mesh.opposite(back) == c.s);
 }
 
-bool has_good_multipliers(const Certificate& certificate) {
-  const auto good = [](const Certificate::Term& term) {
-    return std::isfinite(term.multiplier) && term.multiplier >= 0;
-  };
-  const auto positive = [](const Certificate::Term& term) { return term.multiplier > 0; };
-  return certificate.margin >= 0 && certificate.margin < 0.5 &&
-         std::all_of(certificate.terms.begin(), certificate.terms.end(), good) &&
-         std::any_of(certificate.terms.begin(), certificate.terms.end(), positive);
-}
-
-/// Exponents that bring coordinates into [−1, 1] and the multiplier 1 into the middle of its range.
-struct Scale {
-  int length = 0, multiplier = 0;
-  bool in_range = true;
-
-  int degree_of_dual = 4;
-
-  [[nodiscard]] double coordinate(double x) const { return std::ldexp(x, -length); }
-  /// The scale of N, by its degree, so that the sum stays the same up to a factor.
-  [[nodiscard]] int shift(Kind kind) const {
-    return length * (kind == Kind::crossing ? 2 : kind == Kind::height ? 4 : degree_of_dual);
-  }
-  [[nodiscard]] double of(const Certificate::Term& term) const {
-    return std::ldexp(term.multiplier, shift(term.constraint.kind) - multiplier);
-  }
-};
-
 /// z is 0 in the plane.
 Vec3 place_in(const Mesh& mesh, VertexId v) {
   if (!mesh.space().is_plane()) return position_of(mesh, v);
   const Vec2 p = mesh.position(v);
   return {p.x, p.y, 0};
-}
-
-template <class Use>
-void for_each_vertex(const WeightConstraint& c, const Use& use) {
-  use(c.p), use(c.q);
-  if (c.kind != Kind::crossing) use(c.r);
-  if (c.kind == Kind::dual) use(c.s);
-}
-
-Scale scale_of(const Mesh& mesh, const Certificate& certificate) {
-  Scale scale;
-  scale.degree_of_dual = mesh.space().is_plane() ? 4 : 3;
-  double largest = 0, least = kUnbounded;
-  for (const auto& term : certificate.terms) {
-    for_each_vertex(term.constraint, [&](VertexId v) {
-      const Vec3 place = place_in(mesh, v);
-      for (const double x : {std::abs(place.x), std::abs(place.y), std::abs(place.z)}) {
-        largest = std::max(largest, x);
-        if (x > 0) least = std::min(least, x);
-      }
-    });
-  }
-  std::frexp(largest, &scale.length);
-  // Exponents are integers, as the shifted multipliers themselves might not be doubles.
-  int most = -100000, fewest = 100000;
-  for (const auto& term : certificate.terms) {
-    if (term.multiplier == 0) continue;
-    int exponent = 0;
-    std::frexp(term.multiplier, &exponent);
-    exponent += scale.shift(term.constraint.kind);
-    most = std::max(most, exponent), fewest = std::min(fewest, exponent);
-  }
-  scale.multiplier = most;
-  scale.in_range = std::ldexp(least, -scale.length) >= (mesh.space().is_plane() ? kLeastCoordinate : kLeastOnSphere) &&
-                   std::ldexp(1.0, std::max(fewest - most, -1000)) >= kLeastMultiplier &&
-                   (certificate.margin == 0 || certificate.margin >= 0x1p-20);  // 20 + 53 bits more: 1068 in all
-  return scale;
 }
 
 /// The terms of the sum in the plane.
@@ -228,19 +140,18 @@ class PlaneTerms {
     switch (c.kind) {
       case Kind::height:
         return height_polynomial(at(c.p), at(c.q), at(c.r), margin);
-      case Kind::crossing:
-        return crossing_polynomial(at(c.p), at(c.q), margin);
       case Kind::dual:
         return dual_polynomial(at(c.p), at(c.q), at(c.r), at(c.s), margin);
+      default:
+        return polynomial_of_crossing(difference(at(c.q), at(c.p)), margin);
     }
-    return {};
   }
-  /// b of an edge of a triangle whose third corner is r; a crossing has no r.
-  [[nodiscard]] std::optional<Number> bound(VertexId a, VertexId b, VertexId r) const {
+  /// b of an edge of a triangle whose third corner is in `others`; a crossing has none.
+  [[nodiscard]] std::optional<Number> bound(VertexId a, VertexId b, std::span<const VertexId> others) const {
     const Number length = squared_distance(a, b);
     if (constraints_ == Constraints::regular) return Number(kWeightReach) * length;
     if (constraints_ != Constraints::heights_only) return length;
-    Number across = abs(squared_distance(a, r) - squared_distance(b, r));
+    Number across = abs(squared_distance(a, others[0]) - squared_distance(b, others[0]));
     return (across - length).sign() == Sign::positive ? across : length;
   }
   /// W beyond an edge.
@@ -274,23 +185,22 @@ class SphereTerms {
     switch (c.kind) {
       case Kind::height:
         return height_polynomial(at(c.p), at(c.q), at(c.r), radius_, margin);
-      case Kind::crossing:
-        return crossing_polynomial(at(c.p), at(c.q), radius_, margin);
       case Kind::dual:
         return dual_polynomial(at(c.p), at(c.q), at(c.r), at(c.s), radius_, margin);
+      default:
+        return crossing_polynomial(at(c.p), at(c.q), margin);
     }
-    return {};
   }
   /// The bound b. Crossings give p·q/|p|² < σ_q/σ_p < |q|²/p·q. With heights alone the orthocenter o is in the
   /// triangle, and σ_q/σ_p = q·o/p·o is between the least and the greatest of these two and r·q/r·p. Returns nothing if
   /// cells are so large that no bound exists.
-  [[nodiscard]] std::optional<Number> bound(VertexId a, VertexId b, VertexId r) const {
+  [[nodiscard]] std::optional<Number> bound(VertexId a, VertexId b, std::span<const VertexId> others) const {
     const Vector3 p = exact_vector(at(a)), q = exact_vector(at(b));
     const Number pq = dot(p, q);
     std::optional<double> most = larger(distance_from_one(pq, dot(p, p)), distance_from_one(dot(q, q), pq));
     if (most && constraints_ == Constraints::regular) return Number(std::min(kWeightReach * *most, 1.0));
     if (constraints_ == Constraints::heights_only) {
-      const Vector3 across = exact_vector(at(r));
+      const Vector3 across = exact_vector(at(others[0]));
       most = larger(most, distance_from_one(dot(across, q), dot(across, p)));
     }
     if (!most) return std::nullopt;
@@ -325,92 +235,6 @@ class SphereTerms {
   double radius_;
 };
 
-/// The sum, vertex by vertex, and the edges along which weights, or σ, differ by a bound.
-template <class Terms>
-class Sum {
- public:
-  Sum(const Mesh& mesh, const Certificate& certificate, const Scale& scale)
-      : terms_(mesh, scale, certificate.constraints), scale_(scale) {
-    for (const auto& term : certificate.terms) {
-      if (term.multiplier > 0) add(term, certificate.margin);
-    }
-  }
-  /// C plus the upper bound of each part; if parts have factors of their own, the largest of these sums.
-  [[nodiscard]] Number upper_bound() const;
-
- private:
-  struct Node {
-    Number residual;
-    std::vector<std::pair<VertexId, Number>> neighbors;  ///< with b_pq
-  };
-
-  void join_edge(VertexId a, VertexId b, VertexId r) {
-    const std::optional<Number> bound = terms_.bound(a, b, r);
-    if (!bound) return;
-    nodes_[a].neighbors.emplace_back(b, *bound);
-    nodes_[b].neighbors.emplace_back(a, *bound);
-  }
-  void join_triangle(VertexId a, VertexId b, VertexId c) { join_edge(a, b, c), join_edge(b, c, a), join_edge(c, a, b); }
-
-  void add(const Certificate::Term& term, double margin) {
-    const auto [kind, p, q, r, s] = term.constraint;
-    const Polynomial polynomial = terms_.polynomial_of(term.constraint, margin);
-    const Number multiplier(scale_.of(term));
-    constant_ += multiplier * polynomial.constant;
-    int k = 0;
-    for_each_vertex(term.constraint, [&](VertexId v) {
-      nodes_[v].residual += multiplier * polynomial.coefficients[static_cast<std::size_t>(k++)];
-    });
-    if (kind == Kind::crossing) join_edge(p, q, VertexId());
-    if (kind != Kind::crossing) join_triangle(p, q, r);
-    if (kind == Kind::dual) join_triangle(q, p, s);
-  }
-
-  /// The upper bound of the root's part, W_v along a breadth-first tree. Notes the vertices in it.
-  [[nodiscard]] Number part_bound(VertexId root, std::map<VertexId, Number>& reach) const;
-
-  Terms terms_;
-  const Scale& scale_;
-  Number constant_;
-  std::map<VertexId, Node> nodes_;  // ordered: the same path whatever the order of the terms
-};
-
-template <class Terms>
-Number Sum<Terms>::part_bound(VertexId root, std::map<VertexId, Number>& reach) const {
-  Number bound;
-  reach[root] = Number();
-  std::vector<VertexId> queue = {root};
-  for (std::size_t i = 0; i < queue.size(); ++i) {
-    const VertexId v = queue[i];
-    const Node& node = nodes_.at(v);
-    bound += Terms::most(node.residual, reach[v]);
-    for (const auto& [u, difference] : node.neighbors) {
-      if (reach.count(u) > 0) continue;
-      reach[u] = Terms::reach_beyond(reach[v], difference);
-      queue.push_back(u);
-    }
-  }
-  return bound;
-}
-
-template <class Terms>
-Number Sum<Terms>::upper_bound() const {
-  Number bound = constant_;
-  std::map<VertexId, Number> reach;  // W_v
-  bool first = true;
-  for (const auto& [root, unused] : nodes_) {
-    if (reach.count(root) > 0) continue;
-    const Number part = part_bound(root, reach);
-    if (!Terms::kPartsHaveFactors) {
-      bound += part;
-    } else if (first || (part - bound).sign() == Sign::positive) {
-      bound = part;
-    }
-    first = false;
-  }
-  return bound;
-}
-
 }  // namespace
 
 std::string_view name(CertificateCheck check) {
@@ -426,11 +250,11 @@ CertificateCheck check_certificate(const Mesh& mesh, const Certificate& certific
       return CertificateCheck::not_of_this_mesh;
     }
   }
-  const Scale scale = scale_of(mesh, certificate);
-  if (!scale.in_range) return CertificateCheck::out_of_range;
-  const Number total = mesh.space().is_plane() ? Sum<PlaneTerms>(mesh, certificate, scale).upper_bound()
-                                               : Sum<SphereTerms>(mesh, certificate, scale).upper_bound();
-  return total.sign() == Sign::positive ? CertificateCheck::proves_nothing : CertificateCheck::proves;
+  const bool in_plane = mesh.space().is_plane();
+  const Scale scale = scale_of(certificate, {4, 2, in_plane ? 4 : 3}, in_plane ? kLeastCoordinate : kLeastOnSphere,
+                               [&](VertexId v) { return place_in(mesh, v); });
+  if (in_plane) return check_sum(PlaneTerms(mesh, scale, certificate.constraints), certificate, scale);
+  return check_sum(SphereTerms(mesh, scale, certificate.constraints), certificate, scale);
 }
 
 }  // namespace temper

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "feasibility/constraints.hpp"
+#include "feasibility/demand.hpp"
 #include "temper/feasibility.hpp"
 
 namespace temper {
@@ -20,11 +20,9 @@ struct Bound {
   std::vector<double> dual;
   double attained = 0;  ///< sphere: the margin of the weights; `best.margin`, except for the last digits
 };
-/// `triangles` is sorted.
-[[nodiscard]] Bound bound_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver,
-                                 const Demand& demand);
+[[nodiscard]] Bound bound_margin(const Demand& demand, std::span<const CellId> cells, LpSolver& solver);
 
 /// A certificate that refutes the margin, with as few terms as possible; without terms when the checker accepts none.
-[[nodiscard]] Certificate certify(const Mesh& mesh, const Bound& bound, Constraints constraints, double margin);
+[[nodiscard]] Certificate certify(const Demand& demand, const Bound& bound, double margin);
 
 }  // namespace temper

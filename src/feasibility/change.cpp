@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "feasibility/constraints.hpp"
 #include "feasibility/lp_builder.hpp"
 
 namespace temper {
@@ -41,44 +40,32 @@ struct Program {
 class ProgramBuilder {
  public:
   ProgramBuilder(const RegionProblem& problem, const Region& region, bool elastic)
-      : mesh_(problem.mesh),
-        region_(region),
-        demand_(problem.demand),
-        start_(problem.start),
-        margin_(problem.margin),
-        elastic_(elastic) {}
+      : demand_(problem.demand), region_(region), start_(problem.start), margin_(problem.margin), elastic_(elastic) {}
 
   Program build() {
-    const std::vector<HalfedgeId> edges = edges_of(mesh_, region_.triangles);
-    p_.units = weight_units(mesh_, region_.free, edges);
+    const std::vector<WeightEdge> edges = demand_.edges_of(region_.cells);
+    p_.units = weight_units(region_.free, edges);
     for (std::size_t i = 0; i < region_.free.size(); ++i) {
       for (int sign = 0; sign < 2; ++sign) p_.change_costs.emplace_back(p_.lp.add_column(0, 0, kUnbounded), kTieBreak);
     }
     double total = 0;
-    for (const HalfedgeId h : edges) total += length_of(h);
+    for (const WeightEdge& edge : edges) total += std::sqrt(edge.squared_length);
     const double mean = total / static_cast<double>(edges.size());
-    for (const HalfedgeId h : edges) add_edge(h, mean);
-    if (!region_.has_rim && !mesh_.space().is_plane()) add_sum();
-    for (const TriangleId t : region_.triangles) {
-      for (int k = 0; k < 3 && demand_.has_heights(); ++k) add_row(height_constraint(mesh_, Mesh::halfedge(t, k)));
-    }
-    for (const HalfedgeId h : edges) {
-      if (demand_.has_crossings() && !crossings_are_differences()) {
-        add_row(split_constraint(mesh_.origin(h), mesh_.target(h)));
-        add_row(split_constraint(mesh_.target(h), mesh_.origin(h)));
-      }
-      if (demand_.has_dual(mesh_, h)) add_row(dual_constraint(mesh_, h));
+    for (const WeightEdge& edge : edges) add_edge(edge, mean);
+    if (!region_.has_rim && !space().is_plane()) add_sum();
+    for (const WeightConstraint& c : demand_.constraints_of(region_.cells, true)) {
+      if (c.kind != WeightConstraint::Kind::crossing || !crossings_are_differences()) add_row(c);
     }
     return std::move(p_);
   }
 
  private:
   /// Says whether there are crossings, as bounds of the columns of edges.
-  [[nodiscard]] bool crossings_are_differences() const { return demand_.has_crossings() && mesh_.space().is_plane(); }
-  [[nodiscard]] double length_of(HalfedgeId h) const { return std::sqrt(squared_length_of(mesh_, h)); }
-  [[nodiscard]] double start(VertexId v) const { return potential_of(mesh_.space(), start_[v]); }
+  [[nodiscard]] bool crossings_are_differences() const { return demand_.has_crossings() && space().is_plane(); }
+  [[nodiscard]] const Space& space() const { return demand_.space(); }
+  [[nodiscard]] double start(VertexId v) const { return potential_of(space(), start_[v]); }
   /// Adds factor · the change of v's potential to the row.
-  bool add_potential(VertexId v, double factor) { return add_weight(v, factor * scale_at(mesh_.space(), start_[v])); }
+  bool add_potential(VertexId v, double factor) { return add_weight(v, factor * scale_at(space(), start_[v])); }
   /// Adds factor · Δw_v to the row, unless v is on the rim, where Δw is zero.
   bool add_weight(VertexId v, double factor) {
     const std::size_t i = index_of(region_.free, v);
@@ -93,9 +80,9 @@ class ProgramBuilder {
     return column;
   }
 
-  void add_edge(HalfedgeId h, double mean_length) {
-    const VertexId i = mesh_.origin(h), j = mesh_.target(h);
-    const double l = length_of(h);
+  void add_edge(const WeightEdge& edge, double mean_length) {
+    const auto& [i, j, squared_length] = edge;
+    const double l = std::sqrt(squared_length);
     const bool i_free = add_weight(i, 1 / (l * l)), j_free = add_weight(j, -1 / (l * l));
     if (!i_free && !j_free) return;
     // margin ≤ d/ℓ ≤ 1 − margin, as bounds of (Δw_i − Δw_j)/ℓ².
@@ -127,7 +114,7 @@ class ProgramBuilder {
   }
 
   void add_row(const WeightConstraint& constraint) {
-    const LinearForm form = linear_form(mesh_, constraint), kept = beyond_margin(form, margin_);
+    const LinearForm form = demand_.linear_form(constraint), kept = beyond_margin(form, margin_);
     bool any_free = false;
     for (int k = 0; k < kept.size; ++k) any_free = add_potential(kept.vertices[k], kept.coefficients[k]) || any_free;
     if (!any_free) return;
@@ -136,9 +123,8 @@ class ProgramBuilder {
     p_.lp.end_row(margin_ * scale_of(form, potential) - numerator_of(form, potential), kUnbounded);
   }
 
-  const Mesh& mesh_;
-  const Region& region_;
   const Demand& demand_;
+  const Region& region_;
   const IdVector<VertexId, double>& start_;
   double margin_;
   bool elastic_;
@@ -167,7 +153,7 @@ RegionChange read_change(const RegionProblem& problem, const Region& region, con
   for (std::size_t i = 0; i < region.free.size(); ++i) {
     result.change.push_back(units[i] * (solution.primal[2 * i] - solution.primal[2 * i + 1]));
   }
-  const Space& space = problem.mesh.space();
+  const Space& space = problem.demand.space();
   if (!region.has_rim) {
     const double least_unit = *std::min_element(units.begin(), units.end());
     const double common = common_change(result.change, kNoChange * least_unit);

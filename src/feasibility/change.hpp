@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "feasibility/constraints.hpp"
+#include "feasibility/demand.hpp"
 #include "feasibility/region.hpp"
 #include "temper/feasibility.hpp"
 
@@ -17,9 +17,8 @@ struct RegionChange {
 
 /// The constraints on the weights of a region.
 struct RegionProblem {
-  const Mesh& mesh;
   const Demand& demand;
-  const IdVector<VertexId, double>& start;  ///< the weights before the change; the weights of the rim stay
+  const VertexWeights& start;  ///< the weights before the change; the weights of the rim stay
   double margin = 0;
 };
 

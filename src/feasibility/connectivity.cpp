@@ -36,7 +36,7 @@ struct Optimum {
 class ConnectivitySearch {
  public:
   ConnectivitySearch(const Mesh& mesh, LpSolver& solver, const ConnectivityOptions& options)
-      : solver_(solver), options_(options), demand_(mesh, options.constraints, {}) {
+      : solver_(solver), options_(options) {
     report_.mesh = mesh;
   }
 
@@ -63,15 +63,16 @@ class ConnectivitySearch {
     ++report_.programs;
     Optimum optimum;
     optimum.weights = IdVector<VertexId, double>(mesh.n_vertices(), 0.0);
-    for (const Region& component : components_of(mesh)) {
-      Bound bound = bound_margin(mesh, component.triangles, solver_, demand_);
+    const TriangleDemand demand(mesh, options_.constraints);
+    for (const Region& component : components_of(demand)) {
+      Bound bound = bound_margin(demand, component.cells, solver_);
       if (bound.best.status != LpStatus::optimal) return std::nullopt;
       for (std::size_t i = 0; i < bound.best.vertices.size(); ++i) {
         optimum.weights[bound.best.vertices[i]] = bound.best.weights[i];
       }
       // A flip may make a triangle so flat that its heights are below the solver's tolerance: the attained margin
       // counts.
-      const double margin = std::min(bound.best.margin, attained(mesh, component.triangles, optimum.weights));
+      const double margin = std::min(bound.best.margin, attained(demand, component.cells, optimum.weights));
       if (margin >= optimum.margin) continue;
       optimum.margin = margin;
       optimum.proof = std::move(bound.best.tight);
@@ -79,12 +80,10 @@ class ConnectivitySearch {
     return optimum;
   }
 
-  [[nodiscard]] double attained(const Mesh& mesh, const std::vector<TriangleId>& triangles,
-                                const IdVector<VertexId, double>& weights) const {
+  [[nodiscard]] static double attained(const Demand& demand, std::span<const CellId> cells,
+                                       const VertexWeights& weights) {
     double margin = kUnbounded;
-    for (const TriangleId t : triangles) {
-      margin = std::min(margin, demand_.margin_of(mesh, t, [&](VertexId v) { return weights[v]; }));
-    }
+    for (const CellId cell : cells) margin = std::min(margin, demand.margin_of(cell, weights));
     return margin;
   }
 
@@ -149,13 +148,13 @@ class ConnectivitySearch {
 
   /// The triangles around the flipped edge, the rest left out, bound the margin from above.
   [[nodiscard]] bool is_ruled_out(const Mesh& flipped, const std::array<TriangleId, 2>& changed) const {
-    const Bound bound = bound_margin(flipped, triangles_around(flipped, changed), solver_, demand_);
+    const Bound bound = bound_margin(TriangleDemand(flipped, options_.constraints),
+                                     as_cells(triangles_around(flipped, changed)), solver_);
     return bound.best.status == LpStatus::optimal && !is_greater(bound.best.margin);
   }
 
   LpSolver& solver_;
   const ConnectivityOptions& options_;
-  Demand demand_;
   Optimum best_;
   ConnectivityReport report_;
 };

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <tuple>
+
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {
@@ -15,21 +18,17 @@ LinearForm dual_form(const Mesh& mesh, const WeightConstraint& c) {
   return {4, {c.p, c.q, c.r, c.s}, {a[0] + b[1], a[1] + b[0], a[2], b[2]}, left.constant + right.constant, left.slope};
 }
 
-LinearForm plane_form(const Mesh& mesh, const WeightConstraint& constraint) {
-  const auto [kind, p, q, r, s] = constraint;
-  const Vec2 pq = mesh.position(q) - mesh.position(p);
-  const double l2 = squared_length(pq);
-  if (kind == WeightConstraint::Kind::crossing) return {2, {p, q}, {0.5 / l2, -0.5 / l2}, 0.5};
-  const Vec2 pr = mesh.position(r) - mesh.position(p);
-  const Vec2 qr = mesh.position(r) - mesh.position(q);
-  const double scale = 0.5 / cross(pq, pr);
-  return {3, {p, q, r, {}}, {-scale * dot(pq, qr) / l2, scale * dot(pq, pr) / l2, -scale, 0}, scale * dot(pr, qr)};
+LinearForm plane_form(const Mesh& mesh, const WeightConstraint& c) {
+  const Vec2 pq = mesh.position(c.q) - mesh.position(c.p);
+  if (c.kind == WeightConstraint::Kind::crossing) return crossing_form(c, pq);
+  const Vec2 pr = mesh.position(c.r) - mesh.position(c.p);
+  return height_form(c, pq, pr, mesh.position(c.r) - mesh.position(c.q), cross(pq, pr));
 }
 
 /// Let a = q − p, b = r − p and n = a × b, so that little cancels. Then (p×q)·n = (p·a)(a·b) − (p·b)|a|² is the sum of
 /// the three, and (p×q)·(r×p) = −(p×a)·(p×b).
 LinearForm sphere_form(const Mesh& mesh, const WeightConstraint& constraint) {
-  const auto [kind, vp, vq, vr, vs] = constraint;
+  const auto [kind, vp, vq, vr, vs, vt] = constraint;
   const double slope = slope_of_scale(mesh.space()), radius = mesh.space().radius();
   const Vec3 p = position_of(mesh, vp), a = position_of(mesh, vq) - p;
   if (kind == WeightConstraint::Kind::crossing) {
@@ -43,6 +42,8 @@ LinearForm sphere_form(const Mesh& mesh, const WeightConstraint& constraint) {
   return {3, {vp, vq, vr, {}}, {-slope * constant - at_q - at_r, at_q, at_r, 0}, constant, slope};
 }
 
+constexpr double kDegrees = 57.29577951308232;
+
 constexpr std::array<ConstraintsInfo, 3> kConditions = {{
     {Constraints::well_centered, "well_centered", "h >= t l and t l <= d <= (1 - t) l",
      "weights make every triangle well-centered", "no weights make every triangle well-centered"},
@@ -52,26 +53,37 @@ constexpr std::array<ConstraintsInfo, 3> kConditions = {{
      "no weights make these edges regular, if weights differ by less than 2^20 l^2 along edges"},
 }};
 
+double scale_on_sphere(const Mesh& mesh, const WeightConstraint& c) {
+  const Vec3 p = position_of(mesh, c.p), a = position_of(mesh, c.q) - p;
+  const double cube = mesh.space().radius() * squared_length(p);
+  const auto volume = [&](VertexId v) { return std::abs(dot(p, cross(a, position_of(mesh, v) - p))); };
+  switch (c.kind) {
+    case WeightConstraint::Kind::height:
+      return squared_length(cross(p, a)) * volume(c.r) / cube;
+    case WeightConstraint::Kind::dual:
+      return volume(c.r) * volume(c.s) / cube;
+    default:
+      return squared_length(a);
+  }
+}
+
 }  // namespace
 
 std::span<const ConstraintsInfo> constraints_table() { return kConditions; }
 
-std::string_view name(Constraints constraints) { return kConditions[static_cast<std::size_t>(constraints)].name; }
+std::string_view name(Constraints constraints) {
+  if (constraints == Constraints::completely_well_centered) return "completely_well_centered";
+  return kConditions[static_cast<std::size_t>(constraints)].name;
+}
 
 std::string_view name(WeightConstraint::Kind kind) {
-  constexpr std::array<std::string_view, 3> kNames = {"height", "crossing", "dual"};
+  constexpr std::array<std::string_view, 5> kNames = {"height", "crossing", "dual", "height_over_face", "dual_of_face"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
 LinearForm linear_form(const Mesh& mesh, const WeightConstraint& constraint) {
   if (constraint.kind == WeightConstraint::Kind::dual) return dual_form(mesh, constraint);
   return mesh.space().is_plane() ? plane_form(mesh, constraint) : sphere_form(mesh, constraint);
-}
-
-LinearForm beyond_margin(LinearForm form, double margin) {
-  form.constant -= margin;
-  for (int k = 0; k < 2; ++k) form.coefficients[k] += 0.5 * margin * form.slope;
-  return form;
 }
 
 double squared_distance(const Mesh& mesh, VertexId p, VertexId q) {
@@ -83,22 +95,131 @@ WeightConstraint height_constraint(const Mesh& mesh, HalfedgeId h) {
   return {WeightConstraint::Kind::height, mesh.origin(h), mesh.target(h), mesh.opposite(h)};
 }
 
-WeightConstraint split_constraint(VertexId from, VertexId to) {
-  return {WeightConstraint::Kind::crossing, from, to, VertexId()};
-}
-
 WeightConstraint dual_constraint(const Mesh& mesh, HalfedgeId h) {
   return {WeightConstraint::Kind::dual, mesh.origin(h), mesh.target(h), mesh.opposite(h), mesh.opposite(mesh.twin(h))};
 }
 
-Demand::Demand(const Mesh& mesh, Constraints constraints, std::span<const HalfedgeId> edges)
-    : constraints_(constraints), in_plane_(mesh.space().is_plane()) {
+TriangleDemand::TriangleDemand(const Mesh& mesh, Constraints constraints, std::span<const HalfedgeId> edges)
+    : Demand(mesh.space(), constraints, constraints == Constraints::well_centered), mesh_(mesh) {
   if (edges.empty()) return;
   prescribed_ = IdVector<HalfedgeId, std::uint8_t>(mesh.n_halfedges(), 0);
   for (const HalfedgeId h : edges) {
     prescribed_[h] = 1;
     if (!mesh.is_boundary(h)) prescribed_[mesh.twin(h)] = 1;
   }
+}
+
+void TriangleDemand::add_corners(CellId cell, std::vector<VertexId>& corners) const {
+  for (const VertexId v : mesh_.corners(TriangleId(cell.index))) corners.push_back(v);
+}
+
+void TriangleDemand::add_cells_around(VertexId v, std::vector<CellId>& cells) const {
+  if (mesh_.is_isolated(v)) return;
+  for (const HalfedgeId h : mesh_.star(v)) cells.emplace_back(Mesh::triangle(h).index);
+}
+
+void TriangleDemand::add_vertices_across(VertexId v, std::vector<VertexId>& vertices) const {
+  if (mesh_.is_isolated(v)) return;
+  for (const HalfedgeId h : mesh_.star(v)) {
+    const HalfedgeId outer = Mesh::next(h);
+    if (!mesh_.is_boundary(outer)) vertices.push_back(mesh_.opposite(mesh_.twin(outer)));
+  }
+}
+
+std::vector<WeightEdge> TriangleDemand::edges_of(std::span<const CellId> cells) const {
+  std::vector<WeightEdge> edges;
+  for (const HalfedgeId h : temper::edges_of(mesh_, as_triangles(cells)))
+    edges.push_back({mesh_.origin(h), mesh_.target(h), squared_length_of(mesh_, h)});
+  return edges;
+}
+
+std::vector<WeightConstraint> TriangleDemand::constraints_of(std::span<const CellId> cells, bool rim) const {
+  const std::vector<TriangleId> triangles = as_triangles(cells);
+  std::vector<WeightConstraint> constraints;
+  for (const TriangleId t : triangles) {
+    for (int k = 0; k < 3 && has_heights(); ++k) constraints.push_back(height_constraint(mesh_, Mesh::halfedge(t, k)));
+  }
+  for (const HalfedgeId h : temper::edges_of(mesh_, triangles)) {
+    if (has_crossings()) {
+      constraints.push_back(split_constraint(mesh_.origin(h), mesh_.target(h)));
+      constraints.push_back(split_constraint(mesh_.target(h), mesh_.origin(h)));
+    }
+    if (has_dual(h) && (rim || std::binary_search(triangles.begin(), triangles.end(), Mesh::triangle(mesh_.twin(h))))) {
+      constraints.push_back(dual_constraint(mesh_, h));
+    }
+  }
+  return constraints;
+}
+
+LinearForm TriangleDemand::linear_form(const WeightConstraint& constraint) const {
+  return temper::linear_form(mesh_, constraint);
+}
+
+double TriangleDemand::scale_of_polynomial(const WeightConstraint& c) const {
+  if (!space().is_plane()) return scale_on_sphere(mesh_, c);
+  const Vec2 p = mesh_.position(c.p), q = mesh_.position(c.q);
+  switch (c.kind) {
+    case WeightConstraint::Kind::height:
+      return 2 * squared_length(q - p) * doubled_area(p, q, mesh_.position(c.r));
+    case WeightConstraint::Kind::dual:
+      return 2 * doubled_area(p, q, mesh_.position(c.r)) * doubled_area(q, p, mesh_.position(c.s));
+    default:
+      return 2 * squared_length(q - p);
+  }
+}
+
+bool TriangleDemand::is_kept(CellId cell, const VertexWeights& weights) const {
+  const TriangleId t(cell.index);
+  const auto at = [&](VertexId v) { return point_with_weight(mesh_, v, weights[v]); };
+  const auto [a, b, c] = mesh_.corners(t);
+  if (has_crossings()) return is_well_centered(space(), at(a), at(b), at(c));
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeId h = Mesh::halfedge(t, k);
+    const WeightedPoint p = at(mesh_.origin(h)), q = at(mesh_.target(h)), r = at(mesh_.opposite(h));
+    if (has_heights() && signed_height_sign(space(), p, q, r) != Sign::positive) return false;
+    if (!has_dual(h)) continue;
+    if (power_test(space(), p, q, r, at(mesh_.opposite(mesh_.twin(h)))) != Sign::negative) return false;
+  }
+  return true;
+}
+
+double TriangleDemand::margin_of(CellId cell, const VertexWeights& weights) const {
+  double margin = kUnbounded;
+  const auto potential = [&](VertexId v) { return potential_of(space(), weights[v]); };
+  const auto value = [&](const WeightConstraint& c) { return value_of(linear_form(c), potential); };
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeId h = Mesh::halfedge(TriangleId(cell.index), k);
+    if (has_heights()) margin = std::min(margin, value(height_constraint(mesh_, h)));
+    if (has_crossings()) {
+      const double crossing = value(split_constraint(mesh_.origin(h), mesh_.target(h)));
+      margin = std::min({margin, crossing, 1 - crossing});
+    }
+    if (has_dual(h)) margin = std::min(margin, value(dual_constraint(mesh_, h)));
+  }
+  return margin;
+}
+
+double TriangleDemand::angle_deg(const WeightConstraint& c) const {
+  if (c.kind != WeightConstraint::Kind::height) return 0;
+  return kDegrees * corner_angle(space(), mesh_.point(c.r), mesh_.point(c.p), mesh_.point(c.q));
+}
+
+CertificateCheck TriangleDemand::check(const Certificate& certificate) const {
+  return check_certificate(mesh_, certificate);
+}
+
+std::vector<CellId> as_cells(std::span<const TriangleId> triangles) {
+  std::vector<CellId> cells;
+  cells.reserve(triangles.size());
+  for (const TriangleId t : triangles) cells.emplace_back(t.index);
+  return cells;
+}
+
+std::vector<TriangleId> as_triangles(std::span<const CellId> cells) {
+  std::vector<TriangleId> triangles;
+  triangles.reserve(cells.size());
+  for (const CellId cell : cells) triangles.emplace_back(cell.index);
+  return triangles;
 }
 
 std::vector<HalfedgeId> edges_of(const Mesh& mesh, std::span<const TriangleId> triangles) {
@@ -123,27 +244,6 @@ std::vector<VertexId> vertices_of(const Mesh& mesh, std::span<const TriangleId> 
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
-}
-
-std::vector<WeightConstraint> constraints_of(const Mesh& mesh, std::span<const TriangleId> triangles,
-                                             const Demand& demand) {
-  std::vector<WeightConstraint> constraints;
-  for (const TriangleId t : triangles) {
-    for (int k = 0; k < 3 && demand.has_heights(); ++k) {
-      constraints.push_back(height_constraint(mesh, Mesh::halfedge(t, k)));
-    }
-  }
-  for (const HalfedgeId h : edges_of(mesh, triangles)) {
-    if (demand.has_crossings()) {
-      constraints.push_back(split_constraint(mesh.origin(h), mesh.target(h)));
-      constraints.push_back(split_constraint(mesh.target(h), mesh.origin(h)));
-    }
-    if (demand.has_dual(mesh, h) &&
-        std::binary_search(triangles.begin(), triangles.end(), Mesh::triangle(mesh.twin(h)))) {
-      constraints.push_back(dual_constraint(mesh, h));
-    }
-  }
-  return constraints;
 }
 
 }  // namespace temper

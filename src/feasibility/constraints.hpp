@@ -19,50 +19,18 @@
 // values.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "feasibility/potential.hpp"
+#include "feasibility/demand.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/feasibility.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
 
-struct LinearForm {
-  int size = 0;  ///< 3 for a height, 2 for a crossing, 4 for a dual
-  std::array<VertexId, 4> vertices;
-  std::array<double, 4> coefficients = {};
-  double constant = 0;
-  double slope =
-      0;  ///< m = 1 − slope · the mean of the first two potentials; the coefficients sum to −slope · constant
-};
-
 [[nodiscard]] LinearForm linear_form(const Mesh& mesh, const WeightConstraint& constraint);
-/// The form that is ≥ 0 if and only if the value of this one is ≥ margin.
-[[nodiscard]] LinearForm beyond_margin(LinearForm form, double margin);
-
-/// m for the potentials potential(v): one in the plane.
-template <class Potential>
-double scale_of(const LinearForm& form, const Potential& potential) {
-  return 1 - 0.5 * form.slope * (potential(form.vertices[0]) + potential(form.vertices[1]));
-}
-/// The linear function, by differences, so that a large potential common to all costs no digits.
-template <class Potential>
-double numerator_of(const LinearForm& form, const Potential& potential) {
-  const double first = potential(form.vertices[0]);
-  double value = form.constant * (1 - form.slope * first);
-  for (int k = 1; k < form.size; ++k) value += form.coefficients[k] * (potential(form.vertices[k]) - first);
-  return value;
-}
-/// h/ℓ, d/ℓ or dual length/ℓ.
-template <class Potential>
-double value_of(const LinearForm& form, const Potential& potential) {
-  return numerator_of(form, potential) / scale_of(form, potential);
-}
 
 /// |p − q|² of places: on the sphere of the chord.
 [[nodiscard]] double squared_distance(const Mesh& mesh, VertexId p, VertexId q);
@@ -76,76 +44,47 @@ double value_of(const LinearForm& form, const Potential& potential) {
   return mesh.space().weight(p) == w ? p : mesh.space().with_weight(p, w);
 }
 
-/// The height over the edge of h in its triangle, the crossings of an edge from either end, and its dual length.
+/// The height over the edge of h in its triangle, and its dual length.
 [[nodiscard]] WeightConstraint height_constraint(const Mesh& mesh, HalfedgeId h);
-[[nodiscard]] WeightConstraint split_constraint(VertexId from, VertexId to);
 /// Precondition: h is inside the mesh.
 [[nodiscard]] WeightConstraint dual_constraint(const Mesh& mesh, HalfedgeId h);
 
-/// Constraints on a mesh, with their edges.
-class Demand {
+/// Constraints on a mesh of triangles, with their edges.
+class TriangleDemand final : public Demand {
  public:
-  Demand(const Mesh& mesh, Constraints constraints, std::span<const HalfedgeId> edges);
+  TriangleDemand(const Mesh& mesh, Constraints constraints, std::span<const HalfedgeId> edges = {});
 
-  [[nodiscard]] Constraints constraints() const { return constraints_; }
-  [[nodiscard]] bool has_heights() const { return constraints_ != Constraints::regular; }
-  [[nodiscard]] bool has_crossings() const { return constraints_ == Constraints::well_centered; }
-  [[nodiscard]] bool has_duals() const { return constraints_ == Constraints::regular; }
-  /// The margin that is refuted when no weights satisfy the constraints; `duals`: for dual lengths, in the plane.
-  [[nodiscard]] double refuted_margin(double duals) const {
-    return !has_duals() ? 0 : in_plane_ ? duals : kLeastRefutedDual;
-  }
-  /// Says whether the dual length of the edge of h counts.
-  [[nodiscard]] bool has_dual(const Mesh& mesh, HalfedgeId h) const {
-    return has_duals() && !mesh.is_boundary(h) && (prescribed_.empty() || prescribed_[h] != 0);
-  }
-  /// Says whether t satisfies all its constraints, exactly, with the weights weight_of(v).
-  template <class WeightOf>
-  [[nodiscard]] bool is_kept(const Mesh& mesh, TriangleId t, const WeightOf& weight_of) const {
-    const auto at = [&](VertexId v) { return point_with_weight(mesh, v, weight_of(v)); };
-    const Space& space = mesh.space();
-    const auto [a, b, c] = mesh.corners(t);
-    if (has_crossings()) return is_well_centered(space, at(a), at(b), at(c));
-    for (int k = 0; k < 3; ++k) {
-      const HalfedgeId h = Mesh::halfedge(t, k);
-      const WeightedPoint p = at(mesh.origin(h)), q = at(mesh.target(h)), r = at(mesh.opposite(h));
-      if (has_heights() && signed_height_sign(space, p, q, r) != Sign::positive) return false;
-      if (!has_dual(mesh, h)) continue;
-      if (power_test(space, p, q, r, at(mesh.opposite(mesh.twin(h)))) != Sign::negative) return false;
-    }
-    return true;
-  }
-  /// The least value of t's constraints with these weights, in doubles; kUnbounded when it has none.
-  template <class WeightOf>
-  [[nodiscard]] double margin_of(const Mesh& mesh, TriangleId t, const WeightOf& weight_of) const {
-    double margin = kUnbounded;
-    const auto potential = [&](VertexId v) { return potential_of(mesh.space(), weight_of(v)); };
-    const auto value = [&](const WeightConstraint& c) { return value_of(linear_form(mesh, c), potential); };
-    for (int k = 0; k < 3; ++k) {
-      const HalfedgeId h = Mesh::halfedge(t, k);
-      if (has_heights()) margin = std::min(margin, value(height_constraint(mesh, h)));
-      if (has_crossings()) {
-        const double crossing = value(split_constraint(mesh.origin(h), mesh.target(h)));
-        margin = std::min({margin, crossing, 1 - crossing});
-      }
-      if (has_dual(mesh, h)) margin = std::min(margin, value(dual_constraint(mesh, h)));
-    }
-    return margin;
-  }
+  [[nodiscard]] std::size_t n_vertices() const override { return mesh_.n_vertices(); }
+  [[nodiscard]] std::size_t n_cells() const override { return mesh_.n_triangles(); }
+  [[nodiscard]] double weight(VertexId v) const override { return mesh_.weight(v); }
+  void add_corners(CellId cell, std::vector<VertexId>& corners) const override;
+  void add_cells_around(VertexId v, std::vector<CellId>& cells) const override;
+  void add_vertices_across(VertexId v, std::vector<VertexId>& vertices) const override;
+  [[nodiscard]] std::vector<WeightEdge> edges_of(std::span<const CellId> cells) const override;
+  [[nodiscard]] std::vector<WeightConstraint> constraints_of(std::span<const CellId> cells, bool rim) const override;
+  [[nodiscard]] LinearForm linear_form(const WeightConstraint& constraint) const override;
+  [[nodiscard]] double scale_of_polynomial(const WeightConstraint& constraint) const override;
+  [[nodiscard]] bool is_kept(CellId cell, const VertexWeights& weights) const override;
+  [[nodiscard]] double margin_of(CellId cell, const VertexWeights& weights) const override;
+  [[nodiscard]] double angle_deg(const WeightConstraint& constraint) const override;
+  [[nodiscard]] CertificateCheck check(const Certificate& certificate) const override;
 
  private:
-  Constraints constraints_;
-  bool in_plane_;
+  /// Says whether the dual length of the edge of h counts.
+  [[nodiscard]] bool has_dual(HalfedgeId h) const {
+    return has_duals() && !mesh_.is_boundary(h) && (prescribed_.empty() || prescribed_[h] != 0);
+  }
+
+  const Mesh& mesh_;
   IdVector<HalfedgeId, std::uint8_t> prescribed_;  ///< none: every edge is
 };
+
+[[nodiscard]] std::vector<CellId> as_cells(std::span<const TriangleId> triangles);
+[[nodiscard]] std::vector<TriangleId> as_triangles(std::span<const CellId> cells);
 
 /// The edges of these triangles, each once, by a halfedge that is in one of them. `triangles` is sorted.
 [[nodiscard]] std::vector<HalfedgeId> edges_of(const Mesh& mesh, std::span<const TriangleId> triangles);
 /// The corners of these triangles, sorted, each once.
 [[nodiscard]] std::vector<VertexId> vertices_of(const Mesh& mesh, std::span<const TriangleId> triangles);
-/// The constraints of these triangles that the demand has: three heights each, two crossings per edge, and a dual
-/// length per edge with both its triangles among them.
-[[nodiscard]] std::vector<WeightConstraint> constraints_of(const Mesh& mesh, std::span<const TriangleId> triangles,
-                                                           const Demand& demand);
 
 }  // namespace temper

@@ -30,7 +30,6 @@ namespace {
 constexpr int kMoreRings = 2;   // one ring each time would solve each program twice as often
 constexpr int kHalvings = 30;   // of the requested margin: down to the rounding of the programs
 constexpr double kKept = 1e-9;  // a margin is kept if at most this is lacking: the solvers' tolerance
-constexpr double kDegrees = 57.29577951308232;
 
 /// A finished region: its change of weights, or the proof that there is none.
 struct RegionResult {
@@ -41,16 +40,12 @@ struct RegionResult {
 
 class WeightFinder {
  public:
-  WeightFinder(const Mesh& mesh, LpSolver& solver, const WeightOptions& options)
-      : mesh_(mesh),
+  WeightFinder(const Demand& demand, LpSolver& solver, const WeightOptions& options)
+      : demand_(demand),
         solver_(solver),
         options_(options),
-        demand_(mesh, options.constraints, options.edges),
-        start_(mesh.n_vertices(), 0.0),
-        components_(components_of(mesh)) {
-    if (!options.from_input) return;
-    for (const VertexId v : mesh.vertices()) start_[v] = mesh.weight(v);
-  }
+        start_(options.from_input ? demand.weights() : VertexWeights(demand.n_vertices(), 0.0)),
+        components_(components_of(demand)) {}
 
   WeightReport run() {
     if (options_.goal == WeightGoal::feasible) measure_components();
@@ -71,20 +66,12 @@ class WeightFinder {
   }
 
  private:
-  [[nodiscard]] double value(const WeightConstraint& constraint, const IdVector<VertexId, double>& weights) const {
-    return value_of(linear_form(mesh_, constraint),
-                    [&](VertexId v) { return potential_of(mesh_.space(), weights[v]); });
+  [[nodiscard]] double value(const WeightConstraint& constraint, const VertexWeights& weights) const {
+    return value_of(demand_.linear_form(constraint),
+                    [&](VertexId v) { return potential_of(demand_.space(), weights[v]); });
   }
-  [[nodiscard]] double margin_of(TriangleId t, const IdVector<VertexId, double>& weights) const {
-    return demand_.margin_of(mesh_, t, [&](VertexId v) { return weights[v]; });
-  }
-  [[nodiscard]] bool is_kept(TriangleId t, const IdVector<VertexId, double>& weights) const {
-    return demand_.is_kept(mesh_, t, [&](VertexId v) { return weights[v]; });
-  }
-  [[nodiscard]] Bound bound_of(std::span<const TriangleId> triangles) const {
-    return bound_margin(mesh_, triangles, solver_, demand_);
-  }
-  [[nodiscard]] RegionProblem problem(double asked) const { return {mesh_, demand_, start_, asked}; }
+  [[nodiscard]] Bound bound_of(std::span<const CellId> cells) const { return bound_margin(demand_, cells, solver_); }
+  [[nodiscard]] RegionProblem problem(double asked) const { return {demand_, start_, asked}; }
 
   /// A best margin that rules out all weights. Dual lengths are all zero for w = |x|², so their best margin is never
   /// below zero.
@@ -99,8 +86,8 @@ class WeightFinder {
   /// The best margins of components that fit into one program.
   void measure_components() {
     for (const Region& component : components_) {
-      if (component.triangles.size() > options_.whole) continue;
-      Bound bound = bound_of(component.triangles);
+      if (component.cells.size() > options_.whole) continue;
+      Bound bound = bound_of(component.cells);
       if (bound.best.status != LpStatus::optimal) bound.best.margin = 0;
       if (bound.best.margin >= small_margin_) continue;
       small_margin_ = bound.best.margin;
@@ -108,40 +95,45 @@ class WeightFinder {
     }
   }
 
-  [[nodiscard]] bool is_bad(TriangleId t, double asked) const {
-    return margin_of(t, start_) < asked || !is_kept(t, start_);
+  [[nodiscard]] bool is_bad(CellId cell, double asked) const {
+    return demand_.margin_of(cell, start_) < asked || !demand_.is_kept(cell, start_);
   }
 
   /// The cheapest possible proof, when programs of regions may be large: the ring of one bad triangle.
   bool refuted_by_a_ring(double asked) {
     for (const Region& component : components_) {
-      if (component.triangles.size() <= options_.whole) continue;
-      for (const TriangleId t : component.triangles) {
-        if (!is_bad(t, asked)) continue;
-        Bound bound = bound_of(ring_of(mesh_, t));
+      if (component.cells.size() <= options_.whole) continue;
+      for (const CellId cell : component.cells) {
+        if (!is_bad(cell, asked)) continue;
+        Bound bound = bound_of(ring_of(demand_, cell));
         if (bound.best.status != LpStatus::optimal || !is_hopeless(bound.best.margin)) continue;
         if (!bound_ || bound.best.margin < bound_->best.margin) bound_ = std::move(bound);
+        // No best margin of dual lengths is less than zero: the first proof is as good as any.
+        if (demand_.has_duals() && proves(*bound_)) return true;
       }
     }
-    if (!bound_) return false;
-    refuted_ = certify_bound(*bound_, refuted_margin());
-    if (refuted_->terms.empty()) refuted_.reset();
+    return bound_ && proves(*bound_);
+  }
+
+  /// Keeps the certificate of a ring's bound, if there is one.
+  bool proves(const Bound& bound) {
     bound_is_exact_ = false;
+    refuted_ = certify_bound(bound, refuted_margin());
+    if (refuted_->terms.empty()) refuted_.reset();
     return refuted_.has_value();
   }
 
   [[nodiscard]] VertexMask first_mask(double asked) const {
-    VertexMask mask(mesh_.n_vertices(), 0);
+    VertexMask mask(demand_.n_vertices(), 0);
     for (const Region& component : components_) {
       std::vector<VertexId> bad;
-      for (const TriangleId t : component.triangles) {
-        if (!is_bad(t, asked)) continue;
-        for (const VertexId v : mesh_.corners(t)) bad.push_back(v);
+      for (const CellId cell : component.cells) {
+        if (is_bad(cell, asked)) demand_.add_corners(cell, bad);
       }
       if (bad.empty()) continue;
-      if (component.triangles.size() <= options_.whole) bad = component.free;
+      if (component.cells.size() <= options_.whole) bad = component.free;
       for (const VertexId v : bad) mask[v] = 1;
-      grow(mesh_, mask, std::move(bad), options_.rings);
+      grow(demand_, mask, std::move(bad), options_.rings);
     }
     return mask;
   }
@@ -152,13 +144,13 @@ class WeightFinder {
     for (bool grown = true; grown;) {
       grown = false;
       std::vector<RegionResult> next;
-      for (Region& region : regions_of(mesh_, mask, demand_.has_duals())) {
+      for (Region& region : regions_of(demand_, mask, demand_.has_duals())) {
         if (std::optional<RegionResult> known = take_result(region)) {
           next.push_back(*std::move(known));
         } else if (std::optional<RegionResult> found = solve(region, asked)) {
           next.push_back(*std::move(found));
         } else {
-          grow(mesh_, mask, region.free, kMoreRings);
+          grow(demand_, mask, region.free, kMoreRings);
           grown = true;
         }
       }
@@ -181,7 +173,7 @@ class WeightFinder {
   std::optional<RegionResult> solve(Region& region, double asked) {
     RegionChange change = least_change(problem(asked), region, solver_);
     if (change.status == LpStatus::optimal) return RegionResult{std::move(region), std::move(change), {}};
-    Bound bound = bound_of(region.triangles);
+    Bound bound = bound_of(region.cells);
     const bool below = demand_.has_duals() ? is_hopeless(bound.best.margin) : bound.best.margin < asked;
     const bool proof = bound.best.status == LpStatus::optimal && below;
     if (!proof && region.has_rim) return std::nullopt;
@@ -208,7 +200,7 @@ class WeightFinder {
 
   [[nodiscard]] Certificate certify_bound(const Bound& bound, double margin) const {
     if (bound.best.status != LpStatus::optimal) return {};
-    return certify(mesh_, bound, options_.constraints, margin);
+    return certify(demand_, bound, margin);
   }
 
   void relax(double asked) {
@@ -220,14 +212,14 @@ class WeightFinder {
     }
   }
 
-  [[nodiscard]] IdVector<VertexId, double> changed_weights() const {
-    IdVector<VertexId, double> weights = start_;
+  [[nodiscard]] VertexWeights changed_weights() const {
+    VertexWeights weights = start_;
     for (const RegionResult& result : results_) {
       if (!result.change) continue;
       for (std::size_t i = 0; i < result.region.free.size(); ++i) {
         const double change = result.change->change[i];
         double& w = weights[result.region.free[i]];
-        if (change != 0) w = changed_weight(mesh_.space(), w, change);
+        if (change != 0) w = changed_weight(demand_.space(), w, change);
       }
     }
     return weights;
@@ -238,10 +230,10 @@ class WeightFinder {
     r.asked = asked;
     r.weights = changed_weights();
     r.programs = results_.size();
-    for (const RegionResult& result : results_) r.largest = std::max(r.largest, result.region.triangles.size());
+    for (const RegionResult& result : results_) r.largest = std::max(r.largest, result.region.cells.size());
     measure(r);
-    const bool all_good = std::all_of(mesh_.triangles().begin(), mesh_.triangles().end(),
-                                      [&](TriangleId t) { return is_kept(t, r.weights); });
+    const bool all_good = std::all_of(demand_.cells().begin(), demand_.cells().end(),
+                                      [&](CellId cell) { return demand_.is_kept(cell, r.weights); });
     const bool found = all_good && asked > kNoMargin && failures() == 0;
     judge_margin(r, found);
     judge(r, found);
@@ -250,17 +242,16 @@ class WeightFinder {
   }
 
   void measure(WeightReport& r) const {
-    r.attained = kUnbounded;
-    for (const TriangleId t : mesh_.triangles()) r.attained = std::min(r.attained, margin_of(t, r.weights));
+    r.attained = least_margin(demand_, r.weights);
     const auto change = [&](VertexId v) { return r.weights[v] - start_[v]; };
-    for (const VertexId v : mesh_.vertices()) r.moved += change(v) != 0 ? 1 : 0;
-    r.change = weight_change(mesh_, start_, r.weights);
+    for (const VertexId v : demand_.vertices()) r.moved += change(v) != 0 ? 1 : 0;
+    r.change = weight_change(demand_, start_, r.weights);
   }
 
   void judge_margin(WeightReport& r, bool found) const {
     const bool all_measured = options_.goal == WeightGoal::feasible &&
                               std::all_of(components_.begin(), components_.end(), [&](const Region& component) {
-                                return component.triangles.size() <= options_.whole;
+                                return component.cells.size() <= options_.whole;
                               });
     if (all_measured) {
       r.margin = small_margin_;
@@ -299,29 +290,18 @@ class WeightFinder {
   }
 
   void add_violations(WeightReport& r) const {
-    for (const WeightConstraint& c : all_constraints()) {
+    for (const WeightConstraint& c : demand_.constraints_of(all_cells(demand_))) {
       const double got = value(c, r.weights);
-      if (got >= r.asked - kKept) continue;
-      double angle = 0;
-      if (c.kind == WeightConstraint::Kind::height) {
-        angle = kDegrees * corner_angle(mesh_.space(), mesh_.point(c.r), mesh_.point(c.p), mesh_.point(c.q));
-      }
-      r.violations.push_back({c, got, r.asked - got, angle});
+      if (got < r.asked - kKept) r.violations.push_back({c, got, r.asked - got, demand_.angle_deg(c)});
     }
     std::stable_sort(r.violations.begin(), r.violations.end(),
                      [](const Violation& a, const Violation& b) { return a.shortfall > b.shortfall; });
   }
 
-  [[nodiscard]] std::vector<WeightConstraint> all_constraints() const {
-    const std::vector<TriangleId> all(mesh_.triangles().begin(), mesh_.triangles().end());
-    return constraints_of(mesh_, all, demand_);
-  }
-
-  const Mesh& mesh_;
+  const Demand& demand_;
   LpSolver& solver_;
   const WeightOptions& options_;
-  Demand demand_;
-  IdVector<VertexId, double> start_;
+  VertexWeights start_;
   std::vector<Region> components_;
 
   double small_margin_ = 1;  ///< least best margin of the components measured; 1: none was
@@ -344,15 +324,19 @@ std::string_view name(MarginKind is) {
   return kNames[static_cast<std::size_t>(is)];
 }
 
-double weight_change(const Mesh& mesh, const IdVector<VertexId, double>& from, const IdVector<VertexId, double>& to) {
-  const auto change = [&](VertexId v) { return to[v] - from[v]; };
-  double total = 0;
-  for (const HalfedgeId h : mesh.halfedges()) {
-    if (!mesh.is_edge_representative(h)) continue;
-    const VertexId i = mesh.origin(h), j = mesh.target(h);
-    total += 0.5 * std::abs(change(i) - change(j)) / std::sqrt(squared_length_of(mesh, h));
-  }
-  return total;
+double weight_change(const Mesh& mesh, const VertexWeights& from, const VertexWeights& to) {
+  return weight_change(TriangleDemand(mesh, Constraints::well_centered), from, to);
+}
+
+WeightReport find_weights(const Demand& demand, LpSolver& solver, const WeightOptions& options) {
+  return WeightFinder(demand, solver, options).run();
+}
+
+std::optional<InputError> expect_margin(const WeightOptions& options) {
+  const bool elastic = options.goal == WeightGoal::elastic;
+  if (options.margin < 0.5 && (elastic ? options.margin >= 0 : options.margin > 0)) return std::nullopt;
+  return InputError{ErrorCode::invalid_option, "",
+                    "margin: expected a number above 0 and below 0.5, found " + std::to_string(options.margin)};
 }
 
 Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options) {
@@ -373,12 +357,13 @@ Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const We
   if (!options.edges.empty() && options.constraints != Constraints::regular) {
     return InputError{ErrorCode::invalid_option, "", "edges: only constraints regular are about some edges"};
   }
-  const bool elastic = options.goal == WeightGoal::elastic;
-  if (!(options.margin < 0.5) || !(elastic ? options.margin >= 0 : options.margin > 0)) {
+  if (options.constraints == Constraints::completely_well_centered) {
     return InputError{ErrorCode::invalid_option, "",
-                      "margin: expected a number above 0 and below 0.5, found " + std::to_string(options.margin)};
+                      "constraints: expected well_centered, heights_only or regular, found completely_well_centered: "
+                      "it is for tetrahedra. Next: well_centered, which is as much for triangles"};
   }
-  return WeightFinder(mesh, solver, options).run();
+  if (auto error = expect_margin(options)) return *std::move(error);
+  return find_weights(TriangleDemand(mesh, options.constraints, options.edges), solver, options);
 }
 
 }  // namespace temper

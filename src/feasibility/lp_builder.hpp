@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "feasibility/demand.hpp"
 #include "temper/feasibility.hpp"
-#include "temper/mesh.hpp"
 
 namespace temper {
 
@@ -42,7 +42,6 @@ class LpBuilder {
 [[nodiscard]] std::size_t index_of(std::span<const VertexId> sorted_vertices, VertexId v);
 
 /// For each vertex the mean over its edges among `edges`. Each vertex must have one.
-[[nodiscard]] std::vector<double> weight_units(const Mesh& mesh, std::span<const VertexId> vertices,
-                                               std::span<const HalfedgeId> edges);
+[[nodiscard]] std::vector<double> weight_units(std::span<const VertexId> vertices, std::span<const WeightEdge> edges);
 
 }  // namespace temper

@@ -38,24 +38,23 @@ constexpr double kAttained = 1e-10;  // of s: a tenth of the solver's tolerance
 constexpr double kLeastScale = 0x1p-12;
 
 /// The program whose margins count from `from`.
-MarginProgram margin_program(const Mesh& mesh, std::span<const TriangleId> triangles, const Demand& demand,
-                             double from) {
+MarginProgram margin_program(const Demand& demand, std::span<const CellId> cells, double from) {
   MarginProgram p;
-  p.vertices = vertices_of(mesh, triangles);
-  p.units = weight_units(mesh, p.vertices, edges_of(mesh, triangles));
-  p.constraints = constraints_of(mesh, triangles, demand);
+  p.vertices = vertices_of(demand, cells);
+  p.units = weight_units(p.vertices, demand.edges_of(cells));
+  p.constraints = demand.constraints_of(cells);
   LpBuilder lp;
   // One weight is zero, since a constant on all would be free otherwise. It is a weight at the smallest triangles,
   // whose unit is most sensitive to rounding.
   const auto anchor = std::min_element(p.units.begin(), p.units.end()) - p.units.begin();
   for (std::size_t i = 0; i < p.vertices.size(); ++i) {
     const double most = i == static_cast<std::size_t>(anchor) ? 0 : kUnbounded;
-    const double least_scale = (1 - kLeastScale) / (slope_of_scale(mesh.space()) * p.units[i]);  // ∞ in the plane
+    const double least_scale = (1 - kLeastScale) / (slope_of_scale(demand.space()) * p.units[i]);  // ∞ in the plane
     lp.add_column(0, -most, std::min(most, least_scale));
   }
   const int t = lp.add_column(-1, -kUnbounded, kMostMargin - from);
   for (const WeightConstraint& constraint : p.constraints) {
-    const LinearForm form = beyond_margin(linear_form(mesh, constraint), from);
+    const LinearForm form = beyond_margin(demand.linear_form(constraint), from);
     for (int k = 0; k < form.size; ++k) {
       const std::size_t column = index_of(p.vertices, form.vertices[k]);
       lp.add_entry(static_cast<int>(column), form.coefficients[k] * p.units[column]);
@@ -67,38 +66,8 @@ MarginProgram margin_program(const Mesh& mesh, std::span<const TriangleId> trian
   return p;
 }
 
-double scale_on_sphere(const Mesh& mesh, const WeightConstraint& c) {
-  const Vec3 p = position_of(mesh, c.p), a = position_of(mesh, c.q) - p;
-  const double cube = mesh.space().radius() * squared_length(p);
-  const auto volume = [&](VertexId v) { return std::abs(dot(p, cross(a, position_of(mesh, v) - p))); };
-  switch (c.kind) {
-    case WeightConstraint::Kind::height:
-      return squared_length(cross(p, a)) * volume(c.r) / cube;
-    case WeightConstraint::Kind::crossing:
-      return squared_length(a);
-    case WeightConstraint::Kind::dual:
-      return volume(c.r) * volume(c.s) / cube;
-  }
-  return 0;
-}
-
-/// N of a constraint (feasibility.hpp) over its value in the program, h/ℓ, d/ℓ or dual length/ℓ.
-double scale_of_polynomial(const Mesh& mesh, const WeightConstraint& c) {
-  if (!mesh.space().is_plane()) return scale_on_sphere(mesh, c);
-  const Vec2 p = mesh.position(c.p), q = mesh.position(c.q);
-  switch (c.kind) {
-    case WeightConstraint::Kind::height:
-      return 2 * squared_length(q - p) * doubled_area(p, q, mesh.position(c.r));
-    case WeightConstraint::Kind::crossing:
-      return 2 * squared_length(q - p);
-    case WeightConstraint::Kind::dual:
-      return 2 * doubled_area(p, q, mesh.position(c.r)) * doubled_area(q, p, mesh.position(c.s));
-  }
-  return 0;
-}
-
-std::vector<TriangleId> sorted(std::span<const TriangleId> triangles) {
-  std::vector<TriangleId> result(triangles.begin(), triangles.end());
+std::vector<CellId> sorted_cells(std::span<const TriangleId> triangles) {
+  std::vector<CellId> result = as_cells(triangles);
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
@@ -111,15 +80,14 @@ std::size_t index_of(std::span<const VertexId> sorted_vertices, VertexId v) {
   return static_cast<std::size_t>(at - sorted_vertices.begin());
 }
 
-std::vector<double> weight_units(const Mesh& mesh, std::span<const VertexId> vertices,
-                                 std::span<const HalfedgeId> edges) {
+std::vector<double> weight_units(std::span<const VertexId> vertices, std::span<const WeightEdge> edges) {
   std::vector<double> sums(vertices.size(), 0.0);
   std::vector<double> counts(vertices.size(), 0.0);
-  for (const HalfedgeId h : edges) {
-    for (const VertexId v : {mesh.origin(h), mesh.target(h)}) {
+  for (const WeightEdge& edge : edges) {
+    for (const VertexId v : {edge.p, edge.q}) {
       const std::size_t i = index_of(vertices, v);
       if (i == vertices.size() || vertices[i] != v) continue;
-      sums[i] += squared_length_of(mesh, h);
+      sums[i] += edge.squared_length;
       counts[i] += 1;
     }
   }
@@ -128,15 +96,11 @@ std::vector<double> weight_units(const Mesh& mesh, std::span<const VertexId> ver
 }
 
 double weight_margin(const Mesh& mesh, Constraints constraints, std::span<const HalfedgeId> edges) {
-  const Demand demand(mesh, constraints, edges);
-  double margin = kUnbounded;
-  for (const TriangleId t : mesh.triangles()) {
-    margin = std::min(margin, demand.margin_of(mesh, t, [&](VertexId v) { return mesh.weight(v); }));
-  }
-  return margin;
+  const TriangleDemand demand(mesh, constraints, edges);
+  return least_margin(demand, demand.weights());
 }
 
-Certificate certify(const Mesh& mesh, const Bound& bound, Constraints constraints, double margin) {
+Certificate certify(const Demand& demand, const Bound& bound, double margin) {
   const std::vector<double>& dual = bound.dual;
   double largest = 0;
   for (const double y : dual) largest = std::max(largest, std::abs(y));
@@ -144,26 +108,25 @@ Certificate certify(const Mesh& mesh, const Bound& bound, Constraints constraint
   for (const double dropped : {1e-9, 1e-12, 1e-15}) {
     Certificate certificate;
     certificate.margin = margin;
-    certificate.constraints = constraints;
+    certificate.constraints = demand.constraints();
     for (std::size_t i = 0; i < dual.size(); ++i) {
       if (!(dual[i] > dropped * largest)) continue;
-      certificate.terms.push_back({bound.constraints[i], dual[i] / scale_of_polynomial(mesh, bound.constraints[i])});
+      certificate.terms.push_back({bound.constraints[i], dual[i] / demand.scale_of_polynomial(bound.constraints[i])});
     }
-    if (check_certificate(mesh, certificate) == CertificateCheck::proves) return certificate;
+    if (demand.check(certificate) == CertificateCheck::proves) return certificate;
   }
   Certificate nothing;
   nothing.margin = margin;
-  nothing.constraints = constraints;
+  nothing.constraints = demand.constraints();
   return nothing;
 }
 
 namespace {
 
 /// The solved program whose margins count from `from`.
-Bound bound_from(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, const Demand& demand,
-                 double from) {
+Bound bound_from(const Demand& demand, std::span<const CellId> cells, LpSolver& solver, double from) {
   Bound bound;
-  MarginProgram program = margin_program(mesh, triangles, demand, from);
+  MarginProgram program = margin_program(demand, cells, from);
   LpSolution solution = solver.solve(program.problem);
   bound.constraints = std::move(program.constraints);
   bound.best.status = solution.status;
@@ -174,33 +137,33 @@ Bound bound_from(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolv
   std::vector<double> potentials;
   for (std::size_t i = 0; i < bound.best.vertices.size(); ++i) {
     potentials.push_back(program.units[i] * solution.primal[i]);
-    bound.best.weights.push_back(weight_of_potential(mesh.space(), potentials.back()));
+    bound.best.weights.push_back(weight_of_potential(demand.space(), potentials.back()));
   }
-  if (mesh.space().is_plane()) return bound;
+  if (demand.space().is_plane()) return bound;
   bound.attained = kUnbounded;
   for (const WeightConstraint& c : bound.constraints) {
     const double value =
-        value_of(linear_form(mesh, c), [&](VertexId v) { return potentials[index_of(bound.best.vertices, v)]; });
+        value_of(demand.linear_form(c), [&](VertexId v) { return potentials[index_of(bound.best.vertices, v)]; });
     bound.attained = std::min(bound.attained, value);
   }
   return bound;
 }
 
-bool is_attained(const Mesh& mesh, const Bound& bound) {
-  return mesh.space().is_plane() || bound.best.status != LpStatus::optimal ||
+bool is_attained(const Demand& demand, const Bound& bound) {
+  return demand.space().is_plane() || bound.best.status != LpStatus::optimal ||
          std::abs(bound.best.margin - bound.attained) <= kAttained;
 }
 
 }  // namespace
 
-Bound bound_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, const Demand& demand) {
-  Bound bound = bound_from(mesh, triangles, solver, demand, 0);
-  if (!mesh.space().is_plane() && demand.has_duals()) {
+Bound bound_margin(const Demand& demand, std::span<const CellId> cells, LpSolver& solver) {
+  Bound bound = bound_from(demand, cells, solver, 0);
+  if (!demand.space().is_plane() && demand.has_duals()) {
     bound.best.margin = std::min({bound.best.margin, bound.attained, kMostMargin});
     return bound;
   }
-  for (int round = 0; round < kRounds && !is_attained(mesh, bound); ++round) {
-    Bound next = bound_from(mesh, triangles, solver, demand, bound.attained);
+  for (int round = 0; round < kRounds && !is_attained(demand, bound); ++round) {
+    Bound next = bound_from(demand, cells, solver, bound.attained);
     if (next.best.status != LpStatus::optimal) break;
     const bool better = next.attained > bound.attained;
     bound = std::move(next);
@@ -216,10 +179,10 @@ Bound bound_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSo
 
 namespace {
 
-BestMargin best_of(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, const Demand& demand) {
-  Bound bound = bound_margin(mesh, triangles, solver, demand);
+BestMargin best_of(const Demand& demand, std::span<const CellId> cells, LpSolver& solver) {
+  Bound bound = bound_margin(demand, cells, solver);
   if (bound.best.status == LpStatus::optimal && bound.best.margin < kNoMargin) {
-    bound.best.certificate = certify(mesh, bound, demand.constraints(), demand.refuted_margin(kRefutedDual));
+    bound.best.certificate = certify(demand, bound, demand.refuted_margin(kRefutedDual));
   }
   return std::move(bound.best);
 }
@@ -228,15 +191,15 @@ BestMargin best_of(const Mesh& mesh, std::span<const TriangleId> triangles, LpSo
 
 BestMargin best_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver,
                        Constraints constraints, std::span<const HalfedgeId> edges) {
-  return best_of(mesh, sorted(triangles), solver, Demand(mesh, constraints, edges));
+  return best_of(TriangleDemand(mesh, constraints, edges), sorted_cells(triangles), solver);
 }
 
 BestMargin best_margin(const Mesh& mesh, LpSolver& solver, Constraints constraints, std::span<const HalfedgeId> edges) {
-  const Demand demand(mesh, constraints, edges);
+  const TriangleDemand demand(mesh, constraints, edges);
   BestMargin worst;
   worst.margin = kUnbounded;
-  for (const Region& component : components_of(mesh)) {
-    BestMargin best = best_of(mesh, component.triangles, solver, demand);
+  for (const Region& component : components_of(demand)) {
+    BestMargin best = best_of(demand, component.cells, solver);
     if (best.status != LpStatus::optimal) return best;
     if (best.margin < worst.margin) worst = std::move(best);
   }

@@ -2,70 +2,95 @@
 
 #include <algorithm>
 
-#include "topology/rings.hpp"
-
 namespace temper {
 namespace {
 
-/// Calls use(u) for each corner of each triangle around v, and across their outer edges.
-template <class Use>
-void for_each_near(const Mesh& mesh, VertexId v, bool across_edges, const Use& use) {
-  for (const HalfedgeId h : mesh.star(v)) {
-    use(mesh.target(h));
-    use(mesh.opposite(h));
-    const HalfedgeId outer = Mesh::next(h);
-    if (across_edges && !mesh.is_boundary(outer)) use(mesh.opposite(mesh.twin(outer)));
-  }
+template <class T>
+void sort_unique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-Region region_from(const Mesh& mesh, const VertexMask& free, bool across_edges, VertexId seed, VertexMask& seen) {
+/// The vertices near another: corners of the cells around it, and across their outer sides.
+class Neighbors {
+ public:
+  Neighbors(const Demand& demand, bool across) : demand_(demand), across_(across) {}
+
+  /// Valid until the next call.
+  const std::vector<VertexId>& of(VertexId v) {
+    cells_.clear(), vertices_.clear();
+    demand_.add_cells_around(v, cells_);
+    for (const CellId cell : cells_) demand_.add_corners(cell, vertices_);
+    if (across_) demand_.add_vertices_across(v, vertices_);
+    return vertices_;
+  }
+  /// The cells around the vertex of the last call.
+  [[nodiscard]] const std::vector<CellId>& cells() const { return cells_; }
+
+ private:
+  const Demand& demand_;
+  bool across_;
+  std::vector<CellId> cells_;
+  std::vector<VertexId> vertices_;
+};
+
+Region region_from(Neighbors& neighbors, const VertexMask& free, VertexId seed, VertexMask& seen) {
   Region region;
   region.free = {seed};
   seen[seed] = 1;
   for (std::size_t i = 0; i < region.free.size(); ++i) {
-    const VertexId v = region.free[i];
-    for_each_near(mesh, v, across_edges, [&](VertexId u) {
+    for (const VertexId u : neighbors.of(region.free[i])) {
       if (free[u] == 0) region.has_rim = true;
-      if (free[u] == 0 || seen[u] != 0) return;
+      if (free[u] == 0 || seen[u] != 0) continue;
       seen[u] = 1;
       region.free.push_back(u);
-    });
-    for (const HalfedgeId h : mesh.star(v)) region.triangles.push_back(Mesh::triangle(h));
+    }
+    region.cells.insert(region.cells.end(), neighbors.cells().begin(), neighbors.cells().end());
   }
   std::sort(region.free.begin(), region.free.end());
-  std::sort(region.triangles.begin(), region.triangles.end());
-  region.triangles.erase(std::unique(region.triangles.begin(), region.triangles.end()), region.triangles.end());
+  sort_unique(region.cells);
   return region;
 }
 
 }  // namespace
 
-std::vector<Region> regions_of(const Mesh& mesh, const VertexMask& free, bool across_edges) {
+std::vector<Region> regions_of(const Demand& demand, const VertexMask& free, bool across) {
   std::vector<Region> regions;
-  VertexMask seen(mesh.n_vertices(), 0);
-  for (const VertexId v : mesh.vertices()) {
-    if (free[v] == 0 || seen[v] != 0 || mesh.is_isolated(v)) continue;
-    regions.push_back(region_from(mesh, free, across_edges, v, seen));
+  VertexMask seen(demand.n_vertices(), 0);
+  Neighbors neighbors(demand, across);
+  for (const VertexId v : demand.vertices()) {
+    if (free[v] == 0 || seen[v] != 0 || neighbors.of(v).empty()) continue;
+    regions.push_back(region_from(neighbors, free, v, seen));
   }
   return regions;
 }
 
-void grow(const Mesh& mesh, VertexMask& mask, std::vector<VertexId> front, int rings) {
+void grow(const Demand& demand, VertexMask& mask, std::vector<VertexId> front, int rings) {
+  Neighbors neighbors(demand, false);
   for (int ring = 0; ring < rings; ++ring) {
     std::vector<VertexId> next;
     for (const VertexId v : front) {
-      for_each_near(mesh, v, false, [&](VertexId u) {
-        if (mask[u] != 0) return;
+      for (const VertexId u : neighbors.of(v)) {
+        if (mask[u] != 0) continue;
         mask[u] = 1;
         next.push_back(u);
-      });
+      }
     }
     front = std::move(next);
   }
 }
 
-std::vector<TriangleId> ring_of(const Mesh& mesh, TriangleId t) { return triangles_around(mesh, {&t, 1}); }
+std::vector<CellId> ring_of(const Demand& demand, CellId cell) {
+  std::vector<VertexId> corners;
+  demand.add_corners(cell, corners);
+  std::vector<CellId> cells;
+  for (const VertexId v : corners) demand.add_cells_around(v, cells);
+  sort_unique(cells);
+  return cells;
+}
 
-std::vector<Region> components_of(const Mesh& mesh) { return regions_of(mesh, VertexMask(mesh.n_vertices(), 1)); }
+std::vector<Region> components_of(const Demand& demand) {
+  return regions_of(demand, VertexMask(demand.n_vertices(), 1));
+}
 
 }  // namespace temper

@@ -6,7 +6,7 @@
 
 namespace temper::io {
 
-/// The arrays of a document that has been checked.
+/// The file of a document that has been checked.
 [[nodiscard]] TetFile tet_file(Document&& document);
 
 /// The faces, lines and points of a mesh of tetrahedra as a mesh of triangles, with x and y alone.

@@ -21,6 +21,9 @@ constexpr double kTolerance = 1e-9;
 // Ten times that, because Clp's own scaling of rows and columns adds an error.
 constexpr double kAccepted = 1e-8;
 
+constexpr std::size_t kLarge = 4000;  // rows from which an attempt goes on from its basis: a new one takes long
+constexpr std::size_t kMostSize = 100'000'000;  // of rows and columns, for the limit of steps
+
 constexpr int kOptimal = 0, kInfeasible = 1, kUnboundedStatus = 2;  // Clp_status
 
 struct Delete {
@@ -70,6 +73,9 @@ Model load(const LpProblem& problem) {
                   finite(problem.row_upper).data());
   Clp_setPrimalTolerance(model.get(), kTolerance);
   Clp_setDualTolerance(model.get(), kTolerance);
+  // Clp may cycle on degenerate programs: the next attempt does not. Others take one or two steps per row and column.
+  const std::size_t size = std::min(problem.n_columns() + problem.n_rows(), kMostSize);
+  Clp_setMaximumIterations(model.get(), static_cast<int>(1000 + 10 * size));
   return model;
 }
 
@@ -143,14 +149,19 @@ constexpr Attempt kAttempts[] = {
 LpSolution attempt(const LpProblem& problem, const Attempt& how) {
   constexpr int kNoPerturbation = 100, kPerturbation = 50, kNoScaling = 0, kAutomaticScaling = 3;  // Clp's codes
   const Model model = load(problem);
-  Clp_setPerturbation(model.get(), how.perturb ? kPerturbation : kNoPerturbation);
-  Clp_scaling(model.get(), how.scale ? kAutomaticScaling : kNoScaling);
-  if (how.dual) {
-    Clp_dual(model.get(), 0);
-  } else {
-    Clp_primal(model.get(), 0);
-  }
-  return result(model.get(), problem);
+  const auto run = [&](const Attempt& step) {
+    Clp_setPerturbation(model.get(), step.perturb ? kPerturbation : kNoPerturbation);
+    Clp_scaling(model.get(), step.scale ? kAutomaticScaling : kNoScaling);
+    if (step.dual) {
+      Clp_dual(model.get(), 0);
+    } else {
+      Clp_primal(model.get(), 0);
+    }
+    return result(model.get(), problem);
+  };
+  const LpSolution solution = run(how);
+  if (solution.status != LpStatus::optimal || problem.n_rows() < kLarge || is_good(problem, solution)) return solution;
+  return run({false, false, false});  // from this basis: mostly without a step
 }
 
 LpSolution solve_carefully(const LpProblem& problem) {

@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "mesh/blocks.hpp"
 #include "mesh/boundary_sweep.hpp"
+#include "mesh/exact_range.hpp"
 #include "mesh/mesh_editor.hpp"
 #include "mesh/predicates.hpp"
 #include "mesh/twins.hpp"
@@ -25,20 +26,6 @@ constexpr double kSmallestCoordinate = 1e-60;  // absolute, and relative to the 
 constexpr double kSmallestExtent = 1e-60;
 constexpr double kLargestWeight = 1e120;    // absolute, and relative to the extent squared
 constexpr double kSmallestWeight = 1e-120;  // absolute, and relative to the largest coordinate squared
-
-/// The magnitudes that a number other than 0 may have.
-struct Range {
-  double low, high;
-  [[nodiscard]] bool allows(double x) const { return x == 0 || (std::abs(x) >= low && std::abs(x) <= high); }
-  [[nodiscard]] std::string text() const {
-    return "expected 0 or a magnitude from " + to_text(low) + " to " + to_text(high) + ", which exact arithmetic needs";
-  }
-};
-
-std::string quantity(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what; }
-
-std::string coordinates(Vec2 p) { return "(" + to_text(p.x) + ", " + to_text(p.y) + ")"; }
-std::string coordinates(Vec3 p) { return "(" + to_text(p.x) + ", " + to_text(p.y) + ", " + to_text(p.z) + ")"; }
 
 bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
@@ -111,7 +98,7 @@ class MeshBuilder {
   std::optional<InputError> check_periods() const {
     const Vec2 period = in_.space.period();
     for (const double length : {period.x, period.y}) {
-      if (length == 0 || Range{kSmallestExtent, kLargestCoordinate}.allows(length)) continue;
+      if (length == 0 || ExactRange{kSmallestExtent, kLargestCoordinate}.allows(length)) continue;
       return InputError{ErrorCode::out_of_scale,
                         {},
                         "the plane has period " + to_text(length) + ", expected one from " + to_text(kSmallestExtent) +
@@ -131,7 +118,7 @@ class MeshBuilder {
 
   std::optional<InputError> check_sphere() {
     const double radius = in_.space.radius(), lightest = -radius * radius;
-    if (!Range{kSmallestExtent, kLargestCoordinate}.allows(radius)) {
+    if (!ExactRange{kSmallestExtent, kLargestCoordinate}.allows(radius)) {
       return InputError{ErrorCode::out_of_scale,
                         {},
                         "the sphere has radius " + to_text(radius) + ", expected one from " + to_text(kSmallestExtent) +
@@ -187,7 +174,7 @@ class MeshBuilder {
     return std::nullopt;
   }
 
-  std::optional<InputError> check_coordinates(Range range) const {
+  std::optional<InputError> check_coordinates(ExactRange range) const {
     for (std::size_t i = 0; i < in_.points.size(); ++i) {
       const Vec2 p = in_.points[i];
       if (range.allows(p.x) && range.allows(p.y)) continue;
@@ -197,7 +184,7 @@ class MeshBuilder {
     return std::nullopt;
   }
 
-  std::optional<InputError> check_weights(Range range) const {
+  std::optional<InputError> check_weights(ExactRange range) const {
     for (std::size_t i = 0; i < in_.weights.size(); ++i) {
       if (range.allows(in_.weights[i])) continue;
       return point_error(ErrorCode::out_of_scale, i,

@@ -17,8 +17,6 @@ namespace {
 
 using Error = std::optional<InputError>;
 
-std::string coordinates(Vec2 p) { return "(" + to_text(p.x) + ", " + to_text(p.y) + ")"; }
-
 class Arranger {
  public:
   Arranger(const Surface& surface, const Outline& outline, const std::vector<Vec3>& places, SnapOptions options,

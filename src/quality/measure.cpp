@@ -144,8 +144,6 @@ std::span<const TriangleValue> triangle_values() {
 
 namespace {
 
-std::string last_word(const std::string& text) { return text.substr(text.rfind(' ') + 1); }
-
 int least(const std::array<double, 3>& values) {
   return static_cast<int>(std::min_element(values.begin(), values.end()) - values.begin());
 }
@@ -236,26 +234,6 @@ std::string explain(const Subject& s) {
 }
 
 }  // namespace
-
-void WorstList::offer(Ranked candidate) {
-  if (heap_.size() == n_) {
-    if (n_ == 0 || !(candidate < heap_.front())) return;
-    std::pop_heap(heap_.begin(), heap_.end());
-    heap_.pop_back();
-  }
-  heap_.push_back(candidate);
-  std::push_heap(heap_.begin(), heap_.end());
-}
-
-void WorstList::merge(const WorstList& other) {
-  for (const Ranked& candidate : other.heap_) offer(candidate);
-}
-
-std::vector<Ranked> WorstList::sorted() const {
-  std::vector<Ranked> result = heap_;
-  std::sort(result.begin(), result.end());
-  return result;
-}
 
 std::string number_of(VertexId v, const InputNames* names) {
   return names == nullptr ? std::to_string(v.index) : last_word(names->point(v.index));

@@ -4,8 +4,12 @@
 // A triangle that is not counter-clockwise has no inside: its heights count as −∞ and its signs as negative.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,31 +41,60 @@ struct TriangleMeasure {
 constexpr int corner_after(int k) { return k == 2 ? 0 : k + 1; }
 constexpr int corner_across(int k) { return k == 0 ? 2 : k - 1; }
 
-// The triangles that are furthest from well-centered, with a sentence on each that gives the reason.
-//
-// Triangles are ranked by the least of their h/ℓ and d/ℓ, ties by number: the list does not depend on how the mesh was
-// cut into blocks.
+// Parts of the report that triangles and tetrahedra share. Elements are ranked by their margins, ties by number: the
+// list of the worst does not depend on how the mesh was cut into blocks.
 
+template <class Element>
 struct Ranked {
   double margin = 0;
-  TriangleId triangle;
+  Element element;
   friend bool operator<(const Ranked& a, const Ranked& b) {
-    return a.margin != b.margin ? a.margin < b.margin : a.triangle < b.triangle;
+    return a.margin != b.margin ? a.margin < b.margin : a.element < b.element;
   }
 };
 
 /// The first n in rank of everything offered.
+template <class Element>
 class WorstList {
  public:
   explicit WorstList(std::size_t n) : n_(n) {}
-  void offer(Ranked candidate);
-  void merge(const WorstList& other);
-  [[nodiscard]] std::vector<Ranked> sorted() const;
+  void offer(Ranked<Element> candidate) {
+    if (heap_.size() == n_) {
+      if (n_ == 0 || !(candidate < heap_.front())) return;
+      std::pop_heap(heap_.begin(), heap_.end());
+      heap_.pop_back();
+    }
+    heap_.push_back(candidate);
+    std::push_heap(heap_.begin(), heap_.end());
+  }
+  void merge(const WorstList& other) {
+    for (const Ranked<Element>& candidate : other.heap_) offer(candidate);
+  }
+  [[nodiscard]] std::vector<Ranked<Element>> sorted() const {
+    std::vector<Ranked<Element>> result = heap_;
+    std::sort(result.begin(), result.end());
+    return result;
+  }
 
  private:
   std::size_t n_;
-  std::vector<Ranked> heap_;  // the best ranked of the list on top
+  std::vector<Ranked<Element>> heap_;  // the best ranked of the list on top
 };
+
+/// Bins of 10°, and of 0.1 with a bin edge at h = 0.
+inline Histogram empty_angle_histogram() { return {0, 180, std::vector<std::size_t>(18)}; }
+inline Histogram empty_height_histogram() { return {-0.5, 1, std::vector<std::size_t>(15)}; }
+
+/// The number of different regions of the elements of a mesh.
+template <class MeshOfAnyKind, class Elements>
+[[nodiscard]] std::size_t count_regions(const MeshOfAnyKind& mesh, const Elements& elements) {
+  std::set<std::int32_t> regions;
+  std::optional<std::int32_t> last;
+  for (const auto element : elements) {
+    if (last != mesh.region(element)) regions.insert(*(last = mesh.region(element)));
+  }
+  return regions.size();
+}
 
 /// The entry of the report on one triangle; `why` uses these numbers, or counts from 0.
 [[nodiscard]] WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names = nullptr);

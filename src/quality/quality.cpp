@@ -9,8 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -100,9 +98,7 @@ Transmissibilities compare_transmissibilities(const Mesh& mesh, Executor* execut
 // Everything here is a count, an extreme or a short list, so any division into blocks gives the same merged result.
 // Each edge is counted by the halfedge that stands for it, in the block of that halfedge's triangle.
 
-/// Bins of 10°; of 0.1 with a bin edge at h = 0; of 0.05 with a bin edge at d = 0.
-Histogram empty_angle_histogram() { return {0, 180, std::vector<std::size_t>(18)}; }
-Histogram empty_height_histogram() { return {-0.5, 1, std::vector<std::size_t>(15)}; }
+/// Bins of 0.05 with a bin edge at d = 0.
 Histogram empty_crossing_histogram() { return {-0.1, 0.5, std::vector<std::size_t>(12)}; }
 
 struct Tally {
@@ -115,7 +111,7 @@ struct Tally {
   double min_d_over_l = std::numeric_limits<double>::infinity();
   double min_angle_deg = std::numeric_limits<double>::infinity();
   double max_angle_deg = 0;
-  WorstList worst;
+  WorstList<TriangleId> worst;
   Histogram angles = empty_angle_histogram();
   Histogram h_over_l = empty_height_histogram();
   Histogram d_over_l = empty_crossing_histogram();
@@ -211,18 +207,9 @@ EnergiesByStar all_energies(const Mesh& mesh, const QualityOptions& options) {
   return table;
 }
 
-std::size_t count_regions(const Mesh& mesh) {
-  std::set<std::int32_t> regions;
-  std::optional<std::int32_t> last;
-  for (const TriangleId t : mesh.triangles()) {
-    if (last != mesh.region(t)) regions.insert(*(last = mesh.region(t)));
-  }
-  return regions.size();
-}
-
 /// All but the worst triangles, which it returns.
-WorstList measure(Quality& q, const Mesh& mesh, const IdVector<TriangleId, TriangleId>& originals,
-                  const QualityOptions& options) {
+WorstList<TriangleId> measure(Quality& q, const Mesh& mesh, const IdVector<TriangleId, TriangleId>& originals,
+                              const QualityOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   const Tally sums = tally(mesh, originals, options);
   static_cast<SolverMeasures&>(q) = solver_measures(mesh, options.brief, options.executor);
@@ -230,7 +217,7 @@ WorstList measure(Quality& q, const Mesh& mesh, const IdVector<TriangleId, Trian
   q.triangles = mesh.n_triangles();
   q.edges = sums.edges;
   q.boundary_edges = sums.boundary_edges;
-  q.regions = count_regions(mesh);
+  q.regions = count_regions(mesh, mesh.triangles());
   q.angles = sums.angles;
   q.h_over_l = sums.h_over_l;
   q.d_over_l = sums.d_over_l;
@@ -253,8 +240,8 @@ WorstList measure(Quality& q, const Mesh& mesh, const IdVector<TriangleId, Trian
   return sums.worst;
 }
 
-void describe_all(Quality& q, const Mesh& original, const WorstList& worst) {
-  for (const Ranked& ranked : worst.sorted()) q.worst.push_back(describe(original, ranked.triangle));
+void describe_all(Quality& q, const Mesh& original, const WorstList<TriangleId>& worst) {
+  for (const auto& ranked : worst.sorted()) q.worst.push_back(describe(original, ranked.element));
 }
 
 }  // namespace
@@ -270,7 +257,7 @@ Quality quality_in_place(Mesh& mesh, const QualityOptions& options) {
   if (!is_scattered(mesh)) return quality(mesh, options);
   Quality q;
   const MeshOrder order = hilbert_order_in_place(mesh, options.executor);
-  const WorstList worst = measure(q, mesh, order.triangles, options);
+  const WorstList<TriangleId> worst = measure(q, mesh, order.triangles, options);
   restore_order(mesh, order, options.executor);
   describe_all(q, mesh, worst);
   return q;

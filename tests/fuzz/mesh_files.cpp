@@ -7,27 +7,43 @@
 namespace temper::fuzz {
 namespace {
 
-// Meshes of these are two files, here one after the other.
+// Meshes of these are several files, here one after the other. The file of points is the first; those after the second
+// need not be there.
 constexpr char kBetweenFiles = '\f';
-struct Pair {
-  std::string_view format, points, triangles;
+struct Files {
+  std::string_view format;
+  std::vector<std::string> names;
 };
-constexpr Pair kPairs[] = {{"triangle", "m.node", "m.ele"}, {"fesom", "m.nod2d.out", "m.elem2d.out"}};
+const Files kSeveral[] = {{"triangle", {"m.node", "m.ele", "m.poly", "m.face", "m.edge"}},
+                          {"fesom", {"m.nod2d.out", "m.elem2d.out"}}};
 
-/// The name of the file of points, or of the file; the other one is empty where there is none.
-Pair names_of(std::string_view format) {
-  for (const Pair& pair : kPairs) {
-    if (pair.format == format) return pair;
+std::vector<std::string> names_of(std::string_view format) {
+  for (const Files& files : kSeveral) {
+    if (files.format == format) return files.names;
   }
-  return {format, "m", {}};
+  return {"m"};
 }
 
 std::string place(const Scratch& scratch, std::string_view format, std::string_view bytes) {
-  const Pair names = names_of(format);
-  if (names.triangles.empty()) return scratch.make("m", bytes);
-  const std::size_t cut = std::min(bytes.find(kBetweenFiles), bytes.size());
-  static_cast<void>(scratch.make(std::string(names.triangles), bytes.substr(std::min(cut + 1, bytes.size()))));
-  return scratch.make(std::string(names.points), bytes.substr(0, cut));
+  const std::vector<std::string> names = names_of(format);
+  if (names.size() == 1) return scratch.make(names[0], bytes);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::size_t cut = i + 1 < names.size() ? std::min(bytes.find(kBetweenFiles), bytes.size()) : bytes.size();
+    if (i < 2 || cut > 0) static_cast<void>(scratch.make(names[i], bytes.substr(0, cut)));
+    bytes.remove_prefix(std::min(cut + 1, bytes.size()));
+  }
+  return scratch.path(names[0]);
+}
+
+/// The files of a mesh that was written, as one.
+std::string joined(const Scratch& scratch, std::string_view format) {
+  std::string bytes;
+  for (const std::string& name : names_of(format)) {
+    const std::string path = scratch.path(name);
+    bytes +=
+        (bytes.empty() ? "" : std::string(1, kBetweenFiles)) + (std::filesystem::exists(path) ? io::slurp(path) : "");
+  }
+  return bytes;
 }
 
 void insist_on_message(const InputError& error) {
@@ -47,7 +63,7 @@ const io::Format& chosen_format(std::string_view bytes) {
 }
 
 void write_and_read_again(const Scratch& scratch, const io::MeshFile& file, const io::Format& format) {
-  const std::string out = scratch.path("out" + std::string(names_of(format.name).points).substr(1));
+  const std::string out = scratch.path("out" + names_of(format.name)[0].substr(1));
   const auto written = io::write(out, file, {std::string(format.name), {}});
   if (!written) return insist_on_message(written.error());
   const auto again = io::read(out, {.flat = file.z_is_data});
@@ -62,7 +78,7 @@ void run_tetrahedra(const Scratch& scratch, const io::TetFile& file, std::string
   insist(!wrong, wrong.value_or(""));
   const io::Format& format = chosen_format(bytes);
   if (!format.holds_tetrahedra) return;
-  const std::string out = scratch.path("out" + std::string(names_of(format.name).points).substr(1));
+  const std::string out = scratch.path("out" + names_of(format.name)[0].substr(1));
   const auto written = io::write(out, file, {std::string(format.name), {}});
   if (!written) return insist_on_message(written.error());
   const auto again = io::read_any(out);
@@ -95,15 +111,14 @@ std::vector<std::string> seeds(const io::Format& format) {
   }
   const Scratch scratch;
   std::vector<std::string> all;
-  const Pair names = names_of(format.name);
-  const std::string out = scratch.path(std::string(names.points));
+  const std::string out = scratch.path(names_of(format.name)[0]);
   io::MeshFile globe = io::from_mesh(*icosahedral({.level = 1}));
   globe.triangles.pop_back();
   const auto add = [&](const auto& file) {
     for (const auto encoding : {io::Encoding::ascii, io::Encoding::base64, io::Encoding::appended}) {
+      scratch.clear();
       if (!io::write(out, file, {std::string(format.name), encoding})) continue;
-      std::string bytes = io::slurp(out);
-      if (!names.triangles.empty()) bytes += kBetweenFiles + io::slurp(scratch.path(std::string(names.triangles)));
+      std::string bytes = joined(scratch, format.name);
       if (std::find(all.begin(), all.end(), bytes) == all.end()) all.push_back(std::move(bytes));
     }
   };

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "support/tet_lattice.hpp"
 #include "temper/tets/geometry.hpp"

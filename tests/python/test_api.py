@@ -52,8 +52,8 @@ ELSEWHERE = {
     "hilbert_ordered": "as hilbert_order", "quality_in_place": "as hilbert_order", "or_serial": "threads=1",
     "unflip": "flip three times more", "split_edge": "plan_split and insert_vertex, which check",
     "insert_in_triangle": "plan_insertion and insert_vertex, which check",
-    "dihedral_angle": "tetrahedra are for C++ and the program", "six_volumes": "as dihedral_angle", "boundary_vertices": "as dihedral_angle",
-    "read_any": "as dihedral_angle",
+    "dihedral_angle": "lengths of tetrahedra are for C++", "six_volumes": "as dihedral_angle",
+    "boundary_vertices": "TetMesh.boundary_faces", "read_any": "read does it",
     "input_size_field_of": "input_size_field: Python's meshes may go before their views",
 }  # fmt: skip
 
@@ -68,6 +68,8 @@ STRUCTS = {
     "Quality": (temper.types.Quality, set()),
     "MeasureRow": (temper.types.QualityMeasure, set()),
     "WorstTriangle": (temper.types.WorstTriangle, set()),
+    "tets::Quality": (temper.types.TetQuality, set()),
+    "tets::WorstTet": (temper.types.WorstTet, set()),
     "TriangleQuality": (temper.types.TriangleQuality, set()),
     "DecComplex": (temper.types.DecComplex, {"sphere_orthocenters", "sphere_midpoints"}),
     "DecSummary": (temper.types.DecSummary, set()),
@@ -103,8 +105,9 @@ def functions_of(header):
 
 
 def fields_of(struct):
-    """Names of the members of a struct, in whichever header it is. Python has no structs of tetrahedra."""
-    for header in (each for each in HEADERS.rglob("*.hpp") if each.parent.name != "tets"):
+    """Names of the members of a struct, in whichever header it is; those of namespace tets are in a folder."""
+    tets, struct = struct.startswith("tets::"), struct.removeprefix("tets::")
+    for header in (each for each in HEADERS.rglob("*.hpp") if (each.parent.name == "tets") == tets):
         text = re.sub(r"//[^\n]*", "", header.read_text(encoding="utf-8"))
         match = re.search(rf"^struct {struct}(?: : (\w+))? \{{\n(.*?)^\}};", text, re.M | re.S)
         if match is None:

@@ -282,7 +282,7 @@ def test_meshes_of_pyvista_are_taken():
         cell_data={"region": np.array([10, 40, 20, 31, 20, 9])},
         field_data={"physical_names": np.frombuffer(b"1 31 inflow\n2 20 clean sand\n", dtype=np.uint8)},
     )  # fmt: skip
-    with pytest.warns(temper.TemperWarning, match="1 cells of type VTK 10 are left out"):
+    with pytest.warns(temper.TemperWarning, match="1 cells of type tetra are left out"):
         other = temper.as_mesh(grid)
     assert other == mesh and other.names == {"inflow": (1, 31), "clean sand": (2, 20)}
     assert other.lines.tolist() == [[0, 1]] and temper.quality(poly_data()) == temper.quality(mesh)

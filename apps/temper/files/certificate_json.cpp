@@ -7,11 +7,14 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 
 #include "exit.hpp"
 #include "files/input.hpp"
+#include "temper/tets/weights.hpp"
 
 namespace temper::app {
 namespace {
@@ -33,7 +36,8 @@ std::string text_of(const std::string& path) {
 /// Reads members; errors name the wrong member of the wrong term.
 class Reader {
  public:
-  Reader(std::string path, const Input& input) : path_(std::move(path)), input_(input) {}
+  Reader(std::string path, const io::VertexOfPoint& vertex_of_point, std::string_view cell)
+      : path_(std::move(path)), vertex_of_point_(vertex_of_point), cell_(cell) {}
 
   Certificate read(const Json& json) {
     if (!json.is_object() || !json.contains("temper_certificate")) {
@@ -70,19 +74,20 @@ class Reader {
   }
   Constraints constraints(const Json& value) const {
     std::string names;
-    for (const ConstraintsInfo& row : constraints_table()) {
-      if (value == row.name) return row.constraints;
-      names += (names.empty() ? "" : ", ") + std::string(row.name);
+    for (const auto& rows : {constraints_table(), tets::constraints_table()}) {
+      for (const ConstraintsInfo& row : rows) {
+        if (value == row.name) return row.constraints;
+        if (names.find(row.name) == std::string::npos) names += (names.empty() ? "" : ", ") + std::string(row.name);
+      }
     }
     fail(fmt::format("expected \"constraints\" to be one of {}, found {}", names, value.dump()));
   }
   VertexId vertex(const Json& value) const {
-    const auto& vertex_of_point = input_.loaded.vertex_of_point;
-    if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= vertex_of_point.size()) {
-      fail(fmt::format("expected a point, 0 to {}, found {}", vertex_of_point.size() - 1, value.dump()));
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= vertex_of_point_.size()) {
+      fail(fmt::format("expected a point, 0 to {}, found {}", vertex_of_point_.size() - 1, value.dump()));
     }
-    const std::int32_t v = vertex_of_point[value.get<std::size_t>()];
-    if (v < 0) fail(fmt::format("point {} is in no triangle", value.dump()));
+    const std::int32_t v = vertex_of_point_[value.get<std::size_t>()];
+    if (v < 0) fail(fmt::format("point {} is in no {}", value.dump(), cell_));
     return VertexId(static_cast<std::size_t>(v));
   }
   template <std::size_t n>
@@ -95,36 +100,59 @@ class Reader {
   }
   Certificate::Term read_term(const Json& json) const {
     const Json& kind = member(json, "kind");
-    const auto [p, q] = vertices<2>(json, "edge");
     const double multiplier = number(json, "multiplier");
+    if (kind == "height_over_face" || kind == "dual_of_face") {
+      const auto [p, q, r] = vertices<3>(json, "face");
+      const VertexId s = remaining(vertices<4>(json, "tetrahedron"), {p, q, r}, "tetrahedron");
+      if (kind == "height_over_face") return {{Kind::height_over_face, p, q, r, s}, multiplier};
+      return {{Kind::dual_of_face, p, q, r, s, vertex(member(json, "across"))}, multiplier};
+    }
+    const auto [p, q] = vertices<2>(json, "edge");
     if (kind == "crossing") return {{Kind::crossing, p, q, VertexId()}, multiplier};
     if (kind != "height" && kind != "dual") {
-      fail(fmt::format("expected \"kind\" to be \"height\", \"crossing\" or \"dual\", found {}", kind.dump()));
+      fail(
+          fmt::format("expected \"kind\" to be \"height\", \"crossing\", \"dual\", \"height_over_face\" or "
+                      "\"dual_of_face\", found {}",
+                      kind.dump()));
     }
-    for (const VertexId r : vertices<3>(json, "triangle")) {
-      if (r == p || r == q) continue;
-      if (kind == "height") return {{Kind::height, p, q, r}, multiplier};
-      return {{Kind::dual, p, q, r, vertex(member(json, "across"))}, multiplier};
+    const VertexId r = remaining(vertices<3>(json, "triangle"), {p, q}, "triangle");
+    if (kind == "height") return {{Kind::height, p, q, r}, multiplier};
+    return {{Kind::dual, p, q, r, vertex(member(json, "across"))}, multiplier};
+  }
+  /// The corner that is none of the others.
+  VertexId remaining(std::span<const VertexId> corners, std::initializer_list<VertexId> others, const char* key) const {
+    for (const VertexId v : corners) {
+      if (std::find(others.begin(), others.end(), v) == others.end()) return v;
     }
-    fail("\"triangle\" has no third corner");
+    fail(fmt::format("\"{}\" has no {} corner", key, others.size() == 2 ? "third" : "fourth"));
   }
 
   std::string path_, where_;
-  const Input& input_;
+  const io::VertexOfPoint& vertex_of_point_;
+  std::string_view cell_;
 };
 
 }  // namespace
 
-Json certificate_json(const Certificate& certificate, const Input& input) {
-  const auto point = [&](VertexId v) { return input.points.empty() ? std::size_t{v.index} : input.points[v.index]; };
+Json certificate_json(const Certificate& certificate, const std::vector<std::size_t>& points) {
+  const auto point = [&](VertexId v) { return points.empty() ? std::size_t{v.index} : points[v.index]; };
   Json terms = Json::array();
   for (const auto& [constraint, multiplier] : certificate.terms) {
-    const auto [kind, p, q, r, s] = constraint;
+    const auto& [kind, p, q, r, s, t] = constraint;
+    const bool of_face = kind == Kind::height_over_face || kind == Kind::dual_of_face;
     Json term;
     term["kind"] = name(kind);
-    if (kind != Kind::crossing) term["triangle"] = {point(p), point(q), point(r)};
-    if (kind == Kind::dual) term["across"] = point(s);
-    term["edge"] = {point(p), point(q)};
+    if (of_face) {
+      term["tetrahedron"] = {point(p), point(q), point(r), point(s)};
+    } else if (kind != Kind::crossing) {
+      term["triangle"] = {point(p), point(q), point(r)};
+    }
+    if (kind == Kind::dual || kind == Kind::dual_of_face) term["across"] = point(of_face ? t : s);
+    if (of_face) {
+      term["face"] = {point(p), point(q), point(r)};
+    } else {
+      term["edge"] = {point(p), point(q)};
+    }
     term["multiplier"] = multiplier;
     terms.push_back(std::move(term));
   }
@@ -134,11 +162,11 @@ Json certificate_json(const Certificate& certificate, const Input& input) {
           {"terms", std::move(terms)}};
 }
 
-std::string certificate_text(const Certificate& certificate, const Input& input) {
-  return certificate_json(certificate, input).dump(2) + "\n";
+std::string certificate_text(const Certificate& certificate, const std::vector<std::size_t>& points) {
+  return certificate_json(certificate, points).dump(2) + "\n";
 }
 
-Certificate read_certificate(const std::string& path, const Input& input) {
+Certificate read_certificate(const std::string& path, const io::VertexOfPoint& vertex_of_point, std::string_view cell) {
   const std::string text = text_of(path);
   const auto fail = [&](const std::string& why) -> Failure { return {Exit::bad_input, path + ": " + why}; };
   if (is_too_deep(text)) throw fail(fmt::format("nested more than {} deep", kDeepestJson));
@@ -150,7 +178,7 @@ Certificate read_certificate(const std::string& path, const Input& input) {
   } catch (const Json::out_of_range&) {
     throw fail("holds a number beyond what a double can hold");
   }
-  return Reader(path, input).read(json);
+  return Reader(path, vertex_of_point, cell).read(json);
 }
 
 }  // namespace temper::app

@@ -6,24 +6,30 @@
 //
 // Points count from 0, in the order of the file's arrays. The edge of a height lies in its triangle, counter-clockwise.
 // The edge of a crossing is directed: d is from its first point. A dual has the fields of a height, and "across": the
-// corner on the other side of the edge. Without "constraints" a file is of well_centered.
-// docs/explanation/weights.md has the expressions that the multipliers multiply.
+// corner on the other side of the edge. Of tetrahedra, a height_over_face and a dual_of_face have "tetrahedron", "face"
+// and "across" instead; the face turns counter-clockwise as seen from the fourth corner. Without "constraints" a file
+// is of well_centered. docs/explanation/weights.md has the expressions that the multipliers multiply.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "files/input.hpp"
 #include "temper/feasibility.hpp"
+#include "temper/io.hpp"
 
 namespace temper::app {
 
-[[nodiscard]] nlohmann::ordered_json certificate_json(const Certificate& certificate, const Input& input);
+/// `points`: mesh vertex → point of the file, both from 0; empty: the same.
+[[nodiscard]] nlohmann::ordered_json certificate_json(const Certificate& certificate,
+                                                      const std::vector<std::size_t>& points);
 
 /// A certificate as a file of its own.
-[[nodiscard]] std::string certificate_text(const Certificate& certificate, const Input& input);
+[[nodiscard]] std::string certificate_text(const Certificate& certificate, const std::vector<std::size_t>& points);
 
-/// Failure when the file cannot be read or is no certificate.
-[[nodiscard]] Certificate read_certificate(const std::string& path, const Input& input);
+/// Failure when the file cannot be read or is no certificate. `cell`: "triangle" or "tetrahedron", for errors.
+[[nodiscard]] Certificate read_certificate(const std::string& path, const io::VertexOfPoint& vertex_of_point,
+                                           std::string_view cell);
 
 }  // namespace temper::app

@@ -17,6 +17,11 @@ namespace {
 /// "12" of "triangle 12".
 std::string last_word(const std::string& text) { return text.substr(text.rfind(' ') + 1); }
 
+std::vector<std::string> all_of(std::vector<std::string> some, const std::vector<std::string>& others) {
+  some.insert(some.end(), others.begin(), others.end());
+  return some;
+}
+
 /// Mesh vertex → point; empty when they are the same.
 std::vector<std::size_t> invert(const io::VertexOfPoint& vertex_of_point) {
   if (vertex_of_point.size() == vertex_of_point.n_kept()) return {};
@@ -34,11 +39,7 @@ std::string Input::vertex_number(VertexId v) const { return last_word(names->poi
 
 std::string Input::triangle_number(TriangleId t) const { return last_word(names->triangle(t.index)); }
 
-std::vector<std::string> Input::warnings() const {
-  std::vector<std::string> all = file.warnings;
-  all.insert(all.end(), loaded.warnings.begin(), loaded.warnings.end());
-  return all;
-}
+std::vector<std::string> Input::warnings() const { return all_of(file.warnings, loaded.warnings); }
 
 Input read_input(const std::string& path, const ReadingOptions& options) {
   Input input;
@@ -67,11 +68,7 @@ std::string TetInput::tetrahedron_number(tets::TetId t) const {
   return last_word(file.numbering->tetrahedron(t.index));
 }
 
-std::vector<std::string> TetInput::warnings() const {
-  std::vector<std::string> all = file.warnings;
-  all.insert(all.end(), loaded.warnings.begin(), loaded.warnings.end());
-  return all;
-}
+std::vector<std::string> TetInput::warnings() const { return all_of(file.warnings, loaded.warnings); }
 
 TetInput make_input(const std::string& path, io::TetFile file, Executor* executor) {
   TetInput input;

@@ -40,12 +40,16 @@ const Row* find_row(std::span<const Row> rows, std::string_view key) {
 struct Key {
   std::string_view key, alias;
   Preference better;
+  bool count;
   std::optional<double> wanted;
+
+  /// Says whether a plain = stands for a comparison. No value equals a length or a volume, which are rounded.
+  [[nodiscard]] bool has_equal_sign() const { return count || better != Preference::equal; }
 };
 std::vector<Key> keys_of(MeshKind kind) {
   std::vector<Key> keys;
   const auto add = [&](const auto& rows) {
-    for (const auto& row : rows) keys.push_back({row.key, row.alias, row.better, row.wanted});
+    for (const auto& row : rows) keys.push_back({row.key, row.alias, row.better, row.count, row.wanted});
   };
   kind == MeshKind::triangles ? add(quality_measures()) : add(tets::quality_measures());
   return keys;
@@ -78,7 +82,9 @@ Requirement usual_requirement(std::string_view key, std::span<const Key> keys) {
   const Key* measure = find_row(keys, key);
   if (measure == nullptr) refuse(fmt::format("'{}' is not key=value", key));
   if (!measure->wanted) {
-    refuse(fmt::format("'{0}' has no usual value: write {0}{1}VALUE", key, sign(measure->better)));
+    refuse(measure->has_equal_sign()
+               ? fmt::format("'{0}' has no usual value: write {0}{1}VALUE", key, sign(measure->better))
+               : fmt::format("'{0}' has no usual value: write {0}>=VALUE or {0}<=VALUE", key));
   }
   return {std::string(key), std::string(measure->key), measure->better, *measure->wanted};
 }
@@ -96,6 +102,8 @@ Requirement parse_requirement(std::string_view text, std::span<const Key> keys, 
   const bool known = measure != nullptr || (kind == MeshKind::triangles && is_energy_key(key));
   if (!known) refuse_key(key, keys, kind);
   requirement.key = measure != nullptr ? measure->key : key;
+  if (!two && measure != nullptr && !measure->has_equal_sign())
+    refuse(fmt::format("'{0}': {1} is rounded, so that = decides nothing: write {1}>=VALUE or {1}<=VALUE", text, key));
   if (two) {
     requirement.better = text[at] == '<' ? Preference::less : text[at] == '>' ? Preference::larger : Preference::equal;
   } else {
@@ -187,6 +195,16 @@ std::vector<Requirement> parse_requirements(std::string_view verb, std::span<con
     refuse_usage(std::string(verb), fmt::format("--require: no mesh meets both {} and {}", a.text, b->text));
   }
   return requirements;
+}
+
+bool knows_keys(std::span<const std::string> lists, MeshKind kind) {
+  const std::vector<Key> keys = keys_of(kind);
+  const auto is_known = [&](std::string_view word) {
+    const std::string_view key = word.substr(0, word.find_first_of("<>="));
+    return find_row<Key>(keys, key) != nullptr || (kind == MeshKind::triangles && is_energy_key(key));
+  };
+  return std::ranges::all_of(lists,
+                             [&](const std::string& list) { return std::ranges::all_of(separated(list), is_known); });
 }
 
 std::string_view sign(Preference better) {

@@ -5,7 +5,7 @@
 //   key          a number of the JSON report, its short name, or energy.NAME.STAR (of triangles)
 //
 // A plain = stands for the useful comparison: counts are equal, minima and fractions at least, maxima and energies at
-// most. A key alone stands for the usual value of its row.
+// most. Other numbers, such as the volume, have none. A key alone stands for the usual value of its row.
 #pragma once
 
 #include <optional>
@@ -43,14 +43,19 @@ Option& add_requirements(Command& command, std::vector<std::string>& lists, bool
 [[nodiscard]] std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists,
                                                           MeshKind kind = MeshKind::triangles);
 
+/// Says whether all keys of the lists are of this kind of meshes.
+[[nodiscard]] bool knows_keys(std::span<const std::string> lists, MeshKind kind);
+
 /// The requirements on meshes of both kinds, for verbs that see the kind when they have read the file.
 class RequirementLists {
  public:
   RequirementLists() = default;
-  /// Lists may make sense for one kind alone. Failure if they do for none.
+  /// Lists may make sense for one kind alone. Failure if they do for none: that of the kind whose keys they have.
   RequirementLists(std::string_view verb, std::span<const std::string> lists)
       : triangles_(verb, lists, MeshKind::triangles), tetrahedra_(verb, lists, MeshKind::tetrahedra) {
-    if (triangles_.refusal && tetrahedra_.refusal) throw Failure(*triangles_.refusal);
+    if (!triangles_.refusal || !tetrahedra_.refusal) return;
+    const bool of_triangles = knows_keys(lists, MeshKind::triangles) || !knows_keys(lists, MeshKind::tetrahedra);
+    throw Failure(of_triangles ? *triangles_.refusal : *tetrahedra_.refusal);
   }
   /// Failure when the lists make no sense for this kind.
   [[nodiscard]] const std::vector<Requirement>& of(MeshKind kind) const {

@@ -160,7 +160,7 @@ std::string brief_number(double value) { return std::isfinite(value) ? fmt::form
 
 const BriefRow<tets::Quality> kBriefTetRows[] = {
     {"tetrahedra not well-centered", [](const tets::Quality& q) { return std::to_string(q.orthocenters_outside); }},
-    {"least margin", [](const tets::Quality& q) { return brief_number(q.min_h_over_l); }},
+    {"least h/l", [](const tets::Quality& q) { return brief_number(q.min_h_over_l); }},
     {"completely well-centered",
      [](const tets::Quality& q) { return fmt::format("{:.1f} %", 100 * q.completely_well_centered_fraction); }},
     {"transmissibility, max/median",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,12 +53,16 @@ struct DecRecord {
 struct WeightsRecord {
   std::string_view mode;
   const WeightOptions& options;
+  const ConstraintsInfo& constraints;
   const WeightReport& report;
-  const Input& input;
-  const Mesh& mesh;                                 ///< that the report is of: the input's, or with edges flipped
-  const std::optional<ConnectivityReport>& search;  ///< with --connectivity search
-  std::string_view output;                          ///< empty: not written
-  std::string_view certificate;                     ///< the same
+  std::string_view path;                                             ///< of the mesh
+  std::string size;                                                  ///< "12 vertices, 10 triangles"
+  const std::vector<std::size_t>& points;                            ///< of Input or TetInput
+  std::function<std::string(const WeightConstraint&)> text;          ///< constraint_text
+  std::function<TriangleId(const WeightConstraint&)> triangle = {};  ///< of a height; none for tetrahedra
+  const std::optional<ConnectivityReport>& search = std::nullopt;    ///< with --connectivity search
+  std::string_view output = {};                                      ///< empty: not written
+  std::string_view certificate = {};                                 ///< the same
 };
 
 [[nodiscard]] std::string weights_text(const WeightsRecord& record);
@@ -65,6 +70,9 @@ struct WeightsRecord {
 
 /// "h over edge 3-9 of triangle 17 (angle of 138.3 degrees at vertex 10)", in the file's numbers.
 [[nodiscard]] std::string constraint_text(const WeightConstraint& constraint, const Input& input, const Mesh& mesh);
+[[nodiscard]] std::string constraint_text(const WeightConstraint& constraint, const TetInput& input);
+/// The triangle of a height.
+[[nodiscard]] TriangleId triangle_of(const Mesh& mesh, const WeightConstraint& constraint);
 
 // The reports of `temper mesh` on the mesh it made: as text, and as JSON.
 

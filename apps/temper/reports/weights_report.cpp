@@ -18,10 +18,6 @@ using Kind = WeightConstraint::Kind;
 
 constexpr std::size_t kListed = 12;  // what fits on a screen; the JSON has all
 
-TriangleId triangle_of(const Mesh& mesh, const WeightConstraint& c) {
-  return Mesh::triangle(mesh.find_halfedge(c.p, c.q));
-}
-
 std::string listed(const std::vector<std::string>& lines) {
   std::string text;
   for (std::size_t i = 0; i < std::min(lines.size(), kListed); ++i) text += "  " + lines[i] + "\n";
@@ -30,7 +26,7 @@ std::string listed(const std::vector<std::string>& lines) {
 }
 
 std::string verdict_text(const WeightsRecord& r) {
-  const ConstraintsInfo& row = constraints_table()[static_cast<std::size_t>(r.options.constraints)];
+  const ConstraintsInfo& row = r.constraints;
   switch (r.report.verdict) {
     case Feasibility::feasible:
       return fmt::format("feasible: {}", row.success);
@@ -58,7 +54,7 @@ std::string certificate_text(const WeightsRecord& r) {
   const Certificate& certificate = r.report.certificate;
   if (certificate.terms.empty()) return {};
   std::vector<std::string> lines;
-  for (const auto& term : certificate.terms) lines.push_back(constraint_text(term.constraint, r.input, r.mesh));
+  for (const auto& term : certificate.terms) lines.push_back(r.text(term.constraint));
   const std::string what = certificate.margin == 0 ? "all positive" : fmt::format("all above {}", certificate.margin);
   return fmt::format("These {} cannot be {} (a certificate, verified exactly):\n", certificate.terms.size(), what) +
          listed(lines);
@@ -81,8 +77,7 @@ std::string violations_text(const WeightsRecord& r) {
   std::vector<std::string> lines;
   double total = 0;
   for (const Violation& v : r.report.violations) {
-    lines.push_back(fmt::format("{:.4g} instead of {:.4g}: {}", v.value, r.report.asked,
-                                constraint_text(v.constraint, r.input, r.mesh)));
+    lines.push_back(fmt::format("{:.4g} instead of {:.4g}: {}", v.value, r.report.asked, r.text(v.constraint)));
     total += v.shortfall;
   }
   return fmt::format("{} of the {} violate their bound, by {:.6g} in all:\n", lines.size(),
@@ -113,16 +108,23 @@ Json search_json(const WeightsRecord& r) {
   return json;
 }
 
-Json violation_json(const Violation& v, const Input& input, const Mesh& mesh) {
-  const auto point = [&](VertexId u) { return input.points.empty() ? std::size_t{u.index} : input.points[u.index]; };
-  const auto [kind, p, q, r, s] = v.constraint;
+Json violation_json(const Violation& v, const WeightsRecord& record) {
+  const auto point = [&](VertexId u) { return record.points.empty() ? std::size_t{u.index} : record.points[u.index]; };
+  const auto& [kind, p, q, r, s, t] = v.constraint;
+  const bool of_face = kind == Kind::height_over_face || kind == Kind::dual_of_face;
   Json json;
   json["kind"] = name(kind);
-  json["edge"] = {point(p), point(q)};
+  if (of_face) {
+    json["face"] = {point(p), point(q), point(r)};
+    json["vertex"] = point(s);
+  } else {
+    json["edge"] = {point(p), point(q)};
+  }
+  if (kind == Kind::dual_of_face) json["across"] = point(t);
   if (kind == Kind::height) {
-    json["triangle"] = triangle_of(mesh, v.constraint).index;
+    if (record.triangle) json["triangle"] = record.triangle(v.constraint).index;
     json["vertex"] = point(r);
-    json["angle_deg"] = v.angle_deg;
+    if (record.triangle) json["angle_deg"] = v.angle_deg;
   }
   json["value"] = v.value;
   json["shortfall"] = v.shortfall;
@@ -130,6 +132,20 @@ Json violation_json(const Violation& v, const Input& input, const Mesh& mesh) {
 }
 
 }  // namespace
+
+TriangleId triangle_of(const Mesh& mesh, const WeightConstraint& c) {
+  return Mesh::triangle(mesh.find_halfedge(c.p, c.q));
+}
+
+std::string constraint_text(const WeightConstraint& c, const TetInput& input) {
+  const auto number = [&](VertexId v) { return input.vertex_number(v); };
+  const std::string edge = fmt::format("{}-{}", number(c.p), number(c.q));
+  if (c.kind == Kind::crossing) return fmt::format("d of edge {} from vertex {}", edge, number(c.p));
+  const std::string face = fmt::format("{}-{}", edge, number(c.r));
+  if (c.kind == Kind::height) return fmt::format("h over edge {} in face {}", edge, face);
+  if (c.kind == Kind::height_over_face) return fmt::format("h over face {} towards vertex {}", face, number(c.s));
+  return fmt::format("dual length of face {} between vertices {} and {}", face, number(c.s), number(c.t));
+}
 
 std::string constraint_text(const WeightConstraint& c, const Input& input, const Mesh& mesh) {
   const std::string p = input.vertex_number(c.p), q = input.vertex_number(c.q);
@@ -147,8 +163,7 @@ std::string constraint_text(const WeightConstraint& c, const Input& input, const
 std::string weights_text(const WeightsRecord& r) {
   const WeightReport& report = r.report;
   std::string text =
-      fmt::format("{}: {}\n{}{}\n{}\n", r.input.path, mesh_size(r.mesh.n_vertices(), r.mesh.n_triangles()),
-                  search_text(r), verdict_text(r), margin_text(report));
+      fmt::format("{}: {}\n{}{}\n{}\n", r.path, r.size, search_text(r), verdict_text(r), margin_text(report));
   if (!report.solved && report.verdict == Feasibility::feasible) {
     text += fmt::format("no weights give a margin of {}\n", r.options.margin);
   }
@@ -168,7 +183,7 @@ std::string weights_json(const WeightsRecord& r) {
   json["schema"] = kSchema;
   json["mode"] = r.mode;
   json["constraints"] = name(r.options.constraints);
-  json["edges"] = r.options.constraints == Constraints::regular ? Json(r.options.edges.size()) : Json(nullptr);
+  json["edges"] = r.options.edges.empty() ? Json(nullptr) : Json(r.options.edges.size());
   json["search"] = search_json(r);
   json["verdict"] = name(report.verdict);
   json["feasible"] =
@@ -184,9 +199,9 @@ std::string weights_json(const WeightsRecord& r) {
   json["programs"] = report.programs;
   json["largest_program"] = report.largest;
   json["violations"] = Json::array();
-  for (const Violation& v : report.violations) json["violations"].push_back(violation_json(v, r.input, r.mesh));
+  for (const Violation& v : report.violations) json["violations"].push_back(violation_json(v, r));
   json["certificate"] =
-      report.certificate.terms.empty() ? Json(nullptr) : certificate_json(report.certificate, r.input);
+      report.certificate.terms.empty() ? Json(nullptr) : certificate_json(report.certificate, r.points);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

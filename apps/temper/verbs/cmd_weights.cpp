@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <variant>
 
 #include "console.hpp"
 #include "files/certificate_json.hpp"
@@ -18,6 +20,7 @@
 #include "temper/detail/lp.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"
+#include "temper/tets/weights.hpp"
 
 namespace temper::app {
 namespace {
@@ -55,19 +58,37 @@ struct WeightsSettings {
   bool json = false, zero = false;
 };
 
+/// The rows of triangles, then those that tetrahedra alone have.
+const std::vector<ConstraintsInfo>& all_constraints() {
+  static const std::vector<ConstraintsInfo> all = [] {
+    std::vector<ConstraintsInfo> rows(constraints_table().begin(), constraints_table().end());
+    for (const ConstraintsInfo& row : tets::constraints_table()) {
+      if (std::ranges::find(rows, row.name, &ConstraintsInfo::name) == rows.end()) rows.push_back(row);
+    }
+    return rows;
+  }();
+  return all;
+}
+
+const ConstraintsInfo& row_of(std::span<const ConstraintsInfo> rows, Constraints constraints) {
+  return *std::ranges::find(rows, constraints, &ConstraintsInfo::constraints);
+}
+
 void add_conditions(Command& command, WeightsSettings& s) {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> of_rows;
-    for (const ConstraintsInfo& row : constraints_table()) of_rows.push_back(option_name(row.constraints));
+    for (const ConstraintsInfo& row : all_constraints()) of_rows.push_back(option_name(row.constraints));
     return of_rows;
   }();
   std::string text = "Constraints on the weights, with margin t and edge length l.";
-  for (const ConstraintsInfo& row : constraints_table()) {
+  for (const ConstraintsInfo& row : constraints_table())
     text += fmt::format(" '{}': {}.", option_name(row.constraints), row.keeps);
-  }
+  text += " For tetrahedra, with the side l of an equilateral triangle of a face's area:";
+  for (const ConstraintsInfo& row : tets::constraints_table())
+    text += fmt::format(" '{}': {}.", option_name(row.constraints), row.keeps);
   const auto use = [&s](std::string_view chosen) {
     const auto at = std::find(names.begin(), names.end(), chosen);
-    s.options.constraints = constraints_table()[static_cast<std::size_t>(at - names.begin())].constraints;
+    s.options.constraints = all_constraints()[static_cast<std::size_t>(at - names.begin())].constraints;
   };
   add_name(command, "--constraints", {names.begin(), names.end()}, use, text).defaults_to([] {
     return option_name(Constraints::well_centered);
@@ -76,7 +97,8 @@ void add_conditions(Command& command, WeightsSettings& s) {
 
 void add_options(Command& command, WeightsSettings& s) {
   command.group("Files");
-  add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.").require();
+  add_argument(command, "IN", s.input, "Mesh file, of triangles or tetrahedra. Its content shows the format.")
+      .require();
   add_projection(command, s.projection);
   add_flat(command, s.flat);
   add_mesh_output(command, s.output, "OUT",
@@ -88,7 +110,7 @@ void add_options(Command& command, WeightsSettings& s) {
   command.add_flag(
       "--zero", s.zero,
       "Set all weights to zero, and flip edges until they are Delaunay. Solvers without weights need this.");
-  command.add_flag("--json", s.json, "Print the report as JSON, with vertices and triangles counted from 0.");
+  command.add_flag("--json", s.json, "Print the report as JSON, with vertices and elements counted from 0.");
   command.group("Weights");
   add_choice(command, "--mode", kModes, s.mode,
              "Goal of the search. 'feasible' tests if good weights exist, and finds the best margin. 'minimal' makes "
@@ -102,8 +124,8 @@ void add_options(Command& command, WeightsSettings& s) {
       "Weights from which the change is measured. 'zero' means that all are 0, and 'input' means the weights of IN.");
   add_choice(command, "--energy", kBarriers, s.barrier, "Energy of --mode barrier.");
   add_count(command, "--whole", s.whole, 0,
-            "Largest number of triangles in a component that is solved as a whole. In larger components, only the "
-            "triangles around bad ones are solved, as far out as needed.");
+            "Largest number of triangles or tetrahedra in a component that is solved as a whole. In larger components, "
+            "only the elements around bad ones are solved, as far out as needed.");
   command.group("Constraints and connectivity");
   add_conditions(command, s);
   add_text(command, "--edges", "all|lines|FILE", s.edges,
@@ -160,14 +182,14 @@ void check_usage(const Command& command, const WeightsSettings& s) {
   if (s.mode != Mode::barrier && command.was_given("--energy")) fail("--energy needs --mode barrier");
 }
 
-Exit check(const WeightsSettings& s, const Input& input) {
-  const Certificate certificate = read_certificate(s.check, input);
-  const CertificateCheck result = check_certificate(input.mesh(), certificate);
+/// Reports the verdict on the certificate of --check-certificate.
+Exit report_check(const WeightsSettings& s, const Certificate& certificate, CertificateCheck result,
+                  std::span<const ConstraintsInfo> rows) {
   const bool proves = result == CertificateCheck::proves;
   if (s.json) {
     print_data(fmt::format("{{\"schema\": {}, \"proves\": {}, \"check\": \"{}\"}}\n", kSchema, proves, name(result)));
   } else if (proves) {
-    const ConstraintsInfo& row = constraints_table()[static_cast<std::size_t>(certificate.constraints)];
+    const ConstraintsInfo& row = row_of(rows, certificate.constraints);
     const bool none = certificate.margin == 0 || certificate.constraints == Constraints::regular;
     const std::string what =
         none ? std::string() : fmt::format(" with a margin of {} ({})", certificate.margin, row.keeps);
@@ -177,6 +199,11 @@ Exit check(const WeightsSettings& s, const Input& input) {
   if (!proves)
     throw Failure(Exit::bad_input, fmt::format("{}: not a proof about {}: {}", s.check, s.input, name(result)));
   return Exit::done;
+}
+
+Exit check(const WeightsSettings& s, const Input& input) {
+  const Certificate certificate = read_certificate(s.check, input.loaded.vertex_of_point, "triangle");
+  return report_check(s, certificate, check_certificate(input.mesh(), certificate), constraints_table());
 }
 
 WeightGoal goal_of(Mode mode) {
@@ -264,6 +291,16 @@ Exit drop(const WeightsSettings& s, Input& input, Outputs& outputs) {
   return Exit::done;
 }
 
+/// Writes the certificate, and reports.
+Exit end(const WeightsSettings& s, WeightsRecord& record, Outputs& outputs) {
+  if (!record.report.certificate.terms.empty() && !s.certificate.empty()) {
+    outputs.write_text(s.certificate, certificate_text(record.report.certificate, record.points));
+    record.certificate = s.certificate;
+  }
+  s.json ? print_data(weights_json(record)) : print(weights_text(record));
+  return record.report.solved ? Exit::done : Exit::infeasible;
+}
+
 Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
   const auto solver = clp_solver();
   const std::optional<ConnectivityReport> search = searched(s, input, *solver);
@@ -271,9 +308,16 @@ Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
   WeightReport report = or_fail(find_weights(mesh, *solver, s.options));
   if (s.mode == Mode::barrier && report.solved) lower_energy(s, input, mesh, report);
 
-  const bool proved = !report.certificate.terms.empty();
-  WeightsRecord record = {
-      kModes[static_cast<std::size_t>(s.mode)].name, s.options, report, input, mesh, search, {}, {}};
+  WeightsRecord record = {kModes[static_cast<std::size_t>(s.mode)].name,
+                          s.options,
+                          row_of(constraints_table(), s.options.constraints),
+                          report,
+                          input.path,
+                          mesh_size(mesh.n_vertices(), mesh.n_triangles()),
+                          input.points,
+                          [&](const WeightConstraint& c) { return constraint_text(c, input, mesh); },
+                          [&](const WeightConstraint& c) { return triangle_of(mesh, c); },
+                          search};
   if (report.solved && !s.output.path.empty()) {
     const Mesh weighted = with_weights(mesh, report.weights);
     const std::size_t known = input.file.warnings.size();
@@ -282,21 +326,58 @@ Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
     print_warnings(outputs.write_mesh(s.output, input.file));
     record.output = s.output.path;
   }
-  if (proved && !s.certificate.empty()) {
-    outputs.write_text(s.certificate, certificate_text(report.certificate, input));
-    record.certificate = s.certificate;
+  return end(s, record, outputs);
+}
+
+// --- tetrahedra ---------------------------------------------------------------------------------------
+
+void refuse_options_of_triangles(const Command& command, const WeightsSettings& s) {
+  refuse_for_tetrahedra("weights", s.input,
+                        {{!s.projection.empty(), "--projection"},
+                         {s.flat, "--flat"},
+                         {s.zero, "--zero"},
+                         {s.mode == Mode::barrier, "--mode barrier"},
+                         {command.was_given("--edges"), "--edges"},
+                         {s.connectivity == Connectivity::search, "--connectivity search"},
+                         {s.options.constraints == Constraints::heights_only, "--constraints heights-only"}});
+}
+
+Exit weigh_tetrahedra(const WeightsSettings& s, TetInput input, Outputs& outputs) {
+  print_warnings(input.warnings());
+  if (!s.check.empty()) {
+    const Certificate certificate = read_certificate(s.check, input.loaded.vertex_of_point, "tetrahedron");
+    return report_check(s, certificate, tets::check_certificate(input.mesh(), certificate), tets::constraints_table());
   }
-  s.json ? print_data(weights_json(record)) : print(weights_text(record));
-  return report.solved ? Exit::done : Exit::infeasible;
+  const WeightReport report = or_fail(tets::find_weights(input.mesh(), *clp_solver(), s.options));
+  WeightsRecord record = {kModes[static_cast<std::size_t>(s.mode)].name,
+                          s.options,
+                          row_of(tets::constraints_table(), s.options.constraints),
+                          report,
+                          input.path,
+                          fmt::format("{}, {}", plural(input.mesh().n_vertices(), "vertex", "vertices"),
+                                      plural(input.mesh().n_tetrahedra(), "tetrahedron", "tetrahedra")),
+                          input.points,
+                          [&](const WeightConstraint& c) { return constraint_text(c, input); }};
+  if (report.solved && !s.output.path.empty()) {
+    tets::TetMesh weighted = input.mesh();
+    for (const VertexId v : weighted.vertices()) weighted.set_weight(v, report.weights[v]);
+    const std::size_t known = input.file.warnings.size();
+    io::update(input.file, input.loaded, weighted);
+    print_warnings(std::span(input.file.warnings).subspan(known));
+    print_warnings(outputs.write_mesh(s.output, input.file));
+    record.output = s.output.path;
+  }
+  return end(s, record, outputs);
 }
 
 }  // namespace
 
 Exit run_weights(const Arguments& arguments) {
-  Command command("weights",
-                  "Finds weights that make every triangle well-centered, or proves that there are none. Positions and "
-                  "connectivity stay. With --constraints, weights bring orthocenters inside or make edges regular "
-                  "instead. With --connectivity search, it looks for a better connectivity first.");
+  Command command(
+      "weights",
+      "Finds weights that make every triangle or tetrahedron well-centered, or proves that there are none. "
+      "Positions and connectivity stay. With --constraints, weights bring orthocenters inside or make edges regular "
+      "instead. With --connectivity search, it looks for a better connectivity first.");
   WeightsSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
@@ -308,7 +389,18 @@ Exit run_weights(const Arguments& arguments) {
   if (!s.output.path.empty()) outputs.expect_mesh(s.output, {s.edges});
   outputs.expect_text("--certificate", s.certificate, {s.input, s.edges});
 
-  Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .flat = s.flat});
+  auto file = read_any_tried(s.input, {nullptr, s.flat});
+  if (auto* const tets = std::get_if<io::TetFile>(&file)) {
+    refuse_options_of_triangles(command, s);
+    return weigh_tetrahedra(s, make_input(s.input, std::move(*tets), nullptr), outputs);
+  }
+  if (s.options.constraints == Constraints::completely_well_centered)
+    refuse_usage("weights",
+                 fmt::format("{} has triangles, and --constraints completely-well-centered is for tetrahedra "
+                             "alone. Next: --constraints well-centered",
+                             s.input));
+  const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
+  Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .flat = s.flat, .read = read});
   outputs.expect_space(s.output, input.file);
   print_warnings(input.warnings());
   if (!s.check.empty()) return check(s, input);

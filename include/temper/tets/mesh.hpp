@@ -37,10 +37,12 @@ using TetId = Id<struct TetTag>;
 /// A face as one tetrahedron has it. Halfface 4 t + f is opposite corner f of tetrahedron t.
 using HalffaceId = Id<struct HalffaceTag>;
 
-/// The user's numbers of points, tetrahedra, tagged faces (triangles) and lines, for errors. The base class counts from
-/// 0 and has no file.
+/// The user's numbers of points, tetrahedra, tagged faces and lines, for errors. The base class counts from 0 and has
+/// no file.
 class InputNames : public temper::InputNames {
  public:
+  /// The name of a tagged face, which is a triangle in files.
+  [[nodiscard]] std::string triangle(std::size_t index) const override { return "face " + std::to_string(index); }
   [[nodiscard]] virtual std::string tetrahedron(std::size_t index) const {
     return "tetrahedron " + std::to_string(index);
   }
@@ -157,13 +159,8 @@ class TetMesh {
   /// Checks the arrays and the geometry: ids in range, twins mutual and of the same vertices, every tetrahedron
   /// positive (exact). Returns the first fault, or nothing. O(n).
   [[nodiscard]] std::optional<std::string> validate() const;
-  /// The size of the arrays in bytes.
-  [[nodiscard]] std::size_t memory_bytes() const;
 
   // --- as it lies in memory, for views from other languages: valid until the mesh changes ----------
-  [[nodiscard]] std::span<const double> x_data() const { return x_.raw(); }
-  [[nodiscard]] std::span<const double> y_data() const { return y_.raw(); }
-  [[nodiscard]] std::span<const double> z_data() const { return z_.raw(); }
   [[nodiscard]] std::span<const double> weight_data() const { return w_.raw(); }
   [[nodiscard]] std::span<const std::array<VertexId, 4>> corner_data() const { return corners_.raw(); }
   [[nodiscard]] std::span<const HalffaceId> twin_data() const { return twins_.raw(); }

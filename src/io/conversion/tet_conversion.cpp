@@ -2,6 +2,7 @@
 //
 // Points of no tetrahedron are left out of the mesh, with the faces, lines and marks at them. Everything that is
 // dropped or repaired is named in warnings, in the numbers of the file.
+#include <algorithm>
 #include <utility>
 
 #include "io/text/failure.hpp"

@@ -120,34 +120,53 @@ void check(Document& d, bool flat) {
 
 void check_tetrahedra(const Document& d) {
   const MeshFile& f = d.file;
-  if (f.points.empty()) fail(ErrorCode::empty_input, d.names->path, "the file has no points");
+  if (f.points.empty())
+    fail(ErrorCode::empty_input, d.names->path, "the file has tetrahedra, and no points. Next: write its points, too");
   const auto quadrilateral = std::find_if(d.fourth_corners.begin(), d.fourth_corners.end(),
                                           [](std::int32_t corner) { return corner != kNoCorner; });
   if (quadrilateral != d.fourth_corners.end()) {
     const auto t = static_cast<std::size_t>(quadrilateral - d.fourth_corners.begin());
-    fail(ErrorCode::unsupported, d.names->triangle_where(t), d.names->triangle(t),
-         " is a quadrilateral beside tetrahedra; expected triangles as their tagged faces. Next: split it into "
-         "triangles, or remove it");
+    refuse_beside_tetrahedra(d.names->triangle_where(t), d.names->triangle(t));
   }
   check_ranges(d);
   for (std::size_t i = 0; i < f.points.size(); ++i) {
     const Vec3 p = d.place(i);
     if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
     fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has coordinates (", p.x, ", ", p.y, ", ",
-         p.z, "), expected finite numbers");
+         p.z, "), expected finite numbers. Next: give its place");
   }
   check_weights(d);
 }
+
+namespace {
+
+/// The next step for an element that is not read, or nothing.
+std::string_view next_for(std::string_view kind, Cells read) {
+  constexpr std::string_view kSolids[] = {"hexahedron", "voxel", "prism", "wedge", "pyramid"};
+  const bool quadrilaterals = read == Cells::faces || read == Cells::all;
+  const bool tetrahedra = read == Cells::simplices || read == Cells::all;
+  if (kind.starts_with("quadratic") || kind.starts_with("Lagrange")) return ". Next: write linear elements";
+  if (kind == "quadrilateral" && !quadrilaterals) return kNextForQuadrilaterals;
+  if (kind == "tetrahedron" && !tetrahedra) return kNextForTetrahedra;
+  if (tetrahedra && std::ranges::find(kSolids, kind) != std::end(kSolids)) return ". Next: split it into tetrahedra";
+  return {};
+}
+
+}  // namespace
 
 void refuse_element(const std::string& where, std::int64_t number, std::string_view kind, Cells read) {
   constexpr std::string_view kRead[] = {"in this format temper reads linear triangles",
                                         "temper reads linear triangles and quadrilaterals",
                                         "in this format temper reads linear triangles and tetrahedra",
                                         "temper reads linear triangles, quadrilaterals and tetrahedra"};
-  const bool without_quadrilaterals = read == Cells::triangles || read == Cells::simplices;
   fail(ErrorCode::unsupported, where, "element ", number, kind.starts_with('e') ? " is an " : " is a ", kind, "; ",
-       kRead[static_cast<std::size_t>(read)], ", with lines and points as tags",
-       without_quadrilaterals && kind == "quadrilateral" ? kNextForQuadrilaterals : "");
+       kRead[static_cast<std::size_t>(read)], ", with lines and points as tags", next_for(kind, read));
+}
+
+void refuse_beside_tetrahedra(const std::string& where, std::string_view name) {
+  fail(ErrorCode::unsupported, where, name,
+       " is a quadrilateral beside tetrahedra; expected triangles as their tagged faces. Next: split it into "
+       "triangles, or remove it");
 }
 
 std::string side_file_path(const std::string& path) { return path + ".weights.csv"; }

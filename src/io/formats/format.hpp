@@ -76,10 +76,13 @@ enum class Cells {
   all,
 };
 inline constexpr std::string_view kNextForQuadrilaterals = ". Next: write meshes of quadrilaterals as VTU or Gmsh";
+inline constexpr std::string_view kNextForTetrahedra = ". Next: write meshes of tetrahedra as VTU, Gmsh or medit";
 
 /// Refuses an element that is neither point, line nor one of these, with the reason.
 [[noreturn]] void refuse_element(const std::string& where, std::int64_t number, std::string_view kind,
                                  Cells read = Cells::faces);
+/// Refuses a quadrilateral in a file with tetrahedra.
+[[noreturn]] void refuse_beside_tetrahedra(const std::string& where, std::string_view name);
 
 struct WriteJob;
 using ArraysOf = std::vector<DataArray> MeshFile::*;

@@ -36,7 +36,6 @@ constexpr FlagSection kFlagSections[] = {{"Corners", &MeshFile::point_data, "med
                                          {"RequiredTriangles", &MeshFile::cell_data, "medit:required"}};
 
 constexpr std::pair<std::string_view, std::string_view> kUnsupported[] = {
-    {"Quadrilaterals", "quadrilateral"},
     {"Hexahedra", "hexahedron"},
     {"Prisms", "prism"},
     {"Pentahedra", "prism"},
@@ -62,6 +61,7 @@ class MeditReader {
       ended = keyword == "End";
       if (!ended) section(keyword);
     }
+    if (!quadrilateral_lines_.empty()) refuse_quadrilaterals();
     if (!ended && document_.file.triangles.empty() && document_.tetrahedra.corners.empty())
       scanner_.fail_truncated("the section Triangles or Tetrahedra");
     for (const auto& [flag_section, numbers] : flags_) set_flags(*flag_section, numbers);
@@ -74,6 +74,8 @@ class MeditReader {
 
  private:
   void section(std::string_view keyword) {
+    MeshFile& f = document_.file;
+    FileNames& names = *document_.names;
     if (keyword == "Dimension") {
       dimension_ = scanner_.integer("the dimension");
       if (dimension_ != 2 && dimension_ != 3) {
@@ -82,11 +84,16 @@ class MeditReader {
     } else if (keyword == "Vertices") {
       vertices();
     } else if (keyword == "Edges") {
-      edges();
+      elements("edges", "the reference of an edge", f.lines, f.line_tags, names.line_lines);
     } else if (keyword == "Triangles") {
-      triangles();
+      elements("triangles", "the reference of a triangle", f.triangles, f.regions, names.triangle_lines);
+    } else if (keyword == "Quadrilaterals") {
+      std::vector<std::array<std::int32_t, 4>> corners;
+      std::vector<std::int32_t> references;
+      elements("quadrilaterals", "the reference of a quadrilateral", corners, references, quadrilateral_lines_);
     } else if (keyword == "Tetrahedra") {
-      tetrahedra();
+      Tetrahedra& t = document_.tetrahedra;
+      elements("tetrahedra", "the reference of a tetrahedron", t.corners, t.regions, names.tetrahedron_lines);
     } else {
       for (const FlagSection& flag_section : kFlagSections) {
         if (flag_section.keyword != keyword) continue;
@@ -116,41 +123,21 @@ class MeditReader {
       f.point_tags.push_back(reference);
     }
   }
-  void edges() {
-    MeshFile& f = document_.file;
-    const std::size_t n = scanner_.count("edges", 6);
-    f.lines.reserve(n);
+  /// Reads elements of N vertices; a row has the vertices and the reference.
+  template <std::size_t N>
+  void elements(std::string_view several, std::string_view reference, std::vector<std::array<std::int32_t, N>>& corners,
+                std::vector<std::int32_t>& references, RunLength& lines) {
+    const std::size_t n = scanner_.count(several, 2 * (N + 1));
+    corners.reserve(n);
+    references.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
-      const std::int32_t a = scanner_.vertex(1);
-      document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
-      f.lines.push_back({a, scanner_.vertex(1)});
-      f.line_tags.push_back(scanner_.integer("the reference of an edge"));
-    }
-  }
-  void triangles() {
-    MeshFile& f = document_.file;
-    const std::size_t n = scanner_.count("triangles", 8);
-    f.triangles.reserve(n);
-    f.regions.reserve(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::int32_t a = scanner_.vertex(1);
-      document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
-      const std::int32_t b = scanner_.vertex(1);
-      f.triangles.push_back({a, b, scanner_.vertex(1)});
-      f.regions.push_back(scanner_.integer("the reference of a triangle"));
-    }
-  }
-  void tetrahedra() {
-    Tetrahedra& all = document_.tetrahedra;
-    const std::size_t n = scanner_.count("tetrahedra", 10);
-    all.corners.reserve(n);
-    all.regions.reserve(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::int32_t a = scanner_.vertex(1);
-      document_.names->tetrahedron_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
-      const std::int32_t b = scanner_.vertex(1), c = scanner_.vertex(1);
-      all.corners.push_back({a, b, c, scanner_.vertex(1)});
-      all.regions.push_back(scanner_.integer("the reference of a tetrahedron"));
+      std::array<std::int32_t, N> row;
+      for (std::size_t k = 0; k < N; ++k) {
+        row[k] = scanner_.vertex(1);
+        if (k == 0) lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+      }
+      corners.push_back(row);
+      references.push_back(scanner_.integer(reference));
     }
   }
   void refuse_or_skip(std::string_view keyword) {
@@ -174,6 +161,12 @@ class MeditReader {
       if (!number) return;
       scanner_.word("a number");
     }
+  }
+  /// Tetrahedra may come after quadrilaterals, and the cure depends on them.
+  [[noreturn]] void refuse_quadrilaterals() const {
+    const std::string where = at_line(scanner_.path(), quadrilateral_lines_, 0);
+    if (!document_.tetrahedra.corners.empty()) refuse_beside_tetrahedra(where, "element 1");
+    refuse_element(where, 1, "quadrilateral", Cells::simplices);
   }
   /// The numbers that sections of this row have listed so far.
   std::vector<std::int32_t>& flags_of(const FlagSection& flag_section) {
@@ -205,6 +198,7 @@ class MeditReader {
   Scanner scanner_;
   Document document_;
   int dimension_ = 0;
+  RunLength quadrilateral_lines_;
   // Flags may come before the elements that they flag.
   std::vector<std::pair<const FlagSection*, std::vector<std::int32_t>>> flags_;
 };

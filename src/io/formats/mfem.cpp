@@ -31,7 +31,8 @@ class MfemReader {
       if (section == "dimension") {
         const std::int32_t dimension = scanner_.integer("the dimension");
         if (dimension != 2)
-          scanner_.fail_here(ErrorCode::unsupported, "has elements of dimension ", dimension, "; expected 2");
+          scanner_.fail_here(ErrorCode::unsupported, "has elements of dimension ", dimension, "; expected 2",
+                             dimension == 3 ? kNextForTetrahedra : "");
       } else if (section == "elements") {
         elements();
       } else if (section == "boundary") {

@@ -76,11 +76,11 @@ SweepRecord AccuracyPhase::measure() {
 Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool changed) {
   TEMPER_ASSERT(!changed && run_.report.history.back().flips == 0);  // the connectivity has not changed
   TEMPER_ASSERT_SLOW(count_bad(mesh_, nullptr) == bad_);
-  const bool raised = raise_floors();
-  if (raised || settings_.accuracy.keeps_lengths()) {
-    now_.barrier = sum(false).barrier;  // the energy has not changed
-    if (raised) return Verdict::improving;
-  }
+  const bool had_raised = std::exchange(has_raised_, raise_floors());
+  const bool keeps_lengths = settings_.accuracy.keeps_lengths();
+  if (keeps_lengths) now_.barrier = sum(false).barrier;  // the energy has not changed
+  // Two barriers with different floors do not compare.
+  if (has_raised_ || (had_raised && !keeps_lengths)) return Verdict::improving;
   const double change = (before_.energy + before_.barrier) - (now_.energy + now_.barrier);
   if (change < kLittleGain * std::abs(now_.energy))
     state_.relaxation = settings_.policy.relaxation.value_or(kRelaxation);

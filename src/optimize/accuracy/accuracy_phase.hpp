@@ -54,6 +54,7 @@ class AccuracyPhase final : public SizedPhase {
  private:
   double energy_unit_ = 1;
   AccuracyTotal before_, now_;  // before and after the last sweep
+  bool has_raised_ = false;     // floors, after the last sweep
 };
 
 }  // namespace temper

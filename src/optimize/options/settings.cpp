@@ -237,12 +237,17 @@ Objective objective_of(const OptimizeOptions& o) {
   return Objective::accuracy;
 }
 
-bool wants_error_model(const OptimizeOptions& o, const Mesh& mesh) {
+bool may_lower_solver_error(const OptimizeOptions& o) {
   const Objective objective = objective_of(o);
   const bool of_one = o.scheme == Scheme::vertex || o.scheme == Scheme::cell;
-  const bool judges = of_one && mesh.space().kind() == SpaceKind::plane &&
-                      mesh.n_vertices() <= static_cast<std::size_t>(o.solver_error.most_vertices);
-  return objective == Objective::solver_error || (objective == Objective::accuracy && judges);
+  return objective == Objective::solver_error ||
+         (objective == Objective::accuracy && of_one && o.solver_error.most_vertices > 0);
+}
+
+bool wants_error_model(const OptimizeOptions& o, const Mesh& mesh) {
+  const bool fits = mesh.space().kind() == SpaceKind::plane &&
+                    mesh.n_vertices() <= static_cast<std::size_t>(o.solver_error.most_vertices);
+  return may_lower_solver_error(o) && (fits || objective_of(o) == Objective::solver_error);
 }
 
 std::vector<std::string> problem_warnings(const Mesh& mesh, const DiffusionProblem& problem) {

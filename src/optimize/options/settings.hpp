@@ -58,6 +58,9 @@ inline constexpr double kRelaxation = 1.7;
 /// barrier goes on with thin triangles. With 1e-3 they stay thinner, by a fifth on osteonT1.
 inline constexpr double kGainOfLastSweep = 1e-4;
 
+/// Says whether a run on a small mesh of the plane may lower the error of the solver.
+[[nodiscard]] bool may_lower_solver_error(const OptimizeOptions& o);
+
 /// Returns the largest number of steps for the error of the solver. The user's own problem has one right-hand side: it
 /// needs more steps, and each takes less time.
 [[nodiscard]] inline int most_solver_error_steps(const OptimizeOptions& o) {

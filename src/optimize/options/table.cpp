@@ -165,7 +165,7 @@ constexpr OptionNeed kEnergyThat = {"energy", {kJoinedNames<property>.text.data(
 
 bool lowers_accuracy(const Options& o) { return objective_of(o) != Objective::energy; }
 constexpr OptionNeed kForAccuracy = {"objective", "accuracy", lowers_accuracy};
-constexpr OptionNeed kForError = {"objective", "solver_error"};
+constexpr OptionNeed kForError = {"objective", "solver_error", may_lower_solver_error};
 constexpr OptionNeed kBarrier = kEnergyThat<&EnergyInfo::barrier>;
 constexpr OptionNeed kDeferredFlips = {"flips", "deferred"};
 constexpr OptionNeed kCollapses = {"collapse_from", ""};

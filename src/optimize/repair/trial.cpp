@@ -10,6 +10,7 @@
 
 #include "base/rng.hpp"
 #include "feasibility/change.hpp"
+#include "feasibility/constraints.hpp"
 #include "feasibility/potential.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "geometry/surface.hpp"
@@ -248,15 +249,14 @@ class Trial {
     VertexMask free(mesh.n_vertices(), 0);
     const auto corners = mesh.corners(around_.seed);
     for (const VertexId v : corners) free[v] = 1;
-    grow(mesh, free, {corners.begin(), corners.end()}, kWeighedRings);
-    IdVector<VertexId, double> weights(mesh.n_vertices(), 0.0);
+    const TriangleDemand demand(mesh, Constraints::well_centered);
+    grow(demand, free, {corners.begin(), corners.end()}, kWeighedRings);
+    const VertexWeights weights = demand.weights();
     for (const VertexId v : mesh.vertices()) {
       if (around_.frozen[v.index] != 0) free[v] = 0;
-      weights[v] = mesh.weight(v);
     }
-    const Demand demand(mesh, Constraints::well_centered, {});
-    for (const Region& region : regions_of(mesh, free)) {
-      const RegionChange found = least_violation({mesh, demand, weights, kWeighedMargin}, region, *settings_.lp);
+    for (const Region& region : regions_of(demand, free)) {
+      const RegionChange found = least_violation({demand, weights, kWeighedMargin}, region, *settings_.lp);
       if (found.status != LpStatus::optimal) continue;
       for (std::size_t i = 0; i < region.free.size(); ++i) {
         if (found.change[i] == 0) continue;

@@ -179,8 +179,7 @@ class Notes {
     if (cuts.refused > 0) {
       add(count_of(cuts.refused, "edge", "edges") +
           " of the boundary or of lines could not be cut: coordinates are too coarse there, weights would hide a "
-          "vertex, "
-          "or there would be too many cuts for this mesh");
+          "vertex, or there would be too many cuts for this mesh");
     }
   }
 

@@ -4,6 +4,8 @@
 // takes the leading 53 bits of what is left, so (1022 + 800)/53 < 35 terms always suffice.
 #pragma once
 
+#include <array>
+
 #include "base/assert.hpp"
 #include "geometry/expansion.hpp"
 

@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "mesh/blocks.hpp"
+#include "mesh/exact_range.hpp"
 #include "temper/tets/mesh.hpp"
 #include "tets/mesh/tables.hpp"
 
@@ -20,24 +21,10 @@ namespace {
 constexpr double kLargestCoordinate = 1e35;
 constexpr double kSmallestCoordinate = 1e-35;  // absolute, and relative to the largest coordinate
 
-/// The magnitudes that a number other than 0 may have.
-struct Range {
-  double low, high;
-  [[nodiscard]] bool allows(double x) const { return x == 0 || (std::abs(x) >= low && std::abs(x) <= high); }
-  [[nodiscard]] Range squared() const { return {low * low, high * high}; }
-  [[nodiscard]] std::string text(double found) const {
-    return "expected 0 or a magnitude from " + to_text(low) + " to " + to_text(high) +
-           ", which exact arithmetic needs. Next: " +
-           (std::abs(found) > high ? "choose a larger unit of length" : "write smaller numbers as 0");
-  }
-};
-
-std::string quantity(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what; }
-std::string coordinates(Vec3 p) { return "(" + to_text(p.x) + ", " + to_text(p.y) + ", " + to_text(p.z) + ")"; }
 VertexId id(std::int32_t i) { return VertexId(static_cast<std::size_t>(i)); }
 
 /// "a, b and c"
-std::string listed(const std::vector<std::string>& names) {
+std::string enumerated(const std::vector<std::string>& names) {
   std::string result;
   for (std::size_t i = 0; i < names.size(); ++i)
     result += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
@@ -73,9 +60,10 @@ class TetMeshBuilder {
   Expected<BuiltTetMesh> build() {
     using Step = std::optional<InputError> (TetMeshBuilder::*)();
     constexpr Step kSteps[] = {
-        &TetMeshBuilder::check_sizes,  &TetMeshBuilder::add_vertices, &TetMeshBuilder::add_tetrahedra,
-        &TetMeshBuilder::check_unused, &TetMeshBuilder::check_places, &TetMeshBuilder::link_twins,
-        &TetMeshBuilder::check_stars,  &TetMeshBuilder::check_angles, &TetMeshBuilder::add_tags};
+        &TetMeshBuilder::check_sizes,   &TetMeshBuilder::add_vertices,   &TetMeshBuilder::add_tetrahedra,
+        &TetMeshBuilder::find_incident, &TetMeshBuilder::check_places,   &TetMeshBuilder::link_twins,
+        &TetMeshBuilder::tag_faces,     &TetMeshBuilder::check_stars,    &TetMeshBuilder::check_edges,
+        &TetMeshBuilder::tag_lines,     &TetMeshBuilder::check_vertices, &TetMeshBuilder::tag_points};
     for (const Step step : kSteps) {
       if (auto error = (this->*step)()) return *std::move(error);
     }
@@ -91,20 +79,12 @@ class TetMeshBuilder {
   }
   [[nodiscard]] std::string name(VertexId v) const { return names_.point(v.index); }
   [[nodiscard]] std::string name(TetId t) const { return names_.tetrahedron(t.index); }
-  [[nodiscard]] std::string number(TetId t) const {
-    const std::string text = name(t);
-    return text.substr(text.rfind(' ') + 1);
-  }
-  [[nodiscard]] std::string number(VertexId v) const {
-    const std::string text = name(v);
-    return text.substr(text.rfind(' ') + 1);
-  }
   template <class Corners>
   [[nodiscard]] std::string numbers(const Corners& corners) const {
     std::vector<std::string> all;
     all.reserve(corners.size());
-    for (const VertexId v : corners) all.push_back(number(v));
-    return listed(all);
+    for (const VertexId v : corners) all.push_back(last_word(name(v)));
+    return enumerated(all);
   }
   /// ", near (0.5, 0, 1)": the centroid of corners.
   template <class Corners>
@@ -123,11 +103,14 @@ class TetMeshBuilder {
 
   std::optional<InputError> check_sizes() {
     const std::size_t n = in_.points.size(), m = in_.tetrahedra.size();
-    if (n == 0) return InputError{ErrorCode::empty_input, {}, "the mesh has no points"};
-    if (m == 0) return InputError{ErrorCode::empty_input, {}, "the mesh has no tetrahedra"};
+    if (n == 0)
+      return InputError{ErrorCode::empty_input, {}, "the mesh has no points. Next: give points and tetrahedra"};
+    if (m == 0) return InputError{ErrorCode::empty_input, {}, "the mesh has no tetrahedra. Next: give their corners"};
     if (m >= HalffaceId::kInvalid / 6)
-      return InputError{
-          ErrorCode::unsupported, {}, "the mesh has " + quantity(m, "tetrahedra, more than temper takes")};
+      return InputError{ErrorCode::unsupported,
+                        {},
+                        "the mesh has " + quantity(m, "tetrahedra") + "; expected less than " +
+                            std::to_string(HalffaceId::kInvalid / 6) + ". Next: mesh more coarsely, or in parts"};
     struct Pair {
       std::size_t have, want;
       const char *what, *of;
@@ -139,8 +122,10 @@ class TetMeshBuilder {
                           Pair{in_.line_tags.size(), in_.lines.size(), "tags", "lines", false},
                           Pair{in_.point_tags.size(), in_.marked_points.size(), "tags", "marked points", false}}) {
       if (p.have == p.want || (p.may_be_empty && p.have == 0)) continue;
-      return InputError{
-          ErrorCode::size_mismatch, {}, quantity(p.have, p.what) + " given for " + quantity(p.want, p.of)};
+      return InputError{ErrorCode::size_mismatch,
+                        {},
+                        quantity(p.have, p.what) + " given for " + quantity(p.want, p.of) +
+                            ". Next: give one for each" + (p.may_be_empty ? ", or none" : "")};
     }
     return std::nullopt;
   }
@@ -152,26 +137,32 @@ class TetMeshBuilder {
     for (std::size_t i = 0; i < n; ++i) {
       const Vec3 p = in_.points[i];
       const double w = in_.weights.empty() ? 0.0 : in_.weights[i];
-      const std::string wrong = !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)
-                                    ? "coordinates " + coordinates(p) + ", expected finite numbers"
-                                : !std::isfinite(w) ? "weight " + to_text(w) + ", expected a finite number"
-                                                    : std::string();
+      const std::string wrong =
+          !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)
+              ? "coordinates " + coordinates(p) + ", expected finite numbers. Next: give its place"
+          : !std::isfinite(w) ? "weight " + to_text(w) + ", expected a finite number. Next: 0 stands for no weight"
+                              : std::string();
       if (!wrong.empty()) return error_of(ErrorCode::not_finite, VertexId(i), name(VertexId(i)) + " has " + wrong);
       mesh_.set_point(VertexId(i), {p.x, p.y, p.z, w});
       largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }
-    const Range range = {kSmallestCoordinate * std::min(largest, kLargestCoordinate), kLargestCoordinate};
+    const ExactRange range = {kSmallestCoordinate * std::min(largest, kLargestCoordinate), kLargestCoordinate};
     for (const VertexId v : mesh_.vertices()) {
       const auto [x, y, z, w] = mesh_.point(v);
       if (!range.allows(x) || !range.allows(y) || !range.allows(z))
         return error_of(ErrorCode::out_of_scale, v,
-                        name(v) + " has coordinates " + coordinates({x, y, z}) + "; " +
-                            range.text(std::max({std::abs(x), std::abs(y), std::abs(z)})));
+                        name(v) + " has coordinates " + coordinates({x, y, z}) + "; " + range.text() +
+                            cure(range, std::max({std::abs(x), std::abs(y), std::abs(z)})));
       if (!range.squared().allows(w))
-        return error_of(ErrorCode::out_of_scale, v,
-                        name(v) + " has weight " + to_text(w) + "; " + range.squared().text(w));
+        return error_of(
+            ErrorCode::out_of_scale, v,
+            name(v) + " has weight " + to_text(w) + "; " + range.squared().text() + cure(range.squared(), w));
     }
     return std::nullopt;
+  }
+  static std::string cure(const ExactRange& range, double found) {
+    return std::string(". Next: ") +
+           (std::abs(found) > range.high ? "choose a larger unit of length" : "write smaller numbers as 0");
   }
 
   std::optional<InputError> add_tetrahedra() {
@@ -204,12 +195,17 @@ class TetMeshBuilder {
       if (is_point(i)) continue;
       return error_of(ErrorCode::index_out_of_range, t,
                       name(t) + " uses point index " + std::to_string(i) + ", but there are " +
-                          quantity(in_.points.size(), "points"));
+                          quantity(in_.points.size(), "points") + ". Next: count points from 0");
     }
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (std::count(in.begin(), in.end(), in[k]) > 1)
-        return error_of(ErrorCode::zero_volume, t,
-                        name(t) + " is flat: it uses " + name(id(in[k])) + " more than once");
+    for (std::size_t k = 1; k < 4; ++k) {
+      for (std::size_t j = 0; j < k; ++j) {
+        if (in[j] == in[k])
+          return error_of(
+              ErrorCode::zero_volume, t,
+              name(t) + " is flat: it uses " + name(id(in[k])) + " more than once. Next: remove it from the mesh");
+        if (in_.points[id(in[j]).index] == in_.points[id(in[k]).index])
+          return duplicate(std::min(id(in[j]), id(in[k])), std::max(id(in[j]), id(in[k])));
+      }
     }
     const std::array<VertexId, 4> corners = {id(in[0]), id(in[1]), id(in[2]), id(in[3])};
     return error_of(ErrorCode::zero_volume, t,
@@ -217,14 +213,21 @@ class TetMeshBuilder {
                         ". Next: remove it from the mesh, or mesh this place again");
   }
 
-  std::optional<InputError> check_unused() {
+  InputError duplicate(VertexId u, VertexId v) const {
+    return error_of(ErrorCode::duplicate_point, v,
+                    name(u) + " and " + name(v) + " are both at " + coordinates(in_.points[v.index]) +
+                        "; expected distinct points. Next: let the mesh generator merge them");
+  }
+
+  /// A tetrahedron at each vertex.
+  std::optional<InputError> find_incident() {
     mesh_.incident_.resize(mesh_.n_vertices());
     for (const TetId t : mesh_.tetrahedra()) {
       for (const VertexId v : mesh_.corners(t)) mesh_.incident_[v] = t;
     }
     for (const VertexId v : mesh_.vertices()) {
       if (mesh_.incident(v).valid()) continue;
-      return error_of(ErrorCode::unused_point, v, name(v) + " belongs to no tetrahedron");
+      return error_of(ErrorCode::unused_point, v, name(v) + " belongs to no tetrahedron. Next: remove it");
     }
     return std::nullopt;
   }
@@ -243,10 +246,7 @@ class TetMeshBuilder {
       const Vec3 p = mesh_.position(v);
       std::size_t slot = hash(p);
       for (; table[slot].valid(); slot = (slot + 1) & (slots - 1)) {
-        if (!(mesh_.position(table[slot]) == p)) continue;
-        return error_of(ErrorCode::duplicate_point, v,
-                        name(table[slot]) + " and " + name(v) + " are both at " + coordinates(p) +
-                            "; expected distinct points. Next: let the mesh generator merge them");
+        if (mesh_.position(table[slot]) == p) return duplicate(table[slot], v);
       }
       table[slot] = v;
     }
@@ -254,7 +254,7 @@ class TetMeshBuilder {
   }
 
   std::optional<InputError> link_twins() {
-    const FaceBuckets buckets(mesh_);
+    const FaceBuckets& buckets = faces_.emplace(mesh_);
     const auto wrong = first_index_by(mesh_.n_vertices(), in_.executor, [&] {
       return [&, sides = Sides()](std::size_t v) mutable {
         buckets.collect(VertexId(v), sides);
@@ -266,7 +266,6 @@ class TetMeshBuilder {
       buckets.collect(VertexId(*wrong), sides);
       return wrong_face(sides);
     }
-    find_tagged_faces(buckets);
     return std::nullopt;
   }
   /// The first side of the face after the one that starts at i.
@@ -326,11 +325,11 @@ class TetMeshBuilder {
   InputError crowded_face(HalffaceId h, const std::vector<TetId>& tetrahedra) const {
     std::vector<std::string> all;
     all.reserve(tetrahedra.size());
-    for (const TetId t : tetrahedra) all.push_back(number(t));
+    for (const TetId t : tetrahedra) all.push_back(last_word(name(t)));
     const auto corners = mesh_.vertices(h);
     return error_of(ErrorCode::non_manifold_face, tetrahedra.back(),
                     "the face of points " + numbers(corners) + " belongs to " + quantity(all.size(), "tetrahedra (") +
-                        listed(all) + ")" + near(corners) + "; expected at most 2");
+                        enumerated(all) + ")" + near(corners) + "; expected at most 2. Next: mesh this place again");
   }
   /// If three of four tetrahedra turn in one way, the one of the two that does not is inverted.
   InputError overlap(HalffaceId h, TetId s, TetId t) const {
@@ -352,8 +351,7 @@ class TetMeshBuilder {
   /// each edge. It is a sphere or a disk if it is connected across its edges and its Euler characteristic is 2, or 1
   /// with a boundary: each pinch and each handle would lower this number.
   std::optional<InputError> check_stars() {
-    const EdgeTable edges(mesh_, in_.executor);
-    find_tagged_lines(edges);
+    const EdgeTable& edges = edges_.emplace(mesh_, in_.executor);
     CornerSets sets(mesh_.n_halffaces());
     IdVector<VertexId, std::int32_t> doubled(mesh_.n_vertices(), 0);  // twice the Euler characteristic
     boundary_.resize(mesh_.n_vertices());
@@ -378,7 +376,7 @@ class TetMeshBuilder {
     for (const VertexId v : mesh_.vertices()) {
       if (parts[v] != 1 || doubled[v] != (boundary_[v] != 0 ? 2 : 4)) return wrong_star(v);
     }
-    return check_edges(edges);
+    return std::nullopt;
   }
   /// The corner of t at v has the number of the halfface opposite it.
   [[nodiscard]] std::uint32_t corner(TetId t, VertexId v) const {
@@ -401,12 +399,13 @@ class TetMeshBuilder {
       if (n_parts({v, u}) < 2) continue;
       return error_of(ErrorCode::non_manifold_edge, v,
                       "the mesh touches itself along the edge from " + name(v) + " to " + name(u) +
-                          ": its tetrahedra are not one fan around it" + near(std::array{v, u}));
+                          ": its tetrahedra are not one fan around it" + near(std::array{v, u}) +
+                          ". Next: separate or join its parts there");
     }
     return error_of(ErrorCode::non_manifold_vertex, v,
                     "the mesh touches itself at " + name(v) +
                         ": its tetrahedra are not one ball or half ball around it, at " +
-                        coordinates(mesh_.position(v)));
+                        coordinates(mesh_.position(v)) + ". Next: separate or join its parts there");
   }
   /// The number of parts, connected across faces that have both vertices, of the tetrahedra that have both.
   [[nodiscard]] std::size_t n_parts(std::array<VertexId, 2> edge) const {
@@ -440,7 +439,8 @@ class TetMeshBuilder {
 
   /// The dihedral angles at an inner edge add up to 2 π times its number of turns. If an inner vertex is covered once,
   /// so are its edges. So only edges between vertices of the boundary are looked at.
-  std::optional<InputError> check_edges(const EdgeTable& edges) const {
+  std::optional<InputError> check_edges() {
+    const EdgeTable& edges = *edges_;
     struct Part {
       std::uint32_t edge;
       TetId tetrahedron;
@@ -464,23 +464,24 @@ class TetMeshBuilder {
       double turns = 0;
       for (end = i; end < parts.size() && parts[end].edge == parts[i].edge; ++end)
         turns += parts[end].angle / (2 * std::numbers::pi);
-      if (turns > 1 + kRounded) return wrong_turns(parts[i].tetrahedron, parts[i].edge, turns, edges);
+      if (turns > 1 + kRounded) return wrong_turns(parts[i].tetrahedron, parts[i].edge, turns);
     }
     return std::nullopt;
   }
-  InputError wrong_turns(TetId t, std::uint32_t edge, double turns, const EdgeTable& edges) const {
+  InputError wrong_turns(TetId t, std::uint32_t edge, double turns) const {
     const auto& c = mesh_.corners(t);
     const auto* found = std::find_if(kEdgeCorners.begin(), kEdgeCorners.end(), [&](const auto& e) {
-      return edges.find(c[std::size_t(e[0])], c[std::size_t(e[1])]) == edge;
+      return edges_->find(c[std::size_t(e[0])], c[std::size_t(e[1])]) == edge;
     });
     const std::array<VertexId, 2> ends = {c[std::size_t((*found)[0])], c[std::size_t((*found)[1])]};
     return error_of(ErrorCode::overlap, t,
                     "the tetrahedra around the edge from " + name(ends[0]) + " to " + name(ends[1]) +
-                        " overlap: together they make " + rounded(turns, 3) + " turns around it" + near(ends));
+                        " overlap: together they make " + rounded(turns, 3) + " turns around it" + near(ends) +
+                        ". Next: mesh this place again");
   }
 
   /// The solid angles at an inner vertex add up to 4 π times the number of layers on top of each other.
-  std::optional<InputError> check_angles() {
+  std::optional<InputError> check_vertices() {
     constexpr double kSphere = 4 * std::numbers::pi;
     IdVector<VertexId, double> angle(mesh_.n_vertices(), 0);
     for (const TetId t : mesh_.tetrahedra()) {
@@ -498,12 +499,12 @@ class TetMeshBuilder {
       return error_of(ErrorCode::overlap, v,
                       "the tetrahedra around " + name(v) + " overlap: together they fill " +
                           rounded(100 * angle[v] / kSphere) + " % of the sphere around " +
-                          coordinates(mesh_.position(v)));
+                          coordinates(mesh_.position(v)) + ". Next: mesh this place again");
     }
     return std::nullopt;
   }
 
-  void find_tagged_faces(const FaceBuckets& buckets) {
+  std::optional<InputError> tag_faces() {
     Sides sides;
     for (std::size_t i = 0; i < in_.faces.size(); ++i) {
       const auto& in = in_.faces[i];
@@ -511,7 +512,7 @@ class TetMeshBuilder {
       if (is_point(in[0]) && is_point(in[1]) && is_point(in[2])) {
         std::array<VertexId, 3> corners = {id(in[0]), id(in[1]), id(in[2])};
         std::sort(corners.begin(), corners.end());
-        buckets.collect(corners[0], sides);
+        faces_->collect(corners[0], sides);
         for (const auto& side : sides) {
           if (side.middle != corners[1] || side.greatest != corners[2]) continue;
           if (!found.valid() || turns_as(side.halfface, in)) found = side.halfface;
@@ -522,28 +523,32 @@ class TetMeshBuilder {
       else
         built_.dangling_faces.push_back(i);
     }
+    faces_.reset();
+    return std::nullopt;
   }
   [[nodiscard]] bool turns_as(HalffaceId h, const std::array<std::int32_t, 3>& face) const {
     const auto [a, b, c] = mesh_.vertices(h);
     return b == (a == id(face[0]) ? id(face[1]) : a == id(face[1]) ? id(face[2]) : id(face[0]));
   }
-  void find_tagged_lines(const EdgeTable& edges) {
+  std::optional<InputError> tag_lines() {
     for (std::size_t i = 0; i < in_.lines.size(); ++i) {
       const auto [a, b] = in_.lines[i];
-      if (is_point(a) && is_point(b) && edges.find(id(a), id(b)))
+      if (is_point(a) && is_point(b) && edges_->find(id(a), id(b)))
         mesh_.lines_.push_back({{id(a), id(b)}, in_.line_tags[i]});
       else
         built_.dangling_lines.push_back(i);
     }
+    edges_.reset();
+    return std::nullopt;
   }
-  std::optional<InputError> add_tags() {
+  std::optional<InputError> tag_points() {
     for (std::size_t i = 0; i < in_.marked_points.size(); ++i) {
       const std::int32_t p = in_.marked_points[i];
       if (!is_point(p)) {
         return InputError{ErrorCode::index_out_of_range,
                           {},
                           "a marked point has index " + std::to_string(p) + ", but there are " +
-                              quantity(in_.points.size(), "points")};
+                              quantity(in_.points.size(), "points") + ". Next: count points from 0"};
       }
       mesh_.points_.push_back({id(p), in_.point_tags[i]});
     }
@@ -555,7 +560,9 @@ class TetMeshBuilder {
   const InputNames& names_;
   BuiltTetMesh built_;
   TetMesh& mesh_ = built_.mesh;
-  IdVector<VertexId, std::uint8_t> boundary_;
+  std::optional<FaceBuckets> faces_;           // from link_twins to tag_faces
+  std::optional<EdgeTable> edges_;             // from check_stars to tag_lines
+  IdVector<VertexId, std::uint8_t> boundary_;  // from check_stars on
 };
 
 Expected<BuiltTetMesh> TetMesh::build(const TetMeshInput& input) { return TetMeshBuilder(input).build(); }

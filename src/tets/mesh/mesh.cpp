@@ -10,12 +10,6 @@ std::size_t TetMesh::n_faces() const {
   return (n_halffaces() + boundary) / 2;
 }
 
-std::size_t TetMesh::memory_bytes() const {
-  return n_vertices() * (4 * sizeof(double) + sizeof(TetId)) + n_tetrahedra() * sizeof(corners_[TetId(0)]) +
-         n_halffaces() * sizeof(HalffaceId) + regions_.memory_bytes() + faces_.size() * sizeof(TaggedFace) +
-         lines_.size() * sizeof(TaggedLine) + points_.size() * sizeof(TaggedPoint);
-}
-
 namespace {
 
 std::string numbered(const char* kind, std::size_t index) { return std::string(kind) + " " + std::to_string(index); }

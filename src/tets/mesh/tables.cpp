@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "mesh/blocks.hpp"
+
 namespace temper::tets {
 namespace {
 

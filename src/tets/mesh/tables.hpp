@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include "mesh/blocks.hpp"
 #include "temper/tets/mesh.hpp"
 
 namespace temper::tets {

@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
-#include <utility>
 #include <vector>
 
 #include "base/median.hpp"
-#include "base/sum.hpp"
 #include "mesh/blocks.hpp"
+#include "quality/measure.hpp"
 #include "tets/mesh/tables.hpp"
 #include "tets/quality/measure.hpp"
 
@@ -21,28 +19,17 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kBlock = 4096;  // tetrahedra: some milliseconds of work
 
-using Ranked = std::pair<double, TetId>;  // margin first, ties by number
-
-/// Keeps the n least.
-void keep_least(std::vector<Ranked>& ranked, std::size_t n) {
-  const auto middle = ranked.begin() + static_cast<std::ptrdiff_t>(std::min(n, ranked.size()));
-  std::partial_sort(ranked.begin(), middle, ranked.end());
-  ranked.erase(middle, ranked.end());
-}
-
-/// Bins of 10°, and of 0.1 with a bin edge at h = 0.
-Histogram empty_dihedral_histogram() { return {0, 180, std::vector<std::size_t>(18)}; }
-Histogram empty_height_histogram() { return {-0.5, 1, std::vector<std::size_t>(15)}; }
-
 /// The sums of the report over a run of tetrahedra. Each face is counted by the halfface that stands for it.
 struct Tally {
+  explicit Tally(std::size_t n_worst) : worst(n_worst) {}
+
   std::size_t boundary_faces = 0, inverted = 0, non_regular = 0, negative_boundary = 0, outside = 0;
   std::size_t faces_not_crossed = 0, completely = 0;
   double min_h = kInfinity, min_face_h = kInfinity, min_dihedral = kInfinity, max_dihedral = 0;
   double volume = 0, min_volume = kInfinity, max_volume = -kInfinity;
   std::vector<double> transmissibilities = {};
-  std::vector<Ranked> worst = {};
-  Histogram dihedrals = empty_dihedral_histogram(), h_over_l = empty_height_histogram();
+  WorstList<TetId> worst;
+  Histogram dihedrals = empty_angle_histogram(), h_over_l = empty_height_histogram();
 
   void add(const TetMesh& mesh, TetId t);
   void merge(const Tally& other);
@@ -56,7 +43,7 @@ void Tally::add(const TetMesh& mesh, TetId t) {
   inverted += m.orientation != Sign::positive;
   outside += !m.orthocenter_inside();
   completely += m.orthocenter_inside() && has_all_crossed(mesh, t);
-  worst.emplace_back(m.margin(), t);
+  worst.offer({m.margin(), t});
   volume += m.volume;
   min_volume = std::min(min_volume, m.volume), max_volume = std::max(max_volume, m.volume);
   for (const double angle : m.dihedral_deg) {
@@ -106,21 +93,19 @@ void Tally::merge(const Tally& other) {
   min_volume = std::min(min_volume, other.min_volume);
   max_volume = std::max(max_volume, other.max_volume);
   transmissibilities.insert(transmissibilities.end(), other.transmissibilities.begin(), other.transmissibilities.end());
-  worst.insert(worst.end(), other.worst.begin(), other.worst.end());
+  worst.merge(other.worst);
   dihedrals.merge(other.dihedrals);
   h_over_l.merge(other.h_over_l);
 }
 
 Tally tally(const TetMesh& mesh, const QualityOptions& options) {
   const std::size_t n = mesh.n_tetrahedra();
-  std::vector<Tally> blocks((n + kBlock - 1) / kBlock);
+  std::vector<Tally> blocks((n + kBlock - 1) / kBlock, Tally(options.worst));
   or_serial(options.executor).run(blocks.size(), [&](std::size_t i) {
     for (std::size_t t = i * kBlock; t < std::min(n, (i + 1) * kBlock); ++t) blocks[i].add(mesh, TetId(t));
-    keep_least(blocks[i].worst, options.worst);
   });
-  Tally all;
+  Tally all(options.worst);
   for (const Tally& block : blocks) all.merge(block);
-  keep_least(all.worst, options.worst);
   return all;
 }
 
@@ -151,14 +136,6 @@ EdgeTally tally_edges(const TetMesh& mesh, const EdgeTable& edges, Executor* exe
   return all;
 }
 
-std::size_t count_regions(const TetMesh& mesh) {
-  std::set<std::int32_t> regions;
-  for (const TetId t : mesh.tetrahedra()) {
-    if (t.index == 0 || mesh.region(t) != mesh.region(TetId(t.index - 1))) regions.insert(mesh.region(t));
-  }
-  return regions.size();
-}
-
 void compare_transmissibilities(Quality& q, std::vector<double>& values) {
   q.max_transmissibility_over_median = q.transmissibility_ratio = 1;
   if (values.empty()) return;
@@ -182,7 +159,7 @@ Quality quality(const TetMesh& mesh, const QualityOptions& options) {
   q.faces = mesh.n_faces();
   q.boundary_faces = sums.boundary_faces;
   q.edges = edges.n_edges();
-  q.regions = count_regions(mesh);
+  q.regions = count_regions(mesh, mesh.tetrahedra());
   q.dihedrals = sums.dihedrals;
   q.h_over_l = sums.h_over_l;
   if (q.tetrahedra == 0) return q;
@@ -205,7 +182,7 @@ Quality quality(const TetMesh& mesh, const QualityOptions& options) {
   q.min_volume = sums.min_volume;
   q.max_volume = sums.max_volume;
   compare_transmissibilities(q, sums.transmissibilities);
-  for (const auto& [margin, t] : sums.worst) q.worst.push_back(describe(mesh, t, on_boundary));
+  for (const auto& [margin, t] : sums.worst.sorted()) q.worst.push_back(describe(mesh, t, on_boundary));
   return q;
 }
 

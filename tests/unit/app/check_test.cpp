@@ -276,6 +276,14 @@ TEST_F(Check, RequirementsOnTetrahedraHaveTheirOwnKeys) {
   EXPECT_EQ(tetrahedra.exit, 2);
   EXPECT_TRUE(
       contains(tetrahedra.err, "unknown key 'energy.BP.1'; the keys for tetrahedra are vertices, inner_vertices"));
+  // No value equals a volume, which is rounded.
+  const Outcome equal = temper({"check", "two.mesh", "--require", "volume=1"});
+  EXPECT_EQ(equal.exit, 2);
+  EXPECT_TRUE(contains(
+      equal.err, "'volume=1': volume is rounded, so that = decides nothing: write volume>=VALUE or volume<=VALUE"));
+  EXPECT_TRUE(contains(temper({"check", "two.mesh", "--require", "volume"}).err,
+                       "'volume' has no usual value: write volume>=VALUE or volume<=VALUE"));
+  EXPECT_EQ(temper({"check", "two.mesh", "--require", "volume>=1,volume<=1.1,min_volume=0.1,max_volume=1"}).exit, 0);
   // A list that makes sense for both is judged on both.
   EXPECT_EQ(temper({"check", "in.vtu", "two.mesh", "--require", "inverted=0"}).exit, 0);
 }

@@ -267,6 +267,9 @@ TEST_F(Optimize, OptionsOfTheAccuracyObjectiveAreForItAlone) {
   const Outcome idle =
       temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--set", "margin=0.1", "--set", "objective=energy"});
   EXPECT_TRUE(contains(idle.err, "--set margin=0.1 has no effect without --set objective=accuracy"));
+  const Outcome used =
+      temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--for", "cell", "--set", "solver_error_steps=1"});
+  EXPECT_FALSE(contains(used.err, "no effect"));
   const Outcome all = temper({"optimize", "in.vtu", "-o", "new.vtu", "--set", "star=all", "--set", "objective=energy"});
   EXPECT_EQ(all.exit, 2);
   EXPECT_TRUE(contains(all.err, "--set star=all is for --set objective=accuracy; of an energy expected 0, 1 or 2"));

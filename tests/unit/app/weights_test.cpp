@@ -2,6 +2,7 @@
 #include "temper/feasibility.hpp"
 #include "temper/io.hpp"
 #include "temper/regularity.hpp"
+#include "temper/tets/io.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -273,6 +274,110 @@ TEST_F(Weights, AreSetToZero) {
   EXPECT_TRUE(contains(temper({"optimize", "heavy.vtu", "-o", "o.vtu", "--for", "fem", "--effort", "quick"}).err,
                        "temper weights heavy.vtu --zero"));
   EXPECT_EQ(temper({"weights", "heavy.vtu", "-o", "o.vtu", "--zero", "--mode", "elastic"}).exit, 2);
+}
+
+class TetWeightsVerb : public Workshop {
+ protected:
+  /// Two tetrahedra below and above a triangle. The lower apex is inside the sphere of the upper tetrahedron, unless
+  /// weights cure it.
+  static void make_curable() {
+    write("in.mesh",
+          "MeshVersionFormatted 2\nDimension 3\nVertices\n5\n1 0 0 7\n-0.5 0.9 0 0\n-0.5 -0.9 0 0\n0 0 0.4 0\n0 0 -0.4 "
+          "0\n"
+          "Tetrahedra\n2\n1 2 3 4 1\n1 3 2 5 2\nEnd\n");
+  }
+  /// The cone over a pinwheel, above: no weights make all of its faces regular.
+  static void make_pinwheel() {
+    write("pinwheel.mesh",
+          "MeshVersionFormatted 2\nDimension 3\nVertices\n7\n4 0 0 0\n-2 3.5 0 0\n-2 -3.5 0 0\n1 0.1 0 0\n-0.6 0.8 0 "
+          "0\n-0.4 -0.9 0 0\n0.5 0.25 3 0\nTetrahedra\n7\n4 5 6 7 1\n1 2 5 7 1\n1 5 4 7 1\n2 3 6 7 1\n2 6 5 7 1\n"
+          "3 1 4 7 1\n3 4 6 7 1\nEnd\n");
+  }
+};
+
+TEST_F(TetWeightsVerb, RegularWeightsAreFoundAndNothingElseChanges) {
+  make_curable();
+  EXPECT_NE(temper({"check", "in.mesh", "--require", "nonregular=0"}).exit, 0);
+  for (const char* mode : {"feasible", "minimal", "elastic"}) {
+    for (const char* out : {"out.vtu", "out.mesh"}) {
+      temper_ok({"weights", "in.mesh", "-o", out, "--mode", mode, "--constraints", "regular"});
+      temper_ok({"check", out, "--require", "nonregular=0"});
+      const auto before = io::read_any("in.mesh"), after = io::read_any(out);
+      ASSERT_TRUE(before && after);
+      const auto &a = std::get<io::TetFile>(*before), &b = std::get<io::TetFile>(*after);
+      EXPECT_EQ(a.points, b.points) << mode;
+      EXPECT_EQ(a.tetrahedra, b.tetrahedra) << mode;
+      EXPECT_EQ(a.regions, b.regions) << mode;
+      EXPECT_NE(a.weights, b.weights) << mode;
+    }
+  }
+}
+
+TEST_F(TetWeightsVerb, InfeasibleIsSaidProvedAndChecked) {
+  make_pinwheel();
+  const Outcome outcome = temper({"weights", "pinwheel.mesh", "-o", "out.vtu", "--constraints", "regular"});
+  EXPECT_EQ(outcome.exit, 6) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "infeasible: no weights make every face regular")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "dual length of face ")) << outcome.out;
+  EXPECT_EQ(names(), std::vector<std::string>{"pinwheel.mesh"});
+  const auto json = nlohmann::json::parse(temper({"weights", "pinwheel.mesh", "--mode", "feasible", "--constraints",
+                                                  "regular", "--json", "--certificate", "why.json"})
+                                              .out);
+  EXPECT_EQ(json["verdict"], "infeasible");
+  EXPECT_EQ(json["certificate"], read_json("why.json"));
+  EXPECT_TRUE(contains(temper_ok({"weights", "pinwheel.mesh", "--check-certificate", "why.json"}).out, "proves it"));
+  auto changed = read_json("why.json");
+  changed["terms"][0]["multiplier"] = 2 * changed["terms"][0]["multiplier"].get<double>();
+  write("changed.json", changed.dump());
+  const Outcome refused = temper({"weights", "pinwheel.mesh", "--check-certificate", "changed.json"});
+  EXPECT_EQ(refused.exit, 1);
+  EXPECT_TRUE(contains(refused.err, "proves_nothing")) << refused.err;
+}
+
+TEST_F(TetWeightsVerb, CertificatesOfAllConstraintsAreReadAsTheyWereWritten) {
+  make_curable();
+  for (const char* constraints : {"well-centered", "completely-well-centered"}) {
+    const Outcome outcome = temper({"weights", "in.mesh", "-o", "out.vtu", "--margin", "0.45", "--constraints",
+                                    constraints, "--certificate", "why.json"});
+    EXPECT_EQ(outcome.exit, 6) << constraints << outcome.out;
+    temper_ok({"weights", "in.mesh", "--check-certificate", "why.json"});
+  }
+}
+
+TEST_F(TetWeightsVerb, ElasticListsTheViolations) {
+  make_pinwheel();
+  const auto json = nlohmann::json::parse(temper_ok({"weights", "pinwheel.mesh", "-o", "out.vtu", "--mode", "elastic",
+                                                     "--constraints", "regular", "--json"})
+                                              .out);
+  ASSERT_FALSE(json["violations"].empty());
+  for (const auto& violation : json["violations"]) {
+    EXPECT_EQ(violation["kind"], "dual_of_face");
+    EXPECT_EQ(violation["face"].size(), 3U);
+    EXPECT_NE(violation["vertex"], violation["across"]);
+  }
+}
+
+TEST_F(TetWeightsVerb, OptionsOfTheOtherKindAreRefusedByName) {
+  make_curable();
+  const std::vector<std::vector<std::string>> refused = {{"--zero"},
+                                                         {"--flat"},
+                                                         {"--projection", "none"},
+                                                         {"--mode", "barrier"},
+                                                         {"--constraints", "heights-only"},
+                                                         {"--connectivity", "search"},
+                                                         {"--constraints", "regular", "--edges", "lines"}};
+  for (const std::vector<std::string>& options : refused) {
+    std::vector<std::string> words = {"weights", "in.mesh", "-o", "out.vtu"};
+    words.insert(words.end(), options.begin(), options.end());
+    const Outcome outcome = temper(words);
+    EXPECT_EQ(outcome.exit, 2) << options.back();
+    EXPECT_TRUE(contains(outcome.err, "is for triangles alone")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, options[options.size() == 4 ? 2 : 0])) << outcome.err;
+  }
+  temper_ok({"example", "sparse-horseshoe", "-o", "flat.vtu"});
+  const Outcome outcome = temper({"weights", "flat.vtu", "-o", "out.vtu", "--constraints", "completely-well-centered"});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_TRUE(contains(outcome.err, "is for tetrahedra alone")) << outcome.err;
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ Mesh rotated(Mesh mesh, double angle) {
 }
 
 bool keeps(const Mesh& mesh, Constraints constraints, const std::vector<HalfedgeId>& edges = {}) {
-  const Demand demand(mesh, constraints, edges);
-  return std::all_of(mesh.triangles().begin(), mesh.triangles().end(),
-                     [&](TriangleId t) { return demand.is_kept(mesh, t, [&](VertexId v) { return mesh.weight(v); }); });
+  const TriangleDemand demand(mesh, constraints, edges);
+  return std::all_of(demand.cells().begin(), demand.cells().end(),
+                     [&](CellId cell) { return demand.is_kept(cell, demand.weights()); });
 }
 
 TEST(ConditionsTable, HasARowForEachWithANameOfItsOwn) {

@@ -88,9 +88,9 @@ Mesh on_cap(const Mesh& plane, double radius) {
 }
 
 bool keeps_on_sphere(const Mesh& mesh, Constraints constraints) {
-  const Demand demand(mesh, constraints, {});
-  return std::all_of(mesh.triangles().begin(), mesh.triangles().end(),
-                     [&](TriangleId t) { return demand.is_kept(mesh, t, [&](VertexId v) { return mesh.weight(v); }); });
+  const TriangleDemand demand(mesh, constraints);
+  return std::all_of(demand.cells().begin(), demand.cells().end(),
+                     [&](CellId cell) { return demand.is_kept(cell, demand.weights()); });
 }
 
 Certificate corrupted(Certificate certificate, std::size_t i, double factor) {

@@ -80,20 +80,20 @@ const std::vector<Bad>& bad_files() {
       {"quadrilateral_in_medit", "m.mesh", medit(kSquare, "Triangles\n0\nQuadrilaterals\n1\n1 2 3 4 0\n"),
        ErrorCode::unsupported,
        "m.mesh:13: element 1 is a quadrilateral; in this format temper reads linear triangles and tetrahedra, with "
-       "lines "
-       "and points as tags. Next: write meshes of quadrilaterals as VTU or Gmsh"},
+       "lines and points as tags. Next: write meshes of quadrilaterals as VTU or Gmsh"},
       {"tetrahedron_in_gmsh", "m.msh",
        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n$EndNodes\n$Elements\n2\n"
        "1 2 2 0 1 1 2 3\n2 4 2 0 1 1 2 3 4\n$EndElements\n",
        ErrorCode::unsupported,
-       "m.msh:14: has 1 tetrahedron; expected a mesh of triangles. Next: temper check, convert and optimize take tetrahedra"},
+       "m.msh:14: has 1 tetrahedron; expected a mesh of triangles. Next: temper check, convert, optimize and weights "
+       "take tetrahedra"},
       {"quadratic_triangle_in_vtk", "m.vtk",
        "# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n0 0 0 1 0 0 0 1 0 .5 0 0 .5 "
        ".5 0 0 .5 0\n"
        "CELLS 1 7\n6 0 1 2 3 4 5\nCELL_TYPES 1\n22\n",
        ErrorCode::unsupported,
        "m.vtk:8: element 0 is a quadratic triangle; temper reads linear triangles, quadrilaterals and tetrahedra, with "
-       "lines and points as tags"},
+       "lines and points as tags. Next: write linear elements"},
       {"square_in_mfem", "m.mesh",
        "MFEM mesh v1.0\ndimension\n2\nelements\n1\n1 3 0 1 2 3\nboundary\n0\nvertices\n4\n2\n0 0\n1 0\n1 1\n0 1\n",
        ErrorCode::unsupported,

@@ -76,8 +76,8 @@ TEST_F(FileTest, AnElementOfAnUnknownTypeIsAnElement) {
   const auto f = read(make("m.msh", kNodes2 + "$Elements\n1\n9 93 2 5 1 10 30 7\n$EndElements\n"));
   ASSERT_FALSE(f);
   EXPECT_EQ(plain(f.error().what()),
-            "m.msh:13: element 9 is an element of an unknown type; temper reads linear triangles, "
-            "quadrilaterals and tetrahedra, with lines and points as tags");
+            "m.msh:13: element 9 is an element of an unknown type; temper reads linear triangles, quadrilaterals and "
+            "tetrahedra, with lines and points as tags");
 }
 
 TEST_F(FileTest, LinesToPointsOfNoTriangleAreDroppedWithAWarning) {

@@ -400,7 +400,7 @@ TEST_F(OtherFormats, MeshesOfSmsHaveHeightsMaterialsAndNamedStrings) {
   EXPECT_EQ(refused("m.2dm", "MESH2D\nE8Q 1 1 2 3 4 5 6 7 8 1\n"),
             "m.2dm:2: element 1 is a quadratic quadrilateral; temper reads linear triangles and quadrilaterals, with "
             "lines and "
-            "points as tags");
+            "points as tags. Next: write linear elements");
   EXPECT_EQ(refused("m.2dm", "MESH2D\nE3T 1 1 2 3 1\nND 1 0 0 0\nND 2 1 0 0\n"),
             "m.2dm:2: triangle 1 uses vertex 3, but the file has 2 vertices and not this one");
 }

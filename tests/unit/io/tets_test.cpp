@@ -155,7 +155,7 @@ TEST_F(TetFiles, AMeshOfAFileHasItsTagsAndWarnsOfWhatItDrops) {
   EXPECT_EQ(made->warnings,
             (std::vector<std::string>{"1 point of no tetrahedron is dropped: point 1",
                                       "1 negative tetrahedron is reversed: two corners are exchanged, the shape stays",
-                                      "1 face is no face of the mesh and tags nothing: triangle 2"}));
+                                      "1 face is no face of the mesh and tags nothing: face 2"}));
 }
 
 TEST_F(TetFiles, ErrorsHaveTheNumbersAndTheLinesOfTheFile) {
@@ -173,11 +173,11 @@ TEST_F(TetFiles, ErrorsHaveTheNumbersAndTheLinesOfTheFile) {
   EXPECT_EQ(error_of("m.msh", gmsh("1\n5 4 2 0 1 11 12 13 99\n")),
             "m.msh:17: tetrahedron 5 uses vertex 99, but the file has no vertex of that number");
   EXPECT_EQ(error_of("m.msh", gmsh("1\n5 4 2 0 1 11 12 13 14\n", "0 nan 1")),
-            "m.msh:9: point 14 has coordinates (0, nan, 1), expected finite numbers");
+            "m.msh:9: point 14 has coordinates (0, nan, 1), expected finite numbers. Next: give its place");
   EXPECT_EQ(
       error_of("m.msh", gmsh("2\n4 5 2 0 1 11 12 13 14 15 16 17 18\n5 4 2 0 1 11 12 13 14\n")),
       "m.msh:17: element 4 is a hexahedron; temper reads linear triangles, quadrilaterals and tetrahedra, with lines "
-      "and points as tags");
+      "and points as tags. Next: split it into tetrahedra");
   EXPECT_EQ(
       error_of("m.msh", gmsh("2\n4 3 2 0 1 11 12 15 13\n5 4 2 0 1 11 12 13 14\n")),
       "m.msh:17: triangle 4 is a quadrilateral beside tetrahedra; expected triangles as their tagged faces. Next: "
@@ -186,12 +186,29 @@ TEST_F(TetFiles, ErrorsHaveTheNumbersAndTheLinesOfTheFile) {
                      "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
                      "Tetrahedra\n1\n1 2 3 5 0\nEnd\n"),
             "m.mesh:11: tetrahedron 1 uses vertex 5, but the file has 4 vertices, numbered from 1");
+  // A file may have its quadrilaterals before or after its tetrahedra.
+  const std::string quadrilateral = "Quadrilaterals\n1\n1 2 3 4 0\n", tetrahedron = "Tetrahedra\n1\n1 2 3 4 0\n";
+  const auto medit = [](const std::string& sections) {
+    return "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n" + sections +
+           "End\n";
+  };
+  const std::string beside =
+      " is a quadrilateral beside tetrahedra; expected triangles as their tagged faces. Next: split it into triangles, "
+      "or remove it";
+  EXPECT_EQ(error_of("m.mesh", medit(quadrilateral + tetrahedron)), "m.mesh:11: element 1" + beside);
+  EXPECT_EQ(error_of("m.mesh", medit(tetrahedron + quadrilateral)), "m.mesh:14: element 1" + beside);
+  EXPECT_EQ(
+      error_of("m.mesh", "MFEM mesh v1.0\ndimension\n3\n"),
+      "m.mesh:3: has elements of dimension 3; expected 2. Next: write meshes of tetrahedra as VTU, Gmsh or medit");
+  EXPECT_EQ(error_of("m.mesh", "MFEM mesh v1.0\ndimension\n2\nelements\n1\n1 4 0 1 2 3\n"),
+            "m.mesh:6: element 0 is a tetrahedron; in this format temper reads linear triangles, with lines and points "
+            "as tags. Next: write meshes of tetrahedra as VTU, Gmsh or medit");
   EXPECT_EQ(
       error_of("m.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 10 double\n" +
                             std::string("0 0 0 1 0 0 0 1 0 0 0 1 2 2 2 3 3 3 4 4 4 5 5 5 6 6 6 7 7 7\n") +
                             "CELLS 1 11\n10 0 1 2 3 4 5 6 7 8 9\nCELL_TYPES 1\n24\n"),
       "m.vtk:8: element 0 is a quadratic tetrahedron; temper reads linear triangles, quadrilaterals and tetrahedra, "
-      "with lines and points as tags");
+      "with lines and points as tags. Next: write linear elements");
 }
 
 TEST_F(TetFiles, FacesWithoutATagAreNoTagsInFilesOfTetgen) {

@@ -325,10 +325,9 @@ TEST_F(Vtkhdf, WhatDoesNotFitIsNamed) {
             "m.hdf: the dataset 'Connectivity' holds no integers");
   EXPECT_EQ(error_of(good.with(array_of<std::uint8_t>("Types", Scalar::u8, {5, 10}))),
             "m.hdf: element 1 is a tetrahedron with 3 vertices");
-  EXPECT_EQ(
-      error_of(good.with(array_of<std::uint8_t>("Types", Scalar::u8, {5, 12}))),
-      "m.hdf: element 1 is a hexahedron; temper reads linear triangles, quadrilaterals and tetrahedra, with lines "
-      "and points as tags");
+  EXPECT_EQ(error_of(good.with(array_of<std::uint8_t>("Types", Scalar::u8, {5, 12}))),
+            "m.hdf: element 1 is a hexahedron; temper reads linear triangles, quadrilaterals and tetrahedra, with "
+            "lines and points as tags. Next: split it into tetrahedra");
   other = good;
   other.point_data = {doubles("depth", {1, 2, 3, 4})};
   EXPECT_EQ(error_of(other), "m.hdf: point data 'depth' has 4 rows, expected 6");

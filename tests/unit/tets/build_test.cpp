@@ -1,6 +1,8 @@
 // TetMesh::build: connectivity and tags of good meshes, and what it says of bad ones.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -23,6 +25,7 @@ void expect_error(const TetArrays& arrays, ErrorCode code, std::string_view mess
   const InputError error = error_of(arrays.input());
   EXPECT_EQ(error.code, code) << error.what();
   EXPECT_NE(error.message.find(message), std::string::npos) << error.message;
+  EXPECT_NE(error.message.find(". Next: "), std::string::npos) << error.message;
 }
 
 TEST(TetMeshBuild, EulersFormulaHoldsForEachLattice) {
@@ -111,6 +114,11 @@ TEST(TetMeshBuild, NamesAPointThatIsNoneOrBelongsToNothing) {
   arrays.tetrahedra[0][2] = -1;
   expect_error(arrays, ErrorCode::index_out_of_range, "tetrahedron 0 uses point index -1");
   expect_error({}, ErrorCode::empty_input, "the mesh has no points");
+  arrays = one_tetrahedron();
+  arrays.weights = {0, 0, 1e80, 0};
+  expect_error(arrays, ErrorCode::out_of_scale, "point 2 has weight 1e+80; expected 0 or a magnitude");
+  arrays.weights.pop_back();
+  expect_error(arrays, ErrorCode::size_mismatch, "3 weights given for 4 points. Next: give one for each, or none");
 }
 
 TEST(TetMeshBuild, NamesAFlatTetrahedronAndItsPlace) {
@@ -128,6 +136,9 @@ TEST(TetMeshBuild, NamesTwoPointsAtOnePlace) {
   arrays.points.push_back({-1, 0, 0});
   arrays.tetrahedra.push_back({4, 2, 5, 3});
   expect_error(arrays, ErrorCode::duplicate_point, "point 0 and point 4 are both at (0, 0, -0)");
+  arrays = one_tetrahedron();
+  arrays.points[3] = arrays.points[1];
+  expect_error(arrays, ErrorCode::duplicate_point, "point 1 and point 3 are both at (1, 0, 0); expected distinct");
 }
 
 TEST(TetMeshBuild, NamesRepeatedCrowdedAndOverlappingTetrahedra) {

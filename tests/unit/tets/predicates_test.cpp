@@ -2,7 +2,7 @@
 // their signs with rational arithmetic.
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cmath>
 
 #include "support/tet_lattice.hpp"
 #include "temper/tets/geometry.hpp"

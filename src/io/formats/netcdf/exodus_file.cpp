@@ -80,7 +80,7 @@ class ExodusReader {
                           (n == 1 && is({"SPHERE", "POINT", "CIRCLE"}));
     if (!is_known)
       refuse_element(path(), static_cast<std::int64_t>(elements_.size() + 1),
-                     text("cell of type ", type, " with ", n, " nodes"));
+                     n == 4 && is({"TET"}) ? "tetrahedron" : text("cell of type ", type, " with ", n, " nodes"));
     const auto all = in_.integers(v);
     const std::int32_t tag = tag_of("eb", n >= 3 ? 2 : static_cast<int>(n) - 1, number);
     MeshFile& f = document_.file;

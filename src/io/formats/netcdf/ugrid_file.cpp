@@ -581,9 +581,7 @@ Document read_ugrid_from(const NetcdfReader& in, const Source& source) {
     fail(ErrorCode::unsupported, path, "is a MED mesh, which temper does not read; meshio converts it");
   fail(ErrorCode::unsupported, path,
        "is NetCDF without a mesh that temper reads: neither MPAS, ICON nor a two-dimensional topology of UGRID. Next: "
-       "write "
-       "the "
-       "mesh as UGRID with its faces");
+       "write the mesh as UGRID with its faces");
 }
 
 }  // namespace

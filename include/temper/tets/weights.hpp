@@ -1,0 +1,44 @@
+// Weights alone for tetrahedra: can a mesh become well-centered, or regular, if neither its positions nor its
+// connectivity may change? The constraints, programs, reports and certificates are those of temper/feasibility.hpp.
+//
+// The length ℓ of a face is the side of the equilateral triangle with its area. The constraints for a margin t are:
+//   well_centered              height of the orthocenter of each tetrahedron over each face ≥ tℓ
+//   completely_well_centered   the same; height of the orthocenter of each face over each edge ≥ tℓ; tℓ ≤ d ≤ (1 − t)ℓ
+//   regular                    dual length of each interior face ≥ tℓ
+//
+// The polynomials N_c and M_c of certificates are linear in the weights:
+//
+//   height_over_face   N = n · Σ λ_v n_v = 4 h_s A V,       M = 4 ℓ A V
+//   height, crossing   as in the plane, M with twice the area of the face for S
+//   dual_of_face       N = the power determinant of pqrs and t = (h_s + h_t) V U / A, M = ℓ V U / A
+//
+// Here λ_v = |v − p|² − w_v + w_p, A is the area of the face pqr, and V and U are six times the volumes of pqrs and
+// prqt. n = (q − p) × (r − p), and n_q = (r − p) × (s − p), n_r = (s − p) × (q − p), n_s = n. M is a double.
+#pragma once
+
+#include <span>
+
+#include "temper/feasibility.hpp"
+#include "temper/tets/mesh.hpp"
+
+namespace temper::tets {
+
+/// Rows for well_centered, completely_well_centered and regular.
+[[nodiscard]] std::span<const ConstraintsInfo> constraints_table();
+
+/// The margin of the mesh's own weights, in doubles: the least of the ratios that the constraints have.
+[[nodiscard]] double weight_margin(const TetMesh& mesh, Constraints constraints = Constraints::well_centered);
+
+/// Finds weights for a mesh with fixed positions and connectivity, as temper::find_weights does. Errors: a margin out
+/// of range, constraints or edges that are for triangles.
+[[nodiscard]] Expected<WeightReport> find_weights(const TetMesh& mesh, LpSolver& solver,
+                                                  const WeightOptions& options = {});
+
+/// Verifies a certificate in exact arithmetic, from the positions alone. Along an edge of a tetrahedron pqrs weights
+/// differ by at most:
+///   - completely_well_centered: ℓ²
+///   - well_centered: the greatest of ℓ², ||r − p|² − |r − q|²| and ||s − p|² − |s − q|²|
+///   - regular: kWeightReach ℓ², an assumption
+[[nodiscard]] CertificateCheck check_certificate(const TetMesh& mesh, const Certificate& certificate);
+
+}  // namespace temper::tets

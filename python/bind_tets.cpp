@@ -1,0 +1,155 @@
+// The mesh of tetrahedra: made from arrays and files, shown as arrays, measured and written. See tets/mesh.hpp.
+#include <utility>
+
+#include "bind.hpp"
+#include "data_arrays.hpp"
+#include "temper/tets/quality.hpp"
+
+namespace temper::python {
+namespace {
+
+using tets::HalffaceId;
+using tets::TetId;
+
+/// Gives all tetrahedra the corners of the mesh: those that were negative are reversed in the file, too.
+void reverse_as_mesh(io::TetFile& file, const io::LoadedTetMesh& loaded) {
+  for (std::size_t t = 0; t < file.tetrahedra.size(); ++t) {
+    auto& corners = file.tetrahedra[t];
+    const std::int32_t third = loaded.vertex_of_point[static_cast<std::size_t>(corners[2])];
+    if (third != static_cast<std::int32_t>(loaded.mesh.corners(TetId(t))[2].index)) std::swap(corners[2], corners[3]);
+  }
+}
+
+/// `strict`: points of no tetrahedron are an error, as they are for triangles from arrays.
+py::tuple tets_from_arrays(const py::dict& d, bool strict, const py::object& threads) {
+  const auto points = d["points"].cast<Doubles>();
+  io::TetFile file;
+  file.points = copy_of<Vec3>(points);
+  file.tetrahedra = narrow<4>(d["tetrahedra"].cast<Int64s>(), "tetrahedron");
+  take_contents(file, d, file.points.size(), file.tetrahedra.size());
+  file.faces = narrow<3>(d["faces"].cast<Int64s>(), "face");
+  file.face_tags = copy_of<std::int32_t>(d["face_tags"].cast<Int32s>());
+  file.face_data = from_python_dict(d["face_data"].cast<py::dict>(), file.faces.size(), "face data");
+  const auto executor = make_threads(threads_from(threads));
+  py::tuple made = load_tetrahedra(std::move(file), executor.get());
+  const io::VertexOfPoint& vertex = made[0].cast<const PyTetMesh&>().loaded->vertex_of_point;
+  for (std::size_t p = 0; strict && p < vertex.size(); ++p) {
+    if (vertex[p] >= 0) continue;
+    fail(ErrorCode::unused_point, "point " + std::to_string(p) + " belongs to no tetrahedron. Next: remove it");
+  }
+  return made;
+}
+
+// --- arrays -------------------------------------------------------------------------------------------
+
+py::array tet_points(const PyTetMesh& self) {
+  std::vector<Vec3> places;
+  places.reserve(self.mesh().n_vertices());
+  for (const VertexId v : self.mesh().vertices()) places.push_back(self.mesh().position(v));
+  return rows_of<double>(std::span<const Vec3>(places));
+}
+
+py::array tet_weights(const PyTetMesh& self) {
+  const auto data = self.mesh().weight_data();
+  return view(py::dtype::of<double>(), {static_cast<py::ssize_t>(data.size())}, {py::ssize_t{sizeof(double)}},
+              data.data(), keep(self.loaded));
+}
+
+py::array tetrahedra_of(const PyTetMesh& self) {
+  const auto data = self.mesh().corner_data();
+  constexpr py::ssize_t item = sizeof(VertexId);
+  return view(dtype_of<VertexId>(), {static_cast<py::ssize_t>(data.size()), 4}, {4 * item, item}, data.data(),
+              keep(self.loaded));
+}
+
+py::array neighbors_of(const PyTetMesh& self) {
+  std::vector<std::array<std::int32_t, 4>> neighbors(self.mesh().n_tetrahedra());
+  for (const HalffaceId h : self.mesh().halffaces()) {
+    const HalffaceId twin = self.mesh().twin(h);
+    neighbors[h.index / 4][h.index % 4] = twin.valid() ? static_cast<std::int32_t>(twin.index / 4) : -1;
+  }
+  return rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 4>>(neighbors));
+}
+
+py::array tet_regions(const PyTetMesh& self) {
+  std::vector<std::int32_t> regions;
+  regions.reserve(self.mesh().n_tetrahedra());
+  for (const TetId t : self.mesh().tetrahedra()) regions.push_back(self.mesh().region(t));
+  return array_of<std::int32_t>(regions);
+}
+
+/// Everything in the file but points and tetrahedra, in its numbers, and the vertex of each point.
+py::dict file_of_tets(const PyTetMesh& self) {
+  const io::TetFile& file = *self.file;
+  const io::VertexOfPoint& vertex = self.loaded->vertex_of_point;
+  std::vector<std::int32_t> vertices;
+  vertices.reserve(vertex.size());
+  for (std::size_t p = 0; p < vertex.size(); ++p) vertices.push_back(vertex[p]);
+  return contents_of(file)("faces", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 3>>(file.faces)))(
+             "face_tags", array_of<std::int32_t>(file.face_tags))(
+             "face_data", py::object(to_python_dict(file.face_data)))("vertices", array_of<std::int32_t>(vertices))
+      .dict;
+}
+
+// --- the report and files -----------------------------------------------------------------------------
+
+py::dict tet_quality(const PyTetMesh& self, std::size_t worst, const py::object& threads) {
+  const auto executor = make_threads(threads_from(threads));
+  const auto loaded = self.loaded;
+  const tets::Quality q = aside([&] { return tets::quality(loaded->mesh, {worst, executor.get()}); });
+  py::list listed;
+  for (const tets::WorstTet& w : q.worst) {
+    listed.append(
+        Record()("tetrahedron", w.tetrahedron)("vertices", w.vertices)("at", std::array{w.at.x, w.at.y, w.at.z})(
+            "h_over_l", w.h_over_l)("dihedral_deg", w.dihedral_deg)("why", w.why)
+            .dict);
+  }
+  return measures_of(tets::quality_measures(), q)("worst", listed)("dihedrals", histogram_to_dict(q.dihedrals))(
+             "h_over_l", histogram_to_dict(q.h_over_l))
+      .dict;
+}
+
+py::object write_tets(const std::string& path, const PyTetMesh& self, const std::string& format,
+                      const std::string& encoding, const py::object& threads) {
+  const auto executor = make_threads(threads_from(threads));
+  io::WriteOptions options;
+  options.format = format;
+  if (!encoding.empty()) options.encoding = from_name<io::Encoding>("encoding", encoding);
+  options.executor = executor.get();
+  const auto file = self.file;
+  return to_python(or_raise(aside([&] { return io::write(path, *file, options); })));
+}
+
+}  // namespace
+
+py::tuple load_tetrahedra(io::TetFile file, Executor* executor) {
+  auto made = aside([&] { return io::make_mesh(file, executor); });
+  io::LoadedTetMesh loaded = or_raise(std::move(made));
+  reverse_as_mesh(file, loaded);
+  std::vector<std::string> warnings = std::exchange(file.warnings, {});
+  warnings.insert(warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
+  return py::make_tuple(PyTetMesh{std::make_shared<const io::TetFile>(std::move(file)),
+                                  std::make_shared<const io::LoadedTetMesh>(std::move(loaded))},
+                        to_python(warnings));
+}
+
+void bind_tets(py::module_& m) {
+  m.def("tet_mesh_from_arrays", tets_from_arrays);
+  m.def("write_tets", write_tets);
+  m.def("tet_quality", tet_quality);
+  m.def("tet_quality_measures", [] { return measures_list(tets::quality_measures()); });
+  py::class_<PyTetMesh> type(m, "TetMesh");
+  type.def("n_vertices", [](const PyTetMesh& self) { return self.mesh().n_vertices(); });
+  type.def("n_tetrahedra", [](const PyTetMesh& self) { return self.mesh().n_tetrahedra(); });
+  type.def("n_faces", [](const PyTetMesh& self) { return self.mesh().n_faces(); });
+  type.def("points", tet_points);
+  type.def("weights", tet_weights);
+  type.def("tetrahedra", tetrahedra_of);
+  type.def("neighbors", neighbors_of);
+  type.def("regions", tet_regions);
+  type.def("file", file_of_tets);
+  type.def("validate", [](const PyTetMesh& self) { return to_python(self.mesh().validate()); });
+  type.def("equal", [](const PyTetMesh& self, const PyTetMesh& other) { return self.mesh() == other.mesh(); });
+}
+
+}  // namespace temper::python

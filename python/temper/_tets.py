@@ -1,0 +1,315 @@
+"""The weighted tetrahedral mesh."""
+
+from __future__ import annotations
+
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _temper
+from ._mesh import Mesh, MeshLike, _doubles, _ints, as_mesh, repeat_warnings
+from ._others import cells_of, meshio_of_tets, tet_arrays
+
+_OUTWARD = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])  # corners of the face opposite each corner
+
+
+class TetMesh:
+    """A mesh of tetrahedra whose vertices carry weights. It does not change: to change it, make another one.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        Positions, in units of your choice.
+    tetrahedra : (m, 4) int32 or int64
+        Corners, counted from 0. Negative tetrahedra are reversed, with a warning. A tetrahedron a, b, c, d is positive
+        if ((b − a) × (c − a))·(d − a) > 0, as in Gmsh and VTK.
+    weights : (n,) float64, optional
+        Squared lengths [length²]. The power of a place p to vertex i is \\|x_i − p\\|² − w_i, so a larger weight makes
+        a larger power cell. Default: all 0.
+    regions : (m,) int32, optional
+        A number for each tetrahedron. Default: all 0.
+    tagged_faces : (k, 3) int, optional
+        Faces that carry a tag, on the boundary or inside, as three vertices each.
+    face_tags : (k,) int32, optional
+        Tag of each of ``tagged_faces``. Default: all 0.
+    lines : (k, 2) int, optional
+        Edges that carry a tag.
+    line_tags : (k,) int32, optional
+    marked_points : (k,) int, optional
+        Vertices that carry a tag.
+    point_tags : (k,) int32, optional
+    threads : int, optional
+        Threads for the checks; None or 0: all of the machine.
+
+    Raises
+    ------
+    TemperError
+        Arrays that make no mesh; the message names the element and its place. Numbers are out of range or not finite.
+        Points occur twice or are in no tetrahedron. Tetrahedra are flat or inverted, or lie on top of others. Faces
+        have more than two tetrahedra, or the mesh touches itself at an edge or a vertex.
+
+    Warns
+    -----
+    TemperWarning
+        Negative tetrahedra that are reversed; tagged faces and lines that are no face or edge of the mesh.
+
+    Notes
+    -----
+    ``weights`` and ``tetrahedra`` are read-only views on the mesh's own memory. All other arrays are copies.
+
+    The orthocenter o of a tetrahedron has equal power to its four corners. h is the signed distance of o from the plane
+    of a face, positive on the side of the tetrahedron. The tetrahedron is well-centered if all four h > 0 [length].
+
+    Examples
+    --------
+    >>> import temper
+    >>> mesh = temper.TetMesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2, 3)])
+    >>> mesh
+    <temper.TetMesh: 4 vertices, 1 tetrahedron>
+    >>> report = temper.quality(mesh)
+    >>> round(report.volume, 6), report.orthocenters_outside
+    (0.166667, 1)
+    """
+
+    __slots__ = ("_handle", "warnings", "__weakref__")
+
+    _handle: _temper.TetMesh
+    warnings: list[str]
+    """Repairs and losses when the mesh was made or read, in sentences."""
+
+    def __init__(
+        self,
+        points: npt.ArrayLike,
+        tetrahedra: npt.ArrayLike,
+        weights: npt.ArrayLike | None = None,
+        *,
+        regions: npt.ArrayLike | None = None,
+        tagged_faces: npt.ArrayLike | None = None,
+        face_tags: npt.ArrayLike | None = None,
+        lines: npt.ArrayLike | None = None,
+        line_tags: npt.ArrayLike | None = None,
+        marked_points: npt.ArrayLike | None = None,
+        point_tags: npt.ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> None:
+        def tags(values: npt.ArrayLike | None, elements: npt.NDArray[Any], name: str) -> npt.NDArray[Any]:
+            return np.zeros(len(elements), dtype=np.int32) if values is None else _ints(values, 0, name)
+
+        faces, edges, marked = _ints(tagged_faces, 3, "tagged_faces"), _ints(lines, 2, "lines"), _ints(marked_points, 0, "marked_points")
+        arrays = {
+            "points": _doubles(points, 3, "points"), "tetrahedra": _ints(tetrahedra, 4, "tetrahedra"),
+            "weights": _doubles(weights, 0, "weights"), "regions": _ints(regions, 0, "regions"),
+            "faces": faces, "face_tags": tags(face_tags, faces, "face_tags"),
+            "lines": edges, "line_tags": tags(line_tags, edges, "line_tags"),
+            "marked_points": marked, "point_tags": tags(point_tags, marked, "point_tags"),
+            "names": [], **{f"{kind}_data": {} for kind in ("point", "cell", "face", "line", "marked_point", "field")},
+        }  # fmt: skip
+        self._handle, self.warnings = _temper.tet_mesh_from_arrays(arrays, True, threads)
+        repeat_warnings(self.warnings, 2)
+
+    @classmethod
+    def _of(cls, handle: _temper.TetMesh, messages: list[str], level: int) -> TetMesh:
+        mesh = cls.__new__(cls)
+        mesh._handle, mesh.warnings = handle, messages
+        repeat_warnings(messages, level + 1)
+        return mesh
+
+    @classmethod
+    def from_meshio(cls, mesh: Any) -> TetMesh:
+        """A ``meshio.Mesh``, or an ``UnstructuredGrid`` of PyVista, as a mesh of tetrahedra.
+
+        Cells of type ``tetra`` become the mesh. Cells of type ``triangle``, ``line`` and ``vertex`` are tagged faces,
+        lines and marked points. Other cells are left out, with a warning. Weights, regions, tags, names and data are as
+        in ``temper.from_meshio``. Points of no tetrahedron are dropped, with a warning.
+
+        Raises
+        ------
+        TemperError
+            The errors of ``TetMesh``; also no tetrahedra.
+        TypeError
+            Another class.
+        """
+        return _from_cells(_cells(mesh), 2)
+
+    # --- sizes ---------------------------------------------------------------------------------------------
+
+    @property
+    def n_vertices(self) -> int:
+        """Number of vertices."""
+        return self._handle.n_vertices()
+
+    @property
+    def n_tetrahedra(self) -> int:
+        """Number of tetrahedra."""
+        return self._handle.n_tetrahedra()
+
+    @property
+    def n_faces(self) -> int:
+        """Number of faces, each counted once. O(n)."""
+        return self._handle.n_faces()
+
+    # --- arrays --------------------------------------------------------------------------------------------
+
+    @property
+    def points(self) -> npt.NDArray[np.float64]:
+        """Positions, (n, 3) float64 [length]. A copy."""
+        return self._handle.points()
+
+    @property
+    def weights(self) -> npt.NDArray[np.float64]:
+        """Weights, (n,) float64 [length²]. A read-only view."""
+        return self._handle.weights()
+
+    @property
+    def tetrahedra(self) -> npt.NDArray[np.int32]:
+        """Corners of each tetrahedron, positive, (m, 4) int32. A read-only view."""
+        return self._handle.tetrahedra()
+
+    @property
+    def neighbors(self) -> npt.NDArray[np.int32]:
+        """The tetrahedron across the face opposite corner k, (m, 4) int32; −1 on the boundary. A copy."""
+        return self._handle.neighbors()
+
+    @property
+    def boundary_faces(self) -> npt.NDArray[np.int32]:
+        """Faces of one tetrahedron, (b, 3) int32, counter-clockwise as seen from outside. A copy."""
+        tetrahedron, corner = np.nonzero(self.neighbors < 0)
+        return self.tetrahedra[tetrahedron[:, None], _OUTWARD[corner]]
+
+    @property
+    def regions(self) -> npt.NDArray[np.int32]:
+        """Region number of each tetrahedron, (m,) int32. A copy."""
+        return self._handle.regions()
+
+    # --- tags, names and data -------------------------------------------------------------------------------
+
+    def _file(self) -> dict[str, Any]:
+        """The contents of the file, in the numbers of the vertices. What has lost a point is dropped."""
+        file = self._handle.file()
+        number = file.pop("vertices")
+        for elements, tags, data in (
+            ("faces", "face_tags", "face_data"), ("lines", "line_tags", "line_data"),
+            ("marked_points", "point_tags", "marked_point_data"),
+        ):  # fmt: skip
+            numbered = number[file[elements]]
+            kept = numbered >= 0 if numbered.ndim == 1 else (numbered >= 0).all(axis=1)
+            file[elements], file[tags] = numbered[kept], file[tags][kept]
+            file[data] = {name: values[kept] for name, values in file[data].items()}
+        file["point_data"] = {name: values[number >= 0] for name, values in file["point_data"].items()}
+        return file
+
+    @property
+    def tagged_faces(self) -> npt.NDArray[np.int32]:
+        """Faces that carry a tag, on the boundary or inside, (k, 3) int32, as they were given. A copy."""
+        return self._file()["faces"]
+
+    @property
+    def face_tags(self) -> npt.NDArray[np.int32]:
+        """Tag of each of ``tagged_faces``, (k,) int32. A copy."""
+        return self._file()["face_tags"]
+
+    @property
+    def lines(self) -> npt.NDArray[np.int32]:
+        """Edges that carry a tag, as two vertices each, (k, 2) int32. A copy."""
+        return self._file()["lines"]
+
+    @property
+    def line_tags(self) -> npt.NDArray[np.int32]:
+        """Tag of each of ``lines``, (k,) int32. A copy."""
+        return self._file()["line_tags"]
+
+    @property
+    def marked_points(self) -> npt.NDArray[np.int32]:
+        """Vertices that carry a tag, such as wells, (p,) int32. A copy."""
+        return self._file()["marked_points"]
+
+    @property
+    def point_tags(self) -> npt.NDArray[np.int32]:
+        """Tag of each of ``marked_points``, (p,) int32. A copy."""
+        return self._file()["point_tags"]
+
+    @property
+    def names(self) -> dict[str, tuple[int, int]]:
+        """The names of tags, each with its dimension and tag. The dimension is 0 for ``point_tags``, 1 for
+        ``line_tags``, 2 for ``face_tags`` and 3 for ``regions``. A name of several dimensions has the highest. A
+        copy."""
+        return {name: (dimension, tag) for dimension, tag, name in sorted(self._file()["names"])}
+
+    @property
+    def point_data(self) -> dict[str, npt.NDArray[Any]]:
+        """Data of the vertices, from the mesh's file: arrays with n rows. Copies."""
+        return self._file()["point_data"]
+
+    @property
+    def cell_data(self) -> dict[str, npt.NDArray[Any]]:
+        """Data of the tetrahedra, from the mesh's file: arrays with m rows. Copies."""
+        return self._file()["cell_data"]
+
+    # --- methods --------------------------------------------------------------------------------------------
+
+    def validate(self) -> str | None:
+        """Checks the mesh, for example that every tetrahedron is positive (exact). Returns the first fault, or None.
+        O(n)."""
+        return self._handle.validate()
+
+    def to_meshio(self) -> Any:
+        """The mesh as a ``meshio.Mesh``, which meshio writes to any of its formats. Needs meshio. For PyVista:
+        ``pyvista.from_meshio(mesh.to_meshio())``.
+
+        Points have the data ``weight`` [length²]. The data ``region`` are the region of a cell of type ``tetra`` and
+        the tag of a cell of type ``triangle``, ``line`` or ``vertex``. If there are tags, the cell data
+        ``gmsh:physical`` are the same, and names are ``field_data``: tag and dimension. All other data of the mesh
+        follow.
+        """
+        return meshio_of_tets(self.points, self.weights, self.tetrahedra, self.regions, self._file())
+
+    def __eq__(self, other: object) -> bool:
+        """Says whether positions, weights, tetrahedra, regions and tags are equal, bit for bit."""
+        return isinstance(other, TetMesh) and self._handle.equal(other._handle)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> Any:
+        """Everything but the name and the format of the file, for another process. To keep a mesh, write it."""
+        arrays = {**self._file(), "points": self.points, "weights": np.array(self.weights)}
+        arrays |= {"tetrahedra": np.array(self.tetrahedra), "regions": self.regions}
+        return _unpickle, (arrays, self.warnings)
+
+    def __repr__(self) -> str:
+        vertices = "1 vertex" if self.n_vertices == 1 else f"{self.n_vertices} vertices"
+        tetrahedra = "1 tetrahedron" if self.n_tetrahedra == 1 else f"{self.n_tetrahedra} tetrahedra"
+        return f"<temper.TetMesh: {vertices}, {tetrahedra}>"
+
+
+def _unpickle(arrays: dict[str, Any], messages: list[str]) -> TetMesh:
+    mesh = TetMesh._of(_temper.tet_mesh_from_arrays(arrays, False, None)[0], [], 2)
+    mesh.warnings = messages
+    return mesh
+
+
+def _cells(mesh: Any) -> Any:
+    cells = cells_of(mesh)
+    if cells is None:
+        raise TypeError(f"expected a mesh of meshio or PyVista, found {type(mesh).__name__}")
+    return cells
+
+
+def _from_cells(cells: Any, level: int) -> TetMesh:
+    arrays, dropped = tet_arrays(cells)
+    handle, messages = _temper.tet_mesh_from_arrays(arrays, False, None)
+    return TetMesh._of(handle, dropped + messages, level + 1)
+
+
+AnyMeshLike = Union[TetMesh, MeshLike]
+"""A mesh of triangles or of tetrahedra, of temper or of another library."""
+
+
+def as_any_mesh(mesh: AnyMeshLike) -> Mesh | TetMesh:
+    """The mesh itself, or the mesh of another library: a ``TetMesh`` if it has tetrahedra."""
+    if isinstance(mesh, TetMesh):
+        return mesh
+    cells = None if isinstance(mesh, Mesh) else cells_of(mesh)
+    if cells is not None and any(block.type == "tetra" for block in cells.cells):
+        return _from_cells(cells, 3)
+    return as_mesh(mesh)

@@ -1,0 +1,152 @@
+// Constraints on the weights of a mesh, as linear programs see them: cells with corners, edges, and linear forms of the
+// potentials (potential.hpp). Triangles (constraints.hpp) and tetrahedra (tets/weights) are two kinds of cells.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "feasibility/potential.hpp"
+#include "temper/detail/ids.hpp"
+#include "temper/detail/space.hpp"
+#include "temper/feasibility.hpp"
+
+namespace temper {
+
+struct LinearForm {
+  int size = 0;  ///< the number of vertices of its constraint
+  std::array<VertexId, 5> vertices;
+  std::array<double, 5> coefficients = {};
+  double constant = 0;
+  double slope =
+      0;  ///< m = 1 − slope · the mean of the first two potentials; the coefficients sum to −slope · constant
+};
+
+/// The form that is ≥ 0 if and only if the value of this one is ≥ margin.
+[[nodiscard]] LinearForm beyond_margin(LinearForm form, double margin);
+
+/// m for the potentials potential(v): one in the plane.
+template <class Potential>
+double scale_of(const LinearForm& form, const Potential& potential) {
+  return 1 - 0.5 * form.slope * (potential(form.vertices[0]) + potential(form.vertices[1]));
+}
+/// The linear function, by differences, so that a large potential common to all costs no digits.
+template <class Potential>
+double numerator_of(const LinearForm& form, const Potential& potential) {
+  const double first = potential(form.vertices[0]);
+  double value = form.constant * (1 - form.slope * first);
+  for (int k = 1; k < form.size; ++k) value += form.coefficients[k] * (potential(form.vertices[k]) - first);
+  return value;
+}
+/// h/ℓ, d/ℓ or dual length/ℓ.
+template <class Potential>
+double value_of(const LinearForm& form, const Potential& potential) {
+  return numerator_of(form, potential) / scale_of(form, potential);
+}
+
+/// The crossing of an edge, from its vector.
+template <class Vector>
+LinearForm crossing_form(const WeightConstraint& c, const Vector& pq) {
+  const double l2 = squared_length(pq);
+  return {2, {c.p, c.q}, {0.5 / l2, -0.5 / l2}, 0.5};
+}
+/// The height over the edge pq of the triangle pqr, from its edges and twice its area.
+template <class Vector>
+LinearForm height_form(const WeightConstraint& c, const Vector& pq, const Vector& pr, const Vector& qr,
+                       double twice_area) {
+  const double l2 = squared_length(pq), scale = 0.5 / twice_area;
+  return {3, {c.p, c.q, c.r}, {-scale * dot(pq, qr) / l2, scale * dot(pq, pr) / l2, -scale}, scale * dot(pr, qr)};
+}
+
+/// The crossing of an edge from either end.
+[[nodiscard]] WeightConstraint split_constraint(VertexId from, VertexId to);
+
+/// A triangle or a tetrahedron, by its number in the mesh.
+using CellId = Id<struct CellTag>;
+using VertexWeights = IdVector<VertexId, double>;
+
+struct WeightEdge {
+  VertexId p, q;
+  double squared_length = 0;
+};
+
+/// Constraints on a mesh. Lists of cells are sorted, and have each cell once.
+class Demand {
+ public:
+  Demand(const Demand&) = delete;
+  Demand& operator=(const Demand&) = delete;
+  virtual ~Demand() = default;
+
+  [[nodiscard]] Constraints constraints() const { return constraints_; }
+  [[nodiscard]] bool has_heights() const { return !has_duals(); }
+  [[nodiscard]] bool has_crossings() const { return has_crossings_; }
+  [[nodiscard]] bool has_duals() const { return constraints_ == Constraints::regular; }
+  /// The plane, too, if cells are tetrahedra: weights are the potentials.
+  [[nodiscard]] const Space& space() const { return space_; }
+  /// The margin that is refuted when no weights satisfy the constraints; `duals`: for dual lengths, in the plane.
+  [[nodiscard]] double refuted_margin(double duals) const {
+    return !has_duals() ? 0 : space_.is_plane() ? duals : kLeastRefutedDual;
+  }
+
+  // --- the mesh ------------------------------------------------------------------------------------
+  [[nodiscard]] virtual std::size_t n_vertices() const = 0;
+  [[nodiscard]] virtual std::size_t n_cells() const = 0;
+  [[nodiscard]] IdRange<VertexId> vertices() const { return IdRange<VertexId>(n_vertices()); }
+  [[nodiscard]] IdRange<CellId> cells() const { return IdRange<CellId>(n_cells()); }
+  [[nodiscard]] virtual double weight(VertexId v) const = 0;
+  [[nodiscard]] VertexWeights weights() const {
+    VertexWeights all;
+    all.reserve(n_vertices());
+    for (const VertexId v : vertices()) all.push_back(weight(v));
+    return all;
+  }
+  virtual void add_corners(CellId cell, std::vector<VertexId>& corners) const = 0;
+  /// Adds the cells around v, in any order; none if it has none.
+  virtual void add_cells_around(VertexId v, std::vector<CellId>& cells) const = 0;
+  /// Adds the vertices across the outer edges, or faces, of the cells around v, in any order.
+  virtual void add_vertices_across(VertexId v, std::vector<VertexId>& vertices) const = 0;
+  /// The edges of these cells, each once.
+  [[nodiscard]] virtual std::vector<WeightEdge> edges_of(std::span<const CellId> cells) const = 0;
+
+  // --- the constraints -----------------------------------------------------------------------------
+  /// The constraints of these cells: all heights, then the crossings and the dual lengths. With `rim` a dual length
+  /// counts if one of its two cells is among them; else only if both are.
+  [[nodiscard]] virtual std::vector<WeightConstraint> constraints_of(std::span<const CellId> cells,
+                                                                     bool rim = false) const = 0;
+  [[nodiscard]] virtual LinearForm linear_form(const WeightConstraint& constraint) const = 0;
+  /// N of a constraint (temper/feasibility.hpp) over its value, h/ℓ, d/ℓ or dual length/ℓ.
+  [[nodiscard]] virtual double scale_of_polynomial(const WeightConstraint& constraint) const = 0;
+  /// Says whether a cell satisfies all its constraints, exactly, with these weights.
+  [[nodiscard]] virtual bool is_kept(CellId cell, const VertexWeights& weights) const = 0;
+  /// The least value of a cell's constraints with these weights, in doubles; kUnbounded when it has none.
+  [[nodiscard]] virtual double margin_of(CellId cell, const VertexWeights& weights) const = 0;
+  /// Violation::angle_deg.
+  [[nodiscard]] virtual double angle_deg(const WeightConstraint& constraint) const = 0;
+  [[nodiscard]] virtual CertificateCheck check(const Certificate& certificate) const = 0;
+
+ protected:
+  Demand(const Space& space, Constraints constraints, bool has_crossings)
+      : space_(space), constraints_(constraints), has_crossings_(has_crossings) {}
+
+ private:
+  Space space_;
+  Constraints constraints_;
+  bool has_crossings_;
+};
+
+/// The corners of these cells, sorted, each once.
+[[nodiscard]] std::vector<VertexId> vertices_of(const Demand& demand, std::span<const CellId> cells);
+[[nodiscard]] std::vector<CellId> all_cells(const Demand& demand);
+/// Demand::margin_of, of all cells.
+[[nodiscard]] double least_margin(const Demand& demand, const VertexWeights& weights);
+/// Σ over edges |Δw_i − Δw_j| / (2ℓ).
+[[nodiscard]] double weight_change(const Demand& demand, const VertexWeights& from, const VertexWeights& to);
+
+/// Weights for the demand, whose kind is that of the options.
+[[nodiscard]] WeightReport find_weights(const Demand& demand, LpSolver& solver, const WeightOptions& options);
+/// The error of options whose margin is out of range.
+[[nodiscard]] std::optional<InputError> expect_margin(const WeightOptions& options);
+
+}  // namespace temper

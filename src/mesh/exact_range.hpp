@@ -1,0 +1,21 @@
+// The numbers with which the exact predicates neither overflow nor underflow.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "base/text.hpp"
+
+namespace temper {
+
+/// The magnitudes that a number other than 0 may have.
+struct ExactRange {
+  double low, high;
+  [[nodiscard]] bool allows(double x) const { return x == 0 || (std::abs(x) >= low && std::abs(x) <= high); }
+  [[nodiscard]] ExactRange squared() const { return {low * low, high * high}; }
+  [[nodiscard]] std::string text() const {
+    return "expected 0 or a magnitude from " + to_text(low) + " to " + to_text(high) + ", which exact arithmetic needs";
+  }
+};
+
+}  // namespace temper

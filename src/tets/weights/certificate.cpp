@@ -1,0 +1,198 @@
+// The exact check of a certificate on tetrahedra (feasibility/certificate_sum.hpp). It shares no code with the builder
+// of the programs. M is a double, all else is exact.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "feasibility/certificate_sum.hpp"
+#include "temper/tets/weights.hpp"
+
+namespace temper::tets {
+namespace {
+
+using namespace certified;
+
+// As in the plane: the product of six differences and a multiplier must be a multiple of 2^-1074. The product has
+// 6 · (75 + 53) + 250 + 53 = 1071 bits.
+constexpr double kLeastCoordinate = 0x1p-75;
+// A product of M, a margin and a multiplier has 600 + 53 + 20 + 53 + 250 + 53 = 1029 bits. The margin of a smaller M
+// counts as 0, which is weaker.
+constexpr double kLeastM = 0x1p-600;
+constexpr std::array<int, 5> kDegrees = {4, 2, 0, 6, 5};
+
+bool counts(Constraints constraints, Kind kind) {
+  switch (constraints) {
+    case Constraints::well_centered:
+      return kind == Kind::height_over_face;
+    case Constraints::completely_well_centered:
+      return kind == Kind::height_over_face || kind == Kind::height || kind == Kind::crossing;
+    case Constraints::regular:
+      return kind == Kind::dual_of_face;
+    case Constraints::heights_only:
+      return false;
+  }
+  return false;
+}
+
+/// The edges, faces and tetrahedra of the mesh between some vertices.
+class Parts {
+ public:
+  Parts(const TetMesh& mesh, const Certificate& certificate) : mesh_(mesh) {
+    std::vector<std::uint8_t> marked(mesh.n_vertices(), 0);
+    for (const auto& term : certificate.terms) {
+      for_each_vertex(term.constraint, [&](VertexId v) {
+        if (v.index < marked.size()) marked[v.index] = 1;
+      });
+    }
+    for (const TetId t : mesh.tetrahedra()) {
+      std::array<VertexId, 4> corners = mesh.corners(t);
+      const auto last =
+          std::partition(corners.begin(), corners.end(), [&](VertexId v) { return marked[v.index] != 0; });
+      std::fill(last, corners.end(), VertexId());
+      std::sort(corners.begin(), corners.end());
+      add(corners);
+    }
+  }
+  /// Says whether the valid ones of these, at least two, are distinct corners of one tetrahedron.
+  [[nodiscard]] bool has(std::array<VertexId, 4> vertices) const {
+    std::sort(vertices.begin(), vertices.end());
+    return parts_.count(vertices) > 0;
+  }
+  [[nodiscard]] bool has_positive(VertexId p, VertexId q, VertexId r, VertexId s) const {
+    return std::max({p, q, r, s}).valid() && has({p, q, r, s}) &&
+           orientation(mesh_.position(p), mesh_.position(q), mesh_.position(r), mesh_.position(s)) == Sign::positive;
+  }
+
+ private:
+  /// A part, and the parts with one vertex less.
+  void add(const std::array<VertexId, 4>& part) {
+    if (!part[1].valid() || !parts_.insert(part).second) return;
+    for (std::size_t k = 0; k < 4 && part[k].valid(); ++k) {
+      std::array<VertexId, 4> face = part;
+      face[k] = VertexId();
+      std::sort(face.begin(), face.end());
+      add(face);
+    }
+  }
+
+  const TetMesh& mesh_;
+  std::set<std::array<VertexId, 4>> parts_;  ///< sorted; invalid ids are last
+};
+
+bool is_of(const Parts& parts, const WeightConstraint& c) {
+  switch (c.kind) {
+    case Kind::crossing:
+      return std::max(c.p, c.q).valid() && parts.has({c.p, c.q, VertexId(), VertexId()}) && !c.r.valid() &&
+             !c.s.valid() && !c.t.valid();
+    case Kind::height:
+      return std::max({c.p, c.q, c.r}).valid() && parts.has({c.p, c.q, c.r, VertexId()}) && !c.s.valid() &&
+             !c.t.valid();
+    case Kind::height_over_face:
+      return parts.has_positive(c.p, c.q, c.r, c.s) && !c.t.valid();
+    case Kind::dual_of_face:
+      return parts.has_positive(c.p, c.q, c.r, c.s) && parts.has_positive(c.p, c.r, c.q, c.t);
+    case Kind::dual:
+      return false;
+  }
+  return false;
+}
+
+/// The terms of the sum.
+class TetTerms {
+ public:
+  TetTerms(const TetMesh& mesh, const Scale& scale, Constraints constraints)
+      : mesh_(mesh), scale_(scale), constraints_(constraints) {}
+
+  [[nodiscard]] Polynomial polynomial_of(const WeightConstraint& c, double margin) const {
+    const Vector3 q = from_to(c.p, c.q);
+    if (c.kind == Kind::crossing) return polynomial_of_crossing(q, margin);
+    const Vector3 r = from_to(c.p, c.r);
+    Polynomial n = c.kind == Kind::height             ? polynomial_of_height(q, r, from_to(c.q, c.r))
+                   : c.kind == Kind::height_over_face ? height_over_face(q, r, from_to(c.p, c.s))
+                                                      : dual_of_face(q, r, from_to(c.p, c.s), from_to(c.p, c.t));
+    const double m = margin == 0 ? 0 : m_of(c);
+    if (m >= kLeastM) n.constant += -(Number(margin) * Number(m));
+    return n;
+  }
+  /// b of an edge of a cell with these other corners. Where all orthocenters are inside, the difference of the weights
+  /// is linear in the orthocenter, and so greatest at a corner.
+  [[nodiscard]] std::optional<Number> bound(VertexId a, VertexId b, std::span<const VertexId> others) const {
+    Number most = squared_distance(a, b);
+    if (constraints_ == Constraints::regular) return Number(kWeightReach) * most;
+    if (constraints_ == Constraints::completely_well_centered) return most;
+    for (const VertexId v : others) {
+      Number across = abs(squared_distance(a, v) - squared_distance(b, v));
+      if ((across - most).sign() == Sign::positive) most = std::move(across);
+    }
+    return most;
+  }
+  [[nodiscard]] static Number reach_beyond(const Number& reach, const Number& bound) { return reach + bound; }
+  [[nodiscard]] static Number most(const Number& residual, const Number& reach) { return abs(residual) * reach; }
+  static constexpr bool kPartsHaveFactors = false;
+
+ private:
+  /// Σ λ_v at_v for the vertices after p.
+  template <std::size_t n>
+  static Polynomial sum_of_lifts(const std::array<Vector3, n>& to, const std::array<Number, n>& at) {
+    Polynomial sum;
+    for (std::size_t k = 0; k < n; ++k) {
+      sum.coefficients[0] += at[k];
+      sum.coefficients[k + 1] = -at[k];
+      sum.constant += dot(to[k], to[k]) * at[k];
+    }
+    return sum;
+  }
+  static Polynomial height_over_face(const Vector3& q, const Vector3& r, const Vector3& s) {
+    const Vector3 n = cross(q, r);
+    return sum_of_lifts<3>({q, r, s}, {dot(n, cross(r, s)), dot(n, cross(s, q)), dot(n, n)});
+  }
+  static Polynomial dual_of_face(const Vector3& q, const Vector3& r, const Vector3& s, const Vector3& t) {
+    const Vector3 n = cross(q, r), st = cross(s, t);
+    return sum_of_lifts<4>({q, r, s, t}, {-dot(r, st), dot(q, st), -dot(n, t), dot(n, s)});
+  }
+  [[nodiscard]] double m_of(const WeightConstraint& c) const {
+    const Vec3 p = at(c.p), pq = at(c.q) - p, n = temper::cross(pq, at(c.r) - p);
+    const double twice_area = length(n), side = std::sqrt(2 / std::numbers::sqrt3 * twice_area);
+    if (c.kind == Kind::height) return 2 * squared_length(pq) * twice_area;
+    const double volumes = std::abs(temper::dot(n, at(c.s) - p));
+    if (c.kind == Kind::height_over_face) return 2 * side * twice_area * volumes;
+    return 2 * side * volumes * std::abs(temper::dot(n, at(c.t) - p)) / twice_area;
+  }
+  [[nodiscard]] Vec3 at(VertexId v) const {
+    const Vec3 p = mesh_.position(v);
+    return {scale_.coordinate(p.x), scale_.coordinate(p.y), scale_.coordinate(p.z)};
+  }
+  [[nodiscard]] Vector3 from_to(VertexId a, VertexId b) const {
+    const Vec3 p = at(a), q = at(b);
+    return {Number::difference(q.x, p.x), Number::difference(q.y, p.y), Number::difference(q.z, p.z)};
+  }
+  [[nodiscard]] Number squared_distance(VertexId a, VertexId b) const {
+    const Vector3 edge = from_to(a, b);
+    return dot(edge, edge);
+  }
+
+  const TetMesh& mesh_;
+  const Scale& scale_;
+  Constraints constraints_;
+};
+
+}  // namespace
+
+CertificateCheck check_certificate(const TetMesh& mesh, const Certificate& certificate) {
+  if (!has_good_multipliers(certificate)) return CertificateCheck::bad_multiplier;
+  const Parts parts(mesh, certificate);
+  for (const auto& term : certificate.terms) {
+    if (!counts(certificate.constraints, term.constraint.kind) || !is_of(parts, term.constraint))
+      return CertificateCheck::not_of_this_mesh;
+  }
+  const Scale scale = scale_of(certificate, kDegrees, kLeastCoordinate, [&](VertexId v) { return mesh.position(v); });
+  return check_sum(TetTerms(mesh, scale, certificate.constraints), certificate, scale);
+}
+
+}  // namespace temper::tets

@@ -1,0 +1,199 @@
+#include "tets/weights/demand.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "temper/tets/weights.hpp"
+
+namespace temper::tets {
+namespace {
+
+using Kind = WeightConstraint::Kind;
+
+/// The side of the equilateral triangle whose area is half of this.
+double side_of(double twice_area) { return std::sqrt(2 / std::numbers::sqrt3 * twice_area); }
+
+}  // namespace
+
+TetDemand::TetDemand(const TetMesh& mesh, Constraints constraints)
+    : Demand(Space(), constraints, constraints == Constraints::completely_well_centered),
+      mesh_(mesh),
+      star_start_(mesh.n_vertices() + 1, 0),
+      star_(4 * mesh.n_tetrahedra()) {
+  for (const TetId t : mesh.tetrahedra()) {
+    for (const VertexId v : mesh.corners(t)) ++star_start_[v.index];
+  }
+  std::uint32_t sum = 0;
+  for (std::uint32_t& start : star_start_) sum += start, start = sum;
+  for (const TetId t : mesh.tetrahedra()) {
+    for (const VertexId v : mesh.corners(t)) star_[--star_start_[v.index]] = t;
+  }
+}
+
+void TetDemand::add_corners(CellId cell, std::vector<VertexId>& corners) const {
+  for (const VertexId v : mesh_.corners(TetId(cell.index))) corners.push_back(v);
+}
+
+void TetDemand::add_cells_around(VertexId v, std::vector<CellId>& cells) const {
+  for (const TetId t : star(v)) cells.emplace_back(t.index);
+}
+
+void TetDemand::add_vertices_across(VertexId v, std::vector<VertexId>& vertices) const {
+  for (const TetId t : star(v)) {
+    const auto& corners = mesh_.corners(t);
+    const auto outer =
+        TetMesh::halfface(t, static_cast<int>(std::find(corners.begin(), corners.end(), v) - corners.begin()));
+    if (!mesh_.is_boundary(outer)) vertices.push_back(mesh_.opposite(mesh_.twin(outer)));
+  }
+}
+
+std::vector<WeightEdge> TetDemand::edges_of(std::span<const CellId> cells) const {
+  std::vector<std::array<VertexId, 2>> ends;
+  ends.reserve(6 * cells.size());
+  for (const CellId cell : cells) {
+    const auto& corners = mesh_.corners(TetId(cell.index));
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = i + 1; j < 4; ++j)
+        ends.push_back({std::min(corners[i], corners[j]), std::max(corners[i], corners[j])});
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::vector<WeightEdge> edges;
+  edges.reserve(ends.size());
+  for (const auto& [p, q] : ends) edges.push_back({p, q, squared_length(mesh_.position(q) - mesh_.position(p))});
+  return edges;
+}
+
+WeightConstraint TetDemand::over_face(HalffaceId h) const {
+  const auto [p, q, r] = mesh_.vertices(h);
+  return {Kind::height_over_face, p, q, r, mesh_.opposite(h)};
+}
+
+WeightConstraint TetDemand::dual(HalffaceId h) const {
+  const auto [p, q, r] = mesh_.vertices(h);
+  return {Kind::dual_of_face, p, q, r, mesh_.opposite(h), mesh_.opposite(mesh_.twin(h))};
+}
+
+std::vector<WeightConstraint> TetDemand::constraints_of(std::span<const CellId> cells, bool rim) const {
+  std::vector<WeightConstraint> all;
+  const auto for_each_side = [&](const auto& use) {
+    for (const CellId cell : cells) {
+      for (int f = 0; f < 4; ++f) use(TetMesh::halfface(TetId(cell.index), f));
+    }
+  };
+  const auto is_across = [&](HalffaceId h) {
+    return !mesh_.is_boundary(h) &&
+           std::binary_search(cells.begin(), cells.end(), CellId(TetMesh::tetrahedron(mesh_.twin(h)).index));
+  };
+  if (has_heights()) for_each_side([&](HalffaceId h) { all.push_back(over_face(h)); });
+  if (has_crossings()) {
+    for_each_side([&](HalffaceId h) {
+      if (!mesh_.is_face_representative(h) && is_across(h)) return;
+      const auto [p, q, r] = mesh_.vertices(h);
+      for (const auto& [a, b, c] : {std::tuple(p, q, r), {q, r, p}, {r, p, q}}) all.push_back({Kind::height, a, b, c});
+    });
+    for (const auto& [p, q, length] : edges_of(cells))
+      all.push_back(split_constraint(p, q)), all.push_back(split_constraint(q, p));
+  }
+  if (has_duals()) {
+    for_each_side([&](HalffaceId h) {
+      if (mesh_.is_boundary(h)) return;
+      const bool both = is_across(h);
+      if (both ? mesh_.is_face_representative(h) : rim) all.push_back(dual(h));
+    });
+  }
+  return all;
+}
+
+LinearForm TetDemand::form_over_face(VertexId p, VertexId q, VertexId r, VertexId s) const {
+  const Vec3 origin = mesh_.position(p);
+  const std::array<Vec3, 3> to = {mesh_.position(q) - origin, mesh_.position(r) - origin, mesh_.position(s) - origin};
+  const Vec3 n = cross(to[0], to[1]);
+  const double twice_area = length(n);
+  const double scale = 0.5 / (twice_area * dot(n, to[2]) * side_of(twice_area));
+  LinearForm form = {4, {p, q, r, s}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double factor = scale * dot(n, cross(to[(k + 1) % 3], to[(k + 2) % 3]));
+    form.coefficients[k + 1] = -factor;
+    form.coefficients[0] += factor;
+    form.constant += factor * squared_length(to[k]);
+  }
+  return form;
+}
+
+// The weight of p has no influence if the other four vertices are coplanar. Rounding must not give it one: weights of
+// 2^53 ℓ² would seem to help. Smaller influences than the one dropped are within the reach of certificates.
+LinearForm TetDemand::dual_form(const WeightConstraint& c) const {
+  constexpr double kNoInfluence = 0x1p-44;
+  const LinearForm up = form_over_face(c.p, c.q, c.r, c.s), down = form_over_face(c.p, c.r, c.q, c.t);
+  const auto& [a, b] = std::tie(up.coefficients, down.coefficients);
+  LinearForm form = {
+      5, {c.p, c.q, c.r, c.s, c.t}, {a[0] + b[0], a[1] + b[2], a[2] + b[1], a[3], b[3]}, up.constant + down.constant};
+  double largest = 0;
+  for (const double x : {a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]}) largest = std::max(largest, std::abs(x));
+  for (double& x : form.coefficients) {
+    if (std::abs(x) <= kNoInfluence * largest) x = 0;
+  }
+  return form;
+}
+
+LinearForm TetDemand::linear_form(const WeightConstraint& c) const {
+  if (c.kind == Kind::height_over_face) return form_over_face(c.p, c.q, c.r, c.s);
+  if (c.kind == Kind::dual_of_face) return dual_form(c);
+  const Vec3 pq = mesh_.position(c.q) - mesh_.position(c.p);
+  if (c.kind == Kind::crossing) return crossing_form(c, pq);
+  const Vec3 pr = mesh_.position(c.r) - mesh_.position(c.p);
+  return height_form(c, pq, pr, mesh_.position(c.r) - mesh_.position(c.q), length(cross(pq, pr)));
+}
+
+double TetDemand::scale_of_polynomial(const WeightConstraint& c) const {
+  const Vec3 p = mesh_.position(c.p), pq = mesh_.position(c.q) - p;
+  if (c.kind == Kind::crossing) return 2 * squared_length(pq);
+  const Vec3 n = cross(pq, mesh_.position(c.r) - p);
+  const double twice_area = length(n);
+  if (c.kind == Kind::height) return 2 * squared_length(pq) * twice_area;
+  const double volumes = dot(n, mesh_.position(c.s) - p), side = side_of(twice_area);
+  if (c.kind == Kind::height_over_face) return 2 * side * twice_area * volumes;
+  return -2 * side * volumes * dot(n, mesh_.position(c.t) - p) / twice_area;
+}
+
+bool TetDemand::is_kept(CellId cell, const VertexWeights& weights) const {
+  const auto at = [&](VertexId v) {
+    WeightedPoint point = mesh_.point(v);
+    point.w = weights[v];
+    return point;
+  };
+  const auto sign_of = [&](const WeightConstraint& c) {
+    switch (c.kind) {
+      case Kind::height_over_face:
+        return signed_height_sign(at(c.p), at(c.q), at(c.r), at(c.s));
+      case Kind::dual_of_face:
+        return -power_test(at(c.p), at(c.q), at(c.r), at(c.s), at(c.t));
+      case Kind::height:
+        return signed_height_sign(at(c.p), at(c.q), at(c.r));
+      default:
+        return dual_crossing_sign(at(c.p), at(c.q));
+    }
+  };
+  const std::vector<WeightConstraint> all = constraints_of({&cell, 1}, true);
+  return std::all_of(all.begin(), all.end(), [&](const auto& c) { return sign_of(c) == Sign::positive; });
+}
+
+double TetDemand::margin_of(CellId cell, const VertexWeights& weights) const {
+  double margin = kUnbounded;
+  for (const WeightConstraint& c : constraints_of({&cell, 1}, true))
+    margin = std::min(margin, value_of(linear_form(c), [&](VertexId v) { return weights[v]; }));
+  return margin;
+}
+
+double TetDemand::angle_deg(const WeightConstraint& /*constraint*/) const { return 0; }
+
+CertificateCheck TetDemand::check(const Certificate& certificate) const {
+  return check_certificate(mesh_, certificate);
+}
+
+}  // namespace temper::tets

@@ -1,0 +1,209 @@
+"""Meshes of tetrahedra: from arrays, from other libraries and from files, and the report on them."""
+
+import json
+import pickle
+import subprocess
+import warnings
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+import temper
+
+LATTICE = [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]]  # of a cube's corners
+
+
+def cubes(n, seed=None):
+    """Points and tetrahedra of n³ cubes in six tetrahedra each; with a seed the inner points are shaken."""
+    line = np.arange(n + 1)
+    points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3).astype(float)
+    number = np.arange((n + 1) ** 3).reshape(n + 1, n + 1, n + 1)
+    corners = np.stack([number[i : i + n, j : j + n, k : k + n].ravel() for k in (0, 1) for j in (0, 1) for i in (0, 1)], axis=1)
+    if seed is not None:
+        inside = ((points > 0) & (points < n)).all(axis=1)
+        points[inside] += np.random.default_rng(seed).uniform(-0.15, 0.15, (inside.sum(), 3))
+    return points, corners[:, LATTICE].reshape(-1, 4)
+
+
+def volumes(points, tetrahedra):
+    a, b, c, d = (points[tetrahedra[:, k]] for k in range(4))
+    return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
+
+
+@pytest.fixture
+def shaken():
+    points, tetrahedra = cubes(3, seed=1)
+    weights = np.random.default_rng(2).uniform(0, 0.05, len(points))
+    return temper.TetMesh(
+        points, tetrahedra, weights, regions=np.arange(len(tetrahedra)) % 2, tagged_faces=[(0, 1, 5), (0, 21, 5)], face_tags=[7, 8],
+        lines=[(0, 1)], line_tags=[3], marked_points=[21], point_tags=[9],
+    )  # fmt: skip
+
+
+def test_the_arrays_of_a_mesh_are_those_it_was_made_from(shaken):
+    points, tetrahedra = cubes(3, seed=1)
+    assert np.array_equal(shaken.points, points) and np.array_equal(shaken.tetrahedra, tetrahedra)
+    assert (shaken.n_vertices, shaken.n_tetrahedra, shaken.n_faces) == (64, 162, (4 * 162 + 108) // 2)
+    assert shaken.regions.tolist() == [0, 1] * 81 and shaken.validate() is None
+    assert shaken.tagged_faces.tolist() == [[0, 1, 5], [0, 21, 5]] and shaken.face_tags.tolist() == [7, 8]
+    assert shaken.lines.tolist() == [[0, 1]] and shaken.line_tags.tolist() == [3]
+    assert shaken.marked_points.tolist() == [21] and shaken.point_tags.tolist() == [9]
+    assert repr(shaken) == "<temper.TetMesh: 64 vertices, 162 tetrahedra>"
+    assert pickle.loads(pickle.dumps(shaken)) == shaken
+    for view in (shaken.weights, shaken.tetrahedra):
+        with pytest.raises(ValueError, match="read-only"):
+            view[0] = 1
+
+
+def test_neighbors_share_three_corners_and_the_boundary_faces_enclose_the_volume(shaken):
+    tetrahedra, neighbors = shaken.tetrahedra, shaken.neighbors
+    for t, k in zip(*np.nonzero(neighbors >= 0)):
+        assert set(np.delete(tetrahedra[t], k)) <= set(tetrahedra[neighbors[t, k]])
+        assert t in neighbors[neighbors[t, k]]
+    a, b, c = (shaken.points[shaken.boundary_faces[:, k]] for k in range(3))
+    assert len(a) == 108
+    assert np.einsum("ij,ij->i", np.cross(a, b), c).sum() / 6 == pytest.approx(27)  # Gauss: outward
+
+
+def test_the_report_has_the_laws_of_the_mesh(shaken):
+    q = temper.quality(shaken, worst=3)
+    each = volumes(shaken.points, shaken.tetrahedra)
+    assert q.volume == pytest.approx(27) and q.volume == pytest.approx(each.sum())
+    assert (q.min_volume, q.max_volume) == (pytest.approx(each.min()), pytest.approx(each.max()))
+    assert q.vertices + q.faces == q.edges + q.tetrahedra + 1  # Euler
+    assert q.regions == 2 and q.inner_vertices == 8 and q.dihedrals.counts.sum() == 6 * q.tetrahedra
+    assert len(q.worst) == 3 and q.worst[0].h_over_l == q.min_h_over_l and "face " in q.worst[0].why
+    worst = shaken.tetrahedra[q.worst[0].tetrahedron]
+    assert q.worst[0].vertices == tuple(worst) and q.worst[0].at == pytest.approx(shaken.points[worst].mean(axis=0))
+    moved = temper.TetMesh(4 * shaken.points + [1, 2, 3], shaken.tetrahedra, 16 * np.asarray(shaken.weights) + 5)
+    assert temper.quality(moved).min_h_over_l == pytest.approx(q.min_h_over_l)
+    assert temper.quality(moved).orthocenters_outside == q.orthocenters_outside > 0
+    assert temper.quality(shaken, worst=3, threads=1) == q
+    assert "worst tetrahedra" in q._repr_html_() and "min_h_over_l" in str(q)
+
+
+def test_python_has_the_numbers_of_the_program(shaken, in_scratch):
+    assert temper.write("m.vtu", shaken) == []
+    report = json.loads(subprocess.run(["temper", "check", "m.vtu", "--json"], check=True, capture_output=True, text=True).stdout)
+    mine = temper.quality(temper.read("m.vtu")).as_dict()
+    rows = temper.quality_measures(tetrahedra=True)
+    assert len(rows) > 20 and {row.key for row in rows} <= set(mine)
+    assert {row.key: mine[row.key] for row in rows} == {row.key: report[row.key] for row in rows}
+    assert mine["worst"] == report["worst"]
+
+
+@pytest.mark.parametrize("name", ["m.vtu", "m.msh", "m.mesh", "m.vtk", "m.node"])
+def test_a_mesh_comes_back_from_a_file(shaken, in_scratch, name):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", temper.TemperWarning)
+        temper.write(name, shaken)
+    again = temper.read(name)
+    assert isinstance(again, temper.TetMesh) and again == shaken and again.warnings == []
+    assert again.tagged_faces.tolist() == shaken.tagged_faces.tolist()
+    with pytest.raises(temper.TemperError, match="flat is for triangles alone. Next: leave it out"):
+        temper.read(name, flat=True)
+
+
+def test_what_is_repaired_is_said_and_written_without_the_fault(in_scratch):
+    points, tetrahedra = cubes(1)
+    tetrahedra = tetrahedra.copy()
+    tetrahedra[2] = tetrahedra[2, [1, 0, 2, 3]]
+    with pytest.warns(temper.TemperWarning) as said:
+        mesh = temper.TetMesh(points, tetrahedra, tagged_faces=[(1, 2, 4)])
+    assert [str(w.message) for w in said] == mesh.warnings == [
+        "1 negative tetrahedron is reversed: two corners are exchanged, the shape stays",
+        "1 face is no face of the mesh and tags nothing: face 0",
+    ]  # fmt: skip
+    assert (volumes(mesh.points, mesh.tetrahedra) > 0).all() and said[0].filename == __file__
+    assert mesh.lines.shape == (0, 2) and mesh.marked_points.shape == (0,) and mesh.names == {}
+    temper.write("m.vtu", mesh)
+    with pytest.warns(temper.TemperWarning, match="is no face of the mesh") as said:
+        assert temper.read("m.vtu") == mesh
+    assert len(said) == 1
+
+
+def test_errors_have_the_numbers_of_the_arrays_and_a_next_step():
+    points, tetrahedra = cubes(1)
+
+    def error_of(points=points, tetrahedra=tetrahedra, **others):
+        with pytest.raises(temper.TemperError) as error:
+            temper.TetMesh(points, tetrahedra, **others)
+        assert ". Next: " in str(error.value)
+        return error.value
+
+    changed = tetrahedra.copy()
+    changed[4, 1] = 8
+    assert str(error_of(tetrahedra=changed)).startswith("tetrahedron 4 uses point index 8, but there are 8 points")
+    changed[4] = [0, 1, 2, 3]
+    assert error_of(tetrahedra=changed).code == "zero_volume"
+    assert "point 8 belongs to no tetrahedron" in str(error_of(points=np.vstack([points, [9, 9, 9]])))
+    assert "point 4 and point 8 are both at (1, 0, 0)" in str(error_of(np.vstack([points, [1, 0, 0]]), [*tetrahedra, [0, 4, 8, 7]]))
+    assert "point 2 has coordinates (0, nan, 0)" in str(error_of(points=np.where(np.arange(8)[:, None] == 2, [0, np.nan, 0], points)))
+    assert error_of(weights=[1.0]).code == "size_mismatch"
+    assert error_of(lines=[(0, 1)], line_tags=[1, 2]).code == "size_mismatch"
+    with pytest.raises(ValueError, match=r"tetrahedra: expected shape \(n, 4\), found \(6, 3\)"):
+        temper.TetMesh(points, tetrahedra[:, :3])
+    with pytest.raises(ValueError, match=r"points: expected shape \(n, 3\)"):
+        temper.TetMesh(points[:, :2], tetrahedra)
+
+
+def test_functions_for_triangles_say_so(shaken):
+    with pytest.raises(TypeError, match="expected a mesh of triangles, found a TetMesh. Next: "):
+        temper.dec_operators(shaken)
+    with pytest.raises(TypeError, match="gamma is for triangles alone"):
+        temper.quality(shaken, gamma=0.5)
+
+
+class Bare:
+    """An object with these attributes: what temper needs of a class that the tests do not have."""
+
+    def __init__(self, **attributes):
+        vars(self).update(attributes)
+
+
+def test_grids_of_pyvista_are_taken():
+    points, tetrahedra = cubes(1)
+    cells = [*tetrahedra, [0, 1, 3], [0, 8], [0, 1], [7]]  # the point 8 is of no tetrahedron
+    grid = Bare(
+        points=np.vstack([points, [9, 9, 9]]), celltypes=np.array([10] * 6 + [5, 3, 3, 1]),
+        offset=np.cumsum([0, *map(len, cells)]), cell_connectivity=np.concatenate(cells),
+        point_data={"u": np.arange(9.0), "weight": np.full(9, 0.25)}, cell_data={"region": np.arange(10), "c": np.arange(10.0)},
+        field_data={},
+    )  # fmt: skip
+    with pytest.warns(temper.TemperWarning, match="1 point of no tetrahedron is dropped: point 8") as said:
+        mesh = temper.TetMesh.from_meshio(grid)
+    assert said[0].filename == __file__
+    assert mesh.regions.tolist() == list(range(6)) and np.array_equal(mesh.points, points) and (mesh.weights == 0.25).all()
+    assert mesh.tagged_faces.tolist() == [[0, 1, 3]] and mesh.face_tags.tolist() == [6]
+    assert mesh.lines.tolist() == [[0, 1]] and mesh.line_tags.tolist() == [8]
+    assert mesh.marked_points.tolist() == [7] and mesh.point_tags.tolist() == [9]
+    assert mesh.point_data["u"].tolist() == list(range(8)) and mesh.cell_data["c"].tolist() == list(range(6))
+    with pytest.warns(temper.TemperWarning):
+        assert temper.quality(grid) == temper.quality(mesh)
+    with pytest.raises(temper.TemperError, match="expected cells of type tetra; 1 cells of type triangle"):
+        temper.TetMesh.from_meshio(Bare(points=points, cells=[Bare(type="triangle", data=[[0, 1, 2]])], point_data={}, cell_data={}, field_data={}))
+    with pytest.raises(TypeError, match="expected a mesh of meshio or PyVista, found ndarray"):
+        temper.TetMesh.from_meshio(points)
+
+
+def test_a_mesh_goes_through_meshio(shaken):
+    meshio = pytest.importorskip("meshio")
+    again = shaken.to_meshio()
+    assert isinstance(again, meshio.Mesh) and set(again.cells_dict) == {"tetra", "triangle", "line", "vertex"}
+    assert again.cell_data_dict["gmsh:physical"]["triangle"].tolist() == [7, 8]
+    assert temper.TetMesh.from_meshio(again) == shaken and temper.quality(again) == temper.quality(shaken)
+
+
+def test_limits_lists_the_measures():
+    text = (ROOT / "docs" / "reference" / "limits.md").read_text(encoding="utf-8")
+    signs = {"equal": "=", "larger": "≥", "less": "≤"}
+    expected = []
+    for tetrahedra in (False, True):
+        for row in temper.quality_measures(tetrahedra=tetrahedra):
+            alias, community = f"`{row.alias}`" if row.alias else "", "" if tetrahedra else f" {row.community} |"
+            wanted = "–" if row.wanted is None else f"{signs[row.better]} {row.wanted:g}"
+            if tetrahedra or row.community:
+                definition = row.definition.replace("|", "\\|")
+                expected.append(f"| `{row.key}` | {alias} |{community} {definition} | {wanted} |")
+    assert [line for line in text.splitlines() if line.startswith("| `") and "`--require`" not in line] == expected
