@@ -284,8 +284,7 @@ struct DataRules {
 /// Reads rules from words: `interpolate` or `keep` for all arrays, `interpolate=NAME` or `keep=NAME` for one array.
 [[nodiscard]] Expected<DataRules> parse_data_rules(std::span<const std::string> words);
 /// Returns an error if an exception names no array of point data, or interpolates an array of integers.
-[[nodiscard]] Expected<void> check_data_rules(const DataRules& rules,
-                                               const std::vector<DataArray>& point_data);
+[[nodiscard]] Expected<void> check_data_rules(const DataRules& rules, const std::vector<DataArray>& point_data);
 
 struct UpdateOptions {
   DataRules rules = {};

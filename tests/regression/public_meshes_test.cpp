@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(All, PublicMeshes, testing::ValuesIn(kMeshes), [](const
 
 // --- tetrahedra ------------------------------------------------------------------------------------------------
 
-/// Meshes that end without bad tetrahedra. perfusion_micro3d, cut-cylinder and cylinder_in_box do not yet.
+/// Meshes that end without bad tetrahedra. perfusion_micro3d, cut-cylinder and cylinder_in_box keep some.
 constexpr const char* kTets[] = {
     "sfepy_cube_medium_tetra.mesh", "sfepy_cube_sphere.mesh", "sfepy_cylinder.mesh", "sfepy_elbow.mesh",
     "sfepy_msh_tetra.msh",          "sfepy_unit_ball.mesh",   "skfem_beams.msh",     "skfem_box.msh",
