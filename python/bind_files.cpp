@@ -150,7 +150,6 @@ io::MeshFile file_of_arrays(const py::dict& d, std::size_t n_points) {
   file.triangles = narrow<3>(d["triangles"].cast<Int64s>(), "triangle");
   take_contents(file, d, n_points, file.triangles.size());
   check_range<3>(file.triangles, n_points, "triangle");
-  check_range<2>(file.lines, n_points, "line");
   return file;
 }
 

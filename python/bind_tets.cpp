@@ -26,8 +26,10 @@ py::tuple tets_from_arrays(const py::dict& d, bool strict, const py::object& thr
   io::TetFile file;
   file.points = copy_of<Vec3>(points);
   file.tetrahedra = narrow<4>(d["tetrahedra"].cast<Int64s>(), "tetrahedron");
+  check_range<4>(file.tetrahedra, file.points.size(), "tetrahedron");
   take_contents(file, d, file.points.size(), file.tetrahedra.size());
   file.faces = narrow<3>(d["faces"].cast<Int64s>(), "face");
+  check_range<3>(file.faces, file.points.size(), "face");
   file.face_tags = copy_of<std::int32_t>(d["face_tags"].cast<Int32s>());
   file.face_data = from_python_dict(d["face_data"].cast<py::dict>(), file.faces.size(), "face data");
   const auto executor = make_threads(threads_from(threads));

@@ -86,7 +86,7 @@ void check_range(const std::vector<std::array<std::int32_t, n>>& cells, std::siz
       if (p >= 0 && static_cast<std::size_t>(p) < n_points) continue;
       fail(ErrorCode::index_out_of_range, std::string(kind) + " " + std::to_string(i) + " uses point " +
                                               std::to_string(p) + ", but there are " + std::to_string(n_points) +
-                                              " points");
+                                              " points. Next: count points from 0");
     }
   }
 }
@@ -111,6 +111,7 @@ void take_contents(File& file, const py::dict& d, std::size_t n_points, std::siz
   file.weights = copy_of<double>(d["weights"].cast<Doubles>());
   file.regions = copy_of<std::int32_t>(d["regions"].cast<Int32s>());
   file.lines = narrow<2>(d["lines"].cast<Int64s>(), "line");
+  check_range<2>(file.lines, n_points, "line");
   file.line_tags = copy_of<std::int32_t>(d["line_tags"].cast<Int32s>());
   file.point_data = from_python_dict(d["point_data"].cast<py::dict>(), n_points, "point data");
   file.cell_data = from_python_dict(d["cell_data"].cast<py::dict>(), n_cells, "cell data");

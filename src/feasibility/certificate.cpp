@@ -114,7 +114,9 @@ bool counts(Constraints constraints, Kind kind) {
   return false;
 }
 
+/// Says whether c is one of the mesh, with no vertex more than its kind has.
 bool is_of(const Mesh& mesh, const WeightConstraint& c) {
+  if (c.t.valid() || (c.s.valid() && c.kind != Kind::dual) || (c.r.valid() && c.kind == Kind::crossing)) return false;
   const auto is_vertex = [&](VertexId v) { return v.index < mesh.n_vertices() && !mesh.is_isolated(v); };
   if (!is_vertex(c.p) || !is_vertex(c.q)) return false;
   const HalfedgeId h = mesh.find_halfedge(c.p, c.q), back = mesh.find_halfedge(c.q, c.p);

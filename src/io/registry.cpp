@@ -331,6 +331,13 @@ void warn_of_weights_beside_degrees(const WriteJob& job, const MeshFile& on_map)
   job.warn("points are longitude and latitude, but weights are squared lengths", map);
 }
 
+/// Refuses a format that has no place for tetrahedra.
+void expect_tetrahedra(const FormatRow& row, const std::string& path) {
+  if ((row.holds & kTetrahedra) != 0) return;
+  fail(ErrorCode::unsupported, path, row.description, " is not written with tetrahedra; expected one of ",
+       names_with(kTetrahedra));
+}
+
 /// Refuses a space that the format has no place for.
 void expect_space(const FormatRow& row, const std::string& path, const MeshFile& file) {
   if (file.sphere() != nullptr && (row.holds & kSphere) == 0) {
@@ -415,10 +422,7 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
 Expected<std::vector<std::string>> write(const std::string& path, const TetFile& file, const WriteOptions& options) {
   return guarded<std::vector<std::string>>(path, [&] {
     const FormatRow& row = row_to_write(path, options.format);
-    if ((row.holds & kTetrahedra) == 0) {
-      fail(ErrorCode::unsupported, path, row.description, " is not written with tetrahedra; expected one of ",
-           names_with(kTetrahedra));
-    }
+    expect_tetrahedra(row, path);
     if (row.details.files_to_write != nullptr && row.details.files_to_write(path).size() > 1 && is_stream(path)) {
       fail(ErrorCode::not_writable, path, row.description,
            " is several files; expected the name of a file, found a stream");
@@ -464,6 +468,10 @@ Expected<std::vector<std::string>> files_to_write(const std::string& path, const
     if ((row.holds & kWeights) == 0 && !is_stream(path)) files.push_back(side_file_path(path));
     return files;
   });
+}
+
+Expected<void> check_tetrahedra_to_write(const std::string& path, const std::string& format) {
+  return guarded<void>(path, [&] { expect_tetrahedra(row_to_write(path, format), path); });
 }
 
 Expected<void> write_text(const std::string& path, std::string_view content) {

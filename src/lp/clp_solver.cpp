@@ -159,7 +159,7 @@ LpSolution attempt(const LpProblem& problem, const Attempt& how) {
     }
     return result(model.get(), problem);
   };
-  const LpSolution solution = run(how);
+  LpSolution solution = run(how);
   if (solution.status != LpStatus::optimal || problem.n_rows() < kLarge || is_good(problem, solution)) return solution;
   return run({false, false, false});  // from this basis: mostly without a step
 }

@@ -41,7 +41,7 @@ ELSEWHERE = {
     "parse_data_rules": "Mesh.point_data_rules", "check_data_rules": "as parse_data_rules",
     "positions_of_vertices": "Mesh.point_data", "sources_of_triangles": "Mesh.cell_data", "interpolated": "Mesh.point_data",
     "printable": "messages are", "needs_projection": "TemperError says it", "projection_text": "Projection's fields",
-    "from_mesh": "write does it", "from_outline": "mesh_outline does it", "files_to_write": "write does it", "files_to_read": "read does it",
+    "from_mesh": "write does it", "from_outline": "mesh_outline does it", "files_to_write": "write does it", "check_tetrahedra_to_write": "write does it", "files_to_read": "read does it",
     "discard_unfinished": "a signal ends Python by an exception",
     "summarize": "DecComplex.summarize", "power_cells": "DecComplex.power_cells", "write_dec": "DecComplex.write, Columns.write",
     "dec_file_names": "write_dec returns the paths", "needs_columns": "as dec_file_names", "read_layers": "numpy.genfromtxt",

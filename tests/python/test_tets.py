@@ -134,7 +134,11 @@ def test_errors_have_the_numbers_of_the_arrays_and_a_next_step():
 
     changed = tetrahedra.copy()
     changed[4, 1] = 8
-    assert str(error_of(tetrahedra=changed)).startswith("tetrahedron 4 uses point index 8, but there are 8 points")
+    assert str(error_of(tetrahedra=changed)).startswith("tetrahedron 4 uses point 8, but there are 8 points")
+    spare = np.vstack([points, [9, 9, 9], [8, 8, 8]])  # points of no tetrahedron are dropped, but not before
+    assert str(error_of(spare, [(0, 1, 2, 10)])).startswith("tetrahedron 0 uses point 10, but there are 10 points")
+    assert "face 0 uses point -1" in str(error_of(tagged_faces=[(0, 1, -1)]))
+    assert "line 0 uses point 44" in str(error_of(lines=[(0, 44)]))
     changed[4] = [0, 1, 2, 3]
     assert error_of(tetrahedra=changed).code == "zero_volume"
     assert "point 8 belongs to no tetrahedron" in str(error_of(points=np.vstack([points, [9, 9, 9]])))

@@ -13,6 +13,7 @@
 #include "exit.hpp"
 #include "files/input.hpp"
 #include "temper/detail/suggest.hpp"
+#include "temper/tets/io.hpp"
 
 namespace temper::app {
 namespace {
@@ -184,6 +185,11 @@ void Outputs::expect_space(const MeshOutput& output, const io::MeshFile& file) c
   if (output.path.empty()) return;
   const auto files = io::files_to_write(output.path, output.options.format, &file);
   if (!files) fail(files.error());
+}
+
+void Outputs::expect_tetrahedra(const MeshOutput& output) const {
+  if (output.path.empty()) return;
+  if (const auto right = io::check_tetrahedra_to_write(output.path, output.options.format); !right) fail(right.error());
 }
 
 void Outputs::expect(const FurtherOutputs& outputs, const std::vector<std::string>& inputs) {

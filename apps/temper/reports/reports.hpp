@@ -60,7 +60,7 @@ struct WeightsRecord {
   const std::vector<std::size_t>& points;                            ///< of Input or TetInput
   std::function<std::string(const WeightConstraint&)> text;          ///< constraint_text
   std::function<TriangleId(const WeightConstraint&)> triangle = {};  ///< of a height; none for tetrahedra
-  const std::optional<ConnectivityReport>& search = std::nullopt;    ///< with --connectivity search
+  const ConnectivityReport* search = nullptr;                        ///< with --connectivity search
   std::string_view output = {};                                      ///< empty: not written
   std::string_view certificate = {};                                 ///< the same
 };

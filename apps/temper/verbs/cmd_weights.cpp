@@ -317,7 +317,7 @@ Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
                           input.points,
                           [&](const WeightConstraint& c) { return constraint_text(c, input, mesh); },
                           [&](const WeightConstraint& c) { return triangle_of(mesh, c); },
-                          search};
+                          search ? &*search : nullptr};
   if (report.solved && !s.output.path.empty()) {
     const Mesh weighted = with_weights(mesh, report.weights);
     const std::size_t known = input.file.warnings.size();
@@ -392,6 +392,7 @@ Exit run_weights(const Arguments& arguments) {
   auto file = read_any_tried(s.input, {nullptr, s.flat});
   if (auto* const tets = std::get_if<io::TetFile>(&file)) {
     refuse_options_of_triangles(command, s);
+    outputs.expect_tetrahedra(s.output);
     return weigh_tetrahedra(s, make_input(s.input, std::move(*tets), nullptr), outputs);
   }
   if (s.options.constraints == Constraints::completely_well_centered)

@@ -176,6 +176,7 @@ class TetRun {
 Exit optimize_tetrahedra(const Command& command, OptimizeSettings& settings, Outputs& outputs, TetsToOptimize tets) {
   refuse_options(command, settings);
   settings.requirements = settings.requirement_lists.of(MeshKind::tetrahedra);
+  outputs.expect_tetrahedra(settings.output);
   TetInput input = make_input(settings.input, std::move(tets.file), tets.threads);
   agree_to_go_on();
   if (!is_first_rank()) return Exit::done;

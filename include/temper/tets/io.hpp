@@ -47,6 +47,9 @@ struct TetFile {
 [[nodiscard]] Expected<std::vector<std::string>> write(const std::string& path, const TetFile& file,
                                                        const WriteOptions& options = {});
 
+/// The error that write() of tetrahedra would return for this name and format, before a long run.
+[[nodiscard]] Expected<void> check_tetrahedra_to_write(const std::string& path, const std::string& format = {});
+
 /// The mesh of a file. Points of no tetrahedron are dropped, and a warning names them. Negative tetrahedra are reversed
 /// and counted in a warning. Warnings name faces and lines that are no face or edge of the mesh.
 struct LoadedTetMesh {

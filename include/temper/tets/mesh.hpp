@@ -163,7 +163,6 @@ class TetMesh {
   // --- as it lies in memory, for views from other languages: valid until the mesh changes ----------
   [[nodiscard]] std::span<const double> weight_data() const { return w_.raw(); }
   [[nodiscard]] std::span<const std::array<VertexId, 4>> corner_data() const { return corners_.raw(); }
-  [[nodiscard]] std::span<const HalffaceId> twin_data() const { return twins_.raw(); }
 
   friend bool operator==(const TetMesh&, const TetMesh&) = default;
 

@@ -49,7 +49,8 @@ struct OptimizeReport {
 /// position, bit for bit:
 ///   - on the boundary, and on faces between regions
 ///   - of tagged faces and lines
-///   - marked points, unless marks list all corners of a tetrahedron
+///   - points marked with a tag other than 0, unless all corners of some tetrahedron have the same tag: then this tag
+///     lists the vertices of a part
 ///
 /// Every tetrahedron stays positive. The result never has more tetrahedra with outside orthocenters than the input.
 /// Wrong options (numbers < 0, positions and weights both kept) are an error, which leaves the mesh unchanged.

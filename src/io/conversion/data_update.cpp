@@ -50,7 +50,8 @@ class DataUpdater {
         return std::move(report_);
       }
     }
-    update_points();
+    update_point_data(
+        file_, mesh_, options_.rules, [this](VertexId v) { return former(v); }, places_, report_);
     update_cells();
     return std::move(report_);
   }
@@ -111,17 +112,6 @@ class DataUpdater {
     if (!file_.cell_data.empty()) sources_ = sources_of_triangles(before->mesh, mesh_, places_, options_.executor);
     return {};
   }
-  void update_points() {
-    std::vector<DataArray> left;
-    for (DataArray& a : file_.point_data) {
-      const bool follows = options_.rules.of(a) == DataRule::interpolate;
-      std::optional<Values> values = at_vertices(a);
-      (!values ? report_.dropped : follows ? report_.interpolated : report_.kept).push_back(a.name);
-      if (values) left.push_back({std::move(a.name), a.components, *std::move(values)});
-    }
-    file_.point_data = std::move(left);
-    warn_of_dropped("integers differ around a new point");
-  }
   void update_cells() {
     for (DataArray& a : file_.cell_data) {
       if (a.name != kQuadrilateral) report_.of_triangles.push_back(a.name);
@@ -133,31 +123,6 @@ class DataUpdater {
       for (const DataArray& a : *arrays) report_.dropped.push_back(a.name);
       arrays->clear();
     }
-    warn_of_dropped(why);
-  }
-  /// The array at the vertices of the mesh; nothing when integers around a new vertex differ.
-  [[nodiscard]] std::optional<Values> at_vertices(const DataArray& a) const {
-    const bool stays = options_.rules.of(a) == DataRule::keep || places_.empty();
-    const auto n = static_cast<std::size_t>(a.components);
-    return std::visit(
-        [&](const auto& values) -> std::optional<Values> {
-          std::remove_cvref_t<decltype(values)> result;
-          result.reserve(mesh_.n_vertices() * n);
-          for (const VertexId v : mesh_.vertices()) {
-            const VertexId was = former(v);
-            for (std::size_t i = 0; i < n; ++i) {
-              const auto value = stays && was.valid() ? std::optional(values[n * was.index + i])
-                                 : is_flag(a)         ? std::optional(ElementOf<decltype(values)>())
-                                                      : value_at(values, n, i, places_[v]);
-              if (!value) return {};
-              result.push_back(*value);
-            }
-          }
-          return result;
-        },
-        a.values);
-  }
-  void warn_of_dropped(std::string_view why) const {
     if (auto warning = warning_of_dropped(report_.dropped, why)) file_.warnings.push_back(*std::move(warning));
   }
 

@@ -6,9 +6,14 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
+#include "io/text/values.hpp"
 #include "temper/detail/location.hpp"
 #include "temper/io.hpp"
 
@@ -78,6 +83,45 @@ void take_rows(std::vector<DataArray>& arrays, const std::vector<std::size_t>& i
 /// The warning that names data which are dropped; nothing if there are none.
 [[nodiscard]] std::optional<std::string> warning_of_dropped(const std::vector<std::string>& names,
                                                             std::string_view why);
+
+/// Takes the point data of a file to the vertices of a mesh, and names each array in the report. Integers that differ
+/// around a new vertex are dropped, with a warning. `former(v)`: the point of v, invalid for a new vertex. `places`: of
+/// the vertices among the former elements; empty if no array is interpolated and no vertex is new.
+template <class File, class M, class FormerOf, class Place>
+void update_point_data(File& file, const M& mesh, const DataRules& rules, const FormerOf& former,
+                       const IdVector<VertexId, Place>& places, DataReport& report) {
+  const auto at_vertices = [&](const DataArray& a) {
+    const bool stays = rules.of(a) == DataRule::keep || places.empty();
+    const auto n = static_cast<std::size_t>(a.components);
+    return std::visit(
+        [&](const auto& values) -> std::optional<Values> {
+          std::remove_cvref_t<decltype(values)> result;
+          result.reserve(mesh.n_vertices() * n);
+          for (const VertexId v : mesh.vertices()) {
+            const VertexId was = former(v);
+            for (std::size_t i = 0; i < n; ++i) {
+              const auto value = stays && was.valid() ? std::optional(values[n * was.index + i])
+                                 : is_flag(a)         ? std::optional(ElementOf<decltype(values)>())
+                                                      : value_at(values, n, i, places[v]);
+              if (!value) return {};
+              result.push_back(*value);
+            }
+          }
+          return result;
+        },
+        a.values);
+  };
+  std::vector<DataArray> left;
+  for (DataArray& a : file.point_data) {
+    const bool follows = rules.of(a) == DataRule::interpolate;
+    std::optional<Values> values = at_vertices(a);
+    (!values ? report.dropped : follows ? report.interpolated : report.kept).push_back(a.name);
+    if (values) left.push_back({std::move(a.name), a.components, *std::move(values)});
+  }
+  file.point_data = std::move(left);
+  if (auto warning = warning_of_dropped(report.dropped, "integers differ around a new point"))
+    file.warnings.push_back(*std::move(warning));
+}
 
 /// Cuts the lines of the file at vertices that the mesh has inserted on them (`vertices` invalid). The lines have the
 /// numbers of the mesh. In files with a marker for every boundary point (Triangle, medit), a new boundary point gets

@@ -4,8 +4,11 @@
 // face, its line or its tetrahedron. Data belong to places, as in the plane: a walk finds the former tetrahedron.
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <unordered_set>
 #include <utility>
+#include <vector>
 
 #include "io/conversion/data_update.hpp"
 #include "io/text/failure.hpp"
@@ -51,9 +54,20 @@ TetId locate(const TetMesh& mesh, Vec3 p, TetId near) {
     if (!beyond.valid()) break;  // the domain need not be convex: p may still be inside
     t = TetMesh::tetrahedron(beyond);
   }
-  const auto all = mesh.tetrahedra();
-  const auto found = std::find_if(all.begin(), all.end(), [&](TetId s) { return !face_towards(mesh, s, p, 0); });
-  return found == all.end() ? near : *found;
+  // Ever larger rings around the place where the walk ended.
+  std::vector<TetId> reached = {t};
+  std::unordered_set<std::uint32_t> seen = {t.index};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const TetId s = reached[i];
+    if (!face_towards(mesh, s, p, 0)) return s;
+    for (int f = 0; f < 4; ++f) {
+      const HalffaceId beyond = mesh.twin(TetMesh::halfface(s, f));
+      if (!beyond.valid()) continue;
+      const TetId next = TetMesh::tetrahedron(beyond);
+      if (seen.insert(next.index).second) reached.push_back(next);
+    }
+  }
+  return near;
 }
 
 /// The place of p, which is in t.
@@ -76,14 +90,17 @@ TetPlace place_in(const TetMesh& mesh, TetId t, Vec3 p) {
   return place;
 }
 
-template <std::size_t N>
-void renumber(std::vector<std::array<std::int32_t, N>>& elements, const std::vector<std::int32_t>& number) {
-  for (auto& element : elements) {
-    for (std::int32_t& p : element) p = number[static_cast<std::size_t>(p)];
-  }
+/// Tags that the mesh has dropped may name points out of range: they are lost, too.
+void renumber(std::int32_t& p, const std::vector<std::int32_t>& number) {
+  p = p >= 0 && static_cast<std::size_t>(p) < number.size() ? number[static_cast<std::size_t>(p)] : -1;
 }
-void renumber(std::vector<std::int32_t>& points, const std::vector<std::int32_t>& number) {
-  for (std::int32_t& p : points) p = number[static_cast<std::size_t>(p)];
+template <std::size_t N>
+void renumber(std::array<std::int32_t, N>& element, const std::vector<std::int32_t>& number) {
+  for (std::int32_t& p : element) renumber(p, number);
+}
+template <class Element>
+void renumber(std::vector<Element>& elements, const std::vector<std::int32_t>& number) {
+  for (Element& element : elements) renumber(element, number);
 }
 
 bool is_there(std::int32_t point) { return point >= 0; }
@@ -187,7 +204,8 @@ class TetFileUpdater {
     const auto moves = [&](const DataArray& a) { return options_.rules.of(a) == DataRule::interpolate; };
     if (report_.points_inserted > 0 || (report_.points_moved > 0 && std::ranges::any_of(file_.point_data, moves)))
       find_places();
-    update_points();
+    update_point_data(
+        file_, mesh_, options_.rules, [this](VertexId v) { return former(v); }, places_, report_);
     for (DataArray& a : file_.cell_data) report_.of_triangles.push_back(a.name);
     if (report_.triangles_changed > 0 && !file_.cell_data.empty()) take_rows(file_.cell_data, sources());
   }
@@ -240,46 +258,13 @@ class TetFileUpdater {
     }
     return all;
   }
-  void update_points() {
-    std::vector<DataArray> left;
-    for (DataArray& a : file_.point_data) {
-      const bool follows = options_.rules.of(a) == DataRule::interpolate;
-      std::optional<Values> values = at_vertices(a);
-      (!values ? report_.dropped : follows ? report_.interpolated : report_.kept).push_back(a.name);
-      if (values) left.push_back({std::move(a.name), a.components, *std::move(values)});
-    }
-    file_.point_data = std::move(left);
-    if (auto warning = warning_of_dropped(report_.dropped, "integers differ around a new point"))
-      file_.warnings.push_back(*std::move(warning));
-  }
-  /// The array at the vertices of the mesh; nothing when integers around a new vertex differ.
-  [[nodiscard]] std::optional<Values> at_vertices(const DataArray& a) const {
-    const bool keeps = options_.rules.of(a) == DataRule::keep || places_.empty();
-    const auto n = static_cast<std::size_t>(a.components);
-    return std::visit(
-        [&](const auto& values) -> std::optional<Values> {
-          std::remove_cvref_t<decltype(values)> result;
-          for (const VertexId v : mesh_.vertices()) {
-            const VertexId was = former(v);
-            for (std::size_t i = 0; i < n; ++i) {
-              const auto value = keeps && was.valid() ? std::optional(values[n * was.index + i])
-                                 : is_flag(a)         ? std::optional(ElementOf<decltype(values)>())
-                                                      : value_at(values, n, i, places_[v.index]);
-              if (!value) return {};
-              result.push_back(*value);
-            }
-          }
-          return result;
-        },
-        a.values);
-  }
 
   TetFile& file_;
   const LoadedTetMesh& loaded_;
   const TetMesh &before_, &mesh_;
   const IdVector<VertexId, VertexId>& vertices_;
   const UpdateOptions& options_;
-  std::vector<TetPlace> places_;  // of the vertices in the former mesh; empty: not needed
+  IdVector<VertexId, TetPlace> places_;  // of the vertices in the former mesh; empty: not needed
   DataReport report_;
 };
 

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/solve_absolute.hpp"
 #include "optimize/step/search.hpp"
 
 namespace temper {
 namespace {
-
-// On 3 × 3 matrices, Jacobi sweeps converge quadratically: five of them reach rounding.
-constexpr int kJacobiSweeps = 8;
 
 // Steps of central differences, relative to the reach.
 constexpr double kDifference = 1e-6;
@@ -17,54 +15,7 @@ constexpr double kDifference = 1e-6;
 constexpr double kGoldenTolerance = 1e-8;
 
 using Vector = std::array<double, 3>;
-using Matrix = std::array<Vector, 3>;
-
-/// Rotates rows and columns p and q of the first n of a so that a_pq, which is not 0, becomes 0. Rotates the columns of
-/// v, too, which become the eigenvectors.
-void jacobi_rotation(Matrix& a, Matrix& v, std::size_t n, std::size_t p, std::size_t q) {
-  const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-  const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
-  const double c = 1 / std::sqrt(t * t + 1), s = t * c;
-  const auto turn = [c, s](double& x, double& y) {
-    const double old = x;
-    x = c * old - s * y;
-    y = s * old + c * y;
-  };
-  for (std::size_t k = 0; k < n; ++k) turn(a[k][p], a[k][q]);
-  for (std::size_t k = 0; k < n; ++k) turn(a[p][k], a[q][k]);
-  for (std::size_t k = 0; k < n; ++k) turn(v[k][p], v[k][q]);
-}
-
-/// Eigenvectors of a symmetric matrix as columns of v; a becomes diagonal (cyclic Jacobi).
-void diagonalize(std::size_t n, Matrix& a, Matrix& v) {
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) v[i][j] = i == j ? 1 : 0;
-  }
-  for (int sweep = 0; sweep < kJacobiSweeps; ++sweep) {
-    for (std::size_t p = 0; p < n; ++p) {
-      for (std::size_t q = p + 1; q < n; ++q) {
-        if (a[p][q] != 0) jacobi_rotation(a, v, n, p, q);
-      }
-    }
-  }
-}
-
-/// Returns −|H|⁻¹ g with floored eigenvalues, for a Hessian that is not positive definite.
-Vector solve_absolute(int n, Matrix h, const Vector& minus_gradient) {
-  Matrix v;
-  diagonalize(static_cast<std::size_t>(n), h, v);
-  double largest = 0;
-  for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(h[i][i]));
-  Vector x = {};
-  if (!(largest > 0)) return minus_gradient;  // no curvature at all: go downhill, the trust radius decides how far
-  for (int i = 0; i < n; ++i) {
-    double along = 0;
-    for (int k = 0; k < n; ++k) along += v[k][i] * minus_gradient[k];
-    along /= std::max(std::abs(h[i][i]), kEigenvalueFloor * largest);
-    for (int k = 0; k < n; ++k) x[k] += along * v[k][i];
-  }
-  return x;
-}
+using Matrix = SquareMatrix<3>;
 
 }  // namespace
 
@@ -94,7 +45,7 @@ NewtonStep newton_step(const VertexDerivatives& d, const Dofs& dofs, double radi
   const CornerVector<double> slope = {g[0], g[1], g[2]};
   NewtonStepOf<double> x = scaled_newton_step({h[0][0], h[0][1], h[0][2], h[1][1], h[1][2], h[2][2]}, slope);
   if (!x.definite) {
-    const Vector y = solve_absolute(n, h, g);
+    const Vector y = solve_absolute<3>(static_cast<std::size_t>(n), h, g, kEigenvalueFloor);
     x = within_trust_radius(y[0], y[1], y[2], slope, false);
   }
   const Vector length = {x.x, x.y, x.w};

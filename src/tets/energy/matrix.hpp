@@ -20,11 +20,6 @@ struct PointMatrix {
 
   /// Adds u⊗u times s.
   void add_square(const T& s, const PointVector<T>& u) { add(s * u, u); }
-  /// Adds u⊗v + v⊗u.
-  void add_both(const PointVector<T>& u, const PointVector<T>& v) {
-    add(u, v);
-    add(v, u);
-  }
   /// Adds u⊗v + v⊗u, where u has no part in w.
   void add_both(const Vector<T>& u, const PointVector<T>& v) {
     add(u, v.at);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/text.hpp"
@@ -150,6 +151,7 @@ class Run {
       return false;
     }
     const std::vector<VertexId> near = fill(fillings, rings);
+    if (near.empty()) return false;
     Sweeper sweeper(mesh_, mobility_);
     std::size_t steps = 0;
     for (double gamma = kFirstLocalGamma;; gamma = std::max(gamma * kGammaFactor, kLastLocalGamma)) {
@@ -192,7 +194,9 @@ class Run {
       if (near[v] != 0) result.emplace_back(next);
       ++next;
     }
-    mesh_ = filled(mesh_, fillings, changes_.vertices);
+    std::optional<TetMesh> changed = filled(mesh_, fillings, changes_.vertices);
+    if (!changed) return {};
+    mesh_ = *std::move(changed);
     number_mobility();
     for (; next < mesh_.n_vertices(); ++next) result.emplace_back(next);
     return result;

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <set>
+#include <utility>
 
 namespace temper::tets {
 namespace {
@@ -44,18 +48,25 @@ WeightedPoint along(const WeightedPoint& p, const WeightedPoint& step, double t)
   return {p.x + t * step.x, p.y + t * step.y, p.z + t * step.z, p.w + t * step.w};
 }
 
-/// Fixes marked points: they are places that the user chose, such as wells. But marks of all corners of a tetrahedron
-/// list the vertices of a part, and fix nothing. A tag of 0 is none.
+/// Fixes marked points: they are places that the user chose, such as wells. But if all corners of a tetrahedron have
+/// the same tag, this tag lists the vertices of a part, and fixes nothing. A tag of 0 is none.
 void fix_marked_points(const TetMesh& mesh, IdVector<VertexId, Mobility>& all) {
-  IdVector<VertexId, std::uint8_t> marked(mesh.n_vertices()), listed(mesh.n_vertices());
-  for (const TaggedPoint& tagged : mesh.tagged_points()) marked[tagged.vertex] = tagged.tag != 0;
+  std::set<std::pair<VertexId, std::int32_t>> marks;
+  for (const auto& [vertex, tag] : mesh.tagged_points()) {
+    if (tag != 0) marks.emplace(vertex, tag);
+  }
+  std::set<std::int32_t> of_parts;
   for (const TetId t : mesh.tetrahedra()) {
     const auto& corners = mesh.corners(t);
-    if (!std::all_of(corners.begin(), corners.end(), [&](VertexId v) { return marked[v] != 0; })) continue;
-    for (const VertexId v : corners) listed[v] = 1;
+    for (auto mark = marks.lower_bound({corners[0], std::numeric_limits<std::int32_t>::min()});
+         mark != marks.end() && mark->first == corners[0]; ++mark) {
+      const std::int32_t tag = mark->second;
+      if (std::all_of(corners.begin(), corners.end(), [&](VertexId v) { return marks.contains({v, tag}); }))
+        of_parts.insert(tag);
+    }
   }
-  for (const VertexId v : mesh.vertices()) {
-    if (marked[v] != 0 && listed[v] == 0) all[v] = Mobility::weight;
+  for (const auto& [vertex, tag] : marks) {
+    if (!of_parts.contains(tag)) all[vertex] = Mobility::weight;
   }
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/assert.hpp"
 #include "tets/energy/star.hpp"
 
 namespace temper::tets {
@@ -58,7 +57,7 @@ class NextMesh {
       regions_.push_back(mesh_.region(TetMesh::tetrahedron(h)));
     }
   }
-  TetMesh build(IdVector<VertexId, VertexId>& vertices) {
+  std::optional<TetMesh> build(IdVector<VertexId, VertexId>& vertices) {
     std::vector<std::array<std::int32_t, 3>> faces;
     std::vector<std::array<std::int32_t, 2>> lines;
     std::vector<std::int32_t> face_tags, line_tags, marked, point_tags;
@@ -82,7 +81,7 @@ class NextMesh {
     input.lines = lines, input.line_tags = line_tags;
     input.marked_points = marked, input.point_tags = point_tags;
     Expected<BuiltTetMesh> built = TetMesh::build(input);
-    TEMPER_ASSERT(built && built->reversed_tetrahedra == 0);
+    if (!built || built->reversed_tetrahedra > 0) return std::nullopt;
     vertices = std::move(vertices_);
     return std::move(built->mesh);
   }
@@ -197,7 +196,8 @@ bool is_valid(const TetMesh& mesh, const Filling& filling) {
   });
 }
 
-TetMesh filled(const TetMesh& mesh, std::span<const Filling> fillings, IdVector<VertexId, VertexId>& vertices) {
+std::optional<TetMesh> filled(const TetMesh& mesh, std::span<const Filling> fillings,
+                              IdVector<VertexId, VertexId>& vertices) {
   NextMesh next(mesh, fillings);
   next.take_vertices(vertices);
   next.take_others(fillings);

@@ -77,8 +77,9 @@ struct Filling {
 [[nodiscard]] bool is_valid(const TetMesh& mesh, const Filling& filling);
 
 /// The mesh with all cavities filled. They share no tetrahedron. `vertices`: the number of each vertex in some former
-/// mesh, invalid for new ones; it is brought up to date. New vertices come last. O(n).
-[[nodiscard]] TetMesh filled(const TetMesh& mesh, std::span<const Filling> fillings,
-                             IdVector<VertexId, VertexId>& vertices);
+/// mesh, invalid for new ones; it is brought up to date. New vertices come last. Nothing if TetMesh::build() refuses
+/// the result, as it may where coordinates are at the limits of a double. O(n).
+[[nodiscard]] std::optional<TetMesh> filled(const TetMesh& mesh, std::span<const Filling> fillings,
+                                            IdVector<VertexId, VertexId>& vertices);
 
 }  // namespace temper::tets

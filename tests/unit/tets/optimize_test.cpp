@@ -237,7 +237,12 @@ TEST(TetOptimize, PointsThatListAllVerticesStayFree) {
   std::vector<std::int32_t> all(arrays.points.size()), tags(arrays.points.size(), 1);
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int32_t>(i);
   in.marked_points = all, in.point_tags = tags;
-  EXPECT_EQ(mobilities(test::built(in).mesh), mobilities(test::mesh_of(arrays)));
+  auto expected = mobilities(test::mesh_of(arrays));
+  EXPECT_EQ(mobilities(test::built(in).mesh), expected);
+  const auto well = std::find(expected.begin(), expected.end(), Mobility::free) - expected.begin();
+  tags[static_cast<std::size_t>(well)] = 9;  // among points that list a part
+  expected[VertexId(static_cast<std::size_t>(well))] = Mobility::weight;
+  EXPECT_EQ(mobilities(test::built(in).mesh), expected);
 }
 
 TEST(TetOptimize, TheObserverAndTheClockStopARunWithAMeshThatIsNoWorse) {

@@ -39,7 +39,9 @@ std::vector<VertexId> corners_of(const TetMesh& mesh, const Cavity& cavity) {
 /// Expects what each filling keeps, and returns the mesh.
 TetMesh fill(const TetMesh& mesh, const Filling& filling) {
   auto vertices = own_numbers(mesh);
-  const TetMesh after = filled(mesh, {&filling, 1}, vertices);
+  const std::optional<TetMesh> made = filled(mesh, {&filling, 1}, vertices);
+  EXPECT_TRUE(made.has_value());
+  const TetMesh& after = *made;
   EXPECT_EQ(after.validate(), std::nullopt);
   const Quality a = quality(mesh), b = quality(after);
   EXPECT_NEAR(b.volume, a.volume, 1e-12 * a.volume);
