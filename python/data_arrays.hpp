@@ -105,7 +105,7 @@ Record contents_of(const File& file) {
       "warnings", file.warnings);
 }
 
-/// The same, from Python.
+/// Takes the same contents from Python.
 template <class File>
 void take_contents(File& file, const py::dict& d, std::size_t n_points, std::size_t n_cells) {
   file.weights = copy_of<double>(d["weights"].cast<Doubles>());

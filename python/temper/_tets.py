@@ -185,7 +185,7 @@ class TetMesh:
     # --- tags, names and data -------------------------------------------------------------------------------
 
     def _file(self) -> dict[str, Any]:
-        """The contents of the file, in the numbers of the vertices. What has lost a point is dropped."""
+        """The contents of the file, in the numbers of the vertices. Elements that have lost a point are dropped."""
         file = self._handle.file()
         number = file.pop("vertices")
         for elements, tags, data in (

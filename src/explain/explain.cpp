@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "base/assert.hpp"
+#include "base/sort_unique.hpp"
 #include "explain/conflict.hpp"
 #include "explain/cures.hpp"
 #include "geometry/surface.hpp"
@@ -298,8 +299,7 @@ class Explainer {
     for (const TriangleId t : triangles_around(mesh_, reason.bad)) {
       for (const VertexId v : mesh_.corners(t)) near.push_back(v);
     }
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
+    sort_unique(near);
     return static_cast<std::size_t>(
         std::count_if(near.begin(), near.end(), [&](VertexId v) { return weights_[v] != 0; }));
   }

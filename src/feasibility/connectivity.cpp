@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/assert.hpp"
+#include "base/sort_unique.hpp"
 #include "feasibility/certify.hpp"
 #include "feasibility/constraints.hpp"
 #include "feasibility/region.hpp"
@@ -138,8 +139,7 @@ class ConnectivitySearch {
       add(c.p, c.q);
       if (c.kind == WeightConstraint::Kind::height) add(c.q, c.r), add(c.r, c.p);
     }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    sort_unique(edges);
     std::vector<HalfedgeId> halfedges;
     halfedges.reserve(edges.size());
     for (const auto& [vertices, h] : edges) halfedges.push_back(h);

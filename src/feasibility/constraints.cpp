@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/sort_unique.hpp"
 #include "temper/detail/geometry.hpp"
 
 namespace temper {
@@ -241,8 +242,7 @@ std::vector<VertexId> vertices_of(const Mesh& mesh, std::span<const TriangleId> 
   for (const TriangleId t : triangles) {
     for (const VertexId v : mesh.corners(t)) vertices.push_back(v);
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   return vertices;
 }
 

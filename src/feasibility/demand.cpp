@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort_unique.hpp"
+
 namespace temper {
 
 LinearForm beyond_margin(LinearForm form, double margin) {
@@ -19,8 +21,7 @@ std::vector<VertexId> vertices_of(const Demand& demand, std::span<const CellId> 
   std::vector<VertexId> vertices;
   vertices.reserve(4 * cells.size());
   for (const CellId cell : cells) demand.add_corners(cell, vertices);
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   return vertices;
 }
 

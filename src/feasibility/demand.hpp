@@ -144,7 +144,7 @@ class Demand {
 /// Σ over edges |Δw_i − Δw_j| / (2ℓ).
 [[nodiscard]] double weight_change(const Demand& demand, const VertexWeights& from, const VertexWeights& to);
 
-/// Weights for the demand, whose kind is that of the options.
+/// Finds weights for a demand of the kind that the options name.
 [[nodiscard]] WeightReport find_weights(const Demand& demand, LpSolver& solver, const WeightOptions& options);
 /// The error of options whose margin is out of range.
 [[nodiscard]] std::optional<InputError> expect_margin(const WeightOptions& options);

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "base/assert.hpp"
+#include "base/sort_unique.hpp"
 #include "feasibility/certify.hpp"
 #include "feasibility/constraints.hpp"
 #include "feasibility/lp_builder.hpp"
@@ -68,8 +69,7 @@ MarginProgram margin_program(const Demand& demand, std::span<const CellId> cells
 
 std::vector<CellId> sorted_cells(std::span<const TriangleId> triangles) {
   std::vector<CellId> result = as_cells(triangles);
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  sort_unique(result);
   return result;
 }
 

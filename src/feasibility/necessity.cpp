@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "base/assert.hpp"
+#include "base/sort_unique.hpp"
 #include "feasibility/exact_number.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "mesh/bad_triangles.hpp"
@@ -263,8 +264,7 @@ class Surroundings {
         }
       }
     }
-    std::sort(vertices_.begin(), vertices_.end());
-    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+    sort_unique(vertices_);
     std::erase_if(vertices_, [&](VertexId x) { return !is_left(u_, v_, at(x)); });
   }
 

@@ -2,14 +2,10 @@
 
 #include <algorithm>
 
+#include "base/sort_unique.hpp"
+
 namespace temper {
 namespace {
-
-template <class T>
-void sort_unique(std::vector<T>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 
 /// The vertices near another: corners of the cells around it, and across their outer sides.
 class Neighbors {

@@ -7,18 +7,13 @@
 // be able to remove a vertex and keep the domain; other vertices are only named, and their stuck edges stay.
 #include "regularity/hidden.hpp"
 
-#include <algorithm>
 #include <utility>
 
+#include "base/sort_unique.hpp"
 #include "mesh/predicates.hpp"
 
 namespace temper {
 namespace {
-
-void sort_unique(std::vector<VertexId>& vertices) {
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-}
 
 std::vector<VertexId> reflex_ends(const Mesh& mesh, const std::vector<HalfedgeId>& stuck) {
   std::vector<VertexId> ends;

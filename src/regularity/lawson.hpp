@@ -24,13 +24,13 @@
 // of the domain.)
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "base/sort_unique.hpp"
 #include "mesh/predicates.hpp"
 #include "temper/topology.hpp"
 #include "topology/flip_inline.hpp"
@@ -178,8 +178,7 @@ class Lawson {
       if (mesh.is_edge_representative(h)) continue;
       h = mesh.twin(h);
     }
-    std::sort(stuck_.begin(), stuck_.end());
-    stuck_.erase(std::unique(stuck_.begin(), stuck_.end()), stuck_.end());
+    sort_unique(stuck_);
     std::erase_if(stuck_, [&](HalfedgeId h) {
       return mesh.is_unflippable(h) || test(mesh, inlined::quad(mesh, h)) != Sign::positive;
     });

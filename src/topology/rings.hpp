@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/assert.hpp"
+#include "base/sort_unique.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -16,8 +17,7 @@ namespace temper {
   for (const VertexId v : vertices) {
     for (const HalfedgeId h : mesh.star(v)) all.push_back(Mesh::triangle(h));
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  sort_unique(all);
   return all;
 }
 

@@ -53,7 +53,7 @@ class Outputs {
   /// Failure if the format has no place for the space of the mesh: before the work, not after it. Does nothing without
   /// an output.
   void expect_space(const MeshOutput& output, const io::MeshFile& file) const;
-  /// The same for a mesh of tetrahedra.
+  /// Failure if the format has no place for tetrahedra. Does nothing without an output.
   void expect_tetrahedra(const MeshOutput& output) const;
   /// A text file that must not be another output, or one of the files that these inputs are read from. An empty path
   /// means no output.

@@ -50,7 +50,8 @@ Option& add_requirements(Command& command, std::vector<std::string>& lists, bool
 class RequirementLists {
  public:
   RequirementLists() = default;
-  /// Lists may make sense for one kind alone. Failure if they do for none: that of the kind whose keys they have.
+  /// Lists may make sense for one kind alone. Failure if they make sense for none; it is about
+  /// the kind that knows their keys.
   RequirementLists(std::string_view verb, std::span<const std::string> lists)
       : triangles_(verb, lists, MeshKind::triangles), tetrahedra_(verb, lists, MeshKind::tetrahedra) {
     if (!triangles_.refusal || !tetrahedra_.refusal) return;

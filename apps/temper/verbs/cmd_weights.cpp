@@ -264,6 +264,15 @@ void lower_energy(const WeightsSettings& s, const Input& input, const Mesh& mesh
   report.weights = std::move(weights);
 }
 
+/// Puts the mesh back into the file of the input, of triangles or of tetrahedra, and writes it.
+template <class AnyInput, class AnyMesh>
+void write_weighted(const WeightsSettings& s, AnyInput& input, const AnyMesh& mesh, Outputs& outputs) {
+  const std::size_t known = input.file.warnings.size();
+  io::update(input.file, input.loaded, mesh);
+  print_warnings(std::span(input.file.warnings).subspan(known));
+  print_warnings(outputs.write_mesh(s.output, input.file));
+}
+
 /// Writes the mesh without weights.
 Exit drop(const WeightsSettings& s, Input& input, Outputs& outputs) {
   Mesh mesh = input.mesh();
@@ -277,10 +286,7 @@ Exit drop(const WeightsSettings& s, Input& input, Outputs& outputs) {
     const auto [p, q, r] = mesh.points(t);
     bad += is_well_centered(mesh.space(), p, q, r) ? 0 : 1;
   }
-  const std::size_t known = input.file.warnings.size();
-  io::update(input.file, input.loaded, mesh);
-  print_warnings(std::span(input.file.warnings).subspan(known));
-  print_warnings(outputs.write_mesh(s.output, input.file));
+  write_weighted(s, input, mesh, outputs);
   if (s.json) {
     print(fmt::format("{{\"zeroed\": {}, \"flips\": {}, \"bad\": {}}}\n", weighted, flips, bad));
     return Exit::done;
@@ -320,10 +326,7 @@ Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
                           search ? &*search : nullptr};
   if (report.solved && !s.output.path.empty()) {
     const Mesh weighted = with_weights(mesh, report.weights);
-    const std::size_t known = input.file.warnings.size();
-    io::update(input.file, input.loaded, weighted);
-    print_warnings(std::span(input.file.warnings).subspan(known));
-    print_warnings(outputs.write_mesh(s.output, input.file));
+    write_weighted(s, input, weighted, outputs);
     record.output = s.output.path;
   }
   return end(s, record, outputs);
@@ -361,10 +364,7 @@ Exit weigh_tetrahedra(const WeightsSettings& s, TetInput input, Outputs& outputs
   if (report.solved && !s.output.path.empty()) {
     tets::TetMesh weighted = input.mesh();
     for (const VertexId v : weighted.vertices()) weighted.set_weight(v, report.weights[v]);
-    const std::size_t known = input.file.warnings.size();
-    io::update(input.file, input.loaded, weighted);
-    print_warnings(std::span(input.file.warnings).subspan(known));
-    print_warnings(outputs.write_mesh(s.output, input.file));
+    write_weighted(s, input, weighted, outputs);
     record.output = s.output.path;
   }
   return end(s, record, outputs);

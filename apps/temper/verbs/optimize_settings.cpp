@@ -250,10 +250,13 @@ std::vector<std::string> doubtful_options(const Command& command, const Optimize
   if (s.size.empty() && command.was_given("--size-data")) {
     warnings.emplace_back("--size-data has no effect without --size");
   }
-  if (!(s.files.report.empty() && s.files.page.empty()) && same_file(s.input, s.output.path)) {
-    warnings.emplace_back("--output replaces the input: the command in the report would start from the improved mesh");
-  }
+  for (const std::string& warning : warning_of_replaced_input(s)) warnings.push_back(warning);
   return warnings;
+}
+
+std::vector<std::string> warning_of_replaced_input(const OptimizeSettings& s) {
+  if ((s.files.report.empty() && s.files.page.empty()) || !same_file(s.input, s.output.path)) return {};
+  return {"--output replaces the input: the command in the report would start from the improved mesh"};
 }
 
 }  // namespace temper::app

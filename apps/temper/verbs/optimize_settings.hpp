@@ -79,5 +79,7 @@ template <class Report>
 
 /// Options that were given and cannot have their usual effect.
 [[nodiscard]] std::vector<std::string> doubtful_options(const Command& command, const OptimizeSettings& settings);
+/// The warning that the command in the report would start from its own result; empty if it would not.
+[[nodiscard]] std::vector<std::string> warning_of_replaced_input(const OptimizeSettings& settings);
 
 }  // namespace temper::app

@@ -91,9 +91,7 @@ class TetRun {
 
   Exit run() {
     warn(input_.warnings());
-    if (!(s_.files.report.empty()) && same_file(s_.input, s_.output.path))
-      warn(std::vector<std::string>{
-          "--output replaces the input: the command in the report would start from the improved mesh"});
+    warn(warning_of_replaced_input(s_));
     rules_ = data_rules(s_.point_data, input_.path, input_.file.point_data);
     before_ = quality(input_.mesh(), {kWorst, threads_});
     improve();

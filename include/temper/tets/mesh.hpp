@@ -128,6 +128,17 @@ class TetMesh {
   }
   [[nodiscard]] HalffaceId twin(HalffaceId h) const { return twins_[h]; }
   [[nodiscard]] bool is_boundary(HalffaceId h) const { return !twin(h).valid(); }
+  /// The halfface of t opposite v, which is a corner of t.
+  [[nodiscard]] HalffaceId halfface_opposite(TetId t, VertexId v) const {
+    int f = 0;
+    while (corners_[t][static_cast<std::size_t>(f)] != v) ++f;
+    return halfface(t, f);
+  }
+  /// Says whether only one tetrahedron has the face of h, or two of different regions.
+  [[nodiscard]] bool bounds_region(HalffaceId h) const {
+    const HalffaceId other = twin(h);
+    return !other.valid() || region(tetrahedron(h)) != region(tetrahedron(other));
+  }
   /// The corner opposite h in its tetrahedron.
   [[nodiscard]] VertexId opposite(HalffaceId h) const { return corners_[tetrahedron(h)][h.index % 4]; }
   [[nodiscard]] std::array<VertexId, 3> vertices(HalffaceId h) const {

@@ -1,5 +1,5 @@
 // Weights alone for tetrahedra: can a mesh become well-centered, or regular, if neither its positions nor its
-// connectivity may change? The constraints, programs, reports and certificates are those of temper/feasibility.hpp.
+// connectivity may change? Constraints, programs, reports and certificates are as in temper/feasibility.hpp.
 //
 // The length ℓ of a face is the side of the equilateral triangle with its area. The constraints for a margin t are:
 //   well_centered              height of the orthocenter of each tetrahedron over each face ≥ tℓ

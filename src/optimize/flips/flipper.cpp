@@ -1,8 +1,8 @@
 #include "optimize/flips/flipper.hpp"
 
-#include <algorithm>
 #include <utility>
 
+#include "base/sort_unique.hpp"
 #include "energy/patch.hpp"
 #include "mesh/blocks.hpp"
 #include "optimize/flips/guard.hpp"
@@ -105,8 +105,7 @@ bool Flipper::accept_hidden() {
 std::vector<VertexId> Flipper::hidden_at_stuck_edges() {
   std::vector<VertexId> hidden;
   for (const HalfedgeId h : lawson_.stuck(mesh_)) hidden.push_back(reflex_end(mesh_, h));
-  std::sort(hidden.begin(), hidden.end());
-  hidden.erase(std::unique(hidden.begin(), hidden.end()), hidden.end());
+  sort_unique(hidden);
   return hidden;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/assert.hpp"
+#include "base/sort_unique.hpp"
 #include "mesh/mesh_editor.hpp"
 #include "temper/detail/geometry.hpp"
 #include "topology/outgoing.hpp"
@@ -25,8 +26,7 @@ std::vector<VertexId> pinches(const Mesh& mesh, const std::vector<TriangleId>& t
   for (const TriangleId t : triangles) {
     for (const VertexId v : mesh.corners(t)) corners.push_back(v);
   }
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  sort_unique(corners);
   std::erase_if(corners, [&](VertexId v) {
     int fans = 0;  // a fan begins after a triangle outside
     for (const HalfedgeId h : mesh.star(v)) {

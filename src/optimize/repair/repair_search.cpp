@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/assert.hpp"
+#include "base/sort_unique.hpp"
 #include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "optimize/repair/neighborhood.hpp"
@@ -55,8 +56,7 @@ std::vector<VertexId> vertices_near(const Mesh& mesh, const std::vector<Triangle
       for (const HalfedgeId h : mesh.star(v)) near.push_back(mesh.target(h));
     }
   }
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
+  sort_unique(near);
   return near;
 }
 

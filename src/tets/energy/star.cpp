@@ -5,17 +5,13 @@
 namespace temper::tets {
 
 void collect_link(const TetMesh& mesh, VertexId v, std::vector<HalffaceId>& link) {
-  const auto opposite = [&](TetId t) {
-    const auto& corners = mesh.corners(t);
-    return TetMesh::halfface(t, static_cast<int>(std::find(corners.begin(), corners.end(), v) - corners.begin()));
-  };
-  link.assign(1, opposite(mesh.incident(v)));
+  link.assign(1, mesh.halfface_opposite(mesh.incident(v), v));
   for (std::size_t i = 0; i < link.size(); ++i) {
     const HalffaceId here = link[i];
     for (int f = 0; f < 4; ++f) {
       const HalffaceId side = TetMesh::halfface(TetMesh::tetrahedron(here), f);
       if (side == here || mesh.is_boundary(side)) continue;
-      const HalffaceId next = opposite(TetMesh::tetrahedron(mesh.twin(side)));
+      const HalffaceId next = mesh.halfface_opposite(TetMesh::tetrahedron(mesh.twin(side)), v);
       if (std::find(link.begin(), link.end(), next) == link.end()) link.push_back(next);
     }
   }
@@ -30,6 +26,12 @@ double star_energy(std::span<const LinkFace<double>> link, const WeightedPoint& 
   double sum = 0;
   for (const LinkFace<double>& face : link) sum += tet_energy<double>(face, {p.x, p.y, p.z}, p.w, gamma);
   return sum;
+}
+
+double energy_of(const TetMesh& mesh, TetId t, double gamma) {
+  const HalffaceId h = TetMesh::halfface(t, 0);
+  const LinkFace<double> face = link_face(mesh, h);
+  return star_energy({&face, 1}, mesh.point(mesh.opposite(h)), gamma);
 }
 
 PointDerivatives<double> star_derivatives(std::span<const LinkFace<double>> link, const WeightedPoint& p,

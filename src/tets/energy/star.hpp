@@ -12,11 +12,13 @@ namespace temper::tets {
 /// The halffaces opposite v in the tetrahedra around v. The order follows from the mesh alone. O(degree²).
 void collect_link(const TetMesh& mesh, VertexId v, std::vector<HalffaceId>& link);
 
-/// The face of the link that a halfface is.
+/// A halfface as a face of the link of its opposite corner.
 [[nodiscard]] LinkFace<double> link_face(const TetMesh& mesh, HalffaceId h);
 
 /// The sum of the energies of the tetrahedra between p and the faces of a link, +∞ if one is not positive.
 [[nodiscard]] double star_energy(std::span<const LinkFace<double>> link, const WeightedPoint& p, double gamma);
+/// The energy of one tetrahedron.
+[[nodiscard]] double energy_of(const TetMesh& mesh, TetId t, double gamma);
 [[nodiscard]] PointDerivatives<double> star_derivatives(std::span<const LinkFace<double>> link, const WeightedPoint& p,
                                                         double gamma);
 

@@ -99,7 +99,7 @@ SoftBarrier<T> soft_barrier(const T& y, const T& gamma) {
   return {value, -value / root, 2 / (root * root * root)};
 }
 
-/// What value and derivatives have in common.
+/// Terms that value and derivatives share.
 template <class T>
 struct Apex {
   Vector<T> u;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/sort_unique.hpp"
 #include "base/text.hpp"
 #include "mesh/blocks.hpp"
 #include "mesh/exact_range.hpp"
@@ -363,8 +364,7 @@ class TetMeshBuilder {
       for (const VertexId v : mesh_.vertices(h)) {
         doubled[v] -= other.valid() ? 1 : 2;
         if (!other.valid()) boundary_[v] = 1;
-        if (other.valid() && h < other)
-          sets.join(corner(TetMesh::tetrahedron(h), v), corner(TetMesh::tetrahedron(other), v));
+        if (other.valid() && h < other) sets.join(corner(h, v), corner(other, v));
       }
     }
     IdVector<VertexId, std::uint32_t> parts(mesh_.n_vertices(), 0);
@@ -378,11 +378,9 @@ class TetMeshBuilder {
     }
     return std::nullopt;
   }
-  /// The corner of t at v has the number of the halfface opposite it.
-  [[nodiscard]] std::uint32_t corner(TetId t, VertexId v) const {
-    const auto& corners = mesh_.corners(t);
-    const auto k = std::find(corners.begin(), corners.end(), v) - corners.begin();
-    return TetMesh::halfface(t, static_cast<int>(k)).index;
+  /// The corner at v of the tetrahedron of h has the number of the halfface opposite it.
+  [[nodiscard]] std::uint32_t corner(HalffaceId h, VertexId v) const {
+    return mesh_.halfface_opposite(TetMesh::tetrahedron(h), v).index;
   }
   InputError wrong_star(VertexId v) const {
     std::vector<VertexId> neighbors;
@@ -393,8 +391,7 @@ class TetMeshBuilder {
         if (u != v) neighbors.push_back(u);
       }
     }
-    std::sort(neighbors.begin(), neighbors.end());
-    neighbors.erase(std::unique(neighbors.begin(), neighbors.end()), neighbors.end());
+    sort_unique(neighbors);
     for (const VertexId u : neighbors) {
       if (n_parts({v, u}) < 2) continue;
       return error_of(ErrorCode::non_manifold_edge, v,

@@ -19,16 +19,17 @@ namespace {
 constexpr double kFirstGamma = 1, kGammaFactor = 0.7, kLastGamma = 0.003;
 constexpr int kLevelSweeps = 3;
 constexpr double kRelaxation = 1.7;
-// At the last γ the run ends when a sweep lowers the energy by less than this part of it, or after so many sweeps.
+// The run ends at the last γ, when a sweep lowers the energy by less than the tolerance, a part of the energy. It ends
+// after kLastSweeps at the latest.
 constexpr double kTolerance = 1e-4;
 constexpr int kLastSweeps = 100;
-// Sweeps after changes of connectivity: within so many rings of tetrahedra, from γ to γ, in steps of kGammaFactor, with
-// so many sweeps at each and at the last one. The last γ is smaller than in a whole mesh: some tetrahedra are good only
-// by a margin of 0.001.
+// Sweeps after changes of connectivity. Only vertices within some rings of tetrahedra move, and γ falls from the first
+// to the last local one by kGammaFactor. The last one is smaller than in a whole mesh: some tetrahedra are good only by
+// a margin of 0.001.
 constexpr int kRings = 2, kRingsOfTrial = 3;
 constexpr double kFirstLocalGamma = 0.3, kLastLocalGamma = 0.0005;
 constexpr int kLocalSweeps = 2, kLastLocalSweeps = 10;
-// Rounds end after so many without fewer bad tetrahedra, trials after so many.
+// Numbers of rounds and of trials without fewer bad tetrahedra, after which there are no more.
 constexpr int kRoundsInVain = 4, kTrialsInVain = 40;
 // Vertices between two looks at the clock.
 constexpr std::size_t kVerticesPerLook = 1024;
@@ -49,11 +50,7 @@ std::size_t count_bad(const TetMesh& mesh) {
 
 double total_energy(const TetMesh& mesh, double gamma) {
   double sum = 0;
-  for (const TetId t : mesh.tetrahedra()) {
-    const HalffaceId h = TetMesh::halfface(t, 0);
-    const LinkFace<double> face = link_face(mesh, h);
-    sum += star_energy({&face, 1}, mesh.point(mesh.opposite(h)), gamma);
-  }
+  for (const TetId t : mesh.tetrahedra()) sum += energy_of(mesh, t, gamma);
   return sum;
 }
 
@@ -89,6 +86,12 @@ class Run {
   }
 
  private:
+  /// Changes of connectivity since the input.
+  struct Changes {
+    IdVector<VertexId, VertexId> vertices;  // the number of each vertex in the input
+    std::size_t flips = 0;
+  };
+
   /// Sweeps along the schedule of γ. False: the run must end.
   bool anneal(double first_gamma, int level_sweeps, int last_sweeps) {
     for (double gamma = first_gamma; gamma > kLastGamma; gamma *= kGammaFactor) {
@@ -169,7 +172,7 @@ class Run {
     record();
     return true;
   }
-  /// Fills cavities. Returns the vertices at most so many rings from them.
+  /// Fills cavities. Returns the vertices within `rings` rings of tetrahedra around them.
   std::vector<VertexId> fill(const std::vector<Filling>& fillings, int rings) {
     IdVector<VertexId, std::uint8_t> near(mesh_.n_vertices()), removed(mesh_.n_vertices());
     for (const Filling& f : fillings) {
@@ -274,14 +277,9 @@ class Run {
   const OptimizeOptions& options_;
   const OptimizeHooks& hooks_;
   IdVector<VertexId, Mobility> of_input_, mobility_;
-  /// What has changed since the input: the numbers that the vertices had there, and flips.
-  struct Changes {
-    IdVector<VertexId, VertexId> vertices;
-    std::size_t flips = 0;
-  };
   Changes changes_, best_changes_;
   Clock::time_point start_ = Clock::now();
-  // What reading took, writing will take, too: both are parts of the limit.
+  // The time limit includes reading and writing. Writing takes about as long as reading took.
   double seconds_before_ = std::chrono::duration<double>(start_ - hooks_.started.value_or(start_)).count();
   OptimizeReport report_;
   double gamma_ = kFirstGamma;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/sort_unique.hpp"
 #include "tets/energy/star.hpp"
 #include "tets/optimize/sweeper.hpp"
 
@@ -68,8 +69,7 @@ class Repairs {
     for (const HalffaceId h : cavity.faces) {
       for (const VertexId v : mesh_.vertices(h)) all.push_back(v);
     }
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    sort_unique(all);
     return all;
   }
   [[nodiscard]] double excess(const std::vector<HalffaceId>& faces, const WeightedPoint& apex) const {
@@ -82,10 +82,7 @@ class Repairs {
   }
   [[nodiscard]] double excess(const Cavity& cavity) const {
     double sum = 0;
-    for (const TetId t : cavity.tetrahedra) {
-      const HalffaceId h = TetMesh::halfface(t, 0);
-      sum += excess(std::vector<HalffaceId>{h}, mesh_.point(mesh_.opposite(h)));
-    }
+    for (const TetId t : cavity.tetrahedra) sum += energy_of(mesh_, t, kGamma) - regular_;
     return sum;
   }
   void judge(Filling filling, const WeightedPoint& apex) {

@@ -16,7 +16,7 @@ inline constexpr double kAllowance = 20, kAllowanceOfTrial = 40;
 
 struct RepairOptions {
   double allowance = kAllowance;
-  std::size_t rank = 0;                  ///< Which of the candidates at a tetrahedron: 0 is the best, 1 the next
+  std::size_t rank = 0;                  ///< Place of the candidate that is taken at a tetrahedron; 0 is the best
   std::function<bool()> must_stop = {};  ///< Called often
 };
 

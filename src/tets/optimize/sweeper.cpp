@@ -79,8 +79,7 @@ IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptio
     for (const VertexId v : mesh.vertices(h)) all[v] = Mobility::weight;
   };
   for (const HalffaceId h : mesh.halffaces()) {
-    const HalffaceId other = mesh.twin(h);
-    if (!other.valid() || mesh.region(TetMesh::tetrahedron(h)) != mesh.region(TetMesh::tetrahedron(other))) fix(h);
+    if (mesh.bounds_region(h)) fix(h);
   }
   for (const TaggedFace& tagged : mesh.tagged_faces()) fix(tagged.face);
   for (const TaggedLine& tagged : mesh.tagged_lines()) {

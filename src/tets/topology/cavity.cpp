@@ -111,10 +111,7 @@ class NextMesh {
 }  // namespace
 
 Cavities::Cavities(const TetMesh& mesh) : mesh_(mesh), stays_(mesh.n_halffaces()), on_line_(mesh.n_vertices()) {
-  for (const HalffaceId h : mesh.halffaces()) {
-    const HalffaceId other = mesh.twin(h);
-    stays_[h] = !other.valid() || mesh.region(TetMesh::tetrahedron(h)) != mesh.region(TetMesh::tetrahedron(other));
-  }
+  for (const HalffaceId h : mesh.halffaces()) stays_[h] = mesh.bounds_region(h) ? 1 : 0;
   for (const TaggedFace& tagged : mesh.tagged_faces()) {
     stays_[tagged.face] = 1;
     if (const HalffaceId other = mesh.twin(tagged.face); other.valid()) stays_[other] = 1;

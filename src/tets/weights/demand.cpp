@@ -3,18 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
+#include "base/sort_unique.hpp"
 #include "temper/tets/weights.hpp"
+#include "tets/quality/measure.hpp"
 
 namespace temper::tets {
 namespace {
 
 using Kind = WeightConstraint::Kind;
-
-/// The side of the equilateral triangle whose area is half of this.
-double side_of(double twice_area) { return std::sqrt(2 / std::numbers::sqrt3 * twice_area); }
 
 }  // namespace
 
@@ -43,9 +41,7 @@ void TetDemand::add_cells_around(VertexId v, std::vector<CellId>& cells) const {
 
 void TetDemand::add_vertices_across(VertexId v, std::vector<VertexId>& vertices) const {
   for (const TetId t : star(v)) {
-    const auto& corners = mesh_.corners(t);
-    const auto outer =
-        TetMesh::halfface(t, static_cast<int>(std::find(corners.begin(), corners.end(), v) - corners.begin()));
+    const HalffaceId outer = mesh_.halfface_opposite(t, v);
     if (!mesh_.is_boundary(outer)) vertices.push_back(mesh_.opposite(mesh_.twin(outer)));
   }
 }
@@ -60,8 +56,7 @@ std::vector<WeightEdge> TetDemand::edges_of(std::span<const CellId> cells) const
         ends.push_back({std::min(corners[i], corners[j]), std::max(corners[i], corners[j])});
     }
   }
-  std::sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  sort_unique(ends);
   std::vector<WeightEdge> edges;
   edges.reserve(ends.size());
   for (const auto& [p, q] : ends) edges.push_back({p, q, squared_length(mesh_.position(q) - mesh_.position(p))});
@@ -114,7 +109,7 @@ LinearForm TetDemand::form_over_face(VertexId p, VertexId q, VertexId r, VertexI
   const std::array<Vec3, 3> to = {mesh_.position(q) - origin, mesh_.position(r) - origin, mesh_.position(s) - origin};
   const Vec3 n = cross(to[0], to[1]);
   const double twice_area = length(n);
-  const double scale = 0.5 / (twice_area * dot(n, to[2]) * side_of(twice_area));
+  const double scale = 0.5 / (twice_area * dot(n, to[2]) * length_of_area(0.5 * twice_area));
   LinearForm form = {4, {p, q, r, s}};
   for (std::size_t k = 0; k < 3; ++k) {
     const double factor = scale * dot(n, cross(to[(k + 1) % 3], to[(k + 2) % 3]));
@@ -156,7 +151,7 @@ double TetDemand::scale_of_polynomial(const WeightConstraint& c) const {
   const Vec3 n = cross(pq, mesh_.position(c.r) - p);
   const double twice_area = length(n);
   if (c.kind == Kind::height) return 2 * squared_length(pq) * twice_area;
-  const double volumes = dot(n, mesh_.position(c.s) - p), side = side_of(twice_area);
+  const double volumes = dot(n, mesh_.position(c.s) - p), side = length_of_area(0.5 * twice_area);
   if (c.kind == Kind::height_over_face) return 2 * side * twice_area * volumes;
   return -2 * side * volumes * dot(n, mesh_.position(c.t) - p) / twice_area;
 }

@@ -56,7 +56,9 @@ inline Mesh pinwheel(double turn = 0.1) {
   return build_or_die(points, {{3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}});
 }
 
-inline WeightReport weights_of(const Mesh& mesh, const WeightOptions& options = {}) {
+/// Of a mesh of triangles or of tetrahedra.
+template <class M>
+WeightReport weights_of(const M& mesh, const WeightOptions& options = {}) {
   const auto solver = clp_solver();
   auto report = find_weights(mesh, *solver, options);
   if (!report) {

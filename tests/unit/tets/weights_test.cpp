@@ -12,23 +12,15 @@
 #include "temper/detail/lp.hpp"
 #include "temper/tets/quality.hpp"
 #include "tets/weights/demand.hpp"
+#include "unit/feasibility/support.hpp"
 
 namespace temper::tets {
 namespace {
 
+using test::weights_of;
 using Kind = WeightConstraint::Kind;
 
 constexpr double kLacking = 1e-7;  // what a margin may lack: the solver's tolerance on its own rows
-
-WeightReport weights_of(const TetMesh& mesh, const WeightOptions& options) {
-  const auto solver = clp_solver();
-  auto report = find_weights(mesh, *solver, options);
-  if (!report) {
-    ADD_FAILURE() << report.error().what();
-    return {};
-  }
-  return *std::move(report);
-}
 
 TetMesh with_weights(TetMesh mesh, const VertexWeights& weights) {
   for (const VertexId v : mesh.vertices()) mesh.set_weight(v, weights[v]);

@@ -1,0 +1,15 @@
+// Sorted values, each once.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+namespace temper {
+
+template <class T>
+void sort_unique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+}  // namespace temper
