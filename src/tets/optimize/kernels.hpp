@@ -54,13 +54,19 @@ struct StarStep {
   bool certain = false;  ///< and all tetrahedra are certainly positive there
 };
 
+/// Bit i: lane i. A tetrahedron may be neither, by rounding.
+struct Certainty {
+  unsigned inside = 0;   ///< The orthocenter is certainly inside
+  unsigned outside = 0;  ///< It is certainly not
+};
+
 struct Kernels {
   /// Value, gradient and Hessian of the energy of a star; the value is +∞ unless all tetrahedra are positive.
   PointDerivatives<double> (*derivatives)(const Link& link, const WeightedPoint& p, double gamma);
   /// A Newton step: over-relaxed, then plain, then halved, until the energy falls and shapes are kept.
   StarStep (*step)(const Link& link, const WeightedPoint& p, Mobility mobility, const SweepParameters& parameters);
-  /// The energies of tetrahedra. Returns those whose orthocenter is certainly inside: bit i is lane i.
-  unsigned (*tetrahedra)(const TetLanes& tetrahedra, double gamma, Lane& energies);
+  /// The energies of tetrahedra, and where their orthocenters are.
+  Certainty (*tetrahedra)(const TetLanes& tetrahedra, double gamma, Lane& energies);
 };
 
 /// The kernels of the instruction set in use.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -83,22 +84,52 @@ bool is_positive(const TetMesh& mesh, std::span<const HalffaceId> link, const We
 /// Numbers of tasks of some size for n items.
 std::size_t n_tasks(std::size_t n, std::size_t size) { return (n + size - 1) / size; }
 
+/// Puts two zeros between any two of the last ten bits.
+std::uint32_t spread(std::uint32_t x) {
+  x = (x | x << 16) & 0x030000ff;
+  x = (x | x << 8) & 0x0300f00f;
+  x = (x | x << 4) & 0x030c30c3;
+  return (x | x << 2) & 0x09249249;
+}
+
+/// Places along a Z curve through 1024³ cells: links of vertices that follow each other share memory.
+IdVector<VertexId, std::uint32_t> places_along_curve(const TetMesh& mesh, const std::vector<VertexId>& vertices) {
+  Vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (const VertexId v : vertices) {
+    const Vec3 p = mesh.position(v);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const auto cell = [&](double x) { return spread(static_cast<std::uint32_t>(1023 * (x / extent))); };
+  IdVector<VertexId, std::uint32_t> places(mesh.n_vertices(), 0);
+  for (const VertexId v : vertices) {
+    const Vec3 p = mesh.position(v) - low;
+    if (extent > 0) places[v] = cell(p.x) | cell(p.y) << 1 | cell(p.z) << 2;
+  }
+  return places;
+}
+
 }  // namespace
 
 const Kernels& kernels() { return *TEMPER_IN_USE(kTetKernels); }
 
-WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> halffaces, const WeightedPoint& origin,
-                       Mobility mobility, const SweepParameters& parameters) {
-  thread_local std::vector<LinkLanes> lanes;
+Link gather(const TetMesh& mesh, std::span<const HalffaceId> halffaces, std::vector<LinkLanes>& room) {
   const std::size_t faces = halffaces.size(), blocks = n_tasks(faces, kLanes);
-  if (lanes.size() < blocks) lanes.resize(blocks);
+  if (room.size() < blocks) room.resize(blocks);
   for (std::size_t i = 0; i < blocks * kLanes; ++i) {
     const auto [q, r, s] = mesh.vertices(halffaces[std::min(i, faces - 1)]);
-    LinkLanes& to = lanes[i / kLanes];
+    LinkLanes& to = room[i / kLanes];
     to.q.set(i % kLanes, mesh.point(q)), to.r.set(i % kLanes, mesh.point(r)), to.s.set(i % kLanes, mesh.point(s));
   }
-  const auto [p, lower, certain] =
-      kernels().step({std::span(lanes).first(blocks), faces}, origin, mobility, parameters);
+  return {std::span(room).first(blocks), faces};
+}
+
+WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> halffaces, const WeightedPoint& origin,
+                       Mobility mobility, const SweepParameters& parameters) {
+  thread_local std::vector<LinkLanes> room;
+  const Link link = gather(mesh, halffaces, room);
+  const auto [p, lower, certain] = kernels().step(link, origin, mobility, parameters);
   return lower && is_exact(p) && (certain || is_positive(mesh, halffaces, p)) ? p : origin;
 }
 
@@ -127,6 +158,12 @@ void Sweeper::color(std::span<const VertexId> vertices) {
   for (const VertexId v : vertices) {
     if (bit[v] != 0) sequence_[end_[color_of(v)]++] = v;
   }
+  const IdVector<VertexId, std::uint32_t> place = places_along_curve(mesh_, sequence_);
+  or_serial(executor_).run(kMostColors, [&](std::size_t i) {
+    const auto begin_of = [&](std::size_t c) { return sequence_.begin() + static_cast<std::ptrdiff_t>(begin[c]); };
+    std::sort(begin_of(i), begin_of(i + 1),
+              [&](VertexId a, VertexId b) { return std::pair(place[a], a) < std::pair(place[b], b); });
+  });
 }
 
 bool Sweeper::sweep(const Step& step, const MustStop& must_stop) {
@@ -181,10 +218,10 @@ void judge(const TetMesh& mesh, double gamma, std::size_t first, std::size_t las
       const auto points = mesh.points(TetId(std::min(first + i, last - 1)));
       for (std::size_t k = 0; k < 4; ++k) lanes.corners[k].set(i, points[k]);
     }
-    const unsigned good = kernels().tetrahedra(lanes, gamma, energies);
+    const auto [inside, outside] = kernels().tetrahedra(lanes, gamma, energies);
     for (std::size_t i = 0; i < std::min(kLanes, last - first); ++i) {
       const TetId t(first + i);
-      use(t, energies[i], (good >> i & 1) == 0 && is_bad(mesh, t));
+      use(t, energies[i], (outside >> i & 1) != 0 || ((inside >> i & 1) == 0 && is_bad(mesh, t)));
     }
   }
 }

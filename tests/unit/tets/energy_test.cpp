@@ -7,7 +7,7 @@
 
 #include "support/tet_lattice.hpp"
 #include "tets/energy/star.hpp"
-#include "tets/optimize/kernels.hpp"
+#include "tets/optimize/sweeper.hpp"
 
 namespace temper::tets {
 namespace {
@@ -17,6 +17,13 @@ struct Star {
   std::vector<LinkFace<double>> rounded;
   WeightedPoint center;
   std::vector<std::array<WeightedPoint, 4>> tetrahedra;  // the face, then the center
+  std::vector<LinkLanes> lanes;
+
+  /// By the kernel of the instruction set in use.
+  PointDerivatives<double> rounded_derivatives(double gamma) const {
+    std::vector<LinkLanes> room = lanes;
+    return kernels().derivatives({room, rounded.size()}, center, gamma);
+  }
 };
 
 Star star_of(const TetMesh& mesh, VertexId v) {
@@ -24,6 +31,7 @@ Star star_of(const TetMesh& mesh, VertexId v) {
   star.center = mesh.point(v);
   std::vector<HalffaceId> link;
   collect_link(mesh, v, link);
+  static_cast<void>(gather(mesh, link, star.lanes));
   for (const HalffaceId h : link) {
     const auto [q, r, s] = mesh.vertices(h);
     EXPECT_EQ(mesh.opposite(h), v);
@@ -81,17 +89,6 @@ std::array<std::array<long double, 4>, 4> hessian_of(const Sum& d) {
   return {{{xx, xy, xz, xw}, {xy, yy, yz, yw}, {xz, yz, zz, zw}, {xw, yw, zw, ww}}};
 }
 
-/// The same in doubles, by the kernel of the instruction set in use.
-PointDerivatives<double> rounded_derivatives(const Star& star, double gamma) {
-  std::vector<LinkLanes> lanes((star.rounded.size() + kLanes - 1) / kLanes);
-  for (std::size_t i = 0; i < lanes.size() * kLanes; ++i) {
-    const auto& [q, r, s, center] = star.tetrahedra[std::min(i, star.tetrahedra.size() - 1)];
-    LinkLanes& to = lanes[i / kLanes];
-    to.q.set(i % kLanes, q), to.r.set(i % kLanes, r), to.s.set(i % kLanes, s);
-  }
-  return kernels().derivatives({lanes, star.rounded.size()}, star.center, gamma);
-}
-
 TEST(TetEnergy, IsTheSumOfItsDefinition) {
   std::size_t tried = 0;
   for (const Star& star : stars()) {
@@ -99,7 +96,7 @@ TEST(TetEnergy, IsTheSumOfItsDefinition) {
       double naive = 0;
       for (const auto& t : star.tetrahedra) naive += naive_energy(t, gamma);
       EXPECT_NEAR(star_energy(star.rounded, star.center, gamma), naive, 1e-9 * naive);
-      EXPECT_NEAR(rounded_derivatives(star, gamma).value, naive, 1e-9 * naive);
+      EXPECT_NEAR(star.rounded_derivatives(gamma).value, naive, 1e-9 * naive);
       ++tried;
     }
   }
@@ -151,7 +148,7 @@ TEST(TetEnergy, DoesNotChangeWithRotationTranslationScaleAndAnOffsetOfWeights) {
   const TetMesh a = test::mesh_of(arrays), b = test::mesh_of(moved);
   for (const VertexId v : a.vertices()) {
     const Star at = star_of(a, v), there = star_of(b, v);
-    const PointDerivatives<double> before = rounded_derivatives(at, 0.1), after = rounded_derivatives(there, 0.1);
+    const PointDerivatives<double> before = at.rounded_derivatives(0.1), after = there.rounded_derivatives(0.1);
     EXPECT_NEAR(after.value, before.value, 1e-11 * before.value);
     EXPECT_NEAR(64 * after.gradient.w, before.gradient.w, 1e-9 * (1 + std::abs(before.gradient.w)));
   }
