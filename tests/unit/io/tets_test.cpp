@@ -330,6 +330,47 @@ TEST_F(TetFiles, DataFollowMovedVerticesAndAllElseStays) {
   EXPECT_EQ(again->mesh.point(VertexId(8)), mesh.point(VertexId(8)));
 }
 
+TEST_F(TetFiles, PiecesOfAFaceOrLineTakeItsTagAndData) {
+  TetFile file;
+  file.points = {{0, 0, 0}, {0.3, 0.7, 0}, {0, 1, 0.1}, {0, 0, 1}};
+  file.tetrahedra = {{0, 1, 2, 3}};
+  // The second face points inward, and the third is not in the mesh.
+  file.faces = {{0, 2, 1}, {1, 0, 3}, {0, 1, 1}, {0, 3, 2}};
+  file.face_tags = {1, 2, 3, 4};
+  file.face_data = {{"load", 1, std::vector<double>{10, 20, 30, 40}}};
+  file.lines = {{1, 0}, {2, 3}};
+  file.line_tags = {5, 6};
+  file.point_data = {{"z", 1, std::vector<double>{0, 3, 1, 2}}};
+  const LoadedTetMesh loaded = *make_mesh(file);
+  // The edge from 0 to 1 is split.
+  const std::vector<Vec3> points = {file.points[0], file.points[1], file.points[2], file.points[3], {0.15, 0.35, 0}};
+  const std::vector<std::array<std::int32_t, 4>> tetrahedra = {{0, 4, 2, 3}, {4, 1, 2, 3}};
+  const std::vector<std::array<std::int32_t, 3>> faces = {{0, 2, 4}, {4, 2, 1}, {0, 4, 3}, {4, 1, 3}, {0, 3, 2}};
+  const std::vector<std::array<std::int32_t, 2>> lines = {{1, 4}, {4, 0}, {2, 3}};
+  const std::vector<std::int32_t> face_tags = {1, 1, 2, 2, 4}, line_tags = {5, 5, 6};
+  tets::TetMeshInput input;
+  input.points = points, input.tetrahedra = tetrahedra;
+  input.faces = faces, input.face_tags = face_tags, input.lines = lines, input.line_tags = line_tags;
+  tets::Origins origins;
+  for (std::size_t v = 0; v < 4; ++v) origins.vertices.push_back(VertexId(v));
+  origins.vertices.push_back({});
+  origins.faces = {0, 0, 1, 1, 2}, origins.lines = {0, 0, 1};
+  update(file, loaded, tets::TetMesh::build(input)->mesh, origins);
+  const std::vector<std::array<std::int32_t, 3>> oriented = {{0, 2, 4}, {4, 2, 1}, {4, 0, 3},
+                                                             {1, 4, 3}, {0, 1, 1}, {0, 3, 2}};
+  ASSERT_EQ(file.faces.size(), oriented.size());
+  for (std::size_t i = 0; i < oriented.size(); ++i) {
+    const auto& face = file.faces[i];
+    const auto first = std::size_t(std::find(face.begin(), face.end(), oriented[i][0]) - face.begin());
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(face[(first + k) % 3], oriented[i][k]) << i;
+  }
+  EXPECT_EQ(file.face_tags, (std::vector<std::int32_t>{1, 1, 2, 2, 3, 4}));
+  EXPECT_EQ(file.face_data[0].values, Values(std::vector<double>{10, 10, 20, 20, 30, 40}));
+  EXPECT_EQ(file.lines, (std::vector<std::array<std::int32_t, 2>>{{1, 4}, {4, 0}, {2, 3}}));
+  EXPECT_EQ(file.line_tags, (std::vector<std::int32_t>{5, 5, 6}));
+  EXPECT_NEAR(std::get<std::vector<double>>(file.point_data[0].values)[4], 1.5, 1e-15);
+}
+
 TEST_F(TetFiles, NewVerticesTakeTheDataOfTheirPlace) {
   TetFile file = centered_cube();
   const LoadedTetMesh loaded = *make_mesh(file);

@@ -5,7 +5,7 @@
 
 #include "support/tet_lattice.hpp"
 #include "temper/tets/quality.hpp"
-#include "tets/topology/cavity.hpp"
+#include "tets/optimize/draft.hpp"
 
 namespace temper::tets {
 namespace {
@@ -212,6 +212,159 @@ TEST(TetTopology, TagsAndRegionsOfOtherPartsStay) {
   }
   EXPECT_EQ(after.tagged_points(), mesh.tagged_points());
   for (const TetId t : after.tetrahedra()) EXPECT_EQ(after.region(t), 5);
+}
+
+/// Two regions in cubes cut in six, with tags on all faces of the boundary and the interface, and on lines of both.
+TetMesh tagged_cubes(int n) {
+  const test::TetArrays arrays = test::shaken(test::cubes(n, test::kSixTets), 0.1, 0.05);
+  const TetMesh plain = test::mesh_of(arrays);
+  std::vector<std::int32_t> regions, face_tags, line_tags;
+  for (const TetId t : plain.tetrahedra()) regions.push_back(plain.region(t) + (t.index < plain.n_tetrahedra() / 2));
+  TetMeshInput in = arrays.input();
+  in.regions = regions;
+  const TetMesh parted = test::built(in).mesh;
+  std::vector<std::array<std::int32_t, 3>> faces;
+  std::vector<std::array<std::int32_t, 2>> lines;
+  for (const HalffaceId h : parted.halffaces()) {
+    if (!parted.bounds_region(h) || !parted.is_face_representative(h)) continue;
+    const auto [a, b, c] = parted.vertices(h);
+    faces.push_back({std::int32_t(a.index), std::int32_t(b.index), std::int32_t(c.index)});
+    face_tags.push_back(static_cast<std::int32_t>(faces.size() % 3));
+    if (faces.size() % 4 != 0) continue;
+    lines.push_back({std::int32_t(c.index), std::int32_t(a.index)});
+    line_tags.push_back(static_cast<std::int32_t>(lines.size()));
+  }
+  in.faces = faces, in.face_tags = face_tags, in.lines = lines, in.line_tags = line_tags;
+  return test::built(in).mesh;
+}
+
+/// What no change of connectivity may alter: volumes of regions, areas and lengths of tags.
+std::map<std::string, double> sizes_of_parts(const TetMesh& mesh) {
+  std::map<std::string, double> sizes;
+  for (const TetId t : mesh.tetrahedra()) {
+    const auto [p, q, r, s] = mesh.points(t);
+    sizes["region " + std::to_string(mesh.region(t))] +=
+        six_volumes(p.position(), q.position(), r.position(), s.position()) / 6;
+  }
+  for (const auto& [face, tag] : mesh.tagged_faces()) {
+    const auto [a, b, c] = mesh.vertices(face);
+    const Vec3 p = mesh.position(a);
+    sizes["face " + std::to_string(tag)] += length(cross(mesh.position(b) - p, mesh.position(c) - p)) / 2;
+  }
+  for (const auto& [ends, tag] : mesh.tagged_lines())
+    sizes["line " + std::to_string(tag)] += length(mesh.position(ends[0]) - mesh.position(ends[1]));
+  return sizes;
+}
+void expect_same_parts(const TetMesh& before, const TetMesh& after) {
+  const auto a = sizes_of_parts(before), b = sizes_of_parts(after);
+  ASSERT_EQ(a.size(), b.size());
+  for (const auto& [part, size] : a) EXPECT_NEAR(b.at(part), size, 1e-13) << part;
+  EXPECT_EQ(after.validate(), std::nullopt);
+}
+
+TEST(TetTopology, SplitsOfTheBoundaryAndOfInterfacesKeepAllParts) {
+  const TetMesh mesh = tagged_cubes(2);
+  const Cavities cavities(mesh);
+  std::size_t edges = 0, faces = 0;
+  const auto try_split = [&](const Cavity& cavity, std::size_t& count) {
+    const double share = 1 / static_cast<double>(cavity.split.size());
+    Filling filling{cavity, {}, {}, {}};
+    for (const VertexId v : cavity.split) {
+      const Vec3 p = mesh.position(v);
+      filling.point.x += share * p.x, filling.point.y += share * p.y, filling.point.z += share * p.z;
+    }
+    ASSERT_TRUE(is_valid(mesh, filling));
+    const auto made = filled(mesh, {&filling, 1}, Names(mesh));
+    ASSERT_TRUE(made);
+    expect_same_parts(mesh, made->first);
+    const std::size_t pieces = cavity.split.size();
+    EXPECT_EQ(made->first.n_tetrahedra(), mesh.n_tetrahedra() + (pieces - 1) * cavity.tetrahedra.size());
+    const auto& names = made->second;
+    EXPECT_TRUE(std::is_sorted(names.faces.begin(), names.faces.end()));
+    for (std::size_t i = 0; i < names.faces.size(); ++i)
+      EXPECT_EQ(made->first.tagged_faces()[i].tag, mesh.tagged_faces()[names.faces[i]].tag);
+    ++count;
+  };
+  for (const TetId t : mesh.tetrahedra()) {
+    const auto& corners = mesh.corners(t);
+    for (int f = 0; f < 4; ++f) {
+      const HalffaceId h = TetMesh::halfface(t, f);
+      const auto cavity = cavities.to_split(h);
+      EXPECT_EQ(cavity.has_value(), mesh.bounds_region(h));
+      if (cavity) try_split(*cavity, faces);
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        const auto cavity = cavities.to_split(t, corners[i], corners[j]);
+        EXPECT_NE(cavity.has_value(), cavities.of_edge(t, corners[i], corners[j]).has_value());
+        if (cavity) try_split(*cavity, edges);
+      }
+    }
+  }
+  EXPECT_GT(edges, 50U);
+  EXPECT_GT(faces, 50U);
+}
+
+TEST(TetTopology, PatchesFitBackWithAndWithoutChanges) {
+  const TetMesh mesh = tagged_cubes(3);
+  IdVector<VertexId, Mobility> mobility(mesh.n_vertices(), Mobility::free);
+  const Draft whole(mesh, mobility);
+  std::vector<TetId> low, high;
+  for (const TetId t : mesh.tetrahedra()) {
+    double z = 0;
+    for (const VertexId v : mesh.corners(t)) z += mesh.position(v).z / 4;
+    if (z < 1)
+      low.push_back(t);
+    else if (z < 2)
+      high.push_back(t);
+  }
+  std::vector<Patch> patches = {patch_of(whole, low), patch_of(whole, high)};
+  Draft same = whole;
+  ASSERT_TRUE(put_back(patches, same));
+  expect_same_parts(mesh, same.mesh);
+  EXPECT_EQ(same.mesh.n_tetrahedra(), mesh.n_tetrahedra());
+  EXPECT_EQ(same.names.vertices.size(), mesh.n_vertices());
+  for (const VertexId v : same.mesh.vertices()) EXPECT_EQ(same.mesh.point(v), mesh.point(same.names.vertices[v]));
+  EXPECT_EQ(same.names.faces, whole.names.faces);
+  EXPECT_EQ(same.names.lines, whole.names.lines);
+
+  // All splits that touch nothing of another tetrahedron: inside, at an interface, and on the boundary.
+  std::size_t splits = 0;
+  for (Patch& patch : patches) {
+    const auto stays = [&](VertexId v) { return patch.draft.mobility_of(v) == Mobility::none; };
+    for (const std::size_t edge_of_boundary : {0U, 1U}) {
+      const TetMesh& part = patch.draft.mesh;
+      const Cavities cavities(part);
+      IdVector<TetId, std::uint8_t> used(part.n_tetrahedra());
+      std::vector<Filling> fillings;
+      for (const TetId t : part.tetrahedra()) {
+        const auto& c = part.corners(t);
+        if (stays(c[0]) && stays(c[1])) continue;
+        const auto cavity = edge_of_boundary ? cavities.to_split(t, c[0], c[1]) : cavities.of_edge(t, c[0], c[1]);
+        if (!cavity ||
+            std::any_of(cavity->tetrahedra.begin(), cavity->tetrahedra.end(), [&](TetId s) { return used[s]; }))
+          continue;
+        const Vec3 p = 0.5 * (part.position(c[0]) + part.position(c[1]));
+        for (const TetId s : cavity->tetrahedra) used[s] = 1;
+        fillings.push_back({*cavity, {}, {p.x, p.y, p.z, 0.01}, {}});
+      }
+      splits += fillings.size();
+      EXPECT_GT(fillings.size(), 1U);
+      ASSERT_TRUE(patch.draft.fill(fillings));
+    }
+  }
+  Draft changed = whole;
+  ASSERT_TRUE(put_back(patches, changed));
+  expect_same_parts(mesh, changed.mesh);
+  EXPECT_EQ(changed.mesh.n_vertices(), mesh.n_vertices() + splits);
+  EXPECT_EQ(changed.mobility.size(), mesh.n_vertices() + splits);
+  for (const VertexId v : changed.mesh.vertices()) {
+    const VertexId name = changed.names.vertices[v];
+    if (name.index < mesh.n_vertices())
+      EXPECT_EQ(changed.mesh.point(v), mesh.point(name));
+    else
+      EXPECT_EQ(changed.mesh.weight(v), 0.01);
+  }
 }
 
 }  // namespace
