@@ -120,8 +120,9 @@ TEMPER_INLINE bool is_better(const Link& link, const WeightedPoint& p, double ga
     if ((apex.volume6 >= needed * power_3_2(apex.length2)).bits() != kAllLanes) return false;
     const Pack energies = tets::tet_energy(face, apex, Pack::all(gamma));
     sums = sums + select(lanes_in_use(link, b), energies, Pack::all(0));
+    if (!(sum(sums) < value)) return false;
   }
-  return sum(sums) < value;
+  return true;
 }
 
 /// Says whether the tetrahedra with p are positive, beyond doubt by rounding.
