@@ -122,7 +122,7 @@ Link gather(const TetMesh& mesh, std::span<const HalffaceId> halffaces, std::vec
     LinkLanes& to = room[i / kLanes];
     to.q.set(i % kLanes, mesh.point(q)), to.r.set(i % kLanes, mesh.point(r)), to.s.set(i % kLanes, mesh.point(s));
   }
-  return {std::span(room).first(blocks), faces};
+  return {room.data(), faces};
 }
 
 WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> halffaces, const WeightedPoint& origin,
