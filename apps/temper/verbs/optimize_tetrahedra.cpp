@@ -49,7 +49,8 @@ void refuse_options(const Command& command, const OptimizeSettings& s) {
     refuse(!has(kRows, name) && a.row->get(s.options) != a.row->get({}),
            a.row->common ? spell_options(fmt::format("`{}`", name)) : "--set " + name);
   }
-  refuse(s.options.boundary != BoundaryVertices::keep, "--boundary, other than keep,");
+  const BoundaryVertices boundary = s.options.boundary;
+  refuse(boundary != BoundaryVertices::keep && boundary != BoundaryVertices::split, "--boundary slide");
   for (const std::string& part : s.keep) refuse(!has(kKept, part), "--keep " + part);
   for (const auto& [path, what] : {std::pair(s.files.page, "a page"), std::pair(s.files.trace, "a trace"),
                                    std::pair(s.files.picture, "a picture")})
@@ -60,15 +61,20 @@ void refuse_options(const Command& command, const OptimizeSettings& s) {
 struct Effort {
   std::string_view name;
   int repair_trials;
+  double small_margin;
 };
-constexpr Effort kEfforts[] = {{"quick", 0}, {"normal", tets::OptimizeOptions().repair_trials}, {"high", 1000}};
+constexpr Effort kEfforts[] = {
+    {"quick", 0, 0}, {"normal", tets::OptimizeOptions().repair_trials, 0}, {"high", 40, 0.01}};
 
 tets::OptimizeOptions options_of(const OptimizeSettings& s) {
   tets::OptimizeOptions options;
   options.keep_positions = s.options.unknowns == Unknowns::weights;
   options.keep_weights = s.options.unknowns == Unknowns::positions;
-  options.repair_trials = std::ranges::find(kEfforts, s.effort, &Effort::name)->repair_trials;
+  const Effort& effort = *std::ranges::find(kEfforts, s.effort, &Effort::name);
+  options.repair_trials = effort.repair_trials;
+  options.small_margin = effort.small_margin;
   options.keep_edges = s.options.flips == Flips::none || options.repair_trials == 0;
+  options.split_boundary = s.options.boundary == BoundaryVertices::split;
   options.max_sweeps = s.options.max_sweeps;
   options.time_limit = s.options.time_limit;
   return options;
@@ -79,6 +85,8 @@ std::string settings_json(const tets::OptimizeOptions& options) {
                                  {"keep_weights", options.keep_weights},
                                  {"keep_edges", options.keep_edges},
                                  {"repair_trials", options.repair_trials},
+                                 {"split_boundary", options.split_boundary},
+                                 {"small_margin", options.small_margin},
                                  {"max_sweeps", options.max_sweeps},
                                  {"time_limit", options.time_limit}})
       .dump();
@@ -131,7 +139,7 @@ class TetRun {
   /// Writes the mesh first, as it took the most time.
   void write() {
     const std::size_t known = input_.file.warnings.size();
-    data_ = io::update(input_.file, input_.loaded, mesh_, report_.vertices, {rules_, threads_});
+    data_ = io::update(input_.file, input_.loaded, mesh_, report_.origins, {rules_, threads_});
     warn(std::span(input_.file.warnings).subspan(known));
     warn(outputs_.write_mesh(s_.output, input_.file, threads_));
     if (!s_.files.report.empty())

@@ -60,10 +60,10 @@ struct LoadedTetMesh {
 [[nodiscard]] Expected<LoadedTetMesh> make_mesh(const TetFile& file, Executor* executor = nullptr);
 
 /// Puts points, weights, tetrahedra and regions of a mesh back into the file that it came from, by the rules of
-/// update() of triangles. `loaded` is the mesh of the file, unchanged. `vertices` has the number in it of each vertex
-/// of the mesh, invalid for new ones; empty: the same numbers. Data are linear on the tetrahedra of the file. In the
-/// report, triangles are tetrahedra. O(n) if points move little.
+/// update() of triangles. `loaded` is the mesh of the file, unchanged, and `origins` says where the parts of the mesh
+/// are in it. Data are linear on the tetrahedra of the file. In the report, triangles are tetrahedra. O(n) if points
+/// move little.
 DataReport update(TetFile& file, const LoadedTetMesh& loaded, const tets::TetMesh& mesh,
-                  const IdVector<VertexId, VertexId>& vertices = {}, const UpdateOptions& options = {});
+                  const tets::Origins& origins = {}, const UpdateOptions& options = {});
 
 }  // namespace temper::io

@@ -197,6 +197,12 @@ struct BuiltTetMesh {
   std::vector<std::size_t> dangling_faces, dangling_lines;
 };
 
+/// Where the parts of a mesh were in a former one. Empty: they are the same, with the same numbers.
+struct Origins {
+  IdVector<VertexId, VertexId> vertices;    ///< Number of each vertex in the former mesh, invalid for new ones
+  std::vector<std::uint32_t> faces, lines;  ///< Number of each tagged face and line: pieces of one have the same
+};
+
 /// Marks the vertices of boundary faces. O(n).
 [[nodiscard]] IdVector<VertexId, std::uint8_t> boundary_vertices(const TetMesh& mesh);
 

@@ -21,7 +21,9 @@ struct OptimizeOptions {
   bool keep_positions = false;  ///< All vertices stay, and only weights change
   bool keep_weights = false;    ///< All weights stay, and only positions change
   bool keep_edges = false;      ///< The connectivity stays: no flips, no new vertices
-  int repair_trials = 100;      ///< Largest number of changes that are tried one by one, after those at once
+  int repair_trials = 20;       ///< Trials in vain at one place, after which it is left as it is
+  bool split_boundary = false;  ///< Edges and faces that stay may get new vertices where nothing else helps
+  double small_margin = 0;      ///< Tetrahedra with a smaller least h/ℓ are improved in trials, too, if none is bad
 };
 
 struct OptimizeHooks {
@@ -38,9 +40,8 @@ struct OptimizeReport {
   double objective_before = 0;  ///< Energy of the input, at the least γ
   double objective_after = 0;
   std::size_t vertices_inserted = 0, vertices_removed = 0;
-  std::size_t flips = 0;  ///< Changes of connectivity without a new or removed vertex
-  /// Number of each vertex in the input, invalid for new ones. Empty: all are the input's.
-  IdVector<VertexId, VertexId> vertices;
+  std::size_t flips = 0;             ///< Changes of connectivity without a new or removed vertex
+  Origins origins;                   ///< Parts of the result in the input
   std::vector<SweepRecord> history;  ///< History of the sweeps; history[0] is the input
 };
 

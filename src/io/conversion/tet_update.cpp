@@ -44,6 +44,20 @@ std::optional<int> face_towards(const TetMesh& mesh, TetId t, Vec3 p, int first)
   return std::nullopt;
 }
 
+/// Says whether p is in t, or so close to it that rounding may have moved it outside: a new vertex on the boundary.
+bool is_nearly_in(const TetMesh& mesh, TetId t, Vec3 p) {
+  constexpr double kRounding = 1e-9;
+  for (int f = 0; f < 4; ++f) {
+    const HalffaceId h = TetMesh::halfface(t, f);
+    const auto [a, b, c] = mesh.vertices(h);
+    const auto volumes = [&](Vec3 q) {
+      return tets::six_volumes(mesh.position(a), mesh.position(b), mesh.position(c), q);
+    };
+    if (volumes(p) < -kRounding * volumes(mesh.position(mesh.opposite(h)))) return false;
+  }
+  return true;
+}
+
 /// The tetrahedron that contains p, found from one nearby. Without one, the result is `near`.
 TetId locate(const TetMesh& mesh, Vec3 p, TetId near) {
   TetId t = near;
@@ -51,7 +65,10 @@ TetId locate(const TetMesh& mesh, Vec3 p, TetId near) {
     const std::optional<int> face = face_towards(mesh, t, p, steps);
     if (!face) return t;
     const HalffaceId beyond = mesh.twin(TetMesh::halfface(t, *face));
-    if (!beyond.valid()) break;  // the domain need not be convex: p may still be inside
+    if (!beyond.valid()) {
+      if (is_nearly_in(mesh, t, p)) return t;
+      break;  // the domain need not be convex: p may still be inside
+    }
     t = TetMesh::tetrahedron(beyond);
   }
   // Ever larger rings around the place where the walk ended.
@@ -122,22 +139,82 @@ void drop_lost(Elements& elements, std::vector<std::int32_t>& tags, std::vector<
   take_rows(data, kept);
 }
 
+/// Numbers of the vertices of a face or line.
+template <std::size_t N>
+std::array<std::int32_t, N> numbers(const std::array<VertexId, N>& corners) {
+  std::array<std::int32_t, N> result;
+  std::ranges::transform(corners, result.begin(), [](VertexId v) { return static_cast<std::int32_t>(v.index); });
+  return result;
+}
+template <std::size_t N>
+bool same_corners(std::array<std::int32_t, N> a, std::array<std::int32_t, N> b) {
+  std::ranges::sort(a), std::ranges::sort(b);
+  return a == b;
+}
+/// Says whether a goes through its corners in the direction of b, which has the same.
+template <std::size_t N>
+bool turn_alike(const std::array<std::int32_t, N>& a, const std::array<std::int32_t, N>& b) {
+  const auto first = static_cast<std::size_t>(std::ranges::find(b, a[0]) - b.begin());
+  return a[1] == b[(first + 1) % N] && (N > 2 || first == 0);
+}
+
+/// The tagged faces or lines of two meshes: each of the second is a piece of one of the first, in the same order.
+template <class Element>
+struct Pieces {
+  const std::vector<Element>&former, &now;
+  const std::vector<std::uint32_t>& origins;
+};
+/// Renumbers elements, or puts pieces in their place. Those that are not in the mesh follow their points. Returns the
+/// number of those that lost one, which are dropped.
+template <class Element>
+std::size_t take_pieces(std::vector<Element>& elements, std::vector<std::int32_t>& tags, std::vector<DataArray>& data,
+                        const std::vector<std::int32_t>& number, const Pieces<Element>& pieces) {
+  std::vector<Element> taken;
+  std::vector<std::size_t> rows;
+  std::size_t tag = 0, piece = 0, lost = 0;
+  for (std::size_t row = 0; row < elements.size(); ++row) {
+    Element element = elements[row];
+    const bool is_tag = tag < pieces.former.size() && same_corners(element, pieces.former[tag]);
+    const bool alike = is_tag && turn_alike(element, pieces.former[tag]);
+    renumber(element, number);
+    const std::size_t first = piece;
+    while (is_tag && piece < pieces.now.size() && pieces.origins[piece] == tag) ++piece;
+    tag += is_tag ? 1 : 0;
+    if (piece - first > 1) {
+      for (std::size_t i = first; i < piece; ++i) {
+        taken.push_back(pieces.now[i]);
+        if (!alike) std::swap(taken.back()[0], taken.back()[1]);
+        rows.push_back(row);
+      }
+    } else if (is_there(element)) {
+      taken.push_back(element);
+      rows.push_back(row);
+    } else {
+      ++lost;
+    }
+  }
+  elements = std::move(taken);
+  tags = at(tags, rows);
+  take_rows(data, rows);
+  return lost;
+}
+
 class TetFileUpdater {
  public:
-  TetFileUpdater(TetFile& file, const LoadedTetMesh& loaded, const TetMesh& mesh,
-                 const IdVector<VertexId, VertexId>& vertices, const UpdateOptions& options)
-      : file_(file), loaded_(loaded), before_(loaded.mesh), mesh_(mesh), vertices_(vertices), options_(options) {}
+  TetFileUpdater(TetFile& file, const LoadedTetMesh& loaded, const TetMesh& mesh, const tets::Origins& origins,
+                 const UpdateOptions& options)
+      : file_(file), loaded_(loaded), before_(loaded.mesh), mesh_(mesh), origins_(origins), options_(options) {}
 
   DataReport update() {
     drop_unused_points();
     if (!file_.point_data.empty() || !file_.cell_data.empty()) update_data();
-    if (!vertices_.empty()) follow_vertices();
+    if (!origins_.vertices.empty()) follow_vertices();
     copy_mesh();
     return std::move(report_);
   }
 
  private:
-  [[nodiscard]] VertexId former(VertexId v) const { return vertices_.empty() ? v : vertices_[v]; }
+  [[nodiscard]] VertexId former(VertexId v) const { return origins_.vertices.empty() ? v : origins_.vertices[v]; }
   [[nodiscard]] bool stays(VertexId v) const {
     const VertexId was = former(v);
     return was.valid() && before_.position(was) == mesh_.position(v);
@@ -168,11 +245,20 @@ class TetFileUpdater {
     for (const VertexId v : mesh_.vertices()) {
       if (former(v).valid()) number[former(v).index] = static_cast<std::int32_t>(v.index);
     }
-    const auto n_tags = [&] { return file_.faces.size() + file_.lines.size() + file_.marked_points.size(); };
-    const std::size_t before = n_tags();
-    renumber_tags(number);
-    if (const std::size_t lost = before - n_tags(); lost > 0)
-      file_.warnings.push_back(text(lost, " faces, lines or marked points have lost their vertices and are dropped"));
+    std::vector<std::array<std::int32_t, 3>> faces_before, faces;
+    std::vector<std::array<std::int32_t, 2>> lines_before, lines;
+    for (const auto& f : before_.tagged_faces()) faces_before.push_back(numbers(before_.vertices(f.face)));
+    for (const auto& l : before_.tagged_lines()) lines_before.push_back(numbers(l.ends));
+    for (const auto& f : mesh_.tagged_faces()) faces.push_back(numbers(mesh_.vertices(f.face)));
+    for (const auto& l : mesh_.tagged_lines()) lines.push_back(numbers(l.ends));
+    const std::size_t lost =
+        take_pieces(file_.faces, file_.face_tags, file_.face_data, number, {faces_before, faces, origins_.faces}) +
+        take_pieces(file_.lines, file_.line_tags, file_.line_data, number, {lines_before, lines, origins_.lines});
+    renumber(file_.marked_points, number);
+    const std::size_t marked = file_.marked_points.size();
+    drop_lost(file_.marked_points, file_.point_tags, file_.marked_point_data);
+    if (const std::size_t all = lost + marked - file_.marked_points.size(); all > 0)
+      file_.warnings.push_back(text(all, " faces, lines or marked points have lost their vertices and are dropped"));
     file_.numbering = nullptr;
   }
   void copy_mesh() {
@@ -262,7 +348,7 @@ class TetFileUpdater {
   TetFile& file_;
   const LoadedTetMesh& loaded_;
   const TetMesh &before_, &mesh_;
-  const IdVector<VertexId, VertexId>& vertices_;
+  const tets::Origins& origins_;
   const UpdateOptions& options_;
   IdVector<VertexId, TetPlace> places_;  // of the vertices in the former mesh; empty: not needed
   DataReport report_;
@@ -270,9 +356,9 @@ class TetFileUpdater {
 
 }  // namespace
 
-DataReport update(TetFile& file, const LoadedTetMesh& loaded, const tets::TetMesh& mesh,
-                  const IdVector<VertexId, VertexId>& vertices, const UpdateOptions& options) {
-  return TetFileUpdater(file, loaded, mesh, vertices, options).update();
+DataReport update(TetFile& file, const LoadedTetMesh& loaded, const tets::TetMesh& mesh, const tets::Origins& origins,
+                  const UpdateOptions& options) {
+  return TetFileUpdater(file, loaded, mesh, origins, options).update();
 }
 
 }  // namespace temper::io

@@ -12,6 +12,7 @@
 #include "mesh/blocks.hpp"
 #include "mesh/exact_range.hpp"
 #include "temper/tets/mesh.hpp"
+#include "tets/mesh/rebuild.hpp"
 #include "tets/mesh/tables.hpp"
 
 namespace temper::tets {
@@ -69,6 +70,11 @@ class TetMeshBuilder {
       if (auto error = (this->*step)()) return *std::move(error);
     }
     return std::move(built_);
+  }
+  std::optional<TetMesh> rebuild() {
+    if (add_vertices() || add_tetrahedra() || built_.reversed_tetrahedra > 0) return std::nullopt;
+    if (find_incident() || link_twins() || tag_faces() || tag_lines() || tag_points()) return std::nullopt;
+    return std::move(mesh_);
   }
 
  private:
@@ -528,6 +534,7 @@ class TetMeshBuilder {
     return b == (a == id(face[0]) ? id(face[1]) : a == id(face[1]) ? id(face[2]) : id(face[0]));
   }
   std::optional<InputError> tag_lines() {
+    if (!edges_ && !in_.lines.empty()) edges_.emplace(mesh_, in_.executor);
     for (std::size_t i = 0; i < in_.lines.size(); ++i) {
       const auto [a, b] = in_.lines[i];
       if (is_point(a) && is_point(b) && edges_->find(id(a), id(b)))
@@ -561,6 +568,8 @@ class TetMeshBuilder {
   std::optional<EdgeTable> edges_;             // from check_stars to tag_lines
   IdVector<VertexId, std::uint8_t> boundary_;  // from check_stars on
 };
+
+std::optional<TetMesh> rebuilt(const TetMeshInput& input) { return TetMeshBuilder(input).rebuild(); }
 
 Expected<BuiltTetMesh> TetMesh::build(const TetMeshInput& input) { return TetMeshBuilder(input).build(); }
 

@@ -2,12 +2,12 @@
 #include "temper/tets/optimize.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <mutex>
 #include <optional>
 #include <utility>
 
 #include "base/text.hpp"
-#include "tets/optimize/repair.hpp"
+#include "tets/optimize/local_search.hpp"
 #include "tets/optimize/sweeper.hpp"
 
 namespace temper::tets {
@@ -22,14 +22,9 @@ constexpr double kRelaxation = 1.7;
 // after kLastSweeps at the latest.
 constexpr double kTolerance = 1e-4;
 constexpr int kLastSweeps = 100;
-// Sweeps after changes of connectivity. Only vertices within some rings of tetrahedra move, and γ falls from the first
-// to the last local one by kGammaFactor. The last one is smaller than in a whole mesh: some tetrahedra are good only by
-// a margin of 0.001.
-constexpr int kRings = 2, kRingsOfTrial = 3;
-constexpr double kFirstLocalGamma = 0.3, kLastLocalGamma = 0.0005;
-constexpr int kLocalSweeps = 2, kLastLocalSweeps = 10;
-// Numbers of rounds and of trials without fewer bad tetrahedra, after which there are no more.
-constexpr int kRoundsInVain = 4, kTrialsInVain = 40;
+// Changes at all bad tetrahedra at once end when so many rounds have not lowered their number.
+constexpr int kRoundsInVain = 4;
+
 std::optional<InputError> wrong_option(const OptimizeOptions& options) {
   if (options.max_sweeps < 0)
     return InputError{
@@ -40,6 +35,9 @@ std::optional<InputError> wrong_option(const OptimizeOptions& options) {
     return InputError{ErrorCode::invalid_option,
                       {},
                       "repair_trials: expected at least 0, found " + std::to_string(options.repair_trials)};
+  if (!(options.small_margin >= 0))
+    return InputError{
+        ErrorCode::invalid_option, {}, "small_margin: expected at least 0, found " + to_text(options.small_margin)};
   if (!(options.time_limit >= 0))
     return InputError{
         ErrorCode::invalid_option, {}, "time_limit: expected at least 0, found " + to_text(options.time_limit)};
@@ -49,12 +47,10 @@ std::optional<InputError> wrong_option(const OptimizeOptions& options) {
 class Run {
  public:
   Run(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks)
-      : mesh_(mesh), options_(options), hooks_(hooks), of_input_(mobilities(mesh, options)), mobility_(of_input_) {
-    for (const VertexId v : mesh.vertices()) changes_.vertices.push_back(v);
-  }
+      : result_(mesh), options_(options), hooks_(hooks), draft_(mesh, mobilities(mesh, options)) {}
 
   OptimizeReport run() {
-    report_.objective_before = state_of(mesh_, kLastGamma, hooks_.executor).energy;
+    report_.objective_before = state_of(draft_.mesh, kLastGamma, hooks_.executor).energy;
     record();
     const bool repairs = !options_.keep_positions && !options_.keep_weights && !options_.keep_edges;
     if (anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma, kLevelSweeps, kLastSweeps) && repairs) repair();
@@ -62,16 +58,14 @@ class Run {
   }
 
  private:
-  /// Changes of connectivity since the input.
-  struct Changes {
-    IdVector<VertexId, VertexId> vertices;  // the number of each vertex in the input
-    std::size_t flips = 0;
-  };
+  enum class Equals { last, first };
 
   /// Sweeps along the schedule of γ. False: the run must end.
   bool anneal(double first_gamma, int level_sweeps, int last_sweeps) {
-    const auto all = mesh_.vertices();
-    Sweeper sweeper(mesh_, mobility_, std::vector<VertexId>(all.begin(), all.end()), hooks_.executor);
+    IdVector<VertexId, Mobility> mobility;
+    for (const VertexId v : draft_.mesh.vertices()) mobility.push_back(draft_.mobility_of(v));
+    const auto all = draft_.mesh.vertices();
+    Sweeper sweeper(draft_.mesh, mobility, std::vector<VertexId>(all.begin(), all.end()), hooks_.executor);
     for (double gamma = first_gamma; gamma > kLastGamma; gamma *= kGammaFactor) {
       for (int i = 0; i < level_sweeps; ++i) {
         if (!sweep(sweeper, gamma)) return false;
@@ -84,109 +78,70 @@ class Run {
     }
     return true;
   }
+  /// Returns false if no further sweep may follow. A sweep that was stopped is kept if it makes the mesh no worse.
+  bool sweep(Sweeper& sweeper, double gamma) {
+    if (!may_sweep()) return false;
+    gamma_ = gamma;
+    if (sweeper.sweep({gamma, kRelaxation}, [this](double fraction) { return is_stopped(fraction); })) ++report_.sweeps;
+    record();
+    return !stopped_early(report_.stopped);
+  }
+  [[nodiscard]] bool may_sweep() {
+    if (stopped_early(report_.stopped)) return false;
+    if (report_.sweeps < options_.max_sweeps) return true;
+    report_.stopped = Stopped::max_sweeps;
+    return false;
+  }
 
-  /// Changes the connectivity at bad tetrahedra: first at all of them at once, then, from the best mesh, at one after
-  /// the other.
+  /// Changes the connectivity where sweeps alone are not enough: first at all bad tetrahedra at once, then, from the
+  /// best mesh, in patches. Each round counts as one sweep.
   void repair() {
     for (int in_vain = 0; best_bad_ > 0 && in_vain < kRoundsInVain;) {
       const std::size_t before = best_bad_;
-      if (!change(search_repairs(bad_tetrahedra(mesh_, hooks_.executor), kAllowance, 0), kRings)) break;
+      if (!may_sweep() || !change_all(
+                              draft_, [this] { return is_stopped(0); }, hooks_.executor))
+        break;
+      end_round(Equals::first);
       in_vain = best_bad_ < before ? 0 : in_vain + 1;
     }
-    int in_vain = 0;
-    for (int trial = 0; trial < options_.repair_trials && in_vain < kTrialsInVain; ++trial) {
-      if (best_bad_ == 0 || report_.stopped != Stopped::converged) break;
-      const std::size_t before = best_bad_, k = static_cast<std::size_t>(in_vain);
-      go_back_to_best();
-      const std::vector<TetId> bad = bad_tetrahedra(mesh_, hooks_.executor);
-      change(search_repairs({bad[k % bad.size()]}, kAllowanceOfTrial, k / bad.size()), kRingsOfTrial);
-      in_vain = best_bad_ < before ? 0 : in_vain + 1;
-    }
+    draft_ = best_;
+    repair_patches({options_.repair_trials, 0, false});
+    if (options_.split_boundary && best_bad_ > 0) repair_patches({options_.repair_trials, 0, true});
+    if (options_.small_margin > 0 && best_bad_ == 0)
+      repair_patches({options_.repair_trials, options_.small_margin, options_.split_boundary});
   }
-  std::vector<Filling> search_repairs(const std::vector<TetId>& bad, double allowance, std::size_t rank) {
-    return repairs(mesh_, bad, mobility_, {allowance, rank, [this] { return is_stopped(0); }});
-  }
-  void go_back_to_best() {
-    mesh_ = best_;
-    changes_ = best_changes_;
-    number_mobility();
-  }
-  void number_mobility() {
-    mobility_.clear();
-    for (const VertexId v : changes_.vertices) mobility_.push_back(v.valid() ? of_input_[v] : Mobility::free);
-  }
-
-  /// Fills cavities and improves the vertices around them, which counts as one sweep. False: there was nothing to do,
-  /// or the run must end.
-  bool change(const std::vector<Filling>& fillings, int rings) {
-    if (fillings.empty() || stopped_early(report_.stopped)) return false;
-    if (report_.sweeps == options_.max_sweeps) {
-      report_.stopped = Stopped::max_sweeps;
-      return false;
-    }
-    const std::vector<VertexId> near = fill(fillings, rings);
-    if (near.empty()) return false;
-    Sweeper sweeper(mesh_, mobility_, near, hooks_.executor);
-    for (double gamma = kFirstLocalGamma;; gamma = std::max(gamma * kGammaFactor, kLastLocalGamma)) {
-      const bool last = gamma == kLastLocalGamma;
-      for (int i = 0; i < (last ? kLastLocalSweeps : kLocalSweeps); ++i) {
-        if (!sweeper.sweep({gamma, kRelaxation}, [this](double) { return is_stopped(0); })) return false;
+  void repair_patches(const SearchOptions& options) {
+    if (options.most_in_vain == 0) return;
+    for (Places places(options); may_sweep();) {
+      std::vector<Patch> patches = places.choose(draft_, hooks_.executor);
+      if (patches.empty()) return;
+      std::vector<std::uint8_t> better(patches.size(), 0);
+      std::mutex clock;
+      or_serial(hooks_.executor).run(patches.size(), [&](std::size_t i) {
+        better[i] = search(patches[i].draft, options, [&] {
+          const std::lock_guard lock(clock);
+          return stopped_early(report_.stopped) || is_stopped(double(i) / double(patches.size()));
+        });
+      });
+      std::vector<Patch> chosen;
+      for (std::size_t i = 0; i < patches.size(); ++i) {
+        if (better[i] == 0) continue;
+        places.succeeded(i);
+        chosen.push_back(std::move(patches[i]));
       }
-      if (last) break;
+      if (!put_back(chosen, draft_)) return;
+      end_round(Equals::last);
     }
+  }
+  void end_round(Equals best) {
     gamma_ = kLastGamma;
     ++report_.sweeps;
-    record();
-    return true;
-  }
-  /// Fills cavities. Returns the vertices within `rings` rings of tetrahedra around them.
-  std::vector<VertexId> fill(const std::vector<Filling>& fillings, int rings) {
-    IdVector<VertexId, std::uint8_t> near(mesh_.n_vertices()), removed(mesh_.n_vertices());
-    for (const Filling& f : fillings) {
-      for (const TetId t : f.cavity.tetrahedra) {
-        for (const VertexId v : mesh_.corners(t)) near[v] = 1;
-      }
-      if (f.removed.valid()) removed[f.removed] = 1;
-      changes_.flips += f.apex.valid() && !f.removed.valid() ? 1 : 0;
-    }
-    for (int ring = 0; ring < rings; ++ring) {
-      const auto inner = near;
-      for (const TetId t : mesh_.tetrahedra()) {
-        const auto& corners = mesh_.corners(t);
-        if (std::none_of(corners.begin(), corners.end(), [&](VertexId v) { return inner[v] != 0; })) continue;
-        for (const VertexId v : corners) near[v] = 1;
-      }
-    }
-    std::vector<VertexId> result;
-    std::size_t next = 0;  // the number of a vertex in the next mesh
-    for (const VertexId v : mesh_.vertices()) {
-      if (removed[v] != 0) continue;
-      if (near[v] != 0) result.emplace_back(next);
-      ++next;
-    }
-    std::optional<TetMesh> changed = filled(mesh_, fillings, changes_.vertices);
-    if (!changed) return {};
-    mesh_ = *std::move(changed);
-    number_mobility();
-    for (; next < mesh_.n_vertices(); ++next) result.emplace_back(next);
-    return result;
+    record(best);
   }
 
   using Clock = std::chrono::steady_clock;
   [[nodiscard]] static double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-  }
-
-  /// Returns false if no further sweep may follow. A sweep that was stopped is kept if it makes the mesh no worse.
-  bool sweep(Sweeper& sweeper, double gamma) {
-    if (report_.sweeps == options_.max_sweeps) {
-      report_.stopped = Stopped::max_sweeps;
-      return false;
-    }
-    gamma_ = gamma;
-    if (sweeper.sweep({gamma, kRelaxation}, [this](double fraction) { return is_stopped(fraction); })) ++report_.sweeps;
-    record();
-    return !stopped_early(report_.stopped);
   }
 
   bool is_stopped(double fraction) {
@@ -199,13 +154,13 @@ class Run {
     return stopped_early(report_.stopped);
   }
 
-  /// Measures the mesh, and keeps its points if it is the best so far. Of equals the last is the best.
-  void record() {
-    const auto [energy, bad] = state_of(mesh_, gamma_, hooks_.executor);
-    if (report_.history.empty() || bad <= best_bad_) {
+  /// Measures the mesh, and keeps it if it is the best so far: by the number of bad tetrahedra, and of equals the last
+  /// or the first one.
+  void record(Equals best = Equals::last) {
+    const auto [energy, bad] = state_of(draft_.mesh, gamma_, hooks_.executor);
+    if (report_.history.empty() || bad < best_bad_ || (bad == best_bad_ && best == Equals::last)) {
       best_bad_ = bad;
-      best_ = mesh_;
-      best_changes_ = changes_;
+      best_ = draft_;
     }
     if (stopped_early(report_.stopped)) return;
     SweepRecord now;
@@ -218,35 +173,40 @@ class Run {
   }
 
   OptimizeReport end() {
-    mesh_ = std::move(best_);
     report_changes();
-    report_.objective_after = state_of(mesh_, kLastGamma, hooks_.executor).energy;
+    report_.objective_after = state_of(best_.mesh, kLastGamma, hooks_.executor).energy;
+    result_ = std::move(best_.mesh);
     report_.seconds = seconds_since(start_);
     return std::move(report_);
   }
 
   void report_changes() {
-    IdVector<VertexId, VertexId>& vertices = best_changes_.vertices;
-    const auto kept =
-        static_cast<std::size_t>(std::count_if(vertices.begin(), vertices.end(), [](VertexId v) { return v.valid(); }));
+    const std::size_t n_before = result_.n_vertices();
+    auto& [vertices, next, faces, lines] = best_.names;
+    std::size_t kept = 0;
+    for (VertexId& v : vertices) {
+      if (v.index < n_before)
+        ++kept;
+      else
+        v = {};
+    }
     report_.vertices_inserted = vertices.size() - kept;
-    report_.vertices_removed = of_input_.size() - kept;
-    report_.flips = best_changes_.flips;
-    if (report_.vertices_inserted + report_.vertices_removed > 0) report_.vertices = std::move(vertices);
+    report_.vertices_removed = n_before - kept;
+    report_.flips = best_.flips;
+    if (report_.vertices_inserted + report_.vertices_removed > 0)
+      report_.origins = {std::move(vertices), std::move(faces), std::move(lines)};
   }
 
-  TetMesh& mesh_;
+  TetMesh& result_;  // until the end: the input
   const OptimizeOptions& options_;
   const OptimizeHooks& hooks_;
-  IdVector<VertexId, Mobility> of_input_, mobility_;
-  Changes changes_, best_changes_;
+  Draft draft_, best_;
   Clock::time_point start_ = Clock::now();
   // The time limit includes reading and writing. Writing takes about as long as reading took.
   double seconds_before_ = std::chrono::duration<double>(start_ - hooks_.started.value_or(start_)).count();
   OptimizeReport report_;
   double gamma_ = kFirstGamma;
   std::size_t best_bad_ = 0;
-  TetMesh best_;
 };
 
 }  // namespace

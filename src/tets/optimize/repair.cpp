@@ -30,8 +30,8 @@ struct Judged {
 
 class Repairs {
  public:
-  Repairs(const TetMesh& mesh, const IdVector<VertexId, Mobility>& mobility, double allowance)
-      : mesh_(mesh), mobility_(mobility), allowance_(allowance), cavities_(mesh) {}
+  Repairs(const Draft& draft, const RepairOptions& options)
+      : draft_(draft), mesh_(draft.mesh), options_(options), cavities_(draft.mesh) {}
 
   /// The candidates at t, the best first.
   std::vector<Judged> at(TetId t) {
@@ -44,9 +44,11 @@ class Repairs {
         insert(*cavity);
         connect(*cavity, mesh_.opposite(h));
       }
+      if (options_.split_boundary) split(cavities_.to_split(h));
     }
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = i + 1; j < 4; ++j) {
+        if (options_.split_boundary) split(cavities_.to_split(t, corners[i], corners[j]));
         const auto ring = cavities_.of_edge(t, corners[i], corners[j]);
         if (!ring) continue;
         insert(*ring);
@@ -54,7 +56,7 @@ class Repairs {
           if (v != corners[i] && v != corners[j]) connect(*ring, v);
         }
       }
-      if (mobility_[corners[i]] != Mobility::free) continue;
+      if (draft_.mobility_of(corners[i]) != Mobility::free) continue;
       const auto star = cavities_.of_vertex(corners[i]);
       if (!star) continue;
       for (const VertexId v : vertices_of(*star)) connect(*star, v, corners[i]);
@@ -87,7 +89,7 @@ class Repairs {
   }
   void judge(Filling filling, const WeightedPoint& apex) {
     const double before = excess(filling.cavity);
-    const double gain = before - excess(filling.base(mesh_), apex) + (filling.apex.valid() ? 0 : allowance_);
+    const double gain = before - excess(filling.base(mesh_), apex) + (filling.apex.valid() ? 0 : options_.allowance);
     if (gain > kLeastGain * before) found_.push_back({std::move(filling), gain});
   }
   void connect(const Cavity& cavity, VertexId apex, VertexId removed = {}) {
@@ -97,38 +99,45 @@ class Repairs {
   void insert(const Cavity& cavity) {
     Filling filling{cavity, {}, {}, {}};
     WeightedPoint& p = filling.point;
-    const std::vector<VertexId> corners = vertices_of(cavity);
+    const std::vector<VertexId> corners = cavity.split.empty() ? vertices_of(cavity) : cavity.split;
     const double share = 1 / static_cast<double>(corners.size());
     for (const VertexId v : corners) {
       const WeightedPoint q = mesh_.point(v);
       p = {p.x + share * q.x, p.y + share * q.y, p.z + share * q.z, p.w + share * q.w};
     }
     if (!is_valid(mesh_, filling)) return;
-    for (int i = 0; i < kStepsOfNewVertex; ++i) p = improved(mesh_, cavity.faces, p, Mobility::free, {kGamma, 1});
+    const Mobility mobility = cavity.split.empty() ? Mobility::free : Mobility::weight;
+    for (int i = 0; i < kStepsOfNewVertex; ++i) p = improved(mesh_, cavity.faces, p, mobility, {kGamma, 1});
     const WeightedPoint apex = p;
     judge(std::move(filling), apex);
   }
+  /// Splits an edge or face, unless it may be on the border of a patch.
+  void split(const std::optional<Cavity>& cavity) {
+    const auto stays = [&](VertexId v) { return draft_.mobility_of(v) == Mobility::none; };
+    if (cavity && !std::all_of(cavity->split.begin(), cavity->split.end(), stays)) insert(*cavity);
+  }
 
+  const Draft& draft_;
   const TetMesh& mesh_;
-  const IdVector<VertexId, Mobility>& mobility_;
-  double allowance_, regular_ = regular_energy();
+  RepairOptions options_;
+  double regular_ = regular_energy();
   Cavities cavities_;
   std::vector<Judged> found_;
 };
 
 }  // namespace
 
-std::vector<Filling> repairs(const TetMesh& mesh, const std::vector<TetId>& bad,
-                             const IdVector<VertexId, Mobility>& mobility, const RepairOptions& options) {
-  Repairs search(mesh, mobility, options.allowance);
+std::vector<Filling> repairs(const Draft& draft, const std::vector<TetId>& tetrahedra, const RepairOptions& options,
+                             const std::function<bool()>& must_stop) {
+  Repairs search(draft, options);
   std::vector<Judged> all;
-  for (const TetId t : bad) {
-    if (options.must_stop && options.must_stop()) return {};
+  for (const TetId t : tetrahedra) {
+    if (must_stop()) return {};
     std::vector<Judged> found = search.at(t);
     if (!found.empty()) all.push_back(std::move(found[options.rank % found.size()]));
   }
   std::stable_sort(all.begin(), all.end(), [](const Judged& a, const Judged& b) { return a.gain > b.gain; });
-  IdVector<TetId, std::uint8_t> used(mesh.n_tetrahedra());
+  IdVector<TetId, std::uint8_t> used(draft.mesh.n_tetrahedra());
   std::vector<Filling> chosen;
   for (Judged& one : all) {
     const auto& cavity = one.filling.cavity.tetrahedra;

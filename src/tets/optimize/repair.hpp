@@ -5,24 +5,24 @@
 #include <functional>
 #include <vector>
 
-#include "tets/optimize/newton_step.hpp"
-#include "tets/topology/cavity.hpp"
+#include "tets/optimize/draft.hpp"
 
 namespace temper::tets {
 
 // A new vertex may raise the excess of its cavity by this much: the vertices around it have not yet made room for it.
 // On 5 public meshes 10 leaves bad tetrahedra that 20 makes good, and 100 inserts three times the vertices.
-inline constexpr double kAllowance = 20, kAllowanceOfTrial = 40;
+inline constexpr double kAllowance = 20;
 
 struct RepairOptions {
   double allowance = kAllowance;
-  std::size_t rank = 0;                  ///< Place of the candidate that is taken at a tetrahedron; 0 is the best
-  std::function<bool()> must_stop = {};  ///< Called often
+  std::size_t rank = 0;         ///< Place of the candidate that is taken at a tetrahedron; 0 is the best
+  bool split_boundary = false;  ///< Faces and edges that stay may be split
 };
 
-/// A cone for each bad tetrahedron, if one lowers the excess: the energy beyond the energy of regular tetrahedra, so
-/// that their number does not count. The cones share no tetrahedron; the largest gain comes first.
-[[nodiscard]] std::vector<Filling> repairs(const TetMesh& mesh, const std::vector<TetId>& bad,
-                                           const IdVector<VertexId, Mobility>& mobility, const RepairOptions& options);
+/// A cone for each tetrahedron, if one lowers the excess: the energy beyond the energy of regular tetrahedra, so that
+/// their number does not count. The cones share no tetrahedron; the largest gain comes first. must_stop() is called
+/// often; the result is empty if it says yes.
+[[nodiscard]] std::vector<Filling> repairs(const Draft& draft, const std::vector<TetId>& tetrahedra,
+                                           const RepairOptions& options, const std::function<bool()>& must_stop);
 
 }  // namespace temper::tets

@@ -18,96 +18,6 @@ bool has(const std::array<VertexId, N>& corners, VertexId v) {
   return std::find(corners.begin(), corners.end(), v) != corners.end();
 }
 
-/// Collects the arrays of the next mesh.
-class NextMesh {
- public:
-  NextMesh(const TetMesh& mesh, std::span<const Filling> fillings) : mesh_(mesh), number_(mesh.n_vertices(), 0) {
-    for (const Filling& f : fillings) {
-      if (f.removed.valid()) number_[f.removed.index] = -1;
-    }
-  }
-  void take_vertices(IdVector<VertexId, VertexId>& vertices) {
-    for (const VertexId v : mesh_.vertices()) {
-      if (number_[v.index] < 0) continue;
-      number_[v.index] = static_cast<std::int32_t>(points_.size());
-      add_vertex(mesh_.point(v), vertices[v]);
-    }
-  }
-  void take_others(std::span<const Filling> fillings) {
-    IdVector<TetId, std::uint8_t> gone(mesh_.n_tetrahedra());
-    for (const Filling& f : fillings) {
-      for (const TetId t : f.cavity.tetrahedra) gone[t] = 1;
-    }
-    for (const TetId t : mesh_.tetrahedra()) {
-      if (gone[t] != 0) continue;
-      tetrahedra_.push_back(numbers(mesh_.corners(t)));
-      regions_.push_back(mesh_.region(t));
-    }
-  }
-  void fill(const Filling& f) {
-    auto apex = static_cast<std::int32_t>(points_.size());
-    if (f.apex.valid()) {
-      apex = number_[f.apex.index];
-    } else {
-      add_vertex(f.point, {});
-    }
-    for (const HalffaceId h : f.base(mesh_)) {
-      const auto [a, b, c] = numbers(mesh_.vertices(h));
-      tetrahedra_.push_back({a, b, c, apex});
-      regions_.push_back(mesh_.region(TetMesh::tetrahedron(h)));
-    }
-  }
-  std::optional<TetMesh> build(IdVector<VertexId, VertexId>& vertices) {
-    std::vector<std::array<std::int32_t, 3>> faces;
-    std::vector<std::array<std::int32_t, 2>> lines;
-    std::vector<std::int32_t> face_tags, line_tags, marked, point_tags;
-    for (const TaggedFace& f : mesh_.tagged_faces()) {
-      faces.push_back(numbers(mesh_.vertices(f.face)));
-      face_tags.push_back(f.tag);
-    }
-    for (const TaggedLine& l : mesh_.tagged_lines()) {
-      lines.push_back(numbers(l.ends));
-      line_tags.push_back(l.tag);
-    }
-    for (const TaggedPoint& p : mesh_.tagged_points()) {
-      if (number_[p.vertex.index] < 0) continue;
-      marked.push_back(number_[p.vertex.index]);
-      point_tags.push_back(p.tag);
-    }
-    TetMeshInput input;
-    input.points = points_, input.weights = weights_;
-    input.tetrahedra = tetrahedra_, input.regions = regions_;
-    input.faces = faces, input.face_tags = face_tags;
-    input.lines = lines, input.line_tags = line_tags;
-    input.marked_points = marked, input.point_tags = point_tags;
-    Expected<BuiltTetMesh> built = TetMesh::build(input);
-    if (!built || built->reversed_tetrahedra > 0) return std::nullopt;
-    vertices = std::move(vertices_);
-    return std::move(built->mesh);
-  }
-
- private:
-  void add_vertex(const WeightedPoint& p, VertexId former) {
-    points_.push_back(p.position());
-    weights_.push_back(p.w);
-    vertices_.push_back(former);
-  }
-  template <std::size_t N>
-  [[nodiscard]] std::array<std::int32_t, N> numbers(const std::array<VertexId, N>& corners) const {
-    std::array<std::int32_t, N> result;
-    for (std::size_t k = 0; k < N; ++k) result[k] = number_[corners[k].index];
-    return result;
-  }
-
-  const TetMesh& mesh_;
-  std::vector<std::int32_t> number_;  // of each vertex in the next mesh; −1: removed
-  std::vector<Vec3> points_;
-  std::vector<double> weights_;
-  IdVector<VertexId, VertexId> vertices_;
-  std::vector<std::array<std::int32_t, 4>> tetrahedra_;
-  std::vector<std::int32_t> regions_;
-};
-
 }  // namespace
 
 Cavities::Cavities(const TetMesh& mesh) : mesh_(mesh), stays_(mesh.n_halffaces()), on_line_(mesh.n_vertices()) {
@@ -135,6 +45,10 @@ Cavity Cavities::around(std::vector<TetId> tetrahedra) const {
   return cavity;
 }
 
+bool Cavities::is_line(VertexId a, VertexId b) const {
+  return std::binary_search(lines_.begin(), lines_.end(), std::array{std::min(a, b), std::max(a, b)});
+}
+
 Cavity Cavities::of_tetrahedron(TetId t) const { return around({t}); }
 
 std::optional<Cavity> Cavities::of_face(HalffaceId h) const {
@@ -143,9 +57,7 @@ std::optional<Cavity> Cavities::of_face(HalffaceId h) const {
 }
 
 std::optional<Cavity> Cavities::of_edge(TetId t, VertexId a, VertexId b) const {
-  const auto [first, last] = std::minmax(a, b);
-  if (std::binary_search(lines_.begin(), lines_.end(), std::array{VertexId(first), VertexId(last)}))
-    return std::nullopt;
+  if (is_line(a, b)) return std::nullopt;
   std::vector<TetId> ring = {t};
   for (std::size_t i = 0; i < ring.size(); ++i) {
     for (int f = 0; f < 4; ++f) {
@@ -158,6 +70,37 @@ std::optional<Cavity> Cavities::of_edge(TetId t, VertexId a, VertexId b) const {
     }
   }
   return around(std::move(ring));
+}
+
+std::optional<Cavity> Cavities::to_split(HalffaceId h) const {
+  if (stays_[h] == 0) return std::nullopt;
+  const auto [a, b, c] = mesh_.vertices(h);
+  std::vector<TetId> sides = {TetMesh::tetrahedron(h)};
+  if (!mesh_.is_boundary(h)) sides.push_back(TetMesh::tetrahedron(mesh_.twin(h)));
+  Cavity cavity = around(std::move(sides));
+  std::erase(cavity.faces, h);
+  cavity.split = {a, b, c};
+  return cavity;
+}
+
+std::optional<Cavity> Cavities::to_split(TetId t, VertexId a, VertexId b) const {
+  std::vector<TetId> fan = {t};
+  bool stays = is_line(a, b);
+  for (std::size_t i = 0; i < fan.size(); ++i) {
+    for (int f = 0; f < 4; ++f) {
+      const HalffaceId h = TetMesh::halfface(fan[i], f), other = mesh_.twin(h);
+      if (const VertexId across = mesh_.opposite(h); across == a || across == b) continue;
+      stays = stays || stays_[h] != 0;
+      if (other.valid() && !contains(fan, TetMesh::tetrahedron(other))) fan.push_back(TetMesh::tetrahedron(other));
+    }
+  }
+  if (!stays) return std::nullopt;
+  Cavity cavity{std::move(fan), {}, {a, b}};
+  for (const TetId s : cavity.tetrahedra) {
+    cavity.faces.push_back(mesh_.halfface_opposite(s, a));
+    cavity.faces.push_back(mesh_.halfface_opposite(s, b));
+  }
+  return cavity;
 }
 
 std::optional<Cavity> Cavities::of_vertex(VertexId v) const {
@@ -193,13 +136,24 @@ bool is_valid(const TetMesh& mesh, const Filling& filling) {
   });
 }
 
-std::optional<TetMesh> filled(const TetMesh& mesh, std::span<const Filling> fillings,
-                              IdVector<VertexId, VertexId>& vertices) {
-  NextMesh next(mesh, fillings);
-  next.take_vertices(vertices);
-  next.take_others(fillings);
-  for (const Filling& f : fillings) next.fill(f);
-  return next.build(vertices);
+std::optional<std::pair<TetMesh, Names>> filled(const TetMesh& mesh, std::span<const Filling> fillings,
+                                                const Names& names) {
+  IdVector<TetId, std::uint8_t> gone(mesh.n_tetrahedra());
+  IdVector<VertexId, std::uint8_t> removed(mesh.n_vertices());
+  for (const Filling& f : fillings) {
+    for (const TetId t : f.cavity.tetrahedra) gone[t] = 1;
+    if (f.removed.valid()) removed[f.removed] = 1;
+  }
+  NextMesh next(mesh, names, gone, removed);
+  for (const Filling& f : fillings) {
+    const NextMesh::Number apex = f.apex.valid() ? next.number(f.apex) : next.add_vertex(f.point);
+    if (!f.cavity.split.empty()) next.split(f.cavity.split, apex);
+    for (const HalffaceId h : f.base(mesh)) {
+      const auto [a, b, c] = next.numbers(mesh.vertices(h));
+      next.add_tetrahedron({a, b, c, apex}, mesh.region(TetMesh::tetrahedron(h)));
+    }
+  }
+  return next.build();
 }
 
 }  // namespace temper::tets

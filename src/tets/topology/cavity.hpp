@@ -30,15 +30,18 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "temper/tets/mesh.hpp"
+#include "tets/topology/next_mesh.hpp"
 
 namespace temper::tets {
 
 struct Cavity {
   std::vector<TetId> tetrahedra;
-  std::vector<HalffaceId> faces;  ///< Faces around it, of its tetrahedra
+  std::vector<HalffaceId> faces;  ///< Faces around it, of its tetrahedra, without those of `split`
+  /// Ends of an edge, or corners of a face, that stays but may be split: a new vertex must lie on it.
+  std::vector<VertexId> split = {};
 };
 
 /// The cavities of a mesh. No face of the boundary, between regions or with a tag is inside a cavity, and no tagged
@@ -51,10 +54,14 @@ class Cavities {
   [[nodiscard]] std::optional<Cavity> of_face(HalffaceId h) const;
   /// The ring around the edge from a to b of t.
   [[nodiscard]] std::optional<Cavity> of_edge(TetId t, VertexId a, VertexId b) const;
+  /// The tetrahedra at a face or around an edge that stay, to be split.
+  [[nodiscard]] std::optional<Cavity> to_split(HalffaceId h) const;
+  [[nodiscard]] std::optional<Cavity> to_split(TetId t, VertexId a, VertexId b) const;
   /// Nothing for vertices on faces or lines that stay.
   [[nodiscard]] std::optional<Cavity> of_vertex(VertexId v) const;
 
  private:
+  [[nodiscard]] bool is_line(VertexId a, VertexId b) const;
   [[nodiscard]] Cavity around(std::vector<TetId> tetrahedra) const;
 
   const TetMesh& mesh_;
@@ -76,10 +83,9 @@ struct Filling {
 /// Says whether all new tetrahedra are positive. Exact.
 [[nodiscard]] bool is_valid(const TetMesh& mesh, const Filling& filling);
 
-/// The mesh with all cavities filled. They share no tetrahedron. `vertices`: the number of each vertex in some former
-/// mesh, invalid for new ones; it is brought up to date. New vertices come last. Nothing if TetMesh::build() refuses
-/// the result, as it may where coordinates are at the limits of a double. O(n).
-[[nodiscard]] std::optional<TetMesh> filled(const TetMesh& mesh, std::span<const Filling> fillings,
-                                            IdVector<VertexId, VertexId>& vertices);
+/// The mesh with all cavities filled, and its names. They share no tetrahedron. New vertices come last, in the order of
+/// their fillings. Nothing if a tetrahedron is not positive or a coordinate is out of range. O(n).
+[[nodiscard]] std::optional<std::pair<TetMesh, Names>> filled(const TetMesh& mesh, std::span<const Filling> fillings,
+                                                              const Names& names);
 
 }  // namespace temper::tets

@@ -353,7 +353,7 @@ TEST_F(TetFiles, NewVerticesTakeTheDataOfTheirPlace) {
   const tets::TetMesh mesh = tets::TetMesh::build(input)->mesh;
   IdVector<VertexId, VertexId> vertices(mesh.n_vertices());
   for (std::size_t v = 1; v < points.size(); ++v) vertices[VertexId(v)] = VertexId(v - 1);
-  const DataReport report = update(file, loaded, mesh, vertices);
+  const DataReport report = update(file, loaded, mesh, {vertices, {}, {}});
   EXPECT_EQ(report.points_inserted, 1U);
   EXPECT_EQ(std::get<std::vector<double>>(file.point_data[0].values)[0], 1 + 2 * 1.25 - 3 * 0.5 + 5 * 0.25);
   EXPECT_EQ(report.dropped, std::vector<std::string>{"id"});

@@ -262,17 +262,17 @@ TEST(TetOptimize, VerticesAreInsertedWhereMovesAloneLeaveBadTetrahedra) {
   ASSERT_TRUE(before && report);
   EXPECT_GT(quality(moved).orthocenters_outside, 0U);
   EXPECT_EQ(moved.corner_data().size(), input.corner_data().size());
-  EXPECT_TRUE(before->vertices.empty());
+  EXPECT_TRUE(before->origins.vertices.empty());
   const Quality after = quality(changed);
   EXPECT_EQ(after.orthocenters_outside, 0U);
   EXPECT_EQ(changed.validate(), std::nullopt);
   EXPECT_GT(report->vertices_inserted, 0U);
   EXPECT_EQ(changed.n_vertices() + report->vertices_removed, input.n_vertices() + report->vertices_inserted);
-  ASSERT_EQ(report->vertices.size(), changed.n_vertices());
+  ASSERT_EQ(report->origins.vertices.size(), changed.n_vertices());
   const auto on_boundary = boundary_vertices(input), still = boundary_vertices(changed);
   std::size_t kept = 0;
   for (const VertexId v : changed.vertices()) {
-    const VertexId was = report->vertices[v];
+    const VertexId was = report->origins.vertices[v];
     EXPECT_EQ(still[v] != 0, was.valid() && on_boundary[was] != 0);
     if (still[v] == 0) continue;
     EXPECT_EQ(changed.position(v), input.position(was));

@@ -10,12 +10,6 @@
 namespace temper::tets {
 namespace {
 
-IdVector<VertexId, VertexId> own_numbers(const TetMesh& mesh) {
-  IdVector<VertexId, VertexId> all;
-  for (const VertexId v : mesh.vertices()) all.push_back(v);
-  return all;
-}
-
 WeightedPoint middle(const TetMesh& mesh, const Cavity& cavity) {
   WeightedPoint p;
   for (const HalffaceId h : cavity.faces) {
@@ -38,18 +32,19 @@ std::vector<VertexId> corners_of(const TetMesh& mesh, const Cavity& cavity) {
 
 /// Expects what each filling keeps, and returns the mesh.
 TetMesh fill(const TetMesh& mesh, const Filling& filling) {
-  auto vertices = own_numbers(mesh);
-  const std::optional<TetMesh> made = filled(mesh, {&filling, 1}, vertices);
+  const auto made = filled(mesh, {&filling, 1}, Names(mesh));
   EXPECT_TRUE(made.has_value());
-  const TetMesh& after = *made;
+  const auto& [after, names] = *made;
   EXPECT_EQ(after.validate(), std::nullopt);
   const Quality a = quality(mesh), b = quality(after);
   EXPECT_NEAR(b.volume, a.volume, 1e-12 * a.volume);
   EXPECT_EQ(b.boundary_faces, a.boundary_faces);
   EXPECT_EQ(b.inverted_tetrahedra, 0U);
-  EXPECT_EQ(vertices.size(), after.n_vertices());
-  for (const VertexId v : after.vertices())
-    EXPECT_EQ(after.point(v), vertices[v].valid() ? mesh.point(vertices[v]) : filling.point);
+  EXPECT_EQ(names.vertices.size(), after.n_vertices());
+  for (const VertexId v : after.vertices()) {
+    const VertexId name = names.vertices[v];
+    EXPECT_EQ(after.point(v), name.index < mesh.n_vertices() ? mesh.point(name) : filling.point);
+  }
   return after;
 }
 

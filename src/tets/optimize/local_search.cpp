@@ -1,0 +1,162 @@
+#include "tets/optimize/local_search.hpp"
+
+#include <algorithm>
+#include <unordered_set>
+#include <utility>
+
+#include "tets/optimize/repair.hpp"
+#include "tets/optimize/sweeper.hpp"
+#include "tets/quality/measure.hpp"
+
+namespace temper::tets {
+namespace {
+
+// γ falls from the first to the last one by a factor. The last one is smaller than in a whole mesh: some tetrahedra are
+// good only by a margin of 0.001.
+constexpr double kFirstGamma = 0.3, kGammaFactor = 0.7, kLastGamma = 0.0005;
+constexpr int kSweeps = 2, kLastSweeps = 10;
+constexpr double kRelaxation = 1.7;
+// Scores have the energy at this γ. A gain below this part of it is none.
+constexpr double kScoreGamma = 0.003, kLeastGain = 0.01;
+// Changes in a row before the mesh is better.
+constexpr int kLongestChain = 4;
+// Rings of tetrahedra whose vertices move when many cavities change at once.
+constexpr int kRingsOfAll = 2;
+// Rings of tetrahedra around a place, one more for each search in vain, and the most searches.
+constexpr int kRings = 2, kTriesOfPlace = 4;
+const int kTriesM = getenv("TM") ? atoi(getenv("TM")) : 1, kVainM = getenv("VM") ? atoi(getenv("VM")) : 4;
+
+/// The tetrahedra that need a change: the bad ones, or else those with a small margin, the smallest first.
+std::vector<TetId> to_change(const TetMesh& mesh, double small_margin, Executor* executor = nullptr) {
+  std::vector<TetId> result = bad_tetrahedra(mesh, executor);
+  if (!result.empty() || small_margin == 0) return result;
+  std::vector<std::pair<double, TetId>> small;
+  for (const TetId t : mesh.tetrahedra()) {
+    if (const double margin = measure_tetrahedron(mesh, t).margin(); margin < small_margin)
+      small.emplace_back(margin, t);
+  }
+  std::sort(small.begin(), small.end());
+  for (const auto& [margin, t] : small) result.push_back(t);
+  return result;
+}
+
+/// Some tetrahedra, and those within some rings around them.
+std::vector<TetId> with_rings(const TetMesh& mesh, const VertexStars& stars, std::vector<TetId> tetrahedra, int rings) {
+  std::unordered_set<std::uint32_t> seen, reached;
+  for (const TetId t : tetrahedra) seen.insert(t.index);
+  for (int ring = 0; ring < rings; ++ring) {
+    for (std::size_t i = 0, n = tetrahedra.size(); i < n; ++i) {
+      const auto corners = mesh.corners(tetrahedra[i]);
+      for (const VertexId v : corners) {
+        if (!reached.insert(v.index).second) continue;
+        for (const HalffaceId h : stars.link(v)) {
+          if (const TetId t = TetMesh::tetrahedron(h); seen.insert(t.index).second) tetrahedra.push_back(t);
+        }
+      }
+    }
+  }
+  std::sort(tetrahedra.begin(), tetrahedra.end());
+  return tetrahedra;
+}
+
+/// Sweeps over some vertices, with γ from large to small. False: it must stop.
+bool settle(Draft& draft, const std::vector<VertexId>& vertices, const MustStop& must_stop,
+            Executor* executor = nullptr) {
+  IdVector<VertexId, Mobility> mobility;
+  for (const VertexId v : draft.mesh.vertices()) mobility.push_back(draft.mobility_of(v));
+  Sweeper sweeper(draft.mesh, mobility, vertices, executor);
+  for (double gamma = kFirstGamma;; gamma = std::max(gamma * kGammaFactor, kLastGamma)) {
+    const bool last = gamma == kLastGamma;
+    for (int i = 0; i < (last ? kLastSweeps : kSweeps); ++i) {
+      if (!sweeper.sweep({gamma, kRelaxation}, [&](double) { return must_stop(); })) return false;
+    }
+    if (last) return true;
+  }
+}
+
+/// The first changes of the k-th chain: the best at each place together, or one alone.
+std::vector<Filling> first_changes(const Draft& draft, std::size_t k, const SearchOptions& options,
+                                   const MustStop& must_stop) {
+  constexpr std::array<double, 4> kAllowances = {2 * kAllowance, kAllowance, 4 * kAllowance, kAllowance / 2};
+  const std::vector<TetId> places = to_change(draft.mesh, options.small_margin);
+  if (places.empty()) return {};
+  if (k % 2 == 1) return repairs(draft, places, {kAllowances[k / 2 % 4], k / 8, options.split_boundary}, must_stop);
+  const std::size_t i = k / 2;
+  return repairs(draft, {places[i % places.size()]}, {2 * kAllowance, i / places.size(), options.split_boundary},
+                 must_stop);
+}
+
+}  // namespace
+
+Score score_of(const TetMesh& mesh) {
+  const auto [energy, bad] = state_of(mesh, kScoreGamma);
+  return {bad, energy};
+}
+
+bool is_better(const Score& now, const Score& before) {
+  return now.bad != before.bad ? now.bad < before.bad : now.energy < (1 - kLeastGain) * before.energy;
+}
+
+bool change_all(Draft& draft, const MustStop& must_stop, Executor* executor) {
+  const std::vector<Filling> fillings = repairs(draft, bad_tetrahedra(draft.mesh, executor), {kAllowance}, must_stop);
+  std::vector<TetId> changed;
+  for (const Filling& f : fillings)
+    changed.insert(changed.end(), f.cavity.tetrahedra.begin(), f.cavity.tetrahedra.end());
+  IdVector<VertexId, std::uint8_t> near(draft.names.next.index);  // by name
+  for (const TetId t : with_rings(draft.mesh, VertexStars(draft.mesh), std::move(changed), kRingsOfAll)) {
+    for (const VertexId v : draft.mesh.corners(t)) near[draft.names.vertices[v]] = 1;
+  }
+  if (fillings.empty() || !draft.fill(fillings)) return false;
+  near.resize(draft.names.next.index, 1);
+  std::vector<VertexId> moving;
+  for (const VertexId v : draft.mesh.vertices()) {
+    if (near[draft.names.vertices[v]] != 0) moving.push_back(v);
+  }
+  return settle(draft, moving, must_stop, executor);
+}
+
+bool search(Draft& draft, const SearchOptions& options, const MustStop& must_stop) {
+  const Score start = score_of(draft.mesh);
+  Score best = start;
+  for (int in_vain = 0; in_vain < options.most_in_vain;) {
+    Draft trial = draft;
+    std::vector<Filling> changes = first_changes(trial, static_cast<std::size_t>(in_vain++), options, must_stop);
+    for (int length = 0; length < kLongestChain && !changes.empty() && trial.fill(changes); ++length) {
+      const auto all = trial.mesh.vertices();
+      if (!settle(trial, {all.begin(), all.end()}, must_stop)) return is_better(best, start);
+      if (const Score score = score_of(trial.mesh); is_better(score, best)) {
+        best = score;
+        draft = std::move(trial);
+        in_vain = 0;
+        break;
+      }
+      changes = repairs(trial, to_change(trial.mesh, options.small_margin), {kAllowance, 0, options.split_boundary},
+                        must_stop);
+    }
+  }
+  return is_better(best, start);
+}
+
+std::vector<Patch> Places::choose(const Draft& draft, Executor* executor) {
+  const TetMesh& mesh = draft.mesh;
+  chosen_.clear();
+  std::vector<Patch> patches;
+  const VertexStars stars(mesh);
+  IdVector<TetId, std::uint8_t> used(mesh.n_tetrahedra());
+  for (const TetId t : to_change(mesh, options_.small_margin, executor)) {
+    Corners corners = mesh.corners(t);
+    for (VertexId& v : corners) v = draft.names.vertices[v];
+    std::sort(corners.begin(), corners.end());
+    const int tries = tries_[corners];
+    if (tries >= kTriesOfPlace) continue;
+    std::vector<TetId> around = with_rings(mesh, stars, {t}, kRings + tries);
+    if (std::any_of(around.begin(), around.end(), [&](TetId s) { return used[s] != 0; })) continue;
+    for (const TetId s : around) used[s] = 1;
+    chosen_.push_back(corners);
+    ++tries_[corners];
+    patches.push_back(patch_of(draft, std::move(around)));
+  }
+  return patches;
+}
+
+}  // namespace temper::tets

@@ -1,0 +1,56 @@
+// Changes of connectivity at one place after the other. Each place is a patch: a small mesh with a search of its own.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "temper/detail/executor.hpp"
+#include "tets/optimize/draft.hpp"
+
+namespace temper::tets {
+
+/// A mesh is better if it has fewer bad tetrahedra, or as many and less energy at a small γ.
+struct Score {
+  std::size_t bad = 0;
+  double energy = 0;
+};
+[[nodiscard]] Score score_of(const TetMesh& mesh);
+/// Says whether `now` is better by more than rounding can make it.
+[[nodiscard]] bool is_better(const Score& now, const Score& before);
+
+using MustStop = std::function<bool()>;
+
+/// Fills a cavity at each bad tetrahedron, where this lowers the energy, and improves the vertices around. False: there
+/// was nothing to do, or it must stop.
+bool change_all(Draft& draft, const MustStop& must_stop, Executor* executor);
+
+struct SearchOptions {
+  int most_in_vain = 0;     ///< Trials without success, after which the search ends
+  double small_margin = 0;  ///< Without bad tetrahedra it looks at those with a smaller margin
+  bool split_boundary = false;
+};
+
+/// Tries chains of changes at the bad tetrahedra, or those with small margins, and takes the chains that make the mesh
+/// better. Returns whether it is better.
+bool search(Draft& draft, const SearchOptions& options, const MustStop& must_stop);
+
+/// The places of a mesh that need a search, and how often each was in vain.
+class Places {
+ public:
+  explicit Places(const SearchOptions& options) : options_(options) {}
+  /// Patches around tetrahedra where a search may help. They share no tetrahedron. A place where searches were in vain
+  /// gets a larger patch, and after some none.
+  [[nodiscard]] std::vector<Patch> choose(const Draft& draft, Executor* executor);
+  /// Tells of the i-th patch that its search was successful.
+  void succeeded(std::size_t i) { tries_.erase(chosen_[i]); }
+
+ private:
+  using Corners = std::array<VertexId, 4>;  ///< of a tetrahedron, by name, sorted
+  SearchOptions options_;
+  std::map<Corners, int> tries_;
+  std::vector<Corners> chosen_;
+};
+
+}  // namespace temper::tets
