@@ -12,6 +12,7 @@
 #include <regex>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "options.hpp"
@@ -19,6 +20,9 @@
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
+#include "temper/tets/io.hpp"
+#include "temper/tets/optimize.hpp"
+#include "temper/tets/quality.hpp"
 
 namespace temper::bench {
 namespace {
@@ -121,25 +125,49 @@ void CountingExecutor::print(int sweeps) const {
     std::printf("%3d threads: at most %.2f s\n", threads, serial + chain + (parallel - chain) / threads);
 }
 
-int run(const std::string& input, const std::string& output) {
-  CountingExecutor executor;
-  auto file = io::read(input, {&executor});
-  if (!file) fail(file.error().what());
-  auto loaded = io::make_mesh(*file, {}, &executor);
-  if (!loaded) fail(loaded.error().what());
-  io::release_geometry(*file, *loaded);
+void insist(const auto& result) {
+  if (!result) fail(result.error().what());
+}
+
+/// Both return the number of sweeps.
+int run(io::MeshFile& file, const std::string& output, CountingExecutor& executor) {
+  auto loaded = io::make_mesh(file, {}, &executor);
+  insist(loaded);
+  io::release_geometry(file, *loaded);
   OptimizeHooks hooks;
   hooks.executor = &executor;
   hooks.exclusive = true;
   hooks.viewer = [&](const Mesh& mesh) { static_cast<void>(quality(mesh, {.brief = true, .executor = &executor})); };
   hooks.measures_sizes = false;
   const auto report = optimize(loaded->mesh, {}, hooks);
-  if (!report) fail(report.error().what());
-  io::update(*file, *loaded, loaded->mesh);
-  const auto written = io::write(output, *file, {{}, {}, &executor});
-  if (!written) fail(written.error().what());
+  insist(report);
+  io::update(file, *loaded, loaded->mesh);
+  insist(io::write(output, file, {{}, {}, &executor}));
+  return report->sweeps;
+}
+
+int run(io::TetFile& file, const std::string& output, CountingExecutor& executor) {
+  const auto loaded = io::make_mesh(file, &executor);
+  insist(loaded);
+  static_cast<void>(quality(loaded->mesh, {.executor = &executor}));
+  tets::TetMesh mesh = loaded->mesh;
+  tets::OptimizeHooks hooks;
+  hooks.executor = &executor;
+  const auto report = optimize(mesh, {.keep_edges = true}, hooks);
+  insist(report);
+  static_cast<void>(quality(mesh, {.executor = &executor}));
+  io::update(file, *loaded, mesh, report->vertices, {{}, &executor});
+  insist(io::write(output, file, {{}, {}, &executor}));
+  return report->sweeps;
+}
+
+int run(const std::string& input, const std::string& output) {
+  CountingExecutor executor;
+  auto file = io::read_any(input, {&executor});
+  insist(file);
+  const int sweeps = std::visit([&](auto& f) { return run(f, output, executor); }, *file);
   executor.end_serial(nullptr);
-  executor.print(std::max(1, report->sweeps));
+  executor.print(std::max(1, sweeps));
   return 0;
 }
 

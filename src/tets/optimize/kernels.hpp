@@ -4,8 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <span>
 
 #include "base/pack.hpp"
 #include "tets/energy/star_kernel.hpp"
@@ -31,9 +29,9 @@ struct alignas(64) LinkLanes {
   std::byte face[sizeof(LinkFace<Lane>)];
 };
 
-/// The faces of a link. Lanes beyond `faces` repeat others.
+/// The faces of a link, in blocks of eight. Lanes beyond `faces` repeat others.
 struct Link {
-  std::span<LinkLanes> lanes;
+  LinkLanes* blocks = nullptr;
   std::size_t faces = 0;
 };
 

@@ -44,6 +44,7 @@ TEMPER_INLINE Point load(const tets::LanePoints& p) {
 TEMPER_INLINE Point in_all_lanes(const WeightedPoint& p) {
   return {{Pack::all(p.x), Pack::all(p.y), Pack::all(p.z)}, Pack::all(p.w)};
 }
+TEMPER_INLINE std::size_t n_blocks(const Link& link) { return (link.faces + kLanes - 1) / kLanes; }
 /// The lanes of block b that have a face.
 TEMPER_INLINE Mask lanes_in_use(const Link& link, std::size_t b) {
   return Pack::load(kNumbers) < static_cast<double>(link.faces - b * kLanes);
@@ -73,8 +74,8 @@ TEMPER_INLINE Around look_around(const Link& link, const WeightedPoint& p, doubl
   const Point center = in_all_lanes(p);
   PointDerivatives<Pack> sums = {};
   Pack spokes2 = {};
-  for (std::size_t b = 0; b < link.lanes.size(); ++b) {
-    LinkLanes& lanes = link.lanes[b];
+  for (std::size_t b = 0; b < n_blocks(link); ++b) {
+    LinkLanes& lanes = link.blocks[b];
     const Mask used = lanes_in_use(link, b);
     const auto if_used = [used](const Pack& x) { return select(used, x, Pack::all(0)); };
     const Face& face = *new (lanes.face) Face(tets::link_face_of(load(lanes.q), load(lanes.r), load(lanes.s)));
@@ -94,8 +95,8 @@ PointDerivatives<double> derivatives(const Link& link, const WeightedPoint& p, d
 TEMPER_INLINE double farthest(const Link& link, const WeightedPoint& origin, const WeightedPoint& step) {
   const Point from = in_all_lanes(origin), along = in_all_lanes(step);
   Pack limits = Pack::all(1);
-  for (const LinkLanes& lanes : link.lanes) {
-    const Face& face = face_of(lanes);
+  for (std::size_t b = 0; b < n_blocks(link); ++b) {
+    const Face& face = face_of(link.blocks[b]);
     const Pack slope = dot(face.normal, along.at);
     const Pack limit = -kInversionFraction * dot(face.normal, from.at - face.origin) / slope;
     limits = select((slope < 0) & (limit < limits), limit, limits);
@@ -112,22 +113,24 @@ TEMPER_INLINE bool is_better(const Link& link, const WeightedPoint& p, double ga
   constexpr double kLeast = kLeastShape * kRegularShape;
   const Point center = in_all_lanes(p);
   Pack sums = Pack::all(0);
-  for (std::size_t b = 0; b < link.lanes.size(); ++b) {
-    const LinkLanes& lanes = link.lanes[b];
+  for (std::size_t b = 0; b < n_blocks(link); ++b) {
+    const LinkLanes& lanes = link.blocks[b];
     const Face& face = face_of(lanes);
     const Apex apex(face, center.at, center.w);
     const Pack before = Pack::load(lanes.shape), needed = select(before < kLeast, before, Pack::all(kLeast));
     if ((apex.volume6 >= needed * power_3_2(apex.length2)).bits() != kAllLanes) return false;
     const Pack energies = tets::tet_energy(face, apex, Pack::all(gamma));
     sums = sums + select(lanes_in_use(link, b), energies, Pack::all(0));
+    if (!(sum(sums) < value)) return false;
   }
-  return sum(sums) < value;
+  return true;
 }
 
 /// Says whether the tetrahedra with p are positive, beyond doubt by rounding.
 TEMPER_INLINE bool is_certainly_positive(const Link& link, const WeightedPoint& p) {
   const Point center = in_all_lanes(p);
-  for (const LinkLanes& lanes : link.lanes) {
+  for (std::size_t b = 0; b < n_blocks(link); ++b) {
+    const LinkLanes& lanes = link.blocks[b];
     const auto test = inlined::filtered_power_test(load(lanes.q).at, load(lanes.r).at, load(lanes.s).at, center.at);
     if ((test.value > test.bound).bits() != kAllLanes) return false;
   }

@@ -67,7 +67,7 @@ constexpr int kMostColors = 63;
 constexpr int kColorsOfFixed = 16;               // vertices whose position stays come first, as in most files
 constexpr std::size_t kVerticesPerTask = 32;     // a tenth of a millisecond
 constexpr std::size_t kVerticesPerLook = 16384;  // between two questions whether to stop: tens of milliseconds
-constexpr std::size_t kAhead = 4;                // distance to the vertex whose memory is fetched in advance
+constexpr std::size_t kAhead = 2;                // distance to the vertex whose memory is fetched in advance
 
 /// Says whether the predicates are exact for p.
 bool is_exact(const WeightedPoint& p) {
@@ -122,7 +122,7 @@ Link gather(const TetMesh& mesh, std::span<const HalffaceId> halffaces, std::vec
     LinkLanes& to = room[i / kLanes];
     to.q.set(i % kLanes, mesh.point(q)), to.r.set(i % kLanes, mesh.point(r)), to.s.set(i % kLanes, mesh.point(s));
   }
-  return {std::span(room).first(blocks), faces};
+  return {room.data(), faces};
 }
 
 WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> halffaces, const WeightedPoint& origin,
@@ -189,9 +189,12 @@ bool Sweeper::sweep(const SweepParameters& parameters, const MustStop& must_stop
 }
 
 void Sweeper::improve(std::size_t first, std::size_t last, const Step& step) {
+  const auto ahead = [&](std::size_t i) { return stars_.link(sequence_[std::min(i, last - 1)]); };
   for (std::size_t i = first; i < last; ++i) {
-    for (const HalffaceId h : stars_.link(sequence_[std::min(i + kAhead, last - 1)]))
-      __builtin_prefetch(&mesh_.corners(TetMesh::tetrahedron(h)));
+    for (const HalffaceId h : ahead(i + 2 * kAhead)) __builtin_prefetch(&mesh_.corners(TetMesh::tetrahedron(h)));
+    for (const HalffaceId h : ahead(i + kAhead)) {
+      for (const VertexId u : mesh_.vertices(h)) __builtin_prefetch(&mesh_.point(u));
+    }
     const VertexId v = sequence_[i];
     mesh_.set_point(v, step(v, stars_.link(v)));
   }

@@ -22,7 +22,7 @@ struct Star {
   /// By the kernel of the instruction set in use.
   PointDerivatives<double> rounded_derivatives(double gamma) const {
     std::vector<LinkLanes> room = lanes;
-    return kernels().derivatives({room, rounded.size()}, center, gamma);
+    return kernels().derivatives({room.data(), rounded.size()}, center, gamma);
   }
 };
 

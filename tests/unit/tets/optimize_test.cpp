@@ -9,6 +9,7 @@
 #include "support/tet_lattice.hpp"
 #include "temper/detail/instruction_set.hpp"
 #include "temper/tets/quality.hpp"
+#include "tets/energy/star.hpp"
 #include "tets/optimize/sweeper.hpp"
 
 namespace temper::tets {
