@@ -4,7 +4,7 @@ in notebooks.
 Submodules have such classes of their own, for example ``temper.topology``.
 """
 
-from ._dec import Columns, DecComplex, DecEdges, DecSummary, IncidenceMatrix, PowerCells
+from ._dec import Columns, DecComplex, DecEdges, DecSummary, IncidenceMatrix, PowerCells, TetDecComplex, TetDecEdges, TetDecFaces, TetDecSummary
 from ._draw import Html, Svg
 from ._explain import CrossingConflict, CrossingSide, Cure, Explanation, FanCenter, Reason
 from ._io import Format

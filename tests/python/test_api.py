@@ -73,6 +73,8 @@ STRUCTS = {
     "TriangleQuality": (temper.types.TriangleQuality, set()),
     "DecComplex": (temper.types.DecComplex, {"sphere_orthocenters", "sphere_midpoints"}),
     "DecSummary": (temper.types.DecSummary, set()),
+    "tets::DecComplex": (temper.types.TetDecComplex, set()),
+    "tets::DecSummary": (temper.types.TetDecSummary, set()),
     "PowerCells": (temper.types.PowerCells, {"sphere_corners", "faces"}),
     "Columns": (temper.types.Columns, {"connections"}),
     "IncidenceMatrix": (temper.types.IncidenceMatrix, set()),

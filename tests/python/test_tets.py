@@ -154,7 +154,7 @@ def test_errors_have_the_numbers_of_the_arrays_and_a_next_step():
 
 def test_functions_for_triangles_say_so(shaken):
     with pytest.raises(TypeError, match="expected a mesh of triangles, found a TetMesh. Next: "):
-        temper.dec_operators(shaken)
+        temper.explain(shaken)
     with pytest.raises(TypeError, match="gamma is for triangles alone"):
         temper.quality(shaken, gamma=0.5)
 
@@ -197,6 +197,47 @@ def test_a_mesh_goes_through_meshio(shaken):
     assert isinstance(again, meshio.Mesh) and set(again.cells_dict) == {"tetra", "triangle", "line", "vertex"}
     assert again.cell_data_dict["gmsh:physical"]["triangle"].tolist() == [7, 8]
     assert temper.TetMesh.from_meshio(again) == shaken and temper.quality(again) == temper.quality(shaken)
+
+
+def test_operators_have_the_laws_of_a_complex(shaken, tmp_path):
+    dual = temper.dec_operators(shaken)
+    edges, faces, n, m = dual.edges, dual.faces, shaken.n_vertices, shaken.n_tetrahedra
+    assert dual.d0.shape == (len(edges), n) and dual.d1.shape == (len(faces), len(edges)) and dual.d2.shape == (m, len(faces))
+    d0, d1, d2 = (each.toarray() for each in (dual.d0, dual.d1, dual.d2))
+    assert not (d1 @ d0).any() and not (d2 @ d1).any()
+    assert np.allclose(dual.volumes, volumes(shaken.points, shaken.tetrahedra)) and np.allclose(dual.star3, 1 / dual.volumes)
+    assert np.isclose(dual.star0.sum(), 27) and np.isclose((edges.length * edges.dual_area).sum(), 81)
+    assert np.allclose(dual.star1, edges.dual_area / edges.length) and np.allclose(dual.star2 * dual.transmissibility, 1)
+    assert faces.is_boundary.sum() == 108 and edges.is_boundary.sum() == 162
+    slope = np.array([1.0, -2, 0.5])
+    laplacian = d0.T @ (dual.star1 * (d0 @ (shaken.points @ slope)))
+    assert np.allclose(laplacian[(shaken.points > 0).all(axis=1) & (shaken.points < 3).all(axis=1)], 0)
+    behind, ahead = (np.where(side[:, None] < 0, faces.orthocenter, dual.orthocenters[side]) for side in faces.tetrahedra.T)
+    p, q, r = (shaken.points[corner] for corner in faces.vertices.T)
+    assert np.allclose(dual.transmissibility * ((ahead - behind) @ slope), np.cross(q - p, r - p) @ slope / 2)
+    assert pickle.loads(pickle.dumps(dual)) == dual and dual.summarize().star0_sum == pytest.approx(27)
+    with pytest.raises(ValueError, match="read-only"):
+        dual.star1[0] = 1
+    files = dual.write(tmp_path / "out", formats=["npz"])
+    assert len(files) == 8 and np.array_equal(np.load(files[0])["star2"], dual.star2)
+
+
+def test_operators_take_a_coefficient_and_know_named_parts():
+    points, tetrahedra = cubes(2, seed=3)
+    cells = Bare(
+        points=points, point_data={}, cell_data={"gmsh:physical": [np.ones(48, int), np.array([7])]}, field_data={"inflow": [7, 2]},
+        cells=[Bare(type="tetra", data=tetrahedra), Bare(type="triangle", data=np.array([[0, 1, 4]]))],
+    )  # fmt: skip
+    mesh = temper.TetMesh.from_meshio(cells)
+    plain, scaled = temper.dec_operators(mesh), temper.dec_operators(mesh, coefficient={1: 2.5})
+    assert plain.faces.vertices[plain.faces.named["inflow"]].tolist() == [[0, 1, 4]] and plain.edges.named == {}
+    assert np.allclose(scaled.star1, 2.5 * plain.star1) and np.allclose(scaled.transmissibility, 2.5 * plain.transmissibility)
+    assert np.array_equal(scaled.star2, plain.star2) and np.isclose(scaled.capacity.sum(), 2.5 * 8)
+    for wrong, message in (([1.0, 2.0], "expected one value per tetrahedron"), ({2: 1.0}, "there is none for \\[1\\]")):
+        with pytest.raises(ValueError, match=message):
+            temper.dec_operators(mesh, coefficient=wrong)
+    with pytest.raises(TypeError, match="tensor is for triangles alone"):
+        temper.dec_operators(mesh, tensor=(1, 0, 1))
 
 
 def test_limits_lists_the_measures():

@@ -29,6 +29,7 @@ def other_documents(temper, folder):
         ("errors", said("errors", "square.vtu", "--refine", "1", "--against", "square.vtu")),
         ("problem", said("errors", "square.vtu", "--dirichlet", "1=0", "--source", "1", "--against", "square.vtu")),
         ("operators", said("operators", "square.vtu", "-o", "dual", "--format", "npz")),
+        ("operators_tetrahedra", said("operators", "tet.mesh", "-o", "dual", "--format", "npz")),
     ]  # fmt: skip
 
 
