@@ -47,7 +47,7 @@ LAYERS = {
     "lp": _BELOW + ["feasibility"],
     "tbb": ["base"],
     "mpi": ["base"],
-    "errors": _BELOW + ["location", "energy", "regularity", "quality", "dec"],
+    "errors": _BELOW + ["location", "energy", "regularity", "quality", "dec", "tets"],
     "solvers": _BELOW + ["size", "energy", "regularity", "feasibility", "optimize", "quality", "lp", "errors", "io"],
     "build_info": ["base", "io"],
 }
