@@ -82,7 +82,7 @@ def layer_of_header(header):
     """The layer of "temper/NAME.hpp", or None when there is no such layer."""
     name = pathlib.PurePath(header).stem
     if "/tets/" in header:
-        return "io" if name == "io" else "tets"
+        return name if name in ("io", "errors") else "tets"
     return HEADER_LAYER.get(name, name if name in LAYERS else None)
 
 
