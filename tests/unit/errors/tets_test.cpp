@@ -97,8 +97,7 @@ TEST(TetErrors, BothSchemesAreOfSecondOrder) {
   const OperatorErrors lattice = orders(4, [](int n) { return test::shaken(test::body_centered(n), 0.05, 0); });
   EXPECT_GT(lattice.poisson.l2, 1.5);
   EXPECT_GT(lattice.flux.l2, 1.5);
-  EXPECT_GT(lattice.star[1].l2, 0.8);
-  EXPECT_GT(lattice.star[2].l2, 0.8);
+  for (const ErrorNorms& star : lattice.star) EXPECT_GT(star.l2, 0.8);
 }
 
 TEST(TetErrors, DerivativesOfTheFieldsAreThoseOfTheirValues) {
