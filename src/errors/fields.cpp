@@ -352,7 +352,7 @@ Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names
       wanted[i] = known = true;
     }
     if (!known) {
-      for (const Field& f : all) known_fields += ", " + std::string(f.field.name);
+      for (const Field& f : all) known_fields.append(", ").append(f.field.name);
       return InputError{ErrorCode::invalid_option, "", "no field '" + word + "'; " + known_fields};
     }
   }

@@ -20,7 +20,6 @@ namespace {
 using error_detail::CellLink;
 using error_detail::Field;
 using error_detail::FieldSize;
-using error_detail::FieldValue;
 using error_detail::Place;
 
 // Rules of degree 3 with points on the corners, which parts share: errors of fourth order, far below the measured ones.

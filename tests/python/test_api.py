@@ -74,6 +74,7 @@ STRUCTS = {
     "DecComplex": (temper.types.DecComplex, {"sphere_orthocenters", "sphere_midpoints"}),
     "DecSummary": (temper.types.DecSummary, set()),
     "tets::DecComplex": (temper.types.TetDecComplex, set()),
+    "tets::ErrorReport": (temper.types.TetErrorReport, set()),
     "tets::DecSummary": (temper.types.TetDecSummary, set()),
     "PowerCells": (temper.types.PowerCells, {"sphere_corners", "faces"}),
     "Columns": (temper.types.Columns, {"connections"}),

@@ -1,5 +1,6 @@
 """Meshes of tetrahedra: from arrays, from other libraries and from files, and the report on them."""
 
+import dataclasses
 import json
 import pickle
 import subprocess
@@ -220,6 +221,28 @@ def test_operators_have_the_laws_of_a_complex(shaken, tmp_path):
         dual.star1[0] = 1
     files = dual.write(tmp_path / "out", formats=["npz"])
     assert len(files) == 8 and np.array_equal(np.load(files[0])["star2"], dual.star2)
+
+
+def test_errors_of_tetrahedra(shaken):
+    if not hasattr(temper._temper, "measure_errors"):
+        pytest.skip("built without Eigen")
+    frame = temper.field_frame(shaken)
+    assert frame.center == (1.5, 1.5, 1.5) and frame.half_size == 1.5
+    report = temper.measure_errors(shaken, condition=True)
+    assert [row.field for row in report.fields] == [field for field in temper.error_fields(tetrahedra=True) if field.group != "exact"]
+    assert report.tetrahedra == 162 and report.flux.unknowns == 162 and report.poisson.condition >= 1
+    exact = temper.measure_errors(shaken, fields=["linear"], frame=frame).fields[0].errors
+    assert max(exact.poisson.max, exact.flux.max, exact.star[1].max) < 1e-9 and exact.star[0].max > 0.01
+    points, tetrahedra = cubes(3)
+    regular = temper.measure_errors(temper.TetMesh(points, tetrahedra), frame=frame)
+    ratios = temper.error_ratios(report, regular)
+    assert [row.field.name for row in ratios] == [row.field.name for row in report.fields]
+    assert temper.geometric_mean(ratios, "held-back").star[1].l2 > 1
+    assert "two-point flux, L2" in str(report)
+    with pytest.raises(temper.TemperError, match="other fields, or of another frame"):
+        temper.error_ratios(report, temper.measure_errors(shaken, frame=dataclasses.replace(frame, half_size=2.0)))
+    with pytest.raises(TypeError, match="refine and local are for triangles alone"):
+        temper.measure_errors(shaken, refine=1)
 
 
 def test_operators_take_a_coefficient_and_know_named_parts():

@@ -265,7 +265,7 @@ void write_cells(const DecJob& job) {
 template <class IdType>
 void write_dual_edges(const DecFolder& folder, const DecPositions& orthocenters, const DecPositions& feet,
                       const char* foot, const std::function<std::array<IdType, 2>(std::size_t)>& pair,
-                      std::vector<VtkArray> cell_data) {
+                      const std::vector<VtkArray>& cell_data) {
   const std::size_t n_centers = orthocenters.size, n = feet.size, n_points = n_centers + n;
   const DecPositions places = {orthocenters.coordinates, n_points, [&](std::size_t i) {
                                  return i < n_centers ? orthocenters.at(i) : feet.at(i - n_centers);
