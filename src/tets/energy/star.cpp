@@ -34,11 +34,4 @@ double energy_of(const TetMesh& mesh, TetId t, double gamma) {
   return star_energy({&face, 1}, mesh.point(mesh.opposite(h)), gamma);
 }
 
-PointDerivatives<double> star_derivatives(std::span<const LinkFace<double>> link, const WeightedPoint& p,
-                                          double gamma) {
-  PointDerivatives<double> sum = {};
-  for (const LinkFace<double>& face : link) sum += tet_derivatives<double>(face, {p.x, p.y, p.z}, p.w, gamma);
-  return sum;
-}
-
 }  // namespace temper::tets
