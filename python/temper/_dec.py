@@ -132,8 +132,38 @@ class PowerCells(Record):
         return np.split(self.corners, self.starts[1:-1].astype(np.int64)) if len(self.vertices) else []
 
 
+class _Complex(Record):
+    """What the operators of triangles and tetrahedra share."""
+
+    _handle: Any
+    d0: IncidenceMatrix
+
+    def star(self, s: int) -> Any:
+        """★s as a diagonal ``scipy.sparse`` matrix. Needs SciPy."""
+        from scipy import sparse
+
+        return sparse.diags(getattr(self, f"star{s}"), format="csr")
+
+    def laplacian(self) -> Any:
+        """The matrix d0ᵀ ★1 d0 as a ``scipy.sparse.csr_matrix``, (n, n). On a regular mesh whose boundary duals are not
+        negative it is positive semi-definite and an M-matrix. Needs SciPy."""
+        d0 = self.d0.tocsr()
+        return (d0.T @ self.star(1) @ d0).tocsr()
+
+    def write(
+        self,
+        folder: str | os.PathLike[str],
+        *,
+        formats: Sequence[Literal["npz", "mtx", "vtu"]] = ("npz", "mtx", "vtu"),
+        threads: int | None = None,
+    ) -> list[str]:
+        """Writes the operators into a folder (docs/reference/operators.md names every file and array). On an error no
+        file is written. Returns the paths of the files."""
+        return self._handle.write(os.fspath(folder), list(formats), threads)
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
-class DecComplex(Record):
+class DecComplex(_Complex):
     """The operators and the dual of a mesh. Vertices and triangles have the numbers of the mesh. All arrays are
     read-only views on one value, without copies.
 
@@ -173,18 +203,6 @@ class DecComplex(Record):
         coefficient = self.coefficient.copy() if len(self.coefficient) else np.empty(0)
         return _dec_of, (Mesh._of(self._handle.mesh()), self._handle.tensor(), coefficient, lines)
 
-    def star(self, s: Literal[0, 1, 2]) -> Any:
-        """★s as a diagonal ``scipy.sparse`` matrix. Needs SciPy."""
-        from scipy import sparse
-
-        return sparse.diags([self.star0, self.star1, self.star2][s], format="csr")
-
-    def laplacian(self) -> Any:
-        """The matrix d0ᵀ ★1 d0 as a ``scipy.sparse.csr_matrix``, (n, n). On a regular mesh whose boundary duals are not
-        negative it is positive semi-definite and an M-matrix. Needs SciPy."""
-        d0 = self.d0.tocsr()
-        return (d0.T @ self.star(1) @ d0).tocsr()
-
     def summarize(self) -> DecSummary:
         """Summarizes counts, signs and extremes."""
         return DecSummary(**self._handle.summarize())
@@ -193,17 +211,6 @@ class DecComplex(Record):
         """The power cell of each vertex, clipped to the domain. In any mesh the cells are disjoint and cover the
         domain."""
         return PowerCells(**self._handle.power_cells())
-
-    def write(
-        self,
-        folder: str | os.PathLike[str],
-        *,
-        formats: Sequence[Literal["npz", "mtx", "vtu"]] = ("npz", "mtx", "vtu"),
-        threads: int | None = None,
-    ) -> list[str]:
-        """Writes the operators into a folder (docs/reference/operators.md names every file and array). On an error no
-        file is written. Returns the paths of the files."""
-        return self._handle.write(os.fspath(folder), list(formats), threads)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -297,7 +304,7 @@ class TetDecSummary(Record):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class TetDecComplex(Record):
+class TetDecComplex(_Complex):
     """The operators and the dual of a mesh of tetrahedra. Vertices and tetrahedra have the numbers of the mesh. All
     arrays are read-only views on one value, without copies.
 
@@ -337,30 +344,9 @@ class TetDecComplex(Record):
     def __reduce__(self) -> Any:
         return _tet_dec_of, (TetMesh._of(self._handle.mesh(), [], 2), self.coefficient.copy())
 
-    def star(self, s: Literal[0, 1, 2, 3]) -> Any:
-        """★s as a diagonal ``scipy.sparse`` matrix. Needs SciPy."""
-        from scipy import sparse
-
-        return sparse.diags([self.star0, self.star1, self.star2, self.star3][s], format="csr")
-
-    def laplacian(self) -> Any:
-        """The matrix d0ᵀ ★1 d0 as a ``scipy.sparse.csr_matrix``, (n, n). Needs SciPy."""
-        d0 = self.d0.tocsr()
-        return (d0.T @ self.star(1) @ d0).tocsr()
-
     def summarize(self) -> TetDecSummary:
         """Summarizes counts, signs and extremes."""
         return TetDecSummary(**self._handle.summarize())
-
-    def write(
-        self,
-        folder: str | os.PathLike[str],
-        *,
-        formats: Sequence[Literal["npz", "mtx", "vtu"]] = ("npz", "mtx", "vtu"),
-        threads: int | None = None,
-    ) -> list[str]:
-        """Writes the operators into a folder, as ``DecComplex.write`` does."""
-        return self._handle.write(os.fspath(folder), list(formats), threads)
 
 
 def _coefficient_of(

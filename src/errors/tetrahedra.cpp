@@ -67,6 +67,31 @@ struct Framed {
   }
 };
 
+/// ∫ over a dual face or a dual cell, and its size without signs.
+struct Integral {
+  double value = 0, size = 0;
+
+  void add(double part, double mean) { value += part * mean, size += std::abs(part); }
+  /// The error of a star, relative to `scale`; a dual of no size has none.
+  [[nodiscard]] double error(double star, double scale) const {
+    return size > 0 ? error_detail::finite_or_infinity(std::abs(value - star) / size / scale) : 0;
+  }
+};
+struct Duals {
+  std::vector<Integral> cells, faces;
+};
+
+/// Errors with weights that sum to about `all` without signs.
+struct WeightedErrors {
+  std::vector<double> weights = {}, errors = {};
+
+  void add(double weight, double error) { weights.push_back(weight), errors.push_back(error); }
+  [[nodiscard]] ErrorNorms relative(double all) const {
+    const ErrorNorms norms = error_detail::norms_of(weights, errors);
+    return {norms.l2 / std::sqrt(all), norms.max};
+  }
+};
+
 /// A mesh with its operators, and a frame for the fields.
 class Subject {
  public:
@@ -78,6 +103,8 @@ class Subject {
  private:
   using Schemes = error_detail::SchemeErrors;
   [[nodiscard]] std::array<ErrorNorms, 3> star_errors(const Field& field) const;
+  void add_flags(const Framed& field, std::size_t f, Duals& duals) const;
+  [[nodiscard]] double error_of_face(const Framed& field, const DecFace& face) const;
   [[nodiscard]] Schemes poisson_errors(const std::vector<Field>& fields, bool condition) const;
   [[nodiscard]] Schemes flux_errors(const std::vector<Field>& fields, bool condition) const;
   [[nodiscard]] error_detail::FluxScheme flux_scheme() const;
@@ -99,78 +126,62 @@ class Subject {
   const DecSummary summary_;
 };
 
-/// ∫ over a dual face or a dual cell, and its size without signs.
-struct Integral {
-  double value = 0, size = 0;
-
-  /// The error of a star, relative to `scale`; a dual of no size has none.
-  [[nodiscard]] double error(double star, double scale) const {
-    return size > 0 ? error_detail::finite_or_infinity(std::abs(value - star) / size / scale) : 0;
-  }
-};
-
-/// The L2 norm with weights that sum to about `all` without signs, and the maximum.
-ErrorNorms relative(const std::vector<double>& weights, const std::vector<double>& errors, double all) {
-  const ErrorNorms norms = error_detail::norms_of(weights, errors);
-  return {norms.l2 / std::sqrt(all), norms.max};
-}
-
-std::array<ErrorNorms, 3> Subject::star_errors(const Field& plain) const {
-  const Framed field = {plain, frame_};
-  const FieldSize size = field.size();
-  std::vector<Integral> cells(dec_.star0.size()), faces(dec_.edges.size());
-  std::vector<double> errors, weights;
-  for (std::size_t f = 0; f < dec_.faces.size(); ++f) {
-    const DecFace& face = dec_.faces[FaceId(f)];
-    const auto corners = corners_of(face);
-    const Vec3 n = normal_of(face);
-    // The dual edge, from the orthocenter behind to the one ahead. On the boundary it ends on the face.
-    const auto end = [&](TetId t) { return t.valid() ? dec_.orthocenters[t] : face.orthocenter; };
-    const std::array<Vec3, 2> dual = {end(face.behind), end(face.ahead)};
-    errors.push_back(std::abs(dot(n, field.mean_gradient(dual) - field.mean_gradient(corners))) / size.gradient);
-    weights.push_back(face.area * std::abs(face.dual_length));
-    for (std::size_t i = 3 * f; i < 3 * f + 3; ++i) {
-      const auto e = static_cast<std::size_t>(dec_.d1.columns[i]);
-      const DecEdge& edge = dec_.edges[EdgeId(e)];
-      const Vec3 t = direction_of(edge);
-      // k of the orthocenter of the face over the edge, towards the inside of the face.
-      const double k = dot(face.orthocenter - edge.midpoint, dec_.d1.signs[i] * cross(n, t));
-      for (const auto& [height, tetrahedron] :
-           {std::pair(face.behind_height, face.behind), std::pair(face.ahead_height, face.ahead)}) {
-        if (!tetrahedron.valid()) continue;
-        const Vec3 center = dec_.orthocenters[tetrahedron];
-        const double area = 0.5 * k * height;
-        faces[e].value += area * dot(t, field.mean_gradient(std::array{edge.midpoint, face.orthocenter, center}));
-        faces[e].size += std::abs(area);
-        for (const auto& [d, v] :
-             {std::pair(edge.crossing, edge.from), std::pair(edge.length - edge.crossing, edge.to)}) {
-          const double volume = area * d / 3;
-          cells[v.index].value +=
-              volume * mean_over_tetrahedron({mesh_.position(v), edge.midpoint, face.orthocenter, center},
-                                             [&](Vec3 p) { return field.value(p); });
-          cells[v.index].size += std::abs(volume);
-        }
+/// Adds the parts of dual faces and dual cells at one face.
+void Subject::add_flags(const Framed& field, std::size_t f, Duals& duals) const {
+  const DecFace& face = dec_.faces[FaceId(f)];
+  const Vec3 n = normal_of(face);
+  for (std::size_t i = 3 * f; i < 3 * f + 3; ++i) {
+    const auto e = static_cast<std::size_t>(dec_.d1.columns[i]);
+    const DecEdge& edge = dec_.edges[EdgeId(e)];
+    const Vec3 t = direction_of(edge);
+    // Height of the orthocenter of the face over the edge, towards the inside of the face.
+    const double k = dot(face.orthocenter - edge.midpoint, dec_.d1.signs[i] * cross(n, t));
+    for (const auto& [h, tetrahedron] :
+         {std::pair(face.behind_height, face.behind), std::pair(face.ahead_height, face.ahead)}) {
+      if (!tetrahedron.valid()) continue;
+      const Vec3 center = dec_.orthocenters[tetrahedron];
+      const double area = 0.5 * k * h;
+      duals.faces[e].add(area, dot(t, field.mean_gradient(std::array{edge.midpoint, face.orthocenter, center})));
+      for (const auto& [d, v] :
+           {std::pair(edge.crossing, edge.from), std::pair(edge.length - edge.crossing, edge.to)}) {
+        duals.cells[v.index].add(area * d / 3,
+                                 mean_over_tetrahedron({mesh_.position(v), edge.midpoint, face.orthocenter, center},
+                                                       [&](Vec3 p) { return field.value(p); }));
       }
     }
   }
-  // Edges, and faces, times their duals have three times the volume, and each sees one of three directions.
-  std::array<ErrorNorms, 3> norms;
-  norms[2] = relative(weights, errors, summary_.volume);
-  errors.clear(), weights.clear();
-  for (std::size_t e = 0; e < faces.size(); ++e) {
+}
+
+/// The dual edge runs from the orthocenter behind to the one ahead. On the boundary it ends on the face.
+double Subject::error_of_face(const Framed& field, const DecFace& face) const {
+  const auto end = [&](TetId t) { return t.valid() ? dec_.orthocenters[t] : face.orthocenter; };
+  const Vec3 along = field.mean_gradient(std::array{end(face.behind), end(face.ahead)});
+  return std::abs(dot(normal_of(face), along - field.mean_gradient(corners_of(face))));
+}
+
+// Edges, and faces, times their duals have three times the volume, and each sees one of three directions.
+std::array<ErrorNorms, 3> Subject::star_errors(const Field& plain) const {
+  const Framed field = {plain, frame_};
+  const FieldSize size = field.size();
+  Duals duals = {std::vector<Integral>(dec_.star0.size()), std::vector<Integral>(dec_.edges.size())};
+  std::array<WeightedErrors, 3> errors;
+  for (std::size_t f = 0; f < dec_.faces.size(); ++f) {
+    const DecFace& face = dec_.faces[FaceId(f)];
+    add_flags(field, f, duals);
+    errors[2].add(face.area * std::abs(face.dual_length), error_of_face(field, face) / size.gradient);
+  }
+  for (std::size_t e = 0; e < dec_.edges.size(); ++e) {
     const DecEdge& edge = dec_.edges[EdgeId(e)];
     const Vec3 mean = field.mean_gradient(std::array{mesh_.position(edge.from), mesh_.position(edge.to)});
-    errors.push_back(faces[e].error(edge.dual_area * dot(direction_of(edge), mean), size.gradient));
-    weights.push_back(edge.length * faces[e].size);
+    const double star = edge.dual_area * dot(direction_of(edge), mean);
+    errors[1].add(edge.length * duals.faces[e].size, duals.faces[e].error(star, size.gradient));
   }
-  norms[1] = relative(weights, errors, summary_.volume);
-  errors.clear(), weights.clear();
   for (const VertexId v : mesh_.vertices()) {
-    errors.push_back(cells[v.index].error(dec_.star0[v] * field.value(mesh_.position(v)), size.value));
-    weights.push_back(cells[v.index].size);
+    const Integral& cell = duals.cells[v.index];
+    errors[0].add(cell.size, cell.error(dec_.star0[v] * field.value(mesh_.position(v)), size.value));
   }
-  norms[0] = relative(weights, errors, summary_.volume);
-  return norms;
+  return {errors[0].relative(summary_.volume), errors[1].relative(summary_.volume),
+          errors[2].relative(summary_.volume)};
 }
 
 Subject::Schemes Subject::poisson_errors(const std::vector<Field>& fields, bool condition) const {
@@ -201,18 +212,19 @@ Subject::Schemes Subject::poisson_errors(const std::vector<Field>& fields, bool 
   result.system.largest_over_median = largest_over_median(std::move(inside));
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const Framed field = {fields[i], frame_};
+    const double size = field.size().value;
     if (solution.singular) {
       result.fields.push_back({HUGE_VAL, HUGE_VAL});
       continue;
     }
-    std::vector<double> values(given.size(), 0.0), errors, weights;
+    std::vector<double> values(given.size(), 0.0);
     points.put(solution.solutions[i], values);
+    WeightedErrors errors;
     for (const VertexId v : mesh_.vertices()) {
-      if (given[v.index]) continue;
-      weights.push_back(std::abs(dec_.star0[v]));
-      errors.push_back((values[v.index] - field.value(mesh_.position(v))) / field.size().value);
+      if (!given[v.index])
+        errors.add(std::abs(dec_.star0[v]), (values[v.index] - field.value(mesh_.position(v))) / size);
     }
-    result.fields.push_back(relative(weights, errors, summary_.volume));
+    result.fields.push_back(errors.relative(summary_.volume));
   }
   return result;
 }

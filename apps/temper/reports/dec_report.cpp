@@ -62,60 +62,62 @@ struct Row {
   std::variant<std::size_t, double> value;
 };
 
+/// Sizes of coefficients, of triangles or tetrahedra.
+template <class Summary>
+void add_coefficients(std::vector<Row>& rows, const Summary& s) {
+  rows.insert(rows.end(), {{"median_star1", "median |star1|", s.median_star1},
+                           {"max_star1", "largest |star1|", s.max_star1},
+                           {"max_star1_over_median", "  over the median", over_median(s.max_star1, s.median_star1)},
+                           {"median_transmissibility", "", s.median_transmissibility},
+                           {"max_transmissibility", "largest |transmissibility|", s.max_transmissibility},
+                           {"max_transmissibility_over_median", "  over the median",
+                            over_median(s.max_transmissibility, s.median_transmissibility)}});
+}
+
 std::vector<Row> rows_of(const DecRecord& record) {
   const DecSummary& s = record.summary;
   const CellCounts cells = count(record.cells);
-  return {{"vertices", "vertices", s.vertices},
-          {"edges", "edges", s.edges},
-          {"boundary_edges", "  on the boundary", s.boundary_edges},
-          {"triangles", "triangles", s.triangles},
-          {"not_well_centered", "  not well-centered", s.not_well_centered},
-          {"area", "area of the domain", s.area},
-          {"star0_sum", "sum of star0", s.star0_sum},
-          {"cell_area_sum", "sum of the power cells' areas", cells.area},
-          {"negative_star0", "negative star0", s.negative_star0},
-          {"negative_star1", "negative star1, interior edges", s.negative_star1},
-          {"negative_boundary_star1", "negative star1, boundary edges", s.negative_boundary_star1},
-          {"zero_star1", "zero star1, interior edges", s.zero_star1},
-          {"min_star0", "least star0", s.min_star0},
-          {"min_star1", "least star1", s.min_star1},
-          {"median_star1", "median |star1|", s.median_star1},
-          {"max_star1", "largest |star1|", s.max_star1},
-          {"max_star1_over_median", "  over the median", over_median(s.max_star1, s.median_star1)},
-          {"median_transmissibility", "", s.median_transmissibility},
-          {"max_transmissibility", "largest |transmissibility|", s.max_transmissibility},
-          {"max_transmissibility_over_median", "  over the median",
-           over_median(s.max_transmissibility, s.median_transmissibility)},
-          {"cell_polygons", "polygons of power cells", record.cells.n_polygons()},
-          {"divided_cells", "  cells of several", cells.divided},
-          {"empty_cells", "  cells outside of the domain", cells.empty}};
+  std::vector<Row> rows = {{"vertices", "vertices", s.vertices},
+                           {"edges", "edges", s.edges},
+                           {"boundary_edges", "  on the boundary", s.boundary_edges},
+                           {"triangles", "triangles", s.triangles},
+                           {"not_well_centered", "  not well-centered", s.not_well_centered},
+                           {"area", "area of the domain", s.area},
+                           {"star0_sum", "sum of star0", s.star0_sum},
+                           {"cell_area_sum", "sum of the power cells' areas", cells.area},
+                           {"negative_star0", "negative star0", s.negative_star0},
+                           {"negative_star1", "negative star1, interior edges", s.negative_star1},
+                           {"negative_boundary_star1", "negative star1, boundary edges", s.negative_boundary_star1},
+                           {"zero_star1", "zero star1, interior edges", s.zero_star1},
+                           {"min_star0", "least star0", s.min_star0},
+                           {"min_star1", "least star1", s.min_star1}};
+  add_coefficients(rows, s);
+  rows.insert(rows.end(), {{"cell_polygons", "polygons of power cells", record.cells.n_polygons()},
+                           {"divided_cells", "  cells of several", cells.divided},
+                           {"empty_cells", "  cells outside of the domain", cells.empty}});
+  return rows;
 }
 
 std::vector<Row> rows_of(const TetDecRecord& record) {
   const tets::DecSummary& s = record.summary;
-  return {{"vertices", "vertices", s.vertices},
-          {"edges", "edges", s.edges},
-          {"faces", "faces", s.faces},
-          {"boundary_faces", "  on the boundary", s.boundary_faces},
-          {"tetrahedra", "tetrahedra", s.tetrahedra},
-          {"not_well_centered", "  not well-centered", s.not_well_centered},
-          {"volume", "volume of the domain", s.volume},
-          {"star0_sum", "sum of star0", s.star0_sum},
-          {"negative_star0", "negative star0", s.negative_star0},
-          {"negative_star1", "negative star1", s.negative_star1},
-          {"negative_star2", "negative star2, interior faces", s.negative_star2},
-          {"negative_boundary_star2", "negative star2, boundary faces", s.negative_boundary_star2},
-          {"zero_star2", "zero star2, interior faces", s.zero_star2},
-          {"min_star0", "least star0", s.min_star0},
-          {"min_star1", "least star1", s.min_star1},
-          {"min_star2", "least star2", s.min_star2},
-          {"median_star1", "median |star1|", s.median_star1},
-          {"max_star1", "largest |star1|", s.max_star1},
-          {"max_star1_over_median", "  over the median", over_median(s.max_star1, s.median_star1)},
-          {"median_transmissibility", "", s.median_transmissibility},
-          {"max_transmissibility", "largest |transmissibility|", s.max_transmissibility},
-          {"max_transmissibility_over_median", "  over the median",
-           over_median(s.max_transmissibility, s.median_transmissibility)}};
+  std::vector<Row> rows = {{"vertices", "vertices", s.vertices},
+                           {"edges", "edges", s.edges},
+                           {"faces", "faces", s.faces},
+                           {"boundary_faces", "  on the boundary", s.boundary_faces},
+                           {"tetrahedra", "tetrahedra", s.tetrahedra},
+                           {"not_well_centered", "  not well-centered", s.not_well_centered},
+                           {"volume", "volume of the domain", s.volume},
+                           {"star0_sum", "sum of star0", s.star0_sum},
+                           {"negative_star0", "negative star0", s.negative_star0},
+                           {"negative_star1", "negative star1", s.negative_star1},
+                           {"negative_star2", "negative star2, interior faces", s.negative_star2},
+                           {"negative_boundary_star2", "negative star2, boundary faces", s.negative_boundary_star2},
+                           {"zero_star2", "zero star2, interior faces", s.zero_star2},
+                           {"min_star0", "least star0", s.min_star0},
+                           {"min_star1", "least star1", s.min_star1},
+                           {"min_star2", "least star2", s.min_star2}};
+  add_coefficients(rows, s);
+  return rows;
 }
 
 std::string line(const std::string& label, const std::string& value) {
