@@ -353,7 +353,8 @@ Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names
     }
     if (!known) {
       for (const Field& f : all) known_fields.append(", ").append(f.field.name);
-      return InputError{ErrorCode::invalid_option, "", "no field '" + word + "'; " + known_fields};
+      known_fields.insert(0, "no field '" + word + "'; ");
+      return InputError{ErrorCode::invalid_option, "", known_fields};
     }
   }
   std::vector<Field> fields;
