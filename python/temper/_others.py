@@ -259,7 +259,7 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
     """A handle of a mesh in the form of meshio, and messages about omissions and changes."""
     dropped: list[str] = list(getattr(mesh, "left_out", ()))
     for block in mesh.cells:
-        if block.type not in ("triangle", "quad", "line", "vertex"):
+        if block.type not in ("triangle", "quad", "line", "vertex") and len(block.data):
             dropped.append(f"{len(block.data)} cells of type {block.type} are left out")
     points = _points(mesh.points)
     triangles, quads = _blocks(mesh, "triangle"), _blocks(mesh, "quad")
@@ -398,19 +398,14 @@ def _with_tags(file: dict[str, Any], points: Any, blocks: list[Block], tags: lis
     return Cells(points, blocks, {"weight": weights, **file["point_data"]}, cell_data, field_data)
 
 
-def meshio_of(handle: Any) -> Any:
-    """The mesh as a ``meshio.Mesh``: see ``Mesh.to_meshio``."""
-    handle.require_no_period("to_meshio()")
-    return _meshio(meshio_form(handle))
-
-
-def meshio_of_tets(points: Any, weights: Any, tetrahedra: Any, regions: Any, file: dict[str, Any]) -> Any:
-    """The mesh as a ``meshio.Mesh``: see ``TetMesh.to_meshio``."""
+def meshio_form_of_tets(points: Any, weights: Any, tetrahedra: Any, regions: Any, file: dict[str, Any]) -> Cells:
+    """The mesh in the form of meshio, with tags and names as in VTU."""
     blocks = [Block("tetra", tetrahedra.astype(np.int64))]
-    return _meshio(_with_tags({**file, "weights": weights}, points, blocks, [regions], [file["cell_data"]]))
+    return _with_tags({**file, "weights": weights}, points, blocks, [regions], [file["cell_data"]])
 
 
-def _meshio(form: Cells) -> Any:
+def meshio_of(form: Cells) -> Any:
+    """The mesh as a ``meshio.Mesh``: see ``Mesh.to_meshio`` and ``TetMesh.to_meshio``."""
     import meshio
 
     names, field_data = _names(form, [])
@@ -422,13 +417,12 @@ def _meshio(form: Cells) -> Any:
     return meshio.Mesh(form.points, cells, point_data=form.point_data, cell_data=cell_data, field_data=field_data)
 
 
-def put_back_vtk(mesh: Any, handle: Any) -> None:
+def put_back_vtk(mesh: Any, cells: Cells) -> None:
     """Replaces a ``PolyData`` or ``UnstructuredGrid`` by the mesh, with its data."""
-    cells = meshio_form(handle)
     blocks = {block.type: np.asarray(block.data) for block in cells.cells}
-    order = [kind for kind in ("vertex", "line", "triangle", "quad") if kind in blocks]
+    order = [kind for kind in ("vertex", "line", "triangle", "quad", "tetra") if kind in blocks]
     if hasattr(mesh, "celltypes"):
-        types = {"vertex": 1, "line": 3, "triangle": _TRIANGLE, "quad": _QUAD}
+        types = {"vertex": 1, "line": 3, "triangle": _TRIANGLE, "quad": _QUAD, "tetra": _TETRA}
         new = type(mesh)({types[kind]: blocks[kind] for kind in order}, cells.points)
     else:
         flat: dict[str, Any] = {}

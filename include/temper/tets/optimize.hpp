@@ -8,9 +8,12 @@
 
 #include <chrono>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "temper/detail/progress.hpp"
+#include "temper/optimize.hpp"
 #include "temper/tets/mesh.hpp"
 
 namespace temper::tets {
@@ -23,6 +26,15 @@ struct OptimizeOptions {
   bool keep_edges = false;      ///< The connectivity stays: no flips, no new vertices
   int repair_trials = 100;      ///< Largest number of changes that are tried one by one, after those at once
 };
+
+/// The words of a user, which program and Python share with triangles (temper/detail/optimize_table.hpp).
+struct OptimizeWords {
+  std::string_view effort = "normal";
+  std::span<const std::string_view> keep = {};  ///< Parts of the mesh that stay
+  std::span<const std::string_view> rows = {};  ///< Options of the table that the user set
+};
+/// The options that the words and the table's options stand for. Error: a part or a row that is for triangles alone.
+[[nodiscard]] Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, const OptimizeWords& words);
 
 struct OptimizeHooks {
   Observer observer = {};  ///< Observer of the progress, which may stop the run
