@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._errors import TemperError, TemperWarning
-from ._others import Cells, cells_of, data_of, handle_of, meshio_form, meshio_of, put_back_vtk
+from ._others import Cells, cells_of, data_of, handle_of, meshio_form, meshio_of, put_back_vtk, tags_of_32_bits
 from ._space import Space
 
 PICTURE = 2000  # triangles: notebooks draw no larger meshes
@@ -30,6 +30,13 @@ def _ints(values: Any, columns: int, name: str) -> npt.NDArray[Any]:
     if array.ndim != (2 if columns else 1) or (columns and array.shape[1] != columns):
         raise ValueError(f"{name}: expected shape {wanted}, found {array.shape}")
     return np.ascontiguousarray(array, dtype=np.int32 if array.dtype == np.int32 else np.int64)
+
+
+def _tags(values: Any, name: str) -> npt.NDArray[np.int32]:
+    """Whole numbers of 32 bits. TemperError if one does not fit."""
+    array = np.asarray(values)
+    whole = array.ndim == 1 and array.dtype.kind in "iu"
+    return tags_of_32_bits(name, array if whole else _ints(values, 0, name))
 
 
 def _doubles(values: Any, columns: int, name: str) -> npt.NDArray[np.float64]:
@@ -259,7 +266,7 @@ class Mesh(Tagged):
             _ints(triangles, 3, "triangles"),
             _doubles(weights, 0, "weights"),
             _ints(constrained_edges, 2, "constrained_edges"),
-            _ints(regions, 0, "regions"),
+            _tags(regions, "regions"),
             _ints(fixed, 0, "fixed"),
             threads,
         )

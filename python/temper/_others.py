@@ -229,11 +229,21 @@ def _joined_halves(triangles: Any, numbers: Any) -> tuple[Any, Any, Any]:
     return np.setdiff1d(np.arange(len(triangles)), halves), quads, halves[:, 0]
 
 
+def tags_of_32_bits(name: str, values: Any) -> Any:
+    """Whole numbers as int32. TemperError if one does not fit."""
+    limits = np.iinfo(np.int32)
+    if len(values) and not limits.min <= values.min() <= values.max() <= limits.max:
+        at = int(np.flatnonzero((values > limits.max) | (values < limits.min))[0])
+        found = f"{name}: row {at} has {values[at]}; expected {limits.min} to {limits.max}. Next: give it a smaller number"
+        raise TemperError("index_out_of_range", "", found)
+    return values.astype(np.int32)
+
+
 def _tags(data: dict[str, Any], size: int) -> Any:
     for name in _REGIONS:
         values = data.get(name)
         if values is not None and values.ndim == 1 and values.dtype.kind in "iu":
-            return values.astype(np.int32)
+            return tags_of_32_bits(name, values)
     return np.zeros(size, dtype=np.int32)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _temper
-from ._mesh import Mesh, MeshLike, Tagged, _doubles, _ints, as_mesh, repeat_warnings
+from ._mesh import Mesh, MeshLike, Tagged, _doubles, _ints, _tags, as_mesh, repeat_warnings
 from ._others import Cells, cells_of, meshio_form_of_tets, meshio_of, tet_arrays
 
 _OUTWARD = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])  # corners of the face opposite each corner
@@ -93,12 +93,12 @@ class TetMesh(Tagged):
         threads: int | None = None,
     ) -> None:
         def tags(values: npt.ArrayLike | None, elements: npt.NDArray[Any], name: str) -> npt.NDArray[Any]:
-            return np.zeros(len(elements), dtype=np.int32) if values is None else _ints(values, 0, name)
+            return np.zeros(len(elements), dtype=np.int32) if values is None else _tags(values, name)
 
         faces, edges, marked = _ints(tagged_faces, 3, "tagged_faces"), _ints(lines, 2, "lines"), _ints(marked_points, 0, "marked_points")
         arrays = {
             "points": _doubles(points, 3, "points"), "tetrahedra": _ints(tetrahedra, 4, "tetrahedra"),
-            "weights": _doubles(weights, 0, "weights"), "regions": _ints(regions, 0, "regions"),
+            "weights": _doubles(weights, 0, "weights"), "regions": _tags(regions, "regions"),
             "faces": faces, "face_tags": tags(face_tags, faces, "face_tags"),
             "lines": edges, "line_tags": tags(line_tags, edges, "line_tags"),
             "marked_points": marked, "point_tags": tags(point_tags, marked, "point_tags"),

@@ -149,6 +149,8 @@ def test_errors_have_the_numbers_of_the_arrays_and_a_next_step():
     assert "point 4 and point 8 are both at (1, 0, 0)" in str(error_of(np.vstack([points, [1, 0, 0]]), [*tetrahedra, [0, 4, 8, 7]]))
     assert "point 2 has coordinates (0, nan, 0)" in str(error_of(points=np.where(np.arange(8)[:, None] == 2, [0, np.nan, 0], points)))
     assert error_of(weights=[1.0]).code == "size_mismatch"
+    assert str(error_of(regions=[0, 0, 2**31, 0, 0, 0])).startswith("regions: row 2 has 2147483648; expected -2147483648 to 2147483647")
+    assert "line_tags: row 0 has 18446744073709551615" in str(error_of(lines=[(0, 1)], line_tags=np.array([2**64 - 1], dtype=np.uint64)))
     assert error_of(lines=[(0, 1)], line_tags=[1, 2]).code == "size_mismatch"
     with pytest.raises(ValueError, match=r"tetrahedra: expected shape \(n, 4\), found \(6, 3\)"):
         temper.TetMesh(points, tetrahedra[:, :3])

@@ -61,6 +61,7 @@ struct OptimizeReport {
 /// position, bit for bit:
 ///   - on the boundary, and on faces between regions
 ///   - of tagged faces and lines
+///   - fixed points
 ///   - points marked with a tag other than 0, unless all corners of some tetrahedron have the same tag: then this tag
 ///     lists the vertices of a part
 ///

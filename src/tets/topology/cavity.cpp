@@ -60,7 +60,7 @@ class NextMesh {
   std::optional<TetMesh> build(IdVector<VertexId, VertexId>& vertices) {
     std::vector<std::array<std::int32_t, 3>> faces;
     std::vector<std::array<std::int32_t, 2>> lines;
-    std::vector<std::int32_t> face_tags, line_tags, marked, point_tags;
+    std::vector<std::int32_t> face_tags, line_tags, marked, point_tags, fixed;
     for (const TaggedFace& f : mesh_.tagged_faces()) {
       faces.push_back(numbers(mesh_.vertices(f.face)));
       face_tags.push_back(f.tag);
@@ -74,12 +74,13 @@ class NextMesh {
       marked.push_back(number_[p.vertex.index]);
       point_tags.push_back(p.tag);
     }
+    for (const VertexId v : mesh_.fixed_points()) fixed.push_back(number_[v.index]);
     TetMeshInput input;
     input.points = points_, input.weights = weights_;
     input.tetrahedra = tetrahedra_, input.regions = regions_;
     input.faces = faces, input.face_tags = face_tags;
     input.lines = lines, input.line_tags = line_tags;
-    input.marked_points = marked, input.point_tags = point_tags;
+    input.marked_points = marked, input.point_tags = point_tags, input.fixed_points = fixed;
     Expected<BuiltTetMesh> built = TetMesh::build(input);
     if (!built || built->reversed_tetrahedra > 0) return std::nullopt;
     vertices = std::move(vertices_);

@@ -332,6 +332,10 @@ TEST_F(TetFiles, DataFollowMovedVerticesAndAllElseStays) {
 
 TEST_F(TetFiles, NewVerticesTakeTheDataOfTheirPlace) {
   TetFile file = centered_cube();
+  // Tag 5 lists the corners of the first tetrahedron, as of a part, and tag 6 is on one of them.
+  file.marked_points = {1, 2, 4, 9, 1};
+  file.point_tags = {5, 5, 5, 5, 6};
+  file.marked_point_data = {{"head", 1, std::vector<double>{0.5, 1, 1, 1, 2}}};
   const LoadedTetMesh loaded = *make_mesh(file);
   const TetFile before = file;
   // The first tetrahedron of the file becomes four. The vertices come in another order, the new one first.
@@ -363,6 +367,34 @@ TEST_F(TetFiles, NewVerticesTakeTheDataOfTheirPlace) {
   const auto& cells = std::get<std::vector<std::int32_t>>(file.cell_data[0].values);
   EXPECT_EQ(cells, (std::vector<std::int32_t>{0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));
   EXPECT_EQ(file.lines, (std::vector<std::array<std::int32_t, 2>>{{1, 2}}));
+  EXPECT_EQ(file.marked_points, (std::vector<std::int32_t>{1, 2, 4, 9, 1, 0}));
+  EXPECT_EQ(file.point_tags, (std::vector<std::int32_t>{5, 5, 5, 5, 6, 5}));
+  EXPECT_EQ(file.marked_point_data[0].values, Values(std::vector<double>{0.5, 1, 1, 1, 2, 0.5}));
+}
+
+TEST_F(TetFiles, PointsThatMeditRequiresAreFixed) {
+  const auto file =
+      read_any(make("a.mesh",
+                    "MeshVersionFormatted 2\nDimension 3\nVertices\n5\n9 9 9 0\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+                    "0 0 1 0\nTetrahedra\n1\n2 3 4 5 1\nRequiredVertices\n2\n1 3\nEnd\n"));
+  ASSERT_TRUE(file) << file.error().what();
+  const auto made = make_mesh(std::get<TetFile>(*file));
+  ASSERT_TRUE(made) << made.error().what();
+  EXPECT_EQ(made->mesh.fixed_points(), std::vector<VertexId>{VertexId(1)});
+}
+
+TEST_F(TetFiles, RegionsBeyond32BitsAreRefused) {
+  TetFile file;
+  file.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  file.tetrahedra = {{0, 1, 2, 3}};
+  file.cell_data = {{"gmsh:physical", 1, std::vector<std::int64_t>{std::int64_t{1} << 31}}};
+  ASSERT_TRUE(write(path("m.vtu"), file, {}));
+  const auto back = read_any(path("m.vtu"));
+  ASSERT_FALSE(back);
+  EXPECT_EQ(
+      plain(back.error().what()),
+      "m.vtu: the array 'gmsh:physical' of the cells has the tag 2147483648, which is beyond 32 bits; expected at "
+      "most 2147483647. Next: give the cells smaller tags, or the array another name");
 }
 
 struct TetRow {
