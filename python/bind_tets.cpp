@@ -115,6 +115,8 @@ io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const IdVector<Verte
     if (former.valid()) now[former.index] = static_cast<std::int32_t>(v.index);
   }
   for (std::int32_t& v : self.vertex_of_point) v = v < 0 ? -1 : now[static_cast<std::size_t>(v)];
+  // New vertices of a part that a tag lists are marked in the file alone.
+  if (file.marked_points.size() != mesh.tagged_points().size()) mesh = or_raise(io::make_mesh(file)).mesh;
   io::VertexOfPoint all(mesh.n_vertices());
   self.file = std::make_shared<const io::TetFile>(std::move(file));
   self.loaded = std::make_shared<const io::LoadedTetMesh>(io::LoadedTetMesh{std::move(mesh), std::move(all), {}});
@@ -182,12 +184,30 @@ py::dict tet_quality(const PyTetMesh& self, std::size_t worst, const py::object&
       .dict;
 }
 
+py::dict tetrahedron_quality_of(const PyTetMesh& self) {
+  const std::size_t n = self.mesh().n_tetrahedra();
+  std::vector<std::uint8_t> well_centered(n);
+  std::vector<double> h_over_l(n), dihedral(n);
+  aside([&] {
+    for (const TetId t : self.mesh().tetrahedra()) {
+      const tets::TetrahedronQuality q = tets::tetrahedron_quality(self.mesh().points(t));
+      well_centered[t.index] = q.well_centered ? 1 : 0;
+      h_over_l[t.index] = q.min_h_over_l;
+      dihedral[t.index] = q.min_dihedral_deg;
+    }
+  });
+  return Record()("well_centered", py::object(array_of<std::uint8_t>(well_centered).attr("astype")("bool")))(
+             "min_h_over_l", h_over_l)("min_dihedral_deg", dihedral)
+      .dict;
+}
+
 py::object write_tets(const std::string& path, const PyTetMesh& self, const std::string& format,
-                      const std::string& encoding, const py::object& threads) {
+                      const std::string& encoding, bool triangle_quality, const py::object& threads) {
   const auto executor = make_threads(threads_from(threads));
   io::WriteOptions options;
   options.format = format;
   if (!encoding.empty()) options.encoding = from_name<io::Encoding>("encoding", encoding);
+  options.triangle_quality = triangle_quality;
   options.executor = executor.get();
   const auto file = self.file;
   return to_python(or_raise(aside([&] { return io::write(path, *file, options); })));
@@ -212,6 +232,7 @@ void bind_tets(py::module_& m) {
   m.def("write_tets", write_tets);
   m.def("tet_quality", tet_quality);
   m.def("tet_optimize", optimize_tets);
+  m.def("tetrahedron_quality", tetrahedron_quality_of);
   m.def("tet_quality_measures", [] { return measures_list(tets::quality_measures()); });
   py::class_<PyTetMesh> type(m, "TetMesh");
   type.def("n_vertices", [](const PyTetMesh& self) { return self.mesh().n_vertices(); });

@@ -283,6 +283,33 @@ class TriangleQuality(Record):
     min_angle_deg: npt.NDArray[np.float64]
 
 
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetrahedronQuality(Record):
+    """Quality of each tetrahedron: arrays (m,), which VTU files have as cell data."""
+
+    well_centered: npt.NDArray[np.bool_]
+    """All h > 0, exact."""
+    min_h_over_l: npt.NDArray[np.float64]
+    """Least h/ℓ over its faces."""
+    min_dihedral_deg: npt.NDArray[np.float64]
+
+
+def tetrahedron_quality(mesh: AnyMeshLike) -> TetrahedronQuality:
+    """Measures each tetrahedron: arrays whose least values are in ``quality``.
+
+    Examples
+    --------
+    >>> import temper
+    >>> mesh = temper.TetMesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2, 3)])
+    >>> temper.tetrahedron_quality(mesh).min_dihedral_deg.round(2)
+    array([54.74])
+    """
+    any_mesh = as_any_mesh(mesh)
+    if not isinstance(any_mesh, TetMesh):
+        raise TypeError("expected a mesh of tetrahedra, found triangles. Next: temper.triangle_quality takes them")
+    return TetrahedronQuality(**_temper.tetrahedron_quality(any_mesh._handle))
+
+
 def triangle_quality(mesh: MeshLike) -> TriangleQuality:
     """Measures each triangle: arrays whose least values are in ``quality``.
 

@@ -17,7 +17,9 @@ from ._errors import TemperError
 _WEIGHTS = ("weight", "weights")
 _WRITTEN = ("region", "gmsh:physical")  # cell data that to_meshio makes from the tags
 _REGIONS = ("region", "gmsh:physical", "medit:ref", "cell_tags")
-_QUALITY = ("well_centered", "min_h_over_l", "min_d_over_l", "min_angle_deg")  # that VTU has of the former mesh
+_QUALITIES = (  # that VTU has of the former mesh
+    ("well_centered", "min_h_over_l", "min_d_over_l", "min_angle_deg"), ("well_centered", "min_h_over_l", "min_dihedral_deg"),
+)  # fmt: skip
 _QUADRILATERAL = "temper:quadrilateral"  # cell data: the number of the quadrilateral that a triangle is half of, or 0
 _NAMES = "physical_names"  # field data of VTU: a line "dimension tag name" for each name
 
@@ -183,7 +185,7 @@ def _joined(mesh: Any, blocks: list[int], columns: int) -> Any:
 
 def _cell_data(mesh: Any, blocks: list[int], dropped: list[str]) -> dict[str, Any]:
     result = {}
-    made_again = _QUALITY if all(name in mesh.cell_data for name in _QUALITY) else ()
+    made_again = next((names for names in _QUALITIES if all(name in mesh.cell_data for name in names)), ())
     for name, values in mesh.cell_data.items():
         if name in made_again:
             continue

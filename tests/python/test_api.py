@@ -71,6 +71,7 @@ STRUCTS = {
     "tets::Quality": (temper.types.TetQuality, set()),
     "tets::WorstTet": (temper.types.WorstTet, set()),
     "TriangleQuality": (temper.types.TriangleQuality, set()),
+    "tets::TetrahedronQuality": (temper.types.TetrahedronQuality, set()),
     "DecComplex": (temper.types.DecComplex, {"sphere_orthocenters", "sphere_midpoints"}),
     "DecSummary": (temper.types.DecSummary, set()),
     "PowerCells": (temper.types.PowerCells, {"sphere_corners", "faces"}),

@@ -84,6 +84,9 @@ def test_the_report_has_the_laws_of_the_mesh(shaken):
     assert temper.quality(moved).min_h_over_l == pytest.approx(q.min_h_over_l)
     assert temper.quality(moved).orthocenters_outside == q.orthocenters_outside > 0
     assert temper.quality(shaken, worst=3, threads=1) == q
+    single = temper.tetrahedron_quality(shaken)
+    assert single.min_h_over_l.min() == q.min_h_over_l and single.min_dihedral_deg.min() == q.min_dihedral_deg
+    assert single.well_centered.dtype == bool and (~single.well_centered).sum() == q.orthocenters_outside
     assert "worst tetrahedra" in q._repr_html_() and "min_h_over_l" in str(q)
 
 

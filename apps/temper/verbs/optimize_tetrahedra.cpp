@@ -25,7 +25,8 @@ namespace {
 /// The options that have a meaning for tetrahedra. All others are refused by name.
 constexpr auto kOptions = std::to_array<std::string_view>(
     {"IN", "--output", "--format", "--encoding", "--effort", "--keep", "--boundary", "--require", "--time-limit",
-     "--write", "--set", "--options", "--details", "--quiet", "--point-data", "--threads"});
+     "--write", "--set", "--options", "--details", "--quiet", "--point-data", "--threads", "--no-triangle-quality"});
+
 template <class Names>
 bool has(const Names& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();

@@ -397,6 +397,31 @@ TEST_F(TetFiles, RegionsBeyond32BitsAreRefused) {
       "most 2147483647. Next: give the cells smaller tags, or the array another name");
 }
 
+TEST_F(TetFiles, VtuHasTheQualityOfEachTetrahedronWhichIsMadeAgain) {
+  TetFile file = centered_cube();
+  std::swap(file.tetrahedra[1][0], file.tetrahedra[1][1]);  // in either orientation
+  file.weights.resize(file.points.size());
+  file.weights[9] = 0.75;
+  ASSERT_TRUE(write(path("m.vtu"), file, {.format = "vtu", .encoding = Encoding::ascii}));
+  const std::string bytes = slurp(path("m.vtu"));
+  std::string own = bytes;  // with names that the reader takes for the user's
+  for (const char* name : {"well_centered", "min_h_over_l", "min_dihedral_deg"})
+    own[own.find(std::string("Name=\"") + name) + 6] = '_';
+  const TetFile shown = std::get<TetFile>(*read_any(make("own.vtu", own)));
+  const tets::TetMesh mesh = make_mesh(file)->mesh;
+  const std::vector<DataArray> data(shown.cell_data.end() - 3, shown.cell_data.end());
+  for (const tets::TetId t : mesh.tetrahedra()) {
+    const tets::TetrahedronQuality q = tets::tetrahedron_quality(mesh.points(t));
+    EXPECT_EQ(std::get<std::vector<std::uint8_t>>(data[0].values)[t.index] == 1, q.well_centered);
+    EXPECT_EQ(std::get<std::vector<float>>(data[1].values)[t.index], static_cast<float>(q.min_h_over_l));
+    EXPECT_EQ(std::get<std::vector<float>>(data[2].values)[t.index], static_cast<float>(q.min_dihedral_deg));
+  }
+  const TetFile back = std::get<TetFile>(*read_any(path("m.vtu")));
+  EXPECT_EQ(back.cell_data.size(), shown.cell_data.size() - 3);
+  ASSERT_TRUE(write(path("again.vtu"), back, {.format = "vtu", .encoding = Encoding::ascii}));
+  EXPECT_EQ(slurp(path("again.vtu")), bytes);
+}
+
 struct TetRow {
   const char* file;
   std::size_t vertices, inner, tetrahedra, bad, negative;
