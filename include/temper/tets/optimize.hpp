@@ -6,6 +6,7 @@
 // filled in other ways (src/tets/topology/cavity.hpp).
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <optional>
 #include <span>
@@ -54,6 +55,9 @@ struct OptimizeReport {
   IdVector<VertexId, VertexId> vertices;
   std::vector<SweepRecord> history;  ///< History of the sweeps; history[0] is the input
 };
+
+/// The energy of a tetrahedron that optimize() lowers, +∞ unless it is positive.
+[[nodiscard]] double tetrahedron_energy(const std::array<WeightedPoint, 4>& corners, double gamma);
 
 /// Improves the mesh in place. Weights change everywhere. Connectivity changes only around tetrahedra that moves alone
 /// leave bad, by flips and by vertices that are inserted or removed; not if positions, weights or edges are kept. The
