@@ -38,7 +38,8 @@ struct OptimizeWords {
 [[nodiscard]] Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, const OptimizeWords& words);
 
 struct OptimizeHooks {
-  Observer observer = {};  ///< Observer of the progress, which may stop the run
+  Observer observer = {};        ///< Observer of the progress, which may stop the run
+  Executor* executor = nullptr;  ///< Threads; the result does not depend on them
   /// Start of the time limit, as in temper::OptimizeHooks. Absent: the time of the call.
   std::optional<std::chrono::steady_clock::time_point> started = {};
 };

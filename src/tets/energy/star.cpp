@@ -38,11 +38,4 @@ double tetrahedron_energy(const std::array<WeightedPoint, 4>& corners, double ga
   return star_energy({&face, 1}, p, gamma);
 }
 
-PointDerivatives<double> star_derivatives(std::span<const LinkFace<double>> link, const WeightedPoint& p,
-                                          double gamma) {
-  PointDerivatives<double> sum = {};
-  for (const LinkFace<double>& face : link) sum += tet_derivatives<double>(face, {p.x, p.y, p.z}, p.w, gamma);
-  return sum;
-}
-
 }  // namespace temper::tets

@@ -19,7 +19,5 @@ void collect_link(const TetMesh& mesh, VertexId v, std::vector<HalffaceId>& link
 [[nodiscard]] double star_energy(std::span<const LinkFace<double>> link, const WeightedPoint& p, double gamma);
 /// The energy of one tetrahedron.
 [[nodiscard]] double energy_of(const TetMesh& mesh, TetId t, double gamma);
-[[nodiscard]] PointDerivatives<double> star_derivatives(std::span<const LinkFace<double>> link, const WeightedPoint& p,
-                                                        double gamma);
 
 }  // namespace temper::tets

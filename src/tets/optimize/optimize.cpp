@@ -9,7 +9,6 @@
 #include "base/text.hpp"
 #include "tets/optimize/repair.hpp"
 #include "tets/optimize/sweeper.hpp"
-#include "tets/quality/measure.hpp"
 
 namespace temper::tets {
 namespace {
@@ -31,29 +30,6 @@ constexpr double kFirstLocalGamma = 0.3, kLastLocalGamma = 0.0005;
 constexpr int kLocalSweeps = 2, kLastLocalSweeps = 10;
 // Numbers of rounds and of trials without fewer bad tetrahedra, after which there are no more.
 constexpr int kRoundsInVain = 4, kTrialsInVain = 40;
-// Vertices between two looks at the clock.
-constexpr std::size_t kVerticesPerLook = 1024;
-
-bool is_bad(const TetMesh& mesh, TetId t) {
-  for (int f = 0; f < 4; ++f) {
-    const HalffaceId h = TetMesh::halfface(t, f);
-    const auto [a, b, c] = points_of(mesh, h);
-    if (signed_height_sign(a, b, c, mesh.point(mesh.opposite(h))) != Sign::positive) return true;
-  }
-  return false;
-}
-
-std::size_t count_bad(const TetMesh& mesh) {
-  const auto all = mesh.tetrahedra();
-  return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](TetId t) { return is_bad(mesh, t); }));
-}
-
-double total_energy(const TetMesh& mesh, double gamma) {
-  double sum = 0;
-  for (const TetId t : mesh.tetrahedra()) sum += energy_of(mesh, t, gamma);
-  return sum;
-}
-
 std::optional<InputError> wrong_option(const OptimizeOptions& options) {
   if (options.max_sweeps < 0)
     return InputError{
@@ -78,7 +54,7 @@ class Run {
   }
 
   OptimizeReport run() {
-    report_.objective_before = total_energy(mesh_, kLastGamma);
+    report_.objective_before = state_of(mesh_, kLastGamma, hooks_.executor).energy;
     record();
     const bool repairs = !options_.keep_positions && !options_.keep_weights && !options_.keep_edges;
     if (anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma, kLevelSweeps, kLastSweeps) && repairs) repair();
@@ -94,13 +70,15 @@ class Run {
 
   /// Sweeps along the schedule of γ. False: the run must end.
   bool anneal(double first_gamma, int level_sweeps, int last_sweeps) {
+    const auto all = mesh_.vertices();
+    Sweeper sweeper(mesh_, mobility_, std::vector<VertexId>(all.begin(), all.end()), hooks_.executor);
     for (double gamma = first_gamma; gamma > kLastGamma; gamma *= kGammaFactor) {
       for (int i = 0; i < level_sweeps; ++i) {
-        if (!sweep(gamma)) return false;
+        if (!sweep(sweeper, gamma)) return false;
       }
     }
     for (int i = 0; i < last_sweeps; ++i) {
-      if (!sweep(kLastGamma)) return false;
+      if (!sweep(sweeper, kLastGamma)) return false;
       const auto last = report_.history.end() - 1;
       if (i > 0 && (last - 1)->energy - last->energy <= kTolerance * last->energy) break;
     }
@@ -112,7 +90,7 @@ class Run {
   void repair() {
     for (int in_vain = 0; best_bad_ > 0 && in_vain < kRoundsInVain;) {
       const std::size_t before = best_bad_;
-      if (!change(search_repairs(bad_tetrahedra(), kAllowance, 0), kRings)) break;
+      if (!change(search_repairs(bad_tetrahedra(mesh_, hooks_.executor), kAllowance, 0), kRings)) break;
       in_vain = best_bad_ < before ? 0 : in_vain + 1;
     }
     int in_vain = 0;
@@ -120,20 +98,13 @@ class Run {
       if (best_bad_ == 0 || report_.stopped != Stopped::converged) break;
       const std::size_t before = best_bad_, k = static_cast<std::size_t>(in_vain);
       go_back_to_best();
-      const std::vector<TetId> bad = bad_tetrahedra();
+      const std::vector<TetId> bad = bad_tetrahedra(mesh_, hooks_.executor);
       change(search_repairs({bad[k % bad.size()]}, kAllowanceOfTrial, k / bad.size()), kRingsOfTrial);
       in_vain = best_bad_ < before ? 0 : in_vain + 1;
     }
   }
   std::vector<Filling> search_repairs(const std::vector<TetId>& bad, double allowance, std::size_t rank) {
     return repairs(mesh_, bad, mobility_, {allowance, rank, [this] { return is_stopped(0); }});
-  }
-  [[nodiscard]] std::vector<TetId> bad_tetrahedra() const {
-    std::vector<TetId> bad;
-    for (const TetId t : mesh_.tetrahedra()) {
-      if (is_bad(mesh_, t)) bad.push_back(t);
-    }
-    return bad;
   }
   void go_back_to_best() {
     mesh_ = best_;
@@ -155,15 +126,11 @@ class Run {
     }
     const std::vector<VertexId> near = fill(fillings, rings);
     if (near.empty()) return false;
-    Sweeper sweeper(mesh_, mobility_);
-    std::size_t steps = 0;
+    Sweeper sweeper(mesh_, mobility_, near, hooks_.executor);
     for (double gamma = kFirstLocalGamma;; gamma = std::max(gamma * kGammaFactor, kLastLocalGamma)) {
       const bool last = gamma == kLastLocalGamma;
       for (int i = 0; i < (last ? kLastLocalSweeps : kLocalSweeps); ++i) {
-        for (const VertexId v : near) {
-          if (steps++ % kVerticesPerLook == 0 && is_stopped(0)) return false;
-          sweeper.improve(v, {gamma, kRelaxation});
-        }
+        if (!sweeper.sweep({gamma, kRelaxation}, [this](double) { return is_stopped(0); })) return false;
       }
       if (last) break;
     }
@@ -211,18 +178,13 @@ class Run {
   }
 
   /// Returns false if no further sweep may follow. A sweep that was stopped is kept if it makes the mesh no worse.
-  bool sweep(double gamma) {
+  bool sweep(Sweeper& sweeper, double gamma) {
     if (report_.sweeps == options_.max_sweeps) {
       report_.stopped = Stopped::max_sweeps;
       return false;
     }
     gamma_ = gamma;
-    Sweeper sweeper(mesh_, mobility_);
-    for (const VertexId v : mesh_.vertices()) {
-      if (v.index % kVerticesPerLook == 0 && is_stopped(double(v.index) / double(mesh_.n_vertices()))) break;
-      sweeper.improve(v, {gamma, kRelaxation});
-    }
-    if (!stopped_early(report_.stopped)) ++report_.sweeps;
+    if (sweeper.sweep({gamma, kRelaxation}, [this](double fraction) { return is_stopped(fraction); })) ++report_.sweeps;
     record();
     return !stopped_early(report_.stopped);
   }
@@ -239,7 +201,7 @@ class Run {
 
   /// Measures the mesh, and keeps its points if it is the best so far. Of equals the last is the best.
   void record() {
-    const std::size_t bad = count_bad(mesh_);
+    const auto [energy, bad] = state_of(mesh_, gamma_, hooks_.executor);
     if (report_.history.empty() || bad <= best_bad_) {
       best_bad_ = bad;
       best_ = mesh_;
@@ -248,7 +210,7 @@ class Run {
     if (stopped_early(report_.stopped)) return;
     SweepRecord now;
     now.sweep = report_.sweeps;
-    now.energy = total_energy(mesh_, gamma_);
+    now.energy = energy;
     now.bad = bad;
     now.length_parameter = gamma_;
     now.seconds = seconds_since(start_);
@@ -258,7 +220,7 @@ class Run {
   OptimizeReport end() {
     mesh_ = std::move(best_);
     report_changes();
-    report_.objective_after = total_energy(mesh_, kLastGamma);
+    report_.objective_after = state_of(mesh_, kLastGamma, hooks_.executor).energy;
     report_.seconds = seconds_since(start_);
     return std::move(report_);
   }
