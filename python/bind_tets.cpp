@@ -142,7 +142,7 @@ void set_tet_weights(PyTetMesh& self, const Doubles& weights) {
 }
 
 /// The mesh gets its new state, whatever ended the run. Exceptions of the observer are raised after that. Returns the
-/// report, and the report on the data or None.
+/// report, the report on the data or None, and what is lost.
 py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const std::string& effort, const py::sequence& keep,
                         const py::sequence& rows, const py::object& threads, const py::object& observer) {
   const std::vector<std::string> kept = strings_from(keep), set = strings_from(rows);
@@ -152,17 +152,20 @@ py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const std::strin
   const auto loaded = self.loaded;
   tets::TetMesh mesh = loaded->mesh;
   Visitor visitor;
-  const tets::OptimizeHooks hooks = {observer_of(visitor, observer)};
+  const tets::OptimizeHooks hooks = {observer_of(visitor, observer), executor.get()};
   const Run run(self.running);
   Expected<tets::OptimizeReport> report = aside([&] { return optimize(mesh, options, hooks); });
   const bool has_data = !self.file->point_data.empty() || !self.file->cell_data.empty();
+  const std::size_t known = self.file->warnings.size();
   py::object data = py::none();
+  std::vector<std::string> lost;
   if (report) {
     const io::DataReport changed = replace(self, std::move(mesh), report->vertices, executor.get());
     if (has_data) data = data_report_to_dict(changed);
+    lost.assign(self.file->warnings.begin() + static_cast<std::ptrdiff_t>(known), self.file->warnings.end());
   }
   visitor.raise();
-  return py::make_tuple(report_to_dict(or_raise(std::move(report))), data);
+  return py::make_tuple(report_to_dict(or_raise(std::move(report))), data, to_python(lost));
 }
 
 // --- the report and files -----------------------------------------------------------------------------

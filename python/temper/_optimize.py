@@ -350,8 +350,11 @@ def optimize(
         )  # fmt: skip
         words = effort, _words(keep), rows_set(options, changes)
         with _put_back_at_end(mesh, changed, line):
-            report, data = _temper.tet_optimize(changed._handle, plain, *words, threads, watch)
-        return _report({**report, "objective": "energy", "hidden": np.empty(0, dtype=np.int32), "notes": []}, _data_report(data))
+            report, of_data, lost = _temper.tet_optimize(changed._handle, plain, *words, threads, watch)
+        for sentence in lost:
+            warnings.warn(sentence, TemperWarning, stacklevel=2)
+        data = None if of_data is None else DataReport._of(of_data)
+        return _report({**report, "objective": "energy", "hidden": np.empty(0, dtype=np.int32), "notes": []}, data)
     problem = None if own is None else _plain_problem(changed, **own)
     for sentence in () if problem is None else _temper.problem_warnings(changed._handle, problem):
         warnings.warn(sentence, TemperWarning, stacklevel=2)
@@ -365,7 +368,10 @@ def optimize(
             changed._handle, plain, field, threads, watch, trace, look, None if tensor is None else tuple(tensor), hooks.communicator,
             _depth(changed, plain), problem,
         )
-    data = _data_report(_temper.data_report(changed._handle, threads) if changed._handle.has_data() else None)
+    data = DataReport._of(_temper.data_report(changed._handle, threads)) if changed._handle.has_data() else None
+    if data is not None and data.dropped:
+        what = f"point data {', '.join(data.dropped)} are dropped: their whole numbers differ around an inserted vertex"
+        warnings.warn(what, TemperWarning, stacklevel=2)
     return _report(report, data, None if original is None else (original, changed.copy()))
 
 
@@ -379,14 +385,6 @@ def _put_back_at_end(mesh: AnyMeshLike, changed: Mesh | TetMesh, line: Line) -> 
         line.clear()
         if changed is not mesh and changed._handle.version() != before:
             put_back(mesh, changed)
-
-
-def _data_report(report: dict[str, Any] | None) -> DataReport | None:
-    data = None if report is None else DataReport._of(report)
-    if data is not None and data.dropped:
-        what = f"point data {', '.join(data.dropped)} are dropped: their whole numbers differ around an inserted vertex"
-        warnings.warn(what, TemperWarning, stacklevel=3)
-    return data
 
 
 def _depth(mesh: Mesh, options: dict[str, Any]) -> npt.NDArray[np.float64] | None:

@@ -102,7 +102,7 @@ def functions_of(header):
     names = set()
     for match in re.finditer(r"^(?:\[\[nodiscard\]\] )?(?:(?:inline|constexpr) )*[A-Za-z_][\w:<>,*& ]*? \*?&?(\w+)\(", text, re.M):
         names.add(match[1])
-    return names - {"operator", "sqrt"}
+    return names - {"operator", "sqrt", "alignas"}
 
 
 def fields_of(struct):
