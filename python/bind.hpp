@@ -26,6 +26,20 @@ struct Source {
   io::LoadedMesh loaded;  ///< Loaded mesh, whose mesh has been moved out
 };
 
+/// Error: the mesh is being changed.
+void refuse_while_running(bool running);
+/// While it lives, nothing else may change the mesh that has the flag.
+class Run {
+ public:
+  explicit Run(bool& running);
+  ~Run() { running_ = false; }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+ private:
+  bool& running_;
+};
+
 /// A mesh that Python holds. The value is shared with arrays that view it and with calls that run without the GIL. If
 /// it is shared, it is copied before a change: arrays keep their values.
 class PyMesh {
@@ -60,17 +74,7 @@ class PyMesh {
   /// The number of this state. Only copies of the mesh have the same number. A plan for one state does not fit another.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 
-  /// While it lives, nothing else may change the mesh.
-  class Run {
-   public:
-    explicit Run(PyMesh& mesh);
-    ~Run() { mesh_.running_ = false; }
-    Run(const Run&) = delete;
-    Run& operator=(const Run&) = delete;
-
-   private:
-    PyMesh& mesh_;
-  };
+  [[nodiscard]] Run run() { return Run(running_); }
 
  private:
   void compose(const IdVector<VertexId, VertexId>& vertices);
@@ -86,10 +90,13 @@ class PyMesh {
   bool erased_ = false, running_ = false;
 };
 
-/// A mesh of tetrahedra, and its file. It does not change, so all views and calls share it.
+/// A mesh of tetrahedra, and its file. Views and calls without the GIL share both, and a change replaces them.
 struct PyTetMesh {
   std::shared_ptr<const io::TetFile> file;
   std::shared_ptr<const io::LoadedTetMesh> loaded;
+  std::vector<std::int32_t> vertex_of_point;  ///< Present vertex of each point in the original file; −1: none
+  std::uint64_t version = 0;                  ///< Number of changes
+  bool running = false;
 
   [[nodiscard]] const tets::TetMesh& mesh() const { return loaded->mesh; }
 };

@@ -99,11 +99,7 @@ py::dict data_report(const PyMesh& self, const py::object& threads) {
   const auto executor = make_threads(threads_from(threads));
   const PyMesh same = self.copy();
   const io::DataReport r = aside([&] { return updated_file_of(same, executor.get()).data; });
-  return Record()("points", r.points)("points_moved", r.points_moved)("distance", r.distance)(
-             "points_inserted", r.points_inserted)("interpolated", r.interpolated)("kept", r.kept)(
-             "dropped", r.dropped)("triangles", r.triangles)("triangles_changed", r.triangles_changed)("of_triangles",
-                                                                                                       r.of_triangles)
-      .dict;
+  return data_report_to_dict(r);
 }
 
 /// The contents of a file that Python gets unchanged. Points are not included, because they may be in the plane or on a

@@ -43,6 +43,10 @@ LengthParameter length_parameter_from(const py::handle& value) {
 
 // --- the mesh as Python holds it ------------------------------------------------------------------------
 
+void refuse_while_running(bool running) {
+  if (running) fail(ErrorCode::unsupported, "the mesh is being changed by a call that has not returned yet");
+}
+
 std::shared_ptr<const Mesh> PyMesh::read() const {
   if (erased_) fail(ErrorCode::unsupported, "the mesh has erased triangles: compact() drops them");
   return mesh_;
@@ -123,13 +127,11 @@ void PyMesh::compose(const IdVector<VertexId, VertexId>& vertices) {
   origin_ = std::move(composed);
 }
 
-void PyMesh::refuse_while_running() const {
-  if (running_) fail(ErrorCode::unsupported, "the mesh is being changed by a call that has not returned yet");
-}
+void PyMesh::refuse_while_running() const { python::refuse_while_running(running_); }
 
-PyMesh::Run::Run(PyMesh& mesh) : mesh_(mesh) {
-  mesh_.refuse_while_running();
-  mesh_.running_ = true;
+Run::Run(bool& running) : running_(running) {
+  refuse_while_running(running);
+  running_ = true;
 }
 
 // --- threads, signals -----------------------------------------------------------------------------------

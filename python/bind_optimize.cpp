@@ -175,7 +175,7 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
   set_callbacks(hooks, visitor, arguments.callbacks);
   std::optional<Expected<OptimizeReport>> report;
   {
-    const PyMesh::Run run(self);
+    const Run run = self.run();
     const py::gil_scoped_release release;
     const auto executor = make_threads(count);
     hooks.executor = executor.get();

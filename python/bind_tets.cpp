@@ -1,8 +1,13 @@
-// The mesh of tetrahedra: made from arrays and files, shown as arrays, measured and written. See tets/mesh.hpp.
+// The mesh of tetrahedra: made from arrays and files, shown as arrays, measured, improved and written. See
+// tets/mesh.hpp.
+#include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "bind.hpp"
 #include "data_arrays.hpp"
+#include "optimize_options.hpp"
+#include "temper/tets/optimize.hpp"
 #include "temper/tets/quality.hpp"
 
 namespace temper::python {
@@ -34,7 +39,7 @@ py::tuple tets_from_arrays(const py::dict& d, bool strict, const py::object& thr
   file.face_data = from_python_dict(d["face_data"].cast<py::dict>(), file.faces.size(), "face data");
   const auto executor = make_threads(threads_from(threads));
   py::tuple made = load_tetrahedra(std::move(file), executor.get());
-  const io::VertexOfPoint& vertex = made[0].cast<const PyTetMesh&>().loaded->vertex_of_point;
+  const auto& vertex = made[0].cast<const PyTetMesh&>().vertex_of_point;
   for (std::size_t p = 0; strict && p < vertex.size(); ++p) {
     if (vertex[p] >= 0) continue;
     fail(ErrorCode::unused_point, "point " + std::to_string(p) + " belongs to no tetrahedron. Next: remove it");
@@ -79,17 +84,88 @@ py::array tet_regions(const PyTetMesh& self) {
   return array_of<std::int32_t>(regions);
 }
 
-/// Everything in the file but points and tetrahedra, in its numbers, and the vertex of each point.
-py::dict file_of_tets(const PyTetMesh& self) {
-  const io::TetFile& file = *self.file;
-  const io::VertexOfPoint& vertex = self.loaded->vertex_of_point;
+std::vector<std::int32_t> numbers_of(const io::VertexOfPoint& vertex) {
   std::vector<std::int32_t> vertices;
   vertices.reserve(vertex.size());
   for (std::size_t p = 0; p < vertex.size(); ++p) vertices.push_back(vertex[p]);
+  return vertices;
+}
+
+/// Everything in the file but points and tetrahedra, in its numbers, and the vertex of each point.
+py::dict file_of_tets(const PyTetMesh& self) {
+  const io::TetFile& file = *self.file;
   return contents_of(file)("faces", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 3>>(file.faces)))(
-             "face_tags", array_of<std::int32_t>(file.face_tags))(
-             "face_data", py::object(to_python_dict(file.face_data)))("vertices", array_of<std::int32_t>(vertices))
+             "face_tags", array_of<std::int32_t>(file.face_tags))("face_data",
+                                                                  py::object(to_python_dict(file.face_data)))(
+             "vertices", array_of<std::int32_t>(numbers_of(self.loaded->vertex_of_point)))
       .dict;
+}
+
+// --- changes ------------------------------------------------------------------------------------------
+
+/// The mesh gets a new state, with its file. `vertices`: former number of each vertex, empty if they are the same.
+io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const IdVector<VertexId, VertexId>& vertices,
+                       Executor* executor) {
+  io::TetFile file = *self.file;
+  io::DataReport data = aside([&] { return io::update(file, *self.loaded, mesh, vertices, {{}, executor}); });
+  std::vector<std::int32_t> now(self.mesh().n_vertices(), -1);
+  for (const VertexId v : mesh.vertices()) {
+    const VertexId former = vertices.empty() ? v : vertices[v];
+    if (former.valid()) now[former.index] = static_cast<std::int32_t>(v.index);
+  }
+  for (std::int32_t& v : self.vertex_of_point) v = v < 0 ? -1 : now[static_cast<std::size_t>(v)];
+  // New vertices of a part that a tag lists are marked in the file alone.
+  if (file.marked_points.size() != mesh.tagged_points().size()) mesh = or_raise(io::make_mesh(file)).mesh;
+  io::VertexOfPoint all(mesh.n_vertices());
+  self.file = std::make_shared<const io::TetFile>(std::move(file));
+  self.loaded = std::make_shared<const io::LoadedTetMesh>(io::LoadedTetMesh{std::move(mesh), std::move(all), {}});
+  ++self.version;
+  return data;
+}
+
+void set_tet_weights(PyTetMesh& self, const Doubles& weights) {
+  const Run run(self.running);
+  const auto values = as_span<double>(weights);
+  if (values.size() != self.mesh().n_vertices()) {
+    fail(ErrorCode::size_mismatch,
+         "weights: expected " + std::to_string(self.mesh().n_vertices()) + ", found " + std::to_string(values.size()));
+  }
+  tets::TetMesh mesh = self.mesh();
+  for (const VertexId v : mesh.vertices()) {
+    if (!std::isfinite(values[v.index])) {
+      fail(ErrorCode::not_finite, "weights: expected finite numbers, found " + std::to_string(values[v.index]) +
+                                      " for vertex " + std::to_string(v.index));
+    }
+    mesh.set_weight(v, values[v.index]);
+  }
+  replace(self, std::move(mesh), {}, nullptr);
+}
+
+/// The mesh gets its new state, whatever ended the run. Exceptions of the observer are raised after that. Returns the
+/// report, the report on the data or None, and what is lost.
+py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const std::string& effort, const py::sequence& keep,
+                        const py::sequence& rows, const py::object& threads, const py::object& observer) {
+  const std::vector<std::string> kept = strings_from(keep), set = strings_from(rows);
+  const std::vector<std::string_view> parts(kept.begin(), kept.end()), names(set.begin(), set.end());
+  const tets::OptimizeOptions options = or_raise(tets::options_from(options_from(given), {effort, parts, names}));
+  const auto executor = make_threads(threads_from(threads));
+  const auto loaded = self.loaded;
+  tets::TetMesh mesh = loaded->mesh;
+  Visitor visitor;
+  const tets::OptimizeHooks hooks = {observer_of(visitor, observer), executor.get()};
+  const Run run(self.running);
+  Expected<tets::OptimizeReport> report = aside([&] { return optimize(mesh, options, hooks); });
+  const bool has_data = !self.file->point_data.empty() || !self.file->cell_data.empty();
+  const std::size_t known = self.file->warnings.size();
+  py::object data = py::none();
+  std::vector<std::string> lost;
+  if (report) {
+    const io::DataReport changed = replace(self, std::move(mesh), report->vertices, executor.get());
+    if (has_data) data = data_report_to_dict(changed);
+    lost.assign(self.file->warnings.begin() + static_cast<std::ptrdiff_t>(known), self.file->warnings.end());
+  }
+  visitor.raise();
+  return py::make_tuple(report_to_dict(or_raise(std::move(report))), data, to_python(lost));
 }
 
 // --- the report and files -----------------------------------------------------------------------------
@@ -110,12 +186,30 @@ py::dict tet_quality(const PyTetMesh& self, std::size_t worst, const py::object&
       .dict;
 }
 
+py::dict tetrahedron_quality_of(const PyTetMesh& self) {
+  const std::size_t n = self.mesh().n_tetrahedra();
+  std::vector<std::uint8_t> well_centered(n);
+  std::vector<double> h_over_l(n), dihedral(n);
+  aside([&] {
+    for (const TetId t : self.mesh().tetrahedra()) {
+      const tets::TetrahedronQuality q = tets::tetrahedron_quality(self.mesh().points(t));
+      well_centered[t.index] = q.well_centered ? 1 : 0;
+      h_over_l[t.index] = q.min_h_over_l;
+      dihedral[t.index] = q.min_dihedral_deg;
+    }
+  });
+  return Record()("well_centered", py::object(array_of<std::uint8_t>(well_centered).attr("astype")("bool")))(
+             "min_h_over_l", h_over_l)("min_dihedral_deg", dihedral)
+      .dict;
+}
+
 py::object write_tets(const std::string& path, const PyTetMesh& self, const std::string& format,
-                      const std::string& encoding, const py::object& threads) {
+                      const std::string& encoding, bool triangle_quality, const py::object& threads) {
   const auto executor = make_threads(threads_from(threads));
   io::WriteOptions options;
   options.format = format;
   if (!encoding.empty()) options.encoding = from_name<io::Encoding>("encoding", encoding);
+  options.triangle_quality = triangle_quality;
   options.executor = executor.get();
   const auto file = self.file;
   return to_python(or_raise(aside([&] { return io::write(path, *file, options); })));
@@ -129,8 +223,9 @@ py::tuple load_tetrahedra(io::TetFile file, Executor* executor) {
   reverse_as_mesh(file, loaded);
   std::vector<std::string> warnings = std::exchange(file.warnings, {});
   warnings.insert(warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
+  std::vector<std::int32_t> vertices = numbers_of(loaded.vertex_of_point);
   return py::make_tuple(PyTetMesh{std::make_shared<const io::TetFile>(std::move(file)),
-                                  std::make_shared<const io::LoadedTetMesh>(std::move(loaded))},
+                                  std::make_shared<const io::LoadedTetMesh>(std::move(loaded)), std::move(vertices)},
                         to_python(warnings));
 }
 
@@ -138,6 +233,8 @@ void bind_tets(py::module_& m) {
   m.def("tet_mesh_from_arrays", tets_from_arrays);
   m.def("write_tets", write_tets);
   m.def("tet_quality", tet_quality);
+  m.def("tet_optimize", optimize_tets);
+  m.def("tetrahedron_quality", tetrahedron_quality_of);
   m.def("tet_quality_measures", [] { return measures_list(tets::quality_measures()); });
   py::class_<PyTetMesh> type(m, "TetMesh");
   type.def("n_vertices", [](const PyTetMesh& self) { return self.mesh().n_vertices(); });
@@ -146,9 +243,17 @@ void bind_tets(py::module_& m) {
   type.def("points", tet_points);
   type.def("weights", tet_weights);
   type.def("tetrahedra", tetrahedra_of);
+  type.def("set_weights", set_tet_weights);
   type.def("neighbors", neighbors_of);
   type.def("regions", tet_regions);
   type.def("file", file_of_tets);
+  type.def("vertices_of_points", [](const PyTetMesh& self) { return array_of<std::int32_t>(self.vertex_of_point); });
+  type.def("version", [](const PyTetMesh& self) { return self.version; });
+  type.def("copy", [](const PyTetMesh& self) {
+    PyTetMesh copy = self;
+    copy.running = false;
+    return copy;
+  });
   type.def("validate", [](const PyTetMesh& self) { return to_python(self.mesh().validate()); });
   type.def("equal", [](const PyTetMesh& self, const PyTetMesh& other) { return self.mesh() == other.mesh(); });
 }

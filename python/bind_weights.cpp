@@ -6,6 +6,7 @@
 #include "temper/detail/necessity.hpp"
 #include "temper/explain.hpp"
 #include "temper/feasibility.hpp"
+#include "temper/tets/weights.hpp"
 
 TEMPER_PYTHON_NAMES(temper::LpStatus, "optimal", "infeasible", "unbounded", "failed");
 TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "crossing", "dual", "height_over_face", "dual_of_face");
@@ -16,7 +17,8 @@ namespace temper::python {
 namespace {
 
 py::tuple constraint_to_tuple(const WeightConstraint& c) {
-  return py::make_tuple(to_python(name_of(c.kind)), to_python(c.p), to_python(c.q), to_python(c.r), to_python(c.s));
+  return py::make_tuple(to_python(name_of(c.kind)), to_python(c.p), to_python(c.q), to_python(c.r), to_python(c.s),
+                        to_python(c.t));
 }
 
 py::dict certificate_to_dict(const Certificate& certificate) {
@@ -41,7 +43,7 @@ Certificate certificate_from(const py::dict& d) {
     const auto c = term[0].cast<py::tuple>();
     certificate.terms.push_back(
         {{from_name<WeightConstraint::Kind>("kind", c[0].cast<std::string>()), vertex_or_none(c[1]),
-          vertex_or_none(c[2]), vertex_or_none(c[3]), vertex_or_none(c[4])},
+          vertex_or_none(c[2]), vertex_or_none(c[3]), vertex_or_none(c[4]), vertex_or_none(c[5])},
          term[1].cast<double>()});
   }
   return certificate;
@@ -86,9 +88,8 @@ py::dict weight_report_to_dict(const WeightReport& r) {
       .dict;
 }
 
-py::dict find(const PyMesh& self, const std::string& goal, double margin, bool from_input, std::size_t whole, int rings,
-              const std::string& constraints, const py::object& edges) {
-  const auto mesh = self.read();
+WeightOptions weight_options(const std::string& goal, double margin, bool from_input, std::size_t whole, int rings,
+                             const std::string& constraints) {
   WeightOptions options;
   options.goal = from_name<WeightGoal>("goal", goal);
   options.margin = margin;
@@ -96,8 +97,7 @@ py::dict find(const PyMesh& self, const std::string& goal, double margin, bool f
   options.whole = whole;
   options.rings = rings;
   options.constraints = from_name<Constraints>("constraints", constraints);
-  options.edges = prescribed(*mesh, edges);
-  return weight_report_to_dict(or_raise(aside([&] { return find_weights(*mesh, *clp_solver(), options); })));
+  return options;
 }
 
 py::dict search_connectivity(const PyMesh& self, const std::string& constraints, std::size_t programs) {
@@ -115,18 +115,24 @@ py::dict search_connectivity(const PyMesh& self, const std::string& constraints,
       .dict;
 }
 
-py::list conditions_rows() {
+py::list conditions_rows(std::span<const ConstraintsInfo> table) {
   py::list rows;
-  for (const ConstraintsInfo& row : constraints_table()) {
+  for (const ConstraintsInfo& row : table) {
     rows.append(Record()("name", row.name)("keeps", row.keeps)("success", row.success)("failure", row.failure).dict);
   }
   return rows;
 }
 
 void bind_feasibility(py::module_& m) {
-  m.def("constraints_table", conditions_rows);
+  m.def("constraints_table", [] { return conditions_rows(constraints_table()); });
   m.def("best_connectivity", search_connectivity);
-  m.def("find_weights", find);
+  m.def("find_weights", [](const PyMesh& self, const std::string& goal, double margin, bool from_input,
+                           std::size_t whole, int rings, const std::string& constraints, const py::object& edges) {
+    const auto mesh = self.read();
+    WeightOptions options = weight_options(goal, margin, from_input, whole, rings, constraints);
+    options.edges = prescribed(*mesh, edges);
+    return weight_report_to_dict(or_raise(aside([&] { return find_weights(*mesh, *clp_solver(), options); })));
+  });
   m.def("best_margin",
         [](const PyMesh& self, const py::object& triangles, const std::string& constraints, const py::object& edges) {
           const auto mesh = self.read();
@@ -168,6 +174,25 @@ void bind_feasibility(py::module_& m) {
     const auto mesh = self.read();
     require_no_period(*mesh, "check_certificate()");
     return std::string(name(check_certificate(*mesh, certificate_from(certificate))));
+  });
+}
+
+// --- tetrahedra ---------------------------------------------------------------------------------------------------
+
+void bind_weights_of_tetrahedra(py::module_& m) {
+  m.def("tet_constraints_table", [] { return conditions_rows(tets::constraints_table()); });
+  m.def("tet_find_weights", [](const PyTetMesh& self, const std::string& goal, double margin, bool from_input,
+                               std::size_t whole, int rings, const std::string& constraints) {
+    const auto loaded = self.loaded;
+    const WeightOptions options = weight_options(goal, margin, from_input, whole, rings, constraints);
+    return weight_report_to_dict(
+        or_raise(aside([&] { return tets::find_weights(loaded->mesh, *clp_solver(), options); })));
+  });
+  m.def("tet_weight_margin", [](const PyTetMesh& self, const std::string& constraints) {
+    return tets::weight_margin(self.mesh(), from_name<Constraints>("constraints", constraints));
+  });
+  m.def("tet_check_certificate", [](const PyTetMesh& self, const py::dict& certificate) {
+    return std::string(name(tets::check_certificate(self.mesh(), certificate_from(certificate))));
   });
 }
 
@@ -265,6 +290,7 @@ py::dict explain_mesh(const PyMesh& self, std::size_t cures, std::size_t whole, 
 
 void bind_weights(py::module_& m) {
   bind_feasibility(m);
+  bind_weights_of_tetrahedra(m);
   bind_necessity(m);
   m.def("explain", explain_mesh);
 }

@@ -105,6 +105,14 @@ Record contents_of(const File& file) {
       "warnings", file.warnings);
 }
 
+inline py::dict data_report_to_dict(const io::DataReport& r) {
+  return Record()("points", r.points)("points_moved", r.points_moved)("distance", r.distance)(
+             "points_inserted", r.points_inserted)("interpolated", r.interpolated)("kept", r.kept)(
+             "dropped", r.dropped)("triangles", r.triangles)("triangles_changed", r.triangles_changed)("of_triangles",
+                                                                                                       r.of_triangles)
+      .dict;
+}
+
 /// Takes the same contents from Python.
 template <class File>
 void take_contents(File& file, const py::dict& d, std::size_t n_points, std::size_t n_cells) {

@@ -3,6 +3,7 @@
 
 #include "convert.hpp"
 #include "temper/detail/optimize_table.hpp"
+#include "temper/tets/optimize.hpp"
 
 TEMPER_PYTHON_NAMES(temper::HiddenPolicy, "undo", "remove", "keep");
 
@@ -17,6 +18,7 @@ py::list option_table();
 py::list idle_options(const py::dict& options, const py::list& names);
 
 py::dict report_to_dict(const OptimizeReport& report);
+py::dict report_to_dict(const tets::OptimizeReport& report);
 py::dict record_to_dict(const SweepRecord& record);
 py::dict size_report_to_dict(const SizeReport& report);
 

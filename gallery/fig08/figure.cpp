@@ -9,6 +9,7 @@
 #include "experiments/minimize.hpp"
 #include "experiments/single_triangle.hpp"
 #include "experiments/text.hpp"
+#include "fig08/tetrahedron.hpp"
 #include "figures.hpp"
 
 namespace temper::gallery::fig08 {
@@ -242,6 +243,7 @@ Page make(Effort effort) {
   const double times = std::pow(1e7, 1.0 / static_cast<double>(count - 1));
   page.claims = {collapsed_minima(),    equilateral(), isosceles(count, times),
                  shifted(count, times), limits(),      domains()};
+  add_tetrahedron(page, full);
   return page;
 }
 

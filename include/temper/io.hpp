@@ -134,8 +134,8 @@ struct WriteOptions {
   ///   - appended, raw bytes after the XML: fastest to write and to read, but up to 1.6 times as large as base64
   std::optional<Encoding> encoding;
   Executor* executor = nullptr;  ///< Threads that compress; the bytes written do not depend on them
-  /// Add four arrays of cell data to VTU and VTKHDF, for ParaView to color. They are bytes and floats, with the names
-  /// in TriangleQuality. read() leaves them out, because write() makes them again.
+  /// Add arrays of cell data to VTU and VTKHDF, for ParaView to color. They are bytes and floats, with the names in
+  /// TriangleQuality or tets::TetrahedronQuality. read() leaves them out, because write() makes them again.
   bool triangle_quality = true;
 };
 

@@ -34,7 +34,7 @@ from ._draw import draw_svg, grid_svg, html_report
 from ._errors import TemperError, TemperWarning
 from ._explain import explain
 from ._io import formats, read, write
-from ._measure import quality, quality_measures, triangle_quality
+from ._measure import quality, quality_measures, tetrahedron_quality, triangle_quality
 from ._mesh import Mesh, as_mesh, from_meshio
 from ._optimize import Hooks, optimize, replay
 from ._options import LengthParameter, OptimizeOptions, options_for

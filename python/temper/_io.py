@@ -114,7 +114,8 @@ def write(
         Encoding, for formats that have several. VTU: the default is ``base64``, compressed; ``appended`` is the
         fastest.
     triangle_quality : bool
-        Add the arrays of ``triangle_quality()`` as cell data to VTU and VTKHDF, for ParaView to color. ``read`` leaves
+        Add the arrays of ``triangle_quality()`` or ``tetrahedron_quality()`` as cell data to VTU and VTKHDF, for
+        ParaView to color. ``read`` leaves
         them out.
     threads : int, optional
         Threads that compress; the bytes written do not depend on them.
@@ -130,10 +131,8 @@ def write(
         The code is ``not_writable``, or ``invalid_option`` for an unknown format.
     """
     any_mesh = as_any_mesh(mesh)
-    how = os.fspath(path), any_mesh._handle, format or "", encoding or ""
-    messages: list[str] = (
-        _temper.write_tets(*how, threads) if isinstance(any_mesh, TetMesh) else _temper.write(*how, triangle_quality, threads)
-    )
+    how = os.fspath(path), any_mesh._handle, format or "", encoding or "", triangle_quality, threads
+    messages: list[str] = _temper.write_tets(*how) if isinstance(any_mesh, TetMesh) else _temper.write(*how)
     for message in messages:
         warnings.warn(message, TemperWarning, stacklevel=2)
     return messages

@@ -12,7 +12,7 @@ from . import _temper
 from ._mesh import MeshLike, as_mesh
 from ._options import LengthParameter, LengthParameterLike, _length_parameter
 from ._records import Record, merged, table
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, refuse_for_tetrahedra
 
 
 _GAMMA, _H0 = LengthParameter(1.0, "absolute"), LengthParameter(0.0, "absolute")
@@ -232,9 +232,7 @@ def quality(
     """
     any_mesh = as_any_mesh(mesh)
     if isinstance(any_mesh, TetMesh):
-        for name, value, default in (("gamma", gamma, _GAMMA), ("h0", h0, _H0)):
-            if value != default:
-                raise TypeError(f"{name} is for triangles alone. Next: leave it out")
+        refuse_for_tetrahedra(gamma=(gamma, _GAMMA), h0=(h0, _H0))
         d = _temper.tet_quality(any_mesh._handle, worst, threads)
         histograms = {name: Histogram(**d[name]) for name in ("dihedrals", "h_over_l")}
         return TetQuality(**merged(d, worst=[WorstTet(**w) for w in d["worst"]], **histograms))
@@ -283,6 +281,33 @@ class TriangleQuality(Record):
     min_d_over_l: npt.NDArray[np.float64]
     """Lesser of d/ℓ and 1 − d/ℓ, least over the edges."""
     min_angle_deg: npt.NDArray[np.float64]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetrahedronQuality(Record):
+    """Quality of each tetrahedron: arrays (m,), which VTU files have as cell data."""
+
+    well_centered: npt.NDArray[np.bool_]
+    """All h > 0, exact."""
+    min_h_over_l: npt.NDArray[np.float64]
+    """Least h/ℓ over its faces."""
+    min_dihedral_deg: npt.NDArray[np.float64]
+
+
+def tetrahedron_quality(mesh: AnyMeshLike) -> TetrahedronQuality:
+    """Measures each tetrahedron: arrays whose least values are in ``quality``.
+
+    Examples
+    --------
+    >>> import temper
+    >>> mesh = temper.TetMesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2, 3)])
+    >>> temper.tetrahedron_quality(mesh).min_dihedral_deg.round(2)
+    array([54.74])
+    """
+    any_mesh = as_any_mesh(mesh)
+    if not isinstance(any_mesh, TetMesh):
+        raise TypeError("expected a mesh of tetrahedra, found triangles. Next: temper.triangle_quality takes them")
+    return TetrahedronQuality(**_temper.tetrahedron_quality(any_mesh._handle))
 
 
 def triangle_quality(mesh: MeshLike) -> TriangleQuality:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._errors import TemperError, TemperWarning
-from ._others import cells_of, data_of, handle_of, meshio_of, put_back_vtk
+from ._others import Cells, cells_of, data_of, handle_of, meshio_form, meshio_of, put_back_vtk, tags_of_32_bits
 from ._space import Space
 
 PICTURE = 2000  # triangles: notebooks draw no larger meshes
@@ -30,6 +30,13 @@ def _ints(values: Any, columns: int, name: str) -> npt.NDArray[Any]:
     if array.ndim != (2 if columns else 1) or (columns and array.shape[1] != columns):
         raise ValueError(f"{name}: expected shape {wanted}, found {array.shape}")
     return np.ascontiguousarray(array, dtype=np.int32 if array.dtype == np.int32 else np.int64)
+
+
+def _tags(values: Any, name: str) -> npt.NDArray[np.int32]:
+    """Whole numbers of 32 bits. TemperError if one does not fit."""
+    array = np.asarray(values)
+    whole = array.ndim == 1 and array.dtype.kind in "iu"
+    return tags_of_32_bits(name, array if whole else _ints(values, 0, name))
 
 
 def _doubles(values: Any, columns: int, name: str) -> npt.NDArray[np.float64]:
@@ -115,7 +122,72 @@ class Data(MutableMapping[str, npt.NDArray[Any]]):
         self._arrays = Data(self._mesh, self._kind)._arrays
 
 
-class Mesh:
+class Tagged:
+    """Parts that meshes of triangles and of tetrahedra share."""
+
+    __slots__ = ("_handle", "warnings", "__weakref__")
+
+    _handle: Any
+    warnings: list[str]
+    """Repairs and losses when the mesh was made or read, in sentences."""
+
+    def _file(self) -> dict[str, Any]:
+        raise NotImplementedError
+
+    @property
+    def n_vertices(self) -> int:
+        """Number of vertices."""
+        return self._handle.n_vertices()
+
+    @property
+    def lines(self) -> npt.NDArray[np.int32]:
+        """Tagged lines, on the boundary or inside, as two vertices each, (k, 2) int32: those of the mesh's file or
+        outline, as they are now. A ``Mesh`` of arrays has its constrained edges inside regions. A copy."""
+        return self._file()["lines"]
+
+    @property
+    def marked_points(self) -> npt.NDArray[np.int32]:
+        """Vertices that carry a tag, such as wells, (p,) int32. A copy."""
+        return self._file()["marked_points"]
+
+    @property
+    def point_tags(self) -> npt.NDArray[np.int32]:
+        """Tag of each of ``marked_points``, (p,) int32. A copy."""
+        return self._file()["point_tags"]
+
+    @property
+    def names(self) -> dict[str, tuple[int, int]]:
+        """The names of tags, each with its dimension and tag. The dimension is 0 for ``point_tags`` and 1 for tags of
+        ``lines``. Regions of triangles and ``face_tags`` have 2, and regions of tetrahedra have 3. A name of several
+        dimensions has the highest. A copy.
+
+        >>> import temper
+        >>> square = temper.Outline([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1), (1, 2), (2, 3), (3, 0)], [7, 8, 7, 8])
+        >>> mesh = temper.mesh_outline(square, 0.5).mesh
+        >>> mesh.lines.shape, sorted(set(mesh.tags.tolist())), mesh.names
+        ((8, 2), [7, 8], {})
+        """
+        return {name: (dimension, tag) for dimension, tag, name in sorted(self._file()["names"])}
+
+    def validate(self) -> str | None:
+        """Checks the mesh, for example that every triangle or tetrahedron is positive (exact). Returns the first fault,
+        or None. O(n)."""
+        return self._handle.validate()
+
+    def __copy__(self) -> Any:
+        return self.copy()  # type: ignore[attr-defined]
+
+    def __deepcopy__(self, memo: Any) -> Any:
+        return self.copy()  # type: ignore[attr-defined]
+
+    def __eq__(self, other: object) -> bool:
+        """Says whether all arrays are equal, bit for bit."""
+        return isinstance(other, type(self)) and self._handle.equal(other._handle)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+class Mesh(Tagged):
     """A triangle mesh whose vertices carry weights.
 
     Parameters
@@ -169,13 +241,11 @@ class Mesh:
     ((3, 3), Space.sphere(1.0))
     """
 
-    __slots__ = ("_handle", "reversed_triangles", "warnings", "__weakref__")
+    __slots__ = ("reversed_triangles",)
 
     _handle: _temper.Mesh
     reversed_triangles: int
     """Number of triangles that were clockwise in the input."""
-    warnings: list[str]
-    """Repairs and losses when the mesh was read, in sentences."""
 
     def __init__(
         self,
@@ -196,7 +266,7 @@ class Mesh:
             _ints(triangles, 3, "triangles"),
             _doubles(weights, 0, "weights"),
             _ints(constrained_edges, 2, "constrained_edges"),
-            _ints(regions, 0, "regions"),
+            _tags(regions, "regions"),
             _ints(fixed, 0, "fixed"),
             threads,
         )
@@ -213,11 +283,6 @@ class Mesh:
         return mesh
 
     # --- sizes ---------------------------------------------------------------------------------------------
-
-    @property
-    def n_vertices(self) -> int:
-        """Number of vertices."""
-        return self._handle.n_vertices()
 
     @property
     def n_triangles(self) -> int:
@@ -333,39 +398,10 @@ class Mesh:
         return _temper.file_as_dict(self._handle, False)
 
     @property
-    def lines(self) -> npt.NDArray[np.int32]:
-        """Tagged lines, on the boundary or inside, as two vertices each, (k, 2) int32: those of the mesh's file or
-        outline, as they are now. A mesh made from arrays has its constrained edges inside regions. A copy."""
-        return self._file()["lines"]
-
-    @property
     def tags(self) -> npt.NDArray[np.int32]:
         """Tag of each of ``lines``, (k,) int32. A copy. (Tags of triangles are ``regions``, tags of points are
         ``point_tags``.)"""
         return self._file()["line_tags"]
-
-    @property
-    def marked_points(self) -> npt.NDArray[np.int32]:
-        """Vertices that carry a tag, such as wells, (p,) int32. A copy."""
-        return self._file()["marked_points"]
-
-    @property
-    def point_tags(self) -> npt.NDArray[np.int32]:
-        """Tag of each of ``marked_points``, (p,) int32. A copy."""
-        return self._file()["point_tags"]
-
-    @property
-    def names(self) -> dict[str, tuple[int, int]]:
-        """The names of tags, each with its dimension and tag. The dimension is 0 for ``point_tags``, 1 for ``tags``, and
-        2 for ``regions``. A name of several dimensions has the highest. A copy.
-
-        >>> import temper
-        >>> square = temper.Outline([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1), (1, 2), (2, 3), (3, 0)], [7, 8, 7, 8])
-        >>> mesh = temper.mesh_outline(square, 0.5).mesh
-        >>> mesh.lines.shape, sorted(set(mesh.tags.tolist())), mesh.names
-        ((8, 2), [7, 8], {})
-        """
-        return {name: (dimension, tag) for dimension, tag, name in sorted(self._file()["names"])}
 
     # --- methods --------------------------------------------------------------------------------------------
 
@@ -382,11 +418,6 @@ class Mesh:
         """The halfedges that leave a vertex, counter-clockwise."""
         return self._handle.star(vertex)
 
-    def validate(self) -> str | None:
-        """Checks the mesh, for example that every triangle is counter-clockwise (exact). Returns the first fault, or
-        None. O(n)."""
-        return self._handle.validate()
-
     def compact(self) -> npt.NDArray[np.int32]:
         """Drops everything that ``topology.remove_vertex`` erased. Returns the former number of each vertex."""
         return self._handle.compact()
@@ -397,18 +428,6 @@ class Mesh:
         mesh.reversed_triangles = self.reversed_triangles
         mesh.warnings = list(self.warnings)
         return mesh
-
-    def __copy__(self) -> Mesh:
-        return self.copy()
-
-    def __deepcopy__(self, memo: Any) -> Mesh:
-        return self.copy()
-
-    def __eq__(self, other: object) -> bool:
-        """Says whether all arrays are equal, bit for bit."""
-        return isinstance(other, Mesh) and self._handle.equal(other._handle)
-
-    __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> Any:
         """Everything that ``copy`` keeps, for another process. To keep a mesh, write it."""
@@ -455,7 +474,15 @@ class Mesh:
         ``gmsh:physical`` are the same, and names are ``field_data``: tag and dimension. All other data of the mesh
         follow.
         """
-        return meshio_of(self._handle)
+        self._handle.require_no_period("to_meshio()")
+        return meshio_of(self._form())
+
+    def _form(self) -> Cells:
+        return meshio_form(self._handle)
+
+    def _vertices_of_points(self) -> npt.NDArray[np.int32]:
+        """Vertex of each original point, −1 if it is gone."""
+        return np.asarray(_temper.vertices_of_points(self._handle))
 
     # --- how it looks -------------------------------------------------------------------------------------------
 
@@ -509,7 +536,8 @@ def as_mesh(mesh: MeshLike, *, in_place: bool = False) -> Mesh:
     if isinstance(mesh, Mesh):
         return mesh
     if isinstance(getattr(mesh, "_handle", None), _temper.TetMesh):
-        raise TypeError("expected a mesh of triangles, found a TetMesh. Next: temper.quality, dec_operators, measure_errors and write take it")
+        takers = "quality, optimize, find_weights, dec_operators, measure_errors and write"
+        raise TypeError(f"expected a mesh of triangles, found a TetMesh. Next: temper.{takers} take it")
     cells = cells_of(mesh)
     if cells is None:
         raise TypeError(f"expected a temper.Mesh, or a mesh of meshio, PyVista or xugrid, found {type(mesh).__name__}")
@@ -568,13 +596,13 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
     return _warn(Mesh._of(handle), lost + messages, 2)
 
 
-def put_back(mesh: Any, changed: Mesh) -> None:
+def put_back(mesh: Any, changed: Any) -> None:
     """Writes a mesh that was changed in place into the mesh of meshio or PyVista that it came from. Sets of points
-    stay, with their new numbers. Sets of cells are lost, because flips change the triangles."""
+    stay, with their new numbers. Sets of cells are lost, because flips change the cells."""
     if not hasattr(mesh, "point_sets"):
-        return put_back_vtk(mesh, changed._handle)
-    new = meshio_of(changed._handle)
-    now = np.asarray(_temper.vertices_of_points(changed._handle))
+        return put_back_vtk(mesh, changed._form())
+    new = changed.to_meshio()
+    now = changed._vertices_of_points()
     sets = {name: now[np.asarray(points, dtype=np.int64)] for name, points in mesh.point_sets.items()}
     sets = {name: vertices[vertices >= 0] for name, vertices in sets.items()}
     lost = ", ".join(f"'{name}'" for name in mesh.cell_sets)
@@ -582,4 +610,4 @@ def put_back(mesh: Any, changed: Mesh) -> None:
     mesh.point_data, mesh.cell_data = new.point_data, new.cell_data
     mesh.point_sets, mesh.cell_sets = sets, {}
     if lost:
-        warnings.warn(f"the triangles are others: cell_sets {lost} are dropped", TemperWarning, stacklevel=4)
+        warnings.warn(f"the cells are others: cell_sets {lost} are dropped", TemperWarning, stacklevel=4)

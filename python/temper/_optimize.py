@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import warnings
-from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Literal, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -13,9 +14,10 @@ from . import _temper
 from ._errors import TemperError, TemperWarning
 from ._measure_errors import _plain_problem
 from ._mesh import PICTURE, Mesh, MeshLike, as_mesh, put_back
-from ._options import EffortName, KeepName, ObjectiveName, OptimizeOptions, TargetName, lists_presets, settled
+from ._options import EffortName, KeepName, ObjectiveName, OptimizeOptions, TargetName, _words, lists_presets, rows_set, settled
 from ._progress import Line, Progress, SweepRecord
 from ._records import Record
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, refuse_for_tetrahedra
 from .size import SizeField, SizeReport, Spread, _size_report
 
 if TYPE_CHECKING:
@@ -75,7 +77,8 @@ class Snapshot:
 
 @dataclasses.dataclass(frozen=True)
 class DataReport(Record):
-    """The fate of the data of points and triangles after the mesh has changed. All 0 without such data."""
+    """The fate of the data of points and triangles after the mesh has changed. All 0 without such data. For a
+    ``TetMesh`` triangles are tetrahedra."""
 
     points: int
     """Original points that are still there."""
@@ -97,8 +100,7 @@ class DataReport(Record):
     """Data of triangles: each triangle has the data of the original triangle that contains its middle."""
 
     @classmethod
-    def _of(cls, mesh: Mesh, threads: int | None) -> DataReport:
-        report: dict[str, Any] = _temper.data_report(mesh._handle, threads)
+    def _of(cls, report: dict[str, Any]) -> DataReport:
         return cls(**{**report, "distance": Spread(**report["distance"])})
 
 
@@ -135,7 +137,8 @@ class OptimizeReport(Record):
     objective_before: float
     """Objective of the input, at the final γ."""
     objective_after: float
-    size: SizeChange
+    size: SizeChange | None
+    """None for tetrahedra."""
     data: DataReport | None
     """Report on the data of the mesh; None without data."""
     history: list[SweepRecord] = dataclasses.field(repr=False)
@@ -146,10 +149,13 @@ class OptimizeReport(Record):
     """The mesh before and after, for notebooks."""
 
     def _rows(self) -> list[tuple[str, str]]:
-        bad = [str(record.bad) for record in (self.history[:1] + self.history[-1:])]
+        # The mesh of tetrahedra is the best one, and the mesh of triangles that of the last record.
+        last = self.history[-1:] if self.size else sorted(self.history, key=lambda record: record.bad)[:1]
+        bad = [str(record.bad) for record in self.history[:1] + last]
         rows = [row for row in super()._rows() if row[0] not in ("vertices", "hidden", "size", "data", "notes")]
-        rows.insert(1, ("bad triangles", " → ".join(bad)))
-        rows.append(("sizes within", f"1/{self.size.after.band:.3g} to {self.size.after.band:.3g} of the field"))
+        rows.insert(1, ("bad triangles" if self.size else "bad tetrahedra", " → ".join(bad)))
+        if self.size:
+            rows.append(("sizes within", f"1/{self.size.after.band:.3g} to {self.size.after.band:.3g} of the field"))
         if self.data is not None and self.data.interpolated:
             moved = f"of {self.data.points_moved} moved points: {', '.join(self.data.interpolated)}"
             rows.append(("interpolated", moved))
@@ -163,7 +169,7 @@ class OptimizeReport(Record):
 def _report(
     d: dict[str, Any], data: DataReport | None = None, meshes: tuple[Mesh, Mesh] | None = None
 ) -> OptimizeReport:
-    size = SizeChange(_size_report(d.pop("size_before")), _size_report(d.pop("size_after")))
+    size = SizeChange(_size_report(d.pop("size_before")), _size_report(d.pop("size_after"))) if "size_before" in d else None
     history = [SweepRecord(**record) for record in d.pop("history")]
     return OptimizeReport(**d, size=size, data=data, history=history, _meshes=meshes)
 
@@ -212,7 +218,7 @@ class Hooks:
 
 @lists_presets
 def optimize(
-    mesh: MeshLike,
+    mesh: AnyMeshLike,
     *,
     target: TargetName = "any",
     effort: EffortName = "normal",
@@ -228,6 +234,10 @@ def optimize(
 ) -> OptimizeReport:
     """Improves a mesh in place: moves vertices, changes weights and flips edges until every triangle is well-centered.
 
+    In a mesh of tetrahedra, orthocenters come inside their tetrahedra. ``effort``, ``keep``, ``time_limit``,
+    ``threads``, ``progress`` and the options ``max_sweeps`` and ``unknowns`` are for both kinds of meshes, the rest is
+    for triangles. Where tetrahedra stay bad, vertices are inserted and removed.
+
     A triangle is well-centered when its orthocenter is strictly inside and each of its edges is crossed by its dual:
     all h > 0 and all 0 < d < ℓ. Every triangle stays counter-clockwise. The domain boundary, fixed vertices and
     constrained edges stay, bit for bit, unless ``boundary`` and the option ``interfaces`` allow changes. For barriers
@@ -237,7 +247,7 @@ def optimize(
 
     Parameters
     ----------
-    mesh : MeshLike
+    mesh : Mesh, TetMesh, or of another library
         The mesh, changed in place. To keep the original, optimize ``mesh.copy()``.
     target : str
         Use of the mesh.
@@ -283,7 +293,7 @@ def optimize(
     Raises
     ------
     TypeError
-        An option of the wrong type. The mesh is unchanged.
+        An option of the wrong type, or an option for triangles with a mesh of tetrahedra. The mesh is unchanged.
     TemperError
         An option out of range, options that contradict each other, weights that hide a vertex, or a mesh outside the
         barrier of BH or BHs. With ranks: on all ranks, if their meshes or options differ (``rank_mismatch``). The mesh
@@ -323,13 +333,28 @@ def optimize(
             if given is not None:
                 raise ValueError(f"{name}: is of the mesh's plane, and does not go with tensor")
     observer = progress if callable(progress) else None
-    line = Line(False if observer is not None or _is_helper(hooks.communicator) else progress)
     own: Any = None
     if isinstance(options, Mapping):
         options = dict(options)  # type: ignore[assignment]
         own = options.pop("problem", None)  # type: ignore[union-attr]
-    plain = settled(target, effort, keep, options, boundary=boundary, time_limit=time_limit)._plain()
-    changed = as_mesh(mesh, in_place=True)
+    changes = {"boundary": boundary, "time_limit": time_limit}
+    plain = settled(target, effort, keep, options, **changes)._plain()
+    changed = as_any_mesh(mesh, in_place=True)
+    is_silent = observer is not None or _is_helper(hooks.communicator)
+    line = Line(False if is_silent else progress, "tetrahedra" if isinstance(changed, TetMesh) else "triangles")
+    watch = _observer(line, observer)
+    if isinstance(changed, TetMesh):
+        refuse_for_tetrahedra(
+            target=(target, "any"), size_field=(size_field, None), tensor=(tensor, None), problem=(own, None),
+            **{f.name: (getattr(hooks, f.name), None) for f in dataclasses.fields(hooks)},
+        )  # fmt: skip
+        words = effort, _words(keep), rows_set(options, changes)
+        with _put_back_at_end(mesh, changed, line):
+            report, of_data, lost = _temper.tet_optimize(changed._handle, plain, *words, threads, watch)
+        for sentence in lost:
+            warnings.warn(sentence, TemperWarning, stacklevel=2)
+        data = None if of_data is None else DataReport._of(of_data)
+        return _report({**report, "objective": "energy", "hidden": np.empty(0, dtype=np.int32), "notes": []}, data)
     problem = None if own is None else _plain_problem(changed, **own)
     for sentence in () if problem is None else _temper.problem_warnings(changed._handle, problem):
         warnings.warn(sentence, TemperWarning, stacklevel=2)
@@ -338,23 +363,28 @@ def optimize(
     look = (lambda shot: snapshots(Snapshot._of(shot))) if snapshots is not None else None
     field = size_field._handle if size_field is not None else None
     original = changed.copy() if tensor is None and 0 < changed.n_triangles <= PICTURE else None
-    before = changed._handle.version()
-    try:
-        watch = _observer(line, observer)
+    with _put_back_at_end(mesh, changed, line):
         report = _temper.optimize(
             changed._handle, plain, field, threads, watch, trace, look, None if tensor is None else tuple(tensor), hooks.communicator,
             _depth(changed, plain), problem,
         )
-    finally:
-        line.clear()
-        if changed._handle.version() != before:
-            if changed is not mesh:
-                put_back(mesh, changed)
-    data = DataReport._of(changed, threads) if changed._handle.has_data() else None
+    data = DataReport._of(_temper.data_report(changed._handle, threads)) if changed._handle.has_data() else None
     if data is not None and data.dropped:
         what = f"point data {', '.join(data.dropped)} are dropped: their whole numbers differ around an inserted vertex"
         warnings.warn(what, TemperWarning, stacklevel=2)
     return _report(report, data, None if original is None else (original, changed.copy()))
+
+
+@contextlib.contextmanager
+def _put_back_at_end(mesh: AnyMeshLike, changed: Mesh | TetMesh, line: Line) -> Iterator[None]:
+    """Writes the changed mesh into the mesh of another library that it came from, also after an exception."""
+    before = changed._handle.version()
+    try:
+        yield
+    finally:
+        line.clear()
+        if changed is not mesh and changed._handle.version() != before:
+            put_back(mesh, changed)
 
 
 def _depth(mesh: Mesh, options: dict[str, Any]) -> npt.NDArray[np.float64] | None:

@@ -112,6 +112,12 @@ def settled(target: str, effort: str, keep: Any, options: Any, **changes: Any) -
     return result
 
 
+def rows_set(options: Any, changes: Mapping[str, Any]) -> list[str]:
+    """Names of the options that a user set; of an ``OptimizeOptions`` all."""
+    names = OPTION_NAMES if isinstance(options, OptimizeOptions) else tuple(options or ())
+    return [*names, *(name for name, value in changes.items() if value is not None)]
+
+
 def _words(keep: Any) -> tuple[str, ...]:
     words = (keep,) if isinstance(keep, str) else tuple(keep)
     for word in words:

@@ -17,7 +17,9 @@ from ._errors import TemperError
 _WEIGHTS = ("weight", "weights")
 _WRITTEN = ("region", "gmsh:physical")  # cell data that to_meshio makes from the tags
 _REGIONS = ("region", "gmsh:physical", "medit:ref", "cell_tags")
-_QUALITY = ("well_centered", "min_h_over_l", "min_d_over_l", "min_angle_deg")  # that VTU has of the former mesh
+_QUALITIES = (  # that VTU has of the former mesh
+    ("well_centered", "min_h_over_l", "min_d_over_l", "min_angle_deg"), ("well_centered", "min_h_over_l", "min_dihedral_deg"),
+)  # fmt: skip
 _QUADRILATERAL = "temper:quadrilateral"  # cell data: the number of the quadrilateral that a triangle is half of, or 0
 _NAMES = "physical_names"  # field data of VTU: a line "dimension tag name" for each name
 
@@ -183,7 +185,7 @@ def _joined(mesh: Any, blocks: list[int], columns: int) -> Any:
 
 def _cell_data(mesh: Any, blocks: list[int], dropped: list[str]) -> dict[str, Any]:
     result = {}
-    made_again = _QUALITY if all(name in mesh.cell_data for name in _QUALITY) else ()
+    made_again = next((names for names in _QUALITIES if all(name in mesh.cell_data for name in names)), ())
     for name, values in mesh.cell_data.items():
         if name in made_again:
             continue
@@ -229,11 +231,21 @@ def _joined_halves(triangles: Any, numbers: Any) -> tuple[Any, Any, Any]:
     return np.setdiff1d(np.arange(len(triangles)), halves), quads, halves[:, 0]
 
 
+def tags_of_32_bits(name: str, values: Any) -> Any:
+    """Whole numbers as int32. TemperError if one does not fit."""
+    limits = np.iinfo(np.int32)
+    if len(values) and not limits.min <= values.min() <= values.max() <= limits.max:
+        at = int(np.flatnonzero((values > limits.max) | (values < limits.min))[0])
+        found = f"{name}: row {at} has {values[at]}; expected {limits.min} to {limits.max}. Next: give it a smaller number"
+        raise TemperError("index_out_of_range", "", found)
+    return values.astype(np.int32)
+
+
 def _tags(data: dict[str, Any], size: int) -> Any:
     for name in _REGIONS:
         values = data.get(name)
         if values is not None and values.ndim == 1 and values.dtype.kind in "iu":
-            return values.astype(np.int32)
+            return tags_of_32_bits(name, values)
     return np.zeros(size, dtype=np.int32)
 
 
@@ -259,7 +271,7 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
     """A handle of a mesh in the form of meshio, and messages about omissions and changes."""
     dropped: list[str] = list(getattr(mesh, "left_out", ()))
     for block in mesh.cells:
-        if block.type not in ("triangle", "quad", "line", "vertex"):
+        if block.type not in ("triangle", "quad", "line", "vertex") and len(block.data):
             dropped.append(f"{len(block.data)} cells of type {block.type} are left out")
     points = _points(mesh.points)
     triangles, quads = _blocks(mesh, "triangle"), _blocks(mesh, "quad")
@@ -398,19 +410,14 @@ def _with_tags(file: dict[str, Any], points: Any, blocks: list[Block], tags: lis
     return Cells(points, blocks, {"weight": weights, **file["point_data"]}, cell_data, field_data)
 
 
-def meshio_of(handle: Any) -> Any:
-    """The mesh as a ``meshio.Mesh``: see ``Mesh.to_meshio``."""
-    handle.require_no_period("to_meshio()")
-    return _meshio(meshio_form(handle))
-
-
-def meshio_of_tets(points: Any, weights: Any, tetrahedra: Any, regions: Any, file: dict[str, Any]) -> Any:
-    """The mesh as a ``meshio.Mesh``: see ``TetMesh.to_meshio``."""
+def meshio_form_of_tets(points: Any, weights: Any, tetrahedra: Any, regions: Any, file: dict[str, Any]) -> Cells:
+    """The mesh in the form of meshio, with tags and names as in VTU."""
     blocks = [Block("tetra", tetrahedra.astype(np.int64))]
-    return _meshio(_with_tags({**file, "weights": weights}, points, blocks, [regions], [file["cell_data"]]))
+    return _with_tags({**file, "weights": weights}, points, blocks, [regions], [file["cell_data"]])
 
 
-def _meshio(form: Cells) -> Any:
+def meshio_of(form: Cells) -> Any:
+    """The mesh as a ``meshio.Mesh``: see ``Mesh.to_meshio`` and ``TetMesh.to_meshio``."""
     import meshio
 
     names, field_data = _names(form, [])
@@ -422,13 +429,12 @@ def _meshio(form: Cells) -> Any:
     return meshio.Mesh(form.points, cells, point_data=form.point_data, cell_data=cell_data, field_data=field_data)
 
 
-def put_back_vtk(mesh: Any, handle: Any) -> None:
+def put_back_vtk(mesh: Any, cells: Cells) -> None:
     """Replaces a ``PolyData`` or ``UnstructuredGrid`` by the mesh, with its data."""
-    cells = meshio_form(handle)
     blocks = {block.type: np.asarray(block.data) for block in cells.cells}
-    order = [kind for kind in ("vertex", "line", "triangle", "quad") if kind in blocks]
+    order = [kind for kind in ("vertex", "line", "triangle", "quad", "tetra") if kind in blocks]
     if hasattr(mesh, "celltypes"):
-        types = {"vertex": 1, "line": 3, "triangle": _TRIANGLE, "quad": _QUAD}
+        types = {"vertex": 1, "line": 3, "triangle": _TRIANGLE, "quad": _QUAD, "tetra": _TETRA}
         new = type(mesh)({types[kind]: blocks[kind] for kind in order}, cells.points)
     else:
         flat: dict[str, Any] = {}

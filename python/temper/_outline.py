@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._errors import TemperWarning
-from ._mesh import Mesh, _doubles, _ints
+from ._mesh import Mesh, _doubles, _ints, _tags
 from ._optimize import OptimizeReport, _observer, _report
 from ._options import OptimizeOptions, options_for
 from ._progress import Line, Progress
@@ -59,7 +59,7 @@ class Outline:
         segments = _ints(self.segments, 2, "segments").astype(np.int32)
         tags = np.zeros(len(segments), dtype=np.int32)
         if self.segment_tags is not None:
-            tags = _ints(self.segment_tags, 0, "segment_tags").astype(np.int32)
+            tags = _tags(self.segment_tags, "segment_tags")
         return {
             "points": _doubles(self.points, 2, "points"),
             "segments": segments,

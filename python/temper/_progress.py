@@ -23,7 +23,7 @@ class SweepRecord(Record):
     """Total energy at the end of the sweep, at its γ; for the objective ``accuracy`` see
     docs/explanation/accuracy.md."""
     bad: int
-    """Number of triangles that are not well-centered."""
+    """Number of triangles or tetrahedra that are not well-centered."""
     flips: int
     """Number of edge flips in this sweep."""
     length_parameter: float
@@ -64,7 +64,8 @@ def _in_notebook() -> bool:
 class Line:
     """The line that shows the progress of a run and, if known, the remaining time."""
 
-    def __init__(self, wanted: bool | None) -> None:
+    def __init__(self, wanted: bool | None, elements: str = "triangles") -> None:
+        self._elements = elements
         notebook = wanted is not False and _in_notebook()
         terminal = sys.stderr is not None and hasattr(sys.stderr, "isatty") and sys.stderr.isatty()
         self._way: Literal["notebook", "terminal", "lines", "none"] = "none"
@@ -90,11 +91,10 @@ class Line:
         self._last = now
         self._put(self.text(progress, now - self._start))
 
-    @staticmethod
-    def text(progress: Progress, seconds: float) -> str:
+    def text(self, progress: Progress, seconds: float) -> str:
         last = progress.last
         text = (
-            f"sweep {last.sweep} of at most {progress.max_sweeps}, {last.bad} triangles bad, "
+            f"sweep {last.sweep} of at most {progress.max_sweeps}, {last.bad} {self._elements} bad, "
             f"energy {last.energy:.6g}, {_duration(seconds)}"
         )
         sweeps = last.sweep + progress.fraction

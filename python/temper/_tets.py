@@ -8,14 +8,14 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _temper
-from ._mesh import Mesh, MeshLike, _doubles, _ints, as_mesh, repeat_warnings
-from ._others import cells_of, meshio_of_tets, tet_arrays
+from ._mesh import Mesh, MeshLike, Tagged, _doubles, _ints, _tags, as_mesh, repeat_warnings
+from ._others import Cells, cells_of, meshio_form_of_tets, meshio_of, tet_arrays
 
 _OUTWARD = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])  # corners of the face opposite each corner
 
 
-class TetMesh:
-    """A mesh of tetrahedra whose vertices carry weights. It does not change: to change it, make another one.
+class TetMesh(Tagged):
+    """A mesh of tetrahedra whose vertices carry weights.
 
     Parameters
     ----------
@@ -56,7 +56,8 @@ class TetMesh:
 
     Notes
     -----
-    ``weights`` and ``tetrahedra`` are read-only views on the mesh's own memory. All other arrays are copies.
+    ``weights`` and ``tetrahedra`` are read-only views on the mesh's own memory. All other arrays are copies. ``optimize``
+    changes the mesh in place, and so does assigning ``weights``. Views then show the former state.
 
     The orthocenter o of a tetrahedron has equal power to its four corners. h is the signed distance of o from the plane
     of a face, positive on the side of the tetrahedron. The tetrahedron is well-centered if all four h > 0 [length].
@@ -72,11 +73,9 @@ class TetMesh:
     (0.166667, 1)
     """
 
-    __slots__ = ("_handle", "warnings", "__weakref__")
+    __slots__ = ()
 
     _handle: _temper.TetMesh
-    warnings: list[str]
-    """Repairs and losses when the mesh was made or read, in sentences."""
 
     def __init__(
         self,
@@ -94,12 +93,12 @@ class TetMesh:
         threads: int | None = None,
     ) -> None:
         def tags(values: npt.ArrayLike | None, elements: npt.NDArray[Any], name: str) -> npt.NDArray[Any]:
-            return np.zeros(len(elements), dtype=np.int32) if values is None else _ints(values, 0, name)
+            return np.zeros(len(elements), dtype=np.int32) if values is None else _tags(values, name)
 
         faces, edges, marked = _ints(tagged_faces, 3, "tagged_faces"), _ints(lines, 2, "lines"), _ints(marked_points, 0, "marked_points")
         arrays = {
             "points": _doubles(points, 3, "points"), "tetrahedra": _ints(tetrahedra, 4, "tetrahedra"),
-            "weights": _doubles(weights, 0, "weights"), "regions": _ints(regions, 0, "regions"),
+            "weights": _doubles(weights, 0, "weights"), "regions": _tags(regions, "regions"),
             "faces": faces, "face_tags": tags(face_tags, faces, "face_tags"),
             "lines": edges, "line_tags": tags(line_tags, edges, "line_tags"),
             "marked_points": marked, "point_tags": tags(point_tags, marked, "point_tags"),
@@ -109,10 +108,12 @@ class TetMesh:
         repeat_warnings(self.warnings, 2)
 
     @classmethod
-    def _of(cls, handle: _temper.TetMesh, messages: list[str], level: int) -> TetMesh:
+    def _of(cls, handle: _temper.TetMesh, messages: list[str], level: int | None) -> TetMesh:
+        """A mesh with its messages. They are warnings, too, at the line ``level`` calls up."""
         mesh = cls.__new__(cls)
         mesh._handle, mesh.warnings = handle, messages
-        repeat_warnings(messages, level + 1)
+        if level is not None:
+            repeat_warnings(messages, level + 1)
         return mesh
 
     @classmethod
@@ -135,11 +136,6 @@ class TetMesh:
     # --- sizes ---------------------------------------------------------------------------------------------
 
     @property
-    def n_vertices(self) -> int:
-        """Number of vertices."""
-        return self._handle.n_vertices()
-
-    @property
     def n_tetrahedra(self) -> int:
         """Number of tetrahedra."""
         return self._handle.n_tetrahedra()
@@ -158,8 +154,12 @@ class TetMesh:
 
     @property
     def weights(self) -> npt.NDArray[np.float64]:
-        """Weights, (n,) float64 [length²]. A read-only view."""
+        """Weights, (n,) float64 [length²]. A read-only view. Assigning sets all at once, and the tetrahedra stay. O(n)."""
         return self._handle.weights()
+
+    @weights.setter
+    def weights(self, weights: npt.ArrayLike) -> None:
+        self._handle.set_weights(_doubles(weights, 0, "weights"))
 
     @property
     def tetrahedra(self) -> npt.NDArray[np.int32]:
@@ -210,31 +210,9 @@ class TetMesh:
         return self._file()["face_tags"]
 
     @property
-    def lines(self) -> npt.NDArray[np.int32]:
-        """Edges that carry a tag, as two vertices each, (k, 2) int32. A copy."""
-        return self._file()["lines"]
-
-    @property
     def line_tags(self) -> npt.NDArray[np.int32]:
         """Tag of each of ``lines``, (k,) int32. A copy."""
         return self._file()["line_tags"]
-
-    @property
-    def marked_points(self) -> npt.NDArray[np.int32]:
-        """Vertices that carry a tag, such as wells, (p,) int32. A copy."""
-        return self._file()["marked_points"]
-
-    @property
-    def point_tags(self) -> npt.NDArray[np.int32]:
-        """Tag of each of ``marked_points``, (p,) int32. A copy."""
-        return self._file()["point_tags"]
-
-    @property
-    def names(self) -> dict[str, tuple[int, int]]:
-        """The names of tags, each with its dimension and tag. The dimension is 0 for ``point_tags``, 1 for
-        ``line_tags``, 2 for ``face_tags`` and 3 for ``regions``. A name of several dimensions has the highest. A
-        copy."""
-        return {name: (dimension, tag) for dimension, tag, name in sorted(self._file()["names"])}
 
     @property
     def point_data(self) -> dict[str, npt.NDArray[Any]]:
@@ -248,11 +226,6 @@ class TetMesh:
 
     # --- methods --------------------------------------------------------------------------------------------
 
-    def validate(self) -> str | None:
-        """Checks the mesh, for example that every tetrahedron is positive (exact). Returns the first fault, or None.
-        O(n)."""
-        return self._handle.validate()
-
     def to_meshio(self) -> Any:
         """The mesh as a ``meshio.Mesh``, which meshio writes to any of its formats. Needs meshio. For PyVista:
         ``pyvista.from_meshio(mesh.to_meshio())``.
@@ -262,13 +235,18 @@ class TetMesh:
         ``gmsh:physical`` are the same, and names are ``field_data``: tag and dimension. All other data of the mesh
         follow.
         """
-        return meshio_of_tets(self.points, self.weights, self.tetrahedra, self.regions, self._file())
+        return meshio_of(self._form())
 
-    def __eq__(self, other: object) -> bool:
-        """Says whether positions, weights, tetrahedra, regions and tags are equal, bit for bit."""
-        return isinstance(other, TetMesh) and self._handle.equal(other._handle)
+    def _form(self) -> Cells:
+        return meshio_form_of_tets(self.points, self.weights, self.tetrahedra, self.regions, self._file())
 
-    __hash__ = None  # type: ignore[assignment]
+    def _vertices_of_points(self) -> npt.NDArray[np.int32]:
+        """Vertex of each original point, −1 if it is gone."""
+        return self._handle.vertices_of_points()
+
+    def copy(self) -> TetMesh:
+        """An independent mesh; the memory is shared until one of the two changes."""
+        return TetMesh._of(self._handle.copy(), list(self.warnings), None)
 
     def __reduce__(self) -> Any:
         """Everything but the name and the format of the file, for another process. To keep a mesh, write it."""
@@ -283,9 +261,7 @@ class TetMesh:
 
 
 def _unpickle(arrays: dict[str, Any], messages: list[str]) -> TetMesh:
-    mesh = TetMesh._of(_temper.tet_mesh_from_arrays(arrays, False, None)[0], [], 2)
-    mesh.warnings = messages
-    return mesh
+    return TetMesh._of(_temper.tet_mesh_from_arrays(arrays, False, None)[0], messages, None)
 
 
 def _cells(mesh: Any) -> Any:
@@ -305,11 +281,19 @@ AnyMeshLike = Union[TetMesh, MeshLike]
 """A mesh of triangles or of tetrahedra, of temper or of another library."""
 
 
-def as_any_mesh(mesh: AnyMeshLike) -> Mesh | TetMesh:
-    """The mesh itself, or the mesh of another library: a ``TetMesh`` if it has tetrahedra."""
+def as_any_mesh(mesh: AnyMeshLike, *, in_place: bool = False) -> Mesh | TetMesh:
+    """The mesh itself, or the mesh of another library: a ``TetMesh`` if it has tetrahedra. ``in_place``: as in
+    ``as_mesh``."""
     if isinstance(mesh, TetMesh):
         return mesh
     cells = None if isinstance(mesh, Mesh) else cells_of(mesh)
-    if cells is not None and any(block.type == "tetra" for block in cells.cells):
+    if cells is not None and any(block.type == "tetra" and len(block.data) for block in cells.cells):
         return _from_cells(cells, 3)
-    return as_mesh(mesh)
+    return as_mesh(mesh, in_place=in_place)
+
+
+def refuse_for_tetrahedra(**given: tuple[Any, Any]) -> None:
+    """TypeError for the first option whose value is not its default."""
+    for name, (value, default) in given.items():
+        if value is not default and value != default:
+            raise TypeError(f"{name} is for triangles alone. Next: leave it out")

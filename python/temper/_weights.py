@@ -12,8 +12,9 @@ import numpy.typing as npt
 from . import _temper
 from ._mesh import Mesh, MeshLike, _ints, as_mesh
 from ._records import Record, merged
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, refuse_for_tetrahedra
 
-Constraints = Literal["well_centered", "heights_only", "regular"]
+Constraints = Literal["well_centered", "heights_only", "regular", "completely_well_centered"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -28,10 +29,16 @@ class ConstraintsInfo(Record):
     failure: str
 
 
-def constraints_table() -> list[ConstraintsInfo]:
-    """The kinds of constraints. well_centered: all h and d. heights_only: all h, so that orthocenters are inside their
-    triangles. regular: the dual lengths of interior edges, of all of them or of the prescribed ones."""
-    return [ConstraintsInfo(**row) for row in _temper.constraints_table()]
+def constraints_table(*, tetrahedra: bool = False) -> list[ConstraintsInfo]:
+    """The kinds of constraints, of triangles or of tetrahedra.
+
+    In triangles: well_centered: all h and d. heights_only: all h, so that orthocenters are inside their triangles.
+    regular: the dual lengths of interior edges, of all of them or of the prescribed ones.
+
+    In tetrahedra: well_centered: all h over faces. completely_well_centered: also all h and d in the faces. regular:
+    the dual lengths of interior faces.
+    """
+    return [ConstraintsInfo(**row) for row in (_temper.tet_constraints_table() if tetrahedra else _temper.constraints_table())]
 
 
 def _edges(edges: npt.ArrayLike | None) -> npt.NDArray[np.int64] | None:
@@ -42,15 +49,18 @@ def _edges(edges: npt.ArrayLike | None) -> npt.NDArray[np.int64] | None:
 class WeightConstraint:
     """One inequality of the constraints."""
 
-    kind: Literal["height", "crossing", "dual"]
+    kind: Literal["height", "crossing", "dual", "height_over_face", "dual_of_face"]
     """height: h over edge pq of the triangle pqr, counter-clockwise; crossing: d from p towards q, for any edge pq;
-    dual: dual length of pq between the triangles pqr and qps."""
+    dual: dual length of pq between the triangles pqr and qps; height_over_face: h over the face pqr of the tetrahedron
+    pqrs; dual_of_face: dual length of pqr between the tetrahedra pqrs and prqt."""
     p: int
     q: int
     r: int
     """Third vertex; −1 for a crossing."""
     s: int = -1
-    """Fourth vertex, only for a dual; else −1."""
+    """Fourth vertex; −1 for a crossing and a height."""
+    t: int = -1
+    """Fifth vertex, only for a dual of a face; else −1."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -66,7 +76,7 @@ class Certificate(Record):
     """Kind of constraints. For ``regular`` the proof assumes that weights differ by less than 2²⁰ ℓ² along edges."""
 
     def _plain(self) -> dict[str, Any]:
-        terms = [((c.kind, c.p, c.q, c.r, c.s), float(m)) for c, m in self.terms]
+        terms = [(dataclasses.astuple(c), float(m)) for c, m in self.terms]
         return {"margin": self.margin, "terms": terms, "constraints": self.constraints}
 
     @classmethod
@@ -136,7 +146,7 @@ class WeightReport(Record):
 
 
 def find_weights(
-    mesh: MeshLike,
+    mesh: AnyMeshLike,
     *,
     goal: Literal["feasible", "minimal", "elastic"] = "minimal",
     margin: float = 0.01,
@@ -151,7 +161,7 @@ def find_weights(
 
     Parameters
     ----------
-    mesh : MeshLike
+    mesh : Mesh, TetMesh, or of another library
     goal : {"minimal", "feasible", "elastic"}
         minimal: the least change for the requested margin. feasible: the best margin, and the least change for the
         requested margin or for half of the best one. elastic: the least violation, and then the least change.
@@ -160,14 +170,15 @@ def find_weights(
     from_input : bool
         Measure change from the mesh's weights; else from zero.
     whole : int
-        Components of at most this many triangles are one linear program. In larger components only the neighborhoods of
-        bad triangles are solved.
+        Components of at most this many triangles or tetrahedra are one linear program. In larger components only the
+        neighborhoods of bad ones are solved.
     rings : int
-        Number of rings of vertices around bad triangles, at first.
-    constraints : {"well_centered", "heights_only", "regular"}
-        Constraints on the weights: see ``constraints_table``.
+        Number of rings of vertices around bad triangles or tetrahedra, at first.
+    constraints : {"well_centered", "heights_only", "regular", "completely_well_centered"}
+        Constraints on the weights: see ``constraints_table``, which lists those of triangles and of tetrahedra.
     edges : (k, 2) int, optional
-        Prescribed edges for ``regular``, by their vertices; None: all. Boundary edges are always regular.
+        Prescribed edges for ``regular``, by their vertices; None: all. Boundary edges are always regular. For triangles
+        alone.
 
     Notes
     -----
@@ -184,8 +195,13 @@ def find_weights(
     >>> temper.find_weights(mesh, constraints="heights_only").verdict
     'feasible'
     """
-    handle = as_mesh(mesh)._handle
-    d = _temper.find_weights(handle, goal, margin, from_input, whole, rings, constraints, _edges(edges))
+    any_mesh = as_any_mesh(mesh)
+    wanted = goal, margin, from_input, whole, rings, constraints
+    if isinstance(any_mesh, TetMesh):
+        refuse_for_tetrahedra(edges=(edges, None))
+        d = _temper.tet_find_weights(any_mesh._handle, *wanted)
+    else:
+        d = _temper.find_weights(any_mesh._handle, *wanted, _edges(edges))
     violations = [Violation(**merged(v, constraint=WeightConstraint(*v["constraint"]))) for v in d["violations"]]
     return WeightReport(**merged(d, violations=violations, certificate=Certificate._of(d["certificate"])))
 
@@ -207,11 +223,15 @@ def best_margin(
 
 
 def weight_margin(
-    mesh: MeshLike, *, constraints: Constraints = "well_centered", edges: npt.ArrayLike | None = None
+    mesh: AnyMeshLike, *, constraints: Constraints = "well_centered", edges: npt.ArrayLike | None = None
 ) -> float:
     """The margin of the mesh's own weights, in doubles: the least h/ℓ, d/ℓ, 1 − d/ℓ or dual length/ℓ that the
     constraints have. Infinite if they have none."""
-    return _temper.weight_margin(as_mesh(mesh)._handle, constraints, _edges(edges))
+    any_mesh = as_any_mesh(mesh)
+    if isinstance(any_mesh, TetMesh):
+        refuse_for_tetrahedra(edges=(edges, None))
+        return _temper.tet_weight_margin(any_mesh._handle, constraints)
+    return _temper.weight_margin(any_mesh._handle, constraints, _edges(edges))
 
 
 def weight_change(mesh: MeshLike, before: npt.ArrayLike, after: npt.ArrayLike) -> float:
@@ -220,10 +240,12 @@ def weight_change(mesh: MeshLike, before: npt.ArrayLike, after: npt.ArrayLike) -
     return _temper.weight_change(as_mesh(mesh)._handle, before, after)
 
 
-def check_certificate(mesh: MeshLike, certificate: Certificate) -> str:
+def check_certificate(mesh: AnyMeshLike, certificate: Certificate) -> str:
     """Verifies a certificate in exact arithmetic, from the positions alone. Returns ``"proves"`` if no weights exist,
     else the fault of the certificate."""
-    return _temper.check_certificate(as_mesh(mesh)._handle, certificate._plain())
+    any_mesh = as_any_mesh(mesh)
+    check = _temper.tet_check_certificate if isinstance(any_mesh, TetMesh) else _temper.check_certificate
+    return check(any_mesh._handle, certificate._plain())
 
 
 # --- connectivity ----------------------------------------------------------------------------------------------

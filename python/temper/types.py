@@ -8,7 +8,7 @@ from ._dec import Columns, DecComplex, DecEdges, DecSummary, IncidenceMatrix, Po
 from ._draw import Html, Svg
 from ._explain import CrossingConflict, CrossingSide, Cure, Explanation, FanCenter, Reason
 from ._io import Format
-from ._measure import Histogram, Quality, QualityMeasure, TetQuality, TriangleQuality, WorstTet, WorstTriangle
+from ._measure import Histogram, Quality, QualityMeasure, TetQuality, TetrahedronQuality, TriangleQuality, WorstTet, WorstTriangle
 from ._optimize import DataReport, OptimizeReport, Replay, SizeChange, Snapshot, TraceEvent
 from ._outline import OutlineFile, OutlineMesh
 from ._progress import Progress, SweepRecord

@@ -437,8 +437,9 @@ Expected<std::vector<std::string>> write(const std::string& path, const TetFile&
     const Tetrahedra tetrahedra = {file.tetrahedra, file.regions, file.cell_data};
     std::vector<std::string> warnings;
     OutputSet outputs;
-    const WriteJob job = {path,    tags,     tags,         row, options.encoding, false, options.executor,
-                          outputs, warnings, std::move(z), {},  &tetrahedra};
+    const WriteJob job = {
+        path,    tags,     tags,         row, options.encoding, options.triangle_quality, options.executor,
+        outputs, warnings, std::move(z), {},  &tetrahedra};
     row.write(job);
     warn_of_losses(job);
     if ((row.holds & kWeights) == 0) write_side_file(job);

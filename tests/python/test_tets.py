@@ -2,8 +2,12 @@
 
 import dataclasses
 import json
+import os
 import pickle
+import signal
 import subprocess
+import threading
+import time
 import warnings
 
 import numpy as np
@@ -81,6 +85,9 @@ def test_the_report_has_the_laws_of_the_mesh(shaken):
     assert temper.quality(moved).min_h_over_l == pytest.approx(q.min_h_over_l)
     assert temper.quality(moved).orthocenters_outside == q.orthocenters_outside > 0
     assert temper.quality(shaken, worst=3, threads=1) == q
+    single = temper.tetrahedron_quality(shaken)
+    assert single.min_h_over_l.min() == q.min_h_over_l and single.min_dihedral_deg.min() == q.min_dihedral_deg
+    assert single.well_centered.dtype == bool and (~single.well_centered).sum() == q.orthocenters_outside
     assert "worst tetrahedra" in q._repr_html_() and "min_h_over_l" in str(q)
 
 
@@ -146,6 +153,8 @@ def test_errors_have_the_numbers_of_the_arrays_and_a_next_step():
     assert "point 4 and point 8 are both at (1, 0, 0)" in str(error_of(np.vstack([points, [1, 0, 0]]), [*tetrahedra, [0, 4, 8, 7]]))
     assert "point 2 has coordinates (0, nan, 0)" in str(error_of(points=np.where(np.arange(8)[:, None] == 2, [0, np.nan, 0], points)))
     assert error_of(weights=[1.0]).code == "size_mismatch"
+    assert str(error_of(regions=[0, 0, 2**31, 0, 0, 0])).startswith("regions: row 2 has 2147483648; expected -2147483648 to 2147483647")
+    assert "line_tags: row 0 has 18446744073709551615" in str(error_of(lines=[(0, 1)], line_tags=np.array([2**64 - 1], dtype=np.uint64)))
     assert error_of(lines=[(0, 1)], line_tags=[1, 2]).code == "size_mismatch"
     with pytest.raises(ValueError, match=r"tetrahedra: expected shape \(n, 4\), found \(6, 3\)"):
         temper.TetMesh(points, tetrahedra[:, :3])
@@ -158,6 +167,63 @@ def test_functions_for_triangles_say_so(shaken):
         temper.explain(shaken)
     with pytest.raises(TypeError, match="gamma is for triangles alone"):
         temper.quality(shaken, gamma=0.5)
+
+
+def test_a_run_is_that_of_the_program_and_the_boundary_stays(shaken, in_scratch):
+    temper.write("m.vtu", shaken)
+    former, view, boundary = shaken.copy(), shaken.weights, np.unique(shaken.boundary_faces)
+    report = temper.optimize(shaken, effort="quick")
+    assert report.stopped == "converged" and report.history[0].bad > min(each.bad for each in report.history)
+    assert temper.quality(shaken).orthocenters_outside == min(each.bad for each in report.history)
+    assert np.array_equal(shaken.points[boundary], former.points[boundary]) and shaken.validate() is None
+    assert np.array_equal(view, former.weights) and not np.array_equal(view, shaken.weights)  # views keep the former state
+    assert "bad tetrahedra" in str(report) and report.data is None is report.size and report.vertices.size == 0
+    subprocess.run(["temper", "optimize", "m.vtu", "-o", "out.vtu", "--effort", "quick", "--quiet"], check=True)
+    assert temper.read("out.vtu") == shaken != former
+    temper.optimize(former, keep=["positions"], effort="quick", options={"max_sweeps": 3})
+    assert np.array_equal(former.points, cubes(3, seed=1)[0]) and temper.optimize(former, progress=lambda _: False).stopped == "canceled"
+
+
+def test_words_for_triangles_are_refused_by_name(shaken):
+    before = shaken.copy()
+    for given, refused in (
+        ({"target": "vertex"}, "target"), ({"tensor": (1, 0, 1)}, "tensor"), ({"hooks": temper.Hooks(tracer=print)}, "tracer"),
+        ({"options": {"problem": {}}}, "problem"), ({"keep": "sizes"}, "keep 'sizes'"), ({"boundary": "slide"}, 'boundary="slide"'),
+        ({"options": {"energy": "F"}}, 'energy="F"'), ({"options": temper.OptimizeOptions(seed=5)}, "seed=5"),
+    ):  # fmt: skip
+        with pytest.raises((TypeError, temper.TemperError), match=f"^{refused} is for triangles alone. Next: leave it out"):
+            temper.optimize(shaken, **given)
+    with pytest.raises(TypeError, match="edges is for triangles alone"):
+        temper.find_weights(shaken, edges=[(0, 1)])
+    assert shaken == before
+
+
+def test_ctrl_c_ends_a_run_within_a_second_and_keeps_the_best_mesh():
+    mesh = temper.TetMesh(*cubes(12, seed=1))
+    before, pressed = temper.quality(mesh).orthocenters_outside, []
+    timer = threading.Timer(0.3, lambda: (pressed.append(time.monotonic()), os.kill(os.getpid(), signal.SIGINT)))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        temper.optimize(mesh)
+    assert time.monotonic() - pressed[0] < 1 and mesh.validate() is None and temper.quality(mesh).orthocenters_outside < before
+
+
+def test_weights_are_found_or_a_certificate_proves_that_there_are_none(shaken):
+    found = temper.find_weights(shaken, constraints="regular")
+    assert found.verdict == "feasible" and temper.quality(shaken).non_regular_faces > 0
+    shaken.weights = found.weights
+    assert temper.quality(shaken).non_regular_faces == 0
+    assert temper.weight_margin(shaken, constraints="regular") == pytest.approx(found.attained)
+    none = temper.find_weights(shaken, goal="feasible")
+    assert none.verdict == "infeasible" and none.certificate.terms[0][0].kind == "height_over_face"
+    assert temper.check_certificate(shaken, none.certificate) == "proves"
+    easy = temper.TetMesh(shaken.points * [1, 1, 3], shaken.tetrahedra)
+    assert temper.check_certificate(easy, none.certificate) != "proves"
+    assert [row.name for row in temper.constraints_table(tetrahedra=True)] == ["well_centered", "completely_well_centered", "regular"]
+    for wrong in ([1.0], np.full(shaken.n_vertices, np.nan)):
+        with pytest.raises(temper.TemperError, match="weights: expected"):
+            shaken.weights = wrong
+    assert np.array_equal(shaken.weights, found.weights)
 
 
 class Bare:
@@ -188,6 +254,8 @@ def test_grids_of_pyvista_are_taken():
         assert temper.quality(grid) == temper.quality(mesh)
     with pytest.raises(temper.TemperError, match="expected cells of type tetra; 1 cells of type triangle"):
         temper.TetMesh.from_meshio(Bare(points=points, cells=[Bare(type="triangle", data=[[0, 1, 2]])], point_data={}, cell_data={}, field_data={}))
+    cells = [Bare(type="tetra", data=np.empty((0, 4), dtype=int)), Bare(type="triangle", data=[[0, 1, 2]])]
+    assert temper.quality(Bare(points=[(0, 0), (1, 0), (0, 1)], cells=cells, point_data={}, cell_data={}, field_data={})).triangles == 1
     with pytest.raises(TypeError, match="expected a mesh of meshio or PyVista, found ndarray"):
         temper.TetMesh.from_meshio(points)
 
@@ -198,6 +266,11 @@ def test_a_mesh_goes_through_meshio(shaken):
     assert isinstance(again, meshio.Mesh) and set(again.cells_dict) == {"tetra", "triangle", "line", "vertex"}
     assert again.cell_data_dict["gmsh:physical"]["triangle"].tolist() == [7, 8]
     assert temper.TetMesh.from_meshio(again) == shaken and temper.quality(again) == temper.quality(shaken)
+    again.point_sets, again.cell_sets = {"wells": np.array([21, 63])}, {"all": []}
+    with pytest.warns(temper.TemperWarning, match="cell_sets 'all' are dropped"):
+        temper.optimize(again, effort="quick")
+    temper.optimize(shaken, effort="quick")
+    assert temper.TetMesh.from_meshio(again) == shaken and again.point_sets["wells"].tolist() == [21, 63]
 
 
 def test_operators_have_the_laws_of_a_complex(shaken, tmp_path):

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <variant>
 
@@ -87,47 +89,93 @@ std::string crack_warning(const Input& input) {
       widest, input.path, radius);
 }
 
+namespace {
+
+/// New numbers of the points of a file, after those within the radius are one.
+struct MergedPoints {
+  std::vector<bool> stays;
+  std::vector<std::int32_t> number;
+  std::size_t gone = 0;
+
+  MergedPoints(std::span<const Vec3> places, double radius) : stays(places.size()), number(places.size()) {
+    std::vector<std::size_t> first(places.size());  // of the points at the same place
+    std::iota(first.begin(), first.end(), std::size_t{0});
+    const auto root = [&](std::size_t i) {
+      while (first[i] != i) i = first[i] = first[first[i]];
+      return i;
+    };
+    for (const auto& [i, j] : pairs_within(places, radius)) {
+      const auto [less, more] = std::minmax({root(i), root(j)});
+      first[more] = less;
+    }
+    std::int32_t n = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      stays[i] = root(i) == i;
+      number[i] = stays[i] ? n++ : number[root(i)];
+    }
+    gone = places.size() - static_cast<std::size_t>(n);
+  }
+
+  /// A number out of range stays: making the mesh refuses it.
+  void renumber(std::int32_t& point) const {
+    if (point >= 0 && static_cast<std::size_t>(point) < number.size()) point = number[static_cast<std::size_t>(point)];
+  }
+  template <std::size_t N>
+  void renumber(std::vector<std::array<std::int32_t, N>>& elements) const {
+    for (auto& element : elements) {
+      for (std::int32_t& point : element) renumber(point);
+    }
+  }
+  /// `name`: of cell number i.
+  template <std::size_t N, class Name>
+  void renumber_cells(std::vector<std::array<std::int32_t, N>>& cells, const std::string& path, double radius,
+                      const Name& name) const {
+    renumber(cells);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      auto corners = cells[i];
+      std::ranges::sort(corners);
+      if (std::ranges::adjacent_find(corners) == corners.end()) continue;
+      throw Failure(Exit::bad_input,
+                    fmt::format("{}: --merge {} makes two corners of {} one; expected less than its edges", path,
+                                radius, name(i)));
+    }
+  }
+  /// All but the cells.
+  template <class File>
+  void apply(File& file) const {
+    renumber(file.lines);
+    for (std::int32_t& point : file.marked_points) renumber(point);
+    keep(file.points, stays);
+    if (!file.weights.empty()) keep(file.weights, stays);
+    for (io::DataArray& array : file.point_data) {
+      std::visit([&](auto& values) { keep(values, stays, static_cast<std::size_t>(array.components)); }, array.values);
+    }
+    file.numbering = nullptr;  // points have other numbers now
+  }
+};
+
+}  // namespace
+
 std::size_t merge_points(io::MeshFile& file, double radius) {
-  const std::vector<Vec3> places = places_of(file);
-  std::vector<std::size_t> first(places.size());  // of the points at the same place
-  std::iota(first.begin(), first.end(), std::size_t{0});
-  const auto root = [&](std::size_t i) {
-    while (first[i] != i) i = first[i] = first[first[i]];
-    return i;
-  };
-  for (const auto& [i, j] : pairs_within(places, radius)) {
-    const auto [less, more] = std::minmax({root(i), root(j)});
-    first[more] = less;
-  }
-  std::vector<bool> stays(places.size());
-  std::vector<std::int32_t> number(places.size());
-  std::int32_t n = 0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    stays[i] = root(i) == i;
-    number[i] = stays[i] ? n++ : number[root(i)];
-  }
-  const std::size_t gone = places.size() - static_cast<std::size_t>(n);
-  if (gone == 0) return 0;
-  const auto renumber = [&](std::int32_t& point) { point = number[static_cast<std::size_t>(point)]; };
-  for (std::size_t t = 0; t < file.triangles.size(); ++t) {
-    auto& [a, b, c] = file.triangles[t];
-    for (std::int32_t* corner : {&a, &b, &c}) renumber(*corner);
-    if (a != b && b != c && c != a) continue;
-    const std::string name = file.numbering ? file.numbering->triangle(t) : InputNames().triangle(t);
-    throw Failure(Exit::bad_input,
-                  fmt::format("{}: --merge {} makes two corners of {} one; expected less than its edges", file.path,
-                              radius, name));
-  }
-  for (auto& line : file.lines) std::ranges::for_each(line, renumber);
-  std::ranges::for_each(file.marked_points, renumber);
-  keep(file.points, stays);
-  if (!file.weights.empty()) keep(file.weights, stays);
-  if (auto* sphere = std::get_if<io::SpherePoints>(&file.points_in)) keep(sphere->places, stays);
-  for (io::DataArray& array : file.point_data) {
-    std::visit([&](auto& values) { keep(values, stays, static_cast<std::size_t>(array.components)); }, array.values);
-  }
-  file.numbering = nullptr;  // points have other numbers now
-  return gone;
+  const MergedPoints merged(places_of(file), radius);
+  if (merged.gone == 0) return 0;
+  merged.renumber_cells(file.triangles, file.path, radius, [&](std::size_t t) {
+    return file.numbering ? file.numbering->triangle(t) : InputNames().triangle(t);
+  });
+  if (auto* sphere = std::get_if<io::SpherePoints>(&file.points_in)) keep(sphere->places, merged.stays);
+  merged.apply(file);
+  return merged.gone;
+}
+
+std::size_t merge_points(io::TetFile& file, double radius) {
+  const MergedPoints merged(file.points, radius);
+  if (merged.gone == 0) return 0;
+  merged.renumber_cells(file.tetrahedra, file.path, radius, [&](std::size_t t) {
+    return file.numbering ? file.numbering->tetrahedron(t) : tets::InputNames().tetrahedron(t);
+  });
+  merged.renumber(file.faces);
+  merged.apply(file);
+  return merged.gone;
 }
 
 }  // namespace temper::app

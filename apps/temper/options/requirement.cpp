@@ -64,17 +64,22 @@ bool is_energy_key(std::string_view key) {
 
 [[noreturn]] void refuse(const std::string& message) { throw BadValue(message); }
 
+/// Names that are near, and those that begin with the same word: "min_angle" has "min_h".
 [[noreturn]] void refuse_key(std::string_view key, std::span<const Key> keys, MeshKind kind) {
-  std::vector<std::string_view> names;
+  const std::string_view word = key.substr(0, key.find_first_of("_."));
+  std::vector<std::string_view> names, alike;
   for (const Key& each : keys) {
     if (!each.alias.empty()) names.push_back(each.alias);
     names.push_back(each.key);
+    if (each.key.starts_with(word)) alike.push_back(each.alias.empty() ? each.key : each.alias);
   }
   const std::string_view guess = nearest(key, names);
-  const bool triangles = kind == MeshKind::triangles;
-  refuse(fmt::format(
-      "unknown key '{}'{}; the keys{} are {}{}", key, guess.empty() ? "" : fmt::format(", did you mean '{}'?", guess),
-      triangles ? "" : " for tetrahedra", join(names), triangles ? ", and energy.NAME.STAR (energy.BP.1)" : ""));
+  if (kind == MeshKind::triangles && word == "energy") alike.emplace_back("energy.NAME.STAR, such as energy.BP.1");
+  const std::string near = !guess.empty()   ? fmt::format(", did you mean '{}'?", guess)
+                           : !alike.empty() ? fmt::format("; there are {}.", join(alike))
+                                            : ".";
+  refuse(fmt::format("unknown key '{}'{}{} Next: temper check --help lists all keys", key,
+                     kind == MeshKind::triangles ? "" : " for tetrahedra", near));
 }
 
 /// A key alone stands for the usual requirement.

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <type_traits>
+#include <variant>
 
 #include "console.hpp"
 #include "files/close_points.hpp"
@@ -59,19 +61,19 @@ Exit run_convert(const Arguments& arguments) {
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   auto any = read_any_tried(s.input, {threads.get(), s.flat});
-  if (const auto* const tets = std::get_if<io::TetFile>(&any)) {
-    refuse_for_tetrahedra(
-        "convert", s.input,
-        {{!s.projection.empty(), "--projection"}, {s.flat, "--flat"}, {s.merge.has_value(), "--merge"}});
-    print_warnings(tets->warnings);
-    print_warnings(outputs.write_mesh(s.output, *tets, threads.get()));
-    return Exit::done;
-  }
-  auto& file = std::get<io::MeshFile>(any);
-  const std::size_t merged = s.merge ? merge_points(file, *s.merge) : 0;
-  if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
-  print_warnings(file.warnings);
-  print_warnings(outputs.write_mesh(s.output, file, threads.get()));
+  if (std::holds_alternative<io::TetFile>(any))
+    refuse_for_tetrahedra("convert", s.input, {{!s.projection.empty(), "--projection"}, {s.flat, "--flat"}});
+  std::size_t merged = 0;
+  std::visit(
+      [&](auto& file) {
+        if (s.merge) merged = merge_points(file, *s.merge);
+        if constexpr (std::is_same_v<decltype(file), io::MeshFile&>) {
+          if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
+        }
+        print_warnings(file.warnings);
+        print_warnings(outputs.write_mesh(s.output, file, threads.get()));
+      },
+      any);
   if (s.merge) print(fmt::format("{} merged\n", plural(merged, "point", "points")));
   return Exit::done;
 }

@@ -182,6 +182,23 @@ void check_usage(const Command& command, const WeightsSettings& s) {
   if (s.mode != Mode::barrier && command.was_given("--energy")) fail("--energy needs --mode barrier");
 }
 
+/// The fault of a certificate, after its name.
+std::string_view fault_text(CertificateCheck fault) {
+  switch (fault) {
+    case CertificateCheck::proves:
+      break;
+    case CertificateCheck::proves_nothing:
+      return "the sum of its terms is no contradiction";
+    case CertificateCheck::not_of_this_mesh:
+      return "a term names an element that the mesh does not have, or is not of these constraints";
+    case CertificateCheck::bad_multiplier:
+      return "its margin is outside [0, 1/2), a multiplier is negative or not finite, or all of them are 0";
+    case CertificateCheck::out_of_range:
+      return "its numbers are too far apart for exact arithmetic";
+  }
+  return {};
+}
+
 /// Reports the verdict on the certificate of --check-certificate.
 Exit report_check(const WeightsSettings& s, const Certificate& certificate, CertificateCheck result,
                   std::span<const ConstraintsInfo> rows) {
@@ -197,7 +214,7 @@ Exit report_check(const WeightsSettings& s, const Certificate& certificate, Cert
   }
   flush_output();
   if (!proves)
-    throw Failure(Exit::bad_input, fmt::format("{}: not a proof about {}: {}", s.check, s.input, name(result)));
+    throw Failure(Exit::bad_input, fmt::format("{}: not a proof about {}: {}", s.check, s.input, fault_text(result)));
   return Exit::done;
 }
 

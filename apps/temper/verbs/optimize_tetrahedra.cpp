@@ -25,10 +25,7 @@ namespace {
 /// The options that have a meaning for tetrahedra. All others are refused by name.
 constexpr auto kOptions = std::to_array<std::string_view>(
     {"IN", "--output", "--format", "--encoding", "--effort", "--keep", "--boundary", "--require", "--time-limit",
-     "--write", "--set", "--options", "--details", "--quiet", "--point-data", "--threads"});
-/// The rows of the table that have one. The boundary stays.
-constexpr auto kRows = std::to_array<std::string_view>({"max_sweeps", "time_limit", "unknowns", "boundary"});
-constexpr auto kKept = std::to_array<std::string_view>({"positions", "weights", "edges", "boundary"});
+     "--write", "--set", "--options", "--details", "--quiet", "--point-data", "--threads", "--no-triangle-quality"});
 
 template <class Names>
 bool has(const Names& names, std::string_view name) {
@@ -44,40 +41,19 @@ void refuse_options(const Command& command, const OptimizeSettings& s) {
     const bool is_default = name == "--for" && s.target == "any";
     refuse(!option.given.empty() && !is_default && !has(kOptions, name), name);
   }
-  for (const Assignment& a : s.assignments) {
-    const std::string name(a.row->name);
-    refuse(!has(kRows, name) && a.row->get(s.options) != a.row->get({}),
-           a.row->common ? spell_options(fmt::format("`{}`", name)) : "--set " + name);
-  }
-  const BoundaryVertices boundary = s.options.boundary;
-  refuse(boundary != BoundaryVertices::keep && boundary != BoundaryVertices::split, "--boundary slide");
-  for (const std::string& part : s.keep) refuse(!has(kKept, part), "--keep " + part);
   for (const auto& [path, what] : {std::pair(s.files.page, "a page"), std::pair(s.files.trace, "a trace"),
                                    std::pair(s.files.picture, "a picture")})
     refuse(!path.empty(), fmt::format("--write {}, {},", path, what));
 }
 
-/// The changes that an effort tries. "quick" moves vertices alone.
-struct Effort {
-  std::string_view name;
-  int repair_trials;
-  double small_margin;
-};
-constexpr Effort kEfforts[] = {
-    {"quick", 0, 0}, {"normal", tets::OptimizeOptions().repair_trials, 0}, {"high", 40, 0.01}};
-
 tets::OptimizeOptions options_of(const OptimizeSettings& s) {
-  tets::OptimizeOptions options;
-  options.keep_positions = s.options.unknowns == Unknowns::weights;
-  options.keep_weights = s.options.unknowns == Unknowns::positions;
-  const Effort& effort = *std::ranges::find(kEfforts, s.effort, &Effort::name);
-  options.repair_trials = effort.repair_trials;
-  options.small_margin = effort.small_margin;
-  options.keep_edges = s.options.flips == Flips::none || options.repair_trials == 0;
-  options.split_boundary = s.options.boundary == BoundaryVertices::split;
-  options.max_sweeps = s.options.max_sweeps;
-  options.time_limit = s.options.time_limit;
-  return options;
+  const std::vector<std::string_view> keep(s.keep.begin(), s.keep.end());
+  std::vector<std::string_view> rows;
+  for (const Assignment& a : s.assignments) rows.push_back(a.row->name);
+  const Expected<tets::OptimizeOptions> options = tets::options_from(s.options, {s.effort, keep, rows});
+  if (!options)
+    refuse_usage("optimize", fmt::format("{} has tetrahedra, and {}", s.input, spell_options(options.error().message)));
+  return *options;
 }
 
 std::string settings_json(const tets::OptimizeOptions& options) {
@@ -94,8 +70,9 @@ std::string settings_json(const tets::OptimizeOptions& options) {
 
 class TetRun {
  public:
-  TetRun(const Command& command, const OptimizeSettings& s, Outputs& outputs, TetInput input, Executor* threads)
-      : command_(command), s_(s), outputs_(outputs), input_(std::move(input)), threads_(threads) {}
+  TetRun(const Command& command, const OptimizeSettings& s, const tets::OptimizeOptions& options, Outputs& outputs,
+         TetInput input, Executor* threads)
+      : command_(command), s_(s), options_(options), outputs_(outputs), input_(std::move(input)), threads_(threads) {}
 
   Exit run() {
     warn(input_.warnings());
@@ -132,7 +109,7 @@ class TetRun {
       return interrupted() ? Continue::no : Continue::yes;
     };
     mesh_ = input_.mesh();
-    Expected<tets::OptimizeReport> report = optimize(mesh_, options_of(s_), hooks);
+    Expected<tets::OptimizeReport> report = optimize(mesh_, options_, hooks);
     if (!report) throw as_failure(spell_options(report.error()));
     report_ = *std::move(report);
   }
@@ -145,8 +122,8 @@ class TetRun {
     if (!s_.files.report.empty())
       outputs_.write_text(s_.files.report, optimize_json(TetOptimizeRecord{
                                                command_line(command_, {s_.input}),
-                                               options_json(command_, s_.assignments), settings_json(options_of(s_)),
-                                               before_, input_.points, after_, report_, data_, outcomes_, warnings_}));
+                                               options_json(command_, s_.assignments), settings_json(options_), before_,
+                                               input_.points, after_, report_, data_, outcomes_, warnings_}));
     if (!s_.files.history.empty()) outputs_.write_text(s_.files.history, history_csv(report_.history));
   }
   void print_result() const {
@@ -166,6 +143,7 @@ class TetRun {
 
   const Command& command_;
   const OptimizeSettings& s_;
+  const tets::OptimizeOptions& options_;
   Outputs& outputs_;
   TetInput input_;
   Executor* threads_;
@@ -182,12 +160,13 @@ class TetRun {
 
 Exit optimize_tetrahedra(const Command& command, OptimizeSettings& settings, Outputs& outputs, TetsToOptimize tets) {
   refuse_options(command, settings);
+  const tets::OptimizeOptions options = options_of(settings);
   settings.requirements = settings.requirement_lists.of(MeshKind::tetrahedra);
   outputs.expect_tetrahedra(settings.output);
   TetInput input = make_input(settings.input, std::move(tets.file), tets.threads);
   agree_to_go_on();
   if (!is_first_rank()) return Exit::done;
-  return TetRun(command, settings, outputs, std::move(input), tets.threads).run();
+  return TetRun(command, settings, options, outputs, std::move(input), tets.threads).run();
 }
 
 }  // namespace temper::app

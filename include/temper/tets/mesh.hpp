@@ -64,6 +64,7 @@ struct TetMeshInput {
   std::span<const std::int32_t> line_tags = {};             ///< One tag per line
   std::span<const std::int32_t> marked_points = {};         ///< Points that carry a tag
   std::span<const std::int32_t> point_tags = {};            ///< One tag per marked point
+  std::span<const std::int32_t> fixed_points = {};          ///< Points that must not move
   const InputNames* names = nullptr;                        ///< Numbering of the user, for errors
   Executor* executor = nullptr;                             ///< Threads; the result does not depend on them
 };
@@ -165,6 +166,8 @@ class TetMesh {
   [[nodiscard]] const std::vector<TaggedFace>& tagged_faces() const { return faces_; }
   [[nodiscard]] const std::vector<TaggedLine>& tagged_lines() const { return lines_; }
   [[nodiscard]] const std::vector<TaggedPoint>& tagged_points() const { return points_; }
+  /// Vertices that must never move.
+  [[nodiscard]] const std::vector<VertexId>& fixed_points() const { return fixed_; }
 
   // --- whole mesh --------------------------------------------------------------------------------
   /// Checks the arrays and the geometry: ids in range, twins mutual and of the same vertices, every tetrahedron
@@ -188,6 +191,7 @@ class TetMesh {
   std::vector<TaggedFace> faces_;
   std::vector<TaggedLine> lines_;
   std::vector<TaggedPoint> points_;
+  std::vector<VertexId> fixed_;
 };
 
 struct BuiltTetMesh {

@@ -6,11 +6,15 @@
 // filled in other ways (src/tets/topology/cavity.hpp).
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "temper/detail/progress.hpp"
+#include "temper/optimize.hpp"
 #include "temper/tets/mesh.hpp"
 
 namespace temper::tets {
@@ -25,6 +29,15 @@ struct OptimizeOptions {
   bool split_boundary = false;  ///< Edges and faces that stay may get new vertices where nothing else helps
   double small_margin = 0;      ///< Tetrahedra with a smaller least h/ℓ are improved in trials, too, if none is bad
 };
+
+/// The words of a user, which program and Python share with triangles (temper/detail/optimize_table.hpp).
+struct OptimizeWords {
+  std::string_view effort = "normal";
+  std::span<const std::string_view> keep = {};  ///< Parts of the mesh that stay
+  std::span<const std::string_view> rows = {};  ///< Options of the table that the user set
+};
+/// The options that the words and the table's options stand for. Error: a part or a row that is for triangles alone.
+[[nodiscard]] Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, const OptimizeWords& words);
 
 struct OptimizeHooks {
   Observer observer = {};        ///< Observer of the progress, which may stop the run
@@ -45,12 +58,16 @@ struct OptimizeReport {
   std::vector<SweepRecord> history;  ///< History of the sweeps; history[0] is the input
 };
 
+/// The energy of a tetrahedron that optimize() lowers, +∞ unless it is positive.
+[[nodiscard]] double tetrahedron_energy(const std::array<WeightedPoint, 4>& corners, double gamma);
+
 /// Improves the mesh in place. Weights change everywhere. Connectivity changes only around tetrahedra that moves alone
 /// leave bad, by flips and by vertices that are inserted or removed; not if positions, weights or edges are kept. The
 /// boundary, faces between regions, and tagged faces and lines keep their connectivity, and these vertices their
 /// position, bit for bit:
 ///   - on the boundary, and on faces between regions
 ///   - of tagged faces and lines
+///   - fixed points
 ///   - points marked with a tag other than 0, unless all corners of some tetrahedron have the same tag: then this tag
 ///     lists the vertices of a part
 ///

@@ -53,6 +53,14 @@ struct Quality {
   Histogram dihedrals, h_over_l;
 };
 
+/// Quality of one tetrahedron, for cell data.
+struct TetrahedronQuality {
+  bool well_centered = false;   ///< All h > 0, exact
+  double min_h_over_l = 0;      ///< Least h/ℓ over its faces; −∞ for an inverted tetrahedron
+  double min_dihedral_deg = 0;  ///< Least of its six dihedral angles
+};
+[[nodiscard]] TetrahedronQuality tetrahedron_quality(const std::array<WeightedPoint, 4>& corners);
+
 using QualityMeasure = MeasureRow<Quality>;
 [[nodiscard]] std::span<const QualityMeasure> quality_measures();
 

@@ -139,6 +139,16 @@ class DataUpdater {
 
 bool is_flag(const DataArray& a) { return a.name == "medit:corner" || a.name == "medit:required"; }
 
+std::vector<std::int32_t> required_points(const std::vector<DataArray>& point_data) {
+  const DataArray* const required = find(point_data, "medit:required");
+  const auto* const flags = required == nullptr ? nullptr : std::get_if<std::vector<std::uint8_t>>(&required->values);
+  std::vector<std::int32_t> points;
+  for (std::size_t p = 0; flags != nullptr && p < flags->size(); ++p) {
+    if ((*flags)[p] != 0) points.push_back(static_cast<std::int32_t>(p));
+  }
+  return points;
+}
+
 void take_rows(std::vector<DataArray>& arrays, const std::vector<std::size_t>& indices) {
   RunLength rows;
   for (const std::size_t i : indices) rows.push_back(static_cast<std::int64_t>(i));

@@ -33,6 +33,8 @@ DataReport update_data(MeshFile& file, const Mesh& mesh, const Former& former, c
 
 /// Flags of medit mark special points of the user's: a new point has none.
 [[nodiscard]] bool is_flag(const DataArray& a);
+/// The points that medit calls required: they must not move.
+[[nodiscard]] std::vector<std::int32_t> required_points(const std::vector<DataArray>& point_data);
 
 /// Linear between the corners that have a value (not NaN), if these have at least half of the shares; else NaN. So a
 /// missing value stays missing, but spreads no farther than half-way to the next corners.

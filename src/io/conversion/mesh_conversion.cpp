@@ -195,7 +195,7 @@ class MeshMaker {
   [[nodiscard]] bool whole() const { return loaded_.vertex_of_point.n_kept() == file_.points.size(); }
   [[nodiscard]] std::vector<std::int32_t> fixed_points(std::span<const std::string> wanted) const {
     const TagSet tags = find_tags(file_, wanted);
-    std::vector<std::int32_t> fixed;
+    std::vector<std::int32_t> fixed = required_points(file_.point_data);
     for (std::size_t i = 0; i < file_.marked_points.size(); ++i) {
       if (contains(tags.points, file_.point_tags[i])) fixed.push_back(file_.marked_points[i]);
     }
@@ -206,11 +206,6 @@ class MeshMaker {
     for (std::size_t t = 0; t < file_.regions.size() && !tags.triangles.empty(); ++t) {
       if (contains(tags.triangles, file_.regions[t]))
         fixed.insert(fixed.end(), file_.triangles[t].begin(), file_.triangles[t].end());
-    }
-    const DataArray* required = find(file_.point_data, "medit:required");
-    const auto* flags = required == nullptr ? nullptr : std::get_if<std::vector<std::uint8_t>>(&required->values);
-    for (std::size_t p = 0; flags != nullptr && p < flags->size(); ++p) {
-      if ((*flags)[p] != 0) fixed.push_back(static_cast<std::int32_t>(p));
     }
     std::sort(fixed.begin(), fixed.end());
     fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());

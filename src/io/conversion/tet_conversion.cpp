@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/conversion/data_update.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/names.hpp"
 #include "temper/tets/io.hpp"
@@ -43,6 +44,11 @@ class TetMeshMaker {
     const auto lines = renumbered(file_.lines);
     const auto [points, weights] = kept_points();
     const auto [marked, tags] = kept_marks();
+    std::vector<std::int32_t> fixed;
+    for (const std::int32_t p : required_points(file_.point_data)) {
+      if (is_point(p) && loaded_.vertex_of_point[static_cast<std::size_t>(p)] >= 0)
+        fixed.push_back(loaded_.vertex_of_point[static_cast<std::size_t>(p)]);
+    }
     const NamesOfKept names(names_of_file(), loaded_.vertex_of_point);
     tets::TetMeshInput input;
     input.points = points;
@@ -55,6 +61,7 @@ class TetMeshMaker {
     input.line_tags = file_.line_tags;
     input.marked_points = marked;
     input.point_tags = tags;
+    input.fixed_points = fixed;
     input.names = &names;
     input.executor = executor_;
     auto built = tets::TetMesh::build(input);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <map>
 #include <optional>
 #include <unordered_set>
 #include <utility>
@@ -245,6 +247,7 @@ class TetFileUpdater {
     for (const VertexId v : mesh_.vertices()) {
       if (former(v).valid()) number[former(v).index] = static_cast<std::int32_t>(v.index);
     }
+    if (!file_.marked_points.empty()) mark_new_vertices(number);
     std::vector<std::array<std::int32_t, 3>> faces_before, faces;
     std::vector<std::array<std::int32_t, 2>> lines_before, lines;
     for (const auto& f : before_.tagged_faces()) faces_before.push_back(numbers(before_.vertices(f.face)));
@@ -260,6 +263,32 @@ class TetFileUpdater {
     if (const std::size_t all = lost + marked - file_.marked_points.size(); all > 0)
       file_.warnings.push_back(text(all, " faces, lines or marked points have lost their vertices and are dropped"));
     file_.numbering = nullptr;
+  }
+  /// A tag that all corners of a tetrahedron have lists the vertices of a part. A new vertex in it belongs to the part,
+  /// too. New vertices get numbers after those of the file, until all are renumbered.
+  void mark_new_vertices(std::vector<std::int32_t>& number) {
+    using Mark = std::pair<std::int32_t, std::int32_t>;  // point, tag
+    std::map<Mark, std::size_t> marks;
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < file_.marked_points.size(); ++i) {
+      marks.emplace(Mark(file_.marked_points[i], file_.point_tags[i]), i);
+      rows.push_back(i);
+    }
+    for (const VertexId v : mesh_.vertices()) {
+      if (former(v).valid()) continue;
+      const auto& corners = before_.corners(locate(before_, mesh_.position(v), near(mesh_.incident(v))));
+      const auto mark = [](VertexId corner, std::int32_t tag) { return Mark(corner.index, tag); };
+      for (auto at = marks.lower_bound(mark(corners[0], std::numeric_limits<std::int32_t>::min()));
+           at != marks.end() && at->first.first == mark(corners[0], 0).first; ++at) {
+        const std::int32_t tag = at->first.second;
+        if (!std::ranges::all_of(corners, [&](VertexId c) { return marks.contains(mark(c, tag)); })) continue;
+        file_.marked_points.push_back(static_cast<std::int32_t>(number.size()));
+        file_.point_tags.push_back(tag);
+        rows.push_back(at->second);
+      }
+      number.push_back(static_cast<std::int32_t>(v.index));
+    }
+    take_rows(file_.marked_point_data, rows);
   }
   void copy_mesh() {
     file_.points.clear();

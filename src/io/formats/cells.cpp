@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
+#include <utility>
+#include <variant>
 
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
@@ -81,11 +84,32 @@ void CellSorter::add(int type, const std::int32_t* p, std::size_t n, const std::
   }
 }
 
-std::vector<std::int32_t> tags_of(std::vector<DataArray>& arrays) {
+namespace {
+
+/// Whole numbers that do not fit are an error: without them, faces between regions would not stay.
+void refuse_large_tag(const std::string& path, std::string_view name, const Values& values) {
+  std::visit(
+      [&](const auto& v) {
+        if constexpr (std::is_integral_v<typename std::decay_t<decltype(v)>::value_type>) {
+          const auto at = std::ranges::find_if_not(v, [](auto tag) { return std::in_range<std::int32_t>(tag); });
+          if (at == v.end()) return;
+          fail(
+              ErrorCode::index_out_of_range, path, "the array ", in_quotes(name), " of the cells has the tag ", *at,
+              ", which is beyond 32 bits; expected at most 2147483647. Next: give the cells smaller tags, or the array "
+              "another name");
+        }
+      },
+      values);
+}
+
+}  // namespace
+
+std::vector<std::int32_t> tags_of(std::vector<DataArray>& arrays, const std::string& path) {
   for (const std::string_view name : kRegionNames) {
     const DataArray* array = find(arrays, name);
     if (array == nullptr || array->components != 1) continue;
     auto tags = to_int32(array->values);
+    if (!tags) refuse_large_tag(path, name, array->values);
     if (!tags) continue;
     if (name == "region") static_cast<void>(take(arrays, name));
     return std::move(*tags);
@@ -121,11 +145,12 @@ void CellSorter::distribute(std::vector<DataArray>&& cell_data) {
 
 void CellSorter::take_tags() {
   MeshFile& f = document_.file;
-  document_.tetrahedra.regions = tags_of(document_.tetrahedra.data);
-  f.regions = tags_of(f.cell_data);
-  f.line_tags = tags_of(f.line_data);
+  const std::string& path = document_.names->path;
+  document_.tetrahedra.regions = tags_of(document_.tetrahedra.data, path);
+  f.regions = tags_of(f.cell_data, path);
+  f.line_tags = tags_of(f.line_data, path);
   f.line_tags.resize(f.lines.size());
-  f.point_tags = tags_of(f.marked_point_data);
+  f.point_tags = tags_of(f.marked_point_data, path);
   f.point_tags.resize(f.marked_points.size());
 }
 

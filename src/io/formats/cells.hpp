@@ -38,8 +38,8 @@ class CellSorter {
 };
 
 /// Takes the regions or tags out of the arrays of triangles, lines or points, if they are there. `region` itself is
-/// consumed; an array of another name also stays as data.
-[[nodiscard]] std::vector<std::int32_t> tags_of(std::vector<DataArray>& arrays);
+/// consumed; an array of another name also stays as data. Failure if a tag does not fit 32 bits.
+[[nodiscard]] std::vector<std::int32_t> tags_of(std::vector<DataArray>& arrays, const std::string& path);
 
 /// Physical names of the VTK family: lines "dimension tag name" in the bytes of the field array `physical_names`.
 void take_physical_names(Document& document);

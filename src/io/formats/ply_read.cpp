@@ -329,7 +329,7 @@ class PlyReader {
       fail(ErrorCode::unsupported, scanner_.path(), "has edges both as elements and as faces of two corners");
     for (std::size_t i = 0; i < e.n; ++i) f.lines.push_back({from[i], to[i]});
     f.line_data = take_data(e);
-    f.line_tags = tags_of(f.line_data);
+    f.line_tags = tags_of(f.line_data, scanner_.path());
     f.line_tags.resize(e.n);
     document_.names->lines = RunLength(0, e.n);
     document_.names->line_lines = e.text_lines;

@@ -223,7 +223,7 @@ void write_vtu(const WriteJob& job) {
   vtu.section("PointData", vtk_point_data(job));
   std::vector<VtkArray> cell_data = vtk_cell_data(job);
   if (job.triangle_quality) {
-    for (VtkArray& array : vtk_triangle_quality(job)) cell_data.push_back(std::move(array));
+    for (VtkArray& array : vtk_quality(job)) cell_data.push_back(std::move(array));
   }
   vtu.section("CellData", cell_data);
   vtu.finish();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "temper/tets/optimize.hpp"
+
 namespace temper::tets {
 
 void collect_link(const TetMesh& mesh, VertexId v, std::vector<HalffaceId>& link) {
@@ -28,10 +30,12 @@ double star_energy(std::span<const LinkFace<double>> link, const WeightedPoint& 
   return sum;
 }
 
-double energy_of(const TetMesh& mesh, TetId t, double gamma) {
-  const HalffaceId h = TetMesh::halfface(t, 0);
-  const LinkFace<double> face = link_face(mesh, h);
-  return star_energy({&face, 1}, mesh.point(mesh.opposite(h)), gamma);
+double energy_of(const TetMesh& mesh, TetId t, double gamma) { return tetrahedron_energy(mesh.points(t), gamma); }
+
+double tetrahedron_energy(const std::array<WeightedPoint, 4>& corners, double gamma) {
+  const auto& [p, q, r, s] = corners;
+  const LinkFace<double> face = link_face<double>(q, s, r);
+  return star_energy({&face, 1}, p, gamma);
 }
 
 }  // namespace temper::tets

@@ -223,7 +223,7 @@ class TetMeshBuilder {
   InputError duplicate(VertexId u, VertexId v) const {
     return error_of(ErrorCode::duplicate_point, v,
                     name(u) + " and " + name(v) + " are both at " + coordinates(in_.points[v.index]) +
-                        "; expected distinct points. Next: let the mesh generator merge them");
+                        "; expected distinct points. Next: join them with temper convert IN --merge 0 -o OUT");
   }
 
   /// A tetrahedron at each vertex.
@@ -548,15 +548,20 @@ class TetMeshBuilder {
   std::optional<InputError> tag_points() {
     for (std::size_t i = 0; i < in_.marked_points.size(); ++i) {
       const std::int32_t p = in_.marked_points[i];
-      if (!is_point(p)) {
-        return InputError{ErrorCode::index_out_of_range,
-                          {},
-                          "a marked point has index " + std::to_string(p) + ", but there are " +
-                              quantity(in_.points.size(), "points") + ". Next: count points from 0"};
-      }
+      if (!is_point(p)) return no_point("marked", p);
       mesh_.points_.push_back({id(p), in_.point_tags[i]});
     }
+    for (const std::int32_t p : in_.fixed_points) {
+      if (!is_point(p)) return no_point("fixed", p);
+      mesh_.fixed_.push_back(id(p));
+    }
     return std::nullopt;
+  }
+  [[nodiscard]] InputError no_point(const std::string& what, std::int32_t p) const {
+    return {ErrorCode::index_out_of_range,
+            {},
+            "a " + what + " point has index " + std::to_string(p) + ", but there are " +
+                quantity(in_.points.size(), "points") + ". Next: count points from 0"};
   }
 
   const TetMeshInput& in_;

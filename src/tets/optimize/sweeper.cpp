@@ -54,6 +54,7 @@ IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptio
     for (const VertexId v : tagged.ends) all[v] = Mobility::weight;
   }
   fix_marked_points(mesh, all);
+  for (const VertexId v : mesh.fixed_points()) all[v] = Mobility::weight;
   for (const VertexId v : mesh.vertices()) {
     if (options.keep_positions) all[v] = Mobility::weight;
     if (options.keep_weights) all[v] = all[v] == Mobility::free ? Mobility::position : Mobility::none;

@@ -28,8 +28,7 @@ double area(const FacePoints& face) {
 
 double length_of_area(double area) { return std::sqrt(4 / std::numbers::sqrt3 * area); }
 
-TetMeasure measure_tetrahedron(const TetMesh& mesh, TetId t) {
-  const std::array<WeightedPoint, 4> p = mesh.points(t);
+TetMeasure measure_tetrahedron(const std::array<WeightedPoint, 4>& p) {
   std::array<Vec3, 4> at;
   for (std::size_t k = 0; k < 4; ++k) at[k] = p[k].position();
   TetMeasure m;
@@ -55,6 +54,11 @@ TetMeasure measure_tetrahedron(const TetMesh& mesh, TetId t) {
     m.h_over_l[f] = m.h[f] / length_of_area(twice_area / 2);
   }
   return m;
+}
+
+TetrahedronQuality tetrahedron_quality(const std::array<WeightedPoint, 4>& corners) {
+  const TetMeasure m = measure_tetrahedron(corners);
+  return {m.orthocenter_inside(), m.margin(), *std::min_element(m.dihedral_deg.begin(), m.dihedral_deg.end())};
 }
 
 bool is_crossed(const FacePoints& face) {
@@ -134,7 +138,7 @@ std::string explain(const Subject& s, bool all_on_boundary) {
 }  // namespace
 
 WorstTet describe(const TetMesh& mesh, TetId t, const IdVector<VertexId, std::uint8_t>& on_boundary) {
-  const Subject s{mesh, t, measure_tetrahedron(mesh, t)};
+  const Subject s{mesh, t, measure_tetrahedron(mesh.points(t))};
   WorstTet worst;
   worst.tetrahedron = t;
   worst.vertices = mesh.corners(t);

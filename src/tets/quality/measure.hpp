@@ -20,7 +20,7 @@ struct TetMeasure {
   [[nodiscard]] bool orthocenter_inside() const;
   [[nodiscard]] double margin() const;
 };
-[[nodiscard]] TetMeasure measure_tetrahedron(const TetMesh& mesh, TetId t);
+[[nodiscard]] TetMeasure measure_tetrahedron(const std::array<WeightedPoint, 4>& corners);
 
 using FacePoints = std::array<WeightedPoint, 3>;
 [[nodiscard]] FacePoints points_of(const TetMesh& mesh, HalffaceId h);

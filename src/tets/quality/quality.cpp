@@ -39,7 +39,7 @@ struct Tally {
 };
 
 void Tally::add(const TetMesh& mesh, TetId t) {
-  const TetMeasure m = measure_tetrahedron(mesh, t);
+  const TetMeasure m = measure_tetrahedron(mesh.points(t));
   inverted += m.orientation != Sign::positive;
   outside += !m.orthocenter_inside();
   completely += m.orthocenter_inside() && has_all_crossed(mesh, t);

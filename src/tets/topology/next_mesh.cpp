@@ -59,6 +59,7 @@ NextMesh::NextMesh(const TetMesh& mesh, const Names& names, const IdVector<TetId
     marked_.push_back(number_[vertex]);
     point_tags_.push_back(tag);
   }
+  for (const VertexId v : mesh.fixed_points()) fixed_.push_back(number_[v]);
 }
 
 NextMesh::Number NextMesh::add_vertex(const WeightedPoint& p, VertexId name) {
@@ -114,7 +115,7 @@ std::optional<std::pair<TetMesh, Names>> NextMesh::build() {
   input.tetrahedra = tetrahedra_, input.regions = regions_;
   input.faces = faces, input.face_tags = face_tags;
   input.lines = lines, input.line_tags = line_tags;
-  input.marked_points = marked_, input.point_tags = point_tags_;
+  input.marked_points = marked_, input.point_tags = point_tags_, input.fixed_points = fixed_;
   std::optional<TetMesh> mesh = rebuilt(input);
   if (!mesh) return std::nullopt;
   return std::pair(*std::move(mesh), std::move(names_));

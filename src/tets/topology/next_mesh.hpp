@@ -76,7 +76,7 @@ class NextMesh {
   std::vector<std::int32_t> regions_;
   std::vector<Tagged<3>> faces_;
   std::vector<Tagged<2>> lines_;
-  std::vector<Number> marked_;
+  std::vector<Number> marked_, fixed_;
   std::vector<std::int32_t> point_tags_;
   Names names_;
 };

@@ -274,8 +274,11 @@ TEST_F(Check, RequirementsOnTetrahedraHaveTheirOwnKeys) {
   EXPECT_TRUE(contains(triangles.err, "unknown key 'min_dihedral'"));
   const Outcome tetrahedra = temper({"check", "two.mesh", "--require", "energy.BP.1=0"});
   EXPECT_EQ(tetrahedra.exit, 2);
-  EXPECT_TRUE(
-      contains(tetrahedra.err, "unknown key 'energy.BP.1'; the keys for tetrahedra are vertices, inner_vertices"));
+  EXPECT_TRUE(contains(tetrahedra.err, "unknown key 'energy.BP.1' for tetrahedra. Next: temper check --help lists"));
+  EXPECT_TRUE(contains(temper({"check", "two.mesh", "--require", "min_angle=1"}).err,
+                       "unknown key 'min_angle' for tetrahedra; there are min_h, min_face_h, min_d, min_dihedral, "
+                       "min_volume. Next: "));
+  EXPECT_TRUE(contains(temper({"check", "in.vtu", "--require", "energy.B.1=0"}).err, "there are energy.NAME.STAR"));
   // No value equals a volume, which is rounded.
   const Outcome equal = temper({"check", "two.mesh", "--require", "volume=1"});
   EXPECT_EQ(equal.exit, 2);

@@ -115,9 +115,17 @@ TEST_F(Convert, TetrahedraGoThroughOtherFormatsAndBack) {
     from = to;
   }
   EXPECT_EQ(read("g.mesh"), medit);
-  const Outcome merged = temper({"convert", "a.mesh", "-o", "x.mesh", "--merge", "0"});
-  EXPECT_EQ(merged.exit, 2);
-  EXPECT_TRUE(contains(merged.err, "a.mesh has tetrahedra, and --merge is for triangles alone"));
+  // The second tetrahedron gets its own copy of a point, which a tagged face has too.
+  std::string cracked = medit;
+  cracked.replace(cracked.find("\n5\n"), 3, "\n6\n");
+  cracked.replace(cracked.find("\nEdges"), 0, "1 1.7 1e-9 0\n").replace(cracked.find("1 3 2 5 2"), 9, "1 6 2 5 2");
+  cracked.replace(cracked.find("1 2 3 6"), 7, "1 2 6 6");
+  write("cracked.mesh", cracked);
+  EXPECT_EQ(temper_ok({"convert", "cracked.mesh", "-o", "x.mesh", "--merge", "1e-8"}).out, "1 point merged\n");
+  EXPECT_EQ(read("x.mesh"), medit);
+  const Outcome far = temper({"convert", "cracked.mesh", "-o", "y.mesh", "--merge", "1.99"});
+  EXPECT_EQ(far.exit, 1);
+  EXPECT_TRUE(contains(far.err, "makes two corners of tetrahedron 1 one; expected less than its edges")) << far.err;
   const Outcome planar = temper({"convert", "a.mesh", "-o", "x.off"});
   EXPECT_EQ(planar.exit, 1);
   EXPECT_TRUE(contains(planar.err, "x.off: OFF is not written with tetrahedra; expected one of vtu, gmsh41, gmsh22"));

@@ -541,9 +541,10 @@ TEST_F(OptimizeTetrahedra, PositionsOrWeightsMayBeKept) {
 TEST_F(OptimizeTetrahedra, OptionsForTrianglesAloneAreRefusedByNameAndNothingIsWritten) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
       {{"--for", "cell"}, "--for"},
-      {{"--boundary", "slide"}, "--boundary"},
-      {{"--keep", "sizes"}, "--keep sizes"},
-      {{"--set", "energy=F"}, "--set energy"},
+      {{"--boundary", "slide"}, "--boundary slide"},
+      {{"--keep", "sizes"}, "keep 'sizes'"},
+      {{"--set", "energy=F"},
+       "--set energy=F is for triangles alone. Next: leave it out; for tetrahedra there are max_sweeps"},
       {{"--min-edge", "0.5"}, "--min-edge"},
       {{"--write", "p.svg"}, "--write p.svg"},
       {{"--projection", "sphere"}, "--projection"},

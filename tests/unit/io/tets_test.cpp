@@ -373,6 +373,10 @@ TEST_F(TetFiles, PiecesOfAFaceOrLineTakeItsTagAndData) {
 
 TEST_F(TetFiles, NewVerticesTakeTheDataOfTheirPlace) {
   TetFile file = centered_cube();
+  // Tag 5 lists the corners of the first tetrahedron, as of a part, and tag 6 is on one of them.
+  file.marked_points = {1, 2, 4, 9, 1};
+  file.point_tags = {5, 5, 5, 5, 6};
+  file.marked_point_data = {{"head", 1, std::vector<double>{0.5, 1, 1, 1, 2}}};
   const LoadedTetMesh loaded = *make_mesh(file);
   const TetFile before = file;
   // The first tetrahedron of the file becomes four. The vertices come in another order, the new one first.
@@ -404,6 +408,59 @@ TEST_F(TetFiles, NewVerticesTakeTheDataOfTheirPlace) {
   const auto& cells = std::get<std::vector<std::int32_t>>(file.cell_data[0].values);
   EXPECT_EQ(cells, (std::vector<std::int32_t>{0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));
   EXPECT_EQ(file.lines, (std::vector<std::array<std::int32_t, 2>>{{1, 2}}));
+  EXPECT_EQ(file.marked_points, (std::vector<std::int32_t>{1, 2, 4, 9, 1, 0}));
+  EXPECT_EQ(file.point_tags, (std::vector<std::int32_t>{5, 5, 5, 5, 6, 5}));
+  EXPECT_EQ(file.marked_point_data[0].values, Values(std::vector<double>{0.5, 1, 1, 1, 2, 0.5}));
+}
+
+TEST_F(TetFiles, PointsThatMeditRequiresAreFixed) {
+  const auto file =
+      read_any(make("a.mesh",
+                    "MeshVersionFormatted 2\nDimension 3\nVertices\n5\n9 9 9 0\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+                    "0 0 1 0\nTetrahedra\n1\n2 3 4 5 1\nRequiredVertices\n2\n1 3\nEnd\n"));
+  ASSERT_TRUE(file) << file.error().what();
+  const auto made = make_mesh(std::get<TetFile>(*file));
+  ASSERT_TRUE(made) << made.error().what();
+  EXPECT_EQ(made->mesh.fixed_points(), std::vector<VertexId>{VertexId(1)});
+}
+
+TEST_F(TetFiles, RegionsBeyond32BitsAreRefused) {
+  TetFile file;
+  file.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  file.tetrahedra = {{0, 1, 2, 3}};
+  file.cell_data = {{"gmsh:physical", 1, std::vector<std::int64_t>{std::int64_t{1} << 31}}};
+  ASSERT_TRUE(write(path("m.vtu"), file, {}));
+  const auto back = read_any(path("m.vtu"));
+  ASSERT_FALSE(back);
+  EXPECT_EQ(
+      plain(back.error().what()),
+      "m.vtu: the array 'gmsh:physical' of the cells has the tag 2147483648, which is beyond 32 bits; expected at "
+      "most 2147483647. Next: give the cells smaller tags, or the array another name");
+}
+
+TEST_F(TetFiles, VtuHasTheQualityOfEachTetrahedronWhichIsMadeAgain) {
+  TetFile file = centered_cube();
+  std::swap(file.tetrahedra[1][0], file.tetrahedra[1][1]);  // in either orientation
+  file.weights.resize(file.points.size());
+  file.weights[9] = 0.75;
+  ASSERT_TRUE(write(path("m.vtu"), file, {.format = "vtu", .encoding = Encoding::ascii}));
+  const std::string bytes = slurp(path("m.vtu"));
+  std::string own = bytes;  // with names that the reader takes for the user's
+  for (const char* name : {"well_centered", "min_h_over_l", "min_dihedral_deg"})
+    own[own.find(std::string("Name=\"") + name) + 6] = '_';
+  const TetFile shown = std::get<TetFile>(*read_any(make("own.vtu", own)));
+  const tets::TetMesh mesh = make_mesh(file)->mesh;
+  const std::vector<DataArray> data(shown.cell_data.end() - 3, shown.cell_data.end());
+  for (const tets::TetId t : mesh.tetrahedra()) {
+    const tets::TetrahedronQuality q = tets::tetrahedron_quality(mesh.points(t));
+    EXPECT_EQ(std::get<std::vector<std::uint8_t>>(data[0].values)[t.index] == 1, q.well_centered);
+    EXPECT_EQ(std::get<std::vector<float>>(data[1].values)[t.index], static_cast<float>(q.min_h_over_l));
+    EXPECT_EQ(std::get<std::vector<float>>(data[2].values)[t.index], static_cast<float>(q.min_dihedral_deg));
+  }
+  const TetFile back = std::get<TetFile>(*read_any(path("m.vtu")));
+  EXPECT_EQ(back.cell_data.size(), shown.cell_data.size() - 3);
+  ASSERT_TRUE(write(path("again.vtu"), back, {.format = "vtu", .encoding = Encoding::ascii}));
+  EXPECT_EQ(slurp(path("again.vtu")), bytes);
 }
 
 struct TetRow {

@@ -202,6 +202,7 @@ TEST(TetTopology, TagsAndRegionsOfOtherPartsStay) {
   }
   TetMeshInput in = arrays.input();
   in.faces = faces, in.face_tags = tags, in.regions = regions, in.marked_points = point, in.point_tags = point_tag;
+  in.fixed_points = point;
   const TetMesh mesh = test::built(in).mesh;
   const Cavity cavity = Cavities(mesh).of_tetrahedron(TetId(3));
   const TetMesh after = fill(mesh, {cavity, {}, middle(mesh, cavity), {}});
@@ -211,6 +212,7 @@ TEST(TetTopology, TagsAndRegionsOfOtherPartsStay) {
     EXPECT_EQ(after.vertices(after.tagged_faces()[i].face), mesh.vertices(mesh.tagged_faces()[i].face));
   }
   EXPECT_EQ(after.tagged_points(), mesh.tagged_points());
+  EXPECT_EQ(after.fixed_points(), std::vector<VertexId>{VertexId(0)});
   for (const TetId t : after.tetrahedra()) EXPECT_EQ(after.region(t), 5);
 }
 

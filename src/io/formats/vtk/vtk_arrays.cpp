@@ -15,6 +15,8 @@
 #include "io/text/scanner.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/quality.hpp"
+#include "temper/tets/geometry.hpp"
+#include "temper/tets/quality.hpp"
 
 namespace temper::io {
 namespace {
@@ -233,10 +235,8 @@ std::vector<VtkArray> vtk_field_data(const MeshFile& f) {
 
 namespace {
 
-struct QualityColumns {
-  std::vector<std::uint8_t> well_centered;
-  std::array<std::vector<float>, 3> margins;  // h/l, d/l, angle
-};
+/// The first column are flags. They are exact as floats, too.
+using QualityColumns = std::vector<std::vector<float>>;
 
 /// VTK has no text for −∞, the value of triangles without area.
 float as_float(double value) {
@@ -269,29 +269,53 @@ class Measurer {
   Space space_;
 };
 
-QualityColumns measure_all(const MeshFile& file, Executor* executor) {
+/// `measured`: the numbers of the rows for element i of n.
+template <class Measured>
+QualityColumns measure_all(std::size_t n, std::size_t n_columns, Executor* executor, const Measured& measured) {
   constexpr std::size_t kBlock = std::size_t{1} << 13;
-  const std::size_t n = file.triangles.size();
-  const Measurer measurer(file);
-  QualityColumns columns;
-  columns.well_centered.resize(n);
-  for (auto& margin : columns.margins) margin.resize(n);
+  QualityColumns columns(n_columns, std::vector<float>(n));
   or_serial(executor).run((n + kBlock - 1) / kBlock, [&](std::size_t block) {
-    for (std::size_t t = block * kBlock; t < std::min(n, (block + 1) * kBlock); ++t) {
-      const TriangleQuality q = measurer.measure(t);
-      columns.well_centered[t] = q.well_centered ? 1 : 0;
-      columns.margins[0][t] = as_float(q.min_h_over_l);
-      columns.margins[1][t] = as_float(q.min_d_over_l);
-      columns.margins[2][t] = as_float(q.min_angle_deg);
+    for (std::size_t i = block * kBlock; i < std::min(n, (block + 1) * kBlock); ++i) {
+      const auto values = measured(i);
+      for (std::size_t k = 0; k < n_columns; ++k) columns[k][i] = as_float(values[k]);
     }
   });
   return columns;
 }
 
+QualityColumns columns_of_triangles(const WriteJob& job) {
+  const Measurer measurer(job.measured);
+  return measure_all(job.measured.triangles.size(), kTriangleQuality.size(), job.executor, [&](std::size_t t) {
+    const TriangleQuality q = measurer.measure(t);
+    return std::array{q.well_centered ? 1.0 : 0.0, q.min_h_over_l, q.min_d_over_l, q.min_angle_deg};
+  });
+}
+
+/// Corners may come in either orientation.
+QualityColumns columns_of_tetrahedra(const WriteJob& job) {
+  const auto& weights = job.file.weights;
+  return measure_all(job.n_tetrahedra(), kTetrahedronQuality.size(), job.executor, [&](std::size_t t) {
+    std::array<tets::WeightedPoint, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto point = static_cast<std::size_t>(job.tetrahedra->corners[t][k]);
+      const Vec3 p = job.place(point);
+      corners[k] = {p.x, p.y, p.z, weights.empty() ? 0 : weights[point]};
+    }
+    if (tets::orientation(corners[0].position(), corners[1].position(), corners[2].position(), corners[3].position()) ==
+        Sign::negative)
+      std::swap(corners[2], corners[3]);
+    const tets::TetrahedronQuality q = tets::tetrahedron_quality(corners);
+    return std::array{q.well_centered ? 1.0 : 0.0, q.min_h_over_l, q.min_dihedral_deg};
+  });
+}
+
 /// The name of an array that data of the file already have, or nothing.
-std::string_view name_taken(const MeshFile& file) {
-  for (const TriangleQualityArray& row : kTriangleQuality) {
-    for (const auto* arrays : {&file.cell_data, &file.line_data, &file.marked_point_data}) {
+std::string_view name_taken(const WriteJob& job, std::span<const QualityArray> rows) {
+  static const std::vector<DataArray> none;
+  const MeshFile& file = job.measured;
+  for (const QualityArray& row : rows) {
+    for (const auto* arrays : {job.tetrahedra == nullptr ? &none : &job.tetrahedra->data, &file.cell_data,
+                               &file.line_data, &file.marked_point_data}) {
       if (find(*arrays, row.name) != nullptr) return row.name;
     }
   }
@@ -300,31 +324,43 @@ std::string_view name_taken(const MeshFile& file) {
 
 }  // namespace
 
-bool has_triangle_quality(const std::function<std::optional<TypeOfArray>(std::string_view)>& type_of) {
-  return std::all_of(kTriangleQuality.begin(), kTriangleQuality.end(), [&](const TriangleQualityArray& row) {
-    const auto type = type_of(row.name);
-    return type && type->scalar == row.scalar && type->components == 1;
-  });
+std::span<const QualityArray> quality_among(
+    const std::function<std::optional<TypeOfArray>(std::string_view)>& type_of) {
+  for (const std::span<const QualityArray> rows :
+       {std::span<const QualityArray>(kTriangleQuality), std::span<const QualityArray>(kTetrahedronQuality)}) {
+    const bool all = std::ranges::all_of(rows, [&](const QualityArray& row) {
+      const auto type = type_of(row.name);
+      return type && type->scalar == row.scalar && type->components == 1;
+    });
+    if (all) return rows;
+  }
+  return {};
 }
 
-std::vector<VtkArray> vtk_triangle_quality(const WriteJob& job) {
+std::vector<VtkArray> vtk_quality(const WriteJob& job) {
   const MeshFile& file = job.measured;
+  const bool tetrahedra = job.n_tetrahedra() > 0;
   if (file.degrees() != nullptr) return {};
-  if (file.triangles.empty() || !job.fourth_corners.empty()) return {};
-  if (const std::string_view name = name_taken(file); !name.empty()) {
-    job.warn("the quality of triangles is not written: the mesh has data ", in_quotes(name), " of its own");
+  if (!tetrahedra && (file.triangles.empty() || !job.fourth_corners.empty())) return {};
+  const std::span<const QualityArray> rows =
+      tetrahedra ? std::span<const QualityArray>(kTetrahedronQuality) : std::span<const QualityArray>(kTriangleQuality);
+  if (const std::string_view name = name_taken(job, rows); !name.empty()) {
+    job.warn("the quality of ", tetrahedra ? "tetrahedra" : "triangles", " is not written: the mesh has data ",
+             in_quotes(name), " of its own");
     return {};
   }
-  const auto columns = std::make_shared<const QualityColumns>(measure_all(file, job.executor));
-  const std::size_t n = file.triangles.size(), cells = VtkCells(job).size();
-  std::vector<VtkArray> list = {computed_vtk_array<std::uint8_t>(
-      std::string(kTriangleQuality[0].name), kTriangleQuality[0].scalar, cells,
-      [columns, n](std::size_t i) { return i < n ? columns->well_centered[i] : std::uint8_t{0}; })};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const TriangleQualityArray& row = kTriangleQuality[k + 1];
-    list.push_back(computed_vtk_array<float>(std::string(row.name), row.scalar, cells, [columns, n, k](std::size_t i) {
-      return i < n ? columns->margins[k][i] : 0.0F;
-    }));
+  const auto columns =
+      std::make_shared<const QualityColumns>(tetrahedra ? columns_of_tetrahedra(job) : columns_of_triangles(job));
+  const std::size_t n = columns->front().size(), cells = VtkCells(job).size();
+  std::vector<VtkArray> list;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto value = [columns, n, k](std::size_t i) { return i < n ? (*columns)[k][i] : 0.0F; };
+    const std::string name(rows[k].name);
+    list.push_back(
+        rows[k].scalar == Scalar::u8
+            ? computed_vtk_array<std::uint8_t>(name, Scalar::u8, cells,
+                                               [value](std::size_t i) { return static_cast<std::uint8_t>(value(i)); })
+            : computed_vtk_array<float>(name, Scalar::f32, cells, value));
   }
   return list;
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,34 +51,39 @@ struct VtkCells {
 [[nodiscard]] std::vector<VtkArray> vtk_cell_data(const WriteJob& job);
 [[nodiscard]] std::vector<VtkArray> vtk_field_data(const MeshFile& f);
 
-// Measures of well-centeredness for each triangle, as cell data of VTU and VTKHDF. Each writing computes them again;
-// they are no part of the file that was read.
+// Measures of well-centeredness for each triangle or tetrahedron, as cell data of VTU and VTKHDF. Each writing computes
+// them again; they are no part of the file that was read.
 
-/// One of the arrays: its name is the one in Quality, its numbers are floats. They are enough for colors and take half
-/// of the room of doubles.
-struct TriangleQualityArray {
+/// One of the arrays: its name is the one in TriangleQuality or TetrahedronQuality, its numbers are floats. They are
+/// enough for colors and take half of the room of doubles.
+struct QualityArray {
   std::string_view name;
   Scalar scalar;
 };
-inline constexpr std::array<TriangleQualityArray, 4> kTriangleQuality = {{
+inline constexpr std::array<QualityArray, 4> kTriangleQuality = {{
     {"well_centered", Scalar::u8},
     {"min_h_over_l", Scalar::f32},
     {"min_d_over_l", Scalar::f32},
     {"min_angle_deg", Scalar::f32},
+}};
+inline constexpr std::array<QualityArray, 3> kTetrahedronQuality = {{
+    {"well_centered", Scalar::u8},
+    {"min_h_over_l", Scalar::f32},
+    {"min_dihedral_deg", Scalar::f32},
 }};
 
 struct TypeOfArray {
   Scalar scalar;
   int components;
 };
-/// Says whether cell data of these types contain the arrays; the function returns nothing for an array that is not
-/// there. All of them must be there: a single one of these names is the user's own.
-[[nodiscard]] bool has_triangle_quality(
+/// The arrays of triangles or of tetrahedra that cell data of these types contain; empty: neither. The function returns
+/// nothing for an array that is not there. All of them must be there: a single one of these names is the user's own.
+[[nodiscard]] std::span<const QualityArray> quality_among(
     const std::function<std::optional<TypeOfArray>(std::string_view name)>& type_of);
 
-/// The arrays of a mesh; zeros for lines and marked points. None without triangles or with quadrilaterals, or when
-/// points are degrees and lengths therefore unknown. None either when data of the file have one of the names, which a
-/// warning says.
-[[nodiscard]] std::vector<VtkArray> vtk_triangle_quality(const WriteJob& job);
+/// The arrays of a mesh; zeros for cells that are tags. None without triangles and tetrahedra, with quadrilaterals, or
+/// when points are degrees and lengths therefore unknown. None either when data of the file have one of the names,
+/// which a warning says.
+[[nodiscard]] std::vector<VtkArray> vtk_quality(const WriteJob& job);
 
 }  // namespace temper::io

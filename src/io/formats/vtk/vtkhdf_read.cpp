@@ -236,10 +236,9 @@ class VtkhdfReader {
       if (it == datasets.end()) return std::nullopt;
       return TypeOfArray{*it->scalar, it->sizes.size() == 1 ? 1 : 2};
     };
-    if (kind == "cell data" && has_triangle_quality(type_of))
-      std::erase_if(datasets, [](const Hdf5Dataset& d) {
-        return std::any_of(kTriangleQuality.begin(), kTriangleQuality.end(),
-                           [&](const TriangleQualityArray& row) { return row.name == d.name; });
+    if (kind == "cell data")
+      std::erase_if(datasets, [rows = quality_among(type_of)](const Hdf5Dataset& d) {
+        return std::ranges::find(rows, d.name, &QualityArray::name) != rows.end();
       });
     std::vector<DataArray> result;
     result.reserve(datasets.size());

@@ -71,7 +71,7 @@ void write_vtkhdf(const WriteJob& job) {
   std::vector<VtkArray> point_data = vtk_point_data(job), cell_data = vtk_cell_data(job);
   const std::vector<VtkArray> field_data = vtk_field_data(f);
   if (job.triangle_quality) {
-    for (VtkArray& array : vtk_triangle_quality(job)) cell_data.push_back(std::move(array));
+    for (VtkArray& array : vtk_quality(job)) cell_data.push_back(std::move(array));
   }
   Hdf5Writer out(job.path, point_data.size() + cell_data.size() + field_data.size());
   const Hdf5Id root = out.group(out.root(), std::string(kVtkhdfGroup));

@@ -26,7 +26,7 @@ bool sniff_vtu(std::string_view head) {
 namespace {
 
 /// Removes the arrays that write_vtu makes from the mesh itself.
-void forget_triangle_quality(pugi::xml_node cell_data) {
+void forget_quality(pugi::xml_node cell_data) {
   const auto array_of = [&](std::string_view name) {
     return cell_data.find_child_by_attribute("DataArray", "Name", std::string(name).c_str());
   };
@@ -36,8 +36,7 @@ void forget_triangle_quality(pugi::xml_node cell_data) {
     if (!scalar) return std::nullopt;
     return TypeOfArray{*scalar, array.attribute("NumberOfComponents").as_int(1) > 1 ? 2 : 1};
   };
-  if (!has_triangle_quality(type_of)) return;
-  for (const TriangleQualityArray& row : kTriangleQuality) cell_data.remove_child(array_of(row.name));
+  for (const QualityArray& row : quality_among(type_of)) cell_data.remove_child(array_of(row.name));
 }
 
 class VtuReader {
@@ -180,7 +179,7 @@ class VtuReader {
              "the array 'offsets' has a value that is no integer of 64 bits");
       }
     }
-    forget_triangle_quality(piece.child("CellData"));
+    forget_quality(piece.child("CellData"));
     sorter.distribute(arrays(piece.child("CellData"), n_cells_, "cell data"));
   }
   void read_point_data(const pugi::xml_node& piece) {
