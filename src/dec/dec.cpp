@@ -13,8 +13,8 @@
 
 #include "base/assert.hpp"
 #include "base/median.hpp"
-#include "base/text.hpp"
 #include "dec/accurate.hpp"
+#include "dec/coefficient.hpp"
 #include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "temper/detail/geometry.hpp"
@@ -269,37 +269,12 @@ DecComplex dec_operators(const Mesh& mesh) {
   return mesh.space().is_plane() ? DecBuilder<PlaneMeasures>(mesh).build() : DecBuilder<SphereMeasures>(mesh).build();
 }
 
-namespace {
-
-/// a h_k + b h_l, from h_k + h_l = `whole`. The difference of a and b multiplies the smaller height, so equal factors
-/// give a whole, accurate also if the heights cancel.
-double combined(const DecEdge& edge, double a, double b) {
-  const double whole = edge.dual_length, left = edge.left_height, right = edge.right_height;
-  return std::abs(left) <= std::abs(right) ? b * whole + (a - b) * left : a * whole + (b - a) * right;
-}
-
-std::optional<InputError> check_coefficient(const Mesh& mesh, std::span<const double> coefficient,
-                                            const InputNames& names) {
-  if (coefficient.size() != mesh.n_triangles()) {
-    return InputError{ErrorCode::invalid_option, "",
-                      "expected one coefficient for each of the " + std::to_string(mesh.n_triangles()) +
-                          " triangles, found " + std::to_string(coefficient.size())};
-  }
-  for (std::size_t t = 0; t < coefficient.size(); ++t) {
-    if (coefficient[t] > 0 && std::isfinite(coefficient[t])) continue;
-    return InputError{
-        ErrorCode::invalid_option, names.triangle_where(t),
-        names.triangle(t) + " has the coefficient " + to_text(coefficient[t]) + "; expected a finite number above 0"};
-  }
-  return {};
-}
-
-}  // namespace
-
 Expected<DecComplex> with_coefficient(const Mesh& mesh, DecComplex complex, std::span<const double> coefficient,
                                       const InputNames* names) {
   const InputNames from_zero;
-  if (auto error = check_coefficient(mesh, coefficient, names != nullptr ? *names : from_zero)) return *error;
+  const InputNames& numbers = names != nullptr ? *names : from_zero;
+  const auto triangle = [&](std::size_t t) { return std::pair(numbers.triangle_where(t), numbers.triangle(t)); };
+  if (auto error = check_coefficient(coefficient, mesh.n_triangles(), "triangles", triangle)) return *error;
   complex.coefficient = IdVector<TriangleId, double>(coefficient.size());
   std::copy(coefficient.begin(), coefficient.end(), complex.coefficient.begin());
   complex.capacity.assign(mesh.n_vertices(), 0.0);
@@ -310,8 +285,9 @@ Expected<DecComplex> with_coefficient(const Mesh& mesh, DecComplex complex, std:
       return complex.coefficient[side.valid() ? side : other];
     };
     const double left = value(edge.left, edge.right), right = value(edge.right, edge.left);
-    complex.star1[e] = combined(edge, left, right) / edge.length;
-    const double resistance = combined(edge, 1 / left, 1 / right);
+    const DualEdge dual = {edge.dual_length, edge.left_height, edge.right_height};
+    complex.star1[e] = dual.combined(left, right) / edge.length;
+    const double resistance = dual.combined(1 / left, 1 / right);
     complex.transmissibility[e] = resistance == 0 ? std::numeric_limits<double>::infinity() : edge.length / resistance;
     for (const auto& [v, d] : {std::pair{edge.from, edge.crossing}, std::pair{edge.to, edge.length - edge.crossing}}) {
       complex.capacity[v] += left * right_triangle_areas(mesh.space(), d, edge.left_height, 0) +

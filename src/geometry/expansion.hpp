@@ -101,6 +101,12 @@ class Expansion {
     const double leading = terms_[size_ - 1];
     return leading > 0 ? Sign::positive : leading < 0 ? Sign::negative : Sign::zero;
   }
+  /// The number as a double. The terms do not overlap, smallest first: their sum is off by a rounding or two.
+  [[nodiscard]] double rounded() const {
+    double sum = 0;
+    for (int i = 0; i < size_; ++i) sum += terms_[i];
+    return sum;
+  }
 
  private:
   int size_ = 0;

@@ -1,4 +1,5 @@
-// Every sign of the predicates of tetrahedra against rational arithmetic, on random points and on degenerate families.
+// Every sign of the predicates of tetrahedra, and the stars of faces, against rational arithmetic, on random points and
+// on degenerate families.
 //
 // The oracle shares no formula with the library: it eliminates whole matrices of raw coordinates, solves for the
 // orthocenter, and asks on which side of a face it is. In a face it takes barycentric coordinates.
@@ -9,6 +10,7 @@
 
 #include "support/tet_lattice.hpp"
 #include "temper/tets/geometry.hpp"
+#include "temper/tets/operators.hpp"
 #include "unit/geometry/degenerate_families.hpp"
 
 namespace temper::tets {
@@ -74,8 +76,9 @@ Sign perturbed(std::array<RationalPoint, 5> points, const std::array<std::uint32
   return Sign::zero;
 }
 
-/// The orthocenter by Cramer's rule, then its side of the face pqr, which is positive on the side of s.
-Sign height(const RationalPoint& p, const RationalPoint& q, const RationalPoint& r, const RationalPoint& s) {
+/// The orthocenter by Cramer's rule.
+RationalPoint center_of(const RationalPoint& p, const RationalPoint& q, const RationalPoint& r,
+                        const RationalPoint& s) {
   const auto row = [&](const RationalPoint& a) {
     return std::vector<Rational>{2 * (a.x - p.x), 2 * (a.y - p.y), 2 * (a.z - p.z), a.lift() - p.lift()};
   };
@@ -87,8 +90,12 @@ Sign height(const RationalPoint& p, const RationalPoint& q, const RationalPoint&
     return determinant(m);
   };
   const Rational all = with(3);
-  const RationalPoint center = {with(0) / all, with(1) / all, with(2) / all, 0};
-  return sign_of(volume(p, q, r, center) * volume(p, q, r, s));
+  return {with(0) / all, with(1) / all, with(2) / all, 0};
+}
+
+/// The side of the face pqr on which the orthocenter is, positive on the side of s.
+Sign height(const RationalPoint& p, const RationalPoint& q, const RationalPoint& r, const RationalPoint& s) {
+  return sign_of(volume(p, q, r, center_of(p, q, r, s)) * volume(p, q, r, s));
 }
 
 /// The barycentric coordinate of r of the orthocenter of the face, from products of its edges.
@@ -243,6 +250,67 @@ TEST(TetOracle, NoSignIsWrongOnAnyDegenerateFamily) {
     EXPECT_EQ(wrong, 0);
   }
   EXPECT_GT(ties, 500);
+}
+
+// A determinant of each factor, off by 2⁻⁴² of itself at most, and a few roundings.
+constexpr double kRelative = 1e-12;
+
+void expect_relative(double found, const Rational& expected) {
+  if (expected == 0) {
+    EXPECT_EQ(found, 0);
+    return;
+  }
+  const Rational error = (Rational(found) - expected) / expected;
+  EXPECT_LE(std::abs(error.get_d()), kRelative) << found << " for " << expected.get_d();
+}
+
+/// The normal of the face pqr, of length 2 A.
+std::array<Rational, 3> normal_of(const RationalPoint& p, const RationalPoint& q, const RationalPoint& r) {
+  const Rational ax = q.x - p.x, ay = q.y - p.y, az = q.z - p.z, bx = r.x - p.x, by = r.y - p.y, bz = r.z - p.z;
+  return {ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx};
+}
+
+/// From the orthocenter behind to the one ahead along the normal of the face, over its area.
+Rational dual_over_area(const std::array<Rational, 3>& n, const RationalPoint& behind, const RationalPoint& ahead) {
+  const Rational along = n[0] * (ahead.x - behind.x) + n[1] * (ahead.y - behind.y) + n[2] * (ahead.z - behind.z);
+  return 2 * along / (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+}
+
+TEST(TetOracle, EveryStarOfFacesAndTetrahedraHasASmallRelativeError) {
+  std::size_t compared = 0, zeros = 0, negative = 0;
+  for (const FamilyOfFive& family : kFamilies) {
+    SCOPED_TRACE(family.name);
+    Random random(4);
+    for (int round = 0; round < 60; ++round) {
+      test::TetArrays arrays;
+      for (const WeightedPoint& p : family.draw(random)) {
+        arrays.points.push_back(p.position());
+        arrays.weights.push_back(p.w);
+      }
+      arrays.tetrahedra = {{0, 1, 2, 3}, {0, 1, 2, 4}};
+      const auto built = TetMesh::build(arrays.input());
+      if (!built) continue;  // flat, or both on one side
+      const TetMesh& mesh = built->mesh;
+      std::array<RationalPoint, 5> e;
+      for (const VertexId v : mesh.vertices()) e[v.index] = to_rational(mesh.point(v));
+      const DecComplex c = dec_operators(mesh);
+      const DecFace& shared = c.faces[FaceId(0)];
+      ASSERT_EQ(shared.vertices, (std::array{VertexId(0), VertexId(1), VertexId(2)}));
+      const bool first_is_ahead = shared.ahead == TetId(0);
+      const RationalPoint a = center_of(e[0], e[1], e[2], e[3]), b = center_of(e[0], e[1], e[2], e[4]);
+      const auto n = normal_of(e[0], e[1], e[2]);
+      const Rational star2 = dual_over_area(n, first_is_ahead ? b : a, first_is_ahead ? a : b);
+      expect_relative(c.star2[FaceId(0)], star2);
+      const Rational to_plane = dual_over_area(n, first_is_ahead ? e[0] : a, first_is_ahead ? a : e[0]);
+      expect_relative((first_is_ahead ? shared.ahead_height : shared.behind_height) / shared.area, to_plane);
+      for (std::size_t t = 0; t < 2; ++t)
+        expect_relative(c.star3[TetId(t)], 6 / abs(volume(e[0], e[1], e[2], e[3 + t])));
+      ++compared, zeros += star2 == 0, negative += star2 < 0;
+    }
+  }
+  EXPECT_GT(compared, 200U);
+  EXPECT_GT(zeros, 50U);
+  EXPECT_GT(negative, 10U);
 }
 
 TEST(TetOracle, NoSignIsWrongOnRandomPoints) {

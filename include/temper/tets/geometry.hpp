@@ -78,6 +78,10 @@ struct WeightedPoint {
 [[nodiscard]] Vec3 orthocenter(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r,
                                const WeightedPoint& s);
 
+/// The point in the plane of pqr of equal power to its corners: the foot of the orthocenters of both tetrahedra of the
+/// face. Precondition: the corners are not collinear.
+[[nodiscard]] Vec3 orthocenter(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
+
 /// h_s: signed distance from the plane of pqr to the orthocenter of pqrs, positive on the side of s [length].
 [[nodiscard]] double signed_height(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r,
                                    const WeightedPoint& s);

@@ -22,6 +22,7 @@ class Compact {
     return result;
   }
   [[nodiscard]] Sign sign() const { return terms_.sign(); }
+  [[nodiscard]] double rounded() const { return terms_.rounded(); }
 
   friend Compact operator+(const Compact& a, const Compact& b) {
     return compressed(sum_within<2 * kTerms>(a.terms_, b.terms_));

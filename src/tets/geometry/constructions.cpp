@@ -14,6 +14,12 @@ Vec3 orthocenter(const WeightedPoint& p, const WeightedPoint& q, const WeightedP
   return p.position() + factor * Vec3{scaled.x.value, scaled.y.value, scaled.z.value};
 }
 
+Vec3 orthocenter(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
+  const Vec3 u = q.position() - p.position(), v = r.position() - p.position(), n = cross(u, v);
+  const double at_q = squared_length(u) - (q.w - p.w), at_r = squared_length(v) - (r.w - p.w);
+  return p.position() + 0.5 / squared_length(n) * (at_q * cross(v, n) + at_r * cross(n, u));
+}
+
 double signed_height(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r, const WeightedPoint& s) {
   const Vec3 a = p.position(), b = q.position(), c = r.position();
   return height_polynomial<Plain>(p, q, r, s).value /

@@ -57,6 +57,19 @@ T lift(const Vector<T>& v, double w, double w_origin) {
   return dot(v, v) - T::difference(w, w_origin);
 }
 
+/// 6 V of tetrahedron pqrs. Roundings: 8 (cross product 4, product 2, sums 2).
+template <class T>
+T volume_polynomial(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r, const WeightedPoint& s) {
+  return dot(cross(from_to<T>(p, q), from_to<T>(p, r)), from_to<T>(p, s));
+}
+
+/// 4 A² of the face pqr. Roundings: 11 (cross products 8, product 1, sums 2).
+template <class T>
+T area_polynomial(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
+  const Vector<T> normal = cross(from_to<T>(p, q), from_to<T>(p, r));
+  return dot(normal, normal);
+}
+
 /// 6 V Σ λ_i (|x_i − t|² − w_i + w_t), where λ are the barycentric coordinates of t in pqrs. Roundings: 18 (lift 6,
 /// determinant of three 8, product 1, sums 3).
 template <class T>
