@@ -16,6 +16,7 @@
 #include "files/options_file.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
+#include "temper/solvers.hpp"
 #include "temper/tets/optimize.hpp"
 #include "verbs/progress_line.hpp"
 
@@ -24,10 +25,11 @@ namespace {
 
 /// The options that have a meaning for tetrahedra. All others are refused by name.
 constexpr auto kOptions = std::to_array<std::string_view>(
-    {"IN", "--output", "--format", "--encoding", "--effort", "--keep", "--boundary", "--require", "--time-limit",
-     "--write", "--set", "--options", "--details", "--quiet", "--point-data", "--threads"});
+    {"IN", "--output", "--format", "--encoding", "--for", "--effort", "--keep", "--boundary", "--require",
+     "--time-limit", "--write", "--set", "--options", "--details", "--quiet", "--point-data", "--threads"});
 /// The rows of the table that have one. The boundary stays.
 constexpr auto kRows = std::to_array<std::string_view>({"max_sweeps", "time_limit", "unknowns", "boundary"});
+constexpr auto kTargets = std::to_array<std::string_view>({"any", "valid", "vertex", "cell"});
 constexpr auto kKept = std::to_array<std::string_view>({"positions", "weights", "edges", "boundary"});
 
 template <class Names>
@@ -41,9 +43,9 @@ void refuse_options(const Command& command, const OptimizeSettings& s) {
   };
   for (const Option& option : command.options()) {
     const std::string name = long_name(option.names);
-    const bool is_default = name == "--for" && s.target == "any";
-    refuse(!option.given.empty() && !is_default && !has(kOptions, name), name);
+    refuse(!option.given.empty() && !has(kOptions, name), name);
   }
+  refuse(!has(kTargets, s.target), "--for " + s.target);
   for (const Assignment& a : s.assignments) {
     const std::string name(a.row->name);
     refuse(!has(kRows, name) && a.row->get(s.options) != a.row->get({}),
@@ -56,29 +58,41 @@ void refuse_options(const Command& command, const OptimizeSettings& s) {
     refuse(!path.empty(), fmt::format("--write {}, {},", path, what));
 }
 
-/// The changes that an effort tries. "quick" moves vertices alone.
+/// The changes that an effort tries. "quick" moves vertices alone, and looks at no solver's error.
 struct Effort {
   std::string_view name;
-  int repair_trials;
+  int repair_trials, error_steps;
+  std::size_t most_vertices;  // of a model of errors
 };
-constexpr Effort kEfforts[] = {{"quick", 0}, {"normal", tets::OptimizeOptions().repair_trials}, {"high", 1000}};
+constexpr tets::OptimizeOptions kNormal;
+constexpr Effort kEfforts[] = {
+    {"quick", 0, 0, 0}, {"normal", kNormal.repair_trials, kNormal.error_steps, 10'000}, {"high", 1000, 1000, 100'000}};
+
+const Effort& effort_of(const OptimizeSettings& s) { return *std::ranges::find(kEfforts, s.effort, &Effort::name); }
 
 tets::OptimizeOptions options_of(const OptimizeSettings& s) {
   tets::OptimizeOptions options;
   options.keep_positions = s.options.unknowns == Unknowns::weights;
   options.keep_weights = s.options.unknowns == Unknowns::positions;
-  options.repair_trials = std::ranges::find(kEfforts, s.effort, &Effort::name)->repair_trials;
+  options.repair_trials = effort_of(s).repair_trials;
+  options.error_steps = effort_of(s).error_steps;
+  options.scheme = s.options.scheme;
+  options.accuracy_sweeps = s.options.accuracy.sweeps;
   options.keep_edges = s.options.flips == Flips::none || options.repair_trials == 0;
   options.max_sweeps = s.options.max_sweeps;
   options.time_limit = s.options.time_limit;
   return options;
 }
 
-std::string settings_json(const tets::OptimizeOptions& options) {
+std::string settings_json(const OptimizeSettings& s) {
+  const tets::OptimizeOptions options = options_of(s);
   return nlohmann::ordered_json({{"keep_positions", options.keep_positions},
                                  {"keep_weights", options.keep_weights},
                                  {"keep_edges", options.keep_edges},
                                  {"repair_trials", options.repair_trials},
+                                 {"scheme", s.target},
+                                 {"accuracy_sweeps", options.accuracy_sweeps},
+                                 {"error_steps", options.error_steps},
                                  {"max_sweeps", options.max_sweeps},
                                  {"time_limit", options.time_limit}})
       .dump();
@@ -123,6 +137,7 @@ class TetRun {
       return interrupted() ? Continue::no : Continue::yes;
     };
     mesh_ = input_.mesh();
+    if (mesh_.n_vertices() <= effort_of(s_).most_vertices) hooks.error = tets::discretization_error(s_.options.scheme);
     Expected<tets::OptimizeReport> report = optimize(mesh_, options_of(s_), hooks);
     if (!report) throw as_failure(spell_options(report.error()));
     report_ = *std::move(report);
@@ -136,8 +151,8 @@ class TetRun {
     if (!s_.files.report.empty())
       outputs_.write_text(s_.files.report, optimize_json(TetOptimizeRecord{
                                                command_line(command_, {s_.input}),
-                                               options_json(command_, s_.assignments), settings_json(options_of(s_)),
-                                               before_, input_.points, after_, report_, data_, outcomes_, warnings_}));
+                                               options_json(command_, s_.assignments), settings_json(s_), before_,
+                                               input_.points, after_, report_, data_, outcomes_, warnings_}));
     if (!s_.files.history.empty()) outputs_.write_text(s_.files.history, history_csv(report_.history));
   }
   void print_result() const {

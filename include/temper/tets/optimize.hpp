@@ -7,9 +7,11 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "temper/detail/discretization_error.hpp"
 #include "temper/detail/progress.hpp"
 #include "temper/tets/mesh.hpp"
 
@@ -22,12 +24,27 @@ struct OptimizeOptions {
   bool keep_weights = false;    ///< All weights stay, and only positions change
   bool keep_edges = false;      ///< The connectivity stays: no flips, no new vertices
   int repair_trials = 100;      ///< Largest number of changes that are tried one by one, after those at once
+  Scheme scheme = Scheme::all;  ///< Scheme whose errors the run lowers after that: vertex or cell; others: none
+  int accuracy_sweeps = 32;     ///< Largest number of sweeps for this
+  int error_steps = 100;        ///< Largest number of steps that lower the error of a model
+};
+
+/// The error of a scheme on a mesh and its derivatives, as temper::DiscretizationError for triangles.
+class DiscretizationError {
+ public:
+  virtual ~DiscretizationError() = default;
+
+  /// Returns the mean squared error, without unit; +∞ if the matrix of the scheme is not positive definite. `gradient`,
+  /// unless null, gets the derivatives by x, y, z and w of every vertex.
+  [[nodiscard]] virtual double squared_error(const TetMesh& mesh,
+                                             IdVector<VertexId, WeightedPoint>* gradient) const = 0;
 };
 
 struct OptimizeHooks {
   Observer observer = {};  ///< Observer of the progress, which may stop the run
   /// Start of the time limit, as in temper::OptimizeHooks. Absent: the time of the call.
   std::optional<std::chrono::steady_clock::time_point> started = {};
+  std::shared_ptr<const DiscretizationError> error = {};  ///< Model of the errors of the scheme; null: none
 };
 
 struct OptimizeReport {
@@ -51,6 +68,10 @@ struct OptimizeReport {
 ///   - of tagged faces and lines
 ///   - points marked with a tag other than 0, unless all corners of some tetrahedron have the same tag: then this tag
 ///     lists the vertices of a part
+///
+/// For a scheme the run then lowers the offsets between primal and dual elements (src/tets/energy/accuracy_star.hpp),
+/// and the error of the model, if the hooks have one and no tetrahedron is bad. Of the meshes before and after each
+/// stage, it returns the one with the least error by the model. An input without bad tetrahedra is one of them.
 ///
 /// Every tetrahedron stays positive. The result never has more tetrahedra with outside orthocenters than the input.
 /// Wrong options (numbers < 0, positions and weights both kept) are an error, which leaves the mesh unchanged.

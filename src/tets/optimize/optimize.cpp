@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "tets/optimize/accuracy.hpp"
 #include "tets/optimize/repair.hpp"
 #include "tets/optimize/sweeper.hpp"
-#include "tets/quality/measure.hpp"
 
 namespace temper::tets {
 namespace {
@@ -34,18 +34,9 @@ constexpr int kRoundsInVain = 4, kTrialsInVain = 40;
 // Vertices between two looks at the clock.
 constexpr std::size_t kVerticesPerLook = 1024;
 
-bool is_bad(const TetMesh& mesh, TetId t) {
-  for (int f = 0; f < 4; ++f) {
-    const HalffaceId h = TetMesh::halfface(t, f);
-    const auto [a, b, c] = points_of(mesh, h);
-    if (signed_height_sign(a, b, c, mesh.point(mesh.opposite(h))) != Sign::positive) return true;
-  }
-  return false;
-}
-
 std::size_t count_bad(const TetMesh& mesh) {
   const auto all = mesh.tetrahedra();
-  return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](TetId t) { return is_bad(mesh, t); }));
+  return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](TetId t) { return !is_good(mesh, t); }));
 }
 
 double total_energy(const TetMesh& mesh, double gamma) {
@@ -80,8 +71,10 @@ class Run {
   OptimizeReport run() {
     report_.objective_before = total_energy(mesh_, kLastGamma);
     record();
+    if (hooks_.error && best_bad_ == 0) input_ = mesh_;
     const bool repairs = !options_.keep_positions && !options_.keep_weights && !options_.keep_edges;
     if (anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma, kLevelSweeps, kLastSweeps) && repairs) repair();
+    if (!stopped_early(report_.stopped)) lower_errors();
     return end();
   }
 
@@ -131,7 +124,7 @@ class Run {
   [[nodiscard]] std::vector<TetId> bad_tetrahedra() const {
     std::vector<TetId> bad;
     for (const TetId t : mesh_.tetrahedra()) {
-      if (is_bad(mesh_, t)) bad.push_back(t);
+      if (!is_good(mesh_, t)) bad.push_back(t);
     }
     return bad;
   }
@@ -205,6 +198,46 @@ class Run {
     return result;
   }
 
+  /// Lowers the errors of the scheme from the best mesh. Of this mesh, of the stages after it, and of an input without
+  /// bad tetrahedra, the one with the least error is kept.
+  void lower_errors() {
+    if (options_.scheme != Scheme::vertex && options_.scheme != Scheme::cell) return;
+    go_back_to_best();
+    double least = HUGE_VAL;
+    const auto keep_if_best = [&] {
+      const double error = hooks_.error ? hooks_.error->squared_error(mesh_, nullptr) : 0;
+      if (hooks_.error && !(error < least)) return;
+      least = error;
+      best_ = mesh_;
+    };
+    keep_if_best();
+    Accuracy accuracy(mesh_, mobility_, accuracy_model(options_.scheme));
+    for (int i = 0; i < options_.accuracy_sweeps && begin_sweep(); ++i) {
+      for (const VertexId v : mesh_.vertices()) {
+        if (v.index % kVerticesPerLook == 0 && is_stopped(double(v.index) / double(mesh_.n_vertices()))) break;
+        accuracy.improve(v, kRelaxation);
+      }
+      record(Objective::accuracy, accuracy.energy().energy);
+    }
+    keep_if_best();
+    if (!hooks_.error) return;
+    for (int i = 0; i < options_.error_steps && begin_sweep() && !is_stopped(0); ++i) {
+      if (!accuracy.descend(*hooks_.error)) break;
+      record(Objective::solver_error, std::sqrt(accuracy.error()));
+    }
+    keep_if_best();
+    if (input_.n_vertices() == 0) return;
+    mesh_ = std::move(input_);
+    keep_if_best();
+  }
+  bool begin_sweep() {
+    if (stopped_early(report_.stopped)) return false;
+    const bool left = report_.sweeps < options_.max_sweeps;
+    report_.sweeps += left ? 1 : 0;
+    if (!left) report_.stopped = Stopped::max_sweeps;
+    return left;
+  }
+
   using Clock = std::chrono::steady_clock;
   [[nodiscard]] static double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -246,11 +279,17 @@ class Run {
       best_changes_ = changes_;
     }
     if (stopped_early(report_.stopped)) return;
+    record(Objective::energy, total_energy(mesh_, gamma_));
+    report_.history.back().bad = bad;
+    report_.history.back().length_parameter = gamma_;
+  }
+  /// Of a mesh with the number of bad tetrahedra of the best one.
+  void record(Objective objective, double energy) {
     SweepRecord now;
     now.sweep = report_.sweeps;
-    now.energy = total_energy(mesh_, gamma_);
-    now.bad = bad;
-    now.length_parameter = gamma_;
+    now.objective = objective;
+    now.energy = energy;
+    now.bad = best_bad_;
     now.seconds = seconds_since(start_);
     report_.history.push_back(now);
   }
@@ -285,6 +324,7 @@ class Run {
   double gamma_ = kFirstGamma;
   std::size_t best_bad_ = 0;
   TetMesh best_;
+  TetMesh input_;  // if it may be the best by its error
 };
 
 }  // namespace
