@@ -44,18 +44,17 @@ py::tuple tets_from_arrays(const py::dict& d, bool strict, const py::object& thr
 
 // --- arrays -------------------------------------------------------------------------------------------
 
-py::array tet_points(const PyTetMesh& self) {
-  std::vector<Vec3> places;
-  places.reserve(self.mesh().n_vertices());
-  for (const VertexId v : self.mesh().vertices()) places.push_back(self.mesh().position(v));
-  return rows_of<double>(std::span<const Vec3>(places));
+/// Numbers of each vertex, as they lie in memory.
+py::array tet_places(const PyTetMesh& self, std::vector<py::ssize_t> shape, double tets::WeightedPoint::*first) {
+  const auto data = self.mesh().point_data();
+  shape.insert(shape.begin(), static_cast<py::ssize_t>(data.size()));
+  std::vector<py::ssize_t> strides = {sizeof(tets::WeightedPoint), sizeof(double)};
+  strides.resize(shape.size());
+  return view(py::dtype::of<double>(), shape, strides, data.empty() ? nullptr : &(data.front().*first),
+              keep(self.loaded));
 }
-
-py::array tet_weights(const PyTetMesh& self) {
-  const auto data = self.mesh().weight_data();
-  return view(py::dtype::of<double>(), {static_cast<py::ssize_t>(data.size())}, {py::ssize_t{sizeof(double)}},
-              data.data(), keep(self.loaded));
-}
+py::array tet_points(const PyTetMesh& self) { return tet_places(self, {3}, &tets::WeightedPoint::x); }
+py::array tet_weights(const PyTetMesh& self) { return tet_places(self, {}, &tets::WeightedPoint::w); }
 
 py::array tetrahedra_of(const PyTetMesh& self) {
   const auto data = self.mesh().corner_data();

@@ -36,6 +36,8 @@ inline constexpr std::size_t kLanes = 8;
 TEMPER_INLINE double square_root(double x) { return __builtin_sqrt(x); }
 TEMPER_INLINE double absolute(double x) { return __builtin_fabs(x); }
 TEMPER_INLINE double select(bool condition, double a, double b) { return condition ? a : b; }
+TEMPER_INLINE long double square_root(long double x) { return __builtin_sqrtl(x); }  // of tests
+TEMPER_INLINE long double select(bool condition, long double a, long double b) { return condition ? a : b; }
 
 // A normal x > 0 is mantissa(x) 2^exponent(x) with mantissa in [√½, √2). In bits it is √½ plus the rest above it.
 inline constexpr std::uint64_t kHalfRoot = 0x3fe6'a09e'667f'3bcd, kFraction = 0x000f'ffff'ffff'ffff;

@@ -131,6 +131,7 @@ class TetRun {
     flush_output();
     ProgressLine line(!is_quiet() && error_is_terminal(), "tetrahedra");
     tets::OptimizeHooks hooks;
+    hooks.executor = threads_;
     hooks.started = s_.started;
     hooks.observer = [&line](const Progress& progress) {
       line.show(progress);

@@ -19,8 +19,8 @@
 
 namespace temper::tets {
 
-/// A point of space and its weight. The power distance to q is |(x, y, z) − q|² − w.
-struct WeightedPoint {
+/// A point of space and its weight. The power distance to q is |(x, y, z) − q|² − w. None is in two cache lines.
+struct alignas(32) WeightedPoint {
   double x = 0;
   double y = 0;
   double z = 0;

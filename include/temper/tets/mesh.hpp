@@ -107,7 +107,7 @@ class TetMesh {
   [[nodiscard]] static Expected<struct BuiltTetMesh> build(const TetMeshInput& input);
 
   // --- sizes -------------------------------------------------------------------------------------
-  [[nodiscard]] std::size_t n_vertices() const { return x_.size(); }
+  [[nodiscard]] std::size_t n_vertices() const { return places_.size(); }
   [[nodiscard]] std::size_t n_tetrahedra() const { return corners_.size(); }
   [[nodiscard]] std::size_t n_halffaces() const { return twins_.size(); }
   [[nodiscard]] IdRange<VertexId> vertices() const { return IdRange<VertexId>(n_vertices()); }
@@ -115,11 +115,11 @@ class TetMesh {
   [[nodiscard]] IdRange<HalffaceId> halffaces() const { return IdRange<HalffaceId>(n_halffaces()); }
 
   // --- vertices ----------------------------------------------------------------------------------
-  [[nodiscard]] WeightedPoint point(VertexId v) const { return {x_[v], y_[v], z_[v], w_[v]}; }
-  void set_point(VertexId v, const WeightedPoint& p) { x_[v] = p.x, y_[v] = p.y, z_[v] = p.z, w_[v] = p.w; }
-  [[nodiscard]] Vec3 position(VertexId v) const { return {x_[v], y_[v], z_[v]}; }
-  [[nodiscard]] double weight(VertexId v) const { return w_[v]; }
-  void set_weight(VertexId v, double w) { w_[v] = w; }
+  [[nodiscard]] const WeightedPoint& point(VertexId v) const { return places_[v]; }
+  void set_point(VertexId v, const WeightedPoint& p) { places_[v] = p; }
+  [[nodiscard]] Vec3 position(VertexId v) const { return places_[v].position(); }
+  [[nodiscard]] double weight(VertexId v) const { return places_[v].w; }
+  void set_weight(VertexId v, double w) { places_[v].w = w; }
 
   // --- halffaces ---------------------------------------------------------------------------------
   [[nodiscard]] static constexpr TetId tetrahedron(HalffaceId h) { return TetId(h.index / 4); }
@@ -172,7 +172,7 @@ class TetMesh {
   [[nodiscard]] std::optional<std::string> validate() const;
 
   // --- as it lies in memory, for views from other languages: valid until the mesh changes ----------
-  [[nodiscard]] std::span<const double> weight_data() const { return w_.raw(); }
+  [[nodiscard]] std::span<const WeightedPoint> point_data() const { return places_.raw(); }
   [[nodiscard]] std::span<const std::array<VertexId, 4>> corner_data() const { return corners_.raw(); }
 
   friend bool operator==(const TetMesh&, const TetMesh&) = default;
@@ -180,7 +180,7 @@ class TetMesh {
  private:
   friend class TetMeshBuilder;
 
-  IdVector<VertexId, double> x_, y_, z_, w_;
+  IdVector<VertexId, WeightedPoint> places_;
   IdVector<VertexId, TetId> incident_;
   IdVector<TetId, std::array<VertexId, 4>> corners_;
   IdVector<HalffaceId, HalffaceId> twins_;

@@ -41,7 +41,8 @@ class DiscretizationError {
 };
 
 struct OptimizeHooks {
-  Observer observer = {};  ///< Observer of the progress, which may stop the run
+  Observer observer = {};        ///< Observer of the progress, which may stop the run
+  Executor* executor = nullptr;  ///< Threads; the result does not depend on them
   /// Start of the time limit, as in temper::OptimizeHooks. Absent: the time of the call.
   std::optional<std::chrono::steady_clock::time_point> started = {};
   std::shared_ptr<const DiscretizationError> error = {};  ///< Model of the errors of the scheme; null: none

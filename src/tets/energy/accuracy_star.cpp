@@ -225,7 +225,10 @@ double AccuracyStar::value(const WeightedPoint& p) const {
 AccuracyTotal AccuracyStar::own(const WeightedPoint& p) const {
   AccuracyTotal total;
   visit(
-      at(p), [&](double factor, const Offset<double>& o, bool own) { total.energy += own ? energy_of(factor, o) : 0; },
+      at(p),
+      [&](double factor, const Offset<double>& o, bool own) {
+        total.energy += own && o.volume > 0 ? energy_of(factor, o) : 0;
+      },
       [&](const Tet& t, double height) { total.barrier += t.is_own ? barrier_of(t.barrier, height - t.floor) : 0; });
   return total;
 }

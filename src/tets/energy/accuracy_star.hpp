@@ -54,7 +54,8 @@ class AccuracyStar {
   [[nodiscard]] double value(const WeightedPoint& p) const;
   /// Value, gradient, and the Hessian without the second derivatives of V, N and h/ℓ: it is never negative.
   [[nodiscard]] PointDerivatives<double> derivatives(const WeightedPoint& p) const;
-  /// Of the edges, faces and tetrahedra whose least vertex this is: the sum over all vertices is that over the mesh.
+  /// Of the edges, faces and tetrahedra whose least vertex this is: the sum over all vertices is that over the mesh. E
+  /// leaves out elements whose V is not positive.
   [[nodiscard]] AccuracyTotal own(const WeightedPoint& p) const;
 
  private:

@@ -50,11 +50,4 @@ double least_height(const TetMesh& mesh, TetId t) {
   return least;
 }
 
-PointDerivatives<double> star_derivatives(std::span<const LinkFace<double>> link, const WeightedPoint& p,
-                                          double gamma) {
-  PointDerivatives<double> sum = {};
-  for (const LinkFace<double>& face : link) sum += tet_derivatives<double>(face, {p.x, p.y, p.z}, p.w, gamma);
-  return sum;
-}
-
 }  // namespace temper::tets

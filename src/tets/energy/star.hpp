@@ -21,7 +21,5 @@ void collect_link(const TetMesh& mesh, VertexId v, std::vector<HalffaceId>& link
 [[nodiscard]] double energy_of(const TetMesh& mesh, TetId t, double gamma);
 /// The least h/ℓ of a tetrahedron over its faces; −∞ unless it is positive.
 [[nodiscard]] double least_height(const TetMesh& mesh, TetId t);
-[[nodiscard]] PointDerivatives<double> star_derivatives(std::span<const LinkFace<double>> link, const WeightedPoint& p,
-                                                        double gamma);
 
 }  // namespace temper::tets

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/pack.hpp"
 #include "temper/tets/geometry.hpp"
 #include "tets/energy/matrix.hpp"
 
@@ -27,7 +28,7 @@ namespace temper::tets {
 /// Weights of the two parts. At the regular tetrahedron they are about 4 and 2.5.
 inline constexpr double kHeightFactor = 0.2, kShapeFactor = 0.02;
 /// ℓ = kLengthOfArea √|m|, where |m| is twice the area.
-inline const double kLengthOfArea = std::sqrt(2 / std::sqrt(3.0));
+inline constexpr double kLengthOfArea = 1.074569931823542;  // √(2/√3)
 
 /// The face qrs opposite p, and all that does not depend on p. Seen from p the face is counter-clockwise.
 template <class T>
@@ -51,7 +52,7 @@ struct PointDerivatives {
   PointVector<T> gradient;
   PointMatrix<T> hessian;
 
-  PointDerivatives& operator+=(const PointDerivatives& b) {
+  TEMPER_INLINE PointDerivatives& operator+=(const PointDerivatives& b) {
     value = value + b.value;
     gradient = gradient + b.gradient;
     hessian += b.hessian;
@@ -63,29 +64,30 @@ struct PointDerivatives {
 };
 
 template <class T>
-LinkFace<T> link_face(const WeightedPoint& q, const WeightedPoint& r, const WeightedPoint& s) {
-  using std::sqrt;
-  const auto from_to = [](const WeightedPoint& i, const WeightedPoint& j) {
-    return Vector<T>{T(j.x) - T(i.x), T(j.y) - T(i.y), T(j.z) - T(i.z)};
-  };
-  const Vector<T> a = from_to(q, r), b = from_to(q, s);
+TEMPER_INLINE LinkFace<T> link_face_of(const PointVector<T>& q, const PointVector<T>& r, const PointVector<T>& s) {
+  const Vector<T> a = r.at - q.at, b = s.at - q.at;
   LinkFace<T> face;
-  face.origin = {T(q.x), T(q.y), T(q.z)};
-  face.weight = T(q.w);
+  face.origin = q.at;
+  face.weight = q.w;
   face.normal = cross(a, b);
-  const T n2 = dot(face.normal, face.normal), half = T(0.5) / n2;
-  const T at_r = dot(a, a) - (T(r.w) - T(q.w)), at_s = dot(b, b) - (T(s.w) - T(q.w));
+  const T n2 = dot(face.normal, face.normal), half = 0.5 / n2;
+  const T at_r = dot(a, a) - (r.w - q.w), at_s = dot(b, b) - (s.w - q.w);
   face.center = half * (at_r * cross(b, face.normal) + at_s * cross(face.normal, a));
-  face.factor = sqrt(sqrt(n2)) / T(kLengthOfArea);
-  const std::array<Vector<T>, 3> from = {Vector<T>{T(0), T(0), T(0)}, a, b};
-  const std::array<Vector<T>, 3> along = {a, from_to(r, s), from_to(s, q)};
-  face.length2 = T(0);
+  face.factor = 1 / kLengthOfArea * square_root(square_root(n2));
+  const std::array<Vector<T>, 3> from = {Vector<T>{all<T>(0), all<T>(0), all<T>(0)}, a, b};
+  const std::array<Vector<T>, 3> along = {a, s.at - r.at, q.at - s.at};
+  face.length2 = all<T>(0);
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector<T>& e = along[i];
     face.edges[i] = {from[i], e, cross(e, face.center - from[i]), cross(e, face.normal), dot(e, e)};
     face.length2 = face.length2 + face.edges[i].length2;
   }
   return face;
+}
+template <class T>
+LinkFace<T> link_face(const WeightedPoint& q, const WeightedPoint& r, const WeightedPoint& s) {
+  const auto in = [](const WeightedPoint& p) { return PointVector<T>{{T(p.x), T(p.y), T(p.z)}, T(p.w)}; };
+  return link_face_of(in(q), in(r), in(s));
 }
 
 /// 1/φ_γ(y) and its derivatives: with R = √(y² + γ²) they are −1/(φ R) and 2/R³.
@@ -94,12 +96,13 @@ struct SoftBarrier {
   T value, slope, curvature;
 };
 template <class T>
-SoftBarrier<T> soft_barrier(const T& y, const T& gamma) {
-  using std::sqrt;
-  const T root = sqrt(y * y + gamma * gamma);
+TEMPER_INLINE SoftBarrier<T> soft_barrier(const T& y, const T& gamma) {
+  const T root = square_root(y * y + gamma * gamma);
   // For y < 0 the sum would cancel: 2/(y + R) = 2 (R − y)/γ².
-  const T value = y > 0 ? 2 / (root + y) : 2 * (root - y) / (gamma * gamma);
-  return {value, -value / root, 2 / (root * root * root)};
+  const auto positive = y > 0;
+  const T value = 2 * select(positive, all<T>(1), root - y) / select(positive, root + y, gamma * gamma);
+  const T inverse = 1 / root;
+  return {value, -value * inverse, 2 * inverse * inverse * inverse};
 }
 
 /// Terms that value and derivatives share.
@@ -108,7 +111,7 @@ struct Apex {
   Vector<T> u;
   T volume6, along_normal, length2;  ///< D, t, Σ length²
 
-  Apex(const LinkFace<T>& face, const Vector<T>& p, const T& w) : u(p - face.origin) {
+  TEMPER_INLINE Apex(const LinkFace<T>& face, const Vector<T>& p, const T& w) : u(p - face.origin) {
     const T u2 = dot(u, u);
     volume6 = dot(face.normal, u);
     along_normal = (u2 - (w - face.weight) - 2 * dot(face.center, u)) / (2 * volume6);
@@ -118,56 +121,53 @@ struct Apex {
 };
 
 template <class T>
-T tet_energy(const LinkFace<T>& face, const Vector<T>& p, const T& w, const T& gamma) {
-  using std::sqrt;
-  const Apex<T> apex(face, p, w);
-  if (!(apex.volume6 > 0)) return T(HUGE_VAL);
+TEMPER_INLINE T tet_energy(const LinkFace<T>& face, const Apex<T>& apex, const T& gamma) {
   T barriers = soft_barrier(face.factor * apex.along_normal, gamma).value;
   for (const auto& e : face.edges) {
     const Vector<T> v = apex.u - e.from;
-    const T along = dot(v, e.along), m2 = dot(v, v) * e.length2 - along * along, m = sqrt(m2);
+    const T along = dot(v, e.along), m = square_root(dot(v, v) * e.length2 - along * along);
     const T height = dot(v, e.plane) + apex.along_normal * dot(v, e.turn);
-    barriers = barriers + soft_barrier(height / (T(kLengthOfArea) * m * sqrt(m)), gamma).value;
+    barriers = barriers + soft_barrier(height / (kLengthOfArea * m * square_root(m)), gamma).value;
   }
-  return T(kHeightFactor) * barriers + T(6 * kShapeFactor) * apex.length2 * sqrt(apex.length2) / apex.volume6;
+  const T shape = 6 * kShapeFactor * apex.length2 * square_root(apex.length2) / apex.volume6;
+  return select(apex.volume6 > 0, kHeightFactor * barriers + shape, all<T>(HUGE_VAL));
+}
+template <class T>
+TEMPER_INLINE T tet_energy(const LinkFace<T>& face, const Vector<T>& p, const T& w, const T& gamma) {
+  return tet_energy(face, Apex<T>(face, p, w), gamma);
 }
 
 /// The same value, with gradient and Hessian. Let g = h |m| and S = |m|², so that h/ℓ = g S^(−3/4)/kLengthOfArea. By
 /// the product rule all second derivatives are products of vectors, but for those of t, which all faces share.
 template <class T>
-PointDerivatives<T> tet_derivatives(const LinkFace<T>& face, const Vector<T>& p, const T& w, const T& gamma) {
-  using std::sqrt;
+TEMPER_INLINE PointDerivatives<T> tet_derivatives(const LinkFace<T>& face, const Apex<T>& apex, const T& gamma) {
   PointDerivatives<T> d = {};
-  const Apex<T> apex(face, p, w);
   const T& t = apex.along_normal;
-  if (!(apex.volume6 > 0)) {
-    d.value = T(HUGE_VAL);
-    return d;
-  }
   const T inverse = 1 / apex.volume6;
-  const PointVector<T> dt = {inverse * (apex.u - face.center - t * face.normal), T(-0.5) * inverse};
+  const PointVector<T> dt = {inverse * (apex.u - face.center - t * face.normal), -0.5 * inverse};
   const auto plus = [&](const SoftBarrier<T>& b, const PointVector<T>& dy) {
-    d.value = d.value + T(kHeightFactor) * b.value;
-    d.gradient = d.gradient + T(kHeightFactor) * b.slope * dy;
-    d.hessian.add_square(T(kHeightFactor) * b.curvature, dy);
-    return T(kHeightFactor) * b.slope;
+    d.value = d.value + kHeightFactor * b.value;
+    d.gradient = d.gradient + kHeightFactor * b.slope * dy;
+    d.hessian.add_square(kHeightFactor * b.curvature, dy);
+    return kHeightFactor * b.slope;
   };
   T of_ddt = face.factor * plus(soft_barrier(face.factor * t, gamma), face.factor * dt);  // factor of the Hessian of t
-  Vector<T> with_dt = {T(0), T(0), T(0)};
+  Vector<T> with_dt = {all<T>(0), all<T>(0), all<T>(0)};
   for (const auto& e : face.edges) {
     const Vector<T> v = apex.u - e.from;
-    const T along = dot(v, e.along), m2 = dot(v, v) * e.length2 - along * along, m = sqrt(m2);
+    const T along = dot(v, e.along), m2 = dot(v, v) * e.length2 - along * along;
     const T turn = dot(v, e.turn), height = dot(v, e.plane) + t * turn;
-    const T scale = 1 / (T(kLengthOfArea) * m * sqrt(m));
-    const Vector<T> dm2 = 2 * (e.length2 * v - along * e.along);
+    const T inverse_root = 1 / square_root(square_root(m2)), inverse_m = inverse_root * inverse_root;
+    const T inverse_m2 = inverse_m * inverse_m, scale = 1 / kLengthOfArea * inverse_m * inverse_root;
+    const Vector<T> dm2 = all<T>(2) * (e.length2 * v - along * e.along);
     const PointVector<T> dheight = {e.plane + t * e.turn + turn * dt.at, turn * dt.w};
-    const T per_m2 = T(-0.75) * scale / m2;  // of scale by m2
+    const T per_m2 = -0.75 * scale * inverse_m2;  // of scale by m2
     const PointVector<T> dy = {scale * dheight.at + height * per_m2 * dm2, scale * dheight.w};
     const T slope = plus(soft_barrier(height * scale, gamma), dy);
     of_ddt = of_ddt + slope * scale * turn;
     with_dt = with_dt + slope * scale * e.turn;
     d.hessian.add_both(slope * per_m2 * dm2, dheight);
-    d.hessian.add_square(T(-1.75) * slope * height * per_m2 / m2, dm2);
+    d.hessian.add_square(-1.75 * slope * height * per_m2 * inverse_m2, dm2);
     const T bend = 2 * slope * height * per_m2;  // of the Hessian of m2, over 2
     d.hessian.add_in_space(bend * e.length2);
     d.hessian.add_square(-bend, e.along);
@@ -176,18 +176,23 @@ PointDerivatives<T> tet_derivatives(const LinkFace<T>& face, const Vector<T>& p,
   d.hessian.add_both(with_dt, dt);
   d.hessian.add_in_space(of_ddt * inverse);
 
-  const T root = sqrt(apex.length2), shape = T(6 * kShapeFactor) * apex.length2 * root * inverse;
-  Vector<T> dlength2 = {T(0), T(0), T(0)};
-  for (const auto& e : face.edges) dlength2 = dlength2 + 2 * (apex.u - e.from);
+  const T root = square_root(apex.length2), shape = 6 * kShapeFactor * apex.length2 * root * inverse;
+  Vector<T> dlength2 = {all<T>(0), all<T>(0), all<T>(0)};
+  for (const auto& e : face.edges) dlength2 = dlength2 + all<T>(2) * (apex.u - e.from);
   const Vector<T> to_length = 1 / apex.length2 * dlength2, to_volume = inverse * face.normal;
-  const Vector<T> relative = T(1.5) * to_length - to_volume;
-  d.value = d.value + shape;
+  const Vector<T> relative = all<T>(1.5) * to_length - to_volume;
+  d.value = select(apex.volume6 > 0, d.value + shape, all<T>(HUGE_VAL));
   d.gradient.at = d.gradient.at + shape * relative;
   d.hessian.add_square(shape, relative);
   d.hessian.add_square(shape, to_volume);
-  d.hessian.add_square(T(-1.5) * shape, to_length);
+  d.hessian.add_square(-1.5 * shape, to_length);
   d.hessian.add_in_space(9 * shape / apex.length2);
   return d;
+}
+template <class T>
+TEMPER_INLINE PointDerivatives<T> tet_derivatives(const LinkFace<T>& face, const Vector<T>& p, const T& w,
+                                                  const T& gamma) {
+  return tet_derivatives(face, Apex<T>(face, p, w), gamma);
 }
 
 }  // namespace temper::tets

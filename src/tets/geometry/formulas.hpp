@@ -5,8 +5,7 @@
 // they do not depend on the origin.
 #pragma once
 
-#include <cmath>
-
+#include "base/pack.hpp"
 #include "temper/tets/geometry.hpp"
 
 namespace temper::tets {
@@ -20,40 +19,52 @@ struct Plain {
   friend Plain operator*(Plain a, Plain b) { return {a.value * b.value}; }
 };
 
-/// A double and its permanent, the same polynomial of absolute values. Rounding moves the value by at most n u times
-/// the permanent, where n counts the roundings along the longest path from an input to the result (see
-/// geometry/predicates_inline.hpp).
-struct Estimate {
-  double value = 0, permanent = 0;
-  static Estimate difference(double a, double b) { return {a - b, std::abs(a - b)}; }
-  friend Estimate operator+(Estimate a, Estimate b) { return {a.value + b.value, a.permanent + b.permanent}; }
-  friend Estimate operator-(Estimate a, Estimate b) { return {a.value - b.value, a.permanent + b.permanent}; }
-  friend Estimate operator*(Estimate a, Estimate b) { return {a.value * b.value, a.permanent * b.permanent}; }
+/// A double, or a pack of them, and its permanent, the same polynomial of absolute values. Rounding moves the value by
+/// at most n u times the permanent, where n counts the roundings along the longest path from an input to the result
+/// (see geometry/predicates_inline.hpp).
+template <class V>
+struct EstimateOf {
+  V value, permanent;
+  TEMPER_INLINE static EstimateOf difference(const V& a, const V& b) { return {a - b, absolute(a - b)}; }
+  friend TEMPER_INLINE EstimateOf operator+(const EstimateOf& a, const EstimateOf& b) {
+    return {a.value + b.value, a.permanent + b.permanent};
+  }
+  friend TEMPER_INLINE EstimateOf operator-(const EstimateOf& a, const EstimateOf& b) {
+    return {a.value - b.value, a.permanent + b.permanent};
+  }
+  friend TEMPER_INLINE EstimateOf operator*(const EstimateOf& a, const EstimateOf& b) {
+    return {a.value * b.value, a.permanent * b.permanent};
+  }
 };
+using Estimate = EstimateOf<double>;
+
+// Bounds of the rounding, relative to the permanent: powers of two above the numbers of roundings below.
+inline constexpr double kPowerBound = 0x1p-48, kHeightBound = 0x1p-48;
+inline constexpr double kFaceHeightBound = 0x1p-49, kCrossingBound = 0x1p-50;
 
 template <class T>
 struct Vector {
   T x, y, z;
-  friend Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend Vector operator*(const T& s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend TEMPER_INLINE Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend TEMPER_INLINE Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend TEMPER_INLINE Vector operator*(const T& s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
 };
-template <class T>
-Vector<T> from_to(const WeightedPoint& a, const WeightedPoint& b) {
+template <class T, class Point>
+TEMPER_INLINE Vector<T> from_to(const Point& a, const Point& b) {
   return {T::difference(b.x, a.x), T::difference(b.y, a.y), T::difference(b.z, a.z)};
 }
 template <class T>
-T dot(const Vector<T>& a, const Vector<T>& b) {
+TEMPER_INLINE T dot(const Vector<T>& a, const Vector<T>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 template <class T>
-Vector<T> cross(const Vector<T>& a, const Vector<T>& b) {
+TEMPER_INLINE Vector<T> cross(const Vector<T>& a, const Vector<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 /// |v|² − w + w₀: the lift of v seen from an origin of weight w₀.
-template <class T>
-T lift(const Vector<T>& v, double w, double w_origin) {
+template <class T, class W>
+TEMPER_INLINE T lift(const Vector<T>& v, const W& w, const W& w_origin) {
   return dot(v, v) - T::difference(w, w_origin);
 }
 
@@ -82,9 +93,8 @@ T power_polynomial(const WeightedPoint& p, const WeightedPoint& q, const Weighte
 }
 
 /// 2 · 6 V (o − p) of tetrahedron pqrs. Roundings: 13 (lift 6, cross product 4, product 1, sums 2).
-template <class T>
-Vector<T> orthocenter_polynomial(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r,
-                                 const WeightedPoint& s) {
+template <class T, class Point>
+TEMPER_INLINE Vector<T> orthocenter_polynomial(const Point& p, const Point& q, const Point& r, const Point& s) {
   const Vector<T> u = from_to<T>(p, q), v = from_to<T>(p, r), t = from_to<T>(p, s);
   const T at_q = lift(u, q.w, p.w), at_r = lift(v, r.w, p.w), at_s = lift(t, s.w, p.w);
   const Vector<T> vt = cross(v, t), tu = cross(t, u), uv = cross(u, v);
@@ -94,8 +104,8 @@ Vector<T> orthocenter_polynomial(const WeightedPoint& p, const WeightedPoint& q,
 
 /// 2 h_s · 2 A |6 V|, where A is the area of the face pqr. Roundings: 20 (orthocenter 13, cross product 4, product 1,
 /// sums 2).
-template <class T>
-T height_polynomial(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r, const WeightedPoint& s) {
+template <class T, class Point>
+TEMPER_INLINE T height_polynomial(const Point& p, const Point& q, const Point& r, const Point& s) {
   return dot(cross(from_to<T>(p, q), from_to<T>(p, r)), orthocenter_polynomial<T>(p, q, r, s));
 }
 

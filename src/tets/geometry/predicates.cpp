@@ -14,12 +14,6 @@ namespace {
 
 using exact::Compact;
 
-// Powers of two above the numbers of roundings that formulas.hpp counts.
-constexpr double kPowerBound = 32 * inlined::kUnitRoundoff;
-constexpr double kHeightBound = 32 * inlined::kUnitRoundoff;
-constexpr double kFaceHeightBound = 16 * inlined::kUnitRoundoff;
-constexpr double kCrossingBound = 8 * inlined::kUnitRoundoff;
-
 template <class Exactly>
 Sign filtered_sign(const Estimate& e, double bound, const Exactly& exactly) {
   return inlined::sign_or(inlined::Filtered<double>{e.value, bound * e.permanent}, exactly);

@@ -133,7 +133,7 @@ class TetMeshBuilder {
 
   std::optional<InputError> add_vertices() {
     const std::size_t n = in_.points.size();
-    for (auto* array : {&mesh_.x_, &mesh_.y_, &mesh_.z_, &mesh_.w_}) array->resize(n);
+    mesh_.places_.resize(n);
     double largest = 1;
     for (std::size_t i = 0; i < n; ++i) {
       const Vec3 p = in_.points[i];

@@ -37,8 +37,7 @@ std::optional<std::string> wrong_tetrahedron(const TetMesh& mesh, TetId t) {
 }  // namespace
 
 std::optional<std::string> TetMesh::validate() const {
-  if (y_.size() != n_vertices() || z_.size() != n_vertices() || w_.size() != n_vertices() ||
-      incident_.size() != n_vertices() || twins_.size() != 4 * n_tetrahedra() || !regions_.has_size(n_tetrahedra()))
+  if (incident_.size() != n_vertices() || twins_.size() != 4 * n_tetrahedra() || !regions_.has_size(n_tetrahedra()))
     return "arrays have different lengths";
   for (const VertexId v : vertices()) {
     const WeightedPoint p = point(v);

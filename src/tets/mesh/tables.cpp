@@ -40,6 +40,13 @@ void FaceBuckets::collect(VertexId v, std::vector<Side>& sides) const {
   std::sort(sides.begin(), sides.end());
 }
 
+VertexStars::VertexStars(const TetMesh& mesh) : sorted_(mesh.n_halffaces()) {
+  end_ = bucket_starts(mesh.n_vertices(), [&](auto count) {
+    for (const HalffaceId h : mesh.halffaces()) count(mesh.opposite(h));
+  });
+  for (const HalffaceId h : mesh.halffaces()) sorted_[end_[mesh.opposite(h).index]++] = h;
+}
+
 EdgeTable::EdgeTable(const TetMesh& mesh, Executor* executor)
     : greater_(6 * mesh.n_tetrahedra()), n_(mesh.n_vertices()) {
   const auto each_edge = [&](auto use) {

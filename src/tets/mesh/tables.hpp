@@ -1,4 +1,5 @@
-// Faces and edges of a mesh by their least vertex (counting sort): twins, tags and counts come from them. O(n).
+// Faces and edges of a mesh by their least vertex, and tetrahedra by each vertex (counting sort): twins, tags and
+// counts come from them. O(n).
 #pragma once
 
 #include <algorithm>
@@ -33,6 +34,21 @@ class FaceBuckets {
  private:
   const TetMesh& mesh_;
   std::vector<std::uint32_t> end_;  // of each bucket
+  std::vector<HalffaceId> sorted_;
+};
+
+/// The tetrahedra around each vertex, as the faces opposite it.
+class VertexStars {
+ public:
+  explicit VertexStars(const TetMesh& mesh);
+  /// The halffaces opposite v, ascending.
+  [[nodiscard]] std::span<const HalffaceId> link(VertexId v) const {
+    const std::size_t first = v.index == 0 ? 0 : end_[v.index - 1];
+    return {sorted_.data() + first, end_[v.index] - first};
+  }
+
+ private:
+  std::vector<std::uint32_t> end_;
   std::vector<HalffaceId> sorted_;
 };
 

@@ -20,9 +20,6 @@
 
 namespace temper::tets {
 
-/// Says exactly whether t is positive, with its orthocenter inside.
-[[nodiscard]] bool is_good(const TetMesh& mesh, TetId t);
-
 /// The factors of E and the barrier for Scheme::vertex or Scheme::cell.
 [[nodiscard]] AccuracyModel accuracy_model(Scheme scheme);
 
@@ -35,7 +32,7 @@ class Accuracy {
 
   /// Takes one Newton step of v, over-relaxed if this lowers E + B.
   void improve(VertexId v, double relaxation);
-  /// E and barrier of the mesh; +∞ with bad tetrahedra.
+  /// E of the mesh without duals that are not positive, and the barrier, +∞ with bad tetrahedra.
   [[nodiscard]] AccuracyTotal energy();
   /// Takes one step over all vertices. Returns false if there is none. Precondition: no tetrahedron is bad.
   bool descend(const DiscretizationError& model);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/solve_absolute.hpp"
@@ -16,6 +17,24 @@ constexpr double kTrustRadius = 0.5, kEigenvalueFloor = 1e-6;
 
 using Unknowns = std::array<double, 4>;
 using Matrix = SquareMatrix<4>;
+
+/// Returns H⁻¹ g by H = L D Lᵀ, or nothing unless H is positive definite, by more than the floor.
+std::optional<Unknowns> solve_definite(Matrix h, Unknowns g) {
+  const double least = kEigenvalueFloor * std::max({h[0][0], h[1][1], h[2][2], h[3][3]});
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (!(h[k][k] > least)) return std::nullopt;
+    for (std::size_t i = k + 1; i < 4; ++i) {
+      const double factor = h[k][i] / h[k][k];
+      for (std::size_t j = i; j < 4; ++j) h[i][j] -= factor * h[k][j];
+      g[i] -= factor * g[k];
+    }
+  }
+  for (std::size_t k = 4; k-- > 0;) {
+    for (std::size_t j = k + 1; j < 4; ++j) g[k] -= h[k][j] * g[j];
+    g[k] /= h[k][k];
+  }
+  return g;
+}
 
 }  // namespace
 
@@ -38,7 +57,8 @@ NewtonStep newton_step(const PointDerivatives<double>& d, Mobility mobility, dou
     slope[i] = scale[i] * down[i];
     for (std::size_t j = 0; j < 4; ++j) h[i][j] *= scale[i] * scale[j];
   }
-  Unknowns x = solve_absolute<4>(4, h, slope, kEigenvalueFloor);
+  const std::optional<Unknowns> definite = solve_definite(h, slope);
+  const Unknowns x = definite ? *definite : solve_absolute<4>(4, h, slope, kEigenvalueFloor);
   double norm2 = 0, predicted = 0;
   for (std::size_t i = 0; i < 4; ++i) norm2 += x[i] * x[i], predicted += x[i] * slope[i];
   const double shrink = norm2 > kTrustRadius * kTrustRadius ? kTrustRadius / std::sqrt(norm2) : 1;

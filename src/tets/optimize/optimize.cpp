@@ -31,20 +31,8 @@ constexpr double kFirstLocalGamma = 0.3, kLastLocalGamma = 0.0005;
 constexpr int kLocalSweeps = 2, kLastLocalSweeps = 10;
 // Numbers of rounds and of trials without fewer bad tetrahedra, after which there are no more.
 constexpr int kRoundsInVain = 4, kTrialsInVain = 40;
-// Vertices between two looks at the clock.
-constexpr std::size_t kVerticesPerLook = 1024;
-
-std::size_t count_bad(const TetMesh& mesh) {
-  const auto all = mesh.tetrahedra();
-  return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](TetId t) { return !is_good(mesh, t); }));
-}
-
-double total_energy(const TetMesh& mesh, double gamma) {
-  double sum = 0;
-  for (const TetId t : mesh.tetrahedra()) sum += energy_of(mesh, t, gamma);
-  return sum;
-}
-
+// Vertices between two looks at the clock, in the sweeps for accuracy.
+constexpr std::size_t kVerticesBetweenLooks = 1024;
 std::optional<InputError> wrong_option(const OptimizeOptions& options) {
   if (options.max_sweeps < 0)
     return InputError{
@@ -69,7 +57,7 @@ class Run {
   }
 
   OptimizeReport run() {
-    report_.objective_before = total_energy(mesh_, kLastGamma);
+    report_.objective_before = state_of(mesh_, kLastGamma, hooks_.executor).energy;
     record();
     if (hooks_.error && best_bad_ == 0) input_ = mesh_;
     const bool repairs = !options_.keep_positions && !options_.keep_weights && !options_.keep_edges;
@@ -87,13 +75,15 @@ class Run {
 
   /// Sweeps along the schedule of γ. False: the run must end.
   bool anneal(double first_gamma, int level_sweeps, int last_sweeps) {
+    const auto all = mesh_.vertices();
+    Sweeper sweeper(mesh_, mobility_, std::vector<VertexId>(all.begin(), all.end()), hooks_.executor);
     for (double gamma = first_gamma; gamma > kLastGamma; gamma *= kGammaFactor) {
       for (int i = 0; i < level_sweeps; ++i) {
-        if (!sweep(gamma)) return false;
+        if (!sweep(sweeper, gamma)) return false;
       }
     }
     for (int i = 0; i < last_sweeps; ++i) {
-      if (!sweep(kLastGamma)) return false;
+      if (!sweep(sweeper, kLastGamma)) return false;
       const auto last = report_.history.end() - 1;
       if (i > 0 && (last - 1)->energy - last->energy <= kTolerance * last->energy) break;
     }
@@ -105,7 +95,7 @@ class Run {
   void repair() {
     for (int in_vain = 0; best_bad_ > 0 && in_vain < kRoundsInVain;) {
       const std::size_t before = best_bad_;
-      if (!change(search_repairs(bad_tetrahedra(), kAllowance, 0), kRings)) break;
+      if (!change(search_repairs(bad_tetrahedra(mesh_, hooks_.executor), kAllowance, 0), kRings)) break;
       in_vain = best_bad_ < before ? 0 : in_vain + 1;
     }
     int in_vain = 0;
@@ -113,20 +103,13 @@ class Run {
       if (best_bad_ == 0 || report_.stopped != Stopped::converged) break;
       const std::size_t before = best_bad_, k = static_cast<std::size_t>(in_vain);
       go_back_to_best();
-      const std::vector<TetId> bad = bad_tetrahedra();
+      const std::vector<TetId> bad = bad_tetrahedra(mesh_, hooks_.executor);
       change(search_repairs({bad[k % bad.size()]}, kAllowanceOfTrial, k / bad.size()), kRingsOfTrial);
       in_vain = best_bad_ < before ? 0 : in_vain + 1;
     }
   }
   std::vector<Filling> search_repairs(const std::vector<TetId>& bad, double allowance, std::size_t rank) {
     return repairs(mesh_, bad, mobility_, {allowance, rank, [this] { return is_stopped(0); }});
-  }
-  [[nodiscard]] std::vector<TetId> bad_tetrahedra() const {
-    std::vector<TetId> bad;
-    for (const TetId t : mesh_.tetrahedra()) {
-      if (!is_good(mesh_, t)) bad.push_back(t);
-    }
-    return bad;
   }
   void go_back_to_best() {
     mesh_ = best_;
@@ -148,15 +131,11 @@ class Run {
     }
     const std::vector<VertexId> near = fill(fillings, rings);
     if (near.empty()) return false;
-    Sweeper sweeper(mesh_, mobility_);
-    std::size_t steps = 0;
+    Sweeper sweeper(mesh_, mobility_, near, hooks_.executor);
     for (double gamma = kFirstLocalGamma;; gamma = std::max(gamma * kGammaFactor, kLastLocalGamma)) {
       const bool last = gamma == kLastLocalGamma;
       for (int i = 0; i < (last ? kLastLocalSweeps : kLocalSweeps); ++i) {
-        for (const VertexId v : near) {
-          if (steps++ % kVerticesPerLook == 0 && is_stopped(0)) return false;
-          sweeper.improve(v, {gamma, kRelaxation});
-        }
+        if (!sweeper.sweep({gamma, kRelaxation}, [this](double) { return is_stopped(0); })) return false;
       }
       if (last) break;
     }
@@ -206,7 +185,7 @@ class Run {
     double least = HUGE_VAL;
     const auto keep_if_best = [&] {
       const double error = hooks_.error ? hooks_.error->squared_error(mesh_, nullptr) : 0;
-      if (hooks_.error && !(error < least)) return;
+      if (error > least) return;
       least = error;
       best_ = mesh_;
     };
@@ -214,7 +193,7 @@ class Run {
     Accuracy accuracy(mesh_, mobility_, accuracy_model(options_.scheme));
     for (int i = 0; i < options_.accuracy_sweeps && begin_sweep(); ++i) {
       for (const VertexId v : mesh_.vertices()) {
-        if (v.index % kVerticesPerLook == 0 && is_stopped(double(v.index) / double(mesh_.n_vertices()))) break;
+        if (v.index % kVerticesBetweenLooks == 0 && is_stopped(double(v.index) / double(mesh_.n_vertices()))) break;
         accuracy.improve(v, kRelaxation);
       }
       record(Objective::accuracy, accuracy.energy().energy);
@@ -244,18 +223,13 @@ class Run {
   }
 
   /// Returns false if no further sweep may follow. A sweep that was stopped is kept if it makes the mesh no worse.
-  bool sweep(double gamma) {
+  bool sweep(Sweeper& sweeper, double gamma) {
     if (report_.sweeps == options_.max_sweeps) {
       report_.stopped = Stopped::max_sweeps;
       return false;
     }
     gamma_ = gamma;
-    Sweeper sweeper(mesh_, mobility_);
-    for (const VertexId v : mesh_.vertices()) {
-      if (v.index % kVerticesPerLook == 0 && is_stopped(double(v.index) / double(mesh_.n_vertices()))) break;
-      sweeper.improve(v, {gamma, kRelaxation});
-    }
-    if (!stopped_early(report_.stopped)) ++report_.sweeps;
+    if (sweeper.sweep({gamma, kRelaxation}, [this](double fraction) { return is_stopped(fraction); })) ++report_.sweeps;
     record();
     return !stopped_early(report_.stopped);
   }
@@ -272,14 +246,14 @@ class Run {
 
   /// Measures the mesh, and keeps its points if it is the best so far. Of equals the last is the best.
   void record() {
-    const std::size_t bad = count_bad(mesh_);
+    const auto [energy, bad] = state_of(mesh_, gamma_, hooks_.executor);
     if (report_.history.empty() || bad <= best_bad_) {
       best_bad_ = bad;
       best_ = mesh_;
       best_changes_ = changes_;
     }
     if (stopped_early(report_.stopped)) return;
-    record(Objective::energy, total_energy(mesh_, gamma_));
+    record(Objective::energy, energy);
     report_.history.back().bad = bad;
     report_.history.back().length_parameter = gamma_;
   }
@@ -297,7 +271,7 @@ class Run {
   OptimizeReport end() {
     mesh_ = std::move(best_);
     report_changes();
-    report_.objective_after = total_energy(mesh_, kLastGamma);
+    report_.objective_after = state_of(mesh_, kLastGamma, hooks_.executor).energy;
     report_.seconds = seconds_since(start_);
     return std::move(report_);
   }

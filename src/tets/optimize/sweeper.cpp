@@ -1,52 +1,20 @@
 #include "tets/optimize/sweeper.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <utility>
 
+#include "base/instruction_set_choice.hpp"
+#include "base/sum.hpp"
+#include "tets/quality/measure.hpp"
+
 namespace temper::tets {
 namespace {
-
-// Trials per Newton step: over-relaxed, plain, then halved.
-constexpr int kTrials = 6;
-// A model decrease below this part of the star energy is rounding, not progress.
-constexpr double kNoGain = 1e-15;
-// A step goes at most this part of the way to the first tetrahedron's inversion.
-constexpr double kInversionFraction = 0.9;
-
-// A step may not lower the shape of a tetrahedron, its volume over (Σ length²)^(3/2), below this part of the regular
-// one's; a worse shape may not fall at all. Else heights that no place makes positive would flatten the tetrahedra.
-constexpr double kLeastShape = 0.1;
-const double kRegularShape = 1 / std::sqrt(432.0);  // six volumes over this power of the lengths: 1/√2 over 6^(3/2)
-
-double shape(const LinkFace<double>& face, const WeightedPoint& p) {
-  const Apex<double> apex(face, {p.x, p.y, p.z}, p.w);
-  return apex.volume6 / (apex.length2 * std::sqrt(apex.length2));
-}
-
-bool keeps_shapes(std::span<const LinkFace<double>> link, const WeightedPoint& origin, const WeightedPoint& p) {
-  return std::all_of(link.begin(), link.end(), [&](const LinkFace<double>& face) {
-    const double now = shape(face, p);
-    return now >= kLeastShape * kRegularShape || now >= shape(face, origin);
-  });
-}
-
-/// Root mean square of the lengths of the spokes.
-double radius_of(std::span<const LinkFace<double>> link, const WeightedPoint& p) {
-  double sum = 0;
-  for (const LinkFace<double>& face : link) {
-    const Apex<double> apex(face, {p.x, p.y, p.z}, p.w);
-    sum += apex.length2 - face.length2;
-  }
-  return std::sqrt(sum / (3 * static_cast<double>(link.size())));
-}
-
-WeightedPoint along(const WeightedPoint& p, const WeightedPoint& step, double t) {
-  return {p.x + t * step.x, p.y + t * step.y, p.z + t * step.z, p.w + t * step.w};
-}
 
 /// Fixes marked points: they are places that the user chose, such as wells. But if all corners of a tetrahedron have
 /// the same tag, this tag lists the vertices of a part, and fixes nothing. A tag of 0 is none.
@@ -95,56 +63,193 @@ IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptio
 
 namespace {
 
-/// How much of a step goes before the first tetrahedron is nearly flat. Signed volumes are linear along a step.
-double farthest(std::span<const LinkFace<double>> link, const WeightedPoint& origin, const WeightedPoint& step) {
-  double limit = 1;
-  for (const LinkFace<double>& face : link) {
-    const double volume = dot(face.normal, Vector<double>{origin.x, origin.y, origin.z} - face.origin);
-    const double slope = dot(face.normal, Vector<double>{step.x, step.y, step.z});
-    if (volume + limit * slope < (1 - kInversionFraction) * volume) limit = -kInversionFraction * volume / slope;
-  }
-  return limit;
+constexpr int kMostColors = 63;
+constexpr int kColorsOfFixed = 16;               // vertices whose position stays come first, as in most files
+constexpr std::size_t kVerticesPerTask = 32;     // a tenth of a millisecond
+constexpr std::size_t kVerticesPerLook = 16384;  // between two questions whether to stop: tens of milliseconds
+constexpr std::size_t kAhead = 4;                // distance to the vertex whose memory is fetched in advance
+
+/// Says whether the predicates are exact for p.
+bool is_exact(const WeightedPoint& p) {
+  return is_exact_coordinate(p.x) && is_exact_coordinate(p.y) && is_exact_coordinate(p.z) && is_exact_weight(p.w);
 }
 
-/// Says whether all tetrahedra with p are positive, and the predicates exact for p.
-bool is_valid(const TetMesh& mesh, std::span<const HalffaceId> link, const WeightedPoint& p, Mobility mobility) {
-  if (!is_exact_weight(p.w)) return false;
-  if (mobility == Mobility::weight) return true;
-  if (!is_exact_coordinate(p.x) || !is_exact_coordinate(p.y) || !is_exact_coordinate(p.z)) return false;
+bool is_positive(const TetMesh& mesh, std::span<const HalffaceId> link, const WeightedPoint& p) {
   return std::all_of(link.begin(), link.end(), [&](HalffaceId h) {
     const auto [q, r, s] = mesh.vertices(h);
     return orientation(mesh.position(q), mesh.position(r), mesh.position(s), p.position()) == Sign::positive;
   });
 }
 
+/// Numbers of tasks of some size for n items.
+std::size_t n_tasks(std::size_t n, std::size_t size) { return (n + size - 1) / size; }
+
+/// Puts two zeros between any two of the last ten bits.
+std::uint32_t spread(std::uint32_t x) {
+  x = (x | x << 16) & 0x030000ff;
+  x = (x | x << 8) & 0x0300f00f;
+  x = (x | x << 4) & 0x030c30c3;
+  return (x | x << 2) & 0x09249249;
+}
+
+/// Places along a Z curve through 1024³ cells: links of vertices that follow each other share memory.
+IdVector<VertexId, std::uint32_t> places_along_curve(const TetMesh& mesh, const std::vector<VertexId>& vertices) {
+  Vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (const VertexId v : vertices) {
+    const Vec3 p = mesh.position(v);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const auto cell = [&](double x) { return spread(static_cast<std::uint32_t>(1023 * (x / extent))); };
+  IdVector<VertexId, std::uint32_t> places(mesh.n_vertices(), 0);
+  for (const VertexId v : vertices) {
+    const Vec3 p = mesh.position(v) - low;
+    if (extent > 0) places[v] = cell(p.x) | cell(p.y) << 1 | cell(p.z) << 2;
+  }
+  return places;
+}
+
 }  // namespace
+
+const Kernels& kernels() { return *TEMPER_IN_USE(kTetKernels); }
+
+Link gather(const TetMesh& mesh, std::span<const HalffaceId> halffaces, std::vector<LinkLanes>& room) {
+  const std::size_t faces = halffaces.size(), blocks = n_tasks(faces, kLanes);
+  if (room.size() < blocks) room.resize(blocks);
+  for (std::size_t i = 0; i < blocks * kLanes; ++i) {
+    const auto [q, r, s] = mesh.vertices(halffaces[std::min(i, faces - 1)]);
+    LinkLanes& to = room[i / kLanes];
+    to.q.set(i % kLanes, mesh.point(q)), to.r.set(i % kLanes, mesh.point(r)), to.s.set(i % kLanes, mesh.point(s));
+  }
+  return {std::span(room).first(blocks), faces};
+}
 
 WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> halffaces, const WeightedPoint& origin,
                        Mobility mobility, const SweepParameters& parameters) {
-  thread_local std::vector<LinkFace<double>> link;
-  link.clear();
-  for (const HalffaceId h : halffaces) link.push_back(link_face(mesh, h));
-  const PointDerivatives<double> here = star_derivatives(link, origin, parameters.gamma);
-  if (!std::isfinite(here.value)) return origin;
-  auto [step, predicted] = newton_step(here, mobility, radius_of(link, origin));
-  if (!(predicted > kNoGain * here.value)) return origin;
-  step = along({}, step, parameters.relaxation);
-  double t = farthest(link, origin, step);
-  for (int trial = 0; trial < kTrials; ++trial) {
-    WeightedPoint p = along(origin, step, t);
-    if (mobility == Mobility::weight) p = {origin.x, origin.y, origin.z, p.w};  // -0.0 + 0 is another zero
-    if (star_energy(link, p, parameters.gamma) < here.value &&
-        (mobility == Mobility::weight || keeps_shapes(link, origin, p)) && is_valid(mesh, halffaces, p, mobility))
-      return p;
-    t *= trial == 0 && parameters.relaxation > 1 ? 1 / parameters.relaxation : 0.5;
-  }
-  return origin;
+  thread_local std::vector<LinkLanes> room;
+  const Link link = gather(mesh, halffaces, room);
+  const auto [p, lower, certain] = kernels().step(link, origin, mobility, parameters);
+  return lower && is_exact(p) && (certain || is_positive(mesh, halffaces, p)) ? p : origin;
 }
 
-void Sweeper::improve(VertexId v, const SweepParameters& parameters) {
-  if (mobility_[v] == Mobility::none) return;
-  collect_link(mesh_, v, link_);
-  mesh_.set_point(v, improved(mesh_, link_, mesh_.point(v), mobility_[v], parameters));
+Sweeper::Sweeper(TetMesh& mesh, const IdVector<VertexId, Mobility>& mobility, std::span<const VertexId> vertices,
+                 Executor* executor)
+    : mesh_(mesh), mobility_(mobility), executor_(executor), stars_(mesh) {
+  color(vertices);
+}
+
+void Sweeper::color(std::span<const VertexId> vertices) {
+  IdVector<VertexId, std::uint64_t> bit(mesh_.n_vertices(), 0);  // of the color; 0: none
+  std::vector<std::size_t> begin(kMostColors + 2, 0);
+  const auto color_of = [&](VertexId v) { return static_cast<std::size_t>(std::countr_zero(bit[v])); };
+  for (const VertexId v : vertices) {
+    if (mobility_[v] == Mobility::none) continue;
+    std::uint64_t taken = mobility_[v] == Mobility::weight ? 0 : (std::uint64_t{1} << kColorsOfFixed) - 1;
+    for (const HalffaceId h : stars_.link(v)) {
+      for (const VertexId u : mesh_.vertices(h)) taken |= bit[u];
+    }
+    bit[v] = std::uint64_t{1} << std::min(std::countr_one(taken), kMostColors);
+    ++begin[color_of(v) + 1];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  sequence_.resize(begin.back());
+  end_.assign(begin.begin(), begin.end() - 1);
+  for (const VertexId v : vertices) {
+    if (bit[v] != 0) sequence_[end_[color_of(v)]++] = v;
+  }
+  const IdVector<VertexId, std::uint32_t> place = places_along_curve(mesh_, sequence_);
+  or_serial(executor_).run(kMostColors, [&](std::size_t i) {
+    const auto begin_of = [&](std::size_t c) { return sequence_.begin() + static_cast<std::ptrdiff_t>(begin[c]); };
+    std::sort(begin_of(i), begin_of(i + 1),
+              [&](VertexId a, VertexId b) { return std::pair(place[a], a) < std::pair(place[b], b); });
+  });
+}
+
+bool Sweeper::sweep(const Step& step, const MustStop& must_stop) {
+  std::size_t first = 0;
+  for (std::size_t color = 0; color < end_.size(); ++color) {
+    for (std::size_t last = first; first < end_[color]; first = last) {
+      if (must_stop && must_stop(double(first) / double(sequence_.size()))) return false;
+      last = std::min(end_[color], first + kVerticesPerLook);
+      const std::size_t size = color < kMostColors ? kVerticesPerTask : last - first;
+      or_serial(executor_).run(n_tasks(last - first, size), [&](std::size_t i) {
+        improve(first + i * size, std::min(last, first + (i + 1) * size), step);
+      });
+    }
+  }
+  return true;
+}
+
+bool Sweeper::sweep(const SweepParameters& parameters, const MustStop& must_stop) {
+  const auto step = [&](VertexId v, std::span<const HalffaceId> link) {
+    return improved(mesh_, link, mesh_.point(v), mobility_[v], parameters);
+  };
+  return sweep(step, must_stop);
+}
+
+void Sweeper::improve(std::size_t first, std::size_t last, const Step& step) {
+  for (std::size_t i = first; i < last; ++i) {
+    for (const HalffaceId h : stars_.link(sequence_[std::min(i + kAhead, last - 1)]))
+      __builtin_prefetch(&mesh_.corners(TetMesh::tetrahedron(h)));
+    const VertexId v = sequence_[i];
+    mesh_.set_point(v, step(v, stars_.link(v)));
+  }
+}
+
+bool is_bad(const TetMesh& mesh, TetId t) {
+  for (int f = 0; f < 4; ++f) {
+    const HalffaceId h = TetMesh::halfface(t, f);
+    const auto [a, b, c] = points_of(mesh, h);
+    if (signed_height_sign(a, b, c, mesh.point(mesh.opposite(h))) != Sign::positive) return true;
+  }
+  return false;
+}
+
+namespace {
+
+/// Calls use(t, energy, is_bad) for each tetrahedron of a block.
+template <class Use>
+void judge(const TetMesh& mesh, double gamma, std::size_t first, std::size_t last, const Use& use) {
+  TetLanes lanes;
+  Lane energies;
+  for (; first < last; first += kLanes) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const auto points = mesh.points(TetId(std::min(first + i, last - 1)));
+      for (std::size_t k = 0; k < 4; ++k) lanes.corners[k].set(i, points[k]);
+    }
+    const auto [inside, outside] = kernels().tetrahedra(lanes, gamma, energies);
+    for (std::size_t i = 0; i < std::min(kLanes, last - first); ++i) {
+      const TetId t(first + i);
+      use(t, energies[i], (outside >> i & 1) != 0 || ((inside >> i & 1) == 0 && is_bad(mesh, t)));
+    }
+  }
+}
+
+}  // namespace
+
+MeshState state_of(const TetMesh& mesh, double gamma, Executor* executor) {
+  const std::size_t n = mesh.n_tetrahedra();
+  const auto sums = sums_of_blocks(n, 2, executor, [&](std::size_t b, std::span<double> of_block) {
+    judge(mesh, gamma, b * kBlockSize, std::min(n, (b + 1) * kBlockSize), [&](TetId, double energy, bool bad) {
+      of_block[0] += energy;
+      of_block[1] += bad ? 1 : 0;
+    });
+  });
+  return {sums[0], static_cast<std::size_t>(sums[1])};
+}
+
+std::vector<TetId> bad_tetrahedra(const TetMesh& mesh, Executor* executor) {
+  const std::size_t n = mesh.n_tetrahedra();
+  std::vector<std::vector<TetId>> of_blocks(n_tasks(n, kBlockSize));
+  or_serial(executor).run(of_blocks.size(), [&](std::size_t b) {
+    judge(mesh, 1, b * kBlockSize, std::min(n, (b + 1) * kBlockSize), [&](TetId t, double, bool bad) {
+      if (bad) of_blocks[b].push_back(t);
+    });
+  });
+  std::vector<TetId> all;
+  for (const auto& block : of_blocks) all.insert(all.end(), block.begin(), block.end());
+  return all;
 }
 
 }  // namespace temper::tets

@@ -1,22 +1,30 @@
-// One Gauss-Seidel sweep over the vertices of a mesh with fixed connectivity.
+// Gauss-Seidel sweeps over the vertices of a mesh with fixed connectivity, on threads. The bytes of the result do not
+// depend on the number of threads.
+//
+//            1 ------- 2         No two vertices of one color have an edge, so their steps read and write nothing of
+//          / | \     / |         each other. Sweeps take color after color, and the vertices of one color in any order.
+//         2  |  3 - 1  3         Colors are greedy in the order of the vertices: about ten for any mesh of tetrahedra.
+//          \ | /     \ |         If a mesh needs very many colors, the rest of the vertices follow one by one.
+//            1 ------- 2
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
+#include "temper/detail/executor.hpp"
 #include "temper/tets/optimize.hpp"
-#include "tets/energy/star.hpp"
-#include "tets/optimize/newton_step.hpp"
+#include "tets/mesh/tables.hpp"
+#include "tets/optimize/kernels.hpp"
 
 namespace temper::tets {
 
 /// What of each vertex may change. Positions stay on the boundary, between regions, and at tags of any kind.
 [[nodiscard]] IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptions& options = {});
 
-/// Parameters of one sweep.
-struct SweepParameters {
-  double gamma = 1;
-  double relaxation = 1;  ///< factor of Newton steps; a longer step is taken only if the energy falls
-};
+/// The faces of a link, in room that grows as needed.
+[[nodiscard]] Link gather(const TetMesh& mesh, std::span<const HalffaceId> halffaces, std::vector<LinkLanes>& room);
 
 /// Takes one Newton step of p among the faces of its link: over-relaxed, then plain, then halved, until the energy
 /// falls. Otherwise p stays as it was. All tetrahedra stay positive, exactly.
@@ -25,15 +33,40 @@ struct SweepParameters {
 
 class Sweeper {
  public:
-  Sweeper(TetMesh& mesh, const IdVector<VertexId, Mobility>& mobility) : mesh_(mesh), mobility_(mobility) {}
+  /// For sweeps over these vertices. O(number of tetrahedra).
+  Sweeper(TetMesh& mesh, const IdVector<VertexId, Mobility>& mobility, std::span<const VertexId> vertices,
+          Executor* executor = nullptr);
 
-  /// Improves v by one step. No tetrahedron becomes flat or negative, by the exact predicate.
-  void improve(VertexId v, const SweepParameters& parameters);
+  /// A better place for a vertex among the faces of its link.
+  using Step = std::function<WeightedPoint(VertexId, std::span<const HalffaceId>)>;
+  /// Says whether to stop after this fraction of the sweep.
+  using MustStop = std::function<bool(double)>;
+  /// Takes one step of each vertex, on any thread. Returns false if it was stopped.
+  bool sweep(const Step& step, const MustStop& must_stop = {});
+  /// The same with the steps of improved().
+  bool sweep(const SweepParameters& parameters, const MustStop& must_stop = {});
 
  private:
+  void color(std::span<const VertexId> vertices);
+  void improve(std::size_t first, std::size_t last, const Step& step);
+
   TetMesh& mesh_;
   const IdVector<VertexId, Mobility>& mobility_;
-  std::vector<HalffaceId> link_;  // of the present vertex
+  Executor* executor_;
+  VertexStars stars_;
+  std::vector<VertexId> sequence_;  // the vertices, color by color
+  std::vector<std::size_t> end_;    // of each color
 };
+
+/// Says exactly whether the orthocenter of a tetrahedron, in either orientation, is not inside.
+[[nodiscard]] bool is_bad(const TetMesh& mesh, TetId t);
+
+/// The energy of a mesh, and the number of tetrahedra whose orthocenter is not inside, exactly.
+struct MeshState {
+  double energy = 0;
+  std::size_t bad = 0;
+};
+[[nodiscard]] MeshState state_of(const TetMesh& mesh, double gamma, Executor* executor = nullptr);
+[[nodiscard]] std::vector<TetId> bad_tetrahedra(const TetMesh& mesh, Executor* executor = nullptr);
 
 }  // namespace temper::tets

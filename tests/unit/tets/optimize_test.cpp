@@ -5,7 +5,9 @@
 
 #include <numbers>
 
+#include "support/std_threads.hpp"
 #include "support/tet_lattice.hpp"
+#include "temper/detail/instruction_set.hpp"
 #include "temper/tets/quality.hpp"
 #include "tets/optimize/sweeper.hpp"
 
@@ -52,20 +54,56 @@ TEST(TetOptimize, MakesAllTetrahedraGoodAndKeepsTheBoundary) {
   }
 }
 
+/// Runs the last block first.
+class BackwardExecutor final : public Executor {
+ public:
+  void run(std::size_t n, const std::function<void(std::size_t)>& block) override {
+    while (n > 0) block(--n);
+  }
+};
+
+TEST(TetOptimize, TheBytesDoNotDependOnThreadsOrTheInstructionSet) {
+  const TetMesh input = test::mesh_of(test::shaken(test::body_centered(7), 0.18, 0.1));
+  const auto result = [&](Executor* executor) {
+    TetMesh mesh = input;
+    OptimizeHooks hooks;
+    hooks.executor = executor;
+    const auto report = optimize(mesh, {.max_sweeps = 4}, hooks);
+    EXPECT_TRUE(report);
+    return std::pair(mesh, report->history.back().energy);
+  };
+  const auto expected = result(nullptr);
+  EXPECT_NE(expected.first, input);
+  BackwardExecutor backwards;
+  EXPECT_EQ(result(&backwards), expected);
+  for (const std::size_t n : {2U, 3U, 8U}) {
+    test::StdThreads threads(n);
+    EXPECT_EQ(result(&threads), expected) << n;
+  }
+  const InstructionSet used = instruction_set();
+  for (const InstructionSet set : instruction_sets()) {
+    ASSERT_TRUE(use_instruction_set(set));
+    EXPECT_EQ(result(nullptr), expected) << name(set);
+  }
+  use_instruction_set(used);
+}
+
 TEST(TetOptimize, EveryStepLowersTheEnergyOfItsStar) {
   TetMesh mesh = test::mesh_of(input_arrays());
   const auto mobility = mobilities(mesh);
-  Sweeper sweeper(mesh, mobility);
   std::vector<HalffaceId> halffaces;
+  std::size_t steps = 0;
   for (const VertexId v : mesh.vertices()) {
     collect_link(mesh, v, halffaces);
     std::vector<LinkFace<double>> link;
     for (const HalffaceId h : halffaces) link.push_back(link_face(mesh, h));
-    const WeightedPoint before = mesh.point(v);
-    sweeper.improve(v, {0.1, 1.7});
-    if (mesh.point(v) == before) continue;
-    EXPECT_LT(star_energy(link, mesh.point(v), 0.1), star_energy(link, before, 0.1));
+    const WeightedPoint before = mesh.point(v), after = improved(mesh, halffaces, before, mobility[v], {0.1, 1.7});
+    if (after == before) continue;
+    EXPECT_LT(star_energy(link, after, 0.1), star_energy(link, before, 0.1));
+    mesh.set_point(v, after);
+    ++steps;
   }
+  EXPECT_GT(steps, mesh.n_vertices() / 2);
 }
 
 /// Of a symmetric matrix with eigenvalues of both signs.
@@ -88,6 +126,22 @@ TEST(TetOptimize, StepsGoDownhillWithinTheTrustRadiusAlongWhatMayChange) {
       EXPECT_LE(moved * moved + weighed * weighed, 0.25 * (1 + 1e-12));
       EXPECT_EQ(step.w == 0, mobility == Mobility::none || mobility == Mobility::position);
       EXPECT_EQ(moved == 0, mobility == Mobility::none || mobility == Mobility::weight);
+    }
+  }
+}
+
+TEST(TetOptimize, AStepOfAConvexEnergyGoesToItsLeastPlace) {
+  PointDerivatives<double> d = {};
+  d.gradient = {{0.1, -0.2, 0.05}, 0.025};
+  d.hessian = {3, 0.5, 0, 0.1, 2, 0.2, 0, 1.5, 0, 1};
+  const auto& [xx, xy, xz, xw, yy, yz, yw, zz, zw, ww] = d.hessian;
+  for (const Mobility mobility : {Mobility::position, Mobility::free}) {
+    const WeightedPoint s = newton_step(d, mobility, 1).step;
+    EXPECT_NEAR(xx * s.x + xy * s.y + xz * s.z + xw * s.w, -d.gradient.at.x, 1e-15);
+    EXPECT_NEAR(xy * s.x + yy * s.y + yz * s.z + yw * s.w, -d.gradient.at.y, 1e-15);
+    EXPECT_NEAR(xz * s.x + yz * s.y + zz * s.z + zw * s.w, -d.gradient.at.z, 1e-15);
+    if (mobility == Mobility::free) {
+      EXPECT_NEAR(xw * s.x + yw * s.y + zw * s.z + ww * s.w, -d.gradient.w, 1e-15);
     }
   }
 }
@@ -155,10 +209,9 @@ TEST(TetOptimize, HeightsThatNoPlaceMakesPositiveFlattenNoTetrahedron) {
   std::vector<double> before;
   for (const TetId t : mesh.tetrahedra()) before.push_back(shape(t));
   const auto mobility = mobilities(mesh);
-  Sweeper sweeper(mesh, mobility);
-  for (int sweep = 0; sweep < 60; ++sweep) {
-    for (const VertexId v : mesh.vertices()) sweeper.improve(v, {0.003, 1.7});
-  }
+  const auto vertices = mesh.vertices();
+  Sweeper sweeper(mesh, mobility, std::vector(vertices.begin(), vertices.end()));
+  for (int sweep = 0; sweep < 60; ++sweep) sweeper.sweep(SweepParameters{0.003, 1.7});
   EXPECT_GT(quality(mesh).orthocenters_outside, 0U);
   for (const TetId t : mesh.tetrahedra()) EXPECT_GE(shape(t), std::min(0.1, before[t.index]) * (1 - 1e-9));
 }
@@ -265,7 +318,7 @@ TEST(TetOptimize, TheObserverAndTheClockStopARunWithAMeshThatIsNoWorse) {
     EXPECT_LE(quality(mesh).orthocenters_outside, bad);
   }
   // Sweeps of a large γ make this one worse at first.
-  const TetMesh worse = test::mesh_of(test::shaken(test::cubes(3, test::kSixTets), 0.25, 0));
+  const TetMesh worse = test::mesh_of(test::shaken(test::cubes(4, test::kSixTets), 0.2, 0.1));
   const std::size_t at_first = quality(worse).orthocenters_outside;
   for (int sweeps = 1; sweeps < 3; ++sweeps) {
     TetMesh mesh = worse;

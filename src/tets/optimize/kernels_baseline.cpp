@@ -1,0 +1,1 @@
+#include "tets/optimize/kernels_set.hpp"
