@@ -5,6 +5,7 @@
 #include "temper/dec.hpp"
 #include "temper/detail/columns.hpp"
 #include "temper/detail/dec_io.hpp"
+#include "temper/tets/operators.hpp"
 
 TEMPER_PYTHON_NAMES(temper::io::DecFormat, "npz", "mtx", "vtu", "disv", "disu", "tough");
 
@@ -128,22 +129,17 @@ py::dict cells_to_dict(const PyDec& d) {
       .dict;
 }
 
-/// Writes the files. `cells` is a function that makes the cells; it runs without the GIL.
-template <class Cells>
-std::vector<std::string> write_files(const std::string& folder, const Mesh& mesh, const DecComplex& complex,
-                                     const Cells& cells, const Columns* columns,
-                                     const std::vector<io::GroupCell>& groups, const py::sequence& formats,
-                                     const py::object& threads) {
-  io::DecWriteOptions options;
-  if (!groups.empty()) options.groups = groups;
+/// Writes files into a folder. `write` does so with given options; it runs without the GIL.
+template <class Write>
+std::vector<std::string> write_files(const py::sequence& formats, const py::object& threads, const Write& write,
+                                     io::DecWriteOptions options = {}) {
   options.formats.clear();
   for (const auto& f : formats) options.formats.push_back(from_name<io::DecFormat>("formats", f.cast<std::string>()));
-  options.columns = columns;
   const auto count = threads_from(threads);
   const py::gil_scoped_release release;
   const auto executor = make_threads(count);
   options.executor = executor.get();
-  return or_raise(io::write_dec(folder, mesh, complex, cells(), options));
+  return or_raise(write(options));
 }
 
 void bind_operators(py::module_& m) {
@@ -160,10 +156,92 @@ void bind_operators(py::module_& m) {
       .def("power_cells", cells_to_dict)
       .def("write",
            [](const PyDec& d, const std::string& folder, const py::sequence& formats, const py::object& threads) {
-             const auto cells = [&d] { return d.cells(); };
-             return to_python(write_files(folder, *d.mesh, *d.complex, cells, nullptr, {}, formats, threads));
+             return to_python(write_files(formats, threads, [&](const io::DecWriteOptions& options) {
+               return io::write_dec(folder, *d.mesh, *d.complex, d.cells(), options);
+             }));
            });
   m.def("dec_operators", make_dec);
+}
+
+// --- of tetrahedra ----------------------------------------------------------------------------------------------
+
+struct PyTetDec {
+  PyTetMesh mesh;
+  std::shared_ptr<const tets::DecComplex> complex;
+};
+
+PyTetDec make_tet_dec(const PyTetMesh& mesh, const Doubles& coefficient) {
+  const std::span<const double> k = as_span<double>(coefficient);
+  const py::gil_scoped_release release;
+  tets::DecComplex made = tets::dec_operators(mesh.mesh());
+  if (!k.empty()) made = or_raise(tets::with_coefficient(mesh.mesh(), std::move(made), k));
+  return {mesh, std::make_shared<const tets::DecComplex>(std::move(made))};
+}
+
+py::array places(const py::object& owner, const std::vector<Vec3>& in_space) { return places(owner, {}, in_space); }
+
+py::dict edges_to_dict(const py::object& owner, const tets::DecComplex& complex) {
+  const IdVector<EdgeId, tets::DecEdge>& edges = complex.edges;
+  const tets::DecEdge none;
+  const tets::DecEdge& e = edges.empty() ? none : edges[EdgeId(0)];
+  return Record()("vertices", column<std::int32_t>(owner, edges, &e.from, 2))(
+             "is_boundary", column<bool>(owner, edges, &e.is_boundary))(
+             "length", column<double>(owner, edges, &e.length))("crossing", column<double>(owner, edges, &e.crossing))(
+             "dual_area", column<double>(owner, edges, &e.dual_area))("midpoint",
+                                                                      column<double>(owner, edges, &e.midpoint, 3))
+      .dict;
+}
+
+py::dict faces_to_dict(const py::object& owner, const tets::DecComplex& complex) {
+  const IdVector<tets::FaceId, tets::DecFace>& faces = complex.faces;
+  const tets::DecFace none;
+  const tets::DecFace& f = faces.empty() ? none : faces[tets::FaceId(0)];
+  return Record()("vertices", column<std::int32_t>(owner, faces, &f.vertices, 3))(
+             "tetrahedra", column<std::int32_t>(owner, faces, &f.behind, 2))(
+             "area", column<double>(owner, faces, &f.area))("behind_height",
+                                                            column<double>(owner, faces, &f.behind_height))(
+             "ahead_height", column<double>(owner, faces, &f.ahead_height))(
+             "dual_length", column<double>(owner, faces, &f.dual_length))(
+             "orthocenter", column<double>(owner, faces, &f.orthocenter, 3))
+      .dict;
+}
+
+py::dict tet_dec_to_dict(const PyTetDec& d) {
+  const py::object owner = keep(d.complex);
+  const tets::DecComplex& c = *d.complex;
+  return Record()("edges", edges_to_dict(owner, c))("faces", faces_to_dict(owner, c))(
+             "d0", incidence_to_dict(owner, c.d0))("d1", incidence_to_dict(owner, c.d1))(
+             "d2", incidence_to_dict(owner, c.d2))("star0", whole(owner, c.star0.raw()))(
+             "star1", whole(owner, c.star1.raw()))("star2", whole(owner, c.star2.raw()))(
+             "star3", whole(owner, c.star3.raw()))("transmissibility", whole(owner, c.transmissibility.raw()))(
+             "orthocenters", places(owner, c.orthocenters.raw()))("volumes", whole(owner, c.volumes.raw()))(
+             "coefficient", whole(owner, c.coefficient.raw()))("capacity", whole(owner, c.capacity.raw()))
+      .dict;
+}
+
+py::dict summary_to_dict(const tets::DecSummary& s) {
+  return Record()("vertices", s.vertices)("edges", s.edges)("faces", s.faces)("tetrahedra", s.tetrahedra)(
+             "boundary_faces", s.boundary_faces)("negative_star0", s.negative_star0)(
+             "negative_star1", s.negative_star1)("negative_star2", s.negative_star2)("zero_star2", s.zero_star2)(
+             "negative_boundary_star2", s.negative_boundary_star2)("not_well_centered", s.not_well_centered)(
+             "volume", s.volume)("star0_sum", s.star0_sum)("min_star0", s.min_star0)("min_star1", s.min_star1)(
+             "min_star2", s.min_star2)("median_star1", s.median_star1)("max_star1", s.max_star1)(
+             "median_transmissibility", s.median_transmissibility)("max_transmissibility", s.max_transmissibility)
+      .dict;
+}
+
+void bind_tet_operators(py::module_& m) {
+  py::class_<PyTetDec>(m, "TetDecComplex")
+      .def("mesh", [](const PyTetDec& d) { return d.mesh; })
+      .def("arrays", tet_dec_to_dict)
+      .def("summarize", [](const PyTetDec& d) { return summary_to_dict(tets::summarize(*d.complex)); })
+      .def("write",
+           [](const PyTetDec& d, const std::string& folder, const py::sequence& formats, const py::object& threads) {
+             return to_python(write_files(formats, threads, [&](const io::DecWriteOptions& options) {
+               return io::write_dec(folder, d.mesh.mesh(), *d.complex, options);
+             }));
+           });
+  m.def("tet_dec_operators", make_tet_dec);
 }
 
 // --- columns ----------------------------------------------------------------------------------------------------
@@ -253,8 +331,13 @@ void bind_columns(py::module_& m) {
       .def("arrays", [](const std::shared_ptr<PyColumns>& c) { return columns_to_dict(c); })
       .def("write",
            [](const PyColumns& c, const std::string& folder, const py::sequence& formats, const py::object& threads) {
-             const auto cells = [&c]() -> const PowerCells& { return c.cells; };
-             return to_python(write_files(folder, *c.mesh, c.complex, cells, &c.columns, c.groups, formats, threads));
+             io::DecWriteOptions given;
+             given.columns = &c.columns;
+             if (!c.groups.empty()) given.groups = c.groups;
+             const auto write = [&](const io::DecWriteOptions& options) {
+               return io::write_dec(folder, *c.mesh, c.complex, c.cells, options);
+             };
+             return to_python(write_files(formats, threads, write, given));
            });
   m.def("columns",
         [](const PyMesh& self, std::size_t n_layers, const Doubles& surfaces, const Int32s& active, double pinch_out) {
@@ -266,6 +349,7 @@ void bind_columns(py::module_& m) {
 
 void bind_dec(py::module_& m) {
   bind_operators(m);
+  bind_tet_operators(m);
   bind_columns(m);
 }
 

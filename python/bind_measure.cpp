@@ -9,6 +9,7 @@
 #include "temper/quality.hpp"
 #ifdef TEMPER_WITH_ERRORS
 #include "temper/errors.hpp"
+#include "temper/tets/errors.hpp"
 #endif
 
 namespace temper::python {
@@ -205,8 +206,9 @@ std::vector<FieldErrors> fields_from(const py::sequence& names, const Doubles& v
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto wanted = names[i].cast<std::string>();
     FieldErrors& row = fields.emplace_back();
-    for (const SpaceKind space : {SpaceKind::plane, SpaceKind::sphere, SpaceKind::periodic_plane}) {
-      for (const ErrorField& field : error_fields(space)) {
+    for (const auto& known : {tets::error_fields(), error_fields(), error_fields(SpaceKind::sphere),
+                              error_fields(SpaceKind::periodic_plane)}) {
+      for (const ErrorField& field : known) {
         if (field.name == wanted) row.field = field;
       }
     }
@@ -265,6 +267,35 @@ py::dict error_mesh(const PyMesh& self, const py::sequence& fields, const py::ob
   return errors_to_dict(or_raise(std::move(report)));
 }
 
+py::dict frame_to_dict(const tets::FieldFrame& f) {
+  return Record()("center", std::array{f.center.x, f.center.y, f.center.z})("half_size", f.half_size).dict;
+}
+
+py::dict error_tets(const PyTetMesh& self, const py::sequence& fields, const py::object& frame, bool condition) {
+  tets::MeasureErrorsOptions options;
+  for (const auto& field : fields) options.fields.push_back(field.cast<std::string>());
+  if (!frame.is_none()) {
+    const auto f = frame.cast<py::tuple>();
+    options.frame = {{f[0].cast<double>(), f[1].cast<double>(), f[2].cast<double>()}, f[3].cast<double>()};
+  }
+  options.condition = condition;
+  const auto loaded = self.loaded;
+  const tets::ErrorReport r = or_raise(aside([&] { return tets::measure_errors(loaded->mesh, options); }));
+  return Record()("vertices", r.vertices)("edges", r.edges)("faces", r.faces)("tetrahedra", r.tetrahedra)(
+             "non_regular_faces", r.non_regular_faces)("negative_boundary_duals", r.negative_boundary_duals)(
+             "negative_star0", r.negative_star0)("not_well_centered", r.not_well_centered)(
+             "frame", frame_to_dict(r.frame))("poisson", system_to_dict(r.poisson))("flux", system_to_dict(r.flux))(
+             "fields", fields_to_dict(r.fields))
+      .dict;
+}
+
+py::list fields_list(std::span<const ErrorField> fields) {
+  py::list list;
+  for (const ErrorField& f : fields)
+    list.append(Record()("name", f.name)("group", name(f.group))("formula", f.formula).dict);
+  return list;
+}
+
 py::dict norms_to_dict(const ErrorNorms& n) { return Record()("l2", n.l2)("max", n.max).dict; }
 
 py::dict diffusion_errors(const PyMesh& self, const py::tuple& given, int refinements) {
@@ -288,13 +319,12 @@ void bind_errors(py::module_& m) {
   m.def("measure_errors", error_mesh);
   m.def("measure_diffusion_errors", diffusion_errors);
   m.def("error_fields", [](bool sphere, bool periodic) {
-    py::list list;
     const SpaceKind in_plane = periodic ? SpaceKind::periodic_plane : SpaceKind::plane;
-    for (const ErrorField& f : error_fields(sphere ? SpaceKind::sphere : in_plane)) {
-      list.append(Record()("name", f.name)("group", name(f.group))("formula", f.formula).dict);
-    }
-    return list;
+    return fields_list(error_fields(sphere ? SpaceKind::sphere : in_plane));
   });
+  m.def("tet_error_fields", [] { return fields_list(tets::error_fields()); });
+  m.def("tet_measure_errors", error_tets);
+  m.def("tet_field_frame", [](const PyTetMesh& self) { return frame_to_dict(tets::field_frame(self.mesh())); });
   m.def("field_frame", [](const PyMesh& self) { return frame_to_dict(field_frame(*self.read())); });
   m.def("error_measures", [] {
     py::list list;

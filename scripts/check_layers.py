@@ -41,7 +41,7 @@ LAYERS = {
     "generate": _BELOW + ["topology", "energy", "regularity", "projection"],
     "mesher": _BELOW + ["size", "topology", "energy", "regularity", "feasibility", "optimize", "generate", "projection"],
     # A library of its own, with the rules of the core: meshes of tetrahedra, on what does not know of triangles.
-    "tets": _BELOW + ["feasibility", "quality"],
+    "tets": _BELOW + ["feasibility", "quality", "dec"],
     # A library of its own: sees the public headers of the core and of tets, and no other folder of src/.
     "io": _BELOW + ["projection", "location", "size", "quality", "dec", "mesher", "tets"],
     "lp": _BELOW + ["feasibility"],
@@ -82,7 +82,7 @@ def layer_of_header(header):
     """The layer of "temper/NAME.hpp", or None when there is no such layer."""
     name = pathlib.PurePath(header).stem
     if "/tets/" in header:
-        return "io" if name == "io" else "tets"
+        return name if name in ("io", "errors") else "tets"
     return HEADER_LAYER.get(name, name if name in LAYERS else None)
 
 

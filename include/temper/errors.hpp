@@ -171,20 +171,6 @@ struct DiscretizationErrorOptions {
 [[nodiscard]] Expected<std::shared_ptr<const DiscretizationError>> make_discretization_error(
     const Mesh& mesh, const DiscretizationErrorOptions& options = {});
 
-}  // namespace temper
-
-namespace temper::tets {
-
-class DiscretizationError;
-
-/// Makes a model of errors for tets::OptimizeHooks, for Scheme::vertex: as that of triangles, with 32 plane waves in 16
-/// directions. Null: there is none for this scheme.
-[[nodiscard]] std::shared_ptr<const DiscretizationError> make_discretization_error(Scheme scheme);
-
-}  // namespace temper::tets
-
-namespace temper {
-
 /// One number of OperatorErrors. Tables, JSON and comparisons loop over these.
 struct ErrorMeasure {
   std::string_view key;    ///< "star1.l2"

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from typing import Any, Literal, Mapping, Sequence
+from typing import Any, Literal, Mapping, Sequence, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +13,7 @@ import numpy.typing as npt
 from . import _temper
 from ._mesh import Mesh, MeshLike, as_mesh
 from ._records import Record
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -131,8 +132,38 @@ class PowerCells(Record):
         return np.split(self.corners, self.starts[1:-1].astype(np.int64)) if len(self.vertices) else []
 
 
+class _Complex(Record):
+    """What the operators of triangles and tetrahedra share."""
+
+    _handle: Any
+    d0: IncidenceMatrix
+
+    def star(self, s: int) -> Any:
+        """★s as a diagonal ``scipy.sparse`` matrix. Needs SciPy."""
+        from scipy import sparse
+
+        return sparse.diags(getattr(self, f"star{s}"), format="csr")
+
+    def laplacian(self) -> Any:
+        """The matrix d0ᵀ ★1 d0 as a ``scipy.sparse.csr_matrix``, (n, n). On a regular mesh whose boundary duals are not
+        negative it is positive semi-definite and an M-matrix. Needs SciPy."""
+        d0 = self.d0.tocsr()
+        return (d0.T @ self.star(1) @ d0).tocsr()
+
+    def write(
+        self,
+        folder: str | os.PathLike[str],
+        *,
+        formats: Sequence[Literal["npz", "mtx", "vtu"]] = ("npz", "mtx", "vtu"),
+        threads: int | None = None,
+    ) -> list[str]:
+        """Writes the operators into a folder (docs/reference/operators.md names every file and array). On an error no
+        file is written. Returns the paths of the files."""
+        return self._handle.write(os.fspath(folder), list(formats), threads)
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
-class DecComplex(Record):
+class DecComplex(_Complex):
     """The operators and the dual of a mesh. Vertices and triangles have the numbers of the mesh. All arrays are
     read-only views on one value, without copies.
 
@@ -172,18 +203,6 @@ class DecComplex(Record):
         coefficient = self.coefficient.copy() if len(self.coefficient) else np.empty(0)
         return _dec_of, (Mesh._of(self._handle.mesh()), self._handle.tensor(), coefficient, lines)
 
-    def star(self, s: Literal[0, 1, 2]) -> Any:
-        """★s as a diagonal ``scipy.sparse`` matrix. Needs SciPy."""
-        from scipy import sparse
-
-        return sparse.diags([self.star0, self.star1, self.star2][s], format="csr")
-
-    def laplacian(self) -> Any:
-        """The matrix d0ᵀ ★1 d0 as a ``scipy.sparse.csr_matrix``, (n, n). On a regular mesh whose boundary duals are not
-        negative it is positive semi-definite and an M-matrix. Needs SciPy."""
-        d0 = self.d0.tocsr()
-        return (d0.T @ self.star(1) @ d0).tocsr()
-
     def summarize(self) -> DecSummary:
         """Summarizes counts, signs and extremes."""
         return DecSummary(**self._handle.summarize())
@@ -193,28 +212,156 @@ class DecComplex(Record):
         domain."""
         return PowerCells(**self._handle.power_cells())
 
-    def write(
-        self,
-        folder: str | os.PathLike[str],
-        *,
-        formats: Sequence[Literal["npz", "mtx", "vtu"]] = ("npz", "mtx", "vtu"),
-        threads: int | None = None,
-    ) -> list[str]:
-        """Writes the operators into a folder (docs/reference/operators.md names every file and array). On an error no
-        file is written. Returns the paths of the files."""
-        return self._handle.write(os.fspath(folder), list(formats), threads)
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetDecEdges(Record):
+    """The edges of tetrahedra, each once, from its lower vertex to its higher one, sorted by these. Arrays have one
+    entry per edge."""
+
+    vertices: npt.NDArray[np.int32]
+    """Vertices from and to, (e, 2)."""
+    is_boundary: npt.NDArray[np.bool_]
+    """Says for each edge whether it is one of a boundary face."""
+    length: npt.NDArray[np.float64]
+    """Length ℓ [length]."""
+    crossing: npt.NDArray[np.float64]
+    """Crossing d: signed distance of the weighted midpoint from ``from``, towards ``to`` [length]."""
+    dual_area: npt.NDArray[np.float64]
+    """Signed area of the dual face [length²]."""
+    midpoint: npt.NDArray[np.float64]
+    """Point at which the plane of the dual face crosses the line of the edge, (e, 3)."""
+    named: dict[str, npt.NDArray[np.int32]]
+    """Numbers of the edges of each name of lines, ascending (``TetMesh.names``)."""
+
+    def __len__(self) -> int:
+        return len(self.length)
 
 
-def _coefficient_of(mesh: Mesh, coefficient: npt.ArrayLike | Mapping[int, float] | None) -> npt.NDArray[np.float64]:
-    """One value per triangle; empty for None."""
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetDecFaces(Record):
+    """The faces of tetrahedra, each once, sorted by their ascending vertices p, q, r. The normal is
+    (q − p) × (r − p). Arrays have one entry per face."""
+
+    vertices: npt.NDArray[np.int32]
+    """Ascending vertices, (f, 3)."""
+    tetrahedra: npt.NDArray[np.int32]
+    """The tetrahedron behind, out of which the normal points, and the one ahead, (f, 2); −1 for none."""
+    area: npt.NDArray[np.float64]
+    """Area A [length²]."""
+    behind_height: npt.NDArray[np.float64]
+    """Height h of the orthocenter behind over this face, > 0 on its side; 0 without it [length]."""
+    ahead_height: npt.NDArray[np.float64]
+    """Height h of the orthocenter ahead, > 0 on its side; 0 without it [length]."""
+    dual_length: npt.NDArray[np.float64]
+    """Sum of both heights, with the exact sign; accurate even if they cancel [length]."""
+    orthocenter: npt.NDArray[np.float64]
+    """Orthocenter of the face, at which the line of the dual edge crosses its plane, (f, 3)."""
+    named: dict[str, npt.NDArray[np.int32]]
+    """Numbers of the faces of each name of tagged faces, such as ``named["inflow"]``, ascending (``TetMesh.names``)."""
+
+    def __len__(self) -> int:
+        return len(self.area)
+
+    @property
+    def is_boundary(self) -> npt.NDArray[np.bool_]:
+        """Says for each face whether it has only one tetrahedron."""
+        return (self.tetrahedra < 0).any(axis=1)
+
+
+@dataclasses.dataclass(frozen=True)
+class TetDecSummary(Record):
+    """A summary of the operators of tetrahedra, for a check before a solver uses them."""
+
+    vertices: int
+    edges: int
+    faces: int
+    tetrahedra: int
+    boundary_faces: int
+    negative_star0: int
+    negative_star1: int
+    negative_star2: int
+    """Number of interior faces that are not regular, exact."""
+    zero_star2: int
+    """Number of interior faces that are cospherical, exact."""
+    negative_boundary_star2: int
+    """Number of boundary faces with the orthocenter outside the domain, exact."""
+    not_well_centered: int
+    """Number of tetrahedra, exact."""
+    volume: float
+    """Volume of the domain [length³]."""
+    star0_sum: float
+    """Sum of ★0: the volume, except for rounding."""
+    min_star0: float
+    min_star1: float
+    min_star2: float
+    median_star1: float
+    """Median of \\|★1\\| over all edges."""
+    max_star1: float
+    median_transmissibility: float
+    """Median of \\|transmissibility\\| over interior faces."""
+    max_transmissibility: float
+    """Maximum; inf if a dual edge has length 0."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetDecComplex(_Complex):
+    """The operators and the dual of a mesh of tetrahedra. Vertices and tetrahedra have the numbers of the mesh. All
+    arrays are read-only views on one value, without copies.
+
+    Signs (docs/reference/operators.md): a dual length is negative if the face is not regular. On the boundary it is
+    negative if the orthocenter is outside. It is zero exactly if the five points are cospherical in the power sense.
+    """
+
+    edges: TetDecEdges
+    faces: TetDecFaces
+    d0: IncidenceMatrix
+    """Incidence of edges × vertices: −1 at from, +1 at to."""
+    d1: IncidenceMatrix
+    """Incidence of faces × edges: pq and qr +1 in pqr, pr −1."""
+    d2: IncidenceMatrix
+    """Incidence of tetrahedra × faces: +1 for the tetrahedron behind the face, −1 for the one ahead."""
+    star0: npt.NDArray[np.float64]
+    """Signed volume of the dual cell, (n,) [length³]."""
+    star1: npt.NDArray[np.float64]
+    """Signed area of the dual face over ℓ, (e,) [length]. It is the transmissibility of a vertex-centered scheme."""
+    star2: npt.NDArray[np.float64]
+    """Signed length of the dual edge over A, (f,) [length⁻¹]."""
+    star3: npt.NDArray[np.float64]
+    """Star 1/volume, (m,) [length⁻³]."""
+    transmissibility: npt.NDArray[np.float64]
+    """Transmissibility of a two-point flux between orthocenters, (f,) [length]: A/(h_behind + h_ahead), on the boundary
+    A/h, from the orthocenter of the face; inf if ★2 is 0."""
+    orthocenters: npt.NDArray[np.float64]
+    """Dual vertices, (m, 3) [length]."""
+    volumes: npt.NDArray[np.float64]
+    """Volumes of the tetrahedra, (m,), > 0 [length³]."""
+    coefficient: npt.NDArray[np.float64]
+    """Coefficient K of each tetrahedron, (m,); empty without one."""
+    capacity: npt.NDArray[np.float64]
+    """★0 with K, (n,) [K length³], for terms such as K ∂u/∂t; empty without a coefficient."""
+    _handle: Any = dataclasses.field(repr=False, compare=False)
+
+    def __reduce__(self) -> Any:
+        return _tet_dec_of, (TetMesh._of(self._handle.mesh(), [], 2), self.coefficient.copy())
+
+    def summarize(self) -> TetDecSummary:
+        """Summarizes counts, signs and extremes."""
+        return TetDecSummary(**self._handle.summarize())
+
+
+def _coefficient_of(
+    mesh: Mesh | TetMesh, coefficient: npt.ArrayLike | Mapping[int, float] | None
+) -> npt.NDArray[np.float64]:
+    """One value per triangle or tetrahedron; empty for None."""
     if coefficient is None:
         return np.empty(0)
     if not isinstance(coefficient, Mapping):
         values = np.ascontiguousarray(coefficient, dtype=np.float64)
-        if values.shape != (len(mesh.triangles),):
+        n = len(mesh.regions)
+        if values.shape != (n,):
             raise ValueError(
-                f"coefficient: expected one value per triangle, shape ({len(mesh.triangles)},), or a dictionary of "
-                f"regions; found shape {values.shape}"
+                f"coefficient: expected one value per {'tetrahedron' if isinstance(mesh, TetMesh) else 'triangle'}, "
+                f"shape ({n},), or a dictionary of regions; found shape {values.shape}"
             )
         return values
     regions, which = np.unique(mesh.regions, return_inverse=True)
@@ -228,30 +375,41 @@ def _coefficient_of(mesh: Mesh, coefficient: npt.ArrayLike | Mapping[int, float]
     return np.array([float(coefficient[int(r)]) for r in regions])[which]
 
 
+@overload
+def dec_operators(
+    mesh: TetMesh, *, tensor: None = ..., coefficient: npt.ArrayLike | Mapping[int, float] | None = ...
+) -> TetDecComplex: ...
+@overload
 def dec_operators(
     mesh: MeshLike,
     *,
+    tensor: Sequence[float] | None = ...,
+    coefficient: npt.ArrayLike | Mapping[int, float] | None = ...,
+) -> DecComplex: ...
+def dec_operators(
+    mesh: AnyMeshLike,
+    *,
     tensor: Sequence[float] | None = None,
     coefficient: npt.ArrayLike | Mapping[int, float] | None = None,
-) -> DecComplex:
+) -> DecComplex | TetDecComplex:
     """The operators of a mesh, as exact as doubles allow.
 
     Parameters
     ----------
-    mesh : MeshLike
+    mesh : Mesh, TetMesh, or of another library
     tensor : sequence of float, optional
         kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u). Duals and lengths are measured in its metric. ★1
-        and transmissibility are multiplied by √(det K) (docs/howto/anisotropic.md).
+        and transmissibility are multiplied by √(det K) (docs/howto/anisotropic.md). For triangles alone.
     coefficient : array of float, or dict of region to float, optional
-        K > 0 of −div(K ∇u) on each triangle, (m,), or by region. With it ★1 = (K_k h_k + K_l h_l)/ℓ, for unknowns at
+        K > 0 of −div(K ∇u) on each triangle or tetrahedron, (m,), or by region. With it ★1 = (K_k h_k + K_l h_l)/ℓ, for unknowns at
         vertices. The transmissibility is ℓ/(h_k/K_k + h_l/K_l), the harmonic mean, for unknowns at orthocenters. On
         the boundary the missing term is left out. ``capacity`` is ★0 with K. A tensor is multiplied by K.
 
     Returns
     -------
-    DecComplex
+    DecComplex, or TetDecComplex for tetrahedra
         Arrays d0, d1, ★0, ★1, ★2, transmissibilities and orthocenters, as NumPy arrays; methods make SciPy's sparse
-        matrices.
+        matrices. Tetrahedra have d2 and ★3, too.
 
     Notes
     -----
@@ -267,9 +425,13 @@ def dec_operators(
     >>> complex.d0.shape
     (1240, 441)
     """
-    given = as_mesh(mesh)
+    any_mesh = as_any_mesh(mesh)
+    if isinstance(any_mesh, TetMesh):
+        if tensor is not None:
+            raise TypeError("tensor is for triangles alone. Next: leave it out")
+        return _tet_dec_of(any_mesh, _coefficient_of(any_mesh, coefficient))
     tensor = None if tensor is None else tuple(tensor)
-    return _dec_of(given, tensor, _coefficient_of(given, coefficient), _named_lines(given))
+    return _dec_of(any_mesh, tensor, _coefficient_of(any_mesh, coefficient), _named_lines(any_mesh))
 
 
 def _named_lines(mesh: Mesh) -> dict[str, npt.NDArray[np.int32]]:
@@ -297,6 +459,33 @@ def _dec_of(
         edges.named[name] = np.flatnonzero(np.isin(keys, low * mesh.n_vertices + high)).astype(np.int32)
     d0, d1 = IncidenceMatrix(**arrays.pop("d0")), IncidenceMatrix(**arrays.pop("d1"))
     return DecComplex(edges=edges, d0=d0, d1=d1, _handle=handle, **arrays)
+
+
+def _tet_dec_of(mesh: TetMesh, coefficient: npt.NDArray[np.float64]) -> TetDecComplex:
+    handle = _temper.tet_dec_operators(mesh._handle, coefficient)
+    arrays = handle.arrays()
+    file = mesh._file()
+
+    def named(dimension: int, vertices: npt.NDArray[np.int32], tagged: str, tags: str) -> dict[str, npt.NDArray[np.int32]]:
+        def keys(of: npt.NDArray[Any]) -> list[tuple[int, ...]]:
+            return [tuple(row) for row in np.sort(of, axis=1).tolist()]
+
+        elements: dict[str, set[tuple[int, ...]]] = {}
+        for of_dimension, tag, name in file["names"]:
+            if of_dimension == dimension:
+                elements.setdefault(name, set()).update(keys(file[tagged][file[tags] == tag]))
+        all_keys = keys(vertices) if elements else []
+        return {
+            name: np.array([i for i, key in enumerate(all_keys) if key in chosen], dtype=np.int32)
+            for name, chosen in elements.items()
+        }
+
+    edges, faces = arrays.pop("edges"), arrays.pop("faces")
+    arrays["edges"] = TetDecEdges(**edges, named=named(1, edges["vertices"], "lines", "line_tags"))
+    arrays["faces"] = TetDecFaces(**faces, named=named(2, faces["vertices"], "faces", "face_tags"))
+    for name in ("d0", "d1", "d2"):
+        arrays[name] = IncidenceMatrix(**arrays[name])
+    return TetDecComplex(**arrays, _handle=handle)
 
 
 # --- columns of cells under layers ---------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, Literal, Mapping, Sequence, TypedDict
+from typing import Any, Literal, Mapping, Sequence, TypedDict, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,7 @@ from . import _temper
 from ._dec import _coefficient_of, _named_lines
 from ._mesh import Mesh, MeshLike, _doubles, as_mesh
 from ._records import Record, merged
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh
 
 FieldGroup = Literal["chosen", "held-back", "exact"]
 
@@ -25,18 +26,19 @@ class ErrorField(Record):
     """Purpose of the field. An objective may be tuned on the chosen fields. The fields held back then show its true
     value. exact: linear fields, which both schemes must reproduce on any mesh."""
     formula: str
-    """Formula in x and y of the frame."""
+    """Formula in x and y of the frame, of tetrahedra also in z."""
 
 
 @dataclasses.dataclass(frozen=True)
 class FieldFrame(Record):
     """The frame of the fields, which are functions of (p − center) / half_size."""
 
-    center: tuple[float, float]
+    center: tuple[float, ...]
+    """Two coordinates, or three of tetrahedra."""
     half_size: float
     """> 0 [length]."""
 
-    def _plain(self) -> tuple[float, float, float]:
+    def _plain(self) -> tuple[float, ...]:
         return (*self.center, self.half_size)
 
 
@@ -132,27 +134,55 @@ class ErrorReport(Record):
     the element."""
 
     def _rows(self) -> list[tuple[str, str]]:
-        nested = ("frame", "poisson", "flux", "fields", "levels", "orders")
-        rows = [row for row in super()._rows() if row[0] not in nested]
-        mean = geometric_mean(self.fields)
-        for key, label in error_measures():
-            rows.append((label, f"{dict(zip(_KEYS, mean._row()))[key]:.4g}"))
-        rows.append(("Poisson, M-matrix", str(self.poisson.m_matrix)))
-        return rows
+        return _report_rows(self, super()._rows())
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetErrorReport(Record):
+    """The result of ``measure_errors`` for tetrahedra. ``negative`` of ``poisson`` counts edges, and that of ``flux``
+    faces."""
+
+    vertices: int
+    edges: int
+    faces: int
+    tetrahedra: int
+    non_regular_faces: int
+    negative_boundary_duals: int
+    negative_star0: int
+    not_well_centered: int
+    frame: FieldFrame
+    poisson: ErrorSystem
+    flux: ErrorSystem
+    fields: list[FieldErrors]
+
+    def _rows(self) -> list[tuple[str, str]]:
+        return _report_rows(self, super()._rows())
+
+
+def _report_rows(report: ErrorReport | TetErrorReport, rows: list[tuple[str, str]]) -> list[tuple[str, str]]:
+    """The rows of plain numbers, then those of mean errors."""
+    nested = ("frame", "poisson", "flux", "fields", "levels", "orders")
+    mean = dict(zip(_KEYS, geometric_mean(report.fields)._row()))
+    errors = [(label, f"{mean[key]:.4g}") for key, label in error_measures()]
+    return [row for row in rows if row[0] not in nested] + errors + [("Poisson, M-matrix", str(report.poisson.m_matrix))]
 
 
 _KEYS = [f"{name}.{norm}" for name in ("star0", "star1", "star2", "poisson", "flux") for norm in ("l2", "max")]
 
 
-def error_fields(*, sphere: bool = False, periodic: bool = False) -> list[ErrorField]:
-    """The manufactured solutions of the plane, the sphere or a periodic plane."""
-    return [ErrorField(**row) for row in _temper.error_fields(sphere, periodic)]
+def error_fields(*, sphere: bool = False, periodic: bool = False, tetrahedra: bool = False) -> list[ErrorField]:
+    """The manufactured solutions of the plane, the sphere, a periodic plane, or tetrahedra."""
+    rows = _temper.tet_error_fields() if tetrahedra else _temper.error_fields(sphere, periodic)
+    return [ErrorField(**row) for row in rows]
 
 
-def field_frame(mesh: MeshLike) -> FieldFrame:
-    """The frame of the bounding box of the vertices: its longer side goes from −1 to 1. On a sphere its radius
+def field_frame(mesh: AnyMeshLike) -> FieldFrame:
+    """The frame of the bounding box of the vertices: its longest side goes from −1 to 1. On a sphere its radius
     counts."""
-    return FieldFrame(**_temper.field_frame(as_mesh(mesh)._handle))
+    any_mesh = as_any_mesh(mesh)
+    if isinstance(any_mesh, TetMesh):
+        return FieldFrame(**_temper.tet_field_frame(any_mesh._handle))
+    return FieldFrame(**_temper.field_frame(any_mesh._handle))
 
 
 def error_measures() -> list[tuple[str, str]]:
@@ -160,8 +190,9 @@ def error_measures() -> list[tuple[str, str]]:
     return list(_temper.error_measures())
 
 
-def _fields(d: dict[str, Any]) -> list[FieldErrors]:
-    fields = error_fields() + error_fields(sphere=True) + error_fields(periodic=True)
+def _fields(d: dict[str, Any], fields: Sequence[ErrorField] = ()) -> list[FieldErrors]:
+    """Rows of errors; without ``fields`` those of triangles."""
+    fields = fields or error_fields() + error_fields(sphere=True) + error_fields(periodic=True)
     known = {field.name: field for field in fields}
     return [FieldErrors(known[name], OperatorErrors._of(row)) for name, row in zip(d["names"], d["values"])]
 
@@ -293,8 +324,23 @@ def _boundary_part(mesh: Mesh, name: str | int) -> npt.NDArray[np.int32]:
     return edges.reshape(-1, 2)
 
 
+@overload
+def measure_errors(
+    mesh: TetMesh, *, fields: Sequence[str] = ..., frame: FieldFrame | None = ..., condition: bool = ..., threads: int | None = ...
+) -> TetErrorReport: ...
+@overload
 def measure_errors(
     mesh: MeshLike,
+    *,
+    fields: Sequence[str] = ...,
+    frame: FieldFrame | None = ...,
+    refine: int = ...,
+    condition: bool = ...,
+    local: bool = ...,
+    threads: int | None = ...,
+) -> ErrorReport: ...
+def measure_errors(
+    mesh: AnyMeshLike,
     *,
     fields: Sequence[str] = (),
     frame: FieldFrame | None = None,
@@ -302,19 +348,19 @@ def measure_errors(
     condition: bool = False,
     local: bool = False,
     threads: int | None = None,
-) -> ErrorReport:
+) -> ErrorReport | TetErrorReport:
     """Measures the errors that solvers make on a mesh, with manufactured solutions (docs/reference/errors.md defines
     every norm).
 
     Parameters
     ----------
-    mesh : MeshLike
+    mesh : Mesh, TetMesh, or of another library
     fields : sequence of str
         Names of fields or of groups (``"chosen"``, ``"held-back"``), or ``"all"``; empty: all.
     frame : FieldFrame, optional
         Frame of the fields; None: ``field_frame(mesh)``. Use one frame to compare meshes.
     refine : int
-        Number of refinements, each triangle into four; then orders are measured too.
+        Number of refinements, each triangle into four; then orders are measured too. For triangles alone, as ``local``.
     condition : bool
         Also estimate the condition of both matrices.
     local : bool
@@ -341,7 +387,15 @@ def measure_errors(
     if isinstance(fields, str):
         fields = [fields]
     plain_frame = frame._plain() if frame is not None else None
-    d = _temper.measure_errors(as_mesh(mesh)._handle, list(fields), plain_frame, refine, condition, local, threads)
+    any_mesh = as_any_mesh(mesh)
+    if isinstance(any_mesh, TetMesh):
+        if refine or local:
+            raise TypeError("refine and local are for triangles alone. Next: leave them out")
+        d = _temper.tet_measure_errors(any_mesh._handle, list(fields), plain_frame, condition)
+        systems = {name: ErrorSystem(**d[name]) for name in ("poisson", "flux")}
+        rows = _fields(d["fields"], error_fields(tetrahedra=True))
+        return TetErrorReport(**merged(d, frame=FieldFrame(**d["frame"]), fields=rows, **systems))
+    d = _temper.measure_errors(any_mesh._handle, list(fields), plain_frame, refine, condition, local, threads)
     levels = [ErrorLevel(**merged(level, fields=_fields(level["fields"]))) for level in d["levels"]]
     changed = {
         "frame": FieldFrame(**d["frame"]),
@@ -364,7 +418,8 @@ def arithmetic_mean(fields: Sequence[FieldErrors], group: FieldGroup | None = No
     return OperatorErrors._of(_temper.arithmetic_mean(*_plain(fields), group))
 
 
-def error_ratios(after: ErrorReport, before: ErrorReport) -> list[FieldErrors]:
+def error_ratios(after: ErrorReport | TetErrorReport, before: ErrorReport | TetErrorReport) -> list[FieldErrors]:
     """The ratio of errors, field by field: below 1 if ``after`` is better. TemperError if fields or frames differ."""
-    d = _temper.error_ratios(*_plain(after.fields), after.frame._plain(), *_plain(before.fields), before.frame._plain())
-    return _fields(d)
+    frames = (0.0, 0.0, 1.0), (0.0, 0.0, 1.0 if after.frame == before.frame else 2.0)  # equal if those are
+    d = _temper.error_ratios(*_plain(after.fields), frames[0], *_plain(before.fields), frames[1])
+    return _fields(d, [row.field for row in after.fields])

@@ -509,7 +509,7 @@ def as_mesh(mesh: MeshLike, *, in_place: bool = False) -> Mesh:
     if isinstance(mesh, Mesh):
         return mesh
     if isinstance(getattr(mesh, "_handle", None), _temper.TetMesh):
-        raise TypeError("expected a mesh of triangles, found a TetMesh. Next: temper.quality and temper.write take it")
+        raise TypeError("expected a mesh of triangles, found a TetMesh. Next: temper.quality, dec_operators, measure_errors and write take it")
     cells = cells_of(mesh)
     if cells is None:
         raise TypeError(f"expected a temper.Mesh, or a mesh of meshio, PyVista or xugrid, found {type(mesh).__name__}")

@@ -4,7 +4,7 @@ in notebooks.
 Submodules have such classes of their own, for example ``temper.topology``.
 """
 
-from ._dec import Columns, DecComplex, DecEdges, DecSummary, IncidenceMatrix, PowerCells
+from ._dec import Columns, DecComplex, DecEdges, DecSummary, IncidenceMatrix, PowerCells, TetDecComplex, TetDecEdges, TetDecFaces, TetDecSummary
 from ._draw import Html, Svg
 from ._explain import CrossingConflict, CrossingSide, Cure, Explanation, FanCenter, Reason
 from ._io import Format
@@ -12,7 +12,7 @@ from ._measure import Histogram, Quality, QualityMeasure, TetQuality, TriangleQu
 from ._optimize import DataReport, OptimizeReport, Replay, SizeChange, Snapshot, TraceEvent
 from ._outline import OutlineFile, OutlineMesh
 from ._progress import Progress, SweepRecord
-from ._measure_errors import ErrorNorms, FieldErrors, OperatorErrors, ErrorField, FieldFrame, ErrorLevel, ErrorReport, ErrorSystem, DiffusionErrors, DiffusionProblem
+from ._measure_errors import ErrorNorms, FieldErrors, OperatorErrors, ErrorField, FieldFrame, ErrorLevel, ErrorReport, ErrorSystem, DiffusionErrors, DiffusionProblem, TetErrorReport
 from ._weights import (
     BestMargin,
     Certificate,

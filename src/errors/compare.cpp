@@ -1,4 +1,5 @@
 // Errors as numbers in a row: means over fields, ratios of two meshes, orders over a family.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -108,18 +109,7 @@ OperatorErrors arithmetic_mean(std::span<const FieldErrors> fields, std::optiona
 }
 
 Expected<std::vector<FieldErrors>> error_ratios(const ErrorReport& after, const ErrorReport& before) {
-  bool same = after.fields.size() == before.fields.size() && after.frame == before.frame;
-  for (std::size_t i = 0; same && i < after.fields.size(); ++i) {
-    same = after.fields[i].field.name == before.fields[i].field.name;
-  }
-  if (!same) return InputError{ErrorCode::invalid_option, "", "errors of other fields, or of another frame"};
-  std::vector<FieldErrors> ratios = after.fields;
-  for (std::size_t i = 0; i < ratios.size(); ++i) {
-    for (const ErrorMeasure& measure : kMeasures) {
-      measure.at(ratios[i].errors) = ratio(measure.of(after.fields[i].errors), measure.of(before.fields[i].errors));
-    }
-  }
-  return ratios;
+  return error_detail::field_ratios(after.fields, before.fields, after.frame == before.frame);
 }
 
 std::vector<double> squared_solver_errors(const Mesh& mesh, Scheme scheme, Executor* executor) {
@@ -138,6 +128,19 @@ std::vector<double> squared_solver_errors(const Mesh& mesh, Scheme scheme, Execu
 }
 
 namespace error_detail {
+
+Expected<std::vector<FieldErrors>> field_ratios(std::span<const FieldErrors> after, std::span<const FieldErrors> before,
+                                                bool same_frame) {
+  const bool same = same_frame && std::equal(after.begin(), after.end(), before.begin(), before.end(),
+                                             [](const auto& a, const auto& b) { return a.field.name == b.field.name; });
+  if (!same) return InputError{ErrorCode::invalid_option, "", "errors of other fields, or of another frame"};
+  std::vector<FieldErrors> ratios(after.begin(), after.end());
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    for (const ErrorMeasure& measure : kMeasures)
+      measure.at(ratios[i].errors) = ratio(measure.of(after[i].errors), measure.of(before[i].errors));
+  }
+  return ratios;
+}
 
 std::vector<FieldErrors> convergence_orders(const std::vector<ErrorLevel>& levels) {
   std::vector<FieldErrors> orders = levels.front().fields;

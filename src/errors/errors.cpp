@@ -117,11 +117,11 @@ Measured measure(const Setting& setting, const std::vector<Field>& fields, bool 
   Measured measured;
   const SchemeErrors poisson = poisson_errors(setting, fields, condition);
   const LocalErrors weights = star_weights(setting);
-  FluxScheme flux(setting);
+  FluxScheme flux = flux_scheme(setting);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const auto means = edge_means(setting, fields[i]);
     const LocalErrors errors = local_star_errors(setting, fields[i], means);
-    flux.add_field(fields[i], means);
+    flux.add_field(fields[i], inflows(setting, means));
     add_squares(measured.local, errors);
     FieldErrors row = {fields[i].field, {}};
     row.errors.star = star_norms(setting, weights, errors);
@@ -129,7 +129,7 @@ Measured measure(const Setting& setting, const std::vector<Field>& fields, bool 
     measured.fields.push_back(row);
   }
   root_of_means(measured.local, fields.size());
-  const SchemeErrors solved = flux.solve(condition);
+  const SchemeErrors solved = flux.solve(weights[2], setting.area, condition);
   for (std::size_t i = 0; i < fields.size(); ++i) measured.fields[i].errors.flux = solved.fields[i];
   measured.poisson = poisson.system;
   measured.flux = solved.system;

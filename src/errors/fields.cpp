@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "temper/tets/errors.hpp"
+
 namespace temper {
 namespace error_detail {
 namespace {
@@ -75,6 +77,52 @@ constexpr std::array<Field, 10> kFields = {{
     {{"cubic", FieldGroup::held_back, "x^3 - 1.5 x y^2 + x^2 y + 0.5 y^2"}, cubic},
     {{"bump", FieldGroup::held_back, "exp(-2 (x + 0.1)^2 - 2 (y - 0.2)^2)"}, bump},
     {{"linear", FieldGroup::exact, "0.7 x - 0.4 y + 0.2"}, linear},
+}};
+
+// --- in space, for tetrahedra ------------------------------------------------------------------------------------
+
+/// amplitude · sin(k · p + phase); without a potential, which only measures in the plane need.
+FieldValue wave(Place p, double amplitude, Vec3 k, double phase) {
+  const double angle = dot(k, p) + phase;
+  const double s = amplitude * std::sin(angle), c = amplitude * std::cos(angle);
+  return {s, c * k, -squared_length(k) * s, {}};
+}
+
+FieldValue rising(Place p) { return wave(p, 1, Vec3{0.6, -0.8, 2.3}, 1.1); }
+FieldValue slanted(Place p) { return wave(p, 1, Vec3{1.3, 2.2, -0.9}, 0.5); }
+FieldValue opposed(Place p) { return wave(p, 1, Vec3{2.4, -1.1, 0.7}, kQuarter - 0.4); }
+FieldValue paraboloid(Place p) {
+  const auto [x, y, z] = static_cast<const Vec3&>(p);
+  return {0.6 * x * x - 0.8 * x * y + 0.5 * y * z - 0.4 * z * z + 0.3 * x,
+          {1.2 * x - 0.8 * y + 0.3, -0.8 * x + 0.5 * z, 0.5 * y - 0.8 * z},
+          0.4,
+          {}};
+}
+FieldValue pair_of_waves(Place p) {
+  return sum(wave(p, 1, Vec3{0.7, -2.1, 1.9}, kQuarter + 0.1), wave(p, 0.5, Vec3{2.3, 0.9, -0.8}, 0));
+}
+FieldValue steep_wave(Place p) { return wave(p, 1, Vec3{-1.6, 1.5, 2.1}, 0.8); }
+FieldValue harmonic_in_space(Place p) {
+  const double e = std::exp(p.x), angle = 0.6 * p.y + 0.8 * p.z, c = e * std::cos(angle), s = e * std::sin(angle);
+  return {c, {c, -0.6 * s, -0.8 * s}, 0, {}};
+}
+FieldValue linear_in_space(Place p) { return {0.7 * p.x - 0.4 * p.y + 0.5 * p.z + 0.2, {0.7, -0.4, 0.5}, 0, {}}; }
+
+constexpr Field in_space(std::string_view name, FieldGroup group, std::string_view formula, FieldValue (*at)(Place)) {
+  Field field = {{name, group, formula}, at};
+  field.in_space = true;
+  return field;
+}
+constexpr std::array<Field, 8> kSpaceFields = {{
+    in_space("oblique", FieldGroup::chosen, "sin(1.3 x + 2.2 y - 0.9 z + 0.5)", slanted),
+    in_space("counter", FieldGroup::chosen, "cos(2.4 x - 1.1 y + 0.7 z - 0.4)", opposed),
+    in_space("rising", FieldGroup::chosen, "sin(0.6 x - 0.8 y + 2.3 z + 1.1)", rising),
+    in_space("quadratic", FieldGroup::chosen, "0.6 x^2 - 0.8 x y + 0.5 y z - 0.4 z^2 + 0.3 x", paraboloid),
+    in_space("two-waves", FieldGroup::held_back, "cos(0.7 x - 2.1 y + 1.9 z + 0.1) + 0.5 sin(2.3 x + 0.9 y - 0.8 z)",
+             pair_of_waves),
+    in_space("steep", FieldGroup::held_back, "sin(-1.6 x + 1.5 y + 2.1 z + 0.8)", steep_wave),
+    in_space("harmonic", FieldGroup::held_back, "exp(x) cos(0.6 y + 0.8 z)", harmonic_in_space),
+    in_space("linear", FieldGroup::exact, "0.7 x - 0.4 y + 0.5 z + 0.2", linear_in_space),
 }};
 
 // --- on the sphere -----------------------------------------------------------------------------------------------
@@ -210,15 +258,6 @@ bool asks_for(std::string_view word, const ErrorField& field) {
   return word == field.name || word == name(field.group);
 }
 
-std::string known_fields(SpaceKind space) {
-  constexpr const char* kGroups[] = {"the fields are all, chosen, held-back, exact",
-                                     "the fields on the sphere are all, chosen, held-back",
-                                     "the fields in a periodic plane are all, chosen, held-back"};
-  std::string text = kGroups[static_cast<std::size_t>(space)];
-  for (const Field& f : all_fields(space)) text += ", " + std::string(f.field.name);
-  return text;
-}
-
 constexpr int kPieces = 8;  // of each side, so that the rule's error is rounding
 
 FieldSize size_in_plane(const Field& field) {
@@ -229,6 +268,21 @@ FieldSize size_in_plane(const Field& field) {
       const FieldValue value = field.at({2 * i.at - 1, 2 * j.at - 1});
       sum.value += i.weight * j.weight * value.u * value.u;
       sum.gradient += i.weight * j.weight * squared_length(value.gradient);
+    }
+  }
+  return {std::sqrt(sum.value), std::sqrt(sum.gradient)};
+}
+
+FieldSize size_in_space(const Field& field) {
+  FieldSize sum;
+  const auto nodes = gauss_nodes(2);  // of each side: waves of space are not longer, and a rule has n³ points
+  for (const GaussNode& i : nodes) {
+    for (const GaussNode& j : nodes) {
+      for (const GaussNode& k : nodes) {
+        const FieldValue value = field.at({2 * i.at - 1, 2 * j.at - 1, 2 * k.at - 1});
+        sum.value += i.weight * j.weight * k.weight * value.u * value.u;
+        sum.gradient += i.weight * j.weight * k.weight * squared_length(value.gradient);
+      }
     }
   }
   return {std::sqrt(sum.value), std::sqrt(sum.gradient)};
@@ -265,7 +319,10 @@ std::span<const Field> all_fields(SpaceKind space) {
   return kPeriodicFields;
 }
 
+std::span<const Field> fields_of_space() { return kSpaceFields; }
+
 FieldSize size_of(const Field& field) {
+  if (field.in_space) return size_in_space(field);
   if (field.space == SpaceKind::plane) return size_in_plane(field);
   return field.space == SpaceKind::sphere ? size_on_sphere(field) : size_of_modes(field);
 }
@@ -278,8 +335,15 @@ Vec2 first_waves(const Space& space, const FieldFrame& frame) {
 }
 
 Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names, SpaceKind space) {
+  constexpr const char* kGroups[] = {"the fields are all, chosen, held-back, exact",
+                                     "the fields on the sphere are all, chosen, held-back",
+                                     "the fields in a periodic plane are all, chosen, held-back"};
+  return select_fields(names, all_fields(space), kGroups[static_cast<std::size_t>(space)]);
+}
+
+Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names, std::span<const Field> all,
+                                           std::string known_fields) {
   const std::vector<std::string> asked = names.empty() ? std::vector<std::string>{"all"} : names;
-  const std::span<const Field> all = all_fields(space);
   std::vector<bool> wanted(all.size(), false);
   for (const std::string& word : asked) {
     bool known = false;
@@ -288,7 +352,8 @@ Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names
       wanted[i] = known = true;
     }
     if (!known) {
-      return InputError{ErrorCode::invalid_option, "", "no field '" + word + "'; " + known_fields(space)};
+      for (const Field& f : all) known_fields.append(", ").append(f.field.name);
+      return InputError{ErrorCode::invalid_option, "", "no field '" + word + "'; " + known_fields};
     }
   }
   std::vector<Field> fields;
@@ -330,6 +395,11 @@ std::span<const ErrorField> error_fields(SpaceKind space) {
   if (space == SpaceKind::plane) return kPlane;
   if (space == SpaceKind::sphere) return kSphere;
   return kPeriodic;
+}
+
+std::span<const ErrorField> tets::error_fields() {
+  static constexpr auto kSpace = public_part(error_detail::kSpaceFields);
+  return kSpace;
 }
 
 }  // namespace temper

@@ -80,6 +80,7 @@ struct Field {
   FieldValue (*in_frame)(Place p);
   SpaceKind space = SpaceKind::plane;
   std::span<const FourierMode> modes = {};  ///< of a periodic plane, instead of in_frame
+  bool in_space = false;                    ///< of three coordinates, for tetrahedra
   Vec2 wave = {};                           ///< the wave numbers of the mode m = n = 1, in the frame
 
   [[nodiscard]] FieldValue at(Place p) const;
@@ -100,5 +101,11 @@ struct FieldSize {
 /// The fields that MeasureErrorsOptions::fields asks for, in the order of all_fields(), each once.
 [[nodiscard]] Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names,
                                                          SpaceKind space = SpaceKind::plane);
+/// The same of other fields; `known` begins the list of them in errors.
+[[nodiscard]] Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names,
+                                                         std::span<const Field> all, std::string known);
+
+/// The waves and other fields of space, with their sizes over [−1, 1]³.
+[[nodiscard]] std::span<const Field> fields_of_space();
 
 }  // namespace temper::error_detail

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "base/median.hpp"
 #include "errors/stars.hpp"
@@ -145,23 +146,22 @@ std::size_t root_of(std::vector<std::size_t>& parents, std::size_t i) {
 
 }  // namespace
 
-FluxScheme::FluxScheme(const Setting& setting) : setting_(setting), points_({}) {
+bool CellLink::is_coincident() const { return std::abs(dual_length) <= kCoincident * size; }
+
+FluxScheme::FluxScheme(std::vector<CellLink> links, std::vector<Place> orthocenters, bool is_closed)
+    : links_(std::move(links)), orthocenters_(std::move(orthocenters)), is_closed_(is_closed), points_({}) {
   merge();
   points_ = PointSystem(given_groups());
   assemble();
 }
 
-bool FluxScheme::coincident(const DecEdge& edge) const {
-  return std::abs(edge.dual_length) <= kCoincident * edge.length;
-}
-
 void FluxScheme::merge() {
-  groups_.resize(setting_.mesh.n_triangles());
+  groups_.resize(orthocenters_.size());
   std::iota(groups_.begin(), groups_.end(), std::size_t{0});
-  for (const DecEdge& edge : setting_.dec.edges) {
-    if (edge.is_boundary() || !coincident(edge)) continue;
+  for (const CellLink& link : links_) {
+    if (link.is_boundary() || !link.is_coincident()) continue;
     ++system_.merged;
-    const std::size_t a = root_of(groups_, edge.left.index), b = root_of(groups_, edge.right.index);
+    const std::size_t a = root_of(groups_, link.cell), b = root_of(groups_, link.other);
     groups_[std::max(a, b)] = std::min(a, b);
   }
   for (std::size_t t = 0; t < groups_.size(); ++t) groups_[t] = root_of(groups_, t);
@@ -170,16 +170,14 @@ void FluxScheme::merge() {
 std::vector<bool> FluxScheme::given_groups() {
   std::vector<bool> given(groups_.size(), false);
   given_at_.resize(groups_.size(), Place(0, 0));
-  for (std::size_t e = 0; e < setting_.dec.edges.size(); ++e) {
-    const DecEdge& edge = setting_.dec.edges[EdgeId(e)];
-    if (!edge.is_boundary() || !coincident(edge)) continue;
-    const std::size_t g = group(inner_triangle(edge));
-    given[g] = true;
-    given_at_[g] = setting_.midpoint(EdgeId(e));
+  for (const CellLink& link : links_) {
+    if (!link.is_boundary() || !link.is_coincident()) continue;
+    given[groups_[link.cell]] = true;
+    given_at_[groups_[link.cell]] = link.foot;
   }
-  if (setting_.is_closed) {
+  if (is_closed_) {
     given[0] = true;
-    given_at_[0] = setting_.orthocenter(TriangleId(0));
+    given_at_[0] = orthocenters_[0];
   }
   for (std::size_t t = 0; t < groups_.size(); ++t) given[t] = given[t] || groups_[t] != t;
   return given;
@@ -187,35 +185,29 @@ std::vector<bool> FluxScheme::given_groups() {
 
 void FluxScheme::assemble() {
   std::vector<double> inside;
-  const auto& dec = setting_.dec;
-  for (std::size_t e = 0; e < dec.edges.size(); ++e) {
-    const DecEdge& edge = dec.edges[EdgeId(e)];
-    const double flux = dec.transmissibility[EdgeId(e)];
-    if (!edge.is_boundary()) inside.push_back(std::abs(flux));
-    if (flux < 0) ++system_.negative;
-    if (coincident(edge)) continue;
-    const std::size_t a = group(inner_triangle(edge));
-    if (edge.is_boundary()) {
-      points_.connect_outside(a, flux);
-    } else if (a != group(edge.right)) {  // else merged by other edges, so that nothing flows between them
-      points_.connect(a, group(edge.right), flux);
+  for (const CellLink& link : links_) {
+    if (!link.is_boundary()) inside.push_back(std::abs(link.transmissibility));
+    if (link.transmissibility < 0) ++system_.negative;
+    if (link.is_coincident()) continue;
+    const std::size_t a = groups_[link.cell];
+    if (link.is_boundary()) {
+      points_.connect_outside(a, link.transmissibility);
+    } else if (a != groups_[link.other]) {  // else merged by other edges, so that nothing flows between them
+      points_.connect(a, groups_[link.other], link.transmissibility);
     }
   }
   system_.largest_over_median = largest_over_median(std::move(inside));
 }
 
-void FluxScheme::add_field(const Field& field, const IdVector<EdgeId, EdgeMeans>& means) {
+void FluxScheme::add_field(const Field& field, const std::vector<double>& inflows) {
   std::vector<double> sources(groups_.size(), 0.0);
-  for (std::size_t e = 0; e < means.size(); ++e) {
-    const DecEdge& edge = setting_.dec.edges[EdgeId(e)];
-    // ∫ f = −∮ ∇u · n, and n points to the right of the edge out of the triangle on its left.
-    const Vec2 left = turned_left(direction(setting_, edge));
-    const double flow = setting_.length_in_frame(edge.length) * dot(means[EdgeId(e)].gradient, left);
-    if (edge.left.valid()) sources[group(edge.left)] += flow;
-    if (edge.right.valid()) sources[group(edge.right)] -= flow;
-    if (coincident(edge) || !edge.is_boundary()) continue;
-    const double value = field.at(setting_.midpoint(EdgeId(e))).u;
-    sources[group(inner_triangle(edge))] += setting_.dec.transmissibility[EdgeId(e)] * value;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const CellLink& link = links_[i];
+    sources[groups_[link.cell]] += inflows[i];
+    if (!link.is_boundary())
+      sources[groups_[link.other]] -= inflows[i];
+    else if (!link.is_coincident())
+      sources[groups_[link.cell]] += link.transmissibility * field.at(link.foot).u;
   }
   right_sides_.push_back(points_.right_side(sources, given_values(field)));
   fields_.push_back(field);
@@ -227,7 +219,7 @@ std::vector<double> FluxScheme::given_values(const Field& field) const {
   return values;
 }
 
-SchemeErrors FluxScheme::solve(bool condition) {
+SchemeErrors FluxScheme::solve(const std::vector<double>& weights, double all, bool condition) {
   const LinearSystem linear = {points_.n_unknowns(), points_.lower(), std::move(right_sides_)};
   const LinearSolution solution = error_detail::solve(linear, condition);
   SchemeErrors result = {system_, {}};
@@ -238,18 +230,44 @@ SchemeErrors FluxScheme::solve(bool condition) {
       result.fields.push_back({infinity, infinity});
       continue;
     }
-    std::vector<double> weights, errors, values = given_values(fields_[f]);
+    std::vector<double> errors, values = given_values(fields_[f]);
     points_.put(solution.solutions[f], values);
-    for (const TriangleId t : setting_.mesh.triangles()) {
-      weights.push_back(setting_.area_in_frame(setting_.dec.areas[t]));
-      errors.push_back(values[group(t)] - fields_[f].at(setting_.orthocenter(t)).u);
-    }
-    if (setting_.is_closed) forget_constant(weights, errors);
+    for (std::size_t t = 0; t < groups_.size(); ++t)
+      errors.push_back(values[groups_[t]] - fields_[f].at(orthocenters_[t]).u);
+    if (is_closed_) forget_constant(weights, errors);
     const ErrorNorms norms = norms_of(weights, errors);
     const double size = size_of(fields_[f]).value;
-    result.fields.push_back({norms.l2 / std::sqrt(setting_.area) / size, norms.max / size});
+    result.fields.push_back({norms.l2 / std::sqrt(all) / size, norms.max / size});
   }
   return result;
+}
+
+FluxScheme flux_scheme(const Setting& s) {
+  std::vector<CellLink> links;
+  std::vector<Place> orthocenters;
+  links.reserve(s.dec.edges.size());
+  orthocenters.reserve(s.mesh.n_triangles());
+  for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
+    const DecEdge& edge = s.dec.edges[EdgeId(e)];
+    const std::size_t other = edge.is_boundary() ? CellLink::kOutside : edge.right.index;
+    links.push_back({inner_triangle(edge).index, other, s.dec.transmissibility[EdgeId(e)], edge.dual_length,
+                     edge.length, s.midpoint(EdgeId(e))});
+  }
+  for (const TriangleId t : s.mesh.triangles()) orthocenters.push_back(s.orthocenter(t));
+  return {std::move(links), std::move(orthocenters), s.is_closed};
+}
+
+/// n points to the right of an edge out of the triangle on its left.
+std::vector<double> inflows(const Setting& s, const IdVector<EdgeId, EdgeMeans>& means) {
+  std::vector<double> flows;
+  flows.reserve(means.size());
+  for (std::size_t e = 0; e < means.size(); ++e) {
+    const DecEdge& edge = s.dec.edges[EdgeId(e)];
+    const Vec2 left = turned_left(direction(s, edge));
+    const double flow = s.length_in_frame(edge.length) * dot(means[EdgeId(e)].gradient, left);
+    flows.push_back(edge.left.valid() ? flow : -flow);
+  }
+  return flows;
 }
 
 }  // namespace temper::error_detail

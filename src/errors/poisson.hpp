@@ -2,6 +2,7 @@
 // up to a constant. So one unknown is given, and the mean of the error is subtracted.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "errors/solve.hpp"
@@ -30,30 +31,49 @@ void describe(const LinearSystem& linear, const LinearSolution& solution, ErrorS
 /// Subtracts the weighted mean from errors of a mesh without boundary, in place.
 void forget_constant(const std::vector<double>& weights, std::vector<double>& errors);
 
-/// The two-point flux: its matrix once, then one right side per field.
+/// A dual edge between the orthocenters of two cells, or from one to the boundary.
+struct CellLink {
+  static constexpr std::size_t kOutside = static_cast<std::size_t>(-1);
+
+  std::size_t cell, other;  ///< other: kOutside on the boundary
+  double transmissibility;
+  double dual_length;
+  double size;  ///< of the face, as a length
+  Place foot;   ///< in the frame, where the dual edge ends on the boundary
+
+  [[nodiscard]] bool is_boundary() const { return other == kOutside; }
+  [[nodiscard]] bool is_coincident() const;
+};
+
+/// The two-point flux between orthocenters: its matrix once, then one right side per field.
 class FluxScheme {
  public:
-  explicit FluxScheme(const Setting& setting);
-  /// `means` of the field: they hold ∫ f of each triangle.
-  void add_field(const Field& field, const IdVector<EdgeId, EdgeMeans>& means);
-  [[nodiscard]] SchemeErrors solve(bool condition);
+  /// One place per cell: its orthocenter, in the frame. A closed mesh has no boundary.
+  FluxScheme(std::vector<CellLink> links, std::vector<Place> orthocenters, bool is_closed);
+  /// `inflows`: −∫ ∇u · n over the face of each link, n out of its cell. Those of a cell sum to ∫ f.
+  void add_field(const Field& field, const std::vector<double>& inflows);
+  /// `weights`: the size of each cell, and their sum.
+  [[nodiscard]] SchemeErrors solve(const std::vector<double>& weights, double all, bool condition);
 
  private:
   void merge();
   [[nodiscard]] std::vector<bool> given_groups();
   void assemble();
-  [[nodiscard]] bool coincident(const DecEdge& edge) const;
-  [[nodiscard]] std::size_t group(TriangleId t) const { return groups_[t.index]; }
   [[nodiscard]] std::vector<double> given_values(const Field& field) const;  // of groups that have one
 
-  const Setting& setting_;
-  std::vector<std::size_t> groups_;  // triangle → the group of coinciding orthocenters that it is in, by its first
+  std::vector<CellLink> links_;
+  std::vector<Place> orthocenters_;
+  bool is_closed_;
+  std::vector<std::size_t> groups_;  // cell → the group of coinciding orthocenters that it is in, by its first
   std::vector<Place> given_at_;      // group → the boundary point that gives its value
   PointSystem points_;               // groups
   std::vector<std::vector<double>> right_sides_;
   std::vector<Field> fields_;
   ErrorSystem system_;
 };
+[[nodiscard]] FluxScheme flux_scheme(const Setting& setting);
+/// The inflow over each edge, from the means of the field.
+[[nodiscard]] std::vector<double> inflows(const Setting& setting, const IdVector<EdgeId, EdgeMeans>& means);
 
 struct Measured {
   std::vector<FieldErrors> fields;
@@ -61,6 +81,10 @@ struct Measured {
   LocalErrors local;  ///< root mean square over the fields
 };
 [[nodiscard]] Measured measure(const Setting& setting, const std::vector<Field>& fields, bool condition);
+
+/// The ratio of errors, field by field. Error: other fields, or not the same frame.
+[[nodiscard]] Expected<std::vector<FieldErrors>> field_ratios(std::span<const FieldErrors> after,
+                                                              std::span<const FieldErrors> before, bool same_frame);
 
 /// The orders of convergence of each field, by least squares. See ErrorReport::orders.
 [[nodiscard]] std::vector<FieldErrors> convergence_orders(const std::vector<ErrorLevel>& levels);

@@ -1,4 +1,4 @@
-// See make_discretization_error() of tetrahedra in temper/errors.hpp: solver_error.cpp, with a dimension more, for
+// See make_discretization_error() in temper/tets/errors.hpp: solver_error.cpp, with a dimension more, for
 // unknowns at the vertices. d0ᵀ ★1 d0 v = ★0 f for a wave u; J = c Σ ★0 e², e = v − u, and A λ = ∂J/∂e. Then the
 // derivative of J is that of J − λᵀ (A v − ★0 f) with v and λ kept. It reaches positions and weights through the parts
 // of ★1 and ★0 in each tetrahedron.
@@ -12,7 +12,7 @@
 
 #include "base/sine_cosine.hpp"
 #include "errors/solve.hpp"
-#include "temper/errors.hpp"
+#include "temper/tets/errors.hpp"
 #include "temper/tets/operators.hpp"
 #include "temper/tets/optimize.hpp"
 #include "tets/energy/offset.hpp"
@@ -51,14 +51,7 @@ struct SpaceWaves {
 
 /// Directions on a spiral from one pole to the equator.
 std::array<SpaceWaves, kTetBlocks> space_waves(const TetMesh& mesh, double volume) {
-  Vec3 low = mesh.position(VertexId(0)), high = low;
-  for (const VertexId v : mesh.vertices()) {
-    const Vec3 p = mesh.position(v);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const Vec3 center = 0.5 * (low + high);
-  const double half_size = 0.5 * std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const auto [center, half_size] = field_frame(mesh);
   const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
   std::array<SpaceWaves, kTetBlocks> blocks;
   for (std::size_t b = 0; b < kTetBlocks; ++b) {

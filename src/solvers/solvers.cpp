@@ -5,6 +5,7 @@
 #endif
 #ifdef TEMPER_WITH_ERRORS
 #include "temper/errors.hpp"
+#include "temper/tets/errors.hpp"
 #endif
 
 namespace temper {

@@ -3,12 +3,14 @@
 test_dec.py TEMPER
 """
 
+import base64
 import os
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
+import zlib
 
 import meshio
 import numpy
@@ -26,7 +28,7 @@ def run(*arguments):
 
 
 def check_formats_agree(folder, arrays):
-    for name in ["d0", "d1", "star0", "star1", "star2"]:
+    for name in ["d0", "d1", "star0", "star1", "star2"] + (["d2", "star3"] if "tetrahedra" in arrays else []):
         from_npz = scipy.sparse.load_npz(f"{folder}/{name}.npz")
         from_mtx = scipy.io.mmread(f"{folder}/{name}.mtx").tocsr()
         check(from_npz.shape == from_mtx.shape, f"{name}: shapes")
@@ -79,6 +81,36 @@ def check_vtu(folder, a):
     check(numpy.isclose(total, a["triangle_areas"].sum(), rtol=1e-12), "dual.vtu: areas sum to the domain's")
 
 
+def check_tetrahedra(folder, a):
+    check((scipy.io.mmread(f"{folder}/face_orthocenters.mtx") == a["face_orthocenters"]).all(), "face_orthocenters.mtx")
+    edges = meshio.read(f"{folder}/dual_edges.vtu")
+    ends = edges.points[edges.cells_dict["line"]]
+    check(numpy.allclose(numpy.linalg.norm(ends[:, 0] - ends[:, 1], axis=1), abs(a["dual_lengths"]), atol=1e-9), "dual_edges.vtu: lengths")
+    # The signed volume of each dual cell, from its faces as seen from outside, is its star.
+    points, faces, ends, stars = (vtu_array(f"{folder}/dual.vtu", name) for name in ("Points", "faces", "faceoffsets", "star0"))
+    points = points.reshape(-1, 3)
+    check(len(ends) == len(a["star0"]) and (stars == a["star0"]).all(), "dual.vtu: one cell a vertex")
+    for stream, star in zip(numpy.split(faces, ends[:-1]), stars):
+        volume, at = 0.0, 1
+        for _ in range(stream[0]):
+            face = points[stream[at + 1 : at + 1 + stream[at]]]
+            volume += sum(numpy.cross(face[i], face[i + 1]) @ face[0] for i in range(1, len(face) - 1)) / 6
+            at += 1 + stream[at]
+        check(at == len(stream) and abs(volume - star) < 1e-10, f"dual.vtu: a cell of volume {volume} with star0 {star}")
+
+
+def vtu_array(path, name):
+    """An array of a VTU file with blocks of zlib in base64. (meshio does not read data of polyhedra.)"""
+    text = pathlib.Path(path).read_text(encoding="ascii")
+    kind, data = re.search(rf'<DataArray type="(\w+)" Name="{name}"[^>]*>\n(.*?)\n</DataArray>', text, re.S).groups()
+    n = int.from_bytes(base64.b64decode(data[:12])[:8], "little")
+    head = 4 * ((8 * (3 + n) + 2) // 3)
+    sizes = numpy.frombuffer(base64.b64decode(data[:head]), "<u8")[3:].astype(int)
+    body = base64.b64decode(data[head:])
+    blocks = [zlib.decompress(body[end - size : end]) for size, end in zip(sizes, sizes.cumsum())]
+    return numpy.frombuffer(b"".join(blocks), kind.lower())
+
+
 def check_docs():
     """The commands and the script of docs/reference/operators.md."""
     text = DOCS.read_text()
@@ -93,6 +125,17 @@ def check_docs():
     check(len(inner) > 0 and (u[inner] > 0).all() and (u[boundary] == 0).all(), "docs: the solution obeys the maximum principle")
 
 
+def shaken_cubes(n=3):
+    """Cubes in six tetrahedra each, with points moved at random."""
+    line = numpy.arange(n + 1)
+    points = numpy.stack(numpy.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3).astype(float)
+    number = numpy.arange((n + 1) ** 3).reshape(n + 1, n + 1, n + 1)
+    corners = numpy.stack([number[i : i + n, j : j + n, k : k + n].ravel() for k in (0, 1) for j in (0, 1) for i in (0, 1)], axis=1)
+    points += numpy.random.default_rng(1).uniform(-0.1, 0.1, points.shape)
+    around = [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]]
+    return points, corners[:, around].reshape(-1, 4)
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
@@ -104,6 +147,13 @@ def main():
             check_formats_agree(example, arrays)
             check_laws(example, arrays)
             check_vtu(example, arrays)
+        points, tetrahedra = shaken_cubes()
+        meshio.write("cubes.vtu", meshio.Mesh(points, [("tetra", tetrahedra)]))
+        run("operators", "cubes.vtu", "-o", "cubes")
+        arrays = dict(numpy.load("cubes/operators.npz", allow_pickle=False))
+        check((arrays["star2"] < 0).any(), "cubes: some dual edges are negative")
+        check_formats_agree("cubes", arrays)
+        check_tetrahedra("cubes", arrays)
         check_docs()
     print(f"{checks_made()} checks passed")
 

@@ -5,18 +5,17 @@
 // library's.
 #include "temper/dec.hpp"
 
-#include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include "oracle/rational.hpp"
 #include "unit/geometry/degenerate_families.hpp"
 
 namespace temper {
 namespace {
 
-using Rational = mpq_class;
-
-// Three determinants, each off by 2⁻⁴² of itself at most, and a few roundings.
-constexpr double kRelative = 1e-12;
+using testing::expect_relative;
+using testing::kRelative;
+using testing::Rational;
 
 struct RationalVector {
   Rational x, y;
@@ -34,15 +33,6 @@ Rational rational_star1(const WeightedPoint& p, const WeightedPoint& q, const Ra
                         const RationalVector& right) {
   const Rational x = Rational(q.x) - p.x, y = Rational(q.y) - p.y;
   return ((left.y - right.y) * x - (left.x - right.x) * y) / (x * x + y * y);
-}
-
-void expect_relative(double found, const Rational& expected) {
-  if (expected == 0) {
-    EXPECT_EQ(found, 0);
-    return;
-  }
-  const Rational error = (Rational(found) - expected) / expected;
-  EXPECT_LE(std::abs(error.get_d()), kRelative) << found << " for " << expected.get_d();
 }
 
 TEST(DecOracle, EveryStarHasASmallRelativeErrorOnDegenerateFamilies) {

@@ -3,11 +3,11 @@
 //
 // The oracle shares no formula with the library: it eliminates whole matrices of raw coordinates, solves for the
 // orthocenter, and asks on which side of a face it is. In a face it takes barycentric coordinates.
-#include <gmpxx.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "oracle/rational.hpp"
 #include "support/tet_lattice.hpp"
 #include "temper/tets/geometry.hpp"
 #include "temper/tets/operators.hpp"
@@ -16,7 +16,8 @@
 namespace temper::tets {
 namespace {
 
-using Rational = mpq_class;
+using testing::expect_relative;
+using testing::Rational;
 using Matrix = std::vector<std::vector<Rational>>;
 using testing::integer;
 using testing::Random;
@@ -250,18 +251,6 @@ TEST(TetOracle, NoSignIsWrongOnAnyDegenerateFamily) {
     EXPECT_EQ(wrong, 0);
   }
   EXPECT_GT(ties, 500);
-}
-
-// A determinant of each factor, off by 2⁻⁴² of itself at most, and a few roundings.
-constexpr double kRelative = 1e-12;
-
-void expect_relative(double found, const Rational& expected) {
-  if (expected == 0) {
-    EXPECT_EQ(found, 0);
-    return;
-  }
-  const Rational error = (Rational(found) - expected) / expected;
-  EXPECT_LE(std::abs(error.get_d()), kRelative) << found << " for " << expected.get_d();
 }
 
 /// The normal of the face pqr, of length 2 A.

@@ -73,6 +73,9 @@ STRUCTS = {
     "TriangleQuality": (temper.types.TriangleQuality, set()),
     "DecComplex": (temper.types.DecComplex, {"sphere_orthocenters", "sphere_midpoints"}),
     "DecSummary": (temper.types.DecSummary, set()),
+    "tets::DecComplex": (temper.types.TetDecComplex, set()),
+    "tets::ErrorReport": (temper.types.TetErrorReport, set()),
+    "tets::DecSummary": (temper.types.TetDecSummary, set()),
     "PowerCells": (temper.types.PowerCells, {"sphere_corners", "faces"}),
     "Columns": (temper.types.Columns, {"connections"}),
     "IncidenceMatrix": (temper.types.IncidenceMatrix, set()),
@@ -101,7 +104,7 @@ def functions_of(header):
     names = set()
     for match in re.finditer(r"^(?:\[\[nodiscard\]\] )?(?:(?:inline|constexpr) )*[A-Za-z_][\w:<>,*& ]*? \*?&?(\w+)\(", text, re.M):
         names.add(match[1])
-    return names - {"operator", "sqrt"}
+    return names - {"operator", "sqrt", "alignas"}
 
 
 def fields_of(struct):

@@ -1,5 +1,6 @@
 """Meshes of tetrahedra: from arrays, from other libraries and from files, and the report on them."""
 
+import dataclasses
 import json
 import pickle
 import subprocess
@@ -154,7 +155,7 @@ def test_errors_have_the_numbers_of_the_arrays_and_a_next_step():
 
 def test_functions_for_triangles_say_so(shaken):
     with pytest.raises(TypeError, match="expected a mesh of triangles, found a TetMesh. Next: "):
-        temper.dec_operators(shaken)
+        temper.explain(shaken)
     with pytest.raises(TypeError, match="gamma is for triangles alone"):
         temper.quality(shaken, gamma=0.5)
 
@@ -197,6 +198,69 @@ def test_a_mesh_goes_through_meshio(shaken):
     assert isinstance(again, meshio.Mesh) and set(again.cells_dict) == {"tetra", "triangle", "line", "vertex"}
     assert again.cell_data_dict["gmsh:physical"]["triangle"].tolist() == [7, 8]
     assert temper.TetMesh.from_meshio(again) == shaken and temper.quality(again) == temper.quality(shaken)
+
+
+def test_operators_have_the_laws_of_a_complex(shaken, tmp_path):
+    dual = temper.dec_operators(shaken)
+    edges, faces, n, m = dual.edges, dual.faces, shaken.n_vertices, shaken.n_tetrahedra
+    assert dual.d0.shape == (len(edges), n) and dual.d1.shape == (len(faces), len(edges)) and dual.d2.shape == (m, len(faces))
+    d0, d1, d2 = (each.toarray() for each in (dual.d0, dual.d1, dual.d2))
+    assert not (d1 @ d0).any() and not (d2 @ d1).any()
+    assert np.allclose(dual.volumes, volumes(shaken.points, shaken.tetrahedra)) and np.allclose(dual.star3, 1 / dual.volumes)
+    assert np.isclose(dual.star0.sum(), 27) and np.isclose((edges.length * edges.dual_area).sum(), 81)
+    assert np.allclose(dual.star1, edges.dual_area / edges.length) and np.allclose(dual.star2 * dual.transmissibility, 1)
+    assert faces.is_boundary.sum() == 108 and edges.is_boundary.sum() == 162
+    slope = np.array([1.0, -2, 0.5])
+    laplacian = d0.T @ (dual.star1 * (d0 @ (shaken.points @ slope)))
+    assert np.allclose(laplacian[(shaken.points > 0).all(axis=1) & (shaken.points < 3).all(axis=1)], 0)
+    behind, ahead = (np.where(side[:, None] < 0, faces.orthocenter, dual.orthocenters[side]) for side in faces.tetrahedra.T)
+    p, q, r = (shaken.points[corner] for corner in faces.vertices.T)
+    assert np.allclose(dual.transmissibility * ((ahead - behind) @ slope), np.cross(q - p, r - p) @ slope / 2)
+    assert pickle.loads(pickle.dumps(dual)) == dual and dual.summarize().star0_sum == pytest.approx(27)
+    with pytest.raises(ValueError, match="read-only"):
+        dual.star1[0] = 1
+    files = dual.write(tmp_path / "out", formats=["npz"])
+    assert len(files) == 8 and np.array_equal(np.load(files[0])["star2"], dual.star2)
+
+
+def test_errors_of_tetrahedra(shaken):
+    if not hasattr(temper._temper, "measure_errors"):
+        pytest.skip("built without Eigen")
+    frame = temper.field_frame(shaken)
+    assert frame.center == (1.5, 1.5, 1.5) and frame.half_size == 1.5
+    report = temper.measure_errors(shaken, condition=True)
+    assert [row.field for row in report.fields] == [field for field in temper.error_fields(tetrahedra=True) if field.group != "exact"]
+    assert report.tetrahedra == 162 and report.flux.unknowns == 162 and report.poisson.condition >= 1
+    exact = temper.measure_errors(shaken, fields=["linear"], frame=frame).fields[0].errors
+    assert max(exact.poisson.max, exact.flux.max, exact.star[1].max) < 1e-9 and exact.star[0].max > 0.01
+    points, tetrahedra = cubes(3)
+    regular = temper.measure_errors(temper.TetMesh(points, tetrahedra), frame=frame)
+    ratios = temper.error_ratios(report, regular)
+    assert [row.field.name for row in ratios] == [row.field.name for row in report.fields]
+    assert temper.geometric_mean(ratios, "held-back").star[1].l2 > 1
+    assert "two-point flux, L2" in str(report)
+    with pytest.raises(temper.TemperError, match="other fields, or of another frame"):
+        temper.error_ratios(report, temper.measure_errors(shaken, frame=dataclasses.replace(frame, half_size=2.0)))
+    with pytest.raises(TypeError, match="refine and local are for triangles alone"):
+        temper.measure_errors(shaken, refine=1)
+
+
+def test_operators_take_a_coefficient_and_know_named_parts():
+    points, tetrahedra = cubes(2, seed=3)
+    cells = Bare(
+        points=points, point_data={}, cell_data={"gmsh:physical": [np.ones(48, int), np.array([7])]}, field_data={"inflow": [7, 2]},
+        cells=[Bare(type="tetra", data=tetrahedra), Bare(type="triangle", data=np.array([[0, 1, 4]]))],
+    )  # fmt: skip
+    mesh = temper.TetMesh.from_meshio(cells)
+    plain, scaled = temper.dec_operators(mesh), temper.dec_operators(mesh, coefficient={1: 2.5})
+    assert plain.faces.vertices[plain.faces.named["inflow"]].tolist() == [[0, 1, 4]] and plain.edges.named == {}
+    assert np.allclose(scaled.star1, 2.5 * plain.star1) and np.allclose(scaled.transmissibility, 2.5 * plain.transmissibility)
+    assert np.array_equal(scaled.star2, plain.star2) and np.isclose(scaled.capacity.sum(), 2.5 * 8)
+    for wrong, message in (([1.0, 2.0], "expected one value per tetrahedron"), ({2: 1.0}, "there is none for \\[1\\]")):
+        with pytest.raises(ValueError, match=message):
+            temper.dec_operators(mesh, coefficient=wrong)
+    with pytest.raises(TypeError, match="tensor is for triangles alone"):
+        temper.dec_operators(mesh, tensor=(1, 0, 1))
 
 
 def test_limits_lists_the_measures():

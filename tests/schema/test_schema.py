@@ -27,8 +27,10 @@ def other_documents(temper, folder):
         proof, ("weights", said("weights", "in.vtu", "-o", "w.vtu", "--mode", "elastic", "--connectivity", "search", exit=None)),
         ("certificate_check", said("weights", "shoe.vtu", "--check-certificate", "why.json")), ("certificate", file("why.json")),
         ("errors", said("errors", "square.vtu", "--refine", "1", "--against", "square.vtu")),
+        ("errors_tetrahedra", said("errors", "tet.mesh", "--against", "tet.mesh")),
         ("problem", said("errors", "square.vtu", "--dirichlet", "1=0", "--source", "1", "--against", "square.vtu")),
         ("operators", said("operators", "square.vtu", "-o", "dual", "--format", "npz")),
+        ("operators_tetrahedra", said("operators", "tet.mesh", "-o", "dual", "--format", "npz")),
     ]  # fmt: skip
 
 

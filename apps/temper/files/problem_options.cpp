@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "options/options.hpp"
@@ -24,22 +25,29 @@ std::vector<std::string_view> names_of_numbers(const std::vector<io::DataArray>&
   return names;
 }
 
-/// The data of triangles with this name.
-std::vector<double> from_data(const Command& command, const std::string& name, const Input& input) {
+/// What a coefficient has a value for.
+template <class AnyInput>
+constexpr bool kOfTetrahedra = std::is_same_v<AnyInput, TetInput>;
+auto elements_of(const Mesh& mesh) { return mesh.triangles(); }
+auto elements_of(const tets::TetMesh& mesh) { return mesh.tetrahedra(); }
+
+/// The data of triangles or tetrahedra with this name.
+template <class AnyInput>
+std::vector<double> from_data(const Command& command, const std::string& name, const AnyInput& input) {
   if (const io::DataArray* const found = find_numbers(input.file.cell_data, name)) return as_doubles(*found);
   const std::vector<std::string_view> names = names_of_numbers(input.file.cell_data);
   throw Failure(Exit::bad_usage,
-                fmt::format("{}: {}: --coefficient: there are no data '{}' of triangles; {}. Next: give one of these, "
+                fmt::format("{}: {}: --coefficient: there are no data '{}' of {}; {}. Next: give one of these, "
                             "or REGION=K,...",
-                            command.name(), input.path, name,
+                            command.name(), input.path, name, kOfTetrahedra<AnyInput> ? "tetrahedra" : "triangles",
                             names.empty() ? "the file has none of one number" : "there are " + join(names)));
 }
 
-/// The tag of a region (dimension 2) or of lines (1), by its number or its name.
+/// The tag of a region or of lines (dimension 1), by its number or its name.
 std::int32_t tag_of(const Command& command, const std::string& option, const std::string& word, int dimension,
-                    const Input& input) {
+                    const std::vector<io::PhysicalName>& all) {
   std::vector<std::string_view> names;
-  for (const io::PhysicalName& n : input.file.names) {
+  for (const io::PhysicalName& n : all) {
     if (n.dimension != dimension) continue;
     if (n.name == word) return n.tag;
     names.push_back(n.name);
@@ -47,7 +55,7 @@ std::int32_t tag_of(const Command& command, const std::string& option, const std
   const auto number = parse_number(word);
   if (number && *number == std::floor(*number) && std::abs(*number) < 2e9) return static_cast<std::int32_t>(*number);
   refuse_usage(command.name(), fmt::format("{}: expected the number or name of {} before '=', found '{}'{}", option,
-                                           dimension == 2 ? "a region" : "lines on the boundary", word,
+                                           dimension > 1 ? "a region" : "lines on the boundary", word,
                                            names.empty() ? "" : "; names are " + join(names)));
 }
 
@@ -60,11 +68,14 @@ std::pair<std::string, double> name_and_value(const Command& command, const std:
   return {entry.substr(0, equals), *value};
 }
 
-std::map<std::int32_t, double> values_of_regions(const Command& command, const std::string& text, const Input& input) {
+template <class AnyInput>
+std::map<std::int32_t, double> values_of_regions(const Command& command, const std::string& text,
+                                                 const AnyInput& input) {
   std::map<std::int32_t, double> values;
   for (const std::string& entry : separated(text)) {
     const auto [name, value] = name_and_value(command, "--coefficient", entry);
-    const std::int32_t region = tag_of(command, "--coefficient", name, 2, input);
+    const std::int32_t region =
+        tag_of(command, "--coefficient", name, kOfTetrahedra<AnyInput> ? 3 : 2, input.file.names);
     if (!values.emplace(region, value).second) {
       refuse_usage(command.name(), fmt::format("--coefficient: region {} has two values", region));
     }
@@ -72,15 +83,16 @@ std::map<std::int32_t, double> values_of_regions(const Command& command, const s
   return values;
 }
 
-std::vector<double> from_regions(const Command& command, const std::string& text, const Input& input) {
+template <class AnyInput>
+std::vector<double> from_regions(const Command& command, const std::string& text, const AnyInput& input) {
   const std::map<std::int32_t, double> values = values_of_regions(command, text, input);
-  std::map<std::int32_t, std::size_t> triangles;
+  std::map<std::int32_t, std::size_t> elements;
   std::vector<double> coefficient;
   std::string missing;
-  for (const TriangleId t : input.mesh().triangles()) {
+  for (const auto t : elements_of(input.mesh())) {
     const std::int32_t region = input.mesh().region(t);
     const auto found = values.find(region);
-    if (++triangles[region] == 1 && found == values.end())
+    if (++elements[region] == 1 && found == values.end())
       missing += fmt::format("{}{}", missing.empty() ? "" : ", ", region);
     coefficient.push_back(found == values.end() ? 0 : found->second);
   }
@@ -89,7 +101,7 @@ std::vector<double> from_regions(const Command& command, const std::string& text
                                                input.path, missing));
   }
   for (const auto& [region, value] : values) {
-    if (triangles.count(region) != 0) continue;
+    if (elements.count(region) != 0) continue;
     throw Failure(Exit::bad_usage,
                   fmt::format("{}: {}: --coefficient: the mesh has no region {}", command.name(), input.path, region));
   }
@@ -99,14 +111,28 @@ std::vector<double> from_regions(const Command& command, const std::string& text
 }  // namespace
 
 void add_coefficient(Command& command, std::string& target) {
-  add_text(command, "--coefficient", "NAME", target,
-           "Coefficient K > 0 of -div(K grad u) on each triangle: the name of data of triangles. Or write a value for "
-           "each region, by number or name: 1=1e-4,clay=1e-9.");
+  add_text(
+      command, "--coefficient", "NAME", target,
+      "Coefficient K > 0 of -div(K grad u) on each triangle or tetrahedron: the name of its data. Or write a value "
+      "for each region, by number or name: 1=1e-4,clay=1e-9.");
 }
 
-std::vector<double> read_coefficient(const Command& command, const std::string& text, const Input& input) {
+namespace {
+
+template <class AnyInput>
+std::vector<double> coefficient_of(const Command& command, const std::string& text, const AnyInput& input) {
   if (text.empty()) return {};
   return text.find('=') == std::string::npos ? from_data(command, text, input) : from_regions(command, text, input);
+}
+
+}  // namespace
+
+std::vector<double> read_coefficient(const Command& command, const std::string& text, const Input& input) {
+  return coefficient_of(command, text, input);
+}
+
+std::vector<double> read_coefficient(const Command& command, const std::string& text, const TetInput& input) {
+  return coefficient_of(command, text, input);
 }
 
 namespace {
@@ -150,7 +176,7 @@ void add_boundary_values(const Command& command, bool is_flux, const std::string
         if (mesh.is_boundary(h)) part.edges.push_back({mesh.origin(h), mesh.target(h)});
       }
     } else {
-      const std::int32_t tag = tag_of(command, option, name, 1, input);
+      const std::int32_t tag = tag_of(command, option, name, 1, input.file.names);
       for (std::size_t i = 0; i < input.file.lines.size(); ++i) {
         if (input.file.line_tags[i] != tag) continue;
         const auto& [from, to] = input.file.lines[i];

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "console.hpp"
 #include "reports/reports.hpp"
@@ -11,8 +14,6 @@ namespace temper::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 struct CellCounts {
   std::size_t empty = 0;    ///< outside of the domain
@@ -54,12 +55,105 @@ ColumnCounts count(const Columns& columns) {
 
 double over_median(double largest, double median) { return largest > median && median > 0 ? largest / median : 1; }
 
+/// A number of the report: its key in JSON, and its label in the text, empty if it is not there.
+struct Row {
+  const char* key;
+  const char* label;
+  std::variant<std::size_t, double> value;
+};
+
+/// Sizes of coefficients, of triangles or tetrahedra.
+template <class Summary>
+void add_coefficients(std::vector<Row>& rows, const Summary& s) {
+  rows.insert(rows.end(), {{"median_star1", "median |star1|", s.median_star1},
+                           {"max_star1", "largest |star1|", s.max_star1},
+                           {"max_star1_over_median", "  over the median", over_median(s.max_star1, s.median_star1)},
+                           {"median_transmissibility", "", s.median_transmissibility},
+                           {"max_transmissibility", "largest |transmissibility|", s.max_transmissibility},
+                           {"max_transmissibility_over_median", "  over the median",
+                            over_median(s.max_transmissibility, s.median_transmissibility)}});
+}
+
+std::vector<Row> rows_of(const DecRecord& record) {
+  const DecSummary& s = record.summary;
+  const CellCounts cells = count(record.cells);
+  std::vector<Row> rows = {{"vertices", "vertices", s.vertices},
+                           {"edges", "edges", s.edges},
+                           {"boundary_edges", "  on the boundary", s.boundary_edges},
+                           {"triangles", "triangles", s.triangles},
+                           {"not_well_centered", "  not well-centered", s.not_well_centered},
+                           {"area", "area of the domain", s.area},
+                           {"star0_sum", "sum of star0", s.star0_sum},
+                           {"cell_area_sum", "sum of the power cells' areas", cells.area},
+                           {"negative_star0", "negative star0", s.negative_star0},
+                           {"negative_star1", "negative star1, interior edges", s.negative_star1},
+                           {"negative_boundary_star1", "negative star1, boundary edges", s.negative_boundary_star1},
+                           {"zero_star1", "zero star1, interior edges", s.zero_star1},
+                           {"min_star0", "least star0", s.min_star0},
+                           {"min_star1", "least star1", s.min_star1}};
+  add_coefficients(rows, s);
+  rows.insert(rows.end(), {{"cell_polygons", "polygons of power cells", record.cells.n_polygons()},
+                           {"divided_cells", "  cells of several", cells.divided},
+                           {"empty_cells", "  cells outside of the domain", cells.empty}});
+  return rows;
+}
+
+std::vector<Row> rows_of(const TetDecRecord& record) {
+  const tets::DecSummary& s = record.summary;
+  std::vector<Row> rows = {{"vertices", "vertices", s.vertices},
+                           {"edges", "edges", s.edges},
+                           {"faces", "faces", s.faces},
+                           {"boundary_faces", "  on the boundary", s.boundary_faces},
+                           {"tetrahedra", "tetrahedra", s.tetrahedra},
+                           {"not_well_centered", "  not well-centered", s.not_well_centered},
+                           {"volume", "volume of the domain", s.volume},
+                           {"star0_sum", "sum of star0", s.star0_sum},
+                           {"negative_star0", "negative star0", s.negative_star0},
+                           {"negative_star1", "negative star1", s.negative_star1},
+                           {"negative_star2", "negative star2, interior faces", s.negative_star2},
+                           {"negative_boundary_star2", "negative star2, boundary faces", s.negative_boundary_star2},
+                           {"zero_star2", "zero star2, interior faces", s.zero_star2},
+                           {"min_star0", "least star0", s.min_star0},
+                           {"min_star1", "least star1", s.min_star1},
+                           {"min_star2", "least star2", s.min_star2}};
+  add_coefficients(rows, s);
+  return rows;
+}
+
 std::string line(const std::string& label, const std::string& value) {
   constexpr std::size_t kNameColumns = 34, kValueColumns = 16;
   return pad_right(label, kNameColumns) + pad_left(value, kValueColumns) + "\n";
 }
 std::string line(const std::string& label, std::size_t value) { return line(label, fmt::format("{}", value)); }
 std::string line(const std::string& label, double value) { return line(label, fmt::format("{:.9g}", value)); }
+
+std::string text_of(const std::vector<Row>& rows) {
+  std::string text;
+  for (const Row& row : rows) {
+    if (*row.label != '\0') std::visit([&](auto value) { text += line(row.label, value); }, row.value);
+  }
+  return text;
+}
+
+std::string text_of(const std::vector<std::string>& files) {
+  std::string text;
+  for (const std::string& file : files) text += "wrote " + file + "\n";
+  return text;
+}
+
+Json json_of(const std::vector<Row>& rows) {
+  Json json;
+  json["schema"] = kSchema;
+  for (const Row& row : rows) {
+    if (const double* const number = std::get_if<double>(&row.value))
+      json[row.key] = std::isfinite(*number) ? Json(*number) : Json(nullptr);
+    else
+      json[row.key] = std::get<std::size_t>(row.value);
+  }
+  return json;
+}
+
+std::string dec_dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 std::string columns_text(const Columns& columns) {
   const ColumnCounts c = count(columns);
@@ -87,59 +181,23 @@ Json columns_json(const Columns& columns) {
 }  // namespace
 
 std::string dec_text(const DecRecord& record) {
-  const DecSummary& s = record.summary;
-  const CellCounts cells = count(record.cells);
-  std::string text = line("vertices", s.vertices) + line("edges", s.edges) +
-                     line("  on the boundary", s.boundary_edges) + line("triangles", s.triangles) +
-                     line("  not well-centered", s.not_well_centered);
-  text += line("area of the domain", s.area) + line("sum of star0", s.star0_sum) +
-          line("sum of the power cells' areas", cells.area);
-  text += line("negative star0", s.negative_star0) + line("negative star1, interior edges", s.negative_star1) +
-          line("negative star1, boundary edges", s.negative_boundary_star1) +
-          line("zero star1, interior edges", s.zero_star1);
-  text += line("least star0", s.min_star0) + line("least star1", s.min_star1) + line("median |star1|", s.median_star1) +
-          line("largest |star1|", s.max_star1) + line("  over the median", over_median(s.max_star1, s.median_star1)) +
-          line("largest |transmissibility|", s.max_transmissibility) +
-          line("  over the median", over_median(s.max_transmissibility, s.median_transmissibility));
-  text += line("polygons of power cells", record.cells.n_polygons()) + line("  cells of several", cells.divided) +
-          line("  cells outside of the domain", cells.empty);
-  if (record.columns != nullptr) text += columns_text(*record.columns);
-  for (const std::string& file : record.files) text += "wrote " + file + "\n";
-  return text;
+  return text_of(rows_of(record)) + (record.columns != nullptr ? columns_text(*record.columns) : "") +
+         text_of(record.files);
 }
 
 std::string dec_json(const DecRecord& record) {
-  const DecSummary& s = record.summary;
-  const CellCounts cells = count(record.cells);
-  Json json;
-  json["schema"] = kSchema;
-  json["vertices"] = s.vertices;
-  json["edges"] = s.edges;
-  json["boundary_edges"] = s.boundary_edges;
-  json["triangles"] = s.triangles;
-  json["not_well_centered"] = s.not_well_centered;
-  json["area"] = s.area;
-  json["star0_sum"] = s.star0_sum;
-  json["cell_area_sum"] = cells.area;
-  json["negative_star0"] = s.negative_star0;
-  json["negative_star1"] = s.negative_star1;
-  json["negative_boundary_star1"] = s.negative_boundary_star1;
-  json["zero_star1"] = s.zero_star1;
-  json["min_star0"] = s.min_star0;
-  json["min_star1"] = s.min_star1;
-  json["median_star1"] = s.median_star1;
-  json["max_star1"] = s.max_star1;
-  json["max_star1_over_median"] = finite_or_null(over_median(s.max_star1, s.median_star1));
-  json["median_transmissibility"] = finite_or_null(s.median_transmissibility);
-  json["max_transmissibility"] = finite_or_null(s.max_transmissibility);
-  json["max_transmissibility_over_median"] =
-      finite_or_null(over_median(s.max_transmissibility, s.median_transmissibility));
-  json["cell_polygons"] = record.cells.n_polygons();
-  json["divided_cells"] = cells.divided;
-  json["empty_cells"] = cells.empty;
+  Json json = json_of(rows_of(record));
   if (record.columns != nullptr) json["columns"] = columns_json(*record.columns);
   json["files"] = record.files;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return dec_dump(json);
+}
+
+std::string dec_text(const TetDecRecord& record) { return text_of(rows_of(record)) + text_of(record.files); }
+
+std::string dec_json(const TetDecRecord& record) {
+  Json json = json_of(rows_of(record));
+  json["files"] = record.files;
+  return dec_dump(json);
 }
 
 std::vector<std::string> dec_warnings(const DecRecord& record) {
@@ -161,6 +219,24 @@ std::vector<std::string> dec_warnings(const DecRecord& record) {
     warnings.push_back(
         fmt::format("{}: {} with a dual edge of length zero: star1 is 0 there, and the two-point flux is infinite",
                     record.path, edges(s.zero_star1)));
+  }
+  return warnings;
+}
+
+std::vector<std::string> dec_warnings(const TetDecRecord& record) {
+  const tets::DecSummary& s = record.summary;
+  std::vector<std::string> warnings;
+  if (s.not_well_centered > 0) {
+    warnings.push_back(fmt::format(
+        "{}: {} of {} tetrahedra are not well-centered: {} interior and {} boundary entries of star2, {} of "
+        "star1 and {} of star0 are negative. Next: temper optimize makes them positive",
+        record.path, s.not_well_centered, s.tetrahedra, s.negative_star2, s.negative_boundary_star2, s.negative_star1,
+        s.negative_star0));
+  }
+  if (s.zero_star2 > 0) {
+    warnings.push_back(
+        fmt::format("{}: {} with a dual edge of length zero: star2 is 0 there, and the two-point flux is infinite",
+                    record.path, plural(s.zero_star2, "interior face", "interior faces")));
   }
   return warnings;
 }

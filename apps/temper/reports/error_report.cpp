@@ -97,8 +97,9 @@ std::string table(const std::string& title, std::string_view norm, const std::ve
 
 std::string yes_no(bool value) { return value ? "yes" : "no"; }
 
-std::string matrices_text(const ErrorReport& report, const TextStyle& style) {
-  const ErrorSystem &p = report.poisson, &f = report.flux;
+/// `links`: what leads from one cell to the next, "edges" or "faces".
+std::string matrices_text(const ErrorSystem& p, const ErrorSystem& f, const std::string& links,
+                          const TextStyle& style) {
   const auto value = [&](double x) { return number_text(x, Shown::ratios, style); };
   std::string text = "\n" + row_text("matrix", {"Poisson", "flux"});
   text += row_text("unknowns", {std::to_string(p.unknowns), std::to_string(f.unknowns)});
@@ -106,7 +107,7 @@ std::string matrices_text(const ErrorReport& report, const TextStyle& style) {
   text += row_text("positive definite", {yes_no(p.definite), yes_no(f.definite)});
   text += row_text("singular", {yes_no(p.singular), yes_no(f.singular)});
   text += row_text("negative coefficients", {std::to_string(p.negative), std::to_string(f.negative)});
-  text += row_text("edges between merged cells", {"-", std::to_string(f.merged)});
+  text += row_text(links + " between merged cells", {"-", std::to_string(f.merged)});
   text += row_text("largest coefficient over median", {value(p.largest_over_median), value(f.largest_over_median)});
   if (p.condition && f.condition) text += row_text("condition, at least", {value(*p.condition), value(*f.condition)});
   return text;
@@ -217,19 +218,37 @@ std::string problem_json(const ProblemRecord& record) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string error_text(const ErrorRecord& record, const TextStyle& style) {
-  const ErrorReport& report = record.report;
-  std::string text = fmt::format("{}: {}, {} not well-centered; {} not regular\n", record.path,
-                                 plural(report.triangles, "triangle", "triangles"), report.not_well_centered,
-                                 plural(report.non_regular_edges, "interior edge", "interior edges"));
-  text += table("relative error, L2", ".l2", report.fields, Shown::errors, style);
-  text += table("relative error, maximum", ".max", report.fields, Shown::errors, style);
-  text += matrices_text(report, style);
+namespace {
+
+template <class Record>
+std::string errors_text(const Record& record, const std::string& links, const TextStyle& style) {
+  std::string text = table("relative error, L2", ".l2", record.report.fields, Shown::errors, style);
+  text += table("relative error, maximum", ".max", record.report.fields, Shown::errors, style);
+  text += matrices_text(record.report.poisson, record.report.flux, links, style);
   if (record.against) {
     text += fmt::format("\nover the errors of {}:\n", record.against->path);
     text += table("ratio, L2", ".l2", record.against->ratios, Shown::ratios, style);
     text += table("ratio, maximum", ".max", record.against->ratios, Shown::ratios, style);
   }
+  return text;
+}
+
+}  // namespace
+
+std::string error_text(const TetErrorRecord& record, const TextStyle& style) {
+  const tets::ErrorReport& report = record.report;
+  return fmt::format("{}: {}, {} not well-centered; {} not regular\n", record.path,
+                     plural(report.tetrahedra, "tetrahedron", "tetrahedra"), report.not_well_centered,
+                     plural(report.non_regular_faces, "interior face", "interior faces")) +
+         errors_text(record, "faces", style);
+}
+
+std::string error_text(const ErrorRecord& record, const TextStyle& style) {
+  const ErrorReport& report = record.report;
+  std::string text = fmt::format("{}: {}, {} not well-centered; {} not regular\n", record.path,
+                                 plural(report.triangles, "triangle", "triangles"), report.not_well_centered,
+                                 plural(report.non_regular_edges, "interior edge", "interior edges"));
+  text += errors_text(record, "edges", style);
   if (!report.levels.empty()) {
     text += levels_text(report);
     text += table("order, L2", ".l2", report.orders, Shown::orders, style);
@@ -278,7 +297,25 @@ Json error_report_json(const ErrorReport& report) {
   return json;
 }
 
-std::string error_json(const ErrorRecord& record) {
+Json error_report_json(const tets::ErrorReport& report) {
+  const auto& [center, half_size] = report.frame;
+  return {{"vertices", report.vertices},
+          {"edges", report.edges},
+          {"faces", report.faces},
+          {"tetrahedra", report.tetrahedra},
+          {"not_well_centered", report.not_well_centered},
+          {"non_regular_faces", report.non_regular_faces},
+          {"negative_boundary_duals", report.negative_boundary_duals},
+          {"negative_star0", report.negative_star0},
+          {"frame", {{"center", {center.x, center.y, center.z}}, {"half_size", half_size}}},
+          {"matrices", {{"poisson", system_json(report.poisson)}, {"flux", system_json(report.flux)}}},
+          {"errors", fields_json(report.fields, Shown::errors)}};
+}
+
+namespace {
+
+template <class Record>
+std::string record_json(const Record& record) {
   Json json = {{"schema", kSchema}};
   json.update(error_report_json(record.report));
   if (record.against) {
@@ -288,6 +325,12 @@ std::string error_json(const ErrorRecord& record) {
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
+
+}  // namespace
+
+std::string error_json(const ErrorRecord& record) { return record_json(record); }
+
+std::string error_json(const TetErrorRecord& record) { return record_json(record); }
 
 std::string edge_errors_csv(const ErrorReport& report, const Input& input) {
   const DecComplex complex = dec_operators(input.mesh());

@@ -8,21 +8,24 @@
 
 #include "reports/quality_report.hpp"
 #include "temper/errors.hpp"
+#include "temper/tets/errors.hpp"
 
 namespace temper::app {
 
-/// The mesh that another one is measured against, in the same frame.
-struct ErrorReference {
+/// A mesh of triangles or tetrahedra, and another one that it is measured against, in the same frame.
+template <class Report>
+struct ErrorRecordOf {
+  struct Reference {
+    std::string path;
+    Report report;
+    std::vector<FieldErrors> ratios;
+  };
   std::string path;
-  ErrorReport report;
-  std::vector<FieldErrors> ratios;
+  Report report;
+  std::optional<Reference> against;
 };
-
-struct ErrorRecord {
-  std::string path;
-  ErrorReport report;
-  std::optional<ErrorReference> against;
-};
+using ErrorRecord = ErrorRecordOf<ErrorReport>;
+using TetErrorRecord = ErrorRecordOf<tets::ErrorReport>;
 
 /// The user's own problem on a mesh, and on another one.
 struct ProblemRecord {
@@ -36,12 +39,15 @@ struct ProblemRecord {
 
 [[nodiscard]] std::string error_text(const ErrorRecord& record, const TextStyle& style);
 [[nodiscard]] std::string error_json(const ErrorRecord& record);
+[[nodiscard]] std::string error_text(const TetErrorRecord& record, const TextStyle& style);
+[[nodiscard]] std::string error_json(const TetErrorRecord& record);
 
 /// Geometric means of the errors of two meshes, one line per measure: `temper optimize --measure-errors`.
 [[nodiscard]] std::string error_comparison_text(const ErrorReport& before, const ErrorReport& after,
                                                 const TextStyle& style);
 /// One report, as a part of other reports.
 [[nodiscard]] nlohmann::ordered_json error_report_json(const ErrorReport& report);
+[[nodiscard]] nlohmann::ordered_json error_report_json(const tets::ErrorReport& report);
 
 /// One line per edge: from,to,star1,error. Points count from 0, in the order of the file's arrays.
 [[nodiscard]] std::string edge_errors_csv(const ErrorReport& report, const Input& input);

@@ -22,6 +22,7 @@
 #include "temper/mesher.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
+#include "temper/tets/operators.hpp"
 
 namespace temper::app {
 
@@ -37,6 +38,16 @@ struct DecRecord {
 
 [[nodiscard]] std::string dec_text(const DecRecord& record);
 [[nodiscard]] std::string dec_json(const DecRecord& record);
+/// The same of tetrahedra.
+struct TetDecRecord {
+  std::string path;
+  const tets::DecSummary& summary;
+  std::vector<std::string> files;
+};
+[[nodiscard]] std::string dec_text(const TetDecRecord& record);
+[[nodiscard]] std::string dec_json(const TetDecRecord& record);
+[[nodiscard]] std::vector<std::string> dec_warnings(const TetDecRecord& record);
+
 /// The warnings that the author of a solver should read before using the operators: none for a well-centered mesh.
 [[nodiscard]] std::vector<std::string> dec_warnings(const DecRecord& record);
 

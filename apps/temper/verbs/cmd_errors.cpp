@@ -4,6 +4,8 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <variant>
 
 #include "console.hpp"
 #include "files/input.hpp"
@@ -46,6 +48,9 @@ std::string field_names() {
   add("Fields of the plane:", SpaceKind::plane);
   add(" Fields of the sphere:", SpaceKind::sphere);
   add(" Fields of a periodic plane:", SpaceKind::periodic_plane);
+  text += " Fields of tetrahedra:";
+  for (const ErrorField& field : tets::error_fields()) text += fmt::format(" {},", field.name);
+  text.back() = '.';
   return text;
 }
 
@@ -96,26 +101,29 @@ void check_fields(const MeasureErrorsOptions& options) {
     const auto tried = measure_errors(none, options);
     return !tried && tried.error().code == ErrorCode::invalid_option;
   };
-  if (unknown(Space()) && unknown(Space::sphere(1)) && unknown(Space::periodic({1, 1}))) {
+  const auto of_tetrahedra = tets::measure_errors({}, {.fields = options.fields});
+  if (unknown(Space()) && unknown(Space::sphere(1)) && unknown(Space::periodic({1, 1})) &&
+      of_tetrahedra.error().code == ErrorCode::invalid_option) {
     throw Failure(Exit::bad_usage, "--fields: " + report.error().message + "\nSee temper errors --help");
   }
 }
 
-bool same_box(const FieldFrame& a, const FieldFrame& b) {
-  return std::abs(a.half_size - b.half_size) <= kSameBox * b.half_size &&
-         length(a.center - b.center) <= kSameBox * b.half_size;
+/// Warns if two meshes do not have the same box.
+template <class Frame>
+void compare_boxes(const ErrorSettings& s, const Frame& a, const Frame& b) {
+  if (std::abs(a.half_size - b.half_size) <= kSameBox * b.half_size &&
+      length(a.center - b.center) <= kSameBox * b.half_size)
+    return;
+  print_warnings(std::vector<std::string>{fmt::format(
+      "{} and {} do not have the same bounding box: both are measured in the box of {}", s.input, s.against, s.input)});
 }
 
-ErrorReference measure_reference(const ErrorSettings& s, const std::string& projection,
-                                 const MeasureErrorsOptions& options, const FieldFrame& frame) {
+ErrorRecord::Reference measure_reference(const ErrorSettings& s, const std::string& projection,
+                                         const MeasureErrorsOptions& options, const FieldFrame& frame) {
   Input reference = read_input(s.against, {projection, {}, options.executor, true, s.flat});
   print_warnings(reference.warnings());
   take_to_metric(reference, s.metric);
-  if (!same_box(frame, field_frame(reference.mesh()))) {
-    print_warnings(std::vector<std::string>{
-        fmt::format("{} and {} do not have the same bounding box: both are measured in the box of {}", s.input,
-                    s.against, s.input)});
-  }
+  compare_boxes(s, frame, field_frame(reference.mesh()));
   MeasureErrorsOptions same = options;
   same.refine = 0;
   same.local = false;
@@ -131,6 +139,34 @@ DiffusionErrors measure_problem(const Command& command, const ErrorSettings& s, 
   auto errors = measure_diffusion_errors(input.mesh(), problem, refinements, input.names.get());
   if (!errors) throw Failure(Exit::bad_input, located(errors.error(), path).what());
   return *std::move(errors);
+}
+
+/// The mesh of a file of tetrahedra.
+TetInput read_tetrahedra(const std::string& path, Executor* executor) {
+  auto file = read_any_tried(path, {executor});
+  auto* const tets = std::get_if<io::TetFile>(&file);
+  if (tets == nullptr)
+    throw Failure(Exit::bad_input, fmt::format("{}: expected tetrahedra, as in the other mesh, found triangles", path));
+  TetInput input = make_input(path, std::move(*tets), executor);
+  print_warnings(input.warnings());
+  return input;
+}
+
+Exit run_tetrahedra(const Command& command, const ErrorSettings& s, io::TetFile file, Executor* executor) {
+  for (const char* option : {"--projection", "--flat", "--edges", "--refine", "--tensor", "--dirichlet"})
+    refuse_for_tetrahedra("errors", s.input, {{command.was_given(option), option}});
+  const TetInput input = make_input(s.input, std::move(file), executor);
+  print_warnings(input.warnings());
+  tets::MeasureErrorsOptions options = {separated(s.fields), tets::field_frame(input.mesh()), s.condition};
+  TetErrorRecord record = {s.input, or_fail(tets::measure_errors(input.mesh(), options)), {}};
+  if (!s.against.empty()) {
+    const TetInput reference = read_tetrahedra(s.against, executor);
+    compare_boxes(s, *options.frame, tets::field_frame(reference.mesh()));
+    record.against = {s.against, or_fail(tets::measure_errors(reference.mesh(), options)), {}};
+    record.against->ratios = or_fail(tets::error_ratios(record.report, record.against->report));
+  }
+  s.json ? print_data(error_json(record)) : print(error_text(record, text_style()));
+  return Exit::done;
 }
 
 /// The report of the user's own problem.
@@ -167,9 +203,13 @@ Exit run_errors(const Arguments& arguments) {
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   expect_complete(command, s.problem);
+  auto file = read_any_tried(s.input, {threads.get(), s.flat});
+  if (auto* const tets = std::get_if<io::TetFile>(&file))
+    return run_tetrahedra(command, s, std::move(*tets), threads.get());
   if (s.problem.given()) return run_problem(command, s, threads.get());
   options.executor = threads.get();
-  Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.flat});
+  const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
+  Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.flat, read});
   print_warnings(input.warnings());
   take_to_metric(input, s.metric);
   options.frame = field_frame(input.mesh());

@@ -100,13 +100,13 @@ void check_layers(const Command& command, const DecSettings& s, const std::vecto
 }
 
 /// Checks before the work that a folder can be made, and that no input is one of the files that will be replaced.
-void check_folder(const DecSettings& s, const std::vector<io::DecFormat>& formats) {
+void check_folder(const DecSettings& s, const std::vector<io::DecFormat>& formats, io::DecKind kind) {
   std::error_code ignored;
   if (fs::exists(s.output, ignored) && !fs::is_directory(s.output, ignored)) {
     throw Failure(Exit::bad_input, fmt::format("{}: is not a folder; expected a folder, or a new name", s.output));
   }
   for (const io::DecFormat format : formats) {
-    for (const std::string_view name : io::dec_file_names(format, !s.layers.empty())) {
+    for (const std::string_view name : io::dec_file_names(format, kind)) {
       const std::string path = (fs::path(s.output) / name).string();
       if (same_file(path, s.input))
         throw Failure(Exit::bad_usage, fmt::format("operators: --output: {} is the input mesh", path));
@@ -116,11 +116,13 @@ void check_folder(const DecSettings& s, const std::vector<io::DecFormat>& format
   }
 }
 
-/// Takes K into the operators, if it is given.
-DecComplex with_k(const Command& command, const DecSettings& s, const Input& input, DecComplex complex) {
+/// Takes K into the operators of triangles or tetrahedra, if it is given.
+template <class AnyInput, class Complex, class Names>
+Complex with_k(const Command& command, const DecSettings& s, const AnyInput& input, Complex complex,
+               const Names& names) {
   const std::vector<double> k = read_coefficient(command, s.coefficient, input);
   if (k.empty()) return complex;
-  auto made = with_coefficient(input.mesh(), std::move(complex), k, input.names.get());
+  auto made = with_coefficient(input.mesh(), std::move(complex), k, names.get());
   if (!made) throw Failure(Exit::bad_input, located(made.error(), s.input).what());
   return *std::move(made);
 }
@@ -136,27 +138,56 @@ std::optional<Columns> make_columns(const DecSettings& s, const Input& input, co
   return *std::move(made);
 }
 
+Exit write_tetrahedra(const Command& command, const DecSettings& s, io::TetFile file,
+                      const std::vector<io::DecFormat>& formats, Executor* executor) {
+  refuse_for_tetrahedra("operators", s.input,
+                        {{!s.projection.empty(), "--projection"},
+                         {s.flat, "--flat"},
+                         {s.metric.has_value(), "--tensor"},
+                         {!s.layers.empty(), "--layers"},
+                         {command.was_given("--pinch-out"), "--pinch-out"}});
+  check_folder(s, formats, io::DecKind::tetrahedra);
+  const TetInput input = make_input(s.input, std::move(file), executor);
+  print_warnings(input.warnings());
+  const tets::DecComplex complex = with_k(command, s, input, tets::dec_operators(input.mesh()), input.file.numbering);
+  const tets::DecSummary summary = tets::summarize(complex);
+  TetDecRecord record = {s.input, summary, {}};
+  print_warnings(dec_warnings(record));
+  io::DecWriteOptions options;
+  options.formats = formats;
+  options.points = input.points;
+  options.executor = executor;
+  record.files = or_fail(io::write_dec(s.output, input.mesh(), complex, options));
+  s.json ? print_data(dec_json(record)) : print(dec_text(record));
+  return Exit::done;
+}
+
 }  // namespace
 
 Exit run_operators(const Arguments& arguments) {
   Command command("operators",
                   "Writes the operators of a mesh for solvers: incidence d0 and d1, and diagonal stars with signed "
                   "power duals. It also writes orthocenters, weighted midpoints, transmissibilities, and power cells "
-                  "within the domain. With --layers it also writes columns of cells for MODFLOW 6 and TOUGH.");
+                  "within the domain. With --layers it also writes columns of cells for MODFLOW 6 and TOUGH. A mesh "
+                  "of tetrahedra has d2 and star 3, too.");
   DecSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   const std::vector<io::DecFormat> formats = parse_formats(s.formats);
   check_layers(command, s, formats);
   expect_without(command, s.metric, "--layers");
-  check_folder(s, formats);
+  check_folder(s, formats, s.layers.empty() ? io::DecKind::triangles : io::DecKind::columns);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.flat});
+  auto file = read_any_tried(s.input, {threads.get(), s.flat});
+  if (auto* const tets = std::get_if<io::TetFile>(&file))
+    return write_tetrahedra(command, s, std::move(*tets), formats, threads.get());
+  const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
+  Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.flat, read});
   print_warnings(input.warnings());
   if (s.layers.empty()) io::release_geometry(input.file, input.loaded);  // the mesh has it
   const std::optional<Mesh> plain = take_to_metric(input, s.metric);
-  DecComplex complex = with_k(command, s, input, dec_operators(input.mesh()));
+  DecComplex complex = with_k(command, s, input, dec_operators(input.mesh()), input.names);
   PowerCells cells = power_cells(input.mesh(), complex);
   if (s.metric) {
     complex = mapped_back(std::move(complex), *s.metric);

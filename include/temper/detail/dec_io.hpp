@@ -14,6 +14,7 @@
 #include "temper/detail/error.hpp"
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"
+#include "temper/tets/operators.hpp"
 
 namespace temper {
 
@@ -22,6 +23,7 @@ class Executor;
 namespace io {
 
 enum class DecFormat {
+  // Files of tetrahedra also have d2 and star3.
   npz,  ///< Files operators.npz, all arrays; d0.npz, d1.npz, star0.npz, star1.npz, star2.npz for scipy.sparse.load_npz
   mtx,  ///< Files d0.mtx, d1.mtx, star0.mtx, star1.mtx, star2.mtx, transmissibility.mtx, orthocenters.mtx,
         ///< edge_midpoints.mtx
@@ -63,8 +65,11 @@ struct DecWriteOptions {
   Executor* executor = nullptr;       ///< Threads that compress; the bytes written do not depend on them
 };
 
-/// The names of the files that a format writes into its folder, with or without columns.
-[[nodiscard]] std::span<const std::string_view> dec_file_names(DecFormat format, bool has_columns = false);
+/// What is written into a folder.
+enum class DecKind { triangles, columns, tetrahedra };
+
+/// The names of the files that a format writes into its folder.
+[[nodiscard]] std::span<const std::string_view> dec_file_names(DecFormat format, DecKind kind = DecKind::triangles);
 
 /// Writes the operators into a folder, which is created if it does not exist. Every file is first a temporary file.
 /// When all are complete, they are renamed: an error leaves everything unchanged. Returns the paths of the files.
@@ -72,6 +77,11 @@ struct DecWriteOptions {
 /// more cells than TOUGH has names for. Precondition: `complex`, `cells` and columns belong to the mesh.
 [[nodiscard]] Expected<std::vector<std::string>> write_dec(const std::string& folder, const Mesh& mesh,
                                                            const DecComplex& complex, const PowerCells& cells,
+                                                           const DecWriteOptions& options = {});
+
+/// The same of tetrahedra. Error: formats that need columns.
+[[nodiscard]] Expected<std::vector<std::string>> write_dec(const std::string& folder, const tets::TetMesh& mesh,
+                                                           const tets::DecComplex& complex,
                                                            const DecWriteOptions& options = {});
 
 /// Reads layers: a CSV file with a title line and a row for each vertex, by its number in the file of the mesh.

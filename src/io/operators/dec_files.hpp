@@ -11,11 +11,9 @@
 
 namespace temper::io {
 
-struct DecJob {
-  const std::string& folder;
-  const Mesh& mesh;
-  const DecComplex& complex;
-  const PowerCells& cells;
+/// The folder of one call.
+struct DecFolder {
+  const std::string& path;
   const DecWriteOptions& options;
   OutputSet& outputs;
   std::vector<std::string>& written;
@@ -24,8 +22,19 @@ struct DecJob {
   [[nodiscard]] Output& open(std::string_view name) const;
 };
 
-/// Places in the coordinates of the files: two in the plane, three on the sphere. They refer to the mesh or its
-/// operators.
+struct DecJob : DecFolder {
+  const Mesh& mesh;
+  const DecComplex& complex;
+  const PowerCells& cells;
+};
+
+struct TetDecJob : DecFolder {
+  const tets::TetMesh& mesh;
+  const tets::DecComplex& complex;
+};
+
+/// Places in the coordinates of the files: two in the plane, three on the sphere and in space. They refer to the mesh
+/// or its operators.
 struct DecPositions {
   std::size_t coordinates, size;
   std::function<Vec3(std::size_t)> at;  // z is 0 in the plane
@@ -40,10 +49,38 @@ struct DecPositions {
 [[nodiscard]] DecPositions orthocenter_positions(const DecComplex& complex);
 [[nodiscard]] DecPositions midpoint_positions(const DecComplex& complex);
 [[nodiscard]] DecPositions corner_positions(const PowerCells& cells);
+[[nodiscard]] DecPositions vertex_positions(const tets::TetMesh& mesh);
+[[nodiscard]] DecPositions orthocenter_positions(const tets::DecComplex& complex);
+[[nodiscard]] DecPositions midpoint_positions(const tets::DecComplex& complex);
+[[nodiscard]] DecPositions face_orthocenter_positions(const tets::DecComplex& complex);
 
+/// The operators of triangles or tetrahedra, each with what it is. They refer to the complex.
+struct DecMatrices {
+  struct Incidence {
+    std::string_view name, is;
+    const IncidenceMatrix& matrix;
+  };
+  struct Diagonal {
+    std::string_view name, is;
+    const std::vector<double>& values;
+  };
+  struct Places {
+    std::string_view name, is;
+    DecPositions at;
+  };
+  std::vector<Incidence> incidence;  ///< d0, d1, …
+  std::vector<Diagonal> stars;       ///< ★0, ★1, …
+  Diagonal transmissibility;
+  std::vector<Places> places;
+};
+[[nodiscard]] DecMatrices matrices_of(const DecComplex& complex);
+[[nodiscard]] DecMatrices matrices_of(const tets::DecComplex& complex);
+
+void write_dec_mtx(const DecFolder& folder, const DecMatrices& matrices);
 void write_dec_npz(const DecJob& job);
-void write_dec_mtx(const DecJob& job);
+void write_dec_npz(const TetDecJob& job);
 void write_dec_vtu(const DecJob& job);
+void write_dec_vtu(const TetDecJob& job);
 // Precondition of the functions below: the job has columns.
 void write_columns_vtu(const DecJob& job);
 void write_columns_disv(const DecJob& job);

@@ -38,25 +38,46 @@ void put_columns(Output& out, std::size_t rows, std::size_t columns, std::string
   }
 }
 
-void put_positions(const DecJob& job, std::string_view name, const DecPositions& places, std::string_view of_what) {
+void put_positions(Output& out, const DecPositions& places, std::string_view of_what) {
   const std::string_view axes = places.coordinates == 2 ? "x, y " : "x, y, z ";
-  put_columns(job.open(name), places.size, places.coordinates, text(axes, of_what),
+  put_columns(out, places.size, places.coordinates, text(axes, of_what),
               [&](std::size_t row, std::size_t column) { return places.coordinate(row, column); });
 }
 
 }  // namespace
 
-void write_dec_mtx(const DecJob& job) {
-  const DecComplex& c = job.complex;
-  put_matrix(job.open("d0.mtx"), c.d0, "edges x vertices: -1 at the lower vertex, +1 at the higher");
-  put_matrix(job.open("d1.mtx"), c.d1, "triangles x edges: +1 where the edge runs counter-clockwise");
-  put_diagonal(job.open("star0.mtx"), c.star0.raw(), "signed areas of the dual cells of the vertices");
-  put_diagonal(job.open("star1.mtx"), c.star1.raw(), "signed dual length over length of the edges");
-  put_diagonal(job.open("star2.mtx"), c.star2.raw(), "1 / area of the triangles");
-  put_diagonal(job.open("transmissibility.mtx"), c.transmissibility.raw(),
-               "length over signed dual length of the edges");
-  put_positions(job, "orthocenters.mtx", orthocenter_positions(c), "of the orthocenters of the triangles");
-  put_positions(job, "edge_midpoints.mtx", midpoint_positions(c), "of the weighted midpoints of the edges");
+void write_dec_mtx(const DecFolder& folder, const DecMatrices& matrices) {
+  const auto open = [&](std::string_view name) -> Output& { return folder.open(text(name, ".mtx")); };
+  for (const auto& [name, is, matrix] : matrices.incidence) put_matrix(open(name), matrix, is);
+  for (const auto& [name, is, values] : matrices.stars) put_diagonal(open(name), values, is);
+  const auto& [name, is, values] = matrices.transmissibility;
+  put_diagonal(open(name), values, is);
+  for (const DecMatrices::Places& places : matrices.places) put_positions(open(places.name), places.at, places.is);
+}
+
+DecMatrices matrices_of(const DecComplex& c) {
+  return {{{"d0", "edges x vertices: -1 at the lower vertex, +1 at the higher", c.d0},
+           {"d1", "triangles x edges: +1 where the edge runs counter-clockwise", c.d1}},
+          {{"star0", "signed areas of the dual cells of the vertices", c.star0.raw()},
+           {"star1", "signed dual length over length of the edges", c.star1.raw()},
+           {"star2", "1 / area of the triangles", c.star2.raw()}},
+          {"transmissibility", "length over signed dual length of the edges", c.transmissibility.raw()},
+          {{"orthocenters", "of the orthocenters of the triangles", orthocenter_positions(c)},
+           {"edge_midpoints", "of the weighted midpoints of the edges", midpoint_positions(c)}}};
+}
+
+DecMatrices matrices_of(const tets::DecComplex& c) {
+  return {{{"d0", "edges x vertices: -1 at the lower vertex, +1 at the higher", c.d0},
+           {"d1", "faces x edges: +1 where the edge runs as in the face, from lower to higher vertices", c.d1},
+           {"d2", "tetrahedra x faces: +1 where the normal of the face points out of the tetrahedron", c.d2}},
+          {{"star0", "signed volumes of the dual cells of the vertices", c.star0.raw()},
+           {"star1", "signed dual area over length of the edges", c.star1.raw()},
+           {"star2", "signed dual length over area of the faces", c.star2.raw()},
+           {"star3", "1 / volume of the tetrahedra", c.star3.raw()}},
+          {"transmissibility", "area over signed dual length of the faces", c.transmissibility.raw()},
+          {{"orthocenters", "of the orthocenters of the tetrahedra", orthocenter_positions(c)},
+           {"edge_midpoints", "of the weighted midpoints of the edges", midpoint_positions(c)},
+           {"face_orthocenters", "of the orthocenters of the faces", face_orthocenter_positions(c)}}};
 }
 
 }  // namespace temper::io

@@ -68,15 +68,23 @@ void NpzWriter::add_bytes(std::string_view name, char kind, std::size_t bytes_ea
 
 std::int32_t signed_index(std::uint32_t index, bool valid) { return valid ? static_cast<std::int32_t>(index) : -1; }
 
-/// Values of the edges, `width` in each row.
-template <class T, class F>
-std::vector<T> of_edges(const DecComplex& c, std::size_t width, F value) {
-  std::vector<T> result;
-  result.reserve(width * c.edges.size());
-  for (const DecEdge& edge : c.edges) {
-    for (std::size_t k = 0; k < width; ++k) result.push_back(value(edge, k));
+/// An array of edges or faces, `width` values in each row.
+template <class T, class Elements, class F>
+void add_rows(NpzWriter& npz, std::string_view name, const Elements& elements, std::size_t width, F value) {
+  std::vector<T> values;
+  values.reserve(width * elements.size());
+  for (const auto& element : elements) {
+    for (std::size_t k = 0; k < width; ++k) values.push_back(static_cast<T>(value(element, k)));
   }
-  return result;
+  npz.add(name, values, {elements.size(), width});
+}
+/// A number of each edge or face.
+template <class Elements, class Struct>
+void add_numbers(NpzWriter& npz, std::string_view name, const Elements& elements, double Struct::*member) {
+  std::vector<double> values;
+  values.reserve(elements.size());
+  for (const Struct& element : elements) values.push_back(element.*member);
+  npz.add(name, values);
 }
 
 /// Places as rows: x and y in the plane, x, y and z on the sphere.
@@ -89,66 +97,92 @@ void add_positions(NpzWriter& npz, std::string_view name, const DecPositions& pl
   npz.add(name, values, {places.size, places.coordinates});
 }
 
-void add_mesh(NpzWriter& npz, const DecJob& job) {
-  const Mesh& mesh = job.mesh;
+/// Vertices, and the triangles or tetrahedra.
+template <class AnyMesh, class Elements>
+void add_mesh(NpzWriter& npz, const DecFolder& folder, const AnyMesh& mesh, std::string_view name,
+              const Elements& elements) {
+  constexpr std::size_t kCorners = std::tuple_size_v<std::remove_cvref_t<decltype(mesh.corners(*elements.begin()))>>;
   std::vector<double> weights;
   std::vector<std::int64_t> points;
   for (const VertexId v : mesh.vertices()) {
     weights.push_back(mesh.weight(v));
-    points.push_back(static_cast<std::int64_t>(job.options.points.empty() ? v.index : job.options.points[v.index]));
+    const std::span<const std::size_t> in_file = folder.options.points;
+    points.push_back(static_cast<std::int64_t>(in_file.empty() ? v.index : in_file[v.index]));
   }
   std::vector<std::int32_t> corners, regions;
-  for (const TriangleId t : mesh.triangles()) {
+  for (const auto t : elements) {
     for (const VertexId v : mesh.corners(t)) corners.push_back(static_cast<std::int32_t>(v.index));
     regions.push_back(mesh.region(t));
   }
   add_positions(npz, "vertices", vertex_positions(mesh));
   npz.add("weights", weights);
   npz.add("points", points);
-  npz.add("triangles", corners, {mesh.n_triangles(), 3});
+  npz.add(name, corners, {elements.size(), kCorners});
   npz.add("regions", regions);
+}
+
+void add_space(NpzWriter& npz, const Mesh& mesh) {
   if (mesh.space().radius() > 0) npz.add("sphere_radius", std::vector<double>{mesh.space().radius()}, {});
   const Vec2 period = mesh.space().period();
   if (mesh.space().is_periodic()) npz.add("plane_period", std::vector<double>{period.x, period.y});
 }
 
+std::int32_t end_of(const auto& edge, std::size_t k) {
+  return signed_index(k == 0 ? edge.from.index : edge.to.index, true);
+}
+
 void add_edges(NpzWriter& npz, const DecComplex& c) {
-  const std::size_t n = c.edges.size();
-  npz.add(
-      "edges",
-      of_edges<std::int32_t>(
-          c, 2, [](const DecEdge& e, std::size_t k) { return signed_index(k == 0 ? e.from.index : e.to.index, true); }),
-      {n, 2});
-  npz.add("edge_triangles",
-          of_edges<std::int32_t>(c, 2,
-                                 [](const DecEdge& e, std::size_t k) {
-                                   const TriangleId t = k == 0 ? e.left : e.right;
-                                   return signed_index(t.index, t.valid());
-                                 }),
-          {n, 2});
-  npz.add("edge_lengths", of_edges<double>(c, 1, [](const DecEdge& e, std::size_t) { return e.length; }));
-  npz.add("edge_crossings", of_edges<double>(c, 1, [](const DecEdge& e, std::size_t) { return e.crossing; }));
-  npz.add(
-      "edge_heights",
-      of_edges<double>(c, 2, [](const DecEdge& e, std::size_t k) { return k == 0 ? e.left_height : e.right_height; }),
-      {n, 2});
+  add_rows<std::int32_t>(npz, "edges", c.edges, 2, [](const DecEdge& e, std::size_t k) { return end_of(e, k); });
+  add_rows<std::int32_t>(npz, "edge_triangles", c.edges, 2, [](const DecEdge& e, std::size_t k) {
+    const TriangleId t = k == 0 ? e.left : e.right;
+    return signed_index(t.index, t.valid());
+  });
+  add_numbers(npz, "edge_lengths", c.edges, &DecEdge::length);
+  add_numbers(npz, "edge_crossings", c.edges, &DecEdge::crossing);
+  add_rows<double>(npz, "edge_heights", c.edges, 2,
+                   [](const DecEdge& e, std::size_t k) { return k == 0 ? e.left_height : e.right_height; });
   add_positions(npz, "edge_midpoints", midpoint_positions(c));
-  npz.add("dual_lengths", of_edges<double>(c, 1, [](const DecEdge& e, std::size_t) { return e.dual_length; }));
+  add_numbers(npz, "dual_lengths", c.edges, &DecEdge::dual_length);
+}
+
+void add_edges(NpzWriter& npz, const tets::DecComplex& c) {
+  using Edge = tets::DecEdge;
+  add_rows<std::int32_t>(npz, "edges", c.edges, 2, [](const Edge& e, std::size_t k) { return end_of(e, k); });
+  std::vector<std::uint8_t> on_boundary;
+  for (const Edge& e : c.edges) on_boundary.push_back(e.is_boundary ? 1 : 0);
+  npz.add("edge_on_boundary", on_boundary);
+  add_numbers(npz, "edge_lengths", c.edges, &Edge::length);
+  add_numbers(npz, "edge_crossings", c.edges, &Edge::crossing);
+  add_positions(npz, "edge_midpoints", midpoint_positions(c));
+  add_numbers(npz, "dual_areas", c.edges, &Edge::dual_area);
+}
+
+void add_faces(NpzWriter& npz, const tets::DecComplex& c) {
+  using Face = tets::DecFace;
+  add_rows<std::int32_t>(npz, "faces", c.faces, 3, [](const Face& f, std::size_t k) { return f.vertices[k].index; });
+  add_rows<std::int32_t>(npz, "face_tetrahedra", c.faces, 2, [](const Face& f, std::size_t k) {
+    const tets::TetId t = k == 0 ? f.behind : f.ahead;
+    return signed_index(t.index, t.valid());
+  });
+  add_numbers(npz, "face_areas", c.faces, &Face::area);
+  add_rows<double>(npz, "face_heights", c.faces, 2,
+                   [](const Face& f, std::size_t k) { return k == 0 ? f.behind_height : f.ahead_height; });
+  add_positions(npz, "face_orthocenters", face_orthocenter_positions(c));
+  add_numbers(npz, "dual_lengths", c.faces, &Face::dual_length);
 }
 
 // Doubles, not bytes: products of matrices keep the type, and d0ᵀ d0 may not fit a byte.
 std::vector<double> as_doubles(const std::vector<std::int8_t>& signs) { return {signs.begin(), signs.end()}; }
 
-void add_matrices(NpzWriter& npz, const DecComplex& c) {
-  for (const auto& [name, matrix] : {std::pair{"d0", &c.d0}, std::pair{"d1", &c.d1}}) {
-    npz.add(text(name, "_indptr"), matrix->starts);
-    npz.add(text(name, "_indices"), matrix->columns);
-    npz.add(text(name, "_data"), as_doubles(matrix->signs));
+template <class Complex>
+void add_matrices(NpzWriter& npz, const DecMatrices& matrices, const Complex& c) {
+  for (const auto& [name, is, matrix] : matrices.incidence) {
+    npz.add(text(name, "_indptr"), matrix.starts);
+    npz.add(text(name, "_indices"), matrix.columns);
+    npz.add(text(name, "_data"), as_doubles(matrix.signs));
   }
-  npz.add("star0", c.star0.raw());
-  npz.add("star1", c.star1.raw());
-  npz.add("star2", c.star2.raw());
-  npz.add("transmissibility", c.transmissibility.raw());
+  for (const auto& [name, is, values] : matrices.stars) npz.add(name, values);
+  npz.add(matrices.transmissibility.name, matrices.transmissibility.values);
   if (!c.coefficient.empty()) {
     npz.add("coefficient", c.coefficient.raw());
     npz.add("capacity", c.capacity.raw());
@@ -165,9 +199,8 @@ void add_cells(NpzWriter& npz, const PowerCells& cells) {
   npz.add("cell_areas", cells.areas.raw());
 }
 
-void write_csr(const DecJob& job, std::string_view name, const IncidenceMatrix& matrix,
-               const std::vector<double>& values) {
-  NpzWriter npz(job.open(name));
+void write_csr(Output& out, const IncidenceMatrix& matrix, const std::vector<double>& values) {
+  NpzWriter npz(out);
   npz.add("indices", matrix.columns);
   npz.add("indptr", matrix.starts);
   npz.add_text("format", "csr");
@@ -177,33 +210,54 @@ void write_csr(const DecJob& job, std::string_view name, const IncidenceMatrix& 
   npz.finish();
 }
 
-void write_diagonal(const DecJob& job, std::string_view name, const std::vector<double>& values) {
+/// The row pattern of a diagonal matrix.
+IncidenceMatrix diagonal_pattern(std::size_t n) {
   IncidenceMatrix pattern;
-  pattern.n_columns = values.size();
-  pattern.starts.resize(values.size() + 1);
-  pattern.columns.resize(values.size());
+  pattern.n_columns = n;
+  pattern.starts.resize(n + 1);
+  pattern.columns.resize(n);
   std::iota(pattern.starts.begin(), pattern.starts.end(), 0);
   std::iota(pattern.columns.begin(), pattern.columns.end(), 0);
-  write_csr(job, name, pattern, values);
+  return pattern;
+}
+
+/// Each matrix in a file of its own.
+void write_matrices(const DecFolder& folder, const DecMatrices& matrices) {
+  for (const auto& [name, is, matrix] : matrices.incidence)
+    write_csr(folder.open(text(name, ".npz")), matrix, as_doubles(matrix.signs));
+  for (const auto& [name, is, values] : matrices.stars)
+    write_csr(folder.open(text(name, ".npz")), diagonal_pattern(values.size()), values);
 }
 
 }  // namespace
 
 void write_dec_npz(const DecJob& job) {
   const DecComplex& c = job.complex;
+  const DecMatrices matrices = matrices_of(c);
   NpzWriter npz(job.open("operators.npz"));
-  add_mesh(npz, job);
+  add_mesh(npz, job, job.mesh, "triangles", job.mesh.triangles());
+  add_space(npz, job.mesh);
   add_edges(npz, c);
-  add_matrices(npz, c);
+  add_matrices(npz, matrices, c);
   add_positions(npz, "orthocenters", orthocenter_positions(c));
   npz.add("triangle_areas", c.areas.raw());
   add_cells(npz, job.cells);
   npz.finish();
-  write_csr(job, "d0.npz", c.d0, as_doubles(c.d0.signs));
-  write_csr(job, "d1.npz", c.d1, as_doubles(c.d1.signs));
-  write_diagonal(job, "star0.npz", c.star0.raw());
-  write_diagonal(job, "star1.npz", c.star1.raw());
-  write_diagonal(job, "star2.npz", c.star2.raw());
+  write_matrices(job, matrices);
+}
+
+void write_dec_npz(const TetDecJob& job) {
+  const tets::DecComplex& c = job.complex;
+  const DecMatrices matrices = matrices_of(c);
+  NpzWriter npz(job.open("operators.npz"));
+  add_mesh(npz, job, job.mesh, "tetrahedra", job.mesh.tetrahedra());
+  add_edges(npz, c);
+  add_faces(npz, c);
+  add_matrices(npz, matrices, c);
+  add_positions(npz, "orthocenters", orthocenter_positions(c));
+  npz.add("tetrahedron_volumes", c.volumes.raw());
+  npz.finish();
+  write_matrices(job, matrices);
 }
 
 }  // namespace temper::io

@@ -35,8 +35,31 @@ class Folder {
   bool made_ = false;
 };
 
-std::vector<std::string> write_dec_or_throw(const std::string& name, const Mesh& mesh, const DecComplex& complex,
-                                            const PowerCells& cells, const DecWriteOptions& options) {
+bool wants(const DecFolder& folder, DecFormat format) {
+  const std::vector<DecFormat>& formats = folder.options.formats;
+  return std::find(formats.begin(), formats.end(), format) != formats.end();
+}
+
+void write_all(const DecJob& job) {
+  if (wants(job, DecFormat::npz)) write_dec_npz(job);
+  if (wants(job, DecFormat::mtx)) write_dec_mtx(job, matrices_of(job.complex));
+  if (wants(job, DecFormat::vtu)) write_dec_vtu(job);
+  if (wants(job, DecFormat::vtu) && job.options.columns != nullptr) write_columns_vtu(job);
+  if (wants(job, DecFormat::disv)) write_columns_disv(job);
+  if (wants(job, DecFormat::disu)) write_columns_disu(job);
+  if (wants(job, DecFormat::tough)) write_columns_tough(job);
+}
+
+void write_all(const TetDecJob& job) {
+  if (wants(job, DecFormat::npz)) write_dec_npz(job);
+  if (wants(job, DecFormat::mtx)) write_dec_mtx(job, matrices_of(job.complex));
+  if (wants(job, DecFormat::vtu)) write_dec_vtu(job);
+}
+
+/// `parts` are a mesh, its operators and its cells, which complete a job.
+template <class Job, class... Parts>
+std::vector<std::string> write_dec_or_throw(const std::string& name, const DecWriteOptions& options,
+                                            const Parts&... parts) {
   for (const DecFormat format : options.formats) {
     if (needs_columns(format) && options.columns == nullptr)
       fail(ErrorCode::invalid_option, "", "formats disv, disu and tough need layers");
@@ -44,17 +67,7 @@ std::vector<std::string> write_dec_or_throw(const std::string& name, const Mesh&
   Folder folder(name);
   std::vector<std::string> written;
   OutputSet outputs;  // after the folder: its temporary files go first
-  const DecJob job = {name, mesh, complex, cells, options, outputs, written};
-  const auto wants = [&](DecFormat format) {
-    return std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();
-  };
-  if (wants(DecFormat::npz)) write_dec_npz(job);
-  if (wants(DecFormat::mtx)) write_dec_mtx(job);
-  if (wants(DecFormat::vtu)) write_dec_vtu(job);
-  if (wants(DecFormat::vtu) && options.columns != nullptr) write_columns_vtu(job);
-  if (wants(DecFormat::disv)) write_columns_disv(job);
-  if (wants(DecFormat::disu)) write_columns_disu(job);
-  if (wants(DecFormat::tough)) write_columns_tough(job);
+  write_all(Job{{name, options, outputs, written}, parts...});
   outputs.commit();
   folder.keep();
   return written;
@@ -76,21 +89,30 @@ bool needs_columns(DecFormat format) {
   return format == DecFormat::disv || format == DecFormat::disu || format == DecFormat::tough;
 }
 
-std::span<const std::string_view> dec_file_names(DecFormat format, bool has_columns) {
-  static constexpr std::string_view kNpz[] = {"operators.npz", "d0.npz",    "d1.npz",
-                                              "star0.npz",     "star1.npz", "star2.npz"};
-  static constexpr std::string_view kMtx[] = {"d0.mtx",           "d1.mtx",
-                                              "star0.mtx",        "star1.mtx",
-                                              "star2.mtx",        "transmissibility.mtx",
-                                              "orthocenters.mtx", "edge_midpoints.mtx"};
+std::span<const std::string_view> dec_file_names(DecFormat format, DecKind kind) {
+  // Those of tetrahedra alone are at the end.
+  static constexpr std::string_view kNpz[] = {"operators.npz", "d0.npz",    "d1.npz", "star0.npz",
+                                              "star1.npz",     "star2.npz", "d2.npz", "star3.npz"};
+  static constexpr std::string_view kMtx[] = {"d0.mtx",
+                                              "d1.mtx",
+                                              "star0.mtx",
+                                              "star1.mtx",
+                                              "star2.mtx",
+                                              "transmissibility.mtx",
+                                              "orthocenters.mtx",
+                                              "edge_midpoints.mtx",
+                                              "d2.mtx",
+                                              "star3.mtx",
+                                              "face_orthocenters.mtx"};
   static constexpr std::string_view kVtu[] = {"dual.vtu", "dual_edges.vtu", "columns.vtu"};
+  const bool tetrahedra = kind == DecKind::tetrahedra;
   static constexpr std::string_view kDisv[] = {"mesh.disv", "mesh.disv.csv"}, kDisu[] = {"mesh.disu", "mesh.disu.csv"},
                                     kTough[] = {"MESH", "MESH.csv"};
   switch (format) {
     case DecFormat::npz:
-      return kNpz;
+      return std::span(kNpz).first(tetrahedra ? 8 : 6);
     case DecFormat::mtx:
-      return kMtx;
+      return std::span(kMtx).first(tetrahedra ? 11 : 8);
     case DecFormat::disv:
       return kDisv;
     case DecFormat::disu:
@@ -98,21 +120,27 @@ std::span<const std::string_view> dec_file_names(DecFormat format, bool has_colu
     case DecFormat::tough:
       return kTough;
     default:
-      return std::span(kVtu).first(has_columns ? 3 : 2);
+      return std::span(kVtu).first(kind == DecKind::columns ? 3 : 2);
   }
 }
 
-Output& DecJob::open(std::string_view name) const {
-  const std::string path = folder.empty() || folder.ends_with('/') ? text(folder, name) : text(folder, "/", name);
-  Output& output = outputs.open(path);
-  written.push_back(path);
+Output& DecFolder::open(std::string_view name) const {
+  const std::string file = path.empty() || path.ends_with('/') ? text(path, name) : text(path, "/", name);
+  Output& output = outputs.open(file);
+  written.push_back(file);
   return output;
 }
 
 Expected<std::vector<std::string>> write_dec(const std::string& folder, const Mesh& mesh, const DecComplex& complex,
                                              const PowerCells& cells, const DecWriteOptions& options) {
-  return guarded<std::vector<std::string>>(folder,
-                                           [&] { return write_dec_or_throw(folder, mesh, complex, cells, options); });
+  return guarded<std::vector<std::string>>(
+      folder, [&] { return write_dec_or_throw<DecJob>(folder, options, mesh, complex, cells); });
+}
+
+Expected<std::vector<std::string>> write_dec(const std::string& folder, const tets::TetMesh& mesh,
+                                             const tets::DecComplex& complex, const DecWriteOptions& options) {
+  return guarded<std::vector<std::string>>(
+      folder, [&] { return write_dec_or_throw<TetDecJob>(folder, options, mesh, complex); });
 }
 
 DecPositions vertex_positions(const Mesh& mesh) {
@@ -136,6 +164,22 @@ DecPositions corner_positions(const PowerCells& cells) {
   const std::vector<Vec2>& plane = cells.corners;
   return positions_in(
       plane.size(), [&plane](std::size_t i) { return plane[i]; }, cells.sphere_corners);
+}
+
+DecPositions vertex_positions(const tets::TetMesh& mesh) {
+  return {3, mesh.n_vertices(), [&mesh](std::size_t i) { return mesh.position(VertexId(i)); }};
+}
+
+DecPositions orthocenter_positions(const tets::DecComplex& complex) {
+  return {3, complex.orthocenters.size(), [&complex](std::size_t i) { return complex.orthocenters[tets::TetId(i)]; }};
+}
+
+DecPositions midpoint_positions(const tets::DecComplex& complex) {
+  return {3, complex.edges.size(), [&complex](std::size_t i) { return complex.edges[EdgeId(i)].midpoint; }};
+}
+
+DecPositions face_orthocenter_positions(const tets::DecComplex& complex) {
+  return {3, complex.faces.size(), [&complex](std::size_t i) { return complex.faces[tets::FaceId(i)].orthocenter; }};
 }
 
 }  // namespace temper::io

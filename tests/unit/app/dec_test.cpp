@@ -47,6 +47,33 @@ TEST_F(Dec, AWellCenteredMeshGivesNoWarning) {
             "1 1 -1\n1 2 1\n2 1 -1\n2 3 1\n3 2 -1\n3 3 1\n4 2 -1\n4 4 1\n5 3 -1\n5 4 1\n");
 }
 
+TEST_F(Dec, TetrahedraHaveTheSameVerb) {
+  // A regular tetrahedron in two regions of its two halves: the orthocenters are on the face between them.
+  write("a.mesh",
+        "MeshVersionFormatted 2\nDimension 3\nVertices\n5\n1 1 1 0\n1 -1 -1 0\n-1 1 -1 0\n-1 -1 1 0\n0 0 1 0\n"
+        "Tetrahedra\n2\n1 2 3 5 1\n2 3 4 5 2\nEnd\n");
+  const auto plain = temper_ok({"operators", "a.mesh", "-o", "all"});
+  for (const char* said :
+       {"faces                                            7", "wrote all/star3.npz", "wrote all/dual.vtu"})
+    EXPECT_TRUE(contains(plain.out, said)) << plain.out;
+  EXPECT_TRUE(contains(plain.err, "2 of 2 tetrahedra are not well-centered")) << plain.err;
+  const auto json = nlohmann::json::parse(
+      temper_ok({"operators", "a.mesh", "-o", "k", "--coefficient", "1=2,2=3", "--format", "mtx", "--json"}).out);
+  const auto check = nlohmann::json::parse(temper_ok({"check", "a.mesh", "--json"}).out);
+  for (const char* key : {"vertices", "edges", "faces", "boundary_faces", "tetrahedra", "volume"})
+    EXPECT_EQ(json.at(key), check.at(key)) << key;
+  EXPECT_EQ(json.at("negative_star2"), check.at("non_regular_faces"));
+  EXPECT_EQ(json.at("negative_boundary_star2"), check.at("negative_boundary_duals"));
+  EXPECT_EQ(json.at("not_well_centered"), check.at("orthocenters_outside"));
+  EXPECT_EQ(read("k/star1.mtx") == read("all/star1.mtx"), false);
+  EXPECT_EQ(read("k/star2.mtx"), read("all/star2.mtx"));
+  expect_failure({"operators", "a.mesh", "-o", "b", "--coefficient", "1=2"}, 2, "there is no value for region 2");
+  expect_failure({"operators", "a.mesh", "-o", "b", "--coefficient", "k"}, 2, "no data 'k' of tetrahedra");
+  expect_failure({"operators", "a.mesh", "-o", "b", "--tensor", "2,0,1"}, 2,
+                 "a.mesh has tetrahedra, and --tensor is for triangles alone");
+  expect_failure({"operators", "a.mesh", "-o", "b", "--pinch-out", "1"}, 2, "--pinch-out is for triangles alone");
+}
+
 TEST_F(Dec, ACoefficientComesFromDataOrRegions) {
   const auto mesh = [this](const std::string& regions) {
     write("a.mesh",

@@ -36,6 +36,39 @@ TEST_F(Errors, PrintsErrorsOfEveryFieldTheirMeansAndTheMatrices) {
   }
 }
 
+TEST_F(Errors, TetrahedraHaveTheSameVerb) {
+  // An octahedron in eight, around a vertex that is not in the middle.
+  const auto octahedron = [](const std::string& middle) {
+    return "MeshVersionFormatted 2\nDimension 3\nVertices\n7\n1 0 0 0\n-1 0 0 0\n0 1 0 0\n0 -1 0 0\n0 0 1 0\n"
+           "0 0 -1 0\n" +
+           middle +
+           " 0\nTetrahedra\n8\n1 3 5 7 0\n3 2 5 7 0\n2 4 5 7 0\n4 1 5 7 0\n3 1 6 7 0\n"
+           "2 3 6 7 0\n4 2 6 7 0\n1 4 6 7 0\nEnd\n";
+  };
+  write("a.mesh", octahedron("0.1 0.1 0.2"));
+  write("b.mesh", octahedron("0 0 0"));
+  const std::string text = temper_ok({"errors", "a.mesh", "--against", "b.mesh", "--condition"}).out;
+  for (const char* part : {"a.mesh: 8 tetrahedra, ", "oblique (chosen)", "mean, held-back",
+                           "faces between merged cells", "condition, at least", "over the errors of b.mesh:"})
+    EXPECT_TRUE(contains(text, part)) << part;
+  const auto json = nlohmann::json::parse(temper_ok({"errors", "a.mesh", "--fields", "exact", "--json"}).out);
+  EXPECT_EQ(json["tetrahedra"], 8);
+  EXPECT_EQ(json["matrices"]["poisson"]["unknowns"], 1);
+  EXPECT_LT(json["errors"]["fields"][0]["flux"]["l2"].get<double>(), 1e-12);
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& message) {
+    std::vector<std::string> all = {"errors", "a.mesh"};
+    all.insert(all.end(), words.begin(), words.end());
+    const auto outcome = temper(all);
+    EXPECT_NE(outcome.exit, 0);
+    EXPECT_TRUE(contains(outcome.err, message)) << outcome.err;
+  };
+  refused({"--refine", "1"}, "a.mesh has tetrahedra, and --refine is for triangles alone");
+  refused({"--dirichlet", "1=0"}, "--dirichlet is for triangles alone");
+  refused({"--fields", "bump"}, "no field 'bump'; the fields of tetrahedra are ");
+  make_input();
+  refused({"--against", "in.vtu"}, "in.vtu: expected tetrahedra, as in the other mesh, found triangles");
+}
+
 TEST_F(Errors, SaysTheSameAsJsonForAnyNumberOfThreads) {
   make_input();
   const std::string text = temper_ok({"errors", "in.vtu", "--json", "--threads", "1"}).out;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "support/tet_lattice.hpp"
-#include "temper/errors.hpp"
+#include "temper/tets/errors.hpp"
 #include "temper/tets/optimize.hpp"
 #include "temper/tets/quality.hpp"
 

@@ -7,6 +7,7 @@
 #include "io/containers/zip_writer.hpp"
 #include "support.hpp"
 #include "support/std_threads.hpp"
+#include "support/tet_lattice.hpp"
 #include "temper/detail/dec_io.hpp"
 
 namespace temper::io {
@@ -91,6 +92,21 @@ TEST_F(DecFiles, EveryFormatMakesTheFilesItNamesAndNoOther) {
     std::sort(expected.begin(), expected.end());
     EXPECT_EQ(names_in(folder), expected);
   }
+}
+
+TEST_F(DecFiles, TetrahedraHaveTheirFiles) {
+  const tets::TetMesh mesh = test::mesh_of(test::body_centered(2));
+  const tets::DecComplex complex = tets::dec_operators(mesh);
+  for (const DecFormat format : {DecFormat::npz, DecFormat::mtx, DecFormat::vtu}) {
+    const std::string folder = path("tets" + std::to_string(static_cast<int>(format)));
+    ASSERT_TRUE(write_dec(folder, mesh, complex, {.formats = {format}}));
+    const auto names = dec_file_names(format, DecKind::tetrahedra);
+    std::vector<std::string> expected(names.begin(), names.end());
+    std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(names_in(folder), expected);
+  }
+  EXPECT_EQ(write_dec(path("none"), mesh, complex, {.formats = {DecFormat::tough}}).error().code,
+            ErrorCode::invalid_option);
 }
 
 TEST_F(DecFiles, TheSameBytesComeAgainAndForAnyNumberOfThreads) {

@@ -102,7 +102,7 @@ TEST_F(LayerFiles, EveryFormatMakesTheFilesItNames) {
   for (const DecFormat format : {DecFormat::vtu, DecFormat::disv, DecFormat::disu, DecFormat::tough}) {
     const auto written = write(*layers("vertex,top,bottom\n*,2,1\n"), {format});
     ASSERT_TRUE(written) << written.error().what();
-    const auto names = dec_file_names(format, true);
+    const auto names = dec_file_names(format, DecKind::columns);
     ASSERT_EQ(written->size(), names.size());
     for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ((*written)[i], path("out") + "/" + std::string(names[i]));
   }

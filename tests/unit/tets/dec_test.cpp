@@ -208,6 +208,7 @@ TEST(TetDec, CubesInSixHaveDualEdgesOfLengthZeroExactly) {
   const DecSummary s = summarize(c);
   EXPECT_EQ(s.zero_star2, 6U * 8);  // the faces inside of cubes: all six orthocenters are in the middle
   EXPECT_EQ(s.negative_star2, 0U);
+  EXPECT_EQ(s.not_well_centered, s.tetrahedra) << "orthocenters on faces are not inside";
   EXPECT_EQ(s.max_transmissibility, HUGE_VAL);
 }
 
