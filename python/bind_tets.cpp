@@ -7,6 +7,7 @@
 #include "bind.hpp"
 #include "data_arrays.hpp"
 #include "optimize_options.hpp"
+#include "temper/solvers.hpp"
 #include "temper/tets/optimize.hpp"
 #include "temper/tets/quality.hpp"
 
@@ -103,14 +104,13 @@ py::dict file_of_tets(const PyTetMesh& self) {
 
 // --- changes ------------------------------------------------------------------------------------------
 
-/// The mesh gets a new state, with its file. `vertices`: former number of each vertex, empty if they are the same.
-io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const IdVector<VertexId, VertexId>& vertices,
-                       Executor* executor) {
+/// The mesh gets a new state, with its file.
+io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const tets::Origins& origins, Executor* executor) {
   io::TetFile file = *self.file;
-  io::DataReport data = aside([&] { return io::update(file, *self.loaded, mesh, vertices, {{}, executor}); });
+  io::DataReport data = aside([&] { return io::update(file, *self.loaded, mesh, origins, {{}, executor}); });
   std::vector<std::int32_t> now(self.mesh().n_vertices(), -1);
   for (const VertexId v : mesh.vertices()) {
-    const VertexId former = vertices.empty() ? v : vertices[v];
+    const VertexId former = origins.vertices.empty() ? v : origins.vertices[v];
     if (former.valid()) now[former.index] = static_cast<std::int32_t>(v.index);
   }
   for (std::int32_t& v : self.vertex_of_point) v = v < 0 ? -1 : now[static_cast<std::size_t>(v)];
@@ -143,16 +143,19 @@ void set_tet_weights(PyTetMesh& self, const Doubles& weights) {
 
 /// The mesh gets its new state, whatever ended the run. Exceptions of the observer are raised after that. Returns the
 /// report, the report on the data or None, and what is lost.
-py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const std::string& effort, const py::sequence& keep,
-                        const py::sequence& rows, const py::object& threads, const py::object& observer) {
+py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const std::string& target, const std::string& effort,
+                        const py::sequence& keep, const py::sequence& rows, const py::object& threads,
+                        const py::object& observer) {
   const std::vector<std::string> kept = strings_from(keep), set = strings_from(rows);
   const std::vector<std::string_view> parts(kept.begin(), kept.end()), names(set.begin(), set.end());
-  const tets::OptimizeOptions options = or_raise(tets::options_from(options_from(given), {effort, parts, names}));
+  const tets::OptimizeOptions options =
+      or_raise(tets::options_from(options_from(given), {target, effort, parts, names}));
   const auto executor = make_threads(threads_from(threads));
   const auto loaded = self.loaded;
   tets::TetMesh mesh = loaded->mesh;
   Visitor visitor;
-  const tets::OptimizeHooks hooks = {observer_of(visitor, observer), executor.get()};
+  tets::OptimizeHooks hooks = {observer_of(visitor, observer), executor.get()};
+  if (mesh.n_vertices() <= options.most_error_vertices) hooks.error = tets::discretization_error(options.scheme);
   const Run run(self.running);
   Expected<tets::OptimizeReport> report = aside([&] { return optimize(mesh, options, hooks); });
   const bool has_data = !self.file->point_data.empty() || !self.file->cell_data.empty();
@@ -160,7 +163,7 @@ py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const std::strin
   py::object data = py::none();
   std::vector<std::string> lost;
   if (report) {
-    const io::DataReport changed = replace(self, std::move(mesh), report->vertices, executor.get());
+    const io::DataReport changed = replace(self, std::move(mesh), report->origins, executor.get());
     if (has_data) data = data_report_to_dict(changed);
     lost.assign(self.file->warnings.begin() + static_cast<std::ptrdiff_t>(known), self.file->warnings.end());
   }

@@ -161,9 +161,8 @@ Record run_of(const Report& r) {
   py::list history;
   for (const SweepRecord& record : r.history) history.append(record_to_dict(record));
   return Record()("stopped", name(r.stopped))("sweeps", r.sweeps)("flips", r.flips)(
-      "vertices_removed", r.vertices_removed)("vertices_inserted", r.vertices_inserted)("vertices", r.vertices)(
-      "seconds", r.seconds)("objective_before", r.objective_before)("objective_after", r.objective_after)(
-      "history", py::object(history));
+      "vertices_removed", r.vertices_removed)("vertices_inserted", r.vertices_inserted)("seconds", r.seconds)(
+      "objective_before", r.objective_before)("objective_after", r.objective_after)("history", py::object(history));
 }
 
 }  // namespace
@@ -171,12 +170,12 @@ Record run_of(const Report& r) {
 py::dict report_to_dict(const OptimizeReport& r) {
   py::list notes;
   for (const std::string& note : r.notes) notes.append(spelled(note));
-  return run_of(r)("hidden", r.hidden)("objective", name(r.objective))("size_before",
-                                                                       py::object(size_report_to_dict(r.size.before)))(
+  return run_of(r)("vertices", r.vertices)("hidden", r.hidden)("objective", name(r.objective))(
+             "size_before", py::object(size_report_to_dict(r.size.before)))(
              "size_after", py::object(size_report_to_dict(r.size.after)))("notes", py::object(notes))
       .dict;
 }
 
-py::dict report_to_dict(const tets::OptimizeReport& r) { return run_of(r).dict; }
+py::dict report_to_dict(const tets::OptimizeReport& r) { return run_of(r)("vertices", r.origins.vertices).dict; }
 
 }  // namespace temper::python

@@ -48,7 +48,7 @@ LAYERS = {
     "tbb": ["base"],
     "mpi": ["base"],
     "errors": _BELOW + ["location", "energy", "regularity", "quality", "dec", "tets"],
-    "solvers": _BELOW + ["size", "energy", "regularity", "feasibility", "optimize", "quality", "lp", "errors", "io"],
+    "solvers": _BELOW + ["size", "energy", "regularity", "feasibility", "optimize", "quality", "lp", "errors", "io", "tets"],
     "build_info": ["base", "io"],
 }
 LIBRARIES = {"tets", "io", "lp", "tbb", "mpi", "errors", "solvers", "build_info"}  # of their own

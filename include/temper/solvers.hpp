@@ -5,7 +5,10 @@
 // They have their own library, temper::solvers. It links Clp, and uses Eigen if the build has it.
 #pragma once
 
+#include <memory>
+
 #include "temper/optimize.hpp"
+#include "temper/tets/optimize.hpp"
 
 namespace temper {
 
@@ -13,3 +16,10 @@ namespace temper {
 [[nodiscard]] Solvers solvers();
 
 }  // namespace temper
+
+namespace temper::tets {
+
+/// The model of the errors of a scheme by Eigen, for OptimizeHooks; null if the build or the scheme has none.
+[[nodiscard]] std::shared_ptr<const DiscretizationError> discretization_error(Scheme scheme);
+
+}  // namespace temper::tets

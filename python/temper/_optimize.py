@@ -345,16 +345,16 @@ def optimize(
     watch = _observer(line, observer)
     if isinstance(changed, TetMesh):
         refuse_for_tetrahedra(
-            target=(target, "any"), size_field=(size_field, None), tensor=(tensor, None), problem=(own, None),
+            size_field=(size_field, None), tensor=(tensor, None), problem=(own, None),
             **{f.name: (getattr(hooks, f.name), None) for f in dataclasses.fields(hooks)},
         )  # fmt: skip
-        words = effort, _words(keep), rows_set(options, changes)
+        words = target, effort, _words(keep), rows_set(options, changes)
         with _put_back_at_end(mesh, changed, line):
             report, of_data, lost = _temper.tet_optimize(changed._handle, plain, *words, threads, watch)
         for sentence in lost:
             warnings.warn(sentence, TemperWarning, stacklevel=2)
         data = None if of_data is None else DataReport._of(of_data)
-        return _report({**report, "objective": "energy", "hidden": np.empty(0, dtype=np.int32), "notes": []}, data)
+        return _report({**report, "objective": report["history"][-1]["objective"], "hidden": np.empty(0, dtype=np.int32), "notes": []}, data)
     problem = None if own is None else _plain_problem(changed, **own)
     for sentence in () if problem is None else _temper.problem_warnings(changed._handle, problem):
         warnings.warn(sentence, TemperWarning, stacklevel=2)

@@ -5,6 +5,7 @@
 #endif
 #ifdef TEMPER_WITH_ERRORS
 #include "temper/errors.hpp"
+#include "temper/tets/errors.hpp"
 #endif
 
 namespace temper {
@@ -25,3 +26,15 @@ Solvers solvers() {
 }
 
 }  // namespace temper
+
+namespace temper::tets {
+
+#ifdef TEMPER_WITH_ERRORS
+std::shared_ptr<const DiscretizationError> discretization_error(Scheme scheme) {
+  return make_discretization_error(scheme);
+}
+#else
+std::shared_ptr<const DiscretizationError> discretization_error(Scheme /*scheme*/) { return nullptr; }
+#endif
+
+}  // namespace temper::tets

@@ -22,7 +22,7 @@ MODULES = [temper, temper.energy, temper.generate, temper.geometry, temper.proje
 # What Python has otherwise, or not at all, and why.
 ELSEWHERE = {
     "name": "enums are their names", "energy_info": "energies() lists the rows", "find_energy": "as energy_info",
-    "objective_of": "help(OptimizeOptions)", "make_discretization_error": "optimize does it", "squared_solver_errors": "as make_discretization_error", "solvers": "as make_discretization_error", "problem_warnings": "optimize warns", "wants_error_model": "as make_discretization_error", "scheme_weights": "as objective_of",
+    "objective_of": "help(OptimizeOptions)", "make_discretization_error": "optimize does it", "discretization_error": "as make_discretization_error", "squared_solver_errors": "as make_discretization_error", "solvers": "as make_discretization_error", "problem_warnings": "optimize warns", "wants_error_model": "as make_discretization_error", "scheme_weights": "as objective_of",
     "targets": "help(optimize)", "with_coefficient": "dec_operators does it", "efforts": "as targets", "keeps": "as targets", "option_groups": "help(OptimizeOptions)", "find_option": "as option_groups", "check_option": "optimize checks", "check_kept": "optimize checks", "check_target": "optimize checks",
     "check_options": "as check_option", "option_text": "repr", "option_range_text": "as option_groups",
     "options_from": "optimize does it", "tetrahedron_energy": "the gallery draws it", "missing_need": "optimize warns", "spell_options": "texts are spelled", "stopped_early": "OptimizeReport.stopped",

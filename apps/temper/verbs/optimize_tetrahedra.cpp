@@ -16,6 +16,7 @@
 #include "files/options_file.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
+#include "temper/solvers.hpp"
 #include "temper/tets/optimize.hpp"
 #include "verbs/progress_line.hpp"
 
@@ -23,9 +24,10 @@ namespace temper::app {
 namespace {
 
 /// The options that have a meaning for tetrahedra. All others are refused by name.
-constexpr auto kOptions = std::to_array<std::string_view>(
-    {"IN", "--output", "--format", "--encoding", "--effort", "--keep", "--boundary", "--require", "--time-limit",
-     "--write", "--set", "--options", "--details", "--quiet", "--point-data", "--threads", "--no-triangle-quality"});
+constexpr auto kOptions =
+    std::to_array<std::string_view>({"IN", "--output", "--format", "--encoding", "--for", "--effort", "--keep",
+                                     "--boundary", "--require", "--time-limit", "--write", "--set", "--options",
+                                     "--details", "--quiet", "--point-data", "--threads", "--no-triangle-quality"});
 
 template <class Names>
 bool has(const Names& names, std::string_view name) {
@@ -38,8 +40,7 @@ void refuse_options(const Command& command, const OptimizeSettings& s) {
   };
   for (const Option& option : command.options()) {
     const std::string name = long_name(option.names);
-    const bool is_default = name == "--for" && s.target == "any";
-    refuse(!option.given.empty() && !is_default && !has(kOptions, name), name);
+    refuse(!option.given.empty() && !has(kOptions, name), name);
   }
   for (const auto& [path, what] : {std::pair(s.files.page, "a page"), std::pair(s.files.trace, "a trace"),
                                    std::pair(s.files.picture, "a picture")})
@@ -50,19 +51,22 @@ tets::OptimizeOptions options_of(const OptimizeSettings& s) {
   const std::vector<std::string_view> keep(s.keep.begin(), s.keep.end());
   std::vector<std::string_view> rows;
   for (const Assignment& a : s.assignments) rows.push_back(a.row->name);
-  const Expected<tets::OptimizeOptions> options = tets::options_from(s.options, {s.effort, keep, rows});
+  const Expected<tets::OptimizeOptions> options = tets::options_from(s.options, {s.target, s.effort, keep, rows});
   if (!options)
     refuse_usage("optimize", fmt::format("{} has tetrahedra, and {}", s.input, spell_options(options.error().message)));
   return *options;
 }
 
-std::string settings_json(const tets::OptimizeOptions& options) {
+std::string settings_json(const OptimizeSettings& s, const tets::OptimizeOptions& options) {
   return nlohmann::ordered_json({{"keep_positions", options.keep_positions},
                                  {"keep_weights", options.keep_weights},
                                  {"keep_edges", options.keep_edges},
                                  {"repair_trials", options.repair_trials},
                                  {"split_boundary", options.split_boundary},
                                  {"small_margin", options.small_margin},
+                                 {"scheme", s.target},
+                                 {"accuracy_sweeps", options.accuracy_sweeps},
+                                 {"error_steps", options.error_steps},
                                  {"max_sweeps", options.max_sweeps},
                                  {"time_limit", options.time_limit}})
       .dump();
@@ -109,6 +113,7 @@ class TetRun {
       return interrupted() ? Continue::no : Continue::yes;
     };
     mesh_ = input_.mesh();
+    if (mesh_.n_vertices() <= options_.most_error_vertices) hooks.error = tets::discretization_error(options_.scheme);
     Expected<tets::OptimizeReport> report = optimize(mesh_, options_, hooks);
     if (!report) throw as_failure(spell_options(report.error()));
     report_ = *std::move(report);
@@ -122,8 +127,8 @@ class TetRun {
     if (!s_.files.report.empty())
       outputs_.write_text(s_.files.report, optimize_json(TetOptimizeRecord{
                                                command_line(command_, {s_.input}),
-                                               options_json(command_, s_.assignments), settings_json(options_), before_,
-                                               input_.points, after_, report_, data_, outcomes_, warnings_}));
+                                               options_json(command_, s_.assignments), settings_json(s_, options_),
+                                               before_, input_.points, after_, report_, data_, outcomes_, warnings_}));
     if (!s_.files.history.empty()) outputs_.write_text(s_.files.history, history_csv(report_.history));
   }
   void print_result() const {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 
 #include "temper/errors.hpp"
 #include "temper/tets/mesh.hpp"
+#include "temper/tets/optimize.hpp"
 
 namespace temper::tets {
 
@@ -51,5 +53,9 @@ struct ErrorReport {
 
 /// The ratio of errors, field by field: see that of triangles.
 [[nodiscard]] Expected<std::vector<FieldErrors>> error_ratios(const ErrorReport& after, const ErrorReport& before);
+
+/// Makes a model of errors for OptimizeHooks, for Scheme::vertex: as that of triangles, with 32 plane waves in 16
+/// directions. Null: there is none for this scheme.
+[[nodiscard]] std::shared_ptr<const DiscretizationError> make_discretization_error(Scheme scheme);
 
 }  // namespace temper::tets

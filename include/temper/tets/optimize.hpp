@@ -8,11 +8,13 @@
 
 #include <array>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "temper/detail/discretization_error.hpp"
 #include "temper/detail/progress.hpp"
 #include "temper/optimize.hpp"
 #include "temper/tets/mesh.hpp"
@@ -28,15 +30,32 @@ struct OptimizeOptions {
   int repair_trials = 20;       ///< Trials in vain at one place, after which it is left as it is
   bool split_boundary = false;  ///< Edges and faces that stay may get new vertices where nothing else helps
   double small_margin = 0;      ///< Tetrahedra with a smaller least h/ℓ are improved in trials, too, if none is bad
+  Scheme scheme = Scheme::all;  ///< Scheme whose errors the run lowers after that: vertex or cell; others: none
+  int accuracy_sweeps = 32;     ///< Largest number of sweeps for this
+  int error_steps = 100;        ///< Largest number of steps that lower the error of a model
+  std::size_t most_error_vertices = 10'000;  ///< Largest number of vertices for a model of errors
+};
+
+/// The error of a scheme on a mesh and its derivatives, as temper::DiscretizationError for triangles.
+class DiscretizationError {
+ public:
+  virtual ~DiscretizationError() = default;
+
+  /// Returns the mean squared error, without unit; +∞ if the matrix of the scheme is not positive definite. `gradient`,
+  /// unless null, gets the derivatives by x, y, z and w of every vertex.
+  [[nodiscard]] virtual double squared_error(const TetMesh& mesh,
+                                             IdVector<VertexId, WeightedPoint>* gradient) const = 0;
 };
 
 /// The words of a user, which program and Python share with triangles (temper/detail/optimize_table.hpp).
 struct OptimizeWords {
+  std::string_view target = "any";
   std::string_view effort = "normal";
   std::span<const std::string_view> keep = {};  ///< Parts of the mesh that stay
   std::span<const std::string_view> rows = {};  ///< Options of the table that the user set
 };
-/// The options that the words and the table's options stand for. Error: a part or a row that is for triangles alone.
+/// The options that the words and the table's options stand for. Error: a target, a part or a row that is for triangles
+/// alone.
 [[nodiscard]] Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, const OptimizeWords& words);
 
 struct OptimizeHooks {
@@ -44,6 +63,7 @@ struct OptimizeHooks {
   Executor* executor = nullptr;  ///< Threads; the result does not depend on them
   /// Start of the time limit, as in temper::OptimizeHooks. Absent: the time of the call.
   std::optional<std::chrono::steady_clock::time_point> started = {};
+  std::shared_ptr<const DiscretizationError> error = {};  ///< Model of the errors of the scheme; null: none
 };
 
 struct OptimizeReport {
@@ -70,6 +90,10 @@ struct OptimizeReport {
 ///   - fixed points
 ///   - points marked with a tag other than 0, unless all corners of some tetrahedron have the same tag: then this tag
 ///     lists the vertices of a part
+///
+/// For a scheme the run then lowers the offsets between primal and dual elements (src/tets/energy/accuracy_star.hpp),
+/// and the error of the model, if the hooks have one and no tetrahedron is bad. Of the meshes before and after each
+/// stage, it returns the one with the least error by the model. An input without bad tetrahedra is one of them.
 ///
 /// Every tetrahedron stays positive. The result never has more tetrahedra with outside orthocenters than the input.
 /// Wrong options (numbers < 0, positions and weights both kept) are an error, which leaves the mesh unchanged.

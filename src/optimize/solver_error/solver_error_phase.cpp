@@ -15,10 +15,6 @@
 namespace temper {
 namespace {
 
-constexpr std::size_t kPairs = 20;
-constexpr double kFirstStep = 0.05;        // the largest change of an unknown in the first step
-constexpr double kLeastCurvature = 1e-12;  // least cosine between step and change
-
 constexpr double kLongestStep = 0.3;      // of a scaled unknown in a step
 constexpr double kKeptRoom = 0.2;         // part of a triangle's room above its floor that a step must leave
 constexpr int kMostHalvings = 25;         // halvings of a step
@@ -29,10 +25,6 @@ void add(WeightedPoint& to, double factor, const WeightedPoint& of) {
   to.x += factor * of.x;
   to.y += factor * of.y;
   to.w += factor * of.w;
-}
-
-void add(std::vector<double>& to, double factor, const std::vector<double>& of) {
-  for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * of[i];
 }
 
 double mean_ratio(const std::vector<double>& errors, const std::vector<double>& start) {
@@ -52,45 +44,6 @@ Settings of_errors(Settings s) {
 }
 
 }  // namespace
-
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  return blockwise_sum(a.size(), nullptr, [&](std::size_t i) { return a[i] * b[i]; });
-}
-
-double largest(const std::vector<double>& a) {
-  double most = 0;
-  for (const double x : a) most = std::max(most, std::abs(x));
-  return most;
-}
-
-Descent::Vector Descent::direction(const Vector& gradient) const {
-  Vector q = gradient;
-  if (knows_nothing()) {
-    const double most = largest(gradient);
-    for (double& x : q) x *= most > 0 ? -kFirstStep / most : 0;
-    return q;
-  }
-  std::vector<double> along(pairs_.size());
-  for (std::size_t i = pairs_.size(); i-- > 0;) {
-    along[i] = pairs_[i].inverse * dot(pairs_[i].step, q);
-    add(q, -along[i], pairs_[i].change);
-  }
-  const Pair& last = pairs_.back();
-  const double scale = 1 / (last.inverse * dot(last.change, last.change));
-  for (double& x : q) x *= scale;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    add(q, along[i] - pairs_[i].inverse * dot(pairs_[i].change, q), pairs_[i].step);
-  }
-  for (double& x : q) x = -x;
-  return q;
-}
-
-void Descent::learn(Vector step, Vector change) {
-  const double curvature = dot(step, change);
-  if (!(curvature > kLeastCurvature * std::sqrt(dot(step, step) * dot(change, change)))) return;
-  if (pairs_.size() == kPairs) pairs_.erase(pairs_.begin());
-  pairs_.push_back({std::move(step), std::move(change), 1 / curvature});
-}
 
 SolverErrorPhase::SolverErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)
     : SizedPhase(work, of_errors(settings), run, std::move(sizes)), units_(work.units) {

@@ -36,6 +36,9 @@ struct PointMatrix {
     yz = yz + b.yz, yw = yw + b.yw, zz = zz + b.zz, zw = zw + b.zw, ww = ww + b.ww;
     return *this;
   }
+  friend PointMatrix operator*(const T& s, const PointMatrix& a) {
+    return {s * a.xx, s * a.xy, s * a.xz, s * a.xw, s * a.yy, s * a.yz, s * a.yw, s * a.zz, s * a.zw, s * a.ww};
+  }
   /// Adds the unit matrix of the positions times s.
   TEMPER_INLINE void add_in_space(const T& s) { xx = xx + s, yy = yy + s, zz = zz + s; }
 

@@ -58,6 +58,9 @@ struct PointDerivatives {
     hessian += b.hessian;
     return *this;
   }
+  friend PointDerivatives operator*(const T& s, const PointDerivatives& d) {
+    return {s * d.value, s * d.gradient, s * d.hessian};
+  }
 };
 
 template <class T>

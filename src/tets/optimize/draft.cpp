@@ -16,6 +16,13 @@ std::array<VertexId, 2> edge(VertexId a, VertexId b) { return a < b ? std::array
 
 }  // namespace
 
+IdVector<VertexId, Mobility> Draft::mobilities() const {
+  IdVector<VertexId, Mobility> all;
+  all.reserve(mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) all.push_back(mobility_of(v));
+  return all;
+}
+
 bool Draft::fill(std::span<const Filling> fillings) {
   auto made = filled(mesh, fillings, names);
   if (!made) return false;

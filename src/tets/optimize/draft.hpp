@@ -20,6 +20,7 @@ struct Draft {
       : mesh(std::move(start)), names(mesh), mobility(std::move(mobility_of_start)) {}
 
   [[nodiscard]] Mobility mobility_of(VertexId v) const { return mobility[names.vertices[v]]; }
+  [[nodiscard]] IdVector<VertexId, Mobility> mobilities() const;
   /// Fills cavities, which share no tetrahedron. False, and no change: the mesh cannot be built.
   bool fill(std::span<const Filling> fillings);
 };

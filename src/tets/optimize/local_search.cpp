@@ -13,11 +13,11 @@ namespace {
 
 // γ falls from the first to the last one by a factor. The last one is smaller than in a whole mesh: some tetrahedra are
 // good only by a margin of 0.001.
-constexpr double kFirstGamma = 0.3, kGammaFactor = 0.7, kLastGamma = 0.0005;
-constexpr int kSweeps = 2, kLastSweeps = 10;
-constexpr double kRelaxation = 1.7;
+constexpr double kFirstSettlingGamma = 0.3, kSettlingFactor = 0.7, kLastSettlingGamma = 0.0005;
+constexpr int kSettlingSweeps = 2, kLastSettlingSweeps = 10;
+constexpr double kSettlingRelaxation = 1.7;
 // Scores have the energy at this γ. A gain below this part of it is none.
-constexpr double kScoreGamma = 0.003, kLeastGain = 0.01;
+constexpr double kScoreGamma = 0.003, kLeastGainOfScore = 0.01;
 // Changes in a row before the mesh is better.
 constexpr int kLongestChain = 4;
 // Rings of tetrahedra whose vertices move when many cavities change at once.
@@ -32,7 +32,7 @@ std::vector<TetId> to_change(const TetMesh& mesh, double small_margin, Executor*
   if (!result.empty() || small_margin == 0) return result;
   std::vector<std::pair<double, TetId>> small;
   for (const TetId t : mesh.tetrahedra()) {
-    if (const double margin = measure_tetrahedron(mesh, t).margin(); margin < small_margin)
+    if (const double margin = measure_tetrahedron(mesh.points(t)).margin(); margin < small_margin)
       small.emplace_back(margin, t);
   }
   std::sort(small.begin(), small.end());
@@ -62,13 +62,12 @@ std::vector<TetId> with_rings(const TetMesh& mesh, const VertexStars& stars, std
 /// Sweeps over some vertices, with γ from large to small. False: it must stop.
 bool settle(Draft& draft, const std::vector<VertexId>& vertices, const MustStop& must_stop,
             Executor* executor = nullptr) {
-  IdVector<VertexId, Mobility> mobility;
-  for (const VertexId v : draft.mesh.vertices()) mobility.push_back(draft.mobility_of(v));
+  const IdVector<VertexId, Mobility> mobility = draft.mobilities();
   Sweeper sweeper(draft.mesh, mobility, vertices, executor);
-  for (double gamma = kFirstGamma;; gamma = std::max(gamma * kGammaFactor, kLastGamma)) {
-    const bool last = gamma == kLastGamma;
-    for (int i = 0; i < (last ? kLastSweeps : kSweeps); ++i) {
-      if (!sweeper.sweep({gamma, kRelaxation}, [&](double) { return must_stop(); })) return false;
+  for (double gamma = kFirstSettlingGamma;; gamma = std::max(gamma * kSettlingFactor, kLastSettlingGamma)) {
+    const bool last = gamma == kLastSettlingGamma;
+    for (int i = 0; i < (last ? kLastSettlingSweeps : kSettlingSweeps); ++i) {
+      if (!sweeper.sweep({gamma, kSettlingRelaxation}, [&](double) { return must_stop(); })) return false;
     }
     if (last) return true;
   }
@@ -94,7 +93,7 @@ Score score_of(const TetMesh& mesh) {
 }
 
 bool is_better(const Score& now, const Score& before) {
-  return now.bad != before.bad ? now.bad < before.bad : now.energy < (1 - kLeastGain) * before.energy;
+  return now.bad != before.bad ? now.bad < before.bad : now.energy < (1 - kLeastGainOfScore) * before.energy;
 }
 
 bool change_all(Draft& draft, const MustStop& must_stop, Executor* executor) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "tets/optimize/accuracy.hpp"
 #include "tets/optimize/local_search.hpp"
 #include "tets/optimize/sweeper.hpp"
 
@@ -24,6 +25,8 @@ constexpr double kTolerance = 1e-4;
 constexpr int kLastSweeps = 100;
 // Changes at all bad tetrahedra at once end when so many rounds have not lowered their number.
 constexpr int kRoundsInVain = 4;
+// Vertices between two looks at the clock, in the sweeps for accuracy.
+constexpr std::size_t kVerticesBetweenLooks = 1024;
 
 std::optional<InputError> wrong_option(const OptimizeOptions& options) {
   if (options.max_sweeps < 0)
@@ -52,8 +55,10 @@ class Run {
   OptimizeReport run() {
     report_.objective_before = state_of(draft_.mesh, kLastGamma, hooks_.executor).energy;
     record();
+    if (hooks_.error && best_bad_ == 0) input_ = draft_;
     const bool repairs = !options_.keep_positions && !options_.keep_weights && !options_.keep_edges;
     if (anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma, kLevelSweeps, kLastSweeps) && repairs) repair();
+    if (!stopped_early(report_.stopped)) lower_errors();
     return end();
   }
 
@@ -62,8 +67,7 @@ class Run {
 
   /// Sweeps along the schedule of γ. False: the run must end.
   bool anneal(double first_gamma, int level_sweeps, int last_sweeps) {
-    IdVector<VertexId, Mobility> mobility;
-    for (const VertexId v : draft_.mesh.vertices()) mobility.push_back(draft_.mobility_of(v));
+    const IdVector<VertexId, Mobility> mobility = draft_.mobilities();
     const auto all = draft_.mesh.vertices();
     Sweeper sweeper(draft_.mesh, mobility, std::vector<VertexId>(all.begin(), all.end()), hooks_.executor);
     for (double gamma = first_gamma; gamma > kLastGamma; gamma *= kGammaFactor) {
@@ -133,12 +137,50 @@ class Run {
       end_round(Equals::last);
     }
   }
+  bool begin_sweep() {
+    if (!may_sweep()) return false;
+    ++report_.sweeps;
+    return true;
+  }
   void end_round(Equals best) {
     gamma_ = kLastGamma;
     ++report_.sweeps;
     record(best);
   }
 
+  /// Lowers the errors of the scheme from the best mesh. Of this mesh, of the stages after it, and of an input without
+  /// bad tetrahedra, the one with the least error is kept.
+  void lower_errors() {
+    if (options_.scheme != Scheme::vertex && options_.scheme != Scheme::cell) return;
+    draft_ = best_;
+    double least = HUGE_VAL;
+    const auto keep_if_best = [&] {
+      const double error = hooks_.error ? hooks_.error->squared_error(draft_.mesh, nullptr) : 0;
+      if (error > least) return;
+      least = error;
+      best_ = draft_;
+    };
+    keep_if_best();
+    Accuracy accuracy(draft_.mesh, draft_.mobilities(), accuracy_model(options_.scheme));
+    for (int i = 0; i < options_.accuracy_sweeps && begin_sweep(); ++i) {
+      for (const VertexId v : draft_.mesh.vertices()) {
+        if (v.index % kVerticesBetweenLooks == 0 && is_stopped(double(v.index) / double(draft_.mesh.n_vertices())))
+          break;
+        accuracy.improve(v, kRelaxation);
+      }
+      record(Objective::accuracy, accuracy.energy().energy);
+    }
+    keep_if_best();
+    if (!hooks_.error) return;
+    for (int i = 0; i < options_.error_steps && begin_sweep() && !is_stopped(0); ++i) {
+      if (!accuracy.descend(*hooks_.error)) break;
+      record(Objective::solver_error, std::sqrt(accuracy.error()));
+    }
+    keep_if_best();
+    if (input_.mesh.n_vertices() == 0) return;
+    draft_ = std::move(input_);
+    keep_if_best();
+  }
   using Clock = std::chrono::steady_clock;
   [[nodiscard]] static double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -163,11 +205,17 @@ class Run {
       best_ = draft_;
     }
     if (stopped_early(report_.stopped)) return;
+    record(Objective::energy, energy);
+    report_.history.back().bad = bad;
+    report_.history.back().length_parameter = gamma_;
+  }
+  /// Of a mesh with the number of bad tetrahedra of the best one.
+  void record(Objective objective, double energy) {
     SweepRecord now;
     now.sweep = report_.sweeps;
+    now.objective = objective;
     now.energy = energy;
-    now.bad = bad;
-    now.length_parameter = gamma_;
+    now.bad = best_bad_;
     now.seconds = seconds_since(start_);
     report_.history.push_back(now);
   }
@@ -207,6 +255,7 @@ class Run {
   OptimizeReport report_;
   double gamma_ = kFirstGamma;
   std::size_t best_bad_ = 0;
+  Draft input_;  // if it may be the best by its error
 };
 
 }  // namespace

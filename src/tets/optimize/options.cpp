@@ -12,15 +12,22 @@ namespace {
 
 /// The rows of the table that have a meaning for tetrahedra. Others may only have their default.
 constexpr auto kRows = std::to_array<std::string_view>({"max_sweeps", "time_limit", "unknowns", "boundary"});
+constexpr auto kTargets = std::to_array<std::string_view>({"any", "valid", "vertex", "cell"});
 constexpr auto kKept = std::to_array<std::string_view>({"positions", "weights", "edges", "boundary"});
 
-/// The changes of connectivity that an effort tries. "quick" moves vertices alone.
+/// What an effort tries. "quick" moves vertices alone, and looks at no solver's error.
 struct Effort {
   std::string_view name;
   int repair_trials;
   double small_margin;
+  int error_steps;
+  std::size_t most_error_vertices;
 };
-constexpr Effort kEfforts[] = {{"quick", 0, 0}, {"normal", OptimizeOptions().repair_trials, 0}, {"high", 40, 0.01}};
+constexpr OptimizeOptions kNormal;
+constexpr Effort kEfforts[] = {
+    {"quick", 0, 0, 0, 0},
+    {"normal", kNormal.repair_trials, kNormal.small_margin, kNormal.error_steps, kNormal.most_error_vertices},
+    {"high", 40, 0.01, 1000, 100'000}};
 
 template <class Names>
 bool has(const Names& names, std::string_view name) {
@@ -36,6 +43,7 @@ InputError refused(const std::string& what, const std::string& instead) {
 }  // namespace
 
 Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, const OptimizeWords& words) {
+  if (!has(kTargets, words.target)) return refused("target '" + std::string(words.target) + "'", join(kTargets));
   for (const std::string_view part : words.keep) {
     if (!has(kKept, part)) return refused("keep '" + std::string(part) + "'", join(kKept));
   }
@@ -48,11 +56,15 @@ Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, con
   if (table.boundary == BoundaryVertices::slide) return refused("`boundary=slide`", "keep and split");
   OptimizeOptions options;
   options.split_boundary = table.boundary == BoundaryVertices::split;
-  options.keep_positions = table.unknowns == Unknowns::weights;
-  options.keep_weights = table.unknowns == Unknowns::positions;
+  options.keep_positions = table.unknowns == temper::Unknowns::weights;
+  options.keep_weights = table.unknowns == temper::Unknowns::positions;
   const Effort& effort = *std::ranges::find(kEfforts, words.effort, &Effort::name);
   options.repair_trials = effort.repair_trials;
   options.small_margin = effort.small_margin;
+  options.error_steps = effort.error_steps;
+  options.most_error_vertices = effort.most_error_vertices;
+  options.scheme = table.scheme;
+  options.accuracy_sweeps = table.accuracy.sweeps;
   options.keep_edges = table.flips == Flips::none || options.repair_trials == 0;
   options.max_sweeps = table.max_sweeps;
   options.time_limit = table.time_limit;

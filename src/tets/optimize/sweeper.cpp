@@ -201,8 +201,6 @@ void Sweeper::improve(std::size_t first, std::size_t last, const Step& step) {
   }
 }
 
-namespace {
-
 bool is_bad(const TetMesh& mesh, TetId t) {
   for (int f = 0; f < 4; ++f) {
     const HalffaceId h = TetMesh::halfface(t, f);
@@ -211,6 +209,8 @@ bool is_bad(const TetMesh& mesh, TetId t) {
   }
   return false;
 }
+
+namespace {
 
 /// Calls use(t, energy, is_bad) for each tetrahedron of a block.
 template <class Use>

@@ -58,6 +58,9 @@ class Sweeper {
   std::vector<std::size_t> end_;    // of each color
 };
 
+/// Says exactly whether the orthocenter of a tetrahedron, in either orientation, is not inside.
+[[nodiscard]] bool is_bad(const TetMesh& mesh, TetId t);
+
 /// The energy of a mesh, and the number of tetrahedra whose orthocenter is not inside, exactly.
 struct MeshState {
   double energy = 0;

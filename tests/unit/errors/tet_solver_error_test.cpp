@@ -1,0 +1,68 @@
+// The error of the vertex-centered scheme on tetrahedra: its gradient against differences, and its invariance.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/tet_lattice.hpp"
+#include "temper/tets/errors.hpp"
+#include "temper/tets/optimize.hpp"
+#include "temper/tets/quality.hpp"
+
+namespace temper::tets {
+namespace {
+
+TetMesh lattice() { return test::mesh_of(test::shaken(test::body_centered(3), 0.1, 0.1)); }
+
+TEST(TetSolverError, DifferencesConvergeToTheGradientWithOrderTwo) {
+  const auto model = make_discretization_error(Scheme::vertex);
+  ASSERT_NE(model, nullptr);
+  TetMesh mesh = lattice();
+  IdVector<VertexId, WeightedPoint> gradient(mesh.n_vertices());
+  const double here = model->squared_error(mesh, &gradient);
+  ASSERT_TRUE(std::isfinite(here));
+  EXPECT_EQ(model->squared_error(mesh, nullptr), here);
+  const auto on_boundary = boundary_vertices(mesh);
+  double coarse = 0, fine = 0, size = 0;
+  for (const VertexId v : mesh.vertices()) {
+    const WeightedPoint at = mesh.point(v);
+    for (double WeightedPoint::*i : {&WeightedPoint::x, &WeightedPoint::y, &WeightedPoint::z, &WeightedPoint::w}) {
+      if (on_boundary[v] != 0 && i != &WeightedPoint::w) continue;
+      const auto difference = [&](double step) {
+        WeightedPoint high = at, low = at;
+        high.*i += step, low.*i -= step;
+        mesh.set_point(v, high);
+        const double above = model->squared_error(mesh, nullptr);
+        mesh.set_point(v, low);
+        const double below = model->squared_error(mesh, nullptr);
+        mesh.set_point(v, at);
+        return (above - below) / (2 * step);
+      };
+      coarse += std::abs(difference(0x1p-6) - gradient[v].*i);
+      fine += std::abs(difference(0x1p-7) - gradient[v].*i);
+      size += std::abs(gradient[v].*i);
+    }
+  }
+  EXPECT_LT(coarse, 0.1 * size);
+  EXPECT_LT(fine, 0.27 * coarse + 1e-10 * size);
+}
+
+TEST(TetSolverError, ARunLowersItAndReturnsTheBestMesh) {
+  TetMesh before = lattice();
+  ASSERT_TRUE(optimize(before));
+  TetMesh mesh = before, again = before;
+  OptimizeOptions options;
+  options.scheme = Scheme::vertex, options.error_steps = 5;
+  OptimizeHooks hooks;
+  hooks.error = make_discretization_error(Scheme::vertex);
+  ASSERT_TRUE(optimize(mesh, options, hooks));
+  EXPECT_LT(hooks.error->squared_error(mesh, nullptr), 0.95 * hooks.error->squared_error(before, nullptr));
+  EXPECT_EQ(quality(mesh).orthocenters_outside, 0U);
+  options.error_steps = 0, options.accuracy_sweeps = 0;
+  hooks.error = make_discretization_error(Scheme::vertex);
+  ASSERT_TRUE(optimize(again, options, hooks));
+  EXPECT_LE(hooks.error->squared_error(again, nullptr), hooks.error->squared_error(before, nullptr));
+  EXPECT_EQ(make_discretization_error(Scheme::cell), nullptr);
+}
+
+}  // namespace
+}  // namespace temper::tets

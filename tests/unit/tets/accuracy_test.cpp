@@ -1,0 +1,178 @@
+// The accuracy objective: a twin by brute force, derivatives, and what its sweeps keep.
+#include "tets/optimize/accuracy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "support/tet_lattice.hpp"
+#include "temper/tets/quality.hpp"
+#include "tets/energy/star.hpp"
+#include "tets/optimize/sweeper.hpp"
+
+namespace temper::tets {
+namespace {
+
+constexpr AccuracyModel kBoth = {1, 0.5, 2, 0.25, 0.01};
+
+TetMesh lattice() { return test::mesh_of(test::shaken(test::body_centered(3), 0.05, 0.05)); }
+
+AccuracyDomain domain_of(const TetMesh& mesh) {
+  return {local_sizes(mesh), IdVector<TetId, double>(mesh.n_tetrahedra(), 0.001)};
+}
+
+/// V and N of an edge or face, and its number of boundary faces.
+struct Element {
+  double volume = 0;
+  Vec3 moment;
+  int boundary = 0;
+};
+
+/// E and barrier by their definitions: dual faces as polygons of orthocenters, dual edges as segments.
+AccuracyTotal naive_total(const TetMesh& mesh, const AccuracyDomain& domain, const AccuracyModel& model) {
+  std::map<std::vector<VertexId>, Element> elements;
+  AccuracyTotal total;
+  const auto at = [&](VertexId v) { return mesh.position(v); };
+  const auto face_center = [&](VertexId a, VertexId b, VertexId c) {  // in the plane, far points do not count
+    const Vec3 n = cross(at(b) - at(a), at(c) - at(a));
+    const Vec3 above = at(a) + n;
+    const Vec3 o = orthocenter(mesh.point(a), mesh.point(b), mesh.point(c), {above.x, above.y, above.z, 0});
+    return o - dot(n, o - at(a)) / dot(n, n) * n;
+  };
+  for (const TetId t : mesh.tetrahedra()) {
+    const auto points = mesh.points(t);
+    const Vec3 o = orthocenter(points[0], points[1], points[2], points[3]);
+    double size = 0;
+    for (const VertexId v : mesh.corners(t)) size += domain.sizes[v] / 4;
+    for (int f = 0; f < 4; ++f) {
+      const HalffaceId h = TetMesh::halfface(t, f);
+      const auto [a, b, c] = mesh.vertices(h);
+      const Vec3 center = face_center(a, b, c), n = 0.5 * cross(at(b) - at(a), at(c) - at(a));
+      const double area = length(n), height = dot(n, o - center) / area;
+      total.barrier -= model.barrier * size * size * size *
+                       std::log(height / (kLengthOfArea * std::sqrt(2 * area)) - domain.floors[t]);
+      std::vector<VertexId> key = {a, b, c};
+      std::sort(key.begin(), key.end());
+      Element& face = elements[key];
+      face.volume += area * height;
+      face.moment = face.moment + area * height * (0.5 * (center + o) - (1.0 / 3) * (at(a) + at(b) + at(c)));
+      face.boundary += mesh.is_boundary(h) ? 1 : 0;
+      for (const auto& [i, j, k] : {std::array{a, b, c}, {b, c, a}, {c, a, b}}) {
+        // The triangle between edge, face and tetrahedron; its sign is that of the heights of both orthocenters.
+        const Vec3 e = at(j) - at(i);
+        const double l = length(e), d = dual_crossing(mesh.point(i), mesh.point(j));
+        const Vec3 x = at(i) + (d / l) * e;
+        const double in_face = signed_height(mesh.point(i), mesh.point(j), mesh.point(k));
+        const double part = l * 0.5 * in_face * height;
+        Element& edge = elements[i < j ? std::vector{i, j} : std::vector{j, i}];
+        edge.volume += part;
+        edge.moment = edge.moment + part * ((1.0 / 3) * (x + center + o) - 0.5 * (at(i) + at(j)));
+        edge.boundary += mesh.is_boundary(h) ? 1 : 0;
+      }
+    }
+  }
+  for (const auto& [key, element] : elements) {
+    double size = 0;
+    for (const VertexId v : key) size += domain.sizes[v] / double(key.size());
+    const bool inner = element.boundary == 0;
+    const double factor =
+        key.size() == 2 ? (inner ? model.edges : model.boundary_edges) : (inner ? model.faces : model.boundary_faces);
+    total.energy += factor / (size * size) * squared_length(element.moment) / element.volume;
+  }
+  return total;
+}
+
+AccuracyTotal total_of(const TetMesh& mesh, const AccuracyDomain& domain, const AccuracyModel& model) {
+  AccuracyTotal total;
+  AccuracyStar star;
+  std::vector<HalffaceId> link;
+  for (const VertexId v : mesh.vertices()) {
+    collect_link(mesh, v, link);
+    star.gather(mesh, v, link, domain, model);
+    const auto [energy, barrier] = star.own(mesh.point(v));
+    total.energy += energy, total.barrier += barrier;
+  }
+  return total;
+}
+
+TEST(TetAccuracy, IsTheSumOfItsDefinition) {
+  const TetMesh mesh = lattice();
+  const AccuracyDomain domain = domain_of(mesh);
+  for (const AccuracyModel& model : {kBoth, AccuracyModel{1, 0, 0, 0, 0.1}, AccuracyModel{0, 0, 1, 3, 0.1}}) {
+    const AccuracyTotal total = total_of(mesh, domain, model), naive = naive_total(mesh, domain, model);
+    EXPECT_GT(naive.energy, 0);
+    EXPECT_NEAR(total.energy, naive.energy, 1e-12 * naive.energy);
+    EXPECT_NEAR(total.barrier, naive.barrier, 1e-12 * std::abs(naive.barrier));
+  }
+}
+
+TEST(TetAccuracy, ValuesOfAStarChangeAsTheTotalDoesAndDifferencesConvergeToTheGradientWithOrderTwo) {
+  TetMesh mesh = lattice();
+  const AccuracyDomain domain = domain_of(mesh);
+  AccuracyStar star;
+  std::vector<HalffaceId> link;
+  const auto sum = [&] {
+    const AccuracyTotal total = total_of(mesh, domain, kBoth);
+    return total.energy + total.barrier;
+  };
+  const double before = sum();
+  double coarse = 0, fine = 0, size = 0;
+  for (const VertexId v : mesh.vertices()) {
+    collect_link(mesh, v, link);
+    star.gather(mesh, v, link, domain, kBoth);
+    const WeightedPoint at = mesh.point(v);
+    const double value = star.value(at);
+    if (v.index % 7 == 0) {
+      const WeightedPoint there = {at.x + 0.01, at.y - 0.02, at.z + 0.01, at.w + 0.01};
+      mesh.set_point(v, there);
+      EXPECT_NEAR(sum() - before, star.value(there) - value, 1e-11 * std::abs(before));
+      mesh.set_point(v, at);
+    }
+    const PointDerivatives<double> d = star.derivatives(at);
+    EXPECT_NEAR(d.value, value, 1e-12 * std::abs(value));
+    const std::array<double, 4> gradient = {d.gradient.at.x, d.gradient.at.y, d.gradient.at.z, d.gradient.w};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto difference = [&](double step) {
+        std::array<double, 4> high = {at.x, at.y, at.z, at.w}, low = high;
+        high[i] += step, low[i] -= step;
+        return (star.value({high[0], high[1], high[2], high[3]}) - star.value({low[0], low[1], low[2], low[3]})) /
+               (2 * step);
+      };
+      coarse += std::abs(difference(0x1p-8) - gradient[i]);
+      fine += std::abs(difference(0x1p-9) - gradient[i]);
+      size += std::abs(gradient[i]);
+    }
+  }
+  EXPECT_LT(coarse, 0.05 * size);
+  EXPECT_LT(fine, 0.27 * coarse);
+}
+
+TEST(TetAccuracy, OffsetsOfTheBodyCenteredLatticeVanishInside) {
+  const TetMesh mesh = test::mesh_of(test::shaken(test::body_centered(4), 0, 0));
+  EXPECT_NEAR(total_of(mesh, domain_of(mesh), {1, 0, 0, 0, 0}).energy, 0, 1e-25);
+}
+
+TEST(TetAccuracy, SweepsForAnySchemeLowerItsOffsetsAndLeaveNoMoreBadTetrahedra) {
+  TetMesh input = lattice();
+  ASSERT_TRUE(optimize(input));  // good tetrahedra
+  ASSERT_EQ(quality(input).orthocenters_outside, 0U);
+  for (const Scheme scheme : {Scheme::vertex, Scheme::cell}) {
+    TetMesh mesh = input;
+    OptimizeOptions options;
+    options.scheme = scheme;
+    const auto report = optimize(mesh, options);
+    ASSERT_TRUE(report);
+    EXPECT_EQ(quality(mesh).orthocenters_outside, 0U);
+    EXPECT_EQ(mesh.validate(), std::nullopt);
+    const AccuracyModel model = accuracy_model(scheme);
+    EXPECT_LT(total_of(mesh, domain_of(input), model).energy, 0.95 * total_of(input, domain_of(input), model).energy);
+    EXPECT_EQ(report->history.back().objective, Objective::accuracy);
+  }
+}
+
+}  // namespace
+}  // namespace temper::tets
