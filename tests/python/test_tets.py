@@ -187,7 +187,7 @@ def test_a_run_is_that_of_the_program_and_the_boundary_stays(shaken, in_scratch)
 def test_words_for_triangles_are_refused_by_name(shaken):
     before = shaken.copy()
     for given, refused in (
-        ({"target": "mpas"}, "target"), ({"tensor": (1, 0, 1)}, "tensor"), ({"hooks": temper.Hooks(tracer=print)}, "tracer"),
+        ({"target": "mpas"}, "target 'mpas'"), ({"tensor": (1, 0, 1)}, "tensor"), ({"hooks": temper.Hooks(tracer=print)}, "tracer"),
         ({"options": {"problem": {}}}, "problem"), ({"keep": "sizes"}, "keep 'sizes'"), ({"boundary": "slide"}, 'boundary="slide"'),
         ({"options": {"energy": "F"}}, 'energy="F"'), ({"options": temper.OptimizeOptions(seed=5)}, "seed=5"),
     ):  # fmt: skip

@@ -63,6 +63,7 @@ std::string settings_json(const OptimizeSettings& s, const tets::OptimizeOptions
                                  {"keep_edges", options.keep_edges},
                                  {"repair_trials", options.repair_trials},
                                  {"split_boundary", options.split_boundary},
+                                 {"search_each", options.search_each},
                                  {"small_margin", options.small_margin},
                                  {"scheme", s.target},
                                  {"accuracy_sweeps", options.accuracy_sweeps},

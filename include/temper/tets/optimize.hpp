@@ -29,6 +29,7 @@ struct OptimizeOptions {
   bool keep_edges = false;      ///< The connectivity stays: no flips, no new vertices
   int repair_trials = 20;       ///< Trials in vain at one place, after which it is left as it is
   bool split_boundary = false;  ///< Edges and faces that stay may get new vertices where nothing else helps
+  bool search_each = false;     ///< Each bad tetrahedron has trials of its own, not along with those nearby
   double small_margin = 0;      ///< Tetrahedra with a smaller least h/ℓ are improved in trials, too, if none is bad
   Scheme scheme = Scheme::all;  ///< Scheme whose errors the run lowers after that: vertex or cell; others: none
   int accuracy_sweeps = 32;     ///< Largest number of sweeps for this

@@ -114,46 +114,68 @@ bool change_all(Draft& draft, const MustStop& must_stop, Executor* executor) {
   return settle(draft, moving, must_stop, executor);
 }
 
-bool search(Draft& draft, const SearchOptions& options, const MustStop& must_stop) {
+Gain search(Draft& draft, const SearchOptions& options, const MustStop& must_stop) {
   const Score start = score_of(draft.mesh);
   Score best = start;
+  const auto gain = [&] {
+    return best.bad < start.bad ? Gain::fewer_bad : is_better(best, start) ? Gain::lower_energy : Gain::none;
+  };
   for (int in_vain = 0; in_vain < options.most_in_vain;) {
     Draft trial = draft;
     std::vector<Filling> changes = first_changes(trial, static_cast<std::size_t>(in_vain++), options, must_stop);
     for (int length = 0; length < kLongestChain && !changes.empty() && trial.fill(changes); ++length) {
       const auto all = trial.mesh.vertices();
-      if (!settle(trial, {all.begin(), all.end()}, must_stop)) return is_better(best, start);
+      if (!settle(trial, {all.begin(), all.end()}, must_stop)) return gain();
       if (const Score score = score_of(trial.mesh); is_better(score, best)) {
         best = score;
-        draft = std::move(trial);
         in_vain = 0;
+        draft = std::move(trial);
         break;
       }
       changes = repairs(trial, to_change(trial.mesh, options.small_margin), {kAllowance, 0, options.split_boundary},
                         must_stop);
     }
   }
-  return is_better(best, start);
+  return gain();
 }
 
 std::vector<Patch> Places::choose(const Draft& draft, Executor* executor) {
   const TetMesh& mesh = draft.mesh;
   chosen_.clear();
   std::vector<Patch> patches;
+  const std::vector<TetId> needy = to_change(mesh, options_.small_margin, executor);
   const VertexStars stars(mesh);
-  IdVector<TetId, std::uint8_t> used(mesh.n_tetrahedra());
-  for (const TetId t : to_change(mesh, options_.small_margin, executor)) {
+  const auto names_of = [&](TetId t) {
     Corners corners = mesh.corners(t);
     for (VertexId& v : corners) v = draft.names.vertices[v];
     std::sort(corners.begin(), corners.end());
-    const int tries = tries_[corners];
+    return corners;
+  };
+  IdVector<TetId, std::uint8_t> is_needy(mesh.n_tetrahedra());
+  for (const TetId t : needy) is_needy[t] = 1;
+  IdVector<TetId, std::size_t> patch_of_tet(mesh.n_tetrahedra());  // from 1; 0: none
+  for (const TetId t : needy) {
+    const auto tried = tries_.find(names_of(t));
+    const int tries = tried == tries_.end() ? 0 : tried->second;
     if (tries >= kTriesOfPlace) continue;
     std::vector<TetId> around = with_rings(mesh, stars, {t}, kRings + tries);
-    if (std::any_of(around.begin(), around.end(), [&](TetId s) { return used[s] != 0; })) continue;
-    for (const TetId s : around) used[s] = 1;
-    chosen_.push_back(corners);
-    ++tries_[corners];
-    patches.push_back(patch_of(draft, std::move(around)));
+    if (std::any_of(around.begin(), around.end(), [&](TetId s) { return patch_of_tet[s] != 0; })) continue;
+    patches.push_back(patch_of(draft, around));
+    for (const TetId s : around) patch_of_tet[s] = patches.size();
+    const auto may_change = [&](VertexId v) {
+      const auto link = stars.link(v);
+      return std::all_of(link.begin(), link.end(),
+                         [&](HalffaceId h) { return patch_of_tet[TetMesh::tetrahedron(h)] == patches.size(); });
+    };
+    // Other tetrahedra are tried along with t if all their corners may change.
+    const bool alone = options_.each_alone && patches.back().tetrahedra.size() < mesh.n_tetrahedra();
+    std::vector<Corners>& along = chosen_.emplace_back();
+    for (const TetId s : around) {
+      const auto& corners = mesh.corners(s);
+      if (s == t || (!alone && is_needy[s] != 0 && std::all_of(corners.begin(), corners.end(), may_change)))
+        along.push_back(names_of(s));
+    }
+    for (const Corners& corners : along) ++tries_[corners];
   }
   return patches;
 }

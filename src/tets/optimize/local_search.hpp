@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <vector>
@@ -30,11 +31,13 @@ struct SearchOptions {
   int most_in_vain = 0;     ///< Trials without success, after which the search ends
   double small_margin = 0;  ///< Without bad tetrahedra it looks at those with a smaller margin
   bool split_boundary = false;
+  bool each_alone = false;  ///< Each place has its own searches, not along with those nearby
 };
 
+enum class Gain : std::uint8_t { none, lower_energy, fewer_bad };
 /// Tries chains of changes at the bad tetrahedra, or those with small margins, and takes the chains that make the mesh
-/// better. Returns whether it is better.
-bool search(Draft& draft, const SearchOptions& options, const MustStop& must_stop);
+/// better.
+Gain search(Draft& draft, const SearchOptions& options, const MustStop& must_stop);
 
 /// The places of a mesh that need a search, and how often each was in vain.
 class Places {
@@ -43,14 +46,16 @@ class Places {
   /// Patches around tetrahedra where a search may help. They share no tetrahedron. A place where searches were in vain
   /// gets a larger patch, and after some none.
   [[nodiscard]] std::vector<Patch> choose(const Draft& draft, Executor* executor);
-  /// Tells of the i-th patch that its search was successful.
-  void succeeded(std::size_t i) { tries_.erase(chosen_[i]); }
+  /// Tells of the i-th patch that it has fewer bad tetrahedra: those that are left may be tried anew.
+  void succeeded(std::size_t i) {
+    for (const Corners& corners : chosen_[i]) tries_.erase(corners);
+  }
 
  private:
   using Corners = std::array<VertexId, 4>;  ///< of a tetrahedron, by name, sorted
   SearchOptions options_;
   std::map<Corners, int> tries_;
-  std::vector<Corners> chosen_;
+  std::vector<std::vector<Corners>> chosen_;  // of each patch
 };
 
 }  // namespace temper::tets

@@ -2,7 +2,7 @@
 #include "temper/tets/optimize.hpp"
 
 #include <algorithm>
-#include <mutex>
+#include <atomic>
 #include <optional>
 #include <utility>
 
@@ -109,27 +109,33 @@ class Run {
       in_vain = best_bad_ < before ? 0 : in_vain + 1;
     }
     draft_ = best_;
-    repair_patches({options_.repair_trials, 0, false});
-    if (options_.split_boundary && best_bad_ > 0) repair_patches({options_.repair_trials, 0, true});
-    if (options_.small_margin > 0 && best_bad_ == 0)
-      repair_patches({options_.repair_trials, options_.small_margin, options_.split_boundary});
+    SearchOptions search = {options_.repair_trials, 0, false, options_.search_each};
+    repair_patches(search);
+    search.split_boundary = options_.split_boundary;
+    if (search.split_boundary && best_bad_ > 0) repair_patches(search);
+    search.small_margin = options_.small_margin;
+    if (search.small_margin > 0 && best_bad_ == 0) repair_patches(search);
   }
   void repair_patches(const SearchOptions& options) {
     if (options.most_in_vain == 0) return;
     for (Places places(options); may_sweep();) {
       std::vector<Patch> patches = places.choose(draft_, hooks_.executor);
       if (patches.empty()) return;
-      std::vector<std::uint8_t> better(patches.size(), 0);
-      std::mutex clock;
+      std::vector<Gain> gains(patches.size(), Gain::none);
+      std::atomic<bool> stops = false, asks = false;
+      const auto must_stop = [&](std::size_t i) {  // one thread asks at a time
+        if (!stops && !asks.exchange(true)) {
+          stops = is_stopped(double(i) / double(patches.size()));
+          asks = false;
+        }
+        return stops.load();
+      };
       or_serial(hooks_.executor).run(patches.size(), [&](std::size_t i) {
-        better[i] = search(patches[i].draft, options, [&] {
-          const std::lock_guard lock(clock);
-          return stopped_early(report_.stopped) || is_stopped(double(i) / double(patches.size()));
-        });
+        gains[i] = search(patches[i].draft, options, [&] { return must_stop(i); });
       });
       std::vector<Patch> chosen;
       for (std::size_t i = 0; i < patches.size(); ++i) {
-        if (better[i] == 0) continue;
+        if (gains[i] == Gain::none) continue;
         places.succeeded(i);
         chosen.push_back(std::move(patches[i]));
       }

@@ -19,15 +19,16 @@ constexpr auto kKept = std::to_array<std::string_view>({"positions", "weights", 
 struct Effort {
   std::string_view name;
   int repair_trials;
+  bool search_each;
   double small_margin;
   int error_steps;
   std::size_t most_error_vertices;
 };
 constexpr OptimizeOptions kNormal;
-constexpr Effort kEfforts[] = {
-    {"quick", 0, 0, 0, 0},
-    {"normal", kNormal.repair_trials, kNormal.small_margin, kNormal.error_steps, kNormal.most_error_vertices},
-    {"high", 40, 0.01, 1000, 100'000}};
+constexpr Effort kEfforts[] = {{"quick", 0, false, 0, 0, 0},
+                               {"normal", kNormal.repair_trials, kNormal.search_each, kNormal.small_margin,
+                                kNormal.error_steps, kNormal.most_error_vertices},
+                               {"high", 40, true, 0.01, 1000, 100'000}};
 
 template <class Names>
 bool has(const Names& names, std::string_view name) {
@@ -60,6 +61,7 @@ Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, con
   options.keep_weights = table.unknowns == temper::Unknowns::positions;
   const Effort& effort = *std::ranges::find(kEfforts, words.effort, &Effort::name);
   options.repair_trials = effort.repair_trials;
+  options.search_each = effort.search_each;
   options.small_margin = effort.small_margin;
   options.error_steps = effort.error_steps;
   options.most_error_vertices = effort.most_error_vertices;

@@ -540,7 +540,7 @@ TEST_F(OptimizeTetrahedra, PositionsOrWeightsMayBeKept) {
 
 TEST_F(OptimizeTetrahedra, OptionsForTrianglesAloneAreRefusedByNameAndNothingIsWritten) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
-      {{"--for", "cell"}, "--for"},
+      {{"--for", "mpas"}, "target 'mpas'"},
       {{"--boundary", "slide"}, "--boundary slide"},
       {{"--keep", "sizes"}, "keep 'sizes'"},
       {{"--set", "energy=F"},

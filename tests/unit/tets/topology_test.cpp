@@ -313,11 +313,11 @@ TEST(TetTopology, PatchesFitBackWithAndWithoutChanges) {
   const Draft whole(mesh, mobility);
   std::vector<TetId> low, high;
   for (const TetId t : mesh.tetrahedra()) {
-    double z = 0;
-    for (const VertexId v : mesh.corners(t)) z += mesh.position(v).z / 4;
-    if (z < 1)
+    double x = 0;
+    for (const VertexId v : mesh.corners(t)) x += mesh.position(v).x / 4;
+    if (x < 1)
       low.push_back(t);
-    else if (z < 2)
+    else if (x > 2)
       high.push_back(t);
   }
   std::vector<Patch> patches = {patch_of(whole, low), patch_of(whole, high)};
@@ -339,16 +339,21 @@ TEST(TetTopology, PatchesFitBackWithAndWithoutChanges) {
       const Cavities cavities(part);
       IdVector<TetId, std::uint8_t> used(part.n_tetrahedra());
       std::vector<Filling> fillings;
+      const auto try_edge = [&](TetId t, VertexId a, VertexId b) {
+        if (stays(a) && stays(b)) return;
+        const auto cavity = edge_of_boundary != 0 ? cavities.to_split(t, a, b) : cavities.of_edge(t, a, b);
+        if (!cavity) return;
+        const auto& all = cavity->tetrahedra;
+        if (std::any_of(all.begin(), all.end(), [&](TetId s) { return used[s] != 0; })) return;
+        const Vec3 p = 0.5 * (part.position(a) + part.position(b));
+        for (const TetId s : all) used[s] = 1;
+        fillings.push_back({*cavity, {}, {p.x, p.y, p.z, 0.01}, {}});
+      };
       for (const TetId t : part.tetrahedra()) {
         const auto& c = part.corners(t);
-        if (stays(c[0]) && stays(c[1])) continue;
-        const auto cavity = edge_of_boundary ? cavities.to_split(t, c[0], c[1]) : cavities.of_edge(t, c[0], c[1]);
-        if (!cavity ||
-            std::any_of(cavity->tetrahedra.begin(), cavity->tetrahedra.end(), [&](TetId s) { return used[s]; }))
-          continue;
-        const Vec3 p = 0.5 * (part.position(c[0]) + part.position(c[1]));
-        for (const TetId s : cavity->tetrahedra) used[s] = 1;
-        fillings.push_back({*cavity, {}, {p.x, p.y, p.z, 0.01}, {}});
+        for (std::size_t i = 0; i < 4; ++i) {
+          for (std::size_t j = i + 1; j < 4; ++j) try_edge(t, c[i], c[j]);
+        }
       }
       splits += fillings.size();
       EXPECT_GT(fillings.size(), 1U);
