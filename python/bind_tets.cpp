@@ -136,6 +136,10 @@ void set_tet_weights(PyTetMesh& self, const Doubles& weights) {
       fail(ErrorCode::not_finite, "weights: expected finite numbers, found " + std::to_string(values[v.index]) +
                                       " for vertex " + std::to_string(v.index));
     }
+    if (!is_exact_weight(values[v.index])) {
+      fail(ErrorCode::out_of_scale,
+           "weights: the weight of vertex " + std::to_string(v.index) + " is out of the range of exact arithmetic");
+    }
     mesh.set_weight(v, values[v.index]);
   }
   replace(self, std::move(mesh), {}, nullptr);
@@ -155,7 +159,7 @@ py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const std::strin
   tets::TetMesh mesh = loaded->mesh;
   Visitor visitor;
   tets::OptimizeHooks hooks = {observer_of(visitor, observer), executor.get()};
-  if (mesh.n_vertices() <= options.most_error_vertices) hooks.error = tets::discretization_error(options.scheme);
+  hooks.error = tets::discretization_error(options.scheme);
   const Run run(self.running);
   Expected<tets::OptimizeReport> report = aside([&] { return optimize(mesh, options, hooks); });
   const bool has_data = !self.file->point_data.empty() || !self.file->cell_data.empty();

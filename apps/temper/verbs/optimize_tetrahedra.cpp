@@ -65,7 +65,7 @@ std::string settings_json(const OptimizeSettings& s, const tets::OptimizeOptions
                                  {"split_boundary", options.split_boundary},
                                  {"search_each", options.search_each},
                                  {"small_margin", options.small_margin},
-                                 {"scheme", s.target},
+                                 {"target", s.target},
                                  {"accuracy_sweeps", options.accuracy_sweeps},
                                  {"error_steps", options.error_steps},
                                  {"max_sweeps", options.max_sweeps},
@@ -114,7 +114,7 @@ class TetRun {
       return interrupted() ? Continue::no : Continue::yes;
     };
     mesh_ = input_.mesh();
-    if (mesh_.n_vertices() <= options_.most_error_vertices) hooks.error = tets::discretization_error(options_.scheme);
+    hooks.error = tets::discretization_error(options_.scheme);
     Expected<tets::OptimizeReport> report = optimize(mesh_, options_, hooks);
     if (!report) throw as_failure(spell_options(report.error()));
     report_ = *std::move(report);

@@ -27,7 +27,7 @@ struct OptimizeOptions {
   bool keep_positions = false;  ///< All vertices stay, and only weights change
   bool keep_weights = false;    ///< All weights stay, and only positions change
   bool keep_edges = false;      ///< The connectivity stays: no flips, no new vertices
-  int repair_trials = 20;       ///< Trials in vain at one place, after which it is left as it is
+  int repair_trials = 20;       ///< Trials in vain in one patch; after four patches a place is left as it is
   bool split_boundary = false;  ///< Edges and faces that stay may get new vertices where nothing else helps
   bool search_each = false;     ///< Each bad tetrahedron has trials of its own, not along with those nearby
   double small_margin = 0;      ///< Tetrahedra with a smaller least h/ℓ are improved in trials, too, if none is bad
@@ -60,7 +60,7 @@ struct OptimizeWords {
 [[nodiscard]] Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, const OptimizeWords& words);
 
 struct OptimizeHooks {
-  Observer observer = {};        ///< Observer of the progress, which may stop the run
+  Observer observer = {};  ///< Observer of the progress, which may stop the run. Any thread calls it, one at a time
   Executor* executor = nullptr;  ///< Threads; the result does not depend on them
   /// Start of the time limit, as in temper::OptimizeHooks. Absent: the time of the call.
   std::optional<std::chrono::steady_clock::time_point> started = {};
@@ -83,9 +83,9 @@ struct OptimizeReport {
 [[nodiscard]] double tetrahedron_energy(const std::array<WeightedPoint, 4>& corners, double gamma);
 
 /// Improves the mesh in place. Weights change everywhere. Connectivity changes only around tetrahedra that moves alone
-/// leave bad, by flips and by vertices that are inserted or removed; not if positions, weights or edges are kept. The
-/// boundary, faces between regions, and tagged faces and lines keep their connectivity, and these vertices their
-/// position, bit for bit:
+/// leave bad, or with small margins on request, by flips and by vertices that are inserted or removed; not if
+/// positions, weights or edges are kept. The boundary, faces between regions, and tagged faces and lines keep their
+/// connectivity, unless they may be split. These vertices keep their position, bit for bit:
 ///   - on the boundary, and on faces between regions
 ///   - of tagged faces and lines
 ///   - fixed points

@@ -51,9 +51,9 @@ bool is_nearly_in(const TetMesh& mesh, TetId t, Vec3 p) {
   constexpr double kRounding = 1e-9;
   for (int f = 0; f < 4; ++f) {
     const HalffaceId h = TetMesh::halfface(t, f);
-    const auto [a, b, c] = mesh.vertices(h);
+    const auto corners = mesh.vertices(h);
     const auto volumes = [&](Vec3 q) {
-      return tets::six_volumes(mesh.position(a), mesh.position(b), mesh.position(c), q);
+      return tets::six_volumes(mesh.position(corners[0]), mesh.position(corners[1]), mesh.position(corners[2]), q);
     };
     if (volumes(p) < -kRounding * volumes(mesh.position(mesh.opposite(h)))) return false;
   }
@@ -78,7 +78,7 @@ TetId locate(const TetMesh& mesh, Vec3 p, TetId near) {
   std::unordered_set<std::uint32_t> seen = {t.index};
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const TetId s = reached[i];
-    if (!face_towards(mesh, s, p, 0)) return s;
+    if (is_nearly_in(mesh, s, p)) return s;
     for (int f = 0; f < 4; ++f) {
       const HalffaceId beyond = mesh.twin(TetMesh::halfface(s, f));
       if (!beyond.valid()) continue;
@@ -261,7 +261,7 @@ class TetFileUpdater {
     const std::size_t marked = file_.marked_points.size();
     drop_lost(file_.marked_points, file_.point_tags, file_.marked_point_data);
     if (const std::size_t all = lost + marked - file_.marked_points.size(); all > 0)
-      file_.warnings.push_back(text(all, " faces, lines or marked points have lost their vertices and are dropped"));
+      file_.warnings.push_back(text(all, " tags are dropped, because their faces, lines or points have lost vertices"));
     file_.numbering = nullptr;
   }
   /// A tag that all corners of a tetrahedron have lists the vertices of a part. A new vertex in it belongs to the part,

@@ -24,8 +24,8 @@ struct Sloped {
   friend Sloped operator-(const Sloped& a, const Sloped& b) { return {a.value - b.value, 1, a, -1, b}; }
   friend Sloped operator*(const Sloped& a, const Sloped& b) { return {a.value * b.value, b.value, a, a.value, b}; }
   friend Sloped operator/(const Sloped& a, const Sloped& b) {
-    const double inverse = 1 / b.value, value = a.value * inverse;
-    return {value, inverse, a, -value * inverse, b};
+    const double inverse = 1 / b.value, quotient = a.value * inverse;
+    return {quotient, inverse, a, -quotient * inverse, b};
   }
   friend Sloped sqrt(const Sloped& a) {
     const double root = std::sqrt(a.value);

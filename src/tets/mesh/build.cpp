@@ -570,7 +570,7 @@ class TetMeshBuilder {
   BuiltTetMesh built_;
   TetMesh& mesh_ = built_.mesh;
   std::optional<FaceBuckets> faces_;           // from link_twins to tag_faces
-  std::optional<EdgeTable> edges_;             // from check_stars to tag_lines
+  std::optional<EdgeTable> edges_;             // from check_stars or tag_lines on
   IdVector<VertexId, std::uint8_t> boundary_;  // from check_stars on
 };
 

@@ -7,8 +7,8 @@
 
 namespace temper::tets {
 
-/// As TetMesh::build, without a look for overlaps: so also for parts of a mesh, which may touch themselves. Nothing if
-/// a coordinate is out of range, or a tetrahedron is not positive. O(n).
+/// As TetMesh::build, without its checks of sizes, places and stars: parts of a mesh may touch themselves. Tags that
+/// are not in the mesh are dropped. Nothing if a coordinate is out of range, or a tetrahedron is not positive. O(n).
 [[nodiscard]] std::optional<TetMesh> rebuilt(const TetMeshInput& input);
 
 }  // namespace temper::tets

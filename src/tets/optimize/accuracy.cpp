@@ -199,12 +199,12 @@ void Accuracy::shorten(const IdVector<VertexId, WeightedPoint>& from, Descent::V
   }
 }
 
-bool Accuracy::descend(const DiscretizationError& model) {
+bool Accuracy::descend(const DiscretizationError& model, const std::function<bool()>& must_stop) {
   if (!std::exchange(has_begun_, true)) {
     find_scales();
     now_ = total(model);
   }
-  if (!std::isfinite(now_.lowered)) return false;
+  if (!std::isfinite(now_.lowered) || !(now_.error > 0)) return false;
   IdVector<VertexId, WeightedPoint> before(mesh_.n_vertices());
   for (const VertexId v : mesh_.vertices()) before[v] = mesh_.point(v);
   for (;;) {
@@ -213,6 +213,10 @@ bool Accuracy::descend(const DiscretizationError& model) {
     const double slope = temper::dot(now_.gradient, step);
     double t = 1;
     for (int i = 0; i < kMostHalvings && slope < 0; ++i, t *= 0.5) {
+      if (must_stop()) {
+        place(before, step, 0);
+        return false;
+      }
       place(before, step, t);
       const auto all = mesh_.tetrahedra();
       if (!std::all_of(all.begin(), all.end(), [this](TetId tet) { return is_good(mesh_, tet); })) continue;

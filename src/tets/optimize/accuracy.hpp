@@ -11,6 +11,7 @@
 // that is bad stays as it is, with its corners.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "base/descent.hpp"
@@ -34,8 +35,9 @@ class Accuracy {
   void improve(VertexId v, double relaxation);
   /// E of the mesh without duals that are not positive, and the barrier, +∞ with bad tetrahedra.
   [[nodiscard]] AccuracyTotal energy();
-  /// Takes one step over all vertices. Returns false if there is none. Precondition: no tetrahedron is bad.
-  bool descend(const DiscretizationError& model);
+  /// Takes one step over all vertices. Returns false if there is none, or if it must stop. Precondition: no tetrahedron
+  /// is bad.
+  bool descend(const DiscretizationError& model, const std::function<bool()>& must_stop);
   /// J after the last step.
   [[nodiscard]] double error() const { return now_.error; }
 

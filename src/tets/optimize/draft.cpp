@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <unordered_set>
 #include <utility>
 
 #include "base/sort_unique.hpp"
@@ -9,8 +10,6 @@
 
 namespace temper::tets {
 namespace {
-
-constexpr std::array<std::array<std::size_t, 2>, 6> kEdges = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
 std::array<VertexId, 2> edge(VertexId a, VertexId b) { return a < b ? std::array{a, b} : std::array{b, a}; }
 
@@ -34,62 +33,84 @@ bool Draft::fill(std::span<const Filling> fillings) {
   return true;
 }
 
-Patch patch_of(const Draft& whole, std::vector<TetId> tetrahedra) {
+PatchMaker::PatchMaker(const Draft& whole) : whole_(whole), stars_(whole.mesh), number_(whole.mesh.n_vertices(), -1) {
   const TetMesh& mesh = whole.mesh;
-  Patch patch;
-  IdVector<TetId, std::uint8_t> inside(mesh.n_tetrahedra());
-  for (const TetId t : tetrahedra) inside[t] = 1;
-  IdVector<VertexId, std::int32_t> number(mesh.n_vertices(), -1);
-  IdVector<VertexId, std::uint8_t> stays(mesh.n_vertices());
-  for (const TetId t : mesh.tetrahedra()) {
-    for (const VertexId v : mesh.corners(t)) {
-      if (inside[t] == 0) {
-        stays[v] = 1;
-      } else if (number[v] < 0) {
-        number[v] = static_cast<std::int32_t>(patch.vertices.size());
-        patch.vertices.push_back(v);
-      }
-    }
+  for (const TaggedFace& f : mesh.tagged_faces()) {
+    const auto [a, b, c] = mesh.vertices(f.face);
+    faces_.push_back({std::min({a, b, c}), static_cast<std::uint32_t>(faces_.size())});
   }
-  const auto numbers = [&](const auto& corners) {
-    std::array<std::int32_t, std::tuple_size_v<std::decay_t<decltype(corners)>>> result;
-    for (std::size_t k = 0; k < result.size(); ++k) result[k] = number[corners[k]];
-    return result;
-  };
+  for (const TaggedLine& l : mesh.tagged_lines())
+    lines_.push_back({std::min(l.ends[0], l.ends[1]), static_cast<std::uint32_t>(lines_.size())});
+  for (auto* tags : {&faces_, &lines_})
+    std::stable_sort(tags->begin(), tags->end(), [](const Tag& a, const Tag& b) { return a.least < b.least; });
+}
+
+/// The tags whose least vertex is in the patch, ascending.
+std::vector<std::uint32_t> PatchMaker::at(const Patch& patch, const std::vector<Tag>& tags) const {
+  std::vector<std::uint32_t> found;
+  for (const VertexId v : patch.vertices) {
+    auto tag = std::lower_bound(tags.begin(), tags.end(), v, [](const Tag& t, VertexId u) { return t.least < u; });
+    for (; tag != tags.end() && tag->least == v; ++tag) found.push_back(tag->number);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+template <std::size_t N>
+std::array<std::int32_t, N> PatchMaker::numbers(const std::array<VertexId, N>& corners) const {
+  std::array<std::int32_t, N> result;
+  for (std::size_t k = 0; k < N; ++k) result[k] = number_[corners[k]];
+  return result;
+}
+
+Patch PatchMaker::make(std::vector<TetId> tetrahedra) {
+  const TetMesh& mesh = whole_.mesh;
+  Patch patch;
+  std::vector<std::array<std::int32_t, 4>> corners;
+  std::vector<std::int32_t> regions, face_tags, line_tags;
+  std::vector<std::array<VertexId, 2>> edges;
+  for (const TetId t : tetrahedra) {
+    const auto& c = mesh.corners(t);
+    for (const VertexId v : c) {
+      if (number_[v] >= 0) continue;
+      number_[v] = static_cast<std::int32_t>(patch.vertices.size());
+      patch.vertices.push_back(v);
+    }
+    corners.push_back(numbers(c));
+    regions.push_back(mesh.region(t));
+    for (const auto& ends : kEdgeCorners) edges.push_back(edge(c[std::size_t(ends[0])], c[std::size_t(ends[1])]));
+  }
+  sort_unique(edges);
+  const std::unordered_set<std::uint32_t> inside = [&] {
+    std::unordered_set<std::uint32_t> all;
+    for (const TetId t : tetrahedra) all.insert(t.index);
+    return all;
+  }();
+  const auto is_inside = [&](HalffaceId h) { return h.valid() && inside.contains(TetMesh::tetrahedron(h).index); };
   std::vector<Vec3> points;
   std::vector<double> weights;
   IdVector<VertexId, Mobility> mobility;
   for (const VertexId v : patch.vertices) {
+    const auto link = stars_.link(v);
     points.push_back(mesh.position(v));
     weights.push_back(mesh.weight(v));
-    mobility.push_back(stays[v] != 0 ? Mobility::none : whole.mobility_of(v));
+    mobility.push_back(std::all_of(link.begin(), link.end(), is_inside) ? whole_.mobility_of(v) : Mobility::none);
   }
-  std::vector<std::array<std::int32_t, 4>> corners;
-  std::vector<std::int32_t> regions, face_tags, line_tags, marked, point_tags;
-  std::vector<std::array<VertexId, 2>> edges;
-  for (const TetId t : tetrahedra) {
-    corners.push_back(numbers(mesh.corners(t)));
-    regions.push_back(mesh.region(t));
-    for (const auto& [i, j] : kEdges) edges.push_back(edge(mesh.corners(t)[i], mesh.corners(t)[j]));
-  }
-  sort_unique(edges);
   std::vector<std::array<std::int32_t, 3>> faces;
   std::vector<std::array<std::int32_t, 2>> lines;
-  for (std::size_t i = 0; i < mesh.tagged_faces().size(); ++i) {
+  for (const std::uint32_t i : at(patch, faces_)) {
     const TaggedFace& f = mesh.tagged_faces()[i];
-    const HalffaceId other = mesh.twin(f.face);
-    if (inside[TetMesh::tetrahedron(f.face)] == 0 && !(other.valid() && inside[TetMesh::tetrahedron(other)] != 0))
-      continue;
+    if (!is_inside(f.face) && !is_inside(mesh.twin(f.face))) continue;
     faces.push_back(numbers(mesh.vertices(f.face)));
     face_tags.push_back(f.tag);
-    patch.faces.push_back(static_cast<std::uint32_t>(i));
+    patch.faces.push_back(i);
   }
-  for (std::size_t i = 0; i < mesh.tagged_lines().size(); ++i) {
+  for (const std::uint32_t i : at(patch, lines_)) {
     const TaggedLine& l = mesh.tagged_lines()[i];
     if (!std::binary_search(edges.begin(), edges.end(), edge(l.ends[0], l.ends[1]))) continue;
     lines.push_back(numbers(l.ends));
     line_tags.push_back(l.tag);
-    patch.lines.push_back(static_cast<std::uint32_t>(i));
+    patch.lines.push_back(i);
   }
   TetMeshInput input;
   input.points = points, input.weights = weights;
@@ -97,6 +118,7 @@ Patch patch_of(const Draft& whole, std::vector<TetId> tetrahedra) {
   input.faces = faces, input.face_tags = face_tags;
   input.lines = lines, input.line_tags = line_tags;
   if (std::optional<TetMesh> built = rebuilt(input)) patch.draft = Draft(*std::move(built), std::move(mobility));
+  for (const VertexId v : patch.vertices) number_[v] = -1;
   patch.tetrahedra = std::move(tetrahedra);
   return patch;
 }

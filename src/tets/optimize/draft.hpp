@@ -1,9 +1,12 @@
 // The mesh of a run, while its connectivity changes.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "tets/mesh/tables.hpp"
 #include "tets/optimize/newton_step.hpp"
 #include "tets/topology/cavity.hpp"
 
@@ -25,8 +28,8 @@ struct Draft {
   bool fill(std::span<const Filling> fillings);
 };
 
-/// Some tetrahedra of a mesh, as a mesh of their own. All changes inside it fit into the whole: the vertices that other
-/// tetrahedra have, too, do not change, nor do faces and lines among them.
+/// Some tetrahedra of a mesh, as a mesh of their own. All changes inside fit into the whole: vertices that it shares
+/// with other tetrahedra do not change. Faces and lines between them stay.
 struct Patch {
   Draft draft;
   std::vector<TetId> tetrahedra;            ///< of the whole mesh
@@ -34,8 +37,28 @@ struct Patch {
   std::vector<std::uint32_t> faces, lines;  ///< tagged ones in the whole mesh, by name
 };
 
-/// The tetrahedra are different, and connected across faces. O(n)
-[[nodiscard]] Patch patch_of(const Draft& whole, std::vector<TetId> tetrahedra);
+/// Makes patches of a mesh, which must not change meanwhile.
+class PatchMaker {
+ public:
+  explicit PatchMaker(const Draft& whole);
+  [[nodiscard]] const VertexStars& stars() const { return stars_; }
+  /// The tetrahedra are different. O(size of the patch)
+  [[nodiscard]] Patch make(std::vector<TetId> tetrahedra);
+
+ private:
+  struct Tag {
+    VertexId least;  // of the face or line
+    std::uint32_t number;
+  };
+  [[nodiscard]] std::vector<std::uint32_t> at(const Patch& patch, const std::vector<Tag>& tags) const;
+  template <std::size_t N>
+  [[nodiscard]] std::array<std::int32_t, N> numbers(const std::array<VertexId, N>& corners) const;
+
+  const Draft& whole_;
+  VertexStars stars_;
+  std::vector<Tag> faces_, lines_;           // by their least vertex
+  IdVector<VertexId, std::int32_t> number_;  // of the present patch; −1: not in it
+};
 
 /// Puts patches back, which share no tetrahedron. False, and no change: the mesh cannot be built. O(n)
 bool put_back(std::span<const Patch> patches, Draft& whole);

@@ -16,15 +16,14 @@ namespace {
 constexpr double kFirstSettlingGamma = 0.3, kSettlingFactor = 0.7, kLastSettlingGamma = 0.0005;
 constexpr int kSettlingSweeps = 2, kLastSettlingSweeps = 10;
 constexpr double kSettlingRelaxation = 1.7;
-// Scores have the energy at this γ. A gain below this part of it is none.
-constexpr double kScoreGamma = 0.003, kLeastGainOfScore = 0.01;
+// Searches compare energies at this γ. A gain below this part of it is none.
+constexpr double kScoreGamma = 0.003, kLeastGainOfSearch = 0.01;
 // Changes in a row before the mesh is better.
 constexpr int kLongestChain = 4;
 // Rings of tetrahedra whose vertices move when many cavities change at once.
 constexpr int kRingsOfAll = 2;
 // Rings of tetrahedra around a place, one more for each search in vain, and the most searches.
 constexpr int kRings = 2, kTriesOfPlace = 4;
-const int kTriesM = getenv("TM") ? atoi(getenv("TM")) : 1, kVainM = getenv("VM") ? atoi(getenv("VM")) : 4;
 
 /// The tetrahedra that need a change: the bad ones, or else those with a small margin, the smallest first.
 std::vector<TetId> to_change(const TetMesh& mesh, double small_margin, Executor* executor = nullptr) {
@@ -85,16 +84,12 @@ std::vector<Filling> first_changes(const Draft& draft, std::size_t k, const Sear
                  must_stop);
 }
 
+/// A mesh is better with fewer bad tetrahedra, or with as many and less energy, by more than rounding can make it.
+bool is_better(const MeshState& now, const MeshState& before) {
+  return now.bad != before.bad ? now.bad < before.bad : now.energy < (1 - kLeastGainOfSearch) * before.energy;
+}
+
 }  // namespace
-
-Score score_of(const TetMesh& mesh) {
-  const auto [energy, bad] = state_of(mesh, kScoreGamma);
-  return {bad, energy};
-}
-
-bool is_better(const Score& now, const Score& before) {
-  return now.bad != before.bad ? now.bad < before.bad : now.energy < (1 - kLeastGainOfScore) * before.energy;
-}
 
 bool change_all(Draft& draft, const MustStop& must_stop, Executor* executor) {
   const std::vector<Filling> fillings = repairs(draft, bad_tetrahedra(draft.mesh, executor), {kAllowance}, must_stop);
@@ -114,20 +109,17 @@ bool change_all(Draft& draft, const MustStop& must_stop, Executor* executor) {
   return settle(draft, moving, must_stop, executor);
 }
 
-Gain search(Draft& draft, const SearchOptions& options, const MustStop& must_stop) {
-  const Score start = score_of(draft.mesh);
-  Score best = start;
-  const auto gain = [&] {
-    return best.bad < start.bad ? Gain::fewer_bad : is_better(best, start) ? Gain::lower_energy : Gain::none;
-  };
+bool search(Draft& draft, const SearchOptions& options, const MustStop& must_stop) {
+  const MeshState start = state_of(draft.mesh, kScoreGamma);
+  MeshState best = start;
   for (int in_vain = 0; in_vain < options.most_in_vain;) {
     Draft trial = draft;
     std::vector<Filling> changes = first_changes(trial, static_cast<std::size_t>(in_vain++), options, must_stop);
     for (int length = 0; length < kLongestChain && !changes.empty() && trial.fill(changes); ++length) {
       const auto all = trial.mesh.vertices();
-      if (!settle(trial, {all.begin(), all.end()}, must_stop)) return gain();
-      if (const Score score = score_of(trial.mesh); is_better(score, best)) {
-        best = score;
+      if (!settle(trial, {all.begin(), all.end()}, must_stop)) return is_better(best, start);
+      if (const MeshState state = state_of(trial.mesh, kScoreGamma); is_better(state, best)) {
+        best = state;
         in_vain = 0;
         draft = std::move(trial);
         break;
@@ -136,7 +128,7 @@ Gain search(Draft& draft, const SearchOptions& options, const MustStop& must_sto
                         must_stop);
     }
   }
-  return gain();
+  return is_better(best, start);
 }
 
 std::vector<Patch> Places::choose(const Draft& draft, Executor* executor) {
@@ -144,7 +136,8 @@ std::vector<Patch> Places::choose(const Draft& draft, Executor* executor) {
   chosen_.clear();
   std::vector<Patch> patches;
   const std::vector<TetId> needy = to_change(mesh, options_.small_margin, executor);
-  const VertexStars stars(mesh);
+  PatchMaker maker(draft);
+  const VertexStars& stars = maker.stars();
   const auto names_of = [&](TetId t) {
     Corners corners = mesh.corners(t);
     for (VertexId& v : corners) v = draft.names.vertices[v];
@@ -160,7 +153,7 @@ std::vector<Patch> Places::choose(const Draft& draft, Executor* executor) {
     if (tries >= kTriesOfPlace) continue;
     std::vector<TetId> around = with_rings(mesh, stars, {t}, kRings + tries);
     if (std::any_of(around.begin(), around.end(), [&](TetId s) { return patch_of_tet[s] != 0; })) continue;
-    patches.push_back(patch_of(draft, around));
+    patches.push_back(maker.make(around));
     for (const TetId s : around) patch_of_tet[s] = patches.size();
     const auto may_change = [&](VertexId v) {
       const auto link = stars.link(v);
@@ -168,7 +161,7 @@ std::vector<Patch> Places::choose(const Draft& draft, Executor* executor) {
                          [&](HalffaceId h) { return patch_of_tet[TetMesh::tetrahedron(h)] == patches.size(); });
     };
     // Other tetrahedra are tried along with t if all their corners may change.
-    const bool alone = options_.each_alone && patches.back().tetrahedra.size() < mesh.n_tetrahedra();
+    const bool alone = options_.search_each && patches.back().tetrahedra.size() < mesh.n_tetrahedra();
     std::vector<Corners>& along = chosen_.emplace_back();
     for (const TetId s : around) {
       const auto& corners = mesh.corners(s);

@@ -1,8 +1,7 @@
-// Changes of connectivity at one place after the other. Each place is a patch: a small mesh with a search of its own.
+// Changes of connectivity: at all bad tetrahedra at once, and in patches, small meshes with a search of their own.
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <vector>
@@ -11,15 +10,6 @@
 #include "tets/optimize/draft.hpp"
 
 namespace temper::tets {
-
-/// A mesh is better if it has fewer bad tetrahedra, or as many and less energy at a small γ.
-struct Score {
-  std::size_t bad = 0;
-  double energy = 0;
-};
-[[nodiscard]] Score score_of(const TetMesh& mesh);
-/// Says whether `now` is better by more than rounding can make it.
-[[nodiscard]] bool is_better(const Score& now, const Score& before);
 
 using MustStop = std::function<bool()>;
 
@@ -31,13 +21,12 @@ struct SearchOptions {
   int most_in_vain = 0;     ///< Trials without success, after which the search ends
   double small_margin = 0;  ///< Without bad tetrahedra it looks at those with a smaller margin
   bool split_boundary = false;
-  bool each_alone = false;  ///< Each place has its own searches, not along with those nearby
+  bool search_each = false;  ///< Each place has its own searches, not along with those nearby
 };
 
-enum class Gain : std::uint8_t { none, lower_energy, fewer_bad };
-/// Tries chains of changes at the bad tetrahedra, or those with small margins, and takes the chains that make the mesh
-/// better.
-Gain search(Draft& draft, const SearchOptions& options, const MustStop& must_stop);
+/// Tries chains of changes at the bad tetrahedra, or those with small margins, and takes the chains that leave fewer
+/// bad ones, or less energy. Returns whether there was one.
+bool search(Draft& draft, const SearchOptions& options, const MustStop& must_stop);
 
 /// The places of a mesh that need a search, and how often each was in vain.
 class Places {
@@ -46,7 +35,7 @@ class Places {
   /// Patches around tetrahedra where a search may help. They share no tetrahedron. A place where searches were in vain
   /// gets a larger patch, and after some none.
   [[nodiscard]] std::vector<Patch> choose(const Draft& draft, Executor* executor);
-  /// Tells of the i-th patch that it has fewer bad tetrahedra: those that are left may be tried anew.
+  /// Tells of the i-th patch that its search was successful: its places may be tried anew.
   void succeeded(std::size_t i) {
     for (const Corners& corners : chosen_[i]) tries_.erase(corners);
   }

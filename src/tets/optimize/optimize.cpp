@@ -38,6 +38,8 @@ std::optional<InputError> wrong_option(const OptimizeOptions& options) {
     return InputError{ErrorCode::invalid_option,
                       {},
                       "repair_trials: expected at least 0, found " + std::to_string(options.repair_trials)};
+  if (options.accuracy_sweeps < 0 || options.error_steps < 0)
+    return InputError{ErrorCode::invalid_option, {}, "accuracy_sweeps, error_steps: expected at least 0"};
   if (!(options.small_margin >= 0))
     return InputError{
         ErrorCode::invalid_option, {}, "small_margin: expected at least 0, found " + to_text(options.small_margin)};
@@ -55,9 +57,9 @@ class Run {
   OptimizeReport run() {
     report_.objective_before = state_of(draft_.mesh, kLastGamma, hooks_.executor).energy;
     record();
-    if (hooks_.error && best_bad_ == 0) input_ = draft_;
+    if (error_ && best_bad_ == 0) input_ = draft_;
     const bool repairs = !options_.keep_positions && !options_.keep_weights && !options_.keep_edges;
-    if (anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma, kLevelSweeps, kLastSweeps) && repairs) repair();
+    if (anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma) && repairs) repair();
     if (!stopped_early(report_.stopped)) lower_errors();
     return end();
   }
@@ -66,16 +68,16 @@ class Run {
   enum class Equals { last, first };
 
   /// Sweeps along the schedule of γ. False: the run must end.
-  bool anneal(double first_gamma, int level_sweeps, int last_sweeps) {
+  bool anneal(double first_gamma) {
     const IdVector<VertexId, Mobility> mobility = draft_.mobilities();
     const auto all = draft_.mesh.vertices();
     Sweeper sweeper(draft_.mesh, mobility, std::vector<VertexId>(all.begin(), all.end()), hooks_.executor);
     for (double gamma = first_gamma; gamma > kLastGamma; gamma *= kGammaFactor) {
-      for (int i = 0; i < level_sweeps; ++i) {
+      for (int i = 0; i < kLevelSweeps; ++i) {
         if (!sweep(sweeper, gamma)) return false;
       }
     }
-    for (int i = 0; i < last_sweeps; ++i) {
+    for (int i = 0; i < kLastSweeps; ++i) {
       if (!sweep(sweeper, kLastGamma)) return false;
       const auto last = report_.history.end() - 1;
       if (i > 0 && (last - 1)->energy - last->energy <= kTolerance * last->energy) break;
@@ -100,28 +102,26 @@ class Run {
   /// Changes the connectivity where sweeps alone are not enough: first at all bad tetrahedra at once, then, from the
   /// best mesh, in patches. Each round counts as one sweep.
   void repair() {
+    const auto must_stop = [this] { return is_stopped(0); };
     for (int in_vain = 0; best_bad_ > 0 && in_vain < kRoundsInVain;) {
       const std::size_t before = best_bad_;
-      if (!may_sweep() || !change_all(
-                              draft_, [this] { return is_stopped(0); }, hooks_.executor))
-        break;
+      if (!may_sweep() || !change_all(draft_, must_stop, hooks_.executor)) break;
       end_round(Equals::first);
       in_vain = best_bad_ < before ? 0 : in_vain + 1;
     }
     draft_ = best_;
-    SearchOptions search = {options_.repair_trials, 0, false, options_.search_each};
-    repair_patches(search);
-    search.split_boundary = options_.split_boundary;
-    if (search.split_boundary && best_bad_ > 0) repair_patches(search);
-    search.small_margin = options_.small_margin;
-    if (search.small_margin > 0 && best_bad_ == 0) repair_patches(search);
+    const int trials = options_.repair_trials;
+    const bool each = options_.search_each;
+    repair_patches({trials, 0, false, each});
+    if (options_.split_boundary && best_bad_ > 0) repair_patches({trials, 0, true, each});
+    if (options_.small_margin > 0 && best_bad_ == 0) repair_patches({trials, options_.small_margin, false, each});
   }
   void repair_patches(const SearchOptions& options) {
     if (options.most_in_vain == 0) return;
     for (Places places(options); may_sweep();) {
       std::vector<Patch> patches = places.choose(draft_, hooks_.executor);
       if (patches.empty()) return;
-      std::vector<Gain> gains(patches.size(), Gain::none);
+      std::vector<std::uint8_t> is_better(patches.size(), 0);
       std::atomic<bool> stops = false, asks = false;
       const auto must_stop = [&](std::size_t i) {  // one thread asks at a time
         if (!stops && !asks.exchange(true)) {
@@ -131,15 +131,15 @@ class Run {
         return stops.load();
       };
       or_serial(hooks_.executor).run(patches.size(), [&](std::size_t i) {
-        gains[i] = search(patches[i].draft, options, [&] { return must_stop(i); });
+        is_better[i] = search(patches[i].draft, options, [&] { return must_stop(i); });
       });
       std::vector<Patch> chosen;
       for (std::size_t i = 0; i < patches.size(); ++i) {
-        if (gains[i] == Gain::none) continue;
+        if (is_better[i] == 0) continue;
         places.succeeded(i);
         chosen.push_back(std::move(patches[i]));
       }
-      if (!put_back(chosen, draft_)) return;
+      if (!chosen.empty() && !put_back(chosen, draft_)) return;
       end_round(Equals::last);
     }
   }
@@ -150,7 +150,7 @@ class Run {
   }
   void end_round(Equals best) {
     gamma_ = kLastGamma;
-    ++report_.sweeps;
+    if (!stopped_early(report_.stopped)) ++report_.sweeps;
     record(best);
   }
 
@@ -161,7 +161,7 @@ class Run {
     draft_ = best_;
     double least = HUGE_VAL;
     const auto keep_if_best = [&] {
-      const double error = hooks_.error ? hooks_.error->squared_error(draft_.mesh, nullptr) : 0;
+      const double error = error_ ? error_->squared_error(draft_.mesh, nullptr) : 0;
       if (error > least) return;
       least = error;
       best_ = draft_;
@@ -174,12 +174,15 @@ class Run {
           break;
         accuracy.improve(v, kRelaxation);
       }
+      const double before = report_.history.back().energy;
       record(Objective::accuracy, accuracy.energy().energy);
+      if (i > 0 && before - report_.history.back().energy <= kTolerance * before) break;
     }
     keep_if_best();
-    if (!hooks_.error) return;
-    for (int i = 0; i < options_.error_steps && begin_sweep() && !is_stopped(0); ++i) {
-      if (!accuracy.descend(*hooks_.error)) break;
+    if (!error_ || best_bad_ > 0) return;
+    for (int i = 0; i < options_.error_steps && may_sweep() && !is_stopped(0); ++i) {
+      if (!accuracy.descend(*error_, [this] { return is_stopped(0); })) break;
+      ++report_.sweeps;
       record(Objective::solver_error, std::sqrt(accuracy.error()));
     }
     keep_if_best();
@@ -187,6 +190,7 @@ class Run {
     draft_ = std::move(input_);
     keep_if_best();
   }
+
   using Clock = std::chrono::steady_clock;
   [[nodiscard]] static double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -254,6 +258,8 @@ class Run {
   TetMesh& result_;  // until the end: the input
   const OptimizeOptions& options_;
   const OptimizeHooks& hooks_;
+  const DiscretizationError* error_ =  // absent for large meshes
+      result_.n_vertices() <= options_.most_error_vertices ? hooks_.error.get() : nullptr;
   Draft draft_, best_;
   Clock::time_point start_ = Clock::now();
   // The time limit includes reading and writing. Writing takes about as long as reading took.

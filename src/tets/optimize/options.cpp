@@ -15,7 +15,7 @@ constexpr auto kRows = std::to_array<std::string_view>({"max_sweeps", "time_limi
 constexpr auto kTargets = std::to_array<std::string_view>({"any", "valid", "vertex", "cell"});
 constexpr auto kKept = std::to_array<std::string_view>({"positions", "weights", "edges", "boundary"});
 
-/// What an effort tries. "quick" moves vertices alone, and looks at no solver's error.
+/// What an effort tries. "quick" keeps the connectivity, and looks at no solver's error.
 struct Effort {
   std::string_view name;
   int repair_trials;
@@ -44,6 +44,9 @@ InputError refused(const std::string& what, const std::string& instead) {
 }  // namespace
 
 Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, const OptimizeWords& words) {
+  const auto* effort = std::ranges::find(kEfforts, words.effort, &Effort::name);
+  if (effort == std::end(kEfforts))
+    return InputError{ErrorCode::invalid_option, {}, "effort: expected quick, normal or high"};
   if (!has(kTargets, words.target)) return refused("target '" + std::string(words.target) + "'", join(kTargets));
   for (const std::string_view part : words.keep) {
     if (!has(kKept, part)) return refused("keep '" + std::string(part) + "'", join(kKept));
@@ -59,15 +62,20 @@ Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, con
   options.split_boundary = table.boundary == BoundaryVertices::split;
   options.keep_positions = table.unknowns == temper::Unknowns::weights;
   options.keep_weights = table.unknowns == temper::Unknowns::positions;
-  const Effort& effort = *std::ranges::find(kEfforts, words.effort, &Effort::name);
-  options.repair_trials = effort.repair_trials;
-  options.search_each = effort.search_each;
-  options.small_margin = effort.small_margin;
-  options.error_steps = effort.error_steps;
-  options.most_error_vertices = effort.most_error_vertices;
+  options.repair_trials = effort->repair_trials;
+  options.search_each = effort->search_each;
+  options.small_margin = effort->small_margin;
+  options.error_steps = effort->error_steps;
+  options.most_error_vertices = effort->most_error_vertices;
   options.scheme = table.scheme;
   options.accuracy_sweeps = table.accuracy.sweeps;
   options.keep_edges = table.flips == Flips::none || options.repair_trials == 0;
+  if (options.split_boundary && (options.keep_positions || options.keep_weights || options.keep_edges))
+    return InputError{
+        ErrorCode::invalid_option,
+        {},
+        "`boundary=split` inserts vertices, which keep=positions, weights or edges and effort=quick forbid. "
+        "Next: leave one of them out"};
   options.max_sweeps = table.max_sweeps;
   options.time_limit = table.time_limit;
   return options;

@@ -131,7 +131,8 @@ std::string explain(const Subject& s, bool all_on_boundary) {
   const std::string height = s.face(f) + ": h/ℓ = " + rounded(s.m.h_over_l[f]) + ", " + s.largest_dihedral();
   if (s.m.orthocenter_inside()) return "well-centered; least height over " + height + why_not_crossed(s);
   std::string why = (s.m.h_sign[f] == Sign::zero ? "orthocenter on " : "orthocenter outside across ") + height;
-  if (all_on_boundary) why += "; all its corners are on the boundary, so only weights and flips can change it";
+  if (all_on_boundary)
+    why += "; all its corners are on the boundary, so only weights, flips and new vertices can change it";
   return why;
 }
 

@@ -57,19 +57,24 @@ std::optional<Cavity> Cavities::of_face(HalffaceId h) const {
 }
 
 std::optional<Cavity> Cavities::of_edge(TetId t, VertexId a, VertexId b) const {
-  if (is_line(a, b)) return std::nullopt;
-  std::vector<TetId> ring = {t};
-  for (std::size_t i = 0; i < ring.size(); ++i) {
+  auto [ring, stays] = fan(t, a, b);
+  if (stays) return std::nullopt;
+  return around(std::move(ring));
+}
+
+/// The tetrahedra around an edge, and whether it or a face between them stays.
+std::pair<std::vector<TetId>, bool> Cavities::fan(TetId t, VertexId a, VertexId b) const {
+  std::vector<TetId> all = {t};
+  bool stays = is_line(a, b);
+  for (std::size_t i = 0; i < all.size(); ++i) {
     for (int f = 0; f < 4; ++f) {
-      const HalffaceId h = TetMesh::halfface(ring[i], f);
-      const VertexId across = mesh_.opposite(h);
-      if (across == a || across == b) continue;  // the other two faces have the edge
-      if (stays_[h] != 0) return std::nullopt;
-      const TetId next = TetMesh::tetrahedron(mesh_.twin(h));
-      if (!contains(ring, next)) ring.push_back(next);
+      const HalffaceId h = TetMesh::halfface(all[i], f), other = mesh_.twin(h);
+      if (const VertexId across = mesh_.opposite(h); across == a || across == b) continue;  // without the edge
+      stays = stays || stays_[h] != 0;
+      if (other.valid() && !contains(all, TetMesh::tetrahedron(other))) all.push_back(TetMesh::tetrahedron(other));
     }
   }
-  return around(std::move(ring));
+  return {std::move(all), stays};
 }
 
 std::optional<Cavity> Cavities::to_split(HalffaceId h) const {
@@ -84,18 +89,9 @@ std::optional<Cavity> Cavities::to_split(HalffaceId h) const {
 }
 
 std::optional<Cavity> Cavities::to_split(TetId t, VertexId a, VertexId b) const {
-  std::vector<TetId> fan = {t};
-  bool stays = is_line(a, b);
-  for (std::size_t i = 0; i < fan.size(); ++i) {
-    for (int f = 0; f < 4; ++f) {
-      const HalffaceId h = TetMesh::halfface(fan[i], f), other = mesh_.twin(h);
-      if (const VertexId across = mesh_.opposite(h); across == a || across == b) continue;
-      stays = stays || stays_[h] != 0;
-      if (other.valid() && !contains(fan, TetMesh::tetrahedron(other))) fan.push_back(TetMesh::tetrahedron(other));
-    }
-  }
+  auto [all, stays] = fan(t, a, b);
   if (!stays) return std::nullopt;
-  Cavity cavity{std::move(fan), {}, {a, b}};
+  Cavity cavity{std::move(all), {}, {a, b}};
   for (const TetId s : cavity.tetrahedra) {
     cavity.faces.push_back(mesh_.halfface_opposite(s, a));
     cavity.faces.push_back(mesh_.halfface_opposite(s, b));

@@ -25,6 +25,14 @@
 //
 //     vertex v       -                          u, a neighbor: v is merged into u
 //
+//     face or edge   new, on it: split          -
+//     that stays
+//                        c                         c
+//                      / | \                     / | \           the edge ab of the boundary, seen from outside, with
+//                    a---|---b                 a---o---b         its two faces; inside, each tetrahedron around it
+//                      \ | /                     \ | /           becomes two; faces and lines with a tag, too
+//                        d                         d
+//
 // A cone is valid if all its tetrahedra are positive, by the exact predicate: then they fill the cavity.
 #pragma once
 
@@ -45,7 +53,7 @@ struct Cavity {
 };
 
 /// The cavities of a mesh. No face of the boundary, between regions or with a tag is inside a cavity, and no tagged
-/// line. So these parts stay whatever fills a cavity.
+/// line. So these parts stay whatever fills a cavity, but for those of to_split(): a new vertex divides them.
 class Cavities {
  public:
   explicit Cavities(const TetMesh& mesh);
@@ -62,6 +70,7 @@ class Cavities {
 
  private:
   [[nodiscard]] bool is_line(VertexId a, VertexId b) const;
+  [[nodiscard]] std::pair<std::vector<TetId>, bool> fan(TetId t, VertexId a, VertexId b) const;
   [[nodiscard]] Cavity around(std::vector<TetId> tetrahedra) const;
 
   const TetMesh& mesh_;

@@ -99,6 +99,7 @@ void split_elements(std::vector<Tagged>& all, const std::vector<NextMesh::Number
 
 void NextMesh::split(const std::vector<VertexId>& corners, Number at) {
   std::vector<Number> all;
+  all.reserve(corners.size());
   for (const VertexId v : corners) all.push_back(number_[v]);
   split_elements(faces_, all, at);
   split_elements(lines_, all, at);

@@ -542,6 +542,7 @@ TEST_F(OptimizeTetrahedra, OptionsForTrianglesAloneAreRefusedByNameAndNothingIsW
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
       {{"--for", "mpas"}, "target 'mpas'"},
       {{"--boundary", "slide"}, "--boundary slide"},
+      {{"--boundary", "split", "--effort", "quick"}, "--boundary split inserts vertices"},
       {{"--keep", "sizes"}, "keep 'sizes'"},
       {{"--set", "energy=F"},
        "--set energy=F is for triangles alone. Next: leave it out; for tetrahedra there are max_sweeps"},

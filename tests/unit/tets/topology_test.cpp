@@ -320,7 +320,8 @@ TEST(TetTopology, PatchesFitBackWithAndWithoutChanges) {
     else if (x > 2)
       high.push_back(t);
   }
-  std::vector<Patch> patches = {patch_of(whole, low), patch_of(whole, high)};
+  PatchMaker maker(whole);
+  std::vector<Patch> patches = {maker.make(low), maker.make(high)};
   Draft same = whole;
   ASSERT_TRUE(put_back(patches, same));
   expect_same_parts(mesh, same.mesh);
