@@ -16,6 +16,7 @@
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "support/std_threads.hpp"
+#include "support/tet_lattice.hpp"
 #include "support/thread_communicator.hpp"
 #include "temper/detail/location.hpp"
 #include "temper/detail/size.hpp"
@@ -25,6 +26,7 @@
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 #include "temper/regularity.hpp"
+#include "temper/tets/optimize.hpp"
 
 namespace temper::test {
 namespace {
@@ -173,6 +175,23 @@ TEST(OnRanks, WithThreadsTheBytesAreThoseOfOneProcess) {
 
 INSTANTIATE_TEST_SUITE_P(Rows, OnThreads, testing::ValuesIn(kRows),
                          [](const auto& row) { return std::string(row.param.name); });
+
+/// Sweeps over all vertices, and searches in patches: this cube has several bad tetrahedra far from each other.
+TEST(Threads, TetrahedraHaveTheSameBytes) {
+  const tets::TetMesh input = mesh_of(shaken(cubes(4, kSixTets), 0.3, 0));
+  tets::OptimizeOptions options;
+  options.repair_trials = 1;
+  tets::TetMesh one = input, many = input;
+  StdThreads threads(3);
+  ASSERT_TRUE(tets::optimize(one, options));
+  tets::OptimizeHooks hooks;
+  hooks.executor = &threads;
+  hooks.observer = [](const Progress&) { return Continue::yes; };
+  const auto report = tets::optimize(many, options, hooks);
+  ASSERT_TRUE(report);
+  EXPECT_GT(report->vertices_inserted, 5U);
+  EXPECT_EQ(one, many);
+}
 
 }  // namespace
 }  // namespace temper::test
