@@ -70,14 +70,6 @@ void forget_constant(const std::vector<double>& weights, std::vector<double>& er
   for (double& error : errors) error -= sum / weight;
 }
 
-PointSystem vertex_system(const DecComplex& dec, const std::vector<bool>& given) {
-  PointSystem points(given);
-  for (std::size_t e = 0; e < dec.edges.size(); ++e) {
-    points.connect(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index, dec.star1[EdgeId(e)]);
-  }
-  return points;
-}
-
 PointSystem cell_system(const DecComplex& dec, const IdVector<EdgeId, double>& flux) {
   PointSystem points(std::vector<bool>(dec.areas.size(), false));
   for (std::size_t i = 0; i < dec.edges.size(); ++i) {

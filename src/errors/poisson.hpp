@@ -2,7 +2,9 @@
 // up to a constant. So one unknown is given, and the mean of the error is subtracted.
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "errors/solve.hpp"
@@ -18,8 +20,31 @@ struct SchemeErrors {
   std::vector<ErrorNorms> fields;
 };
 
-/// The matrix d0ᵀ ★1 d0 at the vertices.
-[[nodiscard]] PointSystem vertex_system(const DecComplex& dec, const std::vector<bool>& given);
+/// The matrix d0ᵀ ★1 d0 at the vertices, for the operators of triangles or tetrahedra.
+template <class Dec>
+[[nodiscard]] PointSystem vertex_system(const Dec& dec, const std::vector<bool>& given) {
+  PointSystem points(given);
+  for (std::size_t e = 0; e < dec.edges.size(); ++e) {
+    points.connect(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index, dec.star1[EdgeId(e)]);
+  }
+  return points;
+}
+/// The residuals ★0 k² u − d0ᵀ ★1 d0 u of waves u with −Δu = k² u.
+template <class Dec>
+[[nodiscard]] std::vector<Lanes> vertex_residuals(const Dec& dec, double k2, const std::vector<Lanes>& u) {
+  std::vector<Lanes> residuals(u.size());
+  for (std::size_t v = 0; v < u.size(); ++v) {
+    for (std::size_t i = 0; i < kLanes; ++i) residuals[v][i] = dec.star0[VertexId(v)] * k2 * u[v][i];
+  }
+  for (std::size_t e = 0; e < dec.edges.size(); ++e) {
+    const auto [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const double flux = dec.star1[EdgeId(e)] * (u[from][i] - u[to][i]);
+      residuals[from][i] -= flux, residuals[to][i] += flux;
+    }
+  }
+  return residuals;
+}
 /// The matrix of the two-point flux at the orthocenters. Boundary edges lead outside.
 [[nodiscard]] PointSystem cell_system(const DecComplex& dec, const IdVector<EdgeId, double>& flux);
 /// Describes a system by its solution. Precondition: its negative coefficients are counted.

@@ -160,18 +160,9 @@ class VertexSolver final : public Solver {
 
   [[nodiscard]] double error(const WaveBlock& waves, Adjoint* by) const override {
     const auto& [mesh, dec, all] = subject();
-    std::vector<Lanes> value(mesh.n_vertices()), errors(value.size());
-    for (const VertexId v : mesh.vertices()) {
-      value[v.index] = waves.at(mesh.position(v));
-      for (std::size_t i = 0; i < kLanes; ++i) errors[v.index][i] = dec.star0[v] * waves.k2 * value[v.index][i];
-    }
-    for (std::size_t e = 0; e < dec.edges.size(); ++e) {
-      const auto [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        const double flux = dec.star1[EdgeId(e)] * (value[from][i] - value[to][i]);
-        errors[from][i] -= flux, errors[to][i] += flux;
-      }
-    }
+    std::vector<Lanes> value(mesh.n_vertices());
+    for (const VertexId v : mesh.vertices()) value[v.index] = waves.at(mesh.position(v));
+    std::vector<Lanes> errors = vertex_residuals(dec, waves.k2, value);
     solve(errors);
     const double sum = squared(waves, dec.star0, errors);
     if (by == nullptr) return sum;

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/sine_cosine.hpp"
-#include "errors/solve.hpp"
+#include "errors/poisson.hpp"
 #include "temper/tets/errors.hpp"
 #include "temper/tets/operators.hpp"
 #include "temper/tets/optimize.hpp"
@@ -26,6 +26,8 @@ using error_detail::Cholesky;
 using error_detail::kLanes;
 using error_detail::Lanes;
 using error_detail::PointSystem;
+using error_detail::vertex_residuals;
+using error_detail::vertex_system;
 
 // Wave numbers in radians per half of the bounding box. Each has two blocks of four directions, with a sine and a
 // cosine.
@@ -148,9 +150,7 @@ class TetVertexError final : public DiscretizationError {
     for (const double of_tetrahedron : dec.volumes) volume += of_tetrahedron;
     std::vector<bool> given;
     for (const std::uint8_t on_boundary : boundary_vertices(mesh)) given.push_back(on_boundary != 0);
-    PointSystem points(given);
-    for (std::size_t e = 0; e < dec.edges.size(); ++e)
-      points.connect(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index, dec.star1[EdgeId(e)]);
+    const PointSystem points = vertex_system(dec, given);
     const std::lock_guard lock(mutex_);
     if (!matrix_.factor(points.n_unknowns(), points.lower())) return std::numeric_limits<double>::infinity();
     TetAdjoint by = {IdVector<VertexId, Vec3>(mesh.n_vertices()), IdVector<VertexId, double>(mesh.n_vertices()),
@@ -166,18 +166,9 @@ class TetVertexError final : public DiscretizationError {
  private:
   double error(const TetMesh& mesh, const DecComplex& dec, const PointSystem& points, const SpaceWaves& waves,
                TetAdjoint* by) const {
-    std::vector<Lanes> value(mesh.n_vertices()), errors(value.size());
-    for (const VertexId v : mesh.vertices()) {
-      value[v.index] = waves.at(mesh.position(v));
-      for (std::size_t i = 0; i < kLanes; ++i) errors[v.index][i] = dec.star0[v] * waves.k2 * value[v.index][i];
-    }
-    for (std::size_t e = 0; e < dec.edges.size(); ++e) {
-      const auto [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        const double flux = dec.star1[EdgeId(e)] * (value[from][i] - value[to][i]);
-        errors[from][i] -= flux, errors[to][i] += flux;
-      }
-    }
+    std::vector<Lanes> value(mesh.n_vertices());
+    for (const VertexId v : mesh.vertices()) value[v.index] = waves.at(mesh.position(v));
+    std::vector<Lanes> errors = vertex_residuals(dec, waves.k2, value);
     matrix_.solve(points, errors);
     double sum = 0;
     std::vector<Lanes> lambda(errors.size());

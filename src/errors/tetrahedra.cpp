@@ -187,13 +187,12 @@ std::array<ErrorNorms, 3> Subject::star_errors(const Field& plain) const {
 Subject::Schemes Subject::poisson_errors(const std::vector<Field>& fields, bool condition) const {
   std::vector<bool> given;
   for (const std::uint8_t on_boundary : boundary_vertices(mesh_)) given.push_back(on_boundary != 0);
-  error_detail::PointSystem points(given);
+  const error_detail::PointSystem points = error_detail::vertex_system(dec_, given);
   Schemes result;
   std::vector<double> inside;
   for (std::size_t e = 0; e < dec_.edges.size(); ++e) {
     const DecEdge& edge = dec_.edges[EdgeId(e)];
     const double star1 = dec_.star1[EdgeId(e)];
-    points.connect(edge.from.index, edge.to.index, star1);
     if (!edge.is_boundary) inside.push_back(std::abs(star1));
     if (star1 < 0 && !(given[edge.from.index] && given[edge.to.index])) ++result.system.negative;
   }

@@ -28,10 +28,6 @@ WeightedPoint moved(const WeightedPoint& p, const WeightedPoint& step, double t)
 bool moves(Mobility m) { return m == Mobility::free || m == Mobility::position; }
 bool weighs(Mobility m) { return m == Mobility::free || m == Mobility::weight; }
 
-bool is_in_range(const WeightedPoint& p) {
-  return is_exact_coordinate(p.x) && is_exact_coordinate(p.y) && is_exact_coordinate(p.z) && is_exact_weight(p.w);
-}
-
 /// Says exactly whether t is positive, with its orthocenter inside.
 bool is_good(const TetMesh& mesh, TetId t) {
   const auto [a, b, c, d] = mesh.points(t);
@@ -83,7 +79,7 @@ void Accuracy::gather(VertexId v) {
 }
 
 bool Accuracy::is_valid(VertexId v) const {
-  return is_in_range(mesh_.point(v)) &&
+  return is_exact(mesh_.point(v)) &&
          std::all_of(link_.begin(), link_.end(), [&](HalffaceId h) { return is_good(mesh_, TetMesh::tetrahedron(h)); });
 }
 
@@ -164,7 +160,7 @@ void Accuracy::place(const IdVector<VertexId, WeightedPoint>& from, const Descen
     WeightedPoint p = from[v];
     if (moves(mobility_[v])) p.x += t * scale[0] * by[0], p.y += t * scale[1] * by[1], p.z += t * scale[2] * by[2];
     if (weighs(mobility_[v])) p.w += t * scale[3] * by[3];
-    mesh_.set_point(v, t != 0 && is_in_range(p) ? p : from[v]);
+    mesh_.set_point(v, t != 0 && is_exact(p) ? p : from[v]);
   }
 }
 

@@ -56,13 +56,6 @@ std::vector<std::uint32_t> PatchMaker::at(const Patch& patch, const std::vector<
   return found;
 }
 
-template <std::size_t N>
-std::array<std::int32_t, N> PatchMaker::numbers(const std::array<VertexId, N>& corners) const {
-  std::array<std::int32_t, N> result;
-  for (std::size_t k = 0; k < N; ++k) result[k] = number_[corners[k]];
-  return result;
-}
-
 Patch PatchMaker::make(std::vector<TetId> tetrahedra) {
   const TetMesh& mesh = whole_.mesh;
   Patch patch;
@@ -76,16 +69,13 @@ Patch PatchMaker::make(std::vector<TetId> tetrahedra) {
       number_[v] = static_cast<std::int32_t>(patch.vertices.size());
       patch.vertices.push_back(v);
     }
-    corners.push_back(numbers(c));
+    corners.push_back(numbers_of(c, number_));
     regions.push_back(mesh.region(t));
     for (const auto& ends : kEdgeCorners) edges.push_back(edge(c[std::size_t(ends[0])], c[std::size_t(ends[1])]));
   }
   sort_unique(edges);
-  const std::unordered_set<std::uint32_t> inside = [&] {
-    std::unordered_set<std::uint32_t> all;
-    for (const TetId t : tetrahedra) all.insert(t.index);
-    return all;
-  }();
+  std::unordered_set<std::uint32_t> inside;
+  for (const TetId t : tetrahedra) inside.insert(t.index);
   const auto is_inside = [&](HalffaceId h) { return h.valid() && inside.contains(TetMesh::tetrahedron(h).index); };
   std::vector<Vec3> points;
   std::vector<double> weights;
@@ -101,14 +91,14 @@ Patch PatchMaker::make(std::vector<TetId> tetrahedra) {
   for (const std::uint32_t i : at(patch, faces_)) {
     const TaggedFace& f = mesh.tagged_faces()[i];
     if (!is_inside(f.face) && !is_inside(mesh.twin(f.face))) continue;
-    faces.push_back(numbers(mesh.vertices(f.face)));
+    faces.push_back(numbers_of(mesh.vertices(f.face), number_));
     face_tags.push_back(f.tag);
     patch.faces.push_back(i);
   }
   for (const std::uint32_t i : at(patch, lines_)) {
     const TaggedLine& l = mesh.tagged_lines()[i];
     if (!std::binary_search(edges.begin(), edges.end(), edge(l.ends[0], l.ends[1]))) continue;
-    lines.push_back(numbers(l.ends));
+    lines.push_back(numbers_of(l.ends, number_));
     line_tags.push_back(l.tag);
     patch.lines.push_back(i);
   }
@@ -149,11 +139,7 @@ bool put_back(std::span<const Patch> patches, Draft& whole) {
         mobility.push_back(mobility_of_part[name]);
       }
     }
-    const auto numbers = [&](const auto& corners) {
-      std::array<NextMesh::Number, std::tuple_size_v<std::decay_t<decltype(corners)>>> result;
-      for (std::size_t k = 0; k < result.size(); ++k) result[k] = number[corners[k]];
-      return result;
-    };
+    const auto numbers = [&](const auto& corners) { return numbers_of(corners, number); };
     for (const TetId t : part.tetrahedra()) next.add_tetrahedron(numbers(part.corners(t)), part.region(t));
     // A tag on the border of two patches is in both, and neither has changed it: the first one brings it.
     std::vector<std::uint8_t> mine;

@@ -51,8 +51,6 @@ class PatchMaker {
     std::uint32_t number;
   };
   [[nodiscard]] std::vector<std::uint32_t> at(const Patch& patch, const std::vector<Tag>& tags) const;
-  template <std::size_t N>
-  [[nodiscard]] std::array<std::int32_t, N> numbers(const std::array<VertexId, N>& corners) const;
 
   const Draft& whole_;
   VertexStars stars_;

@@ -70,11 +70,6 @@ constexpr std::size_t kVerticesPerTask = 32;     // a tenth of a millisecond
 constexpr std::size_t kVerticesPerLook = 16384;  // between two questions whether to stop: tens of milliseconds
 constexpr std::size_t kAhead = 2;                // distance to the vertex whose memory is fetched in advance
 
-/// Says whether the predicates are exact for p.
-bool is_exact(const WeightedPoint& p) {
-  return is_exact_coordinate(p.x) && is_exact_coordinate(p.y) && is_exact_coordinate(p.z) && is_exact_weight(p.w);
-}
-
 bool is_positive(const TetMesh& mesh, std::span<const HalffaceId> link, const WeightedPoint& p) {
   return std::all_of(link.begin(), link.end(), [&](HalffaceId h) {
     const auto [q, r, s] = mesh.vertices(h);
@@ -199,6 +194,10 @@ void Sweeper::improve(std::size_t first, std::size_t last, const Step& step) {
     const VertexId v = sequence_[i];
     mesh_.set_point(v, step(v, stars_.link(v)));
   }
+}
+
+bool is_exact(const WeightedPoint& p) {
+  return is_exact_coordinate(p.x) && is_exact_coordinate(p.y) && is_exact_coordinate(p.z) && is_exact_weight(p.w);
 }
 
 bool is_bad(const TetMesh& mesh, TetId t) {

@@ -60,6 +60,8 @@ class Sweeper {
 
 /// Says exactly whether the orthocenter of a tetrahedron, in either orientation, is not inside.
 [[nodiscard]] bool is_bad(const TetMesh& mesh, TetId t);
+/// Says whether the predicates are exact for p.
+[[nodiscard]] bool is_exact(const WeightedPoint& p);
 
 /// The energy of a mesh, and the number of tetrahedra whose orthocenter is not inside, exactly.
 struct MeshState {

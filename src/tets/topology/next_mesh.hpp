@@ -24,6 +24,15 @@ struct Names {
   explicit Names(const TetMesh& mesh);
 };
 
+/// The numbers of corners, by a table.
+template <std::size_t N>
+[[nodiscard]] std::array<std::int32_t, N> numbers_of(const std::array<VertexId, N>& corners,
+                                                     const IdVector<VertexId, std::int32_t>& number) {
+  std::array<std::int32_t, N> result;
+  for (std::size_t k = 0; k < N; ++k) result[k] = number[corners[k]];
+  return result;
+}
+
 class NextMesh {
  public:
   using Number = std::int32_t;  ///< of a vertex in the next mesh
@@ -36,9 +45,7 @@ class NextMesh {
   [[nodiscard]] Number number(VertexId v) const { return number_[v]; }
   template <std::size_t N>
   [[nodiscard]] std::array<Number, N> numbers(const std::array<VertexId, N>& corners) const {
-    std::array<Number, N> result;
-    for (std::size_t k = 0; k < N; ++k) result[k] = number_[corners[k]];
-    return result;
+    return numbers_of(corners, number_);
   }
   [[nodiscard]] Number add_vertex(const WeightedPoint& p) { return add_vertex(p, VertexId(names_.next.index++)); }
   void set_point(Number v, const WeightedPoint& p);
