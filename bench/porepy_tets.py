@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""PorePy's error on tetrahedra, with its own centers and with those of temper, before and after `temper optimize`.
+"""Measures PorePy's error on tetrahedra before and after `temper optimize`, with its own centers and with temper's.
 
     PYTHONPATH=BUILD/python bench/porepy_tets.py PROGRAM MESH.mesh … [--gmsh cube ball fracture] [--options …]
 
@@ -28,7 +28,7 @@ GAUSS = 0.25 + (np.eye(4) - 0.25) / np.sqrt(5)  # barycentric coordinates of a r
 
 
 def gmsh_mesh(name, path, tetrahedra=2500):
-    """A mesh by gmsh's defaults, with about so many tetrahedra."""
+    """Makes a mesh by gmsh's defaults, with about this number of tetrahedra."""
     import gmsh
 
     volume = 4 * np.pi / 3 if name == "ball" else 1

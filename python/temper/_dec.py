@@ -133,7 +133,7 @@ class PowerCells(Record):
 
 
 class _Complex(Record):
-    """What the operators of triangles and tetrahedra share."""
+    """Base class of the operators of triangles and of tetrahedra."""
 
     _handle: Any
     d0: IncidenceMatrix

@@ -101,7 +101,7 @@ struct FieldSize {
 /// The fields that MeasureErrorsOptions::fields asks for, in the order of all_fields(), each once.
 [[nodiscard]] Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names,
                                                          SpaceKind space = SpaceKind::plane);
-/// The same of other fields; `known` begins the list of them in errors.
+/// Selects among other fields in the same way. `known` begins their list in errors.
 [[nodiscard]] Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names,
                                                          std::span<const Field> all, std::string known);
 

@@ -25,9 +25,9 @@ std::vector<std::string_view> names_of_numbers(const std::vector<io::DataArray>&
   return names;
 }
 
-/// What a coefficient has a value for.
 template <class AnyInput>
 constexpr bool kOfTetrahedra = std::is_same_v<AnyInput, TetInput>;
+/// A coefficient has a value for each of these elements.
 auto elements_of(const Mesh& mesh) { return mesh.triangles(); }
 auto elements_of(const tets::TetMesh& mesh) { return mesh.tetrahedra(); }
 

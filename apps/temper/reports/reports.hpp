@@ -38,7 +38,7 @@ struct DecRecord {
 
 [[nodiscard]] std::string dec_text(const DecRecord& record);
 [[nodiscard]] std::string dec_json(const DecRecord& record);
-/// The same of tetrahedra.
+/// The record of a mesh of tetrahedra.
 struct TetDecRecord {
   std::string path;
   const tets::DecSummary& summary;

@@ -65,7 +65,7 @@ struct DecWriteOptions {
   Executor* executor = nullptr;       ///< Threads that compress; the bytes written do not depend on them
 };
 
-/// What is written into a folder.
+/// A format writes one of these kinds into a folder.
 enum class DecKind { triangles, columns, tetrahedra };
 
 /// The names of the files that a format writes into its folder.
@@ -79,7 +79,7 @@ enum class DecKind { triangles, columns, tetrahedra };
                                                            const DecComplex& complex, const PowerCells& cells,
                                                            const DecWriteOptions& options = {});
 
-/// The same of tetrahedra. Error: formats that need columns.
+/// Writes the operators of tetrahedra in the same way. Error: formats that need columns.
 [[nodiscard]] Expected<std::vector<std::string>> write_dec(const std::string& folder, const tets::TetMesh& mesh,
                                                            const tets::DecComplex& complex,
                                                            const DecWriteOptions& options = {});

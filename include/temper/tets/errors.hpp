@@ -51,11 +51,11 @@ struct ErrorReport {
 /// Measures a mesh. Errors: no tetrahedra, unknown fields, a frame of zero size. Two sparse factorizations: O(n²).
 [[nodiscard]] Expected<ErrorReport> measure_errors(const TetMesh& mesh, const MeasureErrorsOptions& options = {});
 
-/// The ratio of errors, field by field: see that of triangles.
+/// Returns the ratio of errors, field by field, as error_ratios() of triangles does.
 [[nodiscard]] Expected<std::vector<FieldErrors>> error_ratios(const ErrorReport& after, const ErrorReport& before);
 
-/// Makes a model of errors for OptimizeHooks, for Scheme::vertex: as that of triangles, with 32 plane waves in 16
-/// directions. Null: there is none for this scheme.
+/// Makes a model of errors for OptimizeHooks, as the one of triangles is. It has 32 plane waves in 16 directions. Null:
+/// the scheme is not Scheme::vertex.
 [[nodiscard]] std::shared_ptr<const DiscretizationError> make_discretization_error(Scheme scheme);
 
 }  // namespace temper::tets

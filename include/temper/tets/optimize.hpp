@@ -93,8 +93,8 @@ struct OptimizeReport {
 ///     lists the vertices of a part
 ///
 /// For a scheme the run then lowers the offsets between primal and dual elements (src/tets/energy/accuracy_star.hpp),
-/// and the error of the model, if the hooks have one and no tetrahedron is bad. Of the meshes before and after each
-/// stage, it returns the one with the least error by the model. An input without bad tetrahedra is one of them.
+/// and the error of the model, if the hooks have one and no tetrahedron is bad. The result is the mesh with the least
+/// error by the model, among those before and after each stage. An input without bad tetrahedra is one of them.
 ///
 /// Every tetrahedron stays positive. The result never has more tetrahedra with outside orthocenters than the input.
 /// Wrong options (numbers < 0, positions and weights both kept) are an error, which leaves the mesh unchanged.

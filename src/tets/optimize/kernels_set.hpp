@@ -91,7 +91,7 @@ PointDerivatives<double> derivatives(const Link& link, const WeightedPoint& p, d
   return look_around(link, p, gamma).derivatives;
 }
 
-/// How much of a step goes before the first tetrahedron is nearly flat. Signed volumes are linear along a step.
+/// Returns the part of a step before the first tetrahedron is nearly flat. Signed volumes are linear along a step.
 TEMPER_INLINE double farthest(const Link& link, const WeightedPoint& origin, const WeightedPoint& step) {
   const Point from = in_all_lanes(origin), along = in_all_lanes(step);
   Pack limits = Pack::all(1);

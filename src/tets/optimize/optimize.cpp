@@ -23,7 +23,7 @@ constexpr double kRelaxation = 1.7;
 // after kLastSweeps at the latest.
 constexpr double kTolerance = 1e-4;
 constexpr int kLastSweeps = 100;
-// Changes at all bad tetrahedra at once end when so many rounds have not lowered their number.
+// After so many rounds without fewer bad tetrahedra, changes at all of them at once end.
 constexpr int kRoundsInVain = 4;
 // Vertices between two looks at the clock, in the sweeps for accuracy.
 constexpr std::size_t kVerticesBetweenLooks = 1024;

@@ -15,7 +15,7 @@ constexpr auto kRows = std::to_array<std::string_view>({"max_sweeps", "time_limi
 constexpr auto kTargets = std::to_array<std::string_view>({"any", "valid", "vertex", "cell"});
 constexpr auto kKept = std::to_array<std::string_view>({"positions", "weights", "edges", "boundary"});
 
-/// What an effort tries. "quick" keeps the connectivity, and looks at no solver's error.
+/// The work of an effort. "quick" keeps the connectivity, and looks at no solver's error.
 struct Effort {
   std::string_view name;
   int repair_trials;

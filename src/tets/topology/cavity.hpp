@@ -53,7 +53,7 @@ struct Cavity {
 };
 
 /// The cavities of a mesh. No face of the boundary, between regions or with a tag is inside a cavity, and no tagged
-/// line. So these parts stay whatever fills a cavity, but for those of to_split(): a new vertex divides them.
+/// line. So these parts stay, whatever fills a cavity. to_split() is the exception: a new vertex divides them.
 class Cavities {
  public:
   explicit Cavities(const TetMesh& mesh);
