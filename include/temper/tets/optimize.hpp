@@ -42,8 +42,10 @@ class DiscretizationError {
  public:
   virtual ~DiscretizationError() = default;
 
-  /// Returns the mean squared error, without unit; +∞ if the matrix of the scheme is not positive definite. `gradient`,
-  /// unless null, gets the derivatives by x, y, z and w of every vertex.
+  /// Says whether squared_error() has derivatives. Without them it only chooses between meshes.
+  [[nodiscard]] virtual bool has_gradient() const { return true; }
+  /// Returns the mean squared error, without unit; +∞ if the scheme has no solution. `gradient`, unless null, gets the
+  /// derivatives by x, y, z and w of every vertex. Precondition then: has_gradient().
   [[nodiscard]] virtual double squared_error(const TetMesh& mesh,
                                              IdVector<VertexId, WeightedPoint>* gradient) const = 0;
 };

@@ -172,7 +172,7 @@ class Run {
       best_ = draft_;
     };
     keep_if_best();
-    const DiscretizationError* error = best_bad_ == 0 ? error_ : nullptr;
+    const DiscretizationError* error = best_bad_ == 0 && error_ && error_->has_gradient() ? error_ : nullptr;
     Accuracy accuracy(draft_.mesh, draft_.mobilities(), accuracy_model(options_.scheme), error, hooks_.executor);
     const auto must_stop = [this] { return is_stopped(0); };
     for (int i = 0; i < options_.accuracy_steps && may_sweep() && accuracy.descend(must_stop); ++i) {
