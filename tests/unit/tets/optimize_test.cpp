@@ -55,6 +55,24 @@ TEST(TetOptimize, MakesAllTetrahedraGoodAndKeepsTheBoundary) {
   }
 }
 
+TEST(TetOptimize, AListenerSeesBetterAndBetterMeshesAndLastTheResult) {
+  const TetMesh input = test::mesh_of(input_arrays());
+  TetMesh mesh = input, last;
+  std::vector<std::size_t> bad = {quality(input).orthocenters_outside};
+  OptimizeHooks hooks;
+  hooks.best_so_far = [&](const auto& best) {
+    best([&](const BestSoFar& now) {
+      EXPECT_TRUE(now.origins.vertices.empty() || now.origins.vertices.size() == now.mesh.n_vertices());
+      bad.push_back(quality(now.mesh).orthocenters_outside);
+      last = now.mesh;
+    });
+  };
+  ASSERT_TRUE(optimize(mesh, {}, hooks));
+  EXPECT_GT(bad.size(), 3U);
+  EXPECT_TRUE(std::is_sorted(bad.rbegin(), bad.rend()));
+  EXPECT_EQ(last, mesh);
+}
+
 /// Runs the last block first.
 class BackwardExecutor final : public Executor {
  public:
