@@ -164,7 +164,7 @@ void bind_draw(py::module_& m) {
     require_plane(*mesh, "html_report()");
     const auto old = before == nullptr ? mesh : before->read();
     require_plane(*old, "html_report()");
-    io::HtmlReport report = {{*mesh}, std::nullopt, title, json};
+    io::HtmlReport report = {io::HtmlMesh{*mesh}, std::nullopt, title, json};
     if (before != nullptr) report.before.emplace(io::HtmlMesh{*old});
     const py::gil_scoped_release release;
     return io::html_report(report);

@@ -50,13 +50,13 @@ Option& add_requirements(Command& command, std::vector<std::string>& lists, bool
 class RequirementLists {
  public:
   RequirementLists() = default;
-  /// Lists may make sense for one kind alone. Failure if they make sense for none; it is about
-  /// the kind that knows their keys.
+  /// Lists may make sense for one kind alone. Failure if they make sense for none, and the reason is the same.
   RequirementLists(std::string_view verb, std::span<const std::string> lists)
       : triangles_(verb, lists, MeshKind::triangles), tetrahedra_(verb, lists, MeshKind::tetrahedra) {
     if (!triangles_.refusal || !tetrahedra_.refusal) return;
-    const bool of_triangles = knows_keys(lists, MeshKind::triangles) || !knows_keys(lists, MeshKind::tetrahedra);
-    throw Failure(of_triangles ? *triangles_.refusal : *tetrahedra_.refusal);
+    const bool known = knows_keys(lists, MeshKind::triangles) || knows_keys(lists, MeshKind::tetrahedra);
+    if (!known || std::string_view(triangles_.refusal->what()) == tetrahedra_.refusal->what())
+      throw Failure(*triangles_.refusal);
   }
   /// Failure when the lists make no sense for this kind.
   [[nodiscard]] const std::vector<Requirement>& of(MeshKind kind) const {
