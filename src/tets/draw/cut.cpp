@@ -91,8 +91,6 @@ std::vector<CutTet> cut(const TetMesh& mesh, const Plane& plane) {
 
 Section section_of(const TetMesh& mesh, const Plane& plane) {
   const std::vector<CutTet> pieces = cut(mesh, plane);
-  IdVector<TetId, std::uint8_t> is_cut(mesh.n_tetrahedra());
-  for (const CutTet& piece : pieces) is_cut[piece.tetrahedron] = 1;
   Section section;
   section.scale = kTetMargins;
   section.element = "tetrahedron";
@@ -104,11 +102,9 @@ Section section_of(const TetMesh& mesh, const Plane& plane) {
     const TetMeasure measure = measure_tetrahedron(mesh.points(piece.tetrahedron));
     std::vector<Section::Side> sides;
     for (const HalffaceId h : piece.faces) {
-      const HalffaceId twin = mesh.twin(h);
-      const bool drawn = !twin.valid() || h < twin || is_cut[TetMesh::tetrahedron(twin)] == 0;
-      sides.push_back(!drawn                  ? Section::Side::none
-                      : mesh.bounds_region(h) ? Section::Side::kept
-                                              : Section::Side::plain);
+      sides.push_back(!mesh.is_face_representative(h) ? Section::Side::none
+                      : mesh.bounds_region(h)         ? Section::Side::kept
+                                                      : Section::Side::plain);
     }
     section.pieces.push_back({piece.corners, std::move(sides), measure.margin(), !measure.orthocenter_inside()});
   }
