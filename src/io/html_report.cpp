@@ -154,8 +154,8 @@ std::vector<ArrayText> arrays_of(const HtmlMesh& from, const std::string& side) 
     const std::array<VertexId, 3> c = mesh.corners(t);
     for (std::size_t k = 0; k < 3; ++k) {
       const HalfedgeId h = Mesh::halfedge(t, static_cast<int>(k));
-      corners[3 * t.index + k] = static_cast<std::int32_t>(c[k].index);
-      constrained[3 * t.index + k] = mesh.is_constrained(h) && !mesh.is_boundary(h) ? 1 : 0;
+      corners[h.index] = static_cast<std::int32_t>(c[k].index);
+      constrained[h.index] = mesh.is_constrained(h) && !mesh.is_boundary(h) ? 1 : 0;
     }
     regions[t.index] = mesh.region(t);
     verdicts[t.index] = verdict({mesh.point(c[0]), mesh.point(c[1]), mesh.point(c[2])});
@@ -176,10 +176,11 @@ std::vector<ArrayText> arrays_of(const HtmlMesh& from, const std::string& side) 
 std::vector<ArrayText> arrays_of(const HtmlTets& from, const std::string& side) {
   const tets::TetMesh& mesh = from.mesh;
   const std::size_t n = mesh.n_tetrahedra();
-  std::vector<std::int32_t> corners(4 * n), regions(n);
+  std::vector<std::int32_t> corners, regions(n);
   std::vector<std::uint8_t> verdicts(n);
+  corners.reserve(4 * n);
   for (const tets::TetId t : mesh.tetrahedra()) {
-    for (std::size_t k = 0; k < 4; ++k) corners[4 * t.index + k] = static_cast<std::int32_t>(mesh.corners(t)[k].index);
+    for (const VertexId v : mesh.corners(t)) corners.push_back(static_cast<std::int32_t>(v.index));
     regions[t.index] = mesh.region(t);
     verdicts[t.index] = verdict(mesh.points(t));
   }
