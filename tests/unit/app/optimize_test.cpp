@@ -541,7 +541,6 @@ TEST_F(OptimizeTetrahedra, PositionsOrWeightsMayBeKept) {
 TEST_F(OptimizeTetrahedra, OptionsForTrianglesAloneAreRefusedByNameAndNothingIsWritten) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
       {{"--for", "mpas"}, "target 'mpas'"},
-      {{"--boundary", "slide"}, "--boundary slide"},
       {{"--boundary", "split", "--effort", "quick"}, "--boundary split inserts vertices"},
       {{"--keep", "sizes"}, "keep 'sizes'"},
       {{"--set", "energy=F"},
