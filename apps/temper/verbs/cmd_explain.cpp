@@ -96,9 +96,8 @@ Exit run_explain(const Arguments& arguments) {
       "explain",
       "Explains every triangle or tetrahedron that is not well-centered. Triangles have two reasons. Either a proof "
       "shows a small set of triangles for which no weights exist, or weights exist but have not been found. temper "
-      "also "
-      "tries cures on the triangles around. For a tetrahedron it prints the orthocenter, the weights, the heights over "
-      "faces, and what may help. The exit code does not depend on the result: to test a mesh, use temper check "
+      "also tries cures on the triangles around. For a tetrahedron it prints the orthocenter, the weights, the heights "
+      "over faces, and what may help. The exit code does not depend on the result: to test a mesh, use temper check "
       "--require.");
   ExplainSettings s;
   add_options(command, s);
