@@ -207,6 +207,11 @@ class Run {
     if (report_.history.empty() || bad < best_bad_ || (bad == best_bad_ && best == Equals::last)) {
       best_bad_ = bad;
       best_ = draft_;
+      if (hooks_.best_so_far && !report_.history.empty()) {
+        hooks_.best_so_far([this](const std::function<void(const BestSoFar&)>& use) {
+          use({best_.mesh, origins_of(best_)});
+        });
+      }
     }
     if (stopped_early(report_.stopped)) return;
     record(Objective::energy, energy);
@@ -234,19 +239,25 @@ class Run {
 
   void report_changes() {
     const std::size_t n_before = result_.n_vertices();
-    auto& [vertices, next, faces, lines] = best_.names;
-    std::size_t kept = 0;
-    for (VertexId& v : vertices) {
-      if (v.index < n_before)
-        ++kept;
-      else
-        v = {};
-    }
-    report_.vertices_inserted = vertices.size() - kept;
+    const std::size_t kept = count_kept(best_);
+    report_.vertices_inserted = best_.mesh.n_vertices() - kept;
     report_.vertices_removed = n_before - kept;
     report_.flips = best_.flips;
-    if (report_.vertices_inserted + report_.vertices_removed > 0)
-      report_.origins = {std::move(vertices), std::move(faces), std::move(lines)};
+    report_.origins = origins_of(best_);
+  }
+  [[nodiscard]] bool is_of_input(VertexId name) const { return name.index < result_.n_vertices(); }
+  [[nodiscard]] std::size_t count_kept(const Draft& draft) const {
+    const auto& names = draft.names.vertices;
+    return static_cast<std::size_t>(
+        std::count_if(names.begin(), names.end(), [this](VertexId v) { return is_of_input(v); }));
+  }
+  [[nodiscard]] Origins origins_of(const Draft& draft) const {
+    if (count_kept(draft) == result_.n_vertices() && draft.mesh.n_vertices() == result_.n_vertices()) return {};
+    Origins origins = {draft.names.vertices, draft.names.faces, draft.names.lines};
+    for (VertexId& v : origins.vertices) {
+      if (!is_of_input(v)) v = {};
+    }
+    return origins;
   }
 
   TetMesh& result_;  // until the end: the input
