@@ -132,6 +132,25 @@ TEST(FindWeights, ElasticViolatesNothingWhereWeightsExist) {
   EXPECT_GT(tried, 0u);
 }
 
+TEST(FindWeights, ElasticKeepsHalfOfTheBestMarginWhereItViolates) {
+  std::size_t tried = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Mesh mesh = jittered_lattice(seed);
+    const double best = margin_of(mesh).margin;
+    if (best < 0.001) continue;
+    ++tried;
+    for (const std::size_t whole : {3000, 8}) {
+      const WeightReport report =
+          weights_of(mesh, {.goal = WeightGoal::elastic, .margin = std::min(2 * best, 0.49), .whole = whole});
+      EXPECT_EQ(report.verdict, Feasibility::feasible) << seed;
+      EXPECT_TRUE(report.solved);
+      EXPECT_GE(report.attained, report.margin / 2 - kLacking) << seed << " " << whole;
+      EXPECT_FALSE(report.violations.empty());
+    }
+  }
+  EXPECT_GT(tried, 3u);
+}
+
 TEST(FindWeights, ElasticNamesTheTrianglesThatGiveWay) {
   const Mesh mesh = sparse_horseshoe();
   const WeightReport report = weights_of(mesh, {.goal = WeightGoal::elastic, .margin = 0});
