@@ -8,8 +8,8 @@
 // for each further group, as version 2 lists them. Further groups of cells are data gmsh:physical:TAG, 1 inside.
 //
 // A partition divides entities into parts, and adds entities between the parts. A part belongs to its parent again; its
-// number is the data gmsh:partition. Elements between parts are left out. So are ghosts, the triangles of other parts
-// in the file of one part.
+// number is the data gmsh:partition. Elements between parts are left out. So are ghosts, the cells of other parts in
+// the file of one part.
 //
 //     surface 1, curve 5 |  gmsh    surface 3 of 1 | curve 8 of 1, | surface 4 of 1     (dimension 2 of 2, 1 of 2, …)
 //                        |  ---->   curve 9 of 5   | not of a curve| curve 10 of 5
@@ -226,7 +226,7 @@ class GmshReader {
         const auto tag = get<std::int32_t>("the tag of a ghost entity");
         Membership ghosts;
         ghosts.of_partition_alone = true;
-        entities_[{2, tag}] = ghosts;
+        for (const std::int32_t dimension : {2, 3}) entities_[{dimension, tag}] = ghosts;  // one of them has cells
         get<std::int32_t>("the partition of a ghost entity");
       }
     }
@@ -516,7 +516,30 @@ class GmshReader {
       inside.resize(cells.nodes.size());
       inside[*lookup.find(number)] = 1;
     }
-    for (auto& [group, inside] : groups) data.push_back({text(kGmshFurtherGroup, group), 1, std::move(inside)});
+    for (auto& [group, inside] : groups) {
+      warn_of_parts(N - 1, group, inside, cells.physical);
+      data.push_back({text(kGmshFurtherGroup, group), 1, std::move(inside)});
+    }
+  }
+  /// Boundaries between regions stay, but those of a further group inside a region may move.
+  void warn_of_parts(std::size_t dimension, std::int32_t group, const std::vector<std::int32_t>& inside,
+                     const std::vector<std::int32_t>& regions) {
+    std::map<std::int32_t, std::set<std::int32_t>> found;
+    for (std::size_t i = 0; i < inside.size(); ++i) found[regions[i]].insert(inside[i]);
+    for (const auto& [region, values] : found) {
+      if (values.size() == 1) continue;
+      document_.file.warnings.push_back(
+          text(scanner_.path(), ": the physical group ", group_name(dimension, group), " is a part of ",
+               group_name(dimension, region),
+               ", the first group of its entities: the boundary between them may move. Next: define the smaller group "
+               "first in Gmsh, or tag the boundary"));
+    }
+  }
+  [[nodiscard]] std::string group_name(std::size_t dimension, std::int32_t tag) const {
+    for (const PhysicalName& name : document_.file.names) {
+      if (name.dimension == static_cast<std::int32_t>(dimension) && name.tag == tag) return in_quotes(name.name);
+    }
+    return std::to_string(tag);
   }
   template <std::size_t N>
   static void repeat_for_groups(Elements<N>& elements, const NumberLookup& lookup, std::vector<DataArray>& data) {
@@ -589,7 +612,10 @@ class GmshReader {
     PlaneCheck(document_).add(f.points.size() - 1, z);
   }
   void finish_nodes() {
-    if (has_nodes_) fail(ErrorCode::syntax, where(), "has two sections $Nodes");
+    if (has_nodes_) {
+      fail(ErrorCode::syntax, where(),
+           "has two sections $Nodes; expected one mesh. Next: append views of Gmsh with PostProcessing.SaveMesh = 0");
+    }
     has_nodes_ = true;
     lookup_.emplace(document_.names->points);
     if (const auto twice = lookup_->duplicate()) {

@@ -125,7 +125,9 @@ TEST_F(TetFiles, EntitiesOfSeveralGroupsOfGmshKeepAllOfThem) {
       "1 2.5\n$EndElementData\n";
   const auto read = read_any(make("in.msh", content));
   ASSERT_TRUE(read) << read.error().what();
-  EXPECT_TRUE(std::get<TetFile>(*read).warnings.empty());
+  ASSERT_EQ(std::get<TetFile>(*read).warnings.size(), 1U);
+  EXPECT_EQ(plain(std::get<TetFile>(*read).warnings[0]).find("in.msh: the physical group 'wet' is a part of 'rock', "),
+            0U);
   for (const TetFile& file : {std::get<TetFile>(*read), through(std::get<TetFile>(*read), "gmsh41")}) {
     EXPECT_EQ(file.regions, (std::vector<std::int32_t>{1, 1}));
     EXPECT_TRUE(has(file.cell_data, {"gmsh:physical:7", 1, std::vector<std::int32_t>{1, 0}}));
@@ -137,6 +139,22 @@ TEST_F(TetFiles, EntitiesOfSeveralGroupsOfGmshKeepAllOfThem) {
     EXPECT_TRUE(make_mesh(file));
   }
   EXPECT_NE(slurp(path("m.msh")).find(" 2 1 7 0"), std::string::npos) << "one entity in two groups, as it was";
+}
+
+TEST_F(TetFiles, GhostsInTheFileOfAPartitionAreLeftOut) {
+  const auto read = read_any(
+      make("in.msh",
+           "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 1\n9 0 0 0 1 1 0 1 4 0\n1 0 0 0 1 1 1 1 7 0\n"
+           "$EndEntities\n$PartitionedEntities\n2\n1\n9 2\n0 0 1 1\n9 2 9 1 1 0 0 0 1 1 0 1 4 0\n"
+           "5 3 1 1 1 0 0 0 1 1 1 1 7 0\n$EndPartitionedEntities\n$Nodes\n1 5 1 5\n3 5 0 5\n1\n2\n3\n4\n5\n"
+           "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n$EndNodes\n$Elements\n3 3 1 3\n2 9 2 1\n1 1 3 2\n3 5 4 1\n"
+           "2 1 2 3 4\n3 9 4 1\n3 2 3 4 5\n$EndElements\n"));
+  ASSERT_TRUE(read) << read.error().what();
+  const TetFile& file = std::get<TetFile>(*read);
+  EXPECT_EQ(file.regions, (std::vector<std::int32_t>{7}));
+  EXPECT_EQ(file.face_tags, (std::vector<std::int32_t>{4})) << "a face may have the number of the ghosts";
+  ASSERT_EQ(file.warnings.size(), 1U);
+  EXPECT_EQ(plain(file.warnings[0]), "in.msh: 1 element that the partition added is left out");
 }
 
 TEST_F(TetFiles, FormatsWithoutTetrahedraAreRefusedAndNothingIsWritten) {
