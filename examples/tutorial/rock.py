@@ -58,7 +58,8 @@ def draw(file, cuts, name, fracture=None, **options):
         bar = {"title": name, "vertical": False, "position_x": 0.25, "width": 0.5, "color": "black", "n_labels": 3}
         plotter.add_mesh(grid.clip("-y", crinkle=True), scalars=name, show_edges=True, lighting=False, scalar_bar_args=bar, **options)
         if fracture is not None:
-            plotter.add_mesh(pyvista.make_tri_mesh(np.array(fracture.points), np.array(fracture.tagged_faces)), color="orange", show_edges=True, lighting=False)
+            faces = pyvista.make_tri_mesh(np.array(fracture.points), np.array(fracture.tagged_faces))
+            plotter.add_mesh(faces, color="orange", show_edges=True, lighting=False)
         plotter.add_text(title, font_size=10, color="black")
         plotter.camera_position = [(50, -112, 66), (50, 30, 13), (0, 0, 1)]
     plotter.screenshot(file)
