@@ -2,8 +2,9 @@
 //
 // Elements are numbered points first, then lines, triangles and tetrahedra, so that the reader finds their order again.
 // All elements of a Gmsh entity are in the same physical groups, so entities are the distinct pairs (entity, groups).
-// Groups are the region or tag and, in 4.1, those of the data gmsh:physical:TAG. Numbers of entities come from the data
-// gmsh:geometrical, or else from the groups. NodeData and ElementData hold doubles alone.
+// Groups are the region or tag, and those of the data gmsh:physical:TAG. Version 2 lists an element once more for each
+// of these. Numbers of entities come from the data gmsh:geometrical, or else from the groups. NodeData and ElementData
+// hold doubles alone.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -49,9 +50,12 @@ struct Kind {
   [[nodiscard]] Groups groups(std::size_t i) const {
     Groups all = {tag(i), {}};
     for (const auto& [group, inside] : further_groups) {
-      if (inside[i] != 0 && !std::isnan(inside[i])) all.further.push_back(group);
+      if (is_in(inside, i)) all.further.push_back(group);
     }
     return all;
+  }
+  [[nodiscard]] static bool is_in(const std::vector<double>& inside, std::size_t i) {
+    return inside[i] != 0 && !std::isnan(inside[i]);
   }
   [[nodiscard]] std::int32_t entity(std::size_t i) const { return entities.empty() ? only_entity : entities[i]; }
 };
@@ -151,8 +155,8 @@ class GmshWriter {
     }
     for (Kind* kind : kinds()) {
       for (const DataArray& array : *kind->data) {
-        const auto tag = version4_ ? further_group(array) : std::nullopt;
-        if (tag) kind->further_groups.emplace_back(*tag, to_doubles(Values(array.values)));
+        if (const auto tag = further_group(array))
+          kind->further_groups.emplace_back(*tag, to_doubles(Values(array.values)));
       }
       number_entities(*kind);
     }
@@ -228,7 +232,9 @@ class GmshWriter {
     out_.put("$EndNodes\n", "");
   }
   void elements_2() {
-    out_.put("$Elements\n", n_elements(), '\n');
+    std::size_t n_further = 0;
+    for_each_further([&](const Kind&, std::size_t, std::int32_t) { ++n_further; });
+    out_.put("$Elements\n", n_elements() + n_further, '\n');
     for (const Kind* kind : kinds()) {
       const std::size_t n_triangles = kind == &triangles_ ? job_.n_triangles() : kind->n;
       for (std::size_t i = 0; i < kind->n; ++i) {
@@ -242,8 +248,27 @@ class GmshWriter {
         put_nodes<std::int32_t>(*kind, i);
       }
     }
+    auto number = static_cast<std::int32_t>(n_elements());
+    for_each_further([&](const Kind& kind, std::size_t i, std::int32_t group) {
+      const std::int32_t type = is_quadrilateral(kind, i) ? kGmshQuadrilateral : kind.type;
+      ++number;
+      binary_ ? (put(type), put(std::int32_t{1}), put(std::int32_t{2}), put(number))
+              : (put(number), put(type), put(std::int32_t{2}));
+      put(group), put(kind.entity(i));
+      put_nodes<std::int32_t>(kind, i);
+    });
     end_section();
     out_.put("$EndElements\n", "");
+  }
+  template <class Use>
+  void for_each_further(const Use& use) {
+    for (const Kind* kind : kinds()) {
+      for (const auto& [group, inside] : kind->further_groups) {
+        for (std::size_t i = 0; i < kind->n; ++i) {
+          if (Kind::is_in(inside, i)) use(*kind, i, group);
+        }
+      }
+    }
   }
   [[nodiscard]] bool is_quadrilateral(const Kind& kind, std::size_t i) const {
     return &kind == &triangles_ && i >= job_.n_triangles();
@@ -313,7 +338,7 @@ class GmshWriter {
                                                           {&tets_, ArraysByName(*tets_.data)}};
     for (const Kind* leading : kinds()) {
       for (const DataArray& a : *leading->data) {
-        if (!done.insert(a.name).second || (version4_ && further_group(a))) continue;
+        if (!done.insert(a.name).second || further_group(a)) continue;
         const int padded = components_in_gmsh(a, "cell data");
         if (padded == 0) continue;
         note_type(a, "cell data");

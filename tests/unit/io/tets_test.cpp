@@ -128,7 +128,9 @@ TEST_F(TetFiles, EntitiesOfSeveralGroupsOfGmshKeepAllOfThem) {
   ASSERT_EQ(std::get<TetFile>(*read).warnings.size(), 1U);
   EXPECT_EQ(plain(std::get<TetFile>(*read).warnings[0]).find("in.msh: the physical group 'wet' is a part of 'rock', "),
             0U);
-  for (const TetFile& file : {std::get<TetFile>(*read), through(std::get<TetFile>(*read), "gmsh41")}) {
+  for (const TetFile& file :
+       {std::get<TetFile>(*read), through(std::get<TetFile>(*read), "gmsh22"),
+        through(std::get<TetFile>(*read), "gmsh22", Encoding::appended), through(std::get<TetFile>(*read), "gmsh41")}) {
     EXPECT_EQ(file.regions, (std::vector<std::int32_t>{1, 1}));
     EXPECT_TRUE(has(file.cell_data, {"gmsh:physical:7", 1, std::vector<std::int32_t>{1, 0}}));
     ASSERT_EQ(file.faces.size(), 2U);
