@@ -258,7 +258,10 @@ class GmshReader {
     const std::size_t n_physical = get_count("physical tags", 2, 4);
     for (std::size_t k = 0; k < n_physical; ++k) {
       const auto physical = get<std::int32_t>("a physical tag");
-      k == 0 ? void(of.physical = physical) : of.further.push_back(physical);
+      if (k == 0)
+        of.physical = physical;
+      else
+        of.further.push_back(physical);
     }
     const std::size_t n_bounding = dimension == 0 ? 0 : get_count("bounding entities", 2, 4);
     for (std::size_t k = 0; k < n_bounding; ++k) get<std::int32_t>("a bounding entity");
@@ -623,7 +626,7 @@ class GmshReader {
     }
   }
   void add_element(std::int32_t type, std::int64_t number, const Membership& of) {
-    allocation_.take(of.further.size(), 1, where());
+    if (!of.further.empty()) allocation_.take(of.further.size(), 1, where());
     const auto line = static_cast<std::int64_t>(scanner_.line());
     switch (type) {
       case kGmshTetrahedron: {

@@ -146,7 +146,7 @@ TEST_F(TetFiles, EntitiesOfSeveralGroupsOfGmshKeepAllOfThem) {
 TEST_F(TetFiles, GhostsInTheFileOfAPartitionAreLeftOut) {
   const auto read = read_any(
       make("in.msh",
-           "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 1\n9 0 0 0 1 1 0 1 4 0\n1 0 0 0 1 1 1 1 7 0\n"
+           "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 1\n9 0 0 0 1 1 0 2 4 5 0\n1 0 0 0 1 1 1 1 7 0\n"
            "$EndEntities\n$PartitionedEntities\n2\n1\n9 2\n0 0 1 1\n9 2 9 1 1 0 0 0 1 1 0 1 4 0\n"
            "5 3 1 1 1 0 0 0 1 1 1 1 7 0\n$EndPartitionedEntities\n$Nodes\n1 5 1 5\n3 5 0 5\n1\n2\n3\n4\n5\n"
            "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n$EndNodes\n$Elements\n3 3 1 3\n2 9 2 1\n1 1 3 2\n3 5 4 1\n"
@@ -154,7 +154,7 @@ TEST_F(TetFiles, GhostsInTheFileOfAPartitionAreLeftOut) {
   ASSERT_TRUE(read) << read.error().what();
   const TetFile& file = std::get<TetFile>(*read);
   EXPECT_EQ(file.regions, (std::vector<std::int32_t>{7}));
-  EXPECT_EQ(file.face_tags, (std::vector<std::int32_t>{4})) << "a face may have the number of the ghosts";
+  EXPECT_EQ(file.face_tags, (std::vector<std::int32_t>{4, 5})) << "a face may have the number of the ghosts";
   ASSERT_EQ(file.warnings.size(), 1U);
   EXPECT_EQ(plain(file.warnings[0]), "in.msh: 1 element that the partition added is left out");
 }
