@@ -62,6 +62,7 @@ std::string settings_json(const OptimizeSettings& s, const tets::OptimizeOptions
                                  {"keep_weights", options.keep_weights},
                                  {"keep_edges", options.keep_edges},
                                  {"repair_trials", options.repair_trials},
+                                 {"slide_boundary", options.slide_boundary},
                                  {"split_boundary", options.split_boundary},
                                  {"search_each", options.search_each},
                                  {"small_margin", options.small_margin},

@@ -6,7 +6,7 @@
 
 #include "base/portable_log.hpp"
 #include "tets/energy/star.hpp"
-#include "tets/optimize/sweeper.hpp"
+#include "tets/optimize/valid_step.hpp"
 
 namespace temper::tets {
 namespace {
@@ -15,24 +15,9 @@ constexpr double kMargin = 0.02, kFloorOfMargin = 0.2;  // floors: the margin ε
 constexpr double kBarrier = 0.001;                      // μ
 constexpr double kOffsetShare = 3;                      // κ
 constexpr int kSmoothings = 10;
-constexpr int kTrialsOfStep = 6;     // over-relaxed, plain, then halved
-constexpr double kRounding = 1e-15;  // a smaller part of the energy is rounding
 // Of the steps over all vertices, as in the plane (optimize/solver_error/solver_error_phase.cpp).
 constexpr double kLongestStep = 0.3, kKeptRoom = 0.2, kArmijo = 1e-4;
 constexpr int kMostHalvings = 25;
-
-WeightedPoint moved(const WeightedPoint& p, const WeightedPoint& step, double t) {
-  return {p.x + t * step.x, p.y + t * step.y, p.z + t * step.z, p.w + t * step.w};
-}
-
-bool moves(Mobility m) { return m == Mobility::free || m == Mobility::position; }
-bool weighs(Mobility m) { return m == Mobility::free || m == Mobility::weight; }
-
-/// Says exactly whether t is positive, with its orthocenter inside.
-bool is_good(const TetMesh& mesh, TetId t) {
-  const auto [a, b, c, d] = mesh.points(t);
-  return orientation(a.position(), b.position(), c.position(), d.position()) == Sign::positive && !is_bad(mesh, t);
-}
 
 }  // namespace
 
@@ -78,29 +63,10 @@ void Accuracy::gather(VertexId v) {
   star_.gather(mesh_, v, link_, domain_, model_);
 }
 
-bool Accuracy::is_valid(VertexId v) const {
-  return is_exact(mesh_.point(v)) &&
-         std::all_of(link_.begin(), link_.end(), [&](HalffaceId h) { return is_good(mesh_, TetMesh::tetrahedron(h)); });
-}
-
 void Accuracy::improve(VertexId v, double relaxation) {
-  const Mobility mobility = mobility_[v];
-  if (mobility == Mobility::none) return;
+  if (mobility_[v] == Mobility::none) return;
   gather(v);
-  const WeightedPoint origin = mesh_.point(v);
-  const PointDerivatives<double> here = star_.derivatives(origin);
-  if (!std::isfinite(here.value)) return;
-  const auto [step, predicted] = newton_step(here, mobility, domain_.sizes[v]);
-  if (!(predicted > kRounding * here.value)) return;
-  double t = relaxation;
-  for (int trial = 0; trial < kTrialsOfStep; ++trial, t = trial == 1 ? 1 : 0.5 * t) {
-    WeightedPoint p = moved(origin, step, t);
-    if (!moves(mobility)) p = {origin.x, origin.y, origin.z, p.w};  // -0.0 + 0 is another zero
-    if (!(star_.value(p) < here.value)) continue;
-    mesh_.set_point(v, p);
-    if (is_valid(v)) return;
-    mesh_.set_point(v, origin);
-  }
+  take_valid_step(mesh_, v, link_, star_, mobility_[v], domain_.sizes[v], relaxation);
 }
 
 AccuracyTotal Accuracy::energy() {
@@ -124,7 +90,8 @@ void Accuracy::find_scales() {
     const auto scale = [&](double size, double curvature) {
       return size / std::sqrt(1 + share * size * size * curvature);
     };
-    scales_[v] = {scale(s, h.xx), scale(s, h.yy), scale(s, h.zz), scale(s * s, h.ww)};
+    auto& [x, y, z, w] = scales_[v] = {scale(s, h.xx), scale(s, h.yy), scale(s, h.zz), scale(s * s, h.ww)};
+    if (mobility_[v].slides()) x = y = z = std::min({x, y, z});  // along any direction
   }
 }
 
@@ -140,14 +107,14 @@ Accuracy::Total Accuracy::total(const DiscretizationError& model) {
   result.lowered = portable_log(error) + kOffsetShare * portable_log(sum);
   result.gradient.resize(4 * mesh_.n_vertices());
   for (const VertexId v : mesh_.vertices()) {
-    const Mobility mobility = mobility_[v];
+    const Mobility& mobility = mobility_[v];
     if (mobility == Mobility::none) continue;
     gather(v);
     const auto [g, g_w] = star_.derivatives(mesh_.point(v)).gradient;
     const double of_error = 1 / error, of_sum = kOffsetShare / sum;
-    const std::array<double, 4> by = {of_error * gradient[v].x + of_sum * g.x, of_error * gradient[v].y + of_sum * g.y,
-                                      of_error * gradient[v].z + of_sum * g.z, of_error * gradient[v].w + of_sum * g_w};
-    for (std::size_t i = moves(mobility) ? 0 : 3; i < (weighs(mobility) ? 4 : 3); ++i)
+    const Vec3 at = mobility.allowed(of_error * gradient[v].position() + of_sum * Vec3{g.x, g.y, g.z});
+    const std::array<double, 4> by = {at.x, at.y, at.z, of_error * gradient[v].w + of_sum * g_w};
+    for (std::size_t i = mobility.moves() ? 0 : 3; i < (mobility.weighs ? 4 : 3); ++i)
       result.gradient[4 * std::size_t{v.index} + i] = scales_[v][i] * by[i];
   }
   return result;
@@ -158,8 +125,9 @@ void Accuracy::place(const IdVector<VertexId, WeightedPoint>& from, const Descen
     const double* by = &step[4 * std::size_t{v.index}];
     const auto& scale = scales_[v];
     WeightedPoint p = from[v];
-    if (moves(mobility_[v])) p.x += t * scale[0] * by[0], p.y += t * scale[1] * by[1], p.z += t * scale[2] * by[2];
-    if (weighs(mobility_[v])) p.w += t * scale[3] * by[3];
+    const Vec3 move = mobility_[v].allowed({t * scale[0] * by[0], t * scale[1] * by[1], t * scale[2] * by[2]});
+    if (mobility_[v].moves()) p.x += move.x, p.y += move.y, p.z += move.z;
+    if (mobility_[v].weighs) p.w += t * scale[3] * by[3];
     mesh_.set_point(v, t != 0 && is_exact(p) ? p : from[v]);
   }
 }

@@ -48,7 +48,6 @@ class Accuracy {
   };
 
   void gather(VertexId v);
-  [[nodiscard]] bool is_valid(VertexId v) const;
   /// Scales the unknowns by the local size, and less where E + B bends more.
   void find_scales();
   [[nodiscard]] Total total(const DiscretizationError& model);

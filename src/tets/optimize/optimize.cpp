@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "tets/optimize/accuracy.hpp"
 #include "tets/optimize/local_search.hpp"
+#include "tets/optimize/mobility.hpp"
 #include "tets/optimize/sweeper.hpp"
 
 namespace temper::tets {
@@ -69,9 +70,8 @@ class Run {
 
   /// Sweeps along the schedule of γ. False: the run must end.
   bool anneal(double first_gamma) {
-    const IdVector<VertexId, Mobility> mobility = draft_.mobilities();
-    const auto all = draft_.mesh.vertices();
-    Sweeper sweeper(draft_.mesh, mobility, std::vector<VertexId>(all.begin(), all.end()), hooks_.executor);
+    const auto all = draft_.mesh.vertices();  // by name, too: the connectivity is that of the input
+    Sweeper sweeper(draft_.mesh, draft_.mobility, std::vector<VertexId>(all.begin(), all.end()), hooks_.executor);
     for (double gamma = first_gamma; gamma > kLastGamma; gamma *= kGammaFactor) {
       for (int i = 0; i < kLevelSweeps; ++i) {
         if (!sweep(sweeper, gamma)) return false;

@@ -57,8 +57,8 @@ Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, con
     return refused("`" + std::string(name) + "=" + option_text(row, row.get(table)) + "`",
                    "`" + join(kRows, "`, `") + "`");
   }
-  if (table.boundary == BoundaryVertices::slide) return refused("`boundary=slide`", "keep and split");
   OptimizeOptions options;
+  options.slide_boundary = table.boundary == BoundaryVertices::slide;
   options.split_boundary = table.boundary == BoundaryVertices::split;
   options.keep_positions = table.unknowns == temper::Unknowns::weights;
   options.keep_weights = table.unknowns == temper::Unknowns::positions;
