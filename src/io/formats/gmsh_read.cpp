@@ -226,7 +226,7 @@ class GmshReader {
         const auto tag = get<std::int32_t>("the tag of a ghost entity");
         Membership ghosts;
         ghosts.of_partition_alone = true;
-        for (const std::int32_t dimension : {2, 3}) entities_[{dimension, tag}] = ghosts;  // one of them has cells
+        for (const std::int32_t dimension : {2, 3}) entities_.try_emplace({dimension, tag}, ghosts);  // cells have one
         get<std::int32_t>("the partition of a ghost entity");
       }
     }
