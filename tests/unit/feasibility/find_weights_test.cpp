@@ -113,6 +113,12 @@ TEST(FindWeights, TakeHalfOfTheBestMarginWhenLessIsThereThanAskedFor) {
     EXPECT_NEAR(minimal.margin, best, 1e-8);
     EXPECT_EQ(minimal.certificate.margin, asked);
     EXPECT_EQ(check_certificate(mesh, minimal.certificate), CertificateCheck::proves);
+    for (const std::size_t whole : {3000, 8}) {
+      const WeightReport elastic = weights_of(mesh, {.goal = WeightGoal::elastic, .margin = asked, .whole = whole});
+      EXPECT_EQ(elastic.verdict, Feasibility::feasible) << seed;
+      EXPECT_GE(elastic.attained, elastic.margin / 2 - kLacking) << "elastic weights make nothing bad " << seed;
+      EXPECT_FALSE(elastic.violations.empty());
+    }
   }
   EXPECT_GT(tried, 3u);
 }
@@ -130,25 +136,6 @@ TEST(FindWeights, ElasticViolatesNothingWhereWeightsExist) {
     ++tried;
   }
   EXPECT_GT(tried, 0u);
-}
-
-TEST(FindWeights, ElasticKeepsHalfOfTheBestMarginWhereItViolates) {
-  std::size_t tried = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    const Mesh mesh = jittered_lattice(seed);
-    const double best = margin_of(mesh).margin;
-    if (best < 0.001) continue;
-    ++tried;
-    for (const std::size_t whole : {3000, 8}) {
-      const WeightReport report =
-          weights_of(mesh, {.goal = WeightGoal::elastic, .margin = std::min(2 * best, 0.49), .whole = whole});
-      EXPECT_EQ(report.verdict, Feasibility::feasible) << seed;
-      EXPECT_TRUE(report.solved);
-      EXPECT_GE(report.attained, report.margin / 2 - kLacking) << seed << " " << whole;
-      EXPECT_FALSE(report.violations.empty());
-    }
-  }
-  EXPECT_GT(tried, 3u);
 }
 
 TEST(FindWeights, ElasticNamesTheTrianglesThatGiveWay) {
