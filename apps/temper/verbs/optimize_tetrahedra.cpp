@@ -67,8 +67,7 @@ std::string settings_json(const OptimizeSettings& s, const tets::OptimizeOptions
                                  {"search_each", options.search_each},
                                  {"small_margin", options.small_margin},
                                  {"target", s.target},
-                                 {"accuracy_sweeps", options.accuracy_sweeps},
-                                 {"error_steps", options.error_steps},
+                                 {"accuracy_steps", options.accuracy_steps},
                                  {"max_sweeps", options.max_sweeps},
                                  {"time_limit", options.time_limit}})
       .dump();

@@ -33,8 +33,7 @@ struct OptimizeOptions {
   bool search_each = false;     ///< Each bad tetrahedron has trials of its own, not along with those nearby
   double small_margin = 0;      ///< Tetrahedra with a smaller least h/ℓ are improved in trials, too, if none is bad
   Scheme scheme = Scheme::all;  ///< Scheme whose errors the run lowers after that: vertex or cell; others: none
-  int accuracy_sweeps = 32;     ///< Largest number of sweeps for this
-  int error_steps = 100;        ///< Largest number of steps that lower the error of a model
+  int accuracy_steps = 300;     ///< Largest number of steps for this
   std::size_t most_error_vertices = 10'000;  ///< Largest number of vertices for a model of errors
 };
 
