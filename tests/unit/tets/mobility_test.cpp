@@ -136,6 +136,35 @@ TEST(TetMobility, ABentFaceAndUserChoicesFixVertices) {
   for (const Mobility& m : mobilities(block.mesh(), options)) EXPECT_EQ(m, Mobility::weight);
 }
 
+TEST(TetMobility, TagsOfPointsMayListTheVerticesOfFacesAndLines) {
+  const test::TetArrays arrays = test::cubes(kSide, test::kSixTets);
+  TetMeshInput in = arrays.input();
+  std::vector<std::int32_t> marked, tags;
+  const auto at_end = [](double x) { return x == 0 || x == kSide; };
+  const auto tag_of = [&](Vec3 p) {  // of planes, lines along axes and corners, as generators number them
+    const std::array<double, 3> at = {p.x, p.y, p.z};
+    const auto ends = std::count_if(at.begin(), at.end(), at_end);
+    if (p.z == kSide && p.y == 3 && !at_end(p.x)) return 40;  // a line in a plane
+    if (p == Vec3{0, 1, 1} || p == Vec3{1, 1, 1}) return 50 + int(p.x);
+    int tag = ends == 0 ? 0 : 1 + int(ends);
+    for (const double x : at) tag = 5 * tag + (at_end(x) ? 1 + int(x) / kSide : 0);
+    return tag;
+  };
+  for (std::size_t i = 0; i < arrays.points.size(); ++i)
+    marked.push_back(int(i)), tags.push_back(tag_of(arrays.points[i]));
+  in.marked_points = marked, in.point_tags = tags;
+  const TetMesh mesh = test::built(in).mesh;
+  const auto all = mobilities(mesh, sliding()), kept = mobilities(mesh);
+  for (const VertexId v : mesh.vertices()) {
+    const Vec3 p = mesh.position(v);
+    const int stays = int(at_end(p.x)) + int(at_end(p.y)) + int(at_end(p.z));
+    const bool on_line = p.z == kSide && p.y == 3, is_end = on_line && (p.x == 1 || p.x == kSide - 1);
+    const bool is_place = p == Vec3{0, 1, 1} || p == Vec3{1, 1, 1};
+    EXPECT_EQ(all[v].dimensions, is_place || is_end ? 0 : on_line && stays == 1 ? 1 : 3 - stays) << v.index;
+    EXPECT_EQ(kept[v].dimensions, stays == 0 && !is_place ? 3 : 0);
+  }
+}
+
 TEST(TetMobility, SlidingKeepsVolumePlanesLinesCornersAndTagsOnAnyThread) {
   for (const bool turn : {false, true}) {
     Block block(0.25);
