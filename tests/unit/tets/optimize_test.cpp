@@ -9,6 +9,7 @@
 #include "support/tet_lattice.hpp"
 #include "temper/detail/instruction_set.hpp"
 #include "temper/tets/quality.hpp"
+#include "tets/energy/hot.hpp"
 #include "tets/energy/star.hpp"
 #include "tets/optimize/sweeper.hpp"
 
@@ -317,6 +318,35 @@ TEST(TetOptimize, SmallMarginsAreImprovedOnRequest) {
   EXPECT_EQ(quality(better).orthocenters_outside, 0U);
   EXPECT_LT(quality(good).min_h_over_l, 0.02);
   EXPECT_GT(quality(better).min_h_over_l, 1.2 * quality(good).min_h_over_l);
+}
+
+TEST(TetOptimize, AHotEnergyFallsWithinTheGoodMeshesOnAnyThread) {
+  TetMesh good = test::mesh_of(test::shaken(test::body_centered(3), 0.1, 0.1));
+  ASSERT_TRUE(optimize(good));
+  ASSERT_EQ(quality(good).orthocenters_outside, 0U);
+  test::StdThreads threads(3);
+  OptimizeHooks hooks;
+  hooks.executor = &threads;
+  using enum temper::Star;
+  for (const temper::Star star : {zero, one, two, three}) {
+    const HotEnergy& energy = kHotEnergies[static_cast<std::size_t>(star)];
+    OptimizeOptions options;
+    options.hot_star = star, options.accuracy_sweeps = 2;
+    TetMesh mesh = good, again = good;
+    const auto report = optimize(mesh, options);
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->objective_after, hot_energy(mesh, energy));
+    EXPECT_EQ(report->objective_before, hot_energy(good, energy));
+    EXPECT_LT(report->objective_after, report->objective_before);
+    EXPECT_EQ(report->history.back().energy, report->objective_after);
+    EXPECT_EQ(quality(mesh).orthocenters_outside, 0U);
+    EXPECT_EQ(mesh.validate(), std::nullopt);
+    ASSERT_TRUE(optimize(again, options, hooks));
+    EXPECT_EQ(again, mesh);
+  }
+  OptimizeOptions wrong;
+  wrong.hot_star = temper::Star::all;
+  EXPECT_FALSE(optimize(good, wrong));
 }
 
 TEST(TetOptimize, PointsThatListAllVerticesStayFree) {
