@@ -20,8 +20,8 @@ namespace {
 
 constexpr int kSide = 4;
 
-/// A block of cubes: two regions that meet at x = 2, and tags on z = 0 that meet at y = 1. A tagged line leads through
-/// it at x = 1, y = 3. Points are off their places as far as the parts that stay allow.
+/// A block of cubes: two regions that meet at x = 2, and tags on z = 0 that meet at y = 1. A line of two tags leads
+/// through it at x = 1, y = 3; they meet at z = 2. Points are off their places as far as the parts that stay allow.
 class Block {
  public:
   explicit Block(double jitter) : arrays_(test::cubes(kSide, test::kSixTets)), exact_(arrays_.points) {
@@ -35,7 +35,7 @@ class Block {
   /// Whether x, y and z stay at an exact point.
   static std::array<bool, 3> stays(Vec3 p) {
     const auto at_end = [](double x) { return x == 0 || x == kSide; };
-    if (p.x == 1 && p.y == 3) return {true, true, at_end(p.z)};
+    if (p.x == 1 && p.y == 3) return {true, true, at_end(p.z) || p.z == 2};
     return {at_end(p.x) || p.x == 2, at_end(p.y) || (p.z == 0 && p.y == 1), at_end(p.z)};
   }
   [[nodiscard]] const std::vector<Vec3>& exact() const { return exact_; }
@@ -63,7 +63,7 @@ class Block {
       face_tags.push_back(std::max({at(bottom[0]).y, at(bottom[1]).y, at(bottom[2]).y}) <= 1 ? 5 : 6);
     }
     sort_unique(lines);
-    line_tags.assign(lines.size(), 7);
+    for (const auto& line : lines) line_tags.push_back(at(line[0]).z < 2 ? 7 : 8);
     in.regions = regions, in.faces = faces, in.face_tags = face_tags, in.lines = lines, in.line_tags = line_tags;
     return test::built(in).mesh;
   }
