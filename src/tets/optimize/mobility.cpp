@@ -185,7 +185,7 @@ class Slides {
       if (!are_parallel(n, expected)) return Mobility::none;
       sum = sum + (dot(n, expected) < 0 ? -1.0 : 1.0) * n;
     }
-    return {2, false, unit(sum)};
+    return Mobility::in_plane(unit(sum));
   }
   [[nodiscard]] Mobility on_line(VertexId v, VertexId a, VertexId b, Corners faces) const {
     const Vec3 to_a = mesh_.position(a) - mesh_.position(v), to_b = mesh_.position(b) - mesh_.position(v);
@@ -196,7 +196,7 @@ class Slides {
       const Vec3 n = normal(h);
       if (std::abs(dot(n, direction)) > kStraight * length(n)) return Mobility::none;
     }
-    return {1, false, direction};
+    return Mobility::along_line(direction);
   }
 
   const TetMesh& mesh_;
