@@ -34,11 +34,12 @@ enum class EnergyKind { F, T, dT, BH, BHs, BP, nF, nT, ndT, ODT };
 /// The number of kinds: the number of rows of energies().
 inline constexpr std::size_t kEnergyKinds = static_cast<std::size_t>(EnergyKind::ODT) + 1;
 
-/// The Hodge star of an energy: it sets α and β.
+/// The Hodge star of an energy: it sets α and β, and for tetrahedra γ.
 enum class Star {
-  zero,  ///< ★0: α = 1/4, β = 1/12
-  one,   ///< ★1: α = β = 1/3
-  two,   ///< ★2: α = 1/12, β = 1/4
+  zero,   ///< ★0: α = 1/4, β = 1/12
+  one,    ///< ★1: α = β = 1/3
+  two,    ///< ★2: α = 1/12, β = 1/4
+  three,  ///< ★3, only of tetrahedra
   all,  ///< Sum of the three stars, only for Objective::accuracy: α = β = 2/3, twice ★1. So the barrier counts half as
         ///< much
 };

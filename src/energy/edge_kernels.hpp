@@ -48,9 +48,9 @@ static_assert(
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// α and β of ★0, ★1, ★2, and of the three together.
-inline constexpr std::array<double, 4> kAlpha = {1.0 / 4, 1.0 / 3, 1.0 / 12, 2.0 / 3};
-inline constexpr std::array<double, 4> kBeta = {1.0 / 12, 1.0 / 3, 1.0 / 4, 2.0 / 3};
+/// α and β of ★0, ★1, ★2, of none (★3 is of tetrahedra), and of the three together.
+inline constexpr std::array<double, 5> kAlpha = {1.0 / 4, 1.0 / 3, 1.0 / 12, 0, 2.0 / 3};
+inline constexpr std::array<double, 5> kBeta = {1.0 / 12, 1.0 / 3, 1.0 / 4, 0, 2.0 / 3};
 
 /// α and β of E_ODT: the interpolation error of |x|² over a triangle is ρ² A − ∫|x − o|², with the circumradius ρ.
 inline constexpr double kAlphaOdt = 5.0 / 12, kBetaOdt = 1.0 / 4;

@@ -216,9 +216,12 @@ def test_words_for_triangles_are_refused_by_name(shaken):
     for given, refused in (
         ({"target": "mpas"}, "target 'mpas'"), ({"tensor": (1, 0, 1)}, "tensor"), ({"hooks": temper.Hooks(tracer=print)}, "tracer"),
         ({"options": {"problem": {}}}, "problem"), ({"keep": "sizes"}, "keep 'sizes'"),
-        ({"options": {"energy": "F"}}, 'energy="F"'), ({"options": temper.OptimizeOptions(seed=5)}, "seed=5"),
+        ({"options": {"energy": "T"}}, 'energy="T"'), ({"options": {"energy": "F", "star": "all"}}, 'star="all"'), ({"options": temper.OptimizeOptions(seed=5)}, "seed=5"),
     ):  # fmt: skip
         with pytest.raises((TypeError, temper.TemperError), match=f"^{refused} is for triangles alone. Next: leave it out"):
+            temper.optimize(shaken, **given)
+    for given, message in (({"options": {"star": 2}}, "star needs "), ({"target": "cell", "options": {"energy": "F"}}, "lower different things")):
+        with pytest.raises(temper.TemperError, match=f"{message}.*Next: "):
             temper.optimize(shaken, **given)
     with pytest.raises(TypeError, match="edges is for triangles alone"):
         temper.find_weights(shaken, edges=[(0, 1)])

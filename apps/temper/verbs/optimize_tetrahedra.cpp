@@ -16,6 +16,7 @@
 #include "files/options_file.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
+#include "temper/energy.hpp"
 #include "temper/solvers.hpp"
 #include "temper/tets/draw.hpp"
 #include "temper/tets/optimize.hpp"
@@ -58,18 +59,21 @@ tets::OptimizeOptions options_of(const OptimizeSettings& s) {
 }
 
 std::string settings_json(const OptimizeSettings& s, const tets::OptimizeOptions& options) {
-  return nlohmann::ordered_json({{"keep_positions", options.keep_positions},
-                                 {"keep_weights", options.keep_weights},
-                                 {"keep_edges", options.keep_edges},
-                                 {"repair_trials", options.repair_trials},
-                                 {"slide_boundary", options.slide_boundary},
-                                 {"split_boundary", options.split_boundary},
-                                 {"search_each", options.search_each},
-                                 {"small_margin", options.small_margin},
-                                 {"target", s.target},
-                                 {"accuracy_steps", options.accuracy_steps},
-                                 {"max_sweeps", options.max_sweeps},
-                                 {"time_limit", options.time_limit}})
+  using Json = nlohmann::ordered_json;
+  return Json({{"keep_positions", options.keep_positions},
+               {"keep_weights", options.keep_weights},
+               {"keep_edges", options.keep_edges},
+               {"repair_trials", options.repair_trials},
+               {"slide_boundary", options.slide_boundary},
+               {"split_boundary", options.split_boundary},
+               {"search_each", options.search_each},
+               {"small_margin", options.small_margin},
+               {"target", s.target},
+               {"energy", energy_info(s.options.energy).name},
+               {"star", options.hot_star ? Json(static_cast<int>(*options.hot_star)) : Json()},
+               {"accuracy_steps", options.accuracy_steps},
+               {"max_sweeps", options.max_sweeps},
+               {"time_limit", options.time_limit}})
       .dump();
 }
 

@@ -36,6 +36,8 @@ struct OptimizeOptions {
   Scheme scheme = Scheme::all;  ///< Scheme whose errors the run lowers after that: vertex or cell; others: none
   int accuracy_steps = 300;     ///< Largest number of steps for this
   std::size_t most_error_vertices = 10'000;  ///< Largest number of vertices for a model of errors
+  /// Star of the HOT energy that the run lowers after that, zero to three; none: no HOT energy
+  std::optional<Star> hot_star = {};
 };
 
 /// The error of a scheme on a mesh and its derivatives, as temper::DiscretizationError for triangles.
@@ -83,7 +85,7 @@ struct OptimizeReport {
   Stopped stopped = Stopped::converged;
   int sweeps = 0;
   double seconds = 0;           ///< Time of the optimization alone [s]
-  double objective_before = 0;  ///< Energy of the input, at the least γ
+  double objective_before = 0;  ///< Energy of the input at the least γ, or its HOT energy
   double objective_after = 0;
   std::size_t vertices_inserted = 0, vertices_removed = 0;
   std::size_t flips = 0;             ///< Changes of connectivity without a new or removed vertex
@@ -103,12 +105,14 @@ struct OptimizeReport {
 ///   - fixed points
 ///   - points marked with a tag other than 0, unless all corners of some tetrahedron have the same tag: then this tag
 ///     lists the vertices of a part
-/// With `slide_boundary`, vertices of the first two kinds move in their plane or along their straight line, if the parts
-/// around them are in one (src/tets/optimize/mobility.hpp). Moves are exact along axes, elsewhere to rounding.
+/// With `slide_boundary`, vertices of the first two kinds move in their plane or along their straight line, if the
+/// parts around them are in one (src/tets/optimize/mobility.hpp). Moves are exact along axes, elsewhere to rounding.
 ///
 /// For a scheme the run then lowers the offsets between primal and dual elements (src/tets/energy/accuracy_star.hpp),
 /// and the error of the model, if the hooks have one and no tetrahedron is bad. The result is the mesh with the least
 /// error by the model, among those before and after each stage. An input without bad tetrahedra is one of them.
+///
+/// For a star the run then lowers its HOT energy (src/tets/energy/hot.hpp), and makes no tetrahedron bad.
 ///
 /// Every tetrahedron stays positive. The result never has more tetrahedra with outside orthocenters than the input.
 /// Wrong options (numbers < 0, positions and weights both kept) are an error, which leaves the mesh unchanged.

@@ -79,6 +79,7 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
   const std::string changes_connectivity =
       " changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or `flips=deferred`";
   return first_broken({
+      {o.star == Star::three, "`star=3` is for tetrahedra; for triangles expected 0, 1 or 2"},
       {o.star == Star::all && !for_accuracy, "`star=all` is for `objective=accuracy`; of an energy expected 0, 1 or 2"},
       {o.flips == Flips::none && o.paper.insertion_from, "`insertion_from`" + changes_connectivity},
       {o.paper.insertion_from && o.size_band,

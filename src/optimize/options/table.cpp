@@ -22,7 +22,7 @@ constexpr auto names_of(EnergyKind) {
   for (std::size_t i = 0; i < kEnergyKinds; ++i) names[i] = kEnergies[i].name;
   return names;
 }
-constexpr auto names_of(Star) { return std::to_array<Name>({"0", "1", "2", "all"}); }
+constexpr auto names_of(Star) { return std::to_array<Name>({"0", "1", "2", "3", "all"}); }
 constexpr auto names_of(BoundaryTreatment) { return std::to_array<Name>({"as_is", "absolute", "mirrored"}); }
 constexpr auto names_of(Objective) { return std::to_array<Name>({"energy", "accuracy", "solver_error"}); }
 constexpr auto names_of(Scheme) { return std::to_array<Name>({"all", "vertex", "cell", "stars"}); }
@@ -185,7 +185,8 @@ constexpr OptionRow kEnergyRows[] = {
                           "areas: nF, nT, ndT. Optimal Delaunay triangulation: ODT"),
     row<&Options::star>("star",
                         "Hodge star whose error should be small. all: the three at once, except with "
-                        "`objective=energy`. The first sweeps for accuracy always use star 1"),
+                        "`objective=energy`. The first sweeps for accuracy always use star 1. Star 3 is for "
+                        "tetrahedra, for which only `energy=F` has stars"),
     row<kPaper, &Paper::gamma>("gamma", "Parameter gamma of E_BP",
                                {.range = more_than(0),
                                 .absent = "gamma is relative to each edge. It shrinks to 0.003, from 1 if many "
@@ -321,7 +322,8 @@ constexpr OptionRow kConnectivityRows[] = {
     row<&Options::boundary>(
         "boundary",
         "Treatment of the boundary. keep: it stays bit for bit. slide: vertices, never corners, may move along "
-        "straight pieces, and those of tetrahedra in planes. split: cut long edges before the sweeps. They are edges of the boundary or of interfaces, "
+        "straight pieces, and those of tetrahedra in planes. split: cut long edges before the sweeps. They are edges "
+        "of the boundary or of interfaces, "
         "next to much shorter ones. The old vertices stay bit for bit",
         {.common = true}),
     row<&Options::boundary_ratio>("boundary_ratio",

@@ -1,8 +1,11 @@
 #include "tets/optimize/mobility.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -31,16 +34,67 @@ class TagsOf {
     return std::ranges::equal(pairs_of(all_, a), pairs_of(all_, b), {}, &std::pair<Part, std::int32_t>::second,
                               &std::pair<Part, std::int32_t>::second);
   }
-  [[nodiscard]] bool has(const Part& a) const { return !pairs_of(all_, a).empty(); }
 
  private:
   std::vector<std::pair<Part, std::int32_t>> all_;
 };
 
+/// The tags of marked points, without 0, which is none. A tag is of a place that the user chose, such as a well. But if
+/// all corners of a tetrahedron, face or edge have it, it lists the vertices of a part, face or line.
+class PointTags {
+ public:
+  explicit PointTags(const TetMesh& mesh) {
+    for (const auto& [vertex, tag] : mesh.tagged_points()) {
+      if (tag != 0) marks_.emplace(vertex, tag);
+    }
+    if (marks_.empty()) return;
+    for (const TetId t : mesh.tetrahedra()) look_at(mesh.corners(t));
+  }
+
+  /// Learns from a simplex what its corners' tags list.
+  template <std::size_t N>
+  void look_at(const std::array<VertexId, N>& corners) {
+    for_common(corners, [this](std::int32_t tag) {
+      int& dimension = dimension_[tag];
+      dimension = std::max(dimension, int(N) - 1);
+    });
+  }
+  /// Says whether both vertices have a tag that lists the vertices of a line.
+  [[nodiscard]] bool on_one_line(VertexId a, VertexId b) const {
+    bool found = false;
+    for_common(std::array{a, b}, [&](std::int32_t tag) { found |= dimension_of(tag) == 1; });
+    return found;
+  }
+  /// Calls use(vertex, dimension of what the tag lists) for each mark.
+  template <class Use>
+  void for_each(const Use& use) const {
+    for (const auto& [vertex, tag] : marks_) use(vertex, dimension_of(tag));
+  }
+
+ private:
+  [[nodiscard]] int dimension_of(std::int32_t tag) const {
+    const auto found = dimension_.find(tag);
+    return found == dimension_.end() ? 0 : found->second;
+  }
+  template <std::size_t N, class Use>
+  void for_common(const std::array<VertexId, N>& corners, const Use& use) const {
+    for (auto mark = marks_.lower_bound({corners[0], std::numeric_limits<std::int32_t>::min()});
+         mark != marks_.end() && mark->first == corners[0]; ++mark) {
+      const std::int32_t tag = mark->second;
+      if (std::all_of(corners.begin(), corners.end(), [&](VertexId v) { return marks_.contains({v, tag}); })) use(tag);
+    }
+  }
+
+  std::set<std::pair<VertexId, std::int32_t>> marks_;
+  std::map<std::int32_t, int> dimension_;
+};
+
 /// The lines and planes of vertices on the faces and lines that stay.
 class Slides {
  public:
-  explicit Slides(const TetMesh& mesh) : mesh_(mesh), face_tags_(tags_of_faces(mesh)), line_tags_(tags_of_lines(mesh)) {
+  /// The tags of points learn what they list.
+  Slides(const TetMesh& mesh, PointTags& points)
+      : mesh_(mesh), face_tags_(tags_of_faces(mesh)), line_tags_(tags_of_lines(mesh)) {
     std::vector<HalffaceId> faces;
     for (const HalffaceId h : mesh.halffaces()) {
       if (mesh.is_face_representative(h) && mesh.bounds_region(h)) faces.push_back(h);
@@ -51,20 +105,26 @@ class Slides {
     edges.reserve(3 * faces.size());
     for (const HalffaceId h : faces) {
       const auto [a, b, c] = mesh.vertices(h);
-      for (const Line& line : {line_of(a, b), line_of(b, c), line_of(c, a)}) edges.emplace_back(line, h);
+      for (const Line& line : {line_of(a, b), line_of(b, c), line_of(c, a)}) {
+        edges.emplace_back(line, h);
+        points.look_at(std::array{line.first, line.second});
+      }
       for (const VertexId v : {a, b, c}) corners_.emplace_back(v, h);
+      points.look_at(std::array{a, b, c});
     }
     std::sort(edges.begin(), edges.end());
     std::sort(corners_.begin(), corners_.end());
     for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
       const Line& line = edges[i].first;
       while (end < edges.size() && edges[end].first == line) ++end;
-      if (end - i != 2 || line_tags_.has(line) || !are_one(edges[i].second, edges[i + 1].second)) add_crease(line);
+      if (end - i != 2 || !are_one(edges[i].second, edges[i + 1].second) || points.on_one_line(line.first, line.second))
+        add_crease(line);
     }
     for (const TaggedLine& l : mesh.tagged_lines()) add_crease(line_of(l.ends[0], l.ends[1]));
     sort_unique(creases_);
   }
 
+  [[nodiscard]] bool on_face(VertexId v) const { return !pairs_of(corners_, v).empty(); }
   /// The place of v without its weight, if it is on a part that stays.
   [[nodiscard]] Mobility place_of(VertexId v) const {
     const auto faces = pairs_of(corners_, v);
@@ -125,7 +185,7 @@ class Slides {
       if (!are_parallel(n, expected)) return Mobility::none;
       sum = sum + (dot(n, expected) < 0 ? -1.0 : 1.0) * n;
     }
-    return {2, false, unit(sum)};
+    return Mobility::in_plane(unit(sum));
   }
   [[nodiscard]] Mobility on_line(VertexId v, VertexId a, VertexId b, Corners faces) const {
     const Vec3 to_a = mesh_.position(a) - mesh_.position(v), to_b = mesh_.position(b) - mesh_.position(v);
@@ -136,7 +196,7 @@ class Slides {
       const Vec3 n = normal(h);
       if (std::abs(dot(n, direction)) > kStraight * length(n)) return Mobility::none;
     }
-    return {1, false, direction};
+    return Mobility::along_line(direction);
   }
 
   const TetMesh& mesh_;
@@ -145,28 +205,6 @@ class Slides {
   std::vector<std::pair<VertexId, HalffaceId>> corners_;  // of the faces
   std::vector<std::pair<VertexId, VertexId>> creases_;    // from each end
 };
-
-/// Fixes marked points: they are places that the user chose, such as wells. But if all corners of a tetrahedron have
-/// the same tag, this tag lists the vertices of a part, and fixes nothing. A tag of 0 is none.
-void fix_marked_points(const TetMesh& mesh, IdVector<VertexId, Mobility>& all) {
-  std::set<std::pair<VertexId, std::int32_t>> marks;
-  for (const auto& [vertex, tag] : mesh.tagged_points()) {
-    if (tag != 0) marks.emplace(vertex, tag);
-  }
-  std::set<std::int32_t> of_parts;
-  for (const TetId t : mesh.tetrahedra()) {
-    const auto& corners = mesh.corners(t);
-    for (auto mark = marks.lower_bound({corners[0], std::numeric_limits<std::int32_t>::min()});
-         mark != marks.end() && mark->first == corners[0]; ++mark) {
-      const std::int32_t tag = mark->second;
-      if (std::all_of(corners.begin(), corners.end(), [&](VertexId v) { return marks.contains({v, tag}); }))
-        of_parts.insert(tag);
-    }
-  }
-  for (const auto& [vertex, tag] : marks) {
-    if (!of_parts.contains(tag)) all[vertex] = Mobility::weight;
-  }
-}
 
 }  // namespace
 
@@ -183,15 +221,18 @@ IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptio
   for (const TaggedLine& tagged : mesh.tagged_lines()) {
     for (const VertexId v : tagged.ends) all[v] = Mobility::weight;
   }
-  if (options.slide_boundary) {
-    const Slides slides(mesh);
-    for (const VertexId v : mesh.vertices()) {
-      if (all[v].moves()) continue;
-      all[v] = slides.place_of(v);
-      all[v].weighs = true;
-    }
+  PointTags points(mesh);
+  std::optional<Slides> slides;
+  if (options.slide_boundary) slides.emplace(mesh, points);
+  for (const VertexId v : mesh.vertices()) {
+    if (!slides || all[v].moves()) continue;
+    all[v] = slides->place_of(v);
+    all[v].weighs = true;
   }
-  fix_marked_points(mesh, all);
+  points.for_each([&](VertexId v, int dimension) {
+    const bool is_place = dimension == 0 || !slides || !slides->on_face(v);
+    if (dimension < 3 && is_place) all[v] = Mobility::weight;
+  });
   for (const VertexId v : mesh.fixed_points()) all[v] = Mobility::weight;
   for (const VertexId v : mesh.vertices()) {
     if (options.keep_positions) all[v] = Mobility::weight;

@@ -9,9 +9,17 @@ namespace temper::tets {
 
 /// Where a vertex may move, and whether its weight may change.
 struct Mobility {
+  /// The mobilities without a direction.
+  enum Kind : std::uint8_t { none, weight, position, free };
+
   std::uint8_t dimensions = 0;  ///< 3: anywhere; 2: in a plane; 1: along a line; 0: nowhere
   bool weighs = false;          ///< The weight may change
   Vec3 direction = {};          ///< Unit vector along the line, or normal of the plane
+
+  constexpr Mobility(Kind kind = none)
+      : dimensions(kind == position || kind == free ? 3 : 0), weighs(kind == weight || kind == free) {}
+  static constexpr Mobility along_line(Vec3 direction) { return {1, direction}; }
+  static constexpr Mobility in_plane(Vec3 normal) { return {2, normal}; }
 
   [[nodiscard]] bool moves() const { return dimensions > 0; }
   /// Says whether the vertex stays in a plane or on a line.
@@ -22,12 +30,11 @@ struct Mobility {
     const Vec3 along = dot(direction, by) * direction;
     return dimensions == 1 ? along : by - along;
   }
-
-  static const Mobility none, weight, position, free;
   friend constexpr bool operator==(const Mobility&, const Mobility&) = default;
+
+ private:
+  constexpr Mobility(std::uint8_t n, Vec3 along) : dimensions(n), direction(along) {}
 };
-inline constexpr Mobility Mobility::none = {0, false}, Mobility::weight = {0, true}, Mobility::position = {3, false},
-                          Mobility::free = {3, true};
 
 struct NewtonStep {
   WeightedPoint step;

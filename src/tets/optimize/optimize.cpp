@@ -8,6 +8,7 @@
 
 #include "base/text.hpp"
 #include "tets/optimize/accuracy.hpp"
+#include "tets/optimize/hot_sweeps.hpp"
 #include "tets/optimize/local_search.hpp"
 #include "tets/optimize/mobility.hpp"
 #include "tets/optimize/sweeper.hpp"
@@ -36,6 +37,8 @@ std::optional<InputError> wrong_option(const OptimizeOptions& options) {
         ErrorCode::invalid_option, {}, "max_sweeps: expected at least 0, found " + std::to_string(options.max_sweeps)};
   if (options.keep_positions && options.keep_weights)
     return InputError{ErrorCode::invalid_option, {}, "positions and weights are both to be kept; expected one"};
+  if (options.hot_star == Star::all)
+    return InputError{ErrorCode::invalid_option, {}, "hot_star: expected zero, one, two or three"};
   if (options.repair_trials < 0)
     return InputError{ErrorCode::invalid_option,
                       {},
@@ -59,12 +62,13 @@ class Run {
       : result_(mesh), options_(options), hooks_(hooks), draft_(mesh, mobilities(mesh, options)) {}
 
   OptimizeReport run() {
-    report_.objective_before = state_of(draft_.mesh, kLastGamma, hooks_.executor).energy;
+    report_.objective_before = objective_of(draft_.mesh);
     record();
     if (error_ && best_bad_ == 0) input_ = draft_;
     const bool repairs = !options_.keep_positions && !options_.keep_weights && !options_.keep_edges;
     if (anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma) && repairs) repair();
     if (!stopped_early(report_.stopped)) lower_errors();
+    if (!stopped_early(report_.stopped)) lower_hot();
     return end();
   }
 
@@ -163,15 +167,13 @@ class Run {
   /// bad tetrahedra, the one with the least error is kept.
   void lower_errors() {
     if (!lowers_errors()) return;
+    const auto error_of = [this](const TetMesh& mesh) { return error_ ? error_->squared_error(mesh, nullptr) : 0; };
     draft_ = best_;
-    double least = HUGE_VAL;
-    const auto keep_if_best = [&] {
-      const double error = error_ ? error_->squared_error(draft_.mesh, nullptr) : 0;
-      if (error > least) return;
-      least = error;
-      best_ = draft_;
-    };
-    keep_if_best();
+    double least = error_of(draft_.mesh);
+    if (const double of_input = input_.mesh.n_vertices() > 0 ? error_of(input_.mesh) : HUGE_VAL; of_input < least) {
+      best_ = std::move(input_);
+      least = of_input;
+    }
     const DiscretizationError* error = best_bad_ == 0 && error_ && error_->has_gradient() ? error_ : nullptr;
     Accuracy accuracy(draft_.mesh, draft_.mobilities(), accuracy_model(options_.scheme), error, hooks_.executor);
     const auto must_stop = [this] { return is_stopped(0); };
@@ -179,10 +181,28 @@ class Run {
       ++report_.sweeps;
       record(error != nullptr ? Objective::solver_error : Objective::accuracy, accuracy.measure());
     }
-    keep_if_best();
-    if (input_.mesh.n_vertices() == 0) return;
-    draft_ = std::move(input_);
-    keep_if_best();
+    if (error == nullptr && error_ && stopped_early(report_.stopped)) return;  // it takes too long to measure
+    if ((error != nullptr ? accuracy.measure() * accuracy.measure() : error_of(draft_.mesh)) <= least) best_ = draft_;
+  }
+
+  /// Lowers a HOT energy from the best mesh.
+  void lower_hot() {
+    if (!options_.hot_star) return;
+    draft_ = best_;
+    HotSweeps sweeps(draft_.mesh, draft_.mobilities(), hot_, kRelaxation, hooks_.executor);
+    for (int i = 0; i < options_.accuracy_steps && may_sweep(); ++i) {
+      if (sweeps.sweep([this](double fraction) { return is_stopped(fraction); })) ++report_.sweeps;
+      const double before = report_.history.back().energy, now = objective_of(draft_.mesh);
+      best_ = draft_;
+      if (stopped_early(report_.stopped)) return;
+      record(Objective::accuracy, now);
+      if (i > 0 && before - now <= kTolerance * before) return;
+    }
+  }
+  /// The HOT energy to lower, or the energy at the last γ.
+  [[nodiscard]] double objective_of(const TetMesh& mesh) const {
+    return options_.hot_star ? hot_energy(mesh, hot_, hooks_.executor)
+                             : state_of(mesh, kLastGamma, hooks_.executor).energy;
   }
 
   using Clock = std::chrono::steady_clock;
@@ -231,7 +251,7 @@ class Run {
 
   OptimizeReport end() {
     report_changes();
-    report_.objective_after = state_of(best_.mesh, kLastGamma, hooks_.executor).energy;
+    report_.objective_after = objective_of(best_.mesh);
     result_ = std::move(best_.mesh);
     report_.seconds = seconds_since(start_);
     return std::move(report_);
@@ -265,6 +285,7 @@ class Run {
   const OptimizeHooks& hooks_;
   const DiscretizationError* error_ =  // absent for large meshes
       result_.n_vertices() <= options_.most_error_vertices ? hooks_.error.get() : nullptr;
+  HotEnergy hot_ = kHotEnergies[static_cast<std::size_t>(options_.hot_star.value_or(Star::one))];
   Draft draft_, best_;
   Clock::time_point start_ = Clock::now();
   // The time limit includes reading and writing. Writing takes about as long as reading took.

@@ -11,7 +11,8 @@ namespace temper::tets {
 namespace {
 
 /// The rows of the table that have a meaning for tetrahedra. Others may only have their default.
-constexpr auto kRows = std::to_array<std::string_view>({"max_sweeps", "time_limit", "unknowns", "boundary"});
+constexpr auto kRows =
+    std::to_array<std::string_view>({"max_sweeps", "time_limit", "unknowns", "boundary", "energy", "star"});
 constexpr auto kTargets = std::to_array<std::string_view>({"any", "valid", "vertex", "cell"});
 constexpr auto kKept = std::to_array<std::string_view>({"positions", "weights", "edges", "boundary"});
 
@@ -57,7 +58,20 @@ Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, con
     return refused("`" + std::string(name) + "=" + option_text(row, row.get(table)) + "`",
                    "`" + join(kRows, "`, `") + "`");
   }
+  const bool is_hot = table.energy == EnergyKind::F;
+  if (!is_hot && table.energy != EnergyKind::BP)
+    return refused("`energy=" + std::string(energy_info(table.energy).name) + "`", "F and BP");
+  if (table.star == Star::all) return refused("`star=all`", "0, 1, 2 and 3");
+  if (!is_hot && table.star != Star::one)
+    return InputError{ErrorCode::invalid_option, {}, "`star` needs `energy=F` for tetrahedra. Next: add it"};
+  if (is_hot && (table.scheme == Scheme::vertex || table.scheme == Scheme::cell))
+    return InputError{ErrorCode::invalid_option,
+                      {},
+                      "target '" + std::string(words.target) +
+                          "' and `energy=F` lower different things. Next: leave "
+                          "one of them out"};
   OptimizeOptions options;
+  if (is_hot) options.hot_star = table.star;
   options.slide_boundary = table.boundary == BoundaryVertices::slide;
   options.split_boundary = table.boundary == BoundaryVertices::split;
   options.keep_positions = table.unknowns == temper::Unknowns::weights;

@@ -20,8 +20,8 @@ namespace {
 
 constexpr int kSide = 4;
 
-/// A block of cubes: two regions that meet at x = 2, and tags on z = 0 that meet at y = 1. A tagged line leads through
-/// it at x = 1, y = 3. Points are off their places as far as the parts that stay allow.
+/// A block of cubes: two regions that meet at x = 2, and tags on z = 0 that meet at y = 1. A line of two tags leads
+/// through it at x = 1, y = 3; they meet at z = 2. Points are off their places as far as the parts that stay allow.
 class Block {
  public:
   explicit Block(double jitter) : arrays_(test::cubes(kSide, test::kSixTets)), exact_(arrays_.points) {
@@ -35,7 +35,7 @@ class Block {
   /// Whether x, y and z stay at an exact point.
   static std::array<bool, 3> stays(Vec3 p) {
     const auto at_end = [](double x) { return x == 0 || x == kSide; };
-    if (p.x == 1 && p.y == 3) return {true, true, at_end(p.z)};
+    if (p.x == 1 && p.y == 3) return {true, true, at_end(p.z) || p.z == 2};
     return {at_end(p.x) || p.x == 2, at_end(p.y) || (p.z == 0 && p.y == 1), at_end(p.z)};
   }
   [[nodiscard]] const std::vector<Vec3>& exact() const { return exact_; }
@@ -63,7 +63,7 @@ class Block {
       face_tags.push_back(std::max({at(bottom[0]).y, at(bottom[1]).y, at(bottom[2]).y}) <= 1 ? 5 : 6);
     }
     sort_unique(lines);
-    line_tags.assign(lines.size(), 7);
+    for (const auto& line : lines) line_tags.push_back(at(line[0]).z < 2 ? 7 : 8);
     in.regions = regions, in.faces = faces, in.face_tags = face_tags, in.lines = lines, in.line_tags = line_tags;
     return test::built(in).mesh;
   }
@@ -134,6 +134,35 @@ TEST(TetMobility, ABentFaceAndUserChoicesFixVertices) {
   EXPECT_EQ(mobilities(block.mesh(), options)[VertexId(number(0, 0, 0))], Mobility::none);
   options.keep_positions = true, options.keep_weights = false;
   for (const Mobility& m : mobilities(block.mesh(), options)) EXPECT_EQ(m, Mobility::weight);
+}
+
+TEST(TetMobility, TagsOfPointsMayListTheVerticesOfFacesAndLines) {
+  const test::TetArrays arrays = test::cubes(kSide, test::kSixTets);
+  TetMeshInput in = arrays.input();
+  std::vector<std::int32_t> marked, tags;
+  const auto at_end = [](double x) { return x == 0 || x == kSide; };
+  const auto tag_of = [&](Vec3 p) {  // of planes, lines along axes and corners, as generators number them
+    const std::array<double, 3> at = {p.x, p.y, p.z};
+    const auto ends = std::count_if(at.begin(), at.end(), at_end);
+    if (p.z == kSide && p.y == 3 && !at_end(p.x)) return 40;  // a line in a plane
+    if (p == Vec3{0, 1, 1} || p == Vec3{1, 1, 1}) return 50 + int(p.x);
+    int tag = ends == 0 ? 0 : 1 + int(ends);
+    for (const double x : at) tag = 5 * tag + (at_end(x) ? 1 + int(x) / kSide : 0);
+    return tag;
+  };
+  for (std::size_t i = 0; i < arrays.points.size(); ++i)
+    marked.push_back(int(i)), tags.push_back(tag_of(arrays.points[i]));
+  in.marked_points = marked, in.point_tags = tags;
+  const TetMesh mesh = test::built(in).mesh;
+  const auto all = mobilities(mesh, sliding()), kept = mobilities(mesh);
+  for (const VertexId v : mesh.vertices()) {
+    const Vec3 p = mesh.position(v);
+    const int stays = int(at_end(p.x)) + int(at_end(p.y)) + int(at_end(p.z));
+    const bool on_line = p.z == kSide && p.y == 3, is_end = on_line && (p.x == 1 || p.x == kSide - 1);
+    const bool is_place = p == Vec3{0, 1, 1} || p == Vec3{1, 1, 1};
+    EXPECT_EQ(all[v].dimensions, is_place || is_end ? 0 : on_line && stays == 1 ? 1 : 3 - stays) << v.index;
+    EXPECT_EQ(kept[v].dimensions, stays == 0 && !is_place ? 3 : 0);
+  }
 }
 
 TEST(TetMobility, SlidingKeepsVolumePlanesLinesCornersAndTagsOnAnyThread) {

@@ -9,6 +9,7 @@
 #include "support/tet_lattice.hpp"
 #include "temper/detail/instruction_set.hpp"
 #include "temper/tets/quality.hpp"
+#include "tets/energy/hot.hpp"
 #include "tets/energy/star.hpp"
 #include "tets/optimize/sweeper.hpp"
 
@@ -137,18 +138,31 @@ PointDerivatives<double> saddle() {
   return d;
 }
 
+std::vector<Mobility> mobilities_of_a_step() {
+  std::vector<Mobility> all = {Mobility::none, Mobility::weight, Mobility::position, Mobility::free};
+  for (const bool weighs : {false, true}) {
+    const Vec3 direction = {1.0 / 3, 2.0 / 3, -2.0 / 3};
+    for (Mobility sliding : {Mobility::along_line(direction), Mobility::in_plane(direction)}) {
+      sliding.weighs = weighs;
+      all.push_back(sliding);
+    }
+  }
+  return all;
+}
+
 TEST(TetOptimize, StepsGoDownhillWithinTheTrustRadiusAlongWhatMayChange) {
   for (const double radius : {1e-3, 1.0, 1e3}) {
-    for (const Mobility mobility : {Mobility::none, Mobility::weight, Mobility::position, Mobility::free}) {
+    for (const Mobility& mobility : mobilities_of_a_step()) {
       const PointDerivatives<double> d = saddle();
       const auto [step, predicted] = newton_step(d, mobility, radius);
       const double along = dot(d.gradient.at, Vector<double>{step.x, step.y, step.z}) + d.gradient.w * step.w;
       EXPECT_NEAR(along, -predicted, 1e-12 * predicted);
-      EXPECT_EQ(predicted > 0, mobility != Mobility::none);
+      EXPECT_EQ(predicted > 0, mobility.moves() || mobility.weighs);
       const double moved = length(step.position()) / radius, weighed = step.w / (radius * radius);
       EXPECT_LE(moved * moved + weighed * weighed, 0.25 * (1 + 1e-12));
-      EXPECT_EQ(step.w == 0, mobility == Mobility::none || mobility == Mobility::position);
-      EXPECT_EQ(moved == 0, mobility == Mobility::none || mobility == Mobility::weight);
+      EXPECT_EQ(step.w == 0, !mobility.weighs);
+      EXPECT_EQ(moved == 0, !mobility.moves());
+      EXPECT_LE(length(mobility.allowed(step.position()) - step.position()), 1e-15 * radius);
     }
   }
 }
@@ -158,12 +172,14 @@ TEST(TetOptimize, AStepOfAConvexEnergyGoesToItsLeastPlace) {
   d.gradient = {{0.1, -0.2, 0.05}, 0.025};
   d.hessian = {3, 0.5, 0, 0.1, 2, 0.2, 0, 1.5, 0, 1};
   const auto& [xx, xy, xz, xw, yy, yz, yw, zz, zw, ww] = d.hessian;
-  for (const Mobility mobility : {Mobility::position, Mobility::free}) {
+  for (const Mobility& mobility : mobilities_of_a_step()) {
+    if (!mobility.moves()) continue;
     const WeightedPoint s = newton_step(d, mobility, 1).step;
-    EXPECT_NEAR(xx * s.x + xy * s.y + xz * s.z + xw * s.w, -d.gradient.at.x, 1e-15);
-    EXPECT_NEAR(xy * s.x + yy * s.y + yz * s.z + yw * s.w, -d.gradient.at.y, 1e-15);
-    EXPECT_NEAR(xz * s.x + yz * s.y + zz * s.z + zw * s.w, -d.gradient.at.z, 1e-15);
-    if (mobility == Mobility::free) {
+    const Vec3 slope = {xx * s.x + xy * s.y + xz * s.z + xw * s.w + d.gradient.at.x,
+                        xy * s.x + yy * s.y + yz * s.z + yw * s.w + d.gradient.at.y,
+                        xz * s.x + yz * s.y + zz * s.z + zw * s.w + d.gradient.at.z};
+    EXPECT_LE(length(mobility.allowed(slope)), 2e-15);
+    if (mobility.weighs) {
       EXPECT_NEAR(xw * s.x + yw * s.y + zw * s.z + ww * s.w, -d.gradient.w, 1e-15);
     }
   }
@@ -339,6 +355,38 @@ TEST(TetOptimize, SmallMarginsAreImprovedOnRequest) {
   EXPECT_EQ(quality(better).orthocenters_outside, 0U);
   EXPECT_LT(quality(good).min_h_over_l, 0.02);
   EXPECT_GT(quality(better).min_h_over_l, 1.2 * quality(good).min_h_over_l);
+}
+
+TEST(TetOptimize, AHotEnergyFallsWithinTheGoodMeshesOnAnyThread) {
+  TetMesh good = test::mesh_of(test::shaken(test::body_centered(3), 0.1, 0.1));
+  ASSERT_TRUE(optimize(good));
+  ASSERT_EQ(quality(good).orthocenters_outside, 0U);
+  test::StdThreads threads(3);
+  OptimizeHooks hooks;
+  hooks.executor = &threads;
+  using enum temper::Star;
+  for (const temper::Star star : {zero, one, two, three}) {
+    const HotEnergy& energy = kHotEnergies[static_cast<std::size_t>(star)];
+    OptimizeOptions options;
+    options.hot_star = star, options.accuracy_steps = 0;
+    TetMesh none = good, mesh = good, again = good;
+    const auto without = optimize(none, options);
+    ASSERT_TRUE(without);
+    options.accuracy_steps = 2;
+    const auto report = optimize(mesh, options);
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->objective_after, hot_energy(mesh, energy));
+    EXPECT_EQ(report->objective_before, hot_energy(good, energy));
+    EXPECT_LT(report->objective_after, 0.995 * without->objective_after);
+    EXPECT_EQ(report->history.back().energy, report->objective_after);
+    EXPECT_EQ(quality(mesh).orthocenters_outside, 0U);
+    EXPECT_EQ(mesh.validate(), std::nullopt);
+    ASSERT_TRUE(optimize(again, options, hooks));
+    EXPECT_EQ(again, mesh);
+  }
+  OptimizeOptions wrong;
+  wrong.hot_star = temper::Star::all;
+  EXPECT_FALSE(optimize(good, wrong));
 }
 
 TEST(TetOptimize, PointsThatListAllVerticesStayFree) {

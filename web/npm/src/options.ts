@@ -32,8 +32,8 @@ export type KeepName = "positions" | "weights" | "edges" | "boundary" | "sizes";
 export interface OptimizeOptions {
   /** Energy to lower. Barriers: BH, BHs, BP. HOT energies: F, T, dT. HOT energies over squared areas: nF, nT, ndT. Optimal Delaunay triangulation: ODT. Default: "BP". */
   energy?: "F" | "T" | "dT" | "BH" | "BHs" | "BP" | "nF" | "nT" | "ndT" | "ODT";
-  /** Hodge star whose error should be small. all: the three at once, except with objective: "energy". The first sweeps for accuracy always use star 1. Default: 1. */
-  star?: 0 | 1 | 2 | "all";
+  /** Hodge star whose error should be small. all: the three at once, except with objective: "energy". The first sweeps for accuracy always use star 1. Star 3 is for tetrahedra, for which only energy: "F" has stars. Default: 1. */
+  star?: 0 | 1 | 2 | 3 | "all";
   /** Parameter gamma of E_BP; more than 0. null: gamma is relative to each edge. It shrinks to 0.003, from 1 if many triangles are bad, otherwise from 0.5. Default: null. */
   gamma?: LengthParameterLike | null;
   /** Parameter -h0 of E_BHs, at least 0. E_BHs keeps h above h0; at least 0. null: h0 is just below the least h of the mesh. It rises with the least h. Default: null. */
