@@ -8,6 +8,7 @@
 
 #include <array>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -33,8 +34,7 @@ struct OptimizeOptions {
   bool search_each = false;     ///< Each bad tetrahedron has trials of its own, not along with those nearby
   double small_margin = 0;      ///< Tetrahedra with a smaller least h/ℓ are improved in trials, too, if none is bad
   Scheme scheme = Scheme::all;  ///< Scheme whose errors the run lowers after that: vertex or cell; others: none
-  int accuracy_sweeps = 32;     ///< Largest number of sweeps for this
-  int error_steps = 100;        ///< Largest number of steps that lower the error of a model
+  int accuracy_steps = 300;     ///< Largest number of steps for this
   std::size_t most_error_vertices = 10'000;  ///< Largest number of vertices for a model of errors
   /// Star of the HOT energy that the run lowers after that, zero to three; none: no HOT energy
   std::optional<Star> hot_star = {};
@@ -45,8 +45,10 @@ class DiscretizationError {
  public:
   virtual ~DiscretizationError() = default;
 
-  /// Returns the mean squared error, without unit; +∞ if the matrix of the scheme is not positive definite. `gradient`,
-  /// unless null, gets the derivatives by x, y, z and w of every vertex.
+  /// Says whether squared_error() has derivatives. Without them it only chooses between meshes.
+  [[nodiscard]] virtual bool has_gradient() const { return true; }
+  /// Returns the mean squared error, without unit; +∞ if the scheme has no solution. `gradient`, unless null, gets the
+  /// derivatives by x, y, z and w of every vertex. Precondition then: has_gradient().
   [[nodiscard]] virtual double squared_error(const TetMesh& mesh,
                                              IdVector<VertexId, WeightedPoint>* gradient) const = 0;
 };
@@ -62,12 +64,21 @@ struct OptimizeWords {
 /// alone.
 [[nodiscard]] Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, const OptimizeWords& words);
 
+/// The mesh to keep if the run ends now.
+struct BestSoFar {
+  const TetMesh& mesh;
+  const Origins& origins;  ///< Parts of the mesh in the input, as in OptimizeReport
+};
+/// A function that can get the best mesh so far, as temper::BestListener. The mesh is not copied.
+using BestListener = std::function<void(const std::function<void(const std::function<void(const BestSoFar&)>&)>& best)>;
+
 struct OptimizeHooks {
   Observer observer = {};  ///< Observer of the progress, which may stop the run. Any thread calls it, one at a time
   Executor* executor = nullptr;  ///< Threads; the result does not depend on them
   /// Start of the time limit, as in temper::OptimizeHooks. Absent: the time of the call.
   std::optional<std::chrono::steady_clock::time_point> started = {};
   std::shared_ptr<const DiscretizationError> error = {};  ///< Model of the errors of the scheme; null: none
+  BestListener best_so_far = {};                          ///< Listener that may get each new best mesh
 };
 
 struct OptimizeReport {
@@ -97,7 +108,7 @@ struct OptimizeReport {
 /// With `slide_boundary`, vertices of the first two kinds move in their plane or along their straight line, if the
 /// parts around them are in one (src/tets/optimize/mobility.hpp). Moves are exact along axes, elsewhere to rounding.
 ///
-/// For a scheme the run then lowers the offsets between primal and dual elements (src/tets/energy/accuracy_star.hpp),
+/// For a scheme the run then lowers the offsets between primal and dual elements (src/tets/energy/accuracy_energy.hpp),
 /// and the error of the model, if the hooks have one and no tetrahedron is bad. The result is the mesh with the least
 /// error by the model, among those before and after each stage. An input without bad tetrahedra is one of them.
 ///

@@ -226,7 +226,7 @@ TEST(TetMobility, RepairsAndSweepsForErrorsSlideToo) {
     TetMesh mesh = input;
     OptimizeOptions options;
     options.slide_boundary = true;
-    options.scheme = scheme, options.repair_trials = 2, options.accuracy_sweeps = 2, options.error_steps = 2;
+    options.scheme = scheme, options.repair_trials = 2, options.accuracy_steps = 2;
     OptimizeHooks hooks;
     hooks.error = std::make_shared<Pull>();
     ASSERT_TRUE(optimize(mesh, options, hooks));
