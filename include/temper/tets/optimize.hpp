@@ -108,7 +108,7 @@ struct OptimizeReport {
 /// With `slide_boundary`, vertices of the first two kinds move in their plane or along their straight line, if the
 /// parts around them are in one (src/tets/optimize/mobility.hpp). Moves are exact along axes, elsewhere to rounding.
 ///
-/// For a scheme the run then lowers the offsets between primal and dual elements (src/tets/energy/accuracy_star.hpp),
+/// For a scheme the run then lowers the offsets between primal and dual elements (src/tets/energy/accuracy_energy.hpp),
 /// and the error of the model, if the hooks have one and no tetrahedron is bad. The result is the mesh with the least
 /// error by the model, among those before and after each stage. An input without bad tetrahedra is one of them.
 ///

@@ -27,6 +27,8 @@ constexpr double kTolerance = 1e-4;
 constexpr int kLastSweeps = 100;
 // After so many rounds without fewer bad tetrahedra, changes at all of them at once end.
 constexpr int kRoundsInVain = 4;
+// The most sweeps for a HOT energy.
+constexpr int kMostHotSweeps = 32;
 // Tetrahedra with smaller margins stand in the way of lower errors: without trials there, the error of a cube becomes
 // 1.10 times that of the input, not 0.80.
 constexpr double kMarginForAccuracy = 0.01;
@@ -190,7 +192,7 @@ class Run {
     if (!options_.hot_star) return;
     draft_ = best_;
     HotSweeps sweeps(draft_.mesh, draft_.mobilities(), hot_, kRelaxation, hooks_.executor);
-    for (int i = 0; i < options_.accuracy_steps && may_sweep(); ++i) {
+    for (int i = 0; i < std::min(kMostHotSweeps, options_.accuracy_steps) && may_sweep(); ++i) {
       if (sweeps.sweep([this](double fraction) { return is_stopped(fraction); })) ++report_.sweeps;
       const double before = report_.history.back().energy, now = objective_of(draft_.mesh);
       best_ = draft_;

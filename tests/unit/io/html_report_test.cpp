@@ -96,7 +96,7 @@ void expect_mesh(const std::string& html, const std::string& side, const Mesh& m
 
 TEST(HtmlReport, ArraysAreTheMeshesBitForBit) {
   const Mesh mesh = weighted_mesh(), before = *annulus();
-  const std::string html = html_report({{mesh}, HtmlMesh{before}, "ring"});
+  const std::string html = html_report({HtmlMesh{mesh}, HtmlMesh{before}, "ring"});
   expect_mesh(html, "after", mesh);
   expect_mesh(html, "before", before);
   EXPECT_TRUE(array_of<double>(html, "before.weights").empty());
@@ -104,7 +104,7 @@ TEST(HtmlReport, ArraysAreTheMeshesBitForBit) {
 
 TEST(HtmlReport, IsTheSameBytesEachTime) {
   const Mesh mesh = weighted_mesh();
-  EXPECT_EQ(html_report({{mesh}, {}, "ring"}), html_report({{mesh}, {}, "ring"}));
+  EXPECT_EQ(html_report({HtmlMesh{mesh}, {}, "ring"}), html_report({HtmlMesh{mesh}, {}, "ring"}));
 }
 
 TEST(HtmlReport, HasTheNumbersOfTheUser) {
@@ -113,7 +113,7 @@ TEST(HtmlReport, HasTheNumbersOfTheUser) {
   };
   const Mesh mesh = weighted_mesh();
   const FromTen names;
-  const std::string html = html_report({{mesh, &names}, {}, "ring"});
+  const std::string html = html_report({HtmlMesh{mesh, &names}, {}, "ring"});
   const auto numbers = array_of<std::int32_t>(html, "after.vertex_numbers");
   ASSERT_EQ(numbers.size(), mesh.n_vertices());
   for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], static_cast<std::int32_t>(10 + 3 * i));
@@ -122,14 +122,14 @@ TEST(HtmlReport, HasTheNumbersOfTheUser) {
 
 TEST(HtmlReport, TextsEndNoElement) {
   const Mesh mesh = weighted_mesh();
-  const std::string html = html_report({{mesh}, {}, "</title><script>", R"({"notes": ["</script>"]})"});
+  const std::string html = html_report({HtmlMesh{mesh}, {}, "</title><script>", R"({"notes": ["</script>"]})"});
   EXPECT_EQ(between(html, "<title>", "</title>"), "&lt;/title>&lt;script>");
   EXPECT_EQ(between(html, "id=\"report\">", "</script>"), R"({"notes": ["\u003c/script>"]})");
 }
 
 TEST(HtmlReport, NamesEachMeasure) {
   const Mesh mesh = weighted_mesh();
-  const std::string html = html_report({{mesh}, {}, "ring"});
+  const std::string html = html_report({HtmlMesh{mesh}, {}, "ring"});
   const std::string table = between(html, "id=\"measures\">", "</script>");
   for (const QualityMeasure& measure : quality_measures()) {
     EXPECT_NE(table.find("{\"key\":\"" + std::string(measure.key) + "\""), std::string::npos) << measure.key;
@@ -141,7 +141,7 @@ TEST(HtmlReport, NamesEachMeasure) {
 
 TEST(HtmlReport, AsksForNothingOnTheNetwork) {
   const Mesh mesh = weighted_mesh();
-  const std::string html = html_report({{mesh}, {}, "ring"});
+  const std::string html = html_report({HtmlMesh{mesh}, {}, "ring"});
   const std::string page = html.substr(html.find("-->"));  // after the licences, which have addresses
   for (const char* word : {"src=\"http", "href=\"http", "url(http", "@import"}) {
     EXPECT_EQ(page.find(word), std::string::npos) << word;
