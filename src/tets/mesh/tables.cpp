@@ -47,6 +47,15 @@ VertexStars::VertexStars(const TetMesh& mesh) : sorted_(mesh.n_halffaces()) {
   for (const HalffaceId h : mesh.halffaces()) sorted_[end_[mesh.opposite(h).index]++] = h;
 }
 
+VertexStars::VertexStars(const VertexStars& stars, std::span<const VertexId> sequence) {
+  end_.reserve(sequence.size());
+  for (const VertexId v : sequence) {
+    const auto link = stars.link(v);
+    sorted_.insert(sorted_.end(), link.begin(), link.end());
+    end_.push_back(static_cast<std::uint32_t>(sorted_.size()));
+  }
+}
+
 EdgeTable::EdgeTable(const TetMesh& mesh, Executor* executor)
     : greater_(6 * mesh.n_tetrahedra()), n_(mesh.n_vertices()) {
   const auto each_edge = [&](auto use) {

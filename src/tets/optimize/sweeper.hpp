@@ -47,15 +47,15 @@ class Sweeper {
   bool sweep(const SweepParameters& parameters, const MustStop& must_stop = {});
 
  private:
-  void color(std::span<const VertexId> vertices);
+  void color(const VertexStars& stars, std::span<const VertexId> vertices);
   void improve(std::size_t first, std::size_t last, const Step& step);
 
   TetMesh& mesh_;
   const IdVector<VertexId, Mobility>& mobility_;
   Executor* executor_;
-  VertexStars stars_;
   std::vector<VertexId> sequence_;  // the vertices, color by color
   std::vector<std::size_t> end_;    // of each color
+  VertexStars stars_;               // by the number in the sequence, so that memory is read from front to back
 };
 
 /// Says exactly whether the orthocenter of a tetrahedron, in either orientation, is not inside.
