@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "io/conversion/data_update.hpp"
+#include "io/disk/files.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/file_names.hpp"
 #include "io/text/values.hpp"
@@ -388,6 +389,11 @@ class TetFileUpdater {
 DataReport update(TetFile& file, const LoadedTetMesh& loaded, const tets::TetMesh& mesh, const tets::Origins& origins,
                   const UpdateOptions& options) {
   return TetFileUpdater(file, loaded, mesh, origins, options).update();
+}
+
+void release_geometry(TetFile& file, const LoadedTetMesh& loaded) {
+  if (file.points.size() != loaded.mesh.n_vertices()) return;
+  give_memory_back_of(file.points, file.weights, file.tetrahedra);
 }
 
 }  // namespace temper::io

@@ -52,7 +52,12 @@ std::optional<InputError> wrong_option(const OptimizeOptions& options) {
 class Run {
  public:
   Run(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks)
-      : result_(mesh), options_(options), hooks_(hooks), draft_(mesh, mobilities(mesh, options)) {}
+      : result_(mesh), options_(options), hooks_(hooks), draft_(mesh, mobilities(mesh, options)) {
+    best_ = Draft(std::move(mesh), draft_.mobility);
+  }
+  ~Run() { result_ = std::move(best_.mesh); }  // also if an observer throws
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
 
   OptimizeReport run() {
     report_.objective_before = state_of(draft_.mesh, kLastGamma, hooks_.executor).energy;
@@ -233,33 +238,32 @@ class Run {
   OptimizeReport end() {
     report_changes();
     report_.objective_after = state_of(best_.mesh, kLastGamma, hooks_.executor).energy;
-    result_ = std::move(best_.mesh);
     report_.seconds = seconds_since(start_);
     return std::move(report_);
   }
 
   void report_changes() {
-    const std::size_t n_before = result_.n_vertices();
     auto& [vertices, next, faces, lines] = best_.names;
     std::size_t kept = 0;
     for (VertexId& v : vertices) {
-      if (v.index < n_before)
+      if (v.index < n_before_)
         ++kept;
       else
         v = {};
     }
     report_.vertices_inserted = vertices.size() - kept;
-    report_.vertices_removed = n_before - kept;
+    report_.vertices_removed = n_before_ - kept;
     report_.flips = best_.flips;
     if (report_.vertices_inserted + report_.vertices_removed > 0)
       report_.origins = {std::move(vertices), std::move(faces), std::move(lines)};
   }
 
-  TetMesh& result_;  // until the end: the input
+  TetMesh& result_;  // empty until the end: best_ has the mesh
+  std::size_t n_before_ = result_.n_vertices();
   const OptimizeOptions& options_;
   const OptimizeHooks& hooks_;
   const DiscretizationError* error_ =  // absent for large meshes
-      result_.n_vertices() <= options_.most_error_vertices ? hooks_.error.get() : nullptr;
+      n_before_ <= options_.most_error_vertices ? hooks_.error.get() : nullptr;
   Draft draft_, best_;
   Clock::time_point start_ = Clock::now();
   // The time limit includes reading and writing. Writing takes about as long as reading took.
