@@ -1,5 +1,6 @@
 #include "tets/mesh/tables.hpp"
 
+#include <iterator>
 #include <numeric>
 
 #include "mesh/blocks.hpp"
@@ -49,11 +50,10 @@ VertexStars::VertexStars(const TetMesh& mesh) : sorted_(mesh.n_halffaces()) {
 
 VertexStars::VertexStars(const VertexStars& stars, std::span<const VertexId> sequence) {
   end_.reserve(sequence.size());
-  for (const VertexId v : sequence) {
-    const auto link = stars.link(v);
-    sorted_.insert(sorted_.end(), link.begin(), link.end());
-    end_.push_back(static_cast<std::uint32_t>(sorted_.size()));
-  }
+  std::size_t n = 0;
+  for (const VertexId v : sequence) end_.push_back(static_cast<std::uint32_t>(n += stars.link(v).size()));
+  sorted_.reserve(n);
+  for (const VertexId v : sequence) std::ranges::copy(stars.link(v), std::back_inserter(sorted_));
 }
 
 EdgeTable::EdgeTable(const TetMesh& mesh, Executor* executor)

@@ -107,7 +107,7 @@ class Run {
   /// Changes the connectivity where sweeps alone are not enough: first at all bad tetrahedra at once, then, from the
   /// best mesh, in patches. Each round counts as one sweep.
   void repair() {
-    const auto must_stop = [this] { return is_stopped(0); };
+    const auto must_stop = [this](double) { return is_stopped(0); };
     for (int in_vain = 0; best_bad_ > 0 && in_vain < kRoundsInVain;) {
       const std::size_t before = best_bad_;
       if (!may_sweep() || !change_all(draft_, must_stop, hooks_.executor)) break;
@@ -136,7 +136,7 @@ class Run {
         return stops.load();
       };
       or_serial(hooks_.executor).run(patches.size(), [&](std::size_t i) {
-        is_better[i] = search(patches[i].draft, options, [&] { return must_stop(i); });
+        is_better[i] = search(patches[i].draft, options, [&](double) { return must_stop(i); });
       });
       std::vector<Patch> chosen;
       for (std::size_t i = 0; i < patches.size(); ++i) {

@@ -31,6 +31,9 @@ namespace temper::tets {
 [[nodiscard]] WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> link, const WeightedPoint& p,
                                      Mobility mobility, const SweepParameters& parameters);
 
+/// Says whether to stop after this fraction of a sweep or round.
+using MustStop = std::function<bool(double)>;
+
 class Sweeper {
  public:
   /// For sweeps over these vertices. O(number of tetrahedra).
@@ -39,8 +42,6 @@ class Sweeper {
 
   /// A better place for a vertex among the faces of its link.
   using Step = std::function<WeightedPoint(VertexId, std::span<const HalffaceId>)>;
-  /// Says whether to stop after this fraction of the sweep.
-  using MustStop = std::function<bool(double)>;
   /// Takes one step of each vertex, on any thread. Returns false if it was stopped.
   bool sweep(const Step& step, const MustStop& must_stop = {});
   /// The same with the steps of improved().
