@@ -15,8 +15,7 @@
 #include "temper/tets/errors.hpp"
 #include "temper/tets/operators.hpp"
 #include "temper/tets/optimize.hpp"
-#include "tets/energy/offset.hpp"
-#include "tets/energy/sloped.hpp"
+#include "tets/energy/parts.hpp"
 #include "tets/mesh/tables.hpp"
 
 namespace temper::tets {
@@ -71,6 +70,46 @@ std::array<SpaceWaves, kTetBlocks> space_waves(const TetMesh& mesh, double volum
   return blocks;
 }
 
+/// ★0 and ★1 as sums over the parts of tetrahedra: ★1 of |e| |e*| over |e|², ★0 of its thirds, by the crossing.
+struct VertexScheme {
+  struct Edge {
+    VertexId from, to;
+  };
+  IdVector<EdgeId, Edge> edges;
+  IdVector<TetId, std::array<EdgeId, 6>> edges_of;
+  IdVector<TetId, TetParts> parts;
+  IdVector<EdgeId, double> star1;
+  IdVector<VertexId, double> star0;
+  double volume = 0;
+
+  explicit VertexScheme(const TetMesh& mesh)
+      : edges_of(mesh.n_tetrahedra()), parts(mesh.n_tetrahedra()), star0(mesh.n_vertices(), 0) {
+    const EdgeTable table(mesh, nullptr);
+    std::vector<EdgeId> number(6 * mesh.n_tetrahedra());
+    for (const TetId t : mesh.tetrahedra()) {
+      parts[t] = TetDuals(mesh, t).parts();
+      for (std::size_t e = 0; e < 6; ++e) {
+        const auto [i, j] = ends(mesh, t, e);
+        EdgeId& id = number[*table.find(i, j)];
+        if (!id.valid()) {
+          id = EdgeId(edges.size());
+          edges.push_back({i, j});
+          star1.push_back(0);
+        }
+        edges_of[t][e] = id;
+        const double v = parts[t].edges[e].volume, along = parts[t].along[e];
+        star1[id] += v / parts[t].square[e];
+        star0[i] += v * along / 3, star0[j] += v * (1 - along) / 3;
+        volume += v / 3;
+      }
+    }
+  }
+  static std::pair<VertexId, VertexId> ends(const TetMesh& mesh, TetId t, std::size_t e) {
+    const auto& corners = mesh.corners(t);
+    return {corners[std::size_t(kEdgeCorners[e][0])], corners[std::size_t(kEdgeCorners[e][1])]};
+  }
+};
+
 /// The derivatives of J by the operators, and by the places of vertices with all else kept.
 struct TetAdjoint {
   IdVector<VertexId, Vec3> vertex;
@@ -78,66 +117,25 @@ struct TetAdjoint {
   IdVector<EdgeId, double> star1;
 };
 
-std::array<std::size_t, 4> edge_corners(std::size_t e) {
-  const auto& [i, j, k, l] = kEdgeCorners[e];
-  return {std::size_t(i), std::size_t(j), std::size_t(k), std::size_t(l)};
-}
-
-/// Σ of ★1 and ★0 of one tetrahedron times their derivatives, from the corners in positive order.
-struct TetDuals {
-  std::array<double, 6> star1;  // by the edges of kEdgeCorners
-  std::array<double, 4> star0;
-
-  template <class T>
-  [[nodiscard]] T sum(const std::array<Weighted<T>, 4>& p) const {
-    std::array<Vector<T>, 4> faces;  // the orthocenters of the faces opposite the corners
-    for (std::size_t f = 0; f < 4; ++f) faces[f] = orthocenter(p[(f + 1) % 4], p[(f + 2) % 4], p[(f + 3) % 4]);
-    const Vector<T> normal = cross(p[1].at - p[0].at, p[2].at - p[0].at), o = orthocenter(p[0], p[3], normal, faces[3]);
-    T sum = T(0);
-    for (std::size_t e = 0; e < 6; ++e) {
-      const auto [i, j, k, l] = edge_corners(e);
-      const T volume = edge_part(p[i], p[j], faces[l], o, faces[k]).volume, along = crossing(p[i], p[j]);
-      const Vector<T> edge = p[j].at - p[i].at;
-      sum = sum + T(star1[e]) * (volume / dot(edge, edge));
-      sum = sum + T(1.0 / 3) * volume * (T(star0[i]) * along + T(star0[j]) * (T(1) - along));
-    }
-    return sum;
-  }
-};
-
-EdgeId edge_between(const DecComplex& dec, VertexId a, VertexId b) {
-  const auto [from, to] = std::minmax(a, b);
-  const auto found =
-      std::lower_bound(dec.edges.begin(), dec.edges.end(), std::pair(from, to),
-                       [](const DecEdge& e, const auto& ends) { return std::pair(e.from, e.to) < ends; });
-  return EdgeId(static_cast<std::size_t>(found - dec.edges.begin()));
-}
-
-void pull_back(const TetMesh& mesh, const DecComplex& dec, const TetAdjoint& by,
+void pull_back(const TetMesh& mesh, const VertexScheme& dec, const TetAdjoint& by,
                IdVector<VertexId, WeightedPoint>& gradient) {
   for (const VertexId v : mesh.vertices()) gradient[v] = {by.vertex[v].x, by.vertex[v].y, by.vertex[v].z, 0};
   for (const TetId t : mesh.tetrahedra()) {
-    const auto& corners = mesh.corners(t);
-    TetDuals duals = {};
-    std::array<Weighted<Sloped>, 4> points;
-    const Vec3 origin = mesh.position(corners[0]);
-    for (std::size_t k = 0; k < 4; ++k) {
-      duals.star0[k] = by.star0[corners[k]];
-      const Vec3 p = mesh.position(corners[k]) - origin;
-      points[k] = {{Sloped(p.x), Sloped(p.y), Sloped(p.z)}, Sloped(mesh.weight(corners[k]))};
-    }
+    TetParts slopes;
     for (std::size_t e = 0; e < 6; ++e) {
-      const auto [i, j, k, l] = edge_corners(e);
-      duals.star1[e] = by.star1[edge_between(dec, corners[i], corners[j])];
+      const auto [i, j] = VertexScheme::ends(mesh, t, e);
+      const double volume = dec.parts[t].edges[e].volume, along = dec.parts[t].along[e],
+                   square = dec.parts[t].square[e];
+      const double by_star1 = by.star1[dec.edges_of[t][e]], at_i = by.star0[i] / 3, at_j = by.star0[j] / 3;
+      slopes.edges[e].volume = by_star1 / square + at_i * along + at_j * (1 - along);
+      slopes.along[e] = volume * (at_i - at_j);
+      slopes.square[e] = -by_star1 * volume / (square * square);
     }
+    const auto by_corners = TetDuals(mesh, t).pulled_back(slopes);
     for (std::size_t k = 0; k < 4; ++k) {
-      const Weighted<Sloped> kept = points[k];
-      points[k] = {{Sloped(kept.at.x.value, 0), Sloped(kept.at.y.value, 1), Sloped(kept.at.z.value, 2)},
-                   Sloped(kept.w.value, 3)};
-      const auto [g, w] = duals.sum(points).gradient();
-      WeightedPoint& to = gradient[corners[k]];
-      to = {to.x + g.x, to.y + g.y, to.z + g.z, to.w + w};
-      points[k] = kept;
+      const auto& [x, y, z, w] = by_corners[k];
+      WeightedPoint& to = gradient[mesh.corners(t)[k]];
+      to = {to.x + x, to.y + y, to.z + z, to.w + w};
     }
   }
 }
@@ -145,9 +143,7 @@ void pull_back(const TetMesh& mesh, const DecComplex& dec, const TetAdjoint& by,
 class TetVertexError final : public DiscretizationError {
  public:
   [[nodiscard]] double squared_error(const TetMesh& mesh, IdVector<VertexId, WeightedPoint>* gradient) const override {
-    const DecComplex dec = dec_operators(mesh);
-    double volume = 0;
-    for (const double of_tetrahedron : dec.volumes) volume += of_tetrahedron;
+    const VertexScheme dec(mesh);
     std::vector<bool> given;
     for (const std::uint8_t on_boundary : boundary_vertices(mesh)) given.push_back(on_boundary != 0);
     const PointSystem points = vertex_system(dec, given);
@@ -156,7 +152,7 @@ class TetVertexError final : public DiscretizationError {
     TetAdjoint by = {IdVector<VertexId, Vec3>(mesh.n_vertices()), IdVector<VertexId, double>(mesh.n_vertices()),
                      IdVector<EdgeId, double>(dec.edges.size())};
     double sum = 0;
-    for (const SpaceWaves& waves : space_waves(mesh, volume)) {
+    for (const SpaceWaves& waves : space_waves(mesh, dec.volume)) {
       sum += error(mesh, dec, points, waves, gradient != nullptr ? &by : nullptr);
     }
     if (gradient != nullptr) pull_back(mesh, dec, by, *gradient);
@@ -164,7 +160,7 @@ class TetVertexError final : public DiscretizationError {
   }
 
  private:
-  double error(const TetMesh& mesh, const DecComplex& dec, const PointSystem& points, const SpaceWaves& waves,
+  double error(const TetMesh& mesh, const VertexScheme& dec, const PointSystem& points, const SpaceWaves& waves,
                TetAdjoint* by) const {
     std::vector<Lanes> value(mesh.n_vertices());
     for (const VertexId v : mesh.vertices()) value[v.index] = waves.at(mesh.position(v));

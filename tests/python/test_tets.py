@@ -188,7 +188,7 @@ def test_words_for_triangles_are_refused_by_name(shaken):
     before = shaken.copy()
     for given, refused in (
         ({"target": "mpas"}, "target 'mpas'"), ({"tensor": (1, 0, 1)}, "tensor"), ({"hooks": temper.Hooks(tracer=print)}, "tracer"),
-        ({"options": {"problem": {}}}, "problem"), ({"keep": "sizes"}, "keep 'sizes'"), ({"boundary": "slide"}, 'boundary="slide"'),
+        ({"options": {"problem": {}}}, "problem"), ({"keep": "sizes"}, "keep 'sizes'"),
         ({"options": {"energy": "F"}}, 'energy="F"'), ({"options": temper.OptimizeOptions(seed=5)}, "seed=5"),
     ):  # fmt: skip
         with pytest.raises((TypeError, temper.TemperError), match=f"^{refused} is for triangles alone. Next: leave it out"):

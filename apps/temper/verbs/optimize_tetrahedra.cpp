@@ -62,12 +62,12 @@ std::string settings_json(const OptimizeSettings& s, const tets::OptimizeOptions
                                  {"keep_weights", options.keep_weights},
                                  {"keep_edges", options.keep_edges},
                                  {"repair_trials", options.repair_trials},
+                                 {"slide_boundary", options.slide_boundary},
                                  {"split_boundary", options.split_boundary},
                                  {"search_each", options.search_each},
                                  {"small_margin", options.small_margin},
                                  {"target", s.target},
-                                 {"accuracy_sweeps", options.accuracy_sweeps},
-                                 {"error_steps", options.error_steps},
+                                 {"accuracy_steps", options.accuracy_steps},
                                  {"max_sweeps", options.max_sweeps},
                                  {"time_limit", options.time_limit}})
       .dump();

@@ -28,12 +28,12 @@ struct OptimizeOptions {
   bool keep_weights = false;    ///< All weights stay, and only positions change
   bool keep_edges = false;      ///< The connectivity stays: no flips, no new vertices
   int repair_trials = 20;       ///< Trials in vain in one patch; after four patches a place is left as it is
+  bool slide_boundary = false;  ///< Vertices that stay on one plane or straight line may move there
   bool split_boundary = false;  ///< Edges and faces that stay may get new vertices where nothing else helps
   bool search_each = false;     ///< Each bad tetrahedron has trials of its own, not along with those nearby
   double small_margin = 0;      ///< Tetrahedra with a smaller least h/ℓ are improved in trials, too, if none is bad
   Scheme scheme = Scheme::all;  ///< Scheme whose errors the run lowers after that: vertex or cell; others: none
-  int accuracy_sweeps = 32;     ///< Largest number of sweeps for this
-  int error_steps = 100;        ///< Largest number of steps that lower the error of a model
+  int accuracy_steps = 300;     ///< Largest number of steps for this
   std::size_t most_error_vertices = 10'000;  ///< Largest number of vertices for a model of errors
 };
 
@@ -91,6 +91,8 @@ struct OptimizeReport {
 ///   - fixed points
 ///   - points marked with a tag other than 0, unless all corners of some tetrahedron have the same tag: then this tag
 ///     lists the vertices of a part
+/// With `slide_boundary`, vertices of the first two kinds move in their plane or along their straight line, if the parts
+/// around them are in one (src/tets/optimize/mobility.hpp). Moves are exact along axes, elsewhere to rounding.
 ///
 /// For a scheme the run then lowers the offsets between primal and dual elements (src/tets/energy/accuracy_star.hpp),
 /// and the error of the model, if the hooks have one and no tetrahedron is bad. The result is the mesh with the least

@@ -321,7 +321,7 @@ constexpr OptionRow kConnectivityRows[] = {
     row<&Options::boundary>(
         "boundary",
         "Treatment of the boundary. keep: it stays bit for bit. slide: vertices, never corners, may move along "
-        "straight pieces. split: cut long edges before the sweeps. They are edges of the boundary or of interfaces, "
+        "straight pieces, and those of tetrahedra in planes. split: cut long edges before the sweeps. They are edges of the boundary or of interfaces, "
         "next to much shorter ones. The old vertices stay bit for bit",
         {.common = true}),
     row<&Options::boundary_ratio>("boundary_ratio",

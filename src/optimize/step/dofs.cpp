@@ -8,10 +8,6 @@
 namespace temper {
 namespace {
 
-// Two edges are one straight line when they turn by less than this (radians). Coordinates from a file, or rounded by
-// earlier slides, are not exactly collinear.
-constexpr double kStraight = 1e-9;
-
 /// The constrained and boundary edges at a vertex, which must keep their place, and their shape there.
 struct FixedLine {
   enum Shape { none, straight, bent } shape = none;

@@ -9,6 +9,10 @@
 
 namespace temper {
 
+/// Two edges are one straight line when they turn by less than this (radians). Coordinates from a file, or rounded by
+/// earlier slides, are not exactly collinear.
+inline constexpr double kStraight = 1e-9;
+
 struct Dofs {
   int n = 0;                                       ///< number of directions
   std::array<std::array<double, 3>, 3> axis = {};  ///< position directions are unit vectors; the weight's is (0, 0, 1)

@@ -1,14 +1,11 @@
-// The phases for accuracy. They begin where the sweeps of the pseudo-barrier end, and keep the connectivity. Sweeps
-// lower
+// The phase for accuracy. It begins where the sweeps of the pseudo-barrier end, and keeps the connectivity. Steps of
+// L-BFGS over all vertices lower
 //
-//     E + B, the energy and barrier of accuracy_star.hpp.
+//     ln J + κ ln(E + B),
 //
-// Then steps of L-BFGS over all vertices lower, with the error J of a scheme,
-//
-//     ln J + κ ln(E + B)
-//
-// as in the plane (optimize/solver_error). A tetrahedron whose orthocenter is inside stays so, by exact predicates. One
-// that is bad stays as it is, with its corners.
+// with the error J of a scheme, and the energy E and the barrier B of accuracy_energy.hpp, as in the plane
+// (optimize/solver_error). Without a model of J they lower the second term alone. A tetrahedron whose orthocenter is
+// inside stays so, by exact predicates. One that is bad stays as it is, with its corners.
 #pragma once
 
 #include <functional>
@@ -16,7 +13,7 @@
 
 #include "base/descent.hpp"
 #include "temper/tets/optimize.hpp"
-#include "tets/energy/accuracy_star.hpp"
+#include "tets/energy/accuracy_energy.hpp"
 #include "tets/optimize/newton_step.hpp"
 
 namespace temper::tets {
@@ -29,43 +26,35 @@ namespace temper::tets {
 
 class Accuracy {
  public:
-  Accuracy(TetMesh& mesh, IdVector<VertexId, Mobility> mobility, const AccuracyModel& model);
+  /// `error`: J, or null. Then it has no bad tetrahedron.
+  Accuracy(TetMesh& mesh, IdVector<VertexId, Mobility> mobility, const AccuracyModel& model,
+           const DiscretizationError* error, Executor* executor);
 
-  /// Takes one Newton step of v, over-relaxed if this lowers E + B.
-  void improve(VertexId v, double relaxation);
-  /// E of the mesh without duals that are not positive, and the barrier, +∞ with bad tetrahedra.
-  [[nodiscard]] AccuracyTotal energy();
-  /// Takes one step over all vertices. Returns false if there is none, or if it must stop. Precondition: no tetrahedron
-  /// is bad.
-  bool descend(const DiscretizationError& model, const std::function<bool()>& must_stop);
-  /// J after the last step.
-  [[nodiscard]] double error() const { return now_.error; }
+  /// Takes one step. Returns false if there is none, or if it must stop.
+  bool descend(const std::function<bool()>& must_stop);
+  /// √J after the last step, or without a model E.
+  [[nodiscard]] double measure() const { return now_.measure; }
 
  private:
   struct Total {
-    double lowered = 0, error = 0;
+    double lowered = 0, measure = 0;
     Descent::Vector gradient;  // of `lowered`, by scaled unknowns: four per vertex
   };
 
-  void gather(VertexId v);
-  [[nodiscard]] bool is_valid(VertexId v) const;
-  /// Scales the unknowns by the local size, and less where E + B bends more.
-  void find_scales();
-  [[nodiscard]] Total total(const DiscretizationError& model);
+  [[nodiscard]] Total total() const;
   void place(const IdVector<VertexId, WeightedPoint>& from, const Descent::Vector& step, double t);
   void shorten(const IdVector<VertexId, WeightedPoint>& from, Descent::Vector& step);
+  [[nodiscard]] bool is_valid() const;
 
   TetMesh& mesh_;
   IdVector<VertexId, Mobility> mobility_;
-  AccuracyModel model_;
-  AccuracyDomain domain_;
-  std::vector<HalffaceId> link_;  // of the present vertex
-  AccuracyStar star_;
-  // The steps over all vertices.
+  const DiscretizationError* error_;
+  Executor* executor_;
+  VertexSizes sizes_;  // units of positions; their squares are those of weights
+  IdVector<TetId, double> floors_;
+  AccuracyEnergy energy_;
   Descent descent_;
   Total now_;
-  IdVector<VertexId, std::array<double, 4>> scales_;  // of the unknowns
-  bool has_begun_ = false;
 };
 
 }  // namespace temper::tets

@@ -22,7 +22,7 @@ struct Draft {
   Draft(TetMesh start, IdVector<VertexId, Mobility> mobility_of_start)
       : mesh(std::move(start)), names(mesh), mobility(std::move(mobility_of_start)) {}
 
-  [[nodiscard]] Mobility mobility_of(VertexId v) const { return mobility[names.vertices[v]]; }
+  [[nodiscard]] const Mobility& mobility_of(VertexId v) const { return mobility[names.vertices[v]]; }
   [[nodiscard]] IdVector<VertexId, Mobility> mobilities() const;
   /// Fills cavities, which share no tetrahedron. False, and no change: the mesh cannot be built.
   bool fill(std::span<const Filling> fillings);

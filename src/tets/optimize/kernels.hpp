@@ -62,7 +62,8 @@ struct Kernels {
   /// Value, gradient and Hessian of the energy of a star; the value is +∞ unless all tetrahedra are positive.
   PointDerivatives<double> (*derivatives)(const Link& link, const WeightedPoint& p, double gamma);
   /// A Newton step: over-relaxed, then plain, then halved, until the energy falls and shapes are kept.
-  StarStep (*step)(const Link& link, const WeightedPoint& p, Mobility mobility, const SweepParameters& parameters);
+  StarStep (*step)(const Link& link, const WeightedPoint& p, const Mobility& mobility,
+                   const SweepParameters& parameters);
   /// The energies of tetrahedra, and where their orthocenters are.
   Certainty (*tetrahedra)(const TetLanes& tetrahedra, double gamma, Lane& energies);
 };

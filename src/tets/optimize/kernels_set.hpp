@@ -137,7 +137,7 @@ TEMPER_INLINE bool is_certainly_positive(const Link& link, const WeightedPoint& 
   return true;
 }
 
-StarStep step(const Link& link, const WeightedPoint& origin, Mobility mobility,
+StarStep step(const Link& link, const WeightedPoint& origin, const Mobility& mobility,
               const tets::SweepParameters& parameters) {
   const auto [here, spokes2] = look_around(link, origin, parameters.gamma);
   if (!(here.value < HUGE_VAL)) return {};
@@ -146,7 +146,7 @@ StarStep step(const Link& link, const WeightedPoint& origin, Mobility mobility,
   if (!(predicted > kNoGain * here.value)) return {};
   const double by = parameters.relaxation;
   const WeightedPoint along = {by * newton.x, by * newton.y, by * newton.z, by * newton.w};
-  const bool moves = mobility != Mobility::weight;
+  const bool moves = mobility.dimensions > 0;
   double t = farthest(link, origin, along);
   for (int trial = 0; trial < kTrials; ++trial) {
     WeightedPoint p = {origin.x, origin.y, origin.z, origin.w + t * along.w};

@@ -7,8 +7,27 @@
 
 namespace temper::tets {
 
-/// The unknowns of a vertex that may change.
-enum class Mobility : std::uint8_t { none, weight, position, free };
+/// Where a vertex may move, and whether its weight may change.
+struct Mobility {
+  std::uint8_t dimensions = 0;  ///< 3: anywhere; 2: in a plane; 1: along a line; 0: nowhere
+  bool weighs = false;          ///< The weight may change
+  Vec3 direction = {};          ///< Unit vector along the line, or normal of the plane
+
+  [[nodiscard]] bool moves() const { return dimensions > 0; }
+  /// Says whether the vertex stays in a plane or on a line.
+  [[nodiscard]] bool slides() const { return dimensions == 1 || dimensions == 2; }
+  /// The part of a displacement that the vertex may take; all of it unless it slides. Parts along axes are exact.
+  [[nodiscard]] Vec3 allowed(Vec3 by) const {
+    if (!slides()) return by;
+    const Vec3 along = dot(direction, by) * direction;
+    return dimensions == 1 ? along : by - along;
+  }
+
+  static const Mobility none, weight, position, free;
+  friend constexpr bool operator==(const Mobility&, const Mobility&) = default;
+};
+inline constexpr Mobility Mobility::none = {0, false}, Mobility::weight = {0, true}, Mobility::position = {3, false},
+                          Mobility::free = {3, true};
 
 struct NewtonStep {
   WeightedPoint step;
@@ -17,6 +36,6 @@ struct NewtonStep {
 
 /// Returns −|H|⁻¹ ∇E along the unknowns. They are scaled by (R, R, R, R²), eigenvalues are taken absolute and floored,
 /// and the trust radius R/2 limits the length.
-[[nodiscard]] NewtonStep newton_step(const PointDerivatives<double>& d, Mobility mobility, double radius);
+[[nodiscard]] NewtonStep newton_step(const PointDerivatives<double>& d, const Mobility& mobility, double radius);
 
 }  // namespace temper::tets

@@ -21,13 +21,13 @@ struct Effort {
   int repair_trials;
   bool search_each;
   double small_margin;
-  int error_steps;
+  int accuracy_steps;
   std::size_t most_error_vertices;
 };
 constexpr OptimizeOptions kNormal;
-constexpr Effort kEfforts[] = {{"quick", 0, false, 0, 0, 0},
+constexpr Effort kEfforts[] = {{"quick", 0, false, 0, 30, 0},
                                {"normal", kNormal.repair_trials, kNormal.search_each, kNormal.small_margin,
-                                kNormal.error_steps, kNormal.most_error_vertices},
+                                kNormal.accuracy_steps, kNormal.most_error_vertices},
                                {"high", 40, true, 0.01, 1000, 100'000}};
 
 template <class Names>
@@ -57,18 +57,17 @@ Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, con
     return refused("`" + std::string(name) + "=" + option_text(row, row.get(table)) + "`",
                    "`" + join(kRows, "`, `") + "`");
   }
-  if (table.boundary == BoundaryVertices::slide) return refused("`boundary=slide`", "keep and split");
   OptimizeOptions options;
+  options.slide_boundary = table.boundary == BoundaryVertices::slide;
   options.split_boundary = table.boundary == BoundaryVertices::split;
   options.keep_positions = table.unknowns == temper::Unknowns::weights;
   options.keep_weights = table.unknowns == temper::Unknowns::positions;
   options.repair_trials = effort->repair_trials;
   options.search_each = effort->search_each;
   options.small_margin = effort->small_margin;
-  options.error_steps = effort->error_steps;
+  options.accuracy_steps = effort->accuracy_steps;
   options.most_error_vertices = effort->most_error_vertices;
   options.scheme = table.scheme;
-  options.accuracy_sweeps = table.accuracy.sweeps;
   options.keep_edges = table.flips == Flips::none || options.repair_trials == 0;
   if (options.split_boundary && (options.keep_positions || options.keep_weights || options.keep_edges))
     return InputError{

@@ -4,9 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numeric>
-#include <set>
 #include <utility>
 
 #include "base/instruction_set_choice.hpp"
@@ -14,54 +12,6 @@
 #include "tets/quality/measure.hpp"
 
 namespace temper::tets {
-namespace {
-
-/// Fixes marked points: they are places that the user chose, such as wells. But if all corners of a tetrahedron have
-/// the same tag, this tag lists the vertices of a part, and fixes nothing. A tag of 0 is none.
-void fix_marked_points(const TetMesh& mesh, IdVector<VertexId, Mobility>& all) {
-  std::set<std::pair<VertexId, std::int32_t>> marks;
-  for (const auto& [vertex, tag] : mesh.tagged_points()) {
-    if (tag != 0) marks.emplace(vertex, tag);
-  }
-  std::set<std::int32_t> of_parts;
-  for (const TetId t : mesh.tetrahedra()) {
-    const auto& corners = mesh.corners(t);
-    for (auto mark = marks.lower_bound({corners[0], std::numeric_limits<std::int32_t>::min()});
-         mark != marks.end() && mark->first == corners[0]; ++mark) {
-      const std::int32_t tag = mark->second;
-      if (std::all_of(corners.begin(), corners.end(), [&](VertexId v) { return marks.contains({v, tag}); }))
-        of_parts.insert(tag);
-    }
-  }
-  for (const auto& [vertex, tag] : marks) {
-    if (!of_parts.contains(tag)) all[vertex] = Mobility::weight;
-  }
-}
-
-}  // namespace
-
-IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptions& options) {
-  IdVector<VertexId, Mobility> all(mesh.n_vertices());
-  for (const VertexId v : mesh.vertices()) all[v] = Mobility::free;
-  const auto fix = [&](HalffaceId h) {
-    for (const VertexId v : mesh.vertices(h)) all[v] = Mobility::weight;
-  };
-  for (const HalffaceId h : mesh.halffaces()) {
-    if (mesh.bounds_region(h)) fix(h);
-  }
-  for (const TaggedFace& tagged : mesh.tagged_faces()) fix(tagged.face);
-  for (const TaggedLine& tagged : mesh.tagged_lines()) {
-    for (const VertexId v : tagged.ends) all[v] = Mobility::weight;
-  }
-  fix_marked_points(mesh, all);
-  for (const VertexId v : mesh.fixed_points()) all[v] = Mobility::weight;
-  for (const VertexId v : mesh.vertices()) {
-    if (options.keep_positions) all[v] = Mobility::weight;
-    if (options.keep_weights) all[v] = all[v] == Mobility::free ? Mobility::position : Mobility::none;
-  }
-  return all;
-}
-
 namespace {
 
 constexpr int kMostColors = 63;
@@ -122,7 +72,7 @@ Link gather(const TetMesh& mesh, std::span<const HalffaceId> halffaces, std::vec
 }
 
 WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> halffaces, const WeightedPoint& origin,
-                       Mobility mobility, const SweepParameters& parameters) {
+                       const Mobility& mobility, const SweepParameters& parameters) {
   thread_local std::vector<LinkLanes> room;
   const Link link = gather(mesh, halffaces, room);
   const auto [p, lower, certain] = kernels().step(link, origin, mobility, parameters);
@@ -143,7 +93,7 @@ void Sweeper::color(const VertexStars& stars, std::span<const VertexId> vertices
   const auto color_of = [&](VertexId v) { return static_cast<std::size_t>(std::countr_zero(bit[v])); };
   for (const VertexId v : vertices) {
     if (mobility_[v] == Mobility::none) continue;
-    std::uint64_t taken = mobility_[v] == Mobility::weight ? 0 : (std::uint64_t{1} << kColorsOfFixed) - 1;
+    std::uint64_t taken = !mobility_[v].moves() ? 0 : (std::uint64_t{1} << kColorsOfFixed) - 1;
     for (const HalffaceId h : stars.link(v)) {
       for (const VertexId u : mesh_.vertices(h)) taken |= bit[u];
     }

@@ -17,11 +17,9 @@
 #include "temper/tets/optimize.hpp"
 #include "tets/mesh/tables.hpp"
 #include "tets/optimize/kernels.hpp"
+#include "tets/optimize/mobility.hpp"
 
 namespace temper::tets {
-
-/// What of each vertex may change. Positions stay on the boundary, between regions, and at tags of any kind.
-[[nodiscard]] IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptions& options = {});
 
 /// The faces of a link, in room that grows as needed.
 [[nodiscard]] Link gather(const TetMesh& mesh, std::span<const HalffaceId> halffaces, std::vector<LinkLanes>& room);
@@ -29,7 +27,7 @@ namespace temper::tets {
 /// Takes one Newton step of p among the faces of its link: over-relaxed, then plain, then halved, until the energy
 /// falls. Otherwise p stays as it was. All tetrahedra stay positive, exactly.
 [[nodiscard]] WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> link, const WeightedPoint& p,
-                                     Mobility mobility, const SweepParameters& parameters);
+                                     const Mobility& mobility, const SweepParameters& parameters);
 
 /// Says whether to stop after this fraction of a sweep or round.
 using MustStop = std::function<bool(double)>;

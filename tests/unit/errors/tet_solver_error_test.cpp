@@ -51,13 +51,13 @@ TEST(TetSolverError, ARunLowersItAndReturnsTheBestMesh) {
   ASSERT_TRUE(optimize(before));
   TetMesh mesh = before, again = before;
   OptimizeOptions options;
-  options.scheme = Scheme::vertex, options.error_steps = 5;
+  options.scheme = Scheme::vertex, options.accuracy_steps = 5;
   OptimizeHooks hooks;
   hooks.error = make_discretization_error(Scheme::vertex);
   ASSERT_TRUE(optimize(mesh, options, hooks));
   EXPECT_LT(hooks.error->squared_error(mesh, nullptr), 0.95 * hooks.error->squared_error(before, nullptr));
   EXPECT_EQ(quality(mesh).orthocenters_outside, 0U);
-  options.error_steps = 0, options.accuracy_sweeps = 0;
+  options.accuracy_steps = 0;
   hooks.error = make_discretization_error(Scheme::vertex);
   ASSERT_TRUE(optimize(again, options, hooks));
   EXPECT_LE(hooks.error->squared_error(again, nullptr), hooks.error->squared_error(before, nullptr));

@@ -1,0 +1,203 @@
+#include "tets/optimize/mobility.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/sort_unique.hpp"
+#include "optimize/step/dofs.hpp"
+
+namespace temper::tets {
+namespace {
+
+/// The pairs of a key among sorted ones.
+template <class Key, class Value>
+std::span<const std::pair<Key, Value>> pairs_of(const std::vector<std::pair<Key, Value>>& all, const Key& key) {
+  const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
+  const auto [first, last] = std::equal_range(all.begin(), all.end(), std::pair(key, Value()), before);
+  return {first, last};
+}
+
+/// The tags of faces or lines.
+template <class Part>
+class TagsOf {
+ public:
+  explicit TagsOf(std::vector<std::pair<Part, std::int32_t>> all) : all_(std::move(all)) { sort_unique(all_); }
+  [[nodiscard]] bool same(const Part& a, const Part& b) const {
+    return std::ranges::equal(pairs_of(all_, a), pairs_of(all_, b), {}, &std::pair<Part, std::int32_t>::second,
+                              &std::pair<Part, std::int32_t>::second);
+  }
+  [[nodiscard]] bool has(const Part& a) const { return !pairs_of(all_, a).empty(); }
+
+ private:
+  std::vector<std::pair<Part, std::int32_t>> all_;
+};
+
+/// The lines and planes of vertices on the faces and lines that stay.
+class Slides {
+ public:
+  explicit Slides(const TetMesh& mesh) : mesh_(mesh), face_tags_(tags_of_faces(mesh)), line_tags_(tags_of_lines(mesh)) {
+    std::vector<HalffaceId> faces;
+    for (const HalffaceId h : mesh.halffaces()) {
+      if (mesh.is_face_representative(h) && mesh.bounds_region(h)) faces.push_back(h);
+    }
+    for (const TaggedFace& f : mesh.tagged_faces()) faces.push_back(representative(mesh, f.face));
+    sort_unique(faces);
+    std::vector<std::pair<Line, HalffaceId>> edges;
+    edges.reserve(3 * faces.size());
+    for (const HalffaceId h : faces) {
+      const auto [a, b, c] = mesh.vertices(h);
+      for (const Line& line : {line_of(a, b), line_of(b, c), line_of(c, a)}) edges.emplace_back(line, h);
+      for (const VertexId v : {a, b, c}) corners_.emplace_back(v, h);
+    }
+    std::sort(edges.begin(), edges.end());
+    std::sort(corners_.begin(), corners_.end());
+    for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+      const Line& line = edges[i].first;
+      while (end < edges.size() && edges[end].first == line) ++end;
+      if (end - i != 2 || line_tags_.has(line) || !are_one(edges[i].second, edges[i + 1].second)) add_crease(line);
+    }
+    for (const TaggedLine& l : mesh.tagged_lines()) add_crease(line_of(l.ends[0], l.ends[1]));
+    sort_unique(creases_);
+  }
+
+  /// The place of v without its weight, if it is on a part that stays.
+  [[nodiscard]] Mobility place_of(VertexId v) const {
+    const auto faces = pairs_of(corners_, v);
+    const auto creases = pairs_of(creases_, v);
+    if (creases.empty()) return in_plane(faces);
+    return creases.size() == 2 ? on_line(v, creases[0].second, creases[1].second, faces) : Mobility::none;
+  }
+
+ private:
+  using Line = std::pair<VertexId, VertexId>;  // from the lesser vertex to the greater one
+  using Corners = std::span<const std::pair<VertexId, HalffaceId>>;
+
+  static Line line_of(VertexId a, VertexId b) { return std::minmax(a, b); }
+  static HalffaceId representative(const TetMesh& mesh, HalffaceId h) {
+    return mesh.is_face_representative(h) ? h : mesh.twin(h);
+  }
+  static TagsOf<HalffaceId> tags_of_faces(const TetMesh& mesh) {
+    std::vector<std::pair<HalffaceId, std::int32_t>> all;
+    for (const TaggedFace& f : mesh.tagged_faces()) all.emplace_back(representative(mesh, f.face), f.tag);
+    return TagsOf(std::move(all));
+  }
+  static TagsOf<Line> tags_of_lines(const TetMesh& mesh) {
+    std::vector<std::pair<Line, std::int32_t>> all;
+    for (const TaggedLine& l : mesh.tagged_lines()) all.emplace_back(line_of(l.ends[0], l.ends[1]), l.tag);
+    return TagsOf(std::move(all));
+  }
+  void add_crease(const Line& line) {
+    creases_.emplace_back(line.first, line.second);
+    creases_.emplace_back(line.second, line.first);
+  }
+  [[nodiscard]] Vec3 normal(HalffaceId h) const {
+    const auto [a, b, c] = mesh_.vertices(h);
+    return cross(mesh_.position(b) - mesh_.position(a), mesh_.position(c) - mesh_.position(a));
+  }
+  /// Exact along an axis.
+  static Vec3 unit(Vec3 v) {
+    const double l = length(v);
+    return {v.x / l, v.y / l, v.z / l};
+  }
+  static bool are_parallel(Vec3 a, Vec3 b) { return length(cross(a, b)) <= kStraight * length(a) * length(b); }
+  /// The regions of both sides, the lesser first; the least number for the outside.
+  [[nodiscard]] std::pair<std::int32_t, std::int32_t> regions(HalffaceId h) const {
+    const std::int32_t here = mesh_.region(TetMesh::tetrahedron(h));
+    if (mesh_.is_boundary(h)) return {std::numeric_limits<std::int32_t>::min(), here};
+    return std::minmax(here, mesh_.region(TetMesh::tetrahedron(mesh_.twin(h))));
+  }
+  /// Says whether two faces are pieces of one: of one plane, with the same tags and regions.
+  [[nodiscard]] bool are_one(HalffaceId a, HalffaceId b) const {
+    return mesh_.is_boundary(a) == mesh_.is_boundary(b) && regions(a) == regions(b) && face_tags_.same(a, b) &&
+           are_parallel(normal(a), normal(b));
+  }
+
+  [[nodiscard]] Mobility in_plane(Corners faces) const {
+    const Vec3 expected = normal(faces[0].second);
+    Vec3 sum;
+    for (const auto& [v, h] : faces) {
+      const Vec3 n = normal(h);
+      if (!are_parallel(n, expected)) return Mobility::none;
+      sum = sum + (dot(n, expected) < 0 ? -1.0 : 1.0) * n;
+    }
+    return {2, false, unit(sum)};
+  }
+  [[nodiscard]] Mobility on_line(VertexId v, VertexId a, VertexId b, Corners faces) const {
+    const Vec3 to_a = mesh_.position(a) - mesh_.position(v), to_b = mesh_.position(b) - mesh_.position(v);
+    if (!are_parallel(to_a, to_b) || dot(to_a, to_b) > 0) return Mobility::none;
+    if (!line_tags_.same(line_of(v, a), line_of(v, b))) return Mobility::none;
+    const Vec3 direction = unit(to_b - to_a);
+    for (const auto& [u, h] : faces) {
+      const Vec3 n = normal(h);
+      if (std::abs(dot(n, direction)) > kStraight * length(n)) return Mobility::none;
+    }
+    return {1, false, direction};
+  }
+
+  const TetMesh& mesh_;
+  TagsOf<HalffaceId> face_tags_;
+  TagsOf<Line> line_tags_;
+  std::vector<std::pair<VertexId, HalffaceId>> corners_;  // of the faces
+  std::vector<std::pair<VertexId, VertexId>> creases_;    // from each end
+};
+
+/// Fixes marked points: they are places that the user chose, such as wells. But if all corners of a tetrahedron have
+/// the same tag, this tag lists the vertices of a part, and fixes nothing. A tag of 0 is none.
+void fix_marked_points(const TetMesh& mesh, IdVector<VertexId, Mobility>& all) {
+  std::set<std::pair<VertexId, std::int32_t>> marks;
+  for (const auto& [vertex, tag] : mesh.tagged_points()) {
+    if (tag != 0) marks.emplace(vertex, tag);
+  }
+  std::set<std::int32_t> of_parts;
+  for (const TetId t : mesh.tetrahedra()) {
+    const auto& corners = mesh.corners(t);
+    for (auto mark = marks.lower_bound({corners[0], std::numeric_limits<std::int32_t>::min()});
+         mark != marks.end() && mark->first == corners[0]; ++mark) {
+      const std::int32_t tag = mark->second;
+      if (std::all_of(corners.begin(), corners.end(), [&](VertexId v) { return marks.contains({v, tag}); }))
+        of_parts.insert(tag);
+    }
+  }
+  for (const auto& [vertex, tag] : marks) {
+    if (!of_parts.contains(tag)) all[vertex] = Mobility::weight;
+  }
+}
+
+}  // namespace
+
+IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptions& options) {
+  IdVector<VertexId, Mobility> all(mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) all[v] = Mobility::free;
+  const auto fix = [&](HalffaceId h) {
+    for (const VertexId v : mesh.vertices(h)) all[v] = Mobility::weight;
+  };
+  for (const HalffaceId h : mesh.halffaces()) {
+    if (mesh.bounds_region(h)) fix(h);
+  }
+  for (const TaggedFace& tagged : mesh.tagged_faces()) fix(tagged.face);
+  for (const TaggedLine& tagged : mesh.tagged_lines()) {
+    for (const VertexId v : tagged.ends) all[v] = Mobility::weight;
+  }
+  if (options.slide_boundary) {
+    const Slides slides(mesh);
+    for (const VertexId v : mesh.vertices()) {
+      if (all[v].moves()) continue;
+      all[v] = slides.place_of(v);
+      all[v].weighs = true;
+    }
+  }
+  fix_marked_points(mesh, all);
+  for (const VertexId v : mesh.fixed_points()) all[v] = Mobility::weight;
+  for (const VertexId v : mesh.vertices()) {
+    if (options.keep_positions) all[v] = Mobility::weight;
+    if (options.keep_weights) all[v].weighs = false;
+  }
+  return all;
+}
+
+}  // namespace temper::tets

@@ -1,0 +1,221 @@
+// Which vertices slide, where, and what stays.
+#include "tets/optimize/mobility.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "base/sort_unique.hpp"
+#include "support/std_threads.hpp"
+#include "support/tet_lattice.hpp"
+#include "temper/tets/quality.hpp"
+
+namespace temper::tets {
+namespace {
+
+constexpr int kSide = 4;
+
+/// A block of cubes: two regions that meet at x = 2, and tags on z = 0 that meet at y = 1. A tagged line leads through
+/// it at x = 1, y = 3. Points are off their places as far as the parts that stay allow.
+class Block {
+ public:
+  explicit Block(double jitter) : arrays_(test::cubes(kSide, test::kSixTets)), exact_(arrays_.points) {
+    test::Noise noise(3);
+    for (Vec3& p : arrays_.points) {
+      const auto [x, y, z] = stays(p);
+      p = p + jitter * Vec3{x ? 0 : noise(), y ? 0 : noise(), z ? 0 : noise()};
+    }
+  }
+
+  /// Whether x, y and z stay at an exact point.
+  static std::array<bool, 3> stays(Vec3 p) {
+    const auto at_end = [](double x) { return x == 0 || x == kSide; };
+    if (p.x == 1 && p.y == 3) return {true, true, at_end(p.z)};
+    return {at_end(p.x) || p.x == 2, at_end(p.y) || (p.z == 0 && p.y == 1), at_end(p.z)};
+  }
+  [[nodiscard]] const std::vector<Vec3>& exact() const { return exact_; }
+  std::vector<Vec3>& points() { return arrays_.points; }
+
+  [[nodiscard]] TetMesh mesh() const {
+    TetMeshInput in = arrays_.input();
+    std::vector<std::int32_t> regions, face_tags, line_tags;
+    std::vector<std::array<std::int32_t, 3>> faces;
+    std::vector<std::array<std::int32_t, 2>> lines;
+    const auto at = [&](std::int32_t i) { return exact_[std::size_t(i)]; };
+    for (const auto& t : arrays_.tetrahedra) {
+      double x = 0;
+      std::vector<std::int32_t> bottom;
+      for (const std::int32_t i : t) {
+        x += at(i).x / 4;
+        if (at(i).z == 0) bottom.push_back(i);
+        for (const std::int32_t j : t) {
+          if (at(i).x == 1 && at(i).y == 3 && at(j) == at(i) + Vec3{0, 0, 1}) lines.push_back({i, j});
+        }
+      }
+      regions.push_back(x < 2 ? 1 : 2);
+      if (bottom.size() != 3) continue;
+      faces.push_back({bottom[0], bottom[1], bottom[2]});
+      face_tags.push_back(std::max({at(bottom[0]).y, at(bottom[1]).y, at(bottom[2]).y}) <= 1 ? 5 : 6);
+    }
+    sort_unique(lines);
+    line_tags.assign(lines.size(), 7);
+    in.regions = regions, in.faces = faces, in.face_tags = face_tags, in.lines = lines, in.line_tags = line_tags;
+    return test::built(in).mesh;
+  }
+
+ private:
+  test::TetArrays arrays_;
+  std::vector<Vec3> exact_;
+};
+
+OptimizeOptions sliding() {
+  OptimizeOptions options;
+  options.slide_boundary = options.keep_edges = true;
+  return options;
+}
+
+/// A rotation without zeros.
+Vec3 turned(Vec3 p) {
+  const auto turn = [](double& a, double& b, double angle) {
+    const double x = a;
+    a = std::cos(angle) * x - std::sin(angle) * b, b = std::sin(angle) * x + std::cos(angle) * b;
+  };
+  turn(p.x, p.y, 0.7), turn(p.y, p.z, 1.1), turn(p.z, p.x, 0.4);
+  return p;
+}
+Vec3 unit(std::size_t axis) { return {axis == 0 ? 1.0 : 0, axis == 1 ? 1.0 : 0, axis == 2 ? 1.0 : 0}; }
+
+TEST(TetMobility, VerticesSlideInOnePlaneOrAlongOneStraightLine) {
+  for (const bool turn : {false, true}) {
+    Block block(0.2);
+    if (turn) {
+      for (Vec3& p : block.points()) p = turned(p);
+    }
+    const auto all = mobilities(block.mesh(), sliding());
+    const auto kept = mobilities(block.mesh());
+    std::array<std::size_t, 4> count = {};
+    for (const VertexId v : block.mesh().vertices()) {
+      const auto stays = Block::stays(block.exact()[v.index]);
+      const auto n = std::size_t(3 - std::count(stays.begin(), stays.end(), true));
+      EXPECT_EQ(all[v].dimensions, n) << v.index;
+      EXPECT_TRUE(all[v].weighs);
+      EXPECT_EQ(kept[v], n == 3 ? Mobility::free : Mobility::weight);
+      for (std::size_t axis = 0; axis < 3 && all[v].slides(); ++axis) {
+        const Vec3 along = turn ? turned(unit(axis)) : unit(axis);
+        EXPECT_NEAR(length(all[v].allowed(along) - (stays[axis] ? 0.0 : 1.0) * along), 0, 1e-14);
+        if (!turn) {
+          EXPECT_EQ(all[v].allowed(along), stays[axis] ? Vec3{} : along);
+        }
+      }
+      ++count[n];
+    }
+    for (const std::size_t c : count) EXPECT_GT(c, 10U);
+  }
+}
+
+TEST(TetMobility, ABentFaceAndUserChoicesFixVertices) {
+  Block block(0);
+  const auto number = [](int x, int y, int z) { return std::size_t((z * (kSide + 1) + y) * (kSide + 1) + x); };
+  const auto before = mobilities(block.mesh(), sliding());
+  block.points()[number(0, 2, 2)].x -= 1e-6;  // bends the faces around it, and creases meet at its neighbors
+  const auto bent = mobilities(block.mesh(), sliding());
+  for (const auto& [y, z] : {std::pair(2, 2), {1, 2}, {2, 1}, {1, 1}}) {
+    EXPECT_EQ(before[VertexId(number(0, y, z))].dimensions, 2);
+    EXPECT_EQ(bent[VertexId(number(0, y, z))], Mobility::weight);
+  }
+  OptimizeOptions options = sliding();
+  options.keep_weights = true;
+  EXPECT_EQ(mobilities(block.mesh(), options)[VertexId(number(1, 1, 1))], Mobility::position);
+  EXPECT_EQ(mobilities(block.mesh(), options)[VertexId(number(0, 0, 0))], Mobility::none);
+  options.keep_positions = true, options.keep_weights = false;
+  for (const Mobility& m : mobilities(block.mesh(), options)) EXPECT_EQ(m, Mobility::weight);
+}
+
+TEST(TetMobility, SlidingKeepsVolumePlanesLinesCornersAndTagsOnAnyThread) {
+  for (const bool turn : {false, true}) {
+    Block block(0.25);
+    if (turn) {
+      for (Vec3& p : block.points()) p = turned(p);
+    }
+    const TetMesh input = block.mesh();
+    TetMesh mesh = input, again = input, kept = input;
+    ASSERT_TRUE(optimize(mesh, sliding()));
+    std::array<std::size_t, 3> moved = {};
+    for (const VertexId v : mesh.vertices()) {
+      const Vec3 by = mesh.position(v) - input.position(v);
+      const auto stays = Block::stays(block.exact()[v.index]);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!stays[axis]) continue;
+        EXPECT_LE(std::abs(dot(by, turn ? turned(unit(axis)) : unit(axis))), turn ? 1e-14 : 0);
+      }
+      const auto n = std::size_t(std::count(stays.begin(), stays.end(), true));
+      if (n < 3 && length(by) > 0.01) ++moved[n];
+      if (n == 3) {
+        EXPECT_EQ(by, Vec3{});
+      }
+    }
+    for (const std::size_t n : moved) EXPECT_GT(n, 5U);
+    EXPECT_NEAR(quality(mesh).volume, quality(input).volume, 1e-12);
+    EXPECT_EQ(mesh.validate(), std::nullopt);
+    EXPECT_EQ(mesh.tagged_faces(), input.tagged_faces());
+    EXPECT_EQ(mesh.tagged_lines(), input.tagged_lines());
+    OptimizeOptions keep = sliding();
+    keep.slide_boundary = false;
+    ASSERT_TRUE(optimize(kept, keep));
+    EXPECT_LT(quality(mesh).orthocenters_outside, quality(kept).orthocenters_outside);
+    test::StdThreads threads(3);
+    OptimizeHooks hooks;
+    hooks.executor = &threads;
+    ASSERT_TRUE(optimize(again, sliding(), hooks));
+    EXPECT_EQ(again, mesh);
+  }
+}
+
+/// An error that is less the nearer all vertices are to a point inside, off the planes.
+class Pull final : public DiscretizationError {
+ public:
+  [[nodiscard]] double squared_error(const TetMesh& mesh, IdVector<VertexId, WeightedPoint>* gradient) const override {
+    double sum = 1;
+    for (const VertexId v : mesh.vertices()) {
+      const Vec3 by = mesh.position(v) - Vec3{1.8, 2.1, 1.9};
+      sum += squared_length(by);
+      if (gradient != nullptr) (*gradient)[v] = {2 * by.x, 2 * by.y, 2 * by.z, 0};
+    }
+    return sum;
+  }
+};
+
+TEST(TetMobility, RepairsAndSweepsForErrorsSlideToo) {
+  for (const Scheme scheme : {Scheme::all, Scheme::vertex}) {
+    Block block(0.25);
+    const TetMesh input = block.mesh();
+    TetMesh mesh = input;
+    OptimizeOptions options;
+    options.slide_boundary = true;
+    options.scheme = scheme, options.repair_trials = 2, options.accuracy_steps = 2;
+    OptimizeHooks hooks;
+    hooks.error = std::make_shared<Pull>();
+    ASSERT_TRUE(optimize(mesh, options, hooks));
+    const auto area = [](const TetMesh& of) {  // of the boundary planes
+      std::array<double, 3> sums = {};
+      for (const HalffaceId h : of.halffaces()) {
+        if (!of.is_boundary(h)) continue;
+        const auto [a, b, c] = of.vertices(h);
+        const Vec3 n = cross(of.position(b) - of.position(a), of.position(c) - of.position(a));
+        sums[0] += std::abs(n.x), sums[1] += std::abs(n.y), sums[2] += std::abs(n.z);
+      }
+      return sums;
+    };
+    for (const double a : area(mesh)) EXPECT_NEAR(a, 4 * kSide * kSide, 1e-12);
+    EXPECT_NEAR(quality(mesh).volume, kSide * kSide * kSide, 1e-12);
+    EXPECT_NE(mesh, input);
+  }
+}
+
+}  // namespace
+}  // namespace temper::tets
