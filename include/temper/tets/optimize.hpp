@@ -91,8 +91,8 @@ struct OptimizeReport {
 ///   - fixed points
 ///   - points marked with a tag other than 0, unless all corners of some tetrahedron have the same tag: then this tag
 ///     lists the vertices of a part
-/// With `slide_boundary`, vertices of the first two kinds move in their plane or along their straight line, if the parts
-/// around them are in one (src/tets/optimize/mobility.hpp). Moves are exact along axes, elsewhere to rounding.
+/// With `slide_boundary`, vertices of the first two kinds move in their plane or along their straight line, if the
+/// parts around them are in one (src/tets/optimize/mobility.hpp). Moves are exact along axes, elsewhere to rounding.
 ///
 /// For a scheme the run then lowers the offsets between primal and dual elements (src/tets/energy/accuracy_star.hpp),
 /// and the error of the model, if the hooks have one and no tetrahedron is bad. The result is the mesh with the least
@@ -100,6 +100,7 @@ struct OptimizeReport {
 ///
 /// Every tetrahedron stays positive. The result never has more tetrahedra with outside orthocenters than the input.
 /// Wrong options (numbers < 0, positions and weights both kept) are an error, which leaves the mesh unchanged.
+/// An exception of the observer, or for lack of memory, leaves it empty.
 /// O((sweeps + changes) · n).
 [[nodiscard]] Expected<OptimizeReport> optimize(TetMesh& mesh, const OptimizeOptions& options = {},
                                                 const OptimizeHooks& hooks = {});

@@ -59,9 +59,6 @@ class Run {
       : result_(mesh), options_(options), hooks_(hooks), draft_(mesh, mobilities(mesh, options)) {
     best_ = Draft(std::move(mesh), draft_.mobility);
   }
-  ~Run() { result_ = std::move(best_.mesh); }  // also if an observer throws
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
 
   OptimizeReport run() {
     report_.objective_before = state_of(draft_.mesh, kLastGamma, hooks_.executor).energy;
@@ -232,6 +229,7 @@ class Run {
   OptimizeReport end() {
     report_changes();
     report_.objective_after = state_of(best_.mesh, kLastGamma, hooks_.executor).energy;
+    result_ = std::move(best_.mesh);
     report_.seconds = seconds_since(start_);
     return std::move(report_);
   }
