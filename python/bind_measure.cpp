@@ -1,4 +1,5 @@
 // Bindings of functions that only read meshes: quality, energy, draw, measure_errors.
+#include <optional>
 #include <utility>
 
 #include "bind.hpp"
@@ -7,6 +8,7 @@
 #include "temper/draw.hpp"
 #include "temper/energy.hpp"
 #include "temper/quality.hpp"
+#include "temper/tets/draw.hpp"
 #ifdef TEMPER_WITH_ERRORS
 #include "temper/errors.hpp"
 #include "temper/tets/errors.hpp"
@@ -159,12 +161,27 @@ void bind_draw(py::module_& m) {
     }
     return draw_before_after_svg(*left, *right, draw_options_from(options));
   });
+  m.def("tet_draw_svg", [](const PyTetMesh& self, const PyTetMesh* before, int axis, const py::object& at,
+                           const py::dict& options) {
+    const tets::TetMesh& mesh = self.mesh();
+    tets::Plane plane = axis < 0 ? middle_plane(mesh) : middle_plane(mesh, axis);
+    if (!at.is_none()) plane.at = at.cast<double>();
+    const DrawOptions how = draw_options_from(options);
+    return before == nullptr ? draw_svg(mesh, plane, how) : draw_before_after_svg(before->mesh(), mesh, plane, how);
+  });
+  m.def("tet_html_report",
+        [](const PyTetMesh& self, const PyTetMesh* before, const std::string& title, const std::string& json) {
+          const auto mesh = self.loaded, old = before == nullptr ? mesh : before->loaded;
+          io::HtmlReport report = {io::HtmlTets{mesh->mesh}, std::nullopt, title, json};
+          if (before != nullptr) report.before.emplace(io::HtmlTets{old->mesh});
+          return aside([&] { return io::html_report(report); });
+        });
   m.def("html_report", [](const PyMesh& self, const PyMesh* before, const std::string& title, const std::string& json) {
     const auto mesh = self.read();
     require_plane(*mesh, "html_report()");
     const auto old = before == nullptr ? mesh : before->read();
     require_plane(*old, "html_report()");
-    io::HtmlReport report = {{*mesh}, std::nullopt, title, json};
+    io::HtmlReport report = {io::HtmlMesh{*mesh}, std::nullopt, title, json};
     if (before != nullptr) report.before.emplace(io::HtmlMesh{*old});
     const py::gil_scoped_release release;
     return io::html_report(report);

@@ -41,7 +41,7 @@ LAYERS = {
     "generate": _BELOW + ["topology", "energy", "regularity", "projection"],
     "mesher": _BELOW + ["size", "topology", "energy", "regularity", "feasibility", "optimize", "generate", "projection"],
     # A library of its own, with the rules of the core: meshes of tetrahedra, on tables, reports and linear programs.
-    "tets": _BELOW + ["feasibility", "quality", "dec", "optimize"],
+    "tets": _BELOW + ["feasibility", "quality", "dec", "draw", "optimize"],
     # A library of its own: sees the public headers of the core and of tets, and no other folder of src/.
     "io": _BELOW + ["projection", "location", "size", "quality", "dec", "mesher", "tets"],
     "lp": _BELOW + ["feasibility"],

@@ -214,7 +214,7 @@ struct BestMargin {
 enum class WeightGoal {
   feasible,  ///< Best margin, and the least change for the requested margin or for half of the best one
   minimal,   ///< Least change for the requested margin
-  elastic,   ///< Least violation of the requested margin, then the least change
+  elastic,   ///< Least violation of the requested margin, but none is bad if good weights exist; then the least change
 };
 
 struct WeightOptions {

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from typing import Any, Literal, Mapping, Sequence, overload
+from typing import Any, Literal, Mapping, Sequence, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,9 @@ from . import _temper
 from ._mesh import Mesh, MeshLike, as_mesh
 from ._records import Record
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh
+
+CoefficientLike = Union[npt.ArrayLike, Mapping[int, float], Mapping[str, float], Mapping[Union[str, int], float]]
+"""A value for each triangle or tetrahedron, or for each region by its tag or name."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -349,9 +352,7 @@ class TetDecComplex(_Complex):
         return TetDecSummary(**self._handle.summarize())
 
 
-def _coefficient_of(
-    mesh: Mesh | TetMesh, coefficient: npt.ArrayLike | Mapping[int, float] | None
-) -> npt.NDArray[np.float64]:
+def _coefficient_of(mesh: Mesh | TetMesh, coefficient: CoefficientLike | None) -> npt.NDArray[np.float64]:
     """One value per triangle or tetrahedron; empty for None."""
     if coefficient is None:
         return np.empty(0)
@@ -365,32 +366,42 @@ def _coefficient_of(
             )
         return values
     regions, which = np.unique(mesh.regions, return_inverse=True)
-    missing = [int(r) for r in regions if int(r) not in coefficient]
-    unknown = [r for r in coefficient if r not in regions]
+    dimension = 3 if isinstance(mesh, TetMesh) else 2
+    names = [(name, tag) for of, tag, name in mesh._file()["names"] if of == dimension]
+    values_of: dict[Any, float] = {}
+    for region, value in coefficient.items():
+        for tag in [tag for name, tag in names if name == region] or [region]:
+            if tag in values_of:
+                raise ValueError(f"coefficient: region {tag} has two values. Next: give one, by the tag or by the name")
+            values_of[tag] = float(value)
+    missing = [int(r) for r in regions if int(r) not in values_of]
+    unknown = [r for r in values_of if isinstance(r, str) or r not in regions]
     if missing or unknown:
+        name_of = {tag: name for name, tag in names}
+        known = ", ".join(f"{r} ({name_of[r]!r})" if r in name_of else str(r) for r in regions.tolist())
         raise ValueError(
-            f"coefficient: expected a value for each of the regions {regions.tolist()}; "
+            f"coefficient: expected a value for each of the regions {known}; "
             + (f"there is none for {missing}" if missing else f"the mesh has no region {unknown}")
         )
-    return np.array([float(coefficient[int(r)]) for r in regions])[which]
+    return np.array([values_of[int(r)] for r in regions])[which]
 
 
 @overload
 def dec_operators(
-    mesh: TetMesh, *, tensor: None = ..., coefficient: npt.ArrayLike | Mapping[int, float] | None = ...
+    mesh: TetMesh, *, tensor: None = ..., coefficient: CoefficientLike | None = ...
 ) -> TetDecComplex: ...
 @overload
 def dec_operators(
     mesh: MeshLike,
     *,
     tensor: Sequence[float] | None = ...,
-    coefficient: npt.ArrayLike | Mapping[int, float] | None = ...,
+    coefficient: CoefficientLike | None = ...,
 ) -> DecComplex: ...
 def dec_operators(
     mesh: AnyMeshLike,
     *,
     tensor: Sequence[float] | None = None,
-    coefficient: npt.ArrayLike | Mapping[int, float] | None = None,
+    coefficient: CoefficientLike | None = None,
 ) -> DecComplex | TetDecComplex:
     """The operators of a mesh, as exact as doubles allow.
 
@@ -401,8 +412,8 @@ def dec_operators(
         kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u). Duals and lengths are measured in its metric. ★1
         and transmissibility are multiplied by √(det K) (docs/howto/anisotropic.md). For triangles alone.
     coefficient : array of float, or dict of region to float, optional
-        K > 0 of −div(K ∇u) on each triangle or tetrahedron, (m,), or by region. With it ★1 = (K_k h_k + K_l h_l)/ℓ, for unknowns at
-        vertices. The transmissibility is ℓ/(h_k/K_k + h_l/K_l), the harmonic mean, for unknowns at orthocenters. On
+        K > 0 of −div(K ∇u) on each triangle or tetrahedron, (m,), or by region: its tag or its name. With it ★1 = (K_k
+        h_k + K_l h_l)/ℓ, for unknowns at vertices. The transmissibility is ℓ/(h_k/K_k + h_l/K_l), the harmonic mean, for unknowns at orthocenters. On
         the boundary the missing term is left out. ``capacity`` is ★0 with K. A tensor is multiplied by K.
 
     Returns

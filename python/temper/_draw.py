@@ -10,9 +10,10 @@ from typing import Any, Sequence
 from . import _temper
 from ._explain import explain
 from ._measure import quality
-from ._mesh import PICTURE_WIDTH, Mesh, MeshLike, as_mesh
+from ._mesh import PICTURE_WIDTH, Mesh, as_mesh
 from ._optimize import OptimizeReport
 from ._records import Record, table
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, refuse_for_tetrahedra
 
 _EXPLAINED = 500  # bad triangles: about one second, as in the program
 
@@ -38,9 +39,10 @@ class Html(_Text):
 
 
 def draw_svg(
-    mesh: MeshLike,
-    before: MeshLike | None = None,
+    mesh: AnyMeshLike,
+    before: AnyMeshLike | None = None,
     *,
+    cut: str | tuple[str, float] | None = None,
     primal: bool = True,
     dual: bool = True,
     fill: bool = True,
@@ -53,13 +55,16 @@ def draw_svg(
     width: float = 900.0,
     title: str = "",
 ) -> Svg:
-    """Draws a mesh as an SVG document.
+    """Draws a mesh, or the cut of a mesh of tetrahedra by a plane, as an SVG document.
 
     Parameters
     ----------
-    mesh : MeshLike
-    before : MeshLike, optional
+    mesh : Mesh, TetMesh, or of another library
+    before : of the same kind, optional
         A mesh to draw on the left, with the same scale, view and zoom box.
+    cut : "x", "y", "z", or with the coordinate, such as ("x", 0.5), optional
+        Plane that cuts tetrahedra. Without a coordinate: through the middle of the mesh. None: across its shortest side.
+        For tetrahedra there are also ``primal``, ``fill``, ``zoom``, ``width`` and ``title``.
     primal, dual : bool
         Draw the edges of the triangulation, and the edges of the power diagram between orthocenters. Dual edges of
         negative length are dashed.
@@ -85,14 +90,33 @@ def draw_svg(
         A str that notebooks show as a picture. ``save`` writes it.
     """
     options = _options(locals())
-    after = as_mesh(mesh)._handle
+    any_mesh = as_any_mesh(mesh)
+    if isinstance(any_mesh, TetMesh):
+        refuse_for_tetrahedra(
+            dual=(dual, True), weights=(weights, False), weight_scale=(weight_scale, 1.0), near_coincident=(near_coincident, True),
+            vertex_numbers=(vertex_numbers, False), view=(view, None),
+        )  # fmt: skip
+        axis, at = (cut, None) if cut is None or isinstance(cut, str) else cut
+        if axis not in (None, "x", "y", "z"):
+            raise ValueError(f"cut: expected 'x', 'y' or 'z', perhaps with a number, found {cut!r}")
+        return Svg(_temper.tet_draw_svg(any_mesh._handle, _tets(before), -1 if axis is None else "xyz".index(axis), at, options))
+    if cut is not None:
+        raise TypeError("cut is for tetrahedra alone. Next: leave it out")
+    after = any_mesh._handle
     if before is None:
         return Svg(_temper.draw_svg(after, options))
     return Svg(_temper.draw_before_after_svg(as_mesh(before)._handle, after, options))
 
 
+def _tets(before: AnyMeshLike | None) -> Any:
+    old = None if before is None else as_any_mesh(before)
+    if isinstance(old, Mesh):
+        raise TypeError("before: expected a TetMesh, found a Mesh")
+    return None if old is None else old._handle
+
+
 def _options(values: dict[str, Any]) -> dict[str, Any]:
-    options = {k: v for k, v in values.items() if k not in ("mesh", "before")}
+    options = {k: v for k, v in values.items() if k not in ("mesh", "before", "cut")}
     if options["zoom"] is not None:
         options["zoom"] = tuple(float(v) for v in options["zoom"])
         if len(options["zoom"]) != 4:
@@ -118,9 +142,10 @@ def grid_svg(svgs: Sequence[str], columns: int, *, title: str = "") -> Svg:
 # --- the HTML report: one file in which a browser shows a mesh, before and after, with its numbers ---------------
 
 
-def _measures(mesh: Mesh) -> dict[str, Any]:
-    q = quality(mesh)
-    histograms = {name: getattr(q, name).as_dict() for name in ("angles", "h_over_l", "d_over_l")}
+def _measures(mesh: Mesh | TetMesh) -> dict[str, Any]:
+    q: Any = quality(mesh)
+    names = ("dihedrals", "h_over_l") if isinstance(mesh, TetMesh) else ("angles", "h_over_l", "d_over_l")
+    histograms = {name: getattr(q, name).as_dict() for name in names}
     return {**q.as_dict(), "histograms": histograms}
 
 
@@ -135,19 +160,19 @@ def _reasons(mesh: Mesh, measures: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def html_report(
-    mesh: MeshLike,
-    before: MeshLike | None = None,
+    mesh: AnyMeshLike,
+    before: AnyMeshLike | None = None,
     report: OptimizeReport | None = None,
     *,
-    title: str = "temper.Mesh",
+    title: str | None = None,
     reasons: bool = True,
 ) -> Html:
-    """The report that the program writes with ``--html``: a page that needs no network (docs/reference/formats/report.md).
+    """The report that the program writes with ``--write``: a page that needs no network (docs/reference/formats/report.md).
 
     Parameters
     ----------
-    mesh : MeshLike
-    before : MeshLike, optional
+    mesh : Mesh, TetMesh, or of another library
+    before : of the same kind, optional
         A mesh for comparison.
     report : OptimizeReport, optional
         Report of the run that made the mesh; its history and notes are shown too.
@@ -167,9 +192,10 @@ def html_report(
     >>> page.startswith("<!DOCTYPE html>")
     True
     """
-    after = as_mesh(mesh)
-    after._handle.require_plane("html_report()")
-    old = None if before is None else as_mesh(before)
+    after = as_any_mesh(mesh)
+    if isinstance(after, Mesh):
+        after._handle.require_plane("html_report()")
+    old = None if before is None else as_mesh(before) if isinstance(after, Mesh) else as_any_mesh(before)
     measures = _measures(after)
     shown: dict[str, Any] = {"verb": "check" if report is None else "optimize", "version": _temper.__version__}
     if old is not None:
@@ -180,6 +206,9 @@ def html_report(
         shown.update({key: run[key] for key in ("sweeps", "stopped", "notes", "history")})
         for record in shown["history"]:
             del record["seconds"]  # the same run makes the same page
+    title = title or f"temper.{type(after).__name__}"
+    if isinstance(after, TetMesh):
+        return Html(_temper.tet_html_report(after._handle, _tets(old), title, json.dumps(shown)))
     shown["reasons"] = _reasons(after, measures) if reasons else []
     page = _temper.html_report(after._handle, None if old is None else old._handle, title, json.dumps(shown))
     return Html(page)

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _temper
-from ._dec import _coefficient_of, _named_lines
+from ._dec import CoefficientLike, _coefficient_of, _named_lines
 from ._mesh import Mesh, MeshLike, _doubles, as_mesh
 from ._records import Record, merged
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh
@@ -227,7 +227,7 @@ def measure_diffusion_errors(
     dirichlet: Mapping[str | int, float],
     neumann: Mapping[str | int, float] | None = None,
     source: npt.ArrayLike = 0.0,
-    coefficient: npt.ArrayLike | Mapping[int, float] | None = None,
+    coefficient: CoefficientLike | None = None,
     refinements: int = 2,
 ) -> DiffusionErrors:
     """Measures the errors of both schemes for your own problem −div(K ∇u) = f in the plane. The reference is a solution
@@ -276,7 +276,7 @@ class DiffusionProblem(TypedDict, total=False):
     dirichlet: Mapping[str | int, float]
     neumann: Mapping[str | int, float] | None
     source: npt.ArrayLike
-    coefficient: npt.ArrayLike | Mapping[int, float] | None
+    coefficient: CoefficientLike | None
 
 
 def _plain_problem(
@@ -285,7 +285,7 @@ def _plain_problem(
     dirichlet: Mapping[str | int, float],
     neumann: Mapping[str | int, float] | None = None,
     source: npt.ArrayLike = 0.0,
-    coefficient: npt.ArrayLike | Mapping[int, float] | None = None,
+    coefficient: CoefficientLike | None = None,
 ) -> tuple[Any, ...]:
     """Coefficient, source and parts of the boundary for the compiled module."""
     given = [

@@ -7,7 +7,7 @@ A block of kind `text` right below a block of commands is what that one prints. 
     <!-- temper ARGUMENTS -->                            of text: what this command prints, which the page does not show
     <!-- summary of temper VERB -->                      of text: a sentence, the usage and three examples from the help of the verb
 
-NAME is a program in a block of shell, and a module in one of Python, or `program NAME`. The first line of a script is its mark.
+NAME is a program in a block of shell, and a module in one of Python, or `program NAME` or `module NAME`. The first line of a script is its mark.
 """
 
 import importlib.util
@@ -90,6 +90,7 @@ def _there(kind: str, name: str) -> bool:
         import temper
 
         return temper.build_info()["NetCDF"][0].isdigit()
-    if kind == "sh" or name.startswith("program "):
-        return shutil.which(name.removeprefix("program ")) is not None
-    return importlib.util.find_spec(name) is not None
+    what, _, plain = name.rpartition(" ")
+    if (what or {"sh": "program"}.get(kind)) == "program":
+        return shutil.which(plain) is not None
+    return importlib.util.find_spec(plain) is not None

@@ -19,6 +19,17 @@ constexpr double kLine = 1.6, kTitle = 1.2;  // height of a line of text, size o
 struct Shown {
   Panel panel;
   std::string name;  // "before", "after" or nothing
+  std::string what;  // after the numbers: "triangles bad"
+};
+
+std::string triangles_bad(const Viewport& viewport, const DrawOptions& options) {
+  return options.zoom || !viewport.view.is_flat() ? "triangles bad (whole mesh)" : "triangles bad";
+}
+
+// What the legend says of cells.
+struct CellWords {
+  std::string bad = "bad triangle";
+  ColorScale margins = kMargins;
 };
 
 std::string with_commas(std::size_t n) {
@@ -28,11 +39,10 @@ std::string with_commas(std::size_t n) {
 }
 
 // The words above a panel, smaller where they would not fit, with a check mark if no triangle is bad.
-std::string caption(const Shown& shown, bool zoomed, Vec2 at, const Viewport& viewport) {
+std::string caption(const Shown& shown, Vec2 at, const Viewport& viewport) {
   const bool good = shown.panel.bad == 0;
   const std::string name = shown.name.empty() ? "" : shown.name + ":", count = with_commas(shown.panel.bad);
-  const std::string of =
-      " of " + with_commas(shown.panel.triangles) + " triangles bad" + (zoomed ? " (whole mesh)" : "");
+  const std::string of = " of " + with_commas(shown.panel.elements) + " " + shown.what;
   const double wide = text_width(name + " " + count + of, viewport.em) + 2 * viewport.em;
   const double size = viewport.em * std::min(1.0, viewport.width / wide);
   std::string svg = "<text x=\"" + short_number(at.x) + "\" y=\"" + short_number(at.y) +
@@ -86,16 +96,17 @@ bool is_hatched(std::span<const Shown> shown, const DrawOptions& options) {
 }
 
 // The legend has only what some panel really shows.
-std::vector<Key> legend(std::span<const Shown> shown, const Viewport& viewport, const DrawOptions& options) {
+std::vector<Key> legend(std::span<const Shown> shown, const Viewport& viewport, const DrawOptions& options,
+                        const CellWords& words) {
   std::vector<Key> keys;
   if (is_hatched(shown, options)) {
     const std::string fill = viewport.shows_detail() ? hatched(viewport, 1 / viewport.em) : Palette::warning;
-    keys.push_back({"bad triangle", "<rect y=\"-0.45\" width=\"1.5\" height=\"0.9\" fill=\"" + fill + "\"/>"});
+    keys.push_back({words.bad, "<rect y=\"-0.45\" width=\"1.5\" height=\"0.9\" fill=\"" + fill + "\"/>"});
   }
   if (options.colors) {
     keys.push_back(scale_key(options.colors->label, scale_of(*options.colors)));
-  } else if (options.fill && any(shown, [](const Panel& p) { return p.bad < p.triangles; })) {
-    keys.push_back(scale_key("margin", kMargins));
+  } else if (options.fill && any(shown, [](const Panel& p) { return p.bad < p.elements; })) {
+    keys.push_back(scale_key("margin", words.margins));
   }
   if (any(shown, [](const Panel& p) { return p.dual; })) keys.push_back({"dual edge", line_mark(Palette::dual)});
   if (any(shown, [](const Panel& p) { return p.negative_dual; })) {
@@ -149,7 +160,8 @@ Legend legend_at(const std::vector<Key>& keys, double y, double width, double em
   return legend;
 }
 
-std::string document(std::span<const Shown> shown, const Viewport& viewport, const DrawOptions& options) {
+std::string document(std::span<const Shown> shown, const Viewport& viewport, const DrawOptions& options,
+                     const CellWords& words = {}) {
   const double panels = static_cast<double>(shown.size()), em = viewport.em, gap = Viewport::kGapEms * em;
   const double width = panels * viewport.width + (panels + 1) * gap;
   std::string body;
@@ -167,13 +179,12 @@ std::string document(std::span<const Shown> shown, const Viewport& viewport, con
   y += kLine * em;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const double x = gap + static_cast<double>(i) * (viewport.width + gap);
-    body +=
-        caption(shown[i], options.zoom.has_value() || !viewport.view.is_flat(), {x + viewport.width / 2, y}, viewport);
+    body += caption(shown[i], {x + viewport.width / 2, y}, viewport);
     body += "<g transform=\"translate(" + short_number(x) + " " + short_number(y + em / 2) + ")\">\n" +
             shown[i].panel.svg + "</g>\n";
   }
   y += em / 2 + viewport.height;
-  const Legend keys = legend_at(legend(shown, viewport, options), y, width, em);
+  const Legend keys = legend_at(legend(shown, viewport, options, words), y, width, em);
   return picture_document(width, y + keys.height + em, body + keys.svg);
 }
 
@@ -182,16 +193,32 @@ std::string document(std::span<const Shown> shown, const Viewport& viewport, con
 std::string draw_svg(const Mesh& mesh, const DrawOptions& options) {
   const std::array<const Mesh*, 1> meshes = {&mesh};
   const Viewport viewport = make_viewport(meshes, options);
-  const std::array<Shown, 1> shown = {Shown{draw_panel(mesh, viewport, options, 0, "panel"), ""}};
+  const std::array<Shown, 1> shown = {
+      Shown{draw_panel(mesh, viewport, options, 0, "panel"), "", triangles_bad(viewport, options)}};
   return document(shown, viewport, options);
 }
 
 std::string draw_before_after_svg(const Mesh& before, const Mesh& after, const DrawOptions& options) {
   const std::array<const Mesh*, 2> meshes = {&before, &after};
   const Viewport viewport = make_viewport(meshes, options);
-  const std::array<Shown, 2> shown = {Shown{draw_panel(before, viewport, options, 0, "before"), "before"},
-                                      Shown{draw_panel(after, viewport, options, 1, "after"), "after"}};
+  const std::string what = triangles_bad(viewport, options);
+  const std::array<Shown, 2> shown = {Shown{draw_panel(before, viewport, options, 0, "before"), "before", what},
+                                      Shown{draw_panel(after, viewport, options, 1, "after"), "after", what}};
   return document(shown, viewport, options);
+}
+
+std::string draw_sections_svg(std::span<const Section> sections, const DrawOptions& options) {
+  DrawOptions how = options;
+  how.dual = how.weights = false;
+  how.colors.reset();
+  const Viewport viewport = make_viewport(sections, how);
+  std::vector<Shown> shown;
+  shown.reserve(sections.size());
+  for (const Section& section : sections) {
+    const std::string id = section.name.empty() ? "panel" : section.name;
+    shown.push_back({draw_panel(section, viewport, how, id), section.name, section.where});
+  }
+  return document(shown, viewport, how, {"bad " + sections.front().element, sections.front().scale});
 }
 
 // Several documents in one: nested <svg> elements, with a prefix that makes their ids distinct.

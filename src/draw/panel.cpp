@@ -41,18 +41,73 @@ std::vector<Vec2> shifts_of(const Space& space) {
   return shifts;
 }
 
-class PanelPainter {
+/// What pictures of all kinds of cells have: fills by color, edges, and one path for each class of thing.
+class Painter {
+ public:
+  Painter(const Viewport& viewport, const DrawOptions& options)
+      : viewport_(viewport), options_(options), detailed_(viewport.shows_detail()) {}
+
+ protected:
+  /// Paths of filled cells: one for each color of the scale, and one for bad cells.
+  struct Fills {
+    std::array<PathText, kScaleColors.size()> colors;
+    PathText bad;
+  };
+
+  [[nodiscard]] double primal_width() const {
+    const double em = viewport_.em;
+    return detailed_ ? std::clamp(kPrimalWidth * viewport_.edge, kLeastPrimal * em, kMostPrimal * em) : kDenseWidth;
+  }
+  void add_segment(PathText& path, const Segment& segment) const {
+    const auto seen = clip(segment, viewport_.clip);
+    if (seen) path.segment(viewport_.grid(seen->from), viewport_.grid(seen->to));
+  }
+  void add_polygon(PathText& path, std::vector<Vec2> polygon) const {
+    polygon = clip(std::move(polygon), viewport_.clip);
+    if (polygon.empty()) return;
+    path.move_to(viewport_.grid(polygon[0]));
+    for (std::size_t i = 1; i < polygon.size(); ++i) path.line_to(viewport_.grid(polygon[i]));
+    path.close();
+  }
+
+  void stroke(const PathText& path, const char* name, const char* color, double width, const char* more = "") {
+    if (path.empty()) return;
+    panel_.svg += std::string("<path class=\"") + name + "\" fill=\"none\" stroke=\"" + color + "\" stroke-width=\"" +
+                  short_number(width / viewport_.unit) + "\" " + more + "d=\"" + path.text() + "\"/>\n";
+  }
+  void fill(const PathText& path, const char* name, const std::string& color, double stroke_width = kSeam) {
+    if (path.empty()) return;
+    panel_.svg += std::string("<path class=\"") + name + "\" fill=\"" + color + "\" stroke=\"" + color +
+                  "\" stroke-width=\"" + short_number(stroke_width / viewport_.unit) + "\" d=\"" + path.text() +
+                  "\"/>\n";
+  }
+  void fill(const Fills& fills) {
+    for (std::size_t i = 0; i < fills.colors.size(); ++i)
+      fill(fills.colors[i], options_.colors ? "value" : "margin", kScaleColors[i]);
+    const bool few = static_cast<double>(panel_.bad) < kFew * static_cast<double>(panel_.elements);
+    fill(fills.bad, "bad", detailed_ ? hatched(viewport_, 1 / viewport_.unit) : Palette::warning,
+         few && !detailed_ ? kSpot : kSeam);
+  }
+  /// The domain boundary and what else the optimizer keeps is thicker.
+  void stroke_edges(const PathText& plain, const PathText& kept) {
+    stroke(plain, "primal", Palette::primal, primal_width());
+    stroke(kept, "constrained", Palette::outline,
+           std::max(kConstrainedTimes * primal_width(), kOutlineWidth * viewport_.em), "stroke-linecap=\"round\" ");
+  }
+
+  const Viewport& viewport_;
+  const DrawOptions& options_;
+  bool detailed_;
+  Panel panel_;
+};
+
+class PanelPainter : public Painter {
  public:
   PanelPainter(const Mesh& mesh, const Viewport& viewport, const DrawOptions& options, std::size_t number)
-      : mesh_(mesh),
-        viewport_(viewport),
-        options_(options),
-        number_(number),
-        detailed_(viewport.shows_detail()),
-        shifts_(shifts_of(mesh.space())) {}
+      : Painter(viewport, options), mesh_(mesh), number_(number), shifts_(shifts_of(mesh.space())) {}
 
   Panel paint() {
-    panel_.triangles = mesh_.n_triangles();
+    panel_.elements = mesh_.n_triangles();
     draw_globe();
     fill_triangles();
     if (options_.primal) draw_edges();
@@ -65,10 +120,6 @@ class PanelPainter {
   }
 
  private:
-  [[nodiscard]] double primal_width() const {
-    const double em = viewport_.em;
-    return detailed_ ? std::clamp(kPrimalWidth * viewport_.edge, kLeastPrimal * em, kMostPrimal * em) : kDenseWidth;
-  }
   [[nodiscard]] double edge_length(HalfedgeId h) const {
     const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h), a);
     return distance(mesh_.space(), a, b);
@@ -77,10 +128,7 @@ class PanelPainter {
   void add_line(PathText& path, const WeightedPoint& p, const WeightedPoint& q) const {
     const std::vector<Vec2> line = viewport_.view.line(p, q);
     for (const Vec2 shift : shifts_) {
-      for (std::size_t i = 1; i < line.size(); ++i) {
-        const auto seen = clip(Segment{shift + line[i - 1], shift + line[i]}, viewport_.clip);
-        if (seen) path.segment(viewport_.grid(seen->from), viewport_.grid(seen->to));
-      }
+      for (std::size_t i = 1; i < line.size(); ++i) add_segment(path, {shift + line[i - 1], shift + line[i]});
     }
   }
   /// Draws the images that meet the box.
@@ -98,30 +146,13 @@ class PanelPainter {
     for (const Vec2 shift : shifts_) {
       std::vector<Vec2> polygon = whole;
       for (Vec2& p : polygon) p = shift + p;
-      polygon = clip(std::move(polygon), viewport_.clip);
-      if (polygon.empty()) continue;
-      path.move_to(viewport_.grid(polygon[0]));
-      for (std::size_t i = 1; i < polygon.size(); ++i) path.line_to(viewport_.grid(polygon[i]));
-      path.close();
+      add_polygon(path, std::move(polygon));
     }
-  }
-
-  void stroke(const PathText& path, const char* name, const char* color, double width, const char* more = "") {
-    if (path.empty()) return;
-    panel_.svg += std::string("<path class=\"") + name + "\" fill=\"none\" stroke=\"" + color + "\" stroke-width=\"" +
-                  short_number(width / viewport_.unit) + "\" " + more + "d=\"" + path.text() + "\"/>\n";
-  }
-  void fill(const PathText& path, const char* name, const std::string& color, double stroke_width = kSeam) {
-    if (path.empty()) return;
-    panel_.svg += std::string("<path class=\"") + name + "\" fill=\"" + color + "\" stroke=\"" + color +
-                  "\" stroke-width=\"" + short_number(stroke_width / viewport_.unit) + "\" d=\"" + path.text() +
-                  "\"/>\n";
   }
 
   void fill_triangles() {
     const ColorScale scale = options_.colors ? scale_of(*options_.colors) : kMargins;
-    std::array<PathText, kScaleColors.size()> paths;
-    PathText bad;
+    Fills fills;
     for (TriangleId t : mesh_.triangles()) {
       const TriangleMeasure measure = measure_triangle(mesh_, t);
       const bool good = measure.well_centered();
@@ -129,17 +160,12 @@ class PanelPainter {
       if (!options_.colors && !options_.fill) continue;
       const double value = options_.colors ? options_.colors->values[number_][t] : measure.margin();
       if (!options_.colors && !good) {
-        add_triangle(bad, t);
+        add_triangle(fills.bad, t);
       } else if (!std::isnan(value)) {
-        add_triangle(paths[scale.color(value)], t);
+        add_triangle(fills.colors[scale.color(value)], t);
       }
     }
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      fill(paths[i], options_.colors ? "value" : "margin", kScaleColors[i]);
-    }
-    const bool few = static_cast<double>(panel_.bad) < kFew * static_cast<double>(panel_.triangles);
-    fill(bad, "bad", detailed_ ? hatched(viewport_, 1 / viewport_.unit) : Palette::warning,
-         few && !detailed_ ? kSpot : kSeam);
+    fill(fills);
   }
 
   /// Fades what repeats the domain, and marks the lines at which a period begins again.
@@ -178,7 +204,6 @@ class PanelPainter {
     fill(path, "limb", Palette::outside);
   }
 
-  // Domain boundary and constrained edges are thicker, because the optimizer keeps them.
   void draw_edges() {
     PathText plain, kept;
     for (HalfedgeId h : mesh_.halfedges()) {
@@ -188,9 +213,7 @@ class PanelPainter {
       const WeightedPoint from = mesh_.point(mesh_.origin(h));
       add_line(outline ? kept : plain, from, mesh_.point(mesh_.target(h), from));
     }
-    stroke(plain, "primal", Palette::primal, primal_width());
-    stroke(kept, "constrained", Palette::outline,
-           std::max(kConstrainedTimes * primal_width(), kOutlineWidth * viewport_.em), "stroke-linecap=\"round\" ");
+    stroke_edges(plain, kept);
   }
 
   // Dual edges run between the orthocenters on both sides, or from an orthocenter to the weighted midpoint of a
@@ -302,12 +325,33 @@ class PanelPainter {
   }
 
   const Mesh& mesh_;
-  const Viewport& viewport_;
-  const DrawOptions& options_;
   std::size_t number_;
-  bool detailed_;
   std::vector<Vec2> shifts_;
-  Panel panel_;
+};
+
+class SectionPainter : public Painter {
+ public:
+  using Painter::Painter;
+
+  Panel paint(const Section& section) {
+    Fills fills;
+    PathText plain, kept;
+    for (const Section::Piece& piece : section.pieces) {
+      const bool is_polygon = piece.corners.size() > 2;
+      panel_.elements += is_polygon;
+      panel_.bad += is_polygon && piece.bad;
+      if (options_.fill && is_polygon)
+        add_polygon(piece.bad ? fills.bad : fills.colors[section.scale.color(piece.margin)], piece.corners);
+      for (std::size_t i = 0; i < piece.corners.size(); ++i) {
+        const Segment side = {piece.corners[i], piece.corners[(i + 1) % piece.corners.size()]};
+        if (piece.sides[i] == Section::Side::kept) add_segment(kept, side);
+        if (piece.sides[i] == Section::Side::plain && viewport_.shows_edges()) add_segment(plain, side);
+      }
+    }
+    fill(fills);
+    if (options_.primal) stroke_edges(plain, kept);
+    return std::move(panel_);
+  }
 };
 
 }  // namespace
@@ -358,17 +402,29 @@ std::string hatched(const Viewport& viewport, double per_pixel) {
   return "url(#" + hatch_id(viewport, per_pixel) + ")";
 }
 
-Panel draw_panel(const Mesh& mesh, const Viewport& viewport, const DrawOptions& options, std::size_t number,
-                 const std::string& id) {
-  Panel panel = PanelPainter(mesh, viewport, options, number).paint();
+namespace {
+
+/// Clips a panel to its rectangle, which `framed` draws.
+Panel framed_panel(Panel panel, const Viewport& viewport, bool framed, const std::string& id) {
   const std::string size =
       "width=\"" + short_number(viewport.width) + "\" height=\"" + short_number(viewport.height) + "\"";
-  const bool framed = options.zoom.has_value() || mesh.space().is_periodic();
   panel.svg = "<clipPath id=\"" + id + "\"><rect " + size + "/></clipPath>\n<g clip-path=\"url(#" + id +
               ")\">\n<g transform=\"scale(" + short_number(viewport.unit) + ")\" stroke-linejoin=\"round\">\n" +
               panel.svg + "</g>\n</g>\n";
   if (framed) panel.svg += "<rect " + size + " fill=\"none\" stroke=\"" + Palette::frame + "\"/>\n";
   return panel;
+}
+
+}  // namespace
+
+Panel draw_panel(const Mesh& mesh, const Viewport& viewport, const DrawOptions& options, std::size_t number,
+                 const std::string& id) {
+  const bool framed = options.zoom.has_value() || mesh.space().is_periodic();
+  return framed_panel(PanelPainter(mesh, viewport, options, number).paint(), viewport, framed, id);
+}
+
+Panel draw_panel(const Section& section, const Viewport& viewport, const DrawOptions& options, const std::string& id) {
+  return framed_panel(SectionPainter(viewport, options).paint(section), viewport, options.zoom.has_value(), id);
 }
 
 }  // namespace temper

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "draw/section.hpp"
 #include "draw/viewport.hpp"
 #include "temper/draw.hpp"
 #include "temper/mesh.hpp"
@@ -14,9 +15,9 @@ namespace temper {
 
 /// A panel of a picture, with the data for its caption and the legend.
 struct Panel {
-  std::string svg;            ///< a <g> element, its origin the upper left corner of the panel
-  std::size_t triangles = 0;  ///< of the whole mesh
-  std::size_t bad = 0;        ///< of these, not well-centered
+  std::string svg;           ///< a <g> element, its origin the upper left corner of the panel
+  std::size_t elements = 0;  ///< of the whole mesh, or pieces of a section
+  std::size_t bad = 0;       ///< of these, not well-centered
   // Drawn at all:
   bool dual = false, negative_dual = false, positive = false, negative = false, rings = false;
 };
@@ -24,16 +25,13 @@ struct Panel {
 /// `number`: of the panel, from 0. `id` names the clip path: unique in the document.
 [[nodiscard]] Panel draw_panel(const Mesh& mesh, const Viewport& viewport, const DrawOptions& options,
                                std::size_t number, const std::string& id);
+[[nodiscard]] Panel draw_panel(const Section& section, const Viewport& viewport, const DrawOptions& options,
+                               const std::string& id);
 
 /// From blue to yellow with growing lightness, for color-blind readers and gray print; light, so that all lines stand
 /// out.
 inline constexpr std::array<const char*, 10> kScaleColors = {"#7690c8", "#8ba1cc", "#9fb3d0", "#b3c5d3", "#c6d7d6",
                                                              "#d5e2d2", "#e1e6c6", "#eceaba", "#f6eead", "#fff2a0"};
-struct ColorScale {
-  double low = std::numeric_limits<double>::infinity(), high = -low;  ///< low > high: there is no finite value
-  /// Of kScaleColors.
-  [[nodiscard]] std::size_t color(double value) const;
-};
 [[nodiscard]] ColorScale scale_of(const TriangleColors& colors);
 /// Of margins, in every picture: an equilateral triangle without weights has 0.289.
 inline constexpr ColorScale kMargins = {0, 0.3};

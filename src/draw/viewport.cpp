@@ -158,6 +158,13 @@ double margin(std::span<const Mesh* const> meshes, const DrawOptions& options, d
 
 double larger_side(const Box& box) { return std::max(box.high.x - box.low.x, box.high.y - box.low.y); }
 
+double upper_median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 // The median length of the edges that meet the box; 0 when none does.
 double median_edge(std::span<const Mesh* const> meshes, const View& view, const Box& box) {
   std::vector<double> lengths;
@@ -171,10 +178,34 @@ double median_edge(std::span<const Mesh* const> meshes, const View& view, const 
       if (clip(edge, box)) lengths.push_back(length(edge.to - edge.from));
     }
   }
-  if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return upper_median(std::move(lengths));
+}
+
+Box bounding_box(std::span<const Section> sections) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Box box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
+  for (const Section& section : sections) {
+    for (const Section::Piece& piece : section.pieces) {
+      for (const Vec2 p : piece.corners) {
+        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+      }
+    }
+  }
+  return box.low.x <= box.high.x ? box : Box{{0, 0}, {1, 1}};
+}
+
+double median_edge(std::span<const Section> sections, const Box& box) {
+  std::vector<double> lengths;
+  for (const Section& section : sections) {
+    for (const Section::Piece& piece : section.pieces) {
+      for (std::size_t i = 0; i < piece.corners.size(); ++i) {
+        const Segment side{piece.corners[i], piece.corners[(i + 1) % piece.corners.size()]};
+        if (piece.sides[i] != Section::Side::none && clip(side, box)) lengths.push_back(length(side.to - side.from));
+      }
+    }
+  }
+  return upper_median(std::move(lengths));
 }
 
 // The power of ten next below a hundredth of an edge.
@@ -193,19 +224,24 @@ GridPoint Viewport::grid(Vec2 p) const {
 
 std::int64_t Viewport::steps(double pixels) const { return std::llround(pixels / unit); }
 
-Viewport make_viewport(std::span<const Mesh* const> meshes, const DrawOptions& options) {
+namespace {
+
+/// The viewport of a box, without its view. `all`: the box of everything; `margin_of`: white space around, from the
+/// larger side; `edge_of`: the median edge in a box.
+template <class MarginOf, class EdgeOf>
+Viewport viewport_of(const Box& all, std::size_t n_panels, const DrawOptions& options, const MarginOf& margin_of,
+                     const EdgeOf& edge_of) {
   Viewport viewport;
-  viewport.view = make_view(meshes, options);
-  Box box = options.zoom ? ordered(*options.zoom) : bounding_box(meshes, viewport.view);
+  Box box = options.zoom ? ordered(*options.zoom) : all;
   double side = larger_side(box);
   if (!(side > 0) || !std::isfinite(side)) {
-    box = grown(bounding_box(meshes, viewport.view), 0.5);
+    box = grown(all, 0.5);
     side = larger_side(box);
   }
-  if (!options.zoom) box = grown(box, margin(meshes, options, side));
+  if (!options.zoom) box = grown(box, margin_of(side));
 
   viewport.width = options.width >= kLeastWidth ? options.width : kLeastWidth;
-  const double panels = static_cast<double>(meshes.size());
+  const double panels = static_cast<double>(n_panels);
   viewport.em = std::max(kLeastEm, kEm * panels * viewport.width / (1 - kEm * Viewport::kGapEms * (panels + 1)));
   const double w = box.high.x - box.low.x, h = box.high.y - box.low.y;
   const double ratio = w > 0 ? std::clamp(h / w, kFlattest, kTallest) : kTallest;
@@ -216,9 +252,26 @@ Viewport make_viewport(std::span<const Mesh* const> meshes, const DrawOptions& o
   const Vec2 half = {viewport.width / (2 * viewport.scale), viewport.height / (2 * viewport.scale)};
   viewport.box = {center - half, center + half};
   viewport.clip = grown(viewport.box, kClipMargin * larger_side(viewport.box));
-  viewport.edge = median_edge(meshes, viewport.view, viewport.clip) * viewport.scale;
+  viewport.edge = edge_of(viewport.clip) * viewport.scale;
   viewport.unit = grid_unit(viewport.edge);
   return viewport;
+}
+
+}  // namespace
+
+Viewport make_viewport(std::span<const Mesh* const> meshes, const DrawOptions& options) {
+  const View view = make_view(meshes, options);
+  Viewport viewport = viewport_of(
+      bounding_box(meshes, view), meshes.size(), options, [&](double side) { return margin(meshes, options, side); },
+      [&](const Box& box) { return median_edge(meshes, view, box); });
+  viewport.view = view;
+  return viewport;
+}
+
+Viewport make_viewport(std::span<const Section> sections, const DrawOptions& options) {
+  return viewport_of(
+      bounding_box(sections), sections.size(), options, [](double side) { return kMargin * side; },
+      [&](const Box& box) { return median_edge(sections, box); });
 }
 
 std::optional<Segment> clip(const Segment& s, const Box& box) {

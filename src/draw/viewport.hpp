@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "draw/section.hpp"
 #include "temper/draw.hpp"
 #include "temper/mesh.hpp"
 
@@ -98,6 +99,8 @@ struct Viewport {
 
 /// One viewport for all meshes: the zoom box, or the box of all their visible vertices.
 [[nodiscard]] Viewport make_viewport(std::span<const Mesh* const> meshes, const DrawOptions& options);
+/// The same for sections.
+[[nodiscard]] Viewport make_viewport(std::span<const Section> sections, const DrawOptions& options);
 
 /// The part of a segment inside the box; nothing when it misses it or is not finite.
 [[nodiscard]] std::optional<Segment> clip(const Segment& segment, const Box& box);

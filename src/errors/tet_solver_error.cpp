@@ -140,6 +140,21 @@ void pull_back(const TetMesh& mesh, const VertexScheme& dec, const TetAdjoint& b
   }
 }
 
+/// Measures two-point fluxes as measure_errors() does.
+class TetCellError final : public DiscretizationError {
+ public:
+  [[nodiscard]] bool has_gradient() const override { return false; }
+  [[nodiscard]] double squared_error(const TetMesh& mesh,
+                                     IdVector<VertexId, WeightedPoint>* /*gradient*/) const override {
+    const auto report = measure_errors(mesh, {.fields = {"chosen"}});
+    double sum = 0;
+    if (report) {
+      for (const FieldErrors& f : report->fields) sum += f.errors.flux.l2 * f.errors.flux.l2;
+    }
+    return report ? sum / static_cast<double>(report->fields.size()) : std::numeric_limits<double>::infinity();
+  }
+};
+
 class TetVertexError final : public DiscretizationError {
  public:
   [[nodiscard]] double squared_error(const TetMesh& mesh, IdVector<VertexId, WeightedPoint>* gradient) const override {
@@ -205,8 +220,9 @@ class TetVertexError final : public DiscretizationError {
 }  // namespace
 
 std::shared_ptr<const DiscretizationError> make_discretization_error(Scheme scheme) {
-  if (scheme != Scheme::vertex) return nullptr;
-  return std::make_shared<TetVertexError>();
+  if (scheme == Scheme::vertex) return std::make_shared<TetVertexError>();
+  if (scheme == Scheme::cell) return std::make_shared<TetCellError>();
+  return nullptr;
 }
 
 }  // namespace temper::tets

@@ -11,7 +11,7 @@
 // On the sphere w is the potential, and Δw belongs to σ = σ₀ (1 − Δw/(2R²)), relative to the start. So a factor of all
 // σ is the same Δw of all. Crossings are rows of their own. Without rim the Δw sum to zero: otherwise all σ could tend
 // to zero together, which keeps all constraints. Elastic programs have one column more for each height and dual length,
-// and two for each edge with crossings. These pay for violations.
+// and two for each edge with crossings. These pay for violations, down to a floor.
 #include "feasibility/change.hpp"
 
 #include <algorithm>
@@ -40,7 +40,12 @@ struct Program {
 class ProgramBuilder {
  public:
   ProgramBuilder(const RegionProblem& problem, const Region& region, bool elastic)
-      : demand_(problem.demand), region_(region), start_(problem.start), margin_(problem.margin), elastic_(elastic) {}
+      : demand_(problem.demand),
+        region_(region),
+        start_(problem.start),
+        margin_(problem.margin),
+        floor_(elastic ? problem.floor : problem.margin),
+        elastic_(elastic) {}
 
   Program build() {
     const std::vector<WeightEdge> edges = demand_.edges_of(region_.cells);
@@ -54,7 +59,7 @@ class ProgramBuilder {
     for (const WeightEdge& edge : edges) add_edge(edge, mean);
     if (!region_.has_rim && !space().is_plane()) add_sum();
     for (const WeightConstraint& c : demand_.constraints_of(region_.cells, true)) {
-      if (c.kind != WeightConstraint::Kind::crossing || !crossings_are_differences()) add_row(c);
+      if (c.kind != WeightConstraint::Kind::crossing || !crossings_are_differences()) add_rows(c);
     }
     return std::move(p_);
   }
@@ -87,24 +92,25 @@ class ProgramBuilder {
     if (!i_free && !j_free) return;
     // margin ≤ d/ℓ ≤ 1 − margin, as bounds of (Δw_i − Δw_j)/ℓ².
     const double before = (start(i) - start(j)) / (l * l);
-    const double low = -(1 - 2 * margin_) - before, high = (1 - 2 * margin_) - before;
-    const bool bounded = crossings_are_differences() && !elastic_;
+    const auto low = [&](double margin) { return -(1 - 2 * margin) - before; };
+    const auto high = [&](double margin) { return (1 - 2 * margin) - before; };
+    const bool bounded = crossings_are_differences();
     const auto least = [&](double x) { return bounded ? std::max(x, 0.0) : 0; };
     const auto most = [&](double x) { return bounded ? std::max(x, 0.0) : kUnbounded; };
-    const int up = p_.lp.add_column(0, least(low), most(high));
-    const int down = p_.lp.add_column(0, least(-high), most(-low));
+    const int up = p_.lp.add_column(0, least(low(floor_)), most(high(floor_)));
+    const int down = p_.lp.add_column(0, least(-high(floor_)), most(-low(floor_)));
     p_.change_costs.emplace_back(up, 0.5 * l / mean_length);
     p_.change_costs.emplace_back(down, 0.5 * l / mean_length);
     p_.lp.add_entry(up, -1);
     p_.lp.add_entry(down, 1);
     p_.lp.end_row(0, 0);
-    if (!elastic_ || !crossings_are_differences()) return;
+    if (!elastic_ || !bounded) return;
     const int below = add_violation(0.5), above = add_violation(0.5);  // d/ℓ is half of w/ℓ²
     p_.lp.add_entry(up, 1);
     p_.lp.add_entry(down, -1);
     p_.lp.add_entry(below, 1);
     p_.lp.add_entry(above, -1);
-    p_.lp.end_row(low, high);
+    p_.lp.end_row(low(margin_), high(margin_));
   }
 
   void add_sum() {
@@ -113,20 +119,25 @@ class ProgramBuilder {
     p_.lp.end_row(0, 0);
   }
 
-  void add_row(const WeightConstraint& constraint) {
-    const LinearForm form = demand_.linear_form(constraint), kept = beyond_margin(form, margin_);
+  void add_rows(const WeightConstraint& constraint) {
+    const LinearForm form = demand_.linear_form(constraint);
+    add_row(form, margin_, elastic_);
+    if (elastic_ && floor_ > -kUnbounded) add_row(form, floor_, false);
+  }
+  void add_row(const LinearForm& form, double margin, bool may_violate) {
+    const LinearForm kept = beyond_margin(form, margin);
     bool any_free = false;
     for (int k = 0; k < kept.size; ++k) any_free = add_potential(kept.vertices[k], kept.coefficients[k]) || any_free;
     if (!any_free) return;
-    if (elastic_) p_.lp.add_entry(add_violation(1), 1);
+    if (may_violate) p_.lp.add_entry(add_violation(1), 1);
     const auto potential = [&](VertexId v) { return start(v); };
-    p_.lp.end_row(margin_ * scale_of(form, potential) - numerator_of(form, potential), kUnbounded);
+    p_.lp.end_row(margin * scale_of(form, potential) - numerator_of(form, potential), kUnbounded);
   }
 
   const Demand& demand_;
   const Region& region_;
   const IdVector<VertexId, double>& start_;
-  double margin_;
+  double margin_, floor_;
   bool elastic_;
   Program p_;
 };

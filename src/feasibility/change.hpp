@@ -20,13 +20,14 @@ struct RegionProblem {
   const Demand& demand;
   const VertexWeights& start;  ///< the weights before the change; the weights of the rim stay
   double margin = 0;
+  double floor = -kUnbounded;  ///< elastic weights have at least this margin, whatever they violate
 };
 
 /// Minimizes Σ |Δw_i − Δw_j| / (2ℓ) over the edges of the region, subject to the margin.
 [[nodiscard]] RegionChange least_change(const RegionProblem& problem, const Region& region, LpSolver& solver);
 
 /// Minimizes the violation of the margin, summed over h/ℓ, d/ℓ, 1 − d/ℓ and dual length/ℓ. Among these weights it takes
-/// the weights with the least change.
+/// the weights with the least change. No weights: `floor` is above what the region can have.
 [[nodiscard]] RegionChange least_violation(const RegionProblem& problem, const Region& region, LpSolver& solver);
 
 }  // namespace temper

@@ -51,13 +51,12 @@ class WeightFinder {
     if (options_.goal == WeightGoal::feasible) measure_components();
     double asked = std::min(options_.margin, demand_.has_duals() ? small_margin_ : small_margin_ / 2);
     if (options_.goal == WeightGoal::elastic) {
-      attempt(asked);
-      if (failures() > 0) relax(asked);
+      violate_least(asked);
       return report(asked);
     }
     if (refuted_by_a_ring(asked)) return report(asked);
     for (int round = 0; round < kHalvings && asked > kNoMargin; ++round) {
-      attempt(asked);
+      attempt(asked, asked);
       if (failures() == 0) break;
       note_bound(asked);
       asked = bound_->best.margin / 2;
@@ -71,7 +70,9 @@ class WeightFinder {
                     [&](VertexId v) { return potential_of(demand_.space(), weights[v]); });
   }
   [[nodiscard]] Bound bound_of(std::span<const CellId> cells) const { return bound_margin(demand_, cells, solver_); }
-  [[nodiscard]] RegionProblem problem(double asked) const { return {demand_, start_, asked}; }
+  [[nodiscard]] RegionProblem problem(double asked, double floor = -kUnbounded) const {
+    return {demand_, start_, asked, floor};
+  }
 
   /// A best margin that rules out all weights. Dual lengths are all zero for w = |x|², so their best margin is never
   /// below zero.
@@ -138,7 +139,8 @@ class WeightFinder {
     return mask;
   }
 
-  void attempt(double asked) {
+  /// With `floor` below `asked`, a region that cannot have the margin `asked` violates it down to `floor`.
+  void attempt(double asked, double floor) {
     VertexMask mask = first_mask(asked);
     results_.clear();
     for (bool grown = true; grown;) {
@@ -147,7 +149,7 @@ class WeightFinder {
       for (Region& region : regions_of(demand_, mask, demand_.has_duals())) {
         if (std::optional<RegionResult> known = take_result(region)) {
           next.push_back(*std::move(known));
-        } else if (std::optional<RegionResult> found = solve(region, asked)) {
+        } else if (std::optional<RegionResult> found = solve(region, asked, floor)) {
           next.push_back(*std::move(found));
         } else {
           grow(demand_, mask, region.free, kMoreRings);
@@ -170,11 +172,13 @@ class WeightFinder {
   }
 
   /// Nothing: the region must grow.
-  std::optional<RegionResult> solve(Region& region, double asked) {
+  std::optional<RegionResult> solve(Region& region, double asked, double floor) {
     RegionChange change = least_change(problem(asked), region, solver_);
+    if (change.status != LpStatus::optimal && floor < asked)
+      change = least_violation(problem(asked, floor), region, solver_);
     if (change.status == LpStatus::optimal) return RegionResult{std::move(region), std::move(change), {}};
     Bound bound = bound_of(region.cells);
-    const bool below = demand_.has_duals() ? is_hopeless(bound.best.margin) : bound.best.margin < asked;
+    const bool below = demand_.has_duals() ? is_hopeless(bound.best.margin) : bound.best.margin < floor;
     const bool proof = bound.best.status == LpStatus::optimal && below;
     if (!proof && region.has_rim) return std::nullopt;
     return RegionResult{std::move(region), std::nullopt, std::move(bound)};
@@ -203,8 +207,17 @@ class WeightFinder {
     return certify(demand_, bound, margin);
   }
 
-  void relax(double asked) {
-    note_bound(asked);
+  /// The least sum of violations may make some cells bad where other weights make none bad. So half of the best margin
+  /// is the floor of violations, unless no weights exist.
+  void violate_least(double asked) {
+    double floor = asked;
+    attempt(asked, floor);
+    for (int round = 0; round < kHalvings && failures() > 0; ++round) {
+      note_bound(floor);
+      floor = bound_->best.margin / 2;
+      if (floor <= kNoMargin) break;
+      attempt(asked, floor);
+    }
     for (RegionResult& result : results_) {
       if (result.change) continue;
       RegionChange change = least_violation(problem(asked), result.region, solver_);

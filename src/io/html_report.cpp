@@ -5,17 +5,20 @@
 // and its text is base64 of zlib's stream of planes: all first bytes of the little-endian numbers, then all second
 // ones, and so on. Bytes of one place resemble each other. With data-delta="k" each number is the difference to the
 // number k places before, in zigzag form: corners of neighbors are near each other.
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "io/containers/vtu_codec.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/html.hpp"
 #include "temper/quality.hpp"
+#include "temper/tets/quality.hpp"
 
 namespace temper::io {
 
@@ -59,72 +62,38 @@ std::vector<std::uint32_t> differences(std::span<const std::int32_t> values, std
   return result;
 }
 
-class MeshArrays {
+/// The arrays of one mesh, whose names begin with the side.
+class Arrays {
  public:
-  MeshArrays(const HtmlMesh& from, std::string prefix)
-      : mesh_(from.mesh), names_(from.names), prefix_(std::move(prefix)) {
-    add_vertices();
-    add_triangles();
-    add_numbers();
-  }
+  explicit Arrays(std::string side) : side_(std::move(side)) {}
   [[nodiscard]] std::vector<ArrayText> take() { return std::move(arrays_); }
 
- private:
-  void add_vertices() {
-    const std::size_t n = mesh_.n_vertices();
-    std::vector<double> points(2 * n), weights(n);
-    bool weighted = false;
-    for (const VertexId v : mesh_.vertices()) {
-      points[2 * v.index] = mesh_.position(v).x;
-      points[2 * v.index + 1] = mesh_.position(v).y;
-      weights[v.index] = mesh_.weight(v);
-      weighted = weighted || weights[v.index] != 0;
+  void add(const char* name, std::span<const double> values) {
+    arrays_.push_back({side_ + name, "float64", sizeof(double), 0, planes_of(values)});
+  }
+  void add(const char* name, std::span<const std::uint8_t> values) {
+    arrays_.push_back({side_ + name, "uint8", 1, 0, planes_of(values)});
+  }
+  void add(const char* name, std::span<const std::int32_t> values, std::size_t delta) {
+    const std::vector<std::uint32_t> steps = differences(values, delta);
+    arrays_.push_back({side_ + name, "int32", 4, delta, planes_of(std::span<const std::uint32_t>(steps))});
+  }
+
+  template <class AnyMesh>
+  void add_vertices(const AnyMesh& mesh) {
+    std::vector<double> points, weights;
+    points.reserve(3 * mesh.n_vertices());
+    weights.reserve(mesh.n_vertices());
+    for (const VertexId v : mesh.vertices()) {
+      append(points, mesh.position(v));
+      weights.push_back(mesh.weight(v));
     }
     add("points", std::span<const double>(points));
-    if (weighted) add("weights", std::span<const double>(weights));
+    if (std::ranges::any_of(weights, [](double w) { return w != 0; })) add("weights", std::span<const double>(weights));
   }
 
-  void add_triangles() {
-    const std::size_t n = mesh_.n_triangles();
-    std::vector<std::int32_t> corners(3 * n), regions(n);
-    std::vector<std::uint8_t> verdicts(n), constrained(3 * n);
-    bool several = false, lines = false;
-    for (const TriangleId t : mesh_.triangles()) {
-      const std::array<VertexId, 3> c = mesh_.corners(t);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const HalfedgeId h = Mesh::halfedge(t, static_cast<int>(k));
-        corners[3 * t.index + k] = static_cast<std::int32_t>(c[k].index);
-        constrained[3 * t.index + k] = mesh_.is_constrained(h) && !mesh_.is_boundary(h) ? 1 : 0;
-        lines = lines || constrained[3 * t.index + k] != 0;
-      }
-      regions[t.index] = mesh_.region(t);
-      several = several || regions[t.index] != 0;
-      verdicts[t.index] = verdict(c);
-    }
-    add("triangles", corners, 3);
-    add("verdicts", std::span<const std::uint8_t>(verdicts));
-    if (several) add("regions", regions, 1);
-    if (lines) add("constrained", std::span<const std::uint8_t>(constrained));
-  }
-
-  /// Bit k: the orthocenter is not inside across edge k. Bit 3 + k: edge k is not crossed. Bit 6: not
-  /// counter-clockwise.
-  [[nodiscard]] std::uint8_t verdict(const std::array<VertexId, 3>& corners) const {
-    const std::array<WeightedPoint, 3> p = {mesh_.point(corners[0]), mesh_.point(corners[1]), mesh_.point(corners[2])};
-    if (orient2d(p[0].position(), p[1].position(), p[2].position()) != Sign::positive) return 64;
-    unsigned bits = 0;
-    for (unsigned k = 0; k < 3; ++k) {
-      const WeightedPoint &a = p[k], &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
-      if (signed_height_sign(a, b, c) != Sign::positive) bits |= 1U << k;
-      if (dual_crossing_sign(a, b) != Sign::positive || dual_crossing_sign(b, a) != Sign::positive) bits |= 8U << k;
-    }
-    return static_cast<std::uint8_t>(bits);
-  }
-
-  void add_numbers() {
-    if (names_ == nullptr) return;
-    add_numbers("vertex_numbers", mesh_.n_vertices(), [this](std::size_t i) { return names_->point(i); });
-    add_numbers("triangle_numbers", mesh_.n_triangles(), [this](std::size_t i) { return names_->triangle(i); });
+  void add_regions(std::span<const std::int32_t> regions) {
+    if (std::ranges::any_of(regions, [](std::int32_t r) { return r != 0; })) add("regions", regions, 1);
   }
 
   /// The number at the end of each name, unless they count from 0.
@@ -141,22 +110,91 @@ class MeshArrays {
     if (!from_0) add(what, numbers, 1);
   }
 
-  void add(const char* name, std::span<const double> values) {
-    arrays_.push_back({prefix_ + name, "float64", sizeof(double), 0, planes_of(values)});
-  }
-  void add(const char* name, std::span<const std::uint8_t> values) {
-    arrays_.push_back({prefix_ + name, "uint8", 1, 0, planes_of(values)});
-  }
-  void add(const char* name, std::span<const std::int32_t> values, std::size_t delta) {
-    const std::vector<std::uint32_t> steps = differences(values, delta);
-    arrays_.push_back({prefix_ + name, "int32", 4, delta, planes_of(std::span<const std::uint32_t>(steps))});
-  }
+ private:
+  static void append(std::vector<double>& places, Vec2 p) { places.insert(places.end(), {p.x, p.y}); }
+  static void append(std::vector<double>& places, Vec3 p) { places.insert(places.end(), {p.x, p.y, p.z}); }
 
-  const Mesh& mesh_;
-  const InputNames* names_;
-  std::string prefix_;
+  std::string side_;
   std::vector<ArrayText> arrays_;
 };
+
+constexpr std::uint8_t kInverted = 64;
+
+/// Bit k: the orthocenter is not inside across edge k. Bit 3 + k: edge k is not crossed. Bit 6: not counter-clockwise.
+std::uint8_t verdict(const std::array<WeightedPoint, 3>& p) {
+  if (orient2d(p[0].position(), p[1].position(), p[2].position()) != Sign::positive) return kInverted;
+  unsigned bits = 0;
+  for (unsigned k = 0; k < 3; ++k) {
+    const WeightedPoint &a = p[k], &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
+    if (signed_height_sign(a, b, c) != Sign::positive) bits |= 1U << k;
+    if (dual_crossing_sign(a, b) != Sign::positive || dual_crossing_sign(b, a) != Sign::positive) bits |= 8U << k;
+  }
+  return static_cast<std::uint8_t>(bits);
+}
+
+/// Bit k: the orthocenter is not inside across the face opposite corner k. Bit 6: not positive.
+std::uint8_t verdict(const std::array<tets::WeightedPoint, 4>& p) {
+  if (tets::orientation(p[0].position(), p[1].position(), p[2].position(), p[3].position()) != Sign::positive)
+    return kInverted;
+  unsigned bits = 0;
+  for (unsigned k = 0; k < 4; ++k) {
+    const auto [a, b, c] = tets::TetMesh::kFaceCorners[k];
+    if (signed_height_sign(p[std::size_t(a)], p[std::size_t(b)], p[std::size_t(c)], p[k]) != Sign::positive)
+      bits |= 1U << k;
+  }
+  return static_cast<std::uint8_t>(bits);
+}
+
+std::vector<ArrayText> arrays_of(const HtmlMesh& from, const std::string& side) {
+  const Mesh& mesh = from.mesh;
+  const std::size_t n = mesh.n_triangles();
+  std::vector<std::int32_t> corners(3 * n), regions(n);
+  std::vector<std::uint8_t> verdicts(n), constrained(3 * n);
+  for (const TriangleId t : mesh.triangles()) {
+    const std::array<VertexId, 3> c = mesh.corners(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(t, static_cast<int>(k));
+      corners[h.index] = static_cast<std::int32_t>(c[k].index);
+      constrained[h.index] = mesh.is_constrained(h) && !mesh.is_boundary(h) ? 1 : 0;
+    }
+    regions[t.index] = mesh.region(t);
+    verdicts[t.index] = verdict({mesh.point(c[0]), mesh.point(c[1]), mesh.point(c[2])});
+  }
+  Arrays arrays(side);
+  arrays.add_vertices(mesh);
+  arrays.add("triangles", corners, 3);
+  arrays.add("verdicts", std::span<const std::uint8_t>(verdicts));
+  arrays.add_regions(regions);
+  if (std::ranges::count(constrained, 1) > 0) arrays.add("constrained", std::span<const std::uint8_t>(constrained));
+  if (const InputNames* const names = from.names; names != nullptr) {
+    arrays.add_numbers("vertex_numbers", mesh.n_vertices(), [names](std::size_t i) { return names->point(i); });
+    arrays.add_numbers("triangle_numbers", n, [names](std::size_t i) { return names->triangle(i); });
+  }
+  return arrays.take();
+}
+
+std::vector<ArrayText> arrays_of(const HtmlTets& from, const std::string& side) {
+  const tets::TetMesh& mesh = from.mesh;
+  const std::size_t n = mesh.n_tetrahedra();
+  std::vector<std::int32_t> corners, regions(n);
+  std::vector<std::uint8_t> verdicts(n);
+  corners.reserve(4 * n);
+  for (const tets::TetId t : mesh.tetrahedra()) {
+    for (const VertexId v : mesh.corners(t)) corners.push_back(static_cast<std::int32_t>(v.index));
+    regions[t.index] = mesh.region(t);
+    verdicts[t.index] = verdict(mesh.points(t));
+  }
+  Arrays arrays(side);
+  arrays.add_vertices(mesh);
+  arrays.add("tetrahedra", corners, 4);
+  arrays.add("verdicts", std::span<const std::uint8_t>(verdicts));
+  arrays.add_regions(regions);
+  if (const tets::InputNames* const names = from.names; names != nullptr) {
+    arrays.add_numbers("vertex_numbers", mesh.n_vertices(), [names](std::size_t i) { return names->point(i); });
+    arrays.add_numbers("tetrahedron_numbers", n, [names](std::size_t i) { return names->tetrahedron(i); });
+  }
+  return arrays.take();
+}
 
 std::string element(const ArrayText& array) {
   const std::string packed = compress_block(array.planes, Redundancy::strings);
@@ -192,10 +230,12 @@ std::string_view name_of(Preference better) {
   return "equal";
 }
 
-/// The rows of quality_measures() as JSON: the page itself has no list of measures. No word of the table needs escapes.
-std::string measures_json() {
+/// The rows of a table of measures as JSON: the page itself has no list of measures. No word of the table needs
+/// escapes.
+template <class Report>
+std::string measures_json(std::span<const MeasureRow<Report>> rows) {
   std::string json;
-  for (const QualityMeasure& m : quality_measures()) {
+  for (const MeasureRow<Report>& m : rows) {
     json += text(json.empty() ? "[" : ",", "\n{\"key\":\"", m.key, "\",\"label\":\"", m.label, "\",\"community\":\"",
                  m.community, "\",\"definition\":\"", m.definition, "\",\"better\":\"", name_of(m.better),
                  "\",\"wanted\":", m.wanted ? text(*m.wanted) : "null", "}");
@@ -206,19 +246,23 @@ std::string measures_json() {
 }  // namespace
 
 std::string html_report(const HtmlReport& report) {
-  std::vector<ArrayText> arrays = MeshArrays(report.mesh, "after.").take();
-  if (report.before) {
-    for (ArrayText& array : MeshArrays(*report.before, "before.").take()) arrays.push_back(std::move(array));
-  }
+  const auto elements = [](const AnyHtmlMesh& mesh, const std::string& side) {
+    std::string text;
+    for (const ArrayText& array : std::visit([&](const auto& m) { return arrays_of(m, side); }, mesh))
+      text += element(array);
+    return text;
+  };
+  const bool tetrahedra = std::holds_alternative<HtmlTets>(report.mesh);
+  const std::string measures = tetrahedra ? measures_json(tets::quality_measures()) : measures_json(quality_measures());
   const std::string_view page = html_page();
   const std::size_t title = page.find(kTitle), mark = page.find(kMark);
   std::string html(page.substr(0, title));
   html += text("<title>", escaped(report.title, "&lt;", "&amp;"), "</title>");
   html += page.substr(title + kTitle.size(), mark - title - kTitle.size());
   html += text("<script type=\"application/json\" id=\"report\">", escaped(report.json, "\\u003c", "&"), "</script>\n");
-  html += text("<script type=\"application/json\" id=\"measures\">", escaped(measures_json(), "\\u003c", "&"),
-               "</script>\n");
-  for (const ArrayText& array : arrays) html += element(array);
+  html += text("<script type=\"application/json\" id=\"measures\">", escaped(measures, "\\u003c", "&"), "</script>\n");
+  html += elements(report.mesh, "after.");
+  if (report.before) html += elements(*report.before, "before.");
   html += page.substr(mark + kMark.size());
   return html;
 }

@@ -87,6 +87,27 @@ def test_a_coefficient_has_one_value_for_each_triangle_or_region():
             temper.dec_operators(mesh, coefficient=wrong)
 
 
+def test_a_coefficient_names_regions_of_triangles_and_of_tetrahedra(tmp_path):
+    def mesh_of(name, cells, apex):
+        nodes = f"$Nodes\n{len(apex) + 4}\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n{''.join(apex)}$EndNodes\n"
+        names = '$PhysicalNames\n4\n3 7 "rock"\n3 8 "sand"\n2 7 "rock"\n2 8 "sand"\n$EndPhysicalNames\n'
+        (tmp_path / name).write_text(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n{names}{nodes}$Elements\n2\n{cells}\n$EndElements\n")
+        return temper.read(tmp_path / name)
+
+    plane = mesh_of("plane.msh", "1 2 2 7 1 1 2 3\n2 2 2 8 1 2 4 3", [])
+    for mesh in plane, mesh_of("space.msh", "1 4 2 7 1 1 2 3 5\n2 4 2 8 1 2 4 3 5", ["5 0 0 1\n"]):
+        values = temper.dec_operators(mesh, coefficient={7: 1.0, 8: 10.0}).coefficient
+        for named in {"rock": 1.0, "sand": 10.0}, {7: 1.0, "sand": 10.0}:
+            assert (temper.dec_operators(mesh, coefficient=named).coefficient == values).all()
+        for wrong, message in (
+            ({"rock": 1.0}, "regions 7 \\('rock'\\), 8 \\('sand'\\); there is none for \\[8\\]"),
+            ({7: 1.0, 8: 2.0, "clay": 1.0}, "no region \\['clay'\\]"),
+            ({7: 1.0, "rock": 1.0, 8: 2.0}, "region 7 has two values"),
+        ):
+            with pytest.raises(ValueError, match=message):
+                temper.dec_operators(mesh, coefficient=wrong)
+
+
 def test_a_problem_of_the_user_is_measured_by_the_names_of_its_boundary():
     outline = temper.Outline(
         [(0, 0), (1, 0), (2, 0), (2, 1), (1, 1), (0, 1)],

@@ -91,6 +91,33 @@ def test_the_report_has_the_laws_of_the_mesh(shaken):
     assert "worst tetrahedra" in q._repr_html_() and "min_h_over_l" in str(q)
 
 
+def test_pictures_and_pages_show_cuts(shaken):
+    picture = temper.draw_svg(shaken, cut=("x", 1.5), title="a & b")
+    assert "tetrahedra bad at x = 1.5<" in picture and "a &amp; b" in picture
+    assert temper.draw_svg(shaken, cut="z") == temper.draw_svg(shaken) != temper.draw_svg(shaken, cut="y")
+    assert temper.draw_svg(shaken, shaken).count("tetrahedra bad at z = 1.5<") == 2
+    with pytest.raises(ValueError, match="cut: expected 'x', 'y' or 'z'"):
+        temper.draw_svg(shaken, cut="w")
+    with pytest.raises(TypeError, match="dual is for triangles alone"):
+        temper.draw_svg(shaken, dual=False)
+    ring = temper.generate.annulus()
+    with pytest.raises(TypeError, match="cut is for tetrahedra alone"):
+        temper.draw_svg(ring, cut="x")
+    with pytest.raises(TypeError, match="before: expected a TetMesh"):
+        temper.draw_svg(shaken, ring)
+    better = shaken.copy()
+    report = temper.optimize(better)
+    page = temper.html_report(better, shaken, report)
+    assert 'id="before.tetrahedra"' in page and "<title>temper.TetMesh</title>" in page
+
+    def strictly(name):
+        raise AssertionError(f"{name} is not JSON")
+
+    shown = json.loads(page.split('id="report">')[1].split("</script>")[0], parse_constant=strictly)
+    assert shown["before"]["orthocenters_outside"] == temper.quality(shaken).orthocenters_outside
+    assert sum(shown["after"]["histograms"]["dihedrals"]["counts"]) == 6 * better.n_tetrahedra
+
+
 def test_python_has_the_numbers_of_the_program(shaken, in_scratch):
     assert temper.write("m.vtu", shaken) == []
     report = json.loads(subprocess.run(["temper", "check", "m.vtu", "--json"], check=True, capture_output=True, text=True).stdout)

@@ -24,6 +24,7 @@ def other_documents(temper, folder):
     proof = ("weights", said("weights", "shoe.vtu", "--mode", "feasible", "--certificate", "why.json", exit=6))
     return [
         ("mesh_report", file("mesh.json")), ("explain", said("explain", "shoe.vtu")), ("explain", said("explain", "square.vtu")),
+        ("explain_tetrahedra", said("explain", "tet.mesh")),
         proof, ("weights", said("weights", "in.vtu", "-o", "w.vtu", "--mode", "elastic", "--connectivity", "search", exit=None)),
         ("certificate_check", said("weights", "shoe.vtu", "--check-certificate", "why.json")), ("certificate", file("why.json")),
         ("errors", said("errors", "square.vtu", "--refine", "1", "--against", "square.vtu")),

@@ -4,7 +4,7 @@
 //   TEMPER_PROGRAM=…/temper [TEMPER_SHARED=…] node --test tests/*.test.mjs
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdirSync, mkdtempSync, rmSync, statSync } from 'node:fs';
+import { existsSync, mkdirSync, mkdtempSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -165,6 +165,64 @@ test('a click on one of the worst shows it, with its reason', async () => {
   assert.equal(await page.locator('#picked td.is-bad').count() > 0, true);
   await page.waitForTimeout(100);
   await shoot(page, 'check-dark');
+  await close();
+});
+
+/** A box of n³ cubes in six tetrahedra each, as a file of medit. Inner vertices are moved, and two halves are regions. */
+function writeBox(name, n) {
+  const points = [], tetrahedra = [];
+  const index = (x, y, z) => (z * (n + 1) + y) * (n + 1) + x + 1;
+  const moved = (x, axis, i) => (x > 0 && x < n && axis !== 0 ? x + 0.2 * Math.sin(9 * i + axis) : x);
+  for (let z = 0; z <= n; z++) for (let y = 0; y <= n; y++) for (let x = 0; x <= n; x++) {
+    const inside = [x, y, z].every((c) => c > 0 && c < n), i = points.length;
+    points.push(inside ? `${x} ${moved(y, 1, i)} ${moved(z, 2, i)} 0` : `${x} ${y} ${z} 0`);
+  }
+  for (let z = 0; z < n; z++) for (let y = 0; y < n; y++) for (let x = 0; x < n; x++) {
+    for (const [a, b] of [[1, 3], [3, 2], [2, 6], [6, 4], [4, 5], [5, 1]]) {
+      const corner = (c) => index(x + (c & 1), y + ((c >> 1) & 1), z + (c >> 2));
+      tetrahedra.push([...[0, a, b, 7].map(corner), x < n / 2 ? 1 : 2].join(' '));
+    }
+  }
+  writeFileSync(file(name), ['MeshVersionFormatted 2', 'Dimension 3', 'Vertices', points.length, ...points, 'Tetrahedra', tetrahedra.length, ...tetrahedra, 'End', ''].join('\n'));
+}
+
+/** The sum of the areas of the triangles of a cut, and the words about it. */
+const section = (page) => page.evaluate(() => {
+  const { points, triangles } = window.temperViewer.meshOf('after');
+  let area = 0;
+  for (let h = 0; h < triangles.length; h += 3) {
+    const [a, b, c] = [0, 1, 2].map((k) => [points[2 * triangles[h + k]], points[2 * triangles[h + k] + 1]]);
+    area += ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
+  }
+  return { area, words: document.querySelector('#view').getAttribute('aria-label') };
+});
+
+test('tetrahedra are cut by a plane that the user moves', async () => {
+  writeBox('box.mesh', 4);
+  temper('optimize', 'box.mesh', '-o', 'box.vtu', '--set', 'max_sweeps=2', '--write', 'tets.html');
+  const { page, close } = await open('tets.html');
+  await shoot(page, 'tetrahedra');
+  assert.match(await page.textContent('#verdict'), /of 384 tetrahedra are/);
+  assert.match((await section(page)).words, /^Cut at z = 2: \d+ tetrahedra, \d+ of them not well-centered/);
+  for (const axis of ['z', 'x', 'y']) {
+    if (axis !== 'z') await changes(page, axis, () => page.check(`[name=axis][value="${'xyz'.indexOf(axis)}"]`, { force: true }));
+    for (const part of [1, 250, 500, 777, 1000]) { // along faces of the boundary, and elsewhere
+      await page.locator('#plane input').fill(String(part));
+      await page.waitForTimeout(60);
+      const { area, words } = await section(page);
+      assert.ok(Math.abs(area - 16) < 1e-9, `${axis} ${part}: ${area}`);
+      assert.ok(words.includes(`Cut at ${axis} = `), words);
+    }
+  }
+  for (const option of await page.locator('#measure option').all()) await page.selectOption('#measure', await option.getAttribute('value'));
+  await page.selectOption('#measure', 'margin');
+  assert.ok((await page.textContent('#legend')).includes('Margin: least h/ℓ'));
+  await page.click('#worst tbody tr');
+  assert.match(await page.textContent('#picked h2'), /^Tetrahedron \d+/);
+  assert.equal(await page.locator('#picked table').first().locator('tbody tr').count(), 4);
+  assert.match(await page.textContent('#picked'), /h ≤ 0 at face/);
+  await page.focus('#view');
+  for (const key of ['x', 'y', '[', ']', '1', '2', 'n', 'p', 'c', 'b', 'a', 's']) await page.keyboard.press(key);
   await close();
 });
 

@@ -209,7 +209,7 @@ TEMPER_EXPORT(mesh_html_report)
 int mesh_html_report(const HeldMesh* held, const HeldMesh* before, const char* title, std::size_t title_size,
                      const char* shown, std::size_t shown_size) {
   return done([&] {
-    io::HtmlReport report{.mesh = {held->mesh}, .title = {title, title_size}, .json = {shown, shown_size}};
+    io::HtmlReport report{.mesh = io::HtmlMesh{held->mesh}, .title = {title, title_size}, .json = {shown, shown_size}};
     if (before != nullptr) report.before.emplace(io::HtmlMesh{before->mesh});
     answer(io::html_report(report));
   });

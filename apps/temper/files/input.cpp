@@ -33,6 +33,19 @@ std::vector<std::size_t> invert(const io::VertexOfPoint& vertex_of_point) {
   return points;
 }
 
+/// The file's own numbers, if points of the file that no tetrahedron uses were dropped.
+class TetNames final : public tets::InputNames {
+ public:
+  TetNames(std::shared_ptr<const tets::InputNames> file, std::vector<std::size_t> points)
+      : file_(std::move(file)), points_(std::move(points)) {}
+  [[nodiscard]] std::string point(std::size_t index) const override { return file_->point(points_[index]); }
+  [[nodiscard]] std::string tetrahedron(std::size_t index) const override { return file_->tetrahedron(index); }
+
+ private:
+  std::shared_ptr<const tets::InputNames> file_;
+  std::vector<std::size_t> points_;
+};
+
 }  // namespace
 
 std::string Input::vertex_number(VertexId v) const { return last_word(names->point(v.index)); }
@@ -60,13 +73,9 @@ Input read_input(const std::string& path, const ReadingOptions& options) {
   return input;
 }
 
-std::string TetInput::vertex_number(VertexId v) const {
-  return last_word(file.numbering->point(points.empty() ? v.index : points[v.index]));
-}
+std::string TetInput::vertex_number(VertexId v) const { return last_word(names->point(v.index)); }
 
-std::string TetInput::tetrahedron_number(tets::TetId t) const {
-  return last_word(file.numbering->tetrahedron(t.index));
-}
+std::string TetInput::tetrahedron_number(tets::TetId t) const { return last_word(names->tetrahedron(t.index)); }
 
 std::vector<std::string> TetInput::warnings() const { return all_of(file.warnings, loaded.warnings); }
 
@@ -76,6 +85,8 @@ TetInput make_input(const std::string& path, io::TetFile file, Executor* executo
   input.file = std::move(file);
   input.loaded = or_fail(io::make_mesh(input.file, executor));
   input.points = invert(input.loaded.vertex_of_point);
+  input.names = input.file.numbering;
+  if (!input.points.empty()) input.names = std::make_shared<TetNames>(input.file.numbering, input.points);
   return input;
 }
 

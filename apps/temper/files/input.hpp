@@ -38,7 +38,8 @@ struct TetInput {
   std::string path;
   io::TetFile file;
   io::LoadedTetMesh loaded;
-  std::vector<std::size_t> points;  ///< mesh vertex → point of the file, both from 0; empty: the same
+  std::vector<std::size_t> points;                ///< mesh vertex → point of the file, both from 0; empty: the same
+  std::shared_ptr<const tets::InputNames> names;  ///< the file's own numbers of the mesh's vertices and tetrahedra
 
   [[nodiscard]] const tets::TetMesh& mesh() const { return loaded.mesh; }
   [[nodiscard]] std::string vertex_number(VertexId v) const;

@@ -129,7 +129,7 @@ HelpPage help_of(const Command& command, HelpForm form) {
 }
 
 HelpPage help_of_program() {
-  const std::string summary = "primal-dual triangle meshes that solvers can trust";
+  const std::string summary = "primal-dual meshes of triangles and tetrahedra that solvers can trust";
   HelpPage page = {"", summary, "temper: " + summary, "VERB ...", {verb_part()}};
   page.parts.push_back(
       {"Options",

@@ -83,9 +83,12 @@ bool is_energy_key(std::string_view key) {
 }
 
 /// A key alone stands for the usual requirement.
-Requirement usual_requirement(std::string_view key, std::span<const Key> keys) {
+Requirement usual_requirement(std::string_view key, std::span<const Key> keys, MeshKind kind) {
   const Key* measure = find_row(keys, key);
-  if (measure == nullptr) refuse(fmt::format("'{}' is not key=value", key));
+  if (key.empty()) refuse("'' is not key=value");
+  if (measure == nullptr && kind == MeshKind::triangles && is_energy_key(key))
+    refuse(fmt::format("'{0}' has no usual value: write {0}<=VALUE", key));
+  if (measure == nullptr) refuse_key(key, keys, kind);
   if (!measure->wanted) {
     refuse(measure->has_equal_sign()
                ? fmt::format("'{0}' has no usual value: write {0}{1}VALUE", key, sign(measure->better))
@@ -96,7 +99,7 @@ Requirement usual_requirement(std::string_view key, std::span<const Key> keys) {
 
 Requirement parse_requirement(std::string_view text, std::span<const Key> keys, MeshKind kind) {
   const std::size_t at = text.find_first_of("<>=");
-  if (at == std::string_view::npos) return usual_requirement(text, keys);
+  if (at == std::string_view::npos) return usual_requirement(text, keys, kind);
   const std::string_view key = text.substr(0, at);
   const bool two = text.substr(at).size() > 1 && text[at + 1] == '=';
   if (!two && text[at] != '=') refuse(fmt::format("'{}': write <= or >=, both include the value", text));

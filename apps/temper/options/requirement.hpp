@@ -8,6 +8,7 @@
 // most. Other numbers, such as the volume, have none. A key alone stands for the usual value of its row.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -50,13 +51,19 @@ Option& add_requirements(Command& command, std::vector<std::string>& lists, bool
 class RequirementLists {
  public:
   RequirementLists() = default;
-  /// Lists may make sense for one kind alone. Failure if they make sense for none; it is about
-  /// the kind that knows their keys.
+  /// Lists may make sense for one kind alone. Failure if they make sense for none; it is about the kind that knows
+  /// their keys, and says that the other kind does not.
   RequirementLists(std::string_view verb, std::span<const std::string> lists)
       : triangles_(verb, lists, MeshKind::triangles), tetrahedra_(verb, lists, MeshKind::tetrahedra) {
     if (!triangles_.refusal || !tetrahedra_.refusal) return;
-    const bool of_triangles = knows_keys(lists, MeshKind::triangles) || !knows_keys(lists, MeshKind::tetrahedra);
-    throw Failure(of_triangles ? *triangles_.refusal : *tetrahedra_.refusal);
+    const bool of_triangles = knows_keys(lists, MeshKind::triangles), of_tets = knows_keys(lists, MeshKind::tetrahedra);
+    const Failure& refusal = of_triangles || !of_tets ? *triangles_.refusal : *tetrahedra_.refusal;
+    std::string text = refusal.what();
+    if (of_triangles != of_tets) {
+      const std::string other = of_triangles ? "tetrahedra" : "triangles";
+      text.insert(std::min(text.find('\n'), text.size()), ". Not all of these keys exist for " + other);
+    }
+    throw Failure(refusal.exit, text);
   }
   /// Failure when the lists make no sense for this kind.
   [[nodiscard]] const std::vector<Requirement>& of(MeshKind kind) const {

@@ -38,7 +38,8 @@ Json reasons_json(const Mesh& mesh, const Quality& quality, const InputNames* na
 }
 
 /// Puts sentences in the user's numbers into the measures of a mesh: numbers in `json` count from 0.
-void use_numbers(Json& json, const Quality& quality, const InputNames* names) {
+template <class AnyQuality>
+void use_numbers(Json& json, const AnyQuality& quality, const InputNames* names) {
   const auto number = [names](VertexId v) {
     const std::string word = names == nullptr ? std::to_string(v.index) : names->point(v.index);
     return word.substr(word.rfind(' ') + 1);
@@ -55,33 +56,68 @@ void forget_time(Json& json) {
   }
 }
 
+io::AnyHtmlMesh html_mesh(const Mesh& mesh, const InputNames* names) { return io::HtmlMesh{mesh, names}; }
+io::AnyHtmlMesh html_mesh(const tets::TetMesh& mesh, const tets::InputNames* names) {
+  return io::HtmlTets{mesh, names};
+}
+
 std::string in_a_line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+/// The members of a page of `check`, with the user's numbers.
+template <class AnyInput, class AnyQuality>
+Json check_page(const std::string& command, const AnyInput& input, const AnyQuality& quality,
+                const std::string& measures) {
+  Json json = {{"verb", "check"},
+               {"version", version()},
+               {"command", command},
+               {"after", Json::parse(measures)},
+               {"warnings", input.warnings()}};
+  use_numbers(json["after"], quality, input.names.get());
+  return json;
+}
+
+template <class Page>
+Json optimize_page(const Page& page) {
+  Json json = {{"verb", "optimize"}};
+  json.update(Json::parse(optimize_json(page.record)));
+  forget_time(json);
+  use_numbers(json["before"], page.record.before, page.input.names.get());
+  use_numbers(json["after"], page.record.after, page.input.file.numbering.get());
+  return json;
+}
+
+template <class Page>
+std::string optimize_html(const Page& page, const Json& json) {
+  return io::html_report({html_mesh(page.mesh, page.input.file.numbering.get()),
+                          html_mesh(page.before, page.input.names.get()), page.input.path, in_a_line(json)});
+}
+
+template <class AnyInput>
+std::string check_html(const AnyInput& input, const Json& json) {
+  return io::html_report({html_mesh(input.mesh(), input.names.get()), std::nullopt, input.path, in_a_line(json)});
+}
 
 }  // namespace
 
 std::string check_html(const std::string& command, const Input& input, const Quality& quality) {
-  Json json = {{"verb", "check"},
-               {"version", version()},
-               {"command", command},
-               {"after", Json::parse(quality_json(quality, input.points))},
-               {"warnings", input.warnings()},
-               {"reasons", reasons_json(input.mesh(), quality, input.names.get())}};
-  use_numbers(json["after"], quality, input.names.get());
-  return io::html_report({{input.mesh(), input.names.get()}, std::nullopt, input.path, in_a_line(json)});
+  Json json = check_page(command, input, quality, quality_json(quality, input.points));
+  json["reasons"] = reasons_json(input.mesh(), quality, input.names.get());
+  return check_html(input, json);
+}
+
+std::string check_html(const std::string& command, const TetInput& input, const tets::Quality& quality) {
+  return check_html(input, check_page(command, input, quality, quality_json(quality, input.points)));
 }
 
 std::string optimize_html(const OptimizePage& page) {
-  Json json = {{"verb", "optimize"}};
-  json.update(Json::parse(optimize_json(page.record)));
-  forget_time(json);
-  const InputNames* names = page.input.file.numbering.get();
-  use_numbers(json["before"], page.record.before, page.input.names.get());
-  use_numbers(json["after"], page.record.after, names);
+  Json json = optimize_page(page);
   // A run that has to end now searches for no reasons.
   const bool ends_now = stopped_early(page.record.report.stopped);
-  json["reasons"] = ends_now ? Json::array() : reasons_json(page.mesh, page.record.after, names);
-  return io::html_report(
-      {{page.mesh, names}, io::HtmlMesh{page.before, page.input.names.get()}, page.input.path, in_a_line(json)});
+  json["reasons"] =
+      ends_now ? Json::array() : reasons_json(page.mesh, page.record.after, page.input.file.numbering.get());
+  return optimize_html(page, json);
 }
+
+std::string optimize_html(const TetOptimizePage& page) { return optimize_html(page, optimize_page(page)); }
 
 }  // namespace temper::app

@@ -75,6 +75,7 @@ inline constexpr int kSchema = 1;
 
 /// The numbers of a mesh. `points`: mesh vertex → point of the file; empty when they are the same.
 [[nodiscard]] std::string quality_json(const Quality& quality, std::span<const std::size_t> points);
+[[nodiscard]] std::string quality_json(const tets::Quality& quality, std::span<const std::size_t> points);
 /// `temper check --json`: these, and the outcomes of --require.
 [[nodiscard]] std::string check_json(const std::string& path, const Quality& quality,
                                      std::span<const std::size_t> points, std::span<const Outcome> outcomes);
@@ -110,17 +111,21 @@ using TetOptimizeRecord = RunRecord<tets::Quality, tets::OptimizeReport>;
 // reports, the reasons of temper explain, and the command to run again. Nothing in it depends on the time a run
 // took.
 
-/// `quality`: with the list of the worst triangles for the page.
+/// `quality`: with the list of the worst elements for the page.
 [[nodiscard]] std::string check_html(const std::string& command, const Input& input, const Quality& quality);
+[[nodiscard]] std::string check_html(const std::string& command, const TetInput& input, const tets::Quality& quality);
 
-/// `names`: of the vertices and triangles of the result; null: counted from 0. `before`, `mesh`: of record.before and
-/// after.
-struct OptimizePage {
-  const OptimizeRecord& record;
-  const Input& input;
-  const Mesh& before;
-  const Mesh& mesh;
+/// `before`, `mesh`: of record.before and after. The file of the input is the output's by now.
+template <class Record, class AnyInput, class AnyMesh>
+struct RunPage {
+  const Record& record;
+  const AnyInput& input;
+  const AnyMesh& before;
+  const AnyMesh& mesh;
 };
+using OptimizePage = RunPage<OptimizeRecord, Input, Mesh>;
+using TetOptimizePage = RunPage<TetOptimizeRecord, TetInput, tets::TetMesh>;
 [[nodiscard]] std::string optimize_html(const OptimizePage& page);
+[[nodiscard]] std::string optimize_html(const TetOptimizePage& page);
 
 }  // namespace temper::app

@@ -145,6 +145,10 @@ std::string quality_json(const Quality& quality, std::span<const std::size_t> po
   return dump(to_json(quality, points));
 }
 
+std::string quality_json(const tets::Quality& quality, std::span<const std::size_t> points) {
+  return dump(to_json(quality, points));
+}
+
 namespace {
 
 template <class Report>

@@ -122,17 +122,19 @@ class Checks {
                            {s_.flat, "--flat"},
                            {s_.gamma.has_value(), "--gamma"},
                            {s_.h0.has_value(), "--h0"},
-                           {s_.metric.has_value(), "--tensor"},
-                           {!files_.page.empty(), "--write with a page of HTML"}});
+                           {s_.metric.has_value(), "--tensor"}});
     const std::vector<Requirement>& requirements = requirements_.of(MeshKind::tetrahedra);
     const TetInput input = make_input(path, std::move(file), threads_.get());
     print_warnings(input.warnings());
     const tets::Quality measured = quality(input.mesh(), {s_.worst, threads_.get()});
     const std::vector<Outcome> outcomes = judge(requirements, measured);
+    if (!files_.page.empty())
+      outputs_.write_text(files_.page, check_html(command_line(command_, {path}), input, measured));
     report(path, outcomes, check_json(path, measured, input.points, outcomes),
            s_.details
                ? quality_text(measured, input, text_style())
-               : fmt::format("{}: {}\n{}{}\n", path, mesh_size(measured), brief_text(measured), verdict(measured)));
+               : fmt::format("{}: {}\n{}{}\n", path, mesh_size(measured), brief_text(measured), verdict(measured)) +
+                     next_step(path, measured.orthocenters_outside, {}));
   }
   /// Prints or keeps the report, writes it where --write asks for it, and gives the verdict on the requirements.
   void report(const std::string& path, const std::vector<Outcome>& outcomes, const std::string& json,
@@ -175,10 +177,12 @@ class Checks {
       text += fmt::format("{} of these triangles are halves of {}\n", 2 * quadrilaterals,
                           plural(quadrilaterals, "quadrilateral", "quadrilaterals"));
     text += fmt::format("{}{}\n", brief_text(measured), verdict(measured));
-    if (bad_triangles(measured) > 0 && path != kStandardInput)
-      text += fmt::format("Next: {} -o OUT, or {}\n", command_line("optimize", path, s_.projection),
-                          command_line("explain", path, s_.projection));
-    return text;
+    return text + next_step(path, bad_triangles(measured), s_.projection);
+  }
+  [[nodiscard]] static std::string next_step(const std::string& path, std::size_t bad, const std::string& projection) {
+    if (bad == 0 || path == kStandardInput) return {};
+    return fmt::format("Next: {} -o OUT, or {}\n", command_line("optimize", path, projection),
+                       command_line("explain", path, projection));
   }
 
   const Command& command_;

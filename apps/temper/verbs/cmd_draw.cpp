@@ -1,9 +1,13 @@
-// temper draw IN -o P.svg: one mesh, or two side by side.
+// temper draw IN -o P.svg: one mesh, or two side by side. Meshes of tetrahedra are cut by a plane.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
+#include <string_view>
+#include <utility>
+#include <variant>
 
 #include "console.hpp"
 #include "files/input.hpp"
@@ -11,9 +15,11 @@
 #include "files/tensor_option.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
+#include "temper/detail/read_number.hpp"
 #include "temper/detail/suggest.hpp"
 #include "temper/draw.hpp"
 #include "temper/quality.hpp"
+#include "temper/tets/draw.hpp"
 
 namespace temper::app {
 namespace {
@@ -21,7 +27,7 @@ namespace {
 struct DrawSettings {
   std::string projection;
   bool flat = false;
-  std::string input, before, output, color;
+  std::string input, before, output, color, cut;
   DrawOptions options;
   std::optional<Metric> metric;
   bool no_primal = false, no_dual = false, no_rings = false;
@@ -29,12 +35,17 @@ struct DrawSettings {
 
 void add_options(Command& command, DrawSettings& s) {
   command.group("Files");
-  add_argument(command, "IN", s.input, "Mesh to draw.").require();
+  add_argument(command, "IN", s.input, "Mesh to draw, of triangles or tetrahedra.").require();
   add_projection(command, s.projection);
   add_flat(command, s.flat);
   add_text(command, "-o,--output", "FILE", s.output, "Picture to write: .svg, .png or .pdf.").require();
   add_text(command, "--before", "IN0", s.before, "Second mesh, drawn to the left of IN at the same scale.");
   command.group("Picture");
+  add_text(
+      command, "--cut", "AXIS[=VALUE]", s.cut,
+      "Plane that cuts a mesh of tetrahedra, such as x=0.5. If you do not give the value: through the middle of the "
+      "mesh. If you do not give the option: across its shortest side. Tetrahedra are colored by their margin, "
+      "and bad ones are hatched.");
   add_numbers(
       command, "--view", "LON,LAT", 2,
       [&s](const std::vector<double>& v) {
@@ -71,6 +82,7 @@ void add_options(Command& command, DrawSettings& s) {
                     "  temper draw in.vtu -o mesh.svg\n"
                     "  temper draw out.vtu --before in.vtu -o both.svg\n"
                     "  temper draw in.vtu -o angle.svg --color angle --no-dual\n"
+                    "  temper draw box.mesh -o cut.svg --cut x=0.5\n"
                     "  temper draw in.vtu -o corner.svg --zoom 0,0,0.5,0.5 --numbers --weights\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
@@ -141,11 +153,61 @@ void check_same_space(const Input& before, const Input& after) {
                             before.path, name(before), after.path, name(after)));
 }
 
+/// The options that have a meaning for tetrahedra.
+constexpr auto kForTetrahedra = std::to_array<std::string_view>(
+    {"IN", "--output", "--before", "--cut", "--no-primal", "--color", "--zoom", "--width", "--title"});
+
+/// The plane of --cut. Failure if the words are no plane, or it misses the mesh.
+tets::Plane plane_of(const DrawSettings& s, const tets::TetMesh& mesh) {
+  if (s.cut.empty()) return tets::middle_plane(mesh);
+  const auto axis = std::string_view("xyz").find(s.cut[0]);
+  if (axis == std::string_view::npos || (s.cut.size() > 1 && s.cut[1] != '='))
+    refuse_usage("draw", fmt::format("--cut: expected x=VALUE, y=VALUE, z=VALUE or one of x, y, z, found '{}'", s.cut));
+  tets::Plane plane = middle_plane(mesh, static_cast<int>(axis));
+  if (s.cut.size() == 1) return plane;
+  const char* const end = s.cut.data() + s.cut.size();
+  const auto [read_to, error] = read_number(s.cut.data() + 2, end, plane.at);
+  if (error != std::errc() || read_to != end)
+    refuse_usage("draw", fmt::format("--cut: expected a number after '=', found '{}'", s.cut));
+  const auto [low, high] = bounding_box(mesh);
+  const std::array<std::array<double, 2>, 3> ranges = {{{low.x, high.x}, {low.y, high.y}, {low.z, high.z}}};
+  if (const auto [from, to] = ranges[axis]; !(from < plane.at && plane.at <= to))
+    throw Failure(Exit::bad_usage, fmt::format("{}: --cut: the plane {} misses the mesh, which has {} from {:.9g} to "
+                                               "{:.9g}. Next: --cut {}={:.9g}",
+                                               s.input, s.cut, s.cut[0], from, to, s.cut[0], (from + to) / 2));
+  return plane;
+}
+
+void draw_tetrahedra(const Command& command, const DrawSettings& s, const TetInput& input, Outputs& outputs) {
+  for (const Option& option : command.options()) {
+    const std::string name = long_name(option.names);
+    const bool fits = std::ranges::find(kForTetrahedra, name) != kForTetrahedra.end();
+    refuse_for_tetrahedra("draw", s.input, {{!fits && !option.given.empty(), name}});
+  }
+  refuse_for_tetrahedra("draw", s.input, {{!s.color.empty() && s.color != "none", "--color " + s.color}});
+  print_warnings(input.warnings());
+  DrawOptions options = s.options;
+  options.fill = s.color != "none";
+  const tets::Plane plane = plane_of(s, input.mesh());
+  if (s.before.empty()) return outputs.write_picture(s.output, draw_svg(input.mesh(), plane, options));
+  auto file = read_any_tried(s.before);
+  auto* const tets = std::get_if<io::TetFile>(&file);
+  if (tets == nullptr)
+    throw Failure(Exit::bad_input, fmt::format("{}: has triangles, but {} has tetrahedra; expected two meshes of the "
+                                               "same kind",
+                                               s.before, s.input));
+  const TetInput before = make_input(s.before, std::move(*tets), nullptr);
+  print_warnings(before.warnings());
+  outputs.write_picture(s.output, draw_before_after_svg(before.mesh(), input.mesh(), plane, options));
+}
+
 }  // namespace
 
 Exit run_draw(const Arguments& arguments) {
   Command command(
-      "draw", "Draws triangles and their dual as SVG, PNG or PDF. Triangles that are not well-centered are hatched.");
+      "draw",
+      "Draws triangles and their dual, or a cut through tetrahedra, as SVG, PNG or PDF. Triangles and tetrahedra that "
+      "are not well-centered are hatched.");
   DrawSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
@@ -157,7 +219,16 @@ Exit run_draw(const Arguments& arguments) {
   Outputs outputs("draw");
   outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});
 
-  Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .flat = s.flat});
+  auto file = read_any_tried(s.input, {nullptr, s.flat});
+  if (auto* const tets = std::get_if<io::TetFile>(&file)) {
+    draw_tetrahedra(command, s, make_input(s.input, std::move(*tets), nullptr), outputs);
+    return Exit::done;
+  }
+  if (!s.cut.empty())
+    refuse_usage("draw",
+                 fmt::format("{} has triangles, and --cut is for tetrahedra alone. Next: leave it out", s.input));
+  const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
+  Input input = read_input(s.input, {s.projection, {}, nullptr, true, s.flat, read});
   print_warnings(input.warnings());
   check_view(s.options, input);
   take_to_metric(input, s.metric);

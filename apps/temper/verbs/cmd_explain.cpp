@@ -1,7 +1,11 @@
-// temper explain IN: the reason for every triangle that is not well-centered, and cures.
+// temper explain IN: the reason for every triangle or tetrahedron that is not well-centered, and cures.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <optional>
+#include <utility>
+#include <variant>
 
 #include "console.hpp"
 #include "files/input.hpp"
@@ -10,6 +14,8 @@
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
 #include "temper/detail/lp.hpp"
+#include "temper/tets/quality.hpp"
+#include "temper/tets/weights.hpp"
 
 namespace temper::app {
 namespace {
@@ -28,16 +34,18 @@ void add_options(Command& command, ExplainSettings& s) {
   add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.").require();
   add_projection(command, s.projection);
   add_flat(command, s.flat);
-  command.add_flag("--json", s.json, "Print all reasons as JSON, with vertices and triangles counted from 0.");
+  command.add_flag("--json", s.json, "Print all reasons as JSON, with vertices and elements counted from 0.");
   add_count(command, "--limit", s.limit, 0,
             "Largest number of conflicts to print, and of places for which weights exist. Cures are searched for these "
-            "only.");
+            "only. For tetrahedra: largest number of bad ones to print.");
   add_count(command, "--whole", s.whole, 0,
-            "Largest number of triangles, or of bad triangles, for which weights of the whole mesh are searched.");
+            "Largest number of triangles or tetrahedra, or of bad ones, for which weights of the whole mesh are "
+            "searched.");
   command.group("Help");
   command.add_help({"IN [options]",
                     "  temper example sparse-horseshoe -o shoe.vtu && temper explain shoe.vtu\n"
                     "  temper explain shoe.vtu --json\n"
+                    "  temper explain box.mesh --limit 3\n"
                     "  # a mesh for which weights exist, but have not been found yet\n"
                     "  temper example annulus -o ring.vtu && temper explain ring.vtu --limit 3\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
@@ -60,19 +68,48 @@ class Counter {
   bool enabled_ = error_is_terminal();
 };
 
+void explain_tetrahedra(const ExplainSettings& s, const TetInput& input) {
+  refuse_for_tetrahedra("explain", s.input, {{!s.projection.empty(), "--projection"}, {s.flat, "--flat"}});
+  print_warnings(input.warnings());
+  const tets::TetMesh& mesh = input.mesh();
+  const auto on_boundary = boundary_vertices(mesh);
+  std::size_t bad = 0, on_boundary_alone = 0;
+  for (const tets::TetId t : mesh.tetrahedra()) {
+    if (tetrahedron_quality(mesh.points(t)).well_centered) continue;
+    ++bad;
+    on_boundary_alone += std::ranges::all_of(mesh.corners(t), [&](VertexId v) { return on_boundary[v] != 0; });
+  }
+  const tets::Quality measured = quality(mesh, {s.json ? bad : std::min<std::size_t>(bad, s.limit)});
+  TetExplanation explanation = {input, measured, on_boundary, on_boundary_alone, std::nullopt};
+  if (bad > 0 && (mesh.n_tetrahedra() <= s.whole || bad <= s.whole)) {
+    WeightOptions options;
+    options.goal = WeightGoal::feasible;
+    explanation.weights = or_fail(find_weights(mesh, *clp_solver(), options));
+  }
+  s.json ? print_data(explanation_json(explanation)) : print(explanation_text(explanation, text_style()));
+}
+
 }  // namespace
 
 Exit run_explain(const Arguments& arguments) {
   Command command(
       "explain",
-      "Explains every triangle that is not well-centered. There are two reasons. Either a proof shows a small set of "
-      "triangles for which no weights exist, or weights exist but have not been found. temper also tries cures on the "
-      "triangles around. The exit code does not depend on the result: to test a mesh, use temper check --require.");
+      "Explains every triangle or tetrahedron that is not well-centered. Triangles have two reasons. Either a proof "
+      "shows a small set of triangles for which no weights exist, or weights exist but have not been found. temper "
+      "also tries cures on the triangles around. For a tetrahedron it prints the orthocenter, the weights, the heights "
+      "over faces, and what may help. The exit code does not depend on the result: to test a mesh, use temper check "
+      "--require.");
   ExplainSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
 
-  const Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .flat = s.flat});
+  auto file = read_any_tried(s.input, {nullptr, s.flat});
+  if (auto* const tets = std::get_if<io::TetFile>(&file)) {
+    explain_tetrahedra(s, make_input(s.input, std::move(*tets), nullptr));
+    return Exit::done;
+  }
+  const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
+  const Input input = read_input(s.input, {s.projection, {}, nullptr, true, s.flat, read});
   print_warnings(input.warnings());
   const auto solver = clp_solver();
   Counter counter;

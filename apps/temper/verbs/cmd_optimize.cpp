@@ -33,6 +33,7 @@
 #include "verbs/optimize_settings.hpp"
 #include "verbs/optimize_tetrahedra.hpp"
 #include "verbs/progress_line.hpp"
+#include "verbs/save_every.hpp"
 #ifdef TEMPER_WITH_ERRORS
 #include "reports/error_report.hpp"
 #endif
@@ -64,30 +65,6 @@ struct RunFiles {
   TraceFile* trace = nullptr;
 };
 
-/// Writes the best mesh so far in the form of the result.
-Expected<void> save(const OptimizeSettings& s, const Input& input, const RunFiles& files, const BestSoFar& best) {
-  io::MeshFile file = input.file;
-  io::update(file, input.loaded, best.mesh, best.vertices, {s.rules, files.threads});
-  io::WriteOptions options = s.output.options;
-  options.executor = files.threads;
-  const Expected<std::vector<std::string>> written = io::write(s.output.path, file, options);
-  if (!written) return written.error();
-  return {};
-}
-
-/// For --save-every. A run whose mesh cannot be written goes on, and prints one warning.
-auto saver(const OptimizeSettings& s, const Input& input, const RunFiles& files) {
-  using Clock = std::chrono::steady_clock;
-  return [&, last = Clock::now(), warned = false](const auto& best) mutable {
-    if (std::chrono::duration<double>(Clock::now() - last).count() < *s.save_every) return;
-    best([&](const BestSoFar& mesh) {
-      const Expected<void> saved = save(s, input, files, mesh);
-      if (!saved && !std::exchange(warned, true)) print_warnings(std::vector{saved.error().what()});
-    });
-    last = Clock::now();
-  };
-}
-
 using Viewer = std::function<void(const Mesh&)>;
 
 OptimizeReport run_library(const OptimizeSettings& s, const Input& input, Mesh& mesh, const RunFiles& files,
@@ -108,7 +85,13 @@ OptimizeReport run_library(const OptimizeSettings& s, const Input& input, Mesh& 
   hooks.started = s.started;
   hooks.observer = observer;
   hooks.tracer = std::move(tracer);
-  if (s.save_every) hooks.best_so_far = saver(s, input, files);
+  if (s.save_every) {
+    hooks.best_so_far = saver(s, [&](const BestSoFar& best) {
+      io::MeshFile file = input.file;
+      io::update(file, input.loaded, best.mesh, best.vertices, {s.rules, files.threads});
+      return save(s, file, files.threads);
+    });
+  }
   OptimizeOptions options = s.options;
   if (s.metric) options.tensor = s.metric->tensor();
   Expected<OptimizeReport> report = optimize(mesh, options, hooks);
@@ -255,7 +238,7 @@ void write_all(const Command& command, const OptimizeSettings& s, Input& input, 
                                    results.errors_json};
     if (!s.files.report.empty()) outputs.write_text(s.files.report, optimize_json(record));
     if (!s.files.page.empty())
-      outputs.write_text(s.files.page, optimize_html({record, input, results.original, input.loaded.mesh}));
+      outputs.write_text(s.files.page, optimize_html(OptimizePage{record, input, results.original, input.loaded.mesh}));
   }
   if (!s.files.history.empty()) outputs.write_text(s.files.history, history_csv(results.report.history));
   if (!s.files.picture.empty()) outputs.write_picture(s.files.picture, results.picture);

@@ -114,7 +114,7 @@ void add_options(Command& command, WeightsSettings& s) {
   command.group("Weights");
   add_choice(command, "--mode", kModes, s.mode,
              "Goal of the search. 'feasible' tests if good weights exist, and finds the best margin. 'minimal' makes "
-             "the least change that gives the margin. If no weights exist, 'elastic' finds the least violation. "
+             "the least change that gives the margin. If no weights have the margin, 'elastic' finds the least violation. "
              "'barrier' finds the least barrier energy.");
   add_number(command, "--margin", s.options.margin, {0, 0.5, true},
              "Least h/l, d/l, 1 - d/l or dual length/l in the mesh. With --mode feasible or barrier, half of the best "

@@ -29,15 +29,16 @@ namespace temper::app {
 std::span<const Verb> verbs() {
   static constexpr auto kVerbs = std::to_array<Verb>({
       {"check", "report on the quality of a mesh, and test requirements", run_check},
-      {"optimize", "make every triangle well-centered: move vertices, change weights, flip edges", run_optimize},
+      {"optimize", "make every triangle or tetrahedron well-centered: move vertices, change weights, flip",
+       run_optimize},
       {"mesh", "mesh an outline, and optimize the mesh", run_mesh},
       {"weights", "find weights for a mesh as it is, or prove that there are none", run_weights},
-      {"explain", "explain why triangles are not well-centered, and find cures", run_explain},
+      {"explain", "explain why triangles or tetrahedra are not well-centered, and find cures", run_explain},
 #ifdef TEMPER_WITH_ERRORS
       {"errors", "measure the errors that solvers make on a mesh", run_errors},
 #endif
       {"operators", "write the operators of a mesh, for solvers", run_operators},
-      {"draw", "draw triangles, dual and weights as SVG, PNG or PDF", run_draw},
+      {"draw", "draw triangles with their dual, or a cut through tetrahedra, as SVG, PNG or PDF", run_draw},
       {"convert", "write a mesh in another file format", run_convert},
       {"example", "make an example mesh", run_example},
       {"paper", "make the figures of the paper again, or repeat the steps of a run", run_paper},

@@ -157,8 +157,8 @@ Option& add_target(Command& command, std::string& target, bool research) {
 
 Command optimize_command(OptimizeSettings& settings) {
   Command command("optimize",
-                  "Moves vertices, changes weights and flips edges until every orthocenter is inside its triangle and "
-                  "each dual edge crosses its edge. The boundary stays bit for bit, unless --boundary allows changes.");
+                  "Moves vertices, changes weights and flips until orthocenters are inside their triangles or "
+                  "tetrahedra, and dual edges cross edges. The boundary stays, unless --boundary allows changes.");
   add_common(command, settings);
   add_rare(command, settings);
   command.group("Options");

@@ -17,17 +17,19 @@
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
 #include "temper/solvers.hpp"
+#include "temper/tets/draw.hpp"
 #include "temper/tets/optimize.hpp"
 #include "verbs/progress_line.hpp"
+#include "verbs/save_every.hpp"
 
 namespace temper::app {
 namespace {
 
 /// The options that have a meaning for tetrahedra. All others are refused by name.
-constexpr auto kOptions =
-    std::to_array<std::string_view>({"IN", "--output", "--format", "--encoding", "--for", "--effort", "--keep",
-                                     "--boundary", "--require", "--time-limit", "--write", "--set", "--options",
-                                     "--details", "--quiet", "--point-data", "--threads", "--no-triangle-quality"});
+constexpr auto kOptions = std::to_array<std::string_view>(
+    {"IN", "--output", "--format", "--encoding", "--for", "--effort", "--keep", "--boundary", "--require",
+     "--time-limit", "--write", "--set", "--options", "--details", "--quiet", "--point-data", "--threads",
+     "--no-triangle-quality", "--save-every"});
 
 template <class Names>
 bool has(const Names& names, std::string_view name) {
@@ -42,9 +44,7 @@ void refuse_options(const Command& command, const OptimizeSettings& s) {
     const std::string name = long_name(option.names);
     refuse(!option.given.empty() && !has(kOptions, name), name);
   }
-  for (const auto& [path, what] : {std::pair(s.files.page, "a page"), std::pair(s.files.trace, "a trace"),
-                                   std::pair(s.files.picture, "a picture")})
-    refuse(!path.empty(), fmt::format("--write {}, {},", path, what));
+  refuse(!s.files.trace.empty(), fmt::format("--write {}, a trace,", s.files.trace));
 }
 
 tets::OptimizeOptions options_of(const OptimizeSettings& s) {
@@ -82,6 +82,7 @@ class TetRun {
   Exit run() {
     warn(input_.warnings());
     warn(warning_of_replaced_input(s_));
+    warn(warning_of_effort());
     rules_ = data_rules(s_.point_data, input_.path, input_.file.point_data);
     io::release_geometry(input_.file, input_.loaded);  // the mesh has it
     before_ = quality(input_.mesh(), {kWorst, threads_});
@@ -102,6 +103,17 @@ class TetRun {
     print_warnings(warnings);
     warnings_.insert(warnings_.end(), warnings.begin(), warnings.end());
   }
+  /// More trials change the connectivity or lower errors. Some runs do neither.
+  [[nodiscard]] std::vector<std::string> warning_of_effort() const {
+    const bool lowers_errors = options_.scheme == Scheme::vertex || options_.scheme == Scheme::cell;
+    if (s_.effort != "high" || !(options_.keep_edges || options_.keep_positions || options_.keep_weights) ||
+        lowers_errors)
+      return {};
+    return {
+        fmt::format("--effort high has no effect with --keep {}, which allows no new connectivity. Next: leave one "
+                    "of them out",
+                    fmt::join(s_.keep, ","))};
+  }
   void improve() {
     catch_interrupts();
     print(fmt::format("{}: {}\n", s_.input, mesh_size(before_)));
@@ -116,6 +128,13 @@ class TetRun {
     };
     mesh_ = input_.mesh();
     hooks.error = tets::discretization_error(options_.scheme);
+    if (s_.save_every) {
+      hooks.best_so_far = saver(s_, [this](const tets::BestSoFar& best) {
+        io::TetFile file = input_.file;
+        io::update(file, input_.loaded, best.mesh, best.origins, {rules_, threads_});
+        return save(s_, file, threads_);
+      });
+    }
     Expected<tets::OptimizeReport> report = optimize(mesh_, options_, hooks);
     if (!report) throw as_failure(spell_options(report.error()));
     report_ = *std::move(report);
@@ -126,11 +145,24 @@ class TetRun {
     data_ = io::update(input_.file, input_.loaded, mesh_, report_.origins, {rules_, threads_});
     warn(std::span(input_.file.warnings).subspan(known));
     warn(outputs_.write_mesh(s_.output, input_.file, threads_));
-    if (!s_.files.report.empty())
-      outputs_.write_text(s_.files.report, optimize_json(TetOptimizeRecord{
-                                               command_line(command_, {s_.input}),
-                                               options_json(command_, s_.assignments), settings_json(s_, options_),
-                                               before_, input_.points, after_, report_, data_, outcomes_, warnings_}));
+    if (!s_.files.report.empty() || !s_.files.page.empty()) {
+      const TetOptimizeRecord record = {command_line(command_, {s_.input}),
+                                        options_json(command_, s_.assignments),
+                                        settings_json(s_, options_),
+                                        before_,
+                                        input_.points,
+                                        after_,
+                                        report_,
+                                        data_,
+                                        outcomes_,
+                                        warnings_};
+      if (!s_.files.report.empty()) outputs_.write_text(s_.files.report, optimize_json(record));
+      if (!s_.files.page.empty())
+        outputs_.write_text(s_.files.page, optimize_html(TetOptimizePage{record, input_, input_.mesh(), mesh_}));
+    }
+    if (!s_.files.picture.empty())
+      outputs_.write_picture(s_.files.picture,
+                             draw_before_after_svg(input_.mesh(), mesh_, tets::middle_plane(input_.mesh())));
     if (!s_.files.history.empty()) outputs_.write_text(s_.files.history, history_csv(report_.history));
   }
   void print_result() const {
@@ -139,7 +171,7 @@ class TetRun {
     print(fmt::format("{}{}\n", ending(report_.stopped), work_done(report_)));
     print(fmt::format("wrote {}\n", fmt::join(outputs_.written(), ", ")));
     if (after_.orthocenters_outside > 0 && s_.output.path != kStandardOutput)
-      print(fmt::format("Next: {} --details\n", command_line("check", s_.output.path, {})));
+      print(fmt::format("Next: {}\n", command_line("explain", s_.output.path, {})));
   }
   void print_details() const {
     print("\n" + comparison_text(before_, after_));

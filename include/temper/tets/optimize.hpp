@@ -8,6 +8,7 @@
 
 #include <array>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -42,8 +43,10 @@ class DiscretizationError {
  public:
   virtual ~DiscretizationError() = default;
 
-  /// Returns the mean squared error, without unit; +∞ if the matrix of the scheme is not positive definite. `gradient`,
-  /// unless null, gets the derivatives by x, y, z and w of every vertex.
+  /// Says whether squared_error() has derivatives. Without them it only chooses between meshes.
+  [[nodiscard]] virtual bool has_gradient() const { return true; }
+  /// Returns the mean squared error, without unit; +∞ if the scheme has no solution. `gradient`, unless null, gets the
+  /// derivatives by x, y, z and w of every vertex. Precondition then: has_gradient().
   [[nodiscard]] virtual double squared_error(const TetMesh& mesh,
                                              IdVector<VertexId, WeightedPoint>* gradient) const = 0;
 };
@@ -59,12 +62,21 @@ struct OptimizeWords {
 /// alone.
 [[nodiscard]] Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, const OptimizeWords& words);
 
+/// The mesh to keep if the run ends now.
+struct BestSoFar {
+  const TetMesh& mesh;
+  const Origins& origins;  ///< Parts of the mesh in the input, as in OptimizeReport
+};
+/// A function that can get the best mesh so far, as temper::BestListener. The mesh is not copied.
+using BestListener = std::function<void(const std::function<void(const std::function<void(const BestSoFar&)>&)>& best)>;
+
 struct OptimizeHooks {
   Observer observer = {};  ///< Observer of the progress, which may stop the run. Any thread calls it, one at a time
   Executor* executor = nullptr;  ///< Threads; the result does not depend on them
   /// Start of the time limit, as in temper::OptimizeHooks. Absent: the time of the call.
   std::optional<std::chrono::steady_clock::time_point> started = {};
   std::shared_ptr<const DiscretizationError> error = {};  ///< Model of the errors of the scheme; null: none
+  BestListener best_so_far = {};                          ///< Listener that may get each new best mesh
 };
 
 struct OptimizeReport {

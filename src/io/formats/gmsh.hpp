@@ -12,5 +12,7 @@ inline constexpr std::int32_t kGmshLine = 1, kGmshTriangle = 2, kGmshQuadrilater
 inline constexpr std::string_view kGmshEntity = "gmsh:geometrical";
 /// Data array with the partition of each triangle.
 inline constexpr std::string_view kGmshPartition = "gmsh:partition";
+/// Data array of the cells in a physical group that is not their first: this and the tag, "gmsh:physical:7".
+inline constexpr std::string_view kGmshFurtherGroup = "gmsh:physical:";
 
 }  // namespace temper::io

@@ -4,9 +4,12 @@
 // entity is kept as data gmsh:geometrical. NodeData and ElementData become data; the NodeData "weight" are the weights.
 // Elements are sorted by their numbers: Gmsh gave them in this order, and other programs count by it.
 //
+// The first physical group of an entity is the region, or the tag. Lines, points and tagged faces are there once more
+// for each further group, as version 2 lists them. Further groups of cells are data gmsh:physical:TAG, 1 inside.
+//
 // A partition divides entities into parts, and adds entities between the parts. A part belongs to its parent again; its
-// number is the data gmsh:partition. Elements between parts are left out. So are ghosts, the triangles of other parts
-// in the file of one part.
+// number is the data gmsh:partition. Elements between parts are left out. So are ghosts, the cells of other parts in
+// the file of one part.
 //
 //     surface 1, curve 5 |  gmsh    surface 3 of 1 | curve 8 of 1, | surface 4 of 1     (dimension 2 of 2, 1 of 2, …)
 //                        |  ---->   curve 9 of 5   | not of a curve| curve 10 of 5
@@ -22,6 +25,7 @@
 #include <set>
 #include <utility>
 
+#include "io/conversion/data_update.hpp"
 #include "io/formats/format.hpp"
 #include "io/formats/gmsh.hpp"
 #include "io/text/scanner.hpp"
@@ -58,6 +62,7 @@ std::string_view element_name(std::int32_t type) {
 /// What an element belongs to.
 struct Membership {
   std::int32_t physical = 0, entity = 0;
+  std::vector<std::int32_t> further;       // physical groups after the first
   std::int32_t partition = 0;              // 0: the mesh has none
   bool is_reversed = false;                // the physical group has the entity in the other direction
   bool of_partition_alone = false;         // between its parts, or a ghost
@@ -69,6 +74,7 @@ template <std::size_t N>
 struct Elements {
   std::vector<std::array<std::int32_t, N>> nodes;
   std::vector<std::int32_t> physical, geometrical, partitions, fourth_corners;
+  std::vector<std::pair<std::int64_t, std::int32_t>> further;  // number of an element, and one more of its groups
   RunLength numbers, text_lines;
 
   void add(const std::array<std::int32_t, N>& element_nodes, const Membership& of, std::int64_t number,
@@ -77,6 +83,7 @@ struct Elements {
     physical.push_back(of.physical);
     geometrical.push_back(of.entity);
     partitions.push_back(of.partition);
+    for (const std::int32_t group : of.further) further.emplace_back(number, group);
     if (of.fourth_corner != kNoCorner || !fourth_corners.empty()) {
       fourth_corners.resize(nodes.size() - 1, kNoCorner);
       fourth_corners.push_back(of.fourth_corner);
@@ -87,7 +94,7 @@ struct Elements {
   /// Appends an element of another list.
   void add_from(const Elements& other, std::size_t i) {
     const auto row = static_cast<std::int64_t>(i);
-    Membership of = {other.physical[i], other.geometrical[i], other.partitions[i]};
+    Membership of = {other.physical[i], other.geometrical[i], {}, other.partitions[i]};
     if (!other.fourth_corners.empty()) of.fourth_corner = other.fourth_corners[i];
     add(other.nodes[i], of, other.numbers[row], other.text_lines[row]);
   }
@@ -104,6 +111,7 @@ void Elements<N>::sort_by_number() {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return number[a] < number[b]; });
   Elements sorted;
+  sorted.further = std::move(further);
   for (const std::size_t i : order) sorted.add_from(*this, i);
   *this = std::move(sorted);
 }
@@ -218,7 +226,7 @@ class GmshReader {
         const auto tag = get<std::int32_t>("the tag of a ghost entity");
         Membership ghosts;
         ghosts.of_partition_alone = true;
-        entities_[{2, tag}] = ghosts;
+        for (const std::int32_t dimension : {2, 3}) entities_.try_emplace({dimension, tag}, ghosts);  // cells have one
         get<std::int32_t>("the partition of a ghost entity");
       }
     }
@@ -250,17 +258,22 @@ class GmshReader {
     const std::size_t n_physical = get_count("physical tags", 2, 4);
     for (std::size_t k = 0; k < n_physical; ++k) {
       const auto physical = get<std::int32_t>("a physical tag");
-      if (k == 0) of.physical = physical;
+      if (k == 0)
+        of.physical = physical;
+      else
+        of.further.push_back(physical);
     }
     const std::size_t n_bounding = dimension == 0 ? 0 : get_count("bounding entities", 2, 4);
     for (std::size_t k = 0; k < n_bounding; ++k) get<std::int32_t>("a bounding entity");
     of.is_reversed = is_of_reversed(dimension, of.physical, n_bounding > 0);
     if (of.is_reversed) of.physical = -of.physical;
+    for (std::int32_t& group : of.further) {
+      if (is_of_reversed(dimension, group, n_bounding > 0)) group = -group;
+    }
     if (parent != nullptr && parent->physical != 0) {
       of.physical = parent->physical;
+      of.further = parent->further;
       of.is_reversed = parent->is_reversed;
-    } else if (n_physical > 1 && !of.of_partition_alone) {
-      ++with_further_tags_;
     }
     entities_[{dimension, tag}] = of;
   }
@@ -497,7 +510,64 @@ class GmshReader {
     if (name != "Comments" && name != "Entities")
       document_.file.warnings.push_back(text(at, ": section $", name, " is dropped"));
   }
+  template <std::size_t N>
+  void add_groups(const Elements<N>& cells, const NumberLookup& lookup, std::vector<DataArray>& data) {
+    std::map<std::int32_t, std::vector<std::int32_t>> groups;
+    for (const auto& [number, group] : cells.further) {
+      std::vector<std::int32_t>& inside = groups[group];
+      if (inside.empty()) allocation_.take(cells.nodes.size(), 1, scanner_.path());
+      inside.resize(cells.nodes.size());
+      inside[*lookup.find(number)] = 1;
+    }
+    for (auto& [group, inside] : groups) {
+      warn_of_parts(N - 1, group, inside, cells.physical);
+      data.push_back({text(kGmshFurtherGroup, group), 1, std::move(inside)});
+    }
+  }
+  /// Boundaries between regions stay, but those of a further group inside a region may move.
+  void warn_of_parts(std::size_t dimension, std::int32_t group, const std::vector<std::int32_t>& inside,
+                     const std::vector<std::int32_t>& regions) {
+    std::map<std::int32_t, std::set<std::int32_t>> found;
+    for (std::size_t i = 0; i < inside.size(); ++i) found[regions[i]].insert(inside[i]);
+    for (const auto& [region, values] : found) {
+      if (values.size() == 1) continue;
+      document_.file.warnings.push_back(
+          text(scanner_.path(), ": the physical group ", group_name(dimension, group), " is a part of ",
+               group_name(dimension, region),
+               ", the first group of its entities: the boundary between them may move. Next: define the smaller group "
+               "first in Gmsh, or tag the boundary"));
+    }
+  }
+  [[nodiscard]] std::string group_name(std::size_t dimension, std::int32_t tag) const {
+    for (const PhysicalName& name : document_.file.names) {
+      if (name.dimension == static_cast<std::int32_t>(dimension) && name.tag == tag) return in_quotes(name.name);
+    }
+    return std::to_string(tag);
+  }
+  template <std::size_t N>
+  static void repeat_for_groups(Elements<N>& elements, const NumberLookup& lookup, std::vector<DataArray>& data) {
+    if (elements.further.empty()) return;
+    std::vector<std::size_t> rows(elements.nodes.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    const std::vector<std::pair<std::int64_t, std::int32_t>> further = std::move(elements.further);
+    for (const auto& [number, group] : further) {
+      rows.push_back(*lookup.find(number));
+      elements.add_from(elements, rows.back());
+      elements.physical.back() = group;
+    }
+    take_rows(data, rows);
+  }
+  void settle_groups() {
+    MeshFile& f = document_.file;
+    const bool has_tets = !tets_.nodes.empty();
+    add_groups(tets_, *tet_lookup_, document_.tetrahedra.data);
+    has_tets ? repeat_for_groups(triangles_, *triangle_lookup_, f.cell_data)
+             : add_groups(triangles_, *triangle_lookup_, f.cell_data);
+    repeat_for_groups(lines_, *line_lookup_, f.line_data);
+    repeat_for_groups(points_, *point_lookup_, f.marked_point_data);
+  }
   void finish() {
+    settle_groups();
     MeshFile& f = document_.file;
     const auto hand_over = [](auto& elements, auto& nodes, auto& tags, auto& data) {
       nodes = std::move(elements.nodes);
@@ -537,15 +607,6 @@ class GmshReader {
       f.warnings.push_back(text(scanner_.path(), ": ", n_of_partition_, n_of_partition_ == 1 ? " element" : " elements",
                                 " that the partition added ", n_of_partition_ == 1 ? "is" : "are", " left out"));
     }
-    if (with_further_tags_ > 0) {
-      const bool one = with_further_tags_ == 1;
-      const std::string_view what = version4_                              ? one ? " entity has" : " entities have"
-                                    : document_.tetrahedra.corners.empty() ? one ? " triangle has" : " triangles have"
-                                    : one                                  ? " element has"
-                                                                           : " elements have";
-      f.warnings.push_back(text(scanner_.path(), ": ", with_further_tags_, what,
-                                " several physical tags: only the first ", one ? "" : "of each ", "is kept"));
-    }
   }
 
   void add_node(double x, double y, double z) {
@@ -554,7 +615,10 @@ class GmshReader {
     PlaneCheck(document_).add(f.points.size() - 1, z);
   }
   void finish_nodes() {
-    if (has_nodes_) fail(ErrorCode::syntax, where(), "has two sections $Nodes");
+    if (has_nodes_) {
+      fail(ErrorCode::syntax, where(),
+           "has two sections $Nodes; expected one mesh. Next: append views of Gmsh with PostProcessing.SaveMesh = 0");
+    }
     has_nodes_ = true;
     lookup_.emplace(document_.names->points);
     if (const auto twice = lookup_->duplicate()) {
@@ -562,6 +626,7 @@ class GmshReader {
     }
   }
   void add_element(std::int32_t type, std::int64_t number, const Membership& of) {
+    if (!of.further.empty()) allocation_.take(of.further.size(), 1, where());
     const auto line = static_cast<std::int64_t>(scanner_.line());
     switch (type) {
       case kGmshTetrahedron: {
@@ -611,7 +676,7 @@ class GmshReader {
     fail(ErrorCode::index_out_of_range, where(), kind, " ", element, " uses vertex ", number, ", but the file has ",
          contiguous ? text(n, " vertices, numbered from 1") : "no vertex of that number");
   }
-  // In version 2 an element with several physical groups is listed once for each.
+  // In version 2 an element with several physical groups is listed once for each: the others become further groups.
   template <std::size_t N>
   void keep_one_of_each(Elements<N>& elements) {
     const std::vector<std::int32_t>& physical = elements.physical;
@@ -629,11 +694,12 @@ class GmshReader {
       const bool same = all[i].first == all[first].first && physical[a] != physical[b] &&
                         elements.geometrical[a] == elements.geometrical[b];
       repeated[b] = same;
+      if (same) elements.further.emplace_back(elements.numbers[static_cast<std::int64_t>(a)], physical[b]);
       if (!same) first = i;
-      if (same && i == first + 1) ++with_further_tags_;
     }
     if (std::find(repeated.begin(), repeated.end(), true) == repeated.end()) return;
     Elements<N> kept;
+    kept.further = std::move(elements.further);
     for (std::size_t i = 0; i < repeated.size(); ++i) {
       if (repeated[i])
         left_out_.push_back(elements.numbers[static_cast<std::int64_t>(i)]);
@@ -691,7 +757,6 @@ class GmshReader {
   bool binary_ = false, swap_ = false, version4_ = false, has_nodes_ = false, has_elements_ = false;
   std::optional<NumberLookup> lookup_;
   std::map<std::pair<std::int32_t, std::int32_t>, Membership> entities_;  // by dimension and tag
-  std::size_t with_further_tags_ = 0;                                     // entities in 4.1, elements in 2
   std::vector<PhysicalName> names_without_dimension_;
   std::set<std::pair<std::int32_t, std::int32_t>> named_;  // dimension and tag
   Elements<4> tets_;

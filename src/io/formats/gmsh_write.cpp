@@ -1,10 +1,13 @@
 // Writes Gmsh MSH 2, 2.2 and 4.1, ASCII and binary.
 //
 // Elements are numbered points first, then lines, triangles and tetrahedra, so that the reader finds their order again.
-// A Gmsh entity has one physical group, so entities are the distinct pairs (entity, region). Their numbers come from
-// the data gmsh:geometrical, or else from the region. NodeData and ElementData hold doubles alone.
+// All elements of a Gmsh entity are in the same physical groups, so entities are the distinct pairs (entity, groups).
+// Groups are the region or tag, and those of the data gmsh:physical:TAG. Version 2 lists an element once more for each
+// of these. Numbers of entities come from the data gmsh:geometrical, or else from the groups. NodeData and ElementData
+// hold doubles alone.
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -21,6 +24,13 @@ namespace {
 
 const std::vector<DataArray> kNoData;
 
+/// Physical groups: the region or tag, 0 if there is none, and the tags of further ones.
+struct Groups {
+  std::int32_t first = 0;
+  std::vector<std::int32_t> further;
+  friend auto operator<=>(const Groups&, const Groups&) = default;
+};
+
 /// Elements of one kind, whatever their number of corners.
 struct Kind {
   std::int32_t dimension = 0;
@@ -33,9 +43,20 @@ struct Kind {
   std::size_t first_number = 1;
   std::vector<std::int32_t> entities;  // of each element; empty: all `only_entity`
   std::int32_t only_entity = 1;
-  std::map<std::int32_t, std::int32_t> physical_of_entity;
+  std::vector<std::pair<std::int32_t, std::vector<double>>> further_groups = {};  // tag, and of each element: 0 outside
+  std::map<std::int32_t, Groups> groups_of_entity = {};
 
   [[nodiscard]] std::int32_t tag(std::size_t i) const { return tags->empty() ? 0 : (*tags)[i]; }
+  [[nodiscard]] Groups groups(std::size_t i) const {
+    Groups all = {tag(i), {}};
+    for (const auto& [group, inside] : further_groups) {
+      if (is_in(inside, i)) all.further.push_back(group);
+    }
+    return all;
+  }
+  [[nodiscard]] static bool is_in(const std::vector<double>& inside, std::size_t i) {
+    return inside[i] != 0 && !std::isnan(inside[i]);
+  }
   [[nodiscard]] std::int32_t entity(std::size_t i) const { return entities.empty() ? only_entity : entities[i]; }
 };
 
@@ -45,18 +66,30 @@ const std::vector<std::int32_t>* given_entities(const Kind& kind) {
   return array == nullptr || array->components != 1 ? nullptr : std::get_if<std::vector<std::int32_t>>(&array->values);
 }
 
-/// Numbers entities so that each has one physical tag.
+/// The tag in the name gmsh:physical:TAG; nothing for other arrays.
+std::optional<std::int32_t> further_group(const DataArray& array) {
+  const std::string_view name = array.name;
+  if (array.components != 1 || !name.starts_with(kGmshFurtherGroup)) return {};
+  const std::string_view digits = name.substr(kGmshFurtherGroup.size());
+  std::int32_t tag = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), tag);
+  if (error != std::errc() || end != digits.data() + digits.size() || tag == 0) return {};
+  return tag;
+}
+
+/// Numbers entities so that all elements of each are in the same groups.
 void number_entities(Kind& kind) {
   if (kind.n == 0) return;
   const auto* given = given_entities(kind);
-  const bool uniform = given == nullptr && (kind.tags->empty() || std::count(kind.tags->begin(), kind.tags->end(),
-                                                                             kind.tag(0)) == std::ssize(*kind.tags));
+  const bool uniform =
+      given == nullptr && kind.further_groups.empty() &&
+      (kind.tags->empty() || std::count(kind.tags->begin(), kind.tags->end(), kind.tag(0)) == std::ssize(*kind.tags));
   if (uniform) {
-    kind.physical_of_entity[kind.only_entity] = kind.tag(0);
+    kind.groups_of_entity[kind.only_entity] = kind.groups(0);
     return;
   }
-  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> entity_of_pair;
-  const auto pair_of = [&](std::size_t i) { return std::pair(given == nullptr ? 0 : (*given)[i], kind.tag(i)); };
+  std::map<std::pair<std::int32_t, Groups>, std::int32_t> entity_of_pair;
+  const auto pair_of = [&](std::size_t i) { return std::pair(given == nullptr ? 0 : (*given)[i], kind.groups(i)); };
   for (std::size_t i = 0; i < kind.n; ++i) entity_of_pair[pair_of(i)] = 0;
   std::set<std::int32_t> taken;
   for (auto& [pair, entity] : entity_of_pair) {
@@ -68,7 +101,7 @@ void number_entities(Kind& kind) {
       if (taken.insert(next).second) entity = next;
       ++next;
     }
-    kind.physical_of_entity[entity] = pair.second;
+    kind.groups_of_entity[entity] = pair.second;
   }
   kind.entities.resize(kind.n);
   for (std::size_t i = 0; i < kind.n; ++i) kind.entities[i] = entity_of_pair[pair_of(i)];
@@ -120,7 +153,13 @@ class GmshWriter {
                1,
                {}};
     }
-    for (Kind* kind : kinds()) number_entities(*kind);
+    for (Kind* kind : kinds()) {
+      for (const DataArray& array : *kind->data) {
+        if (const auto tag = further_group(array))
+          kind->further_groups.emplace_back(*tag, to_doubles(Values(array.values)));
+      }
+      number_entities(*kind);
+    }
   }
   void write() {
     // WAVEWATCH III has depths in z, and reads a whole number. Without names, 2.2 is the same as 2.
@@ -148,15 +187,16 @@ class GmshWriter {
   }
   void entities() {
     out_.put("$Entities\n", "");
-    for (const Kind* kind : kinds()) put(std::uint64_t{kind->physical_of_entity.size()});
+    for (const Kind* kind : kinds()) put(std::uint64_t{kind->groups_of_entity.size()});
     end_line();
     const std::array<double, 6> box = bounding_box();
     for (const Kind* kind : kinds()) {
-      for (const auto& [entity, physical] : kind->physical_of_entity) {
+      for (const auto& [entity, groups] : kind->groups_of_entity) {
         put(entity);
         for (std::size_t k = 0; k < (kind->dimension == 0 ? 3 : 6); ++k) put(box[k]);
-        put(std::uint64_t{physical == 0 ? 0u : 1u});
-        if (physical != 0) put(physical);
+        put(std::uint64_t{(groups.first == 0 ? 0 : 1) + groups.further.size()});
+        if (groups.first != 0) put(groups.first);
+        for (const std::int32_t group : groups.further) put(group);
         if (kind->dimension > 0) put(std::uint64_t{0});
         end_line();
       }
@@ -182,7 +222,7 @@ class GmshWriter {
       for (const std::uint64_t v : {std::uint64_t{1}, std::uint64_t{n}, std::uint64_t{1}, std::uint64_t{n}}) put(v);
       end_line();
       const Kind& cells = tets_.n > 0 ? tets_ : triangles_;
-      const std::int32_t entity = cells.physical_of_entity.empty() ? 1 : cells.physical_of_entity.begin()->first;
+      const std::int32_t entity = cells.groups_of_entity.empty() ? 1 : cells.groups_of_entity.begin()->first;
       put(tets_.n > 0 ? 3 : 2), put(entity), put(std::int32_t{0}), put(std::uint64_t{n});
       end_line();
       for (std::size_t i = 0; i < n; ++i) put(std::uint64_t{i + 1}), end_line();
@@ -192,7 +232,9 @@ class GmshWriter {
     out_.put("$EndNodes\n", "");
   }
   void elements_2() {
-    out_.put("$Elements\n", n_elements(), '\n');
+    std::size_t n_further = 0;
+    for_each_further([&](const Kind&, std::size_t, std::int32_t) { ++n_further; });
+    out_.put("$Elements\n", n_elements() + n_further, '\n');
     for (const Kind* kind : kinds()) {
       const std::size_t n_triangles = kind == &triangles_ ? job_.n_triangles() : kind->n;
       for (std::size_t i = 0; i < kind->n; ++i) {
@@ -206,8 +248,27 @@ class GmshWriter {
         put_nodes<std::int32_t>(*kind, i);
       }
     }
+    auto number = static_cast<std::int32_t>(n_elements());
+    for_each_further([&](const Kind& kind, std::size_t i, std::int32_t group) {
+      const std::int32_t type = is_quadrilateral(kind, i) ? kGmshQuadrilateral : kind.type;
+      ++number;
+      binary_ ? (put(type), put(std::int32_t{1}), put(std::int32_t{2}), put(number))
+              : (put(number), put(type), put(std::int32_t{2}));
+      put(group), put(kind.entity(i));
+      put_nodes<std::int32_t>(kind, i);
+    });
     end_section();
     out_.put("$EndElements\n", "");
+  }
+  template <class Use>
+  void for_each_further(const Use& use) {
+    for (const Kind* kind : kinds()) {
+      for (const auto& [group, inside] : kind->further_groups) {
+        for (std::size_t i = 0; i < kind->n; ++i) {
+          if (Kind::is_in(inside, i)) use(*kind, i, group);
+        }
+      }
+    }
   }
   [[nodiscard]] bool is_quadrilateral(const Kind& kind, std::size_t i) const {
     return &kind == &triangles_ && i >= job_.n_triangles();
@@ -277,7 +338,7 @@ class GmshWriter {
                                                           {&tets_, ArraysByName(*tets_.data)}};
     for (const Kind* leading : kinds()) {
       for (const DataArray& a : *leading->data) {
-        if (!done.insert(a.name).second) continue;
+        if (!done.insert(a.name).second || further_group(a)) continue;
         const int padded = components_in_gmsh(a, "cell data");
         if (padded == 0) continue;
         note_type(a, "cell data");

@@ -79,6 +79,7 @@ struct Known {
 
 // The Python package meshio reads these formats, and writes formats of temper.
 constexpr std::string_view kMeshio = "; meshio converts it";
+constexpr std::string_view kGmsh = ". Next: gmsh IN -save -format msh41 -o OUT";
 
 constexpr Known kKnown[] = {
     {"a Fluent mesh",
@@ -87,9 +88,9 @@ constexpr Known kKnown[] = {
        return s.starts_with("(0 ") || s.starts_with("(1 ") || s.starts_with("(2 ") || s.starts_with("(10 ");
      },
      kMeshio},
-    {"a Gmsh mesh of version 1", [](std::string_view h) { return skip_blanks(h).starts_with("$NOD"); }},
+    {"a Gmsh mesh of version 1", [](std::string_view h) { return skip_blanks(h).starts_with("$NOD"); }, kGmsh},
     {"a Gmsh mesh of another version than 2 and 4.1",
-     [](std::string_view h) { return skip_blanks(h).starts_with("$MeshFormat"); }},
+     [](std::string_view h) { return skip_blanks(h).starts_with("$MeshFormat"); }, kGmsh},
     {"a medit file in binary",
      [](std::string_view h) {
        return h.starts_with(std::string_view("\1\0\0\0", 4)) || h.starts_with(std::string_view("\0\0\0\1", 4));

@@ -174,7 +174,7 @@ class Run {
       best_ = draft_;
     };
     keep_if_best();
-    const DiscretizationError* error = best_bad_ == 0 ? error_ : nullptr;
+    const DiscretizationError* error = best_bad_ == 0 && error_ && error_->has_gradient() ? error_ : nullptr;
     Accuracy accuracy(draft_.mesh, draft_.mobilities(), accuracy_model(options_.scheme), error, hooks_.executor);
     const auto must_stop = [this] { return is_stopped(0); };
     for (int i = 0; i < options_.accuracy_steps && may_sweep() && accuracy.descend(must_stop); ++i) {
@@ -209,6 +209,11 @@ class Run {
     if (report_.history.empty() || bad < best_bad_ || (bad == best_bad_ && best == Equals::last)) {
       best_bad_ = bad;
       best_ = draft_;
+      if (hooks_.best_so_far && !report_.history.empty()) {
+        hooks_.best_so_far([this](const std::function<void(const BestSoFar&)>& use) {
+          use({best_.mesh, origins_of(best_)});
+        });
+      }
     }
     if (stopped_early(report_.stopped)) return;
     record(Objective::energy, energy);
@@ -235,19 +240,25 @@ class Run {
   }
 
   void report_changes() {
-    auto& [vertices, next, faces, lines] = best_.names;
-    std::size_t kept = 0;
-    for (VertexId& v : vertices) {
-      if (v.index < n_before_)
-        ++kept;
-      else
-        v = {};
-    }
-    report_.vertices_inserted = vertices.size() - kept;
+    const std::size_t kept = count_kept(best_);
+    report_.vertices_inserted = best_.mesh.n_vertices() - kept;
     report_.vertices_removed = n_before_ - kept;
     report_.flips = best_.flips;
-    if (report_.vertices_inserted + report_.vertices_removed > 0)
-      report_.origins = {std::move(vertices), std::move(faces), std::move(lines)};
+    report_.origins = origins_of(best_);
+  }
+  [[nodiscard]] bool is_of_input(VertexId name) const { return name.index < n_before_; }
+  [[nodiscard]] std::size_t count_kept(const Draft& draft) const {
+    const auto& names = draft.names.vertices;
+    return static_cast<std::size_t>(
+        std::count_if(names.begin(), names.end(), [this](VertexId v) { return is_of_input(v); }));
+  }
+  [[nodiscard]] Origins origins_of(const Draft& draft) const {
+    if (count_kept(draft) == n_before_ && draft.mesh.n_vertices() == n_before_) return {};
+    Origins origins = {draft.names.vertices, draft.names.faces, draft.names.lines};
+    for (VertexId& v : origins.vertices) {
+      if (!is_of_input(v)) v = {};
+    }
+    return origins;
   }
 
   TetMesh& result_;  // empty until the end: best_ has the mesh

@@ -95,6 +95,34 @@ TEST_F(Draw, ColorsAreMeasuresOrDataOfTheFile) {
   EXPECT_TRUE(contains(read("p.svg"), "depth: 3 to 6"));
 }
 
+TEST_F(Draw, TetrahedraAreCutByThePlaneThatTheUserNames) {
+  make_tetrahedra();
+  temper_ok({"draw", "two.mesh", "-o", "middle.svg"});
+  EXPECT_TRUE(contains(read("middle.svg"), "</tspan> of 2 tetrahedra bad at y = 0.85<"));  // across the shortest side
+  temper_ok({"draw", "two.mesh", "-o", "z.svg", "--cut", "z=0.5", "--before", "two.mesh", "--title", "A <cut>"});
+  EXPECT_TRUE(contains(read("z.svg"), "</tspan> of 1 tetrahedra bad at z = 0.5<"));
+  EXPECT_TRUE(contains(read("z.svg"), ">A &lt;cut&gt;</text>"));
+  make_input("a.vtu");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
+      {{"two.mesh", "--cut", "w=1"}, "--cut: expected x=VALUE, y=VALUE, z=VALUE or one of x, y, z, found 'w=1'"},
+      {{"two.mesh", "--cut", "x=one"}, "--cut: expected a number after '=', found 'x=one'"},
+      {{"two.mesh", "--cut", "x=2.5"}, "the plane x=2.5 misses the mesh, which has x from 0 to 2. Next: --cut x=1"},
+      {{"two.mesh", "--no-dual"}, "two.mesh has tetrahedra, and --no-dual is for triangles alone"},
+      {{"two.mesh", "--color", "angle"}, "--color angle is for triangles alone"},
+      {{"a.vtu", "--cut", "x"}, "a.vtu has triangles, and --cut is for tetrahedra alone. Next: leave it out"}};
+  for (const auto& [words, message] : refused) {
+    std::vector<std::string> all = {"draw", "-o", "none.svg"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome outcome = temper(all);
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_TRUE(contains(outcome.err, message)) << outcome.err;
+  }
+  const Outcome mixed = temper({"draw", "two.mesh", "-o", "none.svg", "--before", "a.vtu"});
+  EXPECT_EQ(mixed.exit, 1);
+  EXPECT_TRUE(contains(mixed.err, "a.vtu: has triangles, but two.mesh has tetrahedra"));
+  EXPECT_FALSE(exists("none.svg"));
+}
+
 TEST_F(Convert, GoesThereAndBack) {
   make_input("a.vtu");
   const nlohmann::json before = numbers_of("a.vtu");

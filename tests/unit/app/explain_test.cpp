@@ -1,8 +1,11 @@
 // temper explain: what people read, the JSON, and that the page in docs/ shows what the program says.
+#include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "support/sanitizers.hpp"
 #include "temper/io.hpp"
+#include "temper/tets/io.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -65,6 +68,37 @@ TEST_F(Explain, OfAGlobeHasPlacesInDegreesAndCertificates) {
   EXPECT_TRUE(worst["cures"][0]["verified"]);
   write("why.json", worst["certificate"].dump());
   EXPECT_TRUE(contains(temper_ok({"weights", "globe.vtu", "--check-certificate", "why.json"}).out, "proves it"));
+}
+
+TEST_F(Explain, ATetrahedronHasItsNumbersAndAdvice) {
+  make_tetrahedra();
+  const std::string text = temper_ok({"explain", "two.mesh"}).out;
+  EXPECT_TRUE(contains(text, "two.mesh: 1 of 2 tetrahedra is not well-centered, 1 face is not regular\n"));
+  EXPECT_TRUE(contains(text, " 1. Tetrahedron 2 (2 4 3 6) at (1, 0.575, -0.075): orthocenter outside across face"));
+  EXPECT_TRUE(contains(text, "    - Try: temper weights\n")) << text;
+  const nlohmann::json json = nlohmann::json::parse(temper_ok({"explain", "two.mesh", "--json"}).out);
+  EXPECT_EQ(json["bad"], 1);
+  EXPECT_EQ(json["verdict"], "feasible");
+  const nlohmann::json& reason = json["reasons"].at(0);
+  EXPECT_EQ(reason["vertices"], (nlohmann::json{1, 3, 2, 5}));  // points[i] of the file, from 0
+  // The orthocenter has equal power to all corners, and the least height is the reason.
+  const auto file = std::get<io::TetFile>(*io::read_any("two.mesh"));
+  std::vector<double> powers, heights;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec3 p = file.points[reason["vertices"][k].get<std::size_t>()];
+    const auto& o = reason["orthocenter"];
+    powers.push_back(std::pow(o[0].get<double>() - p.x, 2) + std::pow(o[1].get<double>() - p.y, 2) +
+                     std::pow(o[2].get<double>() - p.z, 2) - reason["weights"][k].get<double>());
+    heights.push_back(reason["faces"][k]["h_over_l"]);
+    EXPECT_EQ(reason["faces"][k]["outside"], heights[k] <= 0);
+  }
+  for (const double power : powers) EXPECT_NEAR(power, powers[0], 1e-12);
+  EXPECT_NEAR(*std::min_element(heights.begin(), heights.end()), reason["h_over_l"].get<double>(), 1e-14);
+  // The advice helps.
+  temper_ok({"weights", "two.mesh", "-o", "out.mesh"});
+  EXPECT_EQ(temper_ok({"explain", "out.mesh"}).out.find("all 2 tetrahedra are well-centered"), 10U);
+  EXPECT_FALSE(contains(temper_ok({"explain", "two.mesh", "--limit", "0"}).out, "1. Tetrahedron"));
+  EXPECT_EQ(temper({"explain", "two.mesh", "--flat"}).exit, 2);
 }
 
 TEST_F(Explain, BadUsageIsRefused) {

@@ -45,6 +45,24 @@ TEST_F(Html, OptimizeShowsBeforeAndAfterAndWritesTheSameBytesAgain) {
   }
 }
 
+TEST_F(Html, TetrahedraHaveTheirOwnArraysAndMeasures) {
+  make_tetrahedra();
+  temper_ok({"optimize", "two.mesh", "-o", "out.vtu", "--write", "page.html", "cut.svg"});
+  const std::string page = read("page.html");
+  const nlohmann::json report = report_in("page.html");
+  EXPECT_GT(report["before"]["orthocenters_outside"], 0);
+  EXPECT_EQ(report["after"]["tetrahedra"], report["before"]["tetrahedra"]);
+  EXPECT_FALSE(report.contains("seconds")) << "the same command writes the same bytes";
+  for (const char* id : {"before.points", "before.tetrahedra", "after.weights", "after.verdicts", "before.regions"})
+    EXPECT_TRUE(contains(page, std::string("id=\"") + id + "\"")) << id;
+  EXPECT_FALSE(contains(page, "id=\"after.triangles\""));
+  EXPECT_TRUE(contains(page, "\"key\":\"min_dihedral_deg\""));
+  EXPECT_TRUE(contains(page, "id=\"before.vertex_numbers\"")) << "the file has one more point";
+  EXPECT_TRUE(contains(read("cut.svg"), "tetrahedra bad at "));
+  temper_ok({"check", "two.mesh", "--write", "page.html"});
+  EXPECT_TRUE(contains(report_in("page.html")["after"]["worst"][0]["why"].get<std::string>(), "face 2-4-3"));
+}
+
 TEST_F(Html, TheInputAndOtherOutputsAreNotReplaced) {
   make_input();
   EXPECT_EQ(temper({"check", "in.vtu", "--write", "page.htm"}).exit, 2);

@@ -541,15 +541,13 @@ TEST_F(OptimizeTetrahedra, PositionsOrWeightsMayBeKept) {
 TEST_F(OptimizeTetrahedra, OptionsForTrianglesAloneAreRefusedByNameAndNothingIsWritten) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
       {{"--for", "mpas"}, "target 'mpas'"},
-      {{"--boundary", "slide"}, "--boundary slide"},
       {{"--boundary", "split", "--effort", "quick"}, "--boundary split inserts vertices"},
       {{"--keep", "sizes"}, "keep 'sizes'"},
       {{"--set", "energy=F"},
        "--set energy=F is for triangles alone. Next: leave it out; for tetrahedra there are max_sweeps"},
       {{"--min-edge", "0.5"}, "--min-edge"},
-      {{"--write", "p.svg"}, "--write p.svg"},
+      {{"--write", "t.jsonl"}, "--write t.jsonl"},
       {{"--projection", "sphere"}, "--projection"},
-      {{"--save-every", "1"}, "--save-every"},
       {{"--measure-errors"}, "--measure-errors"}};
   for (const auto& [option, name] : refused) {
     std::vector<std::string> all = {"optimize", "in.vtu", "-o", "out.vtu"};
@@ -561,6 +559,13 @@ TEST_F(OptimizeTetrahedra, OptionsForTrianglesAloneAreRefusedByNameAndNothingIsW
   EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.obj"}).exit, 1);  // holds no tetrahedra
   EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.vtu", "--require", "min_angle>=1"}).exit, 2);
   EXPECT_EQ(names(), std::vector<std::string>{"in.vtu"});
+}
+
+TEST_F(OptimizeTetrahedra, MoreEffortThanTheKeptPartsAllowIsAWarning) {
+  const Outcome outcome = temper_ok(
+      {"optimize", "in.vtu", "-o", "out.vtu", "--effort", "high", "--keep", "edges", "--set", "max_sweeps=1"});
+  EXPECT_TRUE(contains(outcome.err, "warning: --effort high has no effect with --keep edges"));
+  EXPECT_TRUE(contains(outcome.err, "Next: leave one of them out"));
 }
 
 TEST_F(OptimizeTetrahedra, ATimeLimitWritesTheBestMeshAndExitsWith4) {

@@ -63,6 +63,13 @@ TEST_F(SaveEvery, TheResultIsThatOfARunWithoutIt) {
   }
 }
 
+TEST_F(SaveEvery, TetrahedraHaveTheResultOfARunWithoutItToo) {
+  make_tetrahedra();
+  temper_ok({"optimize", "two.mesh", "-o", "without.vtu"});
+  temper_ok({"optimize", "two.mesh", "-o", "out.vtu", "--save-every", "0"});
+  EXPECT_TRUE(read("out.vtu") == read("without.vtu"));
+}
+
 TEST_F(SaveEvery, AMeshThatCannotBeWrittenIsOneWarningAndTheRunGoesOn) {
   make_mesh_with_data();
   std::filesystem::create_directory("folder");

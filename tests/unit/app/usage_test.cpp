@@ -277,6 +277,7 @@ TEST_F(Usage, EveryExampleInTheHelpRuns) {
         "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=4\n9;0;0\n9.1;0;0\n9.1;0.1;0\n9;0.1;0\n"
         "EDGE2=4\n0;1;0\n1;2;0\n2;3;0\n3;0;0\n");
   write("report.json", R"({"for": "cell"})");
+  make_tetrahedra("box.mesh");
   write("land.geojson", R"({"type": "Polygon", "coordinates": [[[0, 0], [40, 5], [35, 40], [5, 30], [0, 0]]]})");
   write("rivers.geojson", R"({"type": "LineString", "coordinates": [[170, 30], [178, 33], [-174, 30], [-165, 40]]})");
   std::vector<std::string> texts = {temper_ok({"--help"}).out};
@@ -395,7 +396,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"RequireListsKeysAlike",
               {"check", "a.vtu", "--require", "min_nothing=0"},
               "; there are min_h, min_d, min_angle"},
-        Wrong{"RequireNoValue", {"check", "a.vtu", "--require", "nowhere"}, "'nowhere' is not key=value"},
+        Wrong{"RequireNoValue", {"check", "a.vtu", "--require", "nowhere"}, "unknown key 'nowhere'. Next: "},
         Wrong{"RequireNoUsualValue",
               {"check", "a.vtu", "--require", "smoothness"},
               "'smoothness' has no usual value: write smoothness<=VALUE"},

@@ -118,6 +118,12 @@ nlohmann::json Workshop::numbers_of(const std::string& path) {
   return report;
 }
 
+void Workshop::make_tetrahedra(const std::string& path) {
+  write(path,
+        "MeshVersionFormatted 2\nDimension 3\nVertices\n6\n9 9 9 0\n0 0 0 0\n2 0 0 0\n1 1.7 0 0\n1 0.6 1.6 0\n"
+        "1 0.6 -0.3 0\nTetrahedra\n2\n2 3 4 5 1\n2 4 3 6 2\nEnd\n");
+}
+
 void Workshop::make_input(const std::string& path) {
   temper_ok({"example", "sheared-grid", "--nx", "6", "--ny", "6", "--shear", "0.4", "-o", path});
 }

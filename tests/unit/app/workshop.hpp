@@ -45,6 +45,8 @@ class Workshop : public ::testing::Test {
 
   /// A sheared grid with bad triangles, quick to cure.
   static void make_input(const std::string& path = "in.vtu");
+  /// Two tetrahedra on the sides of the face 2 3 4, the second one flat enough to be bad. The first point is of none.
+  static void make_tetrahedra(const std::string& path = "two.mesh");
 
  private:
   std::filesystem::path folder_, home_;

@@ -61,7 +61,21 @@ TEST(TetSolverError, ARunLowersItAndReturnsTheBestMesh) {
   hooks.error = make_discretization_error(Scheme::vertex);
   ASSERT_TRUE(optimize(again, options, hooks));
   EXPECT_LE(hooks.error->squared_error(again, nullptr), hooks.error->squared_error(before, nullptr));
-  EXPECT_EQ(make_discretization_error(Scheme::cell), nullptr);
+}
+
+TEST(TetSolverError, NoSchemeReturnsALargerErrorThanThatOfAGoodInput) {
+  const TetMesh input = test::mesh_of(test::shaken(test::body_centered(3), 0, 0));
+  ASSERT_EQ(quality(input).orthocenters_outside, 0U);
+  for (const Scheme scheme : {Scheme::vertex, Scheme::cell}) {
+    TetMesh mesh = input;
+    OptimizeOptions options;
+    options.scheme = scheme, options.accuracy_steps = 3;
+    OptimizeHooks hooks;
+    hooks.error = make_discretization_error(scheme);
+    ASSERT_TRUE(optimize(mesh, options, hooks));
+    EXPECT_LE(hooks.error->squared_error(mesh, nullptr), hooks.error->squared_error(input, nullptr));
+  }
+  EXPECT_EQ(make_discretization_error(Scheme::stars), nullptr);
 }
 
 }  // namespace

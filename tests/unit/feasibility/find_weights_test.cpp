@@ -113,6 +113,12 @@ TEST(FindWeights, TakeHalfOfTheBestMarginWhenLessIsThereThanAskedFor) {
     EXPECT_NEAR(minimal.margin, best, 1e-8);
     EXPECT_EQ(minimal.certificate.margin, asked);
     EXPECT_EQ(check_certificate(mesh, minimal.certificate), CertificateCheck::proves);
+    for (const std::size_t whole : {3000, 8}) {
+      const WeightReport elastic = weights_of(mesh, {.goal = WeightGoal::elastic, .margin = asked, .whole = whole});
+      EXPECT_EQ(elastic.verdict, Feasibility::feasible) << seed;
+      EXPECT_GE(elastic.attained, elastic.margin / 2 - kLacking) << "elastic weights make nothing bad " << seed;
+      EXPECT_FALSE(elastic.violations.empty());
+    }
   }
   EXPECT_GT(tried, 3u);
 }

@@ -61,9 +61,10 @@ TEST_F(FileTest, FormatsThatAreRecognizedButNotReadAreNamed) {
   const std::pair<const char*, const char*> kCases[] = {
       {"(0 \"made by someone\")\n(2 2)\n", "a Fluent mesh, which temper does not read; meshio converts it"},
       {"4 2 4\n0 0 1\n1 0 1\n", "a FreeFem mesh, which temper does not read"},
-      {"$NOD\n3\n", "a Gmsh mesh of version 1, which temper does not read"},
+      {"$NOD\n3\n", "a Gmsh mesh of version 1, which temper does not read. Next: gmsh IN -save -format msh41 -o OUT"},
       {"$MeshFormat\n4 0 8\n$EndMeshFormat\n",
-       "a Gmsh mesh of another version than 2 and 4.1, which temper does not read"},
+       "a Gmsh mesh of another version than 2 and 4.1, which temper does not read. Next: gmsh IN -save -format msh41 "
+       "-o OUT"},
       {"MFEM NURBS mesh v1.0\n", "an MFEM mesh of another version than v1.0, which temper does not read"},
       {"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n",
        "a VTK XML file of another type than UnstructuredGrid, which temper does not read"},

@@ -38,7 +38,7 @@ TEST_F(FileTest, NamesOfVersion20AreOfAllDimensionsWhoseElementsCarryTheTag) {
       "m.msh: the physical name 'nothing' of tag 100 is dropped: it has no dimension, and no element has the tag");
 }
 
-TEST_F(FileTest, ATriangleOfSeveralGroupsOfVersion2IsOneOfTheFirst) {
+TEST_F(FileTest, ATriangleThatVersion2ListsOnceForEachGroupIsInAllOfThem) {
   const std::string elements =
       "$Elements\n5\n1 2 2 5 1 10 20 30\n2 2 2 6 1 10 20 30\n3 2 2 7 1 10 20 30\n4 2 2 5 1 10 30 7\n"
       "5 2 2 7 1 7 30 10\n$EndElements\n$ElementData\n1\n\"e\"\n1\n0\n3\n0\n1\n3\n1 1.5\n2 2.5\n4 3.5\n"
@@ -49,8 +49,17 @@ TEST_F(FileTest, ATriangleOfSeveralGroupsOfVersion2IsOneOfTheFirst) {
   EXPECT_EQ(f->regions, (std::vector<std::int32_t>{5, 5}));
   EXPECT_EQ(f->numbering->triangle(1), "triangle 4");
   EXPECT_EQ(std::get<std::vector<double>>(f->cell_data.at(0).values), (std::vector<double>{1.5, 3.5}));
-  ASSERT_EQ(f->warnings.size(), 1u);
-  EXPECT_EQ(plain(f->warnings[0]), "m.msh: 2 triangles have several physical tags: only the first of each is kept");
+  ASSERT_EQ(f->cell_data.size(), 4u);
+  for (const auto& [i, name, inside] : {std::tuple(1, "gmsh:physical:6", std::vector<std::int32_t>{1, 0}),
+                                        {2, "gmsh:physical:7", std::vector<std::int32_t>{1, 1}}}) {
+    EXPECT_EQ(f->cell_data[i].name, name);
+    EXPECT_EQ(std::get<std::vector<std::int32_t>>(f->cell_data[i].values), inside);
+  }
+  ASSERT_EQ(f->warnings.size(), 1u) << "6 is a part of 5, and 7 is not";
+  EXPECT_EQ(
+      plain(f->warnings[0]),
+      "m.msh: the physical group 6 is a part of 5, the first group of its entities: the boundary between them may "
+      "move. Next: define the smaller group first in Gmsh, or tag the boundary");
 }
 
 TEST_F(FileTest, ATriangleThatIsThereTwiceWithOneTagIsRefused) {
@@ -147,11 +156,10 @@ TEST_F(FileTest, ParametricNodesCommentsAndDroppedSectionsOfVersion41AreRead) {
   ASSERT_TRUE(f) << f.error().what();
   EXPECT_EQ(f->points, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}));
   EXPECT_EQ(f->regions, std::vector<std::int32_t>{4});
-  EXPECT_EQ(f->line_tags, std::vector<std::int32_t>{8});
+  EXPECT_EQ(f->line_tags, (std::vector<std::int32_t>{8, 9}));
   EXPECT_EQ(f->point_tags, std::vector<std::int32_t>{77});
-  ASSERT_EQ(f->warnings.size(), 2u);
+  ASSERT_EQ(f->warnings.size(), 1u);
   EXPECT_EQ(plain(f->warnings[0]), "m.msh:33: section $Periodic is dropped");
-  EXPECT_EQ(plain(f->warnings[1]), "m.msh: 1 entity has several physical tags: only the first is kept");
 }
 
 TEST_F(FileTest, BigEndianBinaryIsRead) {

@@ -116,6 +116,50 @@ TEST_F(TetFiles, WhatWasReadIsWrittenAgainByteForByte) {
   }
 }
 
+TEST_F(TetFiles, EntitiesOfSeveralGroupsOfGmshKeepAllOfThem) {
+  const std::string content =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n3 1 \"rock\"\n3 7 \"wet\"\n2 2 \"top\"\n"
+      "2 9 \"rain\"\n$EndPhysicalNames\n$Entities\n0 0 1 2\n4 0 0 0 1 1 0 2 2 9 0\n"
+      "5 0 0 0 1 1 1 2 1 7 0\n6 0 0 0 1 1 1 1 1 0\n$EndEntities\n$Nodes\n1 5 1 5\n3 5 0 5\n1\n2\n3\n4\n5\n"
+      "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n$EndNodes\n$Elements\n3 3 1 3\n2 4 2 1\n1 1 3 2\n"
+      "3 5 4 1\n2 1 2 3 4\n3 6 4 1\n3 2 3 4 5\n$EndElements\n$ElementData\n1\n\"q\"\n1\n0\n3\n0\n1\n1\n"
+      "1 2.5\n$EndElementData\n";
+  const auto read = read_any(make("in.msh", content));
+  ASSERT_TRUE(read) << read.error().what();
+  ASSERT_EQ(std::get<TetFile>(*read).warnings.size(), 1U);
+  EXPECT_EQ(plain(std::get<TetFile>(*read).warnings[0]).find("in.msh: the physical group 'wet' is a part of 'rock', "),
+            0U);
+  for (const TetFile& file :
+       {std::get<TetFile>(*read), through(std::get<TetFile>(*read), "gmsh22"),
+        through(std::get<TetFile>(*read), "gmsh22", Encoding::appended), through(std::get<TetFile>(*read), "gmsh41")}) {
+    EXPECT_EQ(file.regions, (std::vector<std::int32_t>{1, 1}));
+    EXPECT_TRUE(has(file.cell_data, {"gmsh:physical:7", 1, std::vector<std::int32_t>{1, 0}}));
+    ASSERT_EQ(file.faces.size(), 2U);
+    EXPECT_EQ(file.faces[0], file.faces[1]);
+    EXPECT_EQ(file.face_tags, (std::vector<std::int32_t>{2, 9}));
+    EXPECT_TRUE(has(file.face_data, {"q", 1, std::vector<double>{2.5, 2.5}}));
+    EXPECT_EQ(names_of(file), (std::vector<std::string>{"3 1 rock", "3 7 wet", "2 2 top", "2 9 rain"}));
+    EXPECT_TRUE(make_mesh(file));
+  }
+  EXPECT_NE(slurp(path("m.msh")).find(" 2 1 7 0"), std::string::npos) << "one entity in two groups, as it was";
+}
+
+TEST_F(TetFiles, GhostsInTheFileOfAPartitionAreLeftOut) {
+  const auto read = read_any(
+      make("in.msh",
+           "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 1\n9 0 0 0 1 1 0 2 4 5 0\n1 0 0 0 1 1 1 1 7 0\n"
+           "$EndEntities\n$PartitionedEntities\n2\n1\n9 2\n0 0 1 1\n9 2 9 1 1 0 0 0 1 1 0 1 4 0\n"
+           "5 3 1 1 1 0 0 0 1 1 1 1 7 0\n$EndPartitionedEntities\n$Nodes\n1 5 1 5\n3 5 0 5\n1\n2\n3\n4\n5\n"
+           "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n$EndNodes\n$Elements\n3 3 1 3\n2 9 2 1\n1 1 3 2\n3 5 4 1\n"
+           "2 1 2 3 4\n3 9 4 1\n3 2 3 4 5\n$EndElements\n"));
+  ASSERT_TRUE(read) << read.error().what();
+  const TetFile& file = std::get<TetFile>(*read);
+  EXPECT_EQ(file.regions, (std::vector<std::int32_t>{7}));
+  EXPECT_EQ(file.face_tags, (std::vector<std::int32_t>{4, 5})) << "a face may have the number of the ghosts";
+  ASSERT_EQ(file.warnings.size(), 1U);
+  EXPECT_EQ(plain(file.warnings[0]), "in.msh: 1 element that the partition added is left out");
+}
+
 TEST_F(TetFiles, FormatsWithoutTetrahedraAreRefusedAndNothingIsWritten) {
   const auto written = write(path("m.obj"), tet_sample());
   ASSERT_FALSE(written);

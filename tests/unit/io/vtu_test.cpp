@@ -175,7 +175,8 @@ TEST_F(FileTest, VtuErrorsNameTheArrayAndItsLine) {
             "m.vtu: element 0 ends at 7 of 3 connectivity values, and starts at 0");
   EXPECT_EQ(message("\"offsets\"", "\"ofsets\""), "m.vtu: the array 'offsets' of the cells is missing");
   EXPECT_EQ(message("\"LittleEndian\"", "\"LittleEndian\" compressor=\"vtkLZ4DataCompressor\""),
-            "m.vtu: is compressed with 'vtkLZ4DataCompressor'; temper reads vtkZLibDataCompressor");
+            "m.vtu: is compressed with 'vtkLZ4DataCompressor'; temper reads vtkZLibDataCompressor. Next: write it with "
+            "that, or without compression");
   EXPECT_EQ(message("NumberOfCells=\"1\"", "NumberOfCells=\"2\""),
             "m.vtu:11: has 1 offsets and 1 types, expected 2 of each");
 }

@@ -55,6 +55,28 @@ TEST(TetOptimize, MakesAllTetrahedraGoodAndKeepsTheBoundary) {
   }
 }
 
+TEST(TetOptimize, AListenerSeesBetterAndBetterMeshesAndLastTheResult) {
+  const TetMesh input = test::mesh_of(test::shaken(test::cubes(2, test::kSixTets), 0.3, 0));
+  TetMesh mesh = input, last;
+  Origins origins;
+  std::vector<std::size_t> bad = {quality(input).orthocenters_outside};
+  OptimizeHooks hooks;
+  hooks.best_so_far = [&](const auto& best) {
+    best([&](const BestSoFar& now) {
+      bad.push_back(quality(now.mesh).orthocenters_outside);
+      last = now.mesh;
+      origins = now.origins;
+    });
+  };
+  const auto report = optimize(mesh, {}, hooks);
+  ASSERT_TRUE(report);
+  EXPECT_GT(report->vertices_inserted, 0U);
+  EXPECT_TRUE(origins.vertices == report->origins.vertices);
+  EXPECT_GT(bad.size(), 3U);
+  EXPECT_TRUE(std::is_sorted(bad.rbegin(), bad.rend()));
+  EXPECT_EQ(last, mesh);
+}
+
 /// Runs the last block first.
 class BackwardExecutor final : public Executor {
  public:

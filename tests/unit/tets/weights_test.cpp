@@ -172,6 +172,23 @@ TEST(TetWeights, ElasticViolatesLeastAndSaysWhere) {
   EXPECT_LT(report.violations.size(), 6U);
 }
 
+TEST(TetWeights, ElasticMakesNothingBadIfWeightsExist) {
+  for (const ConstraintsInfo& row : constraints_table()) {
+    if (row.constraints == Constraints::regular) continue;  // any margin that is attained can be stretched
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      const TetMesh mesh = test::mesh_of(test::shaken(test::body_centered(2), 0.1, 0, seed));
+      const double best =
+          weights_of(mesh, {.goal = WeightGoal::feasible, .margin = 1e-3, .constraints = row.constraints}).margin;
+      ASSERT_GT(best, 0.01) << row.name << " " << seed;
+      const WeightReport report =
+          weights_of(mesh, {.goal = WeightGoal::elastic, .margin = 2 * best, .constraints = row.constraints});
+      EXPECT_EQ(report.verdict, Feasibility::feasible) << row.name << " " << seed;
+      EXPECT_GE(report.attained, best / 2 - kLacking) << row.name << " " << seed;
+      EXPECT_FALSE(report.violations.empty());
+    }
+  }
+}
+
 TEST(TetWeights, RefuseWhatIsForTriangles) {
   const TetMesh mesh = pinwheel_cone();
   const auto solver = clp_solver();

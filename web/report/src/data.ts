@@ -1,10 +1,10 @@
 // What temper has written into the page: the report, and arrays packed as src/io/html_report.cpp says.
-import type { MeshData } from 'temper-viewer';
+import { type MeshData, verdicts } from 'temper-viewer';
+import { cut, middlePlane, type Tets } from './tets.ts';
 
 /** The numbers of temper check --json. Infinite ones are null. */
 export interface Quality {
   [key: string]: unknown;
-  triangles: number;
   vertices: number;
   worst: Worst[];
   histograms: Record<string, Histogram>;
@@ -20,7 +20,8 @@ export interface Measure {
   wanted: number | null;
 }
 export interface Worst {
-  triangle: number;
+  triangle?: number;
+  tetrahedron?: number;
   why: string;
 }
 export interface Histogram {
@@ -61,12 +62,28 @@ export interface SolverReport {
   errors: Record<string, Record<string, Record<string, number | null>>>;
 }
 
-/** A mesh with the user's numbers. */
+/** A mesh with the user's numbers. Its elements are tetrahedra, if there are some, and else triangles. */
 export interface Shown {
+  /** What is drawn: of tetrahedra a cut. */
   mesh: MeshData;
+  tets?: Tets;
   vertexNumbers?: Int32Array;
-  triangleNumbers?: Int32Array;
+  elementNumbers?: Int32Array;
 }
+
+/** The exact verdict on each element. */
+export const verdictsOf = (shown: Shown): Uint8Array => shown.tets?.verdicts ?? verdicts(shown.mesh);
+export const countBad = (shown: Shown): number => verdictsOf(shown).reduce((n, bits) => n + (bits !== 0 ? 1 : 0), 0);
+
+/** What elements are called. */
+export interface Words {
+  one: string;
+  many: string;
+  /** What their sides are called. */
+  side: string;
+}
+export const wordsOf = (shown: Shown): Words =>
+  shown.tets ? { one: 'tetrahedron', many: 'tetrahedra', side: 'face' } : { one: 'triangle', many: 'triangles', side: 'edge' };
 
 type Numbers = Float64Array | Int32Array | Uint8Array;
 
@@ -102,17 +119,24 @@ export async function readMesh(side: string): Promise<Shown | null> {
   };
   const points = await read<Float64Array>('points');
   if (!points) return null;
+  const weights = await read<Float64Array>('weights'), regions = await read<Int32Array>('regions');
+  const tetrahedra = await read<Int32Array>('tetrahedra'), vertexNumbers = await read<Int32Array>('vertex_numbers');
+  if (tetrahedra) {
+    const tets = { points, weights, tetrahedra, verdicts: (await read<Uint8Array>('verdicts')) ?? new Uint8Array(0), regions };
+    const elementNumbers = await read<Int32Array>('tetrahedron_numbers');
+    return { mesh: cut(tets, middlePlane(tets)), tets, vertexNumbers, elementNumbers };
+  }
   return {
     mesh: {
       points,
-      weights: await read<Float64Array>('weights'),
+      weights,
       triangles: (await read<Int32Array>('triangles')) ?? new Int32Array(0),
       verdicts: await read<Uint8Array>('verdicts'),
-      regions: await read<Int32Array>('regions'),
+      regions,
       constrained: await read<Uint8Array>('constrained'),
     },
-    vertexNumbers: await read<Int32Array>('vertex_numbers'),
-    triangleNumbers: await read<Int32Array>('triangle_numbers'),
+    vertexNumbers,
+    elementNumbers: await read<Int32Array>('triangle_numbers'),
   };
 }
 

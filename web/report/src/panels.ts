@@ -1,15 +1,16 @@
 // The panels beside the mesh. Each fills its section from the report, or leaves it empty, which hides it.
 import { histogram, series } from './charts.ts';
-import type { Measure, Quality, Report } from './data.ts';
+import type { Measure, Quality, Report, Words } from './data.ts';
 import { byId, capital, make, number, plural, table } from './html.ts';
 
-const kHistograms: [string, string, number | undefined][] = [
-  ['angles', 'Angles of triangles, in degrees', undefined],
-  ['h_over_l', 'h/ℓ of triangles over their edges', 0],
-  ['d_over_l', 'd/ℓ of edges, the lesser part', 0],
+const kHistograms: [string, (words: Words) => string, number | undefined][] = [
+  ['angles', () => 'Angles of triangles, in degrees', undefined],
+  ['dihedrals', () => 'Dihedral angles, in degrees', undefined],
+  ['h_over_l', ({ many, side }) => `h/ℓ of ${many} over their ${side}s`, 0],
+  ['d_over_l', () => 'd/ℓ of edges, the lesser part', 0],
 ];
 
-export function headline(report: Report, title: string, bad: { before?: number; after: number }, triangles: number): void {
+export function headline(report: Report, title: string, bad: { before?: number; after: number }, elements: number, { one, many }: Words): void {
   byId('title').textContent = title;
   byId('verb').textContent = report.verb ?? '';
   byId('version').textContent = report.version ?? '';
@@ -17,8 +18,8 @@ export function headline(report: Report, title: string, bad: { before?: number; 
   verdict.className = bad.after === 0 ? 'good' : 'bad';
   verdict.textContent =
     bad.after === 0
-      ? `All ${plural(triangles, 'triangle is', 'triangles are')} well-centered`
-      : `${number(bad.after)} of ${plural(triangles, 'triangle is', 'triangles are')} not well-centered`;
+      ? `All ${plural(elements, `${one} is`, `${many} are`)} well-centered`
+      : `${number(bad.after)} of ${plural(elements, `${one} is`, `${many} are`)} not well-centered`;
   if (bad.before !== undefined) verdict.append(make('small', {}, `before: ${number(bad.before)} were not`));
 }
 
@@ -56,7 +57,7 @@ export function summary(report: Report, measures: Measure[]): void {
   }
 }
 
-export function histograms(report: Report): void {
+export function histograms(report: Report, words: Words): void {
   const { before, after } = report;
   if (!after?.histograms) return;
   const section = byId('histograms');
@@ -67,11 +68,11 @@ export function histograms(report: Report): void {
   }
   for (const [key, label, bad] of kHistograms) {
     const of = after.histograms[key];
-    if (of) section.append(make('h3', {}, label), histogram(label, of, before?.histograms?.[key], bad));
+    if (of) section.append(make('h3', {}, label(words)), histogram(label(words), of, before?.histograms?.[key], bad));
   }
 }
 
-export function sweeps(report: Report): void {
+export function sweeps(report: Report, { many }: Words): void {
   const history = report.history ?? [];
   if (history.length < 2) return;
   const section = byId('sweeps');
@@ -81,7 +82,7 @@ export function sweeps(report: Report): void {
   const numbers = history.map((_, i) => i);
   const charts: [string, string, (number | null)[]][] = [
     ['Energy', 'energy', history.map((s) => s.energy)],
-    ['Triangles that are not well-centered', 'bad', history.map((s) => s.bad)],
+    [`${capital(many)} that are not well-centered`, 'bad', history.map((s) => s.bad)],
     ['Flips', 'flips', history.map((s) => s.flips)],
   ];
   for (const [label, name, values] of charts) section.append(make('h3', {}, label), series(`${label} by sweep`, name, numbers, values));
@@ -129,20 +130,22 @@ export function remarks(report: Report): void {
   byId('remarks').append(make('h2', {}, 'Notes and warnings'), make('ul', {}, ...all.map((each) => make('li', {}, each))));
 }
 
-const kKeys: [string, string][] = [
+const keyTable = ({ one }: Words, layers: number): [string, string][] => [
   ['← ↑ → ↓', 'move, with Shift farther'],
   ['+ −', 'zoom in, out'],
   ['0', 'the whole mesh'],
-  ['Enter', 'pick the triangle in the middle'],
+  ['x y z', 'cut across this axis'],
+  ['[ ]', 'move the plane of the cut'],
+  ['Enter', `pick the ${one} in the middle`],
   ['Esc', 'pick none'],
   ['n p', 'next, previous of the worst'],
   ['b a s', 'before, after, both by the divider'],
-  ['1 … 5', 'layers on and off'],
+  [`1 … ${layers}`, 'layers on and off'],
   ['c', 'next color'],
 ];
 
-export function keys(compares: boolean): void {
-  const rows = kKeys.filter(([key]) => compares || key !== 'b a s');
+export function keys(words: Words, layers: number, { compares, cuts }: { compares: boolean; cuts: boolean }): void {
+  const rows = keyTable(words, layers).filter(([key]) => (compares || key !== 'b a s') && (cuts || !['x y z', '[ ]'].includes(key)));
   byId('keys').append(
     make('details', {}, make('summary', {}, 'Keys'),
       table([], rows.map(([names, words]) => [make('th', { scope: 'row' }, ...names.split(' ').flatMap((k) => (k === '…' ? [' … '] : [make('kbd', {}, k), ' ']))), make('td', { class: 'text' }, words)])),

@@ -18,6 +18,9 @@ export interface MeshData {
   constrained?: Uint8Array;
   /** The exact verdict on each triangle, as Verdict has the bits; none: they are found in doubles. */
   verdicts?: Uint8Array;
+  /** The cell of which each triangle is a part: it is drawn without the edges between its parts. These follow each
+   * other, as a fan around their common first corner. None: each triangle is a cell of its own. */
+  cells?: Int32Array;
 }
 
 /** Bits of a verdict: what keeps a triangle from being well-centered. */

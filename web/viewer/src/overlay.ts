@@ -6,6 +6,15 @@ import type { MeshData } from './mesh.ts';
 
 const kSvg = 'http://www.w3.org/2000/svg';
 
+/** The corners of the cell that a triangle is a part of. */
+function cellCorners(mesh: MeshData, cells: Int32Array, triangle: number): number[] {
+  let first = triangle;
+  while (first > 0 && cells[first - 1] === cells[triangle]) first--;
+  const around = [0, 1, 2].map((k) => mesh.triangles[3 * first + k]);
+  for (let t = first + 1; cells[t] === cells[first]; t++) around.push(mesh.triangles[3 * t + 2]);
+  return around;
+}
+
 export class Overlay {
   private readonly svg: SVGSVGElement;
 
@@ -27,18 +36,20 @@ export class Overlay {
     name: (vertex: number) => string,
     theme: Theme,
   ): void {
-    const corners = [0, 1, 2].map((k) => mesh.triangles[3 * triangle + k]);
+    const corners = mesh.cells ? cellCorners(mesh, mesh.cells, triangle) : [0, 1, 2].map((k) => mesh.triangles[3 * triangle + k]);
     const at = corners.map((v) => toScreen(mesh.points[2 * v], mesh.points[2 * v + 1]));
+    const outline = `M${at.map((p) => p.join(',')).join('L')}Z`;
+    const outlines = [[theme.background, 5], [theme.selection, 2.2]].map(([stroke, width]) =>
+      this.make('path', { d: outline, fill: 'none', stroke, 'stroke-width': width, 'stroke-linejoin': 'round' }));
+    this.svg.replaceChildren(...outlines);
+    if (mesh.cells) return;
     const o = orthocenter(mesh, triangle), center = toScreen(o.x, o.y);
     const feet = corners.map((v, k) => {
       const m = weightedMidpoint(mesh, v, corners[(k + 1) % 3]);
       return toScreen(m.x, m.y);
     });
-    const outline = `M${at.map((p) => p.join(',')).join('L')}Z`;
     const middle = [0, 1].map((i) => (at[0][i] + at[1][i] + at[2][i]) / 3);
-    this.svg.replaceChildren(
-      this.make('path', { d: outline, fill: 'none', stroke: theme.background, 'stroke-width': 5, 'stroke-linejoin': 'round' }),
-      this.make('path', { d: outline, fill: 'none', stroke: theme.selection, 'stroke-width': 2.2, 'stroke-linejoin': 'round' }),
+    this.svg.append(
       ...feet.map((foot) =>
         this.make('path', { d: `M${center.join(',')}L${foot.join(',')}`, stroke: theme.selection, 'stroke-width': 1.2, 'stroke-dasharray': '3 3' }),
       ),

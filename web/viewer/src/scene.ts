@@ -211,7 +211,8 @@ export class Scene {
       for (let k = 0; k < 3; k++) {
         const h = 3 * order[i] + k;
         corners[3 * i + k] = mesh.triangles[h];
-        if (twins[h] < 0 || h < twins[h]) halves.push(h);
+        const inside = twins[h] >= 0 && mesh.cells !== undefined && mesh.cells[order[i]] === mesh.cells[Math.floor(twins[h] / 3)];
+        if (!inside && (twins[h] < 0 || h < twins[h])) halves.push(h);
       }
     }
     this.tables.corners.set(corners);

@@ -127,8 +127,8 @@ export class Viewer {
   /** Draws a mesh; with another one before it, both, divided. Arrays are kept, not copied. */
   setMesh(mesh: MeshData, before: MeshData | null = null, { keepView = false } = {}): void {
     for (const scene of Object.values(this.scenes)) scene.delete();
+    this.box = boundsOf(mesh.points);
     if (!keepView) {
-      this.box = boundsOf(mesh.points);
       this.frame = frameOf(this.box);
       this.limitZoom();
     }

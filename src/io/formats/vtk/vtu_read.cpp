@@ -107,7 +107,7 @@ class VtuReader {
     const std::string_view compressor = root.attribute("compressor").value();
     if (!compressor.empty() && compressor != "vtkZLibDataCompressor") {
       fail(ErrorCode::unsupported, source_.path, "is compressed with ", in_quotes(compressor),
-           "; temper reads vtkZLibDataCompressor");
+           "; temper reads vtkZLibDataCompressor. Next: write it with that, or without compression");
     }
     compressed_ = !compressor.empty();
     const std::string_view order = root.attribute("byte_order").as_string("LittleEndian");
