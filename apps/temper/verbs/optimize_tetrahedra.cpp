@@ -88,6 +88,7 @@ class TetRun {
     warn(warning_of_replaced_input(s_));
     warn(warning_of_effort());
     rules_ = data_rules(s_.point_data, input_.path, input_.file.point_data);
+    io::release_geometry(input_.file, input_.loaded);  // the mesh has it
     before_ = quality(input_.mesh(), {kWorst, threads_});
     improve();
     after_ = quality(mesh_, {kWorst, threads_});

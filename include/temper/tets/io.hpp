@@ -66,4 +66,8 @@ struct LoadedTetMesh {
 DataReport update(TetFile& file, const LoadedTetMesh& loaded, const tets::TetMesh& mesh,
                   const tets::Origins& origins = {}, const UpdateOptions& options = {});
 
+/// Frees points, weights and tetrahedra of a file after make_mesh(); update() writes them again. It does nothing if
+/// points were dropped. The memory goes back to the system.
+void release_geometry(TetFile& file, const LoadedTetMesh& loaded);
+
 }  // namespace temper::io

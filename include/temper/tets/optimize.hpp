@@ -116,6 +116,7 @@ struct OptimizeReport {
 ///
 /// Every tetrahedron stays positive. The result never has more tetrahedra with outside orthocenters than the input.
 /// Wrong options (numbers < 0, positions and weights both kept) are an error, which leaves the mesh unchanged.
+/// An exception of the observer, or for lack of memory, leaves it empty.
 /// O((sweeps + changes) · n).
 [[nodiscard]] Expected<OptimizeReport> optimize(TetMesh& mesh, const OptimizeOptions& options = {},
                                                 const OptimizeHooks& hooks = {});

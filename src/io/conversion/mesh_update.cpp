@@ -333,10 +333,7 @@ DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
 void release_geometry(MeshFile& file, const LoadedMesh& loaded) {
   if (file.points.size() != loaded.mesh.n_vertices()) return;
   if (!file.point_data.empty() || !file.cell_data.empty() || !(file.space() == Space())) return;
-  std::vector<Vec2>().swap(file.points);  // assigning {} would keep the capacity
-  std::vector<double>().swap(file.weights);
-  std::vector<std::array<std::int32_t, 3>>().swap(file.triangles);
-  give_memory_back();
+  give_memory_back_of(file.points, file.weights, file.triangles);
 }
 
 namespace {

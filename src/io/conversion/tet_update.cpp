@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "io/conversion/data_update.hpp"
+#include "io/disk/files.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/file_names.hpp"
 #include "io/text/values.hpp"
@@ -355,22 +356,32 @@ class TetFileUpdater {
     }
     return TetId(0);
   }
+  /// Calls use(i) for each of n items, on threads.
+  template <class Use>
+  void for_each(std::size_t n, const Use& use) const {
+    constexpr std::size_t kItems = 4096;
+    or_serial(options_.executor).run((n + kItems - 1) / kItems, [&](std::size_t block) {
+      for (std::size_t i = kItems * block; i < std::min(n, kItems * (block + 1)); ++i) use(i);
+    });
+  }
   void find_places() {
-    for (const VertexId v : mesh_.vertices()) {
-      const VertexId was = former(v);
+    places_.resize(mesh_.n_vertices());
+    for_each(mesh_.n_vertices(), [&](std::size_t i) {
+      const VertexId v(i), was = former(v);
       const TetId from = was.valid() ? before_.incident(was) : near(mesh_.incident(v));
-      places_.push_back(stays(v) ? TetPlace{from, 1, {was}, {1}}
-                                 : place_in(before_, locate(before_, mesh_.position(v), from), mesh_.position(v)));
-    }
+      places_[v] = stays(v) ? TetPlace{from, 1, {was}, {1}}
+                            : place_in(before_, locate(before_, mesh_.position(v), from), mesh_.position(v));
+    });
   }
   /// The former tetrahedron of each.
   [[nodiscard]] std::vector<std::size_t> sources() const {
-    std::vector<std::size_t> all;
-    for (const TetId t : mesh_.tetrahedra()) {
+    std::vector<std::size_t> all(mesh_.n_tetrahedra());
+    for_each(all.size(), [&](std::size_t i) {
+      const TetId t(i);
       Vec3 sum;
       for (const VertexId v : mesh_.corners(t)) sum = sum + mesh_.position(v);
-      all.push_back(is_same(t) ? t.index : locate(before_, 0.25 * sum, near(t)).index);
-    }
+      all[i] = is_same(t) ? i : locate(before_, 0.25 * sum, near(t)).index;
+    });
     return all;
   }
 
@@ -388,6 +399,11 @@ class TetFileUpdater {
 DataReport update(TetFile& file, const LoadedTetMesh& loaded, const tets::TetMesh& mesh, const tets::Origins& origins,
                   const UpdateOptions& options) {
   return TetFileUpdater(file, loaded, mesh, origins, options).update();
+}
+
+void release_geometry(TetFile& file, const LoadedTetMesh& loaded) {
+  if (file.points.size() != loaded.mesh.n_vertices()) return;
+  give_memory_back_of(file.points, file.weights, file.tetrahedra);
 }
 
 }  // namespace temper::io

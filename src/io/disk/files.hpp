@@ -55,6 +55,12 @@ struct Source {
 /// Returns freed memory to the system if the C library keeps it between blocks in use. Otherwise the memory for reading
 /// a large file would add to all later memory.
 void give_memory_back();
+/// The same after it has emptied these vectors.
+template <class... Vectors>
+void give_memory_back_of(Vectors&... vectors) {
+  (Vectors().swap(vectors), ...);  // assigning {} would keep the capacity
+  give_memory_back();
+}
 
 // Files written whole or not at all. Everything goes to temporary files next to their targets, which are renamed only
 // when all are complete. A target that is no regular file (a pipe, /dev/stdout) is written directly.

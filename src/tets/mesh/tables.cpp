@@ -1,5 +1,6 @@
 #include "tets/mesh/tables.hpp"
 
+#include <iterator>
 #include <numeric>
 
 #include "mesh/blocks.hpp"
@@ -45,6 +46,14 @@ VertexStars::VertexStars(const TetMesh& mesh) : sorted_(mesh.n_halffaces()) {
     for (const HalffaceId h : mesh.halffaces()) count(mesh.opposite(h));
   });
   for (const HalffaceId h : mesh.halffaces()) sorted_[end_[mesh.opposite(h).index]++] = h;
+}
+
+VertexStars::VertexStars(const VertexStars& stars, std::span<const VertexId> sequence) {
+  end_.reserve(sequence.size());
+  std::size_t n = 0;
+  for (const VertexId v : sequence) end_.push_back(static_cast<std::uint32_t>(n += stars.link(v).size()));
+  sorted_.reserve(n);
+  for (const VertexId v : sequence) std::ranges::copy(stars.link(v), std::back_inserter(sorted_));
 }
 
 EdgeTable::EdgeTable(const TetMesh& mesh, Executor* executor)

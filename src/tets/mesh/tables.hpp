@@ -40,7 +40,10 @@ class FaceBuckets {
 /// The tetrahedra around each vertex, as the faces opposite it.
 class VertexStars {
  public:
+  VertexStars() = default;
   explicit VertexStars(const TetMesh& mesh);
+  /// The stars of some vertices, numbered anew in this sequence.
+  VertexStars(const VertexStars& stars, std::span<const VertexId> sequence);
   /// The halffaces opposite v, ascending.
   [[nodiscard]] std::span<const HalffaceId> link(VertexId v) const {
     const std::size_t first = v.index == 0 ? 0 : end_[v.index - 1];

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/cube_root.hpp"
 #include "base/portable_log.hpp"
 #include "tets/energy/star.hpp"
 #include "tets/optimize/valid_step.hpp"
@@ -21,16 +22,6 @@ constexpr int kSmoothings = 10;
 // As in the plane (optimize/solver_error/solver_error_phase.cpp).
 constexpr double kLongestStep = 0.3, kKeptRoom = 0.2, kArmijo = 1e-4;
 constexpr int kMostHalvings = 25;
-
-/// The cube root of x > 0, from additions, multiplications and divisions alone: C libraries differ. Twelve steps of
-/// Newton's method reach rounding from a third of the exponent.
-double cube_root(double x) {
-  int k = 0;
-  const double m = std::frexp(x, &k);
-  double root = std::ldexp(m, k / 3);
-  for (int i = 0; i < 12; ++i) root -= (root - x / (root * root)) / 3;
-  return root;
-}
 
 }  // namespace
 

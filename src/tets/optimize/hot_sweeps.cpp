@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/cube_root.hpp"
 #include "tets/optimize/valid_step.hpp"
 
 namespace temper::tets {
@@ -16,7 +17,7 @@ double barrier_of(const TetMesh& mesh) {
   double sum = 0;
   for (const TetId t : mesh.tetrahedra()) {
     const auto [p, q, r, s] = mesh.points(t);
-    const double side = std::cbrt(six_volumes(p.position(), q.position(), r.position(), s.position()) / 6);
+    const double side = cube_root(six_volumes(p.position(), q.position(), r.position(), s.position()) / 6);
     sum += side * side * side * side * side;
   }
   return kBarrierOfHot * sum / static_cast<double>(mesh.n_tetrahedra());

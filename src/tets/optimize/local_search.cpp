@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "tets/optimize/repair.hpp"
-#include "tets/optimize/sweeper.hpp"
 #include "tets/quality/measure.hpp"
 
 namespace temper::tets {
@@ -66,7 +65,7 @@ bool settle(Draft& draft, const std::vector<VertexId>& vertices, const MustStop&
   for (double gamma = kFirstSettlingGamma;; gamma = std::max(gamma * kSettlingFactor, kLastSettlingGamma)) {
     const bool last = gamma == kLastSettlingGamma;
     for (int i = 0; i < (last ? kLastSettlingSweeps : kSettlingSweeps); ++i) {
-      if (!sweeper.sweep({gamma, kSettlingRelaxation}, [&](double) { return must_stop(); })) return false;
+      if (!sweeper.sweep({gamma, kSettlingRelaxation}, must_stop)) return false;
     }
     if (last) return true;
   }

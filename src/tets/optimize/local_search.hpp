@@ -2,16 +2,14 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <map>
 #include <vector>
 
 #include "temper/detail/executor.hpp"
 #include "tets/optimize/draft.hpp"
+#include "tets/optimize/sweeper.hpp"
 
 namespace temper::tets {
-
-using MustStop = std::function<bool()>;
 
 /// Fills a cavity at each bad tetrahedron, where this lowers the energy, and improves the vertices around. False: there
 /// was nothing to do, or it must stop.

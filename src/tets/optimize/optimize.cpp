@@ -61,7 +61,9 @@ std::optional<InputError> wrong_option(const OptimizeOptions& options) {
 class Run {
  public:
   Run(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks)
-      : result_(mesh), options_(options), hooks_(hooks), draft_(mesh, mobilities(mesh, options)) {}
+      : result_(mesh), options_(options), hooks_(hooks), draft_(mesh, mobilities(mesh, options)) {
+    best_ = Draft(std::move(mesh), draft_.mobility);
+  }
 
   OptimizeReport run() {
     report_.objective_before = objective_of(draft_.mesh);
@@ -111,7 +113,7 @@ class Run {
   /// Changes the connectivity where sweeps alone are not enough: first at all bad tetrahedra at once, then, from the
   /// best mesh, in patches. Each round counts as one sweep.
   void repair() {
-    const auto must_stop = [this] { return is_stopped(0); };
+    const auto must_stop = [this](double) { return is_stopped(0); };
     for (int in_vain = 0; best_bad_ > 0 && in_vain < kRoundsInVain;) {
       const std::size_t before = best_bad_;
       if (!may_sweep() || !change_all(draft_, must_stop, hooks_.executor)) break;
@@ -144,7 +146,7 @@ class Run {
         return stops.load();
       };
       or_serial(hooks_.executor).run(patches.size(), [&](std::size_t i) {
-        is_better[i] = search(patches[i].draft, options, [&] { return must_stop(i); });
+        is_better[i] = search(patches[i].draft, options, [&](double) { return must_stop(i); });
       });
       std::vector<Patch> chosen;
       for (std::size_t i = 0; i < patches.size(); ++i) {
@@ -260,21 +262,20 @@ class Run {
   }
 
   void report_changes() {
-    const std::size_t n_before = result_.n_vertices();
     const std::size_t kept = count_kept(best_);
     report_.vertices_inserted = best_.mesh.n_vertices() - kept;
-    report_.vertices_removed = n_before - kept;
+    report_.vertices_removed = n_before_ - kept;
     report_.flips = best_.flips;
     report_.origins = origins_of(best_);
   }
-  [[nodiscard]] bool is_of_input(VertexId name) const { return name.index < result_.n_vertices(); }
+  [[nodiscard]] bool is_of_input(VertexId name) const { return name.index < n_before_; }
   [[nodiscard]] std::size_t count_kept(const Draft& draft) const {
     const auto& names = draft.names.vertices;
     return static_cast<std::size_t>(
         std::count_if(names.begin(), names.end(), [this](VertexId v) { return is_of_input(v); }));
   }
   [[nodiscard]] Origins origins_of(const Draft& draft) const {
-    if (count_kept(draft) == result_.n_vertices() && draft.mesh.n_vertices() == result_.n_vertices()) return {};
+    if (count_kept(draft) == n_before_ && draft.mesh.n_vertices() == n_before_) return {};
     Origins origins = {draft.names.vertices, draft.names.faces, draft.names.lines};
     for (VertexId& v : origins.vertices) {
       if (!is_of_input(v)) v = {};
@@ -282,11 +283,12 @@ class Run {
     return origins;
   }
 
-  TetMesh& result_;  // until the end: the input
+  TetMesh& result_;  // empty until the end: best_ has the mesh
+  std::size_t n_before_ = result_.n_vertices();
   const OptimizeOptions& options_;
   const OptimizeHooks& hooks_;
   const DiscretizationError* error_ =  // absent for large meshes
-      result_.n_vertices() <= options_.most_error_vertices ? hooks_.error.get() : nullptr;
+      n_before_ <= options_.most_error_vertices ? hooks_.error.get() : nullptr;
   HotEnergy hot_ = kHotEnergies[static_cast<std::size_t>(options_.hot_star.value_or(Star::one))];
   Draft draft_, best_;
   Clock::time_point start_ = Clock::now();

@@ -6,7 +6,6 @@
 
 #include "base/sort_unique.hpp"
 #include "tets/energy/star.hpp"
-#include "tets/optimize/sweeper.hpp"
 
 namespace temper::tets {
 namespace {
@@ -42,7 +41,7 @@ class Repairs {
       const HalffaceId h = TetMesh::halfface(t, f);
       if (const auto cavity = cavities_.of_face(h)) {
         insert(*cavity);
-        connect(*cavity, mesh_.opposite(h));
+        connect(*cavity, {mesh_.opposite(h)});
       }
       if (options_.split_boundary) split(cavities_.to_split(h));
     }
@@ -52,14 +51,12 @@ class Repairs {
         const auto ring = cavities_.of_edge(t, corners[i], corners[j]);
         if (!ring) continue;
         insert(*ring);
-        for (const VertexId v : vertices_of(*ring)) {
-          if (v != corners[i] && v != corners[j]) connect(*ring, v);
-        }
+        std::vector<VertexId> around = vertices_of(*ring);
+        std::erase_if(around, [&](VertexId v) { return v == corners[i] || v == corners[j]; });
+        connect(*ring, around);
       }
       if (draft_.mobility_of(corners[i]) != Mobility::free) continue;
-      const auto star = cavities_.of_vertex(corners[i]);
-      if (!star) continue;
-      for (const VertexId v : vertices_of(*star)) connect(*star, v, corners[i]);
+      if (const auto star = cavities_.of_vertex(corners[i])) connect(*star, vertices_of(*star), corners[i]);
     }
     std::stable_sort(found_.begin(), found_.end(), [](const Judged& a, const Judged& b) { return a.gain > b.gain; });
     return std::move(found_);
@@ -87,14 +84,17 @@ class Repairs {
     for (const TetId t : cavity.tetrahedra) sum += energy_of(mesh_, t, kGamma) - regular_;
     return sum;
   }
-  void judge(Filling filling, const WeightedPoint& apex) {
-    const double before = excess(filling.cavity);
+  void judge(Filling filling, double before, const WeightedPoint& apex) {
     const double gain = before - excess(filling.base(mesh_), apex) + (filling.apex.valid() ? 0 : options_.allowance);
     if (gain > kLeastGain * before) found_.push_back({std::move(filling), gain});
   }
-  void connect(const Cavity& cavity, VertexId apex, VertexId removed = {}) {
-    Filling filling{cavity, apex, {}, removed};
-    if (is_valid(mesh_, filling)) judge(std::move(filling), mesh_.point(apex));
+  /// Fills a cavity from each of some vertices.
+  void connect(const Cavity& cavity, const std::vector<VertexId>& apexes, VertexId removed = {}) {
+    const double before = excess(cavity);
+    for (const VertexId v : apexes) {
+      Filling filling{cavity, v, {}, removed};
+      if (is_valid(mesh_, filling)) judge(std::move(filling), before, mesh_.point(v));
+    }
   }
   void insert(const Cavity& cavity) {
     Filling filling{cavity, {}, {}, {}};
@@ -109,7 +109,7 @@ class Repairs {
     const Mobility mobility = cavity.split.empty() ? Mobility::free : Mobility::weight;
     for (int i = 0; i < kStepsOfNewVertex; ++i) p = improved(mesh_, cavity.faces, p, mobility, {kGamma, 1});
     const WeightedPoint apex = p;
-    judge(std::move(filling), apex);
+    judge(std::move(filling), excess(cavity), apex);
   }
   /// Splits an edge or face, unless it may be on the border of a patch.
   void split(const std::optional<Cavity>& cavity) {
@@ -128,11 +128,11 @@ class Repairs {
 }  // namespace
 
 std::vector<Filling> repairs(const Draft& draft, const std::vector<TetId>& tetrahedra, const RepairOptions& options,
-                             const std::function<bool()>& must_stop) {
+                             const MustStop& must_stop) {
   Repairs search(draft, options);
   std::vector<Judged> all;
   for (const TetId t : tetrahedra) {
-    if (must_stop()) return {};
+    if (must_stop(0)) return {};
     std::vector<Judged> found = search.at(t);
     if (!found.empty()) all.push_back(std::move(found[options.rank % found.size()]));
   }

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 #include "tets/optimize/draft.hpp"
+#include "tets/optimize/sweeper.hpp"
 
 namespace temper::tets {
 
@@ -20,9 +20,9 @@ struct RepairOptions {
 };
 
 /// A cone for each tetrahedron, if one lowers the excess: the energy beyond the energy of regular tetrahedra, so that
-/// their number does not count. The cones share no tetrahedron; the largest gain comes first. must_stop() is called
+/// their number does not count. The cones share no tetrahedron; the largest gain comes first. must_stop is called
 /// often; the result is empty if it says yes.
 [[nodiscard]] std::vector<Filling> repairs(const Draft& draft, const std::vector<TetId>& tetrahedra,
-                                           const RepairOptions& options, const std::function<bool()>& must_stop);
+                                           const RepairOptions& options, const MustStop& must_stop);
 
 }  // namespace temper::tets

@@ -81,18 +81,20 @@ WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> halfface
 
 Sweeper::Sweeper(TetMesh& mesh, const IdVector<VertexId, Mobility>& mobility, std::span<const VertexId> vertices,
                  Executor* executor)
-    : mesh_(mesh), mobility_(mobility), executor_(executor), stars_(mesh) {
-  color(vertices);
+    : mesh_(mesh), mobility_(mobility), executor_(executor) {
+  const VertexStars stars(mesh);
+  color(stars, vertices);
+  stars_ = VertexStars(stars, sequence_);
 }
 
-void Sweeper::color(std::span<const VertexId> vertices) {
+void Sweeper::color(const VertexStars& stars, std::span<const VertexId> vertices) {
   IdVector<VertexId, std::uint64_t> bit(mesh_.n_vertices(), 0);  // of the color; 0: none
   std::vector<std::size_t> begin(kMostColors + 2, 0);
   const auto color_of = [&](VertexId v) { return static_cast<std::size_t>(std::countr_zero(bit[v])); };
   for (const VertexId v : vertices) {
     if (mobility_[v] == Mobility::none) continue;
     std::uint64_t taken = !mobility_[v].moves() ? 0 : (std::uint64_t{1} << kColorsOfFixed) - 1;
-    for (const HalffaceId h : stars_.link(v)) {
+    for (const HalffaceId h : stars.link(v)) {
       for (const VertexId u : mesh_.vertices(h)) taken |= bit[u];
     }
     bit[v] = std::uint64_t{1} << std::min(std::countr_one(taken), kMostColors);
@@ -135,14 +137,17 @@ bool Sweeper::sweep(const SweepParameters& parameters, const MustStop& must_stop
 }
 
 void Sweeper::improve(std::size_t first, std::size_t last, const Step& step) {
-  const auto ahead = [&](std::size_t i) { return stars_.link(sequence_[std::min(i, last - 1)]); };
+  const auto link = [&](std::size_t i) { return stars_.link(VertexId(std::min(i, last - 1))); };
   for (std::size_t i = first; i < last; ++i) {
-    for (const HalffaceId h : ahead(i + 2 * kAhead)) __builtin_prefetch(&mesh_.corners(TetMesh::tetrahedron(h)));
-    for (const HalffaceId h : ahead(i + kAhead)) {
+    const VertexId soon = sequence_[std::min(i + kAhead, last - 1)];
+    __builtin_prefetch(&mesh_.point(soon));
+    __builtin_prefetch(&mobility_[soon]);
+    for (const HalffaceId h : link(i + 2 * kAhead)) __builtin_prefetch(&mesh_.corners(TetMesh::tetrahedron(h)));
+    for (const HalffaceId h : link(i + kAhead)) {
       for (const VertexId u : mesh_.vertices(h)) __builtin_prefetch(&mesh_.point(u));
     }
     const VertexId v = sequence_[i];
-    mesh_.set_point(v, step(v, stars_.link(v)));
+    mesh_.set_point(v, step(v, link(i)));
   }
 }
 

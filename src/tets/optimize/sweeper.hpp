@@ -29,6 +29,9 @@ namespace temper::tets {
 [[nodiscard]] WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> link, const WeightedPoint& p,
                                      const Mobility& mobility, const SweepParameters& parameters);
 
+/// Says whether to stop after this fraction of a sweep or round.
+using MustStop = std::function<bool(double)>;
+
 class Sweeper {
  public:
   /// For sweeps over these vertices. O(number of tetrahedra).
@@ -37,23 +40,21 @@ class Sweeper {
 
   /// A better place for a vertex among the faces of its link.
   using Step = std::function<WeightedPoint(VertexId, std::span<const HalffaceId>)>;
-  /// Says whether to stop after this fraction of the sweep.
-  using MustStop = std::function<bool(double)>;
   /// Takes one step of each vertex, on any thread. Returns false if it was stopped.
   bool sweep(const Step& step, const MustStop& must_stop = {});
   /// The same with the steps of improved().
   bool sweep(const SweepParameters& parameters, const MustStop& must_stop = {});
 
  private:
-  void color(std::span<const VertexId> vertices);
+  void color(const VertexStars& stars, std::span<const VertexId> vertices);
   void improve(std::size_t first, std::size_t last, const Step& step);
 
   TetMesh& mesh_;
   const IdVector<VertexId, Mobility>& mobility_;
   Executor* executor_;
-  VertexStars stars_;
   std::vector<VertexId> sequence_;  // the vertices, color by color
   std::vector<std::size_t> end_;    // of each color
+  VertexStars stars_;               // by the number in the sequence, so that memory is read from front to back
 };
 
 /// Says exactly whether the orthocenter of a tetrahedron, in either orientation, is not inside.

@@ -2,6 +2,7 @@
 #include <random>
 
 #include "support.hpp"
+#include "support/std_threads.hpp"
 #include "temper/tets/quality.hpp"
 
 namespace temper::io {
@@ -346,7 +347,10 @@ TEST_F(TetFiles, DataFollowMovedVerticesAndAllElseStays) {
   mesh.set_point(VertexId(8), {0.5, 0.75, 1.625, 0.25});
   UpdateOptions options;
   options.rules.exceptions["stays"] = DataRule::keep;
+  test::StdThreads threads(2);
+  options.executor = &threads;
   const DataReport report = update(file, loaded, mesh, {}, options);
+  EXPECT_GT(threads.runs(), 0U);
   EXPECT_EQ(file.points.size(), 9U);
   EXPECT_EQ(file.points[8], (Vec3{0.5, 0.75, 1.625}));
   EXPECT_EQ(file.weights[8], 0.25);
@@ -399,7 +403,11 @@ TEST_F(TetFiles, PiecesOfAFaceOrLineTakeItsTagAndData) {
   for (std::size_t v = 0; v < 4; ++v) origins.vertices.push_back(VertexId(v));
   origins.vertices.push_back({});
   origins.faces = {0, 0, 1, 1, 2}, origins.lines = {0, 0, 1};
+  release_geometry(file, loaded);
+  EXPECT_TRUE(file.points.empty() && file.tetrahedra.empty());
   update(file, loaded, tets::TetMesh::build(input)->mesh, origins);
+  EXPECT_EQ(file.points, points);
+  EXPECT_EQ(file.tetrahedra, tetrahedra);
   const std::vector<std::array<std::int32_t, 3>> oriented = {{0, 2, 4}, {4, 2, 1}, {4, 0, 3},
                                                              {1, 4, 3}, {0, 1, 1}, {0, 3, 2}};
   ASSERT_EQ(file.faces.size(), oriented.size());
