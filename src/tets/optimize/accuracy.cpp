@@ -70,7 +70,7 @@ Accuracy::Accuracy(TetMesh& mesh, IdVector<VertexId, Mobility> mobility, const A
 
 Accuracy::Total Accuracy::total() const {
   Total result;
-  result.lowered = HUGE_VAL;
+  result.lowered = result.measure = HUGE_VAL;
   Gradient of_error(mesh_.n_vertices()), of_energy;
   const double error = error_ != nullptr ? error_->squared_error(mesh_, &of_error) : 1;
   const auto [offsets, barrier] = energy_.of(mesh_, &of_energy, executor_);
@@ -140,7 +140,7 @@ bool Accuracy::is_valid() const {
                      [this](TetId t) { return floors_[t] == AccuracyEnergy::kNoFloor || is_good(mesh_, t); });
 }
 
-bool Accuracy::descend(const std::function<bool()>& must_stop) {
+bool Accuracy::descend(const MustStop& must_stop) {
   if (!std::isfinite(now_.lowered)) return false;
   IdVector<VertexId, WeightedPoint> before(mesh_.n_vertices());
   for (const VertexId v : mesh_.vertices()) before[v] = mesh_.point(v);
@@ -150,7 +150,7 @@ bool Accuracy::descend(const std::function<bool()>& must_stop) {
     const double slope = temper::dot(now_.gradient, step);
     double t = 1;
     for (int i = 0; i < kMostHalvings && slope < 0; ++i, t *= 0.5) {
-      if (must_stop()) {
+      if (must_stop(0)) {
         place(before, step, 0);
         return false;
       }

@@ -8,13 +8,13 @@
 // inside stays so, by exact predicates. One that is bad stays as it is, with its corners.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "base/descent.hpp"
 #include "temper/tets/optimize.hpp"
 #include "tets/energy/accuracy_energy.hpp"
 #include "tets/optimize/newton_step.hpp"
+#include "tets/optimize/sweeper.hpp"
 
 namespace temper::tets {
 
@@ -31,7 +31,7 @@ class Accuracy {
            const DiscretizationError* error, Executor* executor);
 
   /// Takes one step. Returns false if there is none, or if it must stop.
-  bool descend(const std::function<bool()>& must_stop);
+  bool descend(const MustStop& must_stop);
   /// √J after the last step, or without a model E.
   [[nodiscard]] double measure() const { return now_.measure; }
 

@@ -72,7 +72,7 @@ HotSweeps::HotSweeps(TetMesh& mesh, IdVector<VertexId, Mobility> mobility, const
       barrier_(barrier_of(mesh)),
       sweeper_(mesh, mobility_, all_vertices(mesh), executor) {}
 
-bool HotSweeps::sweep(const Sweeper::MustStop& must_stop) {
+bool HotSweeps::sweep(const MustStop& must_stop) {
   return sweeper_.sweep([this](VertexId v, std::span<const HalffaceId> link) { return improved(v, link); }, must_stop);
 }
 

@@ -17,7 +17,7 @@ class HotSweeps {
   HotSweeps(TetMesh& mesh, IdVector<VertexId, Mobility> mobility, const HotEnergy& energy, double relaxation,
             Executor* executor);
   /// Returns false if it was stopped.
-  bool sweep(const Sweeper::MustStop& must_stop);
+  bool sweep(const MustStop& must_stop);
 
  private:
   [[nodiscard]] WeightedPoint improved(VertexId v, std::span<const HalffaceId> link);

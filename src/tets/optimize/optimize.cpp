@@ -180,8 +180,8 @@ class Run {
     }
     const DiscretizationError* error = best_bad_ == 0 && error_ && error_->has_gradient() ? error_ : nullptr;
     Accuracy accuracy(draft_.mesh, draft_.mobilities(), accuracy_model(options_.scheme), error, hooks_.executor);
-    const auto must_stop = [this] { return is_stopped(0); };
-    for (int i = 0; i < options_.accuracy_steps && may_sweep() && accuracy.descend(must_stop); ++i) {
+    for (int i = 0; i < options_.accuracy_steps && may_sweep(); ++i) {
+      if (!accuracy.descend([this](double fraction) { return is_stopped(fraction); })) break;
       ++report_.sweeps;
       record(error != nullptr ? Objective::solver_error : Objective::accuracy, accuracy.measure());
     }
