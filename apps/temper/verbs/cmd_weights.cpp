@@ -112,10 +112,11 @@ void add_options(Command& command, WeightsSettings& s) {
       "Set all weights to zero, and flip edges until they are Delaunay. Solvers without weights need this.");
   command.add_flag("--json", s.json, "Print the report as JSON, with vertices and elements counted from 0.");
   command.group("Weights");
-  add_choice(command, "--mode", kModes, s.mode,
-             "Goal of the search. 'feasible' tests if good weights exist, and finds the best margin. 'minimal' makes "
-             "the least change that gives the margin. If no weights have the margin, 'elastic' finds the least violation. "
-             "'barrier' finds the least barrier energy.");
+  add_choice(
+      command, "--mode", kModes, s.mode,
+      "Goal of the search. 'feasible' tests if good weights exist, and finds the best margin. 'minimal' makes "
+      "the least change that gives the margin. If no weights have the margin, 'elastic' finds the least violation. "
+      "'barrier' finds the least barrier energy.");
   add_number(command, "--margin", s.options.margin, {0, 0.5, true},
              "Least h/l, d/l, 1 - d/l or dual length/l in the mesh. With --mode feasible or barrier, half of the best "
              "margin is used if it is less.");

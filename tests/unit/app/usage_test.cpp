@@ -335,7 +335,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"UnknownSuffix", {"optimize", "a.vtu", "-o", "b.xyz"}, "the suffix names no format that temper writes"},
         Wrong{"UnknownEnergy", {"optimize", "a.vtu", "-o", "b.vtu", "--set", "energy=bp"}, "did you mean 'BP'?"},
         Wrong{"UnknownSolver", {"optimize", "a.vtu", "-o", "b.vtu", "--set", "solver=newtn"}, "did you mean 'newton'?"},
-        Wrong{"UnknownStar", {"optimize", "a.vtu", "-o", "b.vtu", "--set", "star=3"}, "'3' is none of 0, 1, 2, all"},
+        Wrong{"UnknownStar", {"optimize", "a.vtu", "-o", "b.vtu", "--set", "star=4"}, "'4' is none of 0, 1, 2, 3, all"},
         Wrong{"GammaNotANumber",
               {"optimize", "a.vtu", "-o", "b.vtu", "--set", "gamma=1e:absolute"},
               "'1e' is not a number"},
