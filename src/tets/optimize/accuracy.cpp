@@ -63,8 +63,8 @@ Accuracy::Accuracy(TetMesh& mesh, IdVector<VertexId, Mobility> mobility, const A
       sizes_(local_sizes(mesh)),
       floors_(mesh.n_tetrahedra()) {
   for (const TetId t : mesh.tetrahedra()) {
-    floors_[t] =
-        is_good(mesh, t) ? std::min(kMargin, kFloorOfMargin * least_height(mesh, t)) : AccuracyEnergy::kNoFloor;
+    const double margin = is_good(mesh, t) ? least_height(mesh, t) : 0;
+    floors_[t] = margin > kLeastMargin ? std::min(kMargin, kFloorOfMargin * margin) : AccuracyEnergy::kNoFloor;
     if (floors_[t] != AccuracyEnergy::kNoFloor) continue;
     for (const VertexId v : mesh.corners(t)) mobility_[v] = Mobility::none;
   }

@@ -120,7 +120,9 @@ TEST(TetMobility, VerticesSlideInOnePlaneOrAlongOneStraightLine) {
 
 TEST(TetMobility, ABentFaceAndUserChoicesFixVertices) {
   Block block(0);
-  const auto number = [](int x, int y, int z) { return std::size_t((z * (kSide + 1) + y) * (kSide + 1) + x); };
+  const auto number = [](std::size_t x, std::size_t y, std::size_t z) {
+    return (z * (kSide + 1) + y) * (kSide + 1) + x;
+  };
   const auto before = mobilities(block.mesh(), sliding());
   block.points()[number(0, 2, 2)].x -= 1e-6;  // bends the faces around it, and creases meet at its neighbors
   const auto bent = mobilities(block.mesh(), sliding());
