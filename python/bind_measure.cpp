@@ -165,7 +165,7 @@ void bind_draw(py::module_& m) {
                            const py::dict& options) {
     const tets::TetMesh& mesh = self.mesh();
     tets::Plane plane = axis < 0 ? middle_plane(mesh) : middle_plane(mesh, axis);
-    if (!at.is_none()) plane.at = at.cast<double>();
+    if (!at.is_none()) plane = or_raise(plane_through(mesh, plane.axis, at.cast<double>()));
     const DrawOptions how = draw_options_from(options);
     return before == nullptr ? draw_svg(mesh, plane, how) : draw_before_after_svg(before->mesh(), mesh, plane, how);
   });

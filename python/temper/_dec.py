@@ -413,8 +413,9 @@ def dec_operators(
         and transmissibility are multiplied by √(det K) (docs/howto/anisotropic.md). For triangles alone.
     coefficient : array of float, or dict of region to float, optional
         K > 0 of −div(K ∇u) on each triangle or tetrahedron, (m,), or by region: its tag or its name. With it ★1 = (K_k
-        h_k + K_l h_l)/ℓ, for unknowns at vertices. The transmissibility is ℓ/(h_k/K_k + h_l/K_l), the harmonic mean, for unknowns at orthocenters. On
-        the boundary the missing term is left out. ``capacity`` is ★0 with K. A tensor is multiplied by K.
+        h_k + K_l h_l)/ℓ, for unknowns at vertices. The transmissibility is ℓ/(h_k/K_k + h_l/K_l), the harmonic mean,
+        for unknowns at orthocenters. On the boundary the missing term is left out. ``capacity`` is ★0 with K. A tensor
+        is multiplied by K.
 
     Returns
     -------

@@ -164,8 +164,8 @@ def find_weights(
     mesh : Mesh, TetMesh, or of another library
     goal : {"minimal", "feasible", "elastic"}
         minimal: the least change for the requested margin. feasible: the best margin, and the least change for the
-        requested margin or for half of the best one. elastic: the least violation, but at least half of
-        the best margin if that is positive; then the least change.
+        requested margin or for half of the best one. elastic: the least violation, but at least half of the best margin
+        if that is positive; then the least change.
     margin : float
         Margin t in [0, 1/2): all h ≥ tℓ and tℓ ≤ d ≤ (1 − t)ℓ, or the inequalities of the other constraints.
     from_input : bool

@@ -13,6 +13,7 @@
 #include "errors/poisson.hpp"
 #include "temper/tets/errors.hpp"
 #include "temper/tets/operators.hpp"
+#include "tets/mesh/box.hpp"
 
 namespace temper::tets {
 namespace {
@@ -279,13 +280,7 @@ ErrorReport Subject::report(const std::vector<Field>& fields, bool condition) co
 }  // namespace
 
 FieldFrame field_frame(const TetMesh& mesh) {
-  if (mesh.n_vertices() == 0) return {};
-  Vec3 low = mesh.position(VertexId(0)), high = low;
-  for (const VertexId v : mesh.vertices()) {
-    const Vec3 p = mesh.position(v);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
+  const auto [low, high] = bounding_box(mesh);
   return {0.5 * low + 0.5 * high, 0.5 * std::max({high.x - low.x, high.y - low.y, high.z - low.z})};
 }
 

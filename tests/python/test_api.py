@@ -54,7 +54,7 @@ ELSEWHERE = {
     "insert_in_triangle": "plan_insertion and insert_vertex, which check",
     "dihedral_angle": "lengths of tetrahedra are for C++", "six_volumes": "as dihedral_angle",
     "boundary_vertices": "TetMesh.boundary_faces", "read_any": "read does it",
-    "middle_plane": "PyVista cuts meshes", "bounding_box": "numpy: points.min(axis=0)",
+    "middle_plane": "PyVista cuts meshes", "plane_through": "draw_svg: cut",
     "input_size_field_of": "input_size_field: Python's meshes may go before their views",
 }  # fmt: skip
 

@@ -98,6 +98,9 @@ def test_pictures_and_pages_show_cuts(shaken):
     assert temper.draw_svg(shaken, shaken).count("tetrahedra bad at z = 1.5<") == 2
     with pytest.raises(ValueError, match="cut: expected 'x', 'y' or 'z'"):
         temper.draw_svg(shaken, cut="w")
+    for at in (0, 99, float("nan")):
+        with pytest.raises(ValueError, match=f"the plane y={at} misses the mesh, which has y from 0 to 3. Next: y=1.5"):
+            temper.draw_svg(shaken, cut=("y", at))
     with pytest.raises(TypeError, match="dual is for triangles alone"):
         temper.draw_svg(shaken, dual=False)
     ring = temper.generate.annulus()

@@ -206,12 +206,12 @@ test('tetrahedra are cut by a plane that the user moves', async () => {
   assert.match((await section(page)).words, /^Cut at z = 2: \d+ tetrahedra, \d+ of them not well-centered/);
   for (const axis of ['z', 'x', 'y']) {
     if (axis !== 'z') await changes(page, axis, () => page.check(`[name=axis][value="${'xyz'.indexOf(axis)}"]`, { force: true }));
-    for (const part of [1, 250, 500, 777, 1000]) { // along faces of the boundary, and elsewhere
+    for (const [part, at] of [[1, 0.004], [250, 1], [500, 2], [777, 3.108], [1000, 3.996]]) { // along faces of the boundary, and elsewhere
       await page.locator('#plane input').fill(String(part));
-      await page.waitForTimeout(60);
+      await page.waitForSelector(`#plane input[aria-valuetext="${axis} = ${at}"]`);
       const { area, words } = await section(page);
       assert.ok(Math.abs(area - 16) < 1e-9, `${axis} ${part}: ${area}`);
-      assert.ok(words.includes(`Cut at ${axis} = `), words);
+      assert.ok(words.startsWith(`Cut at ${axis} = ${at}: `), words);
     }
   }
   for (const option of await page.locator('#measure option').all()) await page.selectOption('#measure', await option.getAttribute('value'));

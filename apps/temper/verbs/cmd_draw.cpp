@@ -163,19 +163,15 @@ tets::Plane plane_of(const DrawSettings& s, const tets::TetMesh& mesh) {
   const auto axis = std::string_view("xyz").find(s.cut[0]);
   if (axis == std::string_view::npos || (s.cut.size() > 1 && s.cut[1] != '='))
     refuse_usage("draw", fmt::format("--cut: expected x=VALUE, y=VALUE, z=VALUE or one of x, y, z, found '{}'", s.cut));
-  tets::Plane plane = middle_plane(mesh, static_cast<int>(axis));
-  if (s.cut.size() == 1) return plane;
+  if (s.cut.size() == 1) return middle_plane(mesh, static_cast<int>(axis));
+  double at = 0;
   const char* const end = s.cut.data() + s.cut.size();
-  const auto [read_to, error] = read_number(s.cut.data() + 2, end, plane.at);
+  const auto [read_to, error] = read_number(s.cut.data() + 2, end, at);
   if (error != std::errc() || read_to != end)
     refuse_usage("draw", fmt::format("--cut: expected a number after '=', found '{}'", s.cut));
-  const auto [low, high] = bounding_box(mesh);
-  const std::array<std::array<double, 2>, 3> ranges = {{{low.x, high.x}, {low.y, high.y}, {low.z, high.z}}};
-  if (const auto [from, to] = ranges[axis]; !(from < plane.at && plane.at <= to))
-    throw Failure(Exit::bad_usage, fmt::format("{}: --cut: the plane {} misses the mesh, which has {} from {:.9g} to "
-                                               "{:.9g}. Next: --cut {}={:.9g}",
-                                               s.input, s.cut, s.cut[0], from, to, s.cut[0], (from + to) / 2));
-  return plane;
+  const auto plane = plane_through(mesh, static_cast<int>(axis), at);
+  if (!plane) throw Failure(Exit::bad_usage, fmt::format("{}: --cut: {}", s.input, plane.error().message));
+  return *plane;
 }
 
 void draw_tetrahedra(const Command& command, const DrawSettings& s, const TetInput& input, Outputs& outputs) {

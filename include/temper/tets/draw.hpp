@@ -15,17 +15,12 @@ struct Plane {
   friend bool operator==(const Plane&, const Plane&) = default;
 };
 
-/// A box in space.
-struct Box3 {
-  Vec3 low, high;
-};
-/// The box of all vertices.
-[[nodiscard]] Box3 bounding_box(const TetMesh& mesh);
-
 /// The plane in the middle of the mesh, across its shortest side.
 [[nodiscard]] Plane middle_plane(const TetMesh& mesh);
 /// The plane in the middle of the mesh across an axis.
 [[nodiscard]] Plane middle_plane(const TetMesh& mesh, int axis);
+/// The plane across an axis at a coordinate. Error if it misses the mesh.
+[[nodiscard]] Expected<Plane> plane_through(const TetMesh& mesh, int axis, double at);
 
 /// Draws the cut of a mesh by a plane. Tetrahedra are colored by their margin, the least h/ℓ, and bad ones are hatched.
 /// The axes of the picture are y and z, x and z, or x and y. A vertex on the plane counts as above it, so a plane along

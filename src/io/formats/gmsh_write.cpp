@@ -50,12 +50,9 @@ struct Kind {
   [[nodiscard]] Groups groups(std::size_t i) const {
     Groups all = {tag(i), {}};
     for (const auto& [group, inside] : further_groups) {
-      if (is_in(inside, i)) all.further.push_back(group);
+      if (group != all.first && inside[i] != 0 && !std::isnan(inside[i])) all.further.push_back(group);
     }
     return all;
-  }
-  [[nodiscard]] static bool is_in(const std::vector<double>& inside, std::size_t i) {
-    return inside[i] != 0 && !std::isnan(inside[i]);
   }
   [[nodiscard]] std::int32_t entity(std::size_t i) const { return entities.empty() ? only_entity : entities[i]; }
 };
@@ -263,10 +260,8 @@ class GmshWriter {
   template <class Use>
   void for_each_further(const Use& use) {
     for (const Kind* kind : kinds()) {
-      for (const auto& [group, inside] : kind->further_groups) {
-        for (std::size_t i = 0; i < kind->n; ++i) {
-          if (Kind::is_in(inside, i)) use(*kind, i, group);
-        }
+      for (std::size_t i = 0; i < kind->n; ++i) {
+        for (const std::int32_t group : kind->groups(i).further) use(*kind, i, group);
       }
     }
   }

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdio>
 
+#include "base/text.hpp"
+#include "tets/mesh/box.hpp"
 #include "tets/quality/measure.hpp"
 
 namespace temper::tets {
@@ -111,17 +113,6 @@ Section section_of(const TetMesh& mesh, const Plane& plane) {
   return section;
 }
 
-Box3 bounding_box(const TetMesh& mesh) {
-  if (mesh.n_vertices() == 0) return {};
-  Box3 box = {mesh.position(VertexId(0)), mesh.position(VertexId(0))};
-  for (const VertexId v : mesh.vertices()) {
-    const Vec3 p = mesh.position(v);
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-  }
-  return box;
-}
-
 Plane middle_plane(const TetMesh& mesh, int axis) {
   const Box3 box = bounding_box(mesh);
   return {axis, 0.5 * (along(box.low, axis) + along(box.high, axis))};
@@ -134,6 +125,17 @@ Plane middle_plane(const TetMesh& mesh) {
     if (along(box.high - box.low, axis) < along(box.high - box.low, shortest)) shortest = axis;
   }
   return middle_plane(mesh, shortest);
+}
+
+Expected<Plane> plane_through(const TetMesh& mesh, int axis, double at) {
+  const Box3 box = bounding_box(mesh);
+  const double low = along(box.low, axis), high = along(box.high, axis);
+  if (low < at && at <= high) return Plane{axis, at};
+  const std::string name = kAxes[static_cast<std::size_t>(axis)];
+  return InputError{ErrorCode::invalid_option, "",
+                    "the plane " + name + "=" + to_text(at) + " misses the mesh, which has " + name + " from " +
+                        rounded(low, 9) + " to " + rounded(high, 9) + ". Next: " + name + "=" +
+                        rounded(middle_plane(mesh, axis).at, 9)};
 }
 
 std::string draw_svg(const TetMesh& mesh, const Plane& plane, const DrawOptions& options) {

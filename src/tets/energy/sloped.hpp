@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 #include "tets/energy/matrix.hpp"
@@ -37,11 +36,6 @@ struct SlopedOf {
   friend SlopedOf operator/(const SlopedOf& a, const SlopedOf& b) {
     const T inverse = T(1) / b.value, quotient = a.value * inverse;
     return {quotient, inverse, a, T(-1) * quotient * inverse, b};
-  }
-  friend SlopedOf sqrt(const SlopedOf& a) {
-    using std::sqrt;
-    const T root = sqrt(a.value);
-    return {root, T(0.5) / root, a, T(0), a};
   }
 
  private:

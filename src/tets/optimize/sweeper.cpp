@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <utility>
 
 #include "base/instruction_set_choice.hpp"
 #include "base/sum.hpp"
+#include "tets/mesh/box.hpp"
 #include "tets/quality/measure.hpp"
 
 namespace temper::tets {
@@ -40,13 +40,9 @@ std::uint32_t spread(std::uint32_t x) {
 
 /// Places along a Z curve through 1024³ cells: links of vertices that follow each other share memory.
 IdVector<VertexId, std::uint32_t> places_along_curve(const TetMesh& mesh, const std::vector<VertexId>& vertices) {
-  Vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  for (const VertexId v : vertices) {
-    const Vec3 p = mesh.position(v);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const auto [low, high] = bounding_box(mesh, vertices);
+  const Vec3 sides = high - low;
+  const double extent = std::max({sides.x, sides.y, sides.z});
   const auto cell = [&](double x) { return spread(static_cast<std::uint32_t>(1023 * (x / extent))); };
   IdVector<VertexId, std::uint32_t> places(mesh.n_vertices(), 0);
   for (const VertexId v : vertices) {

@@ -106,7 +106,7 @@ TEST_F(Draw, TetrahedraAreCutByThePlaneThatTheUserNames) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
       {{"two.mesh", "--cut", "w=1"}, "--cut: expected x=VALUE, y=VALUE, z=VALUE or one of x, y, z, found 'w=1'"},
       {{"two.mesh", "--cut", "x=one"}, "--cut: expected a number after '=', found 'x=one'"},
-      {{"two.mesh", "--cut", "x=2.5"}, "the plane x=2.5 misses the mesh, which has x from 0 to 2. Next: --cut x=1"},
+      {{"two.mesh", "--cut", "x=2.5"}, "the plane x=2.5 misses the mesh, which has x from 0 to 2. Next: x=1"},
       {{"two.mesh", "--no-dual"}, "two.mesh has tetrahedra, and --no-dual is for triangles alone"},
       {{"two.mesh", "--color", "angle"}, "--color angle is for triangles alone"},
       {{"a.vtu", "--cut", "x"}, "a.vtu has triangles, and --cut is for tetrahedra alone. Next: leave it out"}};

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <thread>
 
+#include "support/tet_lattice.hpp"
 #include "temper/generate.hpp"
 #include "temper/io.hpp"
 #include "workshop.hpp"
@@ -61,6 +62,22 @@ TEST_F(SaveEvery, TheResultIsThatOfARunWithoutIt) {
     temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--save-every", seconds});
     EXPECT_TRUE(read("out.vtu") == read("without.vtu"));
   }
+}
+
+TEST_F(SaveEvery, AKilledRunLeavesAMeshOfTetrahedraToo) {
+  const TetArrays arrays = shaken(cubes(12, kSixTets), 0.25, 0);
+  io::TetFile in;
+  in.points = arrays.points, in.tetrahedra = arrays.tetrahedra;
+  ASSERT_TRUE(io::write("in.mesh", in));
+  const pid_t process =
+      start({"optimize", "in.mesh", "-o", "out.vtu", "--save-every", "0", "--threads", "1"}, "out.txt", "err.txt");
+  wait_until([] { return exists("out.vtu"); });
+  kill(process, SIGKILL);
+  EXPECT_EQ(wait_for(process), -SIGKILL);
+  const nlohmann::json before = numbers_of("in.mesh"), after = numbers_of("out.vtu");
+  EXPECT_EQ(after["tetrahedra"], before["tetrahedra"]);
+  EXPECT_EQ(after["inverted_tetrahedra"], 0);
+  EXPECT_LT(after["orthocenters_outside"], before["orthocenters_outside"]);
 }
 
 TEST_F(SaveEvery, TetrahedraHaveTheResultOfARunWithoutItToo) {

@@ -144,6 +144,25 @@ TEST_F(TetFiles, EntitiesOfSeveralGroupsOfGmshKeepAllOfThem) {
   EXPECT_NE(slurp(path("m.msh")).find(" 2 1 7 0"), std::string::npos) << "one entity in two groups, as it was";
 }
 
+TEST_F(TetFiles, AFurtherGroupOfGmshThatIsTheRegionIsListedOnce) {
+  TetFile sample;
+  sample.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  sample.tetrahedra = {{0, 1, 2, 3}, {1, 2, 3, 4}};
+  sample.regions = {7, 1};
+  sample.cell_data = {{"gmsh:physical:7", 1, std::vector<std::int32_t>{1, 1}},
+                      {"gmsh:physical:5", 1, std::vector<std::int32_t>{0, 1}}};
+  for (const auto& [format, encoding] :
+       {std::pair("gmsh22", Encoding::ascii), {"gmsh22", Encoding::appended}, {"gmsh41", Encoding::ascii}}) {
+    const TetFile file = through(sample, format, encoding);
+    EXPECT_EQ(file.tetrahedra, sample.tetrahedra) << format;
+    EXPECT_EQ(file.regions, sample.regions);
+    EXPECT_TRUE(has(file.cell_data, {"gmsh:physical:7", 1, std::vector<std::int32_t>{0, 1}}));
+    EXPECT_TRUE(has(file.cell_data, {"gmsh:physical:5", 1, std::vector<std::int32_t>{0, 1}}));
+    EXPECT_TRUE(make_mesh(file));
+  }
+  EXPECT_NE(slurp(path("m.msh")).find(" 1 1 7 0"), std::string::npos) << "an entity of the group 7 alone";
+}
+
 TEST_F(TetFiles, GhostsInTheFileOfAPartitionAreLeftOut) {
   const auto read = read_any(
       make("in.msh",

@@ -102,6 +102,8 @@ TEST(TetCut, APlaneBesideTheMeshCutsNothingAndTheMiddleOneIsAcrossTheShortestSid
   TetMesh mesh = test::mesh_of(test::cubes(2, test::kSixTets));
   EXPECT_TRUE(cut(mesh, {1, 0}).empty());  // all vertices are on it or above
   EXPECT_TRUE(cut(mesh, {1, 2.001}).empty());
+  for (const double at : {-0.001, 0.0, 2.001, std::nan("")}) EXPECT_FALSE(plane_through(mesh, 1, at)) << at;
+  for (const double at : {1e-9, 2.0}) EXPECT_EQ(*plane_through(mesh, 1, at), (Plane{1, at}));
   EXPECT_EQ(middle_plane(mesh), (Plane{2, 1}));
   for (const VertexId v : mesh.vertices()) {
     const Vec3 p = mesh.position(v);

@@ -58,24 +58,30 @@ TEST(TetOptimize, MakesAllTetrahedraGoodAndKeepsTheBoundary) {
 
 TEST(TetOptimize, AListenerSeesBetterAndBetterMeshesAndLastTheResult) {
   const TetMesh input = test::mesh_of(test::shaken(test::cubes(2, test::kSixTets), 0.3, 0));
-  TetMesh mesh = input, last;
-  Origins origins;
-  std::vector<std::size_t> bad = {quality(input).orthocenters_outside};
-  OptimizeHooks hooks;
-  hooks.best_so_far = [&](const auto& best) {
-    best([&](const BestSoFar& now) {
-      bad.push_back(quality(now.mesh).orthocenters_outside);
-      last = now.mesh;
-      origins = now.origins;
-    });
-  };
-  const auto report = optimize(mesh, {}, hooks);
-  ASSERT_TRUE(report);
-  EXPECT_GT(report->vertices_inserted, 0U);
-  EXPECT_TRUE(origins.vertices == report->origins.vertices);
-  EXPECT_GT(bad.size(), 3U);
-  EXPECT_TRUE(std::is_sorted(bad.rbegin(), bad.rend()));
-  EXPECT_EQ(last, mesh);
+  OptimizeOptions all, vertex, hot;
+  vertex.scheme = Scheme::vertex;
+  hot.hot_star = temper::Star::one;
+  for (OptimizeOptions options : {all, vertex, hot}) {
+    options.accuracy_steps = 3;
+    TetMesh mesh = input, last;
+    Origins origins;
+    std::vector<std::size_t> bad = {quality(input).orthocenters_outside};
+    OptimizeHooks hooks;
+    hooks.best_so_far = [&](const auto& best) {
+      best([&](const BestSoFar& now) {
+        bad.push_back(quality(now.mesh).orthocenters_outside);
+        last = now.mesh;
+        origins = now.origins;
+      });
+    };
+    const auto report = optimize(mesh, options, hooks);
+    ASSERT_TRUE(report);
+    EXPECT_GT(report->vertices_inserted, 0U);
+    EXPECT_TRUE(origins.vertices == report->origins.vertices);
+    EXPECT_GT(bad.size(), 3U);
+    EXPECT_TRUE(std::is_sorted(bad.rbegin(), bad.rend()));
+    EXPECT_EQ(last, mesh);
+  }
 }
 
 /// Runs the last block first.
@@ -377,12 +383,18 @@ TEST(TetOptimize, AHotEnergyFallsWithinTheGoodMeshesOnAnyThread) {
     ASSERT_TRUE(report);
     EXPECT_EQ(report->objective_after, hot_energy(mesh, energy));
     EXPECT_EQ(report->objective_before, hot_energy(good, energy));
+    EXPECT_LE(report->objective_after, report->objective_before);
     EXPECT_LT(report->objective_after, 0.995 * without->objective_after);
     EXPECT_EQ(report->history.back().energy, report->objective_after);
     EXPECT_EQ(quality(mesh).orthocenters_outside, 0U);
     EXPECT_EQ(mesh.validate(), std::nullopt);
     ASSERT_TRUE(optimize(again, options, hooks));
     EXPECT_EQ(again, mesh);
+    const auto twice = optimize(again, options);  // sweeps for BP alone would raise it
+    ASSERT_TRUE(twice);
+    EXPECT_LE(twice->objective_after, report->objective_after);
+    EXPECT_EQ(twice->objective_after, hot_energy(again, energy));
+    EXPECT_EQ(quality(again).orthocenters_outside, 0U);
   }
   OptimizeOptions wrong;
   wrong.hot_star = temper::Star::all;
