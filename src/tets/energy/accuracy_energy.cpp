@@ -92,10 +92,14 @@ AccuracyTotal AccuracyEnergy::of(const TetMesh& mesh, Gradient* gradient, Execut
   }
   // From sums of V and N to the derivatives by them.
   for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (factors_[i] == 0) {  // maybe no numbers
+      sums[i] = {};
+      continue;
+    }
     const auto [volume, moment] = sums[i];
-    const double over = factors_[i] > 0 ? factors_[i] / volume : 0, n2 = squared_length(moment);
-    total.energy += over >= 0 ? over * n2 : HUGE_VAL;
-    sums[i] = {over > 0 ? -over / volume * n2 : 0, 2 * over * moment};
+    const double over = factors_[i] / volume, n2 = squared_length(moment);
+    total.energy += over > 0 ? over * n2 : HUGE_VAL;
+    sums[i] = {-over / volume * n2, 2 * over * moment};
   }
   if (gradient == nullptr) return total;
   IdVector<TetId, std::array<WeightedPoint, 4>> slopes(mesh.n_tetrahedra());

@@ -8,7 +8,6 @@
 #include "base/cube_root.hpp"
 #include "base/portable_log.hpp"
 #include "tets/energy/star.hpp"
-#include "tets/optimize/valid_step.hpp"
 
 namespace temper::tets {
 namespace {
@@ -22,6 +21,11 @@ constexpr int kSmoothings = 10;
 // As in the plane (optimize/solver_error/solver_error_phase.cpp).
 constexpr double kLongestStep = 0.3, kKeptRoom = 0.2, kArmijo = 1e-4;
 constexpr int kMostHalvings = 25;
+// The phase ends where so many steps lower the sum by less than this.
+constexpr std::size_t kStepsToGain = 20;
+constexpr double kLeastGain = 1e-3;
+// Below, the margin is not certain in doubles.
+constexpr double kLeastMargin = 1e-9;
 
 }  // namespace
 
@@ -142,6 +146,8 @@ bool Accuracy::is_valid() const {
 
 bool Accuracy::descend(const MustStop& must_stop) {
   if (!std::isfinite(now_.lowered)) return false;
+  if (lowered_.size() > kStepsToGain && lowered_.end()[-1 - std::ptrdiff_t(kStepsToGain)] - now_.lowered < kLeastGain)
+    return false;
   IdVector<VertexId, WeightedPoint> before(mesh_.n_vertices());
   for (const VertexId v : mesh_.vertices()) before[v] = mesh_.point(v);
   for (;;) {
@@ -162,6 +168,7 @@ bool Accuracy::descend(const MustStop& must_stop) {
       for (std::size_t k = 0; k < change.size(); ++k) change[k] -= now_.gradient[k], step[k] *= t;
       descent_.learn(std::move(step), std::move(change));
       now_ = std::move(there);
+      lowered_.push_back(now_.lowered);
       return true;
     }
     place(before, step, 0);

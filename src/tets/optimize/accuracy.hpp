@@ -55,6 +55,7 @@ class Accuracy {
   AccuracyEnergy energy_;
   Descent descent_;
   Total now_;
+  std::vector<double> lowered_;  // after each step
 };
 
 }  // namespace temper::tets

@@ -1,10 +1,10 @@
 #include "tets/optimize/hot_sweeps.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "base/cube_root.hpp"
-#include "tets/optimize/valid_step.hpp"
 
 namespace temper::tets {
 namespace {
@@ -17,8 +17,10 @@ double barrier_of(const TetMesh& mesh) {
   double sum = 0;
   for (const TetId t : mesh.tetrahedra()) {
     const auto [p, q, r, s] = mesh.points(t);
-    const double side = cube_root(six_volumes(p.position(), q.position(), r.position(), s.position()) / 6);
-    sum += side * side * side * side * side;
+    const double volume = six_volumes(p.position(), q.position(), r.position(), s.position()) / 6;
+    if (!(volume > 0)) continue;  // by rounding
+    const double side = cube_root(volume);
+    sum += volume * side * side;
   }
   return kBarrierOfHot * sum / static_cast<double>(mesh.n_tetrahedra());
 }
@@ -52,6 +54,29 @@ struct LoweredStar {
     return sum;
   }
 };
+
+/// Takes one step of v that lowers the energy of `star`: over-relaxed, then plain, then halved. All tetrahedra between
+/// v and its link are good then. Otherwise v stays.
+void take_valid_step(TetMesh& mesh, VertexId v, std::span<const HalffaceId> link, const LoweredStar& star,
+                     const Mobility& mobility, double radius, double relaxation) {
+  constexpr int kTrials = 6;
+  constexpr double kRounding = 1e-15;  // a smaller part of the energy is rounding
+  const WeightedPoint origin = mesh.point(v);
+  const PointDerivatives<double> here = star.derivatives(origin);
+  if (!std::isfinite(here.value)) return;
+  const auto [step, predicted] = newton_step(here, mobility, radius);
+  if (!(predicted > kRounding * here.value)) return;
+  double t = relaxation;
+  for (int trial = 0; trial < kTrials; ++trial, t = trial == 1 ? 1 : 0.5 * t) {
+    WeightedPoint p = {origin.x, origin.y, origin.z, origin.w + t * step.w};  // -0.0 + 0 is another zero
+    if (mobility.moves()) p.x += t * step.x, p.y += t * step.y, p.z += t * step.z;
+    if (!is_exact(p) || !(star.value(p) < here.value)) continue;
+    mesh.set_point(v, p);
+    if (std::all_of(link.begin(), link.end(), [&](HalffaceId h) { return is_good(mesh, TetMesh::tetrahedron(h)); }))
+      return;
+    mesh.set_point(v, origin);
+  }
+}
 
 double rms_distance(const TetMesh& mesh, VertexId v, std::span<const HalffaceId> link) {
   double sum = 0;

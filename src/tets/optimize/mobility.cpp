@@ -173,8 +173,10 @@ class Slides {
   }
   /// Says whether two faces are pieces of one: of one plane, with the same tags and regions.
   [[nodiscard]] bool are_one(HalffaceId a, HalffaceId b) const {
-    return mesh_.is_boundary(a) == mesh_.is_boundary(b) && regions(a) == regions(b) && face_tags_.same(a, b) &&
-           are_parallel(normal(a), normal(b));
+    // The two sides of a slit lie on each other, with opposite normals: its front is a crease.
+    const bool on_boundary = mesh_.is_boundary(a);
+    return on_boundary == mesh_.is_boundary(b) && regions(a) == regions(b) && face_tags_.same(a, b) &&
+           are_parallel(normal(a), normal(b)) && (!on_boundary || dot(normal(a), normal(b)) > 0);
   }
 
   [[nodiscard]] Mobility in_plane(Corners faces) const {

@@ -39,6 +39,10 @@ std::optional<InputError> wrong_option(const OptimizeOptions& options) {
         ErrorCode::invalid_option, {}, "max_sweeps: expected at least 0, found " + std::to_string(options.max_sweeps)};
   if (options.keep_positions && options.keep_weights)
     return InputError{ErrorCode::invalid_option, {}, "positions and weights are both to be kept; expected one"};
+  if (options.hot_star && (options.scheme == Scheme::vertex || options.scheme == Scheme::cell))
+    return InputError{ErrorCode::invalid_option, {}, "hot_star and a scheme are both to be lowered; expected one"};
+  if (options.slide_boundary && options.split_boundary)
+    return InputError{ErrorCode::invalid_option, {}, "the boundary is both to slide and to be split; expected one"};
   if (options.hot_star == Star::all)
     return InputError{ErrorCode::invalid_option, {}, "hot_star: expected zero, one, two or three"};
   if (options.repair_trials < 0)
@@ -68,7 +72,7 @@ class Run {
   OptimizeReport run() {
     report_.objective_before = objective_of(draft_.mesh);
     record();
-    if (error_ && best_bad_ == 0) input_ = draft_;
+    if ((error_ || options_.hot_star) && best_bad_ == 0) input_ = draft_;
     const bool repairs = !options_.keep_positions && !options_.keep_weights && !options_.keep_edges;
     if (anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma) && repairs) repair();
     if (!stopped_early(report_.stopped)) lower_errors();
@@ -167,37 +171,46 @@ class Run {
   [[nodiscard]] bool lowers_errors() const {
     return options_.scheme == Scheme::vertex || options_.scheme == Scheme::cell;
   }
-  /// Lowers the errors of the scheme from the best mesh. Of this mesh, of the stages after it, and of an input without
-  /// bad tetrahedra, the one with the least error is kept.
+  /// Goes on from the best mesh, or returns to an input without bad tetrahedra if `measure` of this is less. Returns
+  /// the lesser one.
+  template <class Measure>
+  double begin_phase(const Measure& measure) {
+    draft_ = best_;
+    const double here = measure(draft_.mesh);
+    if (input_.mesh.n_vertices() == 0 || is_stopped(0)) return here;
+    const double of_input = measure(input_.mesh);
+    if (!(of_input < here)) return here;
+    best_ = std::move(input_);
+    return of_input;
+  }
+  /// Lowers the errors of the scheme. The best mesh is the one with the least error.
   void lower_errors() {
     if (!lowers_errors()) return;
     const auto error_of = [this](const TetMesh& mesh) { return error_ ? error_->squared_error(mesh, nullptr) : 0; };
-    draft_ = best_;
-    double least = error_of(draft_.mesh);
-    if (const double of_input = input_.mesh.n_vertices() > 0 ? error_of(input_.mesh) : HUGE_VAL; of_input < least) {
-      best_ = std::move(input_);
-      least = of_input;
-    }
+    double least = begin_phase(error_of);
     const DiscretizationError* error = best_bad_ == 0 && error_ && error_->has_gradient() ? error_ : nullptr;
     Accuracy accuracy(draft_.mesh, draft_.mobilities(), accuracy_model(options_.scheme), error, hooks_.executor);
     for (int i = 0; i < options_.accuracy_steps && may_sweep(); ++i) {
       if (!accuracy.descend([this](double fraction) { return is_stopped(fraction); })) break;
       ++report_.sweeps;
       record(error != nullptr ? Objective::solver_error : Objective::accuracy, accuracy.measure());
+      if (error == nullptr) continue;
+      const double now = accuracy.measure() * accuracy.measure();
+      if (now <= least) least = now, keep();
     }
-    if (error == nullptr && error_ && stopped_early(report_.stopped)) return;  // it takes too long to measure
-    if ((error != nullptr ? accuracy.measure() * accuracy.measure() : error_of(draft_.mesh)) <= least) best_ = draft_;
+    // A run that must stop does not measure any more: it keeps the mesh before these steps.
+    if (error == nullptr && !(error_ && stopped_early(report_.stopped)) && error_of(draft_.mesh) <= least) keep();
   }
 
-  /// Lowers a HOT energy from the best mesh.
+  /// Lowers a HOT energy. The best mesh is the one with the least.
   void lower_hot() {
     if (!options_.hot_star) return;
-    draft_ = best_;
+    double least = begin_phase([this](const TetMesh& mesh) { return objective_of(mesh); });
     HotSweeps sweeps(draft_.mesh, draft_.mobilities(), hot_, kRelaxation, hooks_.executor);
     for (int i = 0; i < std::min(kMostHotSweeps, options_.accuracy_steps) && may_sweep(); ++i) {
       if (sweeps.sweep([this](double fraction) { return is_stopped(fraction); })) ++report_.sweeps;
       const double before = report_.history.back().energy, now = objective_of(draft_.mesh);
-      best_ = draft_;
+      if (now <= least) least = now, keep();
       if (stopped_early(report_.stopped)) return;
       record(Objective::accuracy, now);
       if (i > 0 && before - now <= kTolerance * before) return;
@@ -230,17 +243,20 @@ class Run {
     const auto [energy, bad] = state_of(draft_.mesh, gamma_, hooks_.executor);
     if (report_.history.empty() || bad < best_bad_ || (bad == best_bad_ && best == Equals::last)) {
       best_bad_ = bad;
-      best_ = draft_;
-      if (hooks_.best_so_far && !report_.history.empty()) {
-        hooks_.best_so_far([this](const std::function<void(const BestSoFar&)>& use) {
-          use({best_.mesh, origins_of(best_)});
-        });
-      }
+      keep();
     }
     if (stopped_early(report_.stopped)) return;
     record(Objective::energy, energy);
     report_.history.back().bad = bad;
     report_.history.back().length_parameter = gamma_;
+  }
+  /// The mesh is the best so far.
+  void keep() {
+    best_ = draft_;
+    if (!hooks_.best_so_far || report_.history.empty()) return;
+    hooks_.best_so_far([this](const std::function<void(const BestSoFar&)>& use) {
+      use({best_.mesh, origins_of(best_)});
+    });
   }
   /// Of a mesh with the number of bad tetrahedra of the best one.
   void record(Objective objective, double energy) {
@@ -297,7 +313,7 @@ class Run {
   OptimizeReport report_;
   double gamma_ = kFirstGamma;
   std::size_t best_bad_ = 0;
-  Draft input_;  // if it may be the best by its error
+  Draft input_;  // if it may be the best by its error or HOT energy
 };
 
 }  // namespace

@@ -164,6 +164,11 @@ bool is_bad(const TetMesh& mesh, TetId t) {
   return false;
 }
 
+bool is_good(const TetMesh& mesh, TetId t) {
+  const auto [a, b, c, d] = mesh.points(t);
+  return orientation(a.position(), b.position(), c.position(), d.position()) == Sign::positive && !is_bad(mesh, t);
+}
+
 namespace {
 
 /// Calls use(t, energy, is_bad) for each tetrahedron of a block.

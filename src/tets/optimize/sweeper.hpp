@@ -59,6 +59,8 @@ class Sweeper {
 
 /// Says exactly whether the orthocenter of a tetrahedron, in either orientation, is not inside.
 [[nodiscard]] bool is_bad(const TetMesh& mesh, TetId t);
+/// Says exactly whether t is positive, with its orthocenter inside.
+[[nodiscard]] bool is_good(const TetMesh& mesh, TetId t);
 /// Says whether the predicates are exact for p.
 [[nodiscard]] bool is_exact(const WeightedPoint& p);
 

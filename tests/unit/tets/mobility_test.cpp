@@ -205,6 +205,38 @@ TEST(TetMobility, SlidingKeepsVolumePlanesLinesCornersAndTagsOnAnyThread) {
   }
 }
 
+TEST(TetMobility, TheFrontOfASlitStays) {
+  // Points of z = 2 at x < 2 have a copy for the tetrahedra above, at a distance that keeps faces in one plane.
+  test::TetArrays arrays = test::cubes(kSide, test::kSixTets);
+  const std::size_t n = arrays.points.size();
+  std::vector<std::int32_t> copy(n, -1);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 p = arrays.points[i];
+    if (p.z != 2 || !(p.x < 2)) continue;
+    copy[i] = static_cast<std::int32_t>(arrays.points.size());
+    arrays.points.push_back(p + Vec3{0, 0, 1e-12});
+  }
+  arrays.weights.resize(arrays.points.size());
+  for (auto& t : arrays.tetrahedra) {
+    double z = 0;
+    for (const std::int32_t v : t) z += arrays.points[std::size_t(v)].z / 4;
+    for (std::int32_t& v : t) v = z > 2 && copy[std::size_t(v)] >= 0 ? copy[std::size_t(v)] : v;
+  }
+  OptimizeOptions options;
+  options.slide_boundary = true;
+  const TetMesh mesh = test::mesh_of(arrays);
+  const auto all = mobilities(mesh, options);
+  std::size_t front = 0, sides = 0;
+  for (const VertexId v : mesh.vertices()) {
+    const Vec3 p = mesh.position(v);
+    if (std::abs(p.z - 2) > 1e-9 || p.x == 0 || p.x > 2 || p.y == 0 || p.y == kSide) continue;
+    EXPECT_EQ(all[v].dimensions, p.x == 2 ? 1 : 2) << p.x << ' ' << p.y;
+    ++(p.x == 2 ? front : sides);
+  }
+  EXPECT_EQ(front, 3U);
+  EXPECT_EQ(sides, 6U);
+}
+
 /// An error that is less the nearer all vertices are to a point inside, off the planes.
 class Pull final : public DiscretizationError {
  public:
