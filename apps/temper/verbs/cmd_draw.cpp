@@ -43,9 +43,9 @@ void add_options(Command& command, DrawSettings& s) {
   command.group("Picture");
   add_text(
       command, "--cut", "AXIS[=VALUE]", s.cut,
-      "Plane that cuts a mesh of tetrahedra, such as x=0.5. If you do not give the value: through the middle of the "
-      "mesh. If you do not give the option: across its shortest side. Tetrahedra are colored by their margin, "
-      "and bad ones are hatched.");
+      "Plane that cuts a mesh of tetrahedra, such as x=0.5. Without VALUE, the plane goes through the middle of the "
+      "mesh. Without --cut, it is the middle plane at a right angle to the shortest side of the mesh. Tetrahedra are "
+      "colored by their margin, and bad ones are hatched.");
   add_numbers(
       command, "--view", "LON,LAT", 2,
       [&s](const std::vector<double>& v) {

@@ -94,8 +94,10 @@ void explain_tetrahedra(const ExplainSettings& s, const TetInput& input) {
 Exit run_explain(const Arguments& arguments) {
   Command command(
       "explain",
-      "Explains every triangle or tetrahedron that is not well-centered. Triangles have two reasons. Either a proof "
-      "shows a small set of triangles for which no weights exist, or weights exist but have not been found. temper "
+      "Explains every triangle or tetrahedron that is not well-centered. A triangle is bad for one of two reasons. "
+      "Either a "
+      "proof shows a small set of triangles for which no weights exist, or weights exist but have not been found. "
+      "temper "
       "also tries cures on the triangles around. For a tetrahedron it prints the orthocenter, the weights, the heights "
       "over faces, and what may help. The exit code does not depend on the result: to test a mesh, use temper check "
       "--require.");

@@ -29,7 +29,7 @@ namespace temper::app {
 std::span<const Verb> verbs() {
   static constexpr auto kVerbs = std::to_array<Verb>({
       {"check", "report on the quality of a mesh, and test requirements", run_check},
-      {"optimize", "make every triangle or tetrahedron well-centered: move vertices, change weights, flip",
+      {"optimize", "make triangles or tetrahedra well-centered: move vertices, change weights, flip edges",
        run_optimize},
       {"mesh", "mesh an outline, and optimize the mesh", run_mesh},
       {"weights", "find weights for a mesh as it is, or prove that there are none", run_weights},

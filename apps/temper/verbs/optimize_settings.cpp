@@ -64,12 +64,12 @@ void add_common(Command& command, OptimizeSettings& s) {
   // These two are not marked as required: see take_input.
   add_argument(command, "IN", s.input, "Mesh file, of triangles or tetrahedra. Its content shows the format.");
   add_mesh_output(command, s.output, "OUT");
-  command.option("--output").sentence = "File for the result. Its suffix selects the format. '-': standard output.";
+  command.option("--output").sentence = "File to write; its suffix selects the format. '-': standard output.";
   add_purpose(command, s);
   add_keep(command, s);
   add_flag_of(command, "boundary", s.assignments).sentence =
-      "The boundary stays bit for bit, or its vertices slide along straight pieces, or long edges next to short ones "
-      "are split.";
+      "The boundary stays bit for bit, or its vertices slide along straight lines and in planes, or its edges are "
+      "split.";
   add_texts(command, "--fix", "TAG ...", Values::words, s.fix,
             "Tags or physical names of vertices that keep their positions.");
   add_text(command, "--size", "FILE", s.size, "Mesh file with the target edge length at each of its points.");
@@ -156,9 +156,11 @@ Option& add_target(Command& command, std::string& target, bool research) {
 }
 
 Command optimize_command(OptimizeSettings& settings) {
-  Command command("optimize",
-                  "Moves vertices, changes weights and flips until orthocenters are inside their triangles or "
-                  "tetrahedra, and dual edges cross edges. The boundary stays, unless --boundary allows changes.");
+  Command command(
+      "optimize",
+      "Moves vertices, changes weights, and flips edges and faces, until each orthocenter is inside its triangle or "
+      "tetrahedron. In triangle meshes, each dual edge also crosses its edge. The boundary stays bit for bit, "
+      "unless --boundary allows changes.");
   add_common(command, settings);
   add_rare(command, settings);
   command.group("Options");

@@ -321,10 +321,10 @@ constexpr OptionRow kConnectivityRows[] = {
         {.needs = {{{"repair", "perturb|vertices"}}}}),
     row<&Options::boundary>(
         "boundary",
-        "Treatment of the boundary. keep: it stays bit for bit. slide: vertices, never corners, may move along "
-        "straight pieces, and those of tetrahedra in planes. split: cut long edges before the sweeps. They are edges "
-        "of the boundary or of interfaces, "
-        "next to much shorter ones. The old vertices stay bit for bit",
+        "Treatment of the boundary. keep: it stays bit for bit. slide: vertices may move along straight pieces; "
+        "vertices of tetrahedra also move in planes. Corners stay. split: cut long edges of the boundary or of "
+        "interfaces, next to much shorter ones, before the sweeps. In tetrahedra, new vertices are on edges and "
+        "faces, and only if a tetrahedron stays bad without them. The old vertices stay bit for bit",
         {.common = true}),
     row<&Options::boundary_ratio>("boundary_ratio",
                                   "Largest ratio of the lengths of two boundary or interface edges that meet, with "

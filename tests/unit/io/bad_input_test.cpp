@@ -85,8 +85,8 @@ const std::vector<Bad>& bad_files() {
        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n$EndNodes\n$Elements\n2\n"
        "1 2 2 0 1 1 2 3\n2 4 2 0 1 1 2 3 4\n$EndElements\n",
        ErrorCode::unsupported,
-       "m.msh:14: has 1 tetrahedron; expected a mesh of triangles. Next: temper check, convert, optimize, "
-       "weights, operators and errors take tetrahedra"},
+       "m.msh:14: has 1 tetrahedron; expected a mesh of triangles. Next: temper check, convert, draw, explain, "
+       "optimize, weights, operators and errors take tetrahedra"},
       {"quadratic_triangle_in_vtk", "m.vtk",
        "# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n0 0 0 1 0 0 0 1 0 .5 0 0 .5 "
        ".5 0 0 .5 0\n"

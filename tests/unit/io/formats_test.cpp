@@ -114,8 +114,8 @@ TEST_F(FileTest, MeshesOfTetgenAreRefusedWhereTrianglesAreExpected) {
             "m.1.node: is the points of a mesh of Triangle or TetGen; its elements are expected in m.1.ele, which does "
             "not exist");
   EXPECT_EQ(refused("m.1.ele", "1 4 0\n1 1 2 3 4\n"),
-            "m.1.ele:2: has 1 tetrahedron; expected a mesh of triangles. Next: temper check, convert, optimize, "
-            "weights, operators and errors take tetrahedra");
+            "m.1.ele:2: has 1 tetrahedron; expected a mesh of triangles. Next: temper check, convert, draw, explain, "
+            "optimize, weights, operators and errors take tetrahedra");
   EXPECT_EQ(refused("m.1.ele", "1 3 0\n1 1 2 3\n"),
             "m.1.ele:1: has elements of 3 corners, and points of dimension 3; expected tetrahedra of 4");
 }
