@@ -1,4 +1,4 @@
-"""What docs/tutorial/fracture.md needs from PorePy and PyVista: a model of flow, and its pictures."""
+"""The PorePy model and the PyVista pictures of docs/tutorial/fracture.md."""
 
 import numpy as np
 import porepy

@@ -26,7 +26,7 @@ std::string triangles_bad(const Viewport& viewport, const DrawOptions& options) 
   return options.zoom || !viewport.view.is_flat() ? "triangles bad (whole mesh)" : "triangles bad";
 }
 
-// What the legend says of cells.
+// The legend names bad cells with these words, and has this scale of margins.
 struct CellWords {
   std::string bad = "bad triangle";
   ColorScale margins = kMargins;

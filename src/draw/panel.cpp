@@ -41,7 +41,7 @@ std::vector<Vec2> shifts_of(const Space& space) {
   return shifts;
 }
 
-/// What pictures of all kinds of cells have: fills by color, edges, and one path for each class of thing.
+/// Paints cells of any kind: it fills them by color and draws edges, with one path for each class.
 class Painter {
  public:
   Painter(const Viewport& viewport, const DrawOptions& options)

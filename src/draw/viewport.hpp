@@ -99,7 +99,7 @@ struct Viewport {
 
 /// One viewport for all meshes: the zoom box, or the box of all their visible vertices.
 [[nodiscard]] Viewport make_viewport(std::span<const Mesh* const> meshes, const DrawOptions& options);
-/// The same for sections.
+/// One viewport for all sections: the zoom box, or the box of all their cells.
 [[nodiscard]] Viewport make_viewport(std::span<const Section> sections, const DrawOptions& options);
 
 /// The part of a segment inside the box; nothing when it misses it or is not finite.

@@ -131,12 +131,7 @@ void pull_back(const TetMesh& mesh, const VertexScheme& dec, const TetAdjoint& b
       slopes.along[e] = volume * (at_i - at_j);
       slopes.square[e] = -by_star1 * volume / (square * square);
     }
-    const auto by_corners = TetDuals(mesh, t).pulled_back(slopes);
-    for (std::size_t k = 0; k < 4; ++k) {
-      const auto& [x, y, z, w] = by_corners[k];
-      WeightedPoint& to = gradient[mesh.corners(t)[k]];
-      to = {to.x + x, to.y + y, to.z + z, to.w + w};
-    }
+    add_to(gradient, mesh.corners(t), TetDuals(mesh, t).pulled_back(slopes));
   }
 }
 

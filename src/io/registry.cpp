@@ -291,8 +291,7 @@ Expected<MeshFile> read(const std::string& path, const ReadOptions& options) {
       fail(ErrorCode::unsupported, document.names->tetrahedron_where(0), "has ", n,
            n == 1 ? " tetrahedron" : " tetrahedra",
            "; expected a mesh of triangles. Next: temper check, convert, draw, explain, optimize, weights, operators "
-           "and "
-           "errors take tetrahedra");
+           "and errors take tetrahedra");
     }
     return mesh_file(std::move(document), path, options.flat);
   });

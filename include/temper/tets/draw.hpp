@@ -24,7 +24,8 @@ struct Plane {
 
 /// Draws the cut of a mesh by a plane. Tetrahedra are colored by their margin, the least h/ℓ, and bad ones are hatched.
 /// The axes of the picture are y and z, x and z, or x and y. A vertex on the plane counts as above it, so a plane along
-/// faces shows the tetrahedra below. Of the options, `primal`, `fill`, `zoom`, `width` and `title` apply. O(n).
+/// faces shows the tetrahedra below. Only the options `primal`, `fill`, `zoom`, `width` and
+/// `title` apply. O(n).
 [[nodiscard]] std::string draw_svg(const TetMesh& mesh, const Plane& plane, const DrawOptions& options = {});
 /// Draws the cuts of two meshes next to each other.
 [[nodiscard]] std::string draw_before_after_svg(const TetMesh& before, const TetMesh& after, const Plane& plane,

@@ -54,7 +54,7 @@ struct ErrorReport {
 /// Returns the ratio of errors, field by field, as error_ratios() of triangles does.
 [[nodiscard]] Expected<std::vector<FieldErrors>> error_ratios(const ErrorReport& after, const ErrorReport& before);
 
-/// Makes a model of errors for OptimizeHooks, as the one of triangles is. For Scheme::vertex it has 32 plane waves in
+/// Makes a model of the errors of a scheme for OptimizeHooks. For Scheme::vertex it has 32 plane waves in
 /// 16 directions, and derivatives. For Scheme::cell it takes the flux errors of the chosen fields, without derivatives.
 /// Null: another scheme.
 [[nodiscard]] std::shared_ptr<const DiscretizationError> make_discretization_error(Scheme scheme);

@@ -99,18 +99,19 @@ struct OptimizeReport {
 /// Improves the mesh in place. Weights change everywhere. Connectivity changes only around tetrahedra that moves alone
 /// leave bad, or with small margins on request, by flips and by vertices that are inserted or removed; not if
 /// positions, weights or edges are kept. The boundary, faces between regions, and tagged faces and lines keep their
-/// connectivity, unless they may be split. These vertices keep their position, bit for bit:
-///   - on the boundary, and on faces between regions
-///   - of tagged faces and lines
-///   - fixed points
-///   - points marked with a tag other than 0, unless all corners of some tetrahedron have the same tag: then this tag
-///     lists the vertices of a part
+/// connectivity, unless they may be split. Some vertices keep their position, bit for bit.
+///   - They are on the boundary, or on faces between regions.
+///   - They are on tagged faces or lines.
+///   - They are fixed points.
+///   - They are points with a tag other than 0. But if all corners of some tetrahedron have the same tag, this tag
+///   lists
+///     the vertices of a region, and fixes nothing.
 /// With `slide_boundary`, vertices of the first two kinds move in their plane or along their straight line, if the
 /// parts around them are in one (src/tets/optimize/mobility.hpp). Moves are exact along axes, elsewhere to rounding.
 ///
-/// For a scheme the run then lowers the offsets between primal and dual elements (src/tets/energy/accuracy_energy.hpp),
-/// and the error of the model, if the hooks have one and no tetrahedron is bad. The result is the mesh with the least
-/// error by the model, among those before and after each stage. An input without bad tetrahedra is one of them.
+/// For a scheme the run then lowers the offsets between primal and dual elements (src/tets/energy/accuracy_energy.hpp).
+/// It also lowers the error of the model, if the hooks have one with derivatives and no tetrahedron is bad. The result
+/// is the mesh with the least measured error. It is the input if this has no bad tetrahedron and less error.
 ///
 /// For a star the run then lowers its HOT energy (src/tets/energy/hot.hpp), and makes no tetrahedron bad.
 ///

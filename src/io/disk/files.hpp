@@ -55,7 +55,7 @@ struct Source {
 /// Returns freed memory to the system if the C library keeps it between blocks in use. Otherwise the memory for reading
 /// a large file would add to all later memory.
 void give_memory_back();
-/// The same after it has emptied these vectors.
+/// Empties these vectors, and returns their memory.
 template <class... Vectors>
 void give_memory_back_of(Vectors&... vectors) {
   (Vectors().swap(vectors), ...);  // assigning {} would keep the capacity

@@ -524,7 +524,7 @@ class GmshReader {
       data.push_back({text(kGmshFurtherGroup, group), 1, std::move(inside)});
     }
   }
-  /// Boundaries between regions stay, but those of a further group inside a region may move.
+  /// Warns of a further group that covers a part of a region. The boundary of this part may move.
   void warn_of_parts(std::size_t dimension, std::int32_t group, const std::vector<std::int32_t>& inside,
                      const std::vector<std::int32_t>& regions) {
     std::map<std::int32_t, std::set<std::int32_t>> found;

@@ -2,9 +2,9 @@
 //
 // Elements are numbered points first, then lines, triangles and tetrahedra, so that the reader finds their order again.
 // All elements of a Gmsh entity are in the same physical groups, so entities are the distinct pairs (entity, groups).
-// Groups are the region or tag, and those of the data gmsh:physical:TAG. Version 2 lists an element once more for each
-// of these. Numbers of entities come from the data gmsh:geometrical, or else from the groups. NodeData and ElementData
-// hold doubles alone.
+// The first group is the region or tag. Further groups come from the data gmsh:physical:TAG. Version 2 lists an element
+// once more for each further group. Numbers of entities come from the data gmsh:geometrical, or else from the groups.
+// NodeData and ElementData hold doubles alone.
 #include <algorithm>
 #include <array>
 #include <charconv>

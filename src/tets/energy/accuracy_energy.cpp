@@ -65,25 +65,33 @@ AccuracyEnergy::AccuracyEnergy(const TetMesh& mesh, const VertexSizes& sizes, Id
     const HalffaceId twin = mesh.twin(h);
     if (twin.valid()) elements_[TetMesh::tetrahedron(twin)].faces[twin.index % 4] = number;
   }
-  std::vector<double> volumes(factors_.size(), 0);
-  for (const TetId t : mesh.tetrahedra()) {
-    const TetParts parts = TetDuals(mesh, t).parts();
-    for (std::size_t e = 0; e < 6; ++e) volumes[elements_[t].edges[e]] += parts.edges[e].volume;
-    for (std::size_t f = 0; f < 4; ++f) volumes[elements_[t].faces[f]] += parts.faces[f].volume;
-  }
+  const std::vector<Offset> sums = sums_of(parts_of(mesh, nullptr));
   for (std::size_t i = 0; i < factors_.size(); ++i) {
-    if (!(volumes[i] > 0)) factors_[i] = 0;
+    if (!(sums[i].volume > 0)) factors_[i] = 0;
   }
 }
 
-AccuracyTotal AccuracyEnergy::of(const TetMesh& mesh, Gradient* gradient, Executor* executor) const {
-  IdVector<TetId, TetParts> parts(mesh.n_tetrahedra());
+AccuracyEnergy::Parts AccuracyEnergy::parts_of(const TetMesh& mesh, Executor* executor) {
+  Parts parts(mesh.n_tetrahedra());
   for_all(mesh, executor, [&](TetId t) { parts[t] = TetDuals(mesh, t).parts(); });
+  return parts;
+}
+
+std::vector<Offset> AccuracyEnergy::sums_of(const Parts& parts) const {
   std::vector<Offset> sums(factors_.size());
-  AccuracyTotal total;
-  for (const TetId t : mesh.tetrahedra()) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const TetId t(i);
     for (std::size_t e = 0; e < 6; ++e) sums[elements_[t].edges[e]] = sums[elements_[t].edges[e]] + parts[t].edges[e];
     for (std::size_t f = 0; f < 4; ++f) sums[elements_[t].faces[f]] = sums[elements_[t].faces[f]] + parts[t].faces[f];
+  }
+  return sums;
+}
+
+AccuracyTotal AccuracyEnergy::of(const TetMesh& mesh, Gradient* gradient, Executor* executor) const {
+  const Parts parts = parts_of(mesh, executor);
+  std::vector<Offset> sums = sums_of(parts);
+  AccuracyTotal total;
+  for (const TetId t : mesh.tetrahedra()) {
     for (const double height : parts[t].height) {
       if (barriers_[t] == 0) break;
       const double room = height - floors_[t];
@@ -113,13 +121,7 @@ AccuracyTotal AccuracyEnergy::of(const TetMesh& mesh, Gradient* gradient, Execut
     slopes[t] = TetDuals(mesh, t).pulled_back(by);
   });
   *gradient = Gradient(mesh.n_vertices());
-  for (const TetId t : mesh.tetrahedra()) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      WeightedPoint& to = (*gradient)[mesh.corners(t)[k]];
-      const auto& [x, y, z, w] = slopes[t][k];
-      to = {to.x + x, to.y + y, to.z + z, to.w + w};
-    }
-  }
+  for (const TetId t : mesh.tetrahedra()) add_to(*gradient, mesh.corners(t), slopes[t]);
   return total;
 }
 

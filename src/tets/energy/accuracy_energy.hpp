@@ -37,7 +37,6 @@ struct AccuracyTotal {
 };
 
 using VertexSizes = IdVector<VertexId, double>;
-using Gradient = IdVector<VertexId, WeightedPoint>;
 
 /// The energy of meshes with one connectivity. Sizes and floors stay.
 class AccuracyEnergy {
@@ -59,6 +58,11 @@ class AccuracyEnergy {
     std::array<std::uint32_t, 6> edges;
     std::array<std::uint32_t, 4> faces;
   };
+
+  using Parts = IdVector<TetId, TetParts>;
+  [[nodiscard]] static Parts parts_of(const TetMesh& mesh, Executor* executor);
+  /// V and N of all elements.
+  [[nodiscard]] std::vector<Offset> sums_of(const Parts& parts) const;
 
   IdVector<TetId, Elements> elements_;
   std::vector<double> factors_;                // of the elements: edges, then faces

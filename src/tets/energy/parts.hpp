@@ -24,8 +24,8 @@ struct Offset {
   friend Offset operator+(const Offset& a, const Offset& b) { return {a.volume + b.volume, a.moment + b.moment}; }
 };
 
-/// Quantities of a tetrahedron, or the derivatives of some function by each of them. Edges are those of kEdgeCorners,
-/// and faces are opposite their corners.
+/// Quantities of a tetrahedron, or the derivatives of some function by each of them. The edges have
+/// the sequence of kEdgeCorners. Face k is opposite corner k.
 struct TetParts {
   std::array<Offset, 6> edges;
   std::array<double, 6> along = {};   ///< the crossing, as a part of the edge from its first corner
@@ -58,5 +58,17 @@ class TetDuals {
   double volume6_;
   std::array<double, 4> weight_;
 };
+
+using Gradient = IdVector<VertexId, WeightedPoint>;
+
+/// Adds the derivatives by the corners of a tetrahedron.
+inline void add_to(Gradient& gradient, const std::array<VertexId, 4>& corners,
+                   const std::array<WeightedPoint, 4>& by_corners) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto& [x, y, z, w] = by_corners[k];
+    WeightedPoint& to = gradient[corners[k]];
+    to = {to.x + x, to.y + y, to.z + z, to.w + w};
+  }
+}
 
 }  // namespace temper::tets

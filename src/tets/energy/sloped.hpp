@@ -39,7 +39,7 @@ struct SlopedOf {
   }
 
  private:
-  /// The same of each number and that of b.
+  /// Applies f to the value and each slope, with those of b.
   template <class F>
   [[nodiscard]] TEMPER_INLINE SlopedOf with(const SlopedOf& b, const F& f) const {
     SlopedOf result;

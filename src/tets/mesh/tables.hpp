@@ -42,7 +42,7 @@ class VertexStars {
  public:
   VertexStars() = default;
   explicit VertexStars(const TetMesh& mesh);
-  /// The stars of some vertices, numbered anew in this sequence.
+  /// Copies the stars of some vertices. The i-th vertex of the sequence gets the number i.
   VertexStars(const VertexStars& stars, std::span<const VertexId> sequence);
   /// The halffaces opposite v, ascending.
   [[nodiscard]] std::span<const HalffaceId> link(VertexId v) const {

@@ -21,7 +21,7 @@ constexpr int kSmoothings = 10;
 // As in the plane (optimize/solver_error/solver_error_phase.cpp).
 constexpr double kLongestStep = 0.3, kKeptRoom = 0.2, kArmijo = 1e-4;
 constexpr int kMostHalvings = 25;
-// The phase ends where so many steps lower the sum by less than this.
+// The phase ends if kStepsToGain steps lower the sum by less than kLeastGain.
 constexpr std::size_t kStepsToGain = 20;
 constexpr double kLeastGain = 1e-3;
 // Below, the margin is not certain in doubles.

@@ -33,7 +33,7 @@ class Places {
   /// Patches around tetrahedra where a search may help. They share no tetrahedron. A place where searches were in vain
   /// gets a larger patch, and after some none.
   [[nodiscard]] std::vector<Patch> choose(const Draft& draft, Executor* executor);
-  /// Call this if the search of the i-th patch was successful. Its places may then be tried anew.
+  /// Call this if the search of the i-th patch was successful. Its places may then be tried again.
   void succeeded(std::size_t i) {
     for (const Corners& corners : chosen_[i]) tries_.erase(corners);
   }

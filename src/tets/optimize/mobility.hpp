@@ -6,7 +6,8 @@
 
 namespace temper::tets {
 
-/// What of each vertex may change. Positions stay on the boundary, between regions, and at tags of any kind, or slide.
+/// Says for each vertex if its position and weight may change. Positions stay on the boundary, between regions, and at
+/// tags of any kind, or slide.
 ///
 ///     in a plane               along a line             nowhere
 ///

@@ -25,7 +25,7 @@ constexpr double kRelaxation = 1.7;
 // after kLastSweeps at the latest.
 constexpr double kTolerance = 1e-4;
 constexpr int kLastSweeps = 100;
-// After so many rounds without fewer bad tetrahedra, changes at all of them at once end.
+// Rounds of changes at all bad tetrahedra at once end when kRoundsInVain of them have not lowered the number.
 constexpr int kRoundsInVain = 4;
 // The most sweeps for a HOT energy.
 constexpr int kMostHotSweeps = 32;

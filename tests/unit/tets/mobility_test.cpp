@@ -32,7 +32,7 @@ class Block {
     }
   }
 
-  /// Whether x, y and z stay at an exact point.
+  /// Says if x, y and z stay at an exact point.
   static std::array<bool, 3> stays(Vec3 p) {
     const auto at_end = [](double x) { return x == 0 || x == kSide; };
     if (p.x == 1 && p.y == 3) return {true, true, at_end(p.z) || p.z == 2};
