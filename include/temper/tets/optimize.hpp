@@ -103,9 +103,7 @@ struct OptimizeReport {
 ///   - They are on the boundary, or on faces between regions.
 ///   - They are on tagged faces or lines.
 ///   - They are fixed points.
-///   - They are points with a tag other than 0. But if all corners of some tetrahedron have the same tag, this tag
-///   lists
-///     the vertices of a region, and fixes nothing.
+///   - They are points with a tag other than 0. But a tag that all corners of some tetrahedron share fixes nothing.
 /// With `slide_boundary`, vertices of the first two kinds move in their plane or along their straight line, if the
 /// parts around them are in one (src/tets/optimize/mobility.hpp). Moves are exact along axes, elsewhere to rounding.
 ///
