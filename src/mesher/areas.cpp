@@ -173,8 +173,23 @@ class AreaFinder {
 
   Error take_turns() {
     const auto depth = depths();
-    for (std::size_t c = 0; c < n_components_; ++c) inside_[c] = depth[c] % 2;
+    std::vector<std::size_t> holes;
+    for (std::size_t c = 0; c < n_components_; ++c) {
+      inside_[c] = depth[c] % 2;
+      if (depth[c] > 0 && inside_[c] == 0) holes.push_back(c);
+    }
+    if (options_.enclosed == Enclosed::by_points && !holes.empty()) warn_of(holes);
     return {};
+  }
+
+  /// The user may have meant inner loops as lines. Only a point of a hole or region would say so.
+  void warn_of(const std::vector<std::size_t>& holes) {
+    const bool one = holes.size() == 1;
+    warning_ = (one ? "1 enclosed area is" : std::to_string(holes.size()) + " enclosed areas are") + " left out as " +
+               (one ? "a hole" : "holes") + ", the first" + near(holes.front()) +
+               ", because the outline has no points of holes or regions. Next: --enclosed all meshes " +
+               (one ? "it" : "them") + "; --enclosed alternate leaves " + (one ? "it" : "them") +
+               " out without this warning";
   }
 
   Error take_all() {
@@ -414,6 +429,7 @@ class AreaFinder {
 
   [[nodiscard]] Areas collect() const {
     Areas result;
+    result.warning = warning_;
     std::vector<std::int32_t> number(n_components_, kOutside);
     for (std::size_t c = 0; c < n_components_; ++c) {
       if (inside_[c] == 0) continue;
@@ -448,6 +464,7 @@ class AreaFinder {
   std::vector<std::uint8_t> inside_;
   std::vector<std::int32_t> region_;
   std::vector<double> size_, extent_;
+  std::optional<std::string> warning_;
 };
 
 }  // namespace

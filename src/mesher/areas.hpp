@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "mesher/deadline.hpp"
@@ -26,6 +27,7 @@ struct Area {
 struct Areas {
   std::vector<Area> areas;
   std::vector<std::array<std::int32_t, 2>> sides;  ///< of each edge: the area on its left and right, or kOutside
+  std::optional<std::string> warning;              ///< enclosed areas became holes, but no option asked for it
 };
 
 /// The areas that the outline encloses, or on the sphere the areas of its parts; without any, the whole sphere.

@@ -453,6 +453,7 @@ class Mesher {
   void number_points(const Inside& inside, OutlineMesh& made) const {
     made.notes = arrangement_.notes;
     made.warnings = arrangement_.warnings;
+    if (areas_.warning) made.warnings.push_back(*areas_.warning);
     made.vertex_of_point.resize(outline_.points.size());
     std::vector<std::uint8_t> is_alone(outline_.points.size(), 1);
     for (const OutlineSegment& s : outline_.segments) {

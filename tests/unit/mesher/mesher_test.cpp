@@ -57,6 +57,25 @@ TEST(Mesher, TheAreaIsThatOfTheOutline) {
   EXPECT_NEAR(area(island_in_lake(), all), disc(1, 40), 1e-12);
 }
 
+TEST(Mesher, WarnsThatAnInnerLoopIsAHoleUnlessAnOptionSaysSo) {
+  const auto warnings = [](const Outline& outline, Enclosed enclosed) {
+    MesherOptions options = sized(0.2);
+    options.enclosed = enclosed;
+    return mesh_of(outline, options).warnings;
+  };
+  const std::vector<std::string> given = warnings(island_in_lake(), Enclosed::by_points);
+  ASSERT_EQ(given.size(), 1u);
+  EXPECT_NE(given[0].find("1 enclosed area is left out as a hole"), std::string::npos) << given[0];
+  EXPECT_NE(given[0].find("--enclosed all"), std::string::npos) << given[0];
+  EXPECT_TRUE(warnings(island_in_lake(), Enclosed::all).empty());
+  EXPECT_TRUE(warnings(island_in_lake(), Enclosed::alternate).empty());
+  EXPECT_TRUE(warnings(square(), Enclosed::by_points).empty());
+  ASSERT_EQ(warnings(holes(), Enclosed::by_points).size(), 1u);
+  Outline with_points = holes();
+  with_points.holes = {{-100, -100}};
+  EXPECT_FALSE(mesh_outline(with_points, sized(0.2)).has_value()) << "a hole outside is an error, not a warning";
+}
+
 TEST(Mesher, TheSameInputGivesTheSameBytes) {
   const OutlineMesh one = mesh_of(comb(), sized(0.2)), other = mesh_of(comb(), sized(0.2));
   EXPECT_EQ(one.mesh, other.mesh);
