@@ -3,7 +3,7 @@
 
     bench/weights_table.py TEMPER MESH ...
 
-Each mesh is optimized with each set of unknowns; errors are those of temper errors on the held-back fields over those
+Each mesh gets weights, or is optimized with each set of unknowns; errors are those of temper errors on the held-back fields over those
 of the input, and each row gives geometric means over the meshes. Also counted: triangles that stay not well-centered,
 and meshes where the scheme's matrix is an M-matrix in the end.
 """
@@ -17,12 +17,15 @@ import tempfile
 
 RUNS = {
     "input": None,
-    "E_BP, weights alone": ["--set", "objective=energy", "--keep", "positions"],
-    "E_BP, positions alone": ["--set", "objective=energy", "--keep", "weights"],
-    "E_BP, both": ["--set", "objective=energy"],
-    "accuracy, weights alone": ["--keep", "positions"],
-    "accuracy, positions alone": ["--keep", "weights"],
-    "accuracy, both": [],
+    "least change of weights": ["weights", "--mode", "change"],
+    "center of weights": ["weights", "--mode", "center"],
+    "best weights": ["weights", "--mode", "accuracy"],
+    "E_BP, weights alone": ["optimize", "--set", "objective=energy", "--keep", "positions"],
+    "E_BP, positions alone": ["optimize", "--set", "objective=energy", "--keep", "weights"],
+    "E_BP, both": ["optimize", "--set", "objective=energy"],
+    "accuracy, weights alone": ["optimize", "--keep", "positions"],
+    "accuracy, positions alone": ["optimize", "--keep", "weights"],
+    "accuracy, both": ["optimize"],
 }
 ERRORS = [("★1, L2", "star1", "l2"), ("Poisson, L2", "poisson", "l2"), ("Poisson, max", "poisson", "max"),
           ("flux, L2", "flux", "l2")]
@@ -44,13 +47,13 @@ def measured(temper, mesh, before):
             "ratios": [mean[scheme][norm] for _, scheme, norm in ERRORS]}
 
 
-def row(temper, options, meshes, folder):
+def row(temper, words, meshes, folder):
     results = []
     for mesh in meshes:
         after = mesh
-        if options is not None:
+        if words is not None:
             after = folder / (mesh.name + ".vtu")
-            run(temper, "optimize", mesh, "-o", after, "--quiet", *options)
+            run(temper, words[0], mesh, "-o", after, "--quiet", *words[1:])
         results.append(measured(temper, after, mesh))
     return results
 
@@ -65,8 +68,8 @@ def main(temper, *meshes):
           " | ".join(name for name, _, _ in ERRORS) + " |")
     print("|-" * (5 + len(ERRORS)) + "|")
     with tempfile.TemporaryDirectory() as scratch:
-        for name, options in RUNS.items():
-            results = row(temper, options, meshes, pathlib.Path(scratch))
+        for name, words in RUNS.items():
+            results = row(temper, words, meshes, pathlib.Path(scratch))
             ratios = [mean([r["ratios"][i] for r in results]) for i in range(len(ERRORS))]
             print(f"| {name} | {sum(r['bad'] for r in results)} of {sum(r['triangles'] for r in results)} | "
                   f"{sum(r['bad'] == 0 for r in results)} of {len(results)} | {sum(r['poisson'] for r in results)} | "

@@ -1,5 +1,7 @@
 // Weights by linear programming, certificates, and reasons: feasibility.hpp, connectivity.hpp, necessity.hpp and
 // explain.hpp.
+#include <optional>
+
 #include "bind.hpp"
 #include "temper/detail/connectivity.hpp"
 #include "temper/detail/lp.hpp"
@@ -11,7 +13,7 @@
 TEMPER_PYTHON_NAMES(temper::LpStatus, "optimal", "infeasible", "unbounded", "failed");
 TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "crossing", "dual", "height_over_face", "dual_of_face");
 TEMPER_PYTHON_NAMES(temper::Constraints, "well_centered", "heights_only", "regular", "completely_well_centered");
-TEMPER_PYTHON_NAMES(temper::WeightGoal, "feasible", "minimal", "elastic");
+TEMPER_PYTHON_NAMES(temper::WeightGoal, "margin", "change", "elastic", "center", "accuracy");
 
 namespace temper::python {
 namespace {
@@ -74,6 +76,20 @@ py::dict best_to_dict(const BestMargin& best) {
       .dict;
 }
 
+/// None, or the proof that weights are best.
+py::object optimality_to_python(const std::optional<Optimality>& proof) {
+  if (!proof) return py::none();
+  py::list terms, offsets;
+  for (const auto& term : proof->terms)
+    terms.append(py::make_tuple(constraint_to_tuple(term.constraint), term.multiplier));
+  for (const OffsetTerm& term : proof->offsets)
+    offsets.append(py::make_tuple(constraint_to_tuple(term.at), term.factor, term.target));
+  return Record()("goal", name_of(proof->goal))("constraints", name(proof->constraints))("margin", proof->margin)(
+             "objective", proof->objective)("gap", proof->gap)("iterations", proof->iterations)("terms", terms)(
+             "offsets", offsets)
+      .dict;
+}
+
 py::dict weight_report_to_dict(const WeightReport& r) {
   py::list violations;
   for (const Violation& v : r.violations) {
@@ -84,13 +100,15 @@ py::dict weight_report_to_dict(const WeightReport& r) {
   return Record()("verdict", name(r.verdict))("margin", r.margin)("margin_kind", name(r.margin_kind))(
              "solved", r.solved)("asked", r.asked)("attained", r.attained)("moved", r.moved)("change", r.change)(
              "programs", r.programs)("largest", r.largest)("weights", r.weights)("violations", violations)(
-             "certificate", certificate_to_dict(r.certificate))
+             "certificate", certificate_to_dict(r.certificate))("optimality", optimality_to_python(r.optimality))
       .dict;
 }
 
 WeightOptions weight_options(const std::string& goal, double margin, bool from_input, std::size_t whole, int rings,
-                             const std::string& constraints) {
+                             const std::string& constraints, double offset_factor, double boundary_offset_factor) {
   WeightOptions options;
+  options.offset_factor = offset_factor;
+  options.boundary_offset_factor = boundary_offset_factor;
   options.goal = from_name<WeightGoal>("goal", goal);
   options.margin = margin;
   options.from_input = from_input;
@@ -127,16 +145,18 @@ void bind_feasibility(py::module_& m) {
   m.def("constraints_table", [] { return conditions_rows(constraints_table()); });
   m.def("best_connectivity", search_connectivity);
   m.def("find_weights", [](const PyMesh& self, const std::string& goal, double margin, bool from_input,
-                           std::size_t whole, int rings, const std::string& constraints, const py::object& edges) {
+                           std::size_t whole, int rings, const std::string& constraints, double offset_factor,
+                           double boundary_offset_factor, const py::object& edges) {
     const auto mesh = self.read();
-    WeightOptions options = weight_options(goal, margin, from_input, whole, rings, constraints);
+    WeightOptions options =
+        weight_options(goal, margin, from_input, whole, rings, constraints, offset_factor, boundary_offset_factor);
     options.edges = prescribed(*mesh, edges);
-    return weight_report_to_dict(or_raise(aside([&] { return find_weights(*mesh, *clp_solver(), options); })));
+    return weight_report_to_dict(
+        or_raise(aside([&] { return find_weights(*mesh, *clp_solver(), options, interior_point_solver().get()); })));
   });
   m.def("best_margin",
         [](const PyMesh& self, const py::object& triangles, const std::string& constraints, const py::object& edges) {
           const auto mesh = self.read();
-          require_no_period(*mesh, "best_margin()");
           const auto wanted = from_name<Constraints>("constraints", constraints);
           std::vector<TriangleId> ids;
           if (!triangles.is_none()) {
@@ -152,12 +172,10 @@ void bind_feasibility(py::module_& m) {
         });
   m.def("weight_margin", [](const PyMesh& self, const std::string& constraints, const py::object& edges) {
     const auto mesh = self.read();
-    require_no_period(*mesh, "weight_margin()");
     return weight_margin(*mesh, from_name<Constraints>("constraints", constraints), prescribed(*mesh, edges));
   });
   m.def("weight_change", [](const PyMesh& self, const Doubles& before, const Doubles& after) {
     const auto mesh = self.read();
-    require_no_period(*mesh, "weight_change()");
     const auto weights = [&](const Doubles& values) {
       const auto n = static_cast<std::size_t>(values.size());
       if (n != mesh->n_vertices()) {
@@ -172,7 +190,6 @@ void bind_feasibility(py::module_& m) {
   });
   m.def("check_certificate", [](const PyMesh& self, const py::dict& certificate) {
     const auto mesh = self.read();
-    require_no_period(*mesh, "check_certificate()");
     return std::string(name(check_certificate(*mesh, certificate_from(certificate))));
   });
 }
@@ -182,11 +199,13 @@ void bind_feasibility(py::module_& m) {
 void bind_weights_of_tetrahedra(py::module_& m) {
   m.def("tet_constraints_table", [] { return conditions_rows(tets::constraints_table()); });
   m.def("tet_find_weights", [](const PyTetMesh& self, const std::string& goal, double margin, bool from_input,
-                               std::size_t whole, int rings, const std::string& constraints) {
+                               std::size_t whole, int rings, const std::string& constraints, double offset_factor,
+                               double boundary_offset_factor) {
     const auto loaded = self.loaded;
-    const WeightOptions options = weight_options(goal, margin, from_input, whole, rings, constraints);
-    return weight_report_to_dict(
-        or_raise(aside([&] { return tets::find_weights(loaded->mesh, *clp_solver(), options); })));
+    const WeightOptions options =
+        weight_options(goal, margin, from_input, whole, rings, constraints, offset_factor, boundary_offset_factor);
+    return weight_report_to_dict(or_raise(aside(
+        [&] { return tets::find_weights(loaded->mesh, *clp_solver(), options, interior_point_solver().get()); })));
   });
   m.def("tet_weight_margin", [](const PyTetMesh& self, const std::string& constraints) {
     return tets::weight_margin(self.mesh(), from_name<Constraints>("constraints", constraints));

@@ -8,8 +8,9 @@
 //
 // A linear program finds the best margin t, the least change of weights for a given margin, or the least violation. If
 // no weights exist, a certificate proves it. Exact arithmetic verifies the certificate without linear programming.
-// Solvers have one small interface; temper/detail/lp.hpp has Clp. temper/detail/connectivity.hpp searches over
-// connectivities.
+// Convex programs find the one best point of all weights: their analytic center, or the least offsets between the
+// midpoints of edges and their duals. Solvers have small interfaces, which temper/detail/lp.hpp implements.
+// temper/detail/connectivity.hpp searches over connectivities.
 //
 // On the sphere these conditions are linear in σ = R/|P|. A common factor of all σ changes nothing
 // (docs/explanation/weights.md). There h/ℓ and d/ℓ are ratios of linear functions of σ. They have the signs of h and d,
@@ -18,10 +19,12 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "temper/detail/convex.hpp"
 #include "temper/detail/error.hpp"
 #include "temper/detail/ids.hpp"
 #include "temper/mesh.hpp"
@@ -212,13 +215,57 @@ struct BestMargin {
 // --- weights ------------------------------------------------------------------------------------------
 
 enum class WeightGoal {
-  feasible,  ///< Best margin, and the least change for the requested margin or for half of the best one
-  minimal,   ///< Least change for the requested margin
+  margin,    ///< Best margin, and the least change for the requested margin or for half of the best one
+  change,    ///< Least change for the requested margin
   elastic,   ///< Least violation of the requested margin, but none is bad if good weights exist; then the least change
+  center,    ///< Analytic center: the greatest product of all h/ℓ, d/ℓ, 1 − d/ℓ or dual lengths/ℓ
+  accuracy,  ///< Least sum of squared offsets with the requested margin, or with half of the best one
+};
+
+/// For `regular`, center and accuracy also keep crossings d between −kCrossingReach ℓ and (1 + kCrossingReach) ℓ.
+/// Otherwise there would be no greatest product, because dual lengths can always be stretched.
+inline constexpr double kCrossingReach = 1;
+
+/// A term of the sum of squared offsets between the midpoints of edges and their duals: factor (value − target)².
+///
+///   crossing          value = d/ℓ; its distance from 1/2 is the offset along an edge
+///   height            value = h/ℓ of a boundary edge
+///   dual              value = (h_r − h_s)/(2ℓ), from the middle of the dual to the edge
+///   height_over_face  value = h/ℓ, of a boundary face
+///   dual_of_face      value = (h_s − h_t)/(2ℓ)
+///
+/// In faces, crossing and height give the offset between orthocenter and centroid. On the sphere a value is a ratio of
+/// linear functions. There it is replaced by its linear part at equal σ, with an error of order (w/R²)².
+struct OffsetTerm {
+  WeightConstraint at;
+  double factor = 0, target = 0;
+  friend bool operator==(const OffsetTerm&, const OffsetTerm&) = default;
+};
+
+/// A proof that weights are best. Let s_c be the slack of a constraint: its value less the margin. Let y_c ≥ 0 be its
+/// multiplier, and f the objective. f(v) − Σ y_c s_c(v) is convex in the weights v. So for all v that keep the
+/// constraints
+///
+///     f(v) ≥ f(w) − Σ y_c s_c(w) − |r · (v − w)|                  accuracy
+///     f(v) ≥ f(w) − Σ (y_c s_c(w) − 1 − ln y_c s_c(w)) − |r · (v − w)|        center, f = −Σ ln s_c
+///
+/// Here r is the slope of f − Σ y_c s_c at w, zero up to rounding. It is multiplied by bounds of the differences of
+/// weights along edges, as for certificates.
+struct Optimality {
+  WeightGoal goal = WeightGoal::center;
+  Constraints constraints = Constraints::well_centered;
+  double margin = 0;     ///< Margin t of the slacks; 0 for center
+  double objective = 0;  ///< f: −Σ ln s_c, or Σ factor (value − target)² [length²]
+  double gap = 0;        ///< No weights have an objective below `objective` − `gap`
+  std::size_t iterations = 0;
+  std::vector<Certificate::Term> terms;  ///< The constraints with the multipliers of N_c − margin M_c
+  std::vector<OffsetTerm> offsets;       ///< Of accuracy
+  /// The gap over the objective.
+  [[nodiscard]] double relative_gap() const;
 };
 
 struct WeightOptions {
-  WeightGoal goal = WeightGoal::minimal;
+  WeightGoal goal = WeightGoal::change;
   double margin = 0.01;     ///< Requested margin t, in [0, 1/2)
   bool from_input = false;  ///< Measure change from the mesh's weights; else from zero
   /// Components of at most this many triangles are one linear program. In larger components only the neighborhoods of
@@ -227,6 +274,8 @@ struct WeightOptions {
   int rings = 2;  ///< Number of rings of vertices around bad triangles, at first
   Constraints constraints = Constraints::well_centered;
   std::vector<HalfedgeId> edges = {};  ///< Prescribed edges of `regular`, each by either halfedge; empty: all
+  /// Factors c and c_b of WeightGoal::accuracy: of the offsets inside and of heights on the boundary (AccuracyOptions).
+  double offset_factor = 10, boundary_offset_factor = 5;
 };
 
 enum class Feasibility {
@@ -269,6 +318,7 @@ struct WeightReport {
   /// the requested margin in the plane, but at most kRefutedDual and at least kLeastRefutedDual; on the sphere
   /// kLeastRefutedDual. If only the requested margin cannot be attained, it refutes that margin.
   Certificate certificate;
+  std::optional<Optimality> optimality = {};  ///< Of center and accuracy, if solved
 };
 
 /// Σ over edges |Δw_i − Δw_j| / (2ℓ): the total shift of the weighted midpoints. On the sphere ℓ is the length of
@@ -277,9 +327,9 @@ struct WeightReport {
                                    const IdVector<VertexId, double>& to);
 
 /// Finds weights for a mesh with fixed positions and connectivity. The answers of solvers are not trusted: exact
-/// predicates and check_certificate decide. Errors: a margin out of range, a periodic plane. Precondition: no erased
-/// triangles.
-[[nodiscard]] Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver,
-                                                  const WeightOptions& options = {});
+/// predicates and check_certificate decide. `convex` is for center and accuracy, which take the linear programs only if
+/// it finds no weights. Errors: a margin out of range, a goal without its solver. Precondition: no erased triangles.
+[[nodiscard]] Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options = {},
+                                                  ConvexSolver* convex = nullptr);
 
 }  // namespace temper

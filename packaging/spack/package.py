@@ -30,7 +30,7 @@ class Temper(CMakePackage):
     depends_on("fmt")
     depends_on("pugixml")
     depends_on("zlib-api")
-    depends_on("eigen@3.3:", when="+errors", type="build")
+    depends_on("eigen@3.3:", type="build")
     depends_on("tbb", when="+tbb")
     depends_on("netcdf-c@4.6.2:", when="+netcdf")
     depends_on("hdf5@1.10:~mpi", when="+hdf5")

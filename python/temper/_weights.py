@@ -115,6 +115,45 @@ class Violation(Record):
     """For height: angle of the triangle at r, opposite the edge."""
 
 
+@dataclasses.dataclass(frozen=True)
+class OffsetTerm(Record):
+    """A term of the sum of squared offsets: factor (value − target)². The values are in ``temper/feasibility.hpp``."""
+
+    at: WeightConstraint
+    factor: float
+    target: float
+
+
+@dataclasses.dataclass(frozen=True)
+class Optimality(Record):
+    """A proof that weights are best: multipliers that bound the objective of all other weights."""
+
+    goal: Literal["center", "accuracy"]
+    constraints: Constraints
+    margin: float
+    """Margin of the slacks; 0 for center."""
+    objective: float
+    """−Σ ln of the slacks, or Σ factor (value − target)² [length²]."""
+    gap: float
+    """No weights have an objective below ``objective − gap``."""
+    iterations: int
+    terms: list[tuple[WeightConstraint, float]]
+    """Constraints and their multipliers."""
+    offsets: list[OffsetTerm]
+    """Of accuracy."""
+
+    @property
+    def relative_gap(self) -> float:
+        """The gap over the objective."""
+        return self.gap / abs(self.objective)
+
+    @classmethod
+    def _of(cls, d: dict[str, Any]) -> Optimality:
+        terms = [(WeightConstraint(*c), m) for c, m in d["terms"]]
+        offsets = [OffsetTerm(WeightConstraint(*c), factor, target) for c, factor, target in d["offsets"]]
+        return cls(**merged(d, terms=terms, offsets=offsets))
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class WeightReport(Record):
     """The result of ``find_weights``."""
@@ -143,29 +182,35 @@ class WeightReport(Record):
     violations: list[Violation]
     """Violations of elastic weights, worst first."""
     certificate: Certificate
+    optimality: Optimality | None = None
+    """Of center and accuracy, if solved: the proof that the weights are best."""
 
 
 def find_weights(
     mesh: AnyMeshLike,
     *,
-    goal: Literal["feasible", "minimal", "elastic"] = "minimal",
+    goal: Literal["margin", "change", "elastic", "center", "accuracy"] = "change",
     margin: float = 0.01,
     from_input: bool = False,
     whole: int = 3000,
     rings: int = 2,
     constraints: Constraints = "well_centered",
     edges: npt.ArrayLike | None = None,
+    offset_factor: float = 10.0,
+    boundary_offset_factor: float = 5.0,
 ) -> WeightReport:
-    """Finds weights for a mesh with fixed positions and connectivity, by linear programming (Clp). The mesh does not
-    change.
+    """Finds weights for a mesh with fixed positions and connectivity, by linear programming (Clp) or by an interior
+    point method. The mesh does not change.
 
     Parameters
     ----------
     mesh : Mesh, TetMesh, or of another library
-    goal : {"minimal", "feasible", "elastic"}
-        minimal: the least change for the requested margin. feasible: the best margin, and the least change for the
+    goal : {"change", "margin", "elastic", "center", "accuracy"}
+        change: the least change for the requested margin. margin: the best margin, and the least change for the
         requested margin or for half of the best one. elastic: the least violation, but at least half of the best margin
-        if that is positive; then the least change.
+        if that is positive; then the least change. center: the greatest product of all h/ℓ, d/ℓ and 1 − d/ℓ, or of all
+        dual lengths/ℓ. accuracy: the least sum of squared offsets between the midpoints of edges and their duals, with
+        the requested margin or half of the best one. center and accuracy are unique, and come with a proof.
     margin : float
         Margin t in [0, 1/2): all h ≥ tℓ and tℓ ≤ d ≤ (1 − t)ℓ, or the inequalities of the other constraints.
     from_input : bool
@@ -180,6 +225,9 @@ def find_weights(
     edges : (k, 2) int, optional
         Prescribed edges for ``regular``, by their vertices; None: all. Boundary edges are always regular. For triangles
         alone.
+    offset_factor, boundary_offset_factor : float
+        Factors of the offsets inside and of the heights on the boundary, for ``accuracy``. 10 and 5 are for any scheme,
+        10 and 0.5 for unknowns at vertices, 10 and 30 for two-point fluxes, 20 and 18 for diagonal stars.
 
     Notes
     -----
@@ -188,7 +236,7 @@ def find_weights(
 
     >>> import temper
     >>> mesh = temper.generate.sparse_horseshoe()
-    >>> report = temper.find_weights(mesh, goal="feasible")
+    >>> report = temper.find_weights(mesh, goal="margin")
     >>> report.verdict, round(report.margin, 10)
     ('infeasible', -0.0592592593)
     >>> temper.check_certificate(mesh, report.certificate)
@@ -197,14 +245,17 @@ def find_weights(
     'feasible'
     """
     any_mesh = as_any_mesh(mesh)
-    wanted = goal, margin, from_input, whole, rings, constraints
+    wanted = goal, margin, from_input, whole, rings, constraints, offset_factor, boundary_offset_factor
     if isinstance(any_mesh, TetMesh):
         refuse_for_tetrahedra(edges=(edges, None))
         d = _temper.tet_find_weights(any_mesh._handle, *wanted)
     else:
         d = _temper.find_weights(any_mesh._handle, *wanted, _edges(edges))
     violations = [Violation(**merged(v, constraint=WeightConstraint(*v["constraint"]))) for v in d["violations"]]
-    return WeightReport(**merged(d, violations=violations, certificate=Certificate._of(d["certificate"])))
+    certificate = Certificate._of(d["certificate"])
+    proof = d["optimality"]
+    optimality = None if proof is None else Optimality._of(proof)
+    return WeightReport(**merged(d, violations=violations, certificate=certificate, optimality=optimality))
 
 
 def best_margin(

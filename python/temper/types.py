@@ -20,6 +20,8 @@ from ._weights import (
     ConnectivityReport,
     ConnectivityStep,
     EdgeConflict,
+    OffsetTerm,
+    Optimality,
     Violation,
     WeightConstraint,
     WeightReport,

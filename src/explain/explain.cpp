@@ -248,7 +248,7 @@ class Explainer {
     if (bad_.empty() || !result_.reasons.empty()) return;
     if (mesh_.n_triangles() > options_.whole && bad_.size() > options_.whole) return;
     WeightOptions weights;
-    weights.goal = WeightGoal::feasible;
+    weights.goal = WeightGoal::margin;
     weights.whole = options_.whole;
     auto report = find_weights(mesh_, solver_, weights);
     if (!report) return;

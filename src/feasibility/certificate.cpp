@@ -141,11 +141,11 @@ class PlaneTerms {
   [[nodiscard]] Polynomial polynomial_of(const WeightConstraint& c, double margin) const {
     switch (c.kind) {
       case Kind::height:
-        return height_polynomial(at(c.p), at(c.q), at(c.r), margin);
+        return height_polynomial(at(c.p, c.p), at(c.q, c.p), at(c.r, c.p), margin);
       case Kind::dual:
-        return dual_polynomial(at(c.p), at(c.q), at(c.r), at(c.s), margin);
+        return dual_polynomial(at(c.p, c.p), at(c.q, c.p), at(c.r, c.p), at(c.s, c.p), margin);
       default:
-        return polynomial_of_crossing(difference(at(c.q), at(c.p)), margin);
+        return polynomial_of_crossing(difference(at(c.q, c.p), at(c.p, c.p)), margin);
     }
   }
   /// b of an edge of a triangle whose third corner is in `others`; a crossing has none.
@@ -163,12 +163,13 @@ class PlaneTerms {
   static constexpr bool kPartsHaveFactors = false;
 
  private:
-  [[nodiscard]] Vec2 at(VertexId v) const {
-    const Vec2 p = mesh_.position(v);
+  /// The image of v near another vertex. It is exact, and less than 2 away from the scaled coordinates.
+  [[nodiscard]] Vec2 at(VertexId v, VertexId near) const {
+    const WeightedPoint p = mesh_.point(v, mesh_.point(near));
     return {scale_.coordinate(p.x), scale_.coordinate(p.y)};
   }
   [[nodiscard]] Number squared_distance(VertexId a, VertexId b) const {
-    const Vector edge = difference(at(a), at(b));
+    const Vector edge = difference(at(a, a), at(b, a));
     return dot(edge, edge);
   }
 

@@ -19,11 +19,17 @@ LinearForm dual_form(const Mesh& mesh, const WeightConstraint& c) {
   return {4, {c.p, c.q, c.r, c.s}, {a[0] + b[1], a[1] + b[0], a[2], b[2]}, left.constant + right.constant, left.slope};
 }
 
+/// The vector from p to the image of v near p.
+Vec2 from_to(const Mesh& mesh, VertexId p, VertexId v) {
+  const WeightedPoint at = mesh.point(p);
+  return mesh.point(v, at).position() - at.position();
+}
+
 LinearForm plane_form(const Mesh& mesh, const WeightConstraint& c) {
-  const Vec2 pq = mesh.position(c.q) - mesh.position(c.p);
+  const Vec2 pq = from_to(mesh, c.p, c.q);
   if (c.kind == WeightConstraint::Kind::crossing) return crossing_form(c, pq);
-  const Vec2 pr = mesh.position(c.r) - mesh.position(c.p);
-  return height_form(c, pq, pr, mesh.position(c.r) - mesh.position(c.q), cross(pq, pr));
+  const Vec2 pr = from_to(mesh, c.p, c.r);
+  return height_form(c, pq, pr, pr - pq, cross(pq, pr));
 }
 
 /// Let a = q − p, b = r − p and n = a × b, so that little cancels. Then (p×q)·n = (p·a)(a·b) − (p·b)|a|² is the sum of
@@ -88,7 +94,7 @@ LinearForm linear_form(const Mesh& mesh, const WeightConstraint& constraint) {
 }
 
 double squared_distance(const Mesh& mesh, VertexId p, VertexId q) {
-  if (mesh.space().is_plane()) return squared_length(mesh.position(q) - mesh.position(p));
+  if (mesh.space().is_plane()) return squared_length(from_to(mesh, p, q));
   return squared_length(position_of(mesh, q) - position_of(mesh, p));
 }
 
@@ -158,28 +164,31 @@ LinearForm TriangleDemand::linear_form(const WeightConstraint& constraint) const
 
 double TriangleDemand::scale_of_polynomial(const WeightConstraint& c) const {
   if (!space().is_plane()) return scale_on_sphere(mesh_, c);
-  const Vec2 p = mesh_.position(c.p), q = mesh_.position(c.q);
+  const Vec2 pq = from_to(mesh_, c.p, c.q);
+  const auto area = [&](VertexId v) { return cross(pq, from_to(mesh_, c.p, v)); };
   switch (c.kind) {
     case WeightConstraint::Kind::height:
-      return 2 * squared_length(q - p) * doubled_area(p, q, mesh_.position(c.r));
+      return 2 * squared_length(pq) * area(c.r);
     case WeightConstraint::Kind::dual:
-      return 2 * doubled_area(p, q, mesh_.position(c.r)) * doubled_area(q, p, mesh_.position(c.s));
+      return -2 * area(c.r) * area(c.s);
     default:
-      return 2 * squared_length(q - p);
+      return 2 * squared_length(pq);
   }
 }
 
 bool TriangleDemand::is_kept(CellId cell, const VertexWeights& weights) const {
   const TriangleId t(cell.index);
-  const auto at = [&](VertexId v) { return point_with_weight(mesh_, v, weights[v]); };
   const auto [a, b, c] = mesh_.corners(t);
+  const WeightedPoint near = mesh_.point(a);
+  const auto at = [&](VertexId v) { return space().image(point_with_weight(mesh_, v, weights[v]), near); };
   if (has_crossings()) return is_well_centered(space(), at(a), at(b), at(c));
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(t, k);
     const WeightedPoint p = at(mesh_.origin(h)), q = at(mesh_.target(h)), r = at(mesh_.opposite(h));
     if (has_heights() && signed_height_sign(space(), p, q, r) != Sign::positive) return false;
     if (!has_dual(h)) continue;
-    if (power_test(space(), p, q, r, at(mesh_.opposite(mesh_.twin(h)))) != Sign::negative) return false;
+    if (power_test(space(), p, q, r, space().image(at(mesh_.opposite(mesh_.twin(h))), p)) != Sign::negative)
+      return false;
   }
   return true;
 }
@@ -207,6 +216,30 @@ double TriangleDemand::angle_deg(const WeightConstraint& c) const {
 
 CertificateCheck TriangleDemand::check(const Certificate& certificate) const {
   return check_certificate(mesh_, certificate);
+}
+
+double TriangleDemand::reach(VertexId p, VertexId q, std::span<const VertexId> corners) const {
+  const bool heights_only = has_heights() && !has_crossings();
+  if (space().is_plane()) {
+    const double l2 = squared_distance(mesh_, p, q);
+    double most = has_duals() ? (1 + 2 * kCrossingReach) * l2 : l2;
+    for (const VertexId r : corners) {
+      if (heights_only) most = std::max(most, std::abs(squared_distance(mesh_, p, r) - squared_distance(mesh_, q, r)));
+    }
+    return most;
+  }
+  // With crossings, p·q/|p|² < σ_q/σ_p < |q|²/p·q. With heights alone, r·q/r·p is another extreme.
+  const Vec3 a = position_of(mesh_, p), b = position_of(mesh_, q);
+  const auto apart = [](double ratio) { return std::max(std::abs(ratio - 1), std::abs(1 / ratio - 1)); };
+  double most = std::max(apart(dot(a, b) / squared_length(a)), apart(squared_length(b) / dot(a, b)));
+  for (const VertexId r : corners) {
+    const Vec3 c = position_of(mesh_, r);
+    if (heights_only) most = std::max(most, apart(dot(c, b) / dot(c, a)));
+  }
+  if (!has_duals()) return most;
+  const double lacking = 1 - dot(a, b) / std::sqrt(squared_length(a) * squared_length(b));
+  const double least = 1 - (1 + kCrossingReach) * lacking;  // of σ_q/σ_p, up to a factor above one
+  return least > 0 ? (1 + 2 * kCrossingReach) * lacking / least : kUnbounded;
 }
 
 std::vector<CellId> as_cells(std::span<const TriangleId> triangles) {

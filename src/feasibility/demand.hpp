@@ -125,6 +125,11 @@ class Demand {
   /// Violation::angle_deg.
   [[nodiscard]] virtual double angle_deg(const WeightConstraint& constraint) const = 0;
   [[nodiscard]] virtual CertificateCheck check(const Certificate& certificate) const = 0;
+  /// The squared offsets of all cells (temper/feasibility.hpp).
+  [[nodiscard]] virtual std::vector<OffsetTerm> offsets(const WeightOptions& options) const = 0;
+  /// A bound of |w_p − w_q| for an edge of a cell with these corners, if weights keep its constraints; on the sphere of
+  /// |σ_q/σ_p − 1| and |σ_p/σ_q − 1|.
+  [[nodiscard]] virtual double reach(VertexId p, VertexId q, std::span<const VertexId> corners) const = 0;
 
  protected:
   Demand(const Space& space, Constraints constraints, bool has_crossings)
@@ -145,8 +150,9 @@ class Demand {
 [[nodiscard]] double weight_change(const Demand& demand, const VertexWeights& from, const VertexWeights& to);
 
 /// Finds weights for a demand of the kind that the options name.
-[[nodiscard]] WeightReport find_weights(const Demand& demand, LpSolver& solver, const WeightOptions& options);
-/// The error of options whose margin is out of range.
-[[nodiscard]] std::optional<InputError> expect_margin(const WeightOptions& options);
+[[nodiscard]] WeightReport find_weights(const Demand& demand, LpSolver& solver, const WeightOptions& options,
+                                        ConvexSolver* convex);
+/// The error of options whose margin is out of range, or whose goal needs the solver that is null.
+[[nodiscard]] std::optional<InputError> expect_goal(const WeightOptions& options, const ConvexSolver* convex);
 
 }  // namespace temper

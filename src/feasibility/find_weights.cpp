@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "base/assert.hpp"
+#include "feasibility/best_weights.hpp"
 #include "feasibility/certify.hpp"
 #include "feasibility/change.hpp"
 #include "feasibility/constraints.hpp"
@@ -48,7 +49,7 @@ class WeightFinder {
         components_(components_of(demand)) {}
 
   WeightReport run() {
-    if (options_.goal == WeightGoal::feasible) measure_components();
+    if (options_.goal == WeightGoal::margin) measure_components();
     double asked = std::min(options_.margin, demand_.has_duals() ? small_margin_ : small_margin_ / 2);
     if (options_.goal == WeightGoal::elastic) {
       violate_least(asked);
@@ -262,7 +263,7 @@ class WeightFinder {
   }
 
   void judge_margin(WeightReport& r, bool found) const {
-    const bool all_measured = options_.goal == WeightGoal::feasible &&
+    const bool all_measured = options_.goal == WeightGoal::margin &&
                               std::all_of(components_.begin(), components_.end(), [&](const Region& component) {
                                 return component.cells.size() <= options_.whole;
                               });
@@ -290,14 +291,17 @@ class WeightFinder {
     const bool refuted = !r.certificate.terms.empty() && r.certificate.margin == refuted_margin();
     r.verdict = refuted ? Feasibility::infeasible : found ? Feasibility::feasible : Feasibility::undecided;
     switch (options_.goal) {
-      case WeightGoal::feasible:
+      case WeightGoal::margin:
         r.solved = r.verdict == Feasibility::feasible;
         break;
-      case WeightGoal::minimal:
+      case WeightGoal::change:
         r.solved = r.verdict == Feasibility::feasible && r.asked == options_.margin;
         break;
       case WeightGoal::elastic:
         r.solved = failures() == 0;
+        break;
+      case WeightGoal::center:
+      case WeightGoal::accuracy:
         break;
     }
   }
@@ -341,20 +345,43 @@ double weight_change(const Mesh& mesh, const VertexWeights& from, const VertexWe
   return weight_change(TriangleDemand(mesh, Constraints::well_centered), from, to);
 }
 
-WeightReport find_weights(const Demand& demand, LpSolver& solver, const WeightOptions& options) {
-  return WeightFinder(demand, solver, options).run();
+WeightReport find_weights(const Demand& demand, LpSolver& solver, const WeightOptions& options, ConvexSolver* convex) {
+  const bool is_convex = options.goal == WeightGoal::center || options.goal == WeightGoal::accuracy;
+  if (!is_convex) return WeightFinder(demand, solver, options).run();
+  if (std::optional<WeightReport> best = best_weights(demand, *convex, options, options.margin))
+    return *std::move(best);
+  // The linear programs say if there are weights at all, and which margin they can have.
+  WeightOptions any = options;
+  any.goal = WeightGoal::margin;
+  WeightReport report = WeightFinder(demand, solver, any).run();
+  report.solved = false;
+  if (report.verdict != Feasibility::feasible) return report;
+  std::optional<WeightReport> best = best_weights(demand, *convex, options, report.asked);
+  if (!best) return report;
+  best->margin = report.margin;
+  best->margin_kind = report.margin_kind;
+  best->certificate = std::move(report.certificate);
+  return *std::move(best);
 }
 
-std::optional<InputError> expect_margin(const WeightOptions& options) {
+std::optional<InputError> expect_goal(const WeightOptions& options, const ConvexSolver* convex) {
+  const bool is_convex = options.goal == WeightGoal::center || options.goal == WeightGoal::accuracy;
+  if (is_convex && convex == nullptr)
+    return InputError{ErrorCode::invalid_option, "", "goal: center and accuracy need a solver of convex programs"};
+  if (!(options.offset_factor >= 0 && options.boundary_offset_factor >= 0 &&
+        options.offset_factor + options.boundary_offset_factor < kUnbounded)) {
+    return InputError{ErrorCode::invalid_option, "",
+                      "offset_factor, boundary_offset_factor: expected finite numbers that are not negative"};
+  }
   const bool elastic = options.goal == WeightGoal::elastic;
   if (options.margin < 0.5 && (elastic ? options.margin >= 0 : options.margin > 0)) return std::nullopt;
   return InputError{ErrorCode::invalid_option, "",
                     "margin: expected a number above 0 and below 0.5, found " + std::to_string(options.margin)};
 }
 
-Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options) {
+Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options,
+                                    ConvexSolver* convex) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
-  if (auto error = expect_no_period(mesh, "find_weights()")) return *std::move(error);
   if (has_quadrilaterals(mesh)) {
     return InputError{ErrorCode::unsupported, "",
                       "the mesh has quadrilaterals, whose corners keep their weights; expected triangles alone. Next: "
@@ -375,8 +402,8 @@ Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const We
                       "constraints: expected well_centered, heights_only or regular, found completely_well_centered: "
                       "it is for tetrahedra. Next: well_centered, which is as much for triangles"};
   }
-  if (auto error = expect_margin(options)) return *std::move(error);
-  return find_weights(TriangleDemand(mesh, options.constraints, options.edges), solver, options);
+  if (auto error = expect_goal(options, convex)) return *std::move(error);
+  return find_weights(TriangleDemand(mesh, options.constraints, options.edges), solver, options, convex);
 }
 
 }  // namespace temper

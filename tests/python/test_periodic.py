@@ -76,8 +76,7 @@ def test_hexagons_and_delaunay():
 @pytest.mark.parametrize(
     "call",
     [
-        temper.find_weights, temper.best_margin, temper.weight_margin, temper.explain, temper.Mesh.to_meshio,
-        temper.edges_that_must_be_split, temper.html_report, temper.plot,
+        temper.explain, temper.Mesh.to_meshio, temper.edges_that_must_be_split, temper.html_report, temper.plot,
     ],
 )  # fmt: skip
 def test_what_takes_no_periods_says_so(call, sea):

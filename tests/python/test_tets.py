@@ -247,7 +247,7 @@ def test_weights_are_found_or_a_certificate_proves_that_there_are_none(shaken):
     shaken.weights = found.weights
     assert temper.quality(shaken).non_regular_faces == 0
     assert temper.weight_margin(shaken, constraints="regular") == pytest.approx(found.attained)
-    none = temper.find_weights(shaken, goal="feasible")
+    none = temper.find_weights(shaken, goal="margin")
     assert none.verdict == "infeasible" and none.certificate.terms[0][0].kind == "height_over_face"
     assert temper.check_certificate(shaken, none.certificate) == "proves"
     easy = temper.TetMesh(shaken.points * [1, 1, 3], shaken.tetrahedra)

@@ -21,8 +21,10 @@ def other_documents(temper, folder):
     temper("example", "sparse-horseshoe", "-o", "shoe.vtu")
     pathlib.Path(folder, "square.poly").write_text("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n", encoding="utf-8")
     temper("mesh", "square.poly", "-o", "square.vtu", "--size", "0.3", "--write", "mesh.json", "--quiet")
-    proof = ("weights", said("weights", "shoe.vtu", "--mode", "feasible", "--certificate", "why.json", exit=6))
+    proof = ("weights", said("weights", "shoe.vtu", "--mode", "margin", "--certificate", "why.json", exit=6))
+    best = ("weights", said("weights", "square.vtu", "-o", "w.vtu", "--mode", "accuracy", "--certificate", "best.json"))
     return [
+        best, ("best_weights", file("best.json")),
         ("mesh_report", file("mesh.json")), ("explain", said("explain", "shoe.vtu")), ("explain", said("explain", "square.vtu")),
         ("explain_tetrahedra", said("explain", "tet.mesh")),
         proof, ("weights", said("weights", "in.vtu", "-o", "w.vtu", "--mode", "elastic", "--connectivity", "search", exit=None)),

@@ -47,6 +47,8 @@ class Reader {
       fail(fmt::format("expected version {} of \"temper_certificate\", found {}", kVersion,
                        json["temper_certificate"].dump()));
     }
+    if (json.contains("goal"))
+      fail("it is about the best weights, and temper checks proofs that there are none. Next: bench/check_best.py");
     Certificate certificate;
     certificate.margin = number(json, "margin");
     if (json.contains("constraints")) certificate.constraints = constraints(json["constraints"]);
@@ -134,32 +136,67 @@ class Reader {
 
 }  // namespace
 
-Json certificate_json(const Certificate& certificate, const std::vector<std::size_t>& points) {
+namespace {
+
+Json constraint_json(const WeightConstraint& constraint, const std::vector<std::size_t>& points) {
   const auto point = [&](VertexId v) { return points.empty() ? std::size_t{v.index} : points[v.index]; };
-  Json terms = Json::array();
-  for (const auto& [constraint, multiplier] : certificate.terms) {
-    const auto& [kind, p, q, r, s, t] = constraint;
-    const bool of_face = kind == Kind::height_over_face || kind == Kind::dual_of_face;
-    Json term;
-    term["kind"] = name(kind);
-    if (of_face) {
-      term["tetrahedron"] = {point(p), point(q), point(r), point(s)};
-    } else if (kind != Kind::crossing) {
-      term["triangle"] = {point(p), point(q), point(r)};
-    }
-    if (kind == Kind::dual || kind == Kind::dual_of_face) term["across"] = point(of_face ? t : s);
-    if (of_face) {
-      term["face"] = {point(p), point(q), point(r)};
-    } else {
-      term["edge"] = {point(p), point(q)};
-    }
-    term["multiplier"] = multiplier;
-    terms.push_back(std::move(term));
+  const auto& [kind, p, q, r, s, t] = constraint;
+  const bool of_face = kind == Kind::height_over_face || kind == Kind::dual_of_face;
+  Json json;
+  json["kind"] = name(kind);
+  if (of_face) {
+    json["tetrahedron"] = {point(p), point(q), point(r), point(s)};
+  } else if (kind != Kind::crossing) {
+    json["triangle"] = {point(p), point(q), point(r)};
   }
+  if (kind == Kind::dual || kind == Kind::dual_of_face) json["across"] = point(of_face ? t : s);
+  if (of_face) {
+    json["face"] = {point(p), point(q), point(r)};
+  } else {
+    json["edge"] = {point(p), point(q)};
+  }
+  return json;
+}
+
+Json terms_json(const std::vector<Certificate::Term>& terms, const std::vector<std::size_t>& points) {
+  Json json = Json::array();
+  for (const auto& [constraint, multiplier] : terms) {
+    json.push_back(constraint_json(constraint, points));
+    json.back()["multiplier"] = multiplier;
+  }
+  return json;
+}
+
+}  // namespace
+
+Json certificate_json(const Certificate& certificate, const std::vector<std::size_t>& points) {
   return {{"temper_certificate", kVersion},
           {"constraints", name(certificate.constraints)},
           {"margin", certificate.margin},
-          {"terms", std::move(terms)}};
+          {"terms", terms_json(certificate.terms, points)}};
+}
+
+std::string optimality_text(const WeightReport& report, const Space& space, const std::vector<std::size_t>& points) {
+  const Optimality& proof = *report.optimality;
+  Json json = {{"temper_certificate", kVersion}, {"constraints", name(proof.constraints)},
+               {"margin", proof.margin},         {"goal", proof.goal == WeightGoal::center ? "center" : "accuracy"},
+               {"objective", proof.objective},   {"gap", proof.gap}};
+  if (space.radius() > 0) {
+    json["radius"] = space.radius();
+    json["weights"] = Json::array();
+    for (std::size_t i = 0; i < report.weights.size(); ++i)
+      json["weights"].push_back({points.empty() ? i : points[i], report.weights[VertexId(i)]});
+  }
+  if (space.is_periodic()) json["period"] = {space.period().x, space.period().y};
+  if (!proof.offsets.empty()) json["offsets"] = Json::array();
+  for (const OffsetTerm& term : proof.offsets) {
+    Json offset = constraint_json(term.at, points);
+    offset["factor"] = term.factor;
+    offset["target"] = term.target;
+    json["offsets"].push_back(std::move(offset));
+  }
+  json["terms"] = terms_json(proof.terms, points);
+  return json.dump(1) + "\n";
 }
 
 std::string certificate_text(const Certificate& certificate, const std::vector<std::size_t>& points) {

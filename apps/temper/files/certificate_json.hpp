@@ -28,6 +28,11 @@ namespace temper::app {
 /// A certificate as a file of its own.
 [[nodiscard]] std::string certificate_text(const Certificate& certificate, const std::vector<std::size_t>& points);
 
+/// The proof of a report that its weights are best, as a file: a certificate with "goal", and for accuracy with the
+/// terms of the objective. On the sphere it has the weights, which a mesh rounds. Precondition: there is a proof.
+[[nodiscard]] std::string optimality_text(const WeightReport& report, const Space& space,
+                                          const std::vector<std::size_t>& points);
+
 /// Failure when the file cannot be read or is no certificate. `cell`: "triangle" or "tetrahedron", for errors.
 [[nodiscard]] Certificate read_certificate(const std::string& path, const io::VertexOfPoint& vertex_of_point,
                                            std::string_view cell);

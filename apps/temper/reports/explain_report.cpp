@@ -98,7 +98,7 @@ std::string command(const Mesh& mesh, const Cure& cure) {
   switch (cure.action) {
     case Action::find_weights:
       if (cure.changed == 0) return "";
-      return cure.margin < WeightOptions().margin ? "temper weights --mode feasible" : "temper weights";
+      return cure.margin < WeightOptions().margin ? "temper weights --mode margin" : "temper weights";
     case Action::optimize:
     case Action::move_vertex:
     case Action::flip_edge:

@@ -79,6 +79,7 @@ struct WeightsRecord {
   const WeightReport& report;
   std::string_view path;                                             ///< of the mesh
   std::string size;                                                  ///< "12 vertices, 10 triangles"
+  Space space;                                                       ///< of the mesh
   const std::vector<std::size_t>& points;                            ///< of Input or TetInput
   std::function<std::string(const WeightConstraint&)> text;          ///< constraint_text
   std::function<TriangleId(const WeightConstraint&)> triangle = {};  ///< of a height; none for tetrahedra

@@ -94,6 +94,24 @@ std::string search_text(const WeightsRecord& r) {
       r.search->before, r.search->margin, r.search->steps.size(), flips, r.search->programs, end_text(r.search->end));
 }
 
+std::string optimality_text(const WeightsRecord& r) {
+  if (!r.report.optimality) return {};
+  const Optimality& proof = *r.report.optimality;
+  const bool center = proof.goal == WeightGoal::center;
+  return fmt::format("{} {:.10g}, duality gap {:.2g} of it, {} iterations\n",
+                     center ? "center: the sum of the logarithms is" : "squared offsets",
+                     center ? -proof.objective : proof.objective, proof.relative_gap(), proof.iterations);
+}
+
+Json optimality_json(const WeightReport& report) {
+  if (!report.optimality) return nullptr;
+  const Optimality& proof = *report.optimality;
+  return {{"objective", proof.objective},
+          {"gap", proof.gap},
+          {"relative_gap", proof.relative_gap()},
+          {"iterations", proof.iterations}};
+}
+
 Json search_json(const WeightsRecord& r) {
   if (!r.search) return nullptr;
   Json json;
@@ -165,13 +183,16 @@ std::string weights_text(const WeightsRecord& r) {
   std::string text =
       fmt::format("{}: {}\n{}{}\n{}\n", r.path, r.size, search_text(r), verdict_text(r), margin_text(report));
   if (!report.solved && report.verdict == Feasibility::feasible) {
-    text += fmt::format("no weights give a margin of {}\n", r.options.margin);
+    const bool linear = r.options.goal != WeightGoal::center && r.options.goal != WeightGoal::accuracy;
+    text += linear ? fmt::format("no weights give a margin of {}\n", r.options.margin)
+                   : "the search for the best weights failed. Next: --mode margin\n";
   }
   text += certificate_text(r) + violations_text(r);
   if (report.solved) {
     text +=
         fmt::format("{} of {} weights change, margin {:.6g}\n", report.moved, report.weights.size(), report.attained);
   }
+  text += optimality_text(r);
   if (!r.output.empty()) text += fmt::format("wrote {}\n", r.output);
   if (!r.certificate.empty()) text += fmt::format("wrote {}\n", r.certificate);
   return text;
@@ -198,6 +219,7 @@ std::string weights_json(const WeightsRecord& r) {
   json["change"] = report.solved ? Json(report.change) : Json(nullptr);
   json["programs"] = report.programs;
   json["largest_program"] = report.largest;
+  json["optimality"] = optimality_json(report);
   json["violations"] = Json::array();
   for (const Violation& v : report.violations) json["violations"].push_back(violation_json(v, r));
   json["certificate"] =

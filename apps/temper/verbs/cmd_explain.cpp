@@ -83,7 +83,7 @@ void explain_tetrahedra(const ExplainSettings& s, const TetInput& input) {
   TetExplanation explanation = {input, measured, on_boundary, on_boundary_alone, std::nullopt};
   if (bad > 0 && (mesh.n_tetrahedra() <= s.whole || bad <= s.whole)) {
     WeightOptions options;
-    options.goal = WeightGoal::feasible;
+    options.goal = WeightGoal::margin;
     explanation.weights = or_fail(find_weights(mesh, *clp_solver(), options));
   }
   s.json ? print_data(explanation_json(explanation)) : print(explanation_text(explanation, text_style()));

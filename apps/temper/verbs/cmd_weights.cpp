@@ -32,13 +32,16 @@ std::string option_name(Constraints constraints) {
   return text;
 }
 
-enum class Mode { feasible, minimal, elastic, barrier };
-constexpr Choice<Mode> kModes[] = {
-    {"feasible", Mode::feasible}, {"minimal", Mode::minimal}, {"elastic", Mode::elastic}, {"barrier", Mode::barrier}};
+constexpr Choice<WeightGoal> kModes[] = {{"margin", WeightGoal::margin},
+                                         {"change", WeightGoal::change},
+                                         {"elastic", WeightGoal::elastic},
+                                         {"center", WeightGoal::center},
+                                         {"accuracy", WeightGoal::accuracy}};
 enum class From { zero, input };
 constexpr Choice<From> kFrom[] = {{"zero", From::zero}, {"input", From::input}};
-enum class Barrier { hard, soft };
-constexpr Choice<Barrier> kBarriers[] = {{"BH", Barrier::hard}, {"BP", Barrier::soft}};
+/// The schemes of --mode accuracy: the targets of optimize that lower an offset.
+constexpr Choice<Scheme> kSchemes[] = {
+    {"any", Scheme::all}, {"vertex", Scheme::vertex}, {"cell", Scheme::cell}, {"stars", Scheme::stars}};
 
 enum class Connectivity { fixed, search };
 constexpr Choice<Connectivity> kConnectivities[] = {{"fixed", Connectivity::fixed}, {"search", Connectivity::search}};
@@ -48,9 +51,8 @@ struct WeightsSettings {
   bool flat = false;
   std::string input, certificate, check;
   MeshOutput output;
-  Mode mode = Mode::minimal;
   From from = From::zero;
-  Barrier barrier = Barrier::hard;
+  Scheme scheme = Scheme::all;
   WeightOptions options;
   std::string edges = "all";
   Connectivity connectivity = Connectivity::fixed;
@@ -102,9 +104,10 @@ void add_options(Command& command, WeightsSettings& s) {
   add_projection(command, s.projection);
   add_flat(command, s.flat);
   add_mesh_output(command, s.output, "OUT",
-                  "Mesh file to write, with the new weights. You may leave it out with --mode feasible.");
+                  "Mesh file to write, with the new weights. You may leave it out with --mode margin.");
   add_text(command, "--certificate", "FILE", s.certificate,
-           "If no weights exist, write the proof as JSON. See docs/reference/formats/certificate.md.");
+           "Write the proof as JSON: that no weights exist, or that the weights of --mode center or accuracy are best. "
+           "See docs/reference/formats/certificate.md.");
   add_text(command, "--check-certificate", "FILE", s.check,
            "Only check the proof in FILE against IN, in exact arithmetic.");
   command.add_flag(
@@ -113,17 +116,18 @@ void add_options(Command& command, WeightsSettings& s) {
   command.add_flag("--json", s.json, "Print the report as JSON, with vertices and elements counted from 0.");
   command.group("Weights");
   add_choice(
-      command, "--mode", kModes, s.mode,
-      "Goal of the search. 'feasible' tests if good weights exist, and finds the best margin. 'minimal' makes "
-      "the least change that gives the margin. If no weights have the margin, 'elastic' finds the least violation. "
-      "'barrier' finds the least barrier energy.");
+      command, "--mode", kModes, s.options.goal,
+      "Goal of the search. 'margin' tests if good weights exist, and finds the best margin. 'change' makes the least "
+      "change that gives the margin. If no weights have the margin, 'elastic' finds the least violation. 'center' "
+      "finds the greatest product of all h/l, d/l and 1 - d/l, or of all dual lengths/l. 'accuracy' finds the least "
+      "offsets between the midpoints of edges and their duals, with the margin.");
+  add_choice(command, "--for", kSchemes, s.scheme, "Scheme whose error --mode accuracy lowers, as for optimize.");
   add_number(command, "--margin", s.options.margin, {0, 0.5, true},
-             "Least h/l, d/l, 1 - d/l or dual length/l in the mesh. With --mode feasible or barrier, half of the best "
+             "Least h/l, d/l, 1 - d/l or dual length/l in the mesh. With --mode margin or accuracy, half of the best "
              "margin is used if it is less.");
   add_choice(
       command, "--from", kFrom, s.from,
       "Weights from which the change is measured. 'zero' means that all are 0, and 'input' means the weights of IN.");
-  add_choice(command, "--energy", kBarriers, s.barrier, "Energy of --mode barrier.");
   add_count(command, "--whole", s.whole, 0,
             "Largest number of triangles or tetrahedra in a component that is solved as a whole. In larger components, "
             "only the elements around bad ones are solved, as far out as needed.");
@@ -139,12 +143,12 @@ void add_options(Command& command, WeightsSettings& s) {
   command.group("Help");
   command.add_help({"IN -o OUT [options]",
                     "  temper example annulus -o ring.vtu && temper weights ring.vtu -o out.vtu\n"
-                    "  temper weights ring.vtu -o least.vtu --mode barrier\n"
-                    "  temper weights least.vtu -o plain.vtu --zero\n"
+                    "  temper weights ring.vtu -o best.vtu --mode accuracy --for vertex\n"
+                    "  temper weights best.vtu -o plain.vtu --zero\n"
                     "  temper weights ring.vtu -o inside.vtu --constraints heights-only\n"
                     "  # a mesh without such weights: write the proof, check it, and find the least violation\n"
                     "  temper example sparse-horseshoe -o shoe.vtu\n"
-                    "  temper weights shoe.vtu --mode feasible --certificate why.json; test $? = 6\n"
+                    "  temper weights shoe.vtu --mode margin --certificate why.json; test $? = 6\n"
                     "  temper weights shoe.vtu --check-certificate why.json\n"
                     "  temper weights shoe.vtu -o out.vtu --mode elastic --json\n"
                     "  # bring orthocenters inside by other diagonals\n"
@@ -157,17 +161,17 @@ void check_usage(const Command& command, const WeightsSettings& s) {
   const auto fail = [](const std::string& message) { refuse_usage("weights", message); };
   if (!s.check.empty() && s.zero) fail("--check-certificate takes no --zero");
   if (!s.check.empty()) {
-    for (const char* option : {"--output", "--certificate", "--mode", "--margin", "--from", "--energy", "--whole",
+    for (const char* option : {"--output", "--certificate", "--mode", "--margin", "--from", "--for", "--whole",
                                "--constraints", "--edges", "--connectivity", "--programs"}) {
       if (command.was_given(option)) fail(fmt::format("--check-certificate takes no {}", option));
     }
   } else if (s.zero) {
-    for (const char* option : {"--certificate", "--mode", "--margin", "--from", "--energy", "--whole", "--constraints",
+    for (const char* option : {"--certificate", "--mode", "--margin", "--from", "--for", "--whole", "--constraints",
                                "--edges", "--connectivity", "--programs"}) {
       if (command.was_given(option)) fail(fmt::format("--zero takes no {}", option));
     }
     if (s.output.path.empty()) fail("--output is missing");
-  } else if (s.output.path.empty() && s.mode != Mode::feasible) {
+  } else if (s.output.path.empty() && s.options.goal != WeightGoal::margin) {
     fail("--output is missing");
   }
   const bool regular = s.options.constraints == Constraints::regular, search = s.connectivity == Connectivity::search;
@@ -177,10 +181,8 @@ void check_usage(const Command& command, const WeightsSettings& s) {
   if (search && !s.certificate.empty()) {
     fail("--certificate needs --connectivity fixed, because the proof is about the edges of IN");
   }
-  if (s.mode == Mode::barrier && s.options.constraints != Constraints::well_centered) {
-    fail("--mode barrier needs --constraints well-centered");
-  }
-  if (s.mode != Mode::barrier && command.was_given("--energy")) fail("--energy needs --mode barrier");
+  if (s.options.goal != WeightGoal::accuracy && command.was_given("--for")) fail("--for needs --mode accuracy");
+  if (s.options.goal == WeightGoal::center && command.was_given("--margin")) fail("--mode center takes no --margin");
 }
 
 /// The fault of a certificate, after its name.
@@ -224,19 +226,6 @@ Exit check(const WeightsSettings& s, const Input& input) {
   return report_check(s, certificate, check_certificate(input.mesh(), certificate), constraints_table());
 }
 
-WeightGoal goal_of(Mode mode) {
-  switch (mode) {
-    case Mode::feasible:
-    case Mode::barrier:  // any weights to start from
-      return WeightGoal::feasible;
-    case Mode::minimal:
-      return WeightGoal::minimal;
-    case Mode::elastic:
-      return WeightGoal::elastic;
-  }
-  return WeightGoal::minimal;
-}
-
 /// On the sphere setting a weight rounds the place: only changed weights are set.
 Mesh with_weights(Mesh mesh, const IdVector<VertexId, double>& weights) {
   for (const VertexId v : mesh.vertices()) {
@@ -249,37 +238,6 @@ Mesh with_weights(Mesh mesh, const IdVector<VertexId, double>& weights) {
 std::optional<ConnectivityReport> searched(const WeightsSettings& s, const Input& input, LpSolver& solver) {
   if (s.connectivity == Connectivity::fixed) return std::nullopt;
   return or_fail(best_connectivity(input.mesh(), solver, {s.options.constraints, s.programs}));
-}
-
-bool all_well_centered(const Mesh& mesh) {
-  for (const TriangleId t : mesh.triangles()) {
-    const auto [p, q, r] = mesh.corners(t);
-    if (!is_well_centered(mesh.space(), mesh.point(p), mesh.point(q), mesh.point(r))) return false;
-  }
-  return true;
-}
-
-/// Replaces good weights by weights of least energy, unless these are not good.
-void lower_energy(const WeightsSettings& s, const Input& input, const Mesh& mesh, WeightReport& report) {
-  Mesh moving = with_weights(mesh, report.weights);
-  OptimizeOptions options;
-  options.energy = s.barrier == Barrier::hard ? EnergyKind::BH : EnergyKind::BP;
-  options.unknowns = Unknowns::weights;
-  options.flips = Flips::none;
-  or_fail(optimize(moving, options, {.names = input.names.get()}));
-  IdVector<VertexId, double> weights = report.weights;
-  for (const VertexId v : moving.vertices()) weights[v] = moving.weight(v);
-  const Mesh lowered = with_weights(mesh, weights);
-  if (!all_well_centered(lowered)) return;
-  IdVector<VertexId, double> before(mesh.n_vertices(), 0.0);
-  report.moved = 0;
-  for (const VertexId v : mesh.vertices()) {
-    if (s.options.from_input) before[v] = mesh.weight(v);
-    report.moved += weights[v] != before[v] ? 1 : 0;
-  }
-  report.change = weight_change(mesh, before, weights);
-  report.attained = weight_margin(lowered);
-  report.weights = std::move(weights);
 }
 
 /// Puts the mesh back into the file of the input, of triangles or of tetrahedra, and writes it.
@@ -317,8 +275,10 @@ Exit drop(const WeightsSettings& s, Input& input, Outputs& outputs) {
 
 /// Writes the certificate, and reports.
 Exit end(const WeightsSettings& s, WeightsRecord& record, Outputs& outputs) {
-  if (!record.report.certificate.terms.empty() && !s.certificate.empty()) {
-    outputs.write_text(s.certificate, certificate_text(record.report.certificate, record.points));
+  const WeightReport& report = record.report;
+  if (!s.certificate.empty() && (report.optimality || !report.certificate.terms.empty())) {
+    outputs.write_text(s.certificate, report.optimality ? optimality_text(report, record.space, record.points)
+                                                        : certificate_text(report.certificate, record.points));
     record.certificate = s.certificate;
   }
   s.json ? print_data(weights_json(record)) : print(weights_text(record));
@@ -329,15 +289,14 @@ Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
   const auto solver = clp_solver();
   const std::optional<ConnectivityReport> search = searched(s, input, *solver);
   const Mesh& mesh = search ? search->mesh : input.mesh();
-  WeightReport report = or_fail(find_weights(mesh, *solver, s.options));
-  if (s.mode == Mode::barrier && report.solved) lower_energy(s, input, mesh, report);
-
-  WeightsRecord record = {kModes[static_cast<std::size_t>(s.mode)].name,
+  const WeightReport report = or_fail(find_weights(mesh, *solver, s.options, interior_point_solver().get()));
+  WeightsRecord record = {kModes[static_cast<std::size_t>(s.options.goal)].name,
                           s.options,
                           row_of(constraints_table(), s.options.constraints),
                           report,
                           input.path,
                           mesh_size(mesh.n_vertices(), mesh.n_triangles()),
+                          mesh.space(),
                           input.points,
                           [&](const WeightConstraint& c) { return constraint_text(c, input, mesh); },
                           [&](const WeightConstraint& c) { return triangle_of(mesh, c); },
@@ -357,7 +316,6 @@ void refuse_options_of_triangles(const Command& command, const WeightsSettings& 
                         {{!s.projection.empty(), "--projection"},
                          {s.flat, "--flat"},
                          {s.zero, "--zero"},
-                         {s.mode == Mode::barrier, "--mode barrier"},
                          {command.was_given("--edges"), "--edges"},
                          {s.connectivity == Connectivity::search, "--connectivity search"},
                          {s.options.constraints == Constraints::heights_only, "--constraints heights-only"}});
@@ -369,14 +327,16 @@ Exit weigh_tetrahedra(const WeightsSettings& s, TetInput input, Outputs& outputs
     const Certificate certificate = read_certificate(s.check, input.loaded.vertex_of_point, "tetrahedron");
     return report_check(s, certificate, tets::check_certificate(input.mesh(), certificate), tets::constraints_table());
   }
-  const WeightReport report = or_fail(tets::find_weights(input.mesh(), *clp_solver(), s.options));
-  WeightsRecord record = {kModes[static_cast<std::size_t>(s.mode)].name,
+  const WeightReport report =
+      or_fail(tets::find_weights(input.mesh(), *clp_solver(), s.options, interior_point_solver().get()));
+  WeightsRecord record = {kModes[static_cast<std::size_t>(s.options.goal)].name,
                           s.options,
                           row_of(tets::constraints_table(), s.options.constraints),
                           report,
                           input.path,
                           fmt::format("{}, {}", plural(input.mesh().n_vertices(), "vertex", "vertices"),
                                       plural(input.mesh().n_tetrahedra(), "tetrahedron", "tetrahedra")),
+                          Space(),
                           input.points,
                           [&](const WeightConstraint& c) { return constraint_text(c, input); }};
   if (report.solved && !s.output.path.empty()) {
@@ -400,7 +360,9 @@ Exit run_weights(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   check_usage(command, s);
-  s.options.goal = goal_of(s.mode);
+  const SchemeWeights factors = scheme_weights(s.scheme);
+  s.options.offset_factor = factors.offset_factor;
+  s.options.boundary_offset_factor = factors.boundary_offset_factor;
   s.options.from_input = s.from == From::input;
   s.options.whole = s.whole;
   Outputs outputs("weights");

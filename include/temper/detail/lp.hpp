@@ -1,13 +1,19 @@
-// Linear programs by Clp (COIN-OR), for temper/feasibility.hpp. It is a library of its own, temper::lp.
+// Linear programs by Clp (COIN-OR), and convex programs by temper's interior point method with the sparse Cholesky
+// factors of Eigen, for temper/feasibility.hpp. It is a library of its own, temper::lp.
 #pragma once
 
 #include <memory>
 
+#include "temper/detail/convex.hpp"
 #include "temper/feasibility.hpp"
 
 namespace temper {
 
 /// Returns Clp's simplex methods. Deterministic. Only one thread at a time may use one solver.
 [[nodiscard]] std::unique_ptr<LpSolver> clp_solver();
+
+/// Returns a primal-dual interior point method for the best weights. Deterministic. It takes O(n) memory and, for
+/// meshes of the plane, some O(n^1.5) time per iteration; 3 to 30 iterations are usual.
+[[nodiscard]] std::unique_ptr<ConvexSolver> interior_point_solver();
 
 }  // namespace temper

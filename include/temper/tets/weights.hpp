@@ -32,7 +32,7 @@ namespace temper::tets {
 /// Finds weights for a mesh with fixed positions and connectivity, as temper::find_weights does. Errors: a margin out
 /// of range, constraints or edges that are for triangles.
 [[nodiscard]] Expected<WeightReport> find_weights(const TetMesh& mesh, LpSolver& solver,
-                                                  const WeightOptions& options = {});
+                                                  const WeightOptions& options = {}, ConvexSolver* convex = nullptr);
 
 /// Verifies a certificate in exact arithmetic, from the positions alone. Along an edge of a tetrahedron pqrs weights
 /// differ by at most:

@@ -3,38 +3,10 @@
 #include <utility>
 
 #include "mesh/blocks.hpp"
+#include "size/averaged_sizes.hpp"
 
 namespace temper {
 namespace {
-
-// Number of averages of each size with its neighbors' sizes. Five leave the noise of bad meshes, and twenty are not
-// better.
-constexpr int kSmoothings = 10;
-// Weight of a vertex in an average, if each neighbor has weight 1.
-constexpr double kOwnPart = 2;
-
-double averaged(const Mesh& mesh, const VertexSizes& sizes, VertexId v) {
-  double sum = kOwnPart * sizes[v], count = kOwnPart;
-  const auto add = [&](VertexId u) {
-    sum += sizes[u];
-    ++count;
-  };
-  for (const HalfedgeId h : mesh.star(v)) {
-    add(mesh.target(h));
-    if (mesh.is_boundary(Mesh::prev(h))) add(mesh.opposite(h));
-  }
-  return sum / count;
-}
-
-VertexSizes smoothed(const Mesh& mesh, VertexSizes sizes, Executor* executor) {
-  const std::size_t n = mesh.n_vertices();
-  VertexSizes next(n);
-  for (int k = 0; k < kSmoothings; ++k) {
-    for_each_index(n, executor, [&](std::size_t i) { next[VertexId(i)] = averaged(mesh, sizes, VertexId(i)); });
-    std::swap(sizes, next);
-  }
-  return sizes;
-}
 
 VertexSizes sizes_of_field(const Mesh& mesh, const SizeField& field, Executor* executor) {
   VertexSizes sizes(mesh.n_vertices());
@@ -54,7 +26,7 @@ VertexSizes sizes_of_field(const Mesh& mesh, const SizeField& field, Executor* e
 AccuracySizes::AccuracySizes(const Mesh& mesh, const IdVector<VertexId, VertexId>& numbers,
                              const std::optional<SizeField>& field, Executor* executor) {
   VertexSizes sizes =
-      smoothed(mesh, field ? sizes_of_field(mesh, *field, executor) : local_sizes(mesh, executor), executor);
+      averaged_sizes(mesh, field ? sizes_of_field(mesh, *field, executor) : local_sizes(mesh, executor), executor);
   if (numbers.empty()) {
     input_ = std::move(sizes);
     return;

@@ -187,6 +187,15 @@ double TetDemand::margin_of(CellId cell, const VertexWeights& weights) const {
 
 double TetDemand::angle_deg(const WeightConstraint& /*constraint*/) const { return 0; }
 
+double TetDemand::reach(VertexId p, VertexId q, std::span<const VertexId> corners) const {
+  const auto distance = [&](VertexId a, VertexId b) { return squared_length(mesh_.position(b) - mesh_.position(a)); };
+  double most = has_duals() ? (1 + 2 * kCrossingReach) * distance(p, q) : distance(p, q);
+  for (const VertexId r : corners) {
+    if (has_heights() && !has_crossings()) most = std::max(most, std::abs(distance(p, r) - distance(q, r)));
+  }
+  return most;
+}
+
 CertificateCheck TetDemand::check(const Certificate& certificate) const {
   return check_certificate(mesh_, certificate);
 }

@@ -29,6 +29,8 @@ class TetDemand final : public Demand {
   [[nodiscard]] double margin_of(CellId cell, const VertexWeights& weights) const override;
   [[nodiscard]] double angle_deg(const WeightConstraint& constraint) const override;
   [[nodiscard]] CertificateCheck check(const Certificate& certificate) const override;
+  [[nodiscard]] std::vector<OffsetTerm> offsets(const WeightOptions& options) const override;
+  [[nodiscard]] double reach(VertexId p, VertexId q, std::span<const VertexId> corners) const override;
 
  private:
   [[nodiscard]] std::span<const TetId> star(VertexId v) const {

@@ -28,7 +28,8 @@ double weight_margin(const TetMesh& mesh, Constraints constraints) {
   return least_margin(demand, demand.weights());
 }
 
-Expected<WeightReport> find_weights(const TetMesh& mesh, LpSolver& solver, const WeightOptions& options) {
+Expected<WeightReport> find_weights(const TetMesh& mesh, LpSolver& solver, const WeightOptions& options,
+                                    ConvexSolver* convex) {
   if (options.constraints == Constraints::heights_only) {
     return InputError{
         ErrorCode::invalid_option, "",
@@ -37,8 +38,8 @@ Expected<WeightReport> find_weights(const TetMesh& mesh, LpSolver& solver, const
   }
   if (!options.edges.empty())
     return InputError{ErrorCode::invalid_option, "", "edges: they are for triangles; regular is about all faces"};
-  if (auto error = expect_margin(options)) return *std::move(error);
-  return temper::find_weights(TetDemand(mesh, options.constraints), solver, options);
+  if (auto error = expect_goal(options, convex)) return *std::move(error);
+  return temper::find_weights(TetDemand(mesh, options.constraints), solver, options, convex);
 }
 
 }  // namespace temper::tets

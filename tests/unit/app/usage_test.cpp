@@ -227,7 +227,7 @@ TEST_F(Usage, ACodeOfAQuietRunThatIsNotZeroHasItsSentence) {
   EXPECT_EQ(stopped.exit, 4);
   EXPECT_TRUE(contains(stopped.err, "temper: error: A signal or --time-limit stopped the run"));
   temper_ok({"example", "sparse-horseshoe", "-o", "shoe.vtu"});
-  const Outcome none = temper({"weights", "shoe.vtu", "--mode", "feasible", "--quiet"});
+  const Outcome none = temper({"weights", "shoe.vtu", "--mode", "margin", "--quiet"});
   EXPECT_EQ(none.exit, 6);
   EXPECT_TRUE(contains(none.err, "No weights meet the request"));
 }

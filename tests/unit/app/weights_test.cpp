@@ -1,4 +1,6 @@
 // temper weights: every mode, what it writes, and that nothing else changes.
+#include <set>
+
 #include "temper/feasibility.hpp"
 #include "temper/io.hpp"
 #include "temper/regularity.hpp"
@@ -27,7 +29,7 @@ class Weights : public Workshop {
 
 TEST_F(Weights, InfeasibleIsSaidProvedAndWritten) {
   make_infeasible();
-  const Outcome outcome = temper({"weights", "in.vtu", "--mode", "feasible", "--json", "--certificate", "why.json"});
+  const Outcome outcome = temper({"weights", "in.vtu", "--mode", "margin", "--json", "--certificate", "why.json"});
   EXPECT_EQ(outcome.exit, 6) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json["feasible"], false);
@@ -41,7 +43,7 @@ TEST_F(Weights, InfeasibleIsSaidProvedAndWritten) {
 
 TEST_F(Weights, WithoutAnswerNothingButTheProofIsWritten) {
   make_infeasible();
-  for (const char* mode : {"minimal", "barrier"}) {
+  for (const char* mode : {"change", "center", "accuracy"}) {
     const Outcome outcome = temper({"weights", "in.vtu", "-o", "out.vtu", "--mode", mode});
     EXPECT_EQ(outcome.exit, 6);
     EXPECT_TRUE(contains(outcome.out, "infeasible: no weights"));
@@ -52,7 +54,7 @@ TEST_F(Weights, WithoutAnswerNothingButTheProofIsWritten) {
 
 TEST_F(Weights, AChangedCertificateIsRefused) {
   make_infeasible();
-  temper({"weights", "in.vtu", "--mode", "feasible", "--certificate", "why.json"});
+  temper({"weights", "in.vtu", "--mode", "margin", "--certificate", "why.json"});
   auto json = read_json("why.json");
   ASSERT_GT(json["terms"].size(), 1u);
   for (std::size_t i = 0; i < json["terms"].size(); ++i) {
@@ -110,7 +112,7 @@ TEST_F(Weights, CertificatesThatAreNoneAreNamed) {
 
 TEST_F(Weights, OnlyWeightsChangeInEveryMode) {
   make_feasible();
-  for (const char* mode : {"feasible", "minimal", "elastic", "barrier"}) {
+  for (const char* mode : {"margin", "change", "elastic", "center", "accuracy"}) {
     temper_ok({"weights", "in.mesh", "-o", "out.mesh", "--mode", mode});
     temper_ok({"check", "out.mesh", "--require", "outside=0,not_crossed=0,nonregular=0"});
     const auto before = io::read("in.mesh"), after = io::read("out.mesh");
@@ -120,6 +122,38 @@ TEST_F(Weights, OnlyWeightsChangeInEveryMode) {
     EXPECT_EQ(before->regions, after->regions) << mode;
     EXPECT_NE(before->weights, after->weights) << mode;
   }
+}
+
+TEST_F(Weights, BestWeightsHaveAGapInTheReportAndTheirProofInAFile) {
+  make_feasible();
+  for (const char* mode : {"center", "accuracy"}) {
+    const Outcome outcome =
+        temper_ok({"weights", "in.mesh", "-o", "out.vtu", "--mode", mode, "--certificate", "best.json", "--json"});
+    const auto json = nlohmann::json::parse(outcome.out), proof = read_json("best.json");
+    EXPECT_LE(json["optimality"]["relative_gap"].get<double>(), 1e-8);
+    EXPECT_EQ(json["optimality"]["objective"], proof["objective"]);
+    EXPECT_EQ(json["optimality"]["gap"], proof["gap"]);
+    EXPECT_EQ(json["certificate"], nullptr);
+    EXPECT_EQ(proof["goal"], mode);
+    EXPECT_EQ(proof.contains("offsets"), std::string(mode) == "accuracy");
+    const Outcome text = temper_ok({"weights", "in.mesh", "-o", "out.vtu", "--mode", mode});
+    EXPECT_TRUE(contains(text.out, "duality gap ")) << text.out;
+    const Outcome check = temper({"weights", "in.mesh", "--check-certificate", "best.json"});
+    EXPECT_EQ(check.exit, 1);
+    EXPECT_TRUE(contains(check.err, "bench/check_best.py")) << check.err;
+  }
+  EXPECT_EQ(nlohmann::json::parse(temper_ok({"weights", "in.mesh", "-o", "out.vtu", "--json"}).out)["optimality"],
+            nullptr);
+}
+
+TEST_F(Weights, TheSchemeChangesTheBestWeights) {
+  make_feasible();
+  std::set<std::vector<double>> weights;
+  for (const char* scheme : {"any", "vertex", "cell"}) {
+    temper_ok({"weights", "in.mesh", "-o", "out.mesh", "--mode", "accuracy", "--for", scheme});
+    weights.insert(io::read("out.mesh")->weights);
+  }
+  EXPECT_EQ(weights.size(), 3u);
 }
 
 TEST_F(Weights, TheMarginIsKeptOrSaidToBeTooMuch) {
@@ -203,8 +237,8 @@ TEST_F(Weights, PrescribedEdgesAreThoseOfTheFileOrTheLines) {
 
 TEST_F(Weights, TheSearchOverConnectivitiesWritesARegularMeshWithOtherEdges) {
   temper_ok({"example", "random", "--vertices", "40", "-o", "in.vtu"});
-  const std::vector<std::string> heights = {"weights",      "in.vtu", "-o",       "out.vtu", "--constraints",
-                                            "heights-only", "--mode", "feasible", "--json"};
+  const std::vector<std::string> heights = {"weights",      "in.vtu", "-o",     "out.vtu", "--constraints",
+                                            "heights-only", "--mode", "margin", "--json"};
   EXPECT_EQ(temper(heights).exit, 6);
   EXPECT_FALSE(exists("out.vtu"));
   std::vector<std::string> searching = heights;
@@ -230,12 +264,12 @@ TEST_F(Weights, BadUsageIsRefused) {
       {"in.vtu"},
       {"in.vtu", "-o", "out.vtu", "--margin", "0.5"},
       {"in.vtu", "-o", "out.vtu", "--margin", "0"},
-      {"in.vtu", "-o", "out.vtu", "--energy", "BP"},
+      {"in.vtu", "-o", "out.vtu", "--for", "cell"},
+      {"in.vtu", "-o", "out.vtu", "--mode", "center", "--margin", "0.02"},
       {"in.vtu", "-o", "out.vtu", "--mode", "best"},
       {"in.vtu", "-o", "out.vtu", "--check-certificate", "why.json"},
       {"in.vtu", "-o", "out.vtu", "--constraints", "both"},
       {"in.vtu", "-o", "out.vtu", "--edges", "lines"},
-      {"in.vtu", "-o", "out.vtu", "--constraints", "heights-only", "--mode", "barrier"},
       {"in.vtu", "-o", "out.vtu", "--programs", "10"},
       {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--programs", "0"},
       {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--certificate", "why.json"},
@@ -298,7 +332,7 @@ class TetWeightsVerb : public Workshop {
 TEST_F(TetWeightsVerb, RegularWeightsAreFoundAndNothingElseChanges) {
   make_curable();
   EXPECT_NE(temper({"check", "in.mesh", "--require", "nonregular=0"}).exit, 0);
-  for (const char* mode : {"feasible", "minimal", "elastic"}) {
+  for (const char* mode : {"margin", "change", "elastic", "center", "accuracy"}) {
     for (const char* out : {"out.vtu", "out.mesh"}) {
       temper_ok({"weights", "in.mesh", "-o", out, "--mode", mode, "--constraints", "regular"});
       temper_ok({"check", out, "--require", "nonregular=0"});
@@ -320,7 +354,7 @@ TEST_F(TetWeightsVerb, InfeasibleIsSaidProvedAndChecked) {
   EXPECT_TRUE(contains(outcome.out, "infeasible: no weights make every face regular")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "dual length of face ")) << outcome.out;
   EXPECT_EQ(names(), std::vector<std::string>{"pinwheel.mesh"});
-  const auto json = nlohmann::json::parse(temper({"weights", "pinwheel.mesh", "--mode", "feasible", "--constraints",
+  const auto json = nlohmann::json::parse(temper({"weights", "pinwheel.mesh", "--mode", "margin", "--constraints",
                                                   "regular", "--json", "--certificate", "why.json"})
                                               .out);
   EXPECT_EQ(json["verdict"], "infeasible");
@@ -362,7 +396,6 @@ TEST_F(TetWeightsVerb, OptionsOfTheOtherKindAreRefusedByName) {
   const std::vector<std::vector<std::string>> refused = {{"--zero"},
                                                          {"--flat"},
                                                          {"--projection", "none"},
-                                                         {"--mode", "barrier"},
                                                          {"--constraints", "heights-only"},
                                                          {"--connectivity", "search"},
                                                          {"--constraints", "regular", "--edges", "lines"}};

@@ -51,7 +51,7 @@ TEST(FindWeights, AreRightOnRandomTriangulations) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Rng rng(seed);
     const Mesh mesh = mesh_of_random_points(rng, static_cast<int>(seed % 12));
-    const WeightReport report = weights_of(mesh, {.goal = WeightGoal::feasible});
+    const WeightReport report = weights_of(mesh, {.goal = WeightGoal::margin});
     expect_true_report(mesh, report, report.asked);
     EXPECT_EQ(report.margin_kind, MarginKind::exact);
     (report.verdict == Feasibility::feasible ? feasible : infeasible) += 1;
@@ -103,7 +103,7 @@ TEST(FindWeights, TakeHalfOfTheBestMarginWhenLessIsThereThanAskedFor) {
     if (best < 0.001) continue;
     ++tried;
     const double asked = std::min(2 * best, 0.49);
-    const WeightReport feasible = weights_of(mesh, {.goal = WeightGoal::feasible, .margin = asked});
+    const WeightReport feasible = weights_of(mesh, {.goal = WeightGoal::margin, .margin = asked});
     EXPECT_TRUE(feasible.solved);
     EXPECT_NEAR(feasible.margin, best, 1e-8);
     EXPECT_NEAR(feasible.attained, best / 2, kLacking);
@@ -221,7 +221,7 @@ class Failing final : public LpSolver {
 
 TEST(FindWeights, DecideNothingWithASolverThatFails) {
   Failing solver;
-  for (const WeightGoal goal : {WeightGoal::feasible, WeightGoal::minimal, WeightGoal::elastic}) {
+  for (const WeightGoal goal : {WeightGoal::margin, WeightGoal::change, WeightGoal::elastic}) {
     for (const std::size_t whole : {std::size_t{0}, std::size_t{3000}}) {
       const auto report = find_weights(*horseshoe(), solver, {.goal = goal, .whole = whole});
       ASSERT_TRUE(report);

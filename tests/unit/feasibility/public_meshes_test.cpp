@@ -37,7 +37,7 @@ TEST_P(PublicMeshWeights, ExistAndFewHaveToChange) {
   ASSERT_TRUE(loaded) << loaded.error().what();
   const Mesh& mesh = loaded->mesh;
 
-  const WeightReport report = weights_of(mesh, {.goal = WeightGoal::feasible});
+  const WeightReport report = weights_of(mesh, {.goal = WeightGoal::margin});
   EXPECT_EQ(report.verdict, Feasibility::feasible);
   EXPECT_TRUE(report.solved);
   EXPECT_EQ(report.margin_kind, MarginKind::exact);
@@ -46,6 +46,15 @@ TEST_P(PublicMeshWeights, ExistAndFewHaveToChange) {
   EXPECT_LE(report.moved, GetParam().moved);
   EXPECT_GT(report.moved, 0u);
   EXPECT_EQ(bad_triangles(with_weights(mesh, report.weights)), 0u);
+
+  const auto lp = clp_solver();
+  const auto convex = interior_point_solver();
+  for (const WeightGoal goal : {WeightGoal::center, WeightGoal::accuracy}) {
+    const auto best = find_weights(mesh, *lp, {.goal = goal}, convex.get());
+    ASSERT_TRUE(best && best->optimality);
+    EXPECT_LE(best->optimality->relative_gap(), 1e-8);
+    EXPECT_EQ(bad_triangles(with_weights(mesh, best->weights)), 0u);
+  }
 
   const WeightReport local = weights_of(mesh, {.whole = 0});
   EXPECT_TRUE(local.solved);

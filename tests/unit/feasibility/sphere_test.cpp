@@ -211,7 +211,7 @@ TEST(SphereWeights, AreRightUnderEveryConditionForTheWholeAndByNeighborhoods) {
     for (const ConstraintsInfo& row : constraints_table()) {
       const double best = margin_of(mesh, row.constraints).margin;
       for (const std::size_t whole : {std::size_t{3000}, std::size_t{0}}) {
-        for (const WeightGoal goal : {WeightGoal::feasible, WeightGoal::minimal, WeightGoal::elastic}) {
+        for (const WeightGoal goal : {WeightGoal::margin, WeightGoal::change, WeightGoal::elastic}) {
           WeightOptions options = {.goal = goal, .margin = 0.02, .constraints = row.constraints};
           options.whole = whole;
           const WeightReport report = weights_of(mesh, options);

@@ -115,7 +115,7 @@ TEST(TetWeights, AreWhatWasAskedForOrProvedImpossible) {
       for (const ConstraintsInfo& row : constraints_table()) {
         for (const std::size_t whole : {std::size_t{0}, std::size_t{3000}}) {
           const WeightReport report =
-              weights_of(mesh, {.goal = WeightGoal::feasible, .whole = whole, .constraints = row.constraints});
+              weights_of(mesh, {.goal = WeightGoal::margin, .whole = whole, .constraints = row.constraints});
           const TetMesh weighted = with_weights(mesh, report.weights);
           ASSERT_NE(report.verdict, Feasibility::undecided) << row.name << " " << seed;
           const bool feasible = report.verdict == Feasibility::feasible;
@@ -148,7 +148,7 @@ TEST(TetWeights, ChangeNothingWhereNothingIsBad) {
 TEST(TetWeights, DoNotDependOnSizeAndPlace) {
   const TetMesh mesh = test::mesh_of(test::shaken(test::cubes(2, test::kFiveTets), 0.15, 0.1, 2));
   for (const ConstraintsInfo& row : constraints_table()) {
-    const WeightOptions options = {.goal = WeightGoal::feasible, .constraints = row.constraints};
+    const WeightOptions options = {.goal = WeightGoal::margin, .constraints = row.constraints};
     const WeightReport report = weights_of(mesh, options);
     for (const double factor : {0x1p-20, 1e-3, 1e4}) {
       const WeightReport other = weights_of(scaled(mesh, factor, {factor, -2 * factor, 0}), options);
@@ -178,7 +178,7 @@ TEST(TetWeights, ElasticMakesNothingBadIfWeightsExist) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       const TetMesh mesh = test::mesh_of(test::shaken(test::body_centered(2), 0.1, 0, seed));
       const double best =
-          weights_of(mesh, {.goal = WeightGoal::feasible, .margin = 1e-3, .constraints = row.constraints}).margin;
+          weights_of(mesh, {.goal = WeightGoal::margin, .margin = 1e-3, .constraints = row.constraints}).margin;
       ASSERT_GT(best, 0.01) << row.name << " " << seed;
       const WeightReport report =
           weights_of(mesh, {.goal = WeightGoal::elastic, .margin = 2 * best, .constraints = row.constraints});
@@ -200,7 +200,7 @@ TEST(TetWeights, RefuseWhatIsForTriangles) {
 class TetCertificate : public testing::Test {
  protected:
   static Certificate certificate_of(const TetMesh& mesh, Constraints constraints) {
-    return weights_of(mesh, {.goal = WeightGoal::feasible, .constraints = constraints}).certificate;
+    return weights_of(mesh, {.goal = WeightGoal::margin, .constraints = constraints}).certificate;
   }
 };
 
@@ -274,7 +274,7 @@ TEST_F(TetCertificate, NeverProvesAnythingOfAMeshThatHasWeights) {
 TEST_F(TetCertificate, RefutesMarginsAboveTheBestOneAndNoneBelow) {
   const TetMesh mesh = test::mesh_of(test::shaken(test::body_centered(2), 0.05, 0, 3));
   for (const Constraints constraints : {Constraints::well_centered, Constraints::completely_well_centered}) {
-    const double best = weights_of(mesh, {.goal = WeightGoal::feasible, .constraints = constraints}).margin;
+    const double best = weights_of(mesh, {.goal = WeightGoal::margin, .constraints = constraints}).margin;
     ASSERT_GT(best, 0);
     Certificate certificate = weights_of(mesh, {.margin = best + 0.01, .constraints = constraints}).certificate;
     ASSERT_FALSE(certificate.terms.empty());
