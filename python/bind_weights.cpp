@@ -1,5 +1,6 @@
 // Weights by linear programming, certificates, and reasons: feasibility.hpp, connectivity.hpp, necessity.hpp and
 // explain.hpp.
+#include <chrono>
 #include <optional>
 
 #include "bind.hpp"
@@ -23,12 +24,31 @@ py::tuple constraint_to_tuple(const WeightConstraint& c) {
                         to_python(c.t));
 }
 
+py::list terms_to_list(const std::vector<Certificate::Term>& terms) {
+  py::list list;
+  for (const auto& term : terms) list.append(py::make_tuple(constraint_to_tuple(term.constraint), term.multiplier));
+  return list;
+}
+
 py::dict certificate_to_dict(const Certificate& certificate) {
-  py::list terms;
-  for (const auto& term : certificate.terms) {
-    terms.append(py::make_tuple(constraint_to_tuple(term.constraint), term.multiplier));
+  return Record()("margin", certificate.margin)("terms", terms_to_list(certificate.terms))(
+             "constraints", name(certificate.constraints))
+      .dict;
+}
+
+/// None without lemmas.
+py::object proof_to_python(const ConnectivityProof& proof) {
+  if (proof.lemmas.empty()) return py::none();
+  const auto edge = [](const ConnectivityProof::Edge& e) { return py::make_tuple(to_python(e[0]), to_python(e[1])); };
+  py::list lemmas;
+  for (const ConnectivityProof::Lemma& lemma : proof.lemmas) {
+    py::list edges, cases;
+    for (const ConnectivityProof::Edge& e : lemma.edges) edges.append(edge(e));
+    for (const auto& [apex, number] : lemma.cases) cases.append(py::make_tuple(to_python(apex), number));
+    const py::object side = lemma.terms.empty() ? py::object(edge(lemma.side)) : py::none();
+    lemmas.append(Record()("edges", edges)("terms", terms_to_list(lemma.terms))("side", side)("cases", cases).dict);
   }
-  return Record()("margin", certificate.margin)("terms", terms)("constraints", name(certificate.constraints)).dict;
+  return Record()("constraints", name(proof.constraints))("lemmas", lemmas).dict;
 }
 
 VertexId vertex_or_none(const py::handle& index) {
@@ -36,19 +56,45 @@ VertexId vertex_or_none(const py::handle& index) {
   return i < 0 || i >= INT32_MAX ? VertexId() : VertexId(static_cast<std::size_t>(i));
 }
 
+std::vector<Certificate::Term> terms_from(const py::handle& list) {
+  std::vector<Certificate::Term> terms;
+  for (const auto& item : list) {
+    const auto term = item.cast<py::tuple>();
+    const auto c = term[0].cast<py::tuple>();
+    terms.push_back({{from_name<WeightConstraint::Kind>("kind", c[0].cast<std::string>()), vertex_or_none(c[1]),
+                      vertex_or_none(c[2]), vertex_or_none(c[3]), vertex_or_none(c[4]), vertex_or_none(c[5])},
+                     term[1].cast<double>()});
+  }
+  return terms;
+}
+
 Certificate certificate_from(const py::dict& d) {
   Certificate certificate;
   certificate.margin = d["margin"].cast<double>();
   certificate.constraints = from_name<Constraints>("constraints", d["constraints"].cast<std::string>());
-  for (const auto& item : d["terms"]) {
-    const auto term = item.cast<py::tuple>();
-    const auto c = term[0].cast<py::tuple>();
-    certificate.terms.push_back(
-        {{from_name<WeightConstraint::Kind>("kind", c[0].cast<std::string>()), vertex_or_none(c[1]),
-          vertex_or_none(c[2]), vertex_or_none(c[3]), vertex_or_none(c[4]), vertex_or_none(c[5])},
-         term[1].cast<double>()});
-  }
+  certificate.terms = terms_from(d["terms"]);
   return certificate;
+}
+
+ConnectivityProof proof_from(const py::dict& d) {
+  const auto edge = [](const py::handle& pair) {
+    const auto ends = pair.cast<py::tuple>();
+    return ConnectivityProof::Edge{vertex_or_none(ends[0]), vertex_or_none(ends[1])};
+  };
+  ConnectivityProof proof;
+  proof.constraints = from_name<Constraints>("constraints", d["constraints"].cast<std::string>());
+  for (const auto& item : d["lemmas"]) {
+    ConnectivityProof::Lemma lemma;
+    for (const auto& e : item["edges"]) lemma.edges.push_back(edge(e));
+    lemma.terms = terms_from(item["terms"]);
+    if (!item["side"].is_none()) lemma.side = edge(item["side"]);
+    for (const auto& each : item["cases"]) {
+      const auto apex = each.cast<py::tuple>();
+      lemma.cases.push_back({vertex_or_none(apex[0]), apex[1].cast<std::size_t>()});
+    }
+    proof.lemmas.push_back(std::move(lemma));
+  }
+  return proof;
 }
 
 /// Edges by their vertices; empty: all.
@@ -118,10 +164,19 @@ WeightOptions weight_options(const std::string& goal, double margin, bool from_i
   return options;
 }
 
-py::dict search_connectivity(const PyMesh& self, const std::string& constraints, std::size_t programs) {
+py::dict search_connectivity(const PyMesh& self, const std::string& constraints, std::size_t programs,
+                             double time_limit) {
   const auto mesh = self.read();
-  const ConnectivityOptions options = {from_name<Constraints>("constraints", constraints), programs};
-  ConnectivityReport report = or_raise(aside([&] { return best_connectivity(*mesh, *clp_solver(), options); }));
+  Visitor visitor;
+  const auto start = std::chrono::steady_clock::now();
+  const auto stop = [&] {
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    return !visitor.check_signals() || (time_limit > 0 && spent.count() >= time_limit);
+  };
+  const ConnectivityOptions options = {from_name<Constraints>("constraints", constraints), programs, stop};
+  auto searched = aside([&] { return best_connectivity(*mesh, *clp_solver(), options); });
+  visitor.raise();
+  ConnectivityReport report = or_raise(std::move(searched));
   py::list steps;
   for (const ConnectivityStep& step : report.steps) {
     steps.append(Record()("kind", name(step.kind))("flips", step.flips)("margin", step.margin).dict);
@@ -129,7 +184,9 @@ py::dict search_connectivity(const PyMesh& self, const std::string& constraints,
   PyMesh flipped = self.copy();
   flipped.replace(std::move(report.mesh), {});
   return Record()("mesh", py::cast(std::move(flipped)))("end", name(report.end))("before", report.before)(
-             "margin", report.margin)("steps", steps)("programs", report.programs)("weights", report.weights)
+             "margin", report.margin)("steps", steps)("programs", report.programs)("weights", report.weights)(
+             "bound", report.bound)("complete_programs", report.complete_programs)("proof",
+                                                                                   proof_to_python(report.proof))
       .dict;
 }
 
@@ -191,6 +248,11 @@ void bind_feasibility(py::module_& m) {
   m.def("check_certificate", [](const PyMesh& self, const py::dict& certificate) {
     const auto mesh = self.read();
     return std::string(name(check_certificate(*mesh, certificate_from(certificate))));
+  });
+  m.def("check_proof", [](const PyMesh& self, const py::dict& proof) {
+    const auto mesh = self.read();
+    require_plane(*mesh, "check_certificate() of a proof over connectivities");
+    return std::string(name(check_proof(*mesh, proof_from(proof))));
   });
 }
 

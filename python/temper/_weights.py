@@ -292,10 +292,47 @@ def weight_change(mesh: MeshLike, before: npt.ArrayLike, after: npt.ArrayLike) -
     return _temper.weight_change(as_mesh(mesh)._handle, before, after)
 
 
-def check_certificate(mesh: AnyMeshLike, certificate: Certificate) -> str:
-    """Verifies a certificate in exact arithmetic, from the positions alone. Returns ``"proves"`` if no weights exist,
-    else the fault of the certificate."""
+@dataclasses.dataclass(frozen=True)
+class Lemma(Record):
+    """A lemma of a ``ConnectivityProof``: no triangulation with these edges has weights."""
+
+    edges: list[tuple[int, int]]
+    """Edges, by their vertices. Edges of the boundary and constrained edges are not named."""
+    terms: list[tuple[WeightConstraint, float]]
+    """Constraints and their multipliers, whose sum is a contradiction; empty if there are cases."""
+    side: tuple[int, int] | None
+    """Edge whose left triangle has one of several apexes; None if there are terms."""
+    cases: list[tuple[int, int]]
+    """Apexes, each with the number of an earlier lemma that excludes it. Other apexes need an edge that crosses one of
+    ``edges``."""
+
+
+@dataclasses.dataclass(frozen=True)
+class ConnectivityProof(Record):
+    """A proof that no connectivity has weights. The last lemma needs no edges. docs/explanation/weights.md has the
+    reasons."""
+
+    constraints: Constraints
+    lemmas: list[Lemma]
+
+    def _plain(self) -> dict[str, Any]:
+        plain = lambda terms: [(dataclasses.astuple(c), float(m)) for c, m in terms]  # noqa: E731
+        lemmas = [{"edges": lemma.edges, "terms": plain(lemma.terms), "side": lemma.side, "cases": lemma.cases}
+                  for lemma in self.lemmas]  # fmt: skip
+        return {"constraints": self.constraints, "lemmas": lemmas}
+
+    @classmethod
+    def _of(cls, d: dict[str, Any]) -> ConnectivityProof:
+        terms = lambda row: [(WeightConstraint(*c), m) for c, m in row["terms"]]  # noqa: E731
+        return cls(d["constraints"], [Lemma(row["edges"], terms(row), row["side"], row["cases"]) for row in d["lemmas"]])
+
+
+def check_certificate(mesh: AnyMeshLike, certificate: Certificate | ConnectivityProof) -> str:
+    """Verifies a certificate, or a proof over connectivities, in exact arithmetic, from the positions alone. Returns
+    ``"proves"`` if no weights exist, else the fault of the certificate."""
     any_mesh = as_any_mesh(mesh)
+    if isinstance(certificate, ConnectivityProof):
+        return _temper.check_proof(as_mesh(mesh)._handle, certificate._plain())
     check = _temper.tet_check_certificate if isinstance(any_mesh, TetMesh) else _temper.check_certificate
     return check(any_mesh._handle, certificate._plain())
 
@@ -307,8 +344,9 @@ def check_certificate(mesh: AnyMeshLike, certificate: Certificate) -> str:
 class ConnectivityStep(Record):
     """A change of connectivity that made the best margin greater."""
 
-    kind: Literal["regular", "flip"]
-    """regular: to the regular triangulation of the weights with the best margin; flip: a flip of one edge."""
+    kind: Literal["regular", "flip", "complete"]
+    """regular: to the regular triangulation of the weights with the best margin; flip: a flip of one edge; complete: to
+    the triangulation that the complete search found."""
     flips: int
     margin: float
     """Best margin after the step."""
@@ -320,7 +358,8 @@ class ConnectivityReport(Record):
 
     mesh: Mesh
     """Mesh with the connectivity found; positions, weights and all else are those in the input."""
-    end: Literal["no_better_neighbor", "limit", "failed"]
+    end: Literal["no_better_neighbor", "none_exists", "limit", "stopped", "failed"]
+    """none_exists: ``proof`` shows that no connectivity has weights."""
     before: float
     """Best margin of the input's connectivity."""
     margin: float
@@ -330,6 +369,12 @@ class ConnectivityReport(Record):
     programs: int
     weights: npt.NDArray[np.float64]
     """Weights with margin ``margin`` [length²]: for proofs, not for meshes."""
+    bound: float
+    """Margin that no connectivity exceeds, up to rounding; 0 if none has weights, infinity without complete search."""
+    complete_programs: int
+    """Number of linear programs of the complete search."""
+    proof: ConnectivityProof | None
+    """Proof that no connectivity has weights; ``check_certificate`` accepts it."""
 
 
 def best_connectivity(
@@ -337,20 +382,26 @@ def best_connectivity(
     *,
     constraints: Literal["well_centered", "heights_only"] = "well_centered",
     programs: int = 10000,
+    time_limit: float = 60.0,
 ) -> ConnectivityReport:
     """Searches for a connectivity with a greater best margin. Each step takes the regular triangulation of the weights
-    with the best margin so far. If that is no better, it takes the flip that raises the margin most. This is a local
-    search: better ones may exist. The mesh does not change. ``programs`` is the largest number of linear programs of
-    the whole mesh.
+    with the best margin so far. If that is no better, it takes the flip that raises the margin most. The mesh does not
+    change. ``programs`` is the largest number of linear programs of the whole mesh.
+
+    Before the first flip, a complete search finds a connectivity with a margin above zero, or proves that none exists.
+    It needs a mesh of the plane with at most 300 vertices. After ``time_limit`` seconds the search stops with the best
+    connectivity so far; 0 sets no limit.
 
     >>> import temper
-    >>> report = temper.best_connectivity(temper.generate.sparse_horseshoe())
-    >>> report.end, len(report.steps), report.margin == report.before
-    ('no_better_neighbor', 0, True)
+    >>> mesh = temper.generate.sparse_horseshoe()
+    >>> report = temper.best_connectivity(mesh)
+    >>> report.end, len(report.proof.lemmas), temper.check_certificate(mesh, report.proof)
+    ('none_exists', 1, 'proves')
     """
-    d = _temper.best_connectivity(as_mesh(mesh)._handle, constraints, programs)
+    d = _temper.best_connectivity(as_mesh(mesh)._handle, constraints, programs, float(time_limit))
     steps = [ConnectivityStep(**step) for step in d["steps"]]
-    return ConnectivityReport(**merged(d, mesh=Mesh._of(d["mesh"]), steps=steps))
+    proof = None if d["proof"] is None else ConnectivityProof._of(d["proof"])
+    return ConnectivityReport(**merged(d, mesh=Mesh._of(d["mesh"]), steps=steps, proof=proof))
 
 
 # --- necessity -------------------------------------------------------------------------------------------------

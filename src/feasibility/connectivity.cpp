@@ -1,7 +1,9 @@
 // The search over connectivities: weights first, flips after, until the margin stops growing.
 //
 //   weights of the best margin → Lawson's flips → best margin     if greater: continue with this mesh
+//   else, if there is no margin: a short complete search          if it finds weights: continue with their mesh
 //   else for each flip that breaks the proof of the margin        if the greatest is greater: continue with it
+//   else, if there is no margin: the complete search              if it finds weights: continue with their mesh
 //   else done
 #include "temper/detail/connectivity.hpp"
 
@@ -13,6 +15,7 @@
 #include "base/assert.hpp"
 #include "base/sort_unique.hpp"
 #include "feasibility/certify.hpp"
+#include "feasibility/complete_search.hpp"
 #include "feasibility/constraints.hpp"
 #include "feasibility/region.hpp"
 #include "mesh/bad_triangles.hpp"
@@ -25,6 +28,9 @@ namespace {
 
 // Margins that differ by less are equal: ten times the possible sum of the solver's tolerance on each row.
 constexpr double kGrowth = 1e-7;
+
+// The complete search is short at first: most meshes need less, and local search is faster for some others.
+constexpr std::size_t kShortSearch = 1000, kNoLimit = ~std::size_t{0};
 
 /// The best margin of a connectivity, the weights that attain it, and the constraints in the proof that it is the
 /// greatest.
@@ -46,7 +52,7 @@ class ConnectivitySearch {
       best_ = *std::move(first);
       report_.before = best_.margin;
       report_.end = SearchEnd::no_better_neighbor;
-      while (try_regular() || try_flips()) {
+      while (try_regular() || try_complete(short_, kShortSearch) || try_flips() || try_complete(long_, kNoLimit)) {
       }
       report_.margin = best_.margin;
       report_.weights = std::move(best_.weights);
@@ -55,8 +61,15 @@ class ConnectivitySearch {
   }
 
  private:
-  /// The optimum, each component on its own. Nothing when the solver fails, or the limit of programs is reached.
+  [[nodiscard]] bool is_over() const {
+    return report_.end == SearchEnd::stopped || report_.end == SearchEnd::none_exists ||
+           report_.end == SearchEnd::limit;
+  }
+
+  /// The optimum, each component on its own. Nothing when the solver fails, or the search is over.
   std::optional<Optimum> optimum_of(const Mesh& mesh) {
+    if (options_.stop && options_.stop()) report_.end = SearchEnd::stopped;
+    if (is_over()) return std::nullopt;
     if (report_.programs == options_.programs) {
       report_.end = SearchEnd::limit;
       return std::nullopt;
@@ -96,19 +109,50 @@ class ConnectivitySearch {
     best_ = std::move(optimum);
   }
 
-  bool try_regular() {
+  /// Takes the regular triangulation of the weights if its best margin is greater.
+  bool take_regular(const VertexWeights& weights, ConnectivityStep::Kind kind) {
     Mesh trial = report_.mesh;
-    for (const VertexId v : trial.vertices()) trial.set_weight(v, best_.weights[v]);
+    for (const VertexId v : trial.vertices()) trial.set_weight(v, weights[v]);
     const std::size_t flips = restore_regularity(trial, HiddenPolicy::undo).flips;
     if (flips == 0) return false;
     for (const VertexId v : trial.vertices()) trial.set_point(v, report_.mesh.point(v));
     auto optimum = optimum_of(trial);
     if (!optimum || !is_greater(optimum->margin)) return false;
-    take(std::move(trial), *std::move(optimum), ConnectivityStep::Kind::regular, flips);
+    take(std::move(trial), *std::move(optimum), kind, flips);
     return true;
   }
 
+  bool try_regular() { return take_regular(best_.weights, ConnectivityStep::Kind::regular); }
+
+  /// The complete search, once, for small meshes of the plane that have no margin. It ends after so many calls of stop.
+  bool try_complete(bool& was_tried, std::size_t most_calls) {
+    const Mesh& mesh = report_.mesh;
+    if (is_over() || best_.margin >= kNoMargin || std::exchange(was_tried, true)) return false;
+    if (!mesh.space().is_plane() || mesh.n_vertices() > kMostVerticesOfCompleteSearch) return false;
+    std::size_t calls = 0;
+    const auto is_asked_to_stop = [&] { return options_.stop && options_.stop(); };
+    CompleteSearchResult result =
+        search_completely(mesh, options_.constraints, [&] { return ++calls > most_calls || is_asked_to_stop(); });
+    report_.bound = result.bound;
+    report_.complete_programs += result.programs;
+    report_.proof = std::move(result.proof);
+    switch (result.end) {
+      case CompleteSearchResult::End::found:
+        return take_regular(result.weights, ConnectivityStep::Kind::complete);
+      case CompleteSearchResult::End::none:
+        report_.end = SearchEnd::none_exists;
+        return false;
+      case CompleteSearchResult::End::stopped:
+        if (calls <= most_calls) report_.end = SearchEnd::stopped;
+        return false;
+      case CompleteSearchResult::End::undecided:
+        return false;
+    }
+    return false;
+  }
+
   bool try_flips() {
+    if (is_over()) return false;
     std::optional<Optimum> best;
     Mesh best_mesh;
     for (const HalfedgeId h : flips_that_break_the_proof()) {
@@ -156,17 +200,20 @@ class ConnectivitySearch {
   LpSolver& solver_;
   const ConnectivityOptions& options_;
   Optimum best_;
+  bool short_ = false, long_ = false;  ///< whether the complete search was tried
   ConnectivityReport report_;
 };
 
 }  // namespace
 
 std::string_view name(ConnectivityStep::Kind kind) {
-  return kind == ConnectivityStep::Kind::regular ? "regular" : "flip";
+  constexpr std::array<std::string_view, 3> kNames = {"regular", "flip", "complete"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::string_view name(SearchEnd end) {
-  constexpr std::array<std::string_view, 3> kNames = {"no_better_neighbor", "limit", "failed"};
+  constexpr std::array<std::string_view, 5> kNames = {"no_better_neighbor", "none_exists", "limit", "stopped",
+                                                      "failed"};
   return kNames[static_cast<std::size_t>(end)];
 }
 

@@ -1,4 +1,5 @@
 // Traces, certificates and layers, as the program reads them: what is read is checked and done again.
+#include <algorithm>
 #include <vector>
 
 #include "exit.hpp"
@@ -42,7 +43,13 @@ void read_certificate(std::string_view bytes) {
     return app::read_certificate(path, input().loaded.vertex_of_point, "triangle");
   };
   survive([&] {
-    const Certificate certificate = read(scratch.make("c.json", bytes));
+    const app::AnyCertificate any = read(scratch.make("c.json", bytes));
+    if (const auto* const proof = std::get_if<ConnectivityProof>(&any)) {
+      static_cast<void>(check_proof(input().mesh(), *proof));
+      static_cast<void>(read(scratch.make("d.json", app::proof_text(*proof, input().points))));
+      return;
+    }
+    const auto& certificate = std::get<Certificate>(any);
     static_cast<void>(check_certificate(input().mesh(), certificate));
     static_cast<void>(read(scratch.make("d.json", app::certificate_text(certificate, input().points))));
   });
@@ -85,7 +92,11 @@ std::vector<std::string> certificates() {
         {{WeightConstraint::Kind::dual, mesh.origin(h), mesh.target(h), mesh.opposite(h), mesh.opposite(mesh.twin(h))},
          0.5});
   }
-  return {app::certificate_text(certificate, input().points), app::certificate_text(of_duals, input().points)};
+  ConnectivityProof proof;
+  proof.lemmas.push_back({.edges = {{std::min(p, r), std::max(p, r)}}, .terms = certificate.terms});
+  proof.lemmas.push_back({.edges = {}, .side = {p, q}, .cases = {{r, 0}}});
+  return {app::certificate_text(certificate, input().points), app::certificate_text(of_duals, input().points),
+          app::proof_text(proof, input().points)};
 }
 
 std::vector<std::string> traces() {

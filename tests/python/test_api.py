@@ -36,6 +36,7 @@ ELSEWHERE = {
     "version": "__version__", "compiled_instruction_sets": "build_info says them",
     "netcdf_version": "as compiled_instruction_sets", "hdf5_version": "as compiled_instruction_sets",
     "clp_solver": "find_weights, best_margin and explain use it", "interior_point_solver": "find_weights uses it",
+    "check_proof": "check_certificate checks proofs, too",
     "reason_text": "Reason.text", "cure_text": "Cure.text",
     "make_mesh": "read and from_meshio make the mesh", "update": "write does it", "set_points": "from_meshio does it", "release_geometry": "read does it",
     "parse_data_rules": "Mesh.point_data_rules", "check_data_rules": "as parse_data_rules",

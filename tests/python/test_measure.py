@@ -315,6 +315,18 @@ def test_the_search_over_connectivities_loses_nothing():
         temper.best_connectivity(mesh, constraints="regular")
 
 
+def test_a_proof_over_connectivities_is_checked():
+    mesh = temper.generate.sparse_horseshoe()
+    report = temper.best_connectivity(mesh)
+    assert report.end == "none_exists" and report.bound == 0 and report.proof is not None
+    assert temper.check_certificate(mesh, report.proof) == "proves"
+    (lemma,) = report.proof.lemmas
+    empty = dataclasses.replace(report.proof, lemmas=[dataclasses.replace(lemma, terms=lemma.terms[1:])])
+    assert temper.check_certificate(mesh, empty) == "proves_nothing"
+    with pytest.raises(temper.TemperError, match="plane"):
+        temper.check_certificate(temper.generate.icosahedral(level=1), report.proof)
+
+
 def test_reasons_name_every_bad_triangle_once():
     mesh = temper.generate.horseshoe()
     seen = []

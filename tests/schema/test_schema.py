@@ -28,6 +28,8 @@ def other_documents(temper, folder):
         ("mesh_report", file("mesh.json")), ("explain", said("explain", "shoe.vtu")), ("explain", said("explain", "square.vtu")),
         ("explain_tetrahedra", said("explain", "tet.mesh")),
         proof, ("weights", said("weights", "in.vtu", "-o", "w.vtu", "--mode", "elastic", "--connectivity", "search", exit=None)),
+        ("weights", said("weights", "shoe.vtu", "--mode", "margin", "--connectivity", "search", "--certificate", "all.json", exit=6)),
+        ("connectivity_proof", file("all.json")),
         ("certificate_check", said("weights", "shoe.vtu", "--check-certificate", "why.json")), ("certificate", file("why.json")),
         ("errors", said("errors", "square.vtu", "--refine", "1", "--against", "square.vtu")),
         ("errors_tetrahedra", said("errors", "tet.mesh", "--against", "tet.mesh")),

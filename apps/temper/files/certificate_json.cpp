@@ -39,7 +39,7 @@ class Reader {
   Reader(std::string path, const io::VertexOfPoint& vertex_of_point, std::string_view cell)
       : path_(std::move(path)), vertex_of_point_(vertex_of_point), cell_(cell) {}
 
-  Certificate read(const Json& json) {
+  AnyCertificate read(const Json& json) {
     if (!json.is_object() || !json.contains("temper_certificate")) {
       fail("expected a certificate of temper weights, found no \"temper_certificate\"");
     }
@@ -49,15 +49,11 @@ class Reader {
     }
     if (json.contains("goal"))
       fail("it is about the best weights, and temper checks proofs that there are none. Next: bench/check_best.py");
+    if (json.contains("lemmas")) return read_proof(json);
     Certificate certificate;
     certificate.margin = number(json, "margin");
     if (json.contains("constraints")) certificate.constraints = constraints(json["constraints"]);
-    const Json& terms = member(json, "terms");
-    if (!terms.is_array()) fail("expected \"terms\" to be an array");
-    for (const Json& term : terms) {
-      where_ = fmt::format("term {}: ", certificate.terms.size());
-      certificate.terms.push_back(read_term(term));
-    }
+    certificate.terms = read_terms(json);
     return certificate;
   }
 
@@ -99,6 +95,49 @@ class Reader {
     std::array<VertexId, n> result;
     for (std::size_t i = 0; i < n; ++i) result[i] = vertex(list[i]);
     return result;
+  }
+  const Json& array(const Json& json, const char* key) const {
+    const Json& list = member(json, key);
+    if (!list.is_array()) fail(fmt::format("expected \"{}\" to be an array", key));
+    return list;
+  }
+  std::vector<Certificate::Term> read_terms(const Json& json) {
+    std::vector<Certificate::Term> terms;
+    const std::string before = where_;
+    for (const Json& term : array(json, "terms")) {
+      where_ = fmt::format("{}term {}: ", before, terms.size());
+      terms.push_back(read_term(term));
+    }
+    where_ = before;
+    return terms;
+  }
+  ConnectivityProof read_proof(const Json& json) {
+    ConnectivityProof proof;
+    if (json.contains("constraints")) proof.constraints = constraints(json["constraints"]);
+    for (const Json& lemma : array(json, "lemmas")) {
+      where_ = fmt::format("lemma {}: ", proof.lemmas.size());
+      proof.lemmas.push_back(read_lemma(lemma));
+    }
+    return proof;
+  }
+  ConnectivityProof::Lemma read_lemma(const Json& json) {
+    ConnectivityProof::Lemma lemma;
+    for (const Json& edge : array(json, "edges")) {
+      if (!edge.is_array() || edge.size() != 2) fail("expected an edge to be 2 points");
+      const VertexId a = vertex(edge[0]), b = vertex(edge[1]);
+      lemma.edges.push_back({std::min(a, b), std::max(a, b)});
+    }
+    if (json.contains("terms")) {
+      lemma.terms = read_terms(json);
+      return lemma;
+    }
+    lemma.side = vertices<2>(json, "side");
+    for (const Json& apex : array(json, "cases")) {
+      const Json& number_of_lemma = member(apex, "lemma");
+      if (!number_of_lemma.is_number_unsigned()) fail("expected \"lemma\" to be the number of a lemma");
+      lemma.cases.push_back({vertex(member(apex, "apex")), number_of_lemma.get<std::size_t>()});
+    }
+    return lemma;
   }
   Certificate::Term read_term(const Json& json) const {
     const Json& kind = member(json, "kind");
@@ -203,7 +242,31 @@ std::string certificate_text(const Certificate& certificate, const std::vector<s
   return certificate_json(certificate, points).dump(2) + "\n";
 }
 
-Certificate read_certificate(const std::string& path, const io::VertexOfPoint& vertex_of_point, std::string_view cell) {
+std::string proof_text(const ConnectivityProof& proof, const std::vector<std::size_t>& points) {
+  const auto point = [&](VertexId v) { return points.empty() ? std::size_t{v.index} : points[v.index]; };
+  const auto edge = [&](const ConnectivityProof::Edge& e) { return Json::array({point(e[0]), point(e[1])}); };
+  std::string lemmas;  // a line each: there may be thousands
+  for (const ConnectivityProof::Lemma& lemma : proof.lemmas) {
+    Json json;
+    json["edges"] = Json::array();
+    for (const ConnectivityProof::Edge& e : lemma.edges) json["edges"].push_back(edge(e));
+    if (!lemma.terms.empty()) {
+      json["terms"] = terms_json(lemma.terms, points);
+    } else {
+      json["side"] = edge(lemma.side);
+      json["cases"] = Json::array();
+      for (const auto& [apex, number] : lemma.cases) {
+        json["cases"].push_back({{"apex", point(apex)}, {"lemma", number}});
+      }
+    }
+    lemmas += (lemmas.empty() ? "\n  " : ",\n  ") + json.dump();
+  }
+  return fmt::format("{{\"temper_certificate\": {}, \"constraints\": \"{}\", \"lemmas\": [{}\n]}}\n", kVersion,
+                     name(proof.constraints), lemmas);
+}
+
+AnyCertificate read_certificate(const std::string& path, const io::VertexOfPoint& vertex_of_point,
+                                std::string_view cell) {
   const std::string text = text_of(path);
   const auto fail = [&](const std::string& why) -> Failure { return {Exit::bad_input, path + ": " + why}; };
   if (is_too_deep(text)) throw fail(fmt::format("nested more than {} deep", kDeepestJson));

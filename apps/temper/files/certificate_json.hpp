@@ -9,13 +9,21 @@
 // corner on the other side of the edge. Of tetrahedra, a height_over_face and a dual_of_face have "tetrahedron", "face"
 // and "across" instead; the face turns counter-clockwise as seen from the fourth corner. Without "constraints" a file
 // is of well_centered. docs/explanation/weights.md has the expressions that the multipliers multiply.
+//
+// A proof over connectivities has lemmas instead of "margin" and "terms":
+//
+//   {"temper_certificate": 1, "constraints": "well_centered",
+//    "lemmas": [{"edges": [[3, 9]], "terms": […]},
+//               {"edges": [], "side": [3, 4], "cases": [{"apex": 9, "lemma": 0}, …]}]}
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
+#include "temper/detail/connectivity.hpp"
 #include "temper/feasibility.hpp"
 #include "temper/io.hpp"
 
@@ -33,8 +41,13 @@ namespace temper::app {
 [[nodiscard]] std::string optimality_text(const WeightReport& report, const Space& space,
                                           const std::vector<std::size_t>& points);
 
+/// A proof over connectivities as a file of its own.
+[[nodiscard]] std::string proof_text(const ConnectivityProof& proof, const std::vector<std::size_t>& points);
+
+using AnyCertificate = std::variant<Certificate, ConnectivityProof>;
+
 /// Failure when the file cannot be read or is no certificate. `cell`: "triangle" or "tetrahedron", for errors.
-[[nodiscard]] Certificate read_certificate(const std::string& path, const io::VertexOfPoint& vertex_of_point,
-                                           std::string_view cell);
+[[nodiscard]] AnyCertificate read_certificate(const std::string& path, const io::VertexOfPoint& vertex_of_point,
+                                              std::string_view cell);
 
 }  // namespace temper::app

@@ -31,7 +31,9 @@ std::string verdict_text(const WeightsRecord& r) {
     case Feasibility::feasible:
       return fmt::format("feasible: {}", row.success);
     case Feasibility::infeasible:
-      return fmt::format("infeasible: {}{}", row.failure, r.search ? ", with this connectivity" : "");
+      if (!r.search) return fmt::format("infeasible: {}", row.failure);
+      return fmt::format("infeasible: {}, with {} connectivity", row.failure,
+                         r.search->end == SearchEnd::none_exists ? "any" : "this");
     case Feasibility::undecided:
       return "undecided: the best margin is zero up to rounding, or the solver failed";
   }
@@ -64,8 +66,12 @@ std::string_view end_text(SearchEnd end) {
   switch (end) {
     case SearchEnd::no_better_neighbor:
       return "no flip raises it further";
+    case SearchEnd::none_exists:
+      return "no connectivity has weights";
     case SearchEnd::limit:
       return "stopped by --programs";
+    case SearchEnd::stopped:
+      return "stopped early";
     case SearchEnd::failed:
       return "the solver failed";
   }
@@ -89,9 +95,17 @@ std::string search_text(const WeightsRecord& r) {
   if (!r.search) return {};
   std::size_t flips = 0;
   for (const ConnectivityStep& step : r.search->steps) flips += step.flips;
-  return fmt::format(
-      "search over connectivities: best margin {:.10g} -> {:.10g}, {} steps, {} flips, {} programs; {}\n",
-      r.search->before, r.search->margin, r.search->steps.size(), flips, r.search->programs, end_text(r.search->end));
+  std::string text =
+      fmt::format("search over connectivities: best margin {:.10g} -> {:.10g}, {} steps, {} flips, {} programs; {}\n",
+                  r.search->before, r.search->margin, r.search->steps.size(), flips,
+                  r.search->programs + r.search->complete_programs, end_text(r.search->end));
+  if (r.search->end == SearchEnd::none_exists) {
+    text += fmt::format("proof over connectivities: {}, verified exactly\n",
+                        plural(r.search->proof.lemmas.size(), "lemma", "lemmas"));
+  } else if (r.search->margin <= 0 && r.search->bound < kUnbounded) {
+    text += fmt::format("undecided over connectivities: no connectivity has a margin above {:.6g}\n", r.search->bound);
+  }
+  return text;
 }
 
 std::string optimality_text(const WeightsRecord& r) {
@@ -119,6 +133,9 @@ Json search_json(const WeightsRecord& r) {
   json["margin"] = r.search->margin;
   json["end"] = name(r.search->end);
   json["programs"] = r.search->programs;
+  json["complete_programs"] = r.search->complete_programs;
+  json["bound"] = r.search->bound < kUnbounded ? Json(r.search->bound) : Json(nullptr);
+  json["lemmas"] = r.search->proof.lemmas.size();
   json["steps"] = Json::array();
   for (const ConnectivityStep& step : r.search->steps) {
     json["steps"].push_back({{"kind", name(step.kind)}, {"flips", step.flips}, {"margin", step.margin}});

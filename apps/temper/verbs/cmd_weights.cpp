@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -57,6 +58,7 @@ struct WeightsSettings {
   std::string edges = "all";
   Connectivity connectivity = Connectivity::fixed;
   std::uint64_t whole = WeightOptions().whole, programs = ConnectivityOptions().programs;
+  double time_limit = 60;
   bool json = false, zero = false;
 };
 
@@ -137,24 +139,28 @@ void add_options(Command& command, WeightsSettings& s) {
            "Edges of --constraints regular. 'all' are all edges inside. 'lines' are tagged lines and the edges between "
            "regions. FILE has two vertices per line, numbered as in IN.");
   add_choice(command, "--connectivity", kConnectivities, s.connectivity,
-             "Connectivity of the result. 'fixed' keeps the edges of IN. 'search' flips edges while this raises the "
-             "best margin, and then finds weights. The search is local, so a better connectivity may exist.");
+             "Connectivity of the result. 'fixed' keeps the edges of IN. 'search' looks for edges with a margin, and "
+             "flips edges while this raises the best margin. If the mesh is in the plane and has at most "
+             "300 vertices, it finds edges that have weights, or proves that no edges have any.");
   add_count(command, "--programs", s.programs, 1, "Largest number of linear programs of the whole mesh in the search.");
+  add_number(command, "--time-limit", s.time_limit, kNotNegative,
+             "Time limit of the search in seconds. temper then reports the best bound so far. 0 sets no limit.");
   command.group("Help");
-  command.add_help({"IN -o OUT [options]",
-                    "  temper example annulus -o ring.vtu && temper weights ring.vtu -o out.vtu\n"
-                    "  temper weights ring.vtu -o best.vtu --mode accuracy --for vertex\n"
-                    "  temper weights best.vtu -o plain.vtu --zero\n"
-                    "  temper weights ring.vtu -o inside.vtu --constraints heights-only\n"
-                    "  # a mesh without such weights: write the proof, check it, and find the least violation\n"
-                    "  temper example sparse-horseshoe -o shoe.vtu\n"
-                    "  temper weights shoe.vtu --mode margin --certificate why.json; test $? = 6\n"
-                    "  temper weights shoe.vtu --check-certificate why.json\n"
-                    "  temper weights shoe.vtu -o out.vtu --mode elastic --json\n"
-                    "  # bring orthocenters inside by other diagonals\n"
-                    "  temper example random --vertices 40 -o random.vtu\n"
-                    "  temper weights random.vtu -o flipped.vtu --constraints heights-only --connectivity search\n",
-                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal, Exit::infeasible}});
+  command.add_help(
+      {"IN -o OUT [options]",
+       "  temper example annulus -o ring.vtu && temper weights ring.vtu -o out.vtu\n"
+       "  temper weights ring.vtu -o best.vtu --mode accuracy --for vertex\n"
+       "  temper weights best.vtu -o plain.vtu --zero\n"
+       "  temper weights ring.vtu -o inside.vtu --constraints heights-only\n"
+       "  # a mesh without such weights: write the proof, check it, and find the least violation\n"
+       "  temper example sparse-horseshoe -o shoe.vtu\n"
+       "  temper weights shoe.vtu --mode margin --certificate why.json; test $? = 6\n"
+       "  temper weights shoe.vtu --check-certificate why.json\n"
+       "  temper weights shoe.vtu -o out.vtu --mode elastic --json\n"
+       "  # bring orthocenters inside by other diagonals\n"
+       "  temper example random --vertices 40 -o random.vtu\n"
+       "  temper weights random.vtu -o flipped.vtu --constraints heights-only --connectivity search\n",
+       {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal, Exit::infeasible}});
 }
 
 void check_usage(const Command& command, const WeightsSettings& s) {
@@ -162,12 +168,12 @@ void check_usage(const Command& command, const WeightsSettings& s) {
   if (!s.check.empty() && s.zero) fail("--check-certificate takes no --zero");
   if (!s.check.empty()) {
     for (const char* option : {"--output", "--certificate", "--mode", "--margin", "--from", "--for", "--whole",
-                               "--constraints", "--edges", "--connectivity", "--programs"}) {
+                               "--constraints", "--edges", "--connectivity", "--programs", "--time-limit"}) {
       if (command.was_given(option)) fail(fmt::format("--check-certificate takes no {}", option));
     }
   } else if (s.zero) {
     for (const char* option : {"--certificate", "--mode", "--margin", "--from", "--for", "--whole", "--constraints",
-                               "--edges", "--connectivity", "--programs"}) {
+                               "--edges", "--connectivity", "--programs", "--time-limit"}) {
       if (command.was_given(option)) fail(fmt::format("--zero takes no {}", option));
     }
     if (s.output.path.empty()) fail("--output is missing");
@@ -178,9 +184,7 @@ void check_usage(const Command& command, const WeightsSettings& s) {
   if (!regular && command.was_given("--edges")) fail("--edges needs --constraints regular");
   if (!search && command.was_given("--programs")) fail("--programs needs --connectivity search");
   if (search && regular) fail("--connectivity search needs other constraints than regular, which flips alone keep");
-  if (search && !s.certificate.empty()) {
-    fail("--certificate needs --connectivity fixed, because the proof is about the edges of IN");
-  }
+  if (!search && command.was_given("--time-limit")) fail("--time-limit needs --connectivity search");
   if (s.options.goal != WeightGoal::accuracy && command.was_given("--for")) fail("--for needs --mode accuracy");
   if (s.options.goal == WeightGoal::center && command.was_given("--margin")) fail("--mode center takes no --margin");
 }
@@ -191,7 +195,7 @@ std::string_view fault_text(CertificateCheck fault) {
     case CertificateCheck::proves:
       break;
     case CertificateCheck::proves_nothing:
-      return "the sum of its terms is no contradiction";
+      return "the sum of its terms is no contradiction, or a case is missing";
     case CertificateCheck::not_of_this_mesh:
       return "a term names an element that the mesh does not have, or is not of these constraints";
     case CertificateCheck::bad_multiplier:
@@ -203,16 +207,22 @@ std::string_view fault_text(CertificateCheck fault) {
 }
 
 /// Reports the verdict on the certificate of --check-certificate.
-Exit report_check(const WeightsSettings& s, const Certificate& certificate, CertificateCheck result,
+Exit report_check(const WeightsSettings& s, const AnyCertificate& any, CertificateCheck result,
                   std::span<const ConstraintsInfo> rows) {
   const bool proves = result == CertificateCheck::proves;
   if (s.json) {
     print_data(fmt::format("{{\"schema\": {}, \"proves\": {}, \"check\": \"{}\"}}\n", kSchema, proves, name(result)));
   } else if (proves) {
-    const ConstraintsInfo& row = row_of(rows, certificate.constraints);
-    const bool none = certificate.margin == 0 || certificate.constraints == Constraints::regular;
-    const std::string what =
-        none ? std::string() : fmt::format(" with a margin of {} ({})", certificate.margin, row.keeps);
+    const Certificate* const certificate = std::get_if<Certificate>(&any);
+    const Constraints constraints =
+        certificate ? certificate->constraints : std::get<ConnectivityProof>(any).constraints;
+    const ConstraintsInfo& row = row_of(rows, constraints);
+    std::string what;
+    if (!certificate) {
+      what = ", with any connectivity";
+    } else if (certificate->margin != 0 && constraints != Constraints::regular) {
+      what = fmt::format(" with a margin of {} ({})", certificate->margin, row.keeps);
+    }
     print(fmt::format("{} proves it for {}: {}{}\n", s.check, s.input, row.failure, what));
   }
   flush_output();
@@ -222,8 +232,12 @@ Exit report_check(const WeightsSettings& s, const Certificate& certificate, Cert
 }
 
 Exit check(const WeightsSettings& s, const Input& input) {
-  const Certificate certificate = read_certificate(s.check, input.loaded.vertex_of_point, "triangle");
-  return report_check(s, certificate, check_certificate(input.mesh(), certificate), constraints_table());
+  const AnyCertificate any = read_certificate(s.check, input.loaded.vertex_of_point, "triangle");
+  const auto* const certificate = std::get_if<Certificate>(&any);
+  if (certificate) return report_check(s, any, check_certificate(input.mesh(), *certificate), constraints_table());
+  if (!input.mesh().space().is_plane() || input.mesh().space().is_periodic())
+    throw Failure(Exit::bad_input, fmt::format("{}: proofs over connectivities are for meshes of the plane", s.check));
+  return report_check(s, any, check_proof(input.mesh(), std::get<ConnectivityProof>(any)), constraints_table());
 }
 
 /// On the sphere setting a weight rounds the place: only changed weights are set.
@@ -237,7 +251,12 @@ Mesh with_weights(Mesh mesh, const IdVector<VertexId, double>& weights) {
 /// The mesh of the input with the requested connectivity.
 std::optional<ConnectivityReport> searched(const WeightsSettings& s, const Input& input, LpSolver& solver) {
   if (s.connectivity == Connectivity::fixed) return std::nullopt;
-  return or_fail(best_connectivity(input.mesh(), solver, {s.options.constraints, s.programs}));
+  using Clock = std::chrono::steady_clock;
+  const auto end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s.time_limit));
+  catch_interrupts();
+  const auto stop = [&] { return interrupted() || (s.time_limit > 0 && Clock::now() >= end); };
+  return or_fail(best_connectivity(input.mesh(), solver, {s.options.constraints, s.programs, stop}));
 }
 
 /// Puts the mesh back into the file of the input, of triangles or of tetrahedra, and writes it.
@@ -276,12 +295,16 @@ Exit drop(const WeightsSettings& s, Input& input, Outputs& outputs) {
 /// Writes the certificate, and reports.
 Exit end(const WeightsSettings& s, WeightsRecord& record, Outputs& outputs) {
   const WeightReport& report = record.report;
-  if (!s.certificate.empty() && (report.optimality || !report.certificate.terms.empty())) {
+  if (!s.certificate.empty() && record.search && !record.search->proof.lemmas.empty()) {
+    outputs.write_text(s.certificate, proof_text(record.search->proof, record.points));
+    record.certificate = s.certificate;
+  } else if (!s.certificate.empty() && (report.optimality || !report.certificate.terms.empty())) {
     outputs.write_text(s.certificate, report.optimality ? optimality_text(report, record.space, record.points)
                                                         : certificate_text(report.certificate, record.points));
     record.certificate = s.certificate;
   }
   s.json ? print_data(weights_json(record)) : print(weights_text(record));
+  if (record.search && record.search->end == SearchEnd::stopped) return Exit::stopped_early;
   return record.report.solved ? Exit::done : Exit::infeasible;
 }
 
@@ -324,8 +347,11 @@ void refuse_options_of_triangles(const Command& command, const WeightsSettings& 
 Exit weigh_tetrahedra(const WeightsSettings& s, TetInput input, Outputs& outputs) {
   print_warnings(input.warnings());
   if (!s.check.empty()) {
-    const Certificate certificate = read_certificate(s.check, input.loaded.vertex_of_point, "tetrahedron");
-    return report_check(s, certificate, tets::check_certificate(input.mesh(), certificate), tets::constraints_table());
+    const AnyCertificate any = read_certificate(s.check, input.loaded.vertex_of_point, "tetrahedron");
+    const auto* const certificate = std::get_if<Certificate>(&any);
+    if (!certificate)
+      throw Failure(Exit::bad_input, fmt::format("{}: proofs over connectivities are for triangles alone", s.check));
+    return report_check(s, any, tets::check_certificate(input.mesh(), *certificate), tets::constraints_table());
   }
   const WeightReport report =
       or_fail(tets::find_weights(input.mesh(), *clp_solver(), s.options, interior_point_solver().get()));

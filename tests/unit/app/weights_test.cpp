@@ -63,7 +63,7 @@ TEST_F(Weights, AChangedCertificateIsRefused) {
     write("changed.json", changed.dump());
     const Outcome outcome = temper({"weights", "in.vtu", "--check-certificate", "changed.json"});
     EXPECT_EQ(outcome.exit, 1);
-    EXPECT_TRUE(contains(outcome.err, "the sum of its terms is no contradiction"));
+    EXPECT_TRUE(contains(outcome.err, "the sum of its terms is no contradiction, or a case is missing"));
   }
 }
 
@@ -258,6 +258,36 @@ TEST_F(Weights, TheSearchOverConnectivitiesWritesARegularMeshWithOtherEdges) {
   EXPECT_EQ(nlohmann::json::parse(temper(searching).out)["search"]["end"], "limit");
 }
 
+TEST_F(Weights, AProofOverConnectivitiesIsWrittenAndCheckedAndRefusedOnceChanged) {
+  make_infeasible();
+  const Outcome outcome = temper(
+      {"weights", "in.vtu", "--mode", "margin", "--connectivity", "search", "--json", "--certificate", "why.json"});
+  EXPECT_EQ(outcome.exit, 6) << outcome.err;
+  const auto search = nlohmann::json::parse(outcome.out)["search"];
+  EXPECT_EQ(search["end"], "none_exists");
+  EXPECT_EQ(search["bound"], 0);
+  auto proof = read_json("why.json");
+  EXPECT_EQ(search["lemmas"], proof["lemmas"].size());
+  const Outcome checked = temper_ok({"weights", "in.vtu", "--check-certificate", "why.json"});
+  EXPECT_TRUE(contains(checked.out, "with any connectivity")) << checked.out;
+  proof["lemmas"].back()["terms"].erase(0);
+  write("changed.json", proof.dump());
+  EXPECT_EQ(temper({"weights", "in.vtu", "--check-certificate", "changed.json"}).exit, 1);
+  proof["lemmas"].back()["edges"] = "all";
+  write("changed.json", proof.dump());
+  const Outcome refused = temper({"weights", "in.vtu", "--check-certificate", "changed.json"});
+  EXPECT_EQ(refused.exit, 1);
+  EXPECT_TRUE(contains(refused.err, "changed.json: lemma 0: expected \"edges\" to be an array")) << refused.err;
+}
+
+TEST_F(Weights, ATimeLimitEndsTheSearchOverConnectivities) {
+  temper_ok({"example", "random", "--vertices", "200", "-o", "in.vtu"});
+  const Outcome outcome = temper({"weights", "in.vtu", "--mode", "margin", "--constraints", "heights-only",
+                                  "--connectivity", "search", "--time-limit", "0.2", "--json"});
+  EXPECT_EQ(outcome.exit, 4) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["search"]["end"], "stopped");
+}
+
 TEST_F(Weights, BadUsageIsRefused) {
   make_infeasible();
   const std::vector<std::vector<std::string>> mistakes = {
@@ -272,7 +302,7 @@ TEST_F(Weights, BadUsageIsRefused) {
       {"in.vtu", "-o", "out.vtu", "--edges", "lines"},
       {"in.vtu", "-o", "out.vtu", "--programs", "10"},
       {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--programs", "0"},
-      {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--certificate", "why.json"},
+      {"in.vtu", "-o", "out.vtu", "--time-limit", "10"},
       {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--constraints", "regular"},
       {"in.vtu", "--check-certificate", "why.json", "--constraints", "heights-only"}};
   for (std::vector<std::string> arguments : mistakes) {
@@ -365,7 +395,7 @@ TEST_F(TetWeightsVerb, InfeasibleIsSaidProvedAndChecked) {
   write("changed.json", changed.dump());
   const Outcome refused = temper({"weights", "pinwheel.mesh", "--check-certificate", "changed.json"});
   EXPECT_EQ(refused.exit, 1);
-  EXPECT_TRUE(contains(refused.err, "the sum of its terms is no contradiction")) << refused.err;
+  EXPECT_TRUE(contains(refused.err, "the sum of its terms is no contradiction, or a case is missing")) << refused.err;
 }
 
 TEST_F(TetWeightsVerb, CertificatesOfAllConstraintsAreReadAsTheyWereWritten) {
