@@ -527,10 +527,9 @@ class Mesher {
     if (!made) return made;
     made->delaunay_bad = made->bad = bad_triangles(made->mesh).size();
     if (!options_.optimize) return made;
-    // Another division of the outline cures more than repairs of this one: repairs are for the last.
-    OptimizeOptions options = *options_.optimize;
-    options.repair = Repair::none;
-    if (const auto error = improve(*made, options)) return too_fine(*error);
+    if (const auto error = improve(*made, *options_.optimize)) return too_fine(*error);
+    if (made->bad == 0 || options_.optimize->repair == Repair::none || stopped_early(*made)) return made;
+    if (const auto error = improve_by_vertices(*made)) return *error;
     return made;
   }
 
@@ -547,7 +546,16 @@ class Mesher {
     return {};
   }
 
-  /// Renumbers lines and points of the outline after vertices were removed or inserted. Their own vertices never are.
+  /// Repairs what sweeps and perturbations leave bad by new vertices, in the plane also on the outline.
+  std::optional<InputError> improve_by_vertices(OutlineMesh& made) const {
+    OptimizeOptions options = *options_.optimize;
+    options.repair = Repair::vertices;
+    if (surface_.space().is_plane()) options.boundary = BoundaryVertices::split;
+    return improve(made, options);
+  }
+
+  /// Renumbers lines and points of the outline after vertices were removed or inserted. Their own vertices never are
+  /// removed, but lines may be split.
   static void renumber(OutlineMesh& made, const IdVector<VertexId, VertexId>& old_numbers) {
     std::vector<VertexId> now;
     for (std::size_t v = 0; v < old_numbers.size(); ++v) {
@@ -557,10 +565,48 @@ class Mesher {
       now[old.index] = VertexId(v);
     }
     for (MeshLine& line : made.lines) line.a = now[line.a.index], line.b = now[line.b.index];
+    made.lines = pieces_of(made.lines, made.mesh, old_numbers);
     for (MarkedVertex& m : made.marked) m.vertex = now[m.vertex.index];
     for (VertexId& v : made.vertex_of_point) {
       if (v.valid()) v = now[v.index];
     }
+  }
+
+  /// Returns the lines with each one replaced by its pieces, which meet at vertices without an old number.
+  static std::vector<MeshLine> pieces_of(const std::vector<MeshLine>& lines, const Mesh& mesh,
+                                         const IdVector<VertexId, VertexId>& old_numbers) {
+    std::vector<MeshLine> pieces;
+    for (const MeshLine& line : lines) {
+      VertexId from = line.a;
+      for (VertexId to = next_on_line(mesh, from, line.b, old_numbers); to.valid() && to != line.b;
+           to = next_on_line(mesh, from, line.b, old_numbers)) {
+        pieces.push_back({from, to, line.tag});
+        from = to;
+      }
+      pieces.push_back({from, line.b, line.tag});
+    }
+    return pieces;
+  }
+
+  /// Returns the next vertex on the way from `from` to `end` along a line: the end, or the new vertex that is nearest
+  /// to the straight way.
+  static VertexId next_on_line(const Mesh& mesh, VertexId from, VertexId end,
+                               const IdVector<VertexId, VertexId>& old_numbers) {
+    if (mesh.find_halfedge(from, end).valid() || mesh.find_halfedge(end, from).valid()) return end;
+    const Vec2 way = mesh.position(end) - mesh.position(from);
+    VertexId next;
+    double straightest = 0;
+    const auto look = [&](VertexId v) {
+      if (old_numbers[v].valid()) return;
+      const Vec2 step = mesh.position(v) - mesh.position(from);
+      const double cosine = dot(step, way) / length(step);
+      if (cosine > straightest) straightest = cosine, next = v;
+    };
+    for (const HalfedgeId h : mesh.star(from)) {
+      if (mesh.is_unflippable(h)) look(mesh.target(h));
+      if (mesh.is_boundary(Mesh::prev(h))) look(mesh.opposite(h));
+    }
+    return next;
   }
 
   /// Makes sizes around the triangles that stay bad smaller.
@@ -603,9 +649,6 @@ class Mesher {
       const bool last_stopped_early = stopped_early(*next);
       if (next->bad < best->bad) best = std::move(next);
       if (last_stopped_early) break;
-    }
-    if (best->bad > 0 && options_.optimize->repair != Repair::none && !stopped_early(*best)) {
-      if (auto error = improve(*best, *options_.optimize)) return *error;
     }
     best->attempts = attempts;
     if (deadline_.stopped()) best->report.stopped = deadline_.out_of_time() ? Stopped::time_limit : Stopped::canceled;

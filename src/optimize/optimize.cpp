@@ -71,6 +71,7 @@ Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepSta
   if (run.facts.gave_up) return Candidate{input.copy()};
   best = reweighted(std::move(best), input, settings, state, run);
   best = repaired(std::move(best), settings, state, run);
+  best = refined(std::move(best), settings, state, run);
   std::optional<MeshScore> known;
   if (sizes) improve<AccuracyPhase>(best, known, settings, run, *sizes);
   if (settings.objective == Objective::solver_error) improve<SolverErrorPhase>(best, known, settings, run, *sizes);

@@ -194,8 +194,12 @@ VertexId Flipper::split(WorkingCopy& work, HalfedgeId h, const WeightedPoint& p,
   const HalfedgeId twin = mesh_.twin(h);
   const std::array quad = {mesh_.origin(h), mesh_.target(h), mesh_.opposite(h),
                            twin.valid() ? mesh_.opposite(twin) : VertexId()};
+  const bool divides = mesh_.is_unflippable(h) && mesh_.space().is_plane() && !mesh_.space().is_periodic();
+  std::optional<DividedEdge> divided;
+  if (divides) divided = work.divided_by(h);
   const VertexId v = split_edge(mesh_, h, p);
   work.name_new();
+  if (divided) work.divided.emplace(work.order->vertices[v], *divided);
   recorder_.split(v, quad, before, after);
   ++changes_.inserted;
   return v;

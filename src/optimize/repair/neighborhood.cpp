@@ -62,7 +62,22 @@ RemovalPlan removal_of(const Mesh& mesh, const TraceEvent& e, const Whole& whole
 
 }  // namespace
 
-Neighborhood neighborhood_of(const Mesh& mesh, TriangleId seed, int rings) {
+bool Neighborhood::is_rim(VertexId a, VertexId b) const {
+  return std::ranges::any_of(
+      rim, [&](const auto& ends) { return (ends[0] == a && ends[1] == b) || (ends[0] == b && ends[1] == a); });
+}
+
+std::vector<HalfedgeId> lines_at(const Mesh& mesh, VertexId v) {
+  std::vector<HalfedgeId> lines;
+  for (const HalfedgeId h : mesh.star(v)) {
+    if (mesh.is_unflippable(h)) lines.push_back(h);
+    if (mesh.is_boundary(Mesh::prev(h))) lines.push_back(Mesh::prev(h));
+  }
+  return lines;
+}
+
+Neighborhood neighborhood_of(const WorkingCopy& work, TriangleId seed, int rings) {
+  const Mesh& mesh = work.mesh;
   const std::vector<TriangleId> triangles = rings_around(mesh, seed, rings);
   Neighborhood around;
   around.mesh.set_space(mesh.space());
@@ -76,6 +91,7 @@ Neighborhood neighborhood_of(const Mesh& mesh, TriangleId seed, int rings) {
       around.vertices.push_back(v);
       edit.add_vertex(mesh.point(v));
       around.mesh.set_fixed(entry->second, mesh.is_fixed(v));
+      if (const DividedEdge* edge = work.divided_edge(v)) around.divided.emplace(entry->second, *edge);
     }
     return entry->second;
   };

@@ -21,10 +21,17 @@ struct Neighborhood {
   std::vector<std::uint8_t> frozen;          ///< by local number
   std::vector<WeightedPoint> beyond;         ///< by rim edge: opposite corner of the triangle outside
   std::vector<std::array<VertexId, 2>> rim;  ///< edges of the rim that have a triangle outside, by local numbers
+  DividedEdges divided;                      ///< of the run's own vertices on lines, by local number
+
+  /// Says whether the edge between a and b has a triangle outside.
+  [[nodiscard]] bool is_rim(VertexId a, VertexId b) const;
 };
 
 /// Returns `rings` rings of triangles around the seed, and further ones so that no vertex joins two fans. O(its size).
-[[nodiscard]] Neighborhood neighborhood_of(const Mesh& mesh, TriangleId seed, int rings);
+[[nodiscard]] Neighborhood neighborhood_of(const WorkingCopy& work, TriangleId seed, int rings);
+
+/// Returns the halfedges of boundary and constrained edges at v: out of v, or into v if the edge has only this one.
+[[nodiscard]] std::vector<HalfedgeId> lines_at(const Mesh& mesh, VertexId v);
 
 /// Says exactly whether the unconstrained edges of the rim are regular with the present local mesh.
 [[nodiscard]] bool rim_is_regular(const Neighborhood& around, const Mesh& local);

@@ -4,97 +4,23 @@
 
 #include "base/assert.hpp"
 #include "base/sort_unique.hpp"
-#include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
+#include "optimize/repair/edits.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/run/run.hpp"
 #include "temper/detail/necessity.hpp"
-#include "topology/locate.hpp"
 #include "topology/rings.hpp"
 
 namespace temper {
 namespace {
 
-constexpr int kKicks = 3;
-// Largest number of bad triangles of a neighborhood at which edits begin.
-constexpr std::size_t kMostBad = 6;
-constexpr std::size_t kMostRemovals = 12;
-// Gradations of sizes: the first sizes hardly grow, the last ones double within their own length.
-constexpr double kGradations[] = {0.3, 0.6, 1};
-
-/// Returns the seed of the neighborhood, and other bad triangles.
-std::vector<TriangleId> some_bad_triangles(const Neighborhood& around) {
-  std::vector<TriangleId> bad = {around.seed};
-  for (const TriangleId t : around.mesh.triangles()) {
-    if (bad.size() == kMostBad) break;
-    if (t != around.seed && is_bad(around.mesh, t)) bad.push_back(t);
-  }
-  return bad;
-}
-
-void add_insertions(const Mesh& mesh, TriangleId t, std::vector<Edit>& edits) {
-  const auto [a, b, c] = mesh.points(t);
-  edits.push_back({.kind = Edit::insert, .triangle = t, .place = middle(mesh.space(), a, b, c)});
-  const WeightedPoint o = orthocenter(mesh.space(), a, b, c);
-  const Location at = locate(mesh, o, t);
-  if (at.kind == Location::Kind::in_triangle) {
-    edits.push_back({.kind = Edit::insert, .triangle = at.triangle, .place = o});
-  }
-  for (int side = 0; side < 3; ++side) {
-    const HalfedgeId h = Mesh::halfedge(t, side);
-    if (!mesh.is_boundary(h) && !mesh.is_constrained(h)) edits.push_back({.kind = Edit::split, .edge = h});
-  }
-}
-
-/// Returns the corners of these triangles and their neighbors, each once.
-std::vector<VertexId> vertices_near(const Mesh& mesh, const std::vector<TriangleId>& triangles) {
-  std::vector<VertexId> near;
-  for (const TriangleId t : triangles) {
-    for (const VertexId v : mesh.corners(t)) {
-      near.push_back(v);
-      for (const HalfedgeId h : mesh.star(v)) near.push_back(mesh.target(h));
-    }
-  }
-  sort_unique(near);
-  return near;
-}
-
-void add_removals(const Neighborhood& around, const std::vector<TriangleId>& bad, std::vector<Edit>& edits) {
-  std::size_t count = 0;
-  for (const VertexId v : vertices_near(around.mesh, bad)) {
-    if (!may_be_removed(around.mesh, around.frozen, v)) continue;
-    if (plan_removal(around.mesh, v).status != RemovalStatus::possible) continue;
-    if (++count > kMostRemovals) return;
-    edits.push_back({.kind = Edit::remove, .vertex = v});
-  }
-}
-
-/// Returns edits in tiers. A tier is tried if no edit of the tier before helps. The first tier changes least: sweeps
-/// alone, and random perturbations, which keep every vertex. With `assigns_weights`, weights by a linear program
-/// follow. With `vertices`, the next tier removes a vertex near a bad triangle, or inserts one at its centroid, at its
-/// orthocenter or on an edge. The next tier inserts all missing vertices, and the last one replaces all. Fixed,
-/// boundary and constrained vertices stay.
-std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool assigns_weights, bool vertices, Rng& rng) {
-  std::vector<Edit> moves = {{.kind = Edit::nothing}}, weights, one, many, anew;
-  for (int i = 0; i < kKicks; ++i) moves.push_back({.kind = Edit::kick, .seed = rng.next()});
-  if (assigns_weights) weights.push_back({.kind = Edit::assign_weights});
-  if (!vertices) return {moves, weights};
-  const std::vector<TriangleId> bad = some_bad_triangles(around);
-  add_removals(around, bad, one);
-  for (const TriangleId t : bad) add_insertions(around.mesh, t, one);
-  if (around.mesh.space().is_periodic()) return {moves, weights, one};  // refinement measures across the neighborhood
-  for (const double gradation : kGradations) {
-    many.push_back({.kind = Edit::refine, .gradation = gradation});
-    anew.push_back({.kind = Edit::remesh, .gradation = gradation});
-  }
-  return {moves, weights, one, many, anew};
-}
-
 constexpr int kRings = 3;
 // After this number of failures the neighborhood gets one more ring.
 constexpr int kFailuresBeforeWider = 6;
 constexpr int kFailuresBeforeSideways = 5;
+// After this number of failures a vertex is inserted even if more triangles become bad: more vertices leave more room.
+constexpr int kFailuresBeforeFiner = 10;
 // Enough for the random walk of sideways edits. After this number the search gives a place up.
 constexpr int kMostFailures = 60, kMostFailuresOfMoves = 10;
 // An edit that helps lowers the violation by this part, or the number of bad triangles.
@@ -125,6 +51,12 @@ bool repairs(const Settings& settings) {
          (!policy.gamma && !policy.h0 && policy.solver == Solver::newton && policy.weights_from == 0);
 }
 
+bool repairs_split_lines(const Settings& settings, const Space& space) {
+  const OptimizeOptions& o = settings.options;
+  return repairs(settings) && o.repair == Repair::vertices && o.boundary == BoundaryVertices::split &&
+         space.is_plane() && !space.is_periodic();
+}
+
 bool RepairSearch::improve_one_place() {
   const bool vertices = settings_.options.repair == Repair::vertices;
   find_bad();
@@ -136,8 +68,9 @@ bool RepairSearch::improve_one_place() {
   const int most_failures = std::max(vertices ? kMostFailures : kMostFailuresOfMoves, places);
   while (!bad.empty() && failures_ < most_failures && run_.repair_trials_left() > 0) {
     const TriangleId seed = bad[rng_.below(static_cast<std::uint32_t>(bad.size()))];
-    const Neighborhood around = neighborhood_of(work_.mesh, seed, kRings + (failures_ >= kFailuresBeforeWider ? 1 : 0));
-    const auto edit = choose(around, seed);
+    const Neighborhood around = neighborhood_of(work_, seed, kRings + (failures_ >= kFailuresBeforeWider ? 1 : 0));
+    auto edit = choose_forced(around, seed);
+    if (!edit) edit = choose(around, seed);
     if (run_.stopped_early()) return false;
     if (!edit) continue;
     const TrialResult result = try_edit(around, *edit, settings_, work_.units, true);
@@ -180,25 +113,65 @@ bool RepairSearch::assigns_weights(TriangleId seed) const {
   return true;
 }
 
+TrialResult RepairSearch::tried(const Neighborhood& around, const Edit& edit) {
+  const bool program = edit.kind == Edit::assign_weights;
+  const std::size_t visits = (settings_.guard != nullptr ? kVisitsByGuard : 1) *
+                             (2 * bad_.size() > work_.mesh.n_triangles() ? kVisitsWhereMostAreBad : 1) *
+                             around.mesh.n_triangles();
+  run_.count_trials(program ? 1 + kTrialsOfAProgram : 1, visits);
+  return try_edit(around, edit, settings_, work_.units, false);
+}
+
+/// Returns the line at a corner of the seed that must be split most urgently, whatever is done inside.
+std::optional<EdgeConflict> RepairSearch::worst_conflict(TriangleId seed) const {
+  const Mesh& mesh = work_.mesh;
+  std::optional<EdgeConflict> worst;
+  for (const VertexId v : mesh.corners(seed)) {
+    for (const HalfedgeId h : lines_at(mesh, v)) {
+      if (mesh.is_diagonal(h)) continue;
+      const auto conflict = edge_conflict(mesh, h);
+      if (conflict && (!worst || conflict->sum < worst->sum)) worst = conflict;
+    }
+  }
+  return worst;
+}
+
+/// If there is a line that must be split, returns the best of its splits, even if more triangles become bad.
+std::optional<Edit> RepairSearch::choose_forced(const Neighborhood& around, TriangleId seed) {
+  if (!repairs_split_lines(settings_, work_.mesh.space())) return std::nullopt;
+  const auto conflict = worst_conflict(seed);
+  if (!conflict) return std::nullopt;
+  const auto local = [&](VertexId whole) {
+    const auto found = std::find(around.vertices.begin(), around.vertices.end(), whole);
+    return VertexId(static_cast<std::size_t>(found - around.vertices.begin()));
+  };
+  const VertexId u = local(work_.mesh.origin(conflict->edge)), v = local(work_.mesh.target(conflict->edge));
+  const HalfedgeId h = around.mesh.find_halfedge(u, v);
+  if (!h.valid() || around.is_rim(u, v)) return std::nullopt;
+  std::vector<Tried> all;
+  for (const Edit& edit : splits_of(around, h, conflict->split_at)) {
+    if (run_.repair_trials_left() == 0 || run_.asked_to_stop(0)) return std::nullopt;
+    const TrialResult result = tried(around, edit);
+    if (result.valid) all.push_back({edit, result.defect});
+  }
+  return finer(std::move(all));
+}
+
 /// Returns the edit that makes the neighborhood best, if it helps, from the first tier that has one.
 std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId seed) {
   const LocalDefect before = defect_of(around.mesh, settings_.accuracy);
   std::optional<Edit> best;
   LocalDefect least = before;
-  std::vector<Tried> tried;
-  for (const auto& tier :
-       edits_for(around, assigns_weights(seed), settings_.options.repair == Repair::vertices, rng_)) {
+  std::vector<Tried> all;
+  const Allowed allowed = {assigns_weights(seed), settings_.options.repair == Repair::vertices,
+                           repairs_split_lines(settings_, work_.mesh.space())};
+  for (const auto& tier : edits_for(around, allowed, rng_)) {
     for (const Edit& edit : tier) {
       if (run_.repair_trials_left() == 0 || run_.asked_to_stop(0)) return best;
-      const bool program = edit.kind == Edit::assign_weights;
-      if (program) weighed_.push_back(seed);
-      const std::size_t visits = (settings_.guard != nullptr ? kVisitsByGuard : 1) *
-                                 (2 * bad_.size() > work_.mesh.n_triangles() ? kVisitsWhereMostAreBad : 1) *
-                                 around.mesh.n_triangles();
-      run_.count_trials(program ? 1 + kTrialsOfAProgram : 1, visits);
-      const TrialResult result = try_edit(around, edit, settings_, work_.units, false);
+      if (edit.kind == Edit::assign_weights) weighed_.push_back(seed);
+      const TrialResult result = tried(around, edit);
       if (!result.valid) continue;
-      tried.push_back({edit, result.defect});
+      all.push_back({edit, result.defect});
       if (!helps(least, result.defect)) continue;
       best = edit;
       least = result.defect;
@@ -208,10 +181,21 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
   }
   if (best) {
     failures_ = 0;
-  } else if (++failures_ % kFailuresBeforeSideways == 0) {
-    best = sideways(std::move(tried), before);
+    return best;
   }
-  return best;
+  ++failures_;
+  if (repairs_split_lines(settings_, work_.mesh.space()) && failures_ % kFailuresBeforeFiner == 0)
+    return finer(std::move(all));
+  if (failures_ % kFailuresBeforeSideways == 0) return sideways(std::move(all), before);
+  return std::nullopt;
+}
+
+/// Returns the best edit that inserts a vertex, if there is one.
+std::optional<Edit> RepairSearch::finer(std::vector<Tried> tried) {
+  std::erase_if(tried, [](const Tried& t) { return !inserts_vertices(t.edit); });
+  const auto best = std::ranges::min_element(tried, {}, &Tried::defect);
+  if (best == tried.end()) return std::nullopt;
+  return best->edit;
 }
 
 /// Returns one of the best few edits after which no more triangles are bad than before.

@@ -14,6 +14,7 @@
 #include "optimize/flips/flipper.hpp"
 #include "optimize/repair/trial.hpp"
 #include "optimize/run/run.hpp"
+#include "temper/detail/necessity.hpp"
 
 namespace temper {
 
@@ -42,8 +43,12 @@ class RepairSearch {
     LocalDefect defect;
   };
   [[nodiscard]] bool assigns_weights(TriangleId seed) const;
+  [[nodiscard]] std::optional<EdgeConflict> worst_conflict(TriangleId seed) const;
   std::optional<Edit> choose(const Neighborhood& around, TriangleId seed);
+  std::optional<Edit> choose_forced(const Neighborhood& around, TriangleId seed);
   std::optional<Edit> sideways(std::vector<Tried> tried, LocalDefect before);
+  static std::optional<Edit> finer(std::vector<Tried> tried);
+  [[nodiscard]] TrialResult tried(const Neighborhood& around, const Edit& edit);
   void find_bad();
   [[nodiscard]] bool is_changed(TriangleId t) const {
     return std::binary_search(changed_->begin(), changed_->end(), t);
@@ -64,5 +69,8 @@ class RepairSearch {
 
 /// Says whether these options ask for repairs and allow them.
 [[nodiscard]] bool repairs(const Settings& settings);
+/// Says whether repairs may split edges of the boundary and of lines, too. Then nothing else splits them. The sphere
+/// and periodic planes have no such splits.
+[[nodiscard]] bool repairs_split_lines(const Settings& settings, const Space& space);
 
 }  // namespace temper

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <set>
+#include <utility>
 #include <vector>
 
 #include "base/rng.hpp"
@@ -16,114 +15,16 @@
 #include "geometry/surface.hpp"
 #include "geometry/triangle_kernel.hpp"
 #include "mesh/bad_triangles.hpp"
+#include "optimize/repair/refinement.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/run/run.hpp"
 #include "optimize/step/vertex_step.hpp"
+#include "temper/detail/necessity.hpp"
 #include "temper/regularity.hpp"
 #include "topology/locate.hpp"
 
 namespace temper {
 namespace {
-
-// Circumradius over size above which a triangle is large. An equilateral triangle of the right size has 0.58.
-constexpr double kLarge = 0.75;
-// A vertex nearer to an edge than this part of the edge's length, or of the size, makes flat triangles.
-constexpr double kClearance = 0.4;
-
-double distance_to_segment(Vec3 x, Vec3 a, Vec3 b) {
-  const Vec3 along = b - a;
-  const double t = std::clamp(dot(x - a, along) / squared_length(along), 0.0, 1.0);
-  return length(x - (a + t * along));
-}
-
-/// Delaunay refinement of a place that has too few vertices. New vertices go to circumcenters of triangles that are too
-/// large.
-///
-/// The boundary never changes: vertices too near to it are not inserted. The target size at x is the least s_v + g |x −
-/// v| over the vertices v of boundary, constrained edges and rim. Here s_v is the mean length of these edges at v.
-class DelaunayRefinement {
- public:
-  /// `gradation`: g, the growth of the size with distance.
-  DelaunayRefinement(const Mesh& mesh, double gradation) : mesh_(mesh), gradation_(gradation) {
-    std::vector<double> sum(mesh.n_vertices(), 0);
-    std::vector<int> count(mesh.n_vertices(), 0);
-    for (const HalfedgeId h : mesh.halfedges()) {
-      if (mesh.is_erased(Mesh::triangle(h)) || !mesh.is_unflippable(h) || !mesh.is_edge_representative(h)) continue;
-      const VertexId a = mesh.origin(h), b = mesh.target(h);
-      segments_.push_back({place(a), place(b)});
-      for (const VertexId v : {a, b}) {
-        sum[v.index] += length(place(b) - place(a));
-        ++count[v.index];
-      }
-    }
-    for (const VertexId v : mesh.vertices()) {
-      if (count[v.index] > 0) sources_.push_back({place(v), sum[v.index] / count[v.index]});
-    }
-  }
-
-  /// The place of a new vertex and the triangle strictly around it. If no triangle is too large, next() returns none.
-  struct Place {
-    TriangleId triangle;
-    WeightedPoint point;  ///< without a weight
-  };
-
-  std::optional<Place> next() {
-    double worst = kLarge;
-    std::optional<Place> found;
-    for (const TriangleId t : mesh_.triangles()) {
-      if (mesh_.is_erased(t)) continue;
-      const auto [a, b, c] = mesh_.corners(t);
-      const Space& space = mesh_.space();
-      const auto bare = [&](VertexId v) { return space.with_weight(mesh_.point(v), 0); };
-      const WeightedPoint o = orthocenter(space, bare(a), bare(b), bare(c));
-      if (!std::isfinite(o.x) || !std::isfinite(o.y) || !std::isfinite(o.w)) continue;
-      const Vec3 x = position_in_space(space, o);
-      const double relative = length(x - place(a)) / size(x);
-      if (relative <= worst || refused_.count({o.x, o.y, o.w}) > 0) continue;
-      const Location at = too_near_to_edges(x) ? Location() : locate(mesh_, o, t);
-      if (at.kind != Location::Kind::in_triangle) {
-        refuse(o);
-        continue;
-      }
-      worst = relative;
-      found = {at.triangle, o};
-    }
-    return found;
-  }
-
-  /// Refuses a place at which no vertex can be inserted.
-  void refuse(const WeightedPoint& p) { refused_.insert({p.x, p.y, p.w}); }
-
- private:
-  struct Source {
-    Vec3 at;
-    double size;
-  };
-  struct Segment {
-    Vec3 a, b;
-  };
-
-  [[nodiscard]] Vec3 place(VertexId v) const { return position_in_space(mesh_.space(), mesh_.point(v)); }
-
-  [[nodiscard]] double size(Vec3 x) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Source& s : sources_) least = std::min(least, s.size + gradation_ * length(x - s.at));
-    return least;
-  }
-
-  [[nodiscard]] bool too_near_to_edges(Vec3 x) const {
-    const double wanted = size(x);
-    return std::any_of(segments_.begin(), segments_.end(), [&](const Segment& s) {
-      return distance_to_segment(x, s.a, s.b) < kClearance * std::min(length(s.b - s.a), wanted);
-    });
-  }
-
-  const Mesh& mesh_;
-  double gradation_;
-  std::vector<Source> sources_;
-  std::vector<Segment> segments_;
-  std::set<std::array<double, 3>> refused_;
-};
 
 // Enough sweeps for γ to fall from kFirstGamma to kLeastGamma, and a few at the floor.
 constexpr int kSweeps = 25;
@@ -156,11 +57,11 @@ class Trial {
         settings_(
             of_trial(settings, with_events ? Tracer([this](const TraceEvent& e) { events_.push_back(e); }) : Tracer())),
         grid_(grid),
-        work_(WorkingCopy::part(around.mesh)),
+        work_(WorkingCopy::part(around.mesh, around.divided)),
         state_(settings_),
         recorder_(settings_.hooks.tracer, work_, 1),
         flipper_(work_.mesh, settings_, state_, recorder_),
-        limits_(work_.mesh, settings_, grid),
+        limits_(work_, settings_, grid),
         step_({work_.mesh, settings_, state_, grid, limits_, recorder_}, flipper_) {
     for (const VertexId v : around.mesh.vertices()) {
       if (around.frozen[v.index] != 0) limits_.freeze(v);
@@ -170,8 +71,10 @@ class Trial {
   Trial& operator=(const Trial&) = delete;
   ~Trial() = default;
 
-  TrialResult run(const Edit& edit) && {
+  TrialResult run(const Edit& edit, bool levels) && {
+    if (levels && !level_weights()) return {};
     if (!apply(edit) || !flipper_.restore_all()) return {};
+    if (edit.kind == Edit::only_refine) return {true, defect_of(work_.mesh), std::move(events_)};
     if (edit.kind != Edit::assign_weights) sweep();  // the first γ of sweeps would undo the weights
     TrialResult result;
     result.defect = defect_of(work_.mesh, settings_.accuracy);
@@ -231,16 +134,56 @@ class Trial {
       case Edit::insert:
         return insert(edit.triangle, edit.place);
       case Edit::split:
-        return split(edit.edge);
+        return split(edit.edge, edit.part);
+      case Edit::cut_corner:
+        return cut_corner(edit.vertex, edit.distance);
       case Edit::remove:
         return remove(edit.vertex);
       case Edit::remesh:
         remove_free_vertices();
-        return refine(edit.gradation);
+        return refine({edit.gradation, edit.factor}, edit.splits_lines);
       case Edit::refine:
-        return refine(edit.gradation);
+      case Edit::only_refine:
+        return refine({edit.gradation, edit.factor}, edit.splits_lines);
     }
     return false;
+  }
+
+  /// Gives the vertices that are not frozen weights that are linear in their positions, as near as possible to the
+  /// weights of frozen vertices. Linear weights hide no vertex, also none that comes between. Returns false if an edge
+  /// cannot be made regular.
+  bool level_weights() {
+    const Mesh& mesh = work_.mesh;
+    // Least squares for w = a + b·(x − center): normal equations by Gram-Schmidt on the functions 1, x and y.
+    double n = 0, xx = 0, xy = 0, yy = 0, xw = 0, yw = 0, mean = 0;
+    Vec2 center;
+    const auto each_frozen = [&](auto&& use) {
+      for (const VertexId v : mesh.vertices()) {
+        if (around_.frozen[v.index] != 0) use(mesh.position(v), mesh.weight(v));
+      }
+    };
+    each_frozen([&](Vec2 p, double w) { ++n, center = center + p, mean += w; });
+    if (n > 0) center = (1 / n) * center, mean /= n;
+    each_frozen([&](Vec2 p, double w) {
+      const Vec2 x = p - center;
+      xx += x.x * x.x, xy += x.x * x.y, yy += x.y * x.y, xw += x.x * (w - mean), yw += x.y * (w - mean);
+    });
+    const double determinant = xx * yy - xy * xy;
+    Vec2 slope;
+    if (determinant > 1e-6 * xx * yy) slope = (1 / determinant) * Vec2{yy * xw - xy * yw, xx * yw - xy * xw};
+    for (const VertexId v : mesh.vertices()) {
+      if (around_.frozen[v.index] != 0) continue;
+      const WeightedPoint from = mesh.point(v);
+      double sum = 0, sum_of_rest = 0;
+      each_frozen([&](Vec2 p, double w) {
+        const double near = 1 / (squared_length(p - from.position()) * squared_length(p - from.position()));
+        sum += near, sum_of_rest += near * (w - mean - dot(slope, p - center));
+      });
+      const double rest = sum > 0 ? sum_of_rest / sum : 0;
+      work_.mesh.set_point(v, mesh.space().with_weight(from, mean + dot(slope, from.position() - center) + rest));
+      recorder_.placed(v, from, mesh.point(v), kNoEnergy, kNoEnergy);
+    }
+    return flipper_.restore_all();
   }
 
   /// Assigns weights around the bad triangle. Vertices on the rim, which have triangles outside, keep theirs.
@@ -284,17 +227,51 @@ class Trial {
     return true;
   }
 
-  bool split(HalfedgeId h) {
+  /// Splits an edge, on both of its sides.
+  bool split(HalfedgeId h, double part) {
     const Mesh& mesh = work_.mesh;
-    const auto [a, b, c, d] = inlined::quad(mesh, h);
-    const WeightedPoint half = grid_.snap(middle(mesh.space(), mesh.point(a), mesh.point(b, mesh.point(a))));
-    const WeightedPoint p = mesh.space().with_weight(half, 0.5 * (mesh.weight(a) + mesh.weight(b)));
-    for (const auto& [q, r] : {std::pair(b, c), std::pair(c, a), std::pair(a, d), std::pair(d, b)}) {
-      if (inlined::orientation(mesh.space(), mesh.point(q, p), mesh.point(r, p), p) != Sign::positive) return false;
+    const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h), a);
+    const WeightedPoint p = mesh.is_unflippable(h) ? place_on_line(h, part) : middle_of(a, b);
+    for (const HalfedgeId side : {h, mesh.twin(h)}) {
+      if (!side.valid()) continue;
+      for (const HalfedgeId link : {Mesh::next(side), Mesh::prev(side)}) {
+        const WeightedPoint q = mesh.point(mesh.origin(link), p), r = mesh.point(mesh.target(link), p);
+        if (inlined::orientation(mesh.space(), q, r, p) != Sign::positive) return false;
+      }
     }
     flipper_.split(work_, h, p, kNoEnergy, kNoEnergy);
     limits_.grow();
     return true;
+  }
+  [[nodiscard]] WeightedPoint middle_of(const WeightedPoint& a, const WeightedPoint& b) const {
+    const Space& space = work_.mesh.space();
+    return space.with_weight(grid_.snap(middle(space, a, b)), 0.5 * (space.weight(a) + space.weight(b)));
+  }
+  /// Returns the vertex at a part of the way along an edge of the boundary or of a line, in the plane.
+  [[nodiscard]] WeightedPoint place_on_line(HalfedgeId h, double part) const {
+    const WeightedPoint a = work_.mesh.point(work_.mesh.origin(h)), b = work_.mesh.point(work_.mesh.target(h));
+    const Vec2 along = b.position() - a.position();
+    const Vec2 x = work_.divided_by(h).nearest(a.position() + part * along, grid_);
+    const double l2 = squared_length(along), t = dot(x - a.position(), along) / l2;
+    return {x.x, x.y, split_weight(a.w, b.w, l2, t)};
+  }
+
+  /// Splits the lines at v at one distance from v. Pieces of one length do not ask each other for more splits. Returns
+  /// false if no line is long enough.
+  bool cut_corner(VertexId v, double distance) {
+    const Mesh& mesh = work_.mesh;
+    std::vector<VertexId> ends;
+    for (const HalfedgeId h : lines_at(mesh, v)) ends.push_back(mesh.origin(h) == v ? mesh.target(h) : mesh.origin(h));
+    bool any = false;
+    for (const VertexId end : ends) {
+      HalfedgeId h = mesh.find_halfedge(v, end);
+      const bool towards = h.valid();
+      if (!towards) h = mesh.find_halfedge(end, v);
+      const double part = distance / length(mesh.position(end) - mesh.position(v));
+      if (part > 1 - EdgeConflict::kLeastPiece || around_.is_rim(v, end) || mesh.is_diagonal(h)) continue;
+      any = split(h, towards ? part : 1 - part) || any;
+    }
+    return any;
   }
 
   bool remove(VertexId v) {
@@ -305,15 +282,20 @@ class Trial {
   }
 
   /// Returns false if no vertex was missing, or an edge could not be made regular.
-  bool refine(double gradation) {
-    DelaunayRefinement refinement(work_.mesh, gradation);
+  bool refine(const DelaunayRefinement::Sizes& sizes, bool splits_lines) {
+    const Mesh& mesh = work_.mesh;
+    DelaunayRefinement refinement(mesh, sizes, [&](HalfedgeId h) {
+      return splits_lines && !mesh.is_diagonal(h) && !around_.is_rim(mesh.origin(h), mesh.target(h));
+    });
     int inserted = 0;
     for (auto place = refinement.next(); place && inserted < kMostInserted; place = refinement.next()) {
-      if (!insert(place->triangle, place->point)) {
-        refinement.refuse(place->point);
+      const bool done = place->edge.valid() ? split(place->edge, 0.5) : insert(place->triangle, place->point);
+      if (!done) {
+        refinement.refuse(*place);
         continue;
       }
       if (!flipper_.restore_all()) return false;
+      refinement.update();
       ++inserted;
     }
     return inserted > 0;
@@ -323,7 +305,9 @@ class Trial {
     for (bool removed = true; removed;) {
       removed = false;
       for (const VertexId v : around_.mesh.vertices()) {
-        if (!work_.mesh.is_isolated(v) && may_be_removed(work_.mesh, around_.frozen, v)) removed = remove(v) || removed;
+        if (!work_.mesh.is_isolated(v) && may_be_removed(work_.mesh, around_.frozen, around_.divided, v)) {
+          removed = remove(v) || removed;
+        }
       }
     }
   }
@@ -359,12 +343,24 @@ class Trial {
 
 }  // namespace
 
-bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, VertexId v) {
-  if (frozen[v.index] != 0 || mesh.is_boundary(v)) return false;
-  for (const HalfedgeId h : mesh.star(v)) {
-    if (mesh.is_constrained(h)) return false;
+bool inserts_vertices(const Edit& edit) {
+  switch (edit.kind) {
+    case Edit::insert:
+    case Edit::split:
+    case Edit::cut_corner:
+    case Edit::refine:
+    case Edit::remesh:
+    case Edit::only_refine:
+      return true;
+    default:
+      return false;
   }
-  return !mesh.is_fixed(v);
+}
+
+bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, const DividedEdges& divided,
+                    VertexId v) {
+  if (frozen[v.index] != 0 || mesh.is_fixed(v)) return false;
+  return divided.contains(v) || lines_at(mesh, v).empty();
 }
 
 LocalDefect defect_of(const Mesh& mesh, const AccuracyModel& model) {
@@ -380,7 +376,12 @@ LocalDefect defect_of(const Mesh& mesh, const AccuracyModel& model) {
 
 TrialResult try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings, const WorkingUnits& grid,
                      bool with_events) {
-  return Trial(around, settings, grid, with_events).run(edit);
+  TrialResult result = Trial(around, settings, grid, with_events).run(edit, false);
+  const Space& space = around.mesh.space();
+  const bool may_level = inserts_vertices(edit) && edit.kind != Edit::only_refine && space.is_plane() &&
+                         !space.is_periodic() && settings.options.unknowns != Unknowns::positions;
+  if (result.valid || !may_level) return result;
+  return Trial(around, settings, grid, with_events).run(edit, true);
 }
 
 }  // namespace temper

@@ -20,18 +20,27 @@ struct Edit {
     kick,            ///< moves all free vertices at random, by part of their shortest edge
     assign_weights,  ///< a linear program gives the weights that lack least of a margin; positions stay
     insert,          ///< a vertex in a triangle
-    split,           ///< an inner edge at its midpoint
+    split,           ///< an edge, at a part of the way
+    cut_corner,      ///< all lines at a vertex, at one distance from it
     remove,          ///< a vertex
     refine,          ///< inserts vertices until no triangle is too large for its place
     remesh,          ///< removes all free vertices, then refines
+    only_refine,     ///< refines without sweeps; the caller makes edges of the rim regular
   } kind = nothing;
-  TriangleId triangle = {};  ///< insert
-  WeightedPoint place = {};  ///< insert; without a weight
-  HalfedgeId edge = {};      ///< split
-  VertexId vertex = {};      ///< remove
-  double gradation = 0;      ///< refine, remesh: growth of the size of triangles with the distance from the boundary
-  std::uint64_t seed = 0;    ///< kick
+  TriangleId triangle = {};   ///< insert
+  WeightedPoint place = {};   ///< insert; without a weight
+  HalfedgeId edge = {};       ///< split
+  double part = 0.5;          ///< split: part of the way from the edge's origin
+  VertexId vertex = {};       ///< remove, cut_corner
+  double distance = 0;        ///< cut_corner
+  double gradation = 0;       ///< refine (all three): growth of the size of triangles with the distance from what stays
+  double factor = 1;          ///< refine: of these sizes
+  bool splits_lines = false;  ///< refine: where they are too long
+  std::uint64_t seed = 0;     ///< kick
 };
+
+/// Says whether the edit brings new vertices.
+[[nodiscard]] bool inserts_vertices(const Edit& edit);
 
 /// The distance of a mesh from well-centered: first the number of bad triangles, then how bad they are and how much
 /// length edges lack (optimize/run/judge.hpp).
@@ -42,8 +51,10 @@ struct LocalDefect {
 };
 [[nodiscard]] LocalDefect defect_of(const Mesh& mesh, const AccuracyModel& model = {});
 
-/// Says whether v is neither fixed nor on a boundary, interface or rim. plan_removal says whether it can be removed.
-[[nodiscard]] bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, VertexId v);
+/// Says whether v is neither fixed nor on a rim, and on no line of the input unless the run itself has put it there.
+/// plan_removal says whether it can be removed.
+[[nodiscard]] bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen,
+                                  const DividedEdges& divided, VertexId v);
 
 /// The result of a trial.
 struct TrialResult {
@@ -52,7 +63,9 @@ struct TrialResult {
   std::vector<TraceEvent> events;  ///< if requested; in local numbers, new vertices last
 };
 
-/// Applies the edit to a copy of the neighborhood and optimizes it. `grid`: the whole mesh's, for positions.
+/// Applies the edit to a copy of the neighborhood and optimizes it. If new vertices are not possible with the present
+/// weights, tries again with equal weights of all vertices that are not frozen. `grid`: the whole mesh's, for
+/// positions.
 [[nodiscard]] TrialResult try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings,
                                    const WorkingUnits& grid, bool with_events);
 

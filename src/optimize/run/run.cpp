@@ -155,9 +155,12 @@ std::size_t count_inverted(const Mesh& mesh) {
 /// Public meshes need at most 500 triangles of trials per triangle of the mesh, or 130,000 if it is small. In thin
 /// triangles a neighborhood reaches across the mesh: without this limit, a mesh of 483 triangles took 50 s.
 double Run::most_trial_triangles(const OptimizeOptions& options, const Mesh& input) {
-  constexpr double kLeast = 150'000, kPerTriangle = 750;
+  // If lines may be split, hardly a place is beyond cure, so in small meshes the search may take longer.
+  constexpr double kLeast = 150'000, kLeastWithSplits = 600'000, kPerTriangle = 750;
+  const bool splits = options.boundary == BoundaryVertices::split && options.repair == Repair::vertices;
   const double more = static_cast<double>(options.repair_trials) / OptimizeOptions().repair_trials;
-  return std::max(1.0, more) * (kLeast + kPerTriangle * static_cast<double>(input.n_triangles()));
+  return std::max(1.0, more) *
+         ((splits ? kLeastWithSplits : kLeast) + kPerTriangle * static_cast<double>(input.n_triangles()));
 }
 
 std::optional<InputError> expect_agreement(const OptimizeHooks& hooks, const OptimizeOptions& options,

@@ -73,6 +73,11 @@ class Run {
     trials_left_ -= trials;
     trial_triangles_left_ -= static_cast<double>(trials) * static_cast<double>(n);
   }
+  /// Gives repairs their budgets again, for another attempt.
+  void renew_trials() {
+    trials_left_ = options_.repair_trials;
+    trial_triangles_left_ = most_trial_triangles(options_, input_);
+  }
   /// Call this before the first sweep. The work so far, copies and measures of the whole mesh, is repeated at the end
   /// and takes about as long. The time limit includes all of it.
   void begin_sweeps() {

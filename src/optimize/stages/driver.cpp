@@ -6,11 +6,15 @@
 #include "base/assert.hpp"
 #include "base/rng.hpp"
 #include "energy/whole_mesh.hpp"
+#include "mesh/bad_triangles.hpp"
 #include "optimize/flips/grading.hpp"
+#include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/repair_search.hpp"
+#include "optimize/repair/trial.hpp"
 #include "optimize/step/ties.hpp"
 #include "optimize/sweep/insertion.hpp"
 #include "temper/regularity.hpp"
+#include "topology/locate.hpp"
 
 namespace temper {
 Driver::Driver(WorkingCopy& work, const Settings& settings, SweepState& state, Run& run, std::size_t part_size)
@@ -249,6 +253,35 @@ void Driver::grade_boundary() {
 void Driver::split_where_bad() {
   run_.facts.splits_where_bad = temper::split_where_bad(work_, flipper_, settings_.guard);
   grow();
+}
+
+std::size_t Driver::refine_where_bad(double factor) {
+  constexpr int kRings = 2;
+  constexpr double kGradation = 0.6;
+  std::vector<Vec2> places;
+  for (const TriangleId t : bad_triangles(mesh_)) {
+    const auto [a, b, c] = mesh_.points(t);
+    places.push_back((1.0 / 3) * (a.position() + b.position() + c.position()));
+  }
+  recorder_.begin_sweep(run_.next_sweep());
+  for (const VertexId v : mesh_.vertices()) set_weight(v, 0);
+  const std::size_t before = work_.n_vertices_named;
+  if (!flipper_.restore_all()) return 0;
+  const Edit edit = {.kind = Edit::only_refine, .gradation = kGradation, .factor = factor, .splits_lines = true};
+  TriangleId near(0);
+  for (const Vec2 p : places) {
+    const Location at = locate(mesh_, p, near);
+    if (!at.triangle.valid()) continue;
+    near = at.triangle;
+    const Neighborhood around = neighborhood_of(work_, near, kRings);
+    const TrialResult refined = try_edit(around, edit, settings_, work_.units, true);
+    if (!refined.valid) continue;
+    splice(work_, flipper_, recorder_, around, refined.events);
+    grow();
+    flipper_.restore_all();
+  }
+  end_sweep_of_its_own();
+  return work_.n_vertices_named - before;
 }
 
 void Driver::jitter(double amount) {

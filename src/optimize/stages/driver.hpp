@@ -21,6 +21,9 @@ class Driver {
   void grade_boundary();
   /// Splits such edges at bad triangles alone.
   void split_where_bad();
+  /// Gives all vertices one weight, and inserts vertices around the bad triangles until none is larger than `factor`
+  /// times the size that its place requires, as one sweep. Lines are split, too. Returns the number of new vertices.
+  std::size_t refine_where_bad(double factor);
   /// Adds `amount` of their shortest edge squared to the heavier ends of ties (ties.hpp), and flips, as one sweep.
   /// Returns true if this is enough: then sweeps with a large γ would undo it.
   bool reweight_ties(double amount);

@@ -253,4 +253,30 @@ Candidate repaired(Candidate best, const Settings& settings, SweepState& state, 
   return best;
 }
 
+Candidate refined(Candidate best, const Settings& settings, SweepState& state, Run& run) {
+  constexpr int kRounds = 20;
+  constexpr double kSmaller = 0.8;
+  const bool may = repairs_split_lines(settings, best.work.mesh.space()) &&
+                   settings.options.unknowns == Unknowns::positions_and_weights;
+  if (!may || !run.goes_on() || !has_bad(best, settings)) return best;
+  run.renew_trials();
+  Candidate last = best;
+  double factor = 1;
+  bool is_best = true;
+  for (int i = 0; i < kRounds && has_bad(best, settings) && run.goes_on(); ++i, factor *= kSmaller) {
+    const BestBefore kept(run.best_before, &best.work);
+    Driver driver(last.work, settings, state, run);
+    if (driver.refine_where_bad(factor) == 0) continue;
+    last.sweep = driver.restart(restarts(settings, last.work.mesh).front(), true);
+    if (has_bad(last, settings) && run.goes_on()) {
+      driver.repair(settings.policy.seed);
+      last.sweep = run.report.sweeps;
+    }
+    is_best = replaces(last.work, best.work, Requirement::fewer_bad, settings, state.model);
+    if (is_best) best = last;
+  }
+  if (!is_best) Driver(best.work, settings, state, run).recorder().returned_to(best.sweep);
+  return best;
+}
+
 }  // namespace temper

@@ -24,4 +24,8 @@ namespace temper {
 /// start, searches work in place, without a sweep of the whole mesh.
 [[nodiscard]] Candidate repaired(Candidate best, const Settings& settings, SweepState& state, Run& run);
 
+/// Refines the mesh where triangles stay bad, and sweeps and repairs it again, until none is bad. Smaller triangles
+/// find more room. Only if the options allow new vertices, on lines too.
+[[nodiscard]] Candidate refined(Candidate best, const Settings& settings, SweepState& state, Run& run);
+
 }  // namespace temper

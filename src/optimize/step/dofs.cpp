@@ -55,16 +55,21 @@ IdVector<VertexId, Mobility> mobilities(const Mesh& mesh, const OptimizeOptions&
   return result;
 }
 
+Dofs dofs(Vec2 direction, Unknowns unknowns) {
+  Dofs f;
+  if (unknowns != Unknowns::weights) add_axis(f, {direction.x, direction.y, 0});
+  if (unknowns != Unknowns::positions) add_axis(f, {0, 0, 1});
+  return f;
+}
+
 Dofs dofs(const Mesh& mesh, VertexId v, Mobility mobility, Unknowns unknowns) {
+  if (mobility == Mobility::sliding) return dofs(fixed_line(mesh, v).direction, unknowns);
   Dofs f;
   if (mobility == Mobility::frozen) return f;
   if (unknowns != Unknowns::weights) {
     if (mobility == Mobility::free) {
       add_axis(f, {1, 0, 0});
       add_axis(f, {0, 1, 0});
-    } else if (mobility == Mobility::sliding) {
-      const Vec2 direction = fixed_line(mesh, v).direction;
-      add_axis(f, {direction.x, direction.y, 0});
     }
   }
   if (unknowns != Unknowns::positions) add_axis(f, {0, 0, 1});

@@ -132,6 +132,7 @@ void VertexStep::make_steps() {
 bool VertexStep::gather(VertexId v) {
   vertex_ = v;
   origin_ = mesh.point(v);
+  edge_ = limits.divided_edge(v);
   guard_.begin_step();
   return star_->gather(v);
 }
@@ -175,7 +176,7 @@ WeightedPoint VertexStep::moved(const Step& step, double t) const {
   const WeightedPoint p = along(mesh.space(), origin_, step, t);
   if (!mesh.space().is_plane()) return p;
   if (step[0] == 0 && step[1] == 0) return {origin_.x, origin_.y, p.w};  // bit for bit: −0 + 0 is +0
-  const Vec2 x = units.snap(p.position());
+  const Vec2 x = edge_ != nullptr ? edge_->nearest(p.position(), units) : units.snap(p.position());
   return {x.x, x.y, p.w};
 }
 

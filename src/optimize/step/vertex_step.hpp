@@ -23,13 +23,17 @@ namespace temper {
 
 /// The limits of each vertex: mobility, size band and guard, shared by all that make steps on one mesh.
 struct VertexLimits {
-  VertexLimits(const Mesh& mesh, const Settings& settings, const WorkingUnits& units)
-      : mobility(mobilities(mesh, settings.options, settings.executor())),
-        degree(mesh.n_vertices(), 0),
-        band(mesh, units, settings.size_field, settings.options.size_band),
-        guard(mesh, units, settings.guard),
-        mesh_(mesh),
-        options_(settings.options) {}
+  VertexLimits(const WorkingCopy& work, const Settings& settings, const WorkingUnits& units)
+      : mobility(mobilities(work.mesh, settings.options, settings.executor())),
+        degree(work.mesh.n_vertices(), 0),
+        band(work.mesh, units, settings.size_field, settings.options.size_band),
+        guard(work.mesh, units, settings.guard),
+        work_(work),
+        mesh_(work.mesh),
+        options_(settings.options) {
+    if (work.divided.empty()) return;
+    for (const VertexId v : mesh_.vertices()) mobility[v] = mobility_of(v, mobility[v]);
+  }
 
   IdVector<VertexId, Mobility> mobility;
   IdVector<VertexId, std::uint8_t> degree;  ///< number of triangles when a batch last took the vertex; 0: never
@@ -48,14 +52,25 @@ struct VertexLimits {
   /// Follows insertions and splits: new vertices are the last vertices of the mesh.
   void grow() {
     for (std::size_t i = mobility.size(); i < mesh_.n_vertices(); ++i) {
-      mobility.push_back(temper::mobility(mesh_, VertexId(i), options_));
+      mobility.push_back(mobility_of(VertexId(i), temper::mobility(mesh_, VertexId(i), options_)));
     }
     degree.resize(mobility.size());
     band.grow();
     guard.grow();
   }
 
+  /// Returns the divided edge along which v slides, if v is a vertex of the run.
+  [[nodiscard]] const DividedEdge* divided_edge(VertexId v) const {
+    return mobility[v] == Mobility::sliding ? work_.divided_edge(v) : nullptr;
+  }
+
  private:
+  /// The run's own vertices on lines slide, whatever the options say about the vertices of the input.
+  [[nodiscard]] Mobility mobility_of(VertexId v, Mobility of_input) const {
+    return work_.divided_edge(v) != nullptr ? Mobility::sliding : of_input;
+  }
+
+  const WorkingCopy& work_;
   const Mesh& mesh_;
   const OptimizeOptions& options_;
 };
@@ -112,6 +127,7 @@ class VertexStep : StepContext {
   void remove_if_better(VertexId v);
   void make_steps();
   [[nodiscard]] Dofs freedom_in(Unknowns unknowns) const {
+    if (edge_ != nullptr) return dofs(edge_->direction(), unknowns);
     return dofs(mesh, vertex_, limits.mobility[vertex_], unknowns);
   }
   [[nodiscard]] bool may_go(VertexId v) const { return limits.mobility[v] == Mobility::free; }
@@ -138,10 +154,11 @@ class VertexStep : StepContext {
   double overshoot_ = 1;
 
   VertexId vertex_;
-  Part part_;             // to which the step is confined
-  bool escapes_ = false;  // whether edges that the step must flip are outside the part
-  WeightedPoint origin_;  // the vertex's present place
-  double energy_ = 0;     // of the patch at origin_
+  Part part_;                          // to which the step is confined
+  bool escapes_ = false;               // whether edges that the step must flip are outside the part
+  WeightedPoint origin_;               // the vertex's present place
+  const DividedEdge* edge_ = nullptr;  // along which it slides, if it is a vertex of the run
+  double energy_ = 0;                  // of the patch at origin_
   std::unique_ptr<StarObjective> star_;
   Patch collapsing_;  // gathered for E_c
   RemovalPlan plan_;

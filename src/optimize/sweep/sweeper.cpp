@@ -111,7 +111,7 @@ void Improvers::begin_sweep(int iteration, Unknowns unknowns) {
 
 Sweeper::Sweeper(WorkingCopy& work, const Settings& settings, const SweepState& state, Flipper& flipper,
                  const Recorder& recorder, std::size_t part_size)
-    : limits_(work.mesh, settings, work.units),
+    : limits_(work, settings, work.units),
       context_{work.mesh, settings, state, work.units, limits_, recorder},
       flipper_(flipper),
       improvers_(context_),

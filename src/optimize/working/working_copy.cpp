@@ -45,9 +45,10 @@ WorkingCopy::WorkingCopy(Mesh ordered, SharedOrder of)
   units.enter(mesh);
 }
 
-WorkingCopy WorkingCopy::part(const Mesh& part) {
+WorkingCopy WorkingCopy::part(const Mesh& part, DividedEdges divided) {
   WorkingCopy work;
   work.mesh = part;
+  work.divided = std::move(divided);
   work.name_new();
   work.n_input_vertices = work.n_vertices_named;
   return work;
@@ -64,6 +65,21 @@ void WorkingCopy::name_new() {
   auto& [vertices, triangles] = order.own();
   while (vertices.size() < mesh.n_vertices()) vertices.push_back(VertexId(n_vertices_named++));
   while (triangles.size() < mesh.n_triangles()) triangles.push_back(TriangleId(n_triangles_named++));
+}
+
+const DividedEdge* WorkingCopy::divided_edge(VertexId v) const {
+  if (divided.empty()) return nullptr;
+  const auto found = divided.find(order->vertices[v]);
+  return found == divided.end() ? nullptr : &found->second;
+}
+
+DividedEdge WorkingCopy::divided_by(HalfedgeId h) const {
+  const VertexId a = mesh.origin(h), b = mesh.target(h);
+  for (const VertexId v : {a, b}) {
+    if (const DividedEdge* edge = divided_edge(v)) return *edge;
+  }
+  const Vec2 p = mesh.position(a), q = mesh.position(b);  // both halfedges give the same bits
+  return std::pair(p.x, p.y) < std::pair(q.x, q.y) ? DividedEdge{p, q} : DividedEdge{q, p};
 }
 
 Compaction WorkingCopy::compact() {

@@ -4,9 +4,11 @@
 // mesh that is never compacted, as in a replay, slots and numbers are equal.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <utility>
 
+#include "optimize/working/divided_edge.hpp"
 #include "optimize/working/working_units.hpp"
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
@@ -39,6 +41,9 @@ class SharedOrder {
   std::shared_ptr<MeshOrder> order_;
 };
 
+/// The divided edge that a vertex of the run is on, by the number of this vertex.
+using DividedEdges = std::map<VertexId, DividedEdge>;
+
 struct WorkingCopy {
   Mesh mesh;
   WorkingUnits units;
@@ -47,6 +52,7 @@ struct WorkingCopy {
   std::size_t n_input_vertices = 0;   ///< in the user's mesh; vertices from this number on are inserted
   std::size_t n_vertices_named = 0;   ///< numbers given so far, input included; none is given twice
   std::size_t n_triangles_named = 0;  ///< numbers of triangle slots given so far
+  DividedEdges divided;               ///< removed vertices may have entries
 
   /// An empty copy.
   WorkingCopy() = default;
@@ -54,13 +60,18 @@ struct WorkingCopy {
   /// Takes a mesh in the user's units that is in this order already.
   WorkingCopy(Mesh ordered, SharedOrder order);
   /// The working copy of a part of a mesh that has the right units already: numbers and coordinates stay.
-  [[nodiscard]] static WorkingCopy part(const Mesh& part);
+  [[nodiscard]] static WorkingCopy part(const Mesh& part, DividedEdges divided = {});
 
   /// Returns the vertex that has number v in the user's mesh, or an invalid one if it was removed. O(n).
   [[nodiscard]] VertexId from_user(VertexId v) const;
   /// Numbers the elements that topology has appended to the mesh. Call it after each insertion or split, before
   /// recording.
   void name_new();
+  /// Returns the divided edge that v is on; null for vertices of the input, and for those on no line.
+  [[nodiscard]] const DividedEdge* divided_edge(VertexId v) const;
+  /// Returns the edge that a split of h divides, or has divided already. Precondition: h is on the boundary or
+  /// constrained, in a plane without periods.
+  [[nodiscard]] DividedEdge divided_by(HalfedgeId h) const;
   [[nodiscard]] bool has_inserted() const { return n_vertices_named > n_input_vertices; }
   /// Drops erased triangles and removed vertices from mesh and order.
   Compaction compact();

@@ -65,7 +65,7 @@ struct Alone {
         state(settings),
         recorder(settings.hooks.tracer, work, 1),
         flipper(work.mesh, settings, state, recorder),
-        limits(work.mesh, settings, work.units),
+        limits(work, settings, work.units),
         step({work.mesh, settings, with_domain(state, task), work.units, limits, recorder}, flipper) {}
 
   static Settings settings_of(const WorkingCopy& work, const EnergyModel& model, const AccuracyTask* task) {

@@ -333,7 +333,7 @@ bool has_corner_in(const Mesh& mesh, TriangleId t, const Part& part) {
 std::size_t improve_part(WorkingCopy& work, const Settings& settings, const Part& part) {
   const SweepState state(settings);
   const Recorder recorder(settings.hooks.tracer, work, 1);
-  VertexLimits limits(work.mesh, settings, work.units);
+  VertexLimits limits(work, settings, work.units);
   Improver improver({work.mesh, settings, state, work.units, limits, recorder});
   std::vector<VertexId> vertices, left;
   for (const VertexId v : work.mesh.vertices()) {
@@ -412,7 +412,7 @@ TEST(OnePart, UndoesAStepWhoseFlipsWouldLeaveIt) {
               {.energy = EnergyKind::T, .paper = {.flip_limit = FlipLimit::unlimited}});
   Mesh& mesh = one.work.mesh;
   const Recorder recorder(one.settings.hooks.tracer, one.work, 1);
-  VertexLimits limits(mesh, one.settings, one.work.units);
+  VertexLimits limits(one.work, one.settings, one.work.units);
   const SweepState state(one.settings);
   Improver improver({mesh, one.settings, state, one.work.units, limits, recorder});
   improver.step().begin_sweep(0, one.settings.options.unknowns);

@@ -49,7 +49,7 @@ TEST(RepairByProgram, OfAPlaceChangesWeightsNearItAndNoneOfTheRim) {
   ASSERT_TRUE(settings);
   std::size_t cured = 0;
   for (std::size_t t = 0; t < mesh.n_triangles(); t += 37) {
-    const Neighborhood around = neighborhood_of(mesh, TriangleId(t), 3);
+    const Neighborhood around = neighborhood_of(WorkingCopy::part(mesh), TriangleId(t), 3);
     const TrialResult result =
         try_edit(around, {.kind = Edit::assign_weights}, *settings, WorkingUnits::of(mesh), true);
     if (!result.valid) continue;

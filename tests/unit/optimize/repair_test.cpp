@@ -10,6 +10,8 @@
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/trial.hpp"
 #include "optimize/stages/restarts.hpp"
+#include "optimize/step/vertex_step.hpp"
+#include "support/instances.hpp"
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/detail/geometry.hpp"
@@ -307,7 +309,7 @@ TEST(Neighborhood, IsAValidPartWithItsRimFrozen) {
   std::size_t frozen = 0;
   for (const int rings : {0, 1, 2, 3, 20}) {
     for (std::size_t i = 0; i < mesh.n_triangles(); i += 17) {
-      const Neighborhood around = neighborhood_of(mesh, TriangleId(i), rings);
+      const Neighborhood around = neighborhood_of(WorkingCopy::part(mesh), TriangleId(i), rings);
       ASSERT_EQ(around.mesh.validate(), std::nullopt);
       ASSERT_TRUE(rim_is_regular(around, around.mesh));
       for (const VertexId v : around.mesh.vertices()) {
@@ -323,7 +325,7 @@ TEST(Neighborhood, IsAValidPartWithItsRimFrozen) {
     }
   }
   EXPECT_GT(frozen, 0u);
-  EXPECT_EQ(neighborhood_of(mesh, TriangleId(0), 100).mesh.n_triangles(), mesh.n_triangles());
+  EXPECT_EQ(neighborhood_of(WorkingCopy::part(mesh), TriangleId(0), 100).mesh.n_triangles(), mesh.n_triangles());
 }
 
 TEST(Trial, RemovesNoVertexThatIsFixedFrozenOfTheBoundaryOrOfALine) {
@@ -331,20 +333,261 @@ TEST(Trial, RemovesNoVertexThatIsFixedFrozenOfTheBoundaryOrOfALine) {
   std::vector<std::uint8_t> frozen(mesh.n_vertices(), 0);
   std::size_t inner = 0;
   for (const VertexId v : mesh.vertices()) {
-    EXPECT_EQ(may_be_removed(mesh, frozen, v), !mesh.is_boundary(v)) << v.index;
+    EXPECT_EQ(may_be_removed(mesh, frozen, {}, v), !mesh.is_boundary(v)) << v.index;
     if (mesh.is_boundary(v)) continue;
     ++inner;
     mesh.set_fixed(v, true);
-    EXPECT_FALSE(may_be_removed(mesh, frozen, v)) << "fixed";
+    EXPECT_FALSE(may_be_removed(mesh, frozen, {}, v)) << "fixed";
     mesh.set_fixed(v, false);
     frozen[v.index] = 1;
-    EXPECT_FALSE(may_be_removed(mesh, frozen, v)) << "frozen";
+    EXPECT_FALSE(may_be_removed(mesh, frozen, {}, v)) << "frozen";
     frozen[v.index] = 0;
     mesh.set_constrained(mesh.outgoing(v), true);
-    EXPECT_FALSE(may_be_removed(mesh, frozen, v)) << "of a line";
+    EXPECT_FALSE(may_be_removed(mesh, frozen, {}, v)) << "of a line";
     mesh.set_constrained(mesh.outgoing(v), false);
   }
   EXPECT_GT(inner, 5u);
+}
+
+// --- lines that the run divides ---------------------------------------------------------------------------
+
+/// A polygon with whole coordinates and a constrained line through it. No edge is parallel to an axis.
+Mesh polygon_with_line() {
+  const std::vector<Vec2> points = {{3, 1}, {101, 17}, {120, 83}, {67, 131}, {11, 90}, {50, 40}, {61, 85}};
+  const std::vector<std::array<std::int32_t, 2>> segments = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 0}, {5, 6}};
+  return *constrained_delaunay({.points = points, .segments = segments});
+}
+
+Settings splitting_settings(const Mesh& mesh) {
+  return *make_settings({.boundary = BoundaryVertices::split, .repair = Repair::vertices}, mesh, WorkingUnits());
+}
+
+/// Says whether edges from a to b cover the segment between two places, exactly.
+bool is_covered(const Mesh& mesh, Vec2 a, Vec2 b) {
+  const auto at = [&](Vec2 p) {
+    for (const VertexId v : mesh.vertices()) {
+      if (mesh.position(v) == p) return v;
+    }
+    return VertexId();
+  };
+  VertexId v = at(a);
+  while (v.valid() && mesh.position(v) != b) {
+    VertexId next;
+    for (const HalfedgeId h : lines_at(mesh, v)) {
+      const VertexId u = mesh.origin(h) == v ? mesh.target(h) : mesh.origin(h);
+      const Vec2 p = mesh.position(u);
+      if (orient2d(a, p, b) == Sign::zero && dot(p - mesh.position(v), b - a) > 0) next = u;
+    }
+    v = next;
+  }
+  return v.valid();
+}
+
+TEST(DividedEdge, HasItsPlacesExactlyOnIfCoordinatesHaveFewBits) {
+  Rng rng(3);
+  const auto whole = [&] { return static_cast<double>(rng.below(1U << 31U)); };
+  for (int i = 0; i < 500; ++i) {
+    const DividedEdge edge = {{whole(), whole()}, {whole(), whole()}};
+    const double t = 0.01 + 0.98 * rng.uniform();
+    const Vec2 p = edge.at(t, WorkingUnits());
+    EXPECT_EQ(orient2d(edge.a, p, edge.b), Sign::zero);
+    EXPECT_NEAR(edge.part_of(p), t, 0x1p-12);
+    EXPECT_EQ(edge.nearest(p, WorkingUnits()), p) << "the same place again";
+  }
+  const DividedEdge odd = {{0.1, 0.7}, {1.3, 1.1}};
+  const Vec2 p = odd.at(1.0 / 3, WorkingUnits());
+  EXPECT_NEAR(cross(p - odd.a, odd.along()), 0, 1e-15);
+}
+
+TEST(Trial, SplitsLinesOnBothSidesAndKeepsThemExactly) {
+  const Neighborhood around = neighborhood_of(WorkingCopy::part(polygon_with_line()), TriangleId(0), 9);
+  const Mesh& mesh = around.mesh;
+  const Settings settings = splitting_settings(mesh);
+  std::size_t valid = 0, inside = 0;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_unflippable(h) || !mesh.is_edge_representative(h)) continue;
+    const TrialResult result =
+        try_edit(around, {.kind = Edit::split, .edge = h, .part = 0.4}, settings, WorkingUnits(), true);
+    if (!result.valid) continue;
+    ++valid;
+    inside += mesh.is_boundary(h) ? 0 : 1;
+    const auto after = replay(mesh, result.events);
+    ASSERT_TRUE(after);
+    EXPECT_EQ(after->validate(), std::nullopt);
+    EXPECT_EQ(after->n_vertices(), mesh.n_vertices() + 1);
+    EXPECT_EQ(count_non_regular_edges(*after), 0u);
+    for (const HalfedgeId line : mesh.halfedges()) {
+      if (!mesh.is_unflippable(line)) continue;
+      const Vec2 a = mesh.position(mesh.origin(line)), b = mesh.position(mesh.target(line));
+      EXPECT_TRUE(is_covered(*after, a, b)) << a.x << " to " << b.x;
+    }
+    for (const VertexId v : mesh.vertices()) {
+      if (!lines_at(mesh, v).empty()) {
+        EXPECT_EQ(after->position(v), mesh.position(v));
+      }
+    }
+  }
+  EXPECT_GE(valid, 5u);
+  EXPECT_EQ(inside, 1u);
+}
+
+TEST(Trial, CutsAllLinesOfACornerAtOneDistance) {
+  const std::vector<Vec2> points = {{0, 0}, {100, 0}, {80, 30}};
+  const Mesh input = *constrained_delaunay({.points = points});
+  const Neighborhood around = neighborhood_of(WorkingCopy::part(input), TriangleId(0), 1);
+  const Mesh& mesh = around.mesh;
+  VertexId corner;
+  for (const VertexId v : mesh.vertices()) {
+    if (mesh.position(v) == points[0]) corner = v;
+  }
+  const Edit edit = {.kind = Edit::cut_corner, .vertex = corner, .distance = 50};
+  Settings settings = splitting_settings(mesh);
+  settings.options.unknowns = Unknowns::weights;  // new vertices stay where they are put
+  const TrialResult result = try_edit(around, edit, settings, WorkingUnits(), true);
+  const auto after = replay(mesh, result.events);
+  ASSERT_TRUE(after);
+  ASSERT_EQ(after->n_vertices(), 5u);
+  for (const std::size_t i : {3U, 4U}) EXPECT_NEAR(length(after->position(VertexId(i))), 50, 1e-4);
+  const Edit too_far = {.kind = Edit::cut_corner, .vertex = corner, .distance = 99};
+  EXPECT_FALSE(try_edit(around, too_far, settings, WorkingUnits(), false).valid);
+}
+
+TEST(Trial, RemovesAndSlidesVerticesOfTheRunOnLinesAndNoOthers) {
+  WorkingCopy work = WorkingCopy::part(polygon_with_line());
+  const Mesh input = work.mesh;
+  const Settings settings = splitting_settings(work.mesh);
+  const SweepState state(settings);
+  const Recorder recorder(settings.hooks.tracer, work, 1);
+  Flipper flipper(work.mesh, settings, state, recorder);
+  std::vector<std::array<VertexId, 2>> lines;
+  for (const HalfedgeId h : input.halfedges()) {
+    if (input.is_unflippable(h) && input.is_edge_representative(h)) lines.push_back({input.origin(h), input.target(h)});
+  }
+  for (const auto& [a, b] : lines) {
+    const HalfedgeId h = work.mesh.find_halfedge(a, b);
+    const Vec2 p = work.divided_by(h).at(0.25, WorkingUnits());
+    const VertexId v = flipper.split(work, h, {p.x, p.y, 0}, kNoEnergy, kNoEnergy);
+    ASSERT_NE(work.divided_edge(v), nullptr);
+    // Pieces of the edge divide the same edge.
+    for (const HalfedgeId piece : lines_at(work.mesh, v)) {
+      EXPECT_EQ(work.divided_by(piece).a, work.divided_edge(v)->a);
+      EXPECT_EQ(work.divided_by(piece).b, work.divided_edge(v)->b);
+    }
+  }
+  ASSERT_TRUE(flipper.restore_all());
+  const VertexLimits limits(work, settings, work.units);
+  const std::vector<std::uint8_t> nothing_frozen(work.mesh.n_vertices(), 0);
+  for (const VertexId v : work.mesh.vertices()) {
+    const bool is_of_run = v.index >= input.n_vertices();
+    const bool on_line = !lines_at(work.mesh, v).empty();
+    EXPECT_EQ(may_be_removed(work.mesh, nothing_frozen, work.divided, v), is_of_run || !on_line) << v.index;
+    const Mobility on_a_line = is_of_run ? Mobility::sliding : Mobility::fixed;
+    EXPECT_EQ(limits.mobility[v], on_line ? on_a_line : Mobility::free) << v.index;
+  }
+  for (std::size_t i = input.n_vertices(); i < work.mesh.n_vertices(); ++i) {
+    const RemovalPlan plan = plan_removal(work.mesh, VertexId(i));
+    ASSERT_EQ(plan.status, RemovalStatus::possible);
+    flipper.remove(EventKind::removal, plan, kNoEnergy, kNoEnergy);
+  }
+  ASSERT_TRUE(flipper.restore_all());
+  work.compact();
+  EXPECT_EQ(work.mesh.validate(), std::nullopt);
+  EXPECT_EQ(boundary(work.mesh), boundary(input));
+}
+
+TEST(Repair, OfPolygonsWithSplitsLeavesNoBadTriangleAndTheirLinesExactly) {
+  std::size_t split = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Rng rng(seed);
+    std::vector<Vec2> points;
+    std::vector<std::array<std::int32_t, 2>> segments;
+    constexpr int kCorners = 14;
+    for (int i = 0; i < kCorners; ++i) {  // a star, with a constrained line from its center to a corner
+      const double angle = 2 * std::numbers::pi * (i + 0.8 * rng.uniform()) / kCorners, r = 200 + 800 * rng.uniform();
+      points.push_back({std::round(r * std::cos(angle)), std::round(r * std::sin(angle))});
+      segments.push_back({i, (i + 1) % kCorners});
+    }
+    points.push_back({0, 0});
+    segments.push_back({kCorners, 0});
+    Mesh input = *constrained_delaunay({.points = points, .segments = segments});
+    input.set_fixed(VertexId(kCorners), true);
+    Mesh mesh = input;
+    const auto report = optimize(mesh, {.boundary = BoundaryVertices::split, .repair = Repair::vertices});
+    ASSERT_TRUE(report);
+    EXPECT_EQ(n_bad(mesh), 0u) << "seed " << seed;
+    EXPECT_EQ(mesh.validate(), std::nullopt);
+    split += report->vertices_inserted;
+    for (const auto& [a, b] : segments) {
+      EXPECT_TRUE(is_covered(mesh, points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]))
+          << "seed " << seed << ", " << a << " to " << b;
+    }
+  }
+  EXPECT_GT(split, 0u);
+}
+
+TEST(Trial, RefinesLinesOnlyIfItMay) {
+  const Neighborhood around = neighborhood_of(WorkingCopy::part(polygon_with_line()), TriangleId(0), 9);
+  const Settings settings = splitting_settings(around.mesh);
+  for (const bool splits : {false, true}) {
+    const Edit edit = {.kind = Edit::only_refine, .gradation = 0.6, .factor = 0.3, .splits_lines = splits};
+    const TrialResult result = try_edit(around, edit, settings, WorkingUnits(), true);
+    ASSERT_TRUE(result.valid);
+    const auto after = replay(around.mesh, result.events);
+    ASSERT_TRUE(after);
+    EXPECT_EQ(after->validate(), std::nullopt);
+    EXPECT_GT(after->n_vertices(), around.mesh.n_vertices());
+    EXPECT_EQ(boundary(*after) == boundary(around.mesh), !splits);
+    for (const HalfedgeId h : around.mesh.halfedges()) {
+      if (!around.mesh.is_unflippable(h)) continue;
+      EXPECT_TRUE(
+          is_covered(*after, around.mesh.position(around.mesh.origin(h)), around.mesh.position(around.mesh.target(h))));
+    }
+  }
+}
+
+TEST(Refined, LeavesNoBadTriangleWithoutRepairsBefore) {
+  const Mesh input = polygon_with_line();
+  ASSERT_GT(n_bad(input), 0u);
+  const OptimizeOptions options = {.boundary = BoundaryVertices::split, .repair = Repair::vertices};
+  const OptimizeHooks nobody;
+  temper::Run run(options, nobody, input);
+  const auto settings = make_settings(options, input, WorkingUnits::of(input), {});
+  ASSERT_TRUE(settings);
+  SweepState state(*settings);
+  const Mesh mesh = refined({WorkingCopy(input, options.paper.order)}, *settings, state, run).work.in_user_terms();
+  EXPECT_EQ(n_bad(mesh), 0u);
+  EXPECT_EQ(mesh.validate(), std::nullopt);
+  EXPECT_EQ(count_non_regular_edges(mesh), 0u);
+  for (const HalfedgeId h : input.halfedges()) {
+    if (!input.is_unflippable(h)) continue;
+    EXPECT_TRUE(is_covered(mesh, input.position(input.origin(h)), input.position(input.target(h))));
+  }
+}
+
+TEST(Repair, OfPointSetsWithConstraintsLeavesNoBadTriangleAndAllPointsInPlace) {
+  const std::filesystem::path folder = TEMPER_SHARED "/cgshop";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no instances here";
+  std::size_t n = 0;
+  for (const char* name : {"point-set_10_13860916", "point-set_20_0c4009d9", "point-set_40_9451c229"}) {
+    const auto path = folder / (std::string(name) + ".instance.json");
+    if (!std::filesystem::exists(path)) continue;
+    ++n;
+    const test::Instance instance = test::read_instance(path);
+    Mesh mesh = *constrained_delaunay({.points = instance.points, .segments = instance.segments, .carve = false});
+    for (const VertexId v : mesh.vertices()) mesh.set_fixed(v, true);
+    const auto report = optimize(mesh, {.boundary = BoundaryVertices::split, .repair = Repair::vertices});
+    ASSERT_TRUE(report);
+    EXPECT_EQ(n_bad(mesh), 0u) << name;
+    for (std::size_t i = 0; i < instance.points.size(); ++i) {
+      EXPECT_EQ(mesh.position(VertexId(i)), instance.points[i]) << name << ", point " << i;
+    }
+    for (const auto& [a, b] : instance.segments) {
+      EXPECT_TRUE(
+          is_covered(mesh, instance.points[static_cast<std::size_t>(a)], instance.points[static_cast<std::size_t>(b)]))
+          << name;
+    }
+  }
+  EXPECT_GT(n, 0u);
 }
 
 TEST(Trial, LeavesFrozenVerticesAndTellsWhatItDid) {
@@ -353,7 +596,7 @@ TEST(Trial, LeavesFrozenVerticesAndTellsWhatItDid) {
   Settings settings = *make_settings({}, mesh, WorkingUnits());
   std::size_t applied = 0;
   for (const TriangleId t : mesh.triangles()) {
-    const Neighborhood around = neighborhood_of(mesh, t, 1);
+    const Neighborhood around = neighborhood_of(WorkingCopy::part(mesh), t, 1);
     const auto [a, b, c] = around.mesh.corners(TriangleId(0));
     const Vec2 middle = (1.0 / 3) * (around.mesh.position(a) + around.mesh.position(b) + around.mesh.position(c));
     const Edit edit{.kind = Edit::insert, .triangle = TriangleId(0), .place = {middle.x, middle.y}};
