@@ -415,6 +415,7 @@ py::dict outline_to_dict(const Outline& outline) {
 MesherOptions mesher_options_from(const py::dict& d, const py::object& optimize_options) {
   MesherOptions options;
   options.size = d["size"].cast<double>();
+  if (d["few_points"].cast<bool>()) options.points = MeshPoints::few;
   if (!d["field"].is_none()) options.field = d["field"].cast<SizeField>();
   options.grade = d["grade"].cast<double>();
   for (const auto& item : d["region_sizes"]) {

@@ -70,7 +70,8 @@ Observer observer_of(Visitor& visitor, const py::object& observer) {
       go_on = visitor.call([&] {
         const py::object answer =
             observer(record_to_dict(progress.last), progress.fraction, progress.max_sweeps,
-                     progress.sweeps_left ? py::object(py::float_(*progress.sweeps_left)) : py::none());
+                     progress.sweeps_left ? py::object(py::float_(*progress.sweeps_left)) : py::none(),
+                     progress.n_vertices ? py::object(py::int_(*progress.n_vertices)) : py::none());
         return !(answer.is(py::bool_(false)));
       });
     }

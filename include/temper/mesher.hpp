@@ -33,7 +33,15 @@ struct RegionSize {
   double size = 0;
 };
 
+/// The number of vertices of a mesh.
+enum class MeshPoints {
+  by_size,  ///< As many as the sizes ask for
+  few,      ///< As few as the search finds, whatever the sizes
+};
+
 struct MesherOptions {
+  /// Number of vertices. With `few` there are no sizes, and more time gives fewer vertices. Only in the plane.
+  MeshPoints points = MeshPoints::by_size;
   double size = 0;     ///< Desired edge length, > 0, in the units of the points. With a field it may be 0: no bound
   double grade = 0.3;  ///< Largest growth rate of the size with the distance from smaller edges, > 0
   std::optional<SizeField> field = {};        ///< Desired edge length at each place, if less than `size`

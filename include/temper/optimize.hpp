@@ -109,6 +109,15 @@ enum class RemovalMeasure {
   excess,  ///< Energy beyond the energy of equilateral triangles of the same areas
 };
 
+/// The places of new vertices: of insertions between sweeps, in triangles of large energy, and of repairs, near bad
+/// triangles (§7 leaves the rule open).
+enum class InsertionPlace {
+  best,          ///< Sweeps take the orthocenter. Repairs try centroid, orthocenter and midpoints of edges, and refine
+  orthocenter,   ///< The orthocenter alone: the circumcenter, where no weights differ
+  circumcenter,  ///< The circumcenter alone
+  centroid,      ///< The centroid alone
+};
+
 /// The treatment of steps that would turn a triangle over.
 enum class Inversion {
   refuse,    ///< Refuse them; searches end at nine tenths of the way to the first inversion
@@ -244,10 +253,11 @@ struct PaperSwitches {
   double removal_margin = 0.1;                            ///< Relative gain that the patch must have
   double hidden_threshold = 1;  ///< Distance below the mean weight for Removal::weight, relative to R² (rms). > 0
   int removal_from = 10;        ///< First sweep with removals
-  /// First sweep after which vertices are inserted. They go to the orthocenters of triangles of large energy, if that
-  /// makes the mesh better (§7). Absent: never.
+  /// First sweep after which vertices are inserted, in triangles of large energy, if that makes the mesh better (§7).
+  /// Absent: never.
   std::optional<int> insertion_from = {};
   double insertion_ratio = 4;  ///< Ratio to the mean energy above which an energy is large; > 1
+  InsertionPlace insertion_place = InsertionPlace::best;
 
   /// Energy of the first sweeps, before `energy`: "E_∂T, then switching to E_BP" (§7). Both energies use the same γ and
   /// h°. Absent: `energy` from the first sweep on, with one exception. Ten sweeps with E_ODT come first under these
@@ -325,6 +335,13 @@ struct OptimizeOptions {
   /// regular. A repair checks only the triangles of its neighborhood. With a band, sweeps go vertex by vertex on one
   /// thread. Absent: no limit.
   std::optional<double> size_band = {};
+  /// Factor B ≥ 1 of coarsening, in the plane. The run searches for a mesh with fewer vertices in which all triangles
+  /// are well-centered. No removal makes a local size larger than B times the size field. Fixed vertices stay, and so
+  /// do the input's vertices on boundary and lines. Absent: no coarsening.
+  std::optional<double> coarsen = {};
+  /// Largest number of random moves of that search, which follow the removal of single vertices. Each takes 0.1 to 10
+  /// ms.
+  int coarsen_moves = 2000;
   GuardOptions guard = {};
   Repair repair = Repair::perturb;
   int repair_trials = 20000;  ///< Largest number of edits that repairs try, each on a copy of a neighborhood, 1 to 3 ms

@@ -178,8 +178,10 @@ def _observer(line: Line, observer: Callable[[Progress], Any] | None) -> Callabl
     if not line.enabled and observer is None:
         return None
 
-    def tell(last: dict[str, Any], fraction: float, max_sweeps: int, sweeps_left: float | None) -> bool:
-        progress = Progress(SweepRecord(**last), fraction, max_sweeps, sweeps_left)
+    def tell(
+        last: dict[str, Any], fraction: float, max_sweeps: int, sweeps_left: float | None, n_vertices: int | None
+    ) -> bool:
+        progress = Progress(SweepRecord(**last), fraction, max_sweeps, sweeps_left, n_vertices)
         line.show(progress)
         answer = None if observer is None else observer(progress)
         return not isinstance(answer, (bool, np.bool_)) or bool(answer)

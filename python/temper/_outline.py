@@ -135,7 +135,7 @@ class OutlineMesh(Record):
 
 def mesh_outline(
     outline: Outline,
-    size: float | SizeField,
+    size: float | SizeField | None,
     *,
     grade: float = 0.3,
     region_sizes: Mapping[int, float] | None = None,
@@ -157,8 +157,9 @@ def mesh_outline(
     Parameters
     ----------
     outline : Outline
-    size : float or SizeField
-        Desired edge length, > 0 [length].
+    size : float or SizeField or None
+        Desired edge length, > 0 [length]. None: there are no sizes, and the mesh has as few vertices as the search finds
+        until the time limit.
     grade : float
         Largest growth rate of the size with the distance from smaller edges, > 0.
     region_sizes : mapping of region number to size, optional
@@ -283,7 +284,7 @@ def mesh_sphere(
 
 
 def _mesher_options(
-    size: float | SizeField,
+    size: float | SizeField | None,
     grade: float,
     region_sizes: Mapping[int, float] | None,
     joins: tuple[float | None, float, bool],
@@ -294,7 +295,8 @@ def _mesher_options(
 ) -> dict[str, Any]:
     field = size._handle if isinstance(size, SizeField) else None
     return {
-        "size": 0.0 if isinstance(size, SizeField) else float(size),
+        "size": 0.0 if size is None or isinstance(size, SizeField) else float(size),
+        "few_points": size is None,
         "field": field,
         "grade": float(grade),
         "region_sizes": [(int(r), float(s)) for r, s in (region_sizes or {}).items()],

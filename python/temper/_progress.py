@@ -45,6 +45,8 @@ class Progress(Record):
     max_sweeps: int
     sweeps_left: float | None = None
     """Estimate of the sweeps after the last one, while the energy converges; None in the first sweeps of a stage."""
+    n_vertices: int | None = None
+    """Number of vertices, while the run searches for a mesh with fewer."""
 
 
 def _duration(seconds: float) -> str:

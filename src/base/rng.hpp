@@ -27,6 +27,11 @@ class Rng {
   constexpr double uniform(double low, double high) { return low + (high - low) * uniform(); }
   /// Uniform in 0 … n − 1, n > 0; the bias of n / 2³² is far below the effect of a seed.
   constexpr std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(((next() >> 32) * n) >> 32); }
+  /// One of these values; there must be one.
+  template <class Values>
+  constexpr const auto& any_of(const Values& values) {
+    return values[below(static_cast<std::uint32_t>(values.size()))];
+  }
 
  private:
   std::uint64_t state_;

@@ -43,7 +43,10 @@ std::optional<InputError> check(const MesherOptions& options, const Space& space
     return invalid("the size field is for " + kind_of(options.field->mesh().space()) + ", but the outline is for " +
                    kind_of(space));
   }
-  if (!positive(options.size) && !(options.field && options.size == 0)) {
+  const bool few = options.points == MeshPoints::few;
+  if (few && !space.is_plane()) return invalid("a mesh with few points must be in the plane");
+  if (few && !options.optimize) return invalid("a mesh with few points needs the optimization");
+  if (!few && !positive(options.size) && !(options.field && options.size == 0)) {
     return invalid("expected a size above 0, found " + std::to_string(options.size));
   }
   if (!positive(options.grade)) {
@@ -110,6 +113,7 @@ class Mesher {
     leave_out_edges();
     if (auto error = split_touching(surface_, arrangement_, areas_, tolerance(), names_of(outline_))) return *error;
     if (auto error = check_count()) return *error;
+    if (options_.points == MeshPoints::few) return few_points();
     start_sources();
     Expected<OutlineMesh> made = best_of_attempts();
     if (made) note_distant_field(*made);
@@ -158,6 +162,10 @@ class Mesher {
   }
 
   [[nodiscard]] WantedSize wanted() const {
+    if (options_.points == MeshPoints::few) {  // nothing is divided for its size
+      const BoundingBox box = box_of_places();
+      return {length(box.high - box.low), nullptr};
+    }
     if (!options_.field) return {options_.size, nullptr};
     double most = 0;
     for (const VertexId v : options_.field->mesh().vertices()) most = std::max(most, options_.field->at(v));
@@ -527,9 +535,15 @@ class Mesher {
     if (!made) return made;
     made->delaunay_bad = made->bad = bad_triangles(made->mesh).size();
     if (!options_.optimize) return made;
-    if (const auto error = improve(*made, *options_.optimize)) return too_fine(*error);
-    if (made->bad == 0 || options_.optimize->repair == Repair::none || stopped_early(*made)) return made;
-    if (const auto error = improve_by_vertices(*made)) return *error;
+    OptimizeOptions options = *options_.optimize;
+    // New vertices on the outline cure what no vertex inside does. On the sphere only another division makes them.
+    const bool splits = surface_.space().is_plane() && options.repair != Repair::none;
+    if (!splits) options.repair = Repair::none;
+    if (const auto error = improve(*made, options)) return too_fine(*error);
+    if (!splits || made->bad == 0 || stopped_early(*made)) return made;
+    options.repair = Repair::vertices;
+    options.boundary = BoundaryVertices::split;
+    if (const auto error = improve(*made, options)) return *error;
     return made;
   }
 
@@ -544,14 +558,6 @@ class Mesher {
     made.report = *std::move(report);
     made.bad = bad_triangles(made.mesh).size();
     return {};
-  }
-
-  /// Repairs what sweeps and perturbations leave bad by new vertices, in the plane also on the outline.
-  std::optional<InputError> improve_by_vertices(OutlineMesh& made) const {
-    OptimizeOptions options = *options_.optimize;
-    options.repair = Repair::vertices;
-    if (surface_.space().is_plane()) options.boundary = BoundaryVertices::split;
-    return improve(made, options);
   }
 
   /// Renumbers lines and points of the outline after vertices were removed or inserted. Their own vertices never are
@@ -636,6 +642,32 @@ class Mesher {
     return deadline_.stopped() || temper::stopped_early(made.report.stopped);
   }
 
+  /// Makes the constrained Delaunay triangulation of the outline alone. Repairs add the vertices that it lacks, and the
+  /// optimization removes all that it can.
+  Expected<OutlineMesh> few_points() {
+    constexpr int kSweepsForFew = 10'000;  // repairs follow many restarts
+    DividedOutline whole{places_, {}};
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      const auto [a, b] = edges_[e].ends;
+      whole.pieces.push_back(
+          {{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)}, static_cast<std::uint32_t>(e)});
+    }
+    const Expected<Triangulated> triangulated = triangulate(surface_, whole, {}, areas_, deadline_);
+    if (deadline_.stopped()) return stopped("triangulated");
+    if (!triangulated) return too_fine(triangulated.error());
+    Expected<OutlineMesh> made = build(whole, {}, *triangulated);
+    if (!made) return made;
+    made->delaunay_bad = made->bad = bad_triangles(made->mesh).size();
+    OptimizeOptions options = *options_.optimize;
+    options.repair = Repair::vertices;
+    options.boundary = BoundaryVertices::split;
+    options.coarsen = std::numeric_limits<double>::max();  // no limit of sizes
+    options.max_sweeps = std::max(options.max_sweeps, kSweepsForFew);
+    if (options_.time_limit > 0) options.coarsen_moves = std::numeric_limits<int>::max();
+    if (const auto error = improve(*made, options)) return *error;
+    return made;
+  }
+
   Expected<OutlineMesh> best_of_attempts() {
     Expected<OutlineMesh> best = attempt();
     if (!best || !options_.optimize) return best;
@@ -649,6 +681,9 @@ class Mesher {
       const bool last_stopped_early = stopped_early(*next);
       if (next->bad < best->bad) best = std::move(next);
       if (last_stopped_early) break;
+    }
+    if (best->bad > 0 && options_.optimize->repair != Repair::none && !stopped_early(*best)) {
+      if (auto error = improve(*best, *options_.optimize)) return *error;
     }
     best->attempts = attempts;
     if (deadline_.stopped()) best->report.stopped = deadline_.out_of_time() ? Stopped::time_limit : Stopped::canceled;

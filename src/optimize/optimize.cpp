@@ -21,13 +21,14 @@ namespace {
 
 /// Says whether the second phase may begin at once with the input.
 bool is_ready_for_accuracy(const Mesh& mesh, const Settings& s) {
-  return s.objective != Objective::energy && s.options.boundary != BoundaryVertices::split &&
+  return s.objective != Objective::energy && !s.options.coarsen && s.options.boundary != BoundaryVertices::split &&
          has_all_for_accuracy(mesh, s);
 }
 
-/// Returns the size field of a run with a band. It can refer to the input, since the run works on copies.
+/// Returns the size field of a run with a band, or with a limit of coarsening. It can refer to the input, since the run
+/// works on copies.
 std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& options, Executor* executor) {
-  if (!options.size_band) return std::nullopt;
+  if (!options.size_band && !options.coarsen) return std::nullopt;
   return options.size_field ? options.size_field : input_size_field_of(mesh, executor);
 }
 
@@ -70,8 +71,13 @@ Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepSta
       settings.in_metric && 2 * count_bad(best.work.mesh, settings.executor()) > best.work.mesh.n_triangles();
   if (run.facts.gave_up) return Candidate{input.copy()};
   best = reweighted(std::move(best), input, settings, state, run);
-  best = repaired(std::move(best), settings, state, run);
-  best = refined(std::move(best), settings, state, run);
+  const bool coarsens = settings.options.coarsen.has_value();
+  if (coarsens) best = coarsened(std::move(best), settings, state, run);
+  if (!coarsens || count_bad(best.work.mesh, settings.executor()) > 0) {
+    best = repaired(std::move(best), settings, state, run);
+    best = refined(std::move(best), settings, state, run);
+    if (coarsens) best = coarsened(std::move(best), settings, state, run);
+  }
   std::optional<MeshScore> known;
   if (sizes) improve<AccuracyPhase>(best, known, settings, run, *sizes);
   if (settings.objective == Objective::solver_error) improve<SolverErrorPhase>(best, known, settings, run, *sizes);
@@ -113,6 +119,7 @@ double weigh_ties_instead(Candidate& best, double ratio, const ErrorJudge& judge
 /// weights.
 Candidate least_error(Candidate best, InputMesh& given, const MeshScore& counts, const Settings& settings,
                       const SweepState& state, Run& run) {
+  if (settings.options.coarsen) return best;  // it should have fewer vertices, and larger errors
   if (run.stopped_early() || !is_judged_by_errors(given.n_vertices(), best.work.units.space, settings)) return best;
   const Mesh& input = given.whole();
   Settings by_weights = settings;
@@ -144,7 +151,7 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
 
   std::optional<AccuracySizes> sizes;
   // A listener, the field of a band and a model of errors may refer to the mesh.
-  const bool is_free = hooks.exclusive && !hooks.best_so_far && !options.size_band && settings.errors == nullptr;
+  const bool is_free = hooks.exclusive && !hooks.best_so_far && !settings.size_field && settings.errors == nullptr;
   InputMesh input(mesh, is_free, settings.policy.order, hooks.executor);
   const InputMeasures of_input(input, settings, sizes);
   auto found = attempt(input, settings, state, run, sizes);

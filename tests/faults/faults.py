@@ -287,7 +287,8 @@ def interrupt(runner, case, judge, wanted, rng):
 
 
 def limit_time(runner, case, judge, wanted, rng):
-    if "--time-limit" not in runner.help(case.verb) or "--time-limit" in case.arguments:
+    # Of temper weights only the search over connectivities has a limit.
+    if case.verb == "weights" or "--time-limit" not in runner.help(case.verb) or "--time-limit" in case.arguments:
         return
     for _ in range(wanted or 5):
         limit = rng.uniform(0.5, 1.0) * case.seconds

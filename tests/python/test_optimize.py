@@ -418,6 +418,8 @@ def test_an_outline_is_meshed_well_centered():
     assert temper.mesh_outline(outline, 0.4, optimize=False).bad >= 0
     assert np.array_equal(made.mesh.lines, made.lines) and np.array_equal(made.mesh.tags, made.line_tags)
     assert not temper.mesh_outline(outline, 0.4, target="mpas").mesh.weights.any() and made.mesh.weights.any()
+    few = temper.mesh_outline(outline, None)
+    assert few.bad == 0 and set(few.line_tags) == {1, 2} and len(few.mesh.points) < 20
     with pytest.raises(ValueError, match="target or optimize"):
         temper.mesh_outline(outline, 0.4, target="mpas", optimize=temper.OptimizeOptions())
     with pytest.raises(temper.TemperError, match="segment"):

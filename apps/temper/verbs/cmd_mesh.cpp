@@ -35,6 +35,8 @@ namespace {
 constexpr Choice<Enclosed> kEnclosed[] = {
     {"by-points", Enclosed::by_points}, {"all", Enclosed::all}, {"alternate", Enclosed::alternate}};
 
+constexpr Choice<MeshPoints> kPoints[] = {{"by-size", MeshPoints::by_size}, {"few", MeshPoints::few}};
+
 constexpr OutputKind kMeshOutputs[] = {kReportKind, kPictureKind};
 
 struct MeshSettings {
@@ -47,7 +49,7 @@ struct MeshSettings {
   MesherOptions options;
   std::optional<double> radius;
   std::uint64_t threads = 0;
-  bool sphere = false, no_optimize = false, flat = false;
+  bool sphere = false, no_optimize = false, no_weights = false, flat = false;
 };
 
 void add_files(Command& command, MeshSettings& s) {
@@ -62,8 +64,11 @@ void add_files(Command& command, MeshSettings& s) {
 void add_sizes(Command& command, MeshSettings& s) {
   add_text(command, "--size", "X|FILE", s.size,
            "Target edge length, in the units of the outline or in meters. FILE is a mesh file or a raster with a size "
-           "at each of its points.")
-      .require();
+           "at each of its points.");
+  add_choice(command, "--points", kPoints, s.options.points,
+             "Number of vertices. 'by-size' makes as many as --size asks for. 'few' makes as few as it finds until "
+             "--time-limit, without --size.")
+      .excludes = "--sphere";
   add_text(command, "--size-data", "NAME", s.size_data,
            "Name of the point data with the sizes in the file of --size. (default: size, or the only data)");
   add_text(command, "--from-depth", "KEY=VALUE,...", s.from_depth,
@@ -110,6 +115,7 @@ void add_sphere(Command& command, MeshSettings& s) {
 
 void add_optimization(Command& command, MeshSettings& s) {
   add_target(command, s.target, false).excludes = "--no-optimize";
+  command.add_flag("--no-weights", s.no_weights, "Make triangles well-centered without weights.");
   command.add_flag("--no-optimize", s.no_optimize, "Write the Delaunay mesh without optimization.");
   add_count(command, "--attempts", s.options.attempts, 1,
             "Largest number of meshes made. If triangles stay bad, temper divides the outline finer around them and "
@@ -166,6 +172,9 @@ void take_input(Command& command, MeshSettings& s) {
 }
 
 void check_usage(const Command& command, const MeshSettings& s) {
+  const bool few = s.options.points == MeshPoints::few;
+  if (few && !s.size.empty()) refuse_usage("mesh", "--points few has no --size");
+  if (!few && s.size.empty()) refuse_usage("mesh", "--size is missing");
   if (s.sphere) return;
   if (s.input.empty())
     refuse_usage("mesh", "OUTLINE is missing: give an outline file, or --sphere for a mesh of the whole sphere");
@@ -274,7 +283,9 @@ Result mesh_plane(const MeshSettings& s, Executor* executor) {
   io::OutlineFile& input = result.inputs[0].file;
   result.map = take_to_plane(s, input);
   MesherOptions options = s.options;
-  if (const auto number = size_number(s)) {
+  if (options.points == MeshPoints::few) {
+    // no sizes
+  } else if (const auto number = size_number(s)) {
     options.size = *number;
   } else {
     const auto& map = result.map.projection;
@@ -358,6 +369,7 @@ Exit run_mesh(const Arguments& arguments) {
   take_input(command, s);
   check_usage(command, s);
   s.options.optimize = *options_for(s.target);
+  if (s.no_weights) s.options.optimize->unknowns = Unknowns::positions;
   s.files = sorted_outputs("mesh", s.write, kMeshOutputs);
   Outputs outputs("mesh");
   // The points of a .poly may be in the .node next to it.

@@ -85,6 +85,9 @@ void add_rare(Command& command, OptimizeSettings& s) {
   const std::size_t first = command.options().size();
   command.group("Further options");
   add_set(command, s.assignments);
+  add_flag_of(command, "coarsen", s.assignments).sentence =
+      "Remove vertices while all triangles are well-centered. No removal makes a local size larger than this factor "
+      "times the size field.";
   add_text(
       command, "--options", "FILE", s.options_file,
       "JSON file with options, such as {\"for\": \"cell\", \"max_sweeps\": 20}. A report of temper optimize is such a "

@@ -30,7 +30,10 @@ void ProgressLine::show(const Progress& progress) {
   std::string text =
       fmt::format("sweep {} of at most {}, {} {} bad, energy {:.6g}, {}", progress.last.sweep, progress.max_sweeps,
                   progress.last.bad, elements_, progress.last.energy, duration(seconds));
-  if (progress.sweeps_left && sweeps > 0) {
+  if (progress.n_vertices) {
+    text = fmt::format("{} vertices, {} {} bad, {}", *progress.n_vertices, progress.last.bad, elements_,
+                       duration(seconds));
+  } else if (progress.sweeps_left && sweeps > 0) {
     const double left = std::max(0.0, *progress.sweeps_left - progress.fraction);
     text += fmt::format(", about {} left", duration(seconds / sweeps * left));
   }

@@ -37,6 +37,8 @@ struct Progress {
   /// Estimate of the sweeps after the last one, while the energy converges. Absent in the first sweeps of a stage (one
   /// objective, one γ). Repairs may follow.
   std::optional<double> sweeps_left = {};
+  /// Number of vertices, while the run searches for a mesh with fewer.
+  std::optional<std::size_t> n_vertices = {};
 };
 
 /// The reason why a run ended.

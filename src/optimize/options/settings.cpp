@@ -72,6 +72,24 @@ std::optional<InputError> check_inversions(const OptimizeOptions& o) {
   });
 }
 
+/// Refuses options that contradict coarsening.
+std::optional<InputError> check_coarsening(const OptimizeOptions& o) {
+  if (!o.coarsen) return std::nullopt;
+  const GuardOptions& g = o.guard;
+  return first_broken({
+      {!energy_info(o.energy).barrier,
+       "`coarsen` needs a barrier, which makes triangles well-centered; expected `energy=BP`, `energy=BHs` or "
+       "`energy=BH`"},
+      {o.flips == Flips::none, "`coarsen` changes the connectivity, which `flips=none` keeps; expected one of the two"},
+      {o.unknowns == Unknowns::weights, "`coarsen` moves vertices, which `unknowns=weights` keeps in place"},
+      {o.size_band.has_value(), "`size_band` does not hold what `coarsen` removes; expected one of the two"},
+      {g.angle > 0 || g.edge > 0 || g.areas > 0 || g.step,
+       "`coarsen` makes a coarser mesh, which the guard does not judge; expected a target without a guard"},
+      {o.paper.inversion == Inversion::allow || o.paper.hidden == HiddenPolicy::keep,
+       "`coarsen` needs regular meshes; expected `inversion=refuse` and `hidden=undo`"},
+  });
+}
+
 /// Refuses other options that contradict each other, or the accuracy objective.
 std::optional<InputError> check_combinations(const OptimizeOptions& o) {
   const bool for_accuracy = objective_of(o) != Objective::energy;
@@ -154,6 +172,7 @@ std::optional<InputError> check_space(const OptimizeOptions& o, const Mesh& mesh
   };
   if (o.boundary == BoundaryVertices::split) return not_there("boundary=split", "`boundary=keep` or `boundary=slide`");
   if (o.size_band) return not_there("size_band", "none");
+  if (o.coarsen) return not_there("coarsen", "none");
   if (o.paper.insertion_from) return not_there("insertion_from", "none");
   if (!mesh.space().is_periodic()) return std::nullopt;
   if (o.paper.inversion == Inversion::allow) return not_there("inversion=allow", "`inversion=refuse`");
@@ -298,12 +317,16 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   if (auto error = check_updates(options)) return *std::move(error);
   if (auto error = check_inversions(options)) return *std::move(error);
   if (auto error = check_combinations(options)) return *std::move(error);
+  if (auto error = check_coarsening(options)) return *std::move(error);
   if (auto error = check_vertices(options, mesh)) return *std::move(error);
   if (auto error = check_space(options, mesh)) return *std::move(error);
 
   Settings s;
   s.options = options;
   if (has_quadrilaterals(mesh)) s.options.unknowns = Unknowns::positions;  // one center each, of equal weights
+  if (options.coarsen && s.options.unknowns != options.unknowns) {
+    return invalid("`coarsen` is for triangles, but the mesh has quadrilaterals");
+  }
   s.hooks = hooks;
   s.objective = objective_of(options);
   s.policy = Policy(options);

@@ -38,6 +38,9 @@ constexpr auto names_of(Visits) { return std::to_array<Name>({"once", "twice"});
 constexpr auto names_of(SearchRadius) { return std::to_array<Name>({"rms", "max", "min"}); }
 constexpr auto names_of(Removal) { return std::to_array<Name>({"none", "patch", "weight"}); }
 constexpr auto names_of(RemovalMeasure) { return std::to_array<Name>({"sum", "mean", "excess"}); }
+constexpr auto names_of(InsertionPlace) {
+  return std::to_array<Name>({"best", "orthocenter", "circumcenter", "centroid"});
+}
 constexpr auto names_of(HiddenPolicy) { return std::to_array<Name>({"undo", "remove", "keep"}); }
 constexpr auto names_of(Inversion) { return std::to_array<Name>({"refuse", "allow", "infinite"}); }
 constexpr auto names_of(SweepOrder) { return std::to_array<Name>({"hilbert", "input", "reverse", "random"}); }
@@ -176,6 +179,7 @@ constexpr OptionNeed kInsertions = {"insertion_from", ""};
 bool limits_after_flips(const Options& o) {
   return Policy(o).flip_limit_for(energy_info(o.energy)) == FlipLimit::after;
 }
+bool inserts_vertices(const Options& o) { return o.repair == Repair::vertices || o.paper.insertion_from; }
 bool compares_patches(const Options& o) { return o.paper.removal == Removal::patch || o.paper.insertion_from; }
 bool makes_golden_searches(const Options& o) { return o.paper.solver == Solver::golden || o.paper.collapse_from; }
 
@@ -341,6 +345,15 @@ constexpr OptionRow kSizeRows[] = {
         "size_band",
         "Size band B. No step moves the size at a vertex out of the range from 1/B to B times the size field",
         {.range = at_least(1), .absent_name = "none", .absent = "sizes are only reported"}),
+    row<&Options::coarsen>(
+        "coarsen",
+        "Factor B of coarsening. The run searches for fewer vertices while all triangles are well-centered. No removal "
+        "makes the size at a vertex larger than B times the size field. Vertices on boundary and lines stay",
+        {.range = at_least(1), .common = true, .absent_name = "none", .absent = "no coarsening", .needs = {kBarrier}}),
+    row<&Options::coarsen_moves>(
+        "coarsen_moves",
+        "Largest number of random moves of coarsening, 0.1 to 10 ms each. They follow the removal of single vertices",
+        {.needs = {{{"coarsen", ""}}}}),
 };
 
 constexpr OptionRow kPaperRows[] = {
@@ -385,12 +398,16 @@ constexpr OptionRow kPaperRows[] = {
     row<kPaper, &Paper::removal_from>("removal_from", "First sweep with removals, counted from 0",
                                       {.needs = {kRemovals}}),
     row<kPaper, &Paper::insertion_from>("insertion_from",
-                                        "First sweep after which vertices are inserted, counted from 0. They go to the "
-                                        "orthocenters of triangles of large energy, if that makes the mesh better",
+                                        "First sweep after which vertices are inserted, counted from 0. They go to "
+                                        "triangles of large energy, if that makes the mesh better",
                                         {.absent_name = "none", .absent = "no insertions"}),
     row<kPaper, &Paper::insertion_ratio>("insertion_ratio",
                                          "Ratio to the mean energy of a triangle, above which an energy is large",
                                          {.range = more_than(1), .needs = {kInsertions}}),
+    row<kPaper, &Paper::insertion_place>("insertion_place",
+                                         "Place of new vertices in triangles of large energy, and of repairs in bad "
+                                         "triangles. best: the orthocenter; repairs try several places",
+                                         {.needs = {{{"repair", "vertices", inserts_vertices}}}}),
     row<kPaper, &Paper::hidden>("hidden",
                                 "Treatment of vertices that weights hide. undo: undo the step. remove: remove the "
                                 "vertex. keep: keep the vertex and report it"),

@@ -7,6 +7,7 @@
 #include "base/sort_unique.hpp"
 #include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
+#include "optimize/step/insertion_place.hpp"
 #include "temper/detail/necessity.hpp"
 #include "topology/locate.hpp"
 #include "topology/rings.hpp"
@@ -33,14 +34,17 @@ std::vector<TriangleId> some_bad_triangles(const Neighborhood& around) {
   return bad;
 }
 
-void add_insertions(const Mesh& mesh, TriangleId t, std::vector<Edit>& edits) {
+void add_insertions(const Mesh& mesh, TriangleId t, InsertionPlace place, std::vector<Edit>& edits) {
   const auto [a, b, c] = mesh.points(t);
-  edits.push_back({.kind = Edit::insert, .triangle = t, .place = middle(mesh.space(), a, b, c)});
-  const WeightedPoint o = orthocenter(mesh.space(), a, b, c);
-  const Location at = locate(mesh, o, t);
-  if (at.kind == Location::Kind::in_triangle) {
-    edits.push_back({.kind = Edit::insert, .triangle = at.triangle, .place = o});
-  }
+  const auto add = [&, &a = a, &b = b, &c = c](InsertionPlace rule) {
+    const WeightedPoint p = insertion_point(mesh.space(), rule, a, b, c);
+    const Location at = locate(mesh, p, t);
+    if (at.kind != Location::Kind::in_triangle) return;
+    edits.push_back({.kind = Edit::insert, .triangle = at.triangle, .place = p});
+  };
+  if (place != InsertionPlace::best) return add(place);
+  add(InsertionPlace::centroid);
+  add(InsertionPlace::orthocenter);
   for (int side = 0; side < 3; ++side) {
     const HalfedgeId h = Mesh::halfedge(t, side);
     if (!mesh.is_boundary(h) && !mesh.is_constrained(h)) edits.push_back({.kind = Edit::split, .edge = h});
@@ -151,9 +155,10 @@ std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, const Allow
   if (!allowed.vertices) return {moves, weights};
   const std::vector<TriangleId> bad = some_bad_triangles(around);
   add_removals(around, bad, one);
-  for (const TriangleId t : bad) add_insertions(around.mesh, t, one);
+  for (const TriangleId t : bad) add_insertions(around.mesh, t, allowed.place, one);
   if (allowed.lines) add_line_splits(around, bad, one);
-  if (around.mesh.space().is_periodic()) return {moves, weights, one};  // refinement measures across the neighborhood
+  // Refinement has places of its own, and measures across the neighborhood.
+  if (allowed.place != InsertionPlace::best || around.mesh.space().is_periodic()) return {moves, weights, one};
   for (const double gradation : kGradations) {
     many.push_back({.kind = Edit::refine, .gradation = gradation});
     anew.push_back({.kind = Edit::remesh, .gradation = gradation});

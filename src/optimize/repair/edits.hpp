@@ -6,6 +6,7 @@
 #include "base/rng.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/trial.hpp"
+#include "temper/optimize.hpp"
 
 namespace temper {
 
@@ -14,6 +15,7 @@ struct Allowed {
   bool weights = false;   ///< a linear program may find weights
   bool vertices = false;  ///< insertion and removal
   bool lines = false;     ///< splits of lines
+  InsertionPlace place = InsertionPlace::best;
 };
 
 /// Returns edits in tiers. A tier is tried if no edit of the tier before helps. The first tier changes least: sweeps

@@ -164,7 +164,7 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
   LocalDefect least = before;
   std::vector<Tried> all;
   const Allowed allowed = {assigns_weights(seed), settings_.options.repair == Repair::vertices,
-                           repairs_split_lines(settings_, work_.mesh.space())};
+                           repairs_split_lines(settings_, work_.mesh.space()), settings_.policy.insertion_place};
   for (const auto& tier : edits_for(around, allowed, rng_)) {
     for (const Edit& edit : tier) {
       if (run_.repair_trials_left() == 0 || run_.asked_to_stop(0)) return best;

@@ -167,7 +167,10 @@ void give_back(InputMesh& input, Candidate best, const Settings& settings, const
       as_given.score = before;
     }
   }
-  const bool worse = run.facts.keeps_input || !replaces(result.score, as_given.score, Requirement::not_worse);
+  const bool coarser = settings.options.coarsen && result.work.mesh.n_vertices() < input.n_vertices() &&
+                       result.score.bad <= as_given.score.bad && result.score.non_regular <= as_given.score.non_regular;
+  const bool worse =
+      run.facts.keeps_input || (!coarser && !replaces(result.score, as_given.score, Requirement::not_worse));
   if (worse) {
     recorder.returned_to(-1);
     if (flips && recorder.on()) static_cast<void>(made_regular(input.whole(), settings, state, report.sweeps));

@@ -138,7 +138,7 @@ void Run::ask(double fraction_of_sweep) {
     report.stopped = Stopped::time_limit;
   } else if (hooks_.observer) {
     const Progress progress = {report.history.back(), fraction_of_sweep, options_.max_sweeps,
-                               estimate_sweeps_left(report.history, options_)};
+                               estimate_sweeps_left(report.history, options_), n_vertices};
     if (hooks_.observer(progress) == Continue::no) report.stopped = Stopped::canceled;
   }
 }

@@ -99,6 +99,7 @@ class Run {
 
   OptimizeReport report;
   RunFacts facts;
+  std::optional<std::size_t> n_vertices;     ///< of the mesh, for the progress of a search for fewer
   const WorkingCopy* best_before = nullptr;  ///< of earlier stages, while a stage works on another mesh
 
  private:

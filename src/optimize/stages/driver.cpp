@@ -7,6 +7,7 @@
 #include "base/rng.hpp"
 #include "energy/whole_mesh.hpp"
 #include "mesh/bad_triangles.hpp"
+#include "optimize/coarsen/coarsening.hpp"
 #include "optimize/flips/grading.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/repair_search.hpp"
@@ -340,6 +341,24 @@ bool Driver::repair(std::uint64_t seed, bool asks_programs) {
     recorder_.begin_sweep(run_.report.sweeps + 1);
   }
   return changed;
+}
+
+void Driver::coarsen() {
+  EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);  // puts rounds into the history
+  Coarsening search(work_, settings_, run_, flipper_, recorder_);
+  recorder_.begin_sweep(run_.report.sweeps + 1);
+  for (bool goes_on = true; goes_on;) {  // rounds of moves, which `max_sweeps` does not limit
+    run_.n_vertices = mesh_.n_vertices();
+    goes_on = search.improve();
+    grow();
+    compact();
+    ++run_.report.sweeps;
+    record(phase.measure());
+    show(Snapshot::Moment::after_sweep, phase);
+    run_.offer(work_, settings_, state_);
+    recorder_.begin_sweep(run_.report.sweeps + 1);
+  }
+  run_.n_vertices.reset();
 }
 
 int Driver::polish(int sweep) {

@@ -35,6 +35,8 @@ class Driver {
   /// Searches locally for repairs of triangles that all restarts left bad. Returns false if nothing changed.
   /// `asks_programs`: use linear programs for weights.
   bool repair(std::uint64_t seed, bool asks_programs = false);
+  /// Cures bad triangles, then searches for a mesh with fewer vertices.
+  void coarsen();
   /// Sweeps at the sharpest γ, after repairs. If triangles turn bad again, the sweeps are undone. `sweep` as in run().
   int polish(int sweep);
 

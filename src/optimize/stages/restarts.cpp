@@ -217,6 +217,13 @@ Candidate reweighted(Candidate best, InputMesh& input, const Settings& settings,
   return best;
 }
 
+Candidate coarsened(Candidate best, const Settings& settings, SweepState& state, Run& run) {
+  if (!settings.options.coarsen || run.stopped_early()) return best;
+  Driver(best.work, settings, state, run).coarsen();
+  best.sweep = run.report.sweeps;
+  return best;
+}
+
 Candidate repaired(Candidate best, const Settings& settings, SweepState& state, Run& run) {
   const auto is_done = [&](const Candidate& c) {
     return !run.goes_on() || run.repair_trials_left() == 0 || !needs_repair(c, settings);
@@ -257,7 +264,8 @@ Candidate refined(Candidate best, const Settings& settings, SweepState& state, R
   constexpr int kRounds = 20;
   constexpr double kSmaller = 0.8;
   const bool may = repairs_split_lines(settings, best.work.mesh.space()) &&
-                   settings.options.unknowns == Unknowns::positions_and_weights;
+                   settings.options.unknowns == Unknowns::positions_and_weights &&
+                   settings.policy.insertion_place == InsertionPlace::best;
   if (!may || !run.goes_on() || !has_bad(best, settings)) return best;
   run.renew_trials();
   Candidate last = best;

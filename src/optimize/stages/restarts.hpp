@@ -28,4 +28,7 @@ namespace temper {
 /// find more room. Only if the options allow new vertices, on lines too.
 [[nodiscard]] Candidate refined(Candidate best, const Settings& settings, SweepState& state, Run& run);
 
+/// Cures bad triangles and searches for a mesh with fewer vertices, if the options ask for it.
+[[nodiscard]] Candidate coarsened(Candidate best, const Settings& settings, SweepState& state, Run& run);
+
 }  // namespace temper

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "optimize/flips/guard.hpp"
+#include "optimize/step/insertion_place.hpp"
 #include "optimize/step/removal.hpp"
 #include "temper/detail/geometry.hpp"
 #include "topology/locate.hpp"
@@ -29,12 +30,12 @@ double mean_energy(const Mesh& mesh, const EnergyModel& model) {
   return n == 0 ? 0 : sum / static_cast<double>(n);
 }
 
-InsertionPlan plan_at_orthocenter(const Mesh& mesh, const WorkingUnits& units, TriangleId t) {
+InsertionPlan plan_in(const Mesh& mesh, const WorkingUnits& units, InsertionPlace place, TriangleId t) {
   const auto [a, b, c] = mesh.points(t);
-  const Vec2 o = units.snap(orthocenter(a, b, c));
-  const Location at = std::isfinite(o.x) && std::isfinite(o.y) ? locate(mesh, o, t) : Location();
+  const Vec2 p = units.snap(insertion_point(mesh.space(), place, a, b, c).position());
+  const Location at = std::isfinite(p.x) && std::isfinite(p.y) ? locate(mesh, p, t) : Location();
   if (at.kind != Location::Kind::in_triangle) return {};
-  return plan_insertion(mesh, {o.x, o.y, interpolated_weight(mesh, at.triangle, o)}, at.triangle);
+  return plan_insertion(mesh, {p.x, p.y, interpolated_weight(mesh, at.triangle, p)}, at.triangle);
 }
 
 }  // namespace
@@ -52,7 +53,7 @@ bool insert_where_energy_is_large(WorkingCopy& work, Flipper& flipper, const Set
   bool inserted = false;
   for (const auto& [energy_before, t] : large) {
     if (!(own_energy(mesh, model, t) > limit)) continue;  // earlier insertions may have changed it
-    const InsertionPlan plan = plan_at_orthocenter(mesh, work.units, t);
+    const InsertionPlan plan = plan_in(mesh, work.units, settings.policy.insertion_place, t);
     if (plan.status != InsertionStatus::possible) continue;
     const PatchComparison e = compare_patch(mesh, model, plan, settings.policy.removal_measure);
     if (!is_better(e.with, e.without, settings.policy.removal_margin)) continue;

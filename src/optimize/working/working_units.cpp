@@ -52,9 +52,13 @@ void take_back_rounding(const Mesh& input, const IdVector<VertexId, VertexId>& v
   const double least = kWeightsOfManySteps * space.radius() * space.radius();
   for (const VertexId v : mesh.vertices()) {
     const VertexId was = vertices.empty() ? v : vertices[v];
-    if (was.index >= input.n_vertices()) continue;
+    const double w = mesh.weight(v);
+    if (was.index >= input.n_vertices()) {
+      if (w != 0 && std::abs(w) < least) mesh.set_point(v, space.with_weight(mesh.point(v), 0));
+      continue;
+    }
     const bool stays = space.same_place(input.point(was), mesh.point(v), kPlacesOfManySteps);
-    const double w = mesh.weight(v), old = input.weight(was);
+    const double old = input.weight(was);
     const bool keeps = std::abs(w - old) < least;
     if (stays || keeps) mesh.set_point(v, space.with_weight(stays ? input.point(was) : mesh.point(v), keeps ? old : w));
     if (stays && keeps) mesh.set_point(v, input.point(was));

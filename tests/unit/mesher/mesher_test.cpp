@@ -76,6 +76,32 @@ TEST(Mesher, WarnsThatAnInnerLoopIsAHoleUnlessAnOptionSaysSo) {
   EXPECT_FALSE(mesh_outline(with_points, sized(0.2)).has_value()) << "a hole outside is an error, not a warning";
 }
 
+MesherOptions few_points(int moves) {
+  MesherOptions options;
+  options.points = MeshPoints::few;
+  options.optimize->coarsen_moves = moves;
+  return options;
+}
+
+TEST(Mesher, FewPointsAreEnoughForEveryOutline) {
+  for (const NamedOutline& named : outlines()) {
+    SCOPED_TRACE(named.name);
+    const OutlineMesh made = mesh_of(named.outline, few_points(50));
+    EXPECT_EQ(made.bad, 0u);
+    EXPECT_EQ(count_bad(made.mesh), 0u);
+    expect_kept(named.outline, made);
+    const OutlineMesh coarse = mesh_of(named.outline, sized(2 * extent(named.outline)));
+    EXPECT_LE(made.mesh.n_vertices(), coarse.mesh.n_vertices());
+    EXPECT_EQ(mesh_of(named.outline, few_points(50)).mesh, made.mesh) << "the same bytes";
+  }
+}
+
+TEST(Mesher, FewPointsAreRefusedWithoutOptimization) {
+  MesherOptions options = few_points(10);
+  options.optimize.reset();
+  EXPECT_FALSE(mesh_outline(square(), options));
+}
+
 TEST(Mesher, TheSameInputGivesTheSameBytes) {
   const OutlineMesh one = mesh_of(comb(), sized(0.2)), other = mesh_of(comb(), sized(0.2));
   EXPECT_EQ(one.mesh, other.mesh);

@@ -108,6 +108,10 @@ export interface OptimizeOptions {
   interfaces?: "fixed" | "sliding";
   /** Size band B. No step moves the size at a vertex out of the range from 1/B to B times the size field; at least 1. null: sizes are only reported. Default: null. */
   size_band?: number | null;
+  /** Factor B of coarsening. The run searches for fewer vertices while all triangles are well-centered. No removal makes the size at a vertex larger than B times the size field. Vertices on boundary and lines stay; at least 1. null: no coarsening. Default: null. */
+  coarsen?: number | null;
+  /** Largest number of random moves of coarsening, 0.1 to 10 ms each. They follow the removal of single vertices; at least 0. Default: 2000. */
+  coarsen_moves?: number;
   /** Largest number of sweeps before edges flip, with flips: "deferred". 0: sweep until convergence; at least 0. Default: 1. */
   inner?: number;
   /** Largest number of rounds of sweeps and flips, with flips: "deferred". 0: continue until no flips are needed; at least 0. Default: 0. */

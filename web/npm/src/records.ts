@@ -141,6 +141,8 @@ export interface Progress {
   max_sweeps: number;
   /** An estimate of the sweeps after the last one; null in the first sweeps of a stage. Repairs may follow. */
   sweeps_left: number | null;
+  /** Number of vertices, while the run searches for a mesh with fewer. */
+  n_vertices: number | null;
 }
 
 export interface Spread {
