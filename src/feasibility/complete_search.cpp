@@ -238,6 +238,7 @@ class CompleteSearch {
     }
     std::sort(order.begin(), order.end());
     std::vector<VertexId> sorted;
+    sorted.reserve(order.size());
     for (const auto& [height, x] : order) sorted.push_back(x);
     return sorted;
   }

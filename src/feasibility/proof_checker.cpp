@@ -103,7 +103,7 @@ CertificateCheck ProofChecker::check_sum_of(const Lemma& lemma) const {
 }
 
 CertificateCheck ProofChecker::check_cases(const Lemma& lemma, std::span<const Lemma> earlier) const {
-  const auto [a, b] = lemma.side;
+  const VertexId a = lemma.side[0], b = lemma.side[1];
   if (std::max(a, b).index >= mesh_.n_vertices() || a == b || !has(lemma, a, b))
     return CertificateCheck::not_of_this_mesh;
   const bool is_outside = mesh_.find_halfedge(b, a).valid() && !mesh_.find_halfedge(a, b).valid();

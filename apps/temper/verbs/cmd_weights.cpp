@@ -99,7 +99,7 @@ void add_conditions(Command& command, WeightsSettings& s) {
   });
 }
 
-void add_options(Command& command, WeightsSettings& s) {
+void add_files(Command& command, WeightsSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "Mesh file, of triangles or tetrahedra. Its content shows the format.")
       .require();
@@ -116,6 +116,9 @@ void add_options(Command& command, WeightsSettings& s) {
       "--zero", s.zero,
       "Set all weights to zero, and flip edges until they are Delaunay. Solvers without weights need this.");
   command.add_flag("--json", s.json, "Print the report as JSON, with vertices and elements counted from 0.");
+}
+
+void add_goal(Command& command, WeightsSettings& s) {
   command.group("Weights");
   add_choice(
       command, "--mode", kModes, s.options.goal,
@@ -133,6 +136,9 @@ void add_options(Command& command, WeightsSettings& s) {
   add_count(command, "--whole", s.whole, 0,
             "Largest number of triangles or tetrahedra in a component that is solved as a whole. In larger components, "
             "only the elements around bad ones are solved, as far out as needed.");
+}
+
+void add_connectivity(Command& command, WeightsSettings& s) {
   command.group("Constraints and connectivity");
   add_conditions(command, s);
   add_text(command, "--edges", "all|lines|FILE", s.edges,
@@ -145,6 +151,12 @@ void add_options(Command& command, WeightsSettings& s) {
   add_count(command, "--programs", s.programs, 1, "Largest number of linear programs of the whole mesh in the search.");
   add_number(command, "--time-limit", s.time_limit, kNotNegative,
              "Time limit of the search in seconds. temper then reports the best bound so far. 0 sets no limit.");
+}
+
+void add_options(Command& command, WeightsSettings& s) {
+  add_files(command, s);
+  add_goal(command, s);
+  add_connectivity(command, s);
   command.group("Help");
   command.add_help(
       {"IN -o OUT [options]",

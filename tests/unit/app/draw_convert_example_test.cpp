@@ -251,9 +251,9 @@ TEST_F(Example, PeriodicPlanesGoThroughTheVerbsThatTakeThem) {
       contains(off.err, "the plane is periodic, which OFF has no place for; expected one of vtu, vtkhdf, mpas"));
   EXPECT_FALSE(exists("out.off"));
   using Words = std::vector<std::string>;
-  for (const Words& words : {Words{"explain", "in.vtu"},
-                             Words{"weights", "in.vtu", "-o", "w.vtu", "--connectivity", "search"},
-                             Words{"optimize", "in.vtu", "-o", "w.vtu", "--write", "w.html"}}) {
+  for (const Words& words :
+       {Words{"explain", "in.vtu"}, Words{"weights", "in.vtu", "-o", "w.vtu", "--connectivity", "search"},
+        Words{"optimize", "in.vtu", "-o", "w.vtu", "--write", "w.html"}}) {
     const Outcome refused = temper(words);
     EXPECT_EQ(refused.exit, 1);
     EXPECT_TRUE(contains(refused.err, "the mesh is in a periodic plane, but ")) << refused.err;
