@@ -4,6 +4,7 @@ connectivity has better weights?"""
 from __future__ import annotations
 
 import dataclasses
+import math
 from typing import Any, Literal
 
 import numpy as np
@@ -144,7 +145,9 @@ class Optimality(Record):
 
     @property
     def relative_gap(self) -> float:
-        """The gap over the objective."""
+        """The gap over the objective; infinite if the objective is 0 and the gap is not."""
+        if self.objective == 0:
+            return 0.0 if self.gap == 0 else math.inf
         return self.gap / abs(self.objective)
 
     @classmethod

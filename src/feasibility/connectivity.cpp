@@ -133,7 +133,7 @@ class ConnectivitySearch {
     const auto is_asked_to_stop = [&] { return options_.stop && options_.stop(); };
     CompleteSearchResult result =
         search_completely(mesh, options_.constraints, [&] { return ++calls > most_calls || is_asked_to_stop(); });
-    report_.bound = result.bound;
+    report_.bound = std::min(report_.bound, result.bound);
     report_.complete_programs += result.programs;
     report_.proof = std::move(result.proof);
     switch (result.end) {

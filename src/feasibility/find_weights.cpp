@@ -355,7 +355,8 @@ WeightReport find_weights(const Demand& demand, LpSolver& solver, const WeightOp
   any.goal = WeightGoal::margin;
   WeightReport report = WeightFinder(demand, solver, any).run();
   report.solved = false;
-  if (report.verdict != Feasibility::feasible) return report;
+  const bool may_have_less = options.goal == WeightGoal::accuracy && report.asked < options.margin;
+  if (report.verdict != Feasibility::feasible || !may_have_less) return report;
   std::optional<WeightReport> best = best_weights(demand, *convex, options, report.asked);
   if (!best) return report;
   best->margin = report.margin;

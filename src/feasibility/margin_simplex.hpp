@@ -5,8 +5,7 @@
 // A basis is a set of d rows, one per unknown, with multipliers y ≥ 0 for which Σ y a = 0 and Σ y m = 1. Then Σ y c is
 // an upper bound of t, and falls with each step: a violated row enters, another leaves. The first basis holds all
 // weights at zero, and t at its greatest value. A basis serves for any larger set of rows. So the search over
-// connectivities adds rows and goes on, and copies the program before it tries an edge. A solver that takes each
-// program from scratch needs many times longer.
+// connectivities adds rows and goes on, and copies the program before it tries an edge.
 //
 // The multipliers are the certificate. The caller checks them exactly, so rounding here costs time but never makes an
 // answer wrong.

@@ -66,8 +66,8 @@ void add_sizes(Command& command, MeshSettings& s) {
            "Target edge length, in the units of the outline or in meters. FILE is a mesh file or a raster with a size "
            "at each of its points.");
   add_choice(command, "--points", kPoints, s.options.points,
-             "Number of vertices. 'by-size' makes as many as --size asks for. 'few' makes as few as it finds until "
-             "--time-limit, without --size.")
+             "Number of vertices. 'by-size' makes as many as --size asks for. 'few' makes as few as it finds, without "
+             "--size. With --time-limit it uses all of that time.")
       .excludes = "--sphere";
   add_text(command, "--size-data", "NAME", s.size_data,
            "Name of the point data with the sizes in the file of --size. (default: size, or the only data)");
@@ -173,8 +173,11 @@ void take_input(Command& command, MeshSettings& s) {
 
 void check_usage(const Command& command, const MeshSettings& s) {
   const bool few = s.options.points == MeshPoints::few;
-  if (few && !s.size.empty()) refuse_usage("mesh", "--points few has no --size");
-  if (!few && s.size.empty()) refuse_usage("mesh", "--size is missing");
+  for (const char* option : {"--size", "--size-data", "--from-depth"}) {
+    if (few && command.was_given(option))
+      refuse_usage("mesh", std::string(option) + " has no effect with --points few");
+  }
+  if (!few && s.size.empty()) refuse_usage("mesh", "--size is missing. Next: --size h, or --points few");
   if (s.sphere) return;
   if (s.input.empty())
     refuse_usage("mesh", "OUTLINE is missing: give an outline file, or --sphere for a mesh of the whole sphere");
@@ -352,7 +355,10 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   if (!s.files.picture.empty()) outputs.write_picture(s.files.picture, draw_svg(made.mesh));
   print(mesh_text(record) + fmt::format("{}: {}\n", s.output.path, verdict(after)));
   if (!s.sphere) print(next_step(after, s.output.path, s.projection));
-  return stopped_early(made.report.stopped) ? Exit::stopped_early : Exit::done;
+  // The time limit is the usual end of a search for few points.
+  const bool is_usual_end =
+      s.options.points == MeshPoints::few && made.report.stopped == Stopped::time_limit && made.bad == 0;
+  return stopped_early(made.report.stopped) && !is_usual_end ? Exit::stopped_early : Exit::done;
 }
 
 }  // namespace

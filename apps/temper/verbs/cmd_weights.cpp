@@ -316,8 +316,8 @@ Exit end(const WeightsSettings& s, WeightsRecord& record, Outputs& outputs) {
     record.certificate = s.certificate;
   }
   s.json ? print_data(weights_json(record)) : print(weights_text(record));
-  if (record.search && record.search->end == SearchEnd::stopped) return Exit::stopped_early;
-  return record.report.solved ? Exit::done : Exit::infeasible;
+  if (record.report.solved) return Exit::done;
+  return record.search && record.search->end == SearchEnd::stopped ? Exit::stopped_early : Exit::infeasible;
 }
 
 Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {

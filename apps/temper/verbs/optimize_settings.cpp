@@ -86,7 +86,7 @@ void add_rare(Command& command, OptimizeSettings& s) {
   command.group("Further options");
   add_set(command, s.assignments);
   add_flag_of(command, "coarsen", s.assignments).sentence =
-      "Remove vertices while all triangles are well-centered. No removal makes a local size larger than this factor "
+      "Remove vertices, and keep all triangles well-centered. No removal makes a local size larger than this factor "
       "times the size field.";
   add_text(
       command, "--options", "FILE", s.options_file,

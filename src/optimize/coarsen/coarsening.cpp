@@ -146,7 +146,8 @@ Coarsening::Changed Coarsening::make(const Neighborhood& around, const Move& mov
   if (!fewer && !cures && !goes_sideways) return std::nullopt;
   const MoveResult result = try_move(around, move, settings_, work_.units, true);
   TEMPER_ASSERT(result.valid && result.defect == tried.defect);  // as without events
-  if (!cures && !sizes_.allows(around, result.mesh)) return std::nullopt;
+  const bool coarsens = !cures || !move.removed.empty();
+  if (coarsens && !sizes_.allows(around, result.mesh)) return std::nullopt;
   return splice(work_, flipper_, recorder_, around, result.events);
 }
 

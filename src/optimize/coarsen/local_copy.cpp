@@ -77,13 +77,18 @@ bool LocalCopy::insert_near(TriangleId t, Rng& rng) {
     if (at.kind == Location::Kind::in_triangle) return insert(at.triangle, o);
   } else if (choice > 1 && !mesh.is_unflippable(side)) {
     return split(side, 0.5);
-  } else if (choice > 1 && !around_.is_rim(mesh.origin(side), mesh.target(side))) {
+  } else if (choice > 1 && may_split_line(side)) {
     const WeightedPoint p = mesh.point(mesh.origin(side)), q = mesh.point(mesh.target(side), p);
     const Vec2 along = q.position() - p.position();
     const Vec2 to_apex = mesh.point(mesh.opposite(side), p).position() - p.position();
     return split(side, choice == 2 ? dot(to_apex, along) / squared_length(along) : random_part);
   }
   return insert(t, middle(mesh.space(), a, b, c));
+}
+
+bool LocalCopy::may_split_line(HalfedgeId h) const {
+  const Mesh& mesh = work_.mesh;
+  return settings_.options.boundary == BoundaryVertices::split && !around_.is_rim(mesh.origin(h), mesh.target(h));
 }
 
 /// Inserts a vertex in the point of the triangle, or where the way from its centroid to this point meets a line.
@@ -105,7 +110,7 @@ bool LocalCopy::insert_by_rule(TriangleId t, InsertionPlace rule) {
       const Vec2 q = mesh.position(mesh.origin(h)), along = mesh.position(mesh.target(h)) - q;
       const double turn = cross(way, along), part = turn == 0 ? -1 : cross(q - from, way) / turn;
       if (!(turn > 0) || part < 0 || part > 1) continue;
-      if (mesh.is_unflippable(h)) return !around_.is_rim(mesh.origin(h), mesh.target(h)) && split(h, part);
+      if (mesh.is_unflippable(h)) return may_split_line(h) && split(h, part);
       here = Mesh::triangle(mesh.twin(h));
       break;
     }

@@ -55,6 +55,7 @@ class LocalCopy {
  private:
   LocalDefect sweep();
   bool assign_weights();
+  [[nodiscard]] bool may_split_line(HalfedgeId h) const;
   bool insert_by_rule(TriangleId t, InsertionPlace rule);
   bool insert(TriangleId t, const WeightedPoint& place);
   bool split(HalfedgeId h, double part);

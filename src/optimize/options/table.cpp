@@ -347,8 +347,10 @@ constexpr OptionRow kSizeRows[] = {
         {.range = at_least(1), .absent_name = "none", .absent = "sizes are only reported"}),
     row<&Options::coarsen>(
         "coarsen",
-        "Factor B of coarsening. The run searches for fewer vertices while all triangles are well-centered. No removal "
-        "makes the size at a vertex larger than B times the size field. Vertices on boundary and lines stay",
+        "Factor B of coarsening. The run searches for fewer vertices, and keeps all triangles well-centered. No "
+        "removal "
+        "makes the size at a vertex larger than B times the size field. The input's vertices on boundary and lines "
+        "stay",
         {.range = at_least(1), .common = true, .absent_name = "none", .absent = "no coarsening", .needs = {kBarrier}}),
     row<&Options::coarsen_moves>(
         "coarsen_moves",

@@ -271,6 +271,7 @@ std::size_t Driver::refine_where_bad(double factor) {
   const Edit edit = {.kind = Edit::only_refine, .gradation = kGradation, .factor = factor, .splits_lines = true};
   TriangleId near(0);
   for (const Vec2 p : places) {
+    if (run_.asked_to_stop(0)) break;
     const Location at = locate(mesh_, p, near);
     if (!at.triangle.valid()) continue;
     near = at.triangle;

@@ -274,6 +274,7 @@ Candidate refined(Candidate best, const Settings& settings, SweepState& state, R
   for (int i = 0; i < kRounds && has_bad(best, settings) && run.goes_on(); ++i, factor *= kSmaller) {
     const BestBefore kept(run.best_before, &best.work);
     Driver driver(last.work, settings, state, run);
+    is_best = false;
     if (driver.refine_where_bad(factor) == 0) continue;
     last.sweep = driver.restart(restarts(settings, last.work.mesh).front(), true);
     if (has_bad(last, settings) && run.goes_on()) {

@@ -3,10 +3,11 @@
 // edge, three quarters for a face. The sums over all edges, and over all faces, are three times the volume, as those of
 // V.
 //
-//   edge   the crossing against the midpoint of the edge; the centroid of the dual face is left out, which is not
-//   linear face   the orthocenter of the face against its centroid, along an edge and over it; the face against the
-//   middle of its
-//          dual edge
+// An edge has the offset of the crossing from its midpoint. The centroid of the dual face is left out, because it is
+// not linear in the weights.
+//
+// A face has the offset of its orthocenter from its centroid, along an edge and over it, and its own offset from the
+// midpoint of its dual edge.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -408,7 +408,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"MeshNoSize", {"mesh", "a.poly", "-o", "a.vtu"}, "--size is missing"},
         Wrong{"MeshFewSize",
               {"mesh", "a.poly", "-o", "a.vtu", "--points", "few", "--size", "1"},
-              "--points few has no --size"},
+              "--size has no effect with --points few"},
         Wrong{"MeshOverOutline", {"mesh", "a.poly", "-o", "a.node", "--size", "1"}, "is an input"},
         Wrong{"ReportOverField",
               {"optimize", "a.vtu", "-o", "b.vtu", "--write", "f.json", "--size", "f.json"},

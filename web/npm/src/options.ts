@@ -108,7 +108,7 @@ export interface OptimizeOptions {
   interfaces?: "fixed" | "sliding";
   /** Size band B. No step moves the size at a vertex out of the range from 1/B to B times the size field; at least 1. null: sizes are only reported. Default: null. */
   size_band?: number | null;
-  /** Factor B of coarsening. The run searches for fewer vertices while all triangles are well-centered. No removal makes the size at a vertex larger than B times the size field. Vertices on boundary and lines stay; at least 1. null: no coarsening. Default: null. */
+  /** Factor B of coarsening. The run searches for fewer vertices, and keeps all triangles well-centered. No removal makes the size at a vertex larger than B times the size field. The input's vertices on boundary and lines stay; at least 1. null: no coarsening. Default: null. */
   coarsen?: number | null;
   /** Largest number of random moves of coarsening, 0.1 to 10 ms each. They follow the removal of single vertices; at least 0. Default: 2000. */
   coarsen_moves?: number;
@@ -140,6 +140,8 @@ export interface OptimizeOptions {
   insertion_from?: number | null;
   /** Ratio to the mean energy of a triangle, above which an energy is large; more than 1. Default: 4. */
   insertion_ratio?: number;
+  /** Place of new vertices in triangles of large energy, and of repairs in bad triangles. best: the orthocenter; repairs try several places. Default: "best". */
+  insertion_place?: "best" | "orthocenter" | "circumcenter" | "centroid";
   /** Treatment of vertices that weights hide. undo: undo the step. remove: remove the vertex. keep: keep the vertex and report it. Default: "undo". */
   hidden?: "undo" | "remove" | "keep";
   /** Treatment of steps that turn a triangle over. refuse: refused. allow: allowed as in the paper, with flips: "deferred". infinite: barriers are infinite there. Searches may then pass over such places, but never end there. Default: "refuse". */
