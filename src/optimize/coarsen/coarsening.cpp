@@ -33,7 +33,7 @@ constexpr double kSideways = 0.33;
 Coarsening::Coarsening(WorkingCopy& work, const Settings& settings, Run& run, Flipper& flipper,
                        const Recorder& recorder)
     : work_(work),
-      settings_(settings_of_search(settings)),
+      settings_(settings_of_copies(settings)),
       run_(run),
       flipper_(flipper),
       recorder_(recorder),

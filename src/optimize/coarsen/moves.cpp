@@ -8,7 +8,7 @@ namespace temper {
 namespace {
 
 /// Removes vertices, and inserts others at bad triangles until none is bad. Returns false if that is impossible.
-bool exchange(LocalCopy& copy, const Move& move, Rng& rng, MoveResult& result) {
+bool exchange(SearchCopy& copy, const Move& move, Rng& rng, MoveResult& result) {
   for (const VertexId v : move.removed) {
     if (!copy.remove(v)) return false;
     --result.more_vertices;
@@ -23,7 +23,7 @@ bool exchange(LocalCopy& copy, const Move& move, Rng& rng, MoveResult& result) {
 }
 
 /// Inserts vertices. Then removes the old vertices that are not needed any more, and last the new ones.
-bool crowd(LocalCopy& copy, const Move& move, Rng& rng, MoveResult& result) {
+bool crowd(SearchCopy& copy, const Move& move, Rng& rng, MoveResult& result) {
   std::vector<VertexId> candidates;
   for (const VertexId v : copy.mesh().vertices()) {
     if (copy.may_be_removed(v)) candidates.push_back(v);
@@ -46,7 +46,7 @@ bool crowd(LocalCopy& copy, const Move& move, Rng& rng, MoveResult& result) {
   int removed_old = 0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (i == old && removed_old == 0) return false;
-    const LocalCopy::State before = copy.state();
+    const SearchCopy::State before = copy.state();
     if (copy.may_be_removed(candidates[i]) && copy.remove(candidates[i]) && copy.improve().bad == 0) {
       --result.more_vertices;
       removed_old += i < old ? 1 : 0;
@@ -61,7 +61,7 @@ bool crowd(LocalCopy& copy, const Move& move, Rng& rng, MoveResult& result) {
 
 MoveResult try_move(const Neighborhood& around, const Move& move, const Settings& settings, const WorkingUnits& grid,
                     bool with_events) {
-  LocalCopy copy(around, settings, grid, with_events);
+  SearchCopy copy(around, settings, grid, with_events);
   Rng rng(move.seed);
   MoveResult result;
   const bool made = move.kind == Move::crowd ? crowd(copy, move, rng, result) : exchange(copy, move, rng, result);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "optimize/coarsen/local_copy.hpp"
+#include "optimize/coarsen/search_copy.hpp"
 
 namespace temper {
 
@@ -27,7 +27,7 @@ struct MoveResult {
   Mesh mesh;                       ///< the changed neighborhood
 };
 
-/// Makes the move on a copy of the neighborhood. `settings` and `grid` as in LocalCopy.
+/// Makes the move on a copy of the neighborhood. `settings` and `grid` as in SearchCopy.
 [[nodiscard]] MoveResult try_move(const Neighborhood& around, const Move& move, const Settings& settings,
                                   const WorkingUnits& grid, bool with_events);
 

@@ -7,6 +7,7 @@
 #include "base/sort_unique.hpp"
 #include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
+#include "optimize/repair/local_copy.hpp"
 #include "optimize/step/insertion_place.hpp"
 #include "temper/detail/necessity.hpp"
 #include "topology/locate.hpp"

@@ -51,11 +51,6 @@ struct LocalDefect {
 };
 [[nodiscard]] LocalDefect defect_of(const Mesh& mesh, const AccuracyModel& model = {});
 
-/// Says whether v is neither fixed nor on a rim, and on no line of the input unless the run itself has put it there.
-/// plan_removal says whether it can be removed.
-[[nodiscard]] bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen,
-                                  const DividedEdges& divided, VertexId v);
-
 /// The result of a trial.
 struct TrialResult {
   bool valid = false;  ///< all edges are regular, on the rim too, and no vertex is hidden
@@ -64,7 +59,7 @@ struct TrialResult {
 };
 
 /// Applies the edit to a copy of the neighborhood and optimizes it. If new vertices are not possible with the present
-/// weights, tries again with equal weights of all vertices that are not frozen. `grid`: the whole mesh's, for
+/// weights, tries again with level weights of all vertices that are not frozen. `grid`: the whole mesh's, for
 /// positions.
 [[nodiscard]] TrialResult try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings,
                                    const WorkingUnits& grid, bool with_events);

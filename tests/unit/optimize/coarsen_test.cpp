@@ -190,20 +190,20 @@ struct MiddleOfMesh {
 };
 
 MiddleOfMesh middle_of(const Mesh& mesh, int rings = 3) {
-  Settings settings = settings_of_search(*make_settings({}, mesh, kUnits));
+  Settings settings = settings_of_copies(*make_settings({}, mesh, kUnits));
   const WorkingCopy work = WorkingCopy::part(mesh);
   Neighborhood around = neighborhood_of(work, TriangleId(mesh.n_triangles() / 2), rings);
   return {work, std::move(settings), std::move(around)};
 }
 
-TEST(LocalCopy, ReturnsToAnEarlierStateBitForBit) {
+TEST(SearchCopy, ReturnsToAnEarlierStateBitForBit) {
   const auto [work, settings, around] = middle_of(good_lattice());
-  LocalCopy copy(around, settings, kUnits, true);
+  SearchCopy copy(around, settings, kUnits, true);
   Rng rng(1);
   std::size_t changes = 0;
   for (const VertexId v : around.mesh.vertices()) {
     const Mesh before = copy.mesh();
-    const LocalCopy::State state = copy.state();
+    const SearchCopy::State state = copy.state();
     if (copy.may_be_removed(v) ? copy.remove(v) : copy.insert_near(around.seed, rng)) copy.improve();
     changes += copy.mesh() == before ? 0 : 1;
     copy.return_to(state);

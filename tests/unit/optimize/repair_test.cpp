@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/rng.hpp"
+#include "optimize/repair/local_copy.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/trial.hpp"
 #include "optimize/stages/restarts.hpp"
