@@ -42,7 +42,7 @@ def read_vtu(path):
 
 
 def key_of(kind, vertices):
-    """What a constraint is about: its side, and the corner opposite of a height."""
+    """Returns a key of the constraint: its edge or face, and the opposite corner if it is a height."""
     if kind == "crossing":
         return kind, tuple(vertices)
     side = frozenset(vertices[: 3 if "face" in kind else 2])

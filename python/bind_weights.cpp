@@ -125,14 +125,12 @@ py::dict best_to_dict(const BestMargin& best) {
 /// None, or the proof that weights are best.
 py::object optimality_to_python(const std::optional<Optimality>& proof) {
   if (!proof) return py::none();
-  py::list terms, offsets;
-  for (const auto& term : proof->terms)
-    terms.append(py::make_tuple(constraint_to_tuple(term.constraint), term.multiplier));
+  py::list offsets;
   for (const OffsetTerm& term : proof->offsets)
     offsets.append(py::make_tuple(constraint_to_tuple(term.at), term.factor, term.target));
   return Record()("goal", name_of(proof->goal))("constraints", name(proof->constraints))("margin", proof->margin)(
-             "objective", proof->objective)("gap", proof->gap)("iterations", proof->iterations)("terms", terms)(
-             "offsets", offsets)
+             "objective", proof->objective)("gap", proof->gap)("iterations", proof->iterations)(
+             "terms", terms_to_list(proof->terms))("offsets", offsets)
       .dict;
 }
 

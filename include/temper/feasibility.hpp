@@ -318,7 +318,8 @@ struct WeightReport {
   /// the requested margin in the plane, but at most kRefutedDual and at least kLeastRefutedDual; on the sphere
   /// kLeastRefutedDual. If only the requested margin cannot be attained, it refutes that margin.
   Certificate certificate;
-  std::optional<Optimality> optimality = {};  ///< Of center and accuracy, if solved
+  std::optional<Optimality> optimality =
+      {};  ///< Proof that the weights are best; only for center and accuracy, if solved
 };
 
 /// Σ over edges |Δw_i − Δw_j| / (2ℓ): the total shift of the weighted midpoints. On the sphere ℓ is the length of

@@ -186,7 +186,7 @@ class WeightReport(Record):
     """Violations of elastic weights, worst first."""
     certificate: Certificate
     optimality: Optimality | None = None
-    """Of center and accuracy, if solved: the proof that the weights are best."""
+    """Proof that the weights are best; only for center and accuracy, if solved."""
 
 
 def find_weights(

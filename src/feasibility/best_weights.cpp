@@ -189,7 +189,7 @@ class BestWeights {
     return proof;
   }
 
-  /// How far two potentials of a vertex can be apart, if both keep the constraints.
+  /// Returns the largest difference between two potentials of each vertex that keep the constraints.
   [[nodiscard]] VertexWeights reach_of_potentials() const {
     VertexWeights reach(demand_.n_vertices(), 0.0);  // first from the root of the component
     VertexMask seen(demand_.n_vertices(), 0);

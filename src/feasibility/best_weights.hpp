@@ -9,6 +9,11 @@
 
 namespace temper {
 
+/// Says whether a convex program finds the weights of this goal.
+[[nodiscard]] constexpr bool is_convex(WeightGoal goal) {
+  return goal == WeightGoal::center || goal == WeightGoal::accuracy;
+}
+
 /// The value of an offset less its target, linear in the potentials.
 [[nodiscard]] LinearForm offset_form(const Demand& demand, const OffsetTerm& term);
 

@@ -31,27 +31,19 @@ namespace {
 
 using namespace certified;
 
-// After scaling coordinates are below 1 and multiples of 2^-53 times the least of them. The product of four differences
-// and a multiplier must be a multiple of 2^-1074: 4 · (120 + 53) + 250 + 53 = 995 bits. On the sphere a bound is
-// another factor, a double of 53 bits above 2^-106: 4 · (90 + 53) + 250 + 53 + 159 = 1034.
-constexpr double kLeastCoordinate = 0x1p-120, kLeastOnSphere = 0x1p-90;
-
-struct Vector {
-  Number x, y;
-};
-Vector difference(Vec2 a, Vec2 b) { return {Number::difference(a.x, b.x), Number::difference(a.y, b.y)}; }
-Number dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
-Number cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
+// On the sphere a bound is another factor, a double of 53 bits above 2^-106: 4 · (90 + 53) + 250 + 53 + 159 = 1034 bits
+// (compare kLeastInPlane).
+constexpr double kLeastOnSphere = 0x1p-90;
 
 Polynomial height_polynomial(Vec2 p, Vec2 q, Vec2 r, double margin) {
-  const Vector pq = difference(q, p), pr = difference(r, p);
+  const Vector2 pq = difference(q, p), pr = difference(r, p);
   Polynomial polynomial = polynomial_of_height(pq, pr, difference(r, q));
   if (margin != 0) polynomial.constant += -(Number(2 * margin) * dot(pq, pq) * cross(pq, pr));
   return polynomial;
 }
 
 Polynomial dual_polynomial(Vec2 p, Vec2 q, Vec2 r, Vec2 s, double margin) {
-  const Vector pq = difference(q, p), pr = difference(r, p), ps = difference(s, p);
+  const Vector2 pq = difference(q, p), pr = difference(r, p), ps = difference(s, p);
   const Number at_q = cross(pr, ps), at_r = cross(ps, pq), at_s = cross(pq, pr);
   Polynomial polynomial = {{at_q + at_r + at_s, -at_q, -at_r, -at_s},
                            dot(pq, pq) * at_q + dot(pr, pr) * at_r + dot(ps, ps) * at_s};
@@ -93,7 +85,6 @@ Polynomial dual_polynomial(Vec3 p, Vec3 q, Vec3 r, Vec3 s, double radius, double
   return polynomial;
 }
 
-constexpr double kRoundedUp = 1 + 0x1p-40;  // far above the rounding of approximation() and a quotient
 /// |n/d − 1|, rounded up; nothing if the fraction has no bound.
 std::optional<double> distance_from_one(const Number& n, const Number& d) {
   if (d.sign() != Sign::positive) return std::nullopt;
@@ -133,7 +124,7 @@ Vec3 place_in(const Mesh& mesh, VertexId v) {
 }
 
 /// The terms of the sum in the plane.
-class PlaneTerms {
+class PlaneTerms : public WeightDifferences {
  public:
   PlaneTerms(const Mesh& mesh, const Scale& scale, Constraints constraints)
       : mesh_(mesh), scale_(scale), constraints_(constraints) {}
@@ -156,11 +147,6 @@ class PlaneTerms {
     Number across = abs(squared_distance(a, others[0]) - squared_distance(b, others[0]));
     return (across - length).sign() == Sign::positive ? across : length;
   }
-  /// W beyond an edge.
-  [[nodiscard]] static Number reach_beyond(const Number& reach, const Number& bound) { return reach + bound; }
-  /// The greatest value of R w relative to w_root.
-  [[nodiscard]] static Number most(const Number& residual, const Number& reach) { return abs(residual) * reach; }
-  static constexpr bool kPartsHaveFactors = false;
 
  private:
   /// The image of v near another vertex. It is exact, and less than 2 away from the scaled coordinates.
@@ -169,7 +155,7 @@ class PlaneTerms {
     return {scale_.coordinate(p.x), scale_.coordinate(p.y)};
   }
   [[nodiscard]] Number squared_distance(VertexId a, VertexId b) const {
-    const Vector edge = difference(at(a, a), at(b, a));
+    const Vector2 edge = difference(at(a, a), at(b, a));
     return dot(edge, edge);
   }
 
@@ -254,7 +240,7 @@ CertificateCheck check_certificate(const Mesh& mesh, const Certificate& certific
     }
   }
   const bool in_plane = mesh.space().is_plane();
-  const Scale scale = scale_of(certificate, {4, 2, in_plane ? 4 : 3}, in_plane ? kLeastCoordinate : kLeastOnSphere,
+  const Scale scale = scale_of(certificate, {4, 2, in_plane ? 4 : 3}, in_plane ? kLeastInPlane : kLeastOnSphere,
                                [&](VertexId v) { return place_in(mesh, v); });
   if (in_plane) return check_sum(PlaneTerms(mesh, scale, certificate.constraints), certificate, scale);
   return check_sum(SphereTerms(mesh, scale, certificate.constraints), certificate, scale);

@@ -21,6 +21,13 @@ namespace temper::certified {
 using exact::Number;
 using Kind = WeightConstraint::Kind;
 
+struct Vector2 {
+  Number x, y;
+};
+inline Vector2 difference(Vec2 a, Vec2 b) { return {Number::difference(a.x, b.x), Number::difference(a.y, b.y)}; }
+inline Number dot(const Vector2& a, const Vector2& b) { return a.x * b.x + a.y * b.y; }
+inline Number cross(const Vector2& a, const Vector2& b) { return a.x * b.y - a.y * b.x; }
+
 struct Vector3 {
   Number x, y, z;
 };
@@ -84,6 +91,10 @@ void for_each_vertex(const WeightConstraint& c, const Use& use) {
 }
 
 constexpr double kLeastMultiplier = 0x1p-250;
+// After scaling, coordinates of the plane are below 1 and multiples of 2^-53 times the least of them. The product of
+// four differences and a multiplier must be a multiple of 2^-1074: 4 · (120 + 53) + 250 + 53 = 995 bits.
+constexpr double kLeastInPlane = 0x1p-120;
+constexpr double kRoundedUp = 1 + 0x1p-40;  // far above the rounding of approximation() and a few operations
 
 /// `place_of(v)` is the place of a vertex; 0 or at least `least_coordinate` times the largest coordinate.
 template <class PlaceOf>
@@ -117,6 +128,15 @@ Scale scale_of(const Certificate& certificate, const std::array<int, 5>& degrees
                    (certificate.margin == 0 || certificate.margin >= 0x1p-20);  // 20 + 53 bits more: 1068 in all
   return scale;
 }
+
+/// What weights can add to a sum, if they differ along an edge by less than a bound.
+struct WeightDifferences {
+  /// W beyond an edge.
+  [[nodiscard]] static Number reach_beyond(const Number& reach, const Number& bound) { return reach + bound; }
+  /// The greatest value of R w relative to w_root.
+  [[nodiscard]] static Number most(const Number& residual, const Number& reach) { return abs(residual) * reach; }
+  static constexpr bool kPartsHaveFactors = false;
+};
 
 /// The sum, vertex by vertex, and the edges along which weights, or σ, differ by a bound.
 template <class Terms>

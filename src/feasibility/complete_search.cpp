@@ -17,7 +17,7 @@ namespace {
 using LemmaId = std::size_t;
 
 constexpr std::size_t kShort = 3;  // lemmas with more edges are left out when apexes are only counted
-constexpr double kGoodSide = 4;    // a side where weights are good counts as one with so many times the apexes
+constexpr double kGoodSide = 4;    // factor of the number of apexes, for a side where weights are good
 
 class CompleteSearch {
  public:
@@ -63,10 +63,10 @@ class CompleteSearch {
   using Side = std::array<VertexId, 2>;  ///< the left side of the edge from the first vertex to the second
   enum class Tested : std::uint8_t { no, alive, dead };
 
-  /// What is known of two vertices: of their edge, and of the left side from the first to the second.
+  /// The knowledge about two vertices: about their edge, and about the left side from the first to the second.
   struct Pair {
     bool is_known = false;              ///< an edge
-    Tested tested = Tested::no;         ///< with the rows of no other edges
+    Tested tested = Tested::no;         ///< without the rows of other chosen edges
     std::vector<LemmaId> lemmas;        ///< that name the edge
     bool has_apexes = false;            ///< whether `apexes` was made
     std::vector<VertexId> apexes = {};  ///< that the triangle on this side has in some triangulation
@@ -142,7 +142,7 @@ class CompleteSearch {
     return std::nullopt;
   }
 
-  /// A lemma with at most so many edges that excludes the triangle with the apex x.
+  /// Returns a lemma that excludes the triangle with the apex x, and has at most `most_edges` edges.
   [[nodiscard]] std::optional<LemmaId> lemma_against(const Side& side, VertexId x, std::size_t most_edges) const {
     const ProofEdge ax = edge_between(side[0], x), bx = edge_between(side[1], x);
     const auto holds = [&](const ProofEdge& e) { return is_known(e) || e == ax || e == bx; };
@@ -229,7 +229,7 @@ class CompleteSearch {
     return true;
   }
 
-  /// The apexes of a side, the one of the regular triangulation first: it has the lowest orthocenter.
+  /// Returns the apexes of a side. The apex of the regular triangulation comes first: it has the lowest orthocenter.
   std::vector<VertexId> by_height(const Side& side, const MarginSimplex& program) {
     std::vector<std::pair<double, VertexId>> order;
     for (const VertexId x : apexes(side)) {
@@ -357,7 +357,7 @@ class CompleteSearch {
   ProofChecker checker_;
   EdgeRows rows_;
   std::vector<Pair> pairs_;
-  std::vector<ProofEdge> known_;  ///< edges, in the order in which they were chosen; first those of all triangulations
+  std::vector<ProofEdge> known_;         ///< edges of all triangulations, then the chosen edges in their order
   std::vector<EdgeRows::Range> ranges_;  ///< of pairs, then of the known edges
   std::optional<MarginSimplex> root_;    ///< the program of the edges of all triangulations
   std::size_t n_root_ranges_ = 0;

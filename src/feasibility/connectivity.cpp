@@ -124,7 +124,8 @@ class ConnectivitySearch {
 
   bool try_regular() { return take_regular(best_.weights, ConnectivityStep::Kind::regular); }
 
-  /// The complete search, once, for small meshes of the plane that have no margin. It ends after so many calls of stop.
+  /// The complete search, once, for small meshes of the plane that have no margin. It ends after `most_calls` calls
+  /// of stop.
   bool try_complete(bool& was_tried, std::size_t most_calls) {
     const Mesh& mesh = report_.mesh;
     if (is_over() || best_.margin >= kNoMargin || std::exchange(was_tried, true)) return false;

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box.hpp"
+
 namespace temper {
 namespace {
 
 double squared_size(const Mesh& mesh) {
-  Vec2 low = {kUnbounded, kUnbounded}, high = {-kUnbounded, -kUnbounded};
-  for (const VertexId v : mesh.vertices()) {
-    const Vec2 p = mesh.position(v);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)}, high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return squared_length(high - low);
+  Box box;
+  for (const VertexId v : mesh.vertices()) box.add(mesh.position(v));
+  return squared_length(box.high - box.low);
 }
 
 }  // namespace

@@ -346,8 +346,7 @@ double weight_change(const Mesh& mesh, const VertexWeights& from, const VertexWe
 }
 
 WeightReport find_weights(const Demand& demand, LpSolver& solver, const WeightOptions& options, ConvexSolver* convex) {
-  const bool is_convex = options.goal == WeightGoal::center || options.goal == WeightGoal::accuracy;
-  if (!is_convex) return WeightFinder(demand, solver, options).run();
+  if (!is_convex(options.goal)) return WeightFinder(demand, solver, options).run();
   if (std::optional<WeightReport> best = best_weights(demand, *convex, options, options.margin))
     return *std::move(best);
   // The linear programs say if there are weights at all, and which margin they can have.
@@ -366,8 +365,7 @@ WeightReport find_weights(const Demand& demand, LpSolver& solver, const WeightOp
 }
 
 std::optional<InputError> expect_goal(const WeightOptions& options, const ConvexSolver* convex) {
-  const bool is_convex = options.goal == WeightGoal::center || options.goal == WeightGoal::accuracy;
-  if (is_convex && convex == nullptr)
+  if (is_convex(options.goal) && convex == nullptr)
     return InputError{ErrorCode::invalid_option, "", "goal: center and accuracy need a solver of convex programs"};
   if (!(options.offset_factor >= 0 && options.boundary_offset_factor >= 0 &&
         options.offset_factor + options.boundary_offset_factor < kUnbounded)) {

@@ -161,7 +161,7 @@ MarginSimplex::RowId MarginSimplex::first_violated_row(std::span<const Range> ra
   return rows_->size();
 }
 
-/// Of the most violated rows, the row at the greatest distance in terms of the basis.
+/// Returns one of the most violated rows: the row at the greatest distance in terms of the basis.
 MarginSimplex::RowId MarginSimplex::violated_row(std::span<const Range> ranges) {
   std::array<std::pair<double, RowId>, kCompared> most;  // by slack
   std::size_t n = 0;

@@ -50,7 +50,6 @@ class MarginSimplex {
 
   [[nodiscard]] double margin() const { return unknowns_.back(); }
   [[nodiscard]] double weight(int column) const { return column < 0 ? 0 : unknowns_[static_cast<std::size_t>(column)]; }
-  [[nodiscard]] std::size_t steps() const { return steps_; }
   /// Calls use(row, multiplier) for each row with a positive multiplier.
   template <class Use>
   void for_each_multiplier(const Use& use) const {

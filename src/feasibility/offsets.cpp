@@ -3,7 +3,7 @@
 // E has the terms s⁻² ℓD · 3 (c α δ² + (c or c_b) β η²), cubic in the weights: δ and η are linear, and so is D. A cubic
 // is not convex: D δ² falls if a large δ stays and D shrinks. But Σ ℓD over all edges is twice the area of the mesh,
 // whatever the weights. So each ℓD is replaced by two thirds of the area of the edge's triangles, as if duals ended at
-// centroids. What is left is a convex quadratic function:
+// centroids. The result is a convex quadratic function:
 //
 //     Σ_edges s⁻² ⅔ (A_k + A_l) ℓ² 3 (c α (d/ℓ − ½)² + c β ((h_k − h_l)/2ℓ)²)       c_b β (h/2ℓ)² on the boundary
 //

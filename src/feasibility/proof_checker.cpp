@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 
+#include "base/box.hpp"
 #include "feasibility/certificate_sum.hpp"
 #include "temper/feasibility.hpp"
 
@@ -11,51 +12,37 @@ namespace {
 
 using namespace certified;
 
-// As in certificate.cpp.
-constexpr double kLeastCoordinateOfProofs = 0x1p-120;
-constexpr double kRoundedUpInProofs = 1 + 0x1p-40;  // far above a dozen roundings
-
-struct PlaneVector {
-  Number x, y;
-};
-Number dot(const PlaneVector& a, const PlaneVector& b) { return a.x * b.x + a.y * b.y; }
-
 /// The terms of a lemma. Weights of vertices that see each other differ by less than a bound: along the segment pq the
 /// gradient of the lifted function is twice an orthocenter, and orthocenters lie in their triangles. So w_q − w_p is a
 /// mean of |oq|² − |op|² = (q − p)·(p + q − 2 o) over points o in the domain. With crossings the bound is |pq|².
-class LemmaTerms {
+class LemmaTerms : public WeightDifferences {
  public:
   LemmaTerms(const Mesh& mesh, const Scale& scale, Constraints constraints)
       : mesh_(mesh), scale_(scale), constraints_(constraints) {
-    Vec2 low = {kUnbounded, kUnbounded}, high = {-kUnbounded, -kUnbounded};
-    for (const VertexId v : mesh.vertices()) {
-      const Vec2 p = mesh.position(v);
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)}, high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-    size_ = {scale.coordinate(high.x - low.x), scale.coordinate(high.y - low.y)};
+    Box box;
+    for (const VertexId v : mesh.vertices()) box.add(mesh.position(v));
+    const Vec2 size = box.high - box.low;
+    size_ = {scale.coordinate(size.x), scale.coordinate(size.y)};
   }
 
   [[nodiscard]] Polynomial polynomial_of(const WeightConstraint& c, double /*margin*/) const {
-    const PlaneVector pq = difference(c.p, c.q);
+    const Vector2 pq = from_to(c.p, c.q);
     if (c.kind == Kind::crossing) return polynomial_of_crossing(pq, 0);
-    return polynomial_of_height(pq, difference(c.p, c.r), difference(c.q, c.r));
+    return polynomial_of_height(pq, from_to(c.p, c.r), from_to(c.q, c.r));
   }
   [[nodiscard]] std::optional<Number> bound(VertexId a, VertexId b, std::span<const VertexId> /*others*/) const {
-    const PlaneVector ab = difference(a, b);
+    const Vector2 ab = from_to(a, b);
     if (constraints_ == Constraints::well_centered) return dot(ab, ab);
     const auto length = [](const Number& x) { return std::abs(x.approximation()); };
-    return Number(2 * (length(ab.x) * size_.x + length(ab.y) * size_.y) * kRoundedUpInProofs);
+    return Number(2 * (length(ab.x) * size_.x + length(ab.y) * size_.y) * kRoundedUp);
   }
-  [[nodiscard]] static Number reach_beyond(const Number& reach, const Number& bound) { return reach + bound; }
-  [[nodiscard]] static Number most(const Number& residual, const Number& reach) { return abs(residual) * reach; }
-  static constexpr bool kPartsHaveFactors = false;
 
  private:
-  [[nodiscard]] PlaneVector difference(VertexId a, VertexId b) const {
-    const Vec2 p = mesh_.position(a), q = mesh_.position(b);
-    return {Number::difference(scale_.coordinate(q.x), scale_.coordinate(p.x)),
-            Number::difference(scale_.coordinate(q.y), scale_.coordinate(p.y))};
+  [[nodiscard]] Vec2 at(VertexId v) const {
+    const Vec2 p = mesh_.position(v);
+    return {scale_.coordinate(p.x), scale_.coordinate(p.y)};
   }
+  [[nodiscard]] Vector2 from_to(VertexId a, VertexId b) const { return difference(at(b), at(a)); }
 
   const Mesh& mesh_;
   const Scale& scale_;
@@ -95,7 +82,7 @@ CertificateCheck ProofChecker::check_sum_of(const Lemma& lemma) const {
   for (const auto& term : lemma.terms) {
     if (!is_of(lemma, term.constraint)) return CertificateCheck::not_of_this_mesh;
   }
-  const Scale scale = scale_of(certificate, {4, 2, 4}, kLeastCoordinateOfProofs, [&](VertexId v) {
+  const Scale scale = scale_of(certificate, {4, 2, 4}, kLeastInPlane, [&](VertexId v) {
     const Vec2 p = mesh_.position(v);
     return Vec3{p.x, p.y, 0};
   });

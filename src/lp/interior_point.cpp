@@ -38,16 +38,16 @@ constexpr double kResidual = 1e-11;
 // Σ s y over the objective, at the end. Less is worse: as μ falls, y/s differ more and the slope Q x + q − Aᵀ y loses
 // its digits, which count in the gap, too.
 constexpr double kGap = 2e-9;
-// If the slope is as small as rounding lets it be, no more than so many iterations try to make it smaller.
+// The largest number of iterations that only make the slope smaller. Rounding keeps it above a bound.
 constexpr int kMostPolishing = 4;
 // |s y/μ − 1| at the end with logarithms. The gap is half of its square per row.
 constexpr double kCentered = 1e-6;
-// Steps below this part of the way do not lead anywhere; so many of them end the search.
+// Steps below this part of the way hardly lower the objective. kMostShortSteps of them end the search.
 constexpr double kShortStep = 1e-4;
 constexpr int kMostShortSteps = 12;
 // The largest y/s over the entries of Q, when the slope is made zero.
 constexpr double kLargestRatio = 1e6;
-// How much larger than at the start the objective must be, by proof, to give up.
+// The search ends if y proves that the objective exceeds this multiple of its first value.
 constexpr double kHopeless = 1e6;
 // An objective as small as the rounding of squares of order one.
 constexpr double kZero = 1e-24;

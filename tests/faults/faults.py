@@ -287,7 +287,7 @@ def interrupt(runner, case, judge, wanted, rng):
 
 
 def limit_time(runner, case, judge, wanted, rng):
-    # Of temper weights only the search over connectivities has a limit.
+    # temper weights has a limit only for the search over connectivities.
     if case.verb == "weights" or "--time-limit" not in runner.help(case.verb) or "--time-limit" in case.arguments:
         return
     for _ in range(wanted or 5):

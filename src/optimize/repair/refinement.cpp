@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/surface.hpp"
+#include "optimize/step/insertion_place.hpp"
 #include "topology/locate.hpp"
 
 namespace temper {
@@ -55,11 +56,11 @@ std::optional<DelaunayRefinement::Place> DelaunayRefinement::next() {
   double worst = kLarge;
   std::optional<Place> found;
   const Space& space = mesh_.space();
-  const auto bare = [&](VertexId v) { return space.with_weight(mesh_.point(v), 0); };
   for (const TriangleId t : mesh_.triangles()) {
     if (mesh_.is_erased(t)) continue;
     const auto [a, b, c] = mesh_.corners(t);
-    const WeightedPoint o = orthocenter(space, bare(a), bare(b), bare(c));
+    const WeightedPoint o =
+        insertion_point(space, InsertionPlace::circumcenter, mesh_.point(a), mesh_.point(b), mesh_.point(c));
     if (!std::isfinite(o.x) || !std::isfinite(o.y) || !std::isfinite(o.w)) continue;
     const Vec3 x = position_in_space(space, o);
     const double wanted = size(x), relative = length(x - place(a)) / wanted;

@@ -35,7 +35,7 @@ enum class Mobility : std::uint8_t {
 
 /// Returns the directions in which a vertex with this mobility is optimized.
 [[nodiscard]] Dofs dofs(const Mesh& mesh, VertexId v, Mobility mobility, Unknowns unknowns);
-/// The same for a vertex that slides in this direction, a unit vector.
+/// Returns the directions of a vertex that slides along this unit vector.
 [[nodiscard]] Dofs dofs(Vec2 direction, Unknowns unknowns);
 
 }  // namespace temper

@@ -104,7 +104,7 @@ bool is_of(const Parts& parts, const WeightConstraint& c) {
 }
 
 /// The terms of the sum.
-class TetTerms {
+class TetTerms : public WeightDifferences {
  public:
   TetTerms(const TetMesh& mesh, const Scale& scale, Constraints constraints)
       : mesh_(mesh), scale_(scale), constraints_(constraints) {}
@@ -132,9 +132,6 @@ class TetTerms {
     }
     return most;
   }
-  [[nodiscard]] static Number reach_beyond(const Number& reach, const Number& bound) { return reach + bound; }
-  [[nodiscard]] static Number most(const Number& residual, const Number& reach) { return abs(residual) * reach; }
-  static constexpr bool kPartsHaveFactors = false;
 
  private:
   /// Σ λ_v at_v for the vertices after p.
