@@ -3,6 +3,7 @@
 
     cgshop.py poly INSTANCE OUT.poly      the outline, as temper mesh reads it
     cgshop.py cdt INSTANCE OUT.vtu        its constrained Delaunay triangulation (needs temper's Python module)
+    cgshop.py solution SOLUTION OUT.vtu   the mesh of a solution that lies beside its instance, for pictures
     cgshop.py judge INSTANCE MESH.vtu     verdict about a mesh, in rational arithmetic, without temper
     cgshop.py run DIRECTORY [options] [-- options of temper]
                                           runs all instances of a directory and prints a table
@@ -17,6 +18,7 @@ import argparse
 import concurrent.futures
 import csv
 import json
+import math
 import os
 import re
 import subprocess
@@ -93,6 +95,34 @@ def write_cdt(instance: Instance, path: Path) -> None:
     mesh = temper.Mesh(points, hull.triangles[inside], constrained_edges=np.array(lines, int).reshape(-1, 2),
                        fixed=np.arange(len(points)))
     temper.write(path, mesh)
+
+
+def write_solution(path: Path, out: Path) -> None:
+    import numpy as np
+
+    import temper
+
+    solution = json.loads(path.read_text())
+    instance = read_instance(path.with_name(solution["instance_uid"] + ".instance.json"))
+    added = zip(solution["steiner_points_x"], solution["steiner_points_y"])
+    points = instance.points + [(Fraction(x), Fraction(y)) for x, y in added]
+    neighbors: dict[int, list[int]] = {v: [] for v in range(len(points))}
+    for a, b in solution["edges"]:
+        neighbors[a].append(b)
+        neighbors[b].append(a)
+    triangles = []
+    for a, around in neighbors.items():
+        around.sort(key=lambda v: math.atan2(points[v][1] - points[a][1], points[v][0] - points[a][0]))
+        for b, c in zip(around, around[1:] + around[:1]):
+            if a < min(b, c) and c in neighbors[b] and cross(points[a], points[b], points[c]) > 0:
+                triangles.append((a, b, c))
+    lines = []
+    for p, q in instance.constraints:
+        ends = points[p], points[q]
+        on_it = {v for v, r in enumerate(points) if cross(*ends, r) == 0 and 0 <= dot(*ends, r) <= dot(*ends, ends[1])}
+        lines += [edge for edge in solution["edges"] if on_it.issuperset(edge)]
+    mesh = temper.Mesh(np.array(points, float), triangles, constrained_edges=np.array(lines, int).reshape(-1, 2))
+    temper.write(out, mesh)
 
 
 # --- meshes --------------------------------------------------------------------------------------------
@@ -279,9 +309,9 @@ def run_all(args: argparse.Namespace) -> int:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     verbs = parser.add_subparsers(dest="verb", required=True)
-    for verb, other in (("poly", "OUT.poly"), ("cdt", "OUT.vtu"), ("judge", "MESH.vtu")):
+    for verb, other in (("poly", "OUT.poly"), ("cdt", "OUT.vtu"), ("judge", "MESH.vtu"), ("solution", "OUT.vtu")):
         sub = verbs.add_parser(verb)
-        sub.add_argument("instance", type=Path)
+        sub.add_argument("given", type=Path)
         sub.add_argument("other", type=Path, metavar=other)
     run = verbs.add_parser("run")
     run.add_argument("directory", help="folder with the instances and best_known.csv")
@@ -301,7 +331,10 @@ def main() -> int:
     if args.verb == "run":
         args.options = options
         return run_all(args)
-    instance = read_instance(args.instance)
+    if args.verb == "solution":
+        write_solution(args.given, args.other)
+        return 0
+    instance = read_instance(args.given)
     if args.verb == "judge":
         verdict = judge(instance, read_vtu(args.other))
         print("\n".join([*verdict.faults, f"{verdict.added} vertices added"]))

@@ -59,6 +59,9 @@ void improve(Candidate& best, std::optional<MeshScore>& known, const Settings& s
   driver.recorder().returned_to(best.sweep);
 }
 
+// A cure that finds nothing in so many moves gives way to repairs, which insert more vertices.
+constexpr int kMovesBeforeRepairs = 300;
+
 /// Makes one attempt: restarts, repairs, and the phases for accuracy.
 Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepState& state, Run& run,
                             std::optional<AccuracySizes>& sizes) {
@@ -72,11 +75,11 @@ Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepSta
   if (run.facts.gave_up) return Candidate{input.copy()};
   best = reweighted(std::move(best), input, settings, state, run);
   const bool coarsens = settings.options.coarsen.has_value();
-  if (coarsens) best = coarsened(std::move(best), settings, state, run);
+  if (coarsens) best = coarsened(std::move(best), settings, state, run, kMovesBeforeRepairs);
   if (!coarsens || count_bad(best.work.mesh, settings.executor()) > 0) {
     best = repaired(std::move(best), settings, state, run);
     best = refined(std::move(best), settings, state, run);
-    if (coarsens) best = coarsened(std::move(best), settings, state, run);
+    if (coarsens) best = coarsened(std::move(best), settings, state, run, settings.options.coarsen_moves);
   }
   std::optional<MeshScore> known;
   if (sizes) improve<AccuracyPhase>(best, known, settings, run, *sizes);

@@ -16,11 +16,12 @@ namespace {
 constexpr int kLeastRings = 3;
 constexpr std::uint32_t kRingChoices = 3;
 constexpr int kMovesOfRound = 500;
-// A cure fails after so many moves without fewer bad triangles.
-constexpr int kMovesOfCure = 300;
 // A cure that leaves as many triangles bad lowers the violation to this part of it, with one more vertex at most.
 constexpr double kHelpsCure = 0.9;
 constexpr std::uint32_t kMostRemovedByCure = 4, kMostAddedByCure = 4;
+// After each so many moves without fewer bad triangles, a cure may add one more vertex, up to the most.
+constexpr int kMovesBeforeFiner = 300;
+constexpr int kMostAddedLater = 40;
 // An exchange removes at most so many vertices; and a crowd begins with at most so many new ones.
 constexpr std::uint32_t kMostExchanged = 4, kMostCrowded = 2;
 // Part of random moves that are crowds: most removals that exchanges miss follow from those.
@@ -31,7 +32,7 @@ constexpr double kSideways = 0.33;
 }  // namespace
 
 Coarsening::Coarsening(WorkingCopy& work, const Settings& settings, Run& run, Flipper& flipper,
-                       const Recorder& recorder)
+                       const Recorder& recorder, int moves_of_cure)
     : work_(work),
       settings_(settings_of_copies(settings)),
       run_(run),
@@ -39,7 +40,8 @@ Coarsening::Coarsening(WorkingCopy& work, const Settings& settings, Run& run, Fl
       recorder_(recorder),
       sizes_(work, *settings.size_field, *settings.options.coarsen),
       rng_(settings.policy.seed),
-      moves_left_(settings.options.coarsen_moves) {}
+      moves_left_(settings.options.coarsen_moves),
+      moves_of_cure_(moves_of_cure) {}
 
 bool Coarsening::improve() {
   if (const std::vector<TriangleId> bad = bad_triangles(work_.mesh); !bad.empty()) return cure(bad);
@@ -53,11 +55,12 @@ bool Coarsening::cure(const std::vector<TriangleId>& bad) {
     least_bad_ = bad.size();
     moves_since_fewer_bad_ = 0;
   }
-  while (++moves_since_fewer_bad_ <= kMovesOfCure && !run_.asked_to_stop(0)) {
+  while (++moves_since_fewer_bad_ <= moves_of_cure_ && !run_.asked_to_stop(0)) {
     const Neighborhood around = random_neighborhood(rng_.any_of(bad));
     Move move = {.kind = Move::exchange, .removed = removable_near(around, around.mesh.corners(around.seed)[0])};
     move.removed.resize(std::min<std::size_t>(move.removed.size(), rng_.below(kMostRemovedByCure + 1)));
-    const std::uint32_t more = rng_.below(kMostAddedByCure + 1);
+    const int later = std::min((moves_since_fewer_bad_ - 1) / kMovesBeforeFiner, kMostAddedLater);
+    const std::uint32_t more = rng_.below(kMostAddedByCure + static_cast<std::uint32_t>(later) + 1);
     move.most_inserted = static_cast<int>(move.removed.size() + more);
     move.seed = rng_.next();
     if (make(around, move, more == 0 ? Sideways::allowed : Sideways::refused)) return true;

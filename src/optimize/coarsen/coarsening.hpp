@@ -20,8 +20,10 @@ namespace temper {
 
 class Coarsening {
  public:
-  /// `settings`: of the run, with a factor of coarsening.
-  Coarsening(WorkingCopy& work, const Settings& settings, Run& run, Flipper& flipper, const Recorder& recorder);
+  /// `settings`: of the run, with a factor of coarsening. `moves_of_cure`: after so many moves without fewer bad
+  /// triangles the search is over.
+  Coarsening(WorkingCopy& work, const Settings& settings, Run& run, Flipper& flipper, const Recorder& recorder,
+             int moves_of_cure);
 
   /// Makes one round of moves. Removed vertices stay isolated until the caller compacts, before the next round. Returns
   /// false if the search is over.
@@ -49,7 +51,7 @@ class Coarsening {
   const Recorder& recorder_;
   SizeLimit sizes_;
   Rng rng_;
-  int moves_left_;
+  int moves_left_, moves_of_cure_;
   bool has_removed_singly_ = false;
   std::size_t least_bad_ = std::numeric_limits<std::size_t>::max();
   int moves_since_fewer_bad_ = 0;

@@ -344,9 +344,9 @@ bool Driver::repair(std::uint64_t seed, bool asks_programs) {
   return changed;
 }
 
-void Driver::coarsen() {
+void Driver::coarsen(int moves_of_cure) {
   EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);  // puts rounds into the history
-  Coarsening search(work_, settings_, run_, flipper_, recorder_);
+  Coarsening search(work_, settings_, run_, flipper_, recorder_, moves_of_cure);
   recorder_.begin_sweep(run_.report.sweeps + 1);
   for (bool goes_on = true; goes_on;) {  // rounds of moves, which `max_sweeps` does not limit
     run_.n_vertices = mesh_.n_vertices();

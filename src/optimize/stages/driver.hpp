@@ -36,7 +36,7 @@ class Driver {
   /// `asks_programs`: use linear programs for weights.
   bool repair(std::uint64_t seed, bool asks_programs = false);
   /// Cures bad triangles, then searches for a mesh with fewer vertices.
-  void coarsen();
+  void coarsen(int moves_of_cure);
   /// Sweeps at the sharpest γ, after repairs. If triangles turn bad again, the sweeps are undone. `sweep` as in run().
   int polish(int sweep);
 

@@ -217,9 +217,9 @@ Candidate reweighted(Candidate best, InputMesh& input, const Settings& settings,
   return best;
 }
 
-Candidate coarsened(Candidate best, const Settings& settings, SweepState& state, Run& run) {
+Candidate coarsened(Candidate best, const Settings& settings, SweepState& state, Run& run, int moves_of_cure) {
   if (!settings.options.coarsen || run.stopped_early()) return best;
-  Driver(best.work, settings, state, run).coarsen();
+  Driver(best.work, settings, state, run).coarsen(moves_of_cure);
   best.sweep = run.report.sweeps;
   return best;
 }

@@ -28,7 +28,9 @@ namespace temper {
 /// find more room. Only if the options allow new vertices, on lines too.
 [[nodiscard]] Candidate refined(Candidate best, const Settings& settings, SweepState& state, Run& run);
 
-/// Cures bad triangles and searches for a mesh with fewer vertices, if the options ask for it.
-[[nodiscard]] Candidate coarsened(Candidate best, const Settings& settings, SweepState& state, Run& run);
+/// Cures bad triangles and searches for a mesh with fewer vertices, if the options ask for it. `moves_of_cure`: as of
+/// Coarsening.
+[[nodiscard]] Candidate coarsened(Candidate best, const Settings& settings, SweepState& state, Run& run,
+                                  int moves_of_cure);
 
 }  // namespace temper
