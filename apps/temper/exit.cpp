@@ -39,7 +39,7 @@ extern "C" void note_signal(int) {
 
 }  // namespace
 
-std::string_view meaning(Exit exit) {
+std::string_view meaning(Exit exit, std::string_view verb) {
   switch (exit) {
     case Exit::done:
       return "Done.";
@@ -50,7 +50,13 @@ std::string_view meaning(Exit exit) {
     case Exit::requirement:
       return "A requirement of --require or --require-claims is not met.";
     case Exit::stopped_early:
-      return "A signal or --time-limit stopped the run, or edges are not regular. The best mesh is written.";
+      if (verb == "weights")
+        return "A signal or --time-limit stopped the search before it found weights. OUT is not written.";
+      if (verb == "mesh") return "A signal or --time-limit stopped the run. The best mesh is written, if there is one.";
+      return verb.empty() ? "A signal or --time-limit stopped the run, or edges are not regular. The best mesh is "
+                            "written, except by weights."
+                          : "A signal or --time-limit stopped the run, or edges are not regular. The best mesh is "
+                            "written.";
     case Exit::internal:
       return "Out of memory, or an internal error. Please report it.";
     case Exit::infeasible:

@@ -22,8 +22,8 @@ enum class Exit : int {
   infeasible = 6,     ///< weights: none do what was asked
 };
 
-/// A sentence for people.
-[[nodiscard]] std::string_view meaning(Exit exit);
+/// A sentence for people, about the exit of a verb. Without a verb it is about the whole program.
+[[nodiscard]] std::string_view meaning(Exit exit, std::string_view verb);
 
 class Failure : public std::runtime_error {
  public:

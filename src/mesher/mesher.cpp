@@ -44,8 +44,10 @@ std::optional<InputError> check(const MesherOptions& options, const Space& space
                    kind_of(space));
   }
   const bool few = options.points == MeshPoints::few;
-  if (few && !space.is_plane()) return invalid("a mesh with few points must be in the plane");
-  if (few && !options.optimize) return invalid("a mesh with few points needs the optimization");
+  if (few && !space.is_plane())
+    return invalid("meshes with few points are for the plane; on the sphere expected a size");
+  if (few && !options.optimize)
+    return invalid("a mesh with few points needs the optimization; expected options for it");
   if (!few && !positive(options.size) && !(options.field && options.size == 0)) {
     return invalid("expected a size above 0, found " + std::to_string(options.size));
   }

@@ -186,7 +186,9 @@ class Command::Parser {
     std::string message;
     find_declared([&](const Option& option, const CLI::Option& parsed) {
       const bool both = !option.excludes.empty() && parsed.count() > 0 && app_.count(option.excludes) > 0;
-      if (both) message = option.excludes + " and " + long_name(option.names) + " cannot be given together";
+      if (both)
+        message =
+            option.excludes + " and " + long_name(option.names) + " cannot be given together. Next: leave one out";
       return both;
     });
     return message;

@@ -99,7 +99,7 @@ void add_end(HelpPage& page, std::string examples, std::span<const Exit> exits) 
   page.parts.push_back({"Examples", {}, 0, {}, std::move(examples)});
   if (!exits.empty()) page.parts.push_back({"Exit codes", {}, 1});
   for (const Exit exit : exits)
-    page.parts.back().rows.push_back({std::to_string(static_cast<int>(exit)), std::string(meaning(exit))});
+    page.parts.back().rows.push_back({std::to_string(static_cast<int>(exit)), std::string(meaning(exit, page.verb))});
 }
 
 std::string text_of(const HelpPart& part) {

@@ -7,6 +7,7 @@
 
 #include "console.hpp"
 #include "files/certificate_json.hpp"
+#include "options/options.hpp"
 #include "reports/reports.hpp"
 #include "temper/detail/geometry.hpp"
 
@@ -117,6 +118,25 @@ std::string optimality_text(const WeightsRecord& r) {
                      center ? -proof.objective : proof.objective, proof.relative_gap(), proof.iterations);
 }
 
+/// What to do if no weights were found.
+std::string next_text(const WeightsRecord& r) {
+  if (r.report.solved) return {};
+  const bool stopped = r.search && r.search->end == SearchEnd::stopped;
+  const bool limited = r.search && r.search->end == SearchEnd::limit;
+  std::string text = stopped ? "a longer --time-limit" : limited ? "a larger --programs" : "";
+  if (r.report.verdict == Feasibility::feasible) {
+    const bool linear = r.options.goal != WeightGoal::center && r.options.goal != WeightGoal::accuracy;
+    text = linear ? "a --margin of at most the best margin, or --mode elastic" : "--mode margin";
+  } else {
+    const bool any = r.search && r.search->end == SearchEnd::none_exists;
+    if (!text.empty()) text += ", ";
+    text +=
+        any ? "temper optimize with --set repair=vertices, which adds vertices" : command_line("explain", std::string(r.path), {});
+    if (r.options.goal != WeightGoal::elastic) text += ", or --mode elastic for the least violation";
+  }
+  return fmt::format("Next: {}\n", text);
+}
+
 Json optimality_json(const WeightReport& report) {
   if (!report.optimality) return nullptr;
   const Optimality& proof = *report.optimality;
@@ -202,7 +222,7 @@ std::string weights_text(const WeightsRecord& r) {
   if (!report.solved && report.verdict == Feasibility::feasible) {
     const bool linear = r.options.goal != WeightGoal::center && r.options.goal != WeightGoal::accuracy;
     text += linear ? fmt::format("no weights give a margin of {}\n", r.options.margin)
-                   : "the search for the best weights failed. Next: --mode margin\n";
+                   : "the search for the best weights failed\n";
   }
   text += certificate_text(r) + violations_text(r);
   if (report.solved) {
@@ -212,7 +232,7 @@ std::string weights_text(const WeightsRecord& r) {
   text += optimality_text(r);
   if (!r.output.empty()) text += fmt::format("wrote {}\n", r.output);
   if (!r.certificate.empty()) text += fmt::format("wrote {}\n", r.certificate);
-  return text;
+  return text + next_text(r);
 }
 
 std::string weights_json(const WeightsRecord& r) {

@@ -67,8 +67,7 @@ void add_sizes(Command& command, MeshSettings& s) {
            "at each of its points.");
   add_choice(command, "--points", kPoints, s.options.points,
              "Number of vertices. 'by-size' makes as many as --size asks for. 'few' makes as few as it finds, without "
-             "--size. With --time-limit it uses all of that time.")
-      .excludes = "--sphere";
+             "--size, in the plane. With --time-limit it uses all of that time.");
   add_text(command, "--size-data", "NAME", s.size_data,
            "Name of the point data with the sizes in the file of --size. (default: size, or the only data)");
   add_text(command, "--from-depth", "KEY=VALUE,...", s.from_depth,
@@ -136,8 +135,9 @@ void add_options(Command& command, MeshSettings& s) {
   command.group("Optimization");
   add_optimization(command, s);
   command.group("Help");
-  command.add_help({"[OUTLINE] -o MESH --size h [options]",
+  command.add_help({"[OUTLINE] -o MESH --size h|--points few [options]",
                     "  temper mesh lake.poly -o lake.vtu --size 0.05\n"
+                    "  temper mesh lake.poly -o few.vtu --points few --time-limit 20\n"
                     "  temper mesh lake.poly -o lake.msh --size 0.05 --grade 0.15 --write lake.svg\n"
                     "  temper mesh plan.poly -o plan.vtu --size 1 --region-size 2,0.25\n"
                     "  temper mesh coast.geojson -o coast.vtu --size 2000 --projection stereographic\n"
@@ -173,16 +173,19 @@ void take_input(Command& command, MeshSettings& s) {
 
 void check_usage(const Command& command, const MeshSettings& s) {
   const bool few = s.options.points == MeshPoints::few;
-  for (const char* option : {"--size", "--size-data", "--from-depth"}) {
+  for (const char* option : {"--size", "--size-data", "--from-depth", "--grade", "--region-size", "--attempts"}) {
     if (few && command.was_given(option))
-      refuse_usage("mesh", std::string(option) + " has no effect with --points few");
+      refuse_usage("mesh", std::string(option) + " has no effect with --points few. Next: leave one out");
   }
+  if (few && s.sphere) refuse_usage("mesh", "--points few is for the plane. Next: --sphere with --size h");
+  if (few && s.no_optimize) refuse_usage("mesh", "--points few needs the optimization. Next: leave out --no-optimize");
   if (!few && s.size.empty()) refuse_usage("mesh", "--size is missing. Next: --size h, or --points few");
   if (s.sphere) return;
   if (s.input.empty())
     refuse_usage("mesh", "OUTLINE is missing: give an outline file, or --sphere for a mesh of the whole sphere");
   for (const char* option : {"--coast", "--lines", "--radius"}) {
-    if (command.was_given(option)) refuse_usage("mesh", std::string(option) + " needs --sphere");
+    if (command.was_given(option))
+      refuse_usage("mesh", std::string(option) + " needs --sphere. Next: add --sphere, or leave this option out");
   }
 }
 
@@ -354,10 +357,17 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   if (!s.files.report.empty()) outputs.write_text(s.files.report, mesh_json(record));
   if (!s.files.picture.empty()) outputs.write_picture(s.files.picture, draw_svg(made.mesh));
   print(mesh_text(record) + fmt::format("{}: {}\n", s.output.path, verdict(after)));
-  if (!s.sphere) print(next_step(after, s.output.path, s.projection));
+  const bool few = s.options.points == MeshPoints::few;
+  if (few && made.bad > 0) {
+    print(fmt::format("Next: {}{}--size instead of --points few, or {}\n",
+                      stopped_early(made.report.stopped) ? "a longer --time-limit, " : "",
+                      s.options.optimize->unknowns == Unknowns::positions ? "weights, " : "",
+                      command_line("explain", s.output.path, s.projection)));
+  } else if (!s.sphere) {
+    print(next_step(after, s.output.path, s.projection));
+  }
   // The time limit is the usual end of a search for few points.
-  const bool is_usual_end =
-      s.options.points == MeshPoints::few && made.report.stopped == Stopped::time_limit && made.bad == 0;
+  const bool is_usual_end = few && made.report.stopped == Stopped::time_limit && made.bad == 0;
   return stopped_early(made.report.stopped) && !is_usual_end ? Exit::stopped_early : Exit::done;
 }
 

@@ -177,28 +177,38 @@ void add_options(Command& command, WeightsSettings& s) {
 
 void check_usage(const Command& command, const WeightsSettings& s) {
   const auto fail = [](const std::string& message) { refuse_usage("weights", message); };
-  if (!s.check.empty() && s.zero) fail("--check-certificate takes no --zero");
+  const auto conflict = [&](const std::string& a, const std::string& b) {
+    fail(fmt::format("{} takes no {}. Next: leave one out", a, b));
+  };
+  const auto lacks = [&](const std::string& option, const std::string& other) {
+    fail(fmt::format("{} needs {}. Next: add it, or leave out {}", option, other, option));
+  };
+  if (!s.check.empty() && s.zero) conflict("--check-certificate", "--zero");
   if (!s.check.empty()) {
     for (const char* option : {"--output", "--certificate", "--mode", "--margin", "--from", "--for", "--whole",
                                "--constraints", "--edges", "--connectivity", "--programs", "--time-limit"}) {
-      if (command.was_given(option)) fail(fmt::format("--check-certificate takes no {}", option));
+      if (command.was_given(option)) conflict("--check-certificate", option);
     }
   } else if (s.zero) {
     for (const char* option : {"--certificate", "--mode", "--margin", "--from", "--for", "--whole", "--constraints",
                                "--edges", "--connectivity", "--programs", "--time-limit"}) {
-      if (command.was_given(option)) fail(fmt::format("--zero takes no {}", option));
+      if (command.was_given(option)) conflict("--zero", option);
     }
-    if (s.output.path.empty()) fail("--output is missing");
+    if (s.output.path.empty()) fail("--output is missing. Next: -o OUT");
   } else if (s.output.path.empty() && s.options.goal != WeightGoal::margin) {
-    fail("--output is missing");
+    fail("--output is missing. Next: -o OUT, or --mode margin");
   }
   const bool regular = s.options.constraints == Constraints::regular, search = s.connectivity == Connectivity::search;
-  if (!regular && command.was_given("--edges")) fail("--edges needs --constraints regular");
-  if (!search && command.was_given("--programs")) fail("--programs needs --connectivity search");
-  if (search && regular) fail("--connectivity search needs other constraints than regular, which flips alone keep");
-  if (!search && command.was_given("--time-limit")) fail("--time-limit needs --connectivity search");
-  if (s.options.goal != WeightGoal::accuracy && command.was_given("--for")) fail("--for needs --mode accuracy");
-  if (s.options.goal == WeightGoal::center && command.was_given("--margin")) fail("--mode center takes no --margin");
+  if (!regular && command.was_given("--edges")) lacks("--edges", "--constraints regular");
+  if (!search && command.was_given("--programs")) lacks("--programs", "--connectivity search");
+  if (search && regular) {
+    fail(
+        "--connectivity search has no use with --constraints regular, because flips alone make edges regular. "
+        "Next: temper weights IN --zero -o OUT");
+  }
+  if (!search && command.was_given("--time-limit")) lacks("--time-limit", "--connectivity search");
+  if (s.options.goal != WeightGoal::accuracy && command.was_given("--for")) lacks("--for", "--mode accuracy");
+  if (s.options.goal == WeightGoal::center && command.was_given("--margin")) conflict("--mode center", "--margin");
 }
 
 /// The fault of a certificate, after its name.
@@ -239,7 +249,9 @@ Exit report_check(const WeightsSettings& s, const AnyCertificate& any, Certifica
   }
   flush_output();
   if (!proves)
-    throw Failure(Exit::bad_input, fmt::format("{}: not a proof about {}: {}", s.check, s.input, fault_text(result)));
+    throw Failure(Exit::bad_input,
+                  fmt::format("{}: not a proof about {}: {}. Next: give the mesh for which it was written", s.check,
+                              s.input, fault_text(result)));
   return Exit::done;
 }
 
@@ -248,7 +260,10 @@ Exit check(const WeightsSettings& s, const Input& input) {
   const auto* const certificate = std::get_if<Certificate>(&any);
   if (certificate) return report_check(s, any, check_certificate(input.mesh(), *certificate), constraints_table());
   if (!input.mesh().space().is_plane() || input.mesh().space().is_periodic())
-    throw Failure(Exit::bad_input, fmt::format("{}: proofs over connectivities are for meshes of the plane", s.check));
+    throw Failure(Exit::bad_input,
+                  fmt::format("{}: proofs over connectivities are for meshes of the plane. Next: give the mesh "
+                              "for which it was written",
+                              s.check));
   return report_check(s, any, check_proof(input.mesh(), std::get<ConnectivityProof>(any)), constraints_table());
 }
 
@@ -362,7 +377,10 @@ Exit weigh_tetrahedra(const WeightsSettings& s, TetInput input, Outputs& outputs
     const AnyCertificate any = read_certificate(s.check, input.loaded.vertex_of_point, "tetrahedron");
     const auto* const certificate = std::get_if<Certificate>(&any);
     if (!certificate)
-      throw Failure(Exit::bad_input, fmt::format("{}: proofs over connectivities are for triangles alone", s.check));
+      throw Failure(Exit::bad_input,
+                    fmt::format("{}: proofs over connectivities are for triangles alone. Next: give the mesh "
+                                "for which it was written",
+                                s.check));
     return report_check(s, any, tets::check_certificate(input.mesh(), *certificate), tets::constraints_table());
   }
   const WeightReport report =

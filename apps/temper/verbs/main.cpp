@@ -130,7 +130,7 @@ int run_program(int argc, char** argv) {
     const Exit exit = run(Arguments(argv + std::min(argc, 1), argv + argc));
     flush_output();
     leave_ranks();
-    if (is_quiet() && (exit == Exit::stopped_early || exit == Exit::infeasible)) print_error(meaning(exit));
+    if (is_quiet() && (exit == Exit::stopped_early || exit == Exit::infeasible)) print_error(meaning(exit, argv[1]));
     return static_cast<int>(exit);
   } catch (const Failure& failure) {
     const std::optional<Failure> shown = agreed(failure);

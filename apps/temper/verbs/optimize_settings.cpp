@@ -176,6 +176,7 @@ Command optimize_command(OptimizeSettings& settings) {
       "  temper optimize in.vtu -o out.vtu --options report.json --time-limit 60\n"
       "  temper optimize in.vtu -o out.vtu --for vertex --measure-errors\n"
       "  temper optimize in.vtu -o out.vtu --for paper --set energy=dT,removal=none\n"
+      "  temper optimize in.vtu -o out.vtu --coarsen 2 --time-limit 60\n"
       "  temper optimize in.vtu -o out.vtu --save-every 600\n",
       {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early, Exit::internal}};
   help.all = help_parts(false);

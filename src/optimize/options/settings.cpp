@@ -80,9 +80,13 @@ std::optional<InputError> check_coarsening(const OptimizeOptions& o) {
       {!energy_info(o.energy).barrier,
        "`coarsen` needs a barrier, which makes triangles well-centered; expected `energy=BP`, `energy=BHs` or "
        "`energy=BH`"},
-      {o.flips == Flips::none, "`coarsen` changes the connectivity, which `flips=none` keeps; expected one of the two"},
-      {o.unknowns == Unknowns::weights, "`coarsen` moves vertices, which `unknowns=weights` keeps in place"},
-      {o.size_band.has_value(), "`size_band` does not hold what `coarsen` removes; expected one of the two"},
+      {o.flips == Flips::none,
+       "`coarsen` changes the connectivity, which `flips=none` keeps; expected `coarsen=none` or `flips=immediate`"},
+      {o.unknowns == Unknowns::weights,
+       "`coarsen` moves vertices, which `unknowns=weights` keeps in place; expected `coarsen=none` or "
+       "`unknowns=positions_and_weights`"},
+      {o.size_band.has_value(),
+       "`coarsen` makes sizes larger, which `size_band` forbids; expected `coarsen=none` or `size_band=none`"},
       {g.angle > 0 || g.edge > 0 || g.areas > 0 || g.step,
        "`coarsen` makes a coarser mesh, which the guard does not judge; expected a target without a guard"},
       {o.paper.inversion == Inversion::allow || o.paper.hidden == HiddenPolicy::keep,
@@ -325,7 +329,7 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   s.options = options;
   if (has_quadrilaterals(mesh)) s.options.unknowns = Unknowns::positions;  // one center each, of equal weights
   if (options.coarsen && s.options.unknowns != options.unknowns) {
-    return invalid("`coarsen` is for triangles, but the mesh has quadrilaterals");
+    return invalid("`coarsen` is for triangles, but the mesh has quadrilaterals; expected `coarsen=none`");
   }
   s.hooks = hooks;
   s.objective = objective_of(options);

@@ -163,6 +163,7 @@ TEST_F(Weights, TheMarginIsKeptOrSaidToBeTooMuch) {
   const Outcome outcome = temper({"weights", "in.mesh", "-o", "much.vtu", "--margin", "0.4"});
   EXPECT_EQ(outcome.exit, 6);
   EXPECT_TRUE(contains(outcome.out, "no weights give a margin of 0.4"));
+  EXPECT_TRUE(outcome.out.ends_with("Next: a --margin of at most the best margin, or --mode elastic\n")) << outcome.out;
   EXPECT_FALSE(exists("much.vtu"));
 }
 
@@ -286,6 +287,10 @@ TEST_F(Weights, ATimeLimitEndsTheSearchOverConnectivities) {
                                   "--connectivity", "search", "--time-limit", "0.2", "--json"});
   EXPECT_EQ(outcome.exit, 4) << outcome.err;
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["search"]["end"], "stopped");
+  const Outcome quiet = temper({"weights", "in.vtu", "-o", "out.vtu", "--constraints", "heights-only", "--connectivity",
+                                "search", "--time-limit", "0.2", "--quiet"});
+  EXPECT_EQ(quiet.exit, 4);
+  EXPECT_FALSE(exists("out.vtu"));
 }
 
 TEST_F(Weights, BadUsageIsRefused) {
@@ -309,6 +314,8 @@ TEST_F(Weights, BadUsageIsRefused) {
     arguments.insert(arguments.begin(), "weights");
     EXPECT_EQ(temper(arguments).exit, 2) << arguments.back();
   }
+  const Outcome outcome = temper({"weights", "in.vtu", "-o", "out.vtu", "--programs", "10"});
+  EXPECT_TRUE(contains(outcome.err, "--programs needs --connectivity search. Next: add it, or")) << outcome.err;
   EXPECT_EQ(names(), std::vector<std::string>{"in.vtu"});
 }
 
