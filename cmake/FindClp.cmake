@@ -4,8 +4,16 @@ if(PKG_CONFIG_FOUND)
   pkg_check_modules(PC_Clp QUIET clp)
 endif()
 
-# The headers are included as <coin/Clp…>: Debian's folder. Elsewhere it may be called coin-or.
-find_path(Clp_INCLUDE_DIR coin/Clp_C_Interface.h HINTS ${PC_Clp_INCLUDE_DIRS} ${PC_Clp_INCLUDEDIR})
+# The headers are included as <coin/Clp…>: Debian's folder. Homebrew has it in a folder clp. vcpkg calls it coin-or.
+find_path(Clp_INCLUDE_DIR coin/Clp_C_Interface.h HINTS ${PC_Clp_INCLUDE_DIRS} ${PC_Clp_INCLUDEDIR} PATH_SUFFIXES clp)
+if(NOT Clp_INCLUDE_DIR)
+  find_path(Clp_OTHER_INCLUDE_DIR coin-or/Clp_C_Interface.h HINTS ${PC_Clp_INCLUDE_DIRS} ${PC_Clp_INCLUDEDIR})
+  mark_as_advanced(Clp_OTHER_INCLUDE_DIR)
+  if(Clp_OTHER_INCLUDE_DIR)
+    set(Clp_INCLUDE_DIR ${CMAKE_BINARY_DIR}/clp)
+    file(WRITE ${Clp_INCLUDE_DIR}/coin/Clp_C_Interface.h "#include \"${Clp_OTHER_INCLUDE_DIR}/coin-or/Clp_C_Interface.h\"\n")
+  endif()
+endif()
 find_library(Clp_LIBRARY Clp HINTS ${PC_Clp_LIBRARY_DIRS})
 find_library(Clp_CoinUtils_LIBRARY CoinUtils HINTS ${PC_Clp_LIBRARY_DIRS})
 mark_as_advanced(Clp_INCLUDE_DIR Clp_LIBRARY Clp_CoinUtils_LIBRARY)

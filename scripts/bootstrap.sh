@@ -4,6 +4,7 @@
 #   scripts/bootstrap.sh          everything
 #   scripts/bootstrap.sh build    what the library and the program need
 #   scripts/bootstrap.sh test     what the tests need besides
+#   scripts/bootstrap.sh lint     what scripts/lint.sh needs besides; scripts/test.sh runs that
 #   scripts/bootstrap.sh clients  what scripts/clients.sh needs: not a part of everything
 #   scripts/bootstrap.sh docs     what scripts/docs.sh needs: not a part of everything
 #   scripts/bootstrap.sh wasm     what the preset wasm needs besides build, and web/ to be built: not a part of everything
@@ -17,6 +18,7 @@ build=(g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev nlohmann-json3-d
 test=(libgtest-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-h5py python3-meshio python3-scipy python3-matplotlib
       python3-pytest python3-jsonschema python3-pip zsh fish mandoc groff-base gmsh librsvg2-bin clang-format-14 clang-tidy-14 clang-19 lld-19
       libclang-rt-19-dev libopenmpi-dev openmpi-bin python3-mpi4py)
+lint=(python3-venv shellcheck ruby zip unzip)
 clients=(python3-venv liblapack3 libblas3 libglu1-mesa libgl1 libegl1 libxcursor1 libxft2 libxinerama1 libxrender1)
 docs=(python3-venv doxygen python3-meshio python3-scipy python3-matplotlib)
 wasm=(clang-19 lld-19 llvm-19 wasi-libc libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32)
@@ -29,12 +31,13 @@ for group in "${@:-all}"; do
   case "$group" in
     build) wanted+=("${build[@]}") ;;
     test) wanted+=("${test[@]}") ;;
+    lint) wanted+=("${lint[@]}") ;;
     clients) wanted+=("${clients[@]}") ;;
     docs) wanted+=("${docs[@]}") ;;
     wasm) wanted+=("${wasm[@]}") ;;
     browser) wanted+=("${browser[@]}") ;;
-    all) wanted+=("${build[@]}" "${test[@]}") ;;
-    *) echo "bootstrap: no group '$group'; there are build, test, clients, docs, wasm, browser and all" >&2; exit 2 ;;
+    all) wanted+=("${build[@]}" "${test[@]}" "${lint[@]}") ;;
+    *) echo "bootstrap: no group '$group'; there are build, test, lint, clients, docs, wasm, browser and all" >&2; exit 2 ;;
   esac
 done
 

@@ -27,6 +27,7 @@ if [[ "$(cat "$venv/stamp" 2>/dev/null)" != "$stamp" ]]; then
   echo "$stamp" >"$venv/stamp"
 fi
 
-export PYTHONPATH=$(realpath "$TEMPER_BUILD")/python PYTHONDONTWRITEBYTECODE=1 PATH="$venv/bin:$PATH" NO_MKDOCS_2_WARNING=1
+PYTHONPATH=$(realpath "$TEMPER_BUILD")/python
+export PYTHONPATH PYTHONDONTWRITEBYTECODE=1 PATH="$venv/bin:$PATH" NO_MKDOCS_2_WARNING=1
 mkdocs build --strict --quiet
 python3 scripts/check_links.py --site build/site

@@ -8,7 +8,7 @@
 # Corpora stay in build/fuzz/corpus and grow from run to run; finds go to build/fuzz/finds, a file each, to be made small
 # (temper_fuzz -minimize_crash=1), cured, and put to the tests. TEMPER_FUZZ_JOBS: targets at a time, default all processors.
 set -uo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
 usage="usage: scripts/fuzz.sh SECONDS|HOURSh [TARGET …]"
 [[ "${1:-}" =~ ^([0-9]+)(h?)$ ]] || { echo "$usage" >&2; exit 2; }

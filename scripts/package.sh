@@ -1,11 +1,17 @@
 #!/usr/bin/env bash
-# Makes what users install: the source distribution, a wheel for each Python that is named, and Debian packages.
+# Makes what users install: the archive of the sources, a wheel, Debian packages, and the npm package.
 #
-#   scripts/package.sh [--output DIR] [wheel] [debian]     default: packages/, and all of them
+#   scripts/package.sh [--output DIR] [source] [wheel] [debian] [npm] [windows] [container]
+#                                           default: packages/, and all but the container
 #
-# The wheel is built from the source distribution, with what pip gets from the package index, in the Python that `python3`
-# is (TEMPER_PYTHON names another). auditwheel puts the libraries into it and finds the manylinux tag, which is that of this
-# machine's C library. Debian packages are of the release of Debian or Ubuntu that runs this.
+# source: temper-X.Y.Z.tar.gz, the commit that is checked out. Every recipe begins with it.
+# wheel:  the source distribution, and a wheel of it for the Python that `python3` is (TEMPER_PYTHON names another), built with
+#         what pip gets from the package index. auditwheel puts the libraries into it and finds the manylinux tag, which is the
+#         tag of this machine's C library.
+# debian: packages for the release of Debian or Ubuntu that runs this.
+# npm:    temper-mesh-X.Y.Z.tgz, for browsers and Node. npm brings what it is made with.
+# windows: temper-X.Y.Z-windows-x86_64.zip, by scripts/windows.sh.
+# container: temper-X.Y.Z-container.tar.gz, for `podman load`, by podman or docker.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -13,19 +19,27 @@ output=$PWD/packages wanted=()
 while (($#)); do
   case "$1" in
     --output) output=$(realpath -m "$2"); shift ;;
-    wheel | debian) wanted+=("$1") ;;
-    *) echo "package: expected wheel, debian or --output DIR, found '$1'" >&2; exit 2 ;;
+    source | wheel | debian | npm | windows | container) wanted+=("$1") ;;
+    *) echo "package: expected source, wheel, debian, npm, windows, container or --output DIR, found '$1'" >&2; exit 2 ;;
   esac
   shift
 done
-((${#wanted[@]})) || wanted=(wheel debian)
+((${#wanted[@]})) || wanted=(source wheel debian npm windows)
 python=${TEMPER_PYTHON:-python3}
 
+# Archives and packages carry the time of the commit.
+export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date +%s)}
 scripts/bootstrap.sh build
 mkdir -p "$output" build
 if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
 CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
 export CMAKE_BUILD_PARALLEL_LEVEL
+
+package_source() {
+  local name
+  name=temper-$(scripts/version.py)
+  git archive --format=tar --prefix="$name/" HEAD | gzip -9n >"$output/$name.tar.gz"
+}
 
 package_wheel() {
   local tools=build/package-tools unpacked=build/package-sdist
@@ -41,10 +55,31 @@ package_wheel() {
 }
 
 package_debian() {
-  cmake --preset debian >/dev/null
-  cmake --build --preset debian
+  rm -rf build/debian/package
+  scripts/build.sh debian
   (cd build/debian && cpack -B "$PWD/package")
   cp build/debian/package/*.deb "$output"
+}
+
+package_npm() {
+  scripts/bootstrap.sh wasm
+  scripts/build.sh wasm
+  (cd web && npm ci --no-audit --no-fund --loglevel=error && npm run build --workspace npm &&
+    npm pack --workspace npm --pack-destination "$output")
+}
+
+package_windows() {
+  scripts/windows.sh zip
+  cp "build/windows/temper-$(scripts/version.py)-windows-x86_64.zip" "$output"
+}
+
+package_container() {
+  local engine version
+  engine=$(command -v podman || command -v docker)
+  version=$(scripts/version.py)
+  "$engine" build -f packaging/Containerfile -t "temper:$version" .
+  "$engine" run --rm "temper:$version" --version
+  "$engine" save "temper:$version" | gzip -9n >"$output/temper-$version-container.tar.gz"
 }
 
 for kind in "${wanted[@]}"; do "package_$kind"; done

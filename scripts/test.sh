@@ -2,17 +2,19 @@
 # Everything that must hold before a change goes in, from a clean clone. Fails when any stage fails; the last
 # line says how many checks and tests passed and failed, in all builds together.
 #
-#   scripts/test.sh             all stages
-#   scripts/test.sh --quick     without the sanitizers, and so only with those tests that need an optimized library
+#   scripts/test.sh                 all stages
+#   scripts/test.sh --quick         without the sanitizers, and so only with those tests that need an optimized library
+#   scripts/test.sh --sanitizers    only what --quick leaves out
+#   scripts/test.sh --clang         only: clang++ reads each source alone and builds everything, and bytes are compared
 #
 # TEMPER_TEST_JOBS: parallel jobs, default all processors.
 set -uo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
-quick=0
+part=all
 for argument in "$@"; do
   case "$argument" in
-    --quick) quick=1 ;;
+    --quick | --sanitizers | --clang) part=${argument#--} ;;
     *) echo "test: unknown argument '$argument'" >&2; exit 2 ;;
   esac
 done
@@ -152,9 +154,41 @@ consumer_subdirectory() (
     configure_and_build subdirectory --target core threads
 )
 
+# All tests, by the other compiler, and what runs on threads: nothing else, in a project that holds temper in a subdirectory.
+sanitizers() {
+  if stage "build (sanitizers, clang++)" configure_and_build asan; then
+    stage "every test program is there" every_test_program_is_there build/asan
+    # Tests that compare the bytes and figures of whole runs run in the optimized build. Other tests reach the same code.
+    suite "tests (sanitizers)" build/asan -E '^(claims|golden.*|regression_accuracy_meshes|unit_optimize_bytes_[0-9]+)$'
+  fi
+  if stage "consumer: subdirectory (ThreadSanitizer)" consumer_subdirectory; then
+    suite "threads (ThreadSanitizer)" build/subdirectory -R '^(subdirectory_core|threads_[01])$'
+  fi
+}
+
+clang() {
+  stage "build (clang++, each source alone)" configure_and_build clang
+  stage "the same bytes by each compiler" scripts/same_bytes.sh
+}
+
+# Prints the counts; fails if anything has failed.
+summary() {
+  printf '\n%d s in all' "$SECONDS"
+  if ((skipped > 0)); then printf '; %d skipped (they need clients, VTK, or meshes that are not in the repository)' "$skipped"; fi
+  printf '\n'
+  if ((${#failures[@]} > 0)); then printf 'failed: %s\n' "${failures[@]}"; fi
+  echo "$passed passed, $failed failed"
+  ((failed == 0))
+}
+
 if ! stage "bootstrap" scripts/bootstrap.sh build test; then
   echo "0 passed, 1 failed"
   exit 1
+fi
+if [[ "$part" == sanitizers || "$part" == clang ]]; then
+  "$part"
+  summary
+  exit
 fi
 stage "layers: the checker finds what it should" python3 scripts/check_layers.py --self-test
 stage "layers: who includes whom" python3 scripts/check_layers.py
@@ -163,6 +197,7 @@ stage "links: none is dead" python3 scripts/check_links.py
 stage "prose: the checker finds what it should" python3 scripts/check_prose.py --self-test
 stage "prose: sentences are plain" python3 scripts/check_prose.py
 stage "pages: the checker finds what it should" python3 scripts/docs/pages.py --self-test
+stage "lint: workflows, scripts, recipes, citation" scripts/lint.sh
 stage "format" formatted
 stage "names of tests" names_of_tests
 stage "bench: the comparison finds what it should" python3 bench/compare.py --self-test
@@ -179,20 +214,5 @@ if stage "build (optimized, -Werror)" configure_and_build dev --target optimized
   suite "tests (optimized)" build/dev -L optimized -E '^pages$'
   stage "consumer: install, find_package" consumer_find_package && suite "consumer: find_package runs" "$scratch/find_package"
 fi
-# All tests, by the other compiler.
-if ((!quick)) && stage "build (sanitizers, clang++)" configure_and_build asan; then
-  stage "every test program is there" every_test_program_is_there build/asan
-  # Tests that compare the bytes and figures of whole runs have run above. Other tests reach the same code.
-  suite "tests (sanitizers)" build/asan -E '^(claims|golden.*|regression_accuracy_meshes|unit_optimize_bytes_[0-9]+)$'
-fi
-# What runs on threads, and nothing else, in a project that holds temper in a subdirectory.
-if ((!quick)) && stage "consumer: subdirectory (ThreadSanitizer)" consumer_subdirectory; then
-  suite "threads (ThreadSanitizer)" build/subdirectory -R '^(subdirectory_core|threads_[01])$'
-fi
-
-printf '\n%d s in all' "$SECONDS"
-if ((skipped > 0)); then printf '; %d skipped (they need clients, VTK, or meshes that are not in the repository)' "$skipped"; fi
-printf '\n'
-if ((${#failures[@]} > 0)); then printf 'failed: %s\n' "${failures[@]}"; fi
-echo "$passed passed, $failed failed"
-((failed == 0))
+if [[ "$part" == all ]]; then sanitizers; fi
+summary

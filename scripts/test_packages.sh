@@ -1,21 +1,30 @@
 #!/usr/bin/env bash
-# Tries what scripts/package.sh has made where nothing else is: the wheel in a new virtual environment, Debian packages in a
-# new root folder (debootstrap), shared libraries in a prefix of their own. Ends with a table of sizes and seconds.
+# Installs what scripts/package.sh or scripts/release.sh has made where nothing else is, and uses it. Ends with a table of sizes
+# and seconds.
 #
-#   scripts/test_packages.sh [--only wheel|prefix|debian] [DIR]      default: all three, packages/
+#   scripts/test_packages.sh [--only KIND] [DIR]      default: all kinds, packages/
+#
+# sums:    SHA256SUMS has each file; the bill of materials names each; recipes have the checksums; twine and npm would take theirs
+# wheel:   in a new virtual environment, without a compiler
+# source:  the archive, built with shared libraries into a prefix of its own, used by pkg-config and CMake, uninstalled
+# debian:  in a new root folder (debootstrap)
+# npm:     in a new folder, in Node
+# windows: unpacked into a new folder, under Wine
 #
 # Needs root, for chroot. TEMPER_CHROOT: a folder for the root folders, default a temporary one; the bare system that
 # debootstrap makes there is used again, a copy for each run.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source_folder=$PWD
-kinds=(wheel prefix debian)
+kinds=(sums wheel source debian npm windows)
 if [[ "${1:-}" == --only ]]; then
   kinds=("${2:-}")
-  [[ " wheel prefix debian " == *" ${2:-} "* ]] || { echo "test_packages: --only: expected wheel, prefix or debian, found '${2:-}'" >&2; exit 2; }
+  [[ " sums wheel source debian npm windows " == *" ${2:-} "* ]] || { echo "test_packages: --only: expected sums, wheel, source, debian, npm or windows, found '${2:-}'" >&2; exit 2; }
   shift 2
 fi
 packages=$(realpath "${1:-packages}")
+launcher=()
+if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 rows=()
@@ -30,17 +39,21 @@ timed() {
 size() { row "$1" "$(awk "BEGIN {printf \"%.0f kB\", $(stat -c %s "$2") / 1000}")"; }
 must() { "$@" || { echo "test_packages: not so: $*" >&2; exit 1; }; }
 
-# The first commands of the README, and what they promise.
-readme_commands() {
-  sed -n '/^temper example random/,/^```/p' README.md | sed '/^```/d'
+# The first commands of the README, and their input.
+readme_commands() { sed -n '/^temper mesh examples/,/^```/p' README.md | sed '/^```/d'; }
+readme_into() {  # FOLDER
+  mkdir -p "$1/examples"
+  readme_commands >"$1/readme.sh"
+  cp examples/aquifer.geojson "$1/examples"
 }
 [[ $(readme_commands | wc -l) -ge 3 ]] || { echo "test_packages: no commands in README.md" >&2; exit 1; }
 
 try_wheel() {
   local venv=$scratch/venv wheel here=$scratch/wheel
-  wheel=$(ls "$packages"/temper_mesh-*manylinux*.whl)
-  mkdir "$here"
-  readme_commands >"$here/readme.sh"
+  # Which of the wheels pip takes for this Python; nothing of that name comes from the index.
+  python3 -m pip download -q --no-deps --no-index --only-binary :all: --find-links "$packages" -d "$scratch/picked" temper-mesh
+  wheel=$(ls "$scratch"/picked/*.whl)
+  readme_into "$here"
   size "wheel: $(basename "$wheel")" "$wheel"
   size "source distribution" "$(ls "$packages"/temper_mesh-*.tar.gz)"
   python3 -m venv "$venv"
@@ -72,12 +85,12 @@ for path in ["share/man/man1/temper-optimize.1", "share/bash-completion/completi
 PYTHON
   # Without libnetcdf an error that says what to install; with pip's netCDF4 it works.
   "$venv/bin/temper" example annulus -o ring.vtu
-  if ! ldconfig -p | grep -q libnetcdf; then
+  if [[ $(ldconfig -p) != *libnetcdf* ]]; then
     must grep -q 'pip: netCDF4' <("$venv/bin/temper" convert ring.vtu -o ring.ugrid.nc 2>&1)
   fi
   must grep -q 'needs\? libnetcdf' <(TEMPER_NETCDF=/nowhere "$venv/bin/temper" convert ring.vtu -o ring.ugrid.nc 2>&1)
   must test -z "$(find "$venv"/lib/python3*/site-packages/temper* -name '*netcdf*.so*')"
-  timed "wheel: pip uninstall" "$venv/bin/pip" uninstall -q -y temper
+  timed "wheel: pip uninstall" "$venv/bin/pip" uninstall -q -y temper-mesh
   must test -z "$(find "$venv" -name '*temper*' -not -path '*/pip/*')"
   cd "$source_folder"
 }
@@ -101,7 +114,7 @@ try_debian() {
   cp -a /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
   mkdir "$root/packages"
   cp "$packages"/*.deb "$root/packages"
-  readme_commands >"$root/packages/readme.sh"
+  readme_into "$root/packages"
   for deb in "$packages"/*.deb; do
     size "Debian: $(basename "$deb")" "$deb"
     debs+=("/packages/$(basename "$deb")")
@@ -117,24 +130,31 @@ try_debian() {
   timed "Debian: apt-get install, the program" in_root apt-get install -y -qq --no-install-recommends "/packages/$library" "/packages/$program"
   row "Debian: packages that came with the program" "$(($(in_root dpkg -l | grep -c ^ii) - others - 2))"
   must test "$(in_root dpkg -l | grep -c libnetcdf)" = 0
-  timed "Debian: README's first commands" in_root sh -ec 'cd /tmp; . /packages/readme.sh'
+  timed "Debian: README's first commands" in_root sh -ec 'cp -r /packages/examples /tmp; cd /tmp; . /packages/readme.sh'
   must grep -q "version\|commit" <(in_root temper --version)
   timed "Debian: apt-get install, all four packages" in_root apt-get install -y -qq --no-install-recommends "${debs[@]}"
   timed "Debian: import temper" in_root python3 -c 'import temper'
-  in_root python3 -m temper check /tmp/tempered.vtu >/dev/null
-  timed "Debian: apt-get purge" in_root sh -c 'apt-get purge -y -qq temper libtemper-dev libtemper0.1 python3-temper && apt-get autoremove --purge -y -qq'
+  in_root python3 -m temper check /tmp/better.vtu >/dev/null
+  timed "Debian: apt-get purge" in_root sh -c 'apt-get purge -y -qq temper libtemper-dev "libtemper0*" python3-temper && apt-get autoremove --purge -y -qq'
   files_of_root >"$scratch/after"
   diff "$scratch/before" "$scratch/after" | grep -i temper && { echo "test_packages: purge leaves these" >&2; exit 1; }
   row "Debian: files of temper that purge leaves" 0
 }
 
-# A prefix of its own with shared libraries: runs by RUNPATH, is found by pkg-config and CMake, and goes by `uninstall`.
-try_prefix() {
-  local build=build/shared prefix=$scratch/prefix
-  cmake -G Ninja -B "$build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DBUILD_SHARED_LIBS=ON -DTEMPER_BUILD_PYTHON=ON \
+# Shared libraries in a prefix of their own run by RUNPATH, are found by pkg-config and CMake, and go by `uninstall`.
+try_source() {
+  local build prefix=$scratch/prefix archive sources
+  archive=$(ls "$packages"/temper-[0-9]*[0-9].tar.gz)
+  size "source: $(basename "$archive")" "$archive"
+  # Folders in which ccache finds what scripts/package.sh debian has compiled: the sources are ../.. of the build in both.
+  sources=$PWD/build/source build=$PWD/build/source/build/shared
+  rm -rf "$sources" && mkdir -p "$sources"
+  tar -xzf "$archive" -C "$sources" --strip-components=1
+  scripts/bootstrap.sh build
+  cmake -G Ninja -S "$sources" -B "$build" "${launcher[@]}" -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DBUILD_SHARED_LIBS=ON -DTEMPER_BUILD_PYTHON=ON \
     -DTEMPER_PYTHON=/usr/bin/python3 >/dev/null
   cmake --build "$build" >/dev/null
-  timed "shared libraries: cmake --install" cmake --install "$build" --prefix "$prefix"
+  timed "source: cmake --install" cmake --install "$build" --prefix "$prefix"
   must test -z "$(ldd "$prefix/bin/temper" "$prefix"/lib/libtemper*.so | grep 'not found')"
   must test "$(ldd "$prefix/bin/temper" | grep -c "$scratch/prefix/.*libtemper")" -ge 4
   must "$prefix/bin/temper" example annulus -o "$scratch/ring.vtu"
@@ -147,7 +167,55 @@ try_prefix() {
   must ctest --test-dir "$scratch/find_package" --output-on-failure --no-tests=error -Q
   cmake --build "$build" --target uninstall >/dev/null
   must test -z "$(find "$prefix" -type f -o -type l)"
-  row "shared libraries: files that uninstall leaves" 0
+  row "source: files that uninstall leaves" 0
+}
+
+try_sums() {
+  local bill recipes=$scratch/recipes files
+  files=$(cd "$packages" && find . -maxdepth 1 -type f ! -name SHA256SUMS -printf '%f\n' | sort)
+  timed "sums: sha256sum --check" env -C "$packages" sha256sum --check --strict SHA256SUMS
+  must diff <(cut -c 67- "$packages/SHA256SUMS" | sort) <(echo "$files")
+  bill=$(ls "$packages"/temper-*.cdx.json)
+  must diff <(grep -vF "$(basename "$bill")" <<<"$files") \
+    <(python3 -c 'import json, sys; print("\n".join(sorted(c["name"] for c in json.load(open(sys.argv[1]))["components"])))' "$bill")
+  row "sums: files" "$(wc -l <<<"$files")"
+  tar -xzf "$packages"/temper-*-recipes.tar.gz -C "$scratch"
+  must grep -q "$(grep ' temper-[0-9.]*[0-9].tar.gz$' "$packages/SHA256SUMS" | cut -c 1-64)" "$recipes/homebrew/temper.rb"
+  timed "sums: twine and npm, without an upload" scripts/publish.sh rehearse "$packages"
+}
+
+try_npm() {
+  local package folder=$scratch/npm
+  package=$(ls "$packages"/temper-mesh-*.tgz)
+  size "npm: $(basename "$package")" "$package"
+  mkdir "$folder"
+  echo '{"private": true, "type": "module"}' >"$folder/package.json"
+  timed "npm: npm install" env -C "$folder" npm install --no-audit --no-fund --loglevel=error "$package"
+  cat >"$folder/try.js" <<'JS'
+import * as temper from 'temper-mesh';
+const mesh = temper.generate.annulus();
+temper.optimize(mesh);
+if (temper.quality(mesh).well_centered_fraction !== 1) throw Error('not well-centered');
+temper.write('ring.vtu', mesh);
+console.log(temper.version());
+JS
+  timed "npm: a mesh in Node" env -C "$folder" node try.js
+  must grep -qx "$(scripts/version.py)" "$scratch/log"
+  must test -s "$folder/ring.vtu"
+}
+
+try_windows() {
+  local zip here=$scratch/windows
+  zip=$(ls "$packages"/temper-*-windows-x86_64.zip)
+  size "Windows: $(basename "$zip")" "$zip"
+  readme_into "$here"
+  unzip -q "$zip" -d "$here"
+  printf '#!/bin/sh\nexec wine "%s" "$@"\n' "$(echo "$here"/temper-*/temper.exe)" >"$here/temper"
+  chmod +x "$here/temper"
+  export WINEPREFIX=$scratch/wine WINEDEBUG=-all WINEDLLOVERRIDES='mscoree,mshtml='
+  timed "Windows: wine wineboot" wine wineboot --init
+  timed "Windows: README's first commands" env -C "$here" PATH="$here:$PATH" sh -e readme.sh
+  must test -s "$here/better.vtu"
 }
 
 for kind in "${kinds[@]}"; do "try_$kind"; done

@@ -17,7 +17,11 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program libraries development python)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+# Packages for Debian 12 and for Ubuntu 24.04 differ: 1+debian12, 1+ubuntu24.04.
+cmake_host_system_information(RESULT system QUERY DISTRIB_ID DISTRIB_VERSION_ID)
+list(JOIN system "" system)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1+${system})
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # of the commit, by SOURCE_DATE_EPOCH
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)

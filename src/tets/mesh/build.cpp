@@ -473,7 +473,7 @@ class TetMeshBuilder {
   }
   InputError wrong_turns(TetId t, std::uint32_t edge, double turns) const {
     const auto& c = mesh_.corners(t);
-    const auto* found = std::find_if(kEdgeCorners.begin(), kEdgeCorners.end(), [&](const auto& e) {
+    const auto found = std::find_if(kEdgeCorners.begin(), kEdgeCorners.end(), [&](const auto& e) {
       return edges_->find(c[std::size_t(e[0])], c[std::size_t(e[1])]) == edge;
     });
     const std::array<VertexId, 2> ends = {c[std::size_t((*found)[0])], c[std::size_t((*found)[1])]};

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Publishes a release whose files are in FOLDER. Workflows call it; each step first compares FOLDER/SHA256SUMS.
+#
+#   scripts/publish.sh draft FOLDER         drafts the release of tag vX.Y.Z on GitHub (needs gh and GH_TOKEN)
+#   scripts/publish.sh registries FOLDER    downloads the published files and their provenance into FOLDER, verifies them, and
+#                                           uploads wheels to PyPI and the npm package to npm, by trusted publishing
+#   scripts/publish.sh rehearse FOLDER      uploads nothing: twine and npm check what they would upload
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+step=${1:-} folder=${2:-}
+[[ "$step" =~ ^(draft|registries|rehearse)$ && -n "$folder" ]] || { echo "usage: scripts/publish.sh draft|registries|rehearse FOLDER" >&2; exit 2; }
+source scripts/tools.sh
+tag=v$(scripts/version.py)
+
+if [[ "$step" == registries ]]; then
+  gh release download "$tag" --dir "$folder" --clobber
+  for file in "$folder"/*; do
+    [[ "$file" == */SHA256SUMS ]] || gh attestation verify "$file" --repo "${GITHUB_REPOSITORY:?}"
+  done
+fi
+(cd "$folder" && sha256sum --check --quiet --strict SHA256SUMS)
+
+case "$step" in
+  draft)
+    notes=$(mktemp)
+    # Of the changes, those of this version: up to the next heading.
+    awk -v heading="## ${tag#v}" 'index($0, heading) == 1 {inside = 1; next} /^## / {inside = 0} inside' CHANGELOG.md >"$notes"
+    mapfile -t files < <(find "$folder" -maxdepth 1 -type f | sort)
+    gh release create "$tag" --verify-tag --draft --title "temper ${tag#v}" --notes-file "$notes" "${files[@]}"
+    ;;
+  registries)
+    python=$(tool_python release)
+    "$python" -m twine upload --non-interactive "$folder"/temper_mesh-*
+    npm publish --provenance --access public "$folder"/temper-mesh-*.tgz
+    ;;
+  rehearse)
+    python=$(tool_python release)
+    "$python" -m twine check --strict "$folder"/temper_mesh-*
+    npm publish --dry-run "$folder"/temper-mesh-*.tgz
+    ;;
+esac

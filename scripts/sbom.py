@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""Writes the bill of materials of a release as CycloneDX: FOLDER/temper-X.Y.Z.cdx.json.
+
+    scripts/sbom.py FOLDER     in the Python of scripts/release-requirements.txt
+
+Each file of the release is a component with its checksum. Inside it are the parts of others that the file itself names:
+in a wheel, the bills in *.dist-info/sboms (PEP 770), which auditwheel writes, and what its program was linked with, if it runs on
+this machine; in the zip for Windows, the names of its licenses; in a Debian package, its dependencies; in the npm package, what its
+package.json lists; and in all of them the libraries of the HTML report, from its NOTICE.
+"""
+
+import hashlib
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tarfile
+import tempfile
+import zipfile
+
+from cyclonedx.model import HashAlgorithm, HashType
+from cyclonedx.model.bom import Bom
+from cyclonedx.model.component import Component, ComponentType
+from cyclonedx.model.license import LicenseExpression
+from cyclonedx.output.json import JsonV1Dot6
+from cyclonedx.schema import SchemaVersion
+from cyclonedx.validation.json import JsonStrictValidator
+from packageurl import PackageURL
+
+from version import ROOT, version
+
+
+def library(name, found, kind="generic", namespace=None):
+    return Component(name=name, version=found or None, type=ComponentType.LIBRARY, purl=PackageURL(kind, namespace, name, found or None))
+
+
+def report_libraries():
+    """d3-array 3.2.4 (ISC), …: the headings of the notice."""
+    notice = (ROOT / "web/report/dist/NOTICE").read_text()
+    return [library(name, found, "npm") for name, found in re.findall(r"^(\S+) (\d[\w.]*) \([^)]*\)$", notice, re.MULTILINE)]
+
+
+def wheel_libraries(path):
+    with zipfile.ZipFile(path) as wheel:
+        for bill in [name for name in wheel.namelist() if re.search(r"\.dist-info/sboms/.*\.json$", name)]:
+            for part in json.loads(wheel.read(bill))["components"]:
+                if part["name"] != "temper-mesh":
+                    purl = PackageURL.from_string(part["purl"])
+                    yield library(part["name"], part.get("version"), purl.type, purl.namespace)
+
+
+    yield from linked_libraries(path)
+
+
+def linked_libraries(wheel):
+    """Names and versions of static libraries, which the program prints."""
+    with tempfile.TemporaryDirectory() as folder:
+        with zipfile.ZipFile(wheel) as files:
+            files.extractall(folder)
+        program = pathlib.Path(folder, "temper/bin/temper")
+        program.chmod(0o755)
+        try:
+            printed = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+        except (OSError, subprocess.CalledProcessError):  # of another processor or system
+            return
+    for name, found in re.findall(r"^  (oneTBB|zlib|pugixml|Clp|Eigen) +(\d\S*)$", printed, re.MULTILINE):
+        yield library(name, found)
+
+
+def zip_libraries(path):
+    with zipfile.ZipFile(path) as files:
+        for name in files.namelist():
+            if match := re.search(r"/licenses/(?:lib)?([^/]+?)(?:-dev)?\.txt$", name):
+                yield library(match[1], "")
+
+
+def debian_libraries(path):
+    depends = subprocess.run(["dpkg-deb", "--field", path, "Depends"], capture_output=True, text=True, check=True).stdout
+    for name, least in re.findall(r"([a-z0-9][a-z0-9.+-]+)(?: \([<>=]+ ([^)]+)\))?", depends):
+        if "temper" not in name:
+            yield library(name, "", "deb", "debian")
+
+
+def npm_libraries(path):
+    with tarfile.open(path) as package:
+        listed = json.load(package.extractfile("package/package.json"))
+    for name, found in (listed.get("dependencies", {}) | listed.get("devDependencies", {})).items():
+        purl = PackageURL.from_string(f"pkg:npm/{name.replace('@', '%40')}@{found}")
+        yield library(purl.name, found, "npm", purl.namespace)
+
+
+def libraries(path):
+    found = {".whl": wheel_libraries, ".zip": zip_libraries, ".deb": debian_libraries, ".tgz": npm_libraries}.get(path.suffix, lambda path: [])(path)
+    return {str(part.purl): part for part in [*found, *report_libraries()]}.values()
+
+
+def file_component(path):
+    component = Component(
+        name=path.name, type=ComponentType.FILE, bom_ref=path.name,
+        hashes=[HashType(alg=HashAlgorithm.SHA_256, content=hashlib.sha256(path.read_bytes()).hexdigest())],
+    )  # fmt: skip
+    for part in libraries(path):
+        part.bom_ref.value = f"{path.name}/{part.purl}"
+        component.components.add(part)
+    return component
+
+
+def main(folder):
+    folder, found = pathlib.Path(folder), version()
+    output = folder / f"temper-{found}.cdx.json"
+    bom = Bom()
+    bom.metadata.component = Component(
+        name="temper", version=found, type=ComponentType.APPLICATION, licenses=[LicenseExpression("Apache-2.0")],
+        purl=PackageURL("github", "temper-mesh", "temper", f"v{found}"),
+    )  # fmt: skip
+    for path in sorted(folder.iterdir()):
+        if path.is_file() and path not in (output, folder / "SHA256SUMS"):
+            bom.components.add(file_component(path))
+    bom.register_dependency(bom.metadata.component, bom.components)
+    text = JsonV1Dot6(bom).output_as_string(indent=2)
+    wrong = JsonStrictValidator(SchemaVersion.V1_6).validate_str(text)
+    if wrong:
+        sys.exit(f"sbom: {wrong}")
+    output.write_text(text)
+    print(f"sbom: {len(bom.components)} files, {sum(len(part.components) for part in bom.components)} parts, {output.name}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
