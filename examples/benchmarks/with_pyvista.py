@@ -12,7 +12,8 @@ for name, options in (("before", None), ("energy", {"objective": "energy"}), ("d
         temper.optimize(mesh, options=options)
     temper.write(f"{name}.vtu", mesh)
     grid = pyvista.read(f"{name}.vtu")
-    assert (grid.point_data["weight"] == mesh.weights).all() and grid.n_cells == mesh.n_triangles
+    weights = grid.point_data.get("weight", 0 * mesh.weights)  # files without weights have no such array
+    assert (weights == mesh.weights).all() and grid.n_cells == mesh.n_triangles
     angles = grid.cell_quality(["min_angle", "max_angle"])
     results[name] = angles["max_angle"].max()
     print(f"{name:8} angles from {angles['min_angle'].min():.1f} to {results[name]:.1f}, obtuse {(angles['max_angle'] > 90).sum()}")

@@ -2,7 +2,7 @@
 
 A weighted triangulation and its power diagram are optimized until every triangle is well-centered: its orthocenter is
 inside, and its dual crosses every edge. Arrays are NumPy arrays, without copies if the memory allows. Every function
-that takes a mesh also takes meshes of ``meshio``, ``PyVista`` and ``xugrid``.
+that takes a mesh also takes meshes of ``meshio``, ``PyVista``, ``Gmsh``, ``xarray`` and ``xugrid``.
 
 >>> import temper
 >>> mesh = temper.generate.annulus()

@@ -9,9 +9,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _temper
+from ._cells import Cells
 from ._errors import TemperError, TemperWarning
-from ._others import Cells, cells_of, data_of, handle_of, meshio_form, meshio_of, put_back_vtk, tags_of_32_bits
+from ._gmsh import is_model, put_back_model
+from ._others import cells_of, data_of, handle_of, meshio_form, meshio_of, put_back_vtk, tags_of_32_bits
 from ._space import Space
+from ._ugrid import dataset_from, is_ugrid
 
 PICTURE = 2000  # triangles: notebooks draw no larger meshes
 PICTURE_WIDTH = 240.0  # [px]
@@ -477,6 +480,44 @@ class Mesh(Tagged):
         self._handle.require_no_period("to_meshio()")
         return meshio_of(self._form())
 
+    def to_xarray(self, like: Any = None) -> Any:
+        """The mesh as an ``xarray.Dataset`` by the UGRID conventions. Needs xarray.
+
+        Parameters
+        ----------
+        like : xarray.Dataset, or of xugrid, optional
+            The dataset that the mesh came from. The result has its names, dimensions and attributes, and its variables
+            that are on no node, edge or face. Without it, names begin with ``mesh2d``.
+
+        Returns
+        -------
+        xarray.Dataset
+            Nodes, faces and edges, with data of points and triangles. Weights are the variable ``NAME_node_weight``
+            [length²] of the topology ``NAME``. Centers of faces are the orthocenters; with quadrilaterals there are
+            none.
+
+        Warns
+        -----
+        TemperWarning
+            Tags of lines and of points, and names, which have no place there.
+        """
+        self._handle.require_no_period("to_xarray()")
+        if not self.space.is_plane:
+            raise TemperError("unsupported", "", "to_xarray(): the mesh is on a sphere. Next: temper.write a .ugrid.nc, and open that")
+        form = self._form()
+        lost = [what for what in ("lines", "marked_points", "names") if len(getattr(self, what))]
+        if lost:
+            repeat_warnings([f"{' and '.join(lost).replace('_', ' ')} are left out. Next: temper.write keeps them"], 2)
+        has_quads = any(block.type == "quad" for block in form.cells)
+        weighted = np.column_stack([self.points, self.weights])[self.triangles].swapaxes(0, 1)
+        return dataset_from(form, None if has_quads else _temper.orthocenter(*map(np.ascontiguousarray, weighted), False), like)
+
+    def to_xugrid(self, like: Any = None) -> Any:
+        """The mesh as an ``xugrid.UgridDataset``: see ``to_xarray``. Needs xugrid."""
+        import xugrid
+
+        return xugrid.UgridDataset(self.to_xarray(like))
+
     def _form(self) -> Cells:
         return meshio_form(self._handle)
 
@@ -512,7 +553,7 @@ def _unpickle(vertices: tuple[Any, ...], triangles: tuple[Any, ...], source: tup
 
 
 MeshLike = Union[Mesh, Any]
-"""A ``temper.Mesh``, or a mesh of meshio, PyVista or xugrid (``as_mesh``), for every function that takes a mesh."""
+"""A ``temper.Mesh``, or a mesh of meshio, PyVista, Gmsh, xarray or xugrid (``as_mesh``), for every function that takes a mesh."""
 
 
 def as_mesh(mesh: MeshLike, *, in_place: bool = False) -> Mesh:
@@ -522,9 +563,10 @@ def as_mesh(mesh: MeshLike, *, in_place: bool = False) -> Mesh:
     ----------
     mesh : Mesh, or of another library
         ``meshio.Mesh`` (``from_meshio`` has the rules, which hold for all), PyVista's ``PolyData`` and
-        ``UnstructuredGrid``, xugrid's ``Ugrid2d``, ``UgridDataset`` and ``UgridDataArray``.
+        ``UnstructuredGrid``, ``gmsh.model``, ``xarray.Dataset`` by the UGRID conventions, xugrid's ``Ugrid2d``,
+        ``UgridDataset`` and ``UgridDataArray``.
     in_place : bool
-        The caller will change the mesh. Meshes of xugrid cannot change.
+        The caller will change the mesh. Meshes of xarray and xugrid cannot.
 
     Raises
     ------
@@ -540,8 +582,8 @@ def as_mesh(mesh: MeshLike, *, in_place: bool = False) -> Mesh:
         raise TypeError(f"expected a mesh of triangles, found a TetMesh. Next: temper.{takers} take it")
     cells = cells_of(mesh)
     if cells is None:
-        raise TypeError(f"expected a temper.Mesh, or a mesh of meshio, PyVista or xugrid, found {type(mesh).__name__}")
-    if in_place and not hasattr(mesh, "points"):
+        raise TypeError(f"expected a temper.Mesh, or a mesh of meshio, PyVista, Gmsh, xarray or xugrid, found {type(mesh).__name__}")
+    if in_place and is_ugrid(mesh):
         raise TypeError(f"a {type(mesh).__name__} cannot change in place. Next: change temper.as_mesh(grid)")
     handle, messages = handle_of(cells)
     return _warn(Mesh._of(handle), messages, 3)
@@ -597,8 +639,10 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
 
 
 def put_back(mesh: Any, changed: Any) -> None:
-    """Writes a mesh that was changed in place into the mesh of meshio or PyVista that it came from. Sets of points
-    stay, with their new numbers. Sets of cells are lost, because flips change the cells."""
+    """Writes a mesh that was changed in place into the mesh of meshio, PyVista or Gmsh that it came from. Sets of
+    points stay, with their new numbers. Sets of cells are lost, because flips change the cells."""
+    if is_model(mesh):
+        return put_back_model(mesh, changed._form(), changed._vertices_of_points())
     if not hasattr(mesh, "point_sets"):
         return put_back_vtk(mesh, changed._form())
     new = changed.to_meshio()

@@ -1,4 +1,4 @@
-"""Meshes of meshio, PyVista and xugrid, and the compiled module. The functions for users are in ``_mesh``.
+"""Meshes of meshio, PyVista, Gmsh, xarray and xugrid, and the compiled module. The functions for users are in ``_mesh``.
 
 Classes are told apart by their attributes, so none of these libraries is imported. ``cells_of`` brings each to the form
 of meshio: blocks of cells of one type, with data for each block.
@@ -6,13 +6,15 @@ of meshio: blocks of cells of one type, with data for each block.
 
 from __future__ import annotations
 
-import dataclasses
 from typing import Any
 
 import numpy as np
 
 from . import _temper
+from ._cells import Block, Cells
 from ._errors import TemperError
+from ._gmsh import cells_of_model, is_model
+from ._ugrid import cells_of_ugrid, is_ugrid
 
 _WEIGHTS = ("weight", "weights")
 _WRITTEN = ("region", "gmsh:physical")  # cell data that to_meshio makes from the tags
@@ -24,26 +26,6 @@ _QUADRILATERAL = "temper:quadrilateral"  # cell data: the number of the quadrila
 _NAMES = "physical_names"  # field data of VTU: a line "dimension tag name" for each name
 
 
-@dataclasses.dataclass
-class Block:
-    """Cells of one type."""
-
-    type: str
-    data: Any
-
-
-@dataclasses.dataclass
-class Cells:
-    """A mesh as meshio has it."""
-
-    points: Any
-    cells: list[Block]
-    point_data: dict[str, Any] = dataclasses.field(default_factory=dict)
-    cell_data: dict[str, list[Any]] = dataclasses.field(default_factory=dict)
-    field_data: dict[str, Any] = dataclasses.field(default_factory=dict)
-    left_out: list[str] = dataclasses.field(default_factory=list)
-
-
 def cells_of(mesh: Any) -> Any:
     """A mesh of another library in the form of meshio, or None."""
     if hasattr(mesh, "celltypes") and hasattr(mesh, "cell_connectivity"):
@@ -51,10 +33,10 @@ def cells_of(mesh: Any) -> Any:
         return _vtk_cells(mesh, np.asarray(mesh.celltypes), np.asarray(offset), np.asarray(mesh.cell_connectivity))
     if all(hasattr(mesh, name) for name in ("points", "verts", "lines", "faces", "cell_data")):
         return _poly_data(mesh)
-    if hasattr(mesh, "face_node_connectivity"):
-        return _ugrid(mesh, {})
-    if hasattr(mesh, "ugrid"):
-        return _ugrid(mesh.ugrid.grid, dict(getattr(mesh, "data_vars", {mesh.name: mesh} if hasattr(mesh, "name") else {})))
+    if is_model(mesh):
+        return cells_of_model(mesh)
+    if is_ugrid(mesh):
+        return cells_of_ugrid(mesh)
     return mesh if all(hasattr(mesh, name) for name in ("points", "cells", "point_data")) else None
 
 
@@ -112,38 +94,13 @@ def _vtk_cells(mesh: Any, types: Any, offset: Any, connectivity: Any) -> Cells:
     others = np.setdiff1d(np.arange(len(types)), taken)
     kinds = [_TYPES_OF_VTK.get(int(kind), f"VTK {kind}") for kind in types[others]]
     lost = [f"{kinds.count(kind)} cells of type {kind} are left out" for kind in sorted(set(kinds))]
-    return Cells(mesh.points, blocks, dict(mesh.point_data.items()), cell_data, dict(mesh.field_data.items()), lost)
+    field_data = {name: values for name, values in mesh.field_data.items() if _is_number(values)}
+    return Cells(mesh.points, blocks, dict(mesh.point_data.items()), cell_data, field_data, lost)
 
 
-# --- xugrid -----------------------------------------------------------------------------------------------------------
-
-
-def _ugrid(grid: Any, variables: dict[str, Any]) -> Cells:
-    """A Ugrid2d, with the variables on its nodes and faces. Others are left out, but those of the grid itself."""
-    if not hasattr(grid, "face_node_connectivity"):
-        raise TemperError("empty_input", "", f"expected a Ugrid2d, found {type(grid).__name__}")
-    own = {word for value in getattr(grid, "attrs", {}).values() for word in str(value).split()}
-    if getattr(grid, "is_geographic", False):
-        cure = "Next: move it to a plane with to_crs, or read its file with temper.read(path, projection=…)"
-        raise TemperError("geographic", "", f"the grid is in longitude and latitude. {cure}")
-    faces = np.asarray(grid.face_node_connectivity)
-    corners = (faces >= 0).sum(axis=1)
-    chosen = [np.flatnonzero(corners == n) for n in (3, 4)]
-    blocks = [Block(kind, faces[rows, :n]) for kind, n, rows in zip(("triangle", "quad"), (3, 4), chosen) if len(rows)]
-    result = Cells(np.asarray(grid.node_coordinates), blocks)
-    if others := len(faces) - sum(map(len, chosen)):
-        result.left_out.append(f"{others} faces that are neither triangles nor quadrilaterals are left out")
-    for name, variable in variables.items():
-        if name in own or not variable.dims:
-            continue
-        if variable.dims == (grid.node_dimension,):
-            is_weight = name == f"{getattr(grid, 'name', '')}_node_weight"
-            result.point_data["weight" if is_weight else str(name)] = np.asarray(variable.values)
-        elif variable.dims == (grid.face_dimension,):
-            result.cell_data[str(name)] = [np.asarray(variable.values)[rows] for rows in chosen if len(rows)]
-        else:
-            result.left_out.append(f"variable '{name}' with dimensions {', '.join(variable.dims)} is left out")
-    return result
+def _is_number(values: Any) -> bool:
+    """Whether it can be in a file. Texts stay in the mesh of PyVista, unless that becomes a mesh of temper."""
+    return np.asarray(values).dtype.kind in "biuf"
 
 
 # --- all --------------------------------------------------------------------------------------------------------------
@@ -299,6 +256,10 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
         "cell_data": cell_data, **_lines_and_points(mesh, dropped),
     }  # fmt: skip
     handle, messages = _temper.mesh_from_file_arrays(arrays, [str(tag) for tag in fixed_tags])
+    if len(held := getattr(mesh, "held", ())):
+        vertices = _temper.vertices_of_points(handle)
+        held = held if vertices is None else vertices[held]
+        handle.set_fixed(np.union1d(handle.fixed(), held[held >= 0]).astype(np.int64))
     return handle, dropped + list(messages)
 
 
@@ -448,6 +409,7 @@ def put_back_vtk(mesh: Any, cells: Cells) -> None:
         new.point_data[name] = values
     for name, parts in cells.cell_data.items():
         new.cell_data[name] = np.concatenate([parts[of_kind.index(kind)] for kind in order])
-    for name, values in cells.field_data.items():
+    texts = {name: values for name, values in mesh.field_data.items() if not _is_number(values)}
+    for name, values in {**cells.field_data, **texts}.items():
         new.field_data[name] = values
     mesh.copy_from(new)

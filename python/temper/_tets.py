@@ -8,8 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _temper
+from ._cells import Cells
 from ._mesh import Mesh, MeshLike, Tagged, _doubles, _ints, _tags, as_mesh, repeat_warnings
-from ._others import Cells, cells_of, meshio_form_of_tets, meshio_of, tet_arrays
+from ._others import cells_of, meshio_form_of_tets, meshio_of, tet_arrays
 
 _OUTWARD = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])  # corners of the face opposite each corner
 
@@ -118,7 +119,7 @@ class TetMesh(Tagged):
 
     @classmethod
     def from_meshio(cls, mesh: Any) -> TetMesh:
-        """A ``meshio.Mesh``, or an ``UnstructuredGrid`` of PyVista, as a mesh of tetrahedra.
+        """A ``meshio.Mesh``, an ``UnstructuredGrid`` of PyVista or ``gmsh.model``, as a mesh of tetrahedra.
 
         Cells of type ``tetra`` become the mesh. Cells of type ``triangle``, ``line`` and ``vertex`` are tagged faces,
         lines and marked points. Other cells are left out, with a warning. Weights, regions, tags, names and data are as
@@ -267,7 +268,7 @@ def _unpickle(arrays: dict[str, Any], messages: list[str]) -> TetMesh:
 def _cells(mesh: Any) -> Any:
     cells = cells_of(mesh)
     if cells is None:
-        raise TypeError(f"expected a mesh of meshio or PyVista, found {type(mesh).__name__}")
+        raise TypeError(f"expected a mesh of meshio, PyVista or Gmsh, found {type(mesh).__name__}")
     return cells
 
 

@@ -288,29 +288,46 @@ def test_meshes_of_pyvista_are_taken():
     assert other.lines.tolist() == [[0, 1]] and temper.quality(poly_data()) == temper.quality(mesh)
 
 
-def test_meshes_of_xugrid_are_taken_and_not_changed():
+def variable(dims, values, **attrs):
+    return Bare(dims=dims, values=np.asarray(values), attrs=attrs, encoding={})
+
+
+def test_meshes_of_xarray_and_xugrid_are_taken_and_not_changed():
     given = gmsh_strip()
-    grid = Bare(
-        node_coordinates=given.points, face_node_connectivity=np.array([[0, 1, 4], [1, 2, 3], [1, 3, 4]]),
-        node_dimension="n", face_dimension="f", name="mesh", attrs={"node_coordinates": "x y"},
-    )  # fmt: skip
-    assert temper.as_mesh(grid).n_triangles == 3
+    topology = {"cf_role": "mesh_topology", "topology_dimension": 2, "node_coordinates": "x y", "face_node_connectivity": "nodes"}
+    corners = [[0.0, 1, 4, np.nan], [1, 2, 3, np.nan], [1, 3, 4, np.nan]]  # as xarray reads them with a fill value
     variables = {
-        "depth": Bare(dims=("n",), values=np.arange(5.0)), "k": Bare(dims=("f",), values=np.arange(3)),
-        "mesh_node_weight": Bare(dims=("n",), values=np.full(5, 0.25)), "x": Bare(dims=("n",), values=np.arange(5.0)),
-        "series": Bare(dims=("time", "n"), values=None), "crs": Bare(dims=(), values=None),
+        "mesh": variable((), 0, **topology, edge_node_connectivity="edges"), "edges": variable(("e", "two"), [[0, 1]]),
+        "nodes": variable(("f", "four"), np.add(corners, 1), start_index=1), "x": variable(("n",), given.points[:, 0]),
+        "y": variable(("n",), given.points[:, 1]), "n": variable(("n",), np.arange(5)), "depth": variable(("n",), np.arange(5.0)),
+        "k": variable(("f",), np.arange(3)), "mesh_node_weight": variable(("n",), np.full(5, 0.25)), "crs": variable((), 0),
+        "series": variable(("time", "n"), np.arange(10.0).reshape(2, 5)), "flux": variable(("e",), [1.0]),
     }  # fmt: skip
-    dataset = Bare(ugrid=Bare(grid=grid), data_vars=variables)
-    with pytest.warns(temper.TemperWarning, match="'series' with dimensions time, n is left out"):
-        mesh = temper.as_mesh(dataset)
-    assert mesh.point_data["depth"].tolist() == [0, 1, 2, 3, 4] and mesh.cell_data["k"].tolist() == [0, 1, 2]
-    assert list(mesh.point_data) == ["depth"] and set(mesh.weights) == {0.25}
-    with pytest.raises(TypeError, match=r"cannot change in place. Next: change temper.as_mesh\(grid\)"):
-        temper.optimize(grid)
-    grid.is_geographic = True
-    with pytest.raises(temper.TemperError, match="longitude and latitude") as caught:
-        temper.quality(grid)
-    assert caught.value.code == "geographic"
+    dataset = Bare(data_vars=variables, variables=variables)
+    wrapped = Bare(ugrid=Bare(to_dataset=lambda: dataset), data_vars=variables)
+    grid = Bare(face_node_connectivity=None, to_dataset=lambda: dataset)
+    for each in (dataset, wrapped, grid):
+        with pytest.warns(temper.TemperWarning, match="variable 'flux' with dimensions e is left out") as caught:
+            mesh = temper.as_mesh(each)
+        assert len(caught) == 1 and np.array_equal(mesh.triangles, given.cells_dict["triangle"])
+        assert mesh.point_data["depth"].tolist() == [0, 1, 2, 3, 4] and mesh.cell_data["k"].tolist() == [0, 1, 2]
+        assert mesh.point_data["series"].tolist() == [[0, 5], [1, 6], [2, 7], [3, 8], [4, 9]]
+        assert list(mesh.point_data) == ["depth", "series"] and set(mesh.weights) == {0.25}
+        with pytest.raises(TypeError, match=r"cannot change in place. Next: change temper.as_mesh\(grid\)"):
+            temper.optimize(each)
+
+    def refused(**changes):
+        others = {**variables, **changes}
+        with pytest.raises(temper.TemperError) as caught:
+            temper.as_mesh(Bare(data_vars=others, variables=others))
+        return f"{caught.value.code}: {caught.value}"
+
+    assert refused(x=variable(("n",), np.arange(5.0), units="degrees_east")).startswith("geographic: the grid is in longitude and")
+    assert "found none" in refused(mesh=variable((), 0)) and "found 2: mesh, net" in refused(net=variables["mesh"])
+    assert "no face_node_connectivity" in refused(mesh=variable((), 0, **{**topology, "face_node_connectivity": "faces"}))
+    assert "node_coordinates names 'lon lat'" in refused(mesh=variable((), 0, **{**topology, "node_coordinates": "lon lat"}))
+    five = variable(("f", "five"), [[0, 1, 2, 3, 4]])
+    assert "1 of 1 faces are neither triangles nor quadrilaterals" in refused(nodes=five)
 
 
 class Poly(Bare):

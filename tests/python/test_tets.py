@@ -289,7 +289,7 @@ def test_grids_of_pyvista_are_taken():
         temper.TetMesh.from_meshio(Bare(points=points, cells=[Bare(type="triangle", data=[[0, 1, 2]])], point_data={}, cell_data={}, field_data={}))
     cells = [Bare(type="tetra", data=np.empty((0, 4), dtype=int)), Bare(type="triangle", data=[[0, 1, 2]])]
     assert temper.quality(Bare(points=[(0, 0), (1, 0), (0, 1)], cells=cells, point_data={}, cell_data={}, field_data={})).triangles == 1
-    with pytest.raises(TypeError, match="expected a mesh of meshio or PyVista, found ndarray"):
+    with pytest.raises(TypeError, match="expected a mesh of meshio, PyVista or Gmsh, found ndarray"):
         temper.TetMesh.from_meshio(points)
 
 

@@ -28,9 +28,9 @@ class Nc {
     EXPECT_EQ(nc_open(path.c_str(), NC_NOWRITE, &nc.id), NC_NOERR) << path;
     return nc;
   }
-  static Nc create(const std::string& path) {
+  static Nc create(const std::string& path, int mode = 0) {
     Nc nc;
-    EXPECT_EQ(nc_create(path.c_str(), NC_CLOBBER, &nc.id), NC_NOERR) << path;
+    EXPECT_EQ(nc_create(path.c_str(), NC_CLOBBER | mode, &nc.id), NC_NOERR) << path;
     return nc;
   }
   ~Nc() {
@@ -84,7 +84,10 @@ class Nc {
           const std::map<std::string, int>& numbers = {}) {
     int v = -1;
     nc_redef(id);
-    const nc_type type = std::is_same_v<T, double> ? NC_DOUBLE : std::is_same_v<T, char> ? NC_CHAR : NC_INT;
+    const nc_type type = std::is_same_v<T, double>         ? NC_DOUBLE
+                         : std::is_same_v<T, char>         ? NC_CHAR
+                         : std::is_same_v<T, std::int64_t> ? NC_INT64
+                                                           : NC_INT;
     EXPECT_EQ(nc_def_var(id, name, type, static_cast<int>(dims.size()), dims.data(), &v), NC_NOERR);
     for (const auto& [key, value] : numbers) nc_put_att_int(id, v, key.c_str(), NC_INT, 1, &value);
     nc_enddef(id);
@@ -618,8 +621,8 @@ TEST_F(NetcdfFormats, UgridMayHaveItsTablesInDoublesFilledUpWithNan) {
 
 /// A square of two triangles, with these names of the topology and of its coordinates.
 Nc square(const std::string& path, const std::string& topology, const std::vector<double>& x,
-          const std::vector<double>& y, const std::string& axes = "x y") {
-  Nc nc = Nc::create(path);
+          const std::vector<double>& y, const std::string& axes = "x y", int mode = 0) {
+  Nc nc = Nc::create(path, mode);
   const int nodes = nc.add_dimension("node", 4), faces = nc.add_dimension("face", 2),
             three = nc.add_dimension("three", 3);
   nc.add<double>("x", {nodes}, x);
@@ -718,6 +721,22 @@ TEST_F(NetcdfFormats, AttributesSystemsNamesAndUnitsComeBack) {
   EXPECT_EQ(nc.text("level", "grid_mapping"), "projected_coordinate_system");
   ASSERT_TRUE(write(path("third.nc"), *read(path("again.nc"))));
   EXPECT_EQ(slurp(path("third.nc")), slurp(path("again.nc")));
+}
+
+// xarray writes whole numbers of 64 bits, for example of coordinate systems.
+TEST_F(NetcdfFormats, SingleNumbersOf64BitsAreKept) {
+  {
+    Nc nc = square(path("o.nc"), "Mesh2", {0, 1, 1, 0}, {0, 0, 1, 1}, "x y", NC_64BIT_DATA);
+    nc.say(nc.add<std::int64_t>("spatial_ref", {}, {-28992}), "grid_mapping_name", "oblique_stereographic");
+    nc.add<std::int64_t>("large", {}, {std::int64_t{1} << 40});
+  }
+  const auto f = read(path("o.nc"));
+  ASSERT_TRUE(f) << f.error().what();
+  ASSERT_TRUE(write(path("again.nc"), *f));
+  const Nc nc = Nc::open(path("again.nc"));
+  EXPECT_EQ(nc.get<std::int32_t>("spatial_ref"), std::vector<std::int32_t>{-28992});
+  EXPECT_EQ(nc.text("spatial_ref", "grid_mapping_name"), "oblique_stereographic");
+  EXPECT_EQ(nc.get<double>("large"), std::vector<double>{0x1p40});
 }
 
 TEST_F(NetcdfFormats, RadiansAreDegreesInMemoryAndRadiansAgain) {

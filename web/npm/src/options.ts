@@ -17,8 +17,8 @@ import type { LengthParameterLike } from './records.ts';
 export type TargetName = "any" | "valid" | "vertex" | "cell" | "stars" | "mpas" | "dflowfm" | "adcirc" | "fem" | "paper" | "odt" | "cvt";
 /** Time that the run may take.
  * - `quick`: Few sweeps and repairs, in about half of the time.
- * - `normal`: Sweeps until little is gained. Targets vertex and cell lower the error of the solver itself on small meshes.
- * - `high`: More sweeps and repairs, which may add and remove vertices. The solver's own error is lowered on larger meshes too. */
+ * - `normal`: Sweeps until little is gained. Targets vertex and cell also lower the error of the solver itself.
+ * - `high`: More sweeps and repairs, which may add and remove vertices. More steps lower the solver's own error. */
 export type EffortName = "quick" | "normal" | "high";
 /** Part of the mesh that stays.
  * - `positions`: All vertices stay, and only weights change.
@@ -60,17 +60,17 @@ export interface OptimizeOptions {
   boundary_offset_factor?: number | null;
   /** Factor of the logarithms that keep margins and least lengths; more than 0. Default: 0.003. */
   barrier?: number;
-  /** Largest number of sweeps for accuracy. They follow the sweeps for energy; at least 0. Default: 30. */
+  /** Largest number of sweeps for accuracy. They follow the sweeps for energy; at least 0. Default: 32. */
   accuracy_sweeps?: number;
   /** Relative tolerance for accuracy. The sweeps end when one gains less than this part; at least 0. Default: 0.00001. */
   accuracy_tolerance?: number;
   /** Factor of the accuracy objective, which is lowered together with the error of the solver. It keeps other errors from rising; at least 0. Default: 1. */
   offset_share?: number;
-  /** Largest number of steps for the error of the solver. Each moves all vertices at once, after all other sweeps; at least 0. Default: 200. */
+  /** Largest number of steps for the error of the solver. Each moves all vertices at once, after all other sweeps; at least 0. Default: 15. */
   solver_error_steps?: number;
-  /** Relative tolerance for the error of the solver. The steps end when ten of them gain less than this part; at least 0. Default: 0.01. */
+  /** Relative tolerance for the error of the solver. The steps end when ten of them gain less than this part; at least 0. Default: 0.005. */
   solver_error_tolerance?: number;
-  /** Largest number of vertices for which the error of the solver is lowered, if objective is auto; at least 0. Default: 20000. */
+  /** Largest number of vertices for which the error of the solver is lowered, if objective is auto; at least 0. Default: 200000. */
   solver_error_vertices?: number;
   /** Method that improves one vertex. newton: Newton steps in position and weight together. golden: the paper's golden section. alternating: Newton in position, then in weight. Default: "newton". */
   solver?: "newton" | "golden" | "alternating";
@@ -100,7 +100,7 @@ export interface OptimizeOptions {
   repair?: "none" | "perturb" | "vertices";
   /** Largest number of edits that repairs try, 1 to 3 ms each. A linear program counts as 20; at least 0. Default: 20000. */
   repair_trials?: number;
-  /** Treatment of the boundary. keep: it stays bit for bit. slide: vertices may move along straight pieces; vertices of tetrahedra also move in planes. Corners stay. split: cut long edges of the boundary or of interfaces, next to much shorter ones, before the sweeps. In tetrahedra, new vertices are on edges and faces, and only if a tetrahedron stays bad without them. The old vertices stay bit for bit. Default: "keep". */
+  /** Treatment of the boundary. keep: it stays bit for bit. slide: vertices may move along straight pieces; vertices of tetrahedra also move in planes. Corners stay. split: cut long edges of the boundary or of interfaces, next to much shorter ones, before the sweeps, and with repair: "vertices" also where triangles stay bad. In tetrahedra, new vertices are on edges and faces, and only if a tetrahedron stays bad without them. The old vertices stay bit for bit. Default: "keep". */
   boundary?: "keep" | "slide" | "split";
   /** Largest ratio of the lengths of two boundary or interface edges that meet, with boundary: "split". Longer edges are cut; at least 2. Default: 4. */
   boundary_ratio?: number;
@@ -136,7 +136,7 @@ export interface OptimizeOptions {
   hidden_threshold?: number;
   /** First sweep with removals, counted from 0; at least 0. Default: 10. */
   removal_from?: number;
-  /** First sweep after which vertices are inserted, counted from 0. They go to the orthocenters of triangles of large energy, if that makes the mesh better; at least 0. null: no insertions. Default: null. */
+  /** First sweep after which vertices are inserted, counted from 0. They go to triangles of large energy, if that makes the mesh better; at least 0. null: no insertions. Default: null. */
   insertion_from?: number | null;
   /** Ratio to the mean energy of a triangle, above which an energy is large; more than 1. Default: 4. */
   insertion_ratio?: number;

@@ -302,6 +302,22 @@ bool holds_no_more(std::string_view name, bool packed) {
          (packed && std::ranges::any_of(kOfPacked, is));
 }
 
+/// One value in a type that classic files have: other whole numbers become an int, or a double if they are too large.
+Values classic(const Values& one) {
+  return std::visit(
+      [&](const auto& each) -> Values {
+        using T = typename std::decay_t<decltype(each)>::value_type;
+        if constexpr (std::is_floating_point_v<T> || (std::is_signed_v<T> && sizeof(T) <= sizeof(std::int32_t))) {
+          return each;
+        } else {
+          if (std::in_range<std::int32_t>(each[0]))
+            return std::vector<std::int32_t>{static_cast<std::int32_t>(each[0])};
+          return std::vector<double>{static_cast<double>(each[0])};
+        }
+      },
+      one);
+}
+
 }  // namespace
 
 NetcdfCollector::NetcdfCollector(const NetcdfReader& in) : in_(in), kept_(std::string(kNetcdfAttributes), false) {}
@@ -313,7 +329,7 @@ void NetcdfCollector::variable(const NetcdfVariable& v, const std::string& name,
   const bool alone = is_kept_alone(in_, v);
   const std::vector<int> dimensions = alone ? std::vector<int>() : std::vector<int>{kept_.dimension("array", 1)};
   const bool has_value = alone && v.scalar && v.n_values() == 1;
-  const int to = kept_.variable(name, dimensions, has_value ? in_.values(v) : std::vector<std::int32_t>{0});
+  const int to = kept_.variable(name, dimensions, has_value ? classic(in_.values(v)) : std::vector<std::int32_t>{0});
   any_ = any_ || alone;
   attributes(&v, to, is_known);
 }
