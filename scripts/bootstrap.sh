@@ -9,7 +9,9 @@
 #   scripts/bootstrap.sh desktop  QGIS and ParaView, for scripts/clients.sh: not a part of everything
 #   scripts/bootstrap.sh docs     what scripts/docs.sh needs: not a part of everything
 #   scripts/bootstrap.sh wasm     what the preset wasm needs besides build, and web/ to be built: not a part of everything
+#   scripts/bootstrap.sh cross    what scripts/cross.sh and scripts/wheels.sh need besides build: not a part of everything
 #   scripts/bootstrap.sh browser  what tests of pages need: not a part of everything
+#   scripts/bootstrap.sh windows  what scripts/windows.sh needs besides build and test: not a part of everything
 set -euo pipefail
 
 build=(g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev libnetcdf-dev
@@ -26,7 +28,9 @@ docs=(python3-venv doxygen python3-meshio python3-scipy python3-matplotlib)
 wasm=(clang-19 lld-19 llvm-19 wasi-libc libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32)
 # Whoever has another Node than Debian's has its npm, too.
 command -v npm >/dev/null || wasm+=(nodejs npm)
+cross=(googletest python3-venv python3-pip mmdebstrap qemu-user libc6-arm64-cross file)
 browser=(chromium)
+windows=(g++-mingw-w64-x86-64-posix wine wine64 googletest zip unzip)
 
 wanted=()
 for group in "${@:-all}"; do
@@ -38,9 +42,11 @@ for group in "${@:-all}"; do
     desktop) wanted+=("${desktop[@]}") ;;
     docs) wanted+=("${docs[@]}") ;;
     wasm) wanted+=("${wasm[@]}") ;;
+    cross) wanted+=("${cross[@]}") ;;
     browser) wanted+=("${browser[@]}") ;;
+    windows) wanted+=("${windows[@]}") ;;
     all) wanted+=("${build[@]}" "${test[@]}" "${lint[@]}") ;;
-    *) echo "bootstrap: no group '$group'; there are build, test, lint, clients, desktop, docs, wasm, browser and all" >&2; exit 2 ;;
+    *) echo "bootstrap: no group '$group'; there are build, test, lint, clients, desktop, docs, wasm, cross, browser, windows and all" >&2; exit 2 ;;
   esac
 done
 

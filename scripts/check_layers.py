@@ -55,7 +55,7 @@ LIBRARIES = {"tets", "io", "lp", "tbb", "mpi", "errors", "solvers", "build_info"
 CORE = set(LAYERS) - LIBRARIES | {"tets"}  # what keeps the rules of the core
 
 # Public headers whose name is not that of their layer.
-HEADER_LAYER = {name: "base" for name in ["ids", "vec", "space", "error", "progress", "executor", "instruction_set", "outline", "read_number", "suggest", "version"]} | {"temper": "solvers", "trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "convex": "feasibility", "tbb_executor": "tbb", "mpi_communicator": "mpi", "columns": "dec", "tensor": "mesh", "discretization_error": "mesh", "dec_io": "io", "html": "io"}
+HEADER_LAYER = {name: "base" for name in ["ids", "vec", "space", "error", "progress", "executor", "instruction_set", "outline", "read_number", "suggest", "version"]} | {"temper": "solvers", "trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "convex": "feasibility", "tbb_executor": "tbb", "mpi_communicator": "mpi", "columns": "dec", "tensor": "mesh", "discretization_error": "mesh", "dec_io": "io", "html": "io", "path": "io"}
 
 STANDARD = set("""
 algorithm array atomic bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits cmath
@@ -70,8 +70,13 @@ any barrier condition_variable coroutine exception filesystem format fstream fut
 istream latch locale mutex ostream print regex semaphore shared_mutex sstream stdexcept stop_token streambuf
 strstream syncstream system_error thread typeindex typeinfo
 """.split())
-# The one file that knows of the processor's registers.
-REGISTERS = ("base/pack.hpp", "immintrin.h")
+# The one file that knows of the processor's registers, and the files that may use a compiler's own words.
+REGISTERS = ("src/base/compiler.hpp", ("immintrin.h", "intrin.h"))
+COMPILERS = (REGISTERS[0], "src/base/pack.hpp")
+BUILT_IN = re.compile(r"__builtin_\w+|__attribute__|__declspec|__int128|gnu::vector_size|\b__asm|(=|return|\(|,)\s*\(\{")
+# Headers of one operating system: for the rooms `system`.
+SYSTEM_HEADER = re.compile(r"^((sys|net|netinet|arpa)/.*|aclapi|direct|dirent|dlfcn|fcntl|io|malloc|poll|process|pthread|shellapi|signal|spawn|"
+                           r"strings|termios|unistd|windows)\.h$")
 # Calls that print, open files or end the program; snprintf into memory is fine.
 BARRED_CALL = re.compile(r"\bstd::(cout|cerr|clog|fopen|printf|fprintf|puts|fputs|fwrite|exit|quick_exit)\b")
 
@@ -119,8 +124,12 @@ def check_file(path, layer):
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
         match = INCLUDE.match(line)
         why = check_include(layer, match[1] == '"', match[2]) if match else None
-        if match and path.as_posix().endswith("/" + REGISTERS[0]) and match[2] == REGISTERS[1]:
+        if match and path.as_posix().endswith("/" + REGISTERS[0]) and match[2] in REGISTERS[1]:
             why = None
+        if why is None and match and SYSTEM_HEADER.match(match[2]) and path.parent.name != "system":
+            why = f"<{match[2]}>: a header of one operating system; only folders called system include such headers"
+        if why is None and not path.as_posix().endswith(COMPILERS) and (word := BUILT_IN.search(line.partition("//")[0])):
+            why = f"{word[0]}: not every compiler has it; {COMPILERS[0]} has what differs"
         if why is None and layer in CORE and (call := BARRED_CALL.search(line)):
             why = f"{call[0]}: the core neither prints, opens files nor exits"
         if why:
@@ -251,7 +260,15 @@ def self_test():
         ("include/temper/mesh.hpp", '#include "temper/detail/ids.hpp"', False),
         ("apps/temper/a.cpp", '#include "temper/optimize.hpp"', False),
         ("apps/temper/a.cpp", '#include "commands.hpp"', False),
-        ("src/base/pack.hpp", "#include <immintrin.h>", False),
+        ("src/base/compiler.hpp", "#include <immintrin.h>", False),
+        ("src/base/compiler.hpp", "  __builtin_prefetch(p);", False),
+        ("src/base/rng.hpp", "  return __builtin_popcount(x);", True),
+        ("src/io/a.cpp", "__attribute__((weak)) void f();", True),
+        ("src/io/a.cpp", "  const int x = ({ f(); });", True),
+        ("src/io/disk/a.cpp", "#include <unistd.h>", True),
+        ("src/io/system/a.cpp", "#include <unistd.h>", False),
+        ("apps/temper/a.cpp", "#include <sys/wait.h>", True),
+        ("apps/temper/system/a.cpp", "#include <windows.h>", False),
         ("src/base/other.hpp", "#include <immintrin.h>", True),
     ]
     rooms = [  # two files that include each other, is it a violation?

@@ -25,7 +25,7 @@ WINGET_KEYS = {"PackageIdentifier", "PackageVersion", "ManifestType", "ManifestV
 
 
 def check_options(recipes):
-    cmake = "\n".join(path.read_text() for path in [ROOT / "CMakeLists.txt", *(ROOT / "cmake").glob("*"), *(ROOT / "python").glob("*.txt")])
+    cmake = "\n".join(path.read_text() for path in [ROOT / "CMakeLists.txt", *(ROOT / "cmake").rglob("*.cmake"), *(ROOT / "python").glob("*.txt")])
     known = set(re.findall(r"\b(TEMPER_[A-Z0-9_]+)\b", cmake))
     for path in sorted(recipes.rglob("*.*")):
         used = set(re.findall(r"(?:-D|\"|\s)(TEMPER_[A-Z0-9_]+)", path.read_text()))

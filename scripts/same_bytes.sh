@@ -26,6 +26,7 @@ row() {  # NAME COMMAND …
 }
 row "g++ -O3" "$(bytes g++ g++)"
 row "g++ -O0" "$(bytes debug g++ -DCMAKE_BUILD_TYPE=Debug)"
+row "g++ -O3, registers in standard C++" "$(bytes plain g++ -DCMAKE_CXX_FLAGS=-DTEMPER_PLAIN_REGISTERS)"
 if command -v clang++-19 >/dev/null; then row "clang++-19 -O3" "$(bytes clang clang++-19)"; fi
 if command -v aarch64-linux-gnu-g++ >/dev/null && command -v qemu-aarch64 >/dev/null; then
   program=$(bytes aarch64 aarch64-linux-gnu-g++ -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DCMAKE_EXE_LINKER_FLAGS=-static)

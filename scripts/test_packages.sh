@@ -5,7 +5,8 @@
 #   scripts/test_packages.sh [--only KIND] [DIR]      default: all kinds, packages/
 #
 # sums:    SHA256SUMS has each file; the bill of materials names each; recipes have the checksums; twine and npm would take theirs
-# wheel:   in a new virtual environment, without a compiler
+# wheel:   each one for this processor, in a new virtual environment without a compiler
+# aarch64: the wheel for this processor, under qemu-user
 # source:  the archive, built with shared libraries into a prefix of its own, used by pkg-config and CMake, uninstalled
 # debian:  in a new root folder (debootstrap)
 # npm:     in a new folder, in Node
@@ -16,10 +17,10 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source_folder=$PWD
-kinds=(sums wheel source debian npm windows)
+kinds=(sums wheel aarch64 source debian npm windows)
 if [[ "${1:-}" == --only ]]; then
   kinds=("${2:-}")
-  [[ " sums wheel source debian npm windows " == *" ${2:-} "* ]] || { echo "test_packages: --only: expected sums, wheel, source, debian, npm or windows, found '${2:-}'" >&2; exit 2; }
+  [[ " sums wheel aarch64 source debian npm windows " == *" ${2:-} "* ]] || { echo "test_packages: --only: expected sums, wheel, aarch64, source, debian, npm or windows, found '${2:-}'" >&2; exit 2; }
   shift 2
 fi
 packages=$(realpath "${1:-packages}")
@@ -48,30 +49,43 @@ readme_into() {  # FOLDER
 }
 [[ $(readme_commands | wc -l) -ge 3 ]] || { echo "test_packages: no commands in README.md" >&2; exit 1; }
 
+# Each wheel for this processor, in a virtual environment of its own. Its programs find no compiler, and pip builds nothing.
 try_wheel() {
-  local venv=$scratch/venv wheel here=$scratch/wheel
-  # Which of the wheels pip takes for this Python; nothing of that name comes from the index.
-  python3 -m pip download -q --no-deps --no-index --only-binary :all: --find-links "$packages" -d "$scratch/picked" temper-mesh
-  wheel=$(ls "$scratch"/picked/*.whl)
-  readme_into "$here"
-  size "wheel: $(basename "$wheel")" "$wheel"
+  local wheel version python found=0
   size "source distribution" "$(ls "$packages"/temper_mesh-*.tar.gz)"
-  python3 -m venv "$venv"
-  timed "wheel: pip install, with NumPy" "$venv/bin/pip" install -q "$wheel"
-  row "wheel: installed, without NumPy" "$(du -sk "$venv"/lib/python3*/site-packages/temper{,_mesh.libs} | awk '{n += $1} END {print n " kB"}')"
+  mkdir "$scratch/programs"
+  for program in sh tail ldconfig find grep du awk; do ln -s "$(command -v $program)" "$scratch/programs"; done
+  for wheel in "$packages"/temper_mesh-*manylinux*"_$(uname -m).whl"; do
+    version=$(sed -E 's/.*-cp3([0-9]+)-.*/3.\1/' <<<"$wheel")
+    python=$(scripts/interpreter.sh "$version") || { row "wheel for Python $version: no interpreter here" skipped; continue; }
+    found=$((found + 1))
+    try_one_wheel "$wheel" "$python" "$version"
+  done
+  must test "$found" -gt 0
+}
+
+try_one_wheel() {  # WHEEL INTERPRETER VERSION
+  local venv=$scratch/venv-$3 here=$scratch/wheel-$3
+  readme_into "$here"
+  python3 -m venv "$scratch/pip"
+  "$scratch/pip/bin/pip" install -q pip==25.3
+  "$2" -m venv --without-pip "$venv"
+  size "Python $3: $(basename "$1")" "$1"
   cd "$here"
+  alone() { env -i HOME="$here" LC_ALL=C.UTF-8 PATH="$venv/bin:$scratch/programs" "$@"; }
+  install() { "$scratch/pip/bin/pip" --python "$venv/bin/python" install -q --only-binary :all: "$@"; }
+  timed "Python $3: pip install, with NumPy" install "$1"
+  row "Python $3: installed, without NumPy" "$(du -sk "$venv"/lib/python3*/site-packages/temper | awk '{print $1 " kB"}')"
   # A first time, for the byte code.
-  "$venv/bin/python" -c 'import temper'
-  timed "wheel: import temper" "$venv/bin/python" -c 'import temper'
-  row "wheel: import temper, without Python's start and NumPy" "$("$venv/bin/python" -c '
+  alone "$venv/bin/python" -c 'import temper'
+  row "Python $3: import temper, without Python's start and NumPy" "$(alone "$venv/bin/python" -c '
 import time, numpy
 start = time.perf_counter()
 import temper
 print(f"{time.perf_counter() - start:.3f} s")')"
-  timed "wheel: README's first commands" env PATH="$venv/bin:$PATH" sh -e readme.sh
-  timed "wheel: python -m temper --version" "$venv/bin/python" -m temper --version
-  timed "wheel: temper --version" "$venv/bin/temper" --version
-  "$venv/bin/python" - <<'PYTHON'
+  timed "Python $3: README's first commands" alone sh -e readme.sh
+  timed "Python $3: python -m temper --version" alone "$venv/bin/python" -m temper --version
+  alone "$venv/bin/python" - <<'PYTHON'
 import importlib.resources, pathlib, sys, temper
 mesh = temper.generate.annulus()
 temper.optimize(mesh)
@@ -79,20 +93,42 @@ assert temper.quality(mesh).well_centered_fraction == 1
 assert temper.build_info()["version"] == temper.__version__
 files = importlib.resources.files("temper")
 assert (files / "py.typed").is_file() and (files / "_temper.pyi").is_file() and "Algorithm 1" in temper.optimize.__doc__
-prefix = pathlib.Path(sys.prefix)
-for path in ["share/man/man1/temper-optimize.1", "share/bash-completion/completions/temper"]:
-    assert (prefix / path).exists(), path
 PYTHON
   # Without libnetcdf an error that says what to install; with pip's netCDF4 it works.
-  "$venv/bin/temper" example annulus -o ring.vtu
-  if [[ $(ldconfig -p) != *libnetcdf* ]]; then
-    must grep -q 'pip: netCDF4' <("$venv/bin/temper" convert ring.vtu -o ring.ugrid.nc 2>&1)
+  alone temper example annulus -o ring.vtu
+  if ! ldconfig -p | grep -q libnetcdf; then
+    must grep -q 'pip: netCDF4' <(alone temper convert ring.vtu -o ring.ugrid.nc 2>&1)
   fi
   must grep -q 'needs\? libnetcdf' <(TEMPER_NETCDF=/nowhere "$venv/bin/temper" convert ring.vtu -o ring.ugrid.nc 2>&1)
+  must grep -q 'NetCDF *not found' <(TEMPER_NETCDF=/nowhere "$venv/bin/temper" --version)
   must test -z "$(find "$venv"/lib/python3*/site-packages/temper* -name '*netcdf*.so*')"
-  timed "wheel: pip uninstall" "$venv/bin/pip" uninstall -q -y temper-mesh
+  "$scratch/pip/bin/pip" --python "$venv/bin/python" uninstall -q -y temper-mesh
   must test -z "$(find "$venv" -name '*temper*' -not -path '*/pip/*')"
   cd "$source_folder"
+}
+
+# The wheel for aarch64, by Debian's Python for aarch64 under qemu-user. NumPy needs libstdc++, temper does not.
+try_aarch64() {
+  local root=$scratch/aarch64 here=$scratch/emulated site wheel emulated
+  wheel=$(ls "$packages"/temper_mesh-*-cp311-*aarch64.whl)
+  scripts/bootstrap.sh cross
+  mmdebstrap --quiet --variant=extract --architectures=arm64 --include=python3.11,libstdc++6 bookworm "$root" >/dev/null
+  site=$root/site
+  local platforms=()
+  for glibc in 17 24 27 28; do platforms+=(--platform "manylinux_2_${glibc}_aarch64"); done
+  python3 -m pip install -q --no-cache-dir --target "$site" "${platforms[@]}" --python-version 3.11 --only-binary :all: "$wheel"
+  emulated=(qemu-aarch64 -L "$root")
+  readme_into "$here"
+  size "aarch64: $(basename "$wheel")" "$wheel"
+  timed "aarch64, emulated: import temper" env PYTHONPATH="$site" "${emulated[@]}" "$root/usr/bin/python3.11" -c 'import temper'
+  env PYTHONPATH="$site" "${emulated[@]}" "$root/usr/bin/python3.11" - <<'PYTHON'
+import platform, temper
+assert platform.machine() == "aarch64"
+mesh = temper.generate.annulus()
+temper.optimize(mesh)
+assert temper.quality(mesh).well_centered_fraction == 1
+PYTHON
+  timed "aarch64, emulated: README's first commands" env -C "$here" bash -ec "temper() { ${emulated[*]} $site/temper/bin/temper \"\$@\"; }; . ./readme.sh"
 }
 
 in_root() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }

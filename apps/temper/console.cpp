@@ -1,16 +1,14 @@
 #include "console.hpp"
 
 #include <fmt/core.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 
 #include "exit.hpp"
+#include "system/system.hpp"
 #include "temper/detail/error.hpp"
 
 namespace temper::app {
@@ -62,23 +60,10 @@ void flush_output() {
   if (!printing().has_no_reader) expect_printed(std::fflush(stdout) == 0);
 }
 
-bool error_is_terminal() { return isatty(STDERR_FILENO) == 1; }
-
-bool utf8_locale() {
-  for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
-    const char* value = std::getenv(variable);
-    if (value == nullptr || *value == '\0') continue;  // unset: the next one decides
-    std::string lower;
-    for (const char* c = value; *c != '\0'; ++c) lower += static_cast<char>(*c >= 'A' && *c <= 'Z' ? *c + 32 : *c);
-    return lower.find("utf-8") != std::string::npos || lower.find("utf8") != std::string::npos;
-  }
-  return false;
-}
-
 std::size_t output_width() {
-  winsize size = {};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
-  return 100;
+  constexpr std::size_t kUsual = 100;
+  const std::size_t columns = terminal_columns();
+  return columns > 0 ? columns : kUsual;
 }
 
 std::size_t display_width(std::string_view text) {

@@ -30,9 +30,6 @@ void print_to_standard_error();
 /// redirection.
 void flush_output();
 
-[[nodiscard]] bool error_is_terminal();
-/// Says whether the locale's character set is UTF-8, by the variables that decide it.
-[[nodiscard]] bool utf8_locale();
 /// Columns of the terminal on standard output; 100 when it is none.
 [[nodiscard]] std::size_t output_width();
 

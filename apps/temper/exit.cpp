@@ -1,43 +1,6 @@
 #include "exit.hpp"
 
-#include <unistd.h>
-
-#include <csignal>
-#include <string_view>
-
-#include "temper/io.hpp"
-
 namespace temper::app {
-namespace {
-
-volatile std::sig_atomic_t signal_seen = 0;
-
-void handle(int signal, void (*handler)(int), int flags) {
-  struct sigaction before = {}, action = {};
-  sigaction(signal, nullptr, &before);
-  if (before.sa_handler == SIG_IGN) return;
-  action.sa_handler = handler;
-  sigemptyset(&action.sa_mask);
-  action.sa_flags = flags;
-  sigaction(signal, &action, nullptr);
-}
-
-extern "C" void end_program(int signal) {
-  io::discard_unfinished();
-  constexpr std::string_view kMessage =
-      "\ntemper: stopped by a signal; a file that was not finished is as it was before\n";
-  static_cast<void>(!write(STDERR_FILENO, kMessage.data(), kMessage.size()));  // nobody may be there to read it
-  raise(signal);                                                               // which has its first meaning again
-}
-
-void end_on(int signal) { handle(signal, end_program, static_cast<int>(SA_RESETHAND | SA_NODEFER)); }
-
-extern "C" void note_signal(int) {
-  signal_seen = 1;
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) end_on(signal);
-}
-
-}  // namespace
 
 std::string_view meaning(Exit exit, std::string_view verb) {
   switch (exit) {
@@ -64,15 +27,5 @@ std::string_view meaning(Exit exit, std::string_view verb) {
   }
   return "";
 }
-
-void end_on_signals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) end_on(signal);
-}
-
-void catch_interrupts() {
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) handle(signal, note_signal, SA_RESTART);  // no write is cut short
-}
-
-bool interrupted() { return signal_seen != 0; }
 
 }  // namespace temper::app

@@ -1,4 +1,4 @@
-// The end of the program: its exit codes, the exception that carries one to main, and signals.
+// The end of the program: its exit codes, and the exception that carries one to main. (Signals: system/system.hpp.)
 //
 // The library returns bad input as values. The program can only report it and stop: or_fail turns it into a Failure.
 #pragma once
@@ -58,17 +58,5 @@ T or_fail(Expected<T> expected) {
 inline void or_fail(const Expected<void>& expected) {
   if (!expected) throw as_failure(expected.error());
 }
-
-// SIGINT (Ctrl-C), SIGTERM and SIGHUP end the program at once, and leave every file unchanged or whole. A verb with a
-// partial result notes the first one instead, and stops.
-
-/// From here on a signal ends the program: it removes unfinished files, prints a line, and passes the signal on to the
-/// process that waits for it. (A signal that is ignored, as by nohup, stays ignored.)
-void end_on_signals();
-/// From here on the first SIGINT, SIGTERM or SIGUSR1 is only noted; the second one ends the program. The launcher
-/// mpirun hands these on, and job schedulers send them when time is nearly up.
-void catch_interrupts();
-/// Says whether a signal has been noted.
-[[nodiscard]] bool interrupted();
 
 }  // namespace temper::app

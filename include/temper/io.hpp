@@ -156,6 +156,8 @@ struct Format {
 [[nodiscard]] std::string netcdf_version();
 /// The version of libhdf5, such as "1.10.8"; loaded in the same way.
 [[nodiscard]] std::string hdf5_version();
+/// The version of GDAL, such as "3.6.2"; loaded in the same way.
+[[nodiscard]] std::string gdal_version();
 
 /// Reads any known format. Weights come from the side file PATH.weights.csv if it exists. Several threads may call it
 /// at once. However, other code in the process (h5py) may share libnetcdf and libhdf5, and temper cannot lock it out.

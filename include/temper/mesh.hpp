@@ -137,8 +137,8 @@ class Mesh {
   void set_weight(VertexId v, double w) { set_point(v, space_.with_weight(point(v), w)); }
   /// The image of v that is nearest to a point. In spaces without images it is the point of v. If a formula takes
   /// several points of one mesh, get all but the first this way.
-  [[nodiscard]] WeightedPoint point(VertexId v, const WeightedPoint& near) const {
-    return space_.is_periodic() ? space_.image(point(v), near) : point(v);
+  [[nodiscard]] WeightedPoint point(VertexId v, const WeightedPoint& nearby) const {
+    return space_.is_periodic() ? space_.image(point(v), nearby) : point(v);
   }
   /// The images of the corners that are near each other, as seen from the first corner.
   [[nodiscard]] std::array<WeightedPoint, 3> points(VertexId a, VertexId b, VertexId c) const {

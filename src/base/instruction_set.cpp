@@ -4,6 +4,8 @@
 #include <array>
 #include <atomic>
 
+#include "base/compiler.hpp"
+
 namespace temper {
 namespace {
 
@@ -17,8 +19,7 @@ constexpr std::size_t kCompiled = 1;
 
 std::size_t count_sets() {
 #ifdef TEMPER_X86_SETS
-  if (!__builtin_cpu_supports("avx2")) return 1;
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") ? 3 : 2;
+  return !has_avx2() ? 1 : has_avx512() ? 3 : 2;
 #else
   return kCompiled;
 #endif

@@ -7,12 +7,12 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
+#include "base/compiler.hpp"
 
 // The build names the set; compilers do not choose it. So a build for a newer processor still contains all sets.
 #if defined(TEMPER_FOR_AVX512)
@@ -26,17 +26,15 @@
 #define TEMPER_REGISTER_BYTES 16
 #endif
 
-#define TEMPER_INLINE __attribute__((always_inline)) inline
-
 namespace temper {
 
 inline constexpr std::size_t kLanes = 8;
 
 // The functions of a pack, for one double: formulas are written once for both.
-TEMPER_INLINE double square_root(double x) { return __builtin_sqrt(x); }
-TEMPER_INLINE double absolute(double x) { return __builtin_fabs(x); }
+TEMPER_INLINE double square_root(double x) { return std::sqrt(x); }
+TEMPER_INLINE double absolute(double x) { return std::fabs(x); }
 TEMPER_INLINE double select(bool condition, double a, double b) { return condition ? a : b; }
-TEMPER_INLINE long double square_root(long double x) { return __builtin_sqrtl(x); }  // of tests
+TEMPER_INLINE long double square_root(long double x) { return std::sqrt(x); }  // of tests
 TEMPER_INLINE long double select(bool condition, long double a, long double b) { return condition ? a : b; }
 
 // A normal x > 0 is mantissa(x) 2^exponent(x) with mantissa in [√½, √2). In bits it is √½ plus the rest above it.
@@ -63,6 +61,8 @@ TEMPER_INLINE T all(double x) {
 
 namespace TEMPER_INSTRUCTION_SET {
 
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(TEMPER_PLAIN_REGISTERS)
+
 /// A register of the hardware: some doubles, and the mask of a comparison.
 struct Register {
   static constexpr std::size_t kSize = TEMPER_REGISTER_BYTES / sizeof(double);
@@ -87,7 +87,7 @@ struct Register {
     Bits m;
     TEMPER_INLINE static Mask load(const std::int64_t* p) {
       Mask r;
-      __builtin_memcpy(&r.m, p, sizeof r.m);
+      std::memcpy(&r.m, p, sizeof r.m);
       return r;
     }
     friend TEMPER_INLINE Mask operator&(Mask a, Mask b) { return {a.m & b.m}; }
@@ -97,7 +97,7 @@ struct Register {
     [[nodiscard]] TEMPER_INLINE unsigned bits() const {
 #if TEMPER_REGISTER_BYTES == 32
       return static_cast<unsigned>(_mm256_movemask_pd((__m256d)m));
-#elif defined(__SSE2__)
+#elif defined(TEMPER_SSE2)
       return static_cast<unsigned>(_mm_movemask_pd((__m128d)m));
 #else
       return (m[0] != 0 ? 1U : 0U) | (m[1] != 0 ? 2U : 0U);
@@ -111,10 +111,10 @@ struct Register {
   TEMPER_INLINE static Register all(double x) { return {x - Doubles{}}; }
   TEMPER_INLINE static Register load(const double* p) {
     Register r;
-    __builtin_memcpy(&r.v, p, sizeof r.v);
+    std::memcpy(&r.v, p, sizeof r.v);
     return r;
   }
-  TEMPER_INLINE void store(double* p) const { __builtin_memcpy(p, &v, sizeof v); }
+  TEMPER_INLINE void store(double* p) const { std::memcpy(p, &v, sizeof v); }
 
   friend TEMPER_INLINE Register operator+(Register a, Register b) { return {a.v + b.v}; }
   friend TEMPER_INLINE Register operator-(Register a, Register b) { return {a.v - b.v}; }
@@ -153,10 +153,10 @@ struct Register {
     return {(Doubles)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.v)};  // GCC 12 warns about the one without mask
 #elif TEMPER_REGISTER_BYTES == 32
     return {(Doubles)_mm256_sqrt_pd((__m256d)a.v)};
-#elif defined(__SSE2__)
+#elif defined(TEMPER_SSE2)
     return {(Doubles)_mm_sqrt_pd((__m128d)a.v)};
 #else
-    return {Doubles{__builtin_sqrt(a.v[0]), __builtin_sqrt(a.v[1])}};
+    return {Doubles{std::sqrt(a.v[0]), std::sqrt(a.v[1])}};
 #endif
   }
   friend TEMPER_INLINE Register absolute(Register a) {
@@ -171,17 +171,112 @@ struct Register {
   /// Lanes of the two halves first, and so on: the same order whatever the registers.
   friend TEMPER_INLINE double sum(Register a) {
 #if TEMPER_REGISTER_BYTES == 64
-    const auto four = __builtin_shufflevector(a.v, a.v, 0, 1, 2, 3) + __builtin_shufflevector(a.v, a.v, 4, 5, 6, 7);
-    const auto two = __builtin_shufflevector(four, four, 0, 1) + __builtin_shufflevector(four, four, 2, 3);
+    // GCC 12 warns of its own variables in the extraction without a mask.
+    const __m256d four =
+        _mm512_maskz_extractf64x4_pd(15, (__m512d)a.v, 0) + _mm512_maskz_extractf64x4_pd(15, (__m512d)a.v, 1);
+    const __m128d two = _mm256_castpd256_pd128(four) + _mm256_extractf128_pd(four, 1);
     return two[0] + two[1];
 #elif TEMPER_REGISTER_BYTES == 32
-    const auto two = __builtin_shufflevector(a.v, a.v, 0, 1) + __builtin_shufflevector(a.v, a.v, 2, 3);
+    const __m128d two = _mm256_castpd256_pd128((__m256d)a.v) + _mm256_extractf128_pd((__m256d)a.v, 1);
     return two[0] + two[1];
 #else
     return a.v[0] + a.v[1];
 #endif
   }
 };
+
+#else
+
+/// The same in standard C++: slower, with the same bits.
+struct Register {
+  static constexpr std::size_t kSize = TEMPER_REGISTER_BYTES / sizeof(double);
+  struct Mask {
+    unsigned m;  // bit i: lane i
+    template <class Test>
+    TEMPER_INLINE static Mask of(Test test) {
+      unsigned m = 0;
+      for (std::size_t i = 0; i < kSize; ++i) m |= (test(i) ? 1U : 0U) << i;
+      return {m};
+    }
+    TEMPER_INLINE static Mask load(const std::int64_t* p) {
+      return of([p](std::size_t i) { return p[i] != 0; });
+    }
+    friend TEMPER_INLINE Mask operator&(Mask a, Mask b) { return {a.m & b.m}; }
+    friend TEMPER_INLINE Mask operator|(Mask a, Mask b) { return {a.m | b.m}; }
+    friend TEMPER_INLINE Mask operator~(Mask a) { return {~a.m & ((1U << kSize) - 1)}; }
+    [[nodiscard]] TEMPER_INLINE unsigned bits() const { return m; }
+  };
+
+  double v[kSize];
+
+  template <class Value>
+  TEMPER_INLINE static Register of(Value value) {
+    Register r;
+    for (std::size_t i = 0; i < kSize; ++i) r.v[i] = value(i);
+    return r;
+  }
+  TEMPER_INLINE static Register all(double x) {
+    return of([x](std::size_t) { return x; });
+  }
+  TEMPER_INLINE static Register load(const double* p) {
+    return of([p](std::size_t i) { return p[i]; });
+  }
+  TEMPER_INLINE void store(double* p) const { std::memcpy(p, v, sizeof v); }
+
+  friend TEMPER_INLINE Register operator+(Register a, Register b) {
+    return of([&](std::size_t i) { return a.v[i] + b.v[i]; });
+  }
+  friend TEMPER_INLINE Register operator-(Register a, Register b) {
+    return of([&](std::size_t i) { return a.v[i] - b.v[i]; });
+  }
+  friend TEMPER_INLINE Register operator*(Register a, Register b) {
+    return of([&](std::size_t i) { return a.v[i] * b.v[i]; });
+  }
+  friend TEMPER_INLINE Register operator/(Register a, Register b) {
+    return of([&](std::size_t i) { return a.v[i] / b.v[i]; });
+  }
+  friend TEMPER_INLINE Register operator-(Register a) {
+    return of([&](std::size_t i) { return -a.v[i]; });
+  }
+  friend TEMPER_INLINE Register operator+(double a, Register b) { return all(a) + b; }
+  friend TEMPER_INLINE Register operator-(double a, Register b) { return all(a) - b; }
+  friend TEMPER_INLINE Register operator*(double a, Register b) { return all(a) * b; }
+  friend TEMPER_INLINE Register operator/(double a, Register b) { return all(a) / b; }
+  friend TEMPER_INLINE Register operator+(Register a, double b) { return a + all(b); }
+  friend TEMPER_INLINE Mask operator<(Register a, Register b) {
+    return Mask::of([&](std::size_t i) { return a.v[i] < b.v[i]; });
+  }
+  friend TEMPER_INLINE Mask operator>(Register a, Register b) { return b < a; }
+  friend TEMPER_INLINE Mask operator>=(Register a, Register b) {
+    return Mask::of([&](std::size_t i) { return a.v[i] >= b.v[i]; });
+  }
+  friend TEMPER_INLINE Mask operator<(Register a, double b) { return a < all(b); }
+  friend TEMPER_INLINE Mask operator>(Register a, double b) { return a > all(b); }
+  friend TEMPER_INLINE Mask operator>=(Register a, double b) { return a >= all(b); }
+  friend TEMPER_INLINE Register select(Mask m, Register a, Register b) {
+    return of([&](std::size_t i) { return (m.m >> i & 1U) != 0 ? a.v[i] : b.v[i]; });
+  }
+  friend TEMPER_INLINE Register square_root(Register a) {
+    return of([&](std::size_t i) { return square_root(a.v[i]); });
+  }
+  friend TEMPER_INLINE Register absolute(Register a) {
+    return of([&](std::size_t i) { return absolute(a.v[i]); });
+  }
+  friend TEMPER_INLINE Register mantissa(Register a) {
+    return of([&](std::size_t i) { return mantissa(a.v[i]); });
+  }
+  friend TEMPER_INLINE Register exponent(Register a) {
+    return of([&](std::size_t i) { return exponent(a.v[i]); });
+  }
+  friend TEMPER_INLINE double sum(Register a) {
+    for (std::size_t n = kSize / 2; n > 0; n /= 2) {
+      for (std::size_t i = 0; i < n; ++i) a.v[i] += a.v[i + n];
+    }
+    return a.v[0];
+  }
+};
+
+#endif
 
 /// Twice as many doubles as Half has.
 template <class Half, std::size_t N>

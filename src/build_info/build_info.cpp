@@ -78,6 +78,11 @@ std::string hdf5_text() {
 #endif
 }
 
+std::string gdal_text() {
+  const std::string version = io::gdal_version();
+  return version.empty() ? "not found, so GeoTIFF, shapefiles and GeoPackages are not read" : version;
+}
+
 }  // namespace
 
 std::vector<BuildFact> build_info() {
@@ -91,6 +96,7 @@ std::vector<BuildFact> build_info() {
       {"oneTBB", tbb_version()},
       {"NetCDF", netcdf_text()},
       {"HDF5", hdf5_text()},
+      {"GDAL", gdal_text()},
       {"zlib", zlibVersion()},
       {"pugixml", pugixml_version()},
       {"Clp", Clp_Version()},

@@ -35,6 +35,7 @@ ELSEWHERE = {
     "dot": "NumPy", "cross": "NumPy", "length": "NumPy", "squared_length": "NumPy",
     "version": "__version__", "compiled_instruction_sets": "build_info says them",
     "netcdf_version": "as compiled_instruction_sets", "hdf5_version": "as compiled_instruction_sets",
+    "gdal_version": "as compiled_instruction_sets", "path_of": "pathlib", "utf8": "as path_of",
     "clp_solver": "find_weights, best_margin and explain use it", "interior_point_solver": "find_weights uses it",
     "check_proof": "check_certificate checks proofs, too",
     "reason_text": "Reason.text", "cure_text": "Cure.text",

@@ -14,6 +14,7 @@
 
 #include "exit.hpp"
 #include "files/input.hpp"
+#include "temper/detail/path.hpp"
 #include "temper/tets/weights.hpp"
 
 namespace temper::app {
@@ -25,7 +26,7 @@ using Kind = WeightConstraint::Kind;
 constexpr int kVersion = 1;
 
 std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file(path_of(path), std::ios::binary);
   if (!file) throw Failure(Exit::bad_input, fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
   std::ostringstream text;
   text << file.rdbuf();

@@ -8,6 +8,7 @@
 
 #include "exit.hpp"
 #include "files/input.hpp"
+#include "temper/detail/path.hpp"
 
 namespace temper::app {
 namespace {
@@ -19,7 +20,7 @@ class EdgesFile {
   }
 
   std::vector<HalfedgeId> read() {
-    std::ifstream file(path_);
+    std::ifstream file(path_of(path_));
     if (!file) throw Failure(Exit::bad_input, fmt::format("{}: cannot be read: {}", path_, std::strerror(errno)));
     std::vector<HalfedgeId> edges;
     for (std::string text; std::getline(file, text);) {

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "temper/detail/path.hpp"
 #include "temper/detail/suggest.hpp"
 
 namespace temper::app {
@@ -49,8 +50,9 @@ Json::parser_callback_t expect_each_key_once(const std::string& path) {
 
 Json parse(const std::string& path) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) fail_at(path, "is a directory; expected a JSON file with options");
-  std::ifstream stream(path);
+  if (std::filesystem::is_directory(path_of(path), error))
+    fail_at(path, "is a directory; expected a JSON file with options");
+  std::ifstream stream(path_of(path));
   if (!stream)
     fail_at(path, fmt::format("cannot be opened: {}; expected a JSON file with options", std::strerror(errno)));
   const std::string text(std::istreambuf_iterator<char>(stream), {});

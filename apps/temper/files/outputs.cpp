@@ -1,7 +1,6 @@
 #include "files/outputs.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -12,6 +11,8 @@
 #include "console.hpp"
 #include "exit.hpp"
 #include "files/input.hpp"
+#include "system/system.hpp"
+#include "temper/detail/path.hpp"
 #include "temper/detail/suggest.hpp"
 #include "temper/tets/io.hpp"
 
@@ -24,24 +25,25 @@ namespace fs = std::filesystem;
   throw Failure(Exit::bad_input, path + ": cannot be written: " + message);
 }
 
-void check_writable(const std::string& path) {
+void check_writable(const std::string& name) {
+  if (name == kStandardOutput) return;
+  const fs::path path = path_of(name);
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) not_writable(path, "it is a directory");
-  if (!fs::path(path).has_filename()) not_writable(path, "it names no file");
+  if (fs::is_directory(path, ignored)) not_writable(name, "it is a directory");
+  if (!path.has_filename()) not_writable(name, "it names no file");
   std::error_code error;
   const bool there = fs::exists(path, error);
-  if (error == std::errc::filename_too_long) not_writable(path, error.message());
-  if (there && access(path.c_str(), W_OK) != 0) not_writable(path, std::strerror(errno));
+  if (error == std::errc::filename_too_long) not_writable(name, error.message());
+  if (there && !may_write(name)) not_writable(name, std::strerror(errno));
   if (there && !fs::is_regular_file(path, ignored)) return;  // a device is written in place
 
   // A new file next to a file replaces it (next to the target of a link), so that folder must be writable.
-  const fs::path target = there ? fs::canonical(path, ignored) : fs::path(path);
+  const fs::path target = there ? fs::canonical(path, ignored) : path;
   const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  if (!fs::exists(parent, ignored)) not_writable(path, fmt::format("there is no directory {}", parent.string()));
-  if (!fs::is_directory(parent, ignored)) not_writable(path, fmt::format("{} is not a directory", parent.string()));
-  if (access(parent.c_str(), W_OK | X_OK) != 0) {
-    not_writable(path, fmt::format("directory {}: {}", parent.string(), std::strerror(errno)));
-  }
+  const std::string folder = utf8(parent);
+  if (!fs::exists(parent, ignored)) not_writable(name, fmt::format("there is no directory {}", folder));
+  if (!fs::is_directory(parent, ignored)) not_writable(name, fmt::format("{} is not a directory", folder));
+  if (!may_fill(folder)) not_writable(name, fmt::format("directory {}: {}", folder, std::strerror(errno)));
 }
 
 /// The input that reads the file, or null.
@@ -118,7 +120,7 @@ Option& add_write(Command& command, std::vector<std::string>& paths, std::span<c
 }
 
 std::string suffix_of(const std::string& path) {
-  std::string suffix = fs::path(path).extension().string();
+  std::string suffix = utf8(path_of(path).extension());
   for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return suffix;
 }
@@ -148,8 +150,11 @@ FurtherOutputs sorted_outputs(std::string_view verb, const std::vector<std::stri
 
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code error;
-  if (fs::equivalent(a, b, error)) return true;
-  return fs::weakly_canonical(fs::absolute(a, error), error) == fs::weakly_canonical(fs::absolute(b, error), error);
+  if (fs::equivalent(path_of(a), path_of(b), error)) return true;
+  const auto whole = [&](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(path_of(path), error), error);
+  };
+  return whole(a) == whole(b);
 }
 
 void Outputs::refuse(const std::string& option, const std::string& message) const {
@@ -171,7 +176,7 @@ void Outputs::expect_mesh(const MeshOutput& output, const std::vector<std::strin
   const std::string option = "--output";
   const auto& [path, options] = output;
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) not_writable(path, "it is a directory");
+  if (fs::is_directory(path_of(path), ignored)) not_writable(path, "it is a directory");
   const Expected<std::vector<std::string>> files = io::files_to_write(path, options.format);
   if (!files) refuse(option, files.error().what());
   for (const std::string& file : *files) {

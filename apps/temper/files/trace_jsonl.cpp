@@ -16,6 +16,7 @@
 
 #include "exit.hpp"
 #include "files/input.hpp"
+#include "temper/detail/path.hpp"
 #include "temper/detail/suggest.hpp"
 #include "temper/detail/version.hpp"
 
@@ -398,7 +399,7 @@ bool is_end_of(const TraceEnd& end, const Mesh& result) {
 }
 
 Trace read_trace(const std::string& path, const Input& input) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file(path_of(path), std::ios::binary);
   if (!file) throw Failure(Exit::bad_input, fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
   std::string line;
   if (!std::getline(file, line)) {

@@ -98,6 +98,7 @@ class Command::Parser {
   [[noreturn]] void fail(const std::string& message) const { refuse_usage(app_.get_name(), message); }
 
   void declare(const Command& command, CLI::App& app) {
+    app.allow_windows_style_options(false);  // a path may begin with /
     app.set_help_flag();
     app.set_help_all_flag(std::string(kHelpAll));
     for (const Option& option : command.options_) declare(option, app);

@@ -15,6 +15,7 @@
 
 #include <deque>
 #include <functional>
+#include <list>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -118,7 +119,7 @@ class Command {
   [[nodiscard]] const std::string& description() const { return description_; }
   [[nodiscard]] const VerbHelp& help() const { return help_; }
   [[nodiscard]] const std::deque<Option>& options() const { return options_; }
-  [[nodiscard]] const std::deque<Command>& subcommands() const { return subcommands_; }
+  [[nodiscard]] const std::list<Command>& subcommands() const { return subcommands_; }
   /// The subcommand that was given, or null.
   [[nodiscard]] const Command* chosen() const { return chosen_; }
   /// An option by one of its names, dashes included. It must be there.
@@ -132,8 +133,8 @@ class Command {
 
   std::string name_, description_, group_;
   VerbHelp help_;
-  std::deque<Option> options_;       // whose references stay good
-  std::deque<Command> subcommands_;  // the same
+  std::deque<Option> options_;      // whose references stay good
+  std::list<Command> subcommands_;  // the same, of a type that is not complete here
   const Command* chosen_ = nullptr;
 };
 

@@ -1,14 +1,13 @@
 #include "options/ranks.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <iterator>
 #include <memory>
 
+#include "system/system.hpp"
 #include "temper/io.hpp"
 
 #ifdef TEMPER_WITH_MPI
@@ -48,13 +47,6 @@ std::optional<Failure> first_failure(const std::string& mine, Exit exit) {
 namespace {
 
 std::unique_ptr<MpiCommunicator> world;
-int standard_error = -1;  // of a rank that is silent
-
-void be_silent() {
-  standard_error = dup(STDERR_FILENO);
-  for (std::FILE* stream : {stdout, stderr}) static_cast<void>(std::freopen("/dev/null", "w", stream));
-}
-
 }  // namespace
 
 std::string mpi_library() { return MpiCommunicator::library(); }
@@ -94,9 +86,7 @@ std::vector<std::string> warnings_of_ranks() {
 void end_ranks(const std::string& message, Exit exit) {
   if (communicator() == nullptr) return;
   io::discard_unfinished();
-  const std::string line = fmt::format("temper: error: rank {}: {}\n", world->rank(), message);
-  const int to = standard_error >= 0 ? standard_error : STDERR_FILENO;
-  static_cast<void>(!write(to, line.data(), line.size()));  // nobody may be there to read it
+  write_to_error(fmt::format("temper: error: rank {}: {}\n", world->rank(), message));
   world->abort(static_cast<int>(exit));
 }
 

@@ -9,6 +9,7 @@
 #include "options/options.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
+#include "system/system.hpp"
 
 namespace temper::app {
 namespace {
@@ -192,7 +193,7 @@ std::string in_ascii(std::string text) {
   return text;
 }
 
-TextStyle text_style() { return {utf8_locale(), output_width()}; }
+TextStyle text_style() { return {utf8_terminal(), output_width()}; }
 
 std::size_t bad_triangles(const Quality& quality) {
   const double good = quality.well_centered_fraction * static_cast<double>(quality.triangles);

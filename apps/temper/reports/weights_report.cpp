@@ -130,8 +130,8 @@ std::string next_text(const WeightsRecord& r) {
   } else {
     const bool any = r.search && r.search->end == SearchEnd::none_exists;
     if (!text.empty()) text += ", ";
-    text +=
-        any ? "temper optimize with --set repair=vertices, which adds vertices" : command_line("explain", std::string(r.path), {});
+    text += any ? "temper optimize with --set repair=vertices, which adds vertices"
+                : command_line("explain", std::string(r.path), {});
     if (r.options.goal != WeightGoal::elastic) text += ", or --mode elastic for the least violation";
   }
   return fmt::format("Next: {}\n", text);

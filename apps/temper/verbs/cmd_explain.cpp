@@ -13,6 +13,7 @@
 #include "options/options.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
+#include "system/system.hpp"
 #include "temper/detail/lp.hpp"
 #include "temper/tets/quality.hpp"
 #include "temper/tets/weights.hpp"

@@ -19,7 +19,9 @@
 #include "options/options.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
+#include "system/system.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/detail/path.hpp"
 #include "temper/detail/projection.hpp"
 #include "temper/draw.hpp"
 #include "temper/mesher.hpp"
@@ -389,8 +391,8 @@ Exit run_mesh(const Arguments& arguments) {
   s.files = sorted_outputs("mesh", s.write, kMeshOutputs);
   Outputs outputs("mesh");
   // The points of a .poly may be in the .node next to it.
-  const std::vector<std::string> inputs = {s.input, std::filesystem::path(s.input).replace_extension(".node").string(),
-                                           s.coast, s.lines, s.size};
+  const std::vector<std::string> inputs = {s.input, utf8(path_of(s.input).replace_extension(".node")), s.coast, s.lines,
+                                           s.size};
   outputs.expect_mesh(s.output, inputs);
   outputs.expect(s.files, inputs);
   return mesh(command, s, outputs);

@@ -17,6 +17,7 @@
 #include "options/options.hpp"
 #include "reports/reports.hpp"
 #include "temper/detail/dec_io.hpp"
+#include "temper/detail/path.hpp"
 #include "temper/detail/suggest.hpp"
 #include "threads.hpp"
 
@@ -102,12 +103,12 @@ void check_layers(const Command& command, const DecSettings& s, const std::vecto
 /// Checks before the work that a folder can be made, and that no input is one of the files that will be replaced.
 void check_folder(const DecSettings& s, const std::vector<io::DecFormat>& formats, io::DecKind kind) {
   std::error_code ignored;
-  if (fs::exists(s.output, ignored) && !fs::is_directory(s.output, ignored)) {
+  if (fs::exists(path_of(s.output), ignored) && !fs::is_directory(path_of(s.output), ignored)) {
     throw Failure(Exit::bad_input, fmt::format("{}: is not a folder; expected a folder, or a new name", s.output));
   }
   for (const io::DecFormat format : formats) {
     for (const std::string_view name : io::dec_file_names(format, kind)) {
-      const std::string path = (fs::path(s.output) / name).string();
+      const std::string path = utf8(path_of(s.output) / name);
       if (same_file(path, s.input))
         throw Failure(Exit::bad_usage, fmt::format("operators: --output: {} is the input mesh", path));
       if (same_file(path, s.layers))

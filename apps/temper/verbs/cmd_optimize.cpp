@@ -24,6 +24,7 @@
 #include "options/requirement.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
+#include "system/system.hpp"
 #include "temper/draw.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -21,6 +20,8 @@
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "options/table_options.hpp"
+#include "system/system.hpp"
+#include "temper/detail/path.hpp"
 #include "temper/detail/suggest.hpp"
 #include "temper/detail/version.hpp"
 #include "verbs/paper.hpp"
@@ -74,28 +75,11 @@ void list(std::span<const Figure> figures) {
 
 void make_folder(const std::string& path) {
   std::error_code error;
-  if (fs::exists(path, error) && !fs::is_directory(path, error))
+  if (fs::exists(path_of(path), error) && !fs::is_directory(path_of(path), error))
     throw Failure(Exit::bad_input, path + ": cannot be written: it is not a directory");
-  fs::create_directories(path, error);
+  fs::create_directories(path_of(path), error);
   if (error) throw Failure(Exit::bad_input, path + ": cannot be written: " + error.message());
 }
-
-/// While it lives, signals such as Ctrl-C end the program only when the current files are whole.
-class SignalsHeld {
- public:
-  SignalsHeld() {
-    sigset_t held;
-    sigemptyset(&held);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&held, signal);
-    sigprocmask(SIG_BLOCK, &held, &before_);
-  }
-  ~SignalsHeld() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsHeld(const SignalsHeld&) = delete;
-  SignalsHeld& operator=(const SignalsHeld&) = delete;
-
- private:
-  sigset_t before_;
-};
 
 class Folder {
  public:
@@ -105,7 +89,7 @@ class Folder {
       outputs_.expect_text("--output", file(name), {});
   }
 
-  [[nodiscard]] std::string file(const std::string& name) const { return (fs::path(path_) / name).string(); }
+  [[nodiscard]] std::string file(const std::string& name) const { return utf8(path_of(path_) / name); }
 
   /// Writes the pictures of the last result, and the pages about all.
   void write(std::span<const Result> results) {

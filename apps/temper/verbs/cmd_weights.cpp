@@ -16,6 +16,7 @@
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "reports/reports.hpp"
+#include "system/system.hpp"
 #include "temper/detail/connectivity.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/lp.hpp"

@@ -1,13 +1,8 @@
 // temper VERB …: finds the verb, and turns every failure into one line on standard error and an exit code.
 #include <fmt/core.h>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include <algorithm>
 #include <array>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -18,6 +13,7 @@
 #include "exit.hpp"
 #include "help/help.hpp"
 #include "options/ranks.hpp"
+#include "system/system.hpp"
 #include "temper/detail/build_info.hpp"
 #include "temper/detail/suggest.hpp"
 #include "temper/detail/version.hpp"
@@ -119,15 +115,11 @@ int internal_error(std::string_view what) {
 
 /// Runs the command line; returns its exit status.
 int run_program(int argc, char** argv) {
-#ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);  // arrays that are freed after reading go back to the system
-#endif
+  prepare_process();
   std::set_terminate(end_on_terminate);
   end_on_signals();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
-  std::signal(SIGPIPE, SIG_IGN);  // and so is a pipe without a reader
   try {
-    const Exit exit = run(Arguments(argv + std::min(argc, 1), argv + argc));
+    const Exit exit = run(program_words(argc, argv));
     flush_output();
     leave_ranks();
     if (is_quiet() && (exit == Exit::stopped_early || exit == Exit::infeasible)) print_error(meaning(exit, argv[1]));

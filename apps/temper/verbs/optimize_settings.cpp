@@ -10,6 +10,7 @@
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "reports/reports.hpp"
+#include "temper/detail/path.hpp"
 #include "temper/detail/suggest.hpp"
 
 namespace temper::app {
@@ -129,7 +130,7 @@ HelpPart research_targets() {
 bool is_replaced(const std::string& path) {
   std::error_code ignored;
   return path != kStandardOutput &&
-         (!std::filesystem::exists(path, ignored) || std::filesystem::is_regular_file(path, ignored));
+         (!std::filesystem::exists(path_of(path), ignored) || std::filesystem::is_regular_file(path_of(path), ignored));
 }
 
 /// Returns a word of --write or --fix that must be the input; empty: none.

@@ -16,6 +16,7 @@
 #include "files/options_file.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
+#include "system/system.hpp"
 #include "temper/energy.hpp"
 #include "temper/solvers.hpp"
 #include "temper/tets/draw.hpp"

@@ -56,11 +56,11 @@ class PointLocator {
   ~PointLocator();
 
   /// Finds the place of p by exact tests. If p is outside the mesh, this is the place of the nearest point. It depends
-  /// on p alone, not on `near`. The weight of p does not count. Precondition: the mesh has a triangle, and none is
-  /// erased. About O(distance from `near` in triangles); O(log n) without a `near` or with a bad one.
-  [[nodiscard]] Place find(const WeightedPoint& p, TriangleId near = {}) const;
+  /// on p alone, not on `nearby`. The weight of p does not count. Precondition: the mesh has a triangle, and none is
+  /// erased. About O(distance from `nearby` in triangles); O(log n) without a `nearby` or with a bad one.
+  [[nodiscard]] Place find(const WeightedPoint& p, TriangleId nearby = {}) const;
   /// Finds the place of a point of the plane.
-  [[nodiscard]] Place find(Vec2 p, TriangleId near = {}) const { return find(WeightedPoint{p.x, p.y, 0}, near); }
+  [[nodiscard]] Place find(Vec2 p, TriangleId nearby = {}) const { return find(WeightedPoint{p.x, p.y, 0}, nearby); }
 
  private:
   [[nodiscard]] const BoxTree& tree() const;

@@ -109,11 +109,11 @@ struct SizeReport {
   /// B of the smallest band [1/B, B] that holds all ratios of size to field.
   [[nodiscard]] double band() const;
 };
-/// Compares the sizes of a mesh with a field. `near`: for each vertex a vertex of the field's mesh from which the
+/// Compares the sizes of a mesh with a field. `nearby`: for each vertex a vertex of the field's mesh from which the
 /// search begins. If it is empty and both meshes have the same number of vertices, it is the same number; else
 /// anywhere. It affects only the time. Preconditions: no erased triangles; the mesh and the field's mesh lie in the
 /// plane, or on spheres.
 [[nodiscard]] SizeReport measure_size(const Mesh& mesh, const SizeField& field, Executor* executor = nullptr,
-                                      const IdVector<VertexId, VertexId>& near = {});
+                                      const IdVector<VertexId, VertexId>& nearby = {});
 
 }  // namespace temper

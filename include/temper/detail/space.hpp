@@ -79,9 +79,9 @@ class Space {
   }
 
   /// The image of p that is nearest to a point; in other spaces p.
-  [[nodiscard]] WeightedPoint image(const WeightedPoint& p, const WeightedPoint& near) const {
+  [[nodiscard]] WeightedPoint image(const WeightedPoint& p, const WeightedPoint& nearby) const {
     if (!is_periodic()) return p;
-    return {nearest(p.x, near.x, period_.x), nearest(p.y, near.y, period_.y), p.w};
+    return {nearest(p.x, nearby.x, period_.x), nearest(p.y, nearby.y, period_.y), p.w};
   }
   /// The image of p in the domain, on the grid; in other spaces p.
   [[nodiscard]] WeightedPoint in_domain(const WeightedPoint& p) const {

@@ -1,36 +1,34 @@
 #include "io/containers/foreign_library.hpp"
 
-#include <dlfcn.h>
-
 #include <cstdlib>
 #include <filesystem>
 
 #include "io/text/failure.hpp"
+#include "temper/detail/path.hpp"
 
 namespace temper::io {
 namespace {
 
-bool load_foreign(const char* file, const std::function<bool(void*)>& take) {
-  void* const handle = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+bool load_foreign(const std::string& file, const std::function<bool(void*)>& take) {
+  void* const handle = load_library(file);
   return handle != nullptr && take(handle);
 }
 
-/// Python packages bring libraries along, for example netcdf4.libs/libnetcdf-HASH.so.22 next to the packages. If a
-/// package holds this code or the program, the libraries are two or three folders above.
+/// Python packages bring libraries along, for example netcdf4.libs/libnetcdf-HASH.so.22 next to the packages, or
+/// netCDF4/.dylibs/libnetcdf.22.dylib in them. If a package holds this code or the program, the libraries are two or
+/// three folders above.
 void find_in_python_packages(const ForeignLibrary& library, const std::function<bool(void*)>& take) {
   namespace fs = std::filesystem;
-  static const char here = 0;
-  Dl_info self = {};
-  if (dladdr(&here, &self) == 0) return;
   std::error_code ignored;
-  fs::path folder = fs::canonical(self.dli_fname, ignored).parent_path();
+  fs::path folder = fs::canonical(path_of(file_of_this_code()), ignored).parent_path();
   for (int level = 0; level < 3 && folder.has_relative_path(); ++level, folder = folder.parent_path()) {
     for (const char* package : library.packages) {
       // Not range-for, whose ++ throws.
       for (fs::directory_iterator entry(folder / package, ignored), end; entry != end; entry.increment(ignored)) {
-        const fs::path& file = entry->path();
-        if (!file.filename().string().starts_with(library.file_in_package)) continue;
-        if (load_foreign(file.c_str(), take)) return;
+        const std::string file = utf8(entry->path().filename());
+        const std::size_t n = library.file_in_package.size();
+        if (!file.starts_with(library.file_in_package) || (file[n] != '-' && file[n] != '.')) continue;
+        if (load_foreign(utf8(entry->path()), take)) return;
       }
     }
   }
@@ -54,8 +52,6 @@ void find_library(const ForeignLibrary& library, const std::function<bool(void*)
   }
   find_in_python_packages(library, take);
 }
-
-void* symbol_of(void* handle, const char* name) { return dlsym(handle, name); }
 
 std::recursive_mutex& foreign_tables() {
   static std::recursive_mutex tables;

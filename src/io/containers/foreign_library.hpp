@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/system/system.hpp"
+
 namespace temper::io {
 
 /// The places of a library.
@@ -16,12 +18,12 @@ struct ForeignLibrary {
   const char* variable;                   ///< of the environment: names the file, and no other is tried then
   std::span<const char* const> files;     ///< as the loader finds them, the newest first
   std::span<const char* const> packages;  ///< folders of the libraries of Python packages that bring it along
-  std::string_view file_in_package;       ///< how its name begins there
+  std::string_view file_in_package;       ///< how its name begins there, before - or .
   std::string_view need;                  ///< "VTKHDF files need libhdf5 1.10 or later"
   std::string_view install;               ///< "apt: libhdf5-103-1, conda: …": the packages that have it
 };
 
-/// Calls take with the handle (of dlopen) of each file that can be loaded, until take accepts the library. A loaded
+/// Calls take with the handle of each file that can be loaded, until take accepts the library. A loaded
 /// file stays loaded to the end of the process.
 void find_library(const ForeignLibrary& library, const std::function<bool(void* handle)>& take);
 
@@ -45,8 +47,6 @@ const Functions* find_functions(const ForeignLibrary& library, std::optional<Fun
   return found ? &*found : nullptr;
 }
 
-/// The symbol of that name in the library, or null.
-[[nodiscard]] void* symbol_of(void* handle, const char* name);
 /// Takes one of a list of functions into `library`, or returns nothing.
 #define TEMPER_FIND_FUNCTION(function)                                                           \
   library.function = reinterpret_cast<decltype(library.function)>(symbol_of(handle, #function)); \

@@ -5,17 +5,20 @@
 
 #include "io/containers/foreign_library.hpp"
 #include "io/text/failure.hpp"
+#include "temper/io.hpp"
 
 namespace temper::io {
 namespace {
 
-constexpr std::array kGdalFiles = {"libgdal.so.36", "libgdal.so.35", "libgdal.so.34", "libgdal.so.33", "libgdal.so.32",
-                                   "libgdal.so.31", "libgdal.so.30", "libgdal.so.28", "libgdal.so",    "libgdal.dylib"};
-constexpr std::array kGdalPackages = {"rasterio.libs", "fiona.libs", "pyogrio.libs"};
+constexpr std::array kGdalFiles = {"libgdal.so.36", "libgdal.so.35", "libgdal.so.34", "libgdal.so.33",
+                                   "libgdal.so.32", "libgdal.so.31", "libgdal.so.30", "libgdal.so.28",
+                                   "libgdal.so",    "libgdal.dylib", "gdal.dll"};
+constexpr std::array kGdalPackages = {"rasterio.libs",    "fiona.libs",    "pyogrio.libs",
+                                      "rasterio/.dylibs", "fiona/.dylibs", "pyogrio/.dylibs"};
 constexpr ForeignLibrary kGdal = {.variable = "TEMPER_GDAL",
                                   .files = kGdalFiles,
                                   .packages = kGdalPackages,
-                                  .file_in_package = "libgdal-",
+                                  .file_in_package = "libgdal",
                                   .need = "GeoTIFF, shapefiles and GeoPackages need GDAL 3 or later",
                                   .install = "apt: libgdal32, conda: libgdal, pip: rasterio"};
 
@@ -28,14 +31,21 @@ std::optional<GdalLibrary> gdal_of(void* handle) {
   return library;
 }
 
+const GdalLibrary* find_gdal() { return find_functions(kGdal, gdal_of); }
+
 const GdalLibrary& library_for(const std::string& path) {
-  if (const GdalLibrary* const library = find_functions(kGdal, gdal_of)) return *library;
+  if (const GdalLibrary* const library = find_gdal()) return *library;
   fail_without(kGdal, path);
 }
 
 void be_quiet(int /*kind*/, int /*number*/, const char* /*message*/) {}
 
 }  // namespace
+
+std::string gdal_version() {
+  const GdalLibrary* const library = find_gdal();
+  return library == nullptr ? std::string() : library->GDALVersionInfo("RELEASE_NAME");
+}
 
 GdalFile::GdalFile(const std::string& path, Kind kind) : path_(path), library_(library_for(path)) {
   library_.CPLPushErrorHandler(be_quiet);

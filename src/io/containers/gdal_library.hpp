@@ -11,7 +11,7 @@ namespace temper::io {
 /// Every function that is called here: its result, its name and its arguments (gdal.h, ogr_api.h, ogr_srs_api.h,
 /// cpl_error.h).
 #define TEMPER_GDAL_FUNCTIONS(use)                                                                                     \
-  use(void, GDALAllRegister, ()) use(                                                                                  \
+  use(const char*, GDALVersionInfo, (const char*)) use(void, GDALAllRegister, ()) use(                                 \
       void*, GDALOpenEx, (const char*, unsigned, const char* const*, const char* const*, const char* const*))          \
       use(void, GDALClose, (void*)) use(int, GDALGetRasterXSize, (void*)) use(int, GDALGetRasterYSize, (void*)) use(   \
           int, GDALGetRasterCount, (void*)) use(int, GDALGetGeoTransform,                                              \

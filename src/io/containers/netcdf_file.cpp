@@ -16,15 +16,17 @@ namespace {
 /// Since 4.6.2, the first that reads and writes files in memory. All of them have the same interface.
 #ifdef __APPLE__
 constexpr std::array kNetcdfFiles = {"libnetcdf.22.dylib", "libnetcdf.19.dylib", "libnetcdf.dylib"};
+#elif defined(_WIN32)
+constexpr std::array kNetcdfFiles = {"netcdf.dll"};
 #else
 constexpr std::array kNetcdfFiles = {"libnetcdf.so.22", "libnetcdf.so.19", "libnetcdf.so.18", "libnetcdf.so.15",
                                      "libnetcdf.so"};
 #endif
-constexpr std::array kNetcdfPackages = {"netcdf4.libs", "netCDF4.libs"};
+constexpr std::array kNetcdfPackages = {"netcdf4.libs", "netCDF4.libs", "netCDF4/.dylibs"};
 constexpr ForeignLibrary kNetcdf = {.variable = "TEMPER_NETCDF",
                                     .files = kNetcdfFiles,
                                     .packages = kNetcdfPackages,
-                                    .file_in_package = "libnetcdf-",
+                                    .file_in_package = "libnetcdf",
                                     .need = "NetCDF files need libnetcdf 4.6.2 or later",
                                     .install = "apt: libnetcdf19, conda: libnetcdf, pip: netCDF4"};
 
@@ -271,7 +273,7 @@ void NetcdfWriter::finish(const std::function<void(std::string_view bytes)>& tak
   NC_memio memory = {};
   const int status = library_.nc_close_memio(id_, &memory);
   id_.is_closed();
-  const std::unique_ptr<void, void (*)(void*)> owner(memory.memory, std::free);
+  const std::unique_ptr<void, void (*)(void*)> owner(memory.memory, free_of_library);
   check(status, "finish the file");
   take(std::string_view(static_cast<const char*>(memory.memory), memory.size));
 }

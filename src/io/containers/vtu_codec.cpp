@@ -168,11 +168,11 @@ class Header {
     if (packing_.swap) std::reverse(bytes.data(), bytes.data() + packing_.header_bytes);
     packed_.remove_prefix(packing_.header_bytes);
     if (packing_.header_bytes == 4) {
-      std::uint32_t value;
+      std::uint32_t value = 0;
       std::memcpy(&value, bytes.data(), 4);
       return value;
     }
-    std::uint64_t value;
+    std::uint64_t value = 0;
     std::memcpy(&value, bytes.data(), 8);
     return value;
   }
@@ -304,8 +304,9 @@ std::string compress_block(std::string_view bytes, Redundancy redundancy) {
   const int strategy = redundancy == Redundancy::runs ? Z_RLE : Z_DEFAULT_STRATEGY;
   // The only possible errors are wrong parameters and lack of memory.
   if (deflateInit2(&stream, kLevel, Z_DEFLATED, kWindowBits, kMemory, strategy) != Z_OK) throw std::bad_alloc();
-  std::vector<Bytef> packed(deflateBound(&stream, bytes.size()));
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  std::vector<Bytef> packed(deflateBound(&stream, static_cast<uLong>(bytes.size())));
+  // zlib reads it only.
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));  // NOLINT(*-const-cast)
   stream.avail_in = static_cast<uInt>(bytes.size());
   stream.next_out = packed.data();
   stream.avail_out = static_cast<uInt>(packed.size());

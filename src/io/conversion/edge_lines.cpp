@@ -5,6 +5,7 @@
 
 #include "io/conversion/data_update.hpp"
 #include "io/conversion/globe.hpp"
+#include "io/text/failure.hpp"
 #include "io/text/file_names.hpp"
 #include "io/text/values.hpp"
 

@@ -1,10 +1,5 @@
 #include "io/disk/files.hpp"
 
-#include <fcntl.h>
-#include <malloc.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -14,18 +9,7 @@
 
 #include "temper/io.hpp"
 
-#ifdef __linux__
-#endif
-
 namespace temper::io {
-
-OnDisk look_at(const std::string& path) {
-  struct stat found = {};
-  if (stat(path.c_str(), &found) != 0) return {};
-  if (S_ISDIR(found.st_mode)) return {OnDisk::Kind::folder};
-  if (!S_ISREG(found.st_mode)) return {OnDisk::Kind::other};
-  return {OnDisk::Kind::file, static_cast<std::uint64_t>(found.st_size)};
-}
 
 bool is_stream(const std::string& path) {
   return path.starts_with("/dev/std") || path.starts_with("/dev/fd/") || look_at(path).kind == OnDisk::Kind::other;
@@ -46,8 +30,8 @@ std::string without_suffix(const std::string& path, std::string_view suffix) {
 Source load(const std::string& path) {
   const OnDisk there = look_at(path);
   if (there.kind == OnDisk::Kind::folder) fail(ErrorCode::not_found, path, "is a directory, not a mesh file");
-  const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
-  if (!file) fail(ErrorCode::not_found, path, "cannot be read: ", std::strerror(errno));
+  const std::unique_ptr<std::FILE, Closer> file(open_to_read(path));
+  if (!file) fail(ErrorCode::not_found, path, "cannot be read: ", reason(errno));
 
   Source source{.path = path, .bytes = {}};
   constexpr std::size_t kChunk = 1 << 16;
@@ -63,43 +47,22 @@ Source load(const std::string& path) {
     source.bytes.resize(got += more);
     if (more == 0) break;
   }
-  if (std::ferror(file.get())) fail(ErrorCode::not_found, path, "cannot be read: ", std::strerror(errno));
+  if (std::ferror(file.get())) fail(ErrorCode::not_found, path, "cannot be read: ", reason(errno));
   if (source.bytes.empty()) fail(ErrorCode::empty_input, path, "the file is empty");
   source.allocation = AllocationLimits(source.bytes.size());
   return source;
 }
 
 std::string first_bytes(const std::string& path, std::size_t n) {
-  const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
+  const std::unique_ptr<std::FILE, Closer> file(open_to_read(path));
   std::string bytes(file ? n : 0, '\0');
   if (file) bytes.resize(std::fread(bytes.data(), 1, n, file.get()));
   return bytes;
 }
 
-void give_memory_back() {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
-}
-
 namespace {
 
 constexpr std::size_t kBuffer = std::size_t{1} << 18;
-
-/// False: errno has the reason.
-bool write_all(int file, const char* bytes, std::size_t n) {
-  while (n > 0) {
-    const ssize_t written = ::write(file, bytes, n);
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    bytes += written;
-    n -= static_cast<std::size_t>(written);
-  }
-  return true;
-}
-
-/// Fails on a full or broken disk, which may become known only now. Some file systems do not support fsync.
-bool reach_disk(int file) { return fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS; }
 
 }  // namespace
 
@@ -109,17 +72,17 @@ Output::Output(std::string path) : path_(std::move(path)), target_(path_), buffe
     fail(ErrorCode::not_writable, path_, "is a directory; expected the name of a file");
   if (there.exists()) target_ = without_links(path_);
   if (there.kind == OnDisk::Kind::other) {
-    file_ = ::open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+    file_ = open_to_write(target_);
   } else {
     temporary_ = Temporary::beside(target_);
     file_ = temporary_.exists() ? temporary_.open() : -1;
   }
-  if (file_ < 0) fail(ErrorCode::not_writable, path_, "cannot be written: ", std::strerror(errno));
+  if (file_ < 0) fail(ErrorCode::not_writable, path_, "cannot be written: ", reason(errno));
   if (there.kind == OnDisk::Kind::file) temporary_.take_permissions(target_);
 }
 
 Output::~Output() {
-  if (file_ >= 0) ::close(file_);
+  if (file_ >= 0) close_file(file_);
 }
 
 void Output::put(std::string_view bytes) {
@@ -140,7 +103,7 @@ void Output::flush() {
 void Output::close() {
   flush();
   if (temporary_.exists() && !reach_disk(file_)) fail_writing("cannot be written");
-  if (::close(std::exchange(file_, -1)) != 0 && errno != EINTR) fail_writing("cannot be written");
+  if (!close_file(std::exchange(file_, -1))) fail_writing("cannot be written");
 }
 
 void Output::commit() {
@@ -150,7 +113,7 @@ void Output::commit() {
 void Output::fail_writing(const char* doing) const {
   const int code = errno;
   const char* kept = !temporary_.exists() ? "" : "; what was there before is unchanged";
-  fail(ErrorCode::not_writable, path_, doing, ": ", std::strerror(code), kept);
+  fail(ErrorCode::not_writable, path_, doing, ": ", reason(code), kept);
 }
 
 Output& OutputSet::open(const std::string& path) {

@@ -1,5 +1,4 @@
-// The state of the disk at a path, and files written whole or not at all. (By POSIX: libc++ for WebAssembly has no
-// std::filesystem.)
+// Files read whole, and written whole or not at all.
 #pragma once
 
 #include <array>
@@ -13,22 +12,12 @@
 #include <utility>
 #include <vector>
 
+#include "io/system/system.hpp"
 #include "io/text/failure.hpp"
 #include "temper/detail/executor.hpp"
 #include "temper/detail/vec.hpp"
 
 namespace temper::io {
-
-struct OnDisk {
-  enum class Kind { nothing, file, folder, other };  ///< links followed; other: a pipe, a device
-  Kind kind = Kind::nothing;
-  std::uint64_t bytes = 0;  ///< of a file
-
-  [[nodiscard]] bool exists() const { return kind != Kind::nothing; }
-};
-
-/// A path that cannot be examined counts as nothing: opening it gives the reason.
-[[nodiscard]] OnDisk look_at(const std::string& path);
 
 [[nodiscard]] inline bool exists(const std::string& path) { return look_at(path).exists(); }
 
@@ -52,9 +41,6 @@ struct Source {
 /// PATH without its last suffix, when that is `suffix`; else PATH.
 [[nodiscard]] std::string without_suffix(const std::string& path, std::string_view suffix);
 
-/// Returns freed memory to the system if the C library keeps it between blocks in use. Otherwise the memory for reading
-/// a large file would add to all later memory.
-void give_memory_back();
 /// Empties these vectors, and returns their memory.
 template <class... Vectors>
 void give_memory_back_of(Vectors&... vectors) {
@@ -64,47 +50,6 @@ void give_memory_back_of(Vectors&... vectors) {
 
 // Files written whole or not at all. Everything goes to temporary files next to their targets, which are renamed only
 // when all are complete. A target that is no regular file (a pipe, /dev/stdout) is written directly.
-
-// Temporary files next to their targets, and their fate when a run does not end well.
-//
-//   OUT.tmp0   new bytes, locked by the run that writes them; renamed to OUT when they are whole
-//
-// A run that fails removes its own, and so does a signal that ends the program (io::discard_unfinished). A run that is
-// killed leaves them, without harm: the lock ended with its owner. So the next run that writes OUT removes OUT.tmp0 and
-// makes its own.
-
-class Temporary {
- public:
-  Temporary() = default;
-  /// Makes an empty file next to `target`, for this run alone. On failure there is none, and errno has the reason.
-  static Temporary beside(const std::string& target);
-  Temporary(Temporary&& other) noexcept { *this = std::move(other); }
-  Temporary& operator=(Temporary&& other) noexcept;
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
-  ~Temporary() { remove(); }
-
-  [[nodiscard]] bool exists() const { return !path_.empty(); }
-  [[nodiscard]] const std::string& path() const { return path_; }
-  /// The file, open for writing, to be closed by the caller; −1: errno has the reason. (The lock stays here.)
-  [[nodiscard]] int open() const;
-  /// Gives it the permissions of the target, as far as it may have them.
-  void take_permissions(const std::string& target) const;
-  /// Puts it in the place of `target`. False: errno has the reason, and nothing has changed.
-  bool rename_to(const std::string& target);
-  void remove();
-
- private:
-  Temporary(std::string path, std::size_t entry, int lock);
-  void end();
-
-  std::string path_;
-  std::size_t entry_ = 0;  // of the list that discard_unfinished() goes through
-  int lock_ = -1;          // the open file that has it
-};
-
-/// The path of the file itself, if links lead to it.
-[[nodiscard]] std::string without_links(const std::string& path);
 
 class Output {
  public:

@@ -1,11 +1,7 @@
 // The implementation of write_dec: makes the folder, calls the writer of every format, and puts all files in place at
 // the end.
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 
 #include "io/disk/files.hpp"
 #include "io/operators/dec_files.hpp"
@@ -20,11 +16,11 @@ class Folder {
     const OnDisk there = look_at(path_);
     if (there.kind == OnDisk::Kind::folder) return;
     if (there.exists()) fail(ErrorCode::not_writable, path, "is not a folder; expected a folder, or a new name");
-    made_ = mkdir(path_.c_str(), 0777) == 0;
-    if (!made_) fail(ErrorCode::not_writable, path, "cannot be made: ", std::strerror(errno));
+    made_ = make_folder(path_);
+    if (!made_) fail(ErrorCode::not_writable, path, "cannot be made: ", reason(errno));
   }
   ~Folder() {
-    if (made_) rmdir(path_.c_str());  // does nothing when it is not empty
+    if (made_) remove_folder(path_);
   }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;

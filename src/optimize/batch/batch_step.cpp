@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/compiler.hpp"
 #include "base/instruction_set_choice.hpp"
 #include "optimize/batch/star_batch.hpp"
 
@@ -16,14 +17,14 @@ constexpr std::size_t kAhead = 64;
 constexpr std::size_t kLastFew = 48;
 
 void prefetch_point(const Mesh& mesh, std::size_t v) {
-  if (v < mesh.n_vertices()) __builtin_prefetch(mesh.vertex_data() + v * (Mesh::kVertexStride / sizeof(double)));
+  if (v < mesh.n_vertices()) prefetch(mesh.vertex_data() + v * (Mesh::kVertexStride / sizeof(double)));
 }
 
 void prefetch_star(const Mesh& mesh, VertexId v) {
   const HalfedgeId h = mesh.outgoing(v);
   if (!h.valid()) return;
-  __builtin_prefetch(&mesh.corner_data()[h.index]);
-  __builtin_prefetch(&mesh.twin_data()[h.index]);
+  prefetch(&mesh.corner_data()[h.index]);
+  prefetch(&mesh.twin_data()[h.index]);
 }
 
 }  // namespace

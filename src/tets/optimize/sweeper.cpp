@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/compiler.hpp"
 #include "base/instruction_set_choice.hpp"
 #include "base/sum.hpp"
 #include "tets/mesh/box.hpp"
@@ -136,11 +137,11 @@ void Sweeper::improve(std::size_t first, std::size_t last, const Step& step) {
   const auto link = [&](std::size_t i) { return stars_.link(VertexId(std::min(i, last - 1))); };
   for (std::size_t i = first; i < last; ++i) {
     const VertexId soon = sequence_[std::min(i + kAhead, last - 1)];
-    __builtin_prefetch(&mesh_.point(soon));
-    __builtin_prefetch(&mobility_[soon]);
-    for (const HalffaceId h : link(i + 2 * kAhead)) __builtin_prefetch(&mesh_.corners(TetMesh::tetrahedron(h)));
+    prefetch(&mesh_.point(soon));
+    prefetch(&mobility_[soon]);
+    for (const HalffaceId h : link(i + 2 * kAhead)) prefetch(&mesh_.corners(TetMesh::tetrahedron(h)));
     for (const HalffaceId h : link(i + kAhead)) {
-      for (const VertexId u : mesh_.vertices(h)) __builtin_prefetch(&mesh_.point(u));
+      for (const VertexId u : mesh_.vertices(h)) prefetch(&mesh_.point(u));
     }
     const VertexId v = sequence_[i];
     mesh_.set_point(v, step(v, link(i)));

@@ -233,5 +233,12 @@ TEST_F(BadInput, WithoutLibhdf5FilesOfVtkhdfAreRefusedBeforeTheWork) {
   EXPECT_EQ(names(), (std::vector<std::string>{"in.hdf", "in.vtu"}));
 }
 
+TEST_F(BadInput, WithoutGdalTheProgramSaysSo) {
+  const std::string without = "TEMPER_GDAL=/nowhere/libgdal.so temper ";
+  EXPECT_TRUE(contains(shell(without + "--version").out, "\n  GDAL          not found"));
+  write("in.shp", std::string("\0\0\x27\x0a", 4));
+  EXPECT_TRUE(contains(shell(without + "mesh in.shp -o out.vtu --size 1").err, "need GDAL 3 or later"));
+}
+
 }  // namespace
 }  // namespace temper::test

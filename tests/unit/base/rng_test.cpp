@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <set>
 
 namespace temper {
@@ -79,7 +80,7 @@ TEST(Mix64, IsInjectiveOnWhatWasTriedAndChangesHalfOfTheBits) {
   int changed = 0;
   for (std::uint64_t x = 0; x < 10000; ++x) {
     images.insert(mix64(x));
-    changed += __builtin_popcountll(mix64(x + 1) ^ mix64(x));
+    changed += std::popcount(mix64(x + 1) ^ mix64(x));
   }
   EXPECT_EQ(images.size(), 10000u);
   EXPECT_NEAR(changed / 10000.0, 32, 1);

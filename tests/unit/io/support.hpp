@@ -57,7 +57,7 @@ class FileTest : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).generic_string(); }
   /// A file of that content; returns its path.
   std::string make(const std::string& name, std::string_view content) const {
     spill(path(name), content);
@@ -72,7 +72,7 @@ class FileTest : public ::testing::Test {
   }
   /// A message with the name of the folder taken out.
   [[nodiscard]] std::string plain(std::string message) const {
-    const std::string prefix = folder_.string() + "/";
+    const std::string prefix = folder_.generic_string() + "/";
     for (std::size_t at; (at = message.find(prefix)) != std::string::npos;) message.erase(at, prefix.size());
     return message;
   }

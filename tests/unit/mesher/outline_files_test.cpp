@@ -32,7 +32,7 @@ class OutlineFiles : public ::testing::Test {
 
   std::string write(const std::string& name, const std::string& text) {
     std::ofstream(folder_ / name, std::ios::binary) << text;
-    return (folder_ / name).string();
+    return (folder_ / name).generic_string();
   }
   io::OutlineFile read(const std::string& text) {
     auto file = io::read_outline(write("in", text));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "energy/patch.hpp"
 #include "support/lattice.hpp"
@@ -223,7 +224,8 @@ TEST(Optimize, DoesNotDependOnTheUsersNumbering) {
 TEST(Optimize, OfAMeshWithoutInteriorVerticesMovesWeightsOnly) {
   // A fan-free hexagon: four triangles, six boundary vertices.
   std::vector<Vec2> points;
-  for (int i = 0; i < 6; ++i) points.push_back({std::cos(i * M_PI / 3) * (i % 2 ? 1 : 0.8), std::sin(i * M_PI / 3)});
+  for (int i = 0; i < 6; ++i)
+    points.push_back({std::cos(i * std::numbers::pi / 3) * (i % 2 ? 1 : 0.8), std::sin(i * std::numbers::pi / 3)});
   const std::vector<std::array<std::int32_t, 3>> triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}};
   Mesh mesh = Mesh::build({.points = points, .triangles = triangles})->mesh;
   const Mesh before = mesh;

@@ -1,3 +1,5 @@
+// Linux and macOS: see system.hpp. Other runs may write the same file, and signals end this one.
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -14,7 +16,7 @@
 #include <ctime>
 #include <utility>
 
-#include "io/disk/files.hpp"
+#include "io/system/system.hpp"
 #include "io/text/failure.hpp"
 #include "temper/io.hpp"
 
@@ -177,6 +179,17 @@ void Temporary::end() {
   path_.clear();
   strike(entry_);
   close(lock_);
+}
+
+void* load_library(const std::string& file) { return dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL); }
+void* symbol_of(void* library, const char* name) { return dlsym(library, name); }
+
+void free_of_library(void* memory) { std::free(memory); }
+
+std::string file_of_this_code() {
+  static const char here = 0;
+  Dl_info self = {};
+  return dladdr(&here, &self) != 0 ? self.dli_fname : "";
 }
 
 std::string without_links(const std::string& path) {

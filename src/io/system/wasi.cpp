@@ -1,12 +1,12 @@
 // Temporary files of a program that is alone, in the browser's memory. No other run writes the same file or leaves one
-// behind, and no signal ends this run. (temporary.cpp is for all other systems.)
+// behind, and no signal ends this run. See system.hpp.
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <utility>
 
-#include "io/disk/files.hpp"
+#include "io/system/system.hpp"
 #include "io/text/failure.hpp"
 #include "temper/io.hpp"
 

@@ -1,0 +1,53 @@
+// Files of POSIX: see system.hpp.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <cerrno>
+#include <cstring>
+
+#include "io/system/system.hpp"
+
+namespace temper::io {
+
+OnDisk look_at(const std::string& path) {
+  struct stat found = {};
+  if (stat(path.c_str(), &found) != 0) return {};
+  if (S_ISDIR(found.st_mode)) return {OnDisk::Kind::folder};
+  if (!S_ISREG(found.st_mode)) return {OnDisk::Kind::other};
+  return {OnDisk::Kind::file, static_cast<std::uint64_t>(found.st_size)};
+}
+
+std::string reason(int code) { return std::strerror(code); }
+
+std::FILE* open_to_read(const std::string& path) { return std::fopen(path.c_str(), "rb"); }
+int open_to_write(const std::string& path) { return ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC); }
+
+bool write_all(int file, const char* bytes, std::size_t n) {
+  while (n > 0) {
+    const ssize_t written = ::write(file, bytes, n);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes += written;
+    n -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+/// Some file systems do not support fsync.
+bool reach_disk(int file) { return fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS; }
+bool close_file(int file) { return ::close(file) == 0 || errno == EINTR; }
+
+bool make_folder(const std::string& path) { return mkdir(path.c_str(), 0777) == 0; }
+void remove_folder(const std::string& path) { rmdir(path.c_str()); }
+
+void give_memory_back() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+}  // namespace temper::io
