@@ -38,6 +38,7 @@ NOT_RUN = ("docs/internals/",)  # commands of developers
 WRONG_OPTIONS = ("docs/reference/cli/mistakes.md",)  # a test of the program runs them
 # Pictures that no page can make, and what makes them.
 DRAWN_ELSEWHERE = {
+    **{f"few-points-{i}.svg": "bench/cgshop.py, and `temper draw --before`: the outlines are not in the repository" for i in (1, 2, 3)},
     "paraview.png": "ParaView: examples/paraview/margins.py with the ring of docs/howto/pyvista.md before and after `temper optimize`",
     "report.jpg": "a browser shows the page of `temper optimize --write FILE.html`",
     "signs.svg": "drawn by hand: symbols, no numbers",
