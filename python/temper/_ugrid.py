@@ -131,7 +131,8 @@ def _columns(variable: Any, dimension: str) -> Any:
 
 
 def dataset_from(form: Cells, orthocenters: Any, like: Any) -> Any:
-    """The mesh as an ``xarray.Dataset``: see ``Mesh.to_xarray``. Orthocenters are those of triangles alone, or None."""
+    """The mesh as an ``xarray.Dataset``: see ``Mesh.to_xarray``. ``orthocenters``: one of each face if all faces are
+    triangles, or None."""
     import xarray
 
     if like is None:

@@ -16,12 +16,12 @@ from ._tets import as_any_mesh
 
 
 def read_mesh(path: str | os.PathLike[str], **options: Any) -> meshio.Mesh:
-    """The mesh of a file, in any format that ``temper.read`` recognizes. Options are those of ``temper.read``."""
+    """The mesh of a file, in any format that ``temper.read`` recognizes, with the options of ``temper.read``."""
     return read(path, **options).to_meshio()
 
 
 def write_mesh(path: str | os.PathLike[str], mesh: meshio.Mesh, **options: Any) -> None:
-    """Writes the mesh in the format of the suffix. Options are those of ``temper.write``."""
+    """Writes the mesh in the format of the suffix, with the options of ``temper.write``."""
     write(path, as_any_mesh(mesh), **options)
 
 

@@ -118,7 +118,7 @@ std::string optimality_text(const WeightsRecord& r) {
                      center ? -proof.objective : proof.objective, proof.relative_gap(), proof.iterations);
 }
 
-/// What to do if no weights were found.
+/// Says what to do if no weights were found.
 std::string next_text(const WeightsRecord& r) {
   if (r.report.solved) return {};
   const bool stopped = r.search && r.search->end == SearchEnd::stopped;

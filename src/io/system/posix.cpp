@@ -125,9 +125,6 @@ void discard_unfinished() noexcept {
   }
 }
 
-Temporary::Temporary(std::string path, std::size_t entry, int lock)
-    : path_(std::move(path)), entry_(entry), lock_(lock) {}
-
 Temporary Temporary::beside(const std::string& target) {
   constexpr int kTries = 1000;  // as many runs may write the same file at once
   Place place;
@@ -145,33 +142,12 @@ Temporary Temporary::beside(const std::string& target) {
   return {};
 }
 
-Temporary& Temporary::operator=(Temporary&& other) noexcept {
-  if (this == &other) return *this;
-  remove();
-  path_ = std::exchange(other.path_, {});
-  entry_ = other.entry_;
-  lock_ = other.lock_;
-  return *this;
-}
-
 int Temporary::open() const { return dup(lock_); }
 
 void Temporary::take_permissions(const std::string& target) const {
   constexpr mode_t kPermissions = 07777;
   struct stat found;
   if (stat(target.c_str(), &found) == 0) chmod(path_.c_str(), found.st_mode & kPermissions);
-}
-
-bool Temporary::rename_to(const std::string& target) {
-  if (std::rename(path_.c_str(), target.c_str()) != 0) return false;
-  end();
-  return true;
-}
-
-void Temporary::remove() {
-  if (!exists()) return;
-  unlink(path_.c_str());
-  end();
 }
 
 /// The file no longer exists, renamed or removed.

@@ -7,6 +7,7 @@
 #endif
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 
 #include "io/system/system.hpp"
@@ -43,6 +44,18 @@ bool close_file(int file) { return ::close(file) == 0 || errno == EINTR; }
 
 bool make_folder(const std::string& path) { return mkdir(path.c_str(), 0777) == 0; }
 void remove_folder(const std::string& path) { rmdir(path.c_str()); }
+
+bool Temporary::rename_to(const std::string& target) {
+  if (std::rename(path_.c_str(), target.c_str()) != 0) return false;
+  end();
+  return true;
+}
+
+void Temporary::remove() {
+  if (!exists()) return;
+  unlink(path_.c_str());
+  end();
+}
 
 void give_memory_back() {
 #ifdef __GLIBC__

@@ -1,5 +1,5 @@
-// What io asks of the operating system. posix.cpp answers on Linux and macOS, windows.cpp on Windows, wasi.cpp in
-// browsers; posix_files.cpp has what the first and the last share. (libc++ for WebAssembly has no std::filesystem.)
+// These functions ask the operating system. posix.cpp has them for Linux and macOS, windows.cpp for Windows, and
+// wasi.cpp for browsers. posix.cpp and wasi.cpp share posix_files.cpp. (libc++ for WebAssembly has no std::filesystem.)
 //
 // Paths are UTF-8. A function that fails sets errno.
 #pragma once
@@ -59,7 +59,14 @@ class Temporary {
   /// Makes an empty file next to `target`, for this run alone. On failure there is none, and errno has the reason.
   static Temporary beside(const std::string& target);
   Temporary(Temporary&& other) noexcept { *this = std::move(other); }
-  Temporary& operator=(Temporary&& other) noexcept;
+  Temporary& operator=(Temporary&& other) noexcept {
+    if (this == &other) return *this;
+    remove();
+    path_ = std::exchange(other.path_, {});
+    entry_ = other.entry_;
+    lock_ = other.lock_;
+    return *this;
+  }
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;
   ~Temporary() { remove(); }
@@ -75,7 +82,7 @@ class Temporary {
   void remove();
 
  private:
-  Temporary(std::string path, std::size_t entry, int lock);
+  Temporary(std::string path, std::size_t entry, int lock) : path_(std::move(path)), entry_(entry), lock_(lock) {}
   void end();
 
   std::string path_;

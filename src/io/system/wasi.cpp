@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <utility>
 
 #include "io/system/system.hpp"
@@ -20,9 +19,6 @@ constexpr int kNoLock = -1;
 
 void discard_unfinished() noexcept {}
 
-Temporary::Temporary(std::string path, std::size_t entry, int lock)
-    : path_(std::move(path)), entry_(entry), lock_(lock) {}
-
 Temporary Temporary::beside(const std::string& target) {
   std::string path = text(target, ".tmp0");
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
@@ -31,30 +27,9 @@ Temporary Temporary::beside(const std::string& target) {
   return {std::move(path), kNoEntry, kNoLock};
 }
 
-Temporary& Temporary::operator=(Temporary&& other) noexcept {
-  if (this == &other) return *this;
-  remove();
-  path_ = std::exchange(other.path_, {});
-  entry_ = other.entry_;
-  lock_ = other.lock_;
-  return *this;
-}
-
 int Temporary::open() const { return ::open(path_.c_str(), O_WRONLY); }
 
 void Temporary::take_permissions(const std::string& /*target*/) const {}
-
-bool Temporary::rename_to(const std::string& target) {
-  if (std::rename(path_.c_str(), target.c_str()) != 0) return false;
-  end();
-  return true;
-}
-
-void Temporary::remove() {
-  if (!exists()) return;
-  unlink(path_.c_str());
-  end();
-}
 
 void Temporary::end() { path_.clear(); }
 

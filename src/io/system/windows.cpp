@@ -69,7 +69,7 @@ Handle looking_at(const std::string& path) {
   return {path, FILE_READ_ATTRIBUTES, kShareAll, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS};
 }
 
-/// Of "/dev/stdout", the name for standard output everywhere: 1. Of others: −1.
+/// Returns the number of the standard stream with this name, such as 1 for "/dev/stdout", or −1.
 int standard_stream(const std::string& path) {
   return path == "/dev/stdin" ? 0 : path == "/dev/stdout" ? 1 : path == "/dev/stderr" ? 2 : -1;
 }
@@ -172,9 +172,6 @@ void give_memory_back() {}  // the C library keeps none
 
 void discard_unfinished() noexcept {}
 
-Temporary::Temporary(std::string path, std::size_t entry, int lock)
-    : path_(std::move(path)), entry_(entry), lock_(lock) {}
-
 Temporary Temporary::beside(const std::string& target) {
   constexpr int kTries = 1000;  // as many runs may write the same file at once
   for (int i = 0; i < kTries; ++i) {
@@ -189,15 +186,6 @@ Temporary Temporary::beside(const std::string& target) {
     return {std::move(path), kNoEntry, file};
   }
   return {};
-}
-
-Temporary& Temporary::operator=(Temporary&& other) noexcept {
-  if (this == &other) return *this;
-  remove();
-  path_ = std::exchange(other.path_, {});
-  entry_ = other.entry_;
-  lock_ = other.lock_;
-  return *this;
 }
 
 int Temporary::open() const { return _dup(lock_); }
