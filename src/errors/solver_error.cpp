@@ -9,7 +9,6 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
-#include <mutex>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "errors/adjoint.hpp"
 #include "errors/diffusion.hpp"
 #include "errors/fields.hpp"
+#include "errors/lender.hpp"
 #include "errors/poisson.hpp"
 #include "temper/dec.hpp"
 #include "temper/detail/discretization_error.hpp"
@@ -314,23 +314,6 @@ struct Matrices {
   Cholesky at_vertices, in_cells;
 };
 
-/// Lends the last matrices, or new ones while they are lent.
-class LastMatrices {
- public:
-  [[nodiscard]] auto take() {
-    const std::lock_guard lock(mutex_);
-    const auto give_back = [this](Matrices* m) {
-      const std::lock_guard here(mutex_);
-      last_.reset(m);
-    };
-    return std::unique_ptr<Matrices, decltype(give_back)>(last_ ? last_.release() : new Matrices, give_back);
-  }
-
- private:
-  std::mutex mutex_;
-  std::unique_ptr<Matrices> last_;
-};
-
 class SolverErrorModel final : public DiscretizationError {
  public:
   explicit SolverErrorModel(Scheme scheme) : scheme_(scheme) {}
@@ -390,7 +373,7 @@ class SolverErrorModel final : public DiscretizationError {
   }
 
   Scheme scheme_;
-  mutable LastMatrices last_;
+  mutable Lender<Matrices> last_;
 };
 
 }  // namespace

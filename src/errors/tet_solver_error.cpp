@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <numbers>
 #include <utility>
 
 #include "base/sine_cosine.hpp"
+#include "errors/lender.hpp"
 #include "errors/poisson.hpp"
 #include "temper/tets/errors.hpp"
 #include "temper/tets/operators.hpp"
@@ -24,6 +24,7 @@ namespace {
 using error_detail::Cholesky;
 using error_detail::kLanes;
 using error_detail::Lanes;
+using error_detail::Lender;
 using error_detail::PointSystem;
 using error_detail::vertex_residuals;
 using error_detail::vertex_system;
@@ -157,25 +158,25 @@ class TetVertexError final : public DiscretizationError {
     std::vector<bool> given;
     for (const std::uint8_t on_boundary : boundary_vertices(mesh)) given.push_back(on_boundary != 0);
     const PointSystem points = vertex_system(dec, given);
-    const std::lock_guard lock(mutex_);
-    if (!matrix_.factor(points.n_unknowns(), points.lower())) return std::numeric_limits<double>::infinity();
+    const auto matrix = last_.take();
+    if (!matrix->factor(points.n_unknowns(), points.lower())) return std::numeric_limits<double>::infinity();
     TetAdjoint by = {IdVector<VertexId, Vec3>(mesh.n_vertices()), IdVector<VertexId, double>(mesh.n_vertices()),
                      IdVector<EdgeId, double>(dec.edges.size())};
     double sum = 0;
     for (const SpaceWaves& waves : space_waves(mesh, dec.volume)) {
-      sum += error(mesh, dec, points, waves, gradient != nullptr ? &by : nullptr);
+      sum += error(*matrix, mesh, dec, points, waves, gradient != nullptr ? &by : nullptr);
     }
     if (gradient != nullptr) pull_back(mesh, dec, by, *gradient);
     return sum;
   }
 
  private:
-  double error(const TetMesh& mesh, const VertexScheme& dec, const PointSystem& points, const SpaceWaves& waves,
-               TetAdjoint* by) const {
+  static double error(const Cholesky& matrix, const TetMesh& mesh, const VertexScheme& dec, const PointSystem& points,
+                      const SpaceWaves& waves, TetAdjoint* by) {
     std::vector<Lanes> value(mesh.n_vertices());
     for (const VertexId v : mesh.vertices()) value[v.index] = waves.at(mesh.position(v));
     std::vector<Lanes> errors = vertex_residuals(dec, waves.k2, value);
-    matrix_.solve(points, errors);
+    matrix.solve(points, errors);
     double sum = 0;
     std::vector<Lanes> lambda(errors.size());
     for (const VertexId v : mesh.vertices()) {
@@ -186,7 +187,7 @@ class TetVertexError final : public DiscretizationError {
       }
     }
     if (by == nullptr) return sum;
-    matrix_.solve(points, lambda);
+    matrix.solve(points, lambda);
     for (const VertexId v : mesh.vertices()) {
       const std::size_t p = v.index;
       if (points.is_given(p)) continue;
@@ -208,8 +209,7 @@ class TetVertexError final : public DiscretizationError {
     return sum;
   }
 
-  mutable std::mutex mutex_;
-  mutable Cholesky matrix_;  // keeps the order of elimination
+  mutable Lender<Cholesky> last_;  // which keeps the order of elimination
 };
 
 }  // namespace

@@ -98,14 +98,16 @@ HotSweeps::HotSweeps(TetMesh& mesh, IdVector<VertexId, Mobility> mobility, const
       sweeper_(mesh, mobility_, all_vertices(mesh), executor) {}
 
 bool HotSweeps::sweep(const MustStop& must_stop) {
-  return sweeper_.sweep([this](VertexId v, std::span<const HalffaceId> link) { return improved(v, link); }, must_stop);
+  const auto new_step = [this]() -> Sweeper::Step {
+    return
+        [this, room = Room()](VertexId v, std::span<const HalffaceId> link) mutable { return improved(v, link, room); };
+  };
+  return sweeper_.sweep(new_step, must_stop);
 }
 
-WeightedPoint HotSweeps::improved(VertexId v, std::span<const HalffaceId> halffaces) {
-  thread_local std::vector<LinkLanes> room;
-  thread_local HotStar hot;
-  hot.gather(mesh_, halffaces);
-  const LoweredStar star = {hot, energy_, gather(mesh_, halffaces, room), barrier_};
+WeightedPoint HotSweeps::improved(VertexId v, std::span<const HalffaceId> halffaces, Room& room) {
+  room.hot.gather(mesh_, halffaces);
+  const LoweredStar star = {room.hot, energy_, gather(mesh_, halffaces, room.link), barrier_};
   take_valid_step(mesh_, v, halffaces, star, mobility_[v], rms_distance(mesh_, v, halffaces), relaxation_);
   return mesh_.point(v);
 }

@@ -20,7 +20,12 @@ class HotSweeps {
   bool sweep(const MustStop& must_stop);
 
  private:
-  [[nodiscard]] WeightedPoint improved(VertexId v, std::span<const HalffaceId> link);
+  /// What steps on one thread share.
+  struct Room {
+    std::vector<LinkLanes> link;
+    HotStar hot;
+  };
+  [[nodiscard]] WeightedPoint improved(VertexId v, std::span<const HalffaceId> link, Room& room);
 
   TetMesh& mesh_;
   IdVector<VertexId, Mobility> mobility_;

@@ -107,7 +107,7 @@ class Repairs {
     }
     if (!is_valid(mesh_, filling)) return;
     const Mobility mobility = cavity.split.empty() ? Mobility::free : Mobility::weight;
-    for (int i = 0; i < kStepsOfNewVertex; ++i) p = improved(mesh_, cavity.faces, p, mobility, {kGamma, 1});
+    for (int i = 0; i < kStepsOfNewVertex; ++i) p = improved(mesh_, cavity.faces, p, mobility, {kGamma, 1}, room_);
     const WeightedPoint apex = p;
     judge(std::move(filling), excess(cavity), apex);
   }
@@ -123,6 +123,7 @@ class Repairs {
   double regular_ = regular_energy();
   Cavities cavities_;
   std::vector<Judged> found_;
+  std::vector<LinkLanes> room_;  // of steps of new vertices
 };
 
 }  // namespace

@@ -69,8 +69,7 @@ Link gather(const TetMesh& mesh, std::span<const HalffaceId> halffaces, std::vec
 }
 
 WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> halffaces, const WeightedPoint& origin,
-                       const Mobility& mobility, const SweepParameters& parameters) {
-  thread_local std::vector<LinkLanes> room;
+                       const Mobility& mobility, const SweepParameters& parameters, std::vector<LinkLanes>& room) {
   const Link link = gather(mesh, halffaces, room);
   const auto [p, lower, certain] = kernels().step(link, origin, mobility, parameters);
   return lower && is_exact(p) && (certain || is_positive(mesh, halffaces, p)) ? p : origin;
@@ -111,7 +110,7 @@ void Sweeper::color(const VertexStars& stars, std::span<const VertexId> vertices
   });
 }
 
-bool Sweeper::sweep(const Step& step, const MustStop& must_stop) {
+bool Sweeper::sweep(const std::function<Step()>& new_step, const MustStop& must_stop) {
   std::size_t first = 0;
   for (std::size_t color = 0; color < end_.size(); ++color) {
     for (std::size_t last = first; first < end_[color]; first = last) {
@@ -119,7 +118,7 @@ bool Sweeper::sweep(const Step& step, const MustStop& must_stop) {
       last = std::min(end_[color], first + kVerticesPerLook);
       const std::size_t size = color < kMostColors ? kVerticesPerTask : last - first;
       or_serial(executor_).run(n_tasks(last - first, size), [&](std::size_t i) {
-        improve(first + i * size, std::min(last, first + (i + 1) * size), step);
+        improve(first + i * size, std::min(last, first + (i + 1) * size), new_step());
       });
     }
   }
@@ -127,10 +126,12 @@ bool Sweeper::sweep(const Step& step, const MustStop& must_stop) {
 }
 
 bool Sweeper::sweep(const SweepParameters& parameters, const MustStop& must_stop) {
-  const auto step = [&](VertexId v, std::span<const HalffaceId> link) {
-    return improved(mesh_, link, mesh_.point(v), mobility_[v], parameters);
+  const auto new_step = [&]() -> Step {
+    return [&, room = std::vector<LinkLanes>()](VertexId v, std::span<const HalffaceId> link) mutable {
+      return improved(mesh_, link, mesh_.point(v), mobility_[v], parameters, room);
+    };
   };
-  return sweep(step, must_stop);
+  return sweep(new_step, must_stop);
 }
 
 void Sweeper::improve(std::size_t first, std::size_t last, const Step& step) {

@@ -25,9 +25,10 @@ namespace temper::tets {
 [[nodiscard]] Link gather(const TetMesh& mesh, std::span<const HalffaceId> halffaces, std::vector<LinkLanes>& room);
 
 /// Takes one Newton step of p among the faces of its link: over-relaxed, then plain, then halved, until the energy
-/// falls. Otherwise p stays as it was. All tetrahedra stay positive, exactly.
+/// falls. Otherwise p stays as it was. All tetrahedra stay positive, exactly. The faces are gathered in `room`.
 [[nodiscard]] WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> link, const WeightedPoint& p,
-                                     const Mobility& mobility, const SweepParameters& parameters);
+                                     const Mobility& mobility, const SweepParameters& parameters,
+                                     std::vector<LinkLanes>& room);
 
 /// Says whether to stop after this fraction of a sweep or round.
 using MustStop = std::function<bool(double)>;
@@ -40,8 +41,9 @@ class Sweeper {
 
   /// A better place for a vertex among the faces of its link.
   using Step = std::function<WeightedPoint(VertexId, std::span<const HalffaceId>)>;
-  /// Takes one step of each vertex, on any thread. Returns false if it was stopped.
-  bool sweep(const Step& step, const MustStop& must_stop = {});
+  /// Takes one step of each vertex, on any thread. Steps on one thread follow each other and may share room, which
+  /// `new_step` makes. Returns false if it was stopped.
+  bool sweep(const std::function<Step()>& new_step, const MustStop& must_stop = {});
   /// The same with the steps of improved().
   bool sweep(const SweepParameters& parameters, const MustStop& must_stop = {});
 

@@ -122,12 +122,14 @@ TEST(TetOptimize, EveryStepLowersTheEnergyOfItsStar) {
   TetMesh mesh = test::mesh_of(input_arrays());
   const auto mobility = mobilities(mesh);
   std::vector<HalffaceId> halffaces;
+  std::vector<LinkLanes> room;
   std::size_t steps = 0;
   for (const VertexId v : mesh.vertices()) {
     collect_link(mesh, v, halffaces);
     std::vector<LinkFace<double>> link;
     for (const HalffaceId h : halffaces) link.push_back(link_face(mesh, h));
-    const WeightedPoint before = mesh.point(v), after = improved(mesh, halffaces, before, mobility[v], {0.1, 1.7});
+    const WeightedPoint before = mesh.point(v),
+                        after = improved(mesh, halffaces, before, mobility[v], {0.1, 1.7}, room);
     if (after == before) continue;
     EXPECT_LT(star_energy(link, after, 0.1), star_energy(link, before, 0.1));
     mesh.set_point(v, after);
