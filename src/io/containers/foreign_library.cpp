@@ -14,21 +14,28 @@ bool load_foreign(const std::string& file, const std::function<bool(void*)>& tak
   return handle != nullptr && take(handle);
 }
 
+/// Says whether a file such as libnetcdf-HASH.so.22, libnetcdf.22.dylib or netcdf-HASH.dll is a library with this name.
+bool has_name(std::string_view file, std::string_view name) {
+  if (file.starts_with("lib")) file.remove_prefix(3);
+  return file.starts_with(name) &&
+         (file.substr(name.size()).starts_with('-') || file.substr(name.size()).starts_with('.'));
+}
+
 /// Python packages bring libraries along, for example netcdf4.libs/libnetcdf-HASH.so.22 next to the packages, or
-/// netCDF4/.dylibs/libnetcdf.22.dylib in them. If a package holds this code or the program, the libraries are two or
-/// three folders above.
+/// netCDF4/.dylibs/libnetcdf.22.dylib in them. If a package holds this code or the program, the packages are one to
+/// three folders above. On Windows the program is in Scripts, next to Lib.
 void find_in_python_packages(const ForeignLibrary& library, const std::function<bool(void*)>& take) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   fs::path folder = fs::canonical(path_of(file_of_this_code()), ignored).parent_path();
   for (int level = 0; level < 3 && folder.has_relative_path(); ++level, folder = folder.parent_path()) {
-    for (const char* package : library.packages) {
-      // Not range-for, whose ++ throws.
-      for (fs::directory_iterator entry(folder / package, ignored), end; entry != end; entry.increment(ignored)) {
-        const std::string file = utf8(entry->path().filename());
-        const std::size_t n = library.file_in_package.size();
-        if (!file.starts_with(library.file_in_package) || (file[n] != '-' && file[n] != '.')) continue;
-        if (load_foreign(utf8(entry->path()), take)) return;
+    for (const fs::path& packages : {folder, folder / "Lib" / "site-packages"}) {
+      for (const char* package : library.packages) {
+        // Not range-for, whose ++ throws.
+        for (fs::directory_iterator entry(packages / package, ignored), end; entry != end; entry.increment(ignored)) {
+          if (!has_name(utf8(entry->path().filename()), library.file_in_package)) continue;
+          if (load_foreign(utf8(entry->path()), take)) return;
+        }
       }
     }
   }

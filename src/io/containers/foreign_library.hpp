@@ -18,7 +18,7 @@ struct ForeignLibrary {
   const char* variable;                   ///< of the environment: names the file, and no other is tried then
   std::span<const char* const> files;     ///< as the loader finds them, the newest first
   std::span<const char* const> packages;  ///< folders of the libraries of Python packages that bring it along
-  std::string_view file_in_package;       ///< how its name begins there, before - or .
+  std::string_view file_in_package;       ///< how its name begins there, behind "lib" and before - or .
   std::string_view need;                  ///< "VTKHDF files need libhdf5 1.10 or later"
   std::string_view install;               ///< "apt: libhdf5-103-1, conda: …": the packages that have it
 };

@@ -18,7 +18,7 @@ constexpr std::array kGdalPackages = {"rasterio.libs",    "fiona.libs",    "pyog
 constexpr ForeignLibrary kGdal = {.variable = "TEMPER_GDAL",
                                   .files = kGdalFiles,
                                   .packages = kGdalPackages,
-                                  .file_in_package = "libgdal",
+                                  .file_in_package = "gdal",
                                   .need = "GeoTIFF, shapefiles and GeoPackages need GDAL 3 or later",
                                   .install = "apt: libgdal32, conda: libgdal, pip: rasterio"};
 

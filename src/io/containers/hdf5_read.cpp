@@ -24,11 +24,12 @@ constexpr std::array kHdf5Files = {"libhdf5_serial.so.320", "libhdf5.so.320",   
                                    "libhdf5.so.310",        "libhdf5.so.200",        "libhdf5_serial.so.103",
                                    "libhdf5.so.103",        "libhdf5_serial.so.100", "libhdf5.so"};
 #endif
-constexpr std::array kHdf5Packages = {"h5py.libs", "netcdf4.libs", "netCDF4.libs", "h5py/.dylibs", "netCDF4/.dylibs"};
+constexpr std::array kHdf5Packages = {"h5py.libs",    "netcdf4.libs",    "netCDF4.libs",
+                                      "h5py/.dylibs", "netCDF4/.dylibs", "h5py"};
 constexpr ForeignLibrary kHdf5 = {.variable = "TEMPER_HDF5",
                                   .files = kHdf5Files,
                                   .packages = kHdf5Packages,
-                                  .file_in_package = "libhdf5",
+                                  .file_in_package = "hdf5",
                                   .need = "VTKHDF files need libhdf5 1.10 or later",
                                   .install = "apt: libhdf5-103-1, conda: hdf5, pip: h5py or netCDF4"};
 

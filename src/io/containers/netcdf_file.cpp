@@ -26,7 +26,7 @@ constexpr std::array kNetcdfPackages = {"netcdf4.libs", "netCDF4.libs", "netCDF4
 constexpr ForeignLibrary kNetcdf = {.variable = "TEMPER_NETCDF",
                                     .files = kNetcdfFiles,
                                     .packages = kNetcdfPackages,
-                                    .file_in_package = "libnetcdf",
+                                    .file_in_package = "netcdf",
                                     .need = "NetCDF files need libnetcdf 4.6.2 or later",
                                     .install = "apt: libnetcdf19, conda: libnetcdf, pip: netCDF4"};
 

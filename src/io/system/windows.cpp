@@ -224,7 +224,10 @@ void Temporary::end() {
   _close(lock_);
 }
 
-void* load_library(const std::string& file) { return LoadLibraryW(wide(file).c_str()); }
+void* load_library(const std::string& file) {
+  const std::filesystem::path path = path_of(file).make_preferred();  // '/' would hide what its folder has for it
+  return LoadLibraryExW(path.c_str(), nullptr, path.is_absolute() ? LOAD_WITH_ALTERED_SEARCH_PATH : 0);
+}
 
 void* symbol_of(void* library, const char* name) {
   return reinterpret_cast<void*>(GetProcAddress(static_cast<HMODULE>(library), name));

@@ -40,7 +40,7 @@ class Damage : public FileTest {
     add("ply binary", "b.ply", {"ply", Encoding::appended});
     add("off", "a.off", {"off", {}});
     add("adcirc", "a.14", {"adcirc", {}});
-    if (TEMPER_NETCDF) {
+    if (!netcdf_version().empty()) {
       add("mpas", "a.nc", {"mpas", {}});
       add("ugrid", "b.nc", {"ugrid", {}});
     }

@@ -173,6 +173,7 @@ class FilesOfAMesh : public FileTest {
     return sorted(all);
   }
   static std::vector<std::string> sorted(std::vector<std::string> all) {
+    for (std::string& file : all) std::replace(file.begin(), file.end(), '\\', '/');
     std::sort(all.begin(), all.end());
     return all;
   }
