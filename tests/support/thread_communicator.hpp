@@ -1,9 +1,10 @@
 // Ranks that are threads of one process: the messages of several processes, without them.
 #pragma once
 
-#include <barrier>
+#include <condition_variable>
 #include <cstddef>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -13,13 +14,29 @@
 
 namespace temper::test {
 
+/// A std::barrier. That of libstdc++ 12 leaves threads asleep on Windows.
+class Barrier {
+ public:
+  explicit Barrier(std::size_t n_threads) : n_threads_(n_threads) {}
+  void arrive_and_wait() {
+    std::unique_lock lock(mutex_);
+    if (++n_arrived_ % n_threads_ == 0) return all_.notify_all();
+    all_.wait(lock, [&, end = (n_arrived_ / n_threads_ + 1) * n_threads_] { return n_arrived_ >= end; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable all_;
+  std::size_t n_threads_, n_arrived_ = 0;  // in all rounds together
+};
+
 /// Calls run(communicator) for each of n ranks, at once, and waits for all.
 inline void on_ranks(std::size_t n, const std::function<void(Communicator&)>& run) {
   struct Board {
-    explicit Board(std::size_t n_ranks) : size(n_ranks), all(static_cast<std::ptrdiff_t>(n_ranks)) {}
+    explicit Board(std::size_t n_ranks) : size(n_ranks), all(n_ranks) {}
     std::size_t size;
     std::string message;
-    std::barrier<> all;
+    Barrier all;
   };
   class OneRank final : public Communicator {
    public:
