@@ -5,7 +5,7 @@
 #                                           default: packages/, and all but the container
 #
 # source: temper-X.Y.Z.tar.gz, the commit that is checked out. Every recipe begins with it.
-# wheel:  the source distribution and wheels for Linux, by scripts/wheels.sh.
+# wheel:  the source distribution and wheels for Linux and Windows, by scripts/wheels.sh.
 # debian: packages for the release of Debian or Ubuntu that runs this.
 # npm:    temper-mesh-X.Y.Z.tgz, for browsers and Node. npm brings what it is made with.
 # windows: temper-X.Y.Z-windows-x86_64.zip, by scripts/windows.sh.

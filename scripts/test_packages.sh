@@ -11,16 +11,18 @@
 # debian:  in a new root folder (debootstrap)
 # npm:     in a new folder, in Node
 # windows: unpacked into a new folder, under Wine
+# windows_wheel: each one that Wine can run, by a new Python
 #
 # Needs root, for chroot. TEMPER_CHROOT: a folder for the root folders, default a temporary one; the bare system that
 # debootstrap makes there is used again, a copy for each run.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source_folder=$PWD
-kinds=(sums wheel aarch64 source debian npm windows)
+kinds=(sums wheel aarch64 windows_wheel source debian npm windows)
 if [[ "${1:-}" == --only ]]; then
   kinds=("${2:-}")
-  [[ " sums wheel aarch64 source debian npm windows " == *" ${2:-} "* ]] || { echo "test_packages: --only: expected sums, wheel, aarch64, source, debian, npm or windows, found '${2:-}'" >&2; exit 2; }
+  [[ " sums wheel aarch64 windows_wheel source debian npm windows " == *" ${2:-} "* ]] ||
+    { echo "test_packages: --only: expected sums, wheel, aarch64, windows_wheel, source, debian, npm or windows, found '${2:-}'" >&2; exit 2; }
   shift 2
 fi
 packages=$(realpath "${1:-packages}")
@@ -76,26 +78,11 @@ try_one_wheel() {  # WHEEL INTERPRETER VERSION
   install() { "$scratch/pip/bin/pip" --python "$venv/bin/python" install -q --only-binary :all: "$@"; }
   timed "Python $3: pip install, with NumPy" install "$1"
   row "Python $3: installed, without NumPy" "$(du -sk "$venv"/lib/python3*/site-packages/temper | awk '{print $1 " kB"}')"
-  # A first time, for the byte code.
-  alone "$venv/bin/python" -c 'import temper'
-  row "Python $3: import temper, without Python's start and NumPy" "$(alone "$venv/bin/python" -c '
-import time, numpy
-start = time.perf_counter()
-import temper
-print(f"{time.perf_counter() - start:.3f} s")')"
+  alone "$venv/bin/python" "$source_folder/scripts/try_installed.py" >/dev/null  # a first time, for the byte code
+  timed "Python $3: a mesh, by module and program" alone "$venv/bin/python" "$source_folder/scripts/try_installed.py"
+  row "Python $3: import temper, without Python's start and NumPy" "$(cat "$scratch/log")"
   timed "Python $3: README's first commands" alone sh -e readme.sh
-  timed "Python $3: python -m temper --version" alone "$venv/bin/python" -m temper --version
-  alone "$venv/bin/python" - <<'PYTHON'
-import importlib.resources, pathlib, sys, temper
-mesh = temper.generate.annulus()
-temper.optimize(mesh)
-assert temper.quality(mesh).well_centered_fraction == 1
-assert temper.build_info()["version"] == temper.__version__
-files = importlib.resources.files("temper")
-assert (files / "py.typed").is_file() and (files / "_temper.pyi").is_file() and "Algorithm 1" in temper.optimize.__doc__
-PYTHON
   # Without libnetcdf an error that says what to install; with pip's netCDF4 it works.
-  alone temper example annulus -o ring.vtu
   if ! ldconfig -p | grep -q libnetcdf; then
     must grep -q 'pip: netCDF4' <(alone temper convert ring.vtu -o ring.ugrid.nc 2>&1)
   fi
@@ -120,14 +107,9 @@ try_aarch64() {
   emulated=(qemu-aarch64 -L "$root")
   readme_into "$here"
   size "aarch64: $(basename "$wheel")" "$wheel"
-  timed "aarch64, emulated: import temper" env PYTHONPATH="$site" "${emulated[@]}" "$root/usr/bin/python3.11" -c 'import temper'
-  env PYTHONPATH="$site" "${emulated[@]}" "$root/usr/bin/python3.11" - <<'PYTHON'
-import platform, temper
-assert platform.machine() == "aarch64"
-mesh = temper.generate.annulus()
-temper.optimize(mesh)
-assert temper.quality(mesh).well_centered_fraction == 1
-PYTHON
+  timed "aarch64, emulated: a mesh, by module" env -C "$here" PYTHONPATH="$site" "${emulated[@]}" "$root/usr/bin/python3.11" \
+    "$source_folder/scripts/try_installed.py" --module
+  row "aarch64, emulated: import temper, without NumPy" "$(cat "$scratch/log")"
   timed "aarch64, emulated: README's first commands" env -C "$here" bash -ec "temper() { ${emulated[*]} $site/temper/bin/temper \"\$@\"; }; . ./readme.sh"
 }
 
@@ -240,6 +222,12 @@ JS
   must test -s "$folder/ring.vtu"
 }
 
+start_wine() {
+  scripts/bootstrap.sh windows
+  export WINEPREFIX=$scratch/wine WINEDEBUG=-all WINEDLLOVERRIDES='mscoree,mshtml='
+  [[ -d $WINEPREFIX ]] || timed "Windows: wine wineboot" wine wineboot --init
+}
+
 try_windows() {
   local zip here=$scratch/windows
   zip=$(ls "$packages"/temper-*-windows-x86_64.zip)
@@ -248,10 +236,44 @@ try_windows() {
   unzip -q "$zip" -d "$here"
   printf '#!/bin/sh\nexec wine "%s" "$@"\n' "$(echo "$here"/temper-*/temper.exe)" >"$here/temper"
   chmod +x "$here/temper"
-  export WINEPREFIX=$scratch/wine WINEDEBUG=-all WINEDLLOVERRIDES='mscoree,mshtml='
-  timed "Windows: wine wineboot" wine wineboot --init
+  start_wine
   timed "Windows: README's first commands" env -C "$here" PATH="$here:$PATH" sh -e readme.sh
   must test -s "$here/better.vtu"
+}
+
+try_windows_wheel() {
+  local wheel version found=0
+  start_wine
+  for wheel in "$packages"/temper_mesh-*-win_amd64.whl; do
+    version=$(sed -E 's/.*-cp3([0-9]+)-.*/3.\1/' <<<"$wheel")
+    if [[ $version == 3.1[012] ]]; then
+      found=$((found + 1))
+      try_one_windows_wheel "$wheel" "$version"
+    else
+      row "Windows, Python $version: needs NumPy 2, which Wine 8 cannot run" skipped
+    fi
+  done
+  must test "$found" -gt 0
+}
+
+# By a copy of the Python for Windows. Wine's programs need pipes. Wine does not have what Python 3.12 asks Windows for its
+# version, as pip does, so this machine's pip installs.
+try_one_windows_wheel() {  # WHEEL VERSION
+  local here=$scratch/windows-$2
+  in_wine() { env -C "$here" WINEPATH='python\Scripts' wine "$@" </dev/null 2>&1 | cat; return "${PIPESTATUS[0]}"; }
+  readme_into "$here"
+  size "Windows: $(basename "$1")" "$1"
+  cp -a "$(scripts/windows_python.sh "$2")" "$here/python"
+  timed "Windows, Python $2: pip install, with NumPy and netCDF4" python3 -m pip install -q --no-cache-dir --target "$here/python/lib/site-packages" \
+    --only-binary :all: --platform win_amd64 --python-version "$2" "$1" 'numpy<2' netCDF4==1.6.5
+  mv "$here/python/lib/site-packages/bin" "$here/python/Scripts"
+  cp scripts/try_installed.py "$here"
+  timed "Windows, Python $2: a mesh, by module and program" in_wine 'python\python.exe' try_installed.py
+  row "Windows, Python $2: import temper, without NumPy" "$(tail -n 1 "$scratch/log" | tr -d '\r')"
+  must grep -q 'NetCDF *4' <(in_wine 'python\python.exe' -m temper --version)
+  printf '#!/bin/sh\nexec wine "%s" "$@"\n' "$here/python/Scripts/temper.exe" >"$here/temper"
+  chmod +x "$here/temper"
+  timed "Windows, Python $2: README's first commands" env -C "$here" PATH="$here:$PATH" sh -e readme.sh
 }
 
 for kind in "${kinds[@]}"; do "try_$kind"; done
