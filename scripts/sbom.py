@@ -4,14 +4,16 @@
     scripts/sbom.py FOLDER     in the Python of scripts/release-requirements.txt
 
 Each file of the release is a component with its checksum. Inside it are the parts of others that the file itself names:
-in a wheel, the bills in *.dist-info/sboms (PEP 770), which auditwheel writes, or else what its program was linked with, if it runs on
-this machine; in the zip for Windows, the names of its licenses; in a Debian package, its dependencies; in the npm package, what its
+in a wheel, the bills in *.dist-info/sboms (PEP 770), which auditwheel writes, or else what the programs of all wheels are linked
+with; in the zip for Windows, the names of its licenses; in a Debian package, its dependencies; in the npm package, what its
 package.json lists; and in all of them the libraries of the HTML report, from its NOTICE.
 """
 
+import functools
 import hashlib
 import json
 import pathlib
+import platform
 import re
 import subprocess
 import sys
@@ -42,7 +44,7 @@ def report_libraries():
 
 
 def wheel_libraries(path):
-    return list(listed_libraries(path)) or linked_libraries(path)
+    return list(listed_libraries(path)) or [library(name, found) for name, found in linked_libraries(path.parent)]
 
 
 def listed_libraries(path):
@@ -54,19 +56,18 @@ def listed_libraries(path):
                     yield library(part["name"], part.get("version"), purl.type, purl.namespace)
 
 
-def linked_libraries(wheel):
-    """Names and versions of static libraries, which the program prints."""
-    with tempfile.TemporaryDirectory() as folder:
-        with zipfile.ZipFile(wheel) as files:
-            files.extractall(folder)
-        program = pathlib.Path(folder, "temper/bin/temper")
-        program.chmod(0o755)
-        try:
+@functools.cache
+def linked_libraries(folder):
+    """Names and versions of static libraries, as the program of a wheel prints them. All wheels have the same archives."""
+    for wheel in sorted(folder.glob(f"*_{platform.machine()}.whl")):
+        with tempfile.TemporaryDirectory() as unpacked:
+            with zipfile.ZipFile(wheel) as files:
+                files.extractall(unpacked)
+            program = pathlib.Path(unpacked, "temper/bin/temper")
+            program.chmod(0o755)
             printed = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
-        except (OSError, subprocess.CalledProcessError):  # of another processor or system
-            return
-    for name, found in re.findall(r"^  (oneTBB|zlib|pugixml|Clp|Eigen) +(\d\S*)$", printed, re.MULTILINE):
-        yield library(name, found)
+        return re.findall(r"^  (oneTBB|zlib|pugixml|Clp|Eigen) +(\d\S*)$", printed, re.MULTILINE)
+    return []
 
 
 def zip_libraries(path):

@@ -83,7 +83,7 @@ try_one_wheel() {  # WHEEL INTERPRETER VERSION
   row "Python $3: import temper, without Python's start and NumPy" "$(cat "$scratch/log")"
   timed "Python $3: README's first commands" alone sh -e readme.sh
   # Without libnetcdf an error that says what to install; with pip's netCDF4 it works.
-  if ! ldconfig -p | grep -q libnetcdf; then
+  if ! grep -q libnetcdf <(ldconfig -p); then
     must grep -q 'pip: netCDF4' <(alone temper convert ring.vtu -o ring.ugrid.nc 2>&1)
   fi
   must grep -q 'needs\? libnetcdf' <(TEMPER_NETCDF=/nowhere "$venv/bin/temper" convert ring.vtu -o ring.ugrid.nc 2>&1)
