@@ -2,6 +2,7 @@
 // Run under the address and undefined-behavior sanitizers, this is where a reader that trusts a file shows.
 #include <random>
 
+#include "libraries.hpp"
 #include "support.hpp"
 
 namespace temper::io {
@@ -40,7 +41,7 @@ class Damage : public FileTest {
     add("ply binary", "b.ply", {"ply", Encoding::appended});
     add("off", "a.off", {"off", {}});
     add("adcirc", "a.14", {"adcirc", {}});
-    if (!netcdf_version().empty()) {
+    if (expects_netcdf()) {
       add("mpas", "a.nc", {"mpas", {}});
       add("ugrid", "b.nc", {"ugrid", {}});
     }

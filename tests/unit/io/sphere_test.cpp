@@ -1,4 +1,5 @@
 // Files whose points are on a sphere: in three coordinates, and in degrees.
+#include "libraries.hpp"
 #include "temper/generate.hpp"
 #include "unit/io/support.hpp"
 
@@ -65,9 +66,8 @@ TEST_F(SphereFiles, EveryFormatHasTheirPlacesOrSaysThatItCannot) {
     EXPECT_EQ(made->mesh.space().radius(), back.space().radius());
     for (const std::string& name : files()) std::filesystem::remove(path(name));
   }
-  const bool netcdf = !netcdf_version().empty(), hdf5 = !hdf5_version().empty();
-  EXPECT_GE(in_space, 10 + netcdf + hdf5);
-  EXPECT_EQ(in_degrees, netcdf ? 3 : 2);
+  EXPECT_GE(in_space, 10 + expects_netcdf() + expects_hdf5());
+  EXPECT_EQ(in_degrees, expects_netcdf() ? 3 : 2);
   EXPECT_GE(refused, 2);  // Triangle, 2DM
 }
 
