@@ -30,7 +30,7 @@ wasm=(clang-19 lld-19 llvm-19 wasi-libc libc++-19-dev-wasm32 libc++abi-19-dev-wa
 command -v npm >/dev/null || wasm+=(nodejs npm)
 cross=(googletest python3-venv python3-pip mmdebstrap qemu-user libc6-arm64-cross file)
 browser=(chromium)
-windows=(g++-mingw-w64-x86-64-posix wine wine64 googletest zip unzip)
+windows=(g++-mingw-w64-x86-64-posix wine wine64 googletest zip unzip curl ca-certificates)
 
 wanted=()
 for group in "${@:-all}"; do

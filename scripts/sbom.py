@@ -59,15 +59,16 @@ def listed_libraries(path):
 @functools.cache
 def linked_libraries(folder):
     """Names and versions of static libraries, as the program of a wheel prints them. All wheels have the same archives."""
-    for wheel in sorted(folder.glob(f"*_{platform.machine()}.whl")):
-        with tempfile.TemporaryDirectory() as unpacked:
-            with zipfile.ZipFile(wheel) as files:
-                files.extractall(unpacked)
-            program = pathlib.Path(unpacked, "temper/bin/temper")
-            program.chmod(0o755)
-            printed = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
-        return re.findall(r"^  (oneTBB|zlib|pugixml|Clp|Eigen) +(\d\S*)$", printed, re.MULTILINE)
-    return []
+    wheels = sorted(folder.glob(f"*_{platform.machine()}.whl"))
+    if not wheels:
+        return []
+    with tempfile.TemporaryDirectory() as unpacked:
+        with zipfile.ZipFile(wheels[0]) as files:
+            files.extractall(unpacked)
+        program = pathlib.Path(unpacked, "temper/bin/temper")
+        program.chmod(0o755)
+        printed = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+    return re.findall(r"^  (oneTBB|zlib|pugixml|Clp|Eigen) +(\d\S*)$", printed, re.MULTILINE)
 
 
 def zip_libraries(path):

@@ -39,7 +39,7 @@ if [[ ! -x $tools/bin/auditwheel ]]; then
 fi
 
 make_wheel() {  # VERSION INTERPRETER PLATFORM
-  local environment=$work/env-$1 tag=cp${1/./} raw=$work/raw windows suffix arguments
+  local environment=$work/env-$1 tag=cp${1/./} raw=$work/raw windows suffix arguments stub
   if [[ ! -x $environment/bin/python ]]; then
     "$2" -m venv --without-pip "$environment"
     "$tools/bin/pip" --python "$environment/bin/python" install -q scikit-build-core==0.11.6 pybind11==3.0.1
@@ -55,7 +55,10 @@ make_wheel() {  # VERSION INTERPRETER PLATFORM
                  -DPython_LIBRARY="$windows/libs/python${1/./}.lib") ;;
   esac
   if [[ $3 != "linux_$(uname -m)" ]]; then
-    arguments+=(-DTEMPER_OPTIONS_STUB="$(options_stub)")
+    # A module for another platform cannot run here, so its stub of the options is that of this machine's wheels.
+    stub=$work/linux_$(uname -m)/python/temper/_options.pyi
+    [[ -f $stub ]] || { echo "wheels: first make a wheel for linux_$(uname -m), whose _options.pyi the others take" >&2; exit 1; }
+    arguments+=(-DTEMPER_OPTIONS_STUB="$stub")
   fi
   rm -rf "$raw"
   _PYTHON_HOST_PLATFORM=$3 SETUPTOOLS_EXT_SUFFIX=$suffix \
@@ -68,12 +71,6 @@ make_wheel() {  # VERSION INTERPRETER PLATFORM
   else
     PATH=$tools/bin:$PATH "$tools/bin/auditwheel" repair -w "$output" --plat auto "$raw"/*-"$tag-$tag"-*.whl
   fi
-}
-
-# A module for another platform cannot run here. The stub of its options is that of this machine's wheels.
-options_stub() {
-  find "$work" -path "*/linux_$(uname -m)/python/temper/_options.pyi" | grep . | head -n 1 ||
-    { echo "wheels: first make a wheel for linux_$(uname -m), whose _options.pyi the others take" >&2; exit 1; }
 }
 
 # From the source distribution, as pip would. Its tool looks into all folders, so it gets what git knows alone.
