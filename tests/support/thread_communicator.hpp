@@ -14,7 +14,7 @@
 
 namespace temper::test {
 
-/// A std::barrier. That of libstdc++ 12 leaves threads asleep on Windows.
+/// A std::barrier for all systems: the class of libstdc++ 12 leaves threads asleep on Windows.
 class Barrier {
  public:
   explicit Barrier(std::size_t n_threads) : n_threads_(n_threads) {}

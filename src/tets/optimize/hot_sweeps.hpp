@@ -20,7 +20,7 @@ class HotSweeps {
   bool sweep(const MustStop& must_stop);
 
  private:
-  /// What steps on one thread share.
+  /// The memory that the steps of one task share.
   struct Room {
     std::vector<LinkLanes> link;
     HotStar hot;

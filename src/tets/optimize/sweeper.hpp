@@ -41,8 +41,8 @@ class Sweeper {
 
   /// A better place for a vertex among the faces of its link.
   using Step = std::function<WeightedPoint(VertexId, std::span<const HalffaceId>)>;
-  /// Takes one step of each vertex, on any thread. Steps on one thread follow each other and may share room, which
-  /// `new_step` makes. Returns false if it was stopped.
+  /// Takes one step of each vertex, on any thread. `new_step` makes the step of one task, which runs on one thread. So
+  /// the step may keep memory of its own. Returns false if it was stopped.
   bool sweep(const std::function<Step()>& new_step, const MustStop& must_stop = {});
   /// The same with the steps of improved().
   bool sweep(const SweepParameters& parameters, const MustStop& must_stop = {});
