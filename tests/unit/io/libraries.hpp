@@ -1,5 +1,5 @@
-// Says which libraries of others the tests of files expect: a library that was there when the tests were compiled, or is found.
-// now.
+// Says which libraries of others the tests of files expect: a library that was there when the tests were compiled, or
+// that is found now.
 #pragma once
 
 #include "temper/io.hpp"
