@@ -24,9 +24,9 @@ find_package_handle_standard_args(Clp REQUIRED_VARS Clp_LIBRARY Clp_CoinUtils_LI
 
 if(Clp_FOUND AND NOT TARGET Clp::Clp)
   add_library(Clp::Clp UNKNOWN IMPORTED)
-  # Clp's headers find one another beside themselves.
+  # Clp's headers find one another, and those of CoinUtils, beside themselves. Homebrew has these elsewhere.
   set_target_properties(Clp::Clp PROPERTIES
     IMPORTED_LOCATION "${Clp_LIBRARY}"
-    INTERFACE_INCLUDE_DIRECTORIES "${Clp_INCLUDE_DIR};${Clp_INCLUDE_DIR}/coin"
+    INTERFACE_INCLUDE_DIRECTORIES "${Clp_INCLUDE_DIR};${Clp_INCLUDE_DIR}/coin;${PC_Clp_INCLUDE_DIRS}"
     INTERFACE_LINK_LIBRARIES "${Clp_CoinUtils_LIBRARY}")
 endif()

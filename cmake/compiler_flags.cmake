@@ -17,7 +17,13 @@ function(temper_known_flags variable)
 endfunction()
 
 # Contraction would change the signs of the predicates; see geometry/.
-temper_known_flags(temper_exact -ffp-contract=off)
+if(MSVC AND CMAKE_CXX_COMPILER_ID STREQUAL Clang)
+  temper_known_flags(temper_exact /clang:-ffp-contract=off)
+elseif(MSVC)
+  set(temper_exact /fp:precise)  # since Visual Studio 2022 this contracts nothing
+else()
+  temper_known_flags(temper_exact -ffp-contract=off)
+endif()
 if(NOT temper_exact)
   message(FATAL_ERROR "the compiler has no -ffp-contract=off, without which the predicates of temper are not exact")
 endif()
@@ -28,7 +34,11 @@ elseif(CMAKE_CXX_COMPILER_ID STREQUAL Clang)
   # std::stable_sort of GCC 12's library calls what C++17 deprecates, and clang says so at the call.
   set(temper_silenced -Wno-deprecated-declarations)
 endif()
-temper_known_flags(temper_warnings -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion ${temper_silenced})
+if(MSVC)
+  set(temper_warnings /W3 /utf-8 /bigobj /Zc:__cplusplus /DNOMINMAX)
+else()
+  temper_known_flags(temper_warnings -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion ${temper_silenced})
+endif()
 add_library(temper_flags INTERFACE)
 target_compile_options(temper_flags INTERFACE ${temper_exact} ${temper_warnings} $<$<BOOL:${TEMPER_WERROR}>:-Werror>)
 

@@ -10,6 +10,8 @@
 #   scripts/bootstrap.sh docs     what scripts/docs.sh needs: not a part of everything
 #   scripts/bootstrap.sh wasm     what the preset wasm needs besides build, and web/ to be built: not a part of everything
 #   scripts/bootstrap.sh cross    what scripts/cross.sh and scripts/wheels.sh need besides build: not a part of everything
+#   scripts/bootstrap.sh debian   what Debian packages are made and tried with: not a part of everything
+#   scripts/bootstrap.sh native   what scripts/native.sh needs besides build: not a part of everything
 #   scripts/bootstrap.sh browser  what tests of pages need: not a part of everything
 #   scripts/bootstrap.sh windows  what scripts/windows.sh needs besides build and test: not a part of everything
 set -euo pipefail
@@ -28,7 +30,9 @@ docs=(python3-venv doxygen python3-meshio python3-scipy python3-matplotlib)
 wasm=(clang-19 lld-19 llvm-19 wasi-libc libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32)
 # Whoever has another Node than Debian's has its npm, too.
 command -v npm >/dev/null || wasm+=(nodejs npm)
-cross=(googletest python3-venv python3-pip mmdebstrap qemu-user libc6-arm64-cross file)
+cross=(googletest python3-venv python3-pip mmdebstrap qemu-user libc6-arm64-cross file unzip curl ca-certificates)
+debian=(git file dpkg-dev debootstrap)
+native=(libgtest-dev)
 browser=(chromium)
 windows=(g++-mingw-w64-x86-64-posix wine wine64 googletest zip unzip curl ca-certificates)
 
@@ -43,10 +47,12 @@ for group in "${@:-all}"; do
     docs) wanted+=("${docs[@]}") ;;
     wasm) wanted+=("${wasm[@]}") ;;
     cross) wanted+=("${cross[@]}") ;;
+    debian) wanted+=("${debian[@]}") ;;
+    native) wanted+=("${native[@]}") ;;
     browser) wanted+=("${browser[@]}") ;;
     windows) wanted+=("${windows[@]}") ;;
     all) wanted+=("${build[@]}" "${test[@]}" "${lint[@]}") ;;
-    *) echo "bootstrap: no group '$group'; there are build, test, lint, clients, desktop, docs, wasm, cross, browser, windows and all" >&2; exit 2 ;;
+    *) echo "bootstrap: no group '$group'; there are build, test, lint, clients, desktop, docs, wasm, cross, debian, native, browser, windows and all" >&2; exit 2 ;;
   esac
 done
 

@@ -37,7 +37,7 @@ fuzz() {  # TARGET
 export -f fuzz
 export program folder seconds
 touch "$folder/start"
-printf '%s\0' "${targets[@]}" | xargs -0 -P "$jobs" -n 1 bash -c 'fuzz "$0" || true'
+printf '%s\0' "${targets[@]}" | xargs -0 -P "$jobs" -n 1 bash -c 'fuzz "$0" || echo "fuzz: ended with exit code $?" >>"$folder/logs/$0"'
 
 total=0 finds=0
 printf '| target | executions | a second | coverage | corpus | finds |\n|-|-|-|-|-|-|\n'
@@ -49,8 +49,8 @@ for target in "${targets[@]}"; do
   coverage=$(grep -oE 'cov: [0-9]+' <<<"$last" | grep -oE '[0-9]+')
   corpus=$(find "$folder/corpus/$target" -type f 2>/dev/null | wc -l)
   n=$(find "$folder/finds" -name "$target-*" -newer "$folder/start" | wc -l)
-  # A target that did not even begin is a find, too.
-  if [[ -z "$executions" ]]; then n=$((n + 1)); fi
+  # A target that fails without an input is a find, too.
+  if ((n == 0)) && grep -q '^fuzz: ended' "$log"; then n=1; fi
   printf '| %s | %s | %s | %s | %s | %s |\n' "$target" "${executions:-none}" $((${executions:-0} / (seconds > 0 ? seconds : 1))) "${coverage:-}" "$corpus" "$n"
   total=$((total + ${executions:-0})) finds=$((finds + n))
 done

@@ -26,7 +26,6 @@ done
 
 # Archives and packages carry the time of the commit.
 export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date +%s)}
-scripts/bootstrap.sh build
 mkdir -p "$output" build
 if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
 CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
@@ -41,6 +40,7 @@ package_source() {
 package_wheel() { scripts/wheels.sh --output "$output"; }
 
 package_debian() {
+  scripts/bootstrap.sh build debian
   rm -rf build/debian/package
   scripts/build.sh debian
   (cd build/debian && cpack -B "$PWD/package")
@@ -48,7 +48,7 @@ package_debian() {
 }
 
 package_npm() {
-  scripts/bootstrap.sh wasm
+  scripts/bootstrap.sh build wasm
   scripts/build.sh wasm
   (cd web && npm ci --no-audit --no-fund --loglevel=error && npm run build --workspace npm &&
     npm pack --workspace npm --pack-destination "$output")

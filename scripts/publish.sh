@@ -11,12 +11,15 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 step=${1:-} folder=${2:-}
 [[ "$step" =~ ^(draft|registries|rehearse)$ && -n "$folder" ]] || { echo "usage: scripts/publish.sh draft|registries|rehearse FOLDER" >&2; exit 2; }
 source scripts/tools.sh
+folder=$(realpath -m "$folder")  # npm takes a/b for a repository on GitHub
 tag=v$(scripts/version.py)
+[[ "$step" == rehearse ]] || scripts/version.py --tag "${GITHUB_REF_NAME:?the tag}"
 
 if [[ "$step" == registries ]]; then
   gh release download "$tag" --dir "$folder" --clobber
   for file in "$folder"/*; do
-    [[ "$file" == */SHA256SUMS ]] || gh attestation verify "$file" --repo "${GITHUB_REPOSITORY:?}"
+    [[ "$file" == */SHA256SUMS ]] || gh attestation verify "$file" --repo "${GITHUB_REPOSITORY:?}" \
+      --signer-workflow "$GITHUB_REPOSITORY/.github/workflows/release.yml"
   done
 fi
 (cd "$folder" && sha256sum --check --quiet --strict SHA256SUMS)
@@ -24,6 +27,7 @@ fi
 case "$step" in
   draft)
     notes=$(mktemp)
+    trap 'rm "$notes"' EXIT
     # Of the changes, those of this version: up to the next heading.
     awk -v heading="## ${tag#v}" 'index($0, heading) == 1 {inside = 1; next} /^## / {inside = 0} inside' CHANGELOG.md >"$notes"
     mapfile -t files < <(find "$folder" -maxdepth 1 -type f | sort)
@@ -31,8 +35,9 @@ case "$step" in
     ;;
   registries)
     python=$(tool_python release)
-    "$python" -m twine upload --non-interactive "$folder"/temper_mesh-*
-    npm publish --provenance --access public "$folder"/temper-mesh-*.tgz
+    # A second run, after a failure, uploads what is not there.
+    npm view "temper-mesh@${tag#v}" version 2>/dev/null | grep -q . || npm publish --provenance --access public "$folder"/temper-mesh-*.tgz
+    "$python" -m twine upload --non-interactive --skip-existing "$folder"/temper_mesh-*
     ;;
   rehearse)
     python=$(tool_python release)

@@ -3,22 +3,18 @@
 
     scripts/sbom.py FOLDER     in the Python of scripts/release-requirements.txt
 
-Each file of the release is a component with its checksum. Inside it are the parts of others that the file itself names:
-in a wheel, the bills in *.dist-info/sboms (PEP 770), which auditwheel writes, or else what the programs of all wheels are linked
-with; in the zip for Windows, the names of its licenses; in a Debian package, its dependencies; in the npm package, what its
-package.json lists; and in all of them the libraries of the HTML report, from its NOTICE.
+Each file of the release is a component with its checksum. Inside it are the libraries of others that the file itself names:
+in a wheel, in the zip and in the npm package, the licenses NAME_VERSION.txt; in a Debian package, its dependencies; in the npm
+package, also what its package.json lists; and in all of them the libraries of the HTML report, from its NOTICE.
 """
 
-import functools
 import hashlib
 import json
 import pathlib
-import platform
 import re
 import subprocess
 import sys
 import tarfile
-import tempfile
 import zipfile
 
 from cyclonedx.model import HashAlgorithm, HashType
@@ -43,39 +39,17 @@ def report_libraries():
     return [library(name, found, "npm") for name, found in re.findall(r"^(\S+) (\d[\w.]*) \([^)]*\)$", notice, re.MULTILINE)]
 
 
-def wheel_libraries(path):
-    return list(listed_libraries(path)) or [library(name, found) for name, found in linked_libraries(path.parent)]
-
-
-def listed_libraries(path):
-    with zipfile.ZipFile(path) as wheel:
-        for bill in [name for name in wheel.namelist() if re.search(r"\.dist-info/sboms/.*\.json$", name)]:
-            for part in json.loads(wheel.read(bill))["components"]:
-                if part["name"] != "temper_mesh":
-                    purl = PackageURL.from_string(part["purl"])
-                    yield library(part["name"], part.get("version"), purl.type, purl.namespace)
-
-
-@functools.cache
-def linked_libraries(folder):
-    """Names and versions of static libraries, as the program of a wheel prints them. All wheels have the same archives."""
-    wheels = sorted(folder.glob(f"*_{platform.machine()}.whl"))
-    if not wheels:
-        return []
-    with tempfile.TemporaryDirectory() as unpacked:
-        with zipfile.ZipFile(wheels[0]) as files:
-            files.extractall(unpacked)
-        program = pathlib.Path(unpacked, "temper/bin/temper")
-        program.chmod(0o755)
-        printed = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
-    return re.findall(r"^  (oneTBB|zlib|pugixml|Clp|Eigen) +(\d\S*)$", printed, re.MULTILINE)
+def licensed_libraries(path, names):
+    """licenses/NAME_VERSION.txt, which cmake/cross/libraries.cmake writes for each library that it puts into temper."""
+    found = [library(*match.groups()) for name in names if (match := re.search(r"/licenses/([^/_]+)_([^/]+)\.txt$", name))]
+    if not found:
+        sys.exit(f"sbom: {path.name} has no licenses of the libraries inside it")
+    return found
 
 
 def zip_libraries(path):
     with zipfile.ZipFile(path) as files:
-        for name in files.namelist():
-            if match := re.search(r"/licenses/(?:lib)?([^/]+?)(?:-dev)?\.txt$", name):
-                yield library(match[1], "")
+        return licensed_libraries(path, files.namelist())
 
 
 def debian_libraries(path):
@@ -88,13 +62,14 @@ def debian_libraries(path):
 def npm_libraries(path):
     with tarfile.open(path) as package:
         listed = json.load(package.extractfile("package/package.json"))
+        yield from licensed_libraries(path, package.getnames())
     for name, found in (listed.get("dependencies", {}) | listed.get("devDependencies", {})).items():
         purl = PackageURL.from_string(f"pkg:npm/{name.replace('@', '%40')}@{found}")
         yield library(purl.name, found, "npm", purl.namespace)
 
 
 def libraries(path):
-    found = {".whl": wheel_libraries, ".zip": zip_libraries, ".deb": debian_libraries, ".tgz": npm_libraries}.get(path.suffix, lambda path: [])(path)
+    found = {".whl": zip_libraries, ".zip": zip_libraries, ".deb": debian_libraries, ".tgz": npm_libraries}.get(path.suffix, lambda path: [])(path)
     return {str(part.purl): part for part in [*found, *report_libraries()]}.values()
 
 

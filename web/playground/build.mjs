@@ -25,7 +25,7 @@ const made = await build({
 for (const file of ['index.html', 'style.css']) copyFileSync(join(here, file), join(dist, file));
 const wasm = createRequire(import.meta.url).resolve('temper-mesh/temper.wasm');
 copyFileSync(wasm, join(dist, 'temper.wasm'));
-cpSync(join(dirname(wasm), 'highs'), join(dist, 'highs'), { recursive: true }); // with its licence
+for (const folder of ['highs', 'licenses']) cpSync(join(dirname(wasm), folder), join(dist, folder), { recursive: true });
 
 writeFileSync(join(dist, 'NOTICE'), await notices(Object.keys(made.metafile.inputs)));
 

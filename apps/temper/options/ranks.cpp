@@ -27,11 +27,11 @@ int launched() {
 
 bool have_agreed = false;
 
-/// The failure of the first rank that has one. `mine` is the failure of this rank, or empty. Collective.
-std::optional<Failure> first_failure(const std::string& mine, Exit exit) {
+/// The failure of the first of `ranks` that has one. `mine` is the failure of this rank, or empty. Collective.
+std::optional<Failure> first_failure(Communicator& ranks, const std::string& mine, Exit exit) {
   have_agreed = true;
   const std::string message = mine.empty() ? std::string() : fmt::format("{}{}", static_cast<int>(exit), mine);
-  const std::vector<std::string> all = communicator()->all_gather(message);
+  const std::vector<std::string> all = ranks.all_gather(message);
   const auto failed = std::find_if(all.begin(), all.end(), [](const std::string& each) { return !each.empty(); });
   if (failed == all.end()) return std::nullopt;
   const bool all_alike = std::count(all.begin(), all.end(), *failed) == std::ssize(all);
@@ -67,7 +67,7 @@ void join_ranks() {
 void leave_ranks() {
   // A rank that has only shown its help must not leave the others waiting.
   if (communicator() != nullptr && !have_agreed) {
-    static_cast<void>(first_failure("optimize: has only shown its help", Exit::bad_usage));
+    static_cast<void>(first_failure(*communicator(), "optimize: has only shown its help", Exit::bad_usage));
   }
   world.reset();
 }
@@ -122,14 +122,14 @@ void on_first_rank(const std::function<void()>& work) {
 
 void agree_to_go_on() {
   if (communicator() == nullptr) return;
-  if (const auto failure = first_failure({}, Exit::done)) throw Failure(*failure);
+  if (const auto failure = first_failure(*communicator(), {}, Exit::done)) throw Failure(*failure);
 }
 
 std::optional<Failure> agreed(const Failure& failure) {
   if (communicator() == nullptr) return failure;
   // After that, failures are equal on all ranks, or concern an output of the first one.
   std::optional<Failure> shown = failure;
-  if (!have_agreed) shown = first_failure(failure.what(), failure.exit);
+  if (!have_agreed) shown = first_failure(*communicator(), failure.what(), failure.exit);
   return is_first_rank() ? shown : std::nullopt;
 }
 

@@ -84,7 +84,8 @@ std::string violations_text(const WeightsRecord& r) {
   std::vector<std::string> lines;
   double total = 0;
   for (const Violation& v : r.report.violations) {
-    lines.push_back(fmt::format("{:.4g} instead of {:.4g}: {}", v.value, r.report.asked, r.text(v.constraint)));
+    lines.push_back(
+        fmt::format("{:.4g}, {:.2g} below {:.4g}: {}", v.value, v.shortfall, r.report.asked, r.text(v.constraint)));
     total += v.shortfall;
   }
   return fmt::format("{} of the {} violate their bound, by {:.6g} in all:\n", lines.size(),

@@ -15,21 +15,21 @@ namespace {
 // With a single inner edge, a line on it may as well be a feature.
 constexpr std::size_t kFewestEdges = 2;
 
-using EdgeEnds = std::array<std::int32_t, 2>;  // the lesser first
+using SortedEnds = std::array<std::int32_t, 2>;  // the lesser first
 
-EdgeEnds edge_ends(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
+SortedEnds sorted_ends(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
-void sort_unique(std::vector<EdgeEnds>& all) {
+void sort_unique(std::vector<SortedEnds>& all) {
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
 }
 
-std::vector<EdgeEnds> inner_edges(const Mesh& mesh) {
-  std::vector<EdgeEnds> all;
+std::vector<SortedEnds> inner_edges(const Mesh& mesh) {
+  std::vector<SortedEnds> all;
   for (const HalfedgeId h : mesh.halfedges()) {
     if (mesh.is_boundary(h) || !mesh.is_edge_representative(h)) continue;
     all.push_back(
-        edge_ends(static_cast<std::int32_t>(mesh.origin(h).index), static_cast<std::int32_t>(mesh.target(h).index)));
+        sorted_ends(static_cast<std::int32_t>(mesh.origin(h).index), static_cast<std::int32_t>(mesh.target(h).index)));
   }
   std::sort(all.begin(), all.end());
   return all;
@@ -94,19 +94,19 @@ std::optional<EdgeLines> find_edge_lines(const MeshFile& file, const VertexOfPoi
 }
 
 void replace_edge_lines(MeshFile& file, const std::vector<bool>& edge_lines, const Mesh& mesh) {
-  std::vector<EdgeEnds> listed;
+  std::vector<SortedEnds> listed;
   for (std::size_t i = 0; i < edge_lines.size(); ++i) {
-    if (edge_lines[i]) listed.push_back(edge_ends(file.lines[i][0], file.lines[i][1]));
+    if (edge_lines[i]) listed.push_back(sorted_ends(file.lines[i][0], file.lines[i][1]));
   }
   sort_unique(listed);
-  const std::vector<EdgeEnds> edges = inner_edges(mesh);
-  std::vector<EdgeEnds> gone, made;
+  const std::vector<SortedEnds> edges = inner_edges(mesh);
+  std::vector<SortedEnds> gone, made;
   std::set_difference(listed.begin(), listed.end(), edges.begin(), edges.end(), std::back_inserter(gone));
   std::set_difference(edges.begin(), edges.end(), listed.begin(), listed.end(), std::back_inserter(made));
   if (gone.empty() || gone.size() != made.size()) return;  // lines of another mesh are not replaced
   for (std::size_t i = 0; i < edge_lines.size(); ++i) {
     if (!edge_lines[i]) continue;
-    const EdgeEnds ends = edge_ends(file.lines[i][0], file.lines[i][1]);
+    const SortedEnds ends = sorted_ends(file.lines[i][0], file.lines[i][1]);
     const auto found = std::lower_bound(gone.begin(), gone.end(), ends);
     if (found == gone.end() || *found != ends) continue;
     // Flips keep the number of edges, so there is one for each.
@@ -136,7 +136,7 @@ EdgeLinesTakenOut::EdgeLinesTakenOut(MeshFile& file, const std::vector<bool>& ed
 }
 
 void EdgeLinesTakenOut::put_back(MeshFile& file, const Mesh& mesh) const {
-  const std::vector<EdgeEnds> edges = inner_edges(mesh);
+  const std::vector<SortedEnds> edges = inner_edges(mesh);
   file.lines.insert(file.lines.end(), edges.begin(), edges.end());
   file.line_tags.insert(file.line_tags.end(), edges.size(), tag_);
   for (std::size_t k = 0; k < rows_.size(); ++k) {

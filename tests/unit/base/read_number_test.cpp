@@ -10,6 +10,8 @@
 #include "base/rng.hpp"
 #include "base/text.hpp"
 
+#ifdef __cpp_lib_to_chars  // else there is no second way
+
 namespace temper {
 namespace {
 
@@ -96,3 +98,5 @@ TEST(ReadNumber, ReadsIntegersToo) {
 
 }  // namespace
 }  // namespace temper
+
+#endif

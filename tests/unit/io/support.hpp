@@ -2,7 +2,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -50,9 +50,8 @@ class FileTest : public ::testing::Test {
     for (char& c : name) {
       if (c == '/') c = '_';
     }
-    folder_ = std::filesystem::temp_directory_path() /
-              ("temper_io." + name + "." + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "." +
-               std::to_string(::getpid()));
+    folder_ =
+        std::filesystem::temp_directory_path() / ("temper_io." + name + "." + std::to_string(std::random_device{}()));
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }

@@ -1,6 +1,5 @@
 // Outline files: what each format says, what is wrong with bad ones, and the public outlines from file to mesh.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -8,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,7 +25,7 @@ class OutlineFiles : public ::testing::Test {
   OutlineFiles() {
     folder_ = std::filesystem::temp_directory_path() /
               ("temper_outline_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) +
-               std::to_string(::getpid()));
+               std::to_string(std::random_device{}()));
     std::filesystem::create_directories(folder_);
   }
   ~OutlineFiles() override { std::filesystem::remove_all(folder_); }
