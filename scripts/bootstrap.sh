@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
-# Installs what building and testing need on Debian 12 or Ubuntu 24.04; only what is missing, quietly.
+# Installs what building and testing need on Debian 12 or Ubuntu 24.04; only what is missing, quietly. Several groups may be named.
 #
-#   scripts/bootstrap.sh          everything
+#   scripts/bootstrap.sh          the groups build, test and lint
 #   scripts/bootstrap.sh build    what the library and the program need
-#   scripts/bootstrap.sh test     what the tests need besides
-#   scripts/bootstrap.sh lint     what scripts/lint.sh needs besides; scripts/test.sh runs that
-#   scripts/bootstrap.sh clients  what scripts/clients.sh needs: not a part of everything
-#   scripts/bootstrap.sh desktop  QGIS and ParaView, for scripts/clients.sh: not a part of everything
-#   scripts/bootstrap.sh docs     what scripts/docs.sh needs: not a part of everything
-#   scripts/bootstrap.sh wasm     what the preset wasm needs besides build, and web/ to be built: not a part of everything
-#   scripts/bootstrap.sh cross    what scripts/cross.sh and scripts/wheels.sh need besides build: not a part of everything
-#   scripts/bootstrap.sh debian   what Debian packages are made and tried with: not a part of everything
-#   scripts/bootstrap.sh native   what scripts/native.sh needs besides build: not a part of everything
-#   scripts/bootstrap.sh browser  what tests of pages need: not a part of everything
-#   scripts/bootstrap.sh windows  what scripts/windows.sh needs besides build and test: not a part of everything
+#   scripts/bootstrap.sh test     what the tests need in addition
+#   scripts/bootstrap.sh lint     what scripts/lint.sh needs in addition; scripts/test.sh runs that
+#   scripts/bootstrap.sh clients  what scripts/clients.sh needs
+#   scripts/bootstrap.sh desktop  QGIS and ParaView, for scripts/clients.sh
+#   scripts/bootstrap.sh docs     what scripts/docs.sh needs
+#   scripts/bootstrap.sh wasm     what the preset wasm needs besides build, and what builds web/
+#   scripts/bootstrap.sh cross    what scripts/cross.sh and scripts/wheels.sh need besides build
+#   scripts/bootstrap.sh debian   what Debian packages are made and tried with
+#   scripts/bootstrap.sh native   what scripts/native.sh needs besides build
+#   scripts/bootstrap.sh browser  what tests of pages need
+#   scripts/bootstrap.sh windows  what scripts/windows.sh needs besides build and test
 set -euo pipefail
 
 build=(g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev libnetcdf-dev
@@ -28,7 +28,7 @@ clients=(python3-venv liblapack3 libblas3 libglu1-mesa libgl1 libegl1 libxcursor
 desktop=(qgis python3-qgis paraview python3-paraview xvfb xauth libgl1-mesa-dri)
 docs=(python3-venv doxygen python3-meshio python3-scipy python3-matplotlib)
 wasm=(clang-19 lld-19 llvm-19 wasi-libc libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32)
-# Whoever has another Node than Debian's has its npm, too.
+# A Node that does not come from Debian has its own npm.
 command -v npm >/dev/null || wasm+=(nodejs npm)
 cross=(googletest python3-venv python3-pip mmdebstrap qemu-user libc6-arm64-cross file unzip curl ca-certificates)
 debian=(git file dpkg-dev debootstrap)

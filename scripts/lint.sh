@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checks files that no compiler reads: workflows, scripts, recipes, the container file, the citation and the version.
 #
-#   scripts/lint.sh             exit code 77 if a tool could not be had; all others have run
+#   scripts/lint.sh             exit code 77 if a tool could not be installed; all others have run
 #
 # Tools come from Debian, PyPI and the Go module proxy, in pinned versions, into build/tools. TEMPER_WINGET_SCHEMAS: see
 # scripts/check_recipes.py.

@@ -4,10 +4,10 @@
 #   scripts/package.sh [--output DIR] [source] [wheel] [debian] [npm] [windows] [container]
 #                                           default: packages/, and all but the container
 #
-# source: temper-X.Y.Z.tar.gz, the commit that is checked out. Every recipe begins with it.
+# source: temper-X.Y.Z.tar.gz, the commit that is checked out. All recipes build from it.
 # wheel:  the source distribution and wheels for Linux and Windows, by scripts/wheels.sh.
 # debian: packages for the release of Debian or Ubuntu that runs this.
-# npm:    temper-mesh-X.Y.Z.tgz, for browsers and Node. npm brings what it is made with.
+# npm:    temper-mesh-X.Y.Z.tgz, for browsers and Node. npm installs what builds it.
 # windows: temper-X.Y.Z-windows-x86_64.zip, by scripts/windows.sh.
 # container: temper-X.Y.Z-container.tar.gz, for `podman load`, by podman or docker.
 set -euo pipefail

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Publishes a release whose files are in FOLDER. Workflows call it; each step first compares FOLDER/SHA256SUMS.
+# Publishes a release whose files are in FOLDER. Workflows call it; each step first verifies FOLDER/SHA256SUMS.
 #
 #   scripts/publish.sh draft FOLDER         drafts the release of tag vX.Y.Z on GitHub (needs gh and GH_TOKEN)
 #   scripts/publish.sh registries FOLDER    downloads the published files and their provenance into FOLDER, verifies them, and

@@ -2,11 +2,11 @@
 # Fills the recipes of packaging/ for conda-forge, Spack, vcpkg, Homebrew and winget: the version, where the files of the
 # release are, and their checksums.
 #
-#   scripts/recipes.sh RELEASE [OUTPUT]     RELEASE: a folder with what scripts/package.sh and scripts/windows.sh made;
+#   scripts/recipes.sh RELEASE [OUTPUT]     RELEASE: a folder with what scripts/package.sh made;
 #                                           default OUTPUT: RELEASE/recipes
 #
-# TEMPER_URL: where the files of RELEASE are, default the release's page on GitHub. file://RELEASE makes recipes that build on
-# this machine. The recipe of winget is left out if RELEASE has no zip for Windows.
+# TEMPER_URL: where the files of RELEASE are, default the release's page on GitHub. file://RELEASE names the local files, for a
+# test. The recipe of winget is left out if RELEASE has no zip for Windows.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -34,7 +34,7 @@ fi
 fill() {  # TEMPLATE FILE
   local name text
   text=$(<"$1")
-  for name in "${!values[@]}"; do text=${text//@$name@/${values[$name]}}; done
+  for name in "${!values[@]}"; do text=${text//@$name@/"${values[$name]}"}; done
   mkdir -p "$(dirname "$2")"
   printf '%s\n' "$text" >"$2"
 }

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Runs on ten meshes with twelve sets of options end with the bytes of tests/golden/bytes.txt, whatever compiles the
-# library and whatever it runs on. One line a compiler; fails when a hash differs.
+# For each compiler, compares the results of ten meshes times twelve sets of options with the hashes of tests/golden/bytes.txt.
+# Prints one line per compiler; fails if a hash differs.
 #
 #   scripts/same_bytes.sh             all that this machine has
-#   scripts/same_bytes.sh --write     makes the table anew, after a change that is meant to move bytes
+#   scripts/same_bytes.sh --write     writes the table again, after a change that is meant to move bytes
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 table=tests/golden/bytes.txt

@@ -3,7 +3,7 @@
 # line says how many checks and tests passed and failed, in all builds together.
 #
 #   scripts/test.sh                 all stages
-#   scripts/test.sh --quick         without the sanitizers, and so only with those tests that need an optimized library
+#   scripts/test.sh --quick         without sanitizers: of the tests, only those that need an optimized library
 #   scripts/test.sh --sanitizers    only what --quick leaves out
 #   scripts/test.sh --clang         only: clang++ reads each source alone and builds everything, and bytes are compared
 #

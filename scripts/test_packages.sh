@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
-# Installs what scripts/package.sh or scripts/release.sh has made where nothing else is, and uses it. Ends with a table of sizes
-# and seconds.
+# Installs each package that scripts/package.sh or scripts/release.sh has made in a clean environment, and tries it. Prints a table
+# of sizes and seconds.
 #
 #   scripts/test_packages.sh [--only KIND] [DIR]      default: all kinds, packages/
 #
-# sums:    SHA256SUMS has each file; the bill of materials names each; recipes have the checksums; twine and npm would take theirs
+# sums:    SHA256SUMS has each file; the bill of materials names each; recipes have the checksums; twine and npm accept their files
 # wheel:   each one for x86-64, in a new virtual environment without a compiler
 # aarch64: the wheel of Python 3.11 for aarch64, under qemu-user
 # source:  the archive, built with shared libraries into a prefix of its own, used by pkg-config and CMake, uninstalled
 # debian:  in a new root folder (debootstrap)
 # npm:     in a new folder, in Node
 # windows: unpacked into a new folder, under Wine
-# windows_wheel: each one that Wine can run, by a new Python
+# windows_wheel: those for Python 3.10 to 3.12, which Wine can run
 #
 # Needs root, for chroot. TEMPER_CHROOT: a folder for the root folders, default a temporary one; the bare system that
 # debootstrap makes there is used again, a copy for each run.

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# temper for Windows: compiles the program, the libraries and their tests with MinGW-w64, and runs under Wine what users do.
+# temper for Windows: compiles the program, the libraries and their tests with MinGW-w64, and runs them under Wine.
 # Installs what it needs. The last line says how many checks passed, failed and were skipped.
 #
 #   scripts/windows.sh            all
-#   scripts/windows.sh zip        the zip for users alone: build/windows/temper-VERSION-windows-x86_64.zip
+#   scripts/windows.sh zip        only the zip for users: build/windows/temper-VERSION-windows-x86_64.zip
 #   scripts/windows.sh programs   checks of the program, without unit tests
 #
 # TEMPER_PROGRAM: a program for this machine, whose files must have the same bytes. Default: that of build/release or build/dev.
