@@ -200,8 +200,9 @@ struct GradingPlan {
 /// names stay valid when slots change.
 [[nodiscard]] std::vector<std::array<VertexId, 3>> triangles_without_free_corner(const Mesh& mesh);
 
-/// Plans to insert a vertex at the orthocenter of a triangle, with the interpolated weight. The status is `outside`
-/// also if the triangle no longer exists, or would not be replaced because its orthocenter is behind a line.
+/// Plans to insert a vertex at the orthocenter of a triangle, with the interpolated weight. If that would be beside a
+/// line, as for a right angle opposite the boundary, it takes the centroid. The status is `outside` also if the
+/// triangle no longer exists, or would not be replaced because its orthocenter is behind a line.
 [[nodiscard]] InsertionPlan plan_center(const Mesh& mesh, const std::array<VertexId, 3>& corners,
                                         InsertionPlan storage = {});
 

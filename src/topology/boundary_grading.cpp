@@ -252,16 +252,36 @@ std::vector<std::array<VertexId, 3>> triangles_without_free_corner(const Mesh& m
   return triangles;
 }
 
+namespace {
+
+/// Says whether a vertex at p, in t, would make a triangle at the boundary or at a line so flat that sweeps hardly move
+/// p.
+bool is_beside_line(const Mesh& mesh, TriangleId t, Vec2 p) {
+  constexpr double kFlat = 1e-3;  // height over length
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeId h = Mesh::halfedge(t, k);
+    const Vec2 a = mesh.position(mesh.origin(h)), along = mesh.position(mesh.target(h)) - a;
+    if (mesh.is_unflippable(h) && cross(along, p - a) < kFlat * squared_length(along)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 InsertionPlan plan_center(const Mesh& mesh, const std::array<VertexId, 3>& corners, InsertionPlan storage) {
   storage.status = InsertionStatus::outside;
   const HalfedgeId h = mesh.find_halfedge(corners[0], corners[1]);
   if (!h.valid() || mesh.opposite(h) != corners[2]) return storage;
   const TriangleId t = Mesh::triangle(h);
-  const Vec2 p = orthocenter(mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2]));
-  const Location location = locate(mesh, p, t);
-  if (!location.triangle.valid()) return storage;
-  const double weight = interpolated_weight(mesh, location.triangle, p);
-  InsertionPlan plan = plan_insertion(mesh, {p.x, p.y, weight}, location.triangle, std::move(storage));
+  Vec2 p = orthocenter(mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2]));
+  TriangleId around = locate(mesh, p, t).triangle;
+  if (!around.valid()) return storage;
+  if (is_beside_line(mesh, around, p)) {
+    p = (1.0 / 3) * (mesh.position(corners[0]) + mesh.position(corners[1]) + mesh.position(corners[2]));
+    around = t;
+  }
+  const double weight = interpolated_weight(mesh, around, p);
+  InsertionPlan plan = plan_insertion(mesh, {p.x, p.y, weight}, around, std::move(storage));
   const bool replaces = std::find(plan.cavity.begin(), plan.cavity.end(), t) != plan.cavity.end();
   if (plan.status == InsertionStatus::possible && !replaces) plan.status = InsertionStatus::outside;
   return plan;

@@ -96,6 +96,11 @@ TEST(Mesher, FewPointsAreEnoughForEveryOutline) {
   }
 }
 
+TEST(Mesher, FewPointsOfAChannelWithARightAngleOppositeItsBoundaryLeaveNothingBad) {
+  const Outline channel = loop({{0, 0}, {9, 0}, {9, 1}, {1, 1}, {1, 8}, {9, 7}, {9, 8}, {0, 9}});
+  EXPECT_EQ(count_bad(mesh_of(channel, few_points(50)).mesh), 0u);
+}
+
 TEST(Mesher, FewPointsAreRefusedWithoutOptimization) {
   MesherOptions options = few_points(10);
   options.optimize.reset();

@@ -121,5 +121,21 @@ TEST(GradeBoundary, FreesTrianglesOfTheBoundaryAndKeepsOldVerticesAndRegularity)
   EXPECT_EQ(freed, 20u);
 }
 
+// The orthocenter is then in the middle of the boundary edge, up to rounding, which may put it inside.
+TEST(GradeBoundary, InsertsNoNeedleIntoATriangleWithARightAngleOppositeTheBoundary) {
+  Rng rng(7);
+  int inside = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Vec2 right = {rng.uniform(-9, 9), rng.uniform(-9, 9)}, along = {rng.uniform(-1, 1), rng.uniform(-1, 1)};
+    const Mesh mesh = test::mesh_of({right, right + along, right + 0.8 * Vec2{-along.y, along.x}}, {{0, 1, 2}});
+    const InsertionPlan plan = plan_center(mesh, {VertexId(0), VertexId(1), VertexId(2)});
+    if (plan.status != InsertionStatus::possible) continue;
+    ++inside;
+    const Vec2 a = mesh.position(VertexId(1)), side = mesh.position(VertexId(2)) - a;
+    EXPECT_GT(cross(side, plan.point.position() - a), 0.1 * squared_length(side)) << i;
+  }
+  EXPECT_GT(inside, 20);
+}
+
 }  // namespace
 }  // namespace temper
