@@ -57,13 +57,13 @@ function(debian_package component package section summary text)
 endfunction()
 
 set(about "temper moves the vertices of a triangle mesh in the plane, changes their\nweights and flips edges until every orthocenter is inside its triangle and\nevery dual edge crosses its edge.\n")
-debian_package(program temper science "primal-dual triangle meshes that solvers can trust"
+debian_package(program temper science "primal-dual triangle and tetrahedral meshes that solvers can trust"
                "${about}.\nThis package has the program.")
-debian_package(libraries ${libraries_package} libs "primal-dual triangle meshes: shared libraries"
+debian_package(libraries ${libraries_package} libs "primal-dual meshes: shared libraries"
                "${about}.\nThis package has the shared libraries.")
-debian_package(development libtemper-dev libdevel "primal-dual triangle meshes: headers"
+debian_package(development libtemper-dev libdevel "primal-dual meshes: headers"
                "${about}.\nThis package has what programs in C++ are compiled with.")
-debian_package(python python3-temper python "primal-dual triangle meshes: Python module"
+debian_package(python python3-temper python "primal-dual meshes: Python module"
                "${about}.\nThis package has the module for Python 3.")
 
 set(Python_EXECUTABLE ${TEMPER_PYTHON})

@@ -1,4 +1,4 @@
-"""temper: primal-dual triangle meshes that solvers can trust.
+"""temper: primal-dual triangle and tetrahedral meshes that solvers can trust.
 
 A weighted triangulation and its power diagram are optimized until every triangle is well-centered: its orthocenter is
 inside, and its dual crosses every edge. Arrays are NumPy arrays, without copies if the memory allows. Every function
