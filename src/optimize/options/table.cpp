@@ -351,7 +351,7 @@ constexpr OptionRow kSizeRows[] = {
         "removal "
         "makes the size at a vertex larger than B times the size field. The input's vertices on boundary and lines "
         "stay",
-        {.range = at_least(1), .common = true, .absent_name = "none", .absent = "no coarsening", .needs = {kBarrier}}),
+        {.range = at_least(1), .common = true, .absent_name = "none", .absent = "no coarsening"}),
     row<&Options::coarsen_moves>(
         "coarsen_moves",
         "Largest number of random moves of coarsening, 0.1 to 10 ms each. They follow the removal of single vertices",
