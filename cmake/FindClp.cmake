@@ -24,7 +24,8 @@ find_package_handle_standard_args(Clp REQUIRED_VARS Clp_LIBRARY Clp_CoinUtils_LI
 
 if(Clp_FOUND AND NOT TARGET Clp::Clp)
   add_library(Clp::Clp UNKNOWN IMPORTED)
-  # Clp's headers find one another, and those of CoinUtils, beside themselves. Homebrew has these elsewhere.
+  # Clp's headers find one another, and those of CoinUtils, beside themselves. Homebrew has the latter in
+  # another folder, which pkg-config names.
   set_target_properties(Clp::Clp PROPERTIES
     IMPORTED_LOCATION "${Clp_LIBRARY}"
     INTERFACE_INCLUDE_DIRECTORIES "${Clp_INCLUDE_DIR};${Clp_INCLUDE_DIR}/coin;${PC_Clp_INCLUDE_DIRS}"

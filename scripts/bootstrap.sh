@@ -10,7 +10,7 @@
 #   scripts/bootstrap.sh docs     what scripts/docs.sh needs
 #   scripts/bootstrap.sh wasm     what the preset wasm needs besides build, and what builds web/
 #   scripts/bootstrap.sh cross    what scripts/cross.sh and scripts/wheels.sh need besides build
-#   scripts/bootstrap.sh debian   what Debian packages are made and tried with
+#   scripts/bootstrap.sh debian   what builds and tests Debian packages
 #   scripts/bootstrap.sh native   what scripts/native.sh needs besides build
 #   scripts/bootstrap.sh browser  what tests of pages need
 #   scripts/bootstrap.sh windows  what scripts/windows.sh needs besides build and test

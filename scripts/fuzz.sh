@@ -30,9 +30,9 @@ if ((${#targets[@]} == 0)); then mapfile -t targets < <("$program" --list); fi
 fuzz() {  # TARGET
   export TEMPER_FUZZ_TARGET=$1 UBSAN_OPTIONS=print_stacktrace=1
   mkdir -p "$folder/corpus/$1"
-  "$program" --seeds "$folder/corpus/$1" || return
+  "$program" --seeds "$folder/corpus/$1" >"$folder/logs/$1" 2>&1 || return
   "$program" "$folder/corpus/$1" -max_total_time="$seconds" -max_len=20000 -timeout=20 -rss_limit_mb=4096 -print_final_stats=1 \
-    -artifact_prefix="$folder/finds/$1-" >"$folder/logs/$1" 2>&1
+    -artifact_prefix="$folder/finds/$1-" >>"$folder/logs/$1" 2>&1
 }
 export -f fuzz
 export program folder seconds

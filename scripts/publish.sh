@@ -29,14 +29,21 @@ case "$step" in
     notes=$(mktemp)
     trap 'rm "$notes"' EXIT
     # Of the changes, those of this version: up to the next heading.
-    awk -v heading="## ${tag#v}" 'index($0, heading) == 1 {inside = 1; next} /^## / {inside = 0} inside' CHANGELOG.md >"$notes"
+    awk -v heading="## ${tag#v}," 'index($0, heading) == 1 {inside = 1; next} /^## / {inside = 0} inside' CHANGELOG.md >"$notes"
     mapfile -t files < <(find "$folder" -maxdepth 1 -type f | sort)
     gh release create "$tag" --verify-tag --draft --title "temper ${tag#v}" --notes-file "$notes" "${files[@]}"
     ;;
   registries)
     python=$(tool_python release)
     # A second run, after a failure, uploads what is not there.
-    npm view "temper-mesh@${tag#v}" version 2>/dev/null | grep -q . || npm publish --provenance --access public "$folder"/temper-mesh-*.tgz
+    package=$(ls "$folder"/temper-mesh-*.tgz)
+    published=$(npm view "temper-mesh@${tag#v}" dist.shasum 2>/dev/null || true)
+    if [[ -z "$published" ]]; then
+      npm publish --provenance --access public "$package"
+    elif [[ "$published" != "$(sha1sum "$package" | cut -d ' ' -f 1)" ]]; then
+      echo "publish: npm has another temper-mesh ${tag#v}, with checksum $published" >&2
+      exit 1
+    fi
     "$python" -m twine upload --non-interactive --skip-existing "$folder"/temper_mesh-*
     ;;
   rehearse)

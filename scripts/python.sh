@@ -41,6 +41,6 @@ if [[ ! -e $folder ]]; then
   sha256sum --check --quiet <<<"$checksum  $scratch/python.jar"
   unzip -q "$scratch/python.jar" "$inside/*" -d "$scratch"
   if [[ $system == linux ]]; then chmod +x "$scratch/$inside"/bin/*; fi
-  mv "$scratch/$inside" "$folder"
+  mv -T "$scratch/$inside" "$folder"
 fi
 echo "$folder"

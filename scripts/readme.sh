@@ -4,4 +4,4 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 awk -v n="$1" '/^## Try it/ {on = 1} on && /^```/ {inside = !inside; if (inside) ++block; next} on && inside && block == n {print; ++lines}
-               END {exit lines < 3}' README.md || { echo "readme: block $1 of \"Try it\" in README.md has not even three lines" >&2; exit 1; }
+               END {exit lines < 3}' README.md || { echo "readme: block $1 of \"Try it\" in README.md has fewer than three lines" >&2; exit 1; }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Rehearses a release: makes each file that this machine can make, and says which it cannot. Nothing leaves the machine.
-# .github/workflows/release.yml makes each kind on its own system.
+# Makes each file of a release that this machine can make, and says which it cannot. Nothing leaves the machine. The workflow
+# release.yml makes each kind on its own system, and ends with --finish.
 #
 #   scripts/release.sh [FOLDER]             default release/; scripts/test_packages.sh FOLDER installs each of them
 #   scripts/release.sh --finish FOLDER      only recipes, bill of materials and checksums, for files that are there
@@ -37,4 +37,4 @@ mv "$scratch/SHA256SUMS" "$folder/"
 
 printf '\n%s:\n' "$folder"
 (cd "$folder" && find . -maxdepth 1 -type f -printf '%f %s\n' | sort | awk '{printf "  %-70s %8.1f kB\n", $1, $2 / 1000}')
-printf 'not made here: %s\n' "${missing[@]}" "wheels for macOS: the workflow makes them" "provenance: the workflow signs it"
+if ((make)); then printf 'not made here: %s\n' "${missing[@]}" "wheels for macOS: the workflow makes them" "provenance: the workflow signs it"; fi

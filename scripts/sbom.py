@@ -54,7 +54,7 @@ def zip_libraries(path):
 
 def debian_libraries(path):
     depends = subprocess.run(["dpkg-deb", "--field", path, "Depends"], capture_output=True, text=True, check=True).stdout
-    for name, least in re.findall(r"([a-z0-9][a-z0-9.+-]+)(?: \([<>=]+ ([^)]+)\))?", depends):
+    for name in re.findall(r"([a-z0-9][a-z0-9.+-]+)(?: \([<>=]+ [^)]+\))?", depends):
         if "temper" not in name:
             yield library(name, "", "deb", "debian")
 
@@ -68,7 +68,16 @@ def npm_libraries(path):
         yield library(purl.name, found, "npm", purl.namespace)
 
 
+def container_libraries(path):
+    """What its Debian packages, which are beside it, depend on."""
+    return [part for package in path.parent.glob("*.deb") for part in debian_libraries(package)]
+
+
 def libraries(path):
+    if "recipes" in path.name:
+        return []
+    if "container" in path.name:
+        return {str(part.purl): part for part in [*container_libraries(path), *report_libraries()]}.values()
     found = {".whl": zip_libraries, ".zip": zip_libraries, ".deb": debian_libraries, ".tgz": npm_libraries}.get(path.suffix, lambda path: [])(path)
     return {str(part.purl): part for part in [*found, *report_libraries()]}.values()
 

@@ -20,9 +20,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source_folder=$PWD
 kinds=(sums wheel aarch64 windows_wheel source debian npm windows)
 if [[ "${1:-}" == --only ]]; then
-  kinds=("${2:-}")
-  [[ " sums wheel aarch64 windows_wheel source debian npm windows " == *" ${2:-} "* ]] ||
-    { echo "test_packages: --only: expected sums, wheel, aarch64, windows_wheel, source, debian, npm or windows, found '${2:-}'" >&2; exit 2; }
+  [[ " ${kinds[*]} " == *" ${2:-} "* ]] || { echo "test_packages: --only: expected one of ${kinds[*]}, found '${2:-}'" >&2; exit 2; }
+  kinds=("$2")
   shift 2
 fi
 packages=$(realpath "${1:-packages}")
@@ -54,15 +53,17 @@ readme_into() {  # FOLDER
 
 # Each wheel for x86-64, in a virtual environment of its own. Its programs find no compiler, and pip builds nothing.
 try_wheel() {
-  local wheel version found=0
+  local wheel version python found=0
   scripts/bootstrap.sh cross
   size "source distribution" "$(ls "$packages"/temper_mesh-*.tar.gz)"
   mkdir "$scratch/programs"
   for program in sh tail ldconfig find grep du awk; do ln -s "$(command -v $program)" "$scratch/programs"; done
   for wheel in "$packages"/temper_mesh-*manylinux*_x86_64.whl; do
+    [[ -e $wheel ]] || continue
     version=$(sed -E 's/.*-cp3([0-9]+)-.*/3.\1/' <<<"$wheel")
     found=$((found + 1))
-    try_one_wheel "$wheel" "$(scripts/python.sh "$version")/bin/python$version" "$version"
+    python=$(scripts/python.sh "$version")
+    try_one_wheel "$wheel" "$python/bin/python$version" "$version"
   done
   must test "$found" -gt 0
 }
@@ -122,14 +123,14 @@ files_of_root() {
 }
 
 try_debian() {
-  local base=${TEMPER_CHROOT:-$scratch}/base release debs=()
+  local base=${TEMPER_CHROOT:-$scratch}/base release components debs=()
   root=$scratch/root
   # shellcheck source=/dev/null
   release=$(. /etc/os-release && echo "$VERSION_CODENAME")
   scripts/bootstrap.sh debian
-  # Of Ubuntu, part "universe" has the libraries.
-  [[ -d $base ]] || timed "Debian: debootstrap $release" debootstrap --variant=minbase \
-    --components="$(apt-get indextargets --format '$(COMPONENT)' 'Created-By: Packages' | sort -u | paste -sd ,)" "$release" "$base"
+  # Ubuntu has the libraries in the component universe.
+  components=$(apt-get indextargets --format '$(ORIGIN) $(COMPONENT)' 'Created-By: Packages' | sed -nE 's/^(Debian|Ubuntu) //p' | sort -u)
+  [[ -d $base ]] || timed "Debian: debootstrap $release" debootstrap --variant=minbase --components="${components//$'\n'/,}" "$release" "$base"
   cp -a "$base" "$root"
   cp /etc/resolv.conf "$root/etc/resolv.conf"
   cp -a /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
@@ -246,8 +247,10 @@ try_windows() {
 
 try_windows_wheel() {
   local wheel version found=0
+  scripts/bootstrap.sh cross
   prepare_wine
   for wheel in "$packages"/temper_mesh-*-win_amd64.whl; do
+    [[ -e $wheel ]] || continue
     version=$(sed -E 's/.*-cp3([0-9]+)-.*/3.\1/' <<<"$wheel")
     if [[ $version == 3.1[012] ]]; then
       found=$((found + 1))
@@ -262,11 +265,12 @@ try_windows_wheel() {
 # By a copy of the Python for Windows. Wine's programs need pipes. Wine does not have what Python 3.12 asks Windows for its
 # version, as pip does, so this machine's pip installs.
 try_one_windows_wheel() {  # WHEEL VERSION
-  local here=$scratch/windows-$2
+  local here=$scratch/windows-$2 python
   in_wine() { env -C "$here" WINEPATH='python\Scripts' wine "$@" </dev/null 2>&1 | cat; return "${PIPESTATUS[0]}"; }
   readme_into "$here"
   size "Windows: $(basename "$1")" "$1"
-  cp -a "$(scripts/python.sh "$2" windows)" "$here/python"
+  python=$(scripts/python.sh "$2" windows)
+  cp -a "$python" "$here/python"
   timed "Windows, Python $2: pip install, with NumPy and netCDF4" python3 -m pip install -q --no-cache-dir --target "$here/python/lib/site-packages" \
     --only-binary :all: --platform win_amd64 --python-version "$2" "$1" 'numpy<2' netCDF4==1.6.5
   mv "$here/python/lib/site-packages/bin" "$here/python/Scripts"

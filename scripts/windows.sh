@@ -6,7 +6,7 @@
 #   scripts/windows.sh zip        only the zip for users: build/windows/temper-VERSION-windows-x86_64.zip
 #   scripts/windows.sh programs   checks of the program, without unit tests
 #
-# TEMPER_PROGRAM: a program for this machine, whose files must have the same bytes. Default: that of build/release or build/dev.
+# TEMPER_PROGRAM: a program for this machine, whose files must have the same bytes. Default: it is built (preset release).
 # TEMPER_TEST_JOBS: parallel jobs, default all processors.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
@@ -14,6 +14,7 @@ root=$PWD build=$PWD/build/windows what=${1:-all}
 case "$what" in all | zip | programs) ;; *) echo "windows: unknown argument '$what'" >&2; exit 2 ;; esac
 
 jobs=${TEMPER_TEST_JOBS:-$(nproc)}
+# The times in the zip are local.
 export TZ=UTC LC_ALL=C.UTF-8 WINEPREFIX=$build/wine
 source scripts/wine.sh
 scratch=$(mktemp -d)
@@ -62,9 +63,9 @@ needs_only_windows() {
   [[ -z "$extra" ]] || { echo "needs $extra"; return 1; }
 }
 
-# The last version whose HDF5 begins with 1: Wine 8 does not have feholdexcept(), which HDF5 2 calls.
+# netCDF4 1.6.5 is the last with HDF5 1. HDF5 2 calls feholdexcept(), which Wine 8 does not have.
 netcdf_and_hdf5() {
-  local wheel=$build/netCDF4.whl library
+  local wheel=$build/netCDF4-1.6.5.whl library
   echo 'netCDF4==1.6.5 --hash=sha256:de4dc973fae9e2bbdf42e094125e423a4c25393172a61958314969b055a38889' >"$scratch/requirements.txt"
   [[ -f $wheel ]] ||
     { python3 -m pip download -q --no-deps --require-hashes --only-binary :all: --platform win_amd64 --python-version 3.11 \
@@ -95,9 +96,7 @@ version() {
 
 # Files of many formats: the bytes that the program for this machine writes.
 same_files() {
-  local native=${TEMPER_PROGRAM:-} program suffix files=0
-  for program in "$root"/build/{release,dev}/apps/temper/temper; do [[ -n "$native" || ! -x "$program" ]] || native=$program; done
-  [[ -n "$native" ]] || { echo "there is no program for this machine: set TEMPER_PROGRAM"; return 77; }
+  local native=${TEMPER_PROGRAM:-$root/build/release/apps/temper/temper} program suffix files=0
   for program in "$native" temper; do
     mkdir "of_${program##*/}_$files" && cd "of_${program##*/}_$files" || return 1
     "$program" mesh ../examples/aquifer.geojson -o mesh.vtu --size 300 --quiet || return 1
@@ -175,7 +174,7 @@ standard_streams() {
 
 programs_of_tests() { find "$build/tests" \( -name 'unit_*.exe' -o -name golden.exe -o -name threads.exe \) | sort; }
 
-# Those that are left out start child processes as POSIX does, or need the gallery.
+# unit_app and unit_io_hostile start processes as POSIX does, and unit_gallery needs the gallery.
 every_test_program_is_there() {
   diff <(git ls-files 'tests/unit/*CMakeLists.txt' tests/{golden,threads}/CMakeLists.txt | xargs sed -n 's/^ *temper_test(\([A-Za-z0-9_]*\).*/\1/p' |
            grep -vxE 'unit_app|unit_io_hostile|unit_gallery' | sort) <(programs_of_tests | sed 's|.*/||; s|\.exe$||' | sort)
@@ -205,6 +204,7 @@ check "NetCDF and HDF5, from a Python package" netcdf_and_hdf5 || finish
 for library in netcdf hdf5; do declare -x "TEMPER_${library^^}=Z:$(echo "$build"/netcdf/netCDF4.libs/$library-*.dll)"; done
 check "temper --version" in_folder version version
 check "the README's commands print what the README says" in_folder readme readme
+[[ -n ${TEMPER_PROGRAM:-} ]] || check "build: the program for this machine" scripts/build.sh release -j "$jobs" --target temper_app
 check "files have the bytes that they have on Linux" in_folder same_files same_files
 check "paths with spaces, umlauts and other letters" in_folder paths spaces_and_umlauts
 check "files with CRLF" in_folder crlf crlf

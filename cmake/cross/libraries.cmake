@@ -16,7 +16,7 @@ function(temper_license name version sources file)
   file(WRITE ${TEMPER_LICENSES}/${name}_${version}.txt "${name} ${version}. Sources: ${sources}\n\n${text}")
 endfunction()
 
-# A library that comes with the compiler, and whose license asks for its text.
+# A library that comes with the compiler, and whose license asks for its text. LLVM's does not.
 function(temper_license_of_debian package)
   execute_process(COMMAND dpkg-query -W -f "\${Version}" ${package} OUTPUT_VARIABLE version COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX REPLACE "^[0-9]+:" "" version ${version})

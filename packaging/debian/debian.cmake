@@ -56,7 +56,7 @@ function(debian_package component package section summary text)
           COMPONENT ${component})
 endfunction()
 
-set(about "temper moves the vertices of a triangle mesh in the plane, changes their\nweights and flips edges until every orthocenter is inside its triangle and\nevery dual edge crosses its edge.\n")
+set(about "temper improves meshes of triangles and tetrahedra for solvers that use the\ndual mesh: it makes coefficients positive, lowers errors and keeps the\nboundary.\n")
 debian_package(program temper science "primal-dual triangle and tetrahedral meshes that solvers can trust"
                "${about}.\nThis package has the program.")
 debian_package(libraries ${libraries_package} libs "primal-dual meshes: shared libraries"

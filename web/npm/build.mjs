@@ -9,7 +9,8 @@ import { build } from 'esbuild';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, '..', '..');
-const wasm = process.env.TEMPER_WASM ?? join(root, 'build', 'wasm', 'web', 'wasm', 'temper.wasm');
+const module = join(root, 'build', 'wasm');
+const wasm = join(module, 'web', 'wasm', 'temper.wasm');
 if (!existsSync(wasm)) {
   console.error(`npm: ${wasm} is missing: scripts/build.sh wasm makes it`);
   process.exit(1);
@@ -40,7 +41,7 @@ for (const [file, name] of [['build/highs.mjs', 'highs.js'], ['build/highs.wasm'
   copyFileSync(join(highs, file), join(here, 'dist', 'highs', name));
 }
 copyFileSync(wasm, join(here, 'dist', 'temper.wasm'));
-cpSync(join(dirname(wasm), '..', '..', 'licenses'), join(here, 'dist', 'licenses'), { recursive: true });
+cpSync(join(module, 'licenses'), join(here, 'dist', 'licenses'), { recursive: true });
 copyFileSync(join(root, 'LICENSE'), join(here, 'LICENSE'));
 
 /** A type for the words of `target`, `effort` or `keep`. */
