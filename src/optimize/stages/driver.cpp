@@ -257,7 +257,7 @@ void Driver::split_where_bad() {
 }
 
 std::size_t Driver::refine_where_bad(double factor) {
-  constexpr int kRings = 2;
+  constexpr int kRingsAround = 2;
   constexpr double kGradation = 0.6;
   std::vector<Vec2> places;
   for (const TriangleId t : bad_triangles(mesh_)) {
@@ -275,7 +275,7 @@ std::size_t Driver::refine_where_bad(double factor) {
     const Location at = locate(mesh_, p, near);
     if (!at.triangle.valid()) continue;
     near = at.triangle;
-    const Neighborhood around = neighborhood_of(work_, near, kRings);
+    const Neighborhood around = neighborhood_of(work_, near, kRingsAround);
     const TrialResult refined = try_edit(around, edit, settings_, work_.units, true);
     if (!refined.valid) continue;
     splice(work_, flipper_, recorder_, around, refined.events);
