@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # Fuzzes the readers and optimize() by libFuzzer, with AddressSanitizer and UndefinedBehaviorSanitizer. Prints one row per
-# target: executions, coverage (edges of the program that were run), inputs kept, failures. Exit code 1 if there are failures.
+# target: executions, coverage (edges of the program that were run), inputs kept, and finds, which are inputs that fail. Exit code
+# 1 if there are finds.
 #
 #   scripts/fuzz.sh 600                    ten minutes, all targets
-#   scripts/fuzz.sh 1h vtu optimize        an hour each of these
+#   scripts/fuzz.sh 1h vtu optimize        an hour for each of these
 #
-# Corpora stay in build/fuzz/corpus and grow from run to run; each input that fails goes to
-# build/fuzz/finds. Make it small (temper_fuzz -minimize_crash=1), mend the program, and copy the input to tests/fuzz/finds. TEMPER_FUZZ_JOBS: targets at a time, default all processors.
+# Corpora stay in build/fuzz/corpus and grow from run to run. Finds go to build/fuzz/finds. Make a find small
+# (temper_fuzz -minimize_crash=1), repair the program, and copy the find to tests/fuzz/finds. TEMPER_FUZZ_JOBS: targets at a time,
+# default all processors.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
