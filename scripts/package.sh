@@ -15,9 +15,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 output=$PWD/packages wanted=()
 while (($#)); do
-  case "$1" in
-    --output) output=$(realpath -m "${2:?package: --output needs a folder}"); shift ;;
-    source | wheel | debian | npm | windows | container) wanted+=("$1") ;;
+  case "$1 ${2:-}" in
+    "--output "?*) output=$(realpath -m "$2"); shift ;;
+    "source "* | "wheel "* | "debian "* | "npm "* | "windows "* | "container "*) wanted+=("$1") ;;
     *) echo "package: expected source, wheel, debian, npm, windows, container or --output DIR, found '$1'" >&2; exit 2 ;;
   esac
   shift

@@ -11,6 +11,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 step=${1:-} folder=${2:-}
 [[ "$step" =~ ^(draft|registries|rehearse)$ && -n "$folder" ]] || { echo "usage: scripts/publish.sh draft|registries|rehearse FOLDER" >&2; exit 2; }
 source scripts/tools.sh
+[[ "$step" == registries || -f "$folder/SHA256SUMS" ]] || { echo "publish: $folder has no SHA256SUMS; scripts/release.sh writes it" >&2; exit 1; }
 folder=$(realpath -m "$folder")  # npm takes a/b for a repository on GitHub
 tag=v$(scripts/version.py)
 [[ "$step" == rehearse ]] || scripts/version.py --tag "${GITHUB_REF_NAME:?the tag}"

@@ -25,7 +25,7 @@ declare -A releases=(
     windows 3291bf3d8f405335ac21dbe55780521fdfd295b0f9f43f7e6e8c55bedd709cb3"
 )
 system=${2:-linux}
-[[ -n ${1:-} && -n ${releases[$1]:-} && $system =~ ^(linux|windows)$ ]] ||
+[[ $# -le 2 && -n ${1:-} && -n ${releases[$1]:-} && $system =~ ^(linux|windows)$ ]] ||
   { echo "python: expected 3.10, 3.11, 3.12, 3.13 or 3.14, then linux or windows, found '$*'" >&2; exit 2; }
 read -r release _ <<<"${releases[$1]}"
 checksum=$(sed -n "s/^ *$system //p" <<<"${releases[$1]}")

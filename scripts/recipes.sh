@@ -11,6 +11,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 (($# == 1 || $# == 2)) || { echo "usage: scripts/recipes.sh RELEASE [OUTPUT]" >&2; exit 2; }
+[[ -d "$1" ]] || { echo "recipes: $1 is no folder" >&2; exit 1; }
 release=$(realpath "$1")
 output=$(realpath -m "${2:-$release/recipes}")
 version=$(scripts/version.py)
@@ -39,7 +40,7 @@ fill() {  # TEMPLATE FILE
   printf '%s\n' "$text" >"$2"
 }
 
-rm -rf "$output"
+[[ ! -e "$output" ]] || { echo "recipes: $output is there already" >&2; exit 1; }
 for template in packaging/{conda,spack,vcpkg,homebrew}/*.in; do
   file=${template#packaging/}
   fill "$template" "$output/${file%.in}"

@@ -10,6 +10,7 @@ source scripts/tools.sh
 
 make=1
 if [[ "${1:-}" == --finish ]]; then make=0; shift; fi
+[[ "${1:-}" != -* && $# -le 1 && ( $make == 1 || -d "${1:-}" ) ]] || { echo "usage: scripts/release.sh [FOLDER] | --finish FOLDER" >&2; exit 2; }
 folder=$(realpath -m "${1:-release}")
 version=$(scripts/version.py)
 scripts/version.py --check

@@ -93,8 +93,12 @@ def file_component(path):
     return component
 
 
-def main(folder):
-    folder, found = pathlib.Path(folder), version()
+def main(arguments):
+    if len(arguments) != 1 or not arguments[0]:
+        sys.exit("usage: scripts/sbom.py FOLDER")
+    folder, found = pathlib.Path(arguments[0]), version()
+    if not folder.is_dir() or not any(folder.glob(f"temper*{found}*")):
+        sys.exit(f"sbom: expected a folder with the files of temper {found}, found {folder}")
     output = folder / f"temper-{found}.cdx.json"
     bom = Bom()
     bom.metadata.component = Component(
@@ -114,4 +118,4 @@ def main(folder):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(sys.argv[1:])

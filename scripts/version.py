@@ -79,6 +79,9 @@ def unreleased(tag, root=ROOT):
 
 
 def write(whole, root=ROOT):
+    missing = [name for name, _ in REPETITIONS if not (root / name).exists()]
+    if missing:
+        sys.exit(f"version: not found: {', '.join(missing)}")
     for name, pattern in [SOURCE, *REPETITIONS]:
         text, spans = find(name, pattern, root)
         for start, end in reversed(spans):
@@ -97,7 +100,7 @@ def main(arguments):
         wrong = list(unreleased(arguments[1]))
         print("\n".join(wrong) if wrong else f"version {version()}, released")
         return bool(wrong)
-    elif len(arguments) == 2 and arguments[0] == "--set" and re.fullmatch(r"\d+\.\d+\.\d+", arguments[1]):
+    elif len(arguments) == 2 and arguments[0] == "--set" and re.fullmatch(r"(0|[1-9]\d*)(\.(0|[1-9]\d*)){2}", arguments[1]):
         write(arguments[1])
     else:
         print("usage: scripts/version.py [--check | --set X.Y.Z | --tag vX.Y.Z]", file=sys.stderr)

@@ -17,8 +17,8 @@ while (($#)); do
   case "$1 ${2:-}" in
     "--output "?*) output=$(realpath -m "$2"); shift ;;
     "--platform linux_x86_64" | "--platform linux_aarch64" | "--platform win_amd64") platforms+=("$2"); shift ;;
-    3.*) versions+=("$1") ;;
-    *) echo "wheels: expected --output DIR, --platform linux_x86_64|linux_aarch64|win_amd64 or a version of Python, found '$*'" >&2; exit 2 ;;
+    "3.1"[0-4]" "*) versions+=("$1") ;;
+    *) echo "wheels: expected --output DIR, --platform linux_x86_64|linux_aarch64|win_amd64 or a version of Python from 3.10 to 3.14, found '$*'" >&2; exit 2 ;;
   esac
   shift
 done

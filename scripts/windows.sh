@@ -11,7 +11,7 @@
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 root=$PWD build=$PWD/build/windows what=${1:-all}
-case "$what" in all | zip | programs) ;; *) echo "windows: unknown argument '$what'" >&2; exit 2 ;; esac
+[[ $# -le 1 && $what =~ ^(all|zip|programs)$ ]] || { echo "windows: expected zip, programs or nothing, found '$*'" >&2; exit 2; }
 
 jobs=${TEMPER_TEST_JOBS:-$(nproc)}
 # The times in the zip are local.

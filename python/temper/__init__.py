@@ -19,14 +19,28 @@ squared lengths, and a larger weight makes a larger power cell. Vertices and tri
 Functions and the classes that they take are here. ``temper.types`` has the classes that they return.
 """
 
+
+
+def _not_compiled():
+    """Says which Python the compiled module is for, if it is there."""
+    import pathlib
+    import sysconfig
+
+    found = sorted(path.name for path in pathlib.Path(__path__[0]).glob("_temper.*") if path.suffix in (".so", ".pyd"))
+    if not found:
+        return f"temper: the compiled module _temper is not in {__path__[0]}: see docs/howto/install.md"
+    return (
+        f"temper: {__path__[0]} has {', '.join(found)}, and this Python needs _temper{sysconfig.get_config_var('EXT_SUFFIX')}. "
+        "Next: use the Python that temper was built for"
+    )
+
+
 try:
     from . import _temper  # noqa: F401
 except ImportError as error:
     if "cannot import name '_temper'" not in str(error):
         raise
-    raise ImportError(
-        f"temper: the compiled module _temper is not in {__path__[0]}: see docs/howto/install.md"
-    ) from None
+    raise ImportError(_not_compiled()) from None
 
 from . import energy, generate, geometry, projection, size, topology, types
 from ._dec import columns, dec_operators
