@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds the program and the tests with the compiler of this system, and runs the unit tests and the golden bytes: Apple's clang
-# on macOS, Visual Studio's clang-cl on Windows (in Git's bash), g++ on Linux. Workflows call it on systems that scripts/test.sh does not know.
+# on macOS, Visual Studio's clang-cl on Windows (in Git's bash), g++ on Linux. Workflows call it on systems that scripts/test.sh
+# does not know.
 #
 # Homebrew, vcpkg (VCPKG_INSTALLATION_ROOT) or apt-get brings the libraries.
 set -euo pipefail

@@ -69,16 +69,16 @@ def npm_libraries(path):
 
 
 def container_libraries(path):
-    """What its Debian packages, which are beside it, depend on."""
+    """The dependencies of the Debian packages in the same folder, from which the container is made."""
     return [part for package in path.parent.glob("*.deb") for part in debian_libraries(package)]
 
 
 def libraries(path):
     if "recipes" in path.name:
         return []
-    if "container" in path.name:
-        return {str(part.purl): part for part in [*container_libraries(path), *report_libraries()]}.values()
-    found = {".whl": zip_libraries, ".zip": zip_libraries, ".deb": debian_libraries, ".tgz": npm_libraries}.get(path.suffix, lambda path: [])(path)
+    of_suffix = {".whl": zip_libraries, ".zip": zip_libraries, ".deb": debian_libraries, ".tgz": npm_libraries}
+    of_kind = container_libraries if "container" in path.name else of_suffix.get(path.suffix, lambda path: [])
+    found = of_kind(path)
     return {str(part.purl): part for part in [*found, *report_libraries()]}.values()
 
 

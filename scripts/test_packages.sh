@@ -31,6 +31,7 @@ if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=cc
 scratch=$(mktemp -d)
 export WINEPREFIX=$scratch/wine
 source scripts/wine.sh
+source scripts/tools.sh
 export LC_ALL=C.UTF-8
 trap 'stop_wine; rm -rf "$scratch"' EXIT
 rows=()
@@ -54,8 +55,10 @@ readme_into() {  # FOLDER
 
 # Each wheel for x86-64, in a virtual environment of its own. Its programs find no compiler, and pip builds nothing.
 try_wheel() {
-  local wheel version python found=0
+  local wheel version python pip found=0
   scripts/bootstrap.sh cross
+  pip=$(tool_python wheels)
+  pip=${pip%/*}/pip
   size "source distribution" "$(ls "$packages"/temper_mesh-*.tar.gz)"
   mkdir "$scratch/programs"
   for program in sh tail ldconfig find grep du awk; do ln -s "$(command -v $program)" "$scratch/programs"; done
@@ -72,13 +75,11 @@ try_wheel() {
 try_one_wheel() {  # WHEEL INTERPRETER VERSION
   local venv=$scratch/venv-$3 here=$scratch/wheel-$3
   readme_into "$here"
-  python3 -m venv "$scratch/pip"
-  "$scratch/pip/bin/pip" install -q pip==25.3
   "$2" -m venv --without-pip "$venv"
   size "Python $3: $(basename "$1")" "$1"
   cd "$here"
   alone() { env -i HOME="$here" LC_ALL=C.UTF-8 PATH="$venv/bin:$scratch/programs" "$@"; }
-  install() { "$scratch/pip/bin/pip" --python "$venv/bin/python" install -q --only-binary :all: "$@"; }
+  install() { "$pip" --python "$venv/bin/python" install -q --only-binary :all: "$@"; }
   timed "Python $3: pip install, with NumPy" install "$1"
   row "Python $3: installed, without NumPy" "$(du -sk "$venv"/lib/python3*/site-packages/temper | awk '{print $1 " kB"}')"
   alone "$venv/bin/python" "$source_folder/scripts/try_installed.py" >/dev/null  # a first time, for the byte code
@@ -92,7 +93,7 @@ try_one_wheel() {  # WHEEL INTERPRETER VERSION
   must grep -q 'needs\? libnetcdf' <(TEMPER_NETCDF=/nowhere "$venv/bin/temper" convert ring.vtu -o ring.ugrid.nc 2>&1)
   must grep -q 'NetCDF *not found' <(TEMPER_NETCDF=/nowhere "$venv/bin/temper" --version)
   must test -z "$(find "$venv"/lib/python3*/site-packages/temper* -name '*netcdf*.so*')"
-  "$scratch/pip/bin/pip" --python "$venv/bin/python" uninstall -q -y temper-mesh
+  "$pip" --python "$venv/bin/python" uninstall -q -y temper-mesh
   must test -z "$(find "$venv" -name '*temper*' -not -path '*/pip/*')"
   cd "$source_folder"
 }

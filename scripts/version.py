@@ -89,17 +89,20 @@ def write(whole, root=ROOT):
         (root / name).write_text(text)
 
 
+def report(wrong, right):
+    """Prints each line of `wrong`, or `right` if there is none. Returns the exit code."""
+    wrong = list(wrong)
+    print("\n".join(wrong) if wrong else right)
+    return bool(wrong)
+
+
 def main(arguments):
     if not arguments:
         print(version())
     elif arguments == ["--check"]:
-        wrong = list(differences())
-        print("\n".join(wrong) if wrong else f"version {version()}, repeated in {len(REPETITIONS)} places")
-        return bool(wrong)
+        return report(differences(), f"version {version()}, repeated in {len(REPETITIONS)} places")
     elif len(arguments) == 2 and arguments[0] == "--tag":
-        wrong = list(unreleased(arguments[1]))
-        print("\n".join(wrong) if wrong else f"version {version()}, released")
-        return bool(wrong)
+        return report(unreleased(arguments[1]), f"version {version()}, released")
     elif len(arguments) == 2 and arguments[0] == "--set" and re.fullmatch(r"(0|[1-9]\d*)(\.(0|[1-9]\d*)){2}", arguments[1]):
         write(arguments[1])
     else:
