@@ -1,27 +1,40 @@
 #!/usr/bin/env python3
-"""Measures fort.14 files before and after a target: obtuse triangles, least angle, time step and ratio of areas.
+"""Measures meshes before and after a target: no measure of the target's client may become worse.
 
-    bench/guard_table.py PROGRAM TARGET FILE.14 ...
+    bench/guard_table.py PROGRAM TARGET FILE ... [-- OPTION ...]
 
-Time steps are heights of triangles over the speed of a long wave in their mean depth. Exits with 1 if one of the last
-three measures is worse after, by more than a map of degrees can change it. Public files are in the repository
-adcirc/adcirc-testsuite.
+Prints a row for each file: what became worse, if anything, and the measures that the documentation has. Exits with 1 if
+a measure is worse after. `temper check` measures most of them. For fort.14 files this script also measures the shortest
+edge, the angles, the ratio of areas and the time step itself, on the sphere if the file has degrees. Time steps are
+heights of triangles over the speed of a long wave in their mean depth. Public files are in the repositories
+adcirc/adcirc-testsuite, Deltares/MeshKernel and thetisproject/thetis.
 """
 
+import json
 import math
 import os
-import resource
 import subprocess
 import sys
 import tempfile
+import time
 
-TOLERANCE = 1e-3
-ROUNDING = 1e-9
+ROUNDING = 1e-6  # a projection to meters and back has fewer digits than a double
+OWN_ROUNDING = 1e-3  # the maps of degrees change lengths and areas by this part
 LEAST_DEPTH = 1.0  # on dry land waves need a speed, too
 RADIUS = 6371e3
 
+# Measures of `temper check`: +1 if larger is better.
+SHAPES = {"min_angle_deg": 1, "max_angle_deg": -1, "max_smoothness": -1, "obtuse_triangles": -1}
+FLOW = {"max_orthogonality": -1, "min_flow_link": 1, "small_flow_links": -1}
+MPAS = {
+    "min_cell_quality": 1, "min_grid_spacing": 1, "max_grid_spacing": -1, "min_triangle_quality": 1,
+    "min_triangle_angle_quality": 1, "max_centroid_offset_over_size": -1,
+}
+COEFFICIENTS = {"inverted_triangles": -1, "non_regular_edges": -1, "orthocenters_outside": -1, "well_centered_fraction": 1}
+MEASURES = {"fem": SHAPES, "adcirc": SHAPES, "dflowfm": SHAPES | FLOW, "mpas": SHAPES | MPAS}
 
-def read(path):
+
+def read_grid(path):
     with open(path) as file:
         file.readline()
         n_triangles, n_nodes = (int(word) for word in file.readline().split()[:2])
@@ -46,59 +59,89 @@ def place(node, degrees):
     return across * math.cos(longitude), across * math.sin(longitude), RADIUS * math.sin(latitude)
 
 
-def measure(path):
-    """Least angle, time step, ratio of areas, and the numbers of obtuse triangles and of nodes."""
-    nodes, triangles = read(path)
+def measure_grid(path):
+    """Shortest edge, angles, time step and ratio of areas of a fort.14 file: name to (value, sign)."""
+    nodes, triangles = read_grid(path)
     degrees = has_degrees(nodes)
     places = {number: place(node, degrees) for number, node in nodes.items()}
-    angle, step, ratio, obtuse, area_at = 180.0, math.inf, 1.0, 0, {}
+    angle, largest, step, ratio, shortest, area_at = 180.0, 0.0, math.inf, 1.0, math.inf, {}
     for corners in triangles:
         a, b, c = sorted(math.dist(places[corners[k]], places[corners[k - 1]]) for k in range(3))
         # Kahan's form of Heron's formula
         area = math.sqrt(max(0.0, (c + (b + a)) * (a - (c - b)) * (a + (c - b)) * (c + (b - a)))) / 4
         angle = min(angle, math.degrees(math.asin(min(1.0, 2 * area / (b * c)))))
-        obtuse += a * a + b * b < c * c * (1 - ROUNDING)
+        largest = max(largest, math.degrees(math.acos(max(-1.0, (a * a + b * b - c * c) / (2 * a * b)))))
+        shortest = min(shortest, a)
         depth = max(sum(nodes[corner][2] for corner in corners) / 3, LEAST_DEPTH)
         step = min(step, 2 * area / c / math.sqrt(9.81 * depth))
         for k in range(3):
             other = area_at.setdefault(frozenset((corners[k], corners[k - 1])), area)
             ratio = max(ratio, area / other, other / area)
-    return angle, step, ratio, obtuse, len(nodes)
+    return {"least angle": (angle, 1), "largest angle": (largest, -1), "time step": (step, 1),
+            "ratio of areas": (ratio, -1), "shortest edge": (shortest, 1)}
 
 
-def projection_of(nodes):
+def measure(program, path, target, arguments):
+    """Name to (value, sign, tolerance)."""
+    report = json.loads(subprocess.run([program, "check", path, "--json", *arguments], capture_output=True, check=True).stdout)
+    values = {}
+    for key, sign in MEASURES.get(target, COEFFICIENTS).items():
+        value = report.get(key)
+        values[key] = (math.inf * -sign if value is None else value, sign, ROUNDING)
+    if path.endswith(".14"):
+        values |= {name: (*value, OWN_ROUNDING) for name, value in measure_grid(path).items()}
+    return values, report
+
+
+def projection_of(path):
+    """Options that take degrees to meters."""
+    if not path.endswith(".14"):
+        return []
+    nodes = read_grid(path)[0]
     if not has_degrees(nodes):
-        return "none"
+        return ["--projection", "none"]
     longitudes = [node[0] for node in nodes.values()]
-    return "sphere" if max(longitudes) - min(longitudes) > 180 else "stereographic"
+    return ["--projection", "sphere" if max(longitudes) - min(longitudes) > 180 else "stereographic"]
 
 
-def main(program, target, files):
-    worse = 0
-    print("| grid | vertices | obtuse | least angle | time step | ratio of areas | CPU |\n|-|-|-|-|-|-|-|")
+def worse(before, after):
+    found = []
+    for name, (value, sign, tolerance) in before.items():
+        now = after[name][0]
+        if sign * (now - value) < -tolerance * abs(value) - (1e-6 if tolerance == ROUNDING else 0):
+            found.append(f"{name} {value:.4g} → {now:.4g}")
+    return found
+
+
+def main(program, target, files, options):
+    failures = 0
+    print("| file | triangles | bad | least angle | largest angle | smoothness | seconds | worse |\n|-|-|-|-|-|-|-|-|")
     for path in files:
-        start = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-        projection = projection_of(read(path)[0])
-        with tempfile.NamedTemporaryFile(suffix=".14") as out:
-            run = [program, "optimize", path, "-o", out.name, "--for", target, "--projection", projection, "--quiet"]
-            if subprocess.run(run).returncode not in (0, 4):
-                worse += 1
+        arguments = projection_of(path)
+        if "--projection" in options:
+            arguments = []
+        start = time.monotonic()
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, "out." + path.rsplit(".", 1)[1])
+            run = subprocess.run([program, "optimize", path, "-o", out, "--for", target, "--quiet", *arguments, *options],
+                                 capture_output=True, text=True)
+            if run.returncode not in (0, 4):
+                print(f"| {os.path.basename(path)} | exit code {run.returncode}: {run.stderr.strip()[:150]}", flush=True)
                 continue
-            seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - start
-            before, after = measure(path), measure(out.name)
-        is_worse = (
-            after[0] < before[0] * (1 - TOLERANCE)
-            or after[1] < before[1] * (1 - TOLERANCE)
-            or after[2] > before[2] * (1 + TOLERANCE)
-        )
-        worse += is_worse
-        print(
-            f"| {os.path.basename(path)} | {before[4]} | {before[3]} → {after[3]} | {before[0]:.1f}° → {after[0]:.1f}° "
-            f"| {before[1]:.3g} → {after[1]:.3g} s | {before[2]:.2f} → {after[2]:.2f} | {seconds:.1f} s |" + (" worse" if is_worse else ""),
-            flush=True,
-        )
-    return 1 if worse else 0
+            seconds = time.monotonic() - start
+            shown = [o for i, o in enumerate(options) if o in ("--flat", "--projection") or (i and options[i - 1] == "--projection")]
+            before, old = measure(program, path, target, arguments + shown)
+            after, new = measure(program, out, target, arguments + shown)
+        found = worse(before, after)
+        failures += bool(found)
+        bad = [round((1 - r["well_centered_fraction"]) * r["triangles"]) for r in (old, new)]
+        print(f"| {os.path.basename(path)} | {old['triangles']} → {new['triangles']} | {bad[0]} → {bad[1]} "
+              f"| {old['min_angle_deg']:.1f}° → {new['min_angle_deg']:.1f}° | {old['max_angle_deg']:.1f}° → {new['max_angle_deg']:.1f}° "
+              f"| {old['max_smoothness']:.3g} → {new['max_smoothness']:.3g} | {seconds:.1f} | {'; '.join(found)} |", flush=True)
+    return 1 if failures else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], sys.argv[2], sys.argv[3:]))
+    rest = sys.argv[3:]
+    cut = rest.index("--") if "--" in rest else len(rest)
+    sys.exit(main(sys.argv[1], sys.argv[2], rest[:cut], rest[cut + 1:]))

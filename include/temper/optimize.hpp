@@ -273,16 +273,31 @@ struct PaperSwitches {
   friend bool operator==(const PaperSwitches&, const PaperSwitches&) = default;
 };
 
+/// The solver whose measures the guard keeps, in addition to those of GuardOptions. They are of SolverMeasures.
+enum class Client {
+  none,
+  fem,      ///< Linear finite elements: the number of obtuse triangles
+  adcirc,   ///< ADCIRC: the number of obtuse triangles
+  dflowfm,  ///< D-Flow FM: orthogonality, smoothness, flow links, the number of obtuse triangles
+  mpas,     ///< MPAS: quality of cells and triangles, grid spacing, the number of obtuse triangles
+};
+
 /// The guard: a run for accuracy or the error of a solver makes none of these measures worse than in the input, or than
 /// a bound. The worse of the two is the limit. If a run cannot keep the limits, the input is returned. By default there
 /// are no limits.
 struct GuardOptions {
-  double angle = 0;  ///< Bound of the least angle [degrees], in [0, 60]. 60: the input's. 0: no limit
+  /// Client. If the input meets the limits of D-Flow FM, ADCIRC or MPAS, it is returned as it is.
+  Client client = Client::none;
+  /// Bound of the least angle a [degrees], in [0, 60], and 180 − 2a of the largest angle. 60: the input's. 0: no limit.
+  double angle = 0;
   /// Bound of the least length of an inner edge over the size of its two triangles, in [0, 1]. 1: the input's. 0: no
   /// limit.
   double edge = 0;
-  /// Bound of the largest ratio of the areas of two triangles that share an edge, >= 1. 1: the input's. 0: no limit.
-  double areas = 0;
+  /// Bound of the largest ratio of the areas of two triangles that share an edge, >= 1. 1: the input's. Absent: no
+  /// limit.
+  std::optional<double> areas = {};
+  /// Bound of the shortest edge [length]. Absent: the input's, if there is another limit.
+  std::optional<double> length = {};
   /// Bound of the least time [s] in which a long wave crosses a triangle or an edge, where there is a depth. Absent:
   /// the input's, if there is another limit.
   std::optional<double> step = {};

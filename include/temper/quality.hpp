@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "temper/detail/solver_measures.hpp"
 #include "temper/detail/space.hpp"
 #include "temper/energy.hpp"
 #include "temper/mesh.hpp"
@@ -65,27 +66,6 @@ struct Histogram {
 /// Total energies of a mesh, as [EnergyKind, the row of energies()][star]. A value is +∞ outside the domain of the
 /// energy.
 using EnergiesByStar = std::array<std::array<double, 3>, kEnergyKinds>;
-
-/// Measures for other codes, which refuse a mesh or run slowly if a value is bad. quality_measures() defines each
-/// measure and names its code. The minimum over nothing is +∞, and the maximum is 0. An interior edge has a triangle on
-/// both sides. A closed cell is the cell of a vertex inside the domain.
-struct SolverMeasures {
-  double min_edge_over_size = std::numeric_limits<double>::infinity();  ///< Least relative_lengths() of interior edges
-  /// Least relative dual length of interior edges.
-  double min_dual_over_size = std::numeric_limits<double>::infinity();
-  double min_dual_over_cell_median = std::numeric_limits<double>::infinity();  ///< Least over closed cells
-  double max_orthogonality = 0;                                                ///< Largest |cosine| over interior edges
-  double max_smoothness = 0;                                          ///< Largest over interior edges, at least 1
-  double min_flow_link = std::numeric_limits<double>::infinity();     ///< Least over interior edges
-  std::size_t small_flow_links = 0;                                   ///< Number of flow links less than 0.1
-  double min_cell_quality = std::numeric_limits<double>::infinity();  ///< Least over closed cells
-  double min_grid_spacing = std::numeric_limits<double>::infinity();  ///< [length]
-  double max_grid_spacing = 0;                                        ///< [length]
-  double min_triangle_quality = std::numeric_limits<double>::infinity();
-  double min_triangle_angle_quality = std::numeric_limits<double>::infinity();
-  std::size_t obtuse_triangles = 0;          ///< Exact number
-  double max_centroid_offset_over_size = 0;  ///< Largest over closed cells
-};
 
 struct Quality : SolverMeasures {
   std::size_t vertices = 0, triangles = 0, edges = 0, boundary_edges = 0, regions = 0;

@@ -104,7 +104,7 @@ enum class InsertionStatus {
   hidden,          ///< The weight is too small: no regular triangulation would have the vertex
   not_regular,  ///< The weight hides a neighbor, or the edges around were not regular. The plan is complete and may be
                 ///< committed, but leaves an edge that is not regular
-  in_quadrilateral,  ///< The point is in or on a quadrilateral, which stays whole
+  in_quadrilateral,  ///< The point is in or on a quadrilateral, which stays whole, or a new triangle shares its side
   inverted,          ///< For a split, the point is rounded so far off the edge that a new triangle turns over
 };
 

@@ -391,7 +391,7 @@ def _put_back_at_end(mesh: AnyMeshLike, changed: Mesh | TetMesh, line: Line) -> 
 
 def _depth(mesh: Mesh, options: dict[str, Any]) -> npt.NDArray[np.float64] | None:
     """The depth of water that the guard takes, at each vertex: point data ``depth``, as in the program."""
-    if not any(options.get(f"guard_{name}") for name in ("angle", "edge", "areas", "step")):
+    if not any(name.startswith("guard") for name in options):
         return None
     depth = mesh.point_data.get("depth")
     return None if depth is None or depth.ndim > 1 else depth.astype(np.float64)

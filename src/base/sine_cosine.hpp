@@ -38,4 +38,16 @@ inline SineCosine sine_cosine(double x) {
   return {(quarter & 2) != 0 ? -sine : sine, ((quarter + 1) & 2) != 0 ? -cosine : cosine};
 }
 
+/// The angle in [0, π] of this cosine, to 1e-15; the cosine is first clamped to [−1, 1].
+inline double arc_cosine(double x) {
+  const double t = std::fmin(std::abs(x), 1.0);
+  // Abramowitz and Stegun, 4.4.45, to 7e-5. Newton's iteration squares the error.
+  double angle = std::sqrt(1 - t) * (1.5707288 + t * (-0.2121144 + t * (0.0742610 - t * 0.0187293)));
+  for (int i = 0; i < 2 && angle > 0; ++i) {
+    const SineCosine at = sine_cosine(angle);
+    angle += (at.cosine - t) / at.sine;
+  }
+  return x < 0 ? std::numbers::pi - angle : angle;
+}
+
 }  // namespace temper

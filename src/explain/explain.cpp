@@ -245,7 +245,7 @@ class Explainer {
 
   void ask_whole() {
     if (bad_.empty()) result_.verdict = Feasibility::feasible;
-    if (bad_.empty() || !result_.reasons.empty()) return;
+    if (bad_.empty() || !result_.reasons.empty() || has_quadrilaterals(mesh_)) return;
     if (mesh_.n_triangles() > options_.whole && bad_.size() > options_.whole) return;
     WeightOptions weights;
     weights.goal = WeightGoal::margin;
@@ -313,7 +313,8 @@ class Explainer {
         continue;
       }
       if (rank(reason) == 0) conflicts.push_back(&reason);
-      if (reason.kind == ReasonKind::weights) add_find_weights(reason);
+      // Weights of a mesh with quadrilaterals stay: each of these has one center.
+      if (reason.kind == ReasonKind::weights && !has_quadrilaterals(mesh_)) add_find_weights(reason);
       if (rank(reason) != 0 && !reason.free.empty()) reason.cures.emplace_back();  // optimize
     }
     for (std::size_t i = 0; i < conflicts.size(); ++i) {

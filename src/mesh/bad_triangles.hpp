@@ -1,5 +1,6 @@
 // The triangles that are not well-centered: optimization repairs them, explain explains them, and meshing counts them.
-// Also the erased triangles, which loops over all triangles must skip, and the halves of quadrilaterals.
+// Also obtuse triangles, the erased triangles, which loops over all triangles must skip, and the halves of
+// quadrilaterals.
 #pragma once
 
 #include <vector>
@@ -40,6 +41,20 @@ namespace temper {
     if (is_bad(mesh, t)) bad.push_back(t);
   }
   return bad;
+}
+
+/// is_obtuse says whether triangle t has an angle above 90°, exactly. At a diagonal there is no angle of a cell.
+[[nodiscard]] inline bool is_obtuse(const Mesh& mesh, TriangleId t) {
+  const auto p = mesh.points(t);
+  const auto without_weight = [&](std::size_t k) { return as_point(mesh.space().place(p.at(k % 3))); };
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (mesh.is_diagonal(Mesh::halfedge(t, static_cast<int>(k)))) continue;
+    // Without weights the center is across from an obtuse angle.
+    if (signed_height_sign(mesh.space(), without_weight(k), without_weight(k + 1), without_weight(k + 2)) ==
+        Sign::negative)
+      return true;
+  }
+  return false;
 }
 
 /// Returns true if the mesh has a quadrilateral. O(n).

@@ -149,6 +149,7 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   auto guard = guard_limits(mesh, options, hooks.executor);
   if (!guard) return guard.error();
   settings.guard = *std::move(guard);
+  if (settings.objective != Objective::energy) settings.worst_violation = worst_violation(mesh, hooks.executor);
   settings.in_metric = in_metric;
   SweepState state(settings);
 
@@ -157,7 +158,8 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   const bool is_free = hooks.exclusive && !hooks.best_so_far && !settings.size_field && settings.errors == nullptr;
   InputMesh input(mesh, is_free, settings.policy.order, hooks.executor);
   const InputMeasures of_input(input, settings, sizes);
-  auto found = attempt(input, settings, state, run, sizes);
+  run.facts.meets_limits = meets_limits_of_client(input.any_order(), settings);
+  auto found = run.facts.meets_limits ? Candidate{input.copy()} : attempt(input, settings, state, run, sizes);
   if (!found) return found.error();
   Candidate best = *std::move(found);
   best = least_error(std::move(best), input, of_input.counts, settings, state, run);

@@ -108,8 +108,4 @@ template <class MeshOfAnyKind, class Elements>
 /// "138.3°": rounded for people.
 [[nodiscard]] std::string degrees(double angle);
 
-/// Two passes, over triangles and over vertices; if brief, one over the edges for the measures over the local size. All
-/// executors give equal results. Precondition: no erased triangles. O(n).
-[[nodiscard]] SolverMeasures solver_measures(const Mesh& mesh, bool brief, Executor* executor);
-
 }  // namespace temper

@@ -20,6 +20,7 @@
 #include "mesh/blocks.hpp"
 #include "mesh/curve.hpp"
 #include "quality/measure.hpp"
+#include "size/solver_measures.hpp"
 #include "temper/detail/executor.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/mesh.hpp"

@@ -125,6 +125,12 @@ bool grow(const Mesh& mesh, InsertionPlan& plan) {
   return all;
 }
 
+/// Grids of quadrilaterals are orthogonal. A vertex beside them would move the center across one of their sides.
+bool is_side_of_quadrilateral(const Mesh& mesh, HalfedgeId h) {
+  const HalfedgeId across = mesh.twin(h);
+  return across.valid() && mesh.is_half(Mesh::triangle(across));
+}
+
 void write_link(const Mesh& mesh, InsertionPlan& plan) {
   for (const HalfedgeId h : plan.rim) plan.link.push_back(mesh.origin(h));
   if (plan.edge.valid() && mesh.is_boundary(plan.edge)) plan.link.push_back(mesh.target(plan.rim.back()));
@@ -160,6 +166,10 @@ void complete(const Mesh& mesh, InsertionPlan& plan) {
     return;
   }
   const bool all = grow(mesh, plan);
+  if (std::ranges::any_of(plan.rim, [&](HalfedgeId h) { return is_side_of_quadrilateral(mesh, h); })) {
+    plan.status = InsertionStatus::in_quadrilateral;
+    return;
+  }
   write_link(mesh, plan);
   plan.status = all && spokes_are_regular(mesh, plan) ? InsertionStatus::possible : InsertionStatus::not_regular;
 }

@@ -45,6 +45,9 @@ std::string wrapped(const std::string& text, std::size_t indent, const TextStyle
   return result;
 }
 
+constexpr const char* kKeepsWeights =
+    "The mesh has quadrilaterals, so weights cannot change. Vertices have to move. Next: temper optimize";
+
 std::string headline(const Explanation& e, const Input& input) {
   std::string text = fmt::format("{}: {}\n", input.path, well_centered(e.bad, e.triangles));
   if (e.bad == 0) return text;
@@ -57,6 +60,7 @@ std::string headline(const Explanation& e, const Input& input) {
     case Feasibility::infeasible:
       return text + "If no vertex moves and no edge flips, no weights make all of them well-centered.\n";
     case Feasibility::undecided:
+      if (count_quadrilaterals(input.mesh()) > 0) return text + kKeepsWeights + "\n";
       return text + "It is not known if weights alone can make all of them well-centered.\n";
   }
   return text;
@@ -144,6 +148,8 @@ const Section kConflicts = {"Conflicts",
 const Section kUndecided = {"Not known", "Neither weights nor a proof that there are none were found."};
 const Section kWeights = {"Weights exist",
                           "No vertex has to move here and no edge has to flip: the weights have to change."};
+const Section kKeptWeights = {"Weights would help",
+                              "A mesh with quadrilaterals keeps its weights, so a vertex has to move."};
 
 template <class Which>
 std::string section(const Section& kind, const Explanation& e, const Input& input, std::size_t limit,
@@ -265,7 +271,8 @@ std::string explanation_text(const Explanation& e, const Input& input, std::size
   text += section(kSplits, e, input, limit, style, is_split);
   text += section(kConflicts, e, input, limit, style, is_conflict);
   text += section(kUndecided, e, input, limit, style, [](const Reason& r) { return r.kind == ReasonKind::undecided; });
-  text += section(kWeights, e, input, limit, style, [](const Reason& r) { return r.kind == ReasonKind::weights; });
+  const Section& weights = count_quadrilaterals(input.mesh()) > 0 ? kKeptWeights : kWeights;
+  text += section(weights, e, input, limit, style, [](const Reason& r) { return r.kind == ReasonKind::weights; });
   return text;
 }
 

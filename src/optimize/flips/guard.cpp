@@ -4,10 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/sine_cosine.hpp"
 #include "base/sum.hpp"
 #include "geometry/surface.hpp"
 #include "mesh/blocks.hpp"
 #include "optimize/working/working_copy.hpp"
+#include "size/solver_measures.hpp"
+#include "size/star_area.hpp"
 #include "temper/detail/location.hpp"
 
 namespace temper {
@@ -16,15 +19,42 @@ namespace {
 constexpr double kLeastDepth = 1;  // [m]: on dry land waves need a speed, too
 // Values in the user's units differ by rounding from those in the units of the run.
 constexpr double kRounding = 1e-9;
+// A right angle of coordinates with some nine digits is one to this cosine.
+constexpr double kRoundedOrthogonality = 1e-6;
 // A map from degrees changes the areas of neighbors by up to a few thousandths, each in its own way.
 constexpr double kMargin = 1.005;
 
-/// The values, with times and lengths multiplied by a factor near 1 and ratios moved as far.
+/// The power of the factor by which a measure changes if lengths, angles and ratios change by it. A negative measure
+/// is divided.
+constexpr std::array<int, GuardValues::kMeasures> kPowers = {2, 1, 2, 1, 2, 2, 2, -1, 1, 2, 1, 1, -1, 1, -1};
+
 GuardValues scaled(GuardValues v, double factor) {
   for (std::size_t i = 0; i < GuardValues::kMeasures; ++i) {
-    v.value[i] *= i == GuardValues::areas ? factor : factor * factor;
+    v.value[i] *= kPowers[i] == 2 ? factor * factor : kPowers[i] == 1 ? factor : 1 / factor;
   }
   return v;
+}
+
+/// 1 + cosine of the angle between two edges, across from the third. All lengths are squared.
+double cosine_of(double across, double p, double q) { return 1 + (p + q - across) / (2 * std::sqrt(p * q)); }
+
+/// The bounds of the options, as limits. A bound that is off is below each value.
+GuardValues bounds_of(const GuardOptions& o) {
+  const auto squared = [](double x) { return x * x; };
+  const double nothing = std::numeric_limits<double>::infinity();
+  GuardValues bounds;
+  const double angle = o.angle * std::numbers::pi / 180;
+  bounds.value[GuardValues::sine] = squared(std::sin(angle));
+  // A triangle whose two other angles are at the bound has this largest angle.
+  bounds.value[GuardValues::cosine] = o.angle > 0 ? 1 - std::cos(2 * angle) : 0;
+  bounds.value[GuardValues::edge] = squared(o.edge);
+  bounds.value[GuardValues::areas] = o.areas ? 1 / *o.areas : 0;
+  bounds.value[GuardValues::shortest] = squared(o.length.value_or(nothing));
+  const double step = o.depth.empty() ? 0 : o.step.value_or(nothing);
+  bounds.value[GuardValues::crossing] = bounds.value[GuardValues::edge_crossing] = squared(step);
+  bounds.value[GuardValues::orthogonality] = -kRoundedOrthogonality;
+  bounds.value[GuardValues::flow_link] = kSmallFlowLink;
+  return bounds;
 }
 
 }  // namespace
@@ -83,15 +113,32 @@ Guard::Triangle Guard::triangle(const Corners& corners, bool of_plan) const {
     t.l2 = {squared_length(q - p), squared_length(r - q), squared_length(p - r)};
     return cross(q - p, r - p);
   };
+  const auto place = [&](const WeightedPoint& p) { return position_in_space(mesh_.space(), p); };
   if (mesh_.space().is_plane()) {
     t.doubled_area = measure(a.position(), b.position(), c.position());
   } else {
-    const auto place = [&](const WeightedPoint& p) { return position_in_space(mesh_.space(), p); };
     t.doubled_area = length(measure(place(a), place(b), place(c)));
+  }
+  if (limits_->has_flow) {
+    t.corners = corners;
+    t.at = {place(a), place(b), place(c)};
+    t.cell = flow_cell(t.at[0], t.at[1], t.at[2]);
   }
   if (!has_depth()) return t;
   for (const VertexId v : corners) t.depth += (is_there(v) ? there_ : (*depths_)[v]).value / 3;
   t.depth = std::max(t.depth, kLeastDepth);
+  return t;
+}
+
+Guard::Triangle Guard::triangle(TriangleId id) const {
+  Triangle t = triangle(mesh_.corners(id));
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeId h = Mesh::halfedge(id, k);
+    if (!mesh_.is_diagonal(h) || !mesh_.twin(h).valid()) continue;  // a copy may end there
+    const Triangle other = triangle(mesh_.corners(Mesh::triangle(mesh_.twin(h))));
+    t.doubled_area += other.doubled_area;
+    t.cell.area += other.cell.area;
+  }
   return t;
 }
 
@@ -101,6 +148,13 @@ GuardValues Guard::alone(const Triangle& t) const {
   const double height2 = t.doubled_area * t.doubled_area / most;
   GuardValues v;
   v.value[GuardValues::sine] = height2 / middle;
+  v.value[GuardValues::cosine] = cosine_of(most, least, middle);
+  v.value[GuardValues::shortest] = units_.scale * units_.scale * least;
+  if (limits_->has_cells) {
+    v.value[GuardValues::edges_alike] = least / most;
+    v.value[GuardValues::angles_alike] =
+        arc_cosine(cosine_of(least, middle, most) - 1) / arc_cosine(cosine_of(most, least, middle) - 1);
+  }
   if (!has_depth()) return v;
   const double slowness2 = units_.scale * units_.scale / (kGravity * t.depth);
   v.value[GuardValues::crossing] = slowness2 * height2;
@@ -108,12 +162,59 @@ GuardValues Guard::alone(const Triangle& t) const {
   return v;
 }
 
-GuardValues Guard::of_pair(const Triangle& s, const Triangle& t, double l2) {
+GuardValues Guard::of_pair(const Triangle& s, std::size_t k, const Triangle& t) const {
   const auto [less, more] = std::minmax(s.doubled_area, t.doubled_area);
   GuardValues v;
   v.value[GuardValues::areas] = less / more;
-  v.value[GuardValues::edge] = std::numbers::sqrt3 * l2 / (s.doubled_area + t.doubled_area);
+  v.value[GuardValues::edge] = std::numbers::sqrt3 * s.l2[k] / (s.doubled_area + t.doubled_area);
+  if (!limits_->has_flow) return v;
+  const FlowLink link = link_across(s, k, t);
+  v.value[GuardValues::orthogonality] = -link.orthogonality;
+  v.value[GuardValues::flow_link] = link.length;
   return v;
+}
+
+FlowLink Guard::link_across(const Triangle& s, std::size_t k, const Triangle& t) const {
+  FlowCell across = t.cell;
+  if (mesh_.space().is_periodic()) {  // the image of t that is next to s
+    for (std::size_t m = 0; m < 3; ++m) {
+      if (t.corners[m] == s.corners[k]) across.center = across.center + (s.at[k] - t.at[m]);
+    }
+  }
+  return flow_link(s.at[(k + 1) % 3] - s.at[k], s.cell, across);
+}
+
+GuardValues Guard::cell(VertexId v, bool moved, const OutsideNeighbors* outside) const {
+  const Space& space = mesh_.space();
+  gather(ring_, mesh_, v, [&](VertexId u, const WeightedPoint& near) {
+    return moved && u == moving_ ? space.image(place_, near) : mesh_.point(u, near);
+  });
+  bool closed = !mesh_.is_boundary(v);
+  if (outside != nullptr && outside->is_outside) {
+    closed = outside->is_closed;
+    for (const WeightedPoint& p : outside->points) ring_.around.push_back(space.image(p, ring_.center));
+  }
+  GuardValues values;
+  const double spacing = units_.scale * grid_spacing(space, ring_);
+  values.value[GuardValues::spacing] = spacing;
+  values.value[GuardValues::wide_spacing] = -spacing;
+  if (!closed) return values;
+  StarArea star;
+  for (std::size_t k = 0; k < ring_.around.size(); ++k, ++star.triangles) {
+    star.doubled += unsigned_doubled_area(space, ring_.center, ring_.around[k], ring_.after(k));
+  }
+  values.value[GuardValues::duals_alike] = cell_quality(space, ring_);
+  values.value[GuardValues::centroid] = -centroid_offset(space, ring_) / star.size();
+  return values;
+}
+
+GuardValues Guard::cells_around(VertexId v, bool moved) const {
+  GuardValues values = cell(v, moved);
+  for (const HalfedgeId h : mesh_.star(v)) {
+    values.take(cell(mesh_.target(h), moved));
+    if (mesh_.is_boundary(Mesh::prev(h))) values.take(cell(mesh_.opposite(h), moved));
+  }
+  return values;
 }
 
 GuardValues Guard::around(TriangleId t, std::span<const TriangleId> except) const {
@@ -121,9 +222,11 @@ GuardValues Guard::around(TriangleId t, std::span<const TriangleId> except) cons
   GuardValues v = alone(shape);
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId across = mesh_.twin(Mesh::halfedge(t, k));
-    if (!across.valid() || std::ranges::find(except, Mesh::triangle(across)) != except.end()) continue;
+    if (!across.valid() || mesh_.is_diagonal(across) ||
+        std::ranges::find(except, Mesh::triangle(across)) != except.end())
+      continue;
     if (!part_.contains(mesh_.opposite(across))) continue;
-    v.take(of_pair(shape, triangle(Mesh::triangle(across)), shape.l2[static_cast<std::size_t>(k)]));
+    v.take(of_pair(shape, static_cast<std::size_t>(k), triangle(Mesh::triangle(across))));
   }
   return v;
 }
@@ -151,16 +254,16 @@ bool Guard::allows(std::span<const TriangleId> old, std::span<const Corners> fre
         for (std::size_t m = 0; m < 3 && !inside; ++m) {
           inside = fresh[j][m] == b && fresh[j][(m + 1) % 3] == a;
         }
-        if (inside && i < j) after.take(of_pair(shapes_[i], shapes_[j], shapes_[i].l2[k]));
+        if (inside && i < j) after.take(of_pair(shapes_[i], k, shapes_[j]));
       }
       if (inside || !a.valid() || !b.valid()) continue;
       const HalfedgeId h = mesh_.find_halfedge(a, b);
       if (!h.valid() || mesh_.is_boundary(h)) continue;
       const TriangleId outside = Mesh::triangle(mesh_.twin(h));
-      after.take(of_pair(shapes_[i], triangle(outside), shapes_[i].l2[k]));
+      after.take(of_pair(shapes_[i], k, triangle(outside)));
     }
   }
-  return after.hold(GuardValues(), limits_->for_steps) || after.hold(around(old), limits_->for_steps);
+  return after.are_within(limits_->for_steps) || after.hold(around(old), limits_->for_steps);
 }
 
 /// The move changes the triangles of the star. Their pairs are with each other and with the triangles across the link.
@@ -175,14 +278,20 @@ bool Guard::allows_move(VertexId v, const WeightedPoint& p) {
     shapes_.push_back(triangle({v, mesh_.target(h), mesh_.opposite(h)}, true));
     const Triangle& t = shapes_.back();
     after.take(alone(t));
-    if (shapes_.size() > 1) after.take(of_pair(shapes_[shapes_.size() - 2], t, t.l2[0]));
+    if (shapes_.size() > 1) after.take(of_pair(t, 0, shapes_[shapes_.size() - 2]));
     const HalfedgeId across = mesh_.twin(Mesh::next(h));
-    if (across.valid()) after.take(of_pair(t, triangle(Mesh::triangle(across)), t.l2[1]));
+    if (across.valid()) after.take(of_pair(t, 1, triangle(Mesh::triangle(across))));
   }
-  if (!mesh_.is_boundary(v)) after.take(of_pair(shapes_.back(), shapes_.front(), shapes_.front().l2[0]));
-  if (after.hold(GuardValues(), limits_->for_steps)) return true;
-  if (!star_) star_ = around(old_);
-  return after.hold(*star_, limits_->for_steps);
+  if (!mesh_.is_boundary(v)) after.take(of_pair(shapes_.front(), 0, shapes_.back()));
+  if (!after.are_within(limits_->for_steps)) {
+    if (!star_) star_ = around(old_);
+    if (!after.hold(*star_, limits_->for_steps)) return false;
+  }
+  if (!limits_->has_cells) return true;
+  const GuardValues cells = cells_around(v, true);
+  if (cells.are_within(limits_->for_steps)) return true;
+  if (!cells_) cells_ = cells_around(v, false);
+  return cells.hold(*cells_, limits_->for_steps);
 }
 
 bool Guard::allows(const RemovalPlan& plan) {
@@ -208,6 +317,7 @@ bool Guard::allows(const InsertionPlan& plan) {
 void Guard::begin_flips(const Part& part) {
   part_ = part;
   touched_.clear();
+  corners_.clear();
   before_ = {};
 }
 
@@ -221,11 +331,21 @@ void Guard::about_to_flip(HalfedgeId h) {
     before_.take(around(t, std::span(touched_).first(n)));
     touched_.push_back(t);
   }
+  if (!limits_->has_cells) return;
+  for (const VertexId v : {mesh_.origin(h), mesh_.target(h), mesh_.opposite(h), mesh_.opposite(mesh_.twin(h))}) {
+    if (std::ranges::find(corners_, v) != corners_.end()) continue;
+    before_.take(cell(v));
+    corners_.push_back(v);
+  }
 }
 
-bool Guard::allow_flips() const { return around(touched_).hold(before_, limits_->for_steps); }
+bool Guard::allow_flips() const {
+  GuardValues after = around(touched_);
+  for (const VertexId v : corners_) after.take(cell(v));
+  return after.hold(before_, limits_->for_steps);
+}
 
-GuardValues Guard::worst(Executor* executor) const {
+GuardValues Guard::worst(Executor* executor, std::span<const OutsideNeighbors> outside) const {
   const std::size_t n = mesh_.n_triangles();
   std::vector<GuardValues> of_blocks((n + kLoopBlock - 1) / kLoopBlock);
   for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
@@ -235,6 +355,10 @@ GuardValues Guard::worst(Executor* executor) const {
   });
   GuardValues worst;
   for (const GuardValues& v : of_blocks) worst.take(v);
+  for (const VertexId v : mesh_.vertices()) {
+    if (!limits_->has_cells) break;
+    if (!mesh_.is_isolated(v)) worst.take(cell(v, false, v.index < outside.size() ? &outside[v.index] : nullptr));
+  }
   return worst;
 }
 
@@ -245,14 +369,19 @@ GuardValues Guard::across(HalfedgeId h, const WeightedPoint& beyond) const {
     return position_in_space(mesh_.space(), mesh_.space().image(p, a));
   };
   Triangle outside;
-  outside.doubled_area = length(cross(place(b) - place(a), place(beyond) - place(a)));
-  return of_pair(inside, outside, squared_length(place(b) - place(a)));
+  outside.corners = {mesh_.target(h), mesh_.origin(h), VertexId()};
+  outside.at = {place(b), place(a), place(beyond)};
+  outside.doubled_area = length(cross(outside.at[1] - outside.at[0], outside.at[2] - outside.at[0]));
+  outside.cell = flow_cell(outside.at[0], outside.at[1], outside.at[2]);
+  std::size_t k = 0;
+  while (mesh_.corners(Mesh::triangle(h)).at(k) != mesh_.origin(h)) ++k;
+  return of_pair(inside, k, outside);
 }
 
 std::size_t Guard::count_beyond(Executor* executor) const {
   const GuardValues limits = scaled(limits_->values, 1 - kRounding);
   return static_cast<std::size_t>(blockwise_sum(mesh_.n_triangles(), executor, [&](std::size_t i) {
-    return around(TriangleId(i)).hold(GuardValues(), limits) ? 0.0 : 1.0;
+    return mesh_.is_erased(TriangleId(i)) || around(TriangleId(i)).are_within(limits) ? 0.0 : 1.0;
   }));
 }
 
@@ -284,26 +413,48 @@ Expected<std::shared_ptr<const GuardLimits>> guard_limits(const Mesh& input, con
                       "the guard has " + std::to_string(o.depth.size()) + " depths; expected one for each of the " +
                           std::to_string(input.n_vertices()) + " vertices"};
   }
-  const bool off = o.angle == 0 && o.edge == 0 && o.areas == 0 && !o.step;
+  const bool off = o.angle == 0 && o.edge == 0 && !o.areas && !o.length && !o.step && o.client == Client::none;
   if (off || objective_of(options) == Objective::energy) return std::shared_ptr<const GuardLimits>();
   auto limits = std::make_shared<GuardLimits>();
   if (!o.depth.empty()) limits->depth = std::make_shared<const DepthField>(input, o.depth);
+  limits->client = o.client;
+  limits->has_flow = o.client == Client::dflowfm;
+  limits->has_cells = o.client == Client::mpas;
   WorkingUnits same;
   same.space = input.space();
-  limits->values = Guard(input, same, limits).worst(executor);
-  GuardValues bounds;
-  const double sine = std::sin(o.angle * std::numbers::pi / 180),
-               step = o.step.value_or(std::numeric_limits<double>::infinity());
-  bounds.value = {sine * sine, o.edge * o.edge, o.areas > 0 ? 1 / o.areas : 0, step * step, step * step};
-  if (o.depth.empty()) bounds.value[GuardValues::crossing] = bounds.value[GuardValues::edge_crossing] = 0;
-  limits->values.take(bounds);
+  const Guard guard(input, same, limits);
+  limits->values = guard.worst(executor);
+  limits->values.take(bounds_of(o));
   limits->for_steps = scaled(limits->values, kMargin);
+  limits->of_client = client_values(o.client, input, same, executor);
   return std::shared_ptr<const GuardLimits>(std::move(limits));
+}
+
+std::vector<double> client_values(Client client, const Mesh& mesh, const WorkingUnits& units, Executor* executor) {
+  if (client == Client::none) return {};
+  const SolverMeasures m = solver_measures(mesh, false, executor);
+  std::vector<double> values = {-static_cast<double>(m.obtuse_triangles)};
+  if (client == Client::dflowfm) {
+    values.insert(values.end(), {-std::max(m.max_orthogonality, kRoundedOrthogonality), -m.max_smoothness,
+                                 m.min_flow_link, -static_cast<double>(m.small_flow_links)});
+  } else if (client == Client::mpas) {
+    values.insert(values.end(),
+                  {m.min_cell_quality, units.scale * m.min_grid_spacing, -units.scale * m.max_grid_spacing,
+                   m.min_triangle_quality, m.min_triangle_angle_quality, -m.max_centroid_offset_over_size});
+  }
+  return values;
 }
 
 std::size_t count_beyond(const Mesh& mesh, const WorkingUnits& units, const std::shared_ptr<const GuardLimits>& limits,
                          Executor* executor) {
-  return limits == nullptr ? 0 : Guard(mesh, units, limits).count_beyond(executor);
+  if (limits == nullptr) return 0;
+  std::size_t beyond = Guard(mesh, units, limits).count_beyond(executor);
+  const std::vector<double> values = client_values(limits->client, mesh, units, executor);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double limit = limits->of_client[i];
+    beyond += values[i] < limit - kRounding * std::abs(limit) ? 1 : 0;
+  }
+  return beyond;
 }
 
 }  // namespace temper

@@ -1,13 +1,18 @@
 // The guard: measures that no run makes worse than in the input, or than a bound.
 //
-// Four measures are of triangles: the least angle, the length of an edge over the size of its two triangles, the ratio
-// of their areas, and the time that a long wave takes to cross. Codes with explicit time steps or fluxes look at the
-// worst of each over the mesh. A limit is the worse of bound and input, so a bound that the input misses is no goal.
+// Codes with explicit time steps, fluxes or linear elements look at the worst value of each measure over the mesh:
+//   - of triangles: the least and the largest angle, the shortest edge, the time that a long wave takes to cross
+//   - of pairs: the length of an edge over the size of its two triangles, the ratio of their areas
+//   - of flow links, for D-Flow FM: the orthogonality, the length (geometry/flow_cell.hpp)
+//   - of cells and their triangles, for MPAS (size/cell_ring.hpp). These depend on two rings of triangles around a
+//     change, so that sweeps must go in order
+// A limit is the worse of bound and input, so a bound that the input misses is no goal.
 //
 // A change of the mesh replaces some triangles. The guard refuses it if the worst measure around it becomes worse, and
 // is then beyond the limit. So good triangles may become worse as far as the limit, and the worst ones never do. Steps,
 // flips, insertions and removals ask the guard; the judge (judge.hpp) counts the triangles beyond it in each candidate.
-// Some changes ask nobody, such as the flips that make the input regular. The judge is for them.
+// Some changes ask nobody, such as the flips that make the input regular. The judge is for them. It also compares the
+// measures of the client over the whole mesh, such as counts, which no single change can know.
 #pragma once
 
 #include <array>
@@ -19,17 +24,35 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/flow_cell.hpp"
 #include "optimize/flips/partition.hpp"
 #include "optimize/working/working_units.hpp"
+#include "size/cell_ring.hpp"
 #include "temper/optimize.hpp"
 #include "temper/topology.hpp"
 
 namespace temper {
 
-/// Values of which the least counts: larger is better. None depends on weights. All but the ratio of areas are squares.
+/// Values of which the least counts: larger is better. None depends on weights.
 struct GuardValues {
-  enum Measure { sine, edge, areas, crossing, edge_crossing };  // of the least angle; edge/size; times [s]
-  static constexpr std::size_t kMeasures = 5;
+  enum Measure {
+    sine,           ///< sin² of the least angle
+    cosine,         ///< 1 + cosine of the largest angle
+    edge,           ///< (edge over size)² of an inner edge
+    areas,          ///< Smaller over larger area of a pair
+    shortest,       ///< Length² of an edge
+    crossing,       ///< Time² of a wave across a triangle [s²]
+    edge_crossing,  ///< Time² of a wave along an edge [s²]
+    orthogonality,  ///< −|cosine| of the angle between an inner edge and its flow link
+    flow_link,      ///< Length of the flow link over the mean size of its cells
+    edges_alike,    ///< (Shortest over longest edge of a triangle)²
+    angles_alike,   ///< Least over largest angle of a triangle
+    spacing,        ///< Mean distance of a vertex from its neighbors
+    wide_spacing,   ///< −the same
+    duals_alike,    ///< Shortest over longest dual of a cell
+    centroid,       ///< −distance of a vertex from the centroid of its cell, over local size
+  };
+  static constexpr std::size_t kMeasures = 15;
   std::array<double, kMeasures> value;
 
   GuardValues() { value.fill(std::numeric_limits<double>::infinity()); }
@@ -37,6 +60,8 @@ struct GuardValues {
   void take(const GuardValues& other);
   /// Says whether no measure is worse than here and beyond the limit.
   [[nodiscard]] bool hold(const GuardValues& before, const GuardValues& limits) const;
+  /// Says whether no measure is beyond the limit.
+  [[nodiscard]] bool are_within(const GuardValues& limits) const { return hold(GuardValues(), limits); }
 };
 
 /// The depths of the input, linear on its triangles. It is in the user's units.
@@ -47,6 +72,17 @@ struct GuardLimits {
   GuardValues values;     ///< of the judge
   GuardValues for_steps;  ///< tighter by a margin, since other maps and units give slightly other values
   std::shared_ptr<const DepthField> depth;  ///< or null
+  Client client = Client::none;
+  bool has_cells = false;         ///< cells and their triangles are measured
+  bool has_flow = false;          ///< flow links are measured
+  std::vector<double> of_client;  ///< client_values() of the input
+};
+
+/// The neighbors of a vertex that a copy of a few triangles does not have: counter-clockwise, after those it has.
+struct OutsideNeighbors {
+  std::vector<WeightedPoint> points;
+  bool is_outside = false;  ///< there are triangles outside
+  bool is_closed = false;   ///< the vertex is not on the boundary of the whole mesh
 };
 
 /// Guards of different parts may work at once: a copy has working storage of its own, and shares the depths of
@@ -57,10 +93,12 @@ class Guard {
   Guard(const Mesh& mesh, const WorkingUnits& units, std::shared_ptr<const GuardLimits> limits);
 
   [[nodiscard]] bool on() const { return limits_ != nullptr; }
+  /// Says whether a question reads the stars of neighbors.
+  [[nodiscard]] bool reads_stars() const { return on() && limits_->has_cells; }
 
   /// Say whether these changes are within the guard: v moves to p, a plan is committed. Call begin_step() before the
   /// moves that one step tries.
-  void begin_step() { star_.reset(); }
+  void begin_step() { star_.reset(), cells_.reset(); }
   [[nodiscard]] bool allows_move(VertexId v, const WeightedPoint& p);
   [[nodiscard]] bool allows(const RemovalPlan& plan);
   [[nodiscard]] bool allows(const InsertionPlan& plan);
@@ -77,8 +115,8 @@ class Guard {
   void about_to_flip(HalfedgeId h);
   [[nodiscard]] bool allow_flips() const;
 
-  /// Returns the worst values of the mesh.
-  [[nodiscard]] GuardValues worst(Executor* executor = nullptr) const;
+  /// Returns the worst values of the mesh. `outside`: of vertices of a copy; new vertices have none.
+  [[nodiscard]] GuardValues worst(Executor* executor = nullptr, std::span<const OutsideNeighbors> outside = {}) const;
   /// Returns the values at boundary edge h, if its triangle had a neighbor with this third corner.
   [[nodiscard]] GuardValues across(HalfedgeId h, const WeightedPoint& beyond) const;
   [[nodiscard]] const GuardValues& limits() const { return limits_->for_steps; }
@@ -92,9 +130,13 @@ class Guard {
  private:
   using Corners = std::array<VertexId, 3>;
   struct Triangle {
-    double doubled_area = 0;
+    double doubled_area = 0;        // of the whole cell, if this is half a quadrilateral
     std::array<double, 3> l2 = {};  // of the edges from corner k to k + 1
     double depth = 0;
+    // For flow links: center and area of the cell, and places of the corners near the first one.
+    FlowCell cell;
+    std::array<Vec3, 3> at = {};
+    Corners corners = {};
   };
   /// A depth of the field, and the triangle of the field in which it was found.
   struct Depth {
@@ -103,12 +145,18 @@ class Guard {
   };
   /// A triangle of the mesh; or of plans, where the vertex `moving_` (invalid: a new one) is at `place_`.
   [[nodiscard]] Triangle triangle(const Corners& corners, bool of_plan = false) const;
-  [[nodiscard]] Triangle triangle(TriangleId t) const { return triangle(mesh_.corners(t)); }
+  [[nodiscard]] Triangle triangle(TriangleId t) const;
   [[nodiscard]] GuardValues alone(const Triangle& t) const;
-  [[nodiscard]] static GuardValues of_pair(const Triangle& s, const Triangle& t, double l2);
+  /// Returns the values of two triangles that share edge k of s.
+  [[nodiscard]] GuardValues of_pair(const Triangle& s, std::size_t k, const Triangle& t) const;
+  [[nodiscard]] FlowLink link_across(const Triangle& s, std::size_t k, const Triangle& t) const;
   /// Returns the values of t and of its pairs with neighbors, except those that are listed.
   [[nodiscard]] GuardValues around(TriangleId t, std::span<const TriangleId> except = {}) const;
   [[nodiscard]] GuardValues around(std::span<const TriangleId> triangles) const;
+  /// Returns the values of the cell of a vertex; if `moved`, with the vertex `moving_` at `place_`.
+  [[nodiscard]] GuardValues cell(VertexId v, bool moved = false, const OutsideNeighbors* outside = nullptr) const;
+  /// Returns the values of the cells of v and its neighbors.
+  [[nodiscard]] GuardValues cells_around(VertexId v, bool moved) const;
   [[nodiscard]] bool allows(std::span<const TriangleId> old, std::span<const Corners> fresh);
   [[nodiscard]] bool has_depth() const { return limits_->depth != nullptr; }
   [[nodiscard]] Depth depth_at(const WeightedPoint& p, TriangleId near) const;
@@ -119,11 +167,13 @@ class Guard {
   std::shared_ptr<IdVector<VertexId, Depth>> depths_;  // of all parts; if there are depths
   VertexId moving_;
   WeightedPoint place_;
-  Depth there_;                      // at place_
-  std::optional<GuardValues> star_;  // of the present step, before it
-  Part part_;                        // of the present step
-  std::vector<TriangleId> touched_;  // by flips
-  GuardValues before_;               // of these
+  Depth there_;                              // at place_
+  std::optional<GuardValues> star_, cells_;  // of the present step, before it
+  Part part_;                                // of the present step
+  std::vector<TriangleId> touched_;          // by flips
+  std::vector<VertexId> corners_;            // of these, if cells are measured
+  GuardValues before_;                       // of both
+  mutable CellRing ring_;
   std::vector<TriangleId> old_;
   std::vector<Corners> fresh_;
   std::vector<Triangle> shapes_;
@@ -135,7 +185,11 @@ class Guard {
                                                                         const OptimizeOptions& options,
                                                                         Executor* executor = nullptr);
 
-/// Counts the triangles of a mesh that are beyond the limits. O(n).
+/// Returns the measures of the client over a mesh, larger ones better: of `check`, in the user's units. O(n).
+[[nodiscard]] std::vector<double> client_values(Client client, const Mesh& mesh, const WorkingUnits& units,
+                                                Executor* executor);
+
+/// Counts the triangles of a mesh, and the measures of the client, that are beyond the limits. O(n).
 [[nodiscard]] std::size_t count_beyond(const Mesh& mesh, const WorkingUnits& units,
                                        const std::shared_ptr<const GuardLimits>& limits, Executor* executor = nullptr);
 

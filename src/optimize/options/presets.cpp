@@ -29,6 +29,14 @@ void place_vertices(Options& o, double min_dual) {
   o.accuracy.min_dual = min_dual;
 }
 
+/// No angle, edge, ratio of areas or time step becomes worse than in the input, and no measure of the client.
+void keep_measures(Options& o, Client client) {
+  o.guard.client = client;
+  o.guard.angle = 60;
+  o.guard.edge = 1;
+  o.guard.areas = 1;
+}
+
 constexpr auto kTargets = std::to_array<Preset>({
     {"any", "Any solver on a dual mesh: large margins, smaller errors", [](Options&) {}},
     {"valid", "Valid triangles alone: the fastest run",
@@ -44,21 +52,23 @@ constexpr auto kTargets = std::to_array<Preset>({
     {"mpas", "MPAS: no weights, centered edges; may add and remove vertices",
      [](Options& o) {
        place_vertices(o, kLongDual);
+       keep_measures(o, Client::mpas);
        o.star = Star::zero;
      }},
     {"dflowfm", "D-Flow FM: no weights, orthogonal; may add and remove vertices",
-     [](Options& o) { place_vertices(o, kLongDual); }},
+     [](Options& o) {
+       place_vertices(o, kLongDual);
+       keep_measures(o, Client::dflowfm);
+     }},
     {"adcirc", "ADCIRC, SCHISM: no weights, long edges; may add and remove vertices",
      [](Options& o) {
        place_vertices(o, 0);
-       // No angle, edge, ratio of areas or time step becomes worse than in the input.
-       o.guard.angle = 60;
-       o.guard.edge = 1;
-       o.guard.areas = 1;
+       keep_measures(o, Client::adcirc);
      }},
     {"fem", "Linear finite elements: no weights, good angles, the same vertices",
      [](Options& o) {
        move_positions_alone(o);
+       keep_measures(o, Client::fem);
        o.scheme = Scheme::vertex;
        o.objective = Objective::accuracy;
        o.accuracy.min_edge = kLongEdge;

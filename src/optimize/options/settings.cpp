@@ -87,7 +87,7 @@ std::optional<InputError> check_coarsening(const OptimizeOptions& o) {
        "`unknowns=positions_and_weights`"},
       {o.size_band.has_value(),
        "`coarsen` makes sizes larger, which `size_band` forbids; expected `coarsen=none` or `size_band=none`"},
-      {g.angle > 0 || g.edge > 0 || g.areas > 0 || g.step,
+      {g.angle > 0 || g.edge > 0 || g.areas || g.length || g.step || g.client != Client::none,
        "`coarsen` makes a coarser mesh, which the guard does not judge; expected a target without a guard"},
       {o.paper.inversion == Inversion::allow || o.paper.hidden == HiddenPolicy::keep,
        "`coarsen` needs regular meshes; expected `inversion=refuse` and `hidden=undo`"},

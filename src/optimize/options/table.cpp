@@ -44,6 +44,7 @@ constexpr auto names_of(InsertionPlace) {
 constexpr auto names_of(HiddenPolicy) { return std::to_array<Name>({"undo", "remove", "keep"}); }
 constexpr auto names_of(Inversion) { return std::to_array<Name>({"refuse", "allow", "infinite"}); }
 constexpr auto names_of(SweepOrder) { return std::to_array<Name>({"hilbert", "input", "reverse", "random"}); }
+constexpr auto names_of(Client) { return std::to_array<Name>({"none", "fem", "adcirc", "dflowfm", "mpas"}); }
 constexpr auto names_of(StoppingRule) { return std::to_array<Name>({"relative", "paper"}); }
 template <class Enum>
 constexpr auto kNames = names_of(Enum());
@@ -434,9 +435,15 @@ constexpr OptionRow kStoppingRows[] = {
 };
 
 constexpr OptionRow kGuardRows[] = {
+    row<kGuard, &GuardOptions::client>(
+        "guard",
+        "Solver whose measures the guard keeps. None becomes worse than in the input. If the input meets the limits of "
+        "D-Flow FM, ADCIRC or MPAS, it comes back",
+        {.needs = {kForAccuracy}}),
     row<kGuard, &GuardOptions::angle>(
         "guard_angle",
-        "Bound of the guard for the least angle in degrees. The angle never falls below it, or below the least one of "
+        "Bound of the guard for the least angle a in degrees, and 180 - 2a for the largest one. The least angle never "
+        "falls below it, or below the least one of "
         "the input if that is smaller. 60: the input's. 0: no limit",
         {.range = from_to(0, 60), .needs = {kForAccuracy}}),
     row<kGuard, &GuardOptions::edge>(
@@ -445,8 +452,13 @@ constexpr OptionRow kGuardRows[] = {
         {.range = from_to(0, 1), .needs = {kForAccuracy}}),
     row<kGuard, &GuardOptions::areas>("guard_areas",
                                       "Bound of the guard for the largest ratio of the areas of two triangles that "
-                                      "share an edge, at least 1. 0: no limit",
-                                      {.range = at_least(0), .needs = {kForAccuracy}}),
+                                      "share an edge, at least 1",
+                                      {.range = at_least(1), .absent = "no limit", .needs = {kForAccuracy}}),
+    row<kGuard, &GuardOptions::length>("guard_length",
+                                       "Bound of the guard for the shortest edge, in the unit of the coordinates",
+                                       {.range = at_least(0),
+                                        .absent = "the shortest edge of the input, if there is another limit",
+                                        .needs = {kForAccuracy}}),
     row<kGuard, &GuardOptions::step>(
         "guard_step",
         "Bound of the guard for the time in seconds in which a long wave crosses a triangle or an edge. It holds if "

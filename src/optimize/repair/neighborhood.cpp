@@ -20,6 +20,25 @@ bool contains(const std::vector<TriangleId>& sorted, TriangleId t) {
   return std::binary_search(sorted.begin(), sorted.end(), t);
 }
 
+/// Returns the neighbors of v outside of the triangles, which have one fan at v.
+OutsideNeighbors outside_of(const Mesh& mesh, VertexId v, const std::vector<TriangleId>& inside) {
+  OutsideNeighbors all;
+  all.is_closed = !mesh.is_boundary(v);
+  std::vector<WeightedPoint> before;  // the fan
+  bool fan_was_there = false;
+  const auto is_inside = [&](HalfedgeId h) { return h.valid() && contains(inside, Mesh::triangle(h)); };
+  const auto add = [&](VertexId u) { (fan_was_there ? all.points : before).push_back(mesh.point(u, mesh.point(v))); };
+  for (const HalfedgeId h : mesh.star(v)) {
+    const bool here = is_inside(h);
+    fan_was_there = fan_was_there || here;
+    all.is_outside = all.is_outside || !here;
+    if (!here && !is_inside(mesh.twin(h))) add(mesh.target(h));
+    if (!here && mesh.is_boundary(Mesh::prev(h))) add(mesh.opposite(h));
+  }
+  all.points.insert(all.points.end(), before.begin(), before.end());
+  return all;
+}
+
 /// Returns the vertices at which the triangles meet in more than one fan.
 std::vector<VertexId> pinches(const Mesh& mesh, const std::vector<TriangleId>& triangles) {
   std::vector<VertexId> corners;
@@ -121,6 +140,7 @@ Neighborhood neighborhood_of(const WorkingCopy& work, TriangleId seed, int rings
     for (const HalfedgeId h : mesh.star(around.vertices[v.index])) {
       if (!contains(triangles, Mesh::triangle(h))) around.frozen[v.index] = 1;
     }
+    around.outside.push_back(outside_of(mesh, around.vertices[v.index], triangles));
   }
   return around;
 }

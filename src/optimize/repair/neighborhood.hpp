@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "optimize/flips/flipper.hpp"
+#include "optimize/flips/guard.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -21,6 +22,7 @@ struct Neighborhood {
   std::vector<std::uint8_t> frozen;          ///< by local number
   std::vector<WeightedPoint> beyond;         ///< by rim edge: opposite corner of the triangle outside
   std::vector<std::array<VertexId, 2>> rim;  ///< edges of the rim that have a triangle outside, by local numbers
+  std::vector<OutsideNeighbors> outside;     ///< by local number
   DividedEdges divided;                      ///< of the run's own vertices on lines, by local number
 
   /// Says whether the edge between a and b has a triangle outside.

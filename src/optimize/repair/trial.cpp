@@ -9,7 +9,6 @@
 
 #include "base/rng.hpp"
 #include "feasibility/constraints.hpp"
-#include "geometry/triangle_kernel.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "optimize/repair/local_copy.hpp"
 #include "optimize/repair/refinement.hpp"
@@ -32,16 +31,6 @@ constexpr int kWeighedRings = 2;
 // More vertices than any neighborhood lacks.
 constexpr int kMostInserted = 300;
 
-/// Returns the largest of −h/ℓ, −d/ℓ and d/ℓ − 1, which is positive if the triangle is bad.
-double violation_of(const Mesh& mesh, TriangleId t) {
-  const auto [p, q, r] = mesh.points(t);
-  double worst = 0;
-  for (const EdgeShape& e : triangle_shape(mesh.space(), p, q, r).edges) {
-    worst = std::max({worst, -e.g / e.l2, 0.5 * (std::abs(e.dw) / e.l2 - 1)});
-  }
-  return worst;
-}
-
 class Trial {
  public:
   /// `settings`: by settings_of_copies().
@@ -61,15 +50,18 @@ class Trial {
   }
 
  private:
-  /// Says whether the guard allows the neighborhood as it is now, in place of what it was.
+  /// Says whether the neighborhood may be as it is now, in place of what it was: the worst triangle of the input, and
+  /// the guard, are its limits.
   [[nodiscard]] bool is_guarded() const {
+    const double worst_before = std::max(settings_.worst_violation, worst_violation(around_.mesh));
+    if (count_worse(copy_.mesh(), worst_before) > 0) return false;
     if (settings_.guard == nullptr) return true;
     const Guard guard(copy_.mesh(), grid_, settings_.guard);
     const Guard original(around_.mesh, grid_, settings_.guard);
     return worst(guard, copy_.mesh()).hold(worst(original, around_.mesh), guard.limits());
   }
   [[nodiscard]] GuardValues worst(const Guard& guard, const Mesh& mesh) const {
-    GuardValues v = guard.worst();
+    GuardValues v = guard.worst(nullptr, around_.outside);
     for (std::size_t i = 0; i < around_.rim.size(); ++i) {
       const HalfedgeId h = mesh.find_halfedge(around_.rim[i][0], around_.rim[i][1]);
       if (h.valid()) v.take(guard.across(h, around_.beyond[i]));

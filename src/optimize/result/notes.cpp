@@ -46,6 +46,13 @@ class Notes {
                 : "no better mesh was found: the input is returned as it was");
   }
 
+  void note_limits_are_met() {
+    const char* const limits = options_.guard.client == Client::dflowfm
+                                   ? "the limits of D-Flow FM (orthogonality 0.01, flow links 0.1)"
+                                   : "the limits of the target (no obtuse triangles, no short edges)";
+    add(std::string("the input meets ") + limits + ": it comes back as it was");
+  }
+
   /// Measured errors on structured grids may rise.
   void note_errors(double ratio, bool input_returned) {
     const std::string times = to_text(std::round(1000 * ratio) / 1000);
@@ -213,6 +220,7 @@ void add_notes(const Mesh& mesh, const Settings& settings, const RunFacts& facts
   } else {
     notes.note_facts(facts);
   }
+  if (facts.meets_limits) notes.note_limits_are_met();
   if (facts.error_ratio) notes.note_errors(*facts.error_ratio, ending.returns_input);
   if (facts.gave_up) {
     notes.add(
@@ -227,7 +235,7 @@ void add_notes(const Mesh& mesh, const Settings& settings, const RunFacts& facts
   notes.note_energy();
   notes.note_corners_that_stay(ending.bad);
   notes.note_edges_that_must_be_split(ending.bad);
-  if (settings.guard != nullptr && ending.bad > 0)
+  if (settings.guard != nullptr && ending.bad > 0 && !facts.meets_limits)
     notes.add("the guard may keep triangles from becoming well-centered: a larger `guard_areas` leaves more room");
   if (settings.lacks_discretization_error) {
     notes.add(

@@ -148,7 +148,7 @@ void give_back(InputMesh& input, Candidate best, const Settings& settings, const
   const double bad_part_before = bad_part(input.n_triangles(), of_input.counts.bad);
   // Flips that make the input regular have priority over all other criteria.
   const bool may_be_better = before < result.score || result.score.bad > 0 || result.score.non_regular > 0;
-  bool flips = may_be_better && lacks_flips(of_input.counts, settings, run.facts);
+  bool flips = may_be_better && !run.facts.meets_limits && lacks_flips(of_input.counts, settings, run.facts);
   Result as_given;
   as_given.score = before;
   if (flips) {

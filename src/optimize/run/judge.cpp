@@ -6,6 +6,9 @@
 
 #include "base/sum.hpp"
 #include "energy/whole_mesh.hpp"
+#include "geometry/triangle_kernel.hpp"
+#include "mesh/bad_triangles.hpp"
+#include "mesh/blocks.hpp"
 #include "optimize/flips/guard.hpp"
 #include "optimize/run/run.hpp"
 #include "temper/detail/size.hpp"
@@ -48,6 +51,34 @@ std::vector<TriangleId> triangles_lacking_length(const Mesh& mesh, const Accurac
   return lacking;
 }
 
+double violation_of(const Mesh& mesh, TriangleId t) {
+  const auto [p, q, r] = mesh.points(t);
+  double worst = 0;
+  for (const EdgeShape& e : triangle_shape(mesh.space(), p, q, r).edges) {
+    worst = std::max({worst, -e.g / e.l2, 0.5 * (std::abs(e.dw) / e.l2 - 1)});
+  }
+  return worst;
+}
+double worst_violation(const Mesh& mesh, Executor* executor) {
+  std::vector<double> of_blocks((mesh.n_triangles() + kLoopBlock - 1) / kLoopBlock);
+  for_blocks(mesh.n_triangles(), executor, [&](std::size_t first, std::size_t last) {
+    double& worst = of_blocks[first / kLoopBlock];
+    for (const TriangleId t : IdRange<TriangleId>(TriangleId(first), TriangleId(last))) {
+      if (is_bad(mesh, t)) worst = std::max(worst, violation_of(mesh, t));
+    }
+  });
+  return of_blocks.empty() ? 0 : *std::ranges::max_element(of_blocks);
+}
+
+std::size_t count_worse(const Mesh& mesh, double limit, Executor* executor) {
+  constexpr double kRounding = 1e-9;  // of another unit, or another order of corners
+  if (!std::isfinite(limit)) return 0;
+  return static_cast<std::size_t>(blockwise_sum(mesh.n_triangles(), executor, [&](std::size_t i) {
+    const TriangleId t(i);
+    return is_bad(mesh, t) && violation_of(mesh, t) > limit + kRounding * (1 + limit) ? 1.0 : 0.0;
+  }));
+}
+
 bool has_all_for_accuracy(const Mesh& mesh, const Settings& settings) {
   return has_margins(mesh, settings.accuracy.margin, settings.executor()) &&
          missing_lengths(mesh, settings.accuracy, settings.executor()) == 0;
@@ -81,6 +112,28 @@ bool is_sound(const Mesh& input, const MeshScore& counts, const Settings& settin
   return counts == MeshScore{} && has_margins(input, margin, settings.executor());
 }
 
+bool meets_limits_of_client(const Mesh& input, const Settings& settings) {
+  const Client client = settings.options.guard.client;
+  if (client == Client::none || client == Client::fem || settings.objective == Objective::energy) return false;
+  GuardLimits measured;
+  measured.has_flow = client == Client::dflowfm;
+  GuardValues wanted;
+  wanted.value.fill(-kInfinity);
+  if (measured.has_flow) {
+    wanted.value[GuardValues::orthogonality] = -kAdvisedOrthogonality;
+    wanted.value[GuardValues::flow_link] = kSmallFlowLink;
+  } else {
+    constexpr double kRoundedCosine = 1e-9;  // of a right angle in coordinates of double precision
+    wanted.value[GuardValues::cosine] = 1 - kRoundedCosine;
+    if (client == Client::mpas && count_bad(input, settings.executor()) > 0) return false;
+    if (missing_lengths(input, settings.accuracy, settings.executor()) > 0) return false;
+  }
+  WorkingUnits same;
+  same.space = input.space();
+  const Guard guard(input, same, std::make_shared<const GuardLimits>(std::move(measured)));
+  return guard.worst(settings.executor()).are_within(wanted);
+}
+
 ErrorJudge::ErrorJudge(const Mesh& input, const Settings& settings) : settings_(settings), of_input_(squared(input)) {}
 
 std::vector<double> ErrorJudge::squared(const Mesh& mesh) const {
@@ -104,7 +157,8 @@ double root_mean_square(const std::vector<double>& squared_errors) {
 }
 
 MeshScore count(const Mesh& mesh, const Settings& settings, const WorkingUnits& units) {
-  return {count_beyond(mesh, units, settings.guard, settings.executor()),
+  return {count_beyond(mesh, units, settings.guard, settings.executor()) +
+              count_worse(mesh, settings.worst_violation, settings.executor()),
           settings.policy.allows_inversion() ? count_inverted(mesh) : 0,
           count_non_regular_edges(mesh, false, settings.executor()), count_bad(mesh, settings.executor())};
 }

@@ -20,12 +20,20 @@ namespace temper {
 /// Returns the triangles that have an edge which lacks length, in ascending order.
 [[nodiscard]] std::vector<TriangleId> triangles_lacking_length(const Mesh& mesh, const AccuracyModel& model);
 
+/// Returns the largest of −h/ℓ, −d/ℓ and d/ℓ − 1 of triangle t, which is positive if it is not well-centered.
+[[nodiscard]] double violation_of(const Mesh& mesh, TriangleId t);
+/// Returns the largest violation of a triangle that is not well-centered; 0 if all are. O(n).
+[[nodiscard]] double worst_violation(const Mesh& mesh, Executor* executor = nullptr);
+/// Counts triangles that are not well-centered by more than `limit`. O(n).
+[[nodiscard]] std::size_t count_worse(const Mesh& mesh, double limit, Executor* executor = nullptr);
+
 /// Says whether the mesh has all margins and lengths that the accuracy objective requires.
 [[nodiscard]] bool has_all_for_accuracy(const Mesh& mesh, const Settings& settings);
 
-/// A smaller score is better. The guard comes first (guard.hpp). Then validity. Then regularity, unless the user keeps
-/// hidden vertices. Then, for a barrier, the number of triangles that are not well-centered. Then the margins of the
-/// accuracy objective, and missing lengths. Then the energy, or the error of the solver.
+/// A smaller score is better. What is worse than in the input comes first: measures of the guard (guard.hpp), and
+/// triangles that are farther from well-centered than any of the input. Then validity. Then regularity, unless the user
+/// keeps hidden vertices. Then, for a barrier, the number of triangles that are not well-centered. Then the margins of
+/// the accuracy objective, and missing lengths. Then the energy, or the error of the solver.
 struct MeshScore {
   std::size_t beyond_guard = 0, inverted = 0, non_regular = 0, bad = 0;
   bool lacks_margins = false;
@@ -62,6 +70,12 @@ enum class Requirement {
 
 /// Says whether the input needs no change: it is well-centered with margins.
 [[nodiscard]] bool is_sound(const Mesh& input, const MeshScore& counts, const Settings& settings);
+
+/// Says whether the input meets the limits of its client, so that the run returns it as it is:
+///   - D-Flow FM: orthogonality of at most 0.01, no small flow links
+///   - ADCIRC: no obtuse triangles but those by rounding, and the least lengths of the options
+///   - MPAS: all triangles well-centered, and the least lengths
+[[nodiscard]] bool meets_limits_of_client(const Mesh& input, const Settings& settings);
 
 /// Measures the solver's errors on meshes, and divides them by its errors on the input.
 class ErrorJudge {

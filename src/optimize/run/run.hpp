@@ -27,6 +27,7 @@ struct RunFacts {
   SplitCounts splits_where_bad;                ///< at bad triangles, before the last restart with such splits
   bool stays_unsplit = false;                  ///< the boundary, since cuts leave more triangles bad
   bool weights_shrunk = false;                 ///< all weights, since they left edges uncrossed
+  bool meets_limits = false;                   ///< the input: those of its client, so it comes back
   bool gave_up = false;                        ///< in a metric, restarts left most triangles bad
   std::optional<double> error_ratio;           ///< above 1: of measured errors on the mesh of the run to the input's
   bool keeps_input = false;                    ///< for that reason

@@ -223,7 +223,7 @@ Engine Sweeper::engine() {
   const Policy& policy = context_.settings.policy;
   const bool told_in_order = context_.recorder.on() || policy.defers_updates();
   const bool removes = policy.removes_hidden() || policy.changes_vertices();
-  if (told_in_order || removes || limits_.band.on()) return &in_order_;
+  if (told_in_order || removes || limits_.band.on() || limits_.guard.reads_stars()) return &in_order_;
   return engine_of(context_.settings.hooks);
 }
 

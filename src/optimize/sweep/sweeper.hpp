@@ -26,8 +26,9 @@
 //  5. Adjacent slots are different objects: bytes, words and doubles, not bits. Regions do not change.
 //
 // So no part reads or writes what another part writes. Each part does what it would do alone, and the order of parts
-// does not matter. Some steps read more (size bands read the stars of neighbors), record events in order, or remove
-// vertices. Then the same parts run one after another, with the same order in each, and make the same bytes.
+// does not matter. Some steps read more (size bands and a guard of cells read the stars of neighbors), record events in
+// order, or remove vertices. Then the same parts run one after another, with the same order in each, and make the same
+// bytes.
 #pragma once
 
 #include <atomic>
