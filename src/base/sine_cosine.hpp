@@ -38,7 +38,7 @@ inline SineCosine sine_cosine(double x) {
   return {(quarter & 2) != 0 ? -sine : sine, ((quarter + 1) & 2) != 0 ? -cosine : cosine};
 }
 
-/// The angle in [0, π] of this cosine, to 1e-15; the cosine is first clamped to [−1, 1].
+/// The angle in [0, π] of this cosine, which is first clamped to [−1, 1]. Its cosine is x to 1e-15.
 inline double arc_cosine(double x) {
   const double t = std::fmin(std::abs(x), 1.0);
   // Abramowitz and Stegun, 4.4.45, to 7e-5. Newton's iteration squares the error.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -47,6 +48,18 @@ TEST(SineCosine, OfWhatIsNotFiniteIsNoNumber) {
   EXPECT_TRUE(std::isnan(sine_cosine(std::numeric_limits<double>::quiet_NaN()).cosine));
   EXPECT_EQ(sine_cosine(0).sine, 0);
   EXPECT_EQ(sine_cosine(0).cosine, 1);
+}
+
+TEST(ArcCosine, IsTheInverseOfTheCosineAtEachAngle) {
+  for (int i = 0; i <= 10'000; ++i) {
+    const double angle = i * std::numbers::pi / 10'000;
+    const double x = std::cos(angle);
+    ASSERT_NEAR(std::cos(arc_cosine(x)), x, 1e-15) << angle;
+    // A rounding of x moves the angle by 1 / sine as much.
+    ASSERT_NEAR(arc_cosine(x), std::acos(x), 1e-15 + 2e-16 / std::max(std::sin(angle), 1e-8)) << angle;
+  }
+  EXPECT_EQ(arc_cosine(1 + 1e-15), 0);
+  EXPECT_EQ(arc_cosine(-1), std::numbers::pi);
 }
 
 }  // namespace

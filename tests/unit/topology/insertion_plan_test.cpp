@@ -44,6 +44,25 @@ TEST(PlanInsertion, StopsAtConstrainedEdges) {
   EXPECT_EQ(plan_insertion(mesh, {0.5, 0.25, 0}, TriangleId(0)).cavity.size(), 1u);
 }
 
+/// The unit square between two others: the left one is a quadrilateral, the middle one is cut into two triangles.
+///
+///     3---4---5
+///     | / | / |
+///     0---1---2
+TEST(PlanInsertion, PutsNoVertexBesideAQuadrilateral) {
+  const std::vector<Vec2> points = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}};
+  const std::vector<std::array<std::int32_t, 3>> triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};
+  Mesh mesh = Mesh::build({.points = points, .triangles = triangles})->mesh;
+  EXPECT_EQ(plan_insertion(mesh, {1.2, 0.6, 0}, TriangleId(0)).status, InsertionStatus::possible);
+  mesh.set_diagonal(edge(mesh, 0, 4));
+  mesh.set_constrained(edge(mesh, 1, 4), true);
+  EXPECT_EQ(plan_insertion(mesh, {0.5, 0.25, 0}, TriangleId(0)).status, InsertionStatus::in_quadrilateral);
+  EXPECT_EQ(plan_insertion(mesh, {1.2, 0.6, 0}, TriangleId(0)).status, InsertionStatus::in_quadrilateral);
+  EXPECT_EQ(plan_split(mesh, edge(mesh, 2, 5), 0.5).status, InsertionStatus::in_quadrilateral);
+  mesh.set_constrained(edge(mesh, 1, 5), true);
+  EXPECT_EQ(plan_split(mesh, edge(mesh, 2, 5), 0.5).status, InsertionStatus::possible);
+}
+
 TEST(PlanInsertion, AVertexThatWouldHideANeighborIsPlannedAsNotRegular) {
   Mesh mesh = test::square();
   insert_in_triangle(mesh, TriangleId(0), {0.5, 0, 0});
