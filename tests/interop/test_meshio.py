@@ -4,6 +4,7 @@ test_meshio.py CONVERT_TOOL
 """
 
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -110,6 +111,32 @@ def convert(source, target, name, encoding):
     check(result.returncode == 0, f"{source} to {target}: {result.stderr}")
 
 
+def groups_of_all():
+    """Triangles without a region, beside lines with a tag and without: meshio and Gmsh keep all of them."""
+    points, triangles, lines = sample()
+    region = [numpy.zeros(4, dtype=numpy.int32), numpy.array([8, 0], dtype=numpy.int32)]
+    meshio.vtu.write("tags", meshio.Mesh(points, [("triangle", triangles), ("line", lines)], cell_data={"region": region}))
+    for name in ("gmsh22", "gmsh41"):
+        for encoding in ("ascii", "appended"):
+            convert("tags", "groups.msh", name, encoding)
+            files = ["groups.msh"]
+            if shutil.which("gmsh"):
+                words = ["gmsh", "-0", "-v", "0", "-format", "msh22", "-o", "saved.msh", "groups.msh"]
+                saved = subprocess.run(words, capture_output=True, text=True)
+                check(saved.returncode == 0, f"Gmsh reads groups in {name} {encoding}: {saved.stderr}")
+                files.append("saved.msh")
+            for file in files:
+                label = f"{file} of {name} {encoding}"
+                back = meshio.read(file)
+                check(len(back.get_cells_type("triangle")) == 4 and len(back.get_cells_type("line")) == 2, f"{label}: cells")
+                check(all((tags > 0).all() for tags in back.cell_data["gmsh:physical"]), f"{label}: each element has a group")
+                check("temper_ungrouped_faces" in back.field_data, f"{label}: names {back.field_data}")
+                convert(file, "again.vtu", "vtu", "ascii")
+                again = meshio.read("again.vtu")
+                check(not again.get_cell_data("region", "triangle").any(), f"{label}: no region")
+                check(sorted(again.get_cell_data("region", "line")) == [0, 8], f"{label}: tags of lines")
+
+
 def main():
     os.chdir(tempfile.mkdtemp())
     vtk_names = ["weight", "single", "vector", "count", "region", "value"]
@@ -202,6 +229,8 @@ def main():
                     tags[tuple(nodes)] = tag
             expected = dict(zip(map(tuple, sample()[1]), [1, 1, 2, -3])) | dict(zip(map(tuple, sample()[2]), [8, 9]))
             check(tags == expected, f"{label}: regions and tags {tags}")
+
+    groups_of_all()
 
     convert("in", "out.mesh", "medit", "ascii")
     back = meshio.read("out.mesh", file_format="medit")

@@ -1,7 +1,10 @@
 // The names that the reader and the writer of Gmsh files share.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
+#include <set>
 #include <string_view>
 
 namespace temper::io {
@@ -14,5 +17,19 @@ inline constexpr std::string_view kGmshEntity = "gmsh:geometrical";
 inline constexpr std::string_view kGmshPartition = "gmsh:partition";
 /// Data array of the cells in a physical group that is not their first: this and the tag, "gmsh:physical:7".
 inline constexpr std::string_view kGmshFurtherGroup = "gmsh:physical:";
+/// Data array with the first physical group of each cell. Without it, this is the region.
+inline constexpr std::string_view kGmshFirstGroup = "gmsh:physical:first";
+/// By dimension, the name of the group of all elements without another one. Readers know it, and take it for no group.
+inline constexpr std::array<std::string_view, 4> kGmshUngrouped = {
+    "temper_ungrouped_points", "temper_ungrouped_lines", "temper_ungrouped_faces", "temper_ungrouped_tetrahedra"};
+
+/// A positive tag that is not taken: one above the largest, while there is one.
+[[nodiscard]] inline std::int32_t free_tag(const std::set<std::int32_t>& taken) {
+  if (taken.empty() || *taken.rbegin() < 0) return 1;
+  if (*taken.rbegin() < std::numeric_limits<std::int32_t>::max()) return *taken.rbegin() + 1;
+  std::int32_t tag = 1;
+  while (taken.contains(tag)) ++tag;
+  return tag;
+}
 
 }  // namespace temper::io

@@ -5,7 +5,9 @@
 // Elements are sorted by their numbers: Gmsh gave them in this order, and other programs count by it.
 //
 // The first physical group of an entity is the region, or the tag. Lines, points and tagged faces are there once more
-// for each further group, as version 2 lists them. Further groups of cells are data gmsh:physical:TAG, 1 inside.
+// for each further group, as version 2 lists them. Further groups of cells are data gmsh:physical:TAG, 1 inside. Cells
+// with different sets of groups are different regions, so that the boundary of each group stays. If sets have one first
+// group, only one of them keeps its tag, and the data gmsh:physical:first have it for all.
 //
 // A partition divides entities into parts, and adds entities between the parts. A part belongs to its parent again; its
 // number is the data gmsh:partition. Elements between parts are left out. So are ghosts, the cells of other parts in
@@ -23,6 +25,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "io/conversion/data_update.hpp"
@@ -67,6 +70,16 @@ struct Membership {
   bool is_reversed = false;                // the physical group has the entity in the other direction
   bool of_partition_alone = false;         // between its parts, or a ghost
   std::int32_t fourth_corner = kNoCorner;  // of a quadrilateral
+};
+
+/// The physical groups of a cell, the further ones in the order of their tags.
+struct GroupSet {
+  std::int32_t first = 0;
+  std::vector<std::int32_t> further = {};
+  friend bool operator<(const GroupSet& a, const GroupSet& b) {
+    const std::size_t n_a = a.further.size(), n_b = b.further.size();
+    return std::tie(a.first, n_a, a.further) < std::tie(b.first, n_b, b.further);
+  }
 };
 
 /// Elements of one kind as they are read.
@@ -511,7 +524,8 @@ class GmshReader {
       document_.file.warnings.push_back(text(at, ": section $", name, " is dropped"));
   }
   template <std::size_t N>
-  void add_groups(const Elements<N>& cells, const NumberLookup& lookup, std::vector<DataArray>& data) {
+  void add_groups(Elements<N>& cells, const NumberLookup& lookup, std::vector<DataArray>& data) {
+    if (cells.further.empty()) return;
     std::map<std::int32_t, std::vector<std::int32_t>> groups;
     for (const auto& [number, group] : cells.further) {
       std::vector<std::int32_t>& inside = groups[group];
@@ -519,28 +533,62 @@ class GmshReader {
       inside.resize(cells.nodes.size());
       inside[*lookup.find(number)] = 1;
     }
-    for (auto& [group, inside] : groups) {
-      warn_of_parts(N - 1, group, inside, cells.physical);
-      data.push_back({text(kGmshFurtherGroup, group), 1, std::move(inside)});
+    part_regions(cells, groups, data);
+    for (auto& [group, inside] : groups) data.push_back({text(kGmshFurtherGroup, group), 1, std::move(inside)});
+  }
+  /// Makes cells with different sets of groups different regions. `inside` has 1 for each cell of a further group.
+  template <std::size_t N>
+  void part_regions(Elements<N>& cells, const std::map<std::int32_t, std::vector<std::int32_t>>& inside,
+                    std::vector<DataArray>& data) {
+    std::vector<GroupSet> set_of_cell(cells.nodes.size());
+    std::map<GroupSet, std::int32_t> region_of;
+    for (std::size_t i = 0; i < set_of_cell.size(); ++i) {
+      set_of_cell[i].first = cells.physical[i];
+      for (const auto& [group, values] : inside) {
+        if (values[i] != 0 && group != cells.physical[i]) set_of_cell[i].further.push_back(group);
+      }
+      region_of.emplace(set_of_cell[i], 0);
+    }
+    name_regions(static_cast<std::int32_t>(N) - 1, region_of);
+    std::vector<std::int32_t> firsts = cells.physical;
+    for (std::size_t i = 0; i < firsts.size(); ++i) cells.physical[i] = region_of[set_of_cell[i]];
+    if (firsts == cells.physical) return;
+    allocation_.take(firsts.size(), 1, scanner_.path());
+    data.push_back({std::string(kGmshFirstGroup), 1, std::move(firsts)});
+  }
+  /// Of sets with one first group, the smallest keeps its tag. Another set takes the tag of a group that no other set
+  /// has, as an inner group. Else it gets a free tag, and a name from its groups.
+  void name_regions(std::int32_t dimension, std::map<GroupSet, std::int32_t>& region_of) {
+    std::map<std::int32_t, std::size_t> n_sets;  // with this group
+    std::set<std::int32_t> taken, is_first;
+    for (const auto& [groups, region] : region_of) {
+      is_first.insert(groups.first);
+      ++n_sets[groups.first];
+      for (const std::int32_t group : groups.further) ++n_sets[group];
+    }
+    for (const auto& [group, n] : n_sets) taken.insert(group);
+    for (const PhysicalName& name : document_.file.names) taken.insert(name.tag);
+    std::set<std::int32_t> has_region;          // first groups
+    for (auto& [groups, region] : region_of) {  // the smallest set of each first group before the others
+      const auto own = std::find_if(groups.further.begin(), groups.further.end(), [&](std::int32_t group) {
+        return n_sets[group] == 1 && !is_first.contains(group);
+      });
+      if (has_region.insert(groups.first).second) {
+        region = groups.first;
+      } else if (own != groups.further.end()) {
+        region = *own;
+      } else {
+        region = free_tag(taken);
+        taken.insert(region);
+        std::string name = group_name(dimension, groups.first);
+        for (const std::int32_t group : groups.further) name += " and " + group_name(dimension, group);
+        document_.file.names.push_back({dimension, region, std::move(name)});
+      }
     }
   }
-  /// Warns of a further group that covers a part of a region. The boundary of this part may move.
-  void warn_of_parts(std::size_t dimension, std::int32_t group, const std::vector<std::int32_t>& inside,
-                     const std::vector<std::int32_t>& regions) {
-    std::map<std::int32_t, std::set<std::int32_t>> found;
-    for (std::size_t i = 0; i < inside.size(); ++i) found[regions[i]].insert(inside[i]);
-    for (const auto& [region, values] : found) {
-      if (values.size() == 1) continue;
-      document_.file.warnings.push_back(
-          text(scanner_.path(), ": the physical group ", group_name(dimension, group), " is a part of ",
-               group_name(dimension, region),
-               ", the first group of its entities: the boundary between them may move. Next: define the smaller group "
-               "first in Gmsh, or tag the boundary"));
-    }
-  }
-  [[nodiscard]] std::string group_name(std::size_t dimension, std::int32_t tag) const {
+  [[nodiscard]] std::string group_name(std::int32_t dimension, std::int32_t tag) const {
     for (const PhysicalName& name : document_.file.names) {
-      if (name.dimension == static_cast<std::int32_t>(dimension) && name.tag == tag) return in_quotes(name.name);
+      if (name.dimension == dimension && name.tag == tag) return name.name;
     }
     return std::to_string(tag);
   }
@@ -557,7 +605,24 @@ class GmshReader {
     }
     take_rows(data, rows);
   }
+  /// The group that the writer gives to elements without one is no group.
+  void forget_ungrouped() {
+    const auto forget = [](auto& elements, std::int32_t tag) {
+      std::replace(elements.physical.begin(), elements.physical.end(), tag, 0);
+      std::erase_if(elements.further, [tag](const auto& element) { return element.second == tag; });
+    };
+    std::erase_if(document_.file.names, [&](const PhysicalName& name) {
+      const std::int32_t d = name.dimension;
+      if (d < 0 || d > 3 || name.name != kGmshUngrouped[static_cast<std::size_t>(d)]) return false;
+      if (d == 0) forget(points_, name.tag);
+      if (d == 1) forget(lines_, name.tag);
+      if (d == 2) forget(triangles_, name.tag);
+      if (d == 3) forget(tets_, name.tag);
+      return true;
+    });
+  }
   void settle_groups() {
+    forget_ungrouped();
     MeshFile& f = document_.file;
     const bool has_tets = !tets_.nodes.empty();
     add_groups(tets_, *tet_lookup_, document_.tetrahedra.data);

@@ -2,8 +2,12 @@
 //
 // Elements are numbered points first, then lines, triangles and tetrahedra, so that the reader finds their order again.
 // All elements of a Gmsh entity are in the same physical groups, so entities are the distinct pairs (entity, groups).
-// The first group is the region or tag. Further groups come from the data gmsh:physical:TAG. Version 2 lists an element
-// once more for each further group. Numbers of entities come from the data gmsh:geometrical, or else from the groups.
+// The first group is the region or tag, or comes from the data gmsh:physical:first. Further groups come from the data
+// gmsh:physical:TAG. Version 2 lists an element once more for each further group. Numbers of entities come from the
+// data gmsh:geometrical, or else from the groups.
+//
+// Gmsh drops elements without a physical group if another element has one, and meshio cannot read such a file. Then the
+// elements without one are in a group of their own: kGmshUngrouped.
 // NodeData and ElementData hold doubles alone.
 #include <algorithm>
 #include <array>
@@ -41,17 +45,24 @@ struct Kind {
   const std::vector<std::int32_t>* tags = nullptr;  // empty: all 0
   const std::vector<DataArray>* data = &kNoData;
   std::size_t first_number = 1;
-  std::vector<std::int32_t> entities;  // of each element; empty: all `only_entity`
+  std::vector<std::int32_t> entities = {};  // of each element; empty: all `only_entity`
   std::int32_t only_entity = 1;
   std::vector<std::pair<std::int32_t, std::vector<double>>> further_groups = {};  // tag, and of each element: 0 outside
   std::map<std::int32_t, Groups> groups_of_entity = {};
+  std::vector<std::int32_t> firsts = {};  // gmsh:physical:first; empty: the tags
+  std::int32_t ungrouped = 0;             // the group of all elements without one
 
   [[nodiscard]] std::int32_t tag(std::size_t i) const { return tags->empty() ? 0 : (*tags)[i]; }
   [[nodiscard]] Groups groups(std::size_t i) const {
-    Groups all = {tag(i), {}};
+    Groups all = {firsts.empty() ? tag(i) : firsts[i], {}};
     for (const auto& [group, inside] : further_groups) {
       if (group != all.first && inside[i] != 0 && !std::isnan(inside[i])) all.further.push_back(group);
     }
+    if (all.first == 0 && !all.further.empty()) {
+      all.first = all.further.front();
+      all.further.erase(all.further.begin());
+    }
+    if (all.first == 0) all.first = ungrouped;
     return all;
   }
   [[nodiscard]] std::int32_t entity(std::size_t i) const { return entities.empty() ? only_entity : entities[i]; }
@@ -79,7 +90,7 @@ void number_entities(Kind& kind) {
   if (kind.n == 0) return;
   const auto* given = given_entities(kind);
   const bool uniform =
-      given == nullptr && kind.further_groups.empty() &&
+      given == nullptr && kind.further_groups.empty() && kind.firsts.empty() &&
       (kind.tags->empty() || std::count(kind.tags->begin(), kind.tags->end(), kind.tag(0)) == std::ssize(*kind.tags));
   if (uniform) {
     kind.groups_of_entity[kind.only_entity] = kind.groups(0);
@@ -154,14 +165,15 @@ class GmshWriter {
       for (const DataArray& array : *kind->data) {
         if (const auto tag = further_group(array))
           kind->further_groups.emplace_back(*tag, to_doubles(Values(array.values)));
+        if (array.name != kGmshFirstGroup || array.components != 1) continue;
+        if (auto firsts = to_int32(array.values)) kind->firsts = *std::move(firsts);
       }
-      number_entities(*kind);
     }
+    group_all();
+    for (Kind* kind : kinds()) number_entities(*kind);
   }
   void write() {
-    // WAVEWATCH III has depths in z, and reads a whole number. Without names, 2.2 is the same as 2.
-    const bool whole = !job_.heights.empty() && file_.names.empty();
-    out_.put("$MeshFormat\n", version4_ ? "4.1 " : whole ? "2 " : "2.2 ", binary_ ? 1 : 0, " 8\n");
+    out_.put("$MeshFormat\n", version4_ ? "4.1 " : is_for_wavewatch() ? "2 " : "2.2 ", binary_ ? 1 : 0, " 8\n");
     if (binary_) {
       out_.put_raw(std::int32_t{1});
       out_.put('\n');
@@ -176,10 +188,56 @@ class GmshWriter {
   }
 
  private:
+  /// WAVEWATCH III has depths in z, and reads a whole number as the version. Without names, 2.2 is the same as 2.
+  [[nodiscard]] bool is_for_wavewatch() const { return !version4_ && !job_.heights.empty() && file_.names.empty(); }
+  /// Gives each element a group if any has one.
+  void group_all() {
+    std::set<std::int32_t> taken;
+    std::array<bool, 4> has_ungrouped = {};
+    for (const Kind* kind : kinds()) {
+      for (std::size_t i = 0; i < kind->n; ++i) {
+        const Groups groups = kind->groups(i);
+        taken.insert(groups.first);
+        taken.insert(groups.further.begin(), groups.further.end());
+        if (groups.first == 0) has_ungrouped[static_cast<std::size_t>(kind->dimension)] = true;
+      }
+    }
+    taken.erase(0);
+    if (taken.empty()) return;
+    for (const PhysicalName& n : file_.names) taken.insert(n.tag);
+    const std::int32_t tag = free_tag(taken);
+    for (Kind* kind : kinds()) {
+      if (has_ungrouped[static_cast<std::size_t>(kind->dimension)]) kind->ungrouped = tag;
+    }
+  }
+  /// The names of the file, except those of regions that are no groups; and the names of elements without a group.
+  [[nodiscard]] std::vector<PhysicalName> names() {
+    std::vector<PhysicalName> names;
+    std::array<std::set<std::int32_t>, 4> no_groups;
+    for (const Kind* kind : kinds()) {
+      std::set<std::int32_t>& tags = no_groups[static_cast<std::size_t>(kind->dimension)];
+      if (!kind->firsts.empty()) tags.insert(kind->tags->begin(), kind->tags->end());
+      for (const auto& [entity, groups] : kind->groups_of_entity) {
+        tags.erase(groups.first);
+        for (const std::int32_t group : groups.further) tags.erase(group);
+      }
+    }
+    for (const PhysicalName& n : file_.names) {
+      const bool has_elements = n.dimension >= 0 && n.dimension < 4;
+      if (!has_elements || !no_groups[static_cast<std::size_t>(n.dimension)].contains(n.tag)) names.push_back(n);
+    }
+    for (const Kind* kind : kinds()) {
+      if (kind->ungrouped != 0 && !is_for_wavewatch())
+        names.push_back(
+            {kind->dimension, kind->ungrouped, std::string(kGmshUngrouped[static_cast<std::size_t>(kind->dimension)])});
+    }
+    return names;
+  }
   void physical_names() {
-    if (file_.names.empty()) return;
-    out_.put("$PhysicalNames\n", file_.names.size(), '\n');
-    for (const PhysicalName& n : file_.names) out_.put(n.dimension, ' ', n.tag, " \"", job_.written(n.name), "\"\n");
+    const std::vector<PhysicalName> all = names();
+    if (all.empty()) return;
+    out_.put("$PhysicalNames\n", all.size(), '\n');
+    for (const PhysicalName& n : all) out_.put(n.dimension, ' ', n.tag, " \"", job_.written(n.name), "\"\n");
     out_.put("$EndPhysicalNames\n", "");
   }
   void entities() {
@@ -241,7 +299,7 @@ class GmshWriter {
           put(type), put(static_cast<std::int32_t>(n_alike)), put(std::int32_t{2});
         put(static_cast<std::int32_t>(kind->first_number + i));
         if (!binary_) put(type), put(std::int32_t{2});
-        put(kind->tag(i)), put(kind->entity(i));
+        put(kind->groups(i).first), put(kind->entity(i));
         put_nodes<std::int32_t>(*kind, i);
       }
     }
@@ -326,7 +384,7 @@ class GmshWriter {
     }
   }
   void element_data() {
-    std::set<std::string_view> done = {kGmshEntity};
+    std::set<std::string_view> done = {kGmshEntity, kGmshFirstGroup};
     const std::pair<const Kind*, ArraysByName> named[] = {{&points_, ArraysByName(*points_.data)},
                                                           {&lines_, ArraysByName(*lines_.data)},
                                                           {&triangles_, ArraysByName(*triangles_.data)},
@@ -418,7 +476,7 @@ class GmshWriter {
   const MeshFile& file_;
   Output& out_;
   bool version4_, binary_;
-  Kind points_, lines_, triangles_, tets_;
+  Kind points_, lines_, triangles_, tets_ = {.dimension = 3, .type = kGmshTetrahedron};
 };
 
 }  // namespace

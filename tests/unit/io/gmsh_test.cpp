@@ -46,20 +46,108 @@ TEST_F(FileTest, ATriangleThatVersion2ListsOnceForEachGroupIsInAllOfThem) {
   const auto f = read(make("m.msh", kNodes2 + elements));
   ASSERT_TRUE(f) << f.error().what();
   EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
-  EXPECT_EQ(f->regions, (std::vector<std::int32_t>{5, 5}));
+  EXPECT_EQ(f->regions, (std::vector<std::int32_t>{6, 5})) << "6 is a part of 5, and 7 is not";
   EXPECT_EQ(f->numbering->triangle(1), "triangle 4");
   EXPECT_EQ(std::get<std::vector<double>>(f->cell_data.at(0).values), (std::vector<double>{1.5, 3.5}));
-  ASSERT_EQ(f->cell_data.size(), 4u);
-  for (const auto& [i, name, inside] : {std::tuple(1, "gmsh:physical:6", std::vector<std::int32_t>{1, 0}),
-                                        {2, "gmsh:physical:7", std::vector<std::int32_t>{1, 1}}}) {
+  ASSERT_EQ(f->cell_data.size(), 5u);
+  for (const auto& [i, name, inside] : {std::tuple(1, "gmsh:physical:first", std::vector<std::int32_t>{5, 5}),
+                                        {2, "gmsh:physical:6", std::vector<std::int32_t>{1, 0}},
+                                        {3, "gmsh:physical:7", std::vector<std::int32_t>{1, 1}}}) {
     EXPECT_EQ(f->cell_data[i].name, name);
     EXPECT_EQ(std::get<std::vector<std::int32_t>>(f->cell_data[i].values), inside);
   }
-  ASSERT_EQ(f->warnings.size(), 1u) << "6 is a part of 5, and 7 is not";
-  EXPECT_EQ(
-      plain(f->warnings[0]),
-      "m.msh: the physical group 6 is a part of 5, the first group of its entities: the boundary between them may "
-      "move. Next: define the smaller group first in Gmsh, or tag the boundary");
+  EXPECT_TRUE(f->warnings.empty());
+}
+
+/// Four triangles around the center of a square. The groups 1 to 3 overlap: {1}, {1 2}, {1 2 3}, {1 3}.
+const std::string kOverlap =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n2 1 \"all\"\n2 2 \"wet\"\n2 3 \"clay\"\n"
+    "$EndPhysicalNames\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 .5 .5 0\n$EndNodes\n$Elements\n8\n"
+    "1 2 2 1 1 1 2 5\n2 2 2 1 2 2 3 5\n3 2 2 1 3 3 4 5\n4 2 2 1 4 4 1 5\n5 2 2 2 2 2 3 5\n6 2 2 2 3 3 4 5\n"
+    "7 2 2 3 3 3 4 5\n8 2 2 3 4 4 1 5\n$EndElements\n";
+
+std::vector<std::string> lines_of(const std::vector<PhysicalName>& names) {
+  std::vector<std::string> lines;
+  for (const PhysicalName& n : names)
+    lines.push_back(std::to_string(n.dimension) + " " + std::to_string(n.tag) + " " + n.name);
+  return lines;
+}
+
+TEST_F(FileTest, TrianglesWithDifferentSetsOfGroupsAreDifferentRegions) {
+  const auto f = read(make("m.msh", kOverlap));
+  ASSERT_TRUE(f) << f.error().what();
+  EXPECT_EQ(f->regions, (std::vector<std::int32_t>{1, 4, 6, 5}));
+  EXPECT_EQ(lines_of(f->names), (std::vector<std::string>{"2 1 all", "2 2 wet", "2 3 clay", "2 4 all and wet",
+                                                          "2 5 all and clay", "2 6 all and wet and clay"}));
+  for (const auto& [format, encoding] :
+       {std::pair("gmsh22", Encoding::ascii), {"gmsh22", Encoding::appended}, {"gmsh41", Encoding::ascii}}) {
+    SCOPED_TRACE(format);
+    // By way of VTU, which holds regions, names and data.
+    ASSERT_TRUE(write(path("a.vtu"), *f));
+    const auto vtu = read(path("a.vtu"));
+    ASSERT_TRUE(vtu);
+    ASSERT_TRUE(write(path("b.msh"), *vtu, {.format = format, .encoding = encoding}));
+    const std::string bytes = slurp(path("b.msh"));
+    EXPECT_NE(bytes.find("$PhysicalNames\n3\n2 1 \"all\"\n2 2 \"wet\"\n2 3 \"clay\"\n$End"), std::string::npos);
+    const auto back = read(path("b.msh"));
+    ASSERT_TRUE(back) << back.error().what();
+    EXPECT_EQ(back->regions, f->regions);
+    EXPECT_EQ(lines_of(back->names), lines_of(f->names));
+    for (const std::string group : {"first", "2", "3"}) {
+      const auto named = [&](const DataArray& a) { return a.name == "gmsh:physical:" + group; };
+      const auto before = std::find_if(f->cell_data.begin(), f->cell_data.end(), named);
+      const auto after = std::find_if(back->cell_data.begin(), back->cell_data.end(), named);
+      ASSERT_TRUE(before != f->cell_data.end() && after != back->cell_data.end()) << group;
+      EXPECT_EQ(before->values, after->values) << group;
+    }
+  }
+}
+
+TEST_F(FileTest, EachElementHasAGroupIfAnyElementHasOne) {
+  MeshFile f;
+  f.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  f.triangles = {{0, 1, 2}, {0, 2, 3}};
+  f.lines = {{0, 1}, {2, 3}};
+  f.line_tags = {5, 0};
+  f.marked_points = {2};
+  f.point_tags = {0};
+  f.names = {{1, 5, "inflow"}, {2, 8, "nowhere"}};
+  const std::string names =
+      "$PhysicalNames\n5\n1 5 \"inflow\"\n2 8 \"nowhere\"\n0 9 \"temper_ungrouped_points\"\n"
+      "1 9 \"temper_ungrouped_lines\"\n2 9 \"temper_ungrouped_faces\"\n$End";
+  for (const auto& [format, encoding, elements] :
+       {std::tuple("gmsh22", Encoding::ascii, "1 15 2 9 1 3 \n2 1 2 5 1 1 2 \n3 1 2 9 2 3 4 \n4 2 2 9 1 1 2 3 \n"),
+        {"gmsh41", Encoding::ascii, "$Entities\n1 2 1 0 \n1 0 0 0 1 9 \n1 0 0 0 1 1 0 1 5 0 \n2 0 0 0 1 1 0 1 9 0 \n"},
+        {"gmsh22", Encoding::appended, ""},
+        {"gmsh41", Encoding::appended, ""}}) {
+    SCOPED_TRACE(format);
+    ASSERT_TRUE(write(path("m.msh"), f, {.format = format, .encoding = encoding}));
+    const std::string bytes = slurp(path("m.msh"));
+    EXPECT_NE(bytes.find(names), std::string::npos) << bytes;
+    EXPECT_NE(bytes.find(elements), std::string::npos) << bytes;
+    const auto back = read(path("m.msh"));
+    ASSERT_TRUE(back) << back.error().what();
+    EXPECT_TRUE(back->regions.empty());
+    EXPECT_EQ(back->line_tags, f.line_tags);
+    EXPECT_EQ(back->point_tags, f.point_tags);
+    EXPECT_EQ(lines_of(back->names), lines_of(f.names));
+  }
+}
+
+TEST_F(FileTest, TheGroupOfTheOtherElementsHasATagThatIsFree) {
+  MeshFile f;
+  f.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  f.triangles = {{0, 1, 2}, {0, 2, 3}};
+  f.regions = {std::numeric_limits<std::int32_t>::max(), 0};
+  f.names = {{1, 1, "wall"}};
+  ASSERT_TRUE(write(path("m.msh2"), f));
+  EXPECT_NE(slurp(path("m.msh2")).find("2 2 \"temper_ungrouped_faces\"\n"), std::string::npos);
+  const auto back = read(path("m.msh2"));
+  ASSERT_TRUE(back) << back.error().what();
+  EXPECT_EQ(back->regions, f.regions);
+  f.regions = {0, 0};
+  ASSERT_TRUE(write(path("m.msh2"), f));
+  EXPECT_EQ(slurp(path("m.msh2")).find("temper_ungrouped"), std::string::npos) << "no element has a group";
 }
 
 TEST_F(FileTest, ATriangleThatIsThereTwiceWithOneTagIsRefused) {

@@ -126,13 +126,11 @@ TEST_F(TetFiles, EntitiesOfSeveralGroupsOfGmshKeepAllOfThem) {
       "1 2.5\n$EndElementData\n";
   const auto read = read_any(make("in.msh", content));
   ASSERT_TRUE(read) << read.error().what();
-  ASSERT_EQ(std::get<TetFile>(*read).warnings.size(), 1U);
-  EXPECT_EQ(plain(std::get<TetFile>(*read).warnings[0]).find("in.msh: the physical group 'wet' is a part of 'rock', "),
-            0U);
+  EXPECT_TRUE(std::get<TetFile>(*read).warnings.empty());
   for (const TetFile& file :
        {std::get<TetFile>(*read), through(std::get<TetFile>(*read), "gmsh22"),
         through(std::get<TetFile>(*read), "gmsh22", Encoding::appended), through(std::get<TetFile>(*read), "gmsh41")}) {
-    EXPECT_EQ(file.regions, (std::vector<std::int32_t>{1, 1}));
+    EXPECT_EQ(file.regions, (std::vector<std::int32_t>{7, 1})) << "the boundary of wet stays";
     EXPECT_TRUE(has(file.cell_data, {"gmsh:physical:7", 1, std::vector<std::int32_t>{1, 0}}));
     ASSERT_EQ(file.faces.size(), 2U);
     EXPECT_EQ(file.faces[0], file.faces[1]);
@@ -142,6 +140,25 @@ TEST_F(TetFiles, EntitiesOfSeveralGroupsOfGmshKeepAllOfThem) {
     EXPECT_TRUE(make_mesh(file));
   }
   EXPECT_NE(slurp(path("m.msh")).find(" 2 1 7 0"), std::string::npos) << "one entity in two groups, as it was";
+}
+
+TEST_F(TetFiles, EachElementOfAGmshFileHasAGroupIfAnyElementHasOne) {
+  TetFile sample;
+  sample.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  sample.tetrahedra = {{0, 1, 2, 3}};
+  sample.faces = {{0, 2, 1}, {0, 1, 3}};
+  sample.face_tags = {4, 0};
+  sample.names = {{2, 4, "floor"}};
+  for (const auto& [format, encoding] :
+       {std::pair("gmsh22", Encoding::ascii), {"gmsh22", Encoding::appended}, {"gmsh41", Encoding::ascii}}) {
+    const TetFile file = through(sample, format, encoding);
+    EXPECT_NE(slurp(path(tet_file_name(format)))
+                  .find("3\n2 4 \"floor\"\n2 5 \"temper_ungrouped_faces\"\n3 5 \"temper_ungrouped_tetrahedra\"\n$End"),
+              std::string::npos);
+    EXPECT_TRUE(file.regions.empty());
+    EXPECT_EQ(file.face_tags, sample.face_tags);
+    EXPECT_EQ(names_of(file), std::vector<std::string>{"2 4 floor"});
+  }
 }
 
 TEST_F(TetFiles, AFurtherGroupOfGmshThatIsTheRegionIsListedOnce) {
