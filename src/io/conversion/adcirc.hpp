@@ -21,6 +21,11 @@ inline constexpr std::string_view kAdcircLevee =
     "adcirc:levee";                                             ///< of marked points: what follows the node in its row
 inline constexpr std::string_view kAdcircSide = "adcirc:side";  ///< of marked points: 0 the node, 1 its partner
 inline constexpr int kAdcircLeveeNumbers = 6;
+/// Line data: how many rows of its string have the first node of the line, how many have the second one, and 0 if the
+/// line is none of the string's: it closes an island. A file has them if its strings are other than the writer's own:
+/// with the domain on the left, along edges of the boundary, each node in one row.
+inline constexpr std::string_view kAdcircRows = "adcirc:rows";
+inline constexpr int kAdcircRowNumbers = 3;
 inline constexpr std::int32_t kAdcircWall =
     64;  ///< type of vertical element walls: both nodes of a pair are at one place
 

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "io/conversion/adcirc.hpp"
 #include "io/conversion/bed.hpp"
@@ -86,7 +87,7 @@ class AdcircReader {
     elements(n_elements, lookup);
     boundaries(true, lookup);
     boundaries(false, lookup);
-    open_what_no_edge_closes();
+    settle_lines();
     part_walls();
     if (untyped_ > 0) {
       f.warnings.push_back(text(scanner_.path(), ": ", untyped_,
@@ -165,10 +166,18 @@ class AdcircReader {
       sides_.push_back(side);
     };
     std::int32_t first = -1, last = -1, last_of_wall = -1;
+    const std::size_t first_line = f.lines.size();
+    NodeString string;
+    double n_rows = 1;  // of the last node
     const auto connect = [&](std::int32_t to) {
-      if (last == to) return;
+      if (last == to) {
+        ++n_rows;
+        if (f.lines.size() > first_line) rows_of_lines_.back()[1] = n_rows;
+        return;
+      }
       f.lines.push_back({last, to});
       f.line_tags.push_back(tag);
+      rows_of_lines_.push_back({std::exchange(n_rows, 1), 1, 1});
       document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
     };
     for (std::size_t i = 0; i < n; ++i) {
@@ -176,6 +185,7 @@ class AdcircReader {
       if (i == 0) first = point;
       if (i > 0) connect(point);
       last = point;
+      string.push_back(point);
       if (row.numbers > 0) {
         mark(point, 0);
         if (row.paired) {
@@ -193,10 +203,13 @@ class AdcircReader {
     }
     const bool island = !open && (kind.type == 1 || kind.type == 11 || kind.type == 21);
     if (island && n > 2 && last != first) {
-      closing_lines_.push_back(f.lines.size());
       connect(first);
+      rows_of_lines_.back()[2] = 0;
     }
-    if (n < 2) document_.file.warnings.push_back(text(scanner_.where(), ": ", name, " has no edge and is dropped"));
+    const auto begin = f.lines.begin() + static_cast<std::ptrdiff_t>(first_line);
+    are_plain_ = are_plain_ && node_strings({begin, f.lines.end()}) == std::vector<NodeString>(1, string);
+    if (begin == f.lines.end())
+      document_.file.warnings.push_back(text(scanner_.where(), ": ", name, " has no edge and is dropped"));
     f.names.push_back({1, tag, name});
   }
   std::int32_t node(const NumberLookup& lookup, const std::string& element) {
@@ -245,43 +258,56 @@ class AdcircReader {
       place = place + kPart * std::sqrt(aside.least2) * aside.normal;
     }
   }
-  /// Removes the lines that close islands and are no edges of the mesh.
-  void open_what_no_edge_closes() {
-    MeshFile& f = document_.file;
+  /// How many triangles each line has on its left, and on its right.
+  [[nodiscard]] std::vector<std::array<int, 2>> sides_of_lines() const {
+    const MeshFile& f = document_.file;
     using Ends = std::pair<std::int32_t, std::int32_t>;
     std::vector<std::pair<Ends, std::size_t>> wanted;  // and the line
-    for (const std::size_t line : closing_lines_)
-      wanted.emplace_back(std::minmax({f.lines[line][0], f.lines[line][1]}), line);
-    if (wanted.empty()) return;
+    for (const auto& [a, b] : f.lines) wanted.emplace_back(std::minmax(a, b), wanted.size());
     std::sort(wanted.begin(), wanted.end());
-    std::vector<bool> gone(f.lines.size());
-    for (const std::size_t line : closing_lines_) gone[line] = true;
-    for (std::size_t i = 0; i < f.triangles.size(); ++i) {
+    std::vector<std::array<int, 2>> sides(f.lines.size());
+    for (std::size_t i = 0; i < f.triangles.size() && !wanted.empty(); ++i) {
+      const auto at = [&](std::size_t k) { return f.points[static_cast<std::size_t>(f.triangles[i][k])]; };
+      const Vec2 ab = at(1) - at(0), ac = at(2) - at(0);
+      const bool clockwise = ab.x * ac.y < ab.y * ac.x;
       const std::array corners = corners_of_face(f.triangles[i], document_.fourth_corners, i);
       for (std::size_t k = 0; k < 4; ++k) {
-        const Ends ends = std::minmax({corners[k], corners[(k + 1) % 4]});
+        const std::int32_t from = corners[k], to = corners[(k + 1) % 4];
+        const Ends ends = std::minmax(from, to);
         auto line = std::lower_bound(wanted.begin(), wanted.end(), std::pair(ends, std::size_t{0}));
-        for (; line != wanted.end() && line->first == ends; ++line) gone[line->second] = false;
+        for (; line != wanted.end() && line->first == ends; ++line)
+          ++sides[line->second][(f.lines[line->second][0] == from) == clockwise ? 1 : 0];
       }
     }
+    return sides;
+  }
+  /// Removes the lines that close islands and are no edges of the mesh. Notes how strings differ from the writer's own.
+  void settle_lines() {
+    MeshFile& f = document_.file;
+    const std::vector<std::array<int, 2>> sides = sides_of_lines();
     RunLength text_lines;
+    std::vector<double> rows;
     std::size_t n = 0;
-    for (std::size_t i = 0; i < gone.size(); ++i) {
-      if (gone[i]) continue;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      if (rows_of_lines_[i][2] == 0 && sides[i] == std::array{0, 0}) continue;
+      are_plain_ = are_plain_ && sides[i] == std::array{1, 0};
       f.lines[n] = f.lines[i];
       f.line_tags[n++] = f.line_tags[i];
+      rows.insert(rows.end(), rows_of_lines_[i].begin(), rows_of_lines_[i].end());
       text_lines.push_back(document_.names->line_lines[static_cast<std::int64_t>(i)]);
     }
     f.lines.resize(n);
     f.line_tags.resize(n);
     document_.names->line_lines = std::move(text_lines);
+    if (!are_plain_ && n > 0) f.line_data.push_back({std::string(kAdcircRows), kAdcircRowNumbers, std::move(rows)});
   }
 
   Scanner scanner_;
   Document document_;
   std::int32_t last_tag_ = 0;
   std::size_t untyped_ = 0;
-  std::vector<std::size_t> closing_lines_;                    // of islands whose last node is not their first
+  std::vector<std::array<double, kAdcircRowNumbers>> rows_of_lines_;
+  bool are_plain_ = true;                                     // strings are those that the writer makes of their lines
   std::vector<std::pair<std::int32_t, std::int32_t>> walls_;  // edges of partners
   std::vector<double> levees_;
   std::vector<std::int8_t> sides_;

@@ -1,6 +1,7 @@
-// Writes ADCIRC's fort.14. Lines on the boundary become strings of nodes, with the domain on the left. If the name of
-// their tag is not the name of a boundary, they become land boundaries of type 0 (mainland). Then an edge with several
-// tags is in one boundary only: in those of its tags that are named so, or else in that of its first tag.
+// Writes ADCIRC's fort.14. Lines on the boundary become strings of nodes, with the domain on the left. If the lines
+// have the data adcirc:rows, they come from such a file, and its strings come back as they were. If the name of their
+// tag is not the name of a boundary, they become land boundaries of type 0 (mainland). Then an edge with several tags
+// is in one boundary only: in those of its tags that are named so, or else in that of its first tag.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,6 +48,35 @@ struct AdcircString {
   std::int32_t tag = 0;
   NodeString nodes;
 };
+
+/// A line with its data adcirc:rows.
+struct RowsOfLine {
+  DirectedEdge line = {};
+  double first = 0, second = 0;
+  bool is_of_string = false;
+
+  [[nodiscard]] bool are_valid() const {
+    constexpr double kMost = 16;  // a damaged file may have any number
+    return first >= 1 && second >= 1 && first <= kMost && second <= kMost;
+  }
+};
+
+/// The lines in their order. A node between two lines has as many rows as both say: an inserted one has a single row.
+std::vector<NodeString> strings_as_read(const std::vector<RowsOfLine>& lines) {
+  std::vector<NodeString> strings;
+  std::size_t before = 0;  // rows of the last node, as the line before has them
+  for (const RowsOfLine& of : lines) {
+    if (!of.is_of_string) continue;
+    const auto first = static_cast<std::size_t>(of.first), second = static_cast<std::size_t>(of.second);
+    if (strings.empty() || strings.back().back() != of.line[0])
+      strings.emplace_back(first, of.line[0]);
+    else if (before > first)
+      strings.back().resize(strings.back().size() - (before - first));
+    strings.back().insert(strings.back().end(), second, of.line[1]);
+    before = second;
+  }
+  return strings;
+}
 
 /// Edges of one triangle, with the domain on their left.
 std::set<DirectedEdge> boundary_edges(const MeshFile& f) {
@@ -132,24 +162,30 @@ class AdcircWriter {
     const MeshFile& f = file_;
     if (f.lines.empty()) return;
     const auto boundary = boundary_edges(job_.measured);
+    const std::set<std::int32_t> as_read = collect_strings_as_read();
     std::vector<std::pair<DirectedEdge, std::int32_t>> lines;  // on the boundary, and their tags
     std::map<DirectedEdge, std::int32_t> first_tag;            // named as a boundary if one is
+    std::size_t inside = 0;
     for (std::size_t i = 0; i < f.lines.size(); ++i) {
       const auto [a, b] = f.lines[i];
       const std::int32_t tag = f.line_tags[i];
       const bool forward = boundary.contains({a, b});
-      if (!forward && !boundary.contains({b, a})) continue;
+      if (!forward && !boundary.contains({b, a})) {
+        inside += as_read.contains(tag) ? 0 : 1;
+        continue;
+      }
       const DirectedEdge edge = forward ? DirectedEdge{a, b} : DirectedEdge{b, a};
       lines.emplace_back(edge, tag);
       const auto [known, is_new] = first_tag.emplace(edge, tag);
       if (!is_new && !named_kind(known->second) && named_kind(tag)) known->second = tag;
     }
-    if (const std::size_t inside = f.lines.size() - lines.size(); inside > 0)
+    if (inside > 0)
       job_.warn(inside, " lines that are not on the boundary are not written: fort.14 has no place for them");
     std::vector<std::int32_t> tags;  // in the order of their first line
     std::map<std::int32_t, std::vector<DirectedEdge>> edges;
     std::map<std::int32_t, std::size_t> lost;
     for (const auto& [edge, tag] : lines) {
+      if (as_read.contains(tag)) continue;
       if (tag != first_tag[edge] && !named_kind(tag)) {
         ++lost[tag];
         continue;
@@ -167,6 +203,29 @@ class AdcircWriter {
       for (NodeString& nodes : node_strings(edges[tag])) strings_.push_back({kind, tag, std::move(nodes)});
     }
     for (AdcircString& s : strings_) levee_string(s);
+  }
+  /// Strings of those boundaries whose lines all have the data adcirc:rows; returns their tags.
+  std::set<std::int32_t> collect_strings_as_read() {
+    const MeshFile& f = file_;
+    const DataArray* array = find(f.line_data, kAdcircRows);
+    if (array == nullptr || array->components != kAdcircRowNumbers) return {};
+    const std::vector<double> numbers = to_doubles(Values(array->values));
+    std::map<std::int32_t, std::vector<RowsOfLine>> lines;
+    std::vector<std::int32_t> tags;  // in the order of their first line
+    for (std::size_t i = 0; i < f.lines.size(); ++i) {
+      auto& list = lines[f.line_tags[i]];
+      if (list.empty()) tags.push_back(f.line_tags[i]);
+      const double* const rows = &numbers[i * static_cast<std::size_t>(kAdcircRowNumbers)];
+      list.push_back({f.lines[i], rows[0], rows[1], rows[2] != 0});
+    }
+    std::erase_if(tags, [&](std::int32_t tag) {
+      return !named_kind(tag) || !std::ranges::all_of(lines[tag], &RowsOfLine::are_valid);
+    });
+    for (const std::int32_t tag : tags) {
+      for (NodeString& nodes : strings_as_read(lines[tag]))
+        strings_.push_back({*named_kind(tag), tag, std::move(nodes)});
+    }
+    return {tags.begin(), tags.end()};
   }
   /// The kind that a name of the tag says, if one does.
   [[nodiscard]] std::optional<AdcircBoundary> named_kind(std::int32_t tag) const {
@@ -275,11 +334,11 @@ class AdcircWriter {
 
 }  // namespace
 
-// Files of the VTK family have the data of levees on all their cells.
+// Files of the VTK family have the data of levees and strings on all their cells.
 bool adcirc_keeps(ArraysOf of, const DataArray& array) {
   if (of == &MeshFile::point_data) return array.name == kDepth;
   if (of == &MeshFile::field_data) return array.name == kAdcircTitle;
-  return array.name == kAdcircLevee || array.name == kAdcircSide;
+  return array.name == kAdcircLevee || array.name == kAdcircSide || array.name == kAdcircRows;
 }
 
 void write_adcirc(const WriteJob& job) { AdcircWriter(job).write(); }

@@ -274,10 +274,53 @@ TEST_F(OtherFormats, Fort14ClosesIslandsAndKeepsPairsOfLevees) {
   const auto warnings = write(path("n.14"), f);
   ASSERT_TRUE(warnings);
   const std::string out = slurp(path("n.14"));
-  EXPECT_NE(out.find("\n4 1 = number of nodes and type of land boundary 1\n1\n2\n3\n1\n"), std::string::npos) << out;
-  // With the domain on the left the edge goes from 6 to 4.
-  EXPECT_NE(out.find("\n2 24 = number of nodes and type of land boundary 2\n6 3 4 5 6\n4 2 1 2 3\n"), std::string::npos)
+  EXPECT_NE(out.find("\n3 1 = number of nodes and type of land boundary 1\n1\n2\n3\n"), std::string::npos)
+      << "ADCIRC closes islands itself: " << out;
+  EXPECT_NE(out.find("\n2 24 = number of nodes and type of land boundary 2\n4 2 1 2 3\n6 3 4 5 6\n"), std::string::npos)
       << out;
+}
+
+//   7 ─ 8   9 ─ 10     A levee between the channels. The land above passes its end from 8 to 9, which is no edge.
+//   │ ╱ │   │ ╱ │      The open boundary runs with the domain on its right. Land 2 has the node 2 in two rows, and
+//   visits 4 ─ 5   6 ─ 11     the node 1 twice. │ ╱ │   │ ╱ │ 1 ─ 2   3 ─ 12
+TEST_F(OtherFormats, Fort14StringsComeBackAsTheyWere) {
+  const std::string nodes =
+      "1 0 0 1\n2 1 0 1\n3 2 0 1\n4 0 1 1\n5 1 1 1\n6 2 1 1\n7 0 2 1\n8 1 2 1\n9 2 2 1\n10 3 2 1\n11 3 1 1\n12 3 0 1\n";
+  const std::string mesh = "levee\n8 12\n" + nodes +
+                           "1 3 1 2 5\n2 3 1 5 4\n3 3 4 5 8\n4 3 4 8 7\n5 3 3 12 11\n6 3 3 11 6\n7 3 6 11 10\n"
+                           "8 3 6 10 9\n";
+  const std::string open = "2 0 = number of nodes and type of open boundary 1\n12\n3\n";
+  const std::string land =
+      "4 20 = number of nodes and type of land boundary 1\n10\n9\n8\n7\n"
+      "7 0 = number of nodes and type of land boundary 2\n4\n1\n2\n2\n5\n1\n4\n"
+      "2 24 = number of nodes and type of land boundary 3\n2 3 1.5 1 1\n5 6 2.5 1 1\n"
+      "3 1 = number of nodes and type of land boundary 4\n3\n12\n11\n";
+  const std::string all = "1 = number of open boundaries\n2 = number of open boundary nodes\n" + open +
+                          "4 = number of land boundaries\n18 = number of land boundary nodes\n" + land;
+  const MeshFile f = read_ok("fort.14", mesh + all);
+  ASSERT_TRUE(write(path("m.vtu"), f));
+  const auto g = read(path("m.vtu"));
+  ASSERT_TRUE(g) << g.error().what();
+  for (const MeshFile* file : {&f, &*g}) {
+    const auto warnings = write(path("n.14"), *file);
+    ASSERT_TRUE(warnings) << warnings.error().what();
+    EXPECT_EQ(slurp(path("n.14")), mesh + all);
+  }
+  ASSERT_TRUE(write(path("m.msh"), f));  // it has no place for levees
+  const auto h = read(path("m.msh"));
+  ASSERT_TRUE(h) << h.error().what();
+  ASSERT_TRUE(write(path("n.14"), *h));
+  EXPECT_NE(slurp(path("n.14")).find(open), std::string::npos);
+  EXPECT_NE(slurp(path("n.14")).find("land boundary 2\n4\n1\n2\n2\n5\n1\n4\n"), std::string::npos);
+  // Without the data that a fort.14 brings, the domain is on the left, and strings end where the boundary does.
+  MeshFile drawn = f;
+  drawn.line_data.clear();
+  ASSERT_TRUE(write(path("n.14"), drawn));
+  EXPECT_NE(slurp(path("n.14")).find("type of open boundary 1\n3\n12\n"), std::string::npos);
+}
+
+TEST_F(OtherFormats, Fort14OfOrdinaryStringsNeedsNoDataOfItsLines) {
+  EXPECT_TRUE(read_ok("fort.14", kFort14).line_data.empty());
 }
 
 TEST_F(OtherFormats, Fort14OfSchismHasNoTypesOfLandBoundaries) {
