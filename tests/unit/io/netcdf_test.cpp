@@ -830,6 +830,50 @@ TEST_F(NetcdfFormats, EdgesAloneEncloseTriangles) {
   }
 }
 
+//   4 ─── 3     A square with a diagonal, and a channel of its own: 5 6 7.
+//   │   ╱ │
+//   1 ─── 2
+TEST_F(NetcdfFormats, LinksOfDFlowFmEncloseTrianglesWhateverTheirTypes) {
+  const auto net = [&](const std::vector<std::int32_t>& types, std::int32_t last) {
+    Nc nc = Nc::create(path("o.nc"));
+    const int nodes = nc.add_dimension("n", 7), links = nc.add_dimension("e", 8), two = nc.add_dimension("two", 2);
+    nc.add<double>("NetNode_x", {nodes}, {0, 1, 1, 0, .1, .9, .9});
+    nc.add<double>("NetNode_y", {nodes}, {0, 0, 1, 1, .05, .05, .8});
+    nc.add<std::int32_t>("NetLink", {links, two}, {1, 2, 2, 3, 3, 4, 4, 1, 1, last, 5, 6, 6, 7, 7, 5});
+    if (!types.empty()) nc.add<std::int32_t>("NetLinkType", {links}, types);
+  };
+  const std::vector<std::vector<std::int32_t>> with_channel = {
+      {0, 0, 0, 0, 0, 1, 1, 1}, {2, 2, 2, 2, 3, 1, 1, 1}, {0, 2, 0, 2, 1, 5, 5, 5}};
+  for (const auto& types : with_channel) {
+    net(types, 3);
+    const auto f = read(path("o.nc"));
+    ASSERT_TRUE(f) << f.error().what();
+    EXPECT_EQ(f->triangles.size(), 2u) << "no triangle of the channel";
+  }
+  for (const std::int32_t type : {1, 3, 0}) {
+    net(std::vector<std::int32_t>(8, type), 3);
+    const auto f = read(path("o.nc"));
+    ASSERT_TRUE(f) << f.error().what();
+    EXPECT_EQ(f->triangles.size(), 3u) << "all links are of the plane";
+  }
+}
+
+TEST_F(NetcdfFormats, LinksThatEncloseNothingAreNoMesh) {
+  {
+    Nc nc = Nc::create(path("o.nc"));
+    const int nodes = nc.add_dimension("n", 3), links = nc.add_dimension("e", 2), two = nc.add_dimension("two", 2);
+    nc.add<double>("NetNode_x", {nodes}, {0, 1, 1});
+    nc.add<double>("NetNode_y", {nodes}, {0, 0, 1});
+    nc.add<std::int32_t>("NetLink", {links, two}, {1, 2, 2, 3});
+    nc.add<std::int32_t>("NetLinkType", {links}, {0, 0});
+  }
+  const auto f = read(path("o.nc"));
+  ASSERT_FALSE(f);
+  EXPECT_EQ(plain(f.error().what()),
+            "o.nc: its 2 edges (NetLink) enclose no triangle and no quadrilateral. Next: write the mesh with its "
+            "faces, or with all their edges");
+}
+
 TEST_F(NetcdfFormats, IconIsAMeshOfTheSphereByItsTableOrByItsCorners) {
   const MeshFile globe = from_mesh(*icosahedral({.level = 2, .radius = 6371229}));
   const auto radians = [](double degrees) { return degrees * (std::numbers::pi / 180); };

@@ -224,7 +224,26 @@ class UgridReader {
     }
   }
 
-  /// Without a table of faces, they are what the edges enclose. One-dimensional edges (D-Flow FM's type 1) are none.
+  /// Says of each point whether it is one of the plane. D-Flow FM's links have types, and MeshKernel ignores them: 0
+  /// and 2 are of the plane, and others too, if they join its points. The rest is a network of channels, with its own
+  /// points.
+  [[nodiscard]] std::vector<bool> points_of_plane(const std::vector<std::int64_t>& ends, std::int64_t start) {
+    const NetcdfVariable* const types = topology_ == nullptr ? in_.find("NetLinkType") : nullptr;
+    const auto type = types != nullptr ? in_.integers(*types) : std::vector<std::int64_t>();
+    const std::size_t n_points = document_.file.points.size();
+    std::vector<bool> of_plane(n_points);
+    bool any = false;
+    for (std::size_t e = 0; e < std::min(type.size(), ends.size() / 2); ++e) {
+      if (type[e] != 0 && type[e] != 2) continue;
+      for (const std::size_t at : {2 * e, 2 * e + 1}) {
+        if (ends[at] >= start && std::cmp_less(ends[at] - start, n_points))
+          of_plane[static_cast<std::size_t>(ends[at] - start)] = true;
+      }
+      any = true;
+    }
+    return any ? of_plane : std::vector<bool>(n_points, true);
+  }
+  /// Without a table of faces, they are what the edges enclose.
   void faces_of_edges() {
     const auto names = named("edge_node_connectivity");
     if (names.size() != 1) {
@@ -234,20 +253,19 @@ class UgridReader {
     const NetcdfVariable& v = in_.variable(names[0]);
     expect(v.sizes.size() == 2 && v.sizes[1] == 2, v.name);
     const std::int64_t start = start_of(v);
-    const NetcdfVariable* const types = topology_ == nullptr ? in_.find("NetLinkType") : nullptr;
-    const auto all = in_.integers(v), type = types != nullptr ? in_.integers(*types) : std::vector<std::int64_t>();
+    const auto all = in_.integers(v);
+    const std::vector<bool> of_plane = points_of_plane(all, start);
     const auto n_points = static_cast<std::int64_t>(document_.file.points.size());
     document_.names->points = RunLength(start, document_.file.points.size());
     std::vector<EdgeEnds> edges;
     for (std::size_t e = 0; 2 * e < all.size(); ++e) {
-      constexpr std::int64_t kOfPlane = 2;
-      if (e < type.size() && type[e] != kOfPlane) continue;
       const auto is_point = [&](std::int64_t number) { return number >= start && number < n_points + start; };
       if (!is_point(all[2 * e]) || !is_point(all[2 * e + 1])) {
         fail(ErrorCode::index_out_of_range, path(), "edge ", static_cast<std::int64_t>(e) + start, " joins vertices ",
              all[2 * e], " and ", all[2 * e + 1], ", but the file has ", n_points, " vertices, numbered from ", start);
       }
       const std::int64_t a = all[2 * e] - start, b = all[2 * e + 1] - start;
+      if (!of_plane[static_cast<std::size_t>(a)] || !of_plane[static_cast<std::size_t>(b)]) continue;
       const Vec2 p = document_.file.points[static_cast<std::size_t>(a)],
                  q = document_.file.points[static_cast<std::size_t>(b)];
       const bool is_finite = std::isfinite(p.x + p.y) && std::isfinite(q.x + q.y);  // else the point is named later
@@ -255,6 +273,10 @@ class UgridReader {
     }
     for (const auto& [a, b, c, d] : planar_faces(document_.file.points, edges, *document_.names, path()))
       document_.add_face({a, b, c}, d);
+    if (document_.file.triangles.empty()) {
+      fail(ErrorCode::empty_input, path(), "its ", edges.size(), " edges (", v.name,
+           ") enclose no triangle and no quadrilateral. Next: write the mesh with its faces, or with all their edges");
+    }
     document_.names->triangles = RunLength(start, document_.file.triangles.size());
     const bool has_quadrilaterals = !document_.fourth_corners.empty();
     document_.file.warnings.push_back(text(path(), ": has edges without faces: ", document_.file.triangles.size(),
