@@ -4,10 +4,13 @@
 //   elem2d.out   triangles, then: a b c                           numbers from 1
 //   aux3d.out    levels, then the depth of each, then of each point: data `depth`, and field data `levels`
 //                FESOM turns depths above 0. The data are positive down, and are turned again beside levels below 0
+//   cavity_depth@node.out and others, kQuantities     numbers of each point or triangle: data `cavity_depth@node`
+//   edges.out and others, kDerived                    what FESOM's fesom_ini.x makes of the mesh: named in a warning
 //
 // Before each name may be another one: pi.nod2d.out, pi.elem2d.out. The points are on a sphere of 6371 km.
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "io/conversion/bed.hpp"
 #include "io/conversion/globe.hpp"
@@ -21,7 +24,14 @@ namespace temper::io {
 namespace {
 
 constexpr std::string_view kPoints = "nod2d.out", kTriangles = "elem2d.out", kDepths = "aux3d.out";
-constexpr std::string_view kFlag = "flag", kLevels = "levels";
+constexpr std::string_view kFlag = "flag", kLevels = "levels", kOfPoints = "@node", kOfTriangles = "@elem",
+                           kSuffix = ".out";
+/// Files NAME@node.out have a row for each point, files NAME@elem.out one for each triangle.
+constexpr std::array<std::string_view, 3> kQuantities = {"depth", "cavity_depth", "windstress"};
+/// Numbers of edges and levels. fesom_ini.x does not replace them: they have to be gone.
+constexpr std::array<std::string_view, 9> kDerived = {
+    "edgenum.out", "edges.out",        "edge_tri.out",         "elvls.out",       "elvls_raw.out",
+    "nlvls.out",   "cavity_elvls.out", "cavity_elvls_raw.out", "cavity_nlvls.out"};
 
 enum class FesomFile { none, points, triangles };
 
@@ -71,6 +81,11 @@ class FesomReader {
     points(is_points ? source_ : other);
     triangles(is_points ? other : source_);
     if (exists(base + std::string(kDepths))) depths(base + std::string(kDepths));
+    MeshFile& f = document_.file;
+    for (const std::string_view quantity : kQuantities) {
+      add_quantity(base, text(quantity, kOfPoints), f.points.size(), f.point_data);
+      add_quantity(base, text(quantity, kOfTriangles), f.triangles.size(), f.cell_data);
+    }
     return std::move(document_);
   }
 
@@ -128,6 +143,24 @@ class FesomReader {
     f.point_data.push_back({std::string(kDepth), 1, std::move(depth)});
   }
 
+  /// Reads the file of that name if it exists: as many numbers in each of n rows.
+  void add_quantity(const std::string& base, const std::string& name, std::size_t n, std::vector<DataArray>& data) {
+    const std::string path = text(base, name, kSuffix);
+    if (!exists(path)) return;
+    const Source source = load(path);
+    Scanner scanner(path, source.bytes);
+    std::vector<double> values;
+    while (!scanner.at_end()) values.push_back(scanner.real("a number"));
+    if (n > 0 && !values.empty() && values.size() % n == 0 && values.size() / n <= kMostComponents) {
+      data.push_back({name, static_cast<int>(values.size() / n), std::move(values)});
+      return;
+    }
+    document_.file.warnings.push_back(text(path, ": has ", values.size(), " numbers for ", n,
+                                           name.ends_with(kOfPoints) ? " points" : " triangles",
+                                           ", and is left out. Next: see whether it is of this mesh"));
+  }
+
+  static constexpr std::size_t kMostComponents = 9;
   Source& source_;
   Document document_;
 };
@@ -167,6 +200,97 @@ std::vector<double> numbers_of(const std::vector<DataArray>& arrays, std::string
   return array == nullptr || array->components != 1 ? std::vector<double>() : to_doubles(Values(array->values));
 }
 
+/// The kind of values that a name with its place says: `depth@node` of points. Null: the name is of no such file.
+ArraysOf place_of_quantity(std::string_view name) {
+  for (const std::string_view quantity : kQuantities) {
+    if (name == text(quantity, kOfPoints)) return &MeshFile::point_data;
+    if (name == text(quantity, kOfTriangles)) return &MeshFile::cell_data;
+  }
+  return nullptr;
+}
+
+/// All files of numbers of points or triangles, in the order in which they are read.
+std::vector<std::string> quantity_files(const std::string& base) {
+  std::vector<std::string> files;
+  for (const std::string_view quantity : kQuantities) {
+    for (const std::string_view place : {kOfPoints, kOfTriangles})
+      files.push_back(text(base, quantity, place, kSuffix));
+  }
+  return files;
+}
+
+/// Writes what is there, and returns the paths.
+std::set<std::string> write_quantities(const WriteJob& job, const std::string& base) {
+  std::set<std::string> written;
+  for (const ArraysOf place : {&MeshFile::point_data, &MeshFile::cell_data}) {
+    for (const DataArray& array : job.file.*place) {
+      if (place_of_quantity(array.name) != place) continue;
+      Output& out = job.outputs.open(*written.insert(text(base, array.name, kSuffix)).first);
+      const std::vector<double> values = to_doubles(Values(array.values));
+      const auto components = static_cast<std::size_t>(array.components);
+      for (std::size_t i = 0; i < values.size(); ++i) out.put(values[i], (i + 1) % components == 0 ? '\n' : ' ');
+    }
+  }
+  return written;
+}
+
+/// Writes depths and levels; says whether there were any.
+bool write_depths(const WriteJob& job, const std::string& path) {
+  const MeshFile& f = job.file;
+  const std::vector<double> levels = numbers_of(f.field_data, kLevels);
+  std::vector<double> depth = numbers_of(f.point_data, kDepth);
+  if (std::ranges::any_of(levels, [](double level) { return level < 0; })) turn(depth);
+  if (depth.empty()) {
+    if (!levels.empty()) job.warn("field data ", kLevels, " are not written: FESOM has levels with depths alone");
+    return false;
+  }
+  if (levels.empty()) {
+    job.warn("there are depths, and no levels: ", kDepths,
+             " has 0 levels. Next: put the number of levels of your model "
+             "on its first line, and the levels on the lines after it");
+  }
+  Output& depths = job.outputs.open(path);
+  depths.put(levels.size(), '\n');
+  for (const double level : levels) depths.put(level, '\n');
+  for (const double d : depth) depths.put(d, '\n');
+  return true;
+}
+
+/// The names, without the folder, of those files that exist.
+std::string existing(const std::vector<std::string>& files) {
+  std::string names;
+  for (const std::string& file : files) {
+    if (exists(file)) names += text(names.empty() ? "" : ", ", file.substr(file.find_last_of("/\\") + 1));
+  }
+  return names;
+}
+std::vector<std::string> derived_files(const std::string& base) {
+  std::vector<std::string> files;
+  for (const std::string_view name : kDerived) files.push_back(text(base, name));
+  return files;
+}
+
+/// Names the files of another mesh that FESOM would read beside this one.
+void warn_of_former(const WriteJob& job, const std::string& base, const std::set<std::string>& written) {
+  std::vector<std::string> others = quantity_files(base);
+  others.push_back(base + std::string(kDepths));
+  std::erase_if(others, [&](const std::string& file) { return written.contains(file); });
+  if (const std::string names = existing(others); !names.empty()) {
+    job.warn("beside it stay ", names,
+             ", which are not of this mesh: it has no such data. Next: remove them, or make "
+             "them for the new points and triangles");
+  }
+  constexpr std::string_view kMaker = "let FESOM's fesom_ini.x make them, and the parts in dist_*, for this mesh";
+  if (const std::string names = existing(derived_files(base)); !names.empty()) {
+    job.warn("beside it stay ", names, ", the edges and levels of the mesh before. Next: remove them, and ", kMaker);
+    return;
+  }
+  const MeshFile& f = job.file;
+  const std::string names = f.format == "fesom" ? existing(derived_files(fesom_base(f.path))) : std::string();
+  if (!names.empty())
+    job.warn(names, " beside ", f.path, " are the edges and levels of the mesh there. Next: ", kMaker);
+}
+
 }  // namespace
 
 bool sniff_fesom(std::string_view head) { return kind_of_fesom(head) != FesomFile::none; }
@@ -175,10 +299,14 @@ Document read_fesom(Source& source) { return FesomReader(source).read(); }
 
 std::vector<std::string> fesom_files(const std::string& path) {
   const std::string base = fesom_base(path);
-  return {base + std::string(kPoints), base + std::string(kTriangles), base + std::string(kDepths)};
+  std::vector<std::string> files = quantity_files(base);
+  files.insert(files.begin(),
+               {base + std::string(kPoints), base + std::string(kTriangles), base + std::string(kDepths)});
+  return files;
 }
 
 bool fesom_keeps(ArraysOf of, const DataArray& array) {
+  if (of != &MeshFile::field_data && place_of_quantity(array.name) == of) return true;
   if (of == &MeshFile::point_data) return array.name == kFlag || array.name == kDepth;
   return of == &MeshFile::field_data && array.name == kLevels;
 }
@@ -195,22 +323,9 @@ void write_fesom(const WriteJob& job) {
   Output& triangles = job.outputs.open(base + std::string(kTriangles));
   triangles.put(f.triangles.size(), '\n');
   for (const auto& [a, b, c] : f.triangles) triangles.put(a + 1, ' ', b + 1, ' ', c + 1, '\n');
-  const std::vector<double> levels = numbers_of(f.field_data, kLevels);
-  std::vector<double> depth = numbers_of(f.point_data, kDepth);
-  if (std::ranges::any_of(levels, [](double level) { return level < 0; })) turn(depth);
-  if (depth.empty()) {
-    if (!levels.empty()) job.warn("field data ", kLevels, " are not written: FESOM has levels with depths alone");
-    return;
-  }
-  if (levels.empty()) {
-    job.warn("there are depths, and no levels: ", kDepths,
-             " has 0 levels. Next: put the number of levels of your model "
-             "on its first line, and the levels on the lines after it");
-  }
-  Output& depths = job.outputs.open(base + std::string(kDepths));
-  depths.put(levels.size(), '\n');
-  for (const double level : levels) depths.put(level, '\n');
-  for (const double d : depth) depths.put(d, '\n');
+  std::set<std::string> written = write_quantities(job, base);
+  if (write_depths(job, base + std::string(kDepths))) written.insert(base + std::string(kDepths));
+  warn_of_former(job, base, written);
 }
 
 }  // namespace temper::io

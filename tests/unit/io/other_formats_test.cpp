@@ -507,6 +507,51 @@ TEST_F(OtherFormats, WeightsOfZeroAreNoneInEveryFormat) {
   }
 }
 
+TEST_F(OtherFormats, FesomFilesBesideTheMeshAreReadOrNamed) {
+  make("nod2d.out", "4\n1 0 0 1\n2 1 0 1\n3 1 1 1\n4 0 1 1\n");
+  make("elem2d.out", "2\n1 2 3\n1 3 4\n");
+  make("cavity_depth@node.out", "-294.5\n 0\n-1e2\n-7\n");
+  make("windstress@elem.out", "0.5 -0.25\n 1 2\n");
+  make("depth@node.out", "1\n2\n3\n");
+  make("edges.out", "1 2\n");
+  make("cavity_nlvls.out", "1\n");
+  const auto f = read(path("nod2d.out"));
+  ASSERT_TRUE(f) << f.error().what();
+  ASSERT_EQ(f->point_data.size(), 2u);
+  EXPECT_EQ(f->point_data[1].name, "cavity_depth@node");
+  EXPECT_EQ(f->point_data[1].values, Values(std::vector<double>{-294.5, 0, -100, -7}));
+  ASSERT_EQ(f->cell_data.size(), 1u);
+  EXPECT_EQ(f->cell_data[0].name, "windstress@elem");
+  EXPECT_EQ(f->cell_data[0].components, 2);
+  ASSERT_EQ(f->warnings.size(), 1u);
+  EXPECT_EQ(plain(f->warnings[0]),
+            "depth@node.out: has 3 numbers for 4 points, and is left out. Next: see whether it is of this mesh");
+
+  const auto elsewhere = write(path("new.nod2d.out"), *f);
+  ASSERT_TRUE(elsewhere) << elsewhere.error().what();
+  EXPECT_EQ(slurp(path("new.cavity_depth@node.out")), "-294.5\n0\n-100\n-7\n");
+  EXPECT_EQ(slurp(path("new.windstress@elem.out")), "0.5 -0.25\n1 2\n");
+  const std::string next = " Next: let FESOM's fesom_ini.x make them, and the parts in dist_*, for this mesh";
+  ASSERT_EQ(elsewhere->size(), 1u);
+  EXPECT_EQ(
+      plain(elsewhere->at(0)),
+      "new.nod2d.out: edges.out, cavity_nlvls.out beside nod2d.out are the edges and levels of the mesh there." + next);
+
+  MeshFile moved = *f;
+  std::get<std::vector<double>>(moved.point_data[1].values)[1] = -3;
+  moved.cell_data.clear();
+  const auto in_place = write(path("nod2d.out"), moved);
+  ASSERT_TRUE(in_place) << in_place.error().what();
+  EXPECT_EQ(slurp(path("cavity_depth@node.out")), "-294.5\n-3\n-100\n-7\n");
+  ASSERT_EQ(in_place->size(), 2u);
+  EXPECT_EQ(plain(in_place->at(0)),
+            "nod2d.out: beside it stay depth@node.out, windstress@elem.out, which are not of this mesh: it has no such "
+            "data. Next: remove them, or make them for the new points and triangles");
+  EXPECT_EQ(plain(in_place->at(1)),
+            "nod2d.out: beside it stay edges.out, cavity_nlvls.out, the edges and levels of the mesh before. Next: "
+            "remove them, and let FESOM's fesom_ini.x make them, and the parts in dist_*, for this mesh");
+}
+
 TEST_F(OtherFormats, FesomKeepsDepthsWithoutLevels) {
   MeshFile f;
   f.points = {{0, 0}, {1, 0}, {0, 1}};
