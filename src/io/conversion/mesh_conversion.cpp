@@ -13,6 +13,7 @@
 #include "io/conversion/adcirc.hpp"
 #include "io/conversion/data_update.hpp"
 #include "io/conversion/globe.hpp"
+#include "io/conversion/gmsh.hpp"
 #include "io/conversion/quadrilaterals.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/file_names.hpp"
@@ -203,15 +204,34 @@ class MeshMaker {
       if (contains(tags.lines, file_.line_tags[i]))
         fixed.insert(fixed.end(), file_.lines[i].begin(), file_.lines[i].end());
     }
-    for (std::size_t t = 0; t < file_.regions.size() && !tags.triangles.empty(); ++t) {
-      if (contains(tags.triangles, file_.regions[t]))
-        fixed.insert(fixed.end(), file_.triangles[t].begin(), file_.triangles[t].end());
+    const std::vector<bool> inside = triangles_of(tags.triangles);
+    for (std::size_t t = 0; t < inside.size(); ++t) {
+      if (inside[t]) fixed.insert(fixed.end(), file_.triangles[t].begin(), file_.triangles[t].end());
     }
     std::sort(fixed.begin(), fixed.end());
     fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
     std::erase_if(fixed, [&](std::int32_t p) { return loaded_.vertex_of_point[static_cast<std::size_t>(p)] < 0; });
     for (std::int32_t& p : fixed) p = loaded_.vertex_of_point[static_cast<std::size_t>(p)];
     return fixed;
+  }
+  /// Says of each triangle whether it is of one of these regions, or groups of Gmsh. Empty: none is.
+  [[nodiscard]] std::vector<bool> triangles_of(const std::vector<std::int32_t>& tags) const {
+    std::vector<bool> inside(tags.empty() ? 0 : file_.triangles.size());
+    const auto add = [&](const std::vector<std::int32_t>& of_triangles, const auto& is_wanted) {
+      for (std::size_t t = 0; t < std::min(inside.size(), of_triangles.size()); ++t)
+        inside[t] = inside[t] || is_wanted(of_triangles[t]);
+    };
+    const auto is_of_tags = [&](std::int32_t tag) { return contains(tags, tag); };
+    add(file_.regions, is_of_tags);
+    for (const DataArray& array : file_.cell_data) {
+      const std::optional<std::int32_t> group = further_group(array);
+      const bool is_wanted_group = group && contains(tags, *group);
+      if (tags.empty() || (!is_wanted_group && array.name != kGmshFirstGroup)) continue;
+      const auto values = to_int32(array.values);
+      if (!values || array.components != 1) continue;
+      is_wanted_group ? add(*values, [](std::int32_t value) { return value != 0; }) : add(*values, is_of_tags);
+    }
+    return inside;
   }
   // The file's own arrays when every point is used; else copies without the others.
   Expected<BuiltMesh> build(const std::vector<std::int32_t>& fixed) const {

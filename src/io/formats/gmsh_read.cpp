@@ -29,8 +29,8 @@
 #include <utility>
 
 #include "io/conversion/data_update.hpp"
+#include "io/conversion/gmsh.hpp"
 #include "io/formats/format.hpp"
-#include "io/formats/gmsh.hpp"
 #include "io/text/scanner.hpp"
 #include "io/text/values.hpp"
 

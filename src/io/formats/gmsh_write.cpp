@@ -11,7 +11,6 @@
 // NodeData and ElementData hold doubles alone.
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -19,8 +18,8 @@
 #include <set>
 
 #include "io/conversion/globe.hpp"
+#include "io/conversion/gmsh.hpp"
 #include "io/formats/format.hpp"
-#include "io/formats/gmsh.hpp"
 #include "io/text/values.hpp"
 
 namespace temper::io {
@@ -72,17 +71,6 @@ struct Kind {
 const std::vector<std::int32_t>* given_entities(const Kind& kind) {
   const DataArray* array = find(*kind.data, kGmshEntity);
   return array == nullptr || array->components != 1 ? nullptr : std::get_if<std::vector<std::int32_t>>(&array->values);
-}
-
-/// The tag in the name gmsh:physical:TAG; nothing for other arrays.
-std::optional<std::int32_t> further_group(const DataArray& array) {
-  const std::string_view name = array.name;
-  if (array.components != 1 || !name.starts_with(kGmshFurtherGroup)) return {};
-  const std::string_view digits = name.substr(kGmshFurtherGroup.size());
-  std::int32_t tag = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), tag);
-  if (error != std::errc() || end != digits.data() + digits.size() || tag == 0) return {};
-  return tag;
 }
 
 /// Numbers entities so that all elements of each are in the same groups.

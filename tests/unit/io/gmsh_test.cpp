@@ -103,6 +103,23 @@ TEST_F(FileTest, TrianglesWithDifferentSetsOfGroupsAreDifferentRegions) {
   }
 }
 
+TEST_F(FileTest, VerticesOfAGroupAreFixedInAllItsRegions) {
+  const auto f = read(make("m.msh", kOverlap));
+  ASSERT_TRUE(f) << f.error().what();
+  const auto fixed = [&](const std::string& group) {
+    const auto made = make_mesh(*f, std::vector<std::string>{group});
+    EXPECT_TRUE(made) << made.error().what();
+    std::vector<std::size_t> numbers;
+    for (const VertexId v : made->mesh.vertices()) {
+      if (made->mesh.is_fixed(v)) numbers.push_back(v.index);
+    }
+    return numbers;
+  };
+  EXPECT_EQ(fixed("all"), (std::vector<std::size_t>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(fixed("wet"), (std::vector<std::size_t>{1, 2, 3, 4})) << "the triangles 2 3 5 and 3 4 5";
+  EXPECT_EQ(fixed("all and clay"), (std::vector<std::size_t>{0, 3, 4}));
+}
+
 TEST_F(FileTest, EachElementHasAGroupIfAnyElementHasOne) {
   MeshFile f;
   f.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
