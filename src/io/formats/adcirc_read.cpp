@@ -165,27 +165,12 @@ class AdcircReader {
       f.point_tags.push_back(tag);
       sides_.push_back(side);
     };
-    std::int32_t first = -1, last = -1, last_of_wall = -1;
-    const std::size_t first_line = f.lines.size();
-    NodeString string;
-    double n_rows = 1;  // of the last node
-    const auto connect = [&](std::int32_t to) {
-      if (last == to) {
-        ++n_rows;
-        if (f.lines.size() > first_line) rows_of_lines_.back()[1] = n_rows;
-        return;
-      }
-      f.lines.push_back({last, to});
-      f.line_tags.push_back(tag);
-      rows_of_lines_.push_back({std::exchange(n_rows, 1), 1, 1});
-      document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
-    };
+    ReadString string = {tag, f.lines.size()};
+    std::int32_t last_of_wall = -1;
     for (std::size_t i = 0; i < n; ++i) {
       const std::int32_t point = node(lookup, name);
-      if (i == 0) first = point;
-      if (i > 0) connect(point);
-      last = point;
-      string.push_back(point);
+      if (i > 0) connect(string, point);
+      string.nodes.push_back(point);
       if (row.numbers > 0) {
         mark(point, 0);
         if (row.paired) {
@@ -202,15 +187,41 @@ class AdcircReader {
       scanner_.next_line();
     }
     const bool island = !open && (kind.type == 1 || kind.type == 11 || kind.type == 21);
-    if (island && n > 2 && last != first) {
-      connect(first);
+    end_string(string, island, name);
+    f.names.push_back({1, tag, name});
+  }
+  /// The nodes of a boundary, as far as they are read.
+  struct ReadString {
+    std::int32_t tag = 0;
+    std::size_t first_line = 0;
+    NodeString nodes = {};
+    double n_rows = 1;  // of the last node
+  };
+  /// Adds the line from the last node. A node in a further row needs none.
+  void connect(ReadString& string, std::int32_t to) {
+    MeshFile& f = document_.file;
+    const std::int32_t last = string.nodes.back();
+    if (last == to) {
+      ++string.n_rows;
+      if (f.lines.size() > string.first_line) rows_of_lines_.back()[1] = string.n_rows;
+      return;
+    }
+    f.lines.push_back({last, to});
+    f.line_tags.push_back(string.tag);
+    rows_of_lines_.push_back({std::exchange(string.n_rows, 1), 1, 1});
+    document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+  }
+  /// Closes an island, and compares the string with the one that the writer would make of its lines.
+  void end_string(ReadString& string, bool is_island, const std::string& name) {
+    MeshFile& f = document_.file;
+    const NodeString& nodes = string.nodes;
+    if (is_island && nodes.size() > 2 && nodes.back() != nodes.front()) {
+      connect(string, nodes.front());
       rows_of_lines_.back()[2] = 0;
     }
-    const auto begin = f.lines.begin() + static_cast<std::ptrdiff_t>(first_line);
-    are_plain_ = are_plain_ && node_strings({begin, f.lines.end()}) == std::vector<NodeString>(1, string);
-    if (begin == f.lines.end())
-      document_.file.warnings.push_back(text(scanner_.where(), ": ", name, " has no edge and is dropped"));
-    f.names.push_back({1, tag, name});
+    const auto begin = f.lines.begin() + static_cast<std::ptrdiff_t>(string.first_line);
+    are_plain_ = are_plain_ && node_strings({begin, f.lines.end()}) == std::vector<NodeString>(1, nodes);
+    if (begin == f.lines.end()) f.warnings.push_back(text(scanner_.where(), ": ", name, " has no edge and is dropped"));
   }
   std::int32_t node(const NumberLookup& lookup, const std::string& element) {
     const auto number = scanner_.number<std::int64_t>("the number of a node");
