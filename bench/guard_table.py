@@ -30,7 +30,10 @@ MPAS = {
     "min_cell_quality": 1, "min_grid_spacing": 1, "max_grid_spacing": -1, "min_triangle_quality": 1,
     "min_triangle_angle_quality": 1, "max_centroid_offset_over_size": -1,
 }
-COEFFICIENTS = {"inverted_triangles": -1, "non_regular_edges": -1, "orthocenters_outside": -1, "well_centered_fraction": 1}
+COEFFICIENTS = {
+    "inverted_triangles": -1, "non_regular_edges": -1, "negative_boundary_duals": -1, "orthocenters_outside": -1,
+    "well_centered_fraction": 1, "max_transmissibility_over_median": -1,
+}
 MEASURES = {"fem": SHAPES, "adcirc": SHAPES, "dflowfm": SHAPES | FLOW, "mpas": SHAPES | MPAS}
 
 
