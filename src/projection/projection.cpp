@@ -5,12 +5,14 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/text.hpp"
 #include "temper/detail/read_number.hpp"
+#include "temper/detail/suggest.hpp"
 
 namespace temper {
 namespace {
@@ -74,6 +76,35 @@ std::optional<std::array<std::optional<double>, 2>> parse_center(std::string_vie
   return center;
 }
 
+/// The zone in a name of UTM, such as utm32, UTM:32N or EPSG:32632; 0: a name of UTM without a zone; none: another
+/// name.
+std::optional<int> zone_of(std::string_view text) {
+  constexpr int kZones = 60;
+  std::string letters;
+  int digits = 0;
+  for (const char c : text) {
+    if (c >= '0' && c <= '9') digits = std::min(10 * digits + (c - '0'), 100000);
+    if (c >= 'A' && c <= 'Z') letters += static_cast<char>(c + ('a' - 'A'));
+    if (c >= 'a' && c <= 'z') letters += c;
+  }
+  if (letters == "epsg" && (digits / 100 == 326 || digits / 100 == 327))
+    digits %= 100;
+  else if (!letters.starts_with("utm"))
+    return std::nullopt;
+  return digits <= kZones ? digits : 0;
+}
+
+/// The projection that a user may mean by an unknown name.
+std::string next_for(std::string_view text) {
+  std::array<std::string_view, std::size(kKinds)> names;
+  std::ranges::transform(kKinds, names.begin(), &KindName::name);
+  const std::optional<int> zone = zone_of(text);
+  if (!zone) return did_you_mean(text.substr(0, text.find(':')), names);
+  if (*zone == 0)
+    return ". Next: for UTM take transverse-mercator:LON, with the middle longitude of the zone (9 in zone 32)";
+  return ". Next: for this zone of UTM take transverse-mercator:" + std::to_string(6 * *zone - 183);
+}
+
 }  // namespace
 
 Expected<Projection> parse_projection(std::string_view text, std::span<const Vec2> places) {
@@ -85,7 +116,7 @@ Expected<Projection> parse_projection(std::string_view text, std::span<const Vec
   }
   if (found == nullptr) {
     return invalid_projection("expected a projection (stereographic, mercator, transverse-mercator), found '" +
-                              std::string(text) + "'");
+                              std::string(text) + "'" + next_for(text));
   }
   projection.kind = found->kind;
   projection.center = mean_place(places);

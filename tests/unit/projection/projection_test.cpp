@@ -112,6 +112,21 @@ TEST(Projection, ItIsReadFromItsNameAndCenter) {
   }
 }
 
+TEST(Projection, AnUnknownNameIsAnsweredWithTheProjectionThatItMeans) {
+  const auto answer = [](const char* name) { return parse_projection(name, {}).error().message; };
+  const auto ends = [&](const char* name, const char* end) {
+    EXPECT_TRUE(answer(name).ends_with(end)) << answer(name);
+  };
+  ends("utm", ". Next: for UTM take transverse-mercator:LON, with the middle longitude of the zone (9 in zone 32)");
+  ends("UTM:99", "(9 in zone 32)");
+  ends("utm32", ". Next: for this zone of UTM take transverse-mercator:9");
+  ends("UTM-1S", "transverse-mercator:-177");
+  ends("EPSG:32760", "transverse-mercator:177");
+  ends("EPSG:4326", "found 'EPSG:4326'");
+  ends("stereografic:9", "did you mean 'stereographic'?");
+  ends("lambert", "found 'lambert'");
+}
+
 TEST(Projection, TheMiddleOfPlacesDoesNotMindTheDateLine) {
   const std::vector<Vec2> places = {{179, 0}, {-179, 0}};
   EXPECT_NEAR(std::abs(mean_place(places).x), 180, 1e-9);
