@@ -33,9 +33,16 @@ Option& add_counted(Command& command, const std::string& name, T& target, T leas
 
 }  // namespace
 
+std::string without_unit(const std::string& text) {
+  const std::size_t end = text.find_last_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ°% ") + 1;
+  if (end == 0 || end == text.size() || !parse_number(text.substr(0, end))) return {};
+  return fmt::format(": numbers have no unit, and lengths are in the units of the coordinates. Next: {}",
+                     text.substr(0, end));
+}
+
 double to_number(const std::string& text, Interval allowed) {
   const std::optional<double> value = parse_number(text);
-  if (!value) throw BadValue(fmt::format("'{}' is not a number", text));
+  if (!value) throw BadValue(fmt::format("'{}' is not a number{}", text, without_unit(text)));
   if (!contains(allowed, *value)) {
     throw BadValue(fmt::format("{} is out of range, it must be {}", text, range_text(allowed)));
   }

@@ -31,6 +31,9 @@ inline constexpr Interval kNotNegative = {0, std::numeric_limits<double>::infini
 [[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
 /// The value of a text, for rows that are made elsewhere, or BadValue.
+/// If the text is a number with a unit: the rest of a message that says to leave the unit out. Else empty.
+[[nodiscard]] std::string without_unit(const std::string& text);
+
 [[nodiscard]] double to_number(const std::string& text, Interval allowed);
 template <class T>  // int, std::int64_t or std::uint64_t
 [[nodiscard]] T to_count(const std::string& text, T least);

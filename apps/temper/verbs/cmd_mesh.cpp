@@ -160,7 +160,8 @@ std::vector<RegionSize> region_sizes(const std::string& text) {
   if (!numbers || numbers->empty() || 2 * sizes.size() != numbers->size()) {
     refuse_usage(
         "mesh",
-        fmt::format("--region-size: expected REGION,SIZE,... with whole regions and sizes above 0, found '{}'", text));
+        fmt::format("--region-size: expected REGION,SIZE,... with whole regions and sizes above 0, found '{}'{}", text,
+                    without_unit(separated(text).back())));
   }
   return sizes;
 }
@@ -173,6 +174,14 @@ void take_input(Command& command, MeshSettings& s) {
   command.option("--write").given.pop_back();
 }
 
+/// "0.5m" is no name of a file, unless there is one.
+void expect_no_unit(const std::string& size) {
+  const std::string unit = without_unit(size);
+  std::error_code ignored;
+  if (unit.empty() || std::filesystem::exists(path_of(size), ignored)) return;
+  refuse_usage("mesh", fmt::format("--size: '{}' is no size{}", size, unit));
+}
+
 void check_usage(const Command& command, const MeshSettings& s) {
   const bool few = s.options.points == MeshPoints::few;
   for (const char* option : {"--size", "--size-data", "--from-depth", "--grade", "--region-size", "--attempts"}) {
@@ -182,6 +191,7 @@ void check_usage(const Command& command, const MeshSettings& s) {
   if (few && s.sphere) refuse_usage("mesh", "--points few is for the plane. Next: --sphere with --size h");
   if (few && s.no_optimize) refuse_usage("mesh", "--points few needs the optimization. Next: leave out --no-optimize");
   if (!few && s.size.empty()) refuse_usage("mesh", "--size is missing. Next: --size h, or --points few");
+  expect_no_unit(s.size);
   if (s.sphere) return;
   if (s.input.empty())
     refuse_usage("mesh", "OUTLINE is missing: give an outline file, or --sphere for a mesh of the whole sphere");

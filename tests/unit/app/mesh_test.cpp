@@ -153,6 +153,19 @@ TEST_F(MeshVerb, SizesComeFromDepthsWhoseSignIsKnown) {
   EXPECT_EQ(mesh(rule + ",positive=up").exit, 0);
 }
 
+TEST_F(MeshVerb, ASizeWithAUnitIsRefusedWithTheNumberAlone) {
+  for (const char* size : {"0.5m", "0.5 km", "0.5degrees"}) {
+    const Outcome outcome = temper({"mesh", "nothing.poly", "-o", "o.vtu", "--size", size});
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_TRUE(
+        contains(outcome.err, "numbers have no unit, and lengths are in the units of the coordinates. Next: 0.5"))
+        << outcome.err;
+  }
+  EXPECT_TRUE(contains(temper({"convert", "in.off", "-o", "o.off", "--merge", "1mm"}).err,
+                       "'1mm' is not a number: numbers have no unit"));
+  EXPECT_FALSE(contains(temper({"convert", "in.off", "-o", "o.off", "--merge", "mm"}).err, "unit"));
+}
+
 TEST_F(MeshVerb, BadUsageIsRefusedAndNothingWritten) {
   make_outline();
   for (const std::vector<std::string>& more :
