@@ -11,6 +11,7 @@
 
 #include "console.hpp"
 #include "exit.hpp"
+#include "files/flat_triangles.hpp"
 
 namespace temper::app {
 namespace {
@@ -154,11 +155,29 @@ struct MergedPoints {
   }
 };
 
+/// Drops the triangles with two corners at exactly one place, which merging makes one.
+void drop_without_area(io::MeshFile& file) {
+  const std::vector<Vec3> places = places_of(file);
+  const auto is_point = [&](std::int32_t p) { return p >= 0 && static_cast<std::size_t>(p) < places.size(); };
+  const auto at = [&](std::int32_t p) { return places[static_cast<std::size_t>(p)]; };
+  std::vector<bool> stays;
+  for (const auto& [a, b, c] : file.triangles) {
+    const bool known = is_point(a) && is_point(b) && is_point(c);
+    stays.push_back(!known || (at(a) != at(b) && at(b) != at(c) && at(c) != at(a)));
+  }
+  const auto gone = std::ranges::count(stays, false);
+  if (gone == 0) return;
+  file.warnings.push_back(fmt::format("{}: {} dropped: two corners are at one place", file.path,
+                                      plural(static_cast<std::size_t>(gone), "triangle is", "triangles are")));
+  keep_triangles(file, stays);
+}
+
 }  // namespace
 
 std::size_t merge_points(io::MeshFile& file, double radius) {
   const MergedPoints merged(places_of(file), radius);
   if (merged.gone == 0) return 0;
+  drop_without_area(file);
   merged.renumber_cells(file.triangles, file.path, radius, [&](std::size_t t) {
     return file.numbering ? file.numbering->triangle(t) : InputNames().triangle(t);
   });

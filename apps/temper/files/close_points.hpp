@@ -20,8 +20,8 @@ namespace temper::app {
 [[nodiscard]] std::string crack_warning(const Input& input);
 
 /// Makes points one that are at most `radius` apart, in the file's units; on a sphere along the chord. The first point
-/// of each place stays. Failure if a triangle or tetrahedron loses a corner. Returns the number of points that are
-/// gone.
+/// of each place stays. Triangles with two corners at exactly one place are dropped, with a warning. Failure if another
+/// triangle or a tetrahedron loses a corner. Returns the number of points that are gone.
 std::size_t merge_points(io::MeshFile& file, double radius);
 std::size_t merge_points(io::TetFile& file, double radius);
 

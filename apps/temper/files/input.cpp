@@ -46,6 +46,17 @@ class TetNames final : public tets::InputNames {
   std::vector<std::size_t> points_;
 };
 
+/// The error of a mesh, with the command that cures it if there is one.
+InputError with_cure(InputError error, const Input& input) {
+  const auto cure = [&](std::string_view what, std::string_view option) {
+    error.message += fmt::format(". Next: {} with temper convert {} {} -o OUT", what, input.path, option);
+  };
+  if (error.code == ErrorCode::duplicate_point) cure("join them", "--merge 0");
+  if (error.code == ErrorCode::zero_area && input.file.sphere() == nullptr)
+    cure("flip such triangles away", "--flip-flat");
+  return error;
+}
+
 }  // namespace
 
 std::string Input::vertex_number(VertexId v) const { return last_word(names->point(v.index)); }
@@ -60,11 +71,7 @@ Input read_input(const std::string& path, const ReadingOptions& options) {
   input.file = options.read ? options.read(path) : read_tried(path, {options.executor, options.flat});
   take_to_map(input.file, path, options.projection);
   Expected<io::LoadedMesh> loaded = io::make_mesh(input.file, options.fixed_tags, options.executor);
-  if (!loaded && loaded.error().code == ErrorCode::duplicate_point) {
-    InputError error = loaded.error();
-    error.message += fmt::format(". Next: join them with temper convert {} --merge 0 -o OUT", path);
-    throw as_failure(error);
-  }
+  if (!loaded) throw as_failure(with_cure(loaded.error(), input));
   input.loaded = or_fail(std::move(loaded));
   if (!options.spheres) expect_plane(input.loaded.mesh, path, "this verb");
   input.n_vertices = input.loaded.mesh.n_vertices();

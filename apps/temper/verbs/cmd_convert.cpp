@@ -8,6 +8,7 @@
 
 #include "console.hpp"
 #include "files/close_points.hpp"
+#include "files/flat_triangles.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
 #include "help/help.hpp"
@@ -23,6 +24,7 @@ struct ConvertSettings {
   std::string input;
   MeshOutput output;
   std::optional<double> merge;
+  bool flip_flat = false;
   std::uint64_t threads = 0;
 };
 
@@ -36,6 +38,9 @@ void add_options(Command& command, ConvertSettings& s) {
   command.option("--output").require();
   add_number(command, "--merge", s.merge, kNotNegative,
              "Make points one that are at most this far apart, in the units of IN. This closes cracks.");
+  command.add_flag("--flip-flat", s.flip_flat,
+                   "Flip away triangles of zero area, after --merge. Coordinates with few digits make such triangles. "
+                   "The domain and the points stay as they are.");
   add_count(command, "--threads", s.threads, 0,
             "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
   command.group("Help");
@@ -43,8 +48,15 @@ void add_options(Command& command, ConvertSettings& s) {
                     "  temper convert in.vtu -o out.msh\n"
                     "  temper convert in.vtu -o out.vtu --encoding ascii\n"
                     "  temper convert in.vtu -o old.msh --format gmsh22\n"
-                    "  temper convert in.vtu -o whole.vtu --merge 1e-8\n",
+                    "  temper convert in.vtu -o whole.vtu --merge 1e-8\n"
+                    "  temper convert in.off -o out.off --flip-flat\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+}
+
+std::size_t flip_away(io::MeshFile& file) {
+  if (file.sphere() != nullptr)
+    throw Failure(Exit::bad_input, file.path + ": points are on a sphere, and --flip-flat is for a plane. Next: leave it out");
+  return flip_flat_triangles(file);
 }
 
 }  // namespace
@@ -62,12 +74,16 @@ Exit run_convert(const Arguments& arguments) {
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   auto any = read_any_tried(s.input, {threads.get(), s.flat});
   if (std::holds_alternative<io::TetFile>(any))
-    refuse_for_tetrahedra("convert", s.input, {{!s.projection.empty(), "--projection"}, {s.flat, "--flat"}});
-  std::size_t merged = 0;
+    refuse_for_tetrahedra("convert", s.input,
+                          {{!s.projection.empty(), "--projection"},
+                           {s.flat, "--flat"},
+                           {s.flip_flat, "--flip-flat"}});
+  std::size_t merged = 0, flipped = 0;
   std::visit(
       [&](auto& file) {
         if (s.merge) merged = merge_points(file, *s.merge);
         if constexpr (std::is_same_v<decltype(file), io::MeshFile&>) {
+          if (s.flip_flat) flipped = flip_away(file);
           if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
         }
         print_warnings(file.warnings);
@@ -75,6 +91,8 @@ Exit run_convert(const Arguments& arguments) {
       },
       any);
   if (s.merge) print(fmt::format("{} merged\n", plural(merged, "point", "points")));
+  if (s.flip_flat)
+    print(fmt::format("{} flipped away\n", plural(flipped, "triangle of zero area", "triangles of zero area")));
   return Exit::done;
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "temper/io.hpp"
 #include "temper/quality.hpp"
 #include "workshop.hpp"
 
@@ -300,6 +301,53 @@ TEST_F(Convert, MergesPointsThatACheckNames) {
   EXPECT_TRUE(contains(read("out.off"), "6 4"));
   EXPECT_EQ(temper_ok({"check", "out.off"}).err, "");
   EXPECT_TRUE(contains(temper({"convert", "in.off", "--merge", "1", "-o", "o.off"}).err, "two corners of triangle 0"));
+}
+
+// Point 4 is on the edge of the square above it, in a triangle of zero area; point 7 is on the boundary.
+TEST_F(Convert, FlipsTrianglesOfZeroAreaAwayAsTheErrorSays) {
+  write("in.off",
+        "OFF\n8 7 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 1 0\n1 2 0\n0 2 0\n0.5 0 0\n"
+        "3 0 7 2\n3 7 1 2\n3 0 2 3\n3 3 2 4\n3 4 2 5\n3 3 4 6\n3 0 7 1\n");
+  const Outcome flat = temper({"check", "in.off"});
+  EXPECT_EQ(flat.exit, 1);
+  EXPECT_TRUE(contains(flat.err, "triangle 3 has zero area")) << flat.err;
+  EXPECT_TRUE(contains(flat.err, "Next: flip such triangles away with temper convert in.off --flip-flat -o OUT"));
+  EXPECT_EQ(temper_ok({"convert", "in.off", "--flip-flat", "-o", "out.off"}).out,
+            "2 triangles of zero area flipped away\n");
+  EXPECT_TRUE(contains(read("out.off"), "OFF\n8 6 "));  // the triangle on the boundary is dropped
+  temper_ok({"check", "out.off"});
+  temper_ok({"optimize", "out.off", "-o", "best.vtu", "--quiet"});
+  EXPECT_EQ(temper_ok({"convert", "out.off", "--flip-flat", "-o", "same.off"}).out,
+            "0 triangles of zero area flipped away\n");
+  EXPECT_EQ(read("same.off"), read("out.off"));
+}
+
+// Two rows of points that rounding has put on one line, as in coordinates of UTM with seven digits.
+TEST_F(Convert, FlipsStripsWithoutAreaAwayWithTheirLinesAndRegions) {
+  write("in.mesh",
+        "MeshVersionFormatted 2\nDimension 2\nVertices\n9\n0 0 0\n4 0 0\n8 0 0\n2 1 0\n6 1 0\n0 1 0\n8 1 0\n"
+        "4 1 0\n4 3 0\nEdges\n2\n4 5 7\n6 4 5\n"
+        "Triangles\n9\n1 2 4 1\n2 5 4 1\n2 3 5 1\n1 4 6 1\n3 7 5 1\n4 5 8 2\n6 4 8 2\n8 5 7 2\n6 8 9 3\n"
+        "End\n");
+  const Outcome before = temper({"check", "in.mesh"});
+  EXPECT_TRUE(contains(before.err, "has zero area")) << before.err;
+  EXPECT_EQ(temper_ok({"convert", "in.mesh", "--flip-flat", "-o", "out.mesh"}).out,
+            "3 triangles of zero area flipped away\n");
+  temper_ok({"check", "out.mesh"});
+  const io::MeshFile file = *io::read("out.mesh");
+  EXPECT_EQ(file.line_tags, (std::vector<std::int32_t>{7, 7, 5})) << "point 8 is on the first line";
+  EXPECT_EQ(std::ranges::count(file.regions, 3), 2) << "the halves of the triangle above";
+  EXPECT_EQ(std::ranges::count(file.regions, 2), 0) << "regions without area are gone";
+}
+
+TEST_F(Convert, MergeDropsTrianglesThatHaveTwoCornersAtOnePlace) {
+  write("in.off", "OFF\n5 3 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n2 2 0\n3 0 1 2\n3 0 2 4\n3 0 4 3\n");
+  EXPECT_TRUE(contains(temper({"convert", "in.off", "--flip-flat", "-o", "out.off"}).err,
+                       "in.off: triangle 1 has two corners at one place, (2, 2). Next: add --merge 0"));
+  const Outcome merged = temper_ok({"convert", "in.off", "--merge", "0", "-o", "out.off"});
+  EXPECT_EQ(merged.out, "1 point merged\n");
+  EXPECT_TRUE(contains(merged.err, "in.off: 1 triangle is dropped: two corners are at one place")) << merged.err;
+  temper_ok({"check", "out.off"});
 }
 
 TEST_F(Convert, MergesPointsAtOnePlaceAsTheErrorSays) {

@@ -277,6 +277,7 @@ TEST_F(Usage, EveryExampleInTheHelpRuns) {
         "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=4\n9;0;0\n9.1;0;0\n9.1;0.1;0\n9;0.1;0\n"
         "EDGE2=4\n0;1;0\n1;2;0\n2;3;0\n3;0;0\n");
   write("report.json", R"({"for": "cell"})");
+  write("in.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   make_tetrahedra("box.mesh");
   write("land.geojson", R"({"type": "Polygon", "coordinates": [[[0, 0], [40, 5], [35, 40], [5, 30], [0, 0]]]})");
   write("rivers.geojson", R"({"type": "LineString", "coordinates": [[170, 30], [178, 33], [-174, 30], [-165, 40]]})");
