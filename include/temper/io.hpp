@@ -67,7 +67,7 @@ struct SpherePoints {
 };
 /// Longitude and latitude without a place in any space: see project().
 struct DegreePoints {
-  bool is_guessed = false;  ///< Degrees are guessed: the file does not say it, but it has depths
+  bool is_guessed = false;  ///< Degrees are guessed: the file does not say it, but its numbers fit
   double z = 0;
 };
 /// Points in the plane of a map; they are written in degrees.
@@ -232,7 +232,7 @@ class VertexOfPoint {
 /// another radius.
 inline constexpr std::string_view kOntoSphere = "sphere";
 /// The message that refuses points in longitude and latitude if a plane is needed, with the remedy. `guessed`: the
-/// format does not say what its points are (fort.14). `onto_sphere`: the text with which the user puts them on the
+/// file does not say what its points are (fort.14, 2DM). `onto_sphere`: the text with which the user puts them on the
 /// sphere.
 [[nodiscard]] std::string needs_projection(bool guessed = false, std::string_view onto_sphere = kOntoSphere);
 /// The word for no projection: coordinates are in a plane, whatever their values.

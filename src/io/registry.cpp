@@ -170,8 +170,8 @@ void finish(Document& document) {
     give_memory_back();
 }
 
-MeshFile mesh_file(Document&& document, const std::string& path, bool flat) {
-  check(document, flat);
+MeshFile mesh_file(Document&& document, const std::string& path, const ReadOptions& options) {
+  check(document, options);
   document.file.path = path;
   document.file.numbering = document.names;
   finish(document);
@@ -293,7 +293,7 @@ Expected<MeshFile> read(const std::string& path, const ReadOptions& options) {
            "; expected a mesh of triangles. Next: temper check, convert, draw, explain, optimize, weights, operators "
            "and errors take tetrahedra");
     }
-    return mesh_file(std::move(document), path, options.flat);
+    return mesh_file(std::move(document), path, options);
   });
 }
 
@@ -301,7 +301,7 @@ Expected<std::variant<MeshFile, TetFile>> read_any(const std::string& path, cons
   using Any = std::variant<MeshFile, TetFile>;
   return guarded<Any>(path, [&]() -> Any {
     Document document = read_document(path, options);
-    if (document.tetrahedra.corners.empty()) return mesh_file(std::move(document), path, options.flat);
+    if (document.tetrahedra.corners.empty()) return mesh_file(std::move(document), path, options);
     check_tetrahedra(document);
     document.file.path = path;
     finish(document);

@@ -29,7 +29,7 @@ bool is_level(const MeshFile& file, const DataArray& a) {
 }
 
 /// The index of the bed among point data, or the number of these; `depth` comes first.
-std::size_t bed_of(const MeshFile& file) {
+std::size_t index_of_bed(const MeshFile& file) {
   const auto& all = file.point_data;
   const auto named = std::ranges::find_if(all, [&](const auto& a) { return a.name == kDepth && is_bed(file, a); });
   const auto found =
@@ -39,10 +39,15 @@ std::size_t bed_of(const MeshFile& file) {
 
 }  // namespace
 
+const DataArray* bed_of(const MeshFile& file) {
+  const std::size_t at = index_of_bed(file);
+  return at == file.point_data.size() ? nullptr : &file.point_data[at];
+}
+
 bool needs_turned_bed(Bed bed, const MeshFile& file) {
-  const std::size_t at = bed == Bed::as_it_came ? file.point_data.size() : bed_of(file);
-  if (at == file.point_data.size()) return false;
-  const DataArray& a = file.point_data[at];
+  const DataArray* const found = bed == Bed::as_it_came ? nullptr : bed_of(file);
+  if (found == nullptr) return false;
+  const DataArray& a = *found;
   if (bed == Bed::depth) return a.name != kDepth || is_level(file, a);
   const auto is_free = [&](std::string_view name) { return a.name == name || find(file.point_data, name) == nullptr; };
   if (bed == Bed::z) return !file.z_is_data && is_free(kHeight);
@@ -51,7 +56,7 @@ bool needs_turned_bed(Bed bed, const MeshFile& file) {
 }
 
 void turn_bed(MeshFile& file, Bed bed) {
-  DataArray& a = file.point_data[bed_of(file)];
+  DataArray& a = file.point_data[index_of_bed(file)];
   if (is_level(file, a) != (bed != Bed::depth)) {
     std::visit(
         [](auto& values) {

@@ -23,6 +23,8 @@ enum class Bed {
 
 inline constexpr std::string_view kDepth = "depth", kBedLevel = "mesh2d_node_z";
 
+/// The bed among point data; null: the file has none.
+[[nodiscard]] const DataArray* bed_of(const MeshFile& file);
 /// Says whether the bed of the file has another sign or name than the format.
 [[nodiscard]] bool needs_turned_bed(Bed bed, const MeshFile& file);
 /// Gives the bed the sign and the name that the format has. Precondition: it needs it.

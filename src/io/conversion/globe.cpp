@@ -316,16 +316,19 @@ Vec2 between_corners(const Place& place, const std::vector<Vec2>& lon_lat) {
 
 }  // namespace
 
-bool look_like_degrees(std::span<const Vec2> points, std::span<const double> depths) {
-  if (points.empty() || depths.empty()) return false;
+bool look_like_degrees(std::span<const Vec2> points, std::span<const double> heights) {
+  constexpr double kHalfTurn = 180;  // as wide as the globe: around the origin is no sign of a plane
+  if (points.empty()) return false;
   Vec2 low = points[0], high = low;
   for (const Vec2 p : points) {
     if (!(std::abs(p.x) <= 360 && std::abs(p.y) <= 90)) return false;
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  const double deepest = *std::max_element(depths.begin(), depths.end());
-  return deepest > std::max(high.x - low.x, high.y - low.y);
+  const double wide = std::max(high.x - low.x, high.y - low.y);
+  if (std::ranges::any_of(heights, [wide](double z) { return std::abs(z) > wide; })) return true;
+  const auto is_origin = [wide](Vec2 p) { return std::max(std::abs(p.x), std::abs(p.y)) <= kOff * wide; };
+  return !(is_origin(low) || (is_origin(0.5 * (low + high)) && high.x < kHalfTurn));
 }
 
 std::optional<std::vector<Vec2>> lon_lat_of_points(const MeshFile& file) {
@@ -367,12 +370,13 @@ MeshFile in_degrees(const MeshFile& file) {
 
 std::string needs_projection(bool guessed, std::string_view onto_sphere) {
   const std::string_view what =
-      guessed ? "the points look like longitude and latitude, for in meters the water would be deeper than the mesh is "
-                "wide; in degrees angles and lengths are distorted"
+      guessed ? "the points look like longitude and latitude: all x are from -360 to 360 and all y from -90 to 90, and "
+                "the file does not say that they are lengths; in degrees angles and lengths are distorted"
               : "the points are longitude and latitude, in which angles and lengths are distorted";
   return text(what,
               ". Next: choose a `projection`: stereographic, mercator or transverse-mercator for lengths in meters, ",
-              onto_sphere, " for a mesh of the sphere, or none to use the degrees as coordinates of a plane");
+              onto_sphere, " for a mesh of the sphere, or none ",
+              guessed ? "if they are coordinates of a plane" : "to use the degrees as coordinates of a plane");
 }
 
 namespace {

@@ -65,9 +65,10 @@ inline constexpr int kZAxis = 2;
 /// For each of the first n points: is it the corner of a triangle?
 [[nodiscard]] std::vector<bool> points_of_triangles(const MeshFile& file, std::size_t n);
 
-/// Guesses whether points are degrees, in a format that does not say it, with depths of water. They are when they fit
-/// longitude and latitude, and as lengths would be less than the depths. Models of shallow water make no sense there.
-[[nodiscard]] bool look_like_degrees(std::span<const Vec2> points, std::span<const double> depths);
+/// Guesses whether points are degrees, if nothing says it or that they are lengths. They are if they fit longitude and
+/// latitude. Points around the origin, or from it to the upper right, are local coordinates of a plane, unless a depth
+/// or height is more than their extent. Models of shallow water make no sense there.
+[[nodiscard]] bool look_like_degrees(std::span<const Vec2> points, std::span<const double> heights);
 
 /// Point data with the third coordinate, when z is data.
 inline constexpr std::string_view kHeight = "z";

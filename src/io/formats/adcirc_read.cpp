@@ -82,6 +82,7 @@ class AdcircReader {
     const std::size_t n_elements = scanner_.count("elements", 10), n_nodes = scanner_.count("nodes", 8);
     scanner_.next_line();
     nodes(n_nodes);
+    document_.may_be_degrees = true;
     const NumberLookup lookup(document_.names->points);
     if (const auto twice = lookup.duplicate()) fail(ErrorCode::syntax, scanner_.path(), "has node ", *twice, " twice");
     elements(n_elements, lookup);
@@ -115,7 +116,6 @@ class AdcircReader {
       depths[i] = scanner_.real("the depth of a node");
       scanner_.next_line();
     }
-    if (look_like_degrees(f.points, depths)) f.points_in = DegreePoints{.is_guessed = true};
     f.point_data.push_back({std::string(kDepth), 1, std::move(depths)});
   }
   void elements(std::size_t n, const NumberLookup& lookup) {

@@ -75,9 +75,31 @@ void warn_of_parallel(Document& d) {
                                  "of a sphere"));
 }
 
+/// Takes z of the points as point data of a mesh of the plane.
+void make_z_data(Document& d) {
+  MeshFile& f = d.file;
+  for (std::size_t i = 0; i < d.heights.size(); ++i) {
+    if (!std::isfinite(d.heights[i]))
+      fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has z = ", d.heights[i],
+           ", expected a finite number");
+  }
+  f.set_z(0);
+  f.z_is_data = true;
+  f.point_data.insert(f.point_data.begin(), {std::string(kHeight), 1, std::move(d.heights)});
+  d.may_be_degrees = std::holds_alternative<PlanePoints>(f.points_in);
+}
+
+void guess_degrees(Document& d) {
+  MeshFile& f = d.file;
+  if (!d.may_be_degrees) return;
+  const DataArray* const bed = bed_of(f);
+  const std::vector<double> heights = bed == nullptr ? std::vector<double>() : to_doubles(Values(bed->values));
+  if (look_like_degrees(f.points, heights)) f.points_in = DegreePoints{.is_guessed = true, .z = f.z()};
+}
+
 }  // namespace
 
-void check(Document& d, bool flat) {
+void check(Document& d, const ReadOptions& options) {
   MeshFile& f = d.file;
   if (f.points.empty()) fail(ErrorCode::empty_input, d.names->path, "the file has no points");
   if (f.triangles.empty()) {
@@ -96,15 +118,8 @@ void check(Document& d, bool flat) {
   }
   if (!std::isfinite(d.z)) fail(ErrorCode::not_finite, d.names->point_where(0), d.names->point(0), " has z = ", d.z);
   d.file.set_z(d.z);
-  if (!d.heights.empty() && flat) {
-    for (std::size_t i = 0; i < d.heights.size(); ++i) {
-      if (!std::isfinite(d.heights[i]))
-        fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has z = ", d.heights[i],
-             ", expected a finite number");
-    }
-    f.set_z(0);
-    f.z_is_data = true;
-    f.point_data.insert(f.point_data.begin(), {std::string(kHeight), 1, std::move(d.heights)});
+  if (!d.heights.empty() && options.flat) {
+    make_z_data(d);
   } else if (!d.heights.empty()) {
     std::vector<Vec3> places;
     for (std::size_t i = 0; i < f.points.size(); ++i) places.push_back({f.points[i].x, f.points[i].y, d.heights[i]});
@@ -116,6 +131,7 @@ void check(Document& d, bool flat) {
     warn_of_parallel(d);
   }
   check_weights(d);
+  guess_degrees(d);
 }
 
 void check_tetrahedra(const Document& d) {

@@ -31,6 +31,7 @@ struct Document {
   std::vector<double> heights = {};               ///< z of each point; empty while all points have the z of the first
   std::vector<std::int32_t> fourth_corners = {};  ///< of the first faces that were read, or kNoCorner
   Tetrahedra tetrahedra = {};
+  bool may_be_degrees = false;  ///< nothing says that the points are lengths, and meshes of the sea have this format
 
   /// The three coordinates of a point, as they were read.
   [[nodiscard]] Vec3 place(std::size_t point) const {
@@ -47,9 +48,9 @@ struct Document {
 [[nodiscard]] Document new_document(const std::string& path);
 
 /// Checks what every format must satisfy once its arrays are read. Points and triangles exist, and numbers are in
-/// range. Coordinates and weights are finite. Points lie in a plane or on a sphere around the origin. `flat`: as
-/// ReadOptions::flat.
-void check(Document& document, bool flat);
+/// range. Coordinates and weights are finite. Points lie in a plane or on a sphere around the origin. Degrees are
+/// guessed if the file may have them.
+void check(Document& document, const ReadOptions& options);
 /// The same of a document with tetrahedra: numbers are in range, coordinates and weights finite.
 void check_tetrahedra(const Document& document);
 

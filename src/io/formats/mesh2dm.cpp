@@ -133,9 +133,7 @@ class Reader2dm {
         fail(ErrorCode::not_finite, document_.names->point_where(i), document_.names->point(i), " has z = ", z_[i],
              ", expected a finite number");
     }
-    std::vector<double> depths(z_.size());
-    std::ranges::transform(z_, depths.begin(), [](double z) { return -z; });
-    if (look_like_degrees(f.points, depths)) f.points_in = DegreePoints{.is_guessed = true};
+    document_.may_be_degrees = true;
     if (std::ranges::all_of(z_, [](double z) { return z == 0; })) return;
     f.z_is_data = true;
     f.point_data.push_back({std::string(kHeight), 1, std::move(z_)});

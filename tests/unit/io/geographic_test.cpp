@@ -32,7 +32,53 @@ MeshFile read_sea(const std::string& path, const MeshFile& f = sea()) {
   return *read_again;
 }
 
-TEST_F(FileTest, Fort14IsInDegreesWhereItsWaterWouldBeDeeperThanItIsWide) {
+// 2DM has heights, SCHISM's 2DM depths, and shallow water is not deeper than the mesh is wide in degrees.
+TEST_F(FileTest, MeshesOfTheSeaInTheRangeOfDegreesLookLikeDegreesWhateverTheirDepths) {
+  for (const double scale : {1.0, -1.0, 1e-6, 0.0}) {
+    MeshFile f = sea();
+    for (double& depth : std::get<std::vector<double>>(f.point_data[0].values)) depth *= scale;
+    for (const char* const name : {"sea.14", "sea.2dm"}) {
+      ASSERT_TRUE(write(path(name), f));
+      const auto again = read(path(name));
+      ASSERT_TRUE(again) << again.error().what();
+      ASSERT_TRUE(again->degrees() != nullptr) << name << " " << scale;
+      EXPECT_TRUE(again->degrees()->is_guessed);
+    }
+    for (Vec2& p : f.points) p = 1000.0 * p;
+    ASSERT_TRUE(write(path("meters.2dm"), f));
+    EXPECT_TRUE(read(path("meters.2dm"))->degrees() == nullptr);
+  }
+}
+
+TEST_F(FileTest, ZThatBecomesDataShowsAMeshOfTheGroundWhichMayBeInDegrees) {
+  const std::string sea = "OFF\n3 1 0\n3 60 1\n4 60 2\n3 61 4\n3 0 1 2\n";
+  const auto flat = read(make("sea.off", sea), {.flat = true});
+  ASSERT_TRUE(flat) << flat.error().what();
+  EXPECT_TRUE(flat->degrees() != nullptr && flat->degrees()->is_guessed);
+  const std::string plane = "OFF\n3 1 0\n3 60 1\n4 60 1\n3 61 1\n3 0 1 2\n";
+  EXPECT_TRUE(read(make("plane.off", plane), {.flat = true})->degrees() == nullptr) << "no heights, no ground";
+  const std::string local = "OFF\n3 1 0\n0 0 1\n4 0 2\n0 3 9\n3 0 1 2\n";
+  EXPECT_TRUE(read(make("local.off", local), {.flat = true})->degrees() == nullptr);
+}
+
+TEST_F(FileTest, PointsAroundTheOriginOrFromItAreLocalCoordinatesUnlessTheWaterIsDeeperThanTheyAreWide) {
+  const auto guessed = [&](Vec2 shift, double depth) {
+    MeshFile f = from_mesh(*sheared_grid({4, 4, 0}));
+    Vec2 high = {0, 0};
+    for (const Vec2 p : f.points) high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    for (Vec2& p : f.points) p = {p.x / high.x + shift.x, p.y / high.y + shift.y};  // a unit square
+    f.point_data = {{"depth", 1, std::vector<double>(f.points.size(), depth)}};
+    return read_sea(path("square.14"), f).degrees() != nullptr;
+  };
+  EXPECT_FALSE(guessed({0, 0}, 0.5));
+  EXPECT_FALSE(guessed({-0.5, -0.5}, 0));
+  EXPECT_TRUE(guessed({0, 0}, 2));
+  EXPECT_TRUE(guessed({-0.5, -0.5}, -2));
+  EXPECT_TRUE(guessed({3, 60}, 0.5));
+  EXPECT_TRUE(guessed({0, 60}, 0.5));
+}
+
+TEST_F(FileTest, Fort14OfALocalPlaneIsNotInDegrees) {
   EXPECT_TRUE(read_sea(path("sea.14")).degrees() != nullptr);
   MeshFile square = from_mesh(*sheared_grid({4, 4, 0.1}));
   EXPECT_FALSE(read_sea(path("plain.14"), square).degrees() != nullptr) << "no depths";

@@ -657,8 +657,9 @@ TEST_F(NetcdfFormats, PackedNumbersAreUnpackedAndDeclaredOnesAreMissing) {
     nc.say(level, "standard_name", "altitude");
     nc.add<std::int32_t>("label", node, {1, -7, 3, 4}, {{"_FillValue", -7}});
   }
-  const auto f = read(path("o.nc"));
+  auto f = read(path("o.nc"));
   ASSERT_TRUE(f) << f.error().what();
+  ASSERT_TRUE(project(*f, kNoProjection)) << "a level of 3 in a unit square looks like degrees";
   const auto values = [](const MeshFile& file, const char* name) {
     for (const DataArray& a : file.point_data)
       if (a.name == name) return std::get<std::vector<double>>(a.values);
@@ -773,8 +774,9 @@ TEST_F(NetcdfFormats, DepthsAreBedLevelsAndComeBack) {
   ASSERT_TRUE(back);
   for (const char* name : {"m.14", "m.2dm"}) {
     ASSERT_TRUE(write(path(name), *back));
-    const auto again = read(path(name));
+    auto again = read(path(name));
     ASSERT_TRUE(again) << again.error().what();
+    ASSERT_TRUE(project(*again, kNoProjection)) << "a small lattice looks like degrees";
     const auto& values = std::get<std::vector<double>>(again->point_data.at(0).values);
     EXPECT_EQ(values[3], again->z_is_data ? -depth[3] : depth[3]) << name;
     ASSERT_TRUE(write(path("again.nc"), *again));

@@ -358,7 +358,7 @@ TEST_F(OtherFormats, Fort14IslandsAreNotClosedByWhatIsNoEdge) {
 //      ╲  │  ╱        Between reading and writing they are to the right of them, in the triangle 3 5 4 6.
 //        1,5
 TEST_F(OtherFormats, Fort14WithVerticalElementWallsIsAMeshAndComesBackBitForBit) {
-  const std::string nodes = "1 1 0 0.5\n2 0 1 0.5\n3 1 1 0.5\n4 2 1 0.5\n5 1 0 -2.5\n6 1 1 0.25\n";
+  const std::string nodes = "1 1 0 0.5\n2 0 1 0.5\n3 1 1 0.5\n4 2 1 0.5\n5 1 0 -1.5\n6 1 1 0.25\n";
   const std::string wall = "2 64 = number of nodes and type of land boundary 1\n1 5 1 0.5 0.25\n3 6 1 1 1\n";
   for (const char* const triangles : {"1 3 1 3 2\n2 3 5 4 6\n", "1 3 1 3 2\n2 3 6 4 5\n"}) {  // also clockwise
     const MeshFile f = read_ok("fort.14", "wall\n2 6\n" + nodes + triangles + "0\n0\n1\n4\n" + wall);

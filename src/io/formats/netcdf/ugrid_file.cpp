@@ -117,6 +117,7 @@ class UgridReader {
     } else if (!units.empty() && !is_meter(units)) {
       document_.file.warnings.push_back(text(path(), ": coordinates are in ", units, ": so are lengths and sizes"));
     }
+    document_.may_be_degrees = !is_globe && units.empty() && in_.text_attribute(vx, "standard_name").empty();
     for (std::size_t i = 0; i < x.size(); ++i) document_.file.points.push_back({x[i], y[i]});
     for (const NetcdfVariable* const v : {vx, vy}) {
       kept_.variable(*v, [&](std::string_view name, const std::string& value) {
