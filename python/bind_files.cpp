@@ -161,15 +161,18 @@ py::tuple mesh_from_file_arrays(const py::dict& d, const py::sequence& fixed_tag
 }
 
 py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, const std::string& projection, bool flat,
-                    const py::object& threads) {
+                    const std::string& positive, const py::object& threads) {
   const auto tags = strings_from(fixed_tags);
   const auto executor = make_threads(threads_from(threads));
-  auto read = aside([&] { return io::read_any(path, {executor.get(), flat}); });
+  io::ReadOptions options = {.executor = executor.get(), .flat = flat};
+  if (!positive.empty()) options.positive = from_name<io::Positive>("positive", positive);
+  auto read = aside([&] { return io::read_any(path, options); });
   auto file = or_raise(std::move(read));
   if (auto* const tets = std::get_if<io::TetFile>(&file)) {
     const char* const given = !tags.empty()         ? "fixed_tags"
                               : !projection.empty() ? "projection"
                               : flat                ? "flat"
+                              : !positive.empty()   ? "positive"
                                                     : nullptr;
     if (given != nullptr) {
       throw BadInput{{ErrorCode::invalid_option, path,
@@ -239,7 +242,8 @@ py::object source_as_dict(const PyMesh& self) {
   const std::vector<std::uint8_t> edge_lines(loaded.edge_lines.begin(), loaded.edge_lines.end());
   return arrays_of(file)("points", rows_of<double>(std::span(file.points)))(
              "points_in", std::visit(PointsToPython(), file.points_in))("kept", array_of<std::uint8_t>(kept))(
-             "edge_lines", array_of<std::uint8_t>(edge_lines))("origin", self.origin())("z_is_data", file.z_is_data)
+             "edge_lines", array_of<std::uint8_t>(edge_lines))("origin", self.origin())("z_is_data", file.z_is_data)(
+             "positive", file.positive ? py::cast(name_of(*file.positive)) : py::none())
       .dict;
 }
 
@@ -253,6 +257,7 @@ io::MeshFile file_of_source(const py::dict& d, std::size_t n_points) {
   file.points = copy_of<Vec2>(d["points"].cast<Doubles>());
   file.points_in = points_in_from(d["points_in"].cast<py::tuple>());
   file.z_is_data = d["z_is_data"].cast<bool>();
+  if (!d["positive"].is_none()) file.positive = from_name<io::Positive>("positive", d["positive"].cast<std::string>());
   file.path = d["path"].cast<std::string>();
   file.format = d["format"].cast<std::string>();
   file.warnings = strings_from(d["warnings"]);

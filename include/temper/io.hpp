@@ -77,6 +77,12 @@ struct MappedPoints {
 };
 using PointsIn = std::variant<PlanePoints, PeriodicPoints, SpherePoints, DegreePoints, MappedPoints>;
 
+/// The direction in which the numbers of a bed of water grow.
+enum class Positive {
+  up,    ///< Heights
+  down,  ///< Depths
+};
+
 struct MeshFile {
   std::vector<Vec2> points;                            ///< Points of the plane, or longitude and latitude [degrees]
   PointsIn points_in;                                  ///< Kind of the points
@@ -94,9 +100,10 @@ struct MeshFile {
   std::vector<DataArray> marked_point_data;  ///< Data with one tuple per marked point
   std::vector<DataArray> field_data;         ///< Data of the file as a whole
   bool z_is_data = false;                    ///< Point data "z" are the third coordinate of a mesh of the plane
-  std::string path;                          ///< Path of the file that was read, for messages
-  std::string format;                        ///< Name of the row of formats() that read the file: "vtu", "gmsh41", …
-  std::vector<std::string> warnings;         ///< Warnings about what was dropped or repaired in reading
+  std::optional<Positive> positive;   ///< Sign of the bed, if the user said it or z of 2DM; else its name shows it
+  std::string path;                   ///< Path of the file that was read, for messages
+  std::string format;                 ///< Name of the row of formats() that read the file: "vtu", "gmsh41", …
+  std::vector<std::string> warnings;  ///< Warnings about what was dropped or repaired in reading
   std::shared_ptr<const InputNames> numbering;  ///< Numbers and lines of the file, for errors
 
   [[nodiscard]] const SpherePoints* sphere() const { return std::get_if<SpherePoints>(&points_in); }
@@ -124,6 +131,8 @@ struct ReadOptions {
   /// columns and rows are read on each side. Meshes are read whole.
   std::optional<std::array<Vec2, 2>> window = {};
   bool raster_in_degrees = false;  ///< Rasters that do not say it (ESRI ASCII) are in longitude and latitude
+  /// The sign of depths or heights in the file. None: by the format and names; z of 2DM is a height.
+  std::optional<Positive> positive = {};
 };
 
 struct WriteOptions {

@@ -43,6 +43,7 @@ def read(
     fixed_tags: tuple[str | int, ...] = (),
     projection: str | None = None,
     flat: bool = False,
+    positive: Literal["up", "down"] | None = None,
     threads: int | None = None,
 ) -> Mesh | TetMesh:
     """Reads a mesh file. Its content decides the format, never its name. A file with tetrahedra gives a ``TetMesh``.
@@ -62,7 +63,10 @@ def read(
     flat : bool
         Take the mesh as one of the plane of x and y, with z as point data ``z``, which follow the vertices. Formats
         with three coordinates get z back.
-        ``fixed_tags``, ``projection`` and ``flat`` are for triangles alone.
+    positive : {"up", "down"}, optional
+        Sign of the bed in the file: ``"up"`` for heights, ``"down"`` for depths, if its format does not tell. In 2DM, z
+        is a height unless you say ``"down"``. Formats that tell, such as fort.14, get the sign that they have.
+        ``fixed_tags``, ``projection``, ``flat`` and ``positive`` are for triangles alone.
     threads : int, optional
         Threads that unpack; None or 0: all of the machine. The result does not depend on them.
 
@@ -83,7 +87,8 @@ def read(
     TemperWarning
         Each of ``Mesh.warnings``.
     """
-    handle, messages = _temper.read(os.fspath(path), [str(tag) for tag in fixed_tags], projection or "", flat, threads)
+    tags = [str(tag) for tag in fixed_tags]
+    handle, messages = _temper.read(os.fspath(path), tags, projection or "", flat, positive or "", threads)
     if isinstance(handle, _temper.TetMesh):
         return TetMesh._of(handle, messages, 2)
     return _warn(Mesh._of(handle), messages, 2)

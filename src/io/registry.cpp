@@ -369,7 +369,8 @@ FileInFormat file_in_format(const FormatRow& row, const MeshFile& file) {
   if (goes_back_to_degrees(row, file)) result.changed = in_degrees(file);
   if (is_resized(row, file)) resize_sphere(change(), Projection{}.radius);
   if (!file.weights.empty() && !is_weighted(file)) change().weights.clear();
-  if (needs_turned_bed(row.details.bed, file)) turn_bed(change(), row.details.bed);
+  const bool stays = file.positive && file.format == row.name;  // a sign that the format does not tell comes back
+  if (!stays && needs_turned_bed(row.details.bed, file)) turn_bed(change(), row.details.bed);
   const MeshFile& now = result.changed ? *result.changed : file;
   const bool has_place = row.details.has_heights || (row.is_in_space() && file.sphere() == nullptr);
   const DataArray* const heights = now.z_is_data && has_place ? find(now.point_data, kHeight) : nullptr;

@@ -600,3 +600,16 @@ def test_a_mesh_in_degrees_is_optimized_on_a_map_and_written_in_degrees(in_scrat
     coast = np.unique(sea.boundary_edges)
     assert np.array_equal(written[coast], places[coast]) and np.abs(written - places).max() < 2
     assert np.array_equal(np.asarray(temper.read("fort.14", projection="none").points), places)
+
+
+def test_the_user_says_whether_z_of_2dm_is_height_or_depth(in_scratch):
+    (in_scratch / "m.2dm").write_text("MESH2D\nE3T 1 1 2 3 1\nND 1 0 0 9.66\nND 2 900 0 2\nND 3 0 900 1\n")
+    with pytest.warns(temper.TemperWarning, match="z is taken as heights, positive up"):
+        temper.write("up.gr3", temper.read("m.2dm"))
+    down = pickle.loads(pickle.dumps(temper.read("m.2dm", positive="down")))
+    with pytest.warns(temper.TemperWarning, match="regions are not written"):
+        temper.write("down.gr3", down)
+    assert np.array_equal(temper.read("up.gr3").point_data["depth"], [-9.66, -2, -1])
+    assert np.array_equal(temper.read("down.gr3").point_data["depth"], [9.66, 2, 1])
+    with pytest.raises(temper.TemperError, match="positive"):
+        temper.read("m.2dm", positive="sideways")

@@ -68,7 +68,7 @@ std::vector<std::string> Input::warnings() const { return all_of(file.warnings, 
 Input read_input(const std::string& path, const ReadingOptions& options) {
   Input input;
   input.path = path;
-  input.file = options.read ? options.read(path) : read_tried(path, {options.executor, options.flat});
+  input.file = options.read ? options.read(path) : read_tried(path, options.heights.to_read(options.executor));
   take_to_map(input.file, path, options.projection);
   Expected<io::LoadedMesh> loaded = io::make_mesh(input.file, options.fixed_tags, options.executor);
   if (!loaded) throw as_failure(with_cure(loaded.error(), input));

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "exit.hpp"
+#include "options/options.hpp"
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"
 #include "temper/tets/io.hpp"
@@ -64,7 +65,7 @@ struct ReadingOptions {
   std::vector<std::string> fixed_tags = {};
   Executor* executor = nullptr;
   bool spheres = false;  ///< meshes of the sphere are taken too
-  bool flat = false;     ///< z becomes data: as --flat has it
+  Heights heights = {};  ///< as --flat and --positive have it
   /// The source of the file; none: the disk.
   std::function<io::MeshFile(const std::string& path)> read = {};
 };

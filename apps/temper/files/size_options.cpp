@@ -59,13 +59,13 @@ const io::DataArray& find_data(const Input& input, const std::string& name, bool
 std::vector<double> from_depths(const Input& input, const std::string& data, const DepthRule& rule,
                                 std::vector<double> depths) {
   const DepthName* const known = depth_name(data);
-  if (!rule.positive_up && known == nullptr) {
+  if (!rule.positive && known == nullptr) {
     throw Failure(Exit::bad_usage,
                   fmt::format("{}: the name \"{}\" does not say whether its numbers are depths or heights. Next: add "
                               "positive=down or positive=up to --from-depth",
                               input.path, data));
   }
-  const bool is_up = rule.positive_up ? *rule.positive_up : known->positive_up;
+  const bool is_up = rule.positive ? *rule.positive == io::Positive::up : known->positive_up;
   if (is_up) {
     for (double& depth : depths) depth = -depth;
   }
@@ -100,7 +100,7 @@ DepthRule parse_depth_rule(const std::string& verb, const std::string& text) {
     if (key == "positive") {
       if (value != "up" && value != "down")
         refuse(fmt::format("expected positive=up or positive=down, found '{}'", entry));
-      rule.positive_up = value == "up";
+      rule.positive = value == "up" ? io::Positive::up : io::Positive::down;
       continue;
     }
     const auto* const known = std::ranges::find(kDepthKeys, key, &DepthKey::name);

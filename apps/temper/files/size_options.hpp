@@ -13,7 +13,7 @@ namespace temper::app {
 /// A rule that makes sizes from depths. It also says whether the numbers are depths or heights.
 struct DepthRule {
   DepthSizes sizes;
-  std::optional<bool> positive_up = {};  ///< none: by the name of the data
+  std::optional<io::Positive> positive = {};  ///< none: by the name of the data
 };
 /// The rule of a text KEY=VALUE,…. Failure if a key or value is wrong; it names the keys.
 [[nodiscard]] DepthRule parse_depth_rule(const std::string& verb, const std::string& text);

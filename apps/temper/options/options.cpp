@@ -205,10 +205,15 @@ void add_projection(Command& command, std::string& target) {
            "coordinates as coordinates of a plane.");
 }
 
-void add_flat(Command& command, bool& target) {
-  command.add_flag("--flat", target,
+void add_heights(Command& command, Heights& target) {
+  command.add_flag("--flat", target.flat,
                    "Take the mesh as one of the plane of x and y, with z as point data 'z': heights or depths, which "
                    "follow the vertices. Formats with three coordinates get z back.");
+  static constexpr Choice<io::Positive> kSigns[] = {{"up", io::Positive::up}, {"down", io::Positive::down}};
+  const auto use = [&target](io::Positive sign) { target.positive = sign; };
+  add_choice(command, "--positive", kSigns, use,
+             "Sign of the bed in the file: 'up' for heights, 'down' for depths, if its format does not tell. In 2DM, z "
+             "is a height unless you say 'down'. Formats that tell, such as fort.14, get the sign that they have.");
 }
 
 }  // namespace temper::app

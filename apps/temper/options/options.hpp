@@ -17,6 +17,7 @@
 #include "help/command.hpp"
 #include "temper/detail/optimize_table.hpp"
 #include "temper/energy.hpp"
+#include "temper/io.hpp"
 
 namespace temper::app {
 
@@ -30,10 +31,10 @@ inline constexpr Interval kNotNegative = {0, std::numeric_limits<double>::infini
 /// Numbers separated by commas, or nothing.
 [[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
-/// The value of a text, for rows that are made elsewhere, or BadValue.
 /// If the text is a number with a unit: the rest of a message that says to leave the unit out. Else empty.
 [[nodiscard]] std::string without_unit(const std::string& text);
 
+/// The value of a text, for rows that are made elsewhere, or BadValue.
 [[nodiscard]] double to_number(const std::string& text, Interval allowed);
 template <class T>  // int, std::int64_t or std::uint64_t
 [[nodiscard]] T to_count(const std::string& text, T least);
@@ -125,7 +126,16 @@ Option& add_length_parameter(Command& command, const std::string& name, std::opt
 
 /// --projection, of verbs that read a mesh in longitude and latitude (projection_option.hpp).
 void add_projection(Command& command, std::string& target);
-/// --flat, of verbs that read a mesh.
-void add_flat(Command& command, bool& target);
+/// How the z or the bed of a mesh is read: --flat and --positive.
+struct Heights {
+  bool flat = false;
+  std::optional<io::Positive> positive = {};
+
+  [[nodiscard]] io::ReadOptions to_read(Executor* executor) const {
+    return {.executor = executor, .flat = flat, .positive = positive};
+  }
+};
+/// --flat and --positive, of verbs that read a mesh.
+void add_heights(Command& command, Heights& target);
 
 }  // namespace temper::app

@@ -27,7 +27,7 @@ constexpr OutputKind kCheckOutputs[] = {kReportKind, kPageKind};
 
 struct CheckSettings {
   std::string projection;
-  bool flat = false;
+  Heights heights;
   std::vector<std::string> inputs;
   std::vector<std::string> write, require;
   std::optional<LengthParameter> gamma, h0;
@@ -43,7 +43,7 @@ void add_options(Command& command, CheckSettings& s) {
             "standard input.")
       .require();
   add_projection(command, s.projection);
-  add_flat(command, s.flat);
+  add_heights(command, s.heights);
   command.add_flag("--details", s.details,
                    "Print all measures, energies, histograms and the worst triangles or tetrahedra.");
   command.add_flag(
@@ -94,10 +94,10 @@ class Checks {
   }
 
   void add(const std::string& path) {
-    auto file = read_any_tried(path, {threads_.get(), s_.flat});
+    auto file = read_any_tried(path, s_.heights.to_read(threads_.get()));
     if (auto* const tets = std::get_if<io::TetFile>(&file)) return add_tetrahedra(path, std::move(*tets));
     const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
-    add_triangles(path, read_input(path, {s_.projection, {}, threads_.get(), true, s_.flat, read}));
+    add_triangles(path, read_input(path, {s_.projection, {}, threads_.get(), true, s_.heights, read}));
   }
 
   /// An error in one mesh does not stop the check of the others.
@@ -119,7 +119,8 @@ class Checks {
   void add_tetrahedra(const std::string& path, io::TetFile file) {
     refuse_for_tetrahedra("check", path,
                           {{!s_.projection.empty(), "--projection"},
-                           {s_.flat, "--flat"},
+                           {s_.heights.flat, "--flat"},
+                           {s_.heights.positive.has_value(), "--positive"},
                            {s_.gamma.has_value(), "--gamma"},
                            {s_.h0.has_value(), "--h0"},
                            {s_.metric.has_value(), "--tensor"}});

@@ -20,7 +20,7 @@ namespace {
 
 struct ConvertSettings {
   std::string projection;
-  bool flat = false;
+  Heights heights;
   std::string input;
   MeshOutput output;
   std::optional<double> merge;
@@ -33,7 +33,7 @@ void add_options(Command& command, ConvertSettings& s) {
   add_argument(command, "IN", s.input, "File to read, of triangles or tetrahedra. Its content shows the format.")
       .require();
   add_projection(command, s.projection);
-  add_flat(command, s.flat);
+  add_heights(command, s.heights);
   add_mesh_output(command, s.output, "OUT", "File to write. Its suffix selects the format.");
   command.option("--output").require();
   add_number(command, "--merge", s.merge, kNotNegative,
@@ -49,13 +49,15 @@ void add_options(Command& command, ConvertSettings& s) {
                     "  temper convert in.vtu -o out.vtu --encoding ascii\n"
                     "  temper convert in.vtu -o old.msh --format gmsh22\n"
                     "  temper convert in.vtu -o whole.vtu --merge 1e-8\n"
-                    "  temper convert in.off -o out.off --flip-flat\n",
+                    "  temper convert in.off -o out.off --flip-flat\n"
+                    "  temper convert hgrid.2dm -o hgrid.gr3 --positive down\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
 std::size_t flip_away(io::MeshFile& file) {
   if (file.sphere() != nullptr)
-    throw Failure(Exit::bad_input, file.path + ": points are on a sphere, and --flip-flat is for a plane. Next: leave it out");
+    throw Failure(Exit::bad_input,
+                  file.path + ": points are on a sphere, and --flip-flat is for a plane. Next: leave it out");
   return flip_flat_triangles(file);
 }
 
@@ -72,11 +74,12 @@ Exit run_convert(const Arguments& arguments) {
   outputs.expect_mesh(s.output);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  auto any = read_any_tried(s.input, {threads.get(), s.flat});
+  auto any = read_any_tried(s.input, s.heights.to_read(threads.get()));
   if (std::holds_alternative<io::TetFile>(any))
     refuse_for_tetrahedra("convert", s.input,
                           {{!s.projection.empty(), "--projection"},
-                           {s.flat, "--flat"},
+                           {s.heights.flat, "--flat"},
+                           {s.heights.positive.has_value(), "--positive"},
                            {s.flip_flat, "--flip-flat"}});
   std::size_t merged = 0, flipped = 0;
   std::visit(

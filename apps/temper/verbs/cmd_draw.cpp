@@ -26,7 +26,7 @@ namespace {
 
 struct DrawSettings {
   std::string projection;
-  bool flat = false;
+  Heights heights;
   std::string input, before, output, color, cut;
   DrawOptions options;
   std::optional<Metric> metric;
@@ -37,7 +37,7 @@ void add_options(Command& command, DrawSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "Mesh to draw, of triangles or tetrahedra.").require();
   add_projection(command, s.projection);
-  add_flat(command, s.flat);
+  add_heights(command, s.heights);
   add_text(command, "-o,--output", "FILE", s.output, "Picture to write: .svg, .png or .pdf.").require();
   add_text(command, "--before", "IN0", s.before, "Second mesh, drawn to the left of IN at the same scale.");
   command.group("Picture");
@@ -215,7 +215,7 @@ Exit run_draw(const Arguments& arguments) {
   Outputs outputs("draw");
   outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});
 
-  auto file = read_any_tried(s.input, {nullptr, s.flat});
+  auto file = read_any_tried(s.input, s.heights.to_read(nullptr));
   if (auto* const tets = std::get_if<io::TetFile>(&file)) {
     draw_tetrahedra(command, s, make_input(s.input, std::move(*tets), nullptr), outputs);
     return Exit::done;
@@ -224,7 +224,7 @@ Exit run_draw(const Arguments& arguments) {
     refuse_usage("draw",
                  fmt::format("{} has triangles, and --cut is for tetrahedra alone. Next: leave it out", s.input));
   const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
-  Input input = read_input(s.input, {s.projection, {}, nullptr, true, s.flat, read});
+  Input input = read_input(s.input, {s.projection, {}, nullptr, true, s.heights, read});
   print_warnings(input.warnings());
   check_view(s.options, input);
   take_to_metric(input, s.metric);
@@ -232,8 +232,8 @@ Exit run_draw(const Arguments& arguments) {
     set_colors(s.options, s.color, {&input});
     outputs.write_picture(s.output, draw_svg(input.mesh(), s.options));
   } else {
-    Input before =
-        read_input(s.before, {.projection = same_projection(input, s.projection), .spheres = true, .flat = s.flat});
+    Input before = read_input(
+        s.before, {.projection = same_projection(input, s.projection), .spheres = true, .heights = s.heights});
     print_warnings(before.warnings());
     take_to_metric(before, s.metric);
     check_same_space(before, input);

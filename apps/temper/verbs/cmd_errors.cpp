@@ -22,7 +22,7 @@ namespace {
 
 struct ErrorSettings {
   std::string projection;
-  bool flat = false;
+  Heights heights;
   std::string input, against, fields = "all", edges;
   ProblemOptions problem;
   int refine = 0;
@@ -58,7 +58,7 @@ void add_options(Command& command, ErrorSettings& s) {
   command.group("Report");
   add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.").require();
   add_projection(command, s.projection);
-  add_flat(command, s.flat);
+  add_heights(command, s.heights);
   command.add_flag("--json", s.json,
                    "Print the report as JSON. A null is an infinite number, or an order that is undefined.");
   add_text(command, "--against", "MESH", s.against,
@@ -120,7 +120,7 @@ void compare_boxes(const ErrorSettings& s, const Frame& a, const Frame& b) {
 
 ErrorRecord::Reference measure_reference(const ErrorSettings& s, const std::string& projection,
                                          const MeasureErrorsOptions& options, const FieldFrame& frame) {
-  Input reference = read_input(s.against, {projection, {}, options.executor, true, s.flat});
+  Input reference = read_input(s.against, {projection, {}, options.executor, true, s.heights});
   print_warnings(reference.warnings());
   take_to_metric(reference, s.metric);
   compare_boxes(s, frame, field_frame(reference.mesh()));
@@ -153,7 +153,7 @@ TetInput read_tetrahedra(const std::string& path, Executor* executor) {
 }
 
 Exit run_tetrahedra(const Command& command, const ErrorSettings& s, io::TetFile file, Executor* executor) {
-  for (const char* option : {"--projection", "--flat", "--edges", "--refine", "--tensor", "--dirichlet"})
+  for (const char* option : {"--projection", "--flat", "--positive", "--edges", "--refine", "--tensor", "--dirichlet"})
     refuse_for_tetrahedra("errors", s.input, {{command.was_given(option), option}});
   const TetInput input = make_input(s.input, std::move(file), executor);
   print_warnings(input.warnings());
@@ -203,13 +203,13 @@ Exit run_errors(const Arguments& arguments) {
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   expect_complete(command, s.problem);
-  auto file = read_any_tried(s.input, {threads.get(), s.flat});
+  auto file = read_any_tried(s.input, s.heights.to_read(threads.get()));
   if (auto* const tets = std::get_if<io::TetFile>(&file))
     return run_tetrahedra(command, s, std::move(*tets), threads.get());
   if (s.problem.given()) return run_problem(command, s, threads.get());
   options.executor = threads.get();
   const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
-  Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.flat, read});
+  Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.heights, read});
   print_warnings(input.warnings());
   take_to_metric(input, s.metric);
   options.frame = field_frame(input.mesh());

@@ -23,7 +23,7 @@ namespace {
 
 struct ExplainSettings {
   std::string projection;
-  bool flat = false;
+  Heights heights;
   std::string input;
   std::uint64_t limit = 10;
   std::uint64_t whole = ExplainOptions().whole;
@@ -34,7 +34,7 @@ void add_options(Command& command, ExplainSettings& s) {
   command.group("Report");
   add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.").require();
   add_projection(command, s.projection);
-  add_flat(command, s.flat);
+  add_heights(command, s.heights);
   command.add_flag("--json", s.json, "Print all reasons as JSON, with vertices and elements counted from 0.");
   add_count(command, "--limit", s.limit, 0,
             "Largest number of conflicts to print, and of places for which weights exist. Cures are searched for these "
@@ -70,7 +70,10 @@ class Counter {
 };
 
 void explain_tetrahedra(const ExplainSettings& s, const TetInput& input) {
-  refuse_for_tetrahedra("explain", s.input, {{!s.projection.empty(), "--projection"}, {s.flat, "--flat"}});
+  refuse_for_tetrahedra("explain", s.input,
+                        {{!s.projection.empty(), "--projection"},
+                         {s.heights.flat, "--flat"},
+                         {s.heights.positive.has_value(), "--positive"}});
   print_warnings(input.warnings());
   const tets::TetMesh& mesh = input.mesh();
   const auto on_boundary = boundary_vertices(mesh);
@@ -106,13 +109,13 @@ Exit run_explain(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
 
-  auto file = read_any_tried(s.input, {nullptr, s.flat});
+  auto file = read_any_tried(s.input, s.heights.to_read(nullptr));
   if (auto* const tets = std::get_if<io::TetFile>(&file)) {
     explain_tetrahedra(s, make_input(s.input, std::move(*tets), nullptr));
     return Exit::done;
   }
   const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
-  const Input input = read_input(s.input, {s.projection, {}, nullptr, true, s.flat, read});
+  const Input input = read_input(s.input, {s.projection, {}, nullptr, true, s.heights, read});
   print_warnings(input.warnings());
   const auto solver = clp_solver();
   Counter counter;

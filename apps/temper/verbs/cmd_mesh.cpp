@@ -226,10 +226,11 @@ SizeField read_sizes(const MeshSettings& s, const std::string& degrees, const st
   }
   std::optional<DepthRule> depths;
   if (!s.from_depth.empty()) depths = parse_depth_rule("mesh", s.from_depth);
+  if (depths) options.positive = depths->positive;
   io::MeshFile file = read_tried(s.size, options);
   const std::string projection = file.degrees() != nullptr ? degrees : "";
   const auto read = [&file](const std::string&) { return std::move(file); };
-  ReadSizeField sizes = read_size_field(s.size, s.size_data, {projection, {}, executor, true, s.flat, read}, depths);
+  ReadSizeField sizes = read_size_field(s.size, s.size_data, {projection, {}, executor, true, {}, read}, depths);
   print_warnings(sizes.warnings);
   return std::move(sizes.field);
 }

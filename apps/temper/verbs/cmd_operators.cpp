@@ -32,7 +32,7 @@ constexpr Choice<io::DecFormat> kDecFormats[] = {{"npz", io::DecFormat::npz},   
 
 struct DecSettings {
   std::string projection;
-  bool flat = false;
+  Heights heights;
   std::string input, output, formats = "npz,mtx,vtu";
   std::string layers, coefficient;
   double pinch_out = 0;
@@ -45,7 +45,7 @@ void add_options(Command& command, DecSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.").require();
   add_projection(command, s.projection);
-  add_flat(command, s.flat);
+  add_heights(command, s.heights);
   add_text(command, "-o,--output", "DIR", s.output, "Folder for the files. It is made if it does not exist.").require();
   add_text(command, "--format", "LIST", s.formats,
            "Formats to write, separated by commas. 'npz' is for NumPy and SciPy, 'mtx' is Matrix Market, and 'vtu' "
@@ -143,7 +143,8 @@ Exit write_tetrahedra(const Command& command, const DecSettings& s, io::TetFile 
                       const std::vector<io::DecFormat>& formats, Executor* executor) {
   refuse_for_tetrahedra("operators", s.input,
                         {{!s.projection.empty(), "--projection"},
-                         {s.flat, "--flat"},
+                         {s.heights.flat, "--flat"},
+                         {s.heights.positive.has_value(), "--positive"},
                          {s.metric.has_value(), "--tensor"},
                          {!s.layers.empty(), "--layers"},
                          {command.was_given("--pinch-out"), "--pinch-out"}});
@@ -180,11 +181,11 @@ Exit run_operators(const Arguments& arguments) {
   check_folder(s, formats, s.layers.empty() ? io::DecKind::triangles : io::DecKind::columns);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  auto file = read_any_tried(s.input, {threads.get(), s.flat});
+  auto file = read_any_tried(s.input, s.heights.to_read(threads.get()));
   if (auto* const tets = std::get_if<io::TetFile>(&file))
     return write_tetrahedra(command, s, std::move(*tets), formats, threads.get());
   const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
-  Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.flat, read});
+  Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.heights, read});
   print_warnings(input.warnings());
   if (s.layers.empty()) io::release_geometry(input.file, input.loaded);  // the mesh has it
   const std::optional<Mesh> plain = take_to_metric(input, s.metric);

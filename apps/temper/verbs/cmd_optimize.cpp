@@ -279,12 +279,12 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   std::optional<TraceFile> trace;
   if (!s.files.trace.empty()) trace.emplace(TraceFile{outputs.open(s.files.trace), {}});
   const RunFiles files = {threads.get(), trace ? &*trace : nullptr};
-  auto file = read_any_tried(s.input, {threads.get(), s.flat});
+  auto file = read_any_tried(s.input, s.heights.to_read(threads.get()));
   if (auto* const tets = std::get_if<io::TetFile>(&file))
     return optimize_tetrahedra(command, s, outputs, {std::move(*tets), threads.get()});
   s.requirements = s.requirement_lists.of(MeshKind::triangles);
   const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
-  Input input = read_input(s.input, {s.projection, s.fix, threads.get(), true, s.flat, read});
+  Input input = read_input(s.input, {s.projection, s.fix, threads.get(), true, s.heights, read});
   outputs.expect_space(s.output, input.file);
   if (!s.files.page.empty()) expect_plane(input.mesh(), s.input, "--write " + s.files.page);
   RunResults results;
@@ -299,8 +299,8 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
                                 s.input)});
   }
   if (!s.size.empty()) {
-    ReadSizeField sizes =
-        read_size_field(s.size, s.size_data, {same_projection(input, s.projection), {}, threads.get(), true, s.flat});
+    ReadSizeField sizes = read_size_field(
+        s.size, s.size_data, {same_projection(input, s.projection), {}, threads.get(), true, {s.heights.flat}});
     warn(results, sizes.warnings);
     s.options.size_field = std::move(sizes.field);
   }

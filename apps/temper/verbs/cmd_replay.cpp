@@ -20,7 +20,7 @@ namespace {
 
 struct ReplaySettings {
   std::string projection;
-  bool flat = false;
+  Heights heights;
   std::string input, trace;
   MeshOutput output;
   std::optional<int> sweeps;
@@ -33,7 +33,7 @@ void add_options(Command& command, ReplaySettings& s) {
   add_mesh_output(command, s.output, "OUT");
   command.option("--output").require();
   add_projection(command, s.projection);
-  add_flat(command, s.flat);
+  add_heights(command, s.heights);
   add_point_data(command, s.point_data);
   add_count(command, "--sweeps", s.sweeps, 0, "Last sweep to repeat. 0 stops when IN has been made regular.");
 }
@@ -58,7 +58,7 @@ Exit replay(const ReplaySettings& s) {
   Outputs outputs("paper replay");
   outputs.expect_mesh(s.output, {s.trace});
 
-  Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .flat = s.flat});
+  Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .heights = s.heights});
   outputs.expect_space(s.output, input.file);
   print_warnings(input.warnings());
   const io::DataRules rules = data_rules(s.point_data, input.path, input.file.point_data);

@@ -50,7 +50,7 @@ constexpr Choice<Connectivity> kConnectivities[] = {{"fixed", Connectivity::fixe
 
 struct WeightsSettings {
   std::string projection;
-  bool flat = false;
+  Heights heights;
   std::string input, certificate, check;
   MeshOutput output;
   From from = From::zero;
@@ -105,7 +105,7 @@ void add_files(Command& command, WeightsSettings& s) {
   add_argument(command, "IN", s.input, "Mesh file, of triangles or tetrahedra. Its content shows the format.")
       .require();
   add_projection(command, s.projection);
-  add_flat(command, s.flat);
+  add_heights(command, s.heights);
   add_mesh_output(command, s.output, "OUT",
                   "Mesh file to write, with the new weights. You may leave it out with --mode margin.");
   add_text(command, "--certificate", "FILE", s.certificate,
@@ -365,7 +365,8 @@ Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
 void refuse_options_of_triangles(const Command& command, const WeightsSettings& s) {
   refuse_for_tetrahedra("weights", s.input,
                         {{!s.projection.empty(), "--projection"},
-                         {s.flat, "--flat"},
+                         {s.heights.flat, "--flat"},
+                         {s.heights.positive.has_value(), "--positive"},
                          {s.zero, "--zero"},
                          {command.was_given("--edges"), "--edges"},
                          {s.connectivity == Connectivity::search, "--connectivity search"},
@@ -426,7 +427,7 @@ Exit run_weights(const Arguments& arguments) {
   if (!s.output.path.empty()) outputs.expect_mesh(s.output, {s.edges});
   outputs.expect_text("--certificate", s.certificate, {s.input, s.edges});
 
-  auto file = read_any_tried(s.input, {nullptr, s.flat});
+  auto file = read_any_tried(s.input, s.heights.to_read(nullptr));
   if (auto* const tets = std::get_if<io::TetFile>(&file)) {
     refuse_options_of_triangles(command, s);
     outputs.expect_tetrahedra(s.output);
@@ -438,7 +439,7 @@ Exit run_weights(const Arguments& arguments) {
                              "alone. Next: --constraints well-centered",
                              s.input));
   const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
-  Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .flat = s.flat, .read = read});
+  Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .heights = s.heights, .read = read});
   outputs.expect_space(s.output, input.file);
   print_warnings(input.warnings());
   if (!s.check.empty()) return check(s, input);

@@ -99,7 +99,7 @@ void add_rare(Command& command, OptimizeSettings& s) {
                    "Measure the errors of solvers before and after, as temper errors does, and print them.");
 #endif
   add_projection(command, s.projection);
-  add_flat(command, s.flat);
+  add_heights(command, s.heights);
   add_tensor(command, s.metric, "Make meshes well-centered");
   add_problem(command, s.problem,
               "Needs --for vertex or --for cell. The run then lowers the error of this problem, -div(K grad u) = f. "

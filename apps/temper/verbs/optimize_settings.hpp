@@ -25,7 +25,7 @@ namespace temper::app {
 struct OptimizeSettings {
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
   std::string projection;
-  bool flat = false;
+  Heights heights;
   std::string input;
   MeshOutput output;
   std::vector<std::string> write;

@@ -16,12 +16,13 @@ bool is_bed(const MeshFile& file, const DataArray& a) {
   if (a.components != 1 || !is_floating(a.values)) return false;
   const std::string said = netcdf_attribute(file, a.name, "standard_name").value_or("");
   const bool is_height = a.name == kHeight;
-  if (is_height && said.empty()) return file.format == "2dm";
+  if (is_height && said.empty()) return file.positive.has_value();
   return a.name == kDepth || has_name_of_level(a.name) || said == "altitude" || said == "bedrock_altitude" ||
          said.starts_with("sea_floor_");
 }
 
 bool is_level(const MeshFile& file, const DataArray& a) {
+  if (file.positive) return *file.positive == Positive::up;
   const std::string positive = netcdf_attribute(file, a.name, "positive").value_or("");
   if (!positive.empty()) return positive == "up";
   const std::string said = netcdf_attribute(file, a.name, "standard_name").value_or("");
@@ -67,6 +68,7 @@ void turn_bed(MeshFile& file, Bed bed) {
   }
   a.name = bed == Bed::level ? kBedLevel : bed == Bed::depth ? kDepth : kHeight;
   file.z_is_data = bed == Bed::z;
+  file.positive.reset();  // its new name says it
 }
 
 }  // namespace temper::io

@@ -1,8 +1,8 @@
 // The bed of water: depths, positive down (ADCIRC, SCHISM, FESOM), or levels, positive up (D-Flow FM).
 //
 // Point data are the bed if they have the name `depth` or that of D-Flow FM (mesh2d_node_z), if they are z of a 2DM
-// file, or if NetCDF said so by standard_name. They are levels if NetCDF said so, by `positive` or standard_name, or
-// else by their names.
+// file or z whose sign the user says, or if NetCDF said so by standard_name. They are levels if the user says so, or
+// else NetCDF, by `positive` or standard_name, or else by their names.
 #pragma once
 
 #include <optional>

@@ -89,6 +89,22 @@ void make_z_data(Document& d) {
   d.may_be_degrees = std::holds_alternative<PlanePoints>(f.points_in);
 }
 
+/// Gives the bed the sign that the user says. Without it, z of a 2DM file is a height, as in SMS, and a warning says
+/// so: SCHISM has depths there.
+void settle_bed(Document& d, std::optional<Positive> positive) {
+  MeshFile& f = d.file;
+  f.positive = positive;
+  if (positive && bed_of(f) == nullptr) {
+    f.warnings.push_back(text(d.names->path, ": has no depths or heights of a bed, so positive ",
+                              *positive == Positive::up ? "up" : "down", " has no effect"));
+  }
+  if (positive || f.format != "2dm" || !f.z_is_data) return;
+  f.positive = Positive::up;
+  f.warnings.push_back(text(d.names->path,
+                            ": z is taken as heights, positive up. Next: --positive down if they are depths, or "
+                            "--positive up to confirm (positive=\"down\" or \"up\" in Python)"));
+}
+
 void guess_degrees(Document& d) {
   MeshFile& f = d.file;
   if (!d.may_be_degrees) return;
@@ -131,6 +147,7 @@ void check(Document& d, const ReadOptions& options) {
     warn_of_parallel(d);
   }
   check_weights(d);
+  settle_bed(d, options.positive);
   guess_degrees(d);
 }
 

@@ -6,7 +6,8 @@
 //   ND 1  0.0 0.0 -5.2         a node: its number, x, y, and z: the elevation of the bed, positive up
 //   NS 1 2 -3 4 "inflow"       a string of nodes ends with a negative node; its number and its name may follow: lines
 //
-// A string may continue on the next NS line. z is data: see ReadOptions::flat.
+// A string may continue on the next NS line. z is data: see ReadOptions::flat. SCHISM has depths there, positive down:
+// see ReadOptions::positive.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -277,6 +277,7 @@ TEST_F(Usage, EveryExampleInTheHelpRuns) {
         "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=4\n9;0;0\n9.1;0;0\n9.1;0.1;0\n9;0.1;0\n"
         "EDGE2=4\n0;1;0\n1;2;0\n2;3;0\n3;0;0\n");
   write("report.json", R"({"for": "cell"})");
+  write("hgrid.2dm", "MESH2D\nE3T 1 1 2 3 1\nND 1 0 0 9\nND 2 900 0 2\nND 3 0 900 1\n");
   write("in.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   make_tetrahedra("box.mesh");
   write("land.geojson", R"({"type": "Polygon", "coordinates": [[[0, 0], [40, 5], [35, 40], [5, 30], [0, 0]]]})");

@@ -435,7 +435,9 @@ TEST_F(OtherFormats, MeshesOfSmsHaveHeightsMaterialsAndNamedStrings) {
   EXPECT_EQ(f.line_tags, (Tags{7, 7}));
   ASSERT_EQ(f.names.size(), 1u);
   EXPECT_EQ(f.names[0].name, "sea side");
-  EXPECT_EQ(f.warnings.size(), 1u);
+  ASSERT_EQ(f.warnings.size(), 2u);
+  EXPECT_NE(f.warnings[0].find("cards are dropped: BEGPARAMDEF"), std::string::npos);
+  EXPECT_NE(f.warnings[1].find("z is taken as heights, positive up. Next: --positive down if"), std::string::npos);
   ASSERT_TRUE(write(path("again.2dm"), f));
   EXPECT_EQ(slurp(path("again.2dm")),
             "MESH2D\nE3T 1 1 2 3 2\nE3T 2 1 3 4 3\nND 1 0 0 -5\nND 2 10 0 -6.5\nND 3 10 10 1\nND 4 0 10 0\n"
@@ -446,6 +448,41 @@ TEST_F(OtherFormats, MeshesOfSmsHaveHeightsMaterialsAndNamedStrings) {
             "points as tags. Next: write linear elements");
   EXPECT_EQ(refused("m.2dm", "MESH2D\nE3T 1 1 2 3 1\nND 1 0 0 0\nND 2 1 0 0\n"),
             "m.2dm:2: triangle 1 uses vertex 3, but the file has 2 vertices and not this one");
+}
+
+// SMS has heights in 2DM, SCHISM has depths.
+TEST_F(OtherFormats, TheUserSaysTheSignOfTheBed) {
+  make("m.2dm", "MESH2D\nE3T 1 1 2 3 1\nND 1 0 0 9.66\nND 2 900 0 2\nND 3 0 900 -1\n");
+  const auto depths_in_gr3 = [&](const ReadOptions& options) {
+    const auto f = read(path("m.2dm"), options);
+    EXPECT_TRUE(f && write(path("m.gr3"), *f) && write(path("again.2dm"), *f));
+    EXPECT_NE(slurp(path("again.2dm")).find("ND 1 0 0 9.66\n"), std::string::npos) << "the format gets its z back";
+    return std::get<std::vector<double>>(read(path("m.gr3"))->point_data.at(0).values);
+  };
+  EXPECT_EQ(depths_in_gr3({}), (std::vector<double>{-9.66, -2, 1}));
+  EXPECT_EQ(depths_in_gr3({.positive = Positive::up}), (std::vector<double>{-9.66, -2, 1}));
+  EXPECT_EQ(depths_in_gr3({.positive = Positive::down}), (std::vector<double>{9.66, 2, -1}));
+  for (const Positive sign : {Positive::up, Positive::down})
+    EXPECT_TRUE(read(path("m.2dm"), {.positive = sign})->warnings.empty());
+}
+
+TEST_F(OtherFormats, ASignThatTheUserSaysMakesZTheBedAndOverrulesTheFormat) {
+  make("m.off", "OFF\n3 1 0\n0 0 5\n900 0 7\n0 900 6\n3 0 1 2\n");
+  const auto flat = read(path("m.off"), {.flat = true, .positive = Positive::down});
+  ASSERT_TRUE(flat && write(path("m.gr3"), *flat) && write(path("again.off"), *flat));
+  EXPECT_EQ(read(path("m.gr3"))->point_data.at(0).values, Values(std::vector<double>{5, 7, 6}));
+  EXPECT_NE(slurp(path("again.off")).find("\n900 0 7\n"), std::string::npos);
+
+  const auto heights = read(path("m.gr3"), {.positive = Positive::up});
+  ASSERT_TRUE(heights && write(path("again.gr3"), *heights) && write(path("m.2dm"), *heights));
+  EXPECT_EQ(slurp(path("again.gr3")), slurp(path("m.gr3"))) << "comes back as it was";
+  EXPECT_NE(slurp(path("m.2dm")).find("ND 2 900 0 7\n"), std::string::npos);
+
+  const auto none = read(make("plane.off", "OFF\n3 1 0\n0 0 0\n9 0 0\n0 9 0\n3 0 1 2\n"), {.positive = Positive::up});
+  ASSERT_TRUE(none);
+  ASSERT_EQ(none->warnings.size(), 1u);
+  EXPECT_NE(none->warnings[0].find("has no depths or heights of a bed, so positive up has no effect"),
+            std::string::npos);
 }
 
 // --- z as data, planes that stand, and weights of zero ----------------------------------------------------------
