@@ -3,7 +3,8 @@
 //        d                 d
 //      /   \             / | \        b is on ac, so abc has no area. The flip of ac gives both new triangles a part of
 //     a-----c    --->   a--b--c       acd. If d is on this line, too, the new triangles are shorter, and the next flips
-//      \ b /                          find a triangle above the line.
+//      \ b /                          find a triangle above the line. If b has come to lie in acd, abc is turned over,
+//                                     and the same flip cures it.
 #include "files/flat_triangles.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@
 namespace temper::app {
 namespace {
 
-// Per triangle, far more than flips need. They end by the order of lengths, which overflow may spoil.
+// Per bad triangle, far more than flips need if triangles have no area: then lengths fall. Others may go in a circle.
 constexpr std::size_t kTries = 64;
 
 using Corners = std::array<std::int32_t, 3>;
@@ -61,14 +62,22 @@ class Flips {
 
   std::size_t run() {
     for (std::size_t t = 0; t < triangles().size(); ++t) start(t);
+    const std::vector<Corners> as_they_came = triangles();
+    orient_all();
+    for (std::size_t t = 0; t < triangles().size(); ++t) {
+      if (stays_[t] && is_bad(t)) push(t);
+    }
     const std::size_t n_flat = flat_.size() + n_dropped_;
-    std::size_t left = 0, tries = kTries * triangles().size();
+    std::size_t left = 0, tries = kTries * (n_flat + 1);
     for (; !flat_.empty() && tries > 0; --tries) {
       const std::size_t t = flat_.top().second;
       flat_.pop();
-      if (stays_[t] && is_flat(t) && !cure(t)) ++left;
+      if (stays_[t] && is_bad(t) && !cure(t)) ++left;
     }
-    if (n_flat == 0) return 0;
+    if (n_flat == 0) {
+      triangles() = as_they_came;
+      return 0;
+    }
     divide_lines();
     if (!file_.regions.empty()) file_.regions = listed_values(file_.regions, from_, 1);
     take_data(file_.cell_data, from_);
@@ -79,10 +88,40 @@ class Flips {
  private:
   std::vector<Corners>& triangles() { return file_.triangles; }
   [[nodiscard]] Vec2 at(std::int32_t p) const { return file_.points[static_cast<std::size_t>(p)]; }
-  [[nodiscard]] bool is_flat(std::size_t t) const {
+  /// Without area, or turned over. Precondition: all are oriented.
+  [[nodiscard]] bool is_bad(std::size_t t) const {
     const auto [a, b, c] = file_.triangles[t];
-    return orient2d(at(a), at(b), at(c)) == Sign::zero;
+    return orient2d(at(a), at(b), at(c)) != Sign::positive;
   }
+
+  /// Orients each part of the mesh along its edges, so that most of its area is counter-clockwise.
+  void orient_all() {
+    std::vector<bool> seen(triangles().size());
+    for (std::size_t first = 0; first < seen.size(); ++first) {
+      if (seen[first] || !stays_[first]) continue;
+      std::vector<std::size_t> part = {first};
+      seen[first] = true;
+      double area = 0;
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        const auto [a, b, c] = triangles()[part[i]];
+        area += cross(at(b) - at(a), at(c) - at(a));
+        for (const Ends& edge : {Ends(a, b), Ends(b, c), Ends(c, a)}) {
+          for (const std::size_t next : of_edge_[ends_of(edge.first, edge.second)]) {
+            if (seen[next]) continue;
+            seen[next] = true;
+            if (has_directed(next, edge)) turn(next);
+            part.push_back(next);
+          }
+        }
+      }
+      if (area < 0) std::ranges::for_each(part, [this](std::size_t t) { turn(t); });
+    }
+  }
+  [[nodiscard]] bool has_directed(std::size_t t, const Ends& edge) const {
+    const auto [a, b, c] = file_.triangles[t];
+    return edge == Ends(a, b) || edge == Ends(b, c) || edge == Ends(c, a);
+  }
+  void turn(std::size_t t) { std::swap(triangles()[t][1], triangles()[t][2]); }
 
   void start(std::size_t t) {
     const auto [a, b, c] = triangles()[t];
@@ -92,14 +131,13 @@ class Flips {
       return;
     }
     for (const Ends& edge : {ends_of(a, b), ends_of(b, c), ends_of(c, a)}) of_edge_[edge].push_back(t);
-    if (is_flat(t)) push(t);
   }
 
   /// The longest first: a neighbor across the longest edge is then no longer, and flips end.
   void push(std::size_t t) {
     const auto [a, b, c] = turned_to_middle(t);
     if (at(a) == at(b) || at(b) == at(c)) {
-      throw Failure(Exit::bad_input, fmt::format("{}: {} has two corners at one place, ({}, {}). Next: add --merge 0",
+      throw Failure(Exit::bad_input, fmt::format("{}: {} has two corners at x = {}, y = {}. Next: add --merge 0",
                                                  file_.path, name(t), at(b).x, at(b).y));
     }
     flat_.emplace(length(at(c) - at(a)), t);
@@ -108,15 +146,14 @@ class Flips {
     return file_.numbering ? file_.numbering->triangle(from_[t]) : InputNames().triangle(from_[t]);
   }
 
-  /// The corners in their cycle, with the one between the others in the middle.
+  /// The corners in their cycle, with the one across the longest edge in the middle.
   [[nodiscard]] Corners turned_to_middle(std::size_t t) const {
-    Corners corners = file_.triangles[t];
-    const auto is_between = [&](std::int32_t p, std::int32_t q, std::int32_t r) {
-      return dot(at(p) - at(q), at(r) - at(q)) <= 0;
-    };
-    for (int i = 0; i < 2 && !is_between(corners[0], corners[1], corners[2]); ++i)
-      std::rotate(corners.begin(), corners.begin() + 1, corners.end());
-    return corners;
+    Corners corners = file_.triangles[t], best = corners;
+    for (int i = 0; i < 2; ++i) {
+      std::ranges::rotate(corners, corners.begin() + 1);
+      if (length(at(corners[2]) - at(corners[0])) > length(at(best[2]) - at(best[0]))) best = corners;
+    }
+    return best;
   }
 
   bool cure(std::size_t t) {
@@ -150,7 +187,7 @@ class Flips {
     std::ranges::replace(of_edge_[ends_of(b, c)], t, other);
     std::ranges::replace(of_edge_[ends_of(d, a)], other, t);
     for (const std::size_t half : {t, other}) {
-      if (is_flat(half)) push(half);
+      if (is_bad(half)) push(half);
     }
     return true;
   }

@@ -52,8 +52,9 @@ InputError with_cure(InputError error, const Input& input) {
     error.message += fmt::format(". Next: {} with temper convert {} {} -o OUT", what, input.path, option);
   };
   if (error.code == ErrorCode::duplicate_point) cure("join them", "--merge 0");
-  if (error.code == ErrorCode::zero_area && input.file.sphere() == nullptr)
-    cure("flip such triangles away", "--flip-flat");
+  if (input.file.sphere() != nullptr || input.file.periodic() != nullptr) return error;
+  if (error.code == ErrorCode::zero_area) cure("flip such triangles away", "--flip-flat");
+  if (error.code == ErrorCode::overlap) cure("if rounding has turned a triangle over, flip it away", "--flip-flat");
   return error;
 }
 

@@ -39,8 +39,8 @@ void add_options(Command& command, ConvertSettings& s) {
   add_number(command, "--merge", s.merge, kNotNegative,
              "Make points one that are at most this far apart, in the units of IN. This closes cracks.");
   command.add_flag("--flip-flat", s.flip_flat,
-                   "Flip away triangles of zero area, after --merge. Coordinates with few digits make such triangles. "
-                   "The domain and the points stay as they are.");
+                   "Flip away triangles of zero area or turned over, after --merge. Coordinates with few digits make "
+                   "them. All points stay.");
   add_count(command, "--threads", s.threads, 0,
             "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
   command.group("Help");
@@ -55,9 +55,11 @@ void add_options(Command& command, ConvertSettings& s) {
 }
 
 std::size_t flip_away(io::MeshFile& file) {
-  if (file.sphere() != nullptr)
-    throw Failure(Exit::bad_input,
-                  file.path + ": points are on a sphere, and --flip-flat is for a plane. Next: leave it out");
+  if (file.sphere() != nullptr || file.periodic() != nullptr) {
+    throw Failure(Exit::bad_input, file.path +
+                                       ": is a mesh of the sphere or of a periodic plane, and --flip-flat is for "
+                                       "a plane without periods. Next: leave it out");
+  }
   return flip_flat_triangles(file);
 }
 
@@ -94,8 +96,7 @@ Exit run_convert(const Arguments& arguments) {
       },
       any);
   if (s.merge) print(fmt::format("{} merged\n", plural(merged, "point", "points")));
-  if (s.flip_flat)
-    print(fmt::format("{} flipped away\n", plural(flipped, "triangle of zero area", "triangles of zero area")));
+  if (s.flip_flat) print(fmt::format("{} flipped away\n", plural(flipped, "triangle", "triangles")));
   return Exit::done;
 }
 

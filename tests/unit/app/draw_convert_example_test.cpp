@@ -312,14 +312,24 @@ TEST_F(Convert, FlipsTrianglesOfZeroAreaAwayAsTheErrorSays) {
   EXPECT_EQ(flat.exit, 1);
   EXPECT_TRUE(contains(flat.err, "triangle 3 has zero area")) << flat.err;
   EXPECT_TRUE(contains(flat.err, "Next: flip such triangles away with temper convert in.off --flip-flat -o OUT"));
-  EXPECT_EQ(temper_ok({"convert", "in.off", "--flip-flat", "-o", "out.off"}).out,
-            "2 triangles of zero area flipped away\n");
+  EXPECT_EQ(temper_ok({"convert", "in.off", "--flip-flat", "-o", "out.off"}).out, "2 triangles flipped away\n");
   EXPECT_TRUE(contains(read("out.off"), "OFF\n8 6 "));  // the triangle on the boundary is dropped
   temper_ok({"check", "out.off"});
   temper_ok({"optimize", "out.off", "-o", "best.vtu", "--quiet"});
-  EXPECT_EQ(temper_ok({"convert", "out.off", "--flip-flat", "-o", "same.off"}).out,
-            "0 triangles of zero area flipped away\n");
+  EXPECT_EQ(temper_ok({"convert", "out.off", "--flip-flat", "-o", "same.off"}).out, "0 triangles flipped away\n");
   EXPECT_EQ(read("same.off"), read("out.off"));
+}
+
+// Rounding has put point 4 below the edge of its triangle.
+TEST_F(Convert, FlipsTrianglesAwayThatRoundingHasTurnedOver) {
+  write("in.off",
+        "OFF\n7 5 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n1 1.9 0\n2 3 0\n0 3 0\n"
+        "3 0 1 2\n3 0 2 3\n3 3 2 4\n3 4 2 5\n3 3 4 6\n");
+  const Outcome folded = temper({"check", "in.off"});
+  EXPECT_TRUE(contains(folded.err, "if rounding has turned a triangle over, flip it away with temper convert in.off "))
+      << folded.err;
+  EXPECT_EQ(temper_ok({"convert", "in.off", "--flip-flat", "-o", "out.off"}).out, "1 triangle flipped away\n");
+  EXPECT_TRUE(contains(temper_ok({"check", "out.off"}).out, "7 vertices, 5 triangles"));
 }
 
 // Two rows of points that rounding has put on one line, as in coordinates of UTM with seven digits.
@@ -331,8 +341,7 @@ TEST_F(Convert, FlipsStripsWithoutAreaAwayWithTheirLinesAndRegions) {
         "End\n");
   const Outcome before = temper({"check", "in.mesh"});
   EXPECT_TRUE(contains(before.err, "has zero area")) << before.err;
-  EXPECT_EQ(temper_ok({"convert", "in.mesh", "--flip-flat", "-o", "out.mesh"}).out,
-            "3 triangles of zero area flipped away\n");
+  EXPECT_EQ(temper_ok({"convert", "in.mesh", "--flip-flat", "-o", "out.mesh"}).out, "3 triangles flipped away\n");
   temper_ok({"check", "out.mesh"});
   const io::MeshFile file = *io::read("out.mesh");
   EXPECT_EQ(file.line_tags, (std::vector<std::int32_t>{7, 7, 5})) << "point 8 is on the first line";
@@ -343,7 +352,7 @@ TEST_F(Convert, FlipsStripsWithoutAreaAwayWithTheirLinesAndRegions) {
 TEST_F(Convert, MergeDropsTrianglesThatHaveTwoCornersAtOnePlace) {
   write("in.off", "OFF\n5 3 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n2 2 0\n3 0 1 2\n3 0 2 4\n3 0 4 3\n");
   EXPECT_TRUE(contains(temper({"convert", "in.off", "--flip-flat", "-o", "out.off"}).err,
-                       "in.off: triangle 1 has two corners at one place, (2, 2). Next: add --merge 0"));
+                       "in.off: triangle 1 has two corners at x = 2, y = 2. Next: add --merge 0"));
   const Outcome merged = temper_ok({"convert", "in.off", "--merge", "0", "-o", "out.off"});
   EXPECT_EQ(merged.out, "1 point merged\n");
   EXPECT_TRUE(contains(merged.err, "in.off: 1 triangle is dropped: two corners are at one place")) << merged.err;
