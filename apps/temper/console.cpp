@@ -36,7 +36,9 @@ Printing& printing() {
 
 void expect_printed(bool printed) {
   if (printed) return;
-  if (errno != EPIPE) throw Failure(Exit::bad_input, fmt::format("standard output: {}", std::strerror(errno)));
+  if (errno != EPIPE)
+    throw Failure(Exit::bad_input,
+                  fmt::format("standard output: {}", errno == EBADF ? "it is closed" : std::strerror(errno)));
   printing().has_no_reader = true;
 }
 

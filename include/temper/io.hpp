@@ -187,6 +187,17 @@ struct Format {
 [[nodiscard]] Expected<std::vector<std::string>> files_to_write(const std::string& path, const std::string& format = {},
                                                                 const MeshFile* file = nullptr);
 
+/// The open file of this process that the path stands for, links followed: 1 for "/dev/stdout" and for a link to
+/// "/proc/self/fd/1". −1: none. It may be closed.
+[[nodiscard]] int open_file_of(const std::string& path);
+/// Says whether the path stands for a stream, links followed: a pipe, a device, or the open file of a process, even if
+/// bytes go to a file from there. Streams are written directly: they are never replaced, and no file is put next to
+/// them.
+[[nodiscard]] bool is_stream(const std::string& path);
+/// Says whether an open file of this process may be written. False if it is closed.
+[[nodiscard]] bool is_open_to_write(int file);
+inline constexpr const char* kClosedStream = "the stream is closed. Next: name a file";
+
 /// Writes any text to a file, by way of a temporary file in the same way.
 [[nodiscard]] Expected<void> write_text(const std::string& path, std::string_view text);
 

@@ -120,14 +120,14 @@ const FormatRow* row_of(std::string_view head) {
   return row == std::end(kRows) ? nullptr : row;
 }
 
-const FormatRow& recognize(const Source& source) {
-  const std::string_view head = std::string_view(source.bytes).substr(0, kSniffBytes);
-  if (const FormatRow* const row = row_of(head)) return *row;
-  if (const std::string known = recognize_unsupported(source.bytes); !known.empty())
-    fail(ErrorCode::unsupported, source.path, "is ", known);
+/// `bytes`: of the whole file.
+const FormatRow& recognize(const std::string& path, std::string_view beginning, std::uint64_t bytes) {
+  if (const FormatRow* const row = row_of(beginning.substr(0, kSniffBytes))) return *row;
+  if (const std::string known = recognize_unsupported(beginning, bytes); !known.empty())
+    fail(ErrorCode::unsupported, path, "is ", known);
   std::string names;
   for (const Format& format : kFormats) names += text(names.empty() ? "" : ", ", format.description);
-  fail(ErrorCode::syntax, source.path, "is none of the formats that temper reads: ", names);
+  fail(ErrorCode::syntax, path, "is none of the formats that temper reads: ", names);
 }
 
 /// Makes the names of all arrays of a kind distinct, without characters that a terminal or a text file would interpret.
@@ -148,14 +148,15 @@ void tidy_warnings(MeshFile& file) {
 
 /// The arrays of a file, not yet checked.
 Document read_document(const std::string& path, const ReadOptions& options) {
-  Source source = load(path);
+  const FormatRow* row = nullptr;
+  Source source =
+      load(path, [&](std::string_view beginning, std::uint64_t bytes) { row = &recognize(path, beginning, bytes); });
   source.executor = options.executor;
   source.window = options.window;
   source.raster_in_degrees = options.raster_in_degrees;
-  const FormatRow& row = recognize(source);
-  Document document = row.read(source);
+  Document document = row->read(source);
   std::string().swap(source.bytes);
-  if (document.file.format.empty()) document.file.format = row.name;
+  if (document.file.format.empty()) document.file.format = row->name;
   return document;
 }
 

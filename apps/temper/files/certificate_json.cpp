@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -14,7 +11,6 @@
 
 #include "exit.hpp"
 #include "files/input.hpp"
-#include "temper/detail/path.hpp"
 #include "temper/tets/weights.hpp"
 
 namespace temper::app {
@@ -26,8 +22,7 @@ using Kind = WeightConstraint::Kind;
 constexpr int kVersion = 1;
 
 std::string text_of(const std::string& path) {
-  std::ifstream file(path_of(path), std::ios::binary);
-  if (!file) throw Failure(Exit::bad_input, fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  std::ifstream file = open_text(path);
   std::ostringstream text;
   text << file.rdbuf();
   if (!text) throw Failure(Exit::bad_input, path + ": cannot be read, or empty");

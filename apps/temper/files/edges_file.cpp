@@ -1,14 +1,10 @@
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <sstream>
 #include <unordered_map>
 
 #include "exit.hpp"
 #include "files/input.hpp"
-#include "temper/detail/path.hpp"
 
 namespace temper::app {
 namespace {
@@ -20,8 +16,7 @@ class EdgesFile {
   }
 
   std::vector<HalfedgeId> read() {
-    std::ifstream file(path_of(path_));
-    if (!file) throw Failure(Exit::bad_input, fmt::format("{}: cannot be read: {}", path_, std::strerror(errno)));
+    std::ifstream file = open_text(path_);
     std::vector<HalfedgeId> edges;
     for (std::string text; std::getline(file, text);) {
       ++line_;

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <span>
 #include <string_view>
 #include <utility>
 
 #include "exit.hpp"
+#include "temper/detail/path.hpp"
 
 namespace temper::app {
 namespace {
@@ -96,6 +99,14 @@ TetInput make_input(const std::string& path, io::TetFile file, Executor* executo
   input.names = input.file.numbering;
   if (!input.points.empty()) input.names = std::make_shared<TetNames>(input.file.numbering, input.points);
   return input;
+}
+
+std::ifstream open_text(const std::string& path) {
+  std::ifstream file(path_of(path), std::ios::binary);
+  if (!file) throw Failure(Exit::bad_input, fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  if (file.peek() == '\0') throw Failure(Exit::bad_input, path + ": is no text");
+  file.clear();  // an empty file has no first letter
+  return file;
 }
 
 void refuse_for_tetrahedra(const std::string& verb, const std::string& path,

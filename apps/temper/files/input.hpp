@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <span>
@@ -49,6 +50,9 @@ struct TetInput {
 };
 /// Builds the mesh of a file; Failure when anything is wrong with it.
 [[nodiscard]] TetInput make_input(const std::string& path, io::TetFile file, Executor* executor);
+
+/// A text file to be read line by line; Failure if it cannot be read, or is a device such as /dev/zero without an end.
+[[nodiscard]] std::ifstream open_text(const std::string& path);
 
 /// An option, and if it is given.
 struct GivenOption {

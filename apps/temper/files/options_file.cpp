@@ -55,6 +55,7 @@ Json parse(const std::string& path) {
   std::ifstream stream(path_of(path));
   if (!stream)
     fail_at(path, fmt::format("cannot be opened: {}; expected a JSON file with options", std::strerror(errno)));
+  if (stream.peek() == '\0') fail_at(path, "is no text; expected a JSON file with options");
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   Json json;
   try {

@@ -25,20 +25,33 @@ namespace fs = std::filesystem;
   throw Failure(Exit::bad_input, path + ": cannot be written: " + message);
 }
 
+/// The path behind links, whether a file is there or not.
+fs::path target_of_links(const std::string& name) {
+  constexpr int kMost = 40;  // as systems follow
+  fs::path path = path_of(name);
+  std::error_code ignored;
+  for (int i = 0; i < kMost && fs::is_symlink(path, ignored); ++i)
+    path = path.parent_path() / fs::read_symlink(path, ignored);
+  return path;
+}
+
 void check_writable(const std::string& name) {
-  if (name == kStandardOutput) return;
   const fs::path path = path_of(name);
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) not_writable(name, "it is a directory");
+  const int open_file = io::open_file_of(name);
+  if (open_file >= 0 && !io::is_open_to_write(open_file)) not_writable(name, io::kClosedStream);
+  if (open_file >= 0) return;
   if (!path.has_filename()) not_writable(name, "it names no file");
   std::error_code error;
   const bool there = fs::exists(path, error);
-  if (error == std::errc::filename_too_long) not_writable(name, error.message());
+  if (error == std::errc::filename_too_long || error == std::errc::too_many_symbolic_link_levels)
+    not_writable(name, error.message());
   if (there && !may_write(name)) not_writable(name, std::strerror(errno));
-  if (there && !fs::is_regular_file(path, ignored)) return;  // a device is written in place
+  if (io::is_stream(name)) return;  // written in place
 
   // A new file next to a file replaces it (next to the target of a link), so that folder must be writable.
-  const fs::path target = there ? fs::canonical(path, ignored) : path;
+  const fs::path target = target_of_links(name);
   const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
   const std::string folder = utf8(parent);
   if (!fs::exists(parent, ignored)) not_writable(name, fmt::format("there is no directory {}", folder));
@@ -184,7 +197,7 @@ void Outputs::expect_mesh(const MeshOutput& output, const std::vector<std::strin
       refuse(option, what_it_is(file, *input, "an input") + ", and would be replaced");
   }
   expect(option, path, *files);
-  if (path == kStandardOutput) print_to_standard_error();
+  if (io::open_file_of(path) == 1) print_to_standard_error();
 }
 
 void Outputs::expect_space(const MeshOutput& output, const io::MeshFile& file) const {
@@ -230,6 +243,7 @@ template <class File>
 std::vector<std::string> Outputs::write_any(const MeshOutput& output, const File& file, Executor* executor) {
   io::WriteOptions options = output.options;
   options.executor = executor;
+  flush_output();  // the path may be standard output
   Expected<std::vector<std::string>> warnings = io::write(output.path, file, options);
   if (!warnings) fail(warnings.error());
   written_.push_back(output.path);
@@ -245,7 +259,7 @@ std::vector<std::string> Outputs::write_mesh(const MeshOutput& output, const io:
 }
 
 void Outputs::write_text(const std::string& path, std::string_view text) {
-  flush_output();  // the path may be /dev/stdout
+  flush_output();  // the path may be standard output
   const Expected<void> result = io::write_text(path, text);
   if (!result) fail(result.error());
   written_.push_back(path);

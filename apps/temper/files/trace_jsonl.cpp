@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,7 +13,6 @@
 
 #include "exit.hpp"
 #include "files/input.hpp"
-#include "temper/detail/path.hpp"
 #include "temper/detail/suggest.hpp"
 #include "temper/detail/version.hpp"
 
@@ -399,8 +395,7 @@ bool is_end_of(const TraceEnd& end, const Mesh& result) {
 }
 
 Trace read_trace(const std::string& path, const Input& input) {
-  std::ifstream file(path_of(path), std::ios::binary);
-  if (!file) throw Failure(Exit::bad_input, fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  std::ifstream file = open_text(path);
   std::string line;
   if (!std::getline(file, line)) {
     throw Failure(Exit::bad_input, path + (file.bad() ? ": cannot be read" : ": the file is empty"));

@@ -246,7 +246,7 @@ std::string verdict(const Quality& quality) {
 }
 
 std::string next_step(const Quality& quality, const std::string& path, const std::string& projection) {
-  if (bad_triangles(quality) == 0 || path == kStandardOutput) return {};
+  if (bad_triangles(quality) == 0 || io::is_stream(path)) return {};
   return fmt::format("Next: {}\n", command_line("explain", path, projection));
 }
 

@@ -1,4 +1,5 @@
 // Linux and macOS: see system.hpp.
+#include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/ioctl.h>
@@ -27,6 +28,18 @@
 extern char** environ;
 
 namespace temper::app {
+namespace {
+
+/// Without standard output, the next file to be opened would be standard output, and get all that is printed. So a file
+/// that refuses each read or write takes the place of a stream that is closed.
+void keep_closed_streams_closed() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
+    static_cast<void>(::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));  // the least free number
+  }
+}
+
+}  // namespace
 
 void prepare_process() {
 #ifdef __GLIBC__
@@ -34,6 +47,7 @@ void prepare_process() {
 #endif
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
   std::signal(SIGPIPE, SIG_IGN);  // and so is a pipe without a reader
+  keep_closed_streams_closed();
 }
 
 std::vector<std::string> program_words(int argc, char** argv) { return {argv + (argc > 0 ? 1 : 0), argv + argc}; }

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "files/input.hpp"
 #include "files/options_file.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "reports/reports.hpp"
-#include "temper/detail/path.hpp"
 #include "temper/detail/suggest.hpp"
 
 namespace temper::app {
@@ -126,13 +124,6 @@ HelpPart research_targets() {
   return part;
 }
 
-/// Says whether writing puts a new file there: not on standard output, a pipe or a device.
-bool is_replaced(const std::string& path) {
-  std::error_code ignored;
-  return path != kStandardOutput &&
-         (!std::filesystem::exists(path_of(path), ignored) || std::filesystem::is_regular_file(path_of(path), ignored));
-}
-
 /// Returns a word of --write or --fix that must be the input; empty: none.
 std::string* last_word(OptimizeSettings& s) {
   if (!s.write.empty() && !is_output_of(kRunOutputs, s.write.back())) return &s.write.back();
@@ -203,7 +194,7 @@ void take_input(Command& command, OptimizeSettings& s) {
   }
   if (s.input.empty()) refuse_usage("optimize", "IN is missing: the mesh to improve");
   if (s.output.path.empty()) refuse_usage("optimize", "-o OUT is missing: the file for the result");
-  if (s.save_every && !is_replaced(s.output.path))
+  if (s.save_every && io::is_stream(s.output.path))
     throw Failure(
         Exit::bad_usage,
         fmt::format(

@@ -175,7 +175,7 @@ class TetRun {
     if (s_.details) print_details();
     print(fmt::format("{}{}\n", ending(report_.stopped), work_done(report_)));
     print(fmt::format("wrote {}\n", fmt::join(outputs_.written(), ", ")));
-    if (after_.orthocenters_outside > 0 && s_.output.path != kStandardOutput)
+    if (after_.orthocenters_outside > 0 && !io::is_stream(s_.output.path))
       print(fmt::format("Next: {}\n", command_line("explain", s_.output.path, {})));
   }
   void print_details() const {

@@ -1,5 +1,6 @@
 #include "io/disk/files.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -11,11 +12,12 @@
 
 namespace temper::io {
 
-bool is_stream(const std::string& path) {
-  return path.starts_with("/dev/std") || path.starts_with("/dev/fd/") || look_at(path).kind == OnDisk::Kind::other;
-}
+bool is_stream(const std::string& path) { return look_at(path).kind == OnDisk::Kind::other; }
 
 namespace {
+
+// A stream may never end. A file of this size has some 20 million vertices.
+constexpr std::size_t kMostOfStream = std::size_t{1} << 31;
 
 struct Closer {
   void operator()(std::FILE* f) const { std::fclose(f); }
@@ -27,7 +29,7 @@ std::string without_suffix(const std::string& path, std::string_view suffix) {
   return path.ends_with(suffix) ? path.substr(0, path.size() - suffix.size()) : path;
 }
 
-Source load(const std::string& path) {
+Source load(const std::string& path, const LookAtBeginning& look) {
   const OnDisk there = look_at(path);
   if (there.kind == OnDisk::Kind::folder) fail(ErrorCode::not_found, path, "is a directory, not a mesh file");
   const std::unique_ptr<std::FILE, Closer> file(open_to_read(path));
@@ -35,21 +37,26 @@ Source load(const std::string& path) {
 
   Source source{.path = path, .bytes = {}};
   constexpr std::size_t kChunk = 1 << 16;
+  std::string& bytes = source.bytes;
+  const auto read_up_to = [&](std::size_t size) {
+    const std::size_t had = bytes.size();
+    bytes.resize(std::max(had, size));
+    bytes.resize(had + std::fread(bytes.data() + had, 1, bytes.size() - had, file.get()));
+    return bytes.size() > had;
+  };
+  if (read_up_to(kChunk) && look) look(bytes, std::max<std::uint64_t>(there.bytes, bytes.size()));
   const auto size = static_cast<std::size_t>(there.bytes);
-  source.bytes.reserve(size + kChunk);  // the last look for more bytes must not move them all
-  source.bytes.resize(size);
-  std::size_t got = std::fread(source.bytes.data(), 1, source.bytes.size(), file.get());
-  source.bytes.resize(got);
-  // Pipes have no size, and a file may have grown.
-  for (;;) {
-    source.bytes.resize(got + kChunk);
-    const std::size_t more = std::fread(source.bytes.data() + got, 1, kChunk, file.get());
-    source.bytes.resize(got += more);
-    if (more == 0) break;
+  bytes.reserve(size + kChunk);  // the last look for more bytes must not move them all
+  read_up_to(size);
+  // Streams have no size, and a file may have grown.
+  while (read_up_to(bytes.size() + kChunk)) {
+    if (there.kind == OnDisk::Kind::other && bytes.size() > kMostOfStream)
+      fail(ErrorCode::unsupported, path, "is a stream that has not ended after ", kMostOfStream >> 30,
+           " GiB. Next: write it to a file, and read that");
   }
   if (std::ferror(file.get())) fail(ErrorCode::not_found, path, "cannot be read: ", reason(errno));
-  if (source.bytes.empty()) fail(ErrorCode::empty_input, path, "the file is empty");
-  source.allocation = AllocationLimits(source.bytes.size());
+  if (bytes.empty()) fail(ErrorCode::empty_input, path, "the file is empty");
+  source.allocation = AllocationLimits(bytes.size());
   return source;
 }
 
@@ -70,11 +77,13 @@ Output::Output(std::string path) : path_(std::move(path)), target_(path_), buffe
   const OnDisk there = look_at(path_);
   if (there.kind == OnDisk::Kind::folder)
     fail(ErrorCode::not_writable, path_, "is a directory; expected the name of a file");
-  if (there.exists()) target_ = without_links(path_);
   if (there.kind == OnDisk::Kind::other) {
-    file_ = open_to_write(target_);
+    if (const int open = open_file_of(path_); open >= 0 && !is_open_to_write(open))
+      fail(ErrorCode::not_writable, path_, "cannot be written: ", kClosedStream);
+    file_ = open_to_write(path_);
   } else {
-    temporary_ = Temporary::beside(target_);
+    target_ = without_links(path_);  // a link stays, even if nothing is there yet
+    if (!target_.empty()) temporary_ = Temporary::beside(target_);
     file_ = temporary_.exists() ? temporary_.open() : -1;
   }
   if (file_ < 0) fail(ErrorCode::not_writable, path_, "cannot be written: ", reason(errno));

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,9 +22,6 @@ namespace temper::io {
 
 [[nodiscard]] inline bool exists(const std::string& path) { return look_at(path).exists(); }
 
-/// Says whether no file can be put next to it: a pipe, a device, and standard output, even if it goes to a file.
-[[nodiscard]] bool is_stream(const std::string& path);
-
 /// A whole file in memory.
 struct Source {
   std::string path;   ///< as the user gave it
@@ -34,8 +32,11 @@ struct Source {
   bool raster_in_degrees = false;
 };
 
-/// Reads a file, or fails with the reason: missing, a directory, empty.
-[[nodiscard]] Source load(const std::string& path);
+/// Fails if a file that begins this way cannot be read. `bytes`: of the whole file, or of the beginning of a stream.
+using LookAtBeginning = std::function<void(std::string_view beginning, std::uint64_t bytes)>;
+/// Reads a file, or fails with the reason: missing, a directory, empty, an endless stream. `look` sees the first bytes
+/// before all others are read: a device such as /dev/zero never ends, and a sparse file may be larger than the memory.
+[[nodiscard]] Source load(const std::string& path, const LookAtBeginning& look = {});
 /// At most the first n bytes of a file; none if it cannot be read.
 [[nodiscard]] std::string first_bytes(const std::string& path, std::size_t n);
 /// PATH without its last suffix, when that is `suffix`; else PATH.
@@ -49,7 +50,7 @@ void give_memory_back_of(Vectors&... vectors) {
 }
 
 // Files written whole or not at all. Everything goes to temporary files next to their targets, which are renamed only
-// when all are complete. A target that is no regular file (a pipe, /dev/stdout) is written directly.
+// when all are complete. A stream (a pipe, a device, /dev/stdout) is written directly, and never replaced.
 
 class Output {
  public:

@@ -45,12 +45,12 @@ bool is_freefem(std::string_view head) {
 }
 
 /// The size is exact: 80 bytes of any kind, the number of triangles, and 50 bytes for each.
-bool is_binary_stl(std::string_view bytes) {
+bool is_binary_stl(std::string_view beginning, std::uint64_t bytes) {
   constexpr std::size_t kTitle = 80, kHeader = 84, kTriangleBytes = 50;
-  if (bytes.size() < kHeader) return false;
+  if (beginning.size() < kHeader) return false;
   std::size_t n = 0;
-  for (std::size_t i = kHeader; i > kTitle; --i) n = n << 8 | static_cast<unsigned char>(bytes[i - 1]);
-  return n > 0 && (bytes.size() - kHeader) % kTriangleBytes == 0 && (bytes.size() - kHeader) / kTriangleBytes == n;
+  for (std::size_t i = kHeader; i > kTitle; --i) n = n << 8 | static_cast<unsigned char>(beginning[i - 1]);
+  return n > 0 && (bytes - kHeader) % kTriangleBytes == 0 && (bytes - kHeader) / kTriangleBytes == n;
 }
 
 /// Records of Fortran: a title of 80 bytes, then two integers.
@@ -126,12 +126,12 @@ constexpr Known kKnown[] = {
 
 }  // namespace
 
-std::string recognize_unsupported(std::string_view bytes) {
-  const std::string_view head = bytes.substr(0, kSniffBytes);
+std::string recognize_unsupported(std::string_view beginning, std::uint64_t bytes) {
+  const std::string_view head = beginning.substr(0, kSniffBytes);
   for (const Known& known : kKnown) {
     if (known.is(head)) return text(known.name, ", which temper does not read", known.advice);
   }
-  if (is_binary_stl(bytes)) return text("an STL file in binary, which temper does not read", kMeshio);
+  if (is_binary_stl(beginning, bytes)) return text("an STL file in binary, which temper does not read", kMeshio);
   return {};
 }
 

@@ -16,13 +16,14 @@ std::string numbered(std::string_view kind, const RunLength& numbers, std::size_
   return text(kind, numbers[static_cast<std::int64_t>(i)]);
 }
 
-OutlineDocument read_document(Source& source) {
-  const std::string_view head(source.bytes);
-  if (sniff_geojson(head)) return read_geojson(source);
-  if (sniff_gis(head)) return read_gis(source);
-  if (sniff_jigsaw(head)) return read_jigsaw(source);
-  if (sniff_poly(head)) return read_poly(source);
-  fail(ErrorCode::unsupported, source.path,
+using OutlineReader = OutlineDocument (*)(Source&);
+
+OutlineReader reader_of(const std::string& path, std::string_view head) {
+  if (sniff_geojson(head)) return read_geojson;
+  if (sniff_gis(head)) return read_gis;
+  if (sniff_jigsaw(head)) return read_jigsaw;
+  if (sniff_poly(head)) return read_poly;
+  fail(ErrorCode::unsupported, path,
        "is no outline that temper reads: expected a .poly file of Triangle, a geometry of JIGSAW (MSHID=…), GeoJSON, a "
        "shapefile or a GeoPackage");
 }
@@ -53,8 +54,9 @@ std::string OutlineFileNames::region_where(std::size_t i) const { return at_line
 
 Expected<OutlineFile> read_outline(const std::string& path) {
   return guarded<OutlineFile>(path, [&] {
-    Source source = load(path);
-    OutlineDocument document = read_document(source);
+    OutlineReader reader = nullptr;
+    Source source = load(path, [&](std::string_view head, std::uint64_t) { reader = reader_of(path, head); });
+    OutlineDocument document = reader(source);
     document.file.path = path;
     const Outline& o = document.file.outline;
     if (o.points.empty() || o.segments.empty()) {

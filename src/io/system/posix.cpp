@@ -8,12 +8,14 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <climits>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <optional>
 #include <utility>
 
 #include "io/system/system.hpp"
@@ -168,12 +170,84 @@ std::string file_of_this_code() {
   return dladdr(&here, &self) != 0 ? self.dli_fname : "";
 }
 
+namespace {
+
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+}
+
+/// Where the link leads, or nothing if the path is no link.
+std::optional<std::string> behind_link(const std::string& path) {
+  std::array<char, PATH_MAX> target;
+  const ssize_t n = readlink(path.c_str(), target.data(), target.size());
+  if (n <= 0) return std::nullopt;
+  const std::string name(target.data(), static_cast<std::size_t>(n));
+  return name.front() == '/' ? name : folder_of(path) + "/" + name;
+}
+
+/// The name of the folder without links, or empty.
+std::string real_folder(const std::string& folder) {
+  std::array<char, PATH_MAX> real;
+  return realpath(folder.c_str(), real.data()) != nullptr ? real.data() : "";
+}
+
+/// The last path on the way along the links that is in the file system of processes, where a link is more than its
+/// text: it leads to an open file, even if that has no name any more. Empty: none.
+std::string path_in_proc(const std::string& path) {
+  constexpr int kMost = 40;  // as in without_links()
+  std::optional<std::string> now = path;
+  for (int i = 0; i < kMost && now; ++i, now = behind_link(*now)) {
+    const std::string folder = real_folder(folder_of(*now));
+    if (folder.starts_with("/proc/") || folder == "/dev/fd") return *now;
+  }
+  return {};
+}
+
+/// These names have their meaning even without the file system of processes.
+int standard_stream(const std::string& path) {
+  return path == "/dev/stdin" ? 0 : path == "/dev/stdout" ? 1 : path == "/dev/stderr" ? 2 : -1;
+}
+
+}  // namespace
+
+bool is_of_process(const std::string& path) { return standard_stream(path) >= 0 || !path_in_proc(path).empty(); }
+
+int open_file_of(const std::string& path) {
+  if (const int stream = standard_stream(path); stream >= 0) return stream;
+  const std::string found = path_in_proc(path);
+  if (found.empty()) return -1;
+  const std::string folder = real_folder(folder_of(found));
+  bool ours = folder == "/dev/fd";
+  for (const char* open_files : {"/proc/self/fd", "/proc/thread-self/fd"})
+    ours = ours || folder == real_folder(open_files);
+  const std::string name = found.substr(found.rfind('/') + 1);
+  int number = -1;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  return ours && error == std::errc() && end == name.data() + name.size() ? number : -1;
+}
+
+int open_to_write(const std::string& path) {
+  if (const int file = open_file_of(path); file >= 0) return fcntl(file, F_DUPFD_CLOEXEC, 0);
+  // What another process writes to its file stays.
+  return ::open(path.c_str(), O_WRONLY | (is_of_process(path) ? O_APPEND : O_TRUNC) | O_CLOEXEC);
+}
+
+bool is_open_to_write(int file) {
+  const int flags = fcntl(file, F_GETFL);
+  return flags >= 0 && (flags & O_ACCMODE) != O_RDONLY;
+}
+
 std::string without_links(const std::string& path) {
-  char* const real = realpath(path.c_str(), nullptr);
-  if (real == nullptr) return path;
-  std::string result = real;
-  std::free(real);
-  return result;
+  constexpr int kMost = 40;  // as Linux follows
+  std::string result = path;
+  for (int i = 0; i < kMost; ++i) {
+    const std::optional<std::string> next = behind_link(result);
+    if (!next) return result;
+    result = *next;
+  }
+  errno = ELOOP;
+  return {};
 }
 
 }  // namespace temper::io

@@ -16,8 +16,10 @@ namespace temper::io {
 
 OnDisk look_at(const std::string& path) {
   struct stat found = {};
-  if (stat(path.c_str(), &found) != 0) return {};
-  if (S_ISDIR(found.st_mode)) return {OnDisk::Kind::folder};
+  const bool exists = stat(path.c_str(), &found) == 0;
+  if (exists && S_ISDIR(found.st_mode)) return {OnDisk::Kind::folder};
+  if (is_of_process(path)) return {OnDisk::Kind::other};  // a closed one is no place for a file, either
+  if (!exists) return {};
   if (!S_ISREG(found.st_mode)) return {OnDisk::Kind::other};
   return {OnDisk::Kind::file, static_cast<std::uint64_t>(found.st_size)};
 }
@@ -25,7 +27,6 @@ OnDisk look_at(const std::string& path) {
 std::string reason(int code) { return std::strerror(code); }
 
 std::FILE* open_to_read(const std::string& path) { return std::fopen(path.c_str(), "rb"); }
-int open_to_write(const std::string& path) { return ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC); }
 
 bool write_all(int file, const char* bytes, std::size_t n) {
   while (n > 0) {

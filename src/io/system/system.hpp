@@ -14,23 +14,26 @@
 namespace temper::io {
 
 struct OnDisk {
-  enum class Kind { nothing, file, folder, other };  ///< links followed; other: a pipe, a device
+  enum class Kind { nothing, file, folder, other };  ///< links followed; other: a stream, as is_stream() says
   Kind kind = Kind::nothing;
   std::uint64_t bytes = 0;  ///< of a file
 
   [[nodiscard]] bool exists() const { return kind != Kind::nothing; }
 };
 
+/// Says whether the path stands for an open file of this process or another one, links followed. It may be closed.
+[[nodiscard]] bool is_of_process(const std::string& path);
 /// A path that cannot be examined counts as nothing: opening it gives the reason.
 [[nodiscard]] OnDisk look_at(const std::string& path);
-/// The path of the file itself, if links lead to it.
+/// Follows links from file to file. Returns the path of the file itself, which need not exist. If the links go in
+/// circles, the path is empty, and errno has the reason.
 [[nodiscard]] std::string without_links(const std::string& path);
 /// Why an operation on a file failed, from errno.
 [[nodiscard]] std::string reason(int code);
 
 /// A file or stream of bytes, or null.
 [[nodiscard]] std::FILE* open_to_read(const std::string& path);
-/// A pipe or a device that exists, or −1.
+/// A stream, or −1. An open file of this process is written on from where it is.
 [[nodiscard]] int open_to_write(const std::string& path);
 [[nodiscard]] bool write_all(int file, const char* bytes, std::size_t n);
 /// False on a full or broken disk, which may become known only now.

@@ -35,4 +35,10 @@ void Temporary::end() { path_.clear(); }
 
 std::string without_links(const std::string& path) { return path; }
 
+// No process, and no stream with a name.
+bool is_of_process(const std::string& /*path*/) { return false; }
+int open_file_of(const std::string& /*path*/) { return -1; }
+bool is_open_to_write(int /*file*/) { return true; }
+int open_to_write(const std::string& path) { return ::open(path.c_str(), O_WRONLY | O_TRUNC); }
+
 }  // namespace temper::io

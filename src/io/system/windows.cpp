@@ -110,6 +110,13 @@ std::string with_room(const std::string& target) {
 
 }  // namespace
 
+int open_file_of(const std::string& path) { return standard_stream(path); }
+
+bool is_open_to_write(int file) {
+  const intptr_t handle = _get_osfhandle(file);
+  return handle != -1 && handle != -2;  // −2: the process has no such stream
+}
+
 OnDisk look_at(const std::string& path) {
   if (standard_stream(path) >= 0) return {OnDisk::Kind::other};
   const Handle file = looking_at(path);

@@ -162,6 +162,85 @@ TEST_F(BadInput, FullDiskForStandardOutput) {
   EXPECT_TRUE(contains(outcome.err, "standard output: No space left on device"));
 }
 
+/// A link of our own to standard output: the test must never do harm to /dev/stdout.
+void link_to_standard_output(const std::string& name) { std::filesystem::create_symlink("/proc/self/fd/1", name); }
+
+TEST_F(BadInput, ClosedStandardOutputIsRefusedAndItsLinkStays) {
+  if (!exists("/proc/self/fd")) GTEST_SKIP() << "no /proc here";
+  make_input();
+  const std::vector<std::string> suffixes = {"vtu", "json", "html", "csv", "jsonl", "svg"};
+  for (const std::string& suffix : suffixes) link_to_standard_output("out." + suffix);
+  const auto before = names();
+  for (const std::string& suffix : suffixes) {
+    const std::string mesh = suffix == "vtu" ? "-o out.vtu" : "-o mesh.vtu --write out." + suffix;
+    const Outcome outcome = shell("temper optimize in.vtu " + mesh + " >&-");
+    EXPECT_EQ(outcome.exit, 1) << suffix;
+    EXPECT_TRUE(contains(outcome.err, "out." + suffix + ": cannot be written: the stream is closed"));
+    EXPECT_EQ(std::filesystem::read_symlink("out." + suffix), "/proc/self/fd/1");
+  }
+  EXPECT_EQ(names(), before);
+}
+
+TEST_F(BadInput, StandardOutputWithoutANameIsWrittenOnAndItsLinkStays) {
+  if (!exists("/proc/self/fd")) GTEST_SKIP() << "no /proc here";
+  make_input();
+  temper_ok({"convert", "in.vtu", "-o", "expected.msh"});
+  link_to_standard_output("out.msh");
+  const Outcome outcome =
+      shell("(exec 3<nameless; rm nameless; echo first; temper convert in.vtu -o out.msh; cat <&3 >&2) >nameless");
+  EXPECT_EQ(outcome.exit, 0);
+  EXPECT_EQ(outcome.err, "first\n" + read("expected.msh"));
+  EXPECT_EQ(std::filesystem::read_symlink("out.msh"), "/proc/self/fd/1");
+  EXPECT_EQ(names(), (std::vector<std::string>{"expected.msh", "in.vtu", "out.msh"}));
+}
+
+TEST_F(BadInput, NoFileTakesThePlaceOfClosedStandardOutputAndGetsWhatIsPrinted) {
+  make_input();
+  const Outcome outcome = shell("temper optimize in.vtu -o out.vtu --write trace.jsonl >&-");
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.err, "standard output: it is closed"));
+  EXPECT_EQ(names(), std::vector<std::string>{"in.vtu"});
+  EXPECT_EQ(shell("temper optimize in.vtu -o out.vtu --write trace.jsonl --quiet >&- 2>&- <&-").exit, 0);
+  EXPECT_TRUE(read("trace.jsonl").starts_with("{"));
+  temper_ok({"paper", "replay", "in.vtu", "trace.jsonl", "-o", "again.vtu"});
+}
+
+TEST_F(BadInput, ALinkToAFileOfAMissingFolderIsRefusedBeforeTheWork) {
+  make_input();
+  std::filesystem::create_symlink("nowhere/out.vtu", "out.vtu");
+  const Outcome outcome = temper({"optimize", "in.vtu", "-o", "out.vtu"});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.err, "out.vtu: cannot be written: there is no directory nowhere"));
+  EXPECT_TRUE(std::filesystem::is_symlink("out.vtu"));
+}
+
+TEST_F(BadInput, ADeviceWithoutAnEndIsRefusedByItsFirstBytes) {
+  if (!exists("/dev/zero")) GTEST_SKIP() << "no /dev/zero here";
+  make_input();
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"temper check /dev/zero", "/dev/zero: is none of the formats that temper reads"},
+      {"temper check - < /dev/zero", "/dev/stdin: is none of the formats that temper reads"},
+      {"temper mesh /dev/zero -o out.vtu --size 1", "/dev/zero: is no outline that temper reads"},
+      {"temper optimize in.vtu -o out.vtu --options /dev/zero", "/dev/zero: is no text"},
+      {"temper weights in.vtu -o out.vtu --constraints regular --edges /dev/zero", "/dev/zero: is no text"},
+      {"temper paper replay in.vtu /dev/zero -o out.vtu", "/dev/zero: is no text"},
+  };
+  for (const auto& [command, message] : cases) {
+    const Outcome outcome = shell("ulimit -t 20; " + command);
+    EXPECT_EQ(outcome.exit, 1) << command;
+    EXPECT_TRUE(contains(outcome.err, message));
+  }
+  EXPECT_EQ(names(), std::vector<std::string>{"in.vtu"});
+}
+
+TEST_F(BadInput, AFileLargerThanTheMemoryIsRefusedByItsFirstBytes) {
+  write("sparse.msh", "");
+  std::filesystem::resize_file("sparse.msh", std::uintmax_t{1} << 40);
+  const Outcome outcome = temper({"check", "sparse.msh"});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.err, "sparse.msh: is none of the formats that temper reads"));
+}
+
 #if !TEMPER_SANITIZED
 TEST_F(BadInput, OutOfMemoryIsNoCrash) {
   const Outcome outcome = shell("ulimit -v 300000; temper example random --vertices 50000000 -o out.vtu");
