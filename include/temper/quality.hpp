@@ -44,9 +44,9 @@ struct WorstTriangle {
   std::string why;       ///< "orthocenter outside across edge 3-9: angle of 138.3° at vertex 10"
 };
 
-/// Counts in equal bins over [low, high]. Each bin includes its lower end. Values outside go to the end bins. Reports
-/// have three histograms: the angles of all triangles in degrees, h/ℓ of each triangle and edge, and the lesser of d/ℓ
-/// and 1 − d/ℓ of each edge.
+/// Counts in equal bins over [low, high]. Each bin includes its lower end. Values outside go to the end bins, and NaN
+/// to the first one. Reports have three histograms: the angles of all triangles in degrees, h/ℓ of each triangle and
+/// edge, and the lesser of d/ℓ and 1 − d/ℓ of each edge.
 struct Histogram {
   double low = 0;
   double high = 0;
@@ -55,7 +55,7 @@ struct Histogram {
   void add(double value) {
     const double bins = static_cast<double>(counts.size());
     const double bin = std::floor((value - low) / (high - low) * bins);
-    ++counts[static_cast<std::size_t>(std::clamp(bin, 0.0, bins - 1))];
+    ++counts[static_cast<std::size_t>(std::min(std::max(0.0, bin), bins - 1))];  // max(0, NaN) is 0
   }
   /// Adds the counts of a histogram with the same bins.
   void merge(const Histogram& other) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -14,9 +15,10 @@ inline double median_of_middle(double lower, double upper) {
   return upper < std::numeric_limits<double>::infinity() ? upper + (lower - upper) / 2 : upper;
 }
 
-/// The mean of the middle two for an even number; 0 without values. Precondition: no NaN.
+/// The mean of the middle two for an even number; 0 without values. NaN counts as +∞: an order with NaN is none.
 inline double median_of(std::vector<double> values) {
   if (values.empty()) return 0;
+  for (double& value : values) value = std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return median_of_middle(values.size() % 2 == 1 ? *middle : *std::max_element(values.begin(), middle), *middle);

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -58,7 +60,9 @@ template <class Element>
 class WorstList {
  public:
   explicit WorstList(std::size_t n) : n_(n) {}
+  /// A margin that is NaN ranks as the worst.
   void offer(Ranked<Element> candidate) {
+    if (std::isnan(candidate.margin)) candidate.margin = -std::numeric_limits<double>::infinity();
     if (heap_.size() == n_) {
       if (n_ == 0 || !(candidate < heap_.front())) return;
       std::pop_heap(heap_.begin(), heap_.end());

@@ -41,7 +41,8 @@ double transmissibility(const Mesh& mesh, HalfedgeId h) {
   const auto [a, b, c] = mesh.points(mesh.origin(h), mesh.target(h), mesh.opposite(h));
   const WeightedPoint d = mesh.point(mesh.opposite(mesh.twin(h)), a);
   if (power_test(mesh.space(), a, b, c, d) == Sign::zero) return std::numeric_limits<double>::infinity();
-  return distance(mesh.space(), a, b) / std::abs(dual_length(mesh.space(), a, b, c, d));
+  const double ratio = distance(mesh.space(), a, b) / std::abs(dual_length(mesh.space(), a, b, c, d));
+  return std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio;  // it has to have a rank
 }
 
 /// Calls take(b, value) for each interior edge; b is the number of its block.

@@ -74,7 +74,7 @@ void Tally::add_face(const TetMesh& mesh, HalffaceId h, const TetMeasure& m) {
   const Sign conflict = power_test(a, b, c, d, e);
   non_regular += conflict == Sign::positive;
   const double dual = std::abs(m.h[f] + signed_height(a, c, b, e));
-  transmissibilities.push_back(conflict == Sign::zero || dual == 0 ? kInfinity : area(face) / dual);
+  transmissibilities.push_back(conflict == Sign::zero || !(dual > 0) ? kInfinity : area(face) / dual);
 }
 
 void Tally::merge(const Tally& other) {

@@ -88,6 +88,22 @@ TEST_F(TetFiles, GeometryTagsAndWeightsComeBackFromEveryFormat) {
   }
 }
 
+TEST_F(TetFiles, CoordinatesOfAnyMagnitudeComeBackFromEveryFormat) {
+  for (const double x : {1.1e35, -1e154, 1e200, -1e308, 1e-200}) {
+    TetFile sample = tet_sample();
+    sample.points[1].x = x;
+    for (const std::string& format : tet_formats()) {
+      SCOPED_TRACE(format);
+      EXPECT_EQ(through(sample, format).points, sample.points);
+      if (format != "vtu" && format != "vtkhdf") continue;
+      const std::string unknown =
+          "the quality of tetrahedron 0 and perhaps of others is unknown, and written as the lowest: point 1 has "
+          "coordinates (";
+      EXPECT_NE(warnings.find(unknown), std::string::npos) << warnings;
+    }
+  }
+}
+
 TEST_F(TetFiles, NamesAndDataComeBackOrAWarningNamesThem) {
   const TetFile sample = tet_sample();
   for (const std::string& format : tet_formats()) {

@@ -72,6 +72,31 @@ TEST_F(TriangleQualityOfFiles, IsNoDataOfTheUserAndIsThereOnceAfterManyRounds) {
   EXPECT_EQ(slurp(path("2.vtu")), slurp(path("1.vtu")));
 }
 
+TEST_F(TriangleQualityOfFiles, IsTheLowestIfExactArithmeticCannotMeasureATriangle) {
+  MeshFile file;
+  file.triangles = {{0, 1, 2}};
+  for (const double x : {1e60, -1e60, 1e-60, 1.1e60, 1e154, -1e308, 0.9e-60, -1e-200}) {
+    file.points = {{0, 0}, {1, 0}, {x, 1}};
+    const bool is_unknown = std::abs(x) > 1e60 || std::abs(x) < 1e-60;
+    const auto warnings = write(path("m.vtu"), file);
+    ASSERT_TRUE(warnings) << warnings.error().what();
+    const auto data = all_cell_data(path("m.vtu"));
+    ASSERT_EQ(data.size(), kNames.size()) << x;
+    EXPECT_EQ(std::get<std::vector<float>>(data[3].values)[0] == std::numeric_limits<float>::lowest(), is_unknown) << x;
+    EXPECT_TRUE(!is_unknown || std::get<std::vector<std::uint8_t>>(data[0].values)[0] == 0) << x;
+    ASSERT_EQ(warnings->size(), is_unknown ? 1U : 0U) << x;
+    if (is_unknown) {
+      EXPECT_NE(warnings->front().find("m.vtu: the quality of triangle 0 and perhaps of others is unknown, and "
+                                       "written as the lowest: point 2 has coordinates ("),
+                std::string::npos)
+          << warnings->front();
+    }
+    const auto again = read(path("m.vtu"));
+    ASSERT_TRUE(again) << again.error().what();
+    EXPECT_EQ(again->points[2].x, x);
+  }
+}
+
 TEST_F(TriangleQualityOfFiles, FollowsAMeshThatHasChanged) {
   ASSERT_TRUE(write(path("1.vtu"), from_mesh(*horseshoe())));
   auto file = read(path("1.vtu"));

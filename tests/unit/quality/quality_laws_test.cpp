@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/median.hpp"
+#include "quality/measure.hpp"
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/detail/executor.hpp"
@@ -320,6 +322,23 @@ TEST(QualityLaws, EulerAndTheHistogramsAddUp) {
   const std::size_t negative_bins = 2;  // of d/ℓ: [−0.1, 0)
   EXPECT_EQ(std::accumulate(q.d_over_l.counts.begin(), q.d_over_l.counts.begin() + negative_bins, std::size_t{0}),
             q.edges_not_crossed);
+}
+
+TEST(QualityLaws, NotANumberIsOfTheFirstBinTheWorstMarginAndTheLargestRatio) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  Histogram histogram = {0, 1, std::vector<std::size_t>(2)};
+  for (const double value : {nan, -nan, 0.7}) histogram.add(value);
+  EXPECT_EQ(histogram.counts, (std::vector<std::size_t>{2, 1}));
+
+  EXPECT_EQ(median_of({nan, 1, 2}), 2);
+  EXPECT_EQ(median_of({nan, nan, 1}), infinity);
+
+  WorstList<TriangleId> worst(100);
+  for (std::size_t i = 0; i < 100; ++i) worst.offer({i % 3 == 0 ? nan : double(i), TriangleId(99 - i)});
+  const auto sorted = worst.sorted();
+  EXPECT_EQ(sorted[0].element, TriangleId(std::size_t{0}));  // number 99 was offered NaN, and so was each third before
+  EXPECT_EQ(sorted[33].element, TriangleId(std::size_t{99}));
+  EXPECT_EQ(sorted[34].margin, 1);
 }
 
 TEST(QualityLaws, TheWorstListIsAPrefixOfALongerOne) {

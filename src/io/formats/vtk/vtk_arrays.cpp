@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -13,6 +14,7 @@
 #include "io/formats/cells.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
+#include "mesh/exact_range.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/quality.hpp"
 #include "temper/tets/geometry.hpp"
@@ -245,6 +247,69 @@ float as_float(double value) {
   return static_cast<float>(std::min<double>(value, Limits::max()));
 }
 
+// A mesh has no numbers that exact arithmetic cannot take, but a file that is only converted may have them. They would
+// overflow in the predicates. Such an element is not well-centered, and its measures are the lowest ones.
+
+/// The coordinates that measures use: those of a plane are two.
+Vec3 measured_place(const WriteJob& job, std::size_t point) {
+  if (job.n_tetrahedra() > 0) return job.place(point);
+  const Vec3 p = position_of(job.measured, point);
+  return job.measured.sphere() != nullptr ? p : Vec3{p.x, p.y, 0};
+}
+
+/// The range of the coordinates of these corners.
+template <std::size_t N>
+ExactRange range_of(const WriteJob& job, const std::array<std::int32_t, N>& corners) {
+  double largest = 0;
+  for (const std::int32_t corner : corners) {
+    const Vec3 p = measured_place(job, static_cast<std::size_t>(corner));
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  return N == 3 ? exact_range(largest) : tets::exact_range(largest);
+}
+
+/// The first of these corners with coordinates out of range, or −1.
+template <std::size_t N>
+std::int32_t corner_out_of_range(const WriteJob& job, const std::array<std::int32_t, N>& corners) {
+  const ExactRange range = range_of(job, corners);
+  for (const std::int32_t corner : corners) {
+    const Vec3 p = measured_place(job, static_cast<std::size_t>(corner));
+    if (!range.allows(p.x) || !range.allows(p.y) || !range.allows(p.z)) return corner;
+  }
+  return -1;
+}
+
+template <std::size_t N>
+bool is_measurable(const WriteJob& job, const std::array<std::int32_t, N>& corners) {
+  const ExactRange range = range_of(job, corners).squared();
+  const auto& weights = job.measured.weights;
+  return corner_out_of_range(job, corners) < 0 && std::ranges::all_of(corners, [&](std::int32_t corner) {
+           return weights.empty() || range.allows(weights[static_cast<std::size_t>(corner)]);
+         });
+}
+
+template <std::size_t N>
+void warn_of_scale(const WriteJob& job, std::span<const std::array<std::int32_t, N>> elements, std::string_view name) {
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const std::int32_t corner = corner_out_of_range(job, elements[i]);
+    if (corner < 0) continue;
+    job.warn("the quality of ", name, " ", i, " and perhaps of others is unknown, and written as the lowest: point ",
+             corner, " has coordinates ", coordinates(measured_place(job, static_cast<std::size_t>(corner))), "; ",
+             range_of(job, elements[i]).text());
+    return;
+  }
+}
+
+/// Warns of the first element that cannot be measured.
+void warn_of_scale(const WriteJob& job) {
+  if (job.n_tetrahedra() > 0)
+    warn_of_scale<4>(job, job.tetrahedra->corners, "tetrahedron");
+  else
+    warn_of_scale<3>(job, job.measured.triangles, "triangle");
+}
+
+constexpr double kUnknown = -std::numeric_limits<double>::infinity();
+
 /// Measures the triangles of a file, which may be clockwise there.
 class Measurer {
  public:
@@ -286,6 +351,7 @@ QualityColumns measure_all(std::size_t n, std::size_t n_columns, Executor* execu
 QualityColumns columns_of_triangles(const WriteJob& job) {
   const Measurer measurer(job.measured);
   return measure_all(job.measured.triangles.size(), kTriangleQuality.size(), job.executor, [&](std::size_t t) {
+    if (!is_measurable(job, job.measured.triangles[t])) return std::array{0.0, kUnknown, kUnknown, kUnknown};
     const TriangleQuality q = measurer.measure(t);
     return std::array{q.well_centered ? 1.0 : 0.0, q.min_h_over_l, q.min_d_over_l, q.min_angle_deg};
   });
@@ -295,6 +361,7 @@ QualityColumns columns_of_triangles(const WriteJob& job) {
 QualityColumns columns_of_tetrahedra(const WriteJob& job) {
   const auto& weights = job.file.weights;
   return measure_all(job.n_tetrahedra(), kTetrahedronQuality.size(), job.executor, [&](std::size_t t) {
+    if (!is_measurable(job, job.tetrahedra->corners[t])) return std::array{0.0, kUnknown, kUnknown};
     std::array<tets::WeightedPoint, 4> corners;
     for (std::size_t k = 0; k < 4; ++k) {
       const auto point = static_cast<std::size_t>(job.tetrahedra->corners[t][k]);
@@ -349,6 +416,7 @@ std::vector<VtkArray> vtk_quality(const WriteJob& job) {
              in_quotes(name), " of its own");
     return {};
   }
+  warn_of_scale(job);
   const auto columns =
       std::make_shared<const QualityColumns>(tetrahedra ? columns_of_tetrahedra(job) : columns_of_triangles(job));
   const std::size_t n = columns->front().size(), cells = VtkCells(job).size();
