@@ -145,6 +145,12 @@ std::optional<std::size_t> threads_from(const py::handle& threads) {
     throw py::type_error("threads: expected an integer or None, found " + std::string(py::repr(threads)));
   }
   if (count < 0) fail(ErrorCode::invalid_option, "threads: expected 0 or more, found " + std::to_string(count));
+#ifdef TEMPER_WITH_TBB
+  if (const std::size_t most = TbbExecutor::most_threads(); static_cast<std::size_t>(count) > most)
+    fail(ErrorCode::invalid_option, "threads: expected at most " + std::to_string(most) +
+                                        ", a few times the processors, found " + std::to_string(count) +
+                                        ". Next: leave it out");
+#endif
   return static_cast<std::size_t>(count);
 }
 

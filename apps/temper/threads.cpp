@@ -1,5 +1,7 @@
 #include "threads.hpp"
 
+#include <limits>
+
 #ifdef TEMPER_WITH_TBB
 #include "temper/detail/tbb_executor.hpp"
 #endif
@@ -7,6 +9,8 @@
 namespace temper::app {
 
 #ifdef TEMPER_WITH_TBB
+
+std::size_t most_threads() { return TbbExecutor::most_threads(); }
 
 std::unique_ptr<Executor> make_threads(std::size_t threads) {
   if (threads == 1) return nullptr;
@@ -16,6 +20,8 @@ std::unique_ptr<Executor> make_threads(std::size_t threads) {
 }
 
 #else
+
+std::size_t most_threads() { return std::numeric_limits<std::size_t>::max(); }  // all of them are one
 
 std::unique_ptr<Executor> make_threads(std::size_t) { return nullptr; }
 

@@ -23,9 +23,19 @@ struct TbbExecutor::Arena {
   tbb::task_arena arena;
 };
 
+namespace {
+
+std::size_t processors() { return static_cast<std::size_t>(std::max(1, tbb::info::default_concurrency())); }
+
+}  // namespace
+
+std::size_t TbbExecutor::most_threads() {
+  constexpr std::size_t kEnough = 16, kTimes = 4;  // a test of 8 threads has to run on one processor, too
+  return std::max(kEnough, kTimes * processors());
+}
+
 TbbExecutor::TbbExecutor(std::size_t threads)
-    : arena_(std::make_unique<Arena>(
-          threads > 0 ? threads : static_cast<std::size_t>(std::max(1, tbb::info::default_concurrency())))) {}
+    : arena_(std::make_unique<Arena>(threads > 0 ? std::min(threads, most_threads()) : processors())) {}
 
 TbbExecutor::~TbbExecutor() = default;
 

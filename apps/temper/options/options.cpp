@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "temper/detail/suggest.hpp"
+#include "threads.hpp"
 
 namespace temper::app {
 namespace {
@@ -128,6 +129,22 @@ Option& add_count(Command& command, const std::string& name, std::optional<int>&
   const auto spell = [&target] { return target ? fmt::format("{}", *target) : std::string(kNone); };
   const std::string value_name = "N|" + std::string(kNone);
   return command.add({.names = name, .value_name = value_name, .sentence = description, .take = take, .spell = spell});
+}
+
+Option& add_threads(Command& command, std::uint64_t& target, const std::string& sentence) {
+  const auto take = [&target](const std::string& text) {
+    target = to_count(text, std::uint64_t{0});
+    if (target > most_threads())
+      throw BadValue(
+          fmt::format("{} is out of range, it must be <= {} on this machine: more threads than a few times "
+                      "the processors only wait for each other. Next: leave it out",
+                      text, most_threads()));
+  };
+  return command.add({.names = "--threads",
+                      .value_name = "N",
+                      .sentence = sentence + " The result does not depend on it.",
+                      .take = take,
+                      .spell = [&target] { return fmt::format("{}", target); }});
 }
 
 Option& add_text(Command& command, const std::string& name, const std::string& value_name, std::string& target,

@@ -61,6 +61,10 @@ Option& add_count(Command& command, const std::string& name, int& target, int le
 Option& add_count(Command& command, const std::string& name, std::optional<int>& target, int least,
                   const std::string& description);
 
+/// --threads: 0, or at most a few times the processors.
+Option& add_threads(Command& command, std::uint64_t& target,
+                    const std::string& sentence = "Number of threads. 0 uses all threads of the machine.");
+
 Option& add_text(Command& command, const std::string& name, const std::string& value_name, std::string& target,
                  const std::string& description);
 

@@ -58,8 +58,7 @@ void add_options(Command& command, CheckSettings& s) {
       "Distance below zero to which E_BHs lets h fall, a multiple of each edge's length, or a length. It "
       "is -h0 of the paper. (default: 0)");
   add_tensor(command, s.metric, "Take all measures");
-  add_count(command, "--threads", s.threads, 0,
-            "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
+  add_threads(command, s.threads);
   command.group("Requirements");
   add_requirements(command, s.require, true);
   command.group("Help");

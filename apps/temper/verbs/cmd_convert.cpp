@@ -41,8 +41,7 @@ void add_options(Command& command, ConvertSettings& s) {
   command.add_flag("--flip-flat", s.flip_flat,
                    "Flip away triangles of zero area or turned over, after --merge. Coordinates with few digits make "
                    "them. All points stay.");
-  add_count(command, "--threads", s.threads, 0,
-            "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
+  add_threads(command, s.threads);
   command.group("Help");
   command.add_help({"IN -o OUT [options]",
                     "  temper convert in.vtu -o out.msh\n"

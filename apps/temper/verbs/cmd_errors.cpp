@@ -75,8 +75,7 @@ void add_options(Command& command, ErrorSettings& s) {
       "Number of refinements, each of which cuts every triangle into four. The report then has orders of convergence.");
   add_tensor(command, s.metric, "Take solutions and errors");
   command.add_flag("--condition", s.condition, "Also estimate the condition numbers of both matrices.");
-  add_count(command, "--threads", s.threads, 0,
-            "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
+  add_threads(command, s.threads);
   command.group("Your own problem, -div(K grad u) = f");
   add_problem(command, s.problem,
               "The report is then about this problem: both schemes against finite elements on a refined mesh.");

@@ -123,8 +123,7 @@ void add_optimization(Command& command, MeshSettings& s) {
             "makes another mesh.");
   add_number(command, "--time-limit", s.options.time_limit, kNotNegative,
              "Time limit in seconds. The run then writes the best mesh so far, if there is one. 0 sets no limit.");
-  add_count(command, "--threads", s.threads, 0,
-            "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
+  add_threads(command, s.threads);
 }
 
 void add_options(Command& command, MeshSettings& s) {

@@ -65,8 +65,7 @@ void add_options(Command& command, DecSettings& s) {
              "and below are then connected.");
   command.group("Report");
   command.add_flag("--json", s.json, "Print the summary as JSON.");
-  add_count(command, "--threads", s.threads, 0,
-            "Number of threads. 0 uses all threads of the machine. The result does not depend on it.");
+  add_threads(command, s.threads);
   command.group("Help");
   command.add_help({"IN -o DIR [options]",
                     "  temper operators in.vtu -o operators\n"

@@ -105,9 +105,8 @@ void add_rare(Command& command, OptimizeSettings& s) {
   add_text(command, "--size-data", "NAME", s.size_data, "Name of the point data in the file of --size.").default_text =
       "size";
   add_point_data(command, s.point_data);
-  add_count(command, "--threads", s.threads, 0,
-            "Number of threads of each process. 0 uses all threads of the machine, or all that the process may use. "
-            "The result does not depend on it.");
+  add_threads(command, s.threads,
+              "Number of threads of each process. 0 uses all threads of the machine, or all that the process may use.");
   add_number(
       command, "--save-every", s.save_every, kNotNegative,
       "Write the best mesh so far to OUT during the run, at most once in this many seconds. 0 writes every new one.");

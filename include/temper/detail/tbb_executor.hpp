@@ -15,7 +15,11 @@ namespace temper {
 /// A task arena. Nothing starts before the first run(). The threads are oneTBB's, shared with all its other users.
 class TbbExecutor final : public Executor {
  public:
-  /// `threads`: largest number of threads at once, the caller of run() included; 0: as many as the machine has.
+  /// More threads than this only wait for each other, and each of them costs memory: 4 times the processors, or 16.
+  [[nodiscard]] static std::size_t most_threads();
+
+  /// `threads`: largest number of threads at once, the caller of run() included; 0: as many as the machine has. A
+  /// number above most_threads() counts as most_threads().
   explicit TbbExecutor(std::size_t threads = 0);
   ~TbbExecutor() override;
   TbbExecutor(const TbbExecutor&) = delete;

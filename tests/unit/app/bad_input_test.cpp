@@ -241,6 +241,20 @@ TEST_F(BadInput, AFileLargerThanTheMemoryIsRefusedByItsFirstBytes) {
   EXPECT_TRUE(contains(outcome.err, "sparse.msh: is none of the formats that temper reads"));
 }
 
+TEST_F(BadInput, MoreThreadsThanAFewTimesTheProcessorsAreRefused) {
+  make_input();
+  for (const std::string verb : {"check", "optimize", "convert"}) {
+    std::vector<std::string> words = {verb, "in.vtu", "--threads", "20000"};
+    if (verb != "check") words.insert(words.end(), {"-o", "out.vtu"});
+    const Outcome outcome = temper(words);
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_TRUE(contains(outcome.err, verb + ": --threads: 20000 is out of range, it must be <= "));
+    EXPECT_TRUE(contains(outcome.err, "Next: leave it out"));
+  }
+  temper_ok({"check", "in.vtu", "--threads", "16"});
+  EXPECT_FALSE(exists("out.vtu"));
+}
+
 #if !TEMPER_SANITIZED
 TEST_F(BadInput, OutOfMemoryIsNoCrash) {
   const Outcome outcome = shell("ulimit -v 300000; temper example random --vertices 50000000 -o out.vtu");
