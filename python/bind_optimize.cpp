@@ -247,6 +247,14 @@ void bind_optimize(py::module_& m) {
                "keep", py::object(rows(keeps())))
         .dict;
   });
+  m.def("solver_targets", [] {
+    py::dict targets;
+    for (const SolverName& solver : solver_names()) {
+      if (!solver.target.empty() && solver.target != solver.name)
+        targets[py::str(std::string(solver.name))] = std::string(solver.target);
+    }
+    return targets;
+  });
   m.def("option_table", option_table);
   m.def("idle_options", idle_options);
   m.def("replay", [](const PyMesh& input, const py::iterable& trace) {

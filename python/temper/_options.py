@@ -149,6 +149,9 @@ def lists_presets(function: F) -> F:
     """Puts the words of target, effort and keep into a docstring, as lists."""
     for name, words in PRESETS.items():
         lines = "\n".join(f"        - ``{word}``: {meaning}." for word, meaning in words.items())
+        if name == "target":
+            solvers = ", ".join(f"``{solver}`` ({target})" for solver, target in _temper.solver_targets().items())
+            lines += f"\n\n        The name of a solver stands for its target: {solvers}."
         function.__doc__ = (function.__doc__ or "").replace(f"        [{name}]", lines)
     return function
 

@@ -157,7 +157,10 @@ Option& add_text(Command& command, const std::string& name, const std::string& v
 }
 
 Option& add_argument(Command& command, const std::string& name, std::string& target, const std::string& description) {
-  const auto take = [&target](const std::string& text) { target = text == "-" ? kStandardInput : text; };
+  const auto take = [&target, name, verb = command.name()](const std::string& text) {
+    if (text.empty()) refuse_usage(verb, name + " is missing: expected the name of a file, found an empty one");
+    target = text == "-" ? kStandardInput : text;
+  };
   return command.add({.names = name, .value_name = "", .sentence = description, .take = take});
 }
 

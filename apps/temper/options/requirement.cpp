@@ -12,6 +12,9 @@
 namespace temper::app {
 namespace {
 
+/// Triangles or tetrahedra that are not well-centered, as the reports count them.
+constexpr std::string_view kBad = "bad";
+
 /// "energy.BP.1", and the place of that energy.
 struct EnergyKey {
   std::string key;
@@ -52,6 +55,7 @@ std::vector<Key> keys_of(MeshKind kind) {
     for (const auto& row : rows) keys.push_back({row.key, row.alias, row.better, row.count, row.wanted});
   };
   kind == MeshKind::triangles ? add(quality_measures()) : add(tets::quality_measures());
+  keys.push_back({kBad, {}, Preference::equal, true, 0});
   return keys;
 }
 
@@ -125,6 +129,7 @@ Requirement parse_requirement(std::string_view text, std::span<const Key> keys, 
 }
 
 double value_of(const std::string& key, const Quality& quality) {
+  if (key == kBad) return static_cast<double>(bad_triangles(quality));
   if (const QualityMeasure* measure = find_row(quality_measures(), key)) return measure->of(quality);
   for (const EnergyKey& energy : energy_keys()) {
     if (energy.key == key) return quality.energy[energy.row][energy.star];
@@ -133,6 +138,7 @@ double value_of(const std::string& key, const Quality& quality) {
 }
 
 double value_of(const std::string& key, const tets::Quality& quality) {
+  if (key == kBad) return static_cast<double>(quality.orthocenters_outside);
   const tets::QualityMeasure* measure = find_row(tets::quality_measures(), key);
   return measure == nullptr ? std::nan("") : measure->of(quality);
 }
@@ -176,6 +182,11 @@ std::vector<Outcome> outcomes_of(std::span<const Requirement> requirements, cons
 }
 
 }  // namespace
+
+std::size_t bad_triangles(const Quality& quality) {
+  const double good = quality.well_centered_fraction * static_cast<double>(quality.triangles);
+  return quality.triangles - std::min(quality.triangles, static_cast<std::size_t>(std::lround(good)));
+}
 
 Option& add_requirements(Command& command, std::vector<std::string>& lists, bool tetrahedra) {
   return add_texts(

@@ -35,6 +35,9 @@ struct Outcome {
   bool met = false;
 };
 
+/// Triangles that are not well-centered: the key `bad`, and the number of all reports.
+[[nodiscard]] std::size_t bad_triangles(const Quality& quality);
+
 /// The meshes that a verb takes: their reports have different keys.
 enum class MeshKind { triangles, tetrahedra };
 

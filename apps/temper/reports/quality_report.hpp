@@ -62,8 +62,6 @@ struct TextStyle {
 /// "Next: temper explain out.vtu", if a triangle of the file is not well-centered.
 [[nodiscard]] std::string next_step(const Quality& quality, const std::string& path, const std::string& projection);
 
-/// Triangles that are not well-centered.
-[[nodiscard]] std::size_t bad_triangles(const Quality& quality);
 /// Quadrilaterals, which are two triangles each.
 [[nodiscard]] std::size_t count_quadrilaterals(const Mesh& mesh);
 

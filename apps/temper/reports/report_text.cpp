@@ -195,11 +195,6 @@ std::string in_ascii(std::string text) {
 
 TextStyle text_style() { return {utf8_terminal(), output_width()}; }
 
-std::size_t bad_triangles(const Quality& quality) {
-  const double good = quality.well_centered_fraction * static_cast<double>(quality.triangles);
-  return quality.triangles - std::min(quality.triangles, static_cast<std::size_t>(std::lround(good)));
-}
-
 std::size_t count_quadrilaterals(const Mesh& mesh) {
   std::size_t n = 0;
   for (const HalfedgeId h : mesh.halfedges()) n += mesh.is_diagonal(h) && mesh.is_edge_representative(h) ? 1 : 0;

@@ -204,6 +204,8 @@ Exit run_check(const Arguments& arguments) {
   CheckSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
+  if (std::ranges::find(s.inputs, "") != s.inputs.end())
+    refuse_usage("check", "IN is missing: expected the name of a file, found an empty one");
   std::ranges::replace(s.inputs, "-", kStandardInput);
   Checks checks(command, s);
   if (s.inputs.size() == 1) {

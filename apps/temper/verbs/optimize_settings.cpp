@@ -33,12 +33,24 @@ std::vector<std::pair<std::string, std::string>> meanings_of(std::span<const Pre
   return meanings;
 }
 
+/// BadValue if the word is none of these names of presets.
+void expect_preset(std::string_view word, const std::vector<std::string_view>& names, std::span<const Preset> presets) {
+  if (std::ranges::find(names, word) != names.end()) return;
+  throw BadValue(fmt::format("'{}' is none of {}{}", word, join(names), did_you_mean(word, presets)));
+}
+
 void add_purpose(Command& command, OptimizeSettings& s) {
   Option& target = add_target(command, s.target, true);
   target.meanings.emplace_back("paper", "Algorithm 1 of the paper, with the switches of --help-paper");
-  add_name(
-      command, "--effort", names_of(efforts(), true), [&s](std::string_view name) { s.effort = name; },
-      "Time to spend on repairs and lower errors.")
+  const auto take = [&s, names = names_of(efforts(), true)](const std::string& text) {
+    expect_preset(text, names, efforts());
+    s.effort = text;
+  };
+  command
+      .add({.names = "--effort",
+            .value_name = join(names_of(efforts(), true), "|"),
+            .sentence = "Time to spend on repairs and lower errors.",
+            .take = take})
       .defaults_to([&s] { return s.effort; });
 }
 
@@ -114,6 +126,17 @@ void add_rare(Command& command, OptimizeSettings& s) {
   for (const char* name : {"--format", "--encoding", "--no-triangle-quality"}) command.option(name).rare = true;
 }
 
+/// Solvers by name, which --help-all lists.
+HelpPart solvers_by_name() {
+  HelpPart part = {"Solvers by name, for --for"};
+  for (const SolverName& solver : solver_names()) {
+    if (solver.target == solver.name) continue;
+    const std::string meaning(solver.target.empty() ? solver.uses : "target " + std::string(solver.target));
+    part.rows.push_back({std::string(solver.name), meaning + "."});
+  }
+  return part;
+}
+
 /// Targets of research, which --help-paper lists.
 HelpPart research_targets() {
   HelpPart part = {"Targets of research, for --for"};
@@ -140,10 +163,16 @@ void expect_one_value(const Assignments& assignments) {
 }  // namespace
 
 Option& add_target(Command& command, std::string& target, bool research) {
-  Option& option = add_name(
-      command, "--for", names_of(targets(), research), [&target](std::string_view name) { target = name; },
-      "Purpose of the mesh.");
-  option.value_name = "TARGET";
+  const auto take = [&target, names = names_of(targets(), research)](const std::string& text) {
+    const Expected<std::string_view> named = target_named(text);
+    if (!named && find_solver(text) != nullptr) throw BadValue(named.error().message);
+    expect_preset(named ? *named : text, names, targets());
+    target = named ? *named : text;
+  };
+  Option& option = command.add({.names = "--for",
+                                .value_name = "TARGET",
+                                .sentence = "Purpose of the mesh, or the name of a solver.",
+                                .take = take});
   option.meanings = meanings_of(targets());
   option.defaults_to([&target] { return target; });
   return option;
@@ -171,6 +200,7 @@ Command optimize_command(OptimizeSettings& settings) {
       "  temper optimize in.vtu -o out.vtu --save-every 600\n",
       {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early, Exit::internal}};
   help.all = help_parts(false);
+  help.all.insert(help.all.begin(), solvers_by_name());
   help.paper = help_parts(true);
   help.paper.push_back(research_targets());
   help.instead = [](std::string_view name) {

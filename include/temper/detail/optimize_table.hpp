@@ -67,8 +67,24 @@ struct Preset {
   std::string_view name;
   std::string_view sentence;  ///< Who needs it and what it does, in ASCII
   void (*apply)(OptimizeOptions&);
-  bool research = false;  ///< Preset is for the study of methods
+  bool research = false;           ///< Preset is for the study of methods
+  std::string_view synonyms = {};  ///< Words, with blanks between them, that people take for this one
 };
+
+/// A solver by name, and its target.
+struct SolverName {
+  std::string_view name;
+  std::string_view target;     ///< Empty: the solver has several uses
+  std::string_view uses = {};  ///< Targets of a solver with several uses, and when to take each
+};
+/// The solvers that stand for a target.
+[[nodiscard]] std::span<const SolverName> solver_names();
+/// Returns the solver with this name, or null. Case, blanks and hyphens do not matter.
+[[nodiscard]] const SolverName* find_solver(std::string_view name);
+/// Returns the name of the target that a word is, or that a solver stands for.
+[[nodiscard]] Expected<std::string_view> target_named(std::string_view word);
+/// "; did you mean 'quick'?" for a word that is none of these. Empty: no name and no synonym is near.
+[[nodiscard]] std::string did_you_mean(std::string_view word, std::span<const Preset> presets);
 
 /// The targets: solvers and other uses of a mesh. The first is the default.
 [[nodiscard]] std::span<const Preset> targets();

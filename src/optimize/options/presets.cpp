@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 #include "base/text.hpp"
 #include "temper/detail/optimize_table.hpp"
@@ -120,9 +121,10 @@ constexpr auto kEfforts = std::to_array<Preset>({
        o.accuracy.sweeps = std::min(o.accuracy.sweeps, 5);
        o.repair_trials = 2000;
        o.solver_error.most_vertices = 0;
-     }},
+     },
+     false, "fast faster fastest low lowest small min minimal short"},
     {"normal", "Sweeps until little is gained. Targets vertex and cell also lower the error of the solver itself",
-     [](Options&) {}},
+     [](Options&) {}, false, "default medium middle usual standard"},
     {"high", "More sweeps and repairs, which may add and remove vertices. More steps lower the solver's own error",
      [](Options& o) {
        if (o.accuracy.sweeps > 0) o.accuracy.sweeps = 200;
@@ -131,7 +133,8 @@ constexpr auto kEfforts = std::to_array<Preset>({
        o.repair_trials = 100'000;
        o.solver_error.steps = 200;
        o.solver_error.most_vertices = 1'000'000;
-     }},
+     },
+     false, "best better slow max maximal maximum thorough full long"},
 });
 
 constexpr auto kKeeps = std::to_array<Preset>({
@@ -150,6 +153,41 @@ constexpr auto kKeeps = std::to_array<Preset>({
     {"sizes", "Local sizes stay within a factor of 2", [](Options& o) { o.size_band = kBandOfSizes; }},
 });
 
+/// The solvers of docs/howto/choose.md.
+constexpr auto kSolvers = std::to_array<SolverName>({
+    {"modflow", {}, "target vertex with power cells on the mesh, target cell with triangles as cells"},
+    {"modflow6", {}, "target vertex with power cells on the mesh, target cell with triangles as cells"},
+    {"tough", "vertex"},
+    {"tough2", "vertex"},
+    {"tough3", "vertex"},
+    {"devsim", "vertex"},
+    {"porepy", "cell"},
+    {"fipy", "cell"},
+    {"pydec", {}, "target vertex for functions, target stars for forms on edges or triangles"},
+    {"decapodes", {}, "target vertex for functions, target stars for forms on edges or triangles"},
+    {"landlab", {}, "target vertex and weights that are kept, since Landlab has no place for weights"},
+    {"pytdgl", {}, "target vertex and weights that are kept, since pyTDGL has no place for weights"},
+    {"mpas", "mpas"},
+    {"d-flow-fm", "dflowfm"},
+    {"adcirc", "adcirc"},
+    {"schism", "adcirc"},
+    {"scikit-fem", "fem"},
+    {"skfem", "fem"},
+    {"fenics", "fem"},
+    {"mfem", "fem"},
+    {"sfepy", "fem"},
+});
+
+/// Letters and digits alone, in lower case.
+std::string plain_name(std::string_view name) {
+  std::string plain;
+  for (const char c : name) {
+    const char lower = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if ((lower >= 'a' && lower <= 'z') || (lower >= '0' && lower <= '9')) plain += lower;
+  }
+  return plain;
+}
+
 /// Returns the preset of this name, or an error that lists the names.
 Expected<const Preset*> find(std::span<const Preset> presets, std::string_view what, std::string_view name) {
   std::vector<std::string_view> names;
@@ -160,7 +198,7 @@ Expected<const Preset*> find(std::span<const Preset> presets, std::string_view w
   return InputError{ErrorCode::invalid_option,
                     {},
                     std::string(what) + " is '" + std::string(name) + "'; expected one of " + join(names) +
-                        did_you_mean(name, names)};
+                        did_you_mean(name, presets)};
 }
 
 InputError contradiction(const std::string& word, const OptionRow& row, const OptimizeOptions& options) {
@@ -181,12 +219,47 @@ bool changes(const Preset& preset, Unknowns unknowns) {
 std::span<const Preset> targets() { return kTargets; }
 std::span<const Preset> efforts() { return kEfforts; }
 std::span<const Preset> keeps() { return kKeeps; }
+std::span<const SolverName> solver_names() { return kSolvers; }
+
+const SolverName* find_solver(std::string_view name) {
+  const auto* const found =
+      std::ranges::find(kSolvers, plain_name(name), [](const SolverName& solver) { return plain_name(solver.name); });
+  return found == kSolvers.end() ? nullptr : found;
+}
+
+std::string did_you_mean(std::string_view word, std::span<const Preset> presets) {
+  std::vector<std::string_view> names;
+  for (const Preset& preset : presets) names.push_back(preset.name);
+  if (presets.data() == kTargets.data()) {
+    for (const SolverName& solver : kSolvers) names.push_back(solver.name);
+  }
+  for (const Preset& preset : presets) {
+    const std::string padded = " " + std::string(preset.synonyms) + " ";
+    if (!word.empty() && padded.find(" " + plain_name(word) + " ") != std::string::npos)
+      return "; did you mean '" + std::string(preset.name) + "'?";
+  }
+  return did_you_mean(word, names);
+}
+
+Expected<std::string_view> target_named(std::string_view word) {
+  const SolverName* const solver = find_solver(word);
+  if (solver == nullptr) {
+    const Expected<const Preset*> target = find(kTargets, "target", word);
+    return target ? Expected<std::string_view>((*target)->name) : target.error();
+  }
+  if (!solver->target.empty()) return solver->target;
+  return InputError{
+      ErrorCode::invalid_option,
+      {},
+      "'" + std::string(word) + "' stands for no target of its own; expected " + std::string(solver->uses)};
+}
 
 Expected<OptimizeOptions> options_for(std::string_view target, std::string_view effort,
                                       std::span<const std::string_view> keep) {
   Options options;
-  const Expected<const Preset*> wanted = find(kTargets, "target", target);
-  if (!wanted) return wanted.error();
+  const Expected<std::string_view> named = target_named(target);
+  if (!named) return named.error();
+  const Expected<const Preset*> wanted = find(kTargets, "target", *named);
   (*wanted)->apply(options);
   const Expected<const Preset*> time = find(kEfforts, "effort", effort);
   if (!time) return time.error();

@@ -241,6 +241,20 @@ TEST_F(BadInput, AFileLargerThanTheMemoryIsRefusedByItsFirstBytes) {
   EXPECT_TRUE(contains(outcome.err, "sparse.msh: is none of the formats that temper reads"));
 }
 
+TEST_F(BadInput, AnEmptyNameIsMissing) {
+  make_input();
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"check", ""},
+                                                {"check", "in.vtu", ""},
+                                                {"optimize", "", "-o", "out.vtu"},
+                                                {"convert", "", "-o", "out.vtu"},
+                                                {"explain", ""},
+                                                {"draw", "", "-o", "p.svg"}}) {
+    const Outcome outcome = temper(words);
+    EXPECT_EQ(outcome.exit, 2) << words[0];
+    EXPECT_TRUE(contains(outcome.err, words[0] + ": IN is missing"));
+  }
+}
+
 TEST_F(BadInput, MoreThreadsThanAFewTimesTheProcessorsAreRefused) {
   make_input();
   for (const std::string verb : {"check", "optimize", "convert"}) {

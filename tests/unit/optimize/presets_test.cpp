@@ -100,6 +100,36 @@ TEST(Presets, OptionsThatChangeAPartToKeepAreRefused) {
   EXPECT_FALSE(check_kept(options, Words{"corners"}));
 }
 
+TEST(Presets, TheNameOfASolverStandsForItsTarget) {
+  for (const SolverName& solver : solver_names()) {
+    const auto options = options_for(solver.name);
+    EXPECT_EQ(static_cast<bool>(options), !solver.target.empty()) << solver.name;
+    if (options) {
+      EXPECT_EQ(values_of(*options), values_of(*options_for(solver.target))) << solver.name;
+    }
+  }
+  for (const char* word : {"PorePy", "porepy", "pore-py"}) EXPECT_EQ(*target_named(word), "cell");
+  for (const char* word : {"D-Flow FM", "d-flow-fm", "dflowfm"}) EXPECT_EQ(*target_named(word), "dflowfm");
+  EXPECT_EQ(*target_named("SCHISM"), "adcirc");
+  EXPECT_EQ(*target_named("tough"), "vertex");
+}
+
+TEST(Presets, ASolverOfSeveralUsesIsToldWithItsTargets) {
+  const std::string text = "'modflow' stands for no target of its own; expected target vertex with power cells on the "
+                           "mesh, target cell with triangles as cells";
+  EXPECT_EQ(message(options_for("modflow")), text);
+  EXPECT_NE(message(options_for("Decapodes")).find("target stars for forms"), std::string::npos);
+}
+
+TEST(Presets, ASynonymOfAnEffortIsGuessed) {
+  EXPECT_TRUE(message(options_for("any", "fast")).ends_with("; did you mean 'quick'?"));
+  EXPECT_TRUE(message(options_for("any", "BEST")).ends_with("; did you mean 'high'?"));
+  EXPECT_TRUE(message(options_for("any", "default")).ends_with("; did you mean 'normal'?"));
+  EXPECT_TRUE(message(options_for("any", "hihg")).ends_with("; did you mean 'high'?"));
+  EXPECT_TRUE(message(options_for("skism")).ends_with("; did you mean 'schism'?"));
+  EXPECT_FALSE(message(options_for("any", "")).ends_with("?"));
+}
+
 TEST(Presets, AnUnknownWordIsToldWithAllWords) {
   for (const std::string& text : {message(options_for("mpass")), message(options_for("any", "hard")),
                                   message(options_for("any", "normal", Words{"points"}))}) {
