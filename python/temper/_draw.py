@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import json
 import os
+from numbers import Real
 from typing import Any, Sequence
 
 from . import _temper
@@ -12,7 +13,7 @@ from ._explain import explain
 from ._measure import quality
 from ._mesh import PICTURE_WIDTH, Mesh, as_mesh
 from ._optimize import OptimizeReport
-from ._records import Record, table
+from ._records import Record, expect, table
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh, refuse_for_tetrahedra
 
 _EXPLAINED = 500  # bad triangles: about one second, as in the program
@@ -117,6 +118,11 @@ def _tets(before: AnyMeshLike | None) -> Any:
 
 def _options(values: dict[str, Any]) -> dict[str, Any]:
     options = {k: v for k, v in values.items() if k not in ("mesh", "before", "cut")}
+    for name, value in options.items():
+        kind: Any = str if name == "title" else Real if name in ("width", "weight_scale") else (bool, int)
+        if name not in ("zoom", "view") and not isinstance(value, kind):
+            wanted = "text" if kind is str else "a number" if kind is Real else "True or False"
+            raise TypeError(f"{name}: expected {wanted}, found {value!r}")
     if options["zoom"] is not None:
         options["zoom"] = tuple(float(v) for v in options["zoom"])
         if len(options["zoom"]) != 4:
@@ -202,7 +208,7 @@ def html_report(
         shown["before"] = _measures(old)
     shown["after"] = measures
     if report is not None:
-        run = report.as_dict()
+        run = expect("report", report, OptimizeReport).as_dict()
         shown.update({key: run[key] for key in ("sweeps", "stopped", "notes", "history")})
         for record in shown["history"]:
             del record["seconds"]  # the same run makes the same page

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _temper
 from ._dec import CoefficientLike, _coefficient_of, _named_lines
 from ._mesh import Mesh, MeshLike, _doubles, as_mesh
-from ._records import Record, merged
+from ._records import Record, expect, merged
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh
 
 FieldGroup = Literal["chosen", "held-back", "exact"]
@@ -198,7 +198,7 @@ def _fields(d: dict[str, Any], fields: Sequence[ErrorField] = ()) -> list[FieldE
 
 
 def _plain(fields: Sequence[FieldErrors]) -> tuple[list[str], npt.NDArray[np.float64]]:
-    values = np.array([row.errors._row() for row in fields], dtype=np.float64).reshape(-1, 10)
+    values = np.array([expect("fields", row, FieldErrors).errors._row() for row in fields], dtype=np.float64).reshape(-1, 10)
     return [row.field.name for row in fields], values
 
 
@@ -288,6 +288,9 @@ def _plain_problem(
     coefficient: CoefficientLike | None = None,
 ) -> tuple[Any, ...]:
     """Coefficient, source and parts of the boundary for the compiled module."""
+    for name, values in (("dirichlet", dirichlet), ("neumann", neumann or {})):
+        if not isinstance(values, Mapping):
+            raise TypeError(f"{name}: expected a dict of names and values, found {type(values).__name__}")
     given = [
         (name, float(value), is_flux)
         for values, is_flux in ((neumann or {}, True), (dirichlet, False))
@@ -386,7 +389,7 @@ def measure_errors(
     """
     if isinstance(fields, str):
         fields = [fields]
-    plain_frame = frame._plain() if frame is not None else None
+    plain_frame = expect("frame", frame, FieldFrame)._plain() if frame is not None else None
     any_mesh = as_any_mesh(mesh)
     if isinstance(any_mesh, TetMesh):
         if refine or local:
@@ -420,6 +423,9 @@ def arithmetic_mean(fields: Sequence[FieldErrors], group: FieldGroup | None = No
 
 def error_ratios(after: ErrorReport | TetErrorReport, before: ErrorReport | TetErrorReport) -> list[FieldErrors]:
     """The ratio of errors, field by field: below 1 if ``after`` is better. TemperError if fields or frames differ."""
+    for name, report in (("after", after), ("before", before)):
+        if not isinstance(report, (ErrorReport, TetErrorReport)):
+            raise TypeError(f"{name}: expected an ErrorReport or a TetErrorReport, found {type(report).__name__}")
     frames = (0.0, 0.0, 1.0), (0.0, 0.0, 1.0 if after.frame == before.frame else 2.0)  # equal if those are
     d = _temper.error_ratios(*_plain(after.fields), frames[0], *_plain(before.fields), frames[1])
     return _fields(d, [row.field for row in after.fields])

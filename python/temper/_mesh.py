@@ -626,12 +626,16 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
     ------
     TemperError
         The errors of ``Mesh``; also no triangles, and points in space that are on no sphere.
+    TypeError
+        Another class.
 
     Warns
     -----
     TemperWarning
         Points of no triangle that are dropped; clockwise triangles that are reversed; data and cells left out.
     """
+    if not all(hasattr(mesh, name) for name in ("points", "cells", "point_data", "point_sets", "cell_sets")):
+        raise TypeError(f"mesh: expected a meshio.Mesh, found {type(mesh).__name__}. Next: temper.as_mesh takes other classes")
     sets = {"point_sets": mesh.point_sets, "cell_sets": mesh.cell_sets}
     lost = [f"{kind} {', '.join(map(repr, names))} are left out" for kind, names in sets.items() if names]
     handle, messages = handle_of(mesh, fixed_tags)

@@ -16,7 +16,7 @@ from ._mesh import Mesh, _doubles, _ints, _tags
 from ._optimize import OptimizeReport, _observer, _report
 from ._options import OptimizeOptions, options_for
 from ._progress import Line, Progress
-from ._records import Record, merged
+from ._records import Record, expect, merged
 from .size import SizeField
 
 
@@ -205,7 +205,7 @@ def mesh_outline(
     """
     joins = (snap, drop_below, split_crossings)
     options = _mesher_options(size, grade, region_sizes, joins, attempts, most_triangles, time_limit, enclosed)
-    return _meshed(_temper.mesh_outline, outline._plain(), options, target, optimize, threads, observer, progress)
+    return _meshed(_temper.mesh_outline, expect("outline", outline, Outline)._plain(), options, target, optimize, threads, observer, progress)
 
 
 def mesh_sphere(
@@ -274,9 +274,9 @@ def mesh_sphere(
     nothing = Outline([], [])
     sphere = {
         "radius": float(radius),
-        "basins": (basins or nothing)._plain(),
-        "coasts": (coasts or nothing)._plain(),
-        "lines": (lines or nothing)._plain(),
+        "basins": expect("basins", basins or nothing, Outline)._plain(),
+        "coasts": expect("coasts", coasts or nothing, Outline)._plain(),
+        "lines": expect("lines", lines or nothing, Outline)._plain(),
     }
     joins = (snap, drop_below, split_crossings)
     options = _mesher_options(size, grade, region_sizes, joins, attempts, most_triangles, time_limit)

@@ -11,6 +11,7 @@ from . import _temper
 from ._dec import dec_operators
 from ._mesh import Mesh, MeshLike, as_mesh
 from ._measure import triangle_quality
+from ._records import expect
 
 # Those of draw_svg.
 _BAD = "#c83a00"
@@ -98,6 +99,7 @@ def plot(
 
     mesh = as_mesh(mesh)
     mesh._handle.require_plane("plot()")
+    _expect_axes(ax)
     if ax is None:
         ax = pyplot.subplots(figsize=(7, 6), layout="constrained")[1]
     points, triangles = np.asarray(mesh.points), np.asarray(mesh.triangles)
@@ -177,19 +179,28 @@ def _frame(ax: Any, points: Any, title: str | None) -> None:
         ax.set_title(title)
 
 
+def _expect_axes(ax: Any) -> None:
+    if ax is not None and not hasattr(ax, "add_collection"):
+        raise TypeError(f"ax: expected axes of Matplotlib or None, found {type(ax).__name__}")
+
+
 def plot_history(report: Any, *, ax: Any = None) -> Any:
     """Plots bad triangles and energy against sweeps, from an ``OptimizeReport``. Returns the axes."""
     from matplotlib import pyplot
 
+    from ._optimize import OptimizeReport
+
+    history = expect("report", report, OptimizeReport).history
+    _expect_axes(ax)
     if ax is None:
         ax = pyplot.subplots(figsize=(6, 3.5), layout="constrained")[1]
-    sweeps = [record.sweep for record in report.history]
-    ax.step(sweeps, [record.bad for record in report.history], where="post", color=_BAD, label="bad triangles")
+    sweeps = [record.sweep for record in history]
+    ax.step(sweeps, [record.bad for record in history], where="post", color=_BAD, label="bad triangles")
     ax.set_xlabel("sweep")
     ax.set_ylabel("triangles not well-centered", color=_BAD)
     ax.set_yscale("symlog", linthresh=1)
     ax.set_ylim(bottom=0)
     energy = ax.twinx()
-    energy.plot(sweeps, [record.energy for record in report.history], color=_DUAL, label="energy")
+    energy.plot(sweeps, [record.energy for record in history], color=_DUAL, label="energy")
     energy.set_ylabel("energy, at each sweep's γ", color=_DUAL)
     return ax

@@ -5,11 +5,30 @@ from __future__ import annotations
 import dataclasses
 import html
 import math
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
+_T = TypeVar("_T")
+
 _SHOWN = 12  # longer arrays and lists are described by their shape
+
+
+def expect(name: str, value: Any, kind: type[_T]) -> _T:
+    """The value, which must be of this class. TypeError: it is of another one."""
+    if not isinstance(value, kind):
+        article = "an" if kind.__name__[0] in "AEIOU" else "a"
+        raise TypeError(f"{name}: expected {article} {kind.__name__}, found {type(value).__name__}")
+    return value
+
+
+def pair(name: str, value: Any) -> tuple[float, float]:
+    """Two numbers. TypeError: something else."""
+    if isinstance(value, (str, bytes)) or not hasattr(value, "__getitem__") or not hasattr(value, "__len__") or isinstance(value, dict):
+        raise TypeError(f"{name}: expected two numbers, found {value!r}")
+    if len(value) != 2:
+        raise ValueError(f"{name}: expected two numbers, found {len(value)}")
+    return float(value[0]), float(value[1])
 
 
 def show(value: Any) -> str:

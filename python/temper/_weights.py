@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._mesh import Mesh, MeshLike, _ints, as_mesh
-from ._records import Record, merged
+from ._records import Record, expect, merged
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh, refuse_for_tetrahedra
 
 Constraints = Literal["well_centered", "heights_only", "regular", "completely_well_centered"]
@@ -337,7 +337,7 @@ def check_certificate(mesh: AnyMeshLike, certificate: Certificate | Connectivity
     if isinstance(certificate, ConnectivityProof):
         return _temper.check_proof(as_mesh(mesh)._handle, certificate._plain())
     check = _temper.tet_check_certificate if isinstance(any_mesh, TetMesh) else _temper.check_certificate
-    return check(any_mesh._handle, certificate._plain())
+    return check(any_mesh._handle, expect("certificate", certificate, Certificate)._plain())
 
 
 # --- connectivity ----------------------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from . import _temper
 from ._mesh import MeshLike, _doubles, as_mesh
 from ._options import EnergyName, LengthParameter, LengthParameterLike, _length_parameter
-from ._records import Record
+from ._records import Record, expect
 from ._space import Space
 
 __all__ = ["EnergyInfo", "EnergyModel", "VertexDerivatives", "energies", "total_energy", "triangle_energy", "vertex_energy"]
@@ -71,7 +71,7 @@ class EnergyModel(Record):
 
 def total_energy(mesh: MeshLike, model: EnergyModel = EnergyModel(), *, threads: int | None = None) -> float:
     """The energy of a mesh; inf if any term is outside its domain. Any number of threads gives the same bits."""
-    return _temper.total_energy(as_mesh(mesh)._handle, model._plain(), threads)
+    return _temper.total_energy(as_mesh(mesh)._handle, expect("model", model, EnergyModel)._plain(), threads)
 
 
 def triangle_energy(model: EnergyModel, corners: npt.ArrayLike, *, space: Space = Space()) -> float:
@@ -84,7 +84,7 @@ def triangle_energy(model: EnergyModel, corners: npt.ArrayLike, *, space: Space 
     >>> round(energy.triangle_energy(model, [(0, 0, 0), (1, 0, 0), (0.5, 0.75**0.5, 0)]), 12)
     4.618802153517
     """
-    return _temper.triangle_energy(model._plain(), _doubles(corners, 3, "corners"), space.radius)
+    return _temper.triangle_energy(expect("model", model, EnergyModel)._plain(), _doubles(corners, 3, "corners"), space.radius)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -103,4 +103,4 @@ class VertexDerivatives(Record):
 
 def vertex_energy(mesh: MeshLike, model: EnergyModel, vertex: int) -> VertexDerivatives:
     """The part of the total energy that depends on a vertex, with its derivatives."""
-    return VertexDerivatives(**_temper.vertex_energy(as_mesh(mesh)._handle, model._plain(), vertex))
+    return VertexDerivatives(**_temper.vertex_energy(as_mesh(mesh)._handle, expect("model", model, EnergyModel)._plain(), vertex))

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._mesh import Mesh, _doubles, _ints
+from ._records import pair
 
 __all__ = [
     "airfoil", "annulus", "constrained_delaunay", "graded_mesh", "graded_sphere", "graded_sphere_size",
@@ -98,12 +99,12 @@ def icosahedral(level: int = 4, radius: float = 1.0) -> Mesh:
 def periodic_delaunay(points: npt.ArrayLike, period: tuple[float, float] = (1.0, 1.0)) -> Mesh:
     """The Delaunay triangulation of points, (n, 2), in a plane that is periodic along both axes. Points may be any
     images, and keep their numbers. TemperError if there are too few for triangles that fit into half a period."""
-    return Mesh._of(_temper.periodic_delaunay(_doubles(points, 2, "points"), period[0], period[1]))
+    return Mesh._of(_temper.periodic_delaunay(_doubles(points, 2, "points"), *pair("period", period)))
 
 
 def random_periodic(vertices: int = 1000, seed: int = 1, period: tuple[float, float] = (1.0, 1.0)) -> Mesh:
     """Delaunay triangulation of uniformly random points in a periodic plane. About half of the triangles are bad."""
-    return Mesh._of(_temper.random_periodic(vertices, seed, period[0], period[1]))
+    return Mesh._of(_temper.random_periodic(vertices, seed, *pair("period", period)))
 
 
 def periodic_hexagons(nx: int = 16, ny: int = 16, distance: float = 1.0, channel: bool = False) -> Mesh:
@@ -128,7 +129,7 @@ def graded_sphere(
     """Delaunay triangulation of random points around a sphere of this radius [length]. Sizes grow by ``ratio``, 1 to
     1000, from a place at longitude and latitude ``at`` [degrees] to the opposite place. About half of the triangles are
     bad."""
-    return Mesh._of(_temper.graded_sphere(vertices, ratio, at[0], at[1], seed, radius))
+    return Mesh._of(_temper.graded_sphere(vertices, ratio, *pair("at", at), seed, radius))
 
 
 def graded_sphere_size(
@@ -140,7 +141,7 @@ def graded_sphere_size(
 ) -> npt.NDArray[np.float64]:
     """The sizes that the points of ``graded_sphere`` follow [length], (k,), in (k, 3) directions of any length. They
     are the edges of equilateral triangles of the same number."""
-    return _temper.graded_sphere_size(vertices, ratio, at[0], at[1], radius, _doubles(directions, 3, "directions"))
+    return _temper.graded_sphere_size(vertices, ratio, *pair("at", at), radius, _doubles(directions, 3, "directions"))
 
 
 def sheared_grid(nx: int = 20, ny: int = 20, shear: float = 0.5) -> Mesh:

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from . import _temper
 from ._mesh import _doubles
 from ._outline import Outline
-from ._records import Record
+from ._records import Record, expect
 
 __all__ = [
     "Projection", "direction_of", "forward", "inverse", "lon_lat_of", "mean_place", "parse_projection", "project",
@@ -49,17 +49,17 @@ def parse_projection(text: str, places: npt.ArrayLike | None = None) -> Projecti
 def forward(projection: Projection, lon_lat: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Places on the map, (k, 2) [m], from (k, 2) longitudes and latitudes [degrees]; inf if the map has no end
     there."""
-    return _temper.forward(*projection._plain(), _doubles(lon_lat, 2, "lon_lat"))
+    return _temper.forward(*expect("projection", projection, Projection)._plain(), _doubles(lon_lat, 2, "lon_lat"))
 
 
 def inverse(projection: Projection, places: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Longitudes, in [center − 180, center + 180], and latitudes [degrees], (k, 2), from (k, 2) places on the map."""
-    return _temper.inverse(*projection._plain(), _doubles(places, 2, "places"))
+    return _temper.inverse(*expect("projection", projection, Projection)._plain(), _doubles(places, 2, "places"))
 
 
 def scale_factor(projection: Projection, lon_lat: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Length on the map over length on the sphere, (k,): the same in all directions."""
-    return _temper.scale_factor(*projection._plain(), _doubles(lon_lat, 2, "lon_lat"))
+    return _temper.scale_factor(*expect("projection", projection, Projection)._plain(), _doubles(lon_lat, 2, "lon_lat"))
 
 
 def direction_of(lon_lat: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -80,7 +80,7 @@ def mean_place(lon_lat: npt.ArrayLike) -> tuple[float, float]:
 def project(outline: Outline, projection: Projection) -> Outline:
     """Maps an outline. TemperError, with its names: latitudes beyond the poles, longitudes beyond ±360, places that are
     infinitely far away, segments that are torn apart because the map ends between their ends."""
-    plain = outline._plain()
-    projected = Outline._of(_temper.project(plain, *projection._plain()))
-    projected._degrees = (*projection._plain(), plain["points"])
+    plain = expect("outline", outline, Outline)._plain()
+    projected = Outline._of(_temper.project(plain, *expect("projection", projection, Projection)._plain()))
+    projected._degrees = (*expect("projection", projection, Projection)._plain(), plain["points"])
     return projected

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._mesh import Mesh, MeshLike, _doubles, as_mesh
-from ._records import Record
+from ._records import Record, expect
 
 __all__ = ["SizeReport", "Spread", "input_size_field", "local_size", "measure_size", "relative_lengths",
            "sizes_from_depths"]
@@ -153,4 +153,4 @@ def relative_lengths(mesh: MeshLike) -> npt.NDArray[np.float64]:
 
 def measure_size(mesh: MeshLike, field: SizeField) -> SizeReport:
     """Compares the local sizes of a mesh with a field."""
-    return _size_report(_temper.measure_size(as_mesh(mesh)._handle, field._handle))
+    return _size_report(_temper.measure_size(as_mesh(mesh)._handle, expect("field", field, SizeField)._handle))

@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._mesh import Mesh, MeshLike, as_mesh, put_back
-from ._records import Record
+from ._records import Record, expect
 from ._temper import InsertionPlan, RemovalPlan
 
 __all__ = [
@@ -29,26 +29,26 @@ __all__ = [
 
 def can_flip(mesh: Mesh, halfedge: int) -> Literal["possible", "boundary", "constrained", "not_convex"]:
     """Says that the edge of a halfedge can be flipped, or why not. Exact."""
-    return _temper.can_flip(mesh._handle, halfedge)
+    return _temper.can_flip(expect("mesh", mesh, Mesh)._handle, halfedge)
 
 
 def flip(mesh: Mesh, halfedge: int) -> int:
     """Replaces the edge by the other diagonal, and returns the halfedge of the new edge in the same triangle's slot.
     Three more flips of it restore every slot. TemperError if it cannot be flipped. O(1), unless a view of the mesh
     exists."""
-    return _temper.flip(mesh._handle, halfedge)
+    return _temper.flip(expect("mesh", mesh, Mesh)._handle, halfedge)
 
 
 def plan_removal(mesh: Mesh, vertex: int) -> RemovalPlan:
     """Plans to remove a vertex so that the domain and its interfaces keep their shape. ``status`` tells you if it can
     be removed."""
-    return _temper.plan_removal(mesh._handle, vertex)
+    return _temper.plan_removal(expect("mesh", mesh, Mesh)._handle, vertex)
 
 
 def plan_collapse(mesh: Mesh, vertex: int, into: int) -> RemovalPlan:
     """Plans to collapse the edge between a vertex and its neighbor ``into``: the vertex is removed, and all new
     triangles have ``into`` as a corner."""
-    return _temper.plan_collapse(mesh._handle, vertex, into)
+    return _temper.plan_collapse(expect("mesh", mesh, Mesh)._handle, vertex, into)
 
 
 def removal_from_names(
@@ -56,43 +56,43 @@ def removal_from_names(
 ) -> RemovalPlan:
     """Restores a plan from recorded numbers: ``plan.vertex``, ``plan.link[0]`` and ``plan.triangles``. It checks all of
     it."""
-    return _temper.removal_from_names(mesh._handle, vertex, link_first, list(triangles))
+    return _temper.removal_from_names(expect("mesh", mesh, Mesh)._handle, vertex, link_first, list(triangles))
 
 
 def remove_vertex(mesh: Mesh, plan: RemovalPlan) -> None:
     """Commits a plan with status possible. All other numbers stay valid until ``mesh.compact()`` drops what is erased.
     Most other functions need ``compact()`` first."""
-    _temper.remove_vertex(mesh._handle, plan)
+    _temper.remove_vertex(expect("mesh", mesh, Mesh)._handle, plan)
 
 
 def plan_insertion(mesh: Mesh, point: tuple[float, float, float], near: int = 0) -> InsertionPlan:
     """Plans to insert a vertex at (x, y, w) [length, length, length²]. An exact walk from triangle ``near`` finds its
     place."""
-    return _temper.plan_insertion(mesh._handle, *point, near)
+    return _temper.plan_insertion(expect("mesh", mesh, Mesh)._handle, *point, near)
 
 
 def plan_split(mesh: Mesh, halfedge: int, at: float | tuple[float, float, float]) -> InsertionPlan:
     """Plans to split an edge: at a part of the way, 0 < at < 1, with a weight for which duals cross its pieces; or at a
     point (x, y, w) on it."""
     if isinstance(at, (int, float)):
-        return _temper.plan_split(mesh._handle, halfedge, at)
-    return _temper.plan_split_at(mesh._handle, halfedge, *at)
+        return _temper.plan_split(expect("mesh", mesh, Mesh)._handle, halfedge, at)
+    return _temper.plan_split_at(expect("mesh", mesh, Mesh)._handle, halfedge, *at)
 
 
 def plan_center(mesh: Mesh, triangle: int) -> InsertionPlan:
     """Plans to insert a vertex at the orthocenter of a triangle, with the interpolated weight."""
-    return _temper.plan_center(mesh._handle, triangle)
+    return _temper.plan_center(expect("mesh", mesh, Mesh)._handle, triangle)
 
 
 def insert_vertex(mesh: Mesh, plan: InsertionPlan) -> int:
     """Commits a plan with status possible or not_regular, and returns the new vertex, which is the last one."""
-    return _temper.insert_vertex(mesh._handle, plan)
+    return _temper.insert_vertex(expect("mesh", mesh, Mesh)._handle, plan)
 
 
 def interpolated_weight(mesh: Mesh, triangle: int, point: tuple[float, float]) -> float:
     """The weight at a point of the linear function through the corners of a triangle [length²]. A vertex with this
     weight strictly inside the triangle is never hidden."""
-    return _temper.interpolated_weight(mesh._handle, triangle, *point)
+    return _temper.interpolated_weight(expect("mesh", mesh, Mesh)._handle, triangle, *point)
 
 
 def split_weight(w_a: float, w_b: float, squared_length: float, t: float) -> float:
@@ -116,12 +116,12 @@ def plan_boundary_grading(mesh: Mesh, ratio: float = 4.0, widest_angle_deg: floa
     """Plans cuts so that the lengths of any two edges of boundary and lines that meet at a vertex differ at most by the
     factor ``ratio`` (at least 2). An edge whose opposite corner has an angle of more than ``widest_angle_deg`` is cut
     into at least two pieces."""
-    return GradingPlan(**_temper.plan_boundary_grading(mesh._handle, ratio, widest_angle_deg))
+    return GradingPlan(**_temper.plan_boundary_grading(expect("mesh", mesh, Mesh)._handle, ratio, widest_angle_deg))
 
 
 def triangles_without_free_corner(mesh: Mesh) -> npt.NDArray[np.int32]:
     """Triangles with all corners on the boundary or on constrained lines, (k, 3) vertices, longest edge first."""
-    return _temper.triangles_without_free_corner(mesh._handle)
+    return _temper.triangles_without_free_corner(expect("mesh", mesh, Mesh)._handle)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -140,7 +140,7 @@ class Grading(Record):
 def grade_boundary(mesh: Mesh, ratio: float = 4.0) -> Grading:
     """Prepares the boundary for optimization. It cuts long edges next to short ones, and inserts a vertex in triangles
     without free corner. Old vertices stay bit for bit."""
-    return Grading(**_temper.grade_boundary(mesh._handle, ratio))
+    return Grading(**_temper.grade_boundary(expect("mesh", mesh, Mesh)._handle, ratio))
 
 
 # --- regularity: the weighted Delaunay property ---------------------------------------------------------------
