@@ -179,9 +179,9 @@ def _observer(line: Line, observer: Callable[[Progress], Any] | None) -> Callabl
         return None
 
     def tell(
-        last: dict[str, Any], fraction: float, max_sweeps: int, sweeps_left: float | None, n_vertices: int | None
+        last: dict[str, Any], fraction: float, max_sweeps: int, sweeps_left: float | None, *rest: Any
     ) -> bool:
-        progress = Progress(SweepRecord(**last), fraction, max_sweeps, sweeps_left, n_vertices)
+        progress = Progress(SweepRecord(**last), fraction, max_sweeps, sweeps_left, *rest)
         line.show(progress)
         answer = None if observer is None else observer(progress)
         return not isinstance(answer, (bool, np.bool_)) or bool(answer)

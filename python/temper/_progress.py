@@ -11,6 +11,12 @@ from ._options import ObjectiveName
 from ._records import Record
 
 _INTERVAL = 0.1  # seconds; nobody can read faster
+# The phase that lowers an objective, and what its energy is. At the change of the phase the number jumps.
+_PHASES = {
+    "energy": ("centering phase", "energy"),
+    "accuracy": ("accuracy phase", "accuracy energy"),
+    "solver_error": ("solver phase", "error"),
+}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -47,6 +53,9 @@ class Progress(Record):
     """Estimate of the sweeps after the last one, while the energy converges; None in the first sweeps of a stage."""
     n_vertices: int | None = None
     """Number of vertices, while the run searches for a mesh with fewer."""
+    share_of_phase: float | None = None
+    """Estimate of the share of the present phase that is done, in [0, 1]; None without an estimate. Each objective of
+    ``last`` is a phase, and its energy has another meaning than in the phase before."""
 
 
 def _duration(seconds: float) -> str:
@@ -95,9 +104,11 @@ class Line:
 
     def text(self, progress: Progress, seconds: float) -> str:
         last = progress.last
+        phase, measure = _PHASES[last.objective]
+        share = "" if progress.share_of_phase is None else f" {int(100 * progress.share_of_phase)} %"
         text = (
-            f"sweep {last.sweep} of at most {progress.max_sweeps}, {last.bad} {self._elements} bad, "
-            f"energy {last.energy:.6g}, {_duration(seconds)}"
+            f"{phase}{share}: sweep {last.sweep}, {last.bad} {self._elements} bad, "
+            f"{measure} {last.energy:.6g}, {_duration(seconds)}"
         )
         sweeps = last.sweep + progress.fraction
         if sweeps > 0 and progress.sweeps_left is not None:

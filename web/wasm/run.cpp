@@ -18,7 +18,7 @@ TEMPER_IMPORT(trace) void report_event(const char* event, std::size_t size);
 TEMPER_IMPORT(snapshot) void show_snapshot(const HeldMesh* mesh, int sweep);
 
 Continue tell(const Progress& progress) {
-  const auto& [last, fraction, max_sweeps, sweeps_left, n_vertices] = progress;
+  const auto& [last, fraction, max_sweeps, sweeps_left, n_vertices, share_of_phase] = progress;
   Json json = {{"last", to_json(last)},
                {"fraction", fraction},
                {"max_sweeps", max_sweeps},

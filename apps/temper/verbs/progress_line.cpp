@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace temper::app {
@@ -16,6 +17,22 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
+/// The phase that lowers the objective, and what its energy is. At the change of the phase the number jumps.
+struct PhaseWords {
+  const char *phase, *measure;
+};
+PhaseWords words_of(Objective objective) {
+  switch (objective) {
+    case Objective::energy:
+      break;
+    case Objective::accuracy:
+      return {"accuracy phase", "accuracy energy"};
+    case Objective::solver_error:
+      return {"solver phase", "error"};
+  }
+  return {"centering phase", "energy"};
+}
+
 }  // namespace
 
 void ProgressLine::show(const Progress& progress) {
@@ -27,9 +44,11 @@ void ProgressLine::show(const Progress& progress) {
 
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const double sweeps = progress.last.sweep + progress.fraction;
-  std::string text =
-      fmt::format("sweep {} of at most {}, {} {} bad, energy {:.6g}, {}", progress.last.sweep, progress.max_sweeps,
-                  progress.last.bad, elements_, progress.last.energy, duration(seconds));
+  const auto [phase, measure] = words_of(progress.last.objective);
+  const std::string share =
+      progress.share_of_phase ? fmt::format(" {:.0f} %", std::floor(100 * *progress.share_of_phase)) : std::string();
+  std::string text = fmt::format("{}{}: sweep {}, {} {} bad, {} {:.6g}, {}", phase, share, progress.last.sweep,
+                                 progress.last.bad, elements_, measure, progress.last.energy, duration(seconds));
   if (progress.n_vertices) {
     text = fmt::format("{} vertices, {} {} bad, {}", *progress.n_vertices, progress.last.bad, elements_,
                        duration(seconds));

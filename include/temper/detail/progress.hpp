@@ -39,6 +39,9 @@ struct Progress {
   std::optional<double> sweeps_left = {};
   /// Number of vertices, while the run searches for a mesh with fewer.
   std::optional<std::size_t> n_vertices = {};
+  /// Estimate of the share of the present phase that is done, in [0, 1]. Each objective of `last` is a phase, and its
+  /// energy has another meaning than in the phase before. Absent if there is no estimate.
+  std::optional<double> share_of_phase = {};
 };
 
 /// The reason why a run ended.

@@ -137,8 +137,12 @@ void Run::ask(double fraction_of_sweep) {
   if (limit > 0 && seconds_between(limit_from_, Clock::now()) + ending_seconds_ > limit) {
     report.stopped = Stopped::time_limit;
   } else if (hooks_.observer) {
-    const Progress progress = {report.history.back(), fraction_of_sweep, options_.max_sweeps,
-                               estimate_sweeps_left(report.history, options_), n_vertices};
+    const Progress progress = {report.history.back(),
+                               fraction_of_sweep,
+                               options_.max_sweeps,
+                               estimate_sweeps_left(report.history, options_),
+                               n_vertices,
+                               share_of_phase(report.history, options_, fraction_of_sweep)};
     if (hooks_.observer(progress) == Continue::no) report.stopped = Stopped::canceled;
   }
 }
@@ -179,6 +183,21 @@ std::optional<InputError> expect_agreement(const OptimizeHooks& hooks, const Opt
                     "rank " + std::to_string(other - all.begin()) +
                         " has another mesh, other options or another version of temper than rank 0: all ranks of a run "
                         "must be given the same, and files may not change while they read them"};
+}
+
+std::optional<double> share_of_phase(std::span<const SweepRecord> history, const OptimizeOptions& options,
+                                     double fraction_of_sweep) {
+  const SweepRecord& last = history.back();
+  const Limits limits = limits_of(history, options);
+  const auto first = std::ranges::find(history, last.objective, &SweepRecord::objective);
+  const double done = last.sweep - first->sweep + fraction_of_sweep;
+  double all = limits.sweeps - first->sweep;
+  if (last.objective == Objective::energy) {  // its limit is far away
+    const std::optional<double> left = estimate_sweeps_left(history, options);
+    if (!left) return std::nullopt;
+    all = last.sweep - first->sweep + std::max(1.0, *left - limits.after);
+  }
+  return all > 0 ? std::optional(std::min(1.0, done / all)) : std::nullopt;
 }
 
 std::optional<double> estimate_sweeps_left(std::span<const SweepRecord> history, const OptimizeOptions& options) {

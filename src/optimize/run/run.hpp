@@ -133,5 +133,9 @@ class Run {
 /// one γ), if the energy rises or gains do not shrink, and with StoppingRule::paper. Later stages are not known yet.
 [[nodiscard]] std::optional<double> estimate_sweeps_left(std::span<const SweepRecord> history,
                                                          const OptimizeOptions& options);
+/// Estimates the share of the present phase that is done, see Progress. Phases after the first one have a limit of
+/// sweeps; the first one needs an estimate of the sweeps left.
+[[nodiscard]] std::optional<double> share_of_phase(std::span<const SweepRecord> history, const OptimizeOptions& options,
+                                                   double fraction_of_sweep);
 
 }  // namespace temper

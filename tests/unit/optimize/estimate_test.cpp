@@ -54,6 +54,24 @@ TEST(Estimate, IsNoneWhereItCannotBeTold) {
   EXPECT_FALSE(estimate_sweeps_left(geometric(1, 6), o));
 }
 
+TEST(Estimate, TheShareOfAPhaseCountsItsSweeps) {
+  OptimizeOptions o;
+  o.accuracy.sweeps = 8;
+  std::vector<SweepRecord> history = {{.sweep = 0, .energy = 9}, {.sweep = 5, .energy = 1}};
+  EXPECT_FALSE(share_of_phase(history, o, 0)) << "no estimate yet";
+  history.push_back({.sweep = 5, .energy = 40, .objective = Objective::accuracy});  // another energy, which is larger
+  EXPECT_EQ(share_of_phase(history, o, 0), 0);
+  EXPECT_EQ(share_of_phase(history, o, 0.5), 0.5 / 8);
+  history.push_back({.sweep = 9, .energy = 30, .objective = Objective::accuracy});
+  EXPECT_EQ(share_of_phase(history, o, 0), 0.5);
+  o.max_sweeps = 10;  // of the run: 5 are left for the phase
+  EXPECT_EQ(share_of_phase(history, o, 0), 0.8);
+
+  const std::vector<SweepRecord> good = geometric(0.5, 6);
+  const double left = std::max(1.0, *estimate_sweeps_left(good, o) - o.accuracy.sweeps);
+  EXPECT_EQ(share_of_phase(good, o, 0), 6 / (6 + left));
+}
+
 TEST(Estimate, OfARunIsNearItsEnd) {
   RandomMesh points;
   points.vertices = 2000;
