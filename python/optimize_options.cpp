@@ -172,7 +172,8 @@ py::dict report_to_dict(const OptimizeReport& r) {
   for (const std::string& note : r.notes) notes.append(spelled(note));
   return run_of(r)("vertices", r.vertices)("hidden", r.hidden)("objective", name(r.objective))(
              "size_before", py::object(size_report_to_dict(r.size.before)))(
-             "size_after", py::object(size_report_to_dict(r.size.after)))("notes", py::object(notes))
+             "size_after", py::object(size_report_to_dict(r.size.after)))("bad_before", r.bad_before)(
+             "bad_after", r.bad_after)("notes", py::object(notes))
       .dict;
 }
 

@@ -459,8 +459,10 @@ struct OptimizeReport {
                                 ///< AccuracyOptions with absolute values for its edges, and with the same sizes before
                                 ///< and after. With an error model: the root mean square error
   double objective_after = 0;
+  std::size_t bad_before = 0;  ///< Triangles of the input that are not well-centered, before any flip
+  std::size_t bad_after = 0;   ///< The same of the result
   SizeChange size;
-  std::vector<SweepRecord> history;  ///< History of the sweeps; history[0] is the input
+  std::vector<SweepRecord> history;  ///< History of the sweeps; history[0] is the input, flipped to be regular
   std::vector<std::string> notes;    ///< Notes for the user, in sentences
 };
 

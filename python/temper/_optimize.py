@@ -137,23 +137,25 @@ class OptimizeReport(Record):
     objective_before: float
     """Objective of the input, at the final γ."""
     objective_after: float
+    bad_before: int
+    """Number of triangles or tetrahedra of the input that are not well-centered, before any flip."""
+    bad_after: int
+    """The same number of the result."""
     size: SizeChange | None
     """None for tetrahedra."""
     data: DataReport | None
     """Report on the data of the mesh; None without data."""
     history: list[SweepRecord] = dataclasses.field(repr=False)
-    """One record per sweep; ``history[0]`` is the input."""
+    """One record per sweep; ``history[0]`` is the input, with its edges flipped to be regular."""
     notes: list[str]
     """Notes for the user, in sentences."""
     _meshes: tuple[Mesh, Mesh] | None = dataclasses.field(default=None, repr=False, compare=False)
     """The mesh before and after, for notebooks."""
 
     def _rows(self) -> list[tuple[str, str]]:
-        # The mesh of tetrahedra is the best one, and the mesh of triangles that of the last record.
-        last = self.history[-1:] if self.size else sorted(self.history, key=lambda record: record.bad)[:1]
-        bad = [str(record.bad) for record in self.history[:1] + last]
-        rows = [row for row in super()._rows() if row[0] not in ("vertices", "hidden", "size", "data", "notes")]
-        rows.insert(1, ("bad triangles" if self.size else "bad tetrahedra", " → ".join(bad)))
+        shown_below = ("vertices", "hidden", "bad_before", "bad_after", "size", "data", "notes")
+        rows = [row for row in super()._rows() if row[0] not in shown_below]
+        rows.insert(1, ("bad triangles" if self.size else "bad tetrahedra", f"{self.bad_before} → {self.bad_after}"))
         if self.size:
             rows.append(("sizes within", f"1/{self.size.after.band:.3g} to {self.size.after.band:.3g} of the field"))
         if self.data is not None and self.data.interpolated:
@@ -171,6 +173,8 @@ def _report(
 ) -> OptimizeReport:
     size = SizeChange(_size_report(d.pop("size_before")), _size_report(d.pop("size_after"))) if "size_before" in d else None
     history = [SweepRecord(**record) for record in d.pop("history")]
+    if size is None:  # the mesh of tetrahedra is the best one of the history
+        d.update(bad_before=history[0].bad, bad_after=min(record.bad for record in history))
     return OptimizeReport(**d, size=size, data=data, history=history, _meshes=meshes)
 
 

@@ -613,3 +613,24 @@ def test_the_user_says_whether_z_of_2dm_is_height_or_depth(in_scratch):
     assert np.array_equal(temper.read("down.gr3").point_data["depth"], [9.66, 2, 1])
     with pytest.raises(temper.TemperError, match="positive"):
         temper.read("m.2dm", positive="sideways")
+
+
+def test_bad_triangles_before_are_those_of_the_input_as_it_was_given():
+    mesh = temper.generate.sheared_grid(6, 6, 0.4)  # its edges are not regular, and flips alone cure some triangles
+    bad = int((~temper.triangle_quality(mesh).well_centered).sum())
+    report = temper.optimize(mesh)
+    assert (report.bad_before, report.bad_after) == (bad, 0)
+    assert report.history[0].bad != bad
+    assert f"{bad} → 0" in str(report)
+
+
+def test_names_of_solvers_stand_for_their_targets():
+    assert temper.options_for("porepy") == temper.options_for("cell")
+    assert "``porepy`` (cell)" in temper.options_for.__doc__
+    with pytest.raises(temper.TemperError, match="target cell with triangles as cells"):
+        temper.options_for("modflow")
+
+
+def test_threads_are_at_most_a_few_times_the_processors():
+    with pytest.raises(temper.TemperError, match="threads: expected at most .*found 20000. Next: leave it out"):
+        temper.optimize(temper.generate.sheared_grid(3, 3), threads=20000)

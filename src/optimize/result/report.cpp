@@ -145,6 +145,7 @@ void give_back(InputMesh& input, Candidate best, const Settings& settings, const
       of_input.score ? *of_input.score : score(input.whole(), of_input.counts, settings, model, nullptr);
   report.size.before = report.size.after = of_input.size;
   report.objective_before = before.energy;
+  report.bad_before = of_input.counts.bad;
   const double bad_part_before = bad_part(input.n_triangles(), of_input.counts.bad);
   // Flips that make the input regular have priority over all other criteria.
   const bool may_be_better = before < result.score || result.score.bad > 0 || result.score.non_regular > 0;
@@ -178,6 +179,7 @@ void give_back(InputMesh& input, Candidate best, const Settings& settings, const
   }
   report.vertices = std::move(result.vertices);
   report.objective_after = result.score.energy;
+  report.bad_after = !worse || flips ? result.score.bad : of_input.counts.bad;
   count_changes(input.n_vertices(), report);
   if (!worse || flips) {
     report.size.after = result.size;
