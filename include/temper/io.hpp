@@ -201,6 +201,10 @@ inline constexpr const char* kClosedStream = "the stream is closed. Next: name a
 /// Writes any text to a file, by way of a temporary file in the same way.
 [[nodiscard]] Expected<void> write_text(const std::string& path, std::string_view text);
 
+/// Memory that this process may still take [bytes]. It is the least of the free memory of the machine, of the limits of
+/// the process (ulimit), and of the limits of its container or job. Absent: the system does not say.
+[[nodiscard]] std::optional<std::uint64_t> free_memory();
+
 /// Removes the temporary files of all unfinished writes. A handler of a signal that ends the program may call it.
 /// Writes under way then produce no file.
 void discard_unfinished() noexcept;

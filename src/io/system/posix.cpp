@@ -2,9 +2,14 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#ifdef __APPLE__
+#include <sys/sysctl.h>
+#endif
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -15,9 +20,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <fstream>
 #include <optional>
 #include <utility>
 
+#include "io/system/free_memory.hpp"
 #include "io/system/system.hpp"
 #include "io/text/failure.hpp"
 #include "temper/io.hpp"
@@ -248,6 +255,39 @@ std::string without_links(const std::string& path) {
   }
   errno = ELOOP;
   return {};
+}
+
+namespace {
+
+std::optional<std::uint64_t> memory_of_machine() {
+#ifdef __APPLE__
+  std::uint64_t bytes = 0;
+  std::size_t size = sizeof bytes;
+  if (sysctlbyname("hw.memsize", &bytes, &size, nullptr, 0) == 0) return bytes;
+#endif
+  return free_memory_in_files("");
+}
+
+/// What a limit of this process leaves. `used`: pages.
+std::uint64_t left_of(int resource, std::uint64_t used) {
+  rlimit limit = {};
+  if (getrlimit(static_cast<decltype(RLIMIT_AS)>(resource), &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    return UINT64_MAX;
+  const std::uint64_t most = limit.rlim_cur;
+  return most - std::min(most, used * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)));
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> free_memory() {
+  // In pages: size, resident, shared, text, library, data. Other systems than Linux do not say.
+  std::array<std::uint64_t, 6> pages = {};
+  std::ifstream file("/proc/self/statm");
+  for (std::uint64_t& n : pages) file >> n;
+  const std::uint64_t left = std::min(left_of(RLIMIT_AS, pages[0]), left_of(RLIMIT_DATA, pages[5]));
+  const std::optional<std::uint64_t> machine = memory_of_machine();
+  if (left == UINT64_MAX) return machine;
+  return machine ? std::min(*machine, left) : left;
 }
 
 }  // namespace temper::io

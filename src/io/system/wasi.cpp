@@ -41,4 +41,9 @@ int open_file_of(const std::string& /*path*/) { return -1; }
 bool is_open_to_write(int /*file*/) { return true; }
 int open_to_write(const std::string& path) { return ::open(path.c_str(), O_WRONLY | O_TRUNC); }
 
+std::optional<std::uint64_t> free_memory() {
+  constexpr std::uint64_t kPage = 65536, kPages = 65536;  // addresses have 32 bits
+  return (kPages - __builtin_wasm_memory_size(0)) * kPage;
+}
+
 }  // namespace temper::io

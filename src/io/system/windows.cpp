@@ -177,6 +177,21 @@ void remove_folder(const std::string& path) { RemoveDirectoryW(wide(path).c_str(
 
 void give_memory_back() {}  // the C library keeps none
 
+std::optional<std::uint64_t> free_memory() {
+  std::optional<std::uint64_t> least;
+  MEMORYSTATUSEX status = {};
+  status.dwLength = sizeof status;
+  if (GlobalMemoryStatusEx(&status) != 0) least = std::min<std::uint64_t>(status.ullAvailPhys, status.ullAvailVirtual);
+  JOBOBJECT_EXTENDED_LIMIT_INFORMATION job = {};  // of the job of this process, if any
+  if (QueryInformationJobObject(nullptr, JobObjectExtendedLimitInformation, &job, sizeof job, nullptr) == 0)
+    return least;
+  const DWORD limits = job.BasicLimitInformation.LimitFlags;
+  const auto take = [&least](std::uint64_t bytes) { least = std::min(least.value_or(bytes), bytes); };
+  if ((limits & JOB_OBJECT_LIMIT_PROCESS_MEMORY) != 0) take(job.ProcessMemoryLimit);
+  if ((limits & JOB_OBJECT_LIMIT_JOB_MEMORY) != 0) take(job.JobMemoryLimit);
+  return least;
+}
+
 void discard_unfinished() noexcept {}
 
 Temporary Temporary::beside(const std::string& target) {
