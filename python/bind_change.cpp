@@ -428,6 +428,7 @@ MesherOptions mesher_options_from(const py::dict& d, const py::object& optimize_
   options.split_crossings = d["split_crossings"].cast<bool>();
   options.attempts = d["attempts"].cast<int>();
   options.most_triangles = d["most_triangles"].cast<std::size_t>();
+  options.memory = d["memory"].is_none() ? io::free_memory() : d["memory"].cast<std::uint64_t>();
   options.time_limit = d["time_limit"].cast<double>();
   if (optimize_options.is_none()) {
     options.optimize.reset();

@@ -72,7 +72,8 @@ Observer observer_of(Visitor& visitor, const py::object& observer) {
             observer(record_to_dict(progress.last), progress.fraction, progress.max_sweeps,
                      progress.sweeps_left ? py::object(py::float_(*progress.sweeps_left)) : py::none(),
                      progress.n_vertices ? py::object(py::int_(*progress.n_vertices)) : py::none(),
-                     progress.share_of_phase ? py::object(py::float_(*progress.share_of_phase)) : py::none());
+                     progress.share_of_phase ? py::object(py::float_(*progress.share_of_phase)) : py::none(),
+                     std::string(progress.phase));
         return !(answer.is(py::bool_(false)));
       });
     }

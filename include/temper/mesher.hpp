@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,17 @@ enum class MeshPoints {
   few,      ///< As few as the search finds, whatever the sizes
 };
 
+/// The cost of a mesh, estimated before the work.
+struct MeshEstimate {
+  double triangles = 0;  ///< Number of triangles
+  double bytes = 0;      ///< Largest memory of the mesher and the optimization [bytes]
+
+  /// "193 million".
+  [[nodiscard]] std::string triangles_text() const;
+  /// "77 GB".
+  [[nodiscard]] std::string memory_text() const;
+};
+
 struct MesherOptions {
   /// Number of vertices. With `few` there are no sizes, and more time gives fewer vertices. Only in the plane.
   MeshPoints points = MeshPoints::by_size;
@@ -60,6 +72,11 @@ struct MesherOptions {
   int attempts = 8;                          ///< Largest number of divisions of the outline while triangles stay bad
   std::size_t most_triangles = 200'000'000;  ///< Largest number of triangles; sizes that would make more are refused
   double time_limit = 0;                     ///< Time limit of the whole call [s]; 0: none
+  /// Memory that the call may take [bytes], such as io::free_memory(). Meshes that would need more are refused. Absent:
+  /// no limit
+  std::optional<std::uint64_t> memory = {};
+  /// Function that gets the estimate before the work that it is for.
+  std::function<void(const MeshEstimate&)> estimated = {};
 };
 
 /// A mesh edge that is part of a segment.
@@ -97,11 +114,15 @@ struct OutlineMesh {
 ///   - segments of zero length, segments that cross, parts that joins within `snap` leave nothing of
 ///   - nothing enclosed, holes or regions outside, parts that overlap,
 ///   - without joins: two points at one place, a domain that touches itself at a point
-///   - sizes that are not positive or would make too many triangles
+///   - sizes that are not positive, or would make too many triangles for `most_triangles` or `memory`
 ///   - stopped, if the time limit or the observer ends the run before there is a mesh; later the best mesh so far is
 ///     returned
 [[nodiscard]] Expected<OutlineMesh> mesh_outline(const Outline& outline, const MesherOptions& options,
                                                  const OptimizeHooks& hooks = {});
+/// Estimates the cost of mesh_outline(), from the sizes that it begins with. Narrow places may add to it. The errors
+/// are those of the outline. About O(n log n) in the points of the outline.
+[[nodiscard]] Expected<MeshEstimate> estimate_outline(const Outline& outline, const MesherOptions& options,
+                                                      const OptimizeHooks& hooks = {});
 
 /// A sphere, or the part of it to mesh. Points of the outlines are longitude and latitude [degrees]; 180 and -180 are
 /// the same. Their segments are the shorter arcs of great circles. A closed line encloses the smaller of its two sides,
@@ -118,5 +139,8 @@ struct SphereOutline {
 /// be closed, must not divide the sphere into halves, and must leave some of it.
 [[nodiscard]] Expected<OutlineMesh> mesh_sphere(const SphereOutline& outline, const MesherOptions& options,
                                                 const OptimizeHooks& hooks = {});
+/// Estimates the cost of mesh_sphere(), as estimate_outline() does.
+[[nodiscard]] Expected<MeshEstimate> estimate_sphere(const SphereOutline& outline, const MesherOptions& options,
+                                                     const OptimizeHooks& hooks = {});
 
 }  // namespace temper

@@ -147,6 +147,7 @@ def mesh_outline(
     optimize: OptimizeOptions | bool = True,
     attempts: int = 8,
     most_triangles: int = 200_000_000,
+    memory: int | None = None,
     time_limit: float = 0.0,
     threads: int | None = None,
     observer: Callable[[Progress], Any] | None = None,
@@ -184,6 +185,9 @@ def mesh_outline(
         Largest number of divisions of the outline while triangles stay bad.
     most_triangles : int
         Largest number of triangles; sizes that would make more are refused.
+    memory : int, optional
+        Memory that the call may take [bytes]; meshes that would need more are refused. None: the free memory of the
+        machine, or of the limits of the process and its container.
     time_limit : float
         Time limit of the whole call [s]; 0: none.
     threads, observer, progress
@@ -204,7 +208,7 @@ def mesh_outline(
     0
     """
     joins = (snap, drop_below, split_crossings)
-    options = _mesher_options(size, grade, region_sizes, joins, attempts, most_triangles, time_limit, enclosed)
+    options = _mesher_options(size, grade, region_sizes, joins, attempts, (most_triangles, memory), time_limit, enclosed)
     return _meshed(_temper.mesh_outline, expect("outline", outline, Outline)._plain(), options, target, optimize, threads, observer, progress)
 
 
@@ -224,6 +228,7 @@ def mesh_sphere(
     optimize: OptimizeOptions | bool = True,
     attempts: int = 8,
     most_triangles: int = 200_000_000,
+    memory: int | None = None,
     time_limit: float = 0.0,
     threads: int | None = None,
     observer: Callable[[Progress], Any] | None = None,
@@ -246,8 +251,8 @@ def mesh_sphere(
         Rivers and other lines that become constrained edges.
     radius : float, optional
         Radius of the sphere [length]; None: the radius of the size field, or 6371000.
-    grade, region_sizes, snap, drop_below, split_crossings, target, optimize, attempts, most_triangles, time_limit,
-    threads, observer, progress
+    grade, region_sizes, snap, drop_below, split_crossings, target, optimize, attempts, most_triangles, memory,
+    time_limit, threads, observer, progress
         The same as in ``mesh_outline``.
 
     Returns
@@ -279,7 +284,7 @@ def mesh_sphere(
         "lines": expect("lines", lines or nothing, Outline)._plain(),
     }
     joins = (snap, drop_below, split_crossings)
-    options = _mesher_options(size, grade, region_sizes, joins, attempts, most_triangles, time_limit)
+    options = _mesher_options(size, grade, region_sizes, joins, attempts, (most_triangles, memory), time_limit)
     return _meshed(_temper.mesh_sphere, sphere, options, target, optimize, threads, observer, progress)
 
 
@@ -289,7 +294,7 @@ def _mesher_options(
     region_sizes: Mapping[int, float] | None,
     joins: tuple[float | None, float, bool],
     attempts: int,
-    most_triangles: int,
+    limits: tuple[int, int | None],
     time_limit: float,
     enclosed: str = "by_points",
 ) -> dict[str, Any]:
@@ -305,7 +310,8 @@ def _mesher_options(
         "drop_below": float(joins[1]),
         "split_crossings": joins[2],
         "attempts": attempts,
-        "most_triangles": most_triangles,
+        "most_triangles": limits[0],
+        "memory": limits[1],
         "time_limit": float(time_limit),
     }
 

@@ -56,6 +56,9 @@ class Progress(Record):
     share_of_phase: float | None = None
     """Estimate of the share of the present phase that is done, in [0, 1]; None without an estimate. Each objective of
     ``last`` is a phase, and its energy has another meaning than in the phase before."""
+    phase: str = ""
+    """Phase of the mesher before an optimization, such as "placing points"; ``fraction`` is then the share of the phase
+    that is done, as far as it is known. Empty in an optimization."""
 
 
 def _duration(seconds: float) -> str:
@@ -103,6 +106,9 @@ class Line:
         self._put(self.text(progress, now - self._start))
 
     def text(self, progress: Progress, seconds: float) -> str:
+        if progress.phase:
+            share = f", {100 * progress.fraction:.0f} %" if progress.fraction > 0 else ""
+            return f"{progress.phase}{share}, {_duration(seconds)}"
         last = progress.last
         phase, measure = _PHASES[last.objective]
         share = "" if progress.share_of_phase is None else f" {int(100 * progress.share_of_phase)} %"

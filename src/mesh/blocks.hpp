@@ -4,11 +4,37 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "temper/detail/executor.hpp"
 
 namespace temper {
+
+/// Runs blocks by another executor until it is time to stop, and skips the others. The results are then of no use.
+class StoppableExecutor final : public Executor {
+ public:
+  /// `stop` is asked in the calling thread, and may be empty.
+  StoppableExecutor(Executor* executor, std::function<bool()> stop)
+      : executor_(or_serial(executor)), stop_(std::move(stop)) {}
+
+  void run(std::size_t n, const std::function<void(std::size_t)>& block) override {
+    constexpr std::size_t kAtATime = 64;  // a tenth of a second, and enough for many threads
+    for (std::size_t first = 0; first < n && !asked_to_stop(); first += kAtATime) {
+      executor_.run(std::min(kAtATime, n - first), [&](std::size_t i) { block(first + i); });
+    }
+  }
+  bool asked_to_stop() {
+    stopped_ = stopped_ || (stop_ && stop_());
+    return stopped_;
+  }
+
+ private:
+  Executor& executor_;
+  std::function<bool()> stop_;
+  bool stopped_ = false;
+};
 
 inline constexpr std::size_t kLoopBlock = 16384;  // enough work to be worth a task, small enough to balance
 

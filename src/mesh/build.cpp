@@ -13,6 +13,7 @@
 #include "mesh/exact_range.hpp"
 #include "mesh/mesh_editor.hpp"
 #include "mesh/predicates.hpp"
+#include "mesh/stoppable_build.hpp"
 #include "mesh/twins.hpp"
 #include "temper/mesh.hpp"
 
@@ -34,7 +35,11 @@ constexpr double kOffRadius = 1e-6;
 /// The steps of Mesh::build, in order. Each returns an error or nothing.
 class MeshBuilder {
  public:
-  explicit MeshBuilder(const MeshInput& input) : in_(input), names_(input.names != nullptr ? *input.names : default_) {}
+  MeshBuilder(const MeshInput& input, const std::function<bool()>& stop)
+      : in_(input),
+        names_(input.names != nullptr ? *input.names : default_),
+        stoppable_(input.executor, stop),
+        executor_(stop ? &stoppable_ : input.executor) {}
 
   Expected<BuiltMesh> build() {
     using Step = std::optional<InputError> (MeshBuilder::*)();
@@ -42,7 +47,9 @@ class MeshBuilder {
                                &MeshBuilder::add_triangles,   &MeshBuilder::check_unused, &MeshBuilder::embed,
                                &MeshBuilder::constrain_edges, &MeshBuilder::fix_vertices};
     for (const Step step : kSteps) {
-      if (auto error = (this->*step)()) return *std::move(error);
+      auto error = (this->*step)();
+      if (stoppable_.asked_to_stop()) return InputError{ErrorCode::stopped, "", "the mesh was stopped before its end"};
+      if (error) return *std::move(error);
     }
     return BuiltMesh{std::move(mesh_), reversed_};
   }
@@ -75,7 +82,7 @@ class MeshBuilder {
   std::optional<InputError> add_vertices() {
     mesh_.space_ = in_.space;
     mesh_.vertices_.resize(n_points());
-    const auto wrong = first_index(n_points(), in_.executor, [&](std::size_t i) {
+    const auto wrong = first_index(n_points(), executor_, [&](std::size_t i) {
       const double w = in_.weights.empty() ? 0.0 : in_.weights[i];
       if (!is_finite(place(i)) || !std::isfinite(w)) return true;
       mesh_.set_point(VertexId(i), on_sphere() ? mesh_.space_.vertex_at(in_.sphere_points[i], w)
@@ -194,12 +201,12 @@ class MeshBuilder {
     const std::size_t m = in_.triangles.size();
     mesh_.corners_.resize(3 * m);
     mesh_.twins_.resize(3 * m);
-    const auto wrong = first_index(m, in_.executor, [&](std::size_t t) { return !add_triangle(t); });
+    const auto wrong = first_index(m, executor_, [&](std::size_t t) { return !add_triangle(t); });
     if (wrong) return wrong_triangle(*wrong);
     const auto is_reversed = [&](std::size_t t) {
       return mesh_.origin(HalfedgeId(3 * t + 1)) != id(in_.triangles[t][1]) ? 1.0 : 0.0;
     };
-    reversed_ = static_cast<std::size_t>(blockwise_sum(m, in_.executor, is_reversed));
+    reversed_ = static_cast<std::size_t>(blockwise_sum(m, executor_, is_reversed));
     for (std::size_t t = 0; t < in_.regions.size(); ++t) mesh_.set_region(TriangleId(t), in_.regions[t]);
     return std::nullopt;
   }
@@ -247,9 +254,9 @@ class MeshBuilder {
   /// when one of these conditions fails, as the likely reason.
   std::optional<InputError> embed() {
     auto error = link_twins();
-    if (!error) error = check_stars();
-    if (!error) error = check_embedding();
-    if (!error) return std::nullopt;
+    if (!error && !stoppable_.asked_to_stop()) error = check_stars();
+    if (!error && !stoppable_.asked_to_stop()) error = check_embedding();
+    if (!error || stoppable_.asked_to_stop()) return std::nullopt;
     auto duplicate = find_duplicate();
     return duplicate ? std::move(duplicate) : std::move(error);
   }
@@ -279,7 +286,7 @@ class MeshBuilder {
   /// Halfedges by their lesser vertex, matched within each small bucket.
   std::optional<InputError> link_twins() {
     const EdgeBuckets buckets(mesh_, mesh_.vertices());
-    const auto wrong = first_index_by(mesh_.n_vertices(), in_.executor, [&] {
+    const auto wrong = first_index_by(mesh_.n_vertices(), executor_, [&] {
       return [&, sides = Sides()](std::size_t v) mutable {
         buckets.collect(VertexId(v), sides);
         return !match(sides);
@@ -337,7 +344,7 @@ class MeshBuilder {
       for ([[maybe_unused]] const HalfedgeId h : mesh_.star(VertexId(v))) ++count;
       return count;
     };
-    const double together = blockwise_sum(mesh_.n_vertices(), in_.executor, size);
+    const double together = blockwise_sum(mesh_.n_vertices(), executor_, size);
     if (together == static_cast<double>(mesh_.n_halfedges())) return std::nullopt;
     std::vector<std::uint32_t> missing(mesh_.n_vertices(), 0);
     for (const HalfedgeId h : mesh_.halfedges()) ++missing[mesh_.origin(h).index];
@@ -355,7 +362,7 @@ class MeshBuilder {
   }
 
   std::optional<InputError> check_embedding() {
-    const auto overlap = find_overlap(mesh_, names_, in_.executor);
+    const auto overlap = find_overlap(mesh_, names_, executor_);
     if (!overlap) return std::nullopt;
     return triangle_error(ErrorCode::overlap, overlap->triangle.index, overlap->message);
   }
@@ -424,10 +431,16 @@ class MeshBuilder {
   const MeshInput& in_;
   InputNames default_;
   const InputNames& names_;
+  StoppableExecutor stoppable_;
+  Executor* executor_;
   Mesh mesh_;
   std::size_t reversed_ = 0;
 };
 
-Expected<BuiltMesh> Mesh::build(const MeshInput& input) { return MeshBuilder(input).build(); }
+Expected<BuiltMesh> Mesh::build(const MeshInput& input) { return build_or_stop(input, {}); }
+
+Expected<BuiltMesh> build_or_stop(const MeshInput& input, const std::function<bool()>& stop) {
+  return MeshBuilder(input, stop).build();
+}
 
 }  // namespace temper

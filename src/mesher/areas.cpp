@@ -574,7 +574,9 @@ Expected<Triangulated> triangulate(const Surface& surface, const DividedOutline&
   result.area.resize(mesh.n_triangles(), whole_sphere ? 0 : kOutside);
   IdVector<TriangleId, std::uint8_t> known(mesh.n_triangles(), 0);
   std::vector<TriangleId> stack;
+  constexpr std::size_t kAtATime = 1 << 16;  // steps, before the deadline is asked
   for (const HalfedgeId h : mesh.halfedges()) {
+    if (h.index % kAtATime == 0 && deadline.ask()) break;
     if (result.piece[h] == kNone) continue;
     const Piece& piece = divided.pieces[result.piece[h]];
     const bool along = mesh.origin(h).index == piece.ends[0];
@@ -586,6 +588,7 @@ Expected<Triangulated> triangulate(const Surface& surface, const DividedOutline&
   while (!stack.empty()) {
     const TriangleId t = stack.back();
     stack.pop_back();
+    if (t.index % kAtATime == 0 && deadline.ask()) break;
     each_halfedge(t, [&](HalfedgeId h) {
       if (result.piece[h] != kNone || mesh.is_boundary(h)) return;
       const TriangleId next = Mesh::triangle(mesh.twin(h));
@@ -595,6 +598,7 @@ Expected<Triangulated> triangulate(const Surface& surface, const DividedOutline&
       stack.push_back(next);
     });
   }
+  if (deadline.stopped()) return generate::stopped_error();
   return result;
 }
 

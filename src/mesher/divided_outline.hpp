@@ -41,6 +41,7 @@ class GradedSize {
   GradedSize(const Surface& surface, std::span<const SizeSource> sources, const WantedSize& wanted, double grade);
   /// O(log n) if sources are spread evenly.
   [[nodiscard]] double operator()(Vec3 x) const;
+  [[nodiscard]] bool has_field() const { return wanted_.field != nullptr; }
 
  private:
   struct Node {

@@ -14,7 +14,9 @@
 #include "base/text.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "mesh/input_positions.hpp"
+#include "mesh/stoppable_build.hpp"
 #include "mesher/areas.hpp"
+#include "mesher/estimate.hpp"
 #include "mesher/placement.hpp"
 #include "mesher/sphere_outline.hpp"
 #include "temper/detail/geometry.hpp"
@@ -100,29 +102,48 @@ class Mesher {
         deadline_(options.time_limit, hooks_.observer) {}
 
   Expected<OutlineMesh> run() {
+    if (auto error = prepare()) return *error;
+    if (auto error = check_expected()) return *error;
+    tell_estimate();
+    if (options_.points == MeshPoints::few) return few_points();
+    Expected<OutlineMesh> made = best_of_attempts();
+    if (made) note_distant_field(*made);
+    return made;
+  }
+
+  Expected<MeshEstimate> estimate() {
+    if (auto error = prepare()) return *error;
+    return estimate_of(expected_);
+  }
+
+ private:
+  /// All steps before the work whose cost `expected_` tells.
+  std::optional<InputError> prepare() {
     if (auto error = check(options_, surface_.space())) return *error;
     if (auto error = check_sizes(outline_)) return *error;
     wanted_ = wanted();
+    deadline_.begin("joining points");
     Expected<Arrangement> arrangement = arrange(
         surface_, outline_, given_places_, {tolerance(), options_.split_crossings}, options_.drop_below, deadline_);
     if (deadline_.stopped()) return stopped("joined");
     if (!arrangement) return arrangement.error();
     arrangement_ = *std::move(arrangement);
+    deadline_.begin("finding areas");
     Expected<Areas> areas = find_areas(surface_, outline_, arrangement_, options_, wanted_.most, deadline_);
     if (deadline_.stopped()) return stopped("searched for areas");
     if (!areas) return areas.error();
     areas_ = *std::move(areas);
     leave_out_edges();
     if (auto error = split_touching(surface_, arrangement_, areas_, tolerance(), names_of(outline_))) return *error;
-    if (auto error = check_count()) return *error;
-    if (options_.points == MeshPoints::few) return few_points();
-    start_sources();
-    Expected<OutlineMesh> made = best_of_attempts();
-    if (made) note_distant_field(*made);
-    return made;
+    if (options_.points == MeshPoints::few) {
+      expected_ = 2 * static_cast<double>(places_.size());
+      return {};
+    }
+    if (auto error = start_sources()) return *error;
+    if (auto error = triangulate_undivided()) return *error;
+    return count_expected();
   }
 
- private:
   [[nodiscard]] Vec3 point(std::int32_t i) const { return places_[static_cast<std::size_t>(i)]; }
   /// The place of a point of the outline before joins.
   [[nodiscard]] Vec3 given(std::int32_t p) const { return given_places_[static_cast<std::size_t>(p)]; }
@@ -174,62 +195,115 @@ class Mesher {
     return {options_.size > 0 ? std::min(options_.size, most) : most, &*options_.field};
   }
 
-  /// Refuses meshes that would take all memory, estimated from the area inside and from lines with sizes.
-  [[nodiscard]] std::optional<InputError> check_count() const {
-    double triangles = 2 * count_pieces(surface_, places_, edges_, wanted_.most) + count_inside();
+  /// The number of triangles along lines and areas with sizes of their own.
+  [[nodiscard]] double count_on_lines() const {
+    double triangles = 0;
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const double whole = surface_.distance(point(edges_[i].ends[0]), point(edges_[i].ends[1]));
+      for (const std::int32_t area : areas_.sides[i]) {
+        if (area == kOutside) continue;
+        const double size = areas_.areas[static_cast<std::size_t>(area)].size;
+        if (size < wanted_.most) triangles += whole / size;
+      }
+    }
     for (const OutlineSize& s : outline_.sizes)
       triangles += 2 * surface_.distance(given(s.points[0]), given(s.points[1])) / s.size;
-    if (triangles <= static_cast<double>(options_.most_triangles)) return {};
-    return invalid((options_.field ? std::string("the size field") : "a size of " + std::to_string(options_.size)) +
-                   " would make about " + std::to_string(static_cast<long long>(std::min(triangles, 9e18))) +
-                   " triangles; at most " + std::to_string(options_.most_triangles) + " are made");
-  }
-
-  /// The number of triangles of a size in an area.
-  [[nodiscard]] static double count(double area, double size) { return area / (std::sqrt(3.0) / 4 * size * size); }
-
-  /// The number of triangles by the sizes of areas. A field limits it: to its number everywhere, and by its least size
-  /// inside.
-  [[nodiscard]] double count_inside() const {
-    if (!options_.field) return count_in_areas(wanted_.most);
-    double triangles = 0, least = wanted_.most;
-    const Mesh& mesh = options_.field->mesh();
-    for (const TriangleId t : mesh.triangles()) {
-      const auto [a, b, c] = mesh.corners(t);
-      const Vec3 p = surface_.place(mesh.point(a)), q = surface_.place(mesh.point(b)),
-                 r = surface_.place(mesh.point(c));
-      const double size = (options_.field->at(a) + options_.field->at(b) + options_.field->at(c)) / 3;
-      triangles += count(0.5 * length(cross(q - p, r - p)), std::min(size, wanted_.most));
-      least = std::min(least, size);
-    }
-    return std::min(triangles, count_in_areas(least));
-  }
-
-  [[nodiscard]] double count_in_areas(double most) const {
-    double triangles = 0;
-    const auto add = [&](std::int32_t area, double extent) {
-      if (area == kOutside) return;
-      triangles += count(extent, std::min(most, areas_.areas[static_cast<std::size_t>(area)].size));
-    };
-    if (surface_.space().is_closed()) {
-      const double radius = surface_.space().radius(), whole = 4 * std::numbers::pi * radius * radius;
-      for (std::size_t i = 0; i < areas_.areas.size(); ++i) {
-        add(static_cast<std::int32_t>(i), areas_.areas[i].extent * whole);
-      }
-      return triangles;
-    }
-    const Vec3 origin = places_[0];
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      const double area = 0.5 * cross(point(edges_[i].ends[0]) - origin, point(edges_[i].ends[1]) - origin).z;
-      add(areas_.sides[i][0], area);
-      add(areas_.sides[i][1], -area);
-    }
     return triangles;
+  }
+
+  /// The number of triangles by the sizes so far, if the largest size were `most`.
+  double count(double most) {
+    const WantedSize wanted = {most, wanted_.field};
+    Areas areas = areas_;
+    for (Area& a : areas.areas) {
+      if (a.size == wanted_.most) a.size = most;
+    }
+    const GradedSize size(surface_, sources_, wanted, options_.grade);
+    double triangles = std::max(count_triangles(surface_, *undivided_, areas, size, deadline_),
+                                2 * count_pieces(surface_, places_, edges_, most));
+    if (wanted.field != nullptr) triangles = std::max(triangles, count_field(surface_, *undivided_, wanted, deadline_));
+    return triangles;
+  }
+
+  std::optional<InputError> count_expected() {
+    deadline_.begin("estimating the number of triangles");
+    expected_ = count(wanted_.most);
+    counted_sources_ = sources_.size();
+    if (deadline_.stopped()) return stopped("measured");
+    return {};
+  }
+
+  /// Tells the caller, again if narrow places make it much more.
+  void tell_estimate() {
+    constexpr double kMuchMore = 2;
+    if (!options_.estimated || expected_ < kMuchMore * told_) return;
+    told_ = expected_;
+    options_.estimated(estimate_of(expected_));
+  }
+
+  /// Refuses meshes that would take all memory.
+  [[nodiscard]] std::optional<InputError> check_expected() {
+    if (!(expected_ <= most_triangles())) return too_many_triangles();
+    return {};
+  }
+
+  /// The largest number of triangles that the option, the memory, and halfedges with numbers of 32 bits allow.
+  [[nodiscard]] double most_triangles() const {
+    constexpr double kMostOfMesh = 1.4e9;
+    const double most = std::min(static_cast<double>(options_.most_triangles), kMostOfMesh);
+    return options_.memory ? std::min(most, triangles_within(*options_.memory)) : most;
+  }
+
+  [[nodiscard]] InputError too_many_triangles() {
+    const std::optional<std::string> advice = sizes_that_fit();
+    if (!advice) return too_many();
+    const MeshEstimate estimate = estimate_of(expected_);
+    const bool no_memory = options_.memory && !(expected_ <= triangles_within(*options_.memory));
+    return invalid((options_.points == MeshPoints::few       ? "an outline of " + quantity(places_.size(), "points")
+                    : options_.field && !(options_.size > 0) ? std::string("the size field")
+                                                             : "a size of " + to_text(options_.size)) +
+                   " would make about " + estimate.triangles_text() + " triangles" +
+                   (no_memory ? ", which need about " + estimate.memory_text() + " of memory, but " +
+                                    MeshEstimate{0, static_cast<double>(*options_.memory)}.memory_text() + " are free"
+                              : "; at most " + to_text(most_triangles()) + " are made") +
+                   ". Next: " + *advice);
+  }
+
+  /// What makes fewer triangles, after `expected_` are too many. Nothing if it is not the size.
+  [[nodiscard]] std::optional<std::string> sizes_that_fit() {
+    constexpr double kRoom = 0.8;      // of the largest number: the estimate has errors
+    constexpr double kAtLeast = 1.05;  // times, for each try
+    constexpr double kFine = 1e-3;     // of the extent: short edges matter less
+    constexpr int kTries = 8;
+    const double most = kRoom * most_triangles();
+    if (options_.points == MeshPoints::few) return "an outline with fewer points, or more memory";
+    if (most < 1) return "more memory";
+    if (options_.field) {
+      return std::isfinite(expected_) ? "sizes " + rounded(std::sqrt(expected_ / most)) + " times as large"
+                                      : std::string("larger sizes");
+    }
+    const double fine =
+        kFine * (surface_.is_plane() ? length(box_of_places().high - box_of_places().low) : surface_.space().radius());
+    // The least of two guesses: short edges make triangles at any size.
+    double size = std::max(wanted_.most,
+                           std::min(fine * std::sqrt(count(fine) / most), wanted_.most * std::sqrt(expected_ / most)));
+    for (int i = 0; i < kTries && std::isfinite(size) && !deadline_.stopped(); ++i) {
+      const double triangles = count(size);
+      if (triangles <= most) return "a size of " + rounded(size) + " or more";
+      size *= std::max(kAtLeast, std::sqrt(triangles / most));
+    }
+    return {};
   }
 
   /// Adds sources for short edges, for areas of smaller size, and at places where the size field grows faster than the
   /// grade.
-  void start_sources() {
+  std::optional<InputError> start_sources() {
+    expected_ = count_on_lines();
+    if (!(expected_ <= most_triangles())) {
+      return invalid("sizes of regions and lines would make about " + estimate_of(expected_).triangles_text() +
+                     " triangles along them; at most " + to_text(most_triangles()) +
+                     " are made. Next: larger sizes there");
+    }
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       const Vec3 a = point(edges_[i].ends[0]), b = point(edges_[i].ends[1]);
       const double whole = surface_.distance(a, b);
@@ -244,6 +318,26 @@ class Mesher {
     for (const OutlineSize& s : outline_.sizes) add_sources(given(s.points[0]), given(s.points[1]), s.size);
     if (options_.field) grade_field(*options_.field);
     corners_ = corner_radii(surface_, arrangement_, wanted_.most);
+    return {};
+  }
+
+  /// The outline with its edges as pieces.
+  [[nodiscard]] DividedOutline undivided() const {
+    DividedOutline whole{places_, {}};
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      const auto [a, b] = edges_[e].ends;
+      whole.pieces.push_back(
+          {{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)}, static_cast<std::uint32_t>(e)});
+    }
+    return whole;
+  }
+
+  std::optional<InputError> triangulate_undivided() {
+    Expected<Triangulated> triangulated = triangulate(surface_, undivided(), {}, areas_, deadline_);
+    if (deadline_.stopped()) return stopped("triangulated");
+    if (!triangulated) return too_fine(triangulated.error());
+    undivided_ = *std::move(triangulated);
+    return {};
   }
 
   /// Sources of a size along a line, or at a point.
@@ -283,6 +377,7 @@ class Mesher {
   Expected<DividedOutline> resolve() {
     constexpr int kRounds = 20;  // each finds what the last one's longer pieces hid; three or four do nearly always
     const std::size_t most = most_pieces();
+    deadline_.begin("dividing the outline");
     DividedOutline divided = divide(surface_, places_, edges_, size(), corners_, most, deadline_);
     for (int round = 0; round < kRounds; ++round) {
       if (deadline_.stopped()) return stopped("divided");
@@ -307,7 +402,7 @@ class Mesher {
   [[nodiscard]] std::size_t most_pieces() const {
     constexpr double kTimes = 20, kAtLeast = 50'000;
     const double pieces = kAtLeast + kTimes * count_pieces(surface_, places_, edges_, wanted_.most);
-    return static_cast<std::size_t>(std::min(pieces, static_cast<double>(options_.most_triangles)));
+    return static_cast<std::size_t>(std::min(pieces, most_triangles()));
   }
 
   /// The narrowest place, if it is far below the sizes: where, how wide, between what, and the tolerance that closes
@@ -380,9 +475,12 @@ class Mesher {
   }
 
   Expected<OutlineMesh> make(const DividedOutline& divided) {
-    const std::size_t most_points = options_.most_triangles / 2;  // two triangles a vertex
+    const auto most_points = static_cast<std::size_t>(most_triangles() / 2);  // two triangles per vertex
+    deadline_.begin("placing points", expected_ / 2);
     const std::vector<Vec3> placed = place_points(surface_, divided, areas_, size(), start(), most_points, deadline_);
     if (placed.size() >= most_points) return too_many();
+    deadline_.begin("triangulating",
+                    static_cast<double>(divided.points.size() + placed.size() + divided.pieces.size()));
     const Expected<Triangulated> triangulated = triangulate(surface_, divided, placed, areas_, deadline_);
     if (deadline_.stopped()) return stopped("filled with points");
     if (!triangulated) return too_fine(triangulated.error());
@@ -419,12 +517,16 @@ class Mesher {
   }
 
   Expected<OutlineMesh> build(const DividedOutline& divided, const std::vector<Vec3>& placed, const Triangulated& all) {
+    constexpr std::size_t kAtATime = 1 << 16;  // triangles, before the deadline is asked
+    deadline_.begin("building the mesh");
     const std::optional<Inside> inside = find_inside(divided, placed, all);
+    if (deadline_.ask()) return stopped("made a mesh");
     if (!inside) return too_coarse();
     const std::vector<std::int32_t>& vertex = inside->vertex;
     std::vector<std::array<std::int32_t, 3>> triangles;
     std::vector<std::int32_t> regions;
     for (const TriangleId t : all.mesh.triangles()) {
+      if (t.index % kAtATime == 0 && deadline_.ask()) return stopped("made a mesh");
       if (all.area[t] == kOutside) continue;
       const auto [a, b, c] = all.mesh.corners(t);
       triangles.push_back({vertex[a.index], vertex[b.index], vertex[c.index]});
@@ -452,7 +554,10 @@ class Mesher {
     input.regions = regions;
     input.constrained_edges = constrained;
     input.names = &names;
-    Expected<BuiltMesh> built = Mesh::build(input);
+    input.executor = hooks_.executor;
+    if (deadline_.ask()) return stopped("made a mesh");
+    Expected<BuiltMesh> built = build_or_stop(input, [this] { return deadline_.ask(); });
+    if (deadline_.stopped()) return stopped("made a mesh");
     if (!built) return too_fine(built.error());
     result.mesh = std::move(built->mesh);
     number_points(*inside, result);
@@ -533,6 +638,11 @@ class Mesher {
   Expected<OutlineMesh> attempt() {
     const Expected<DividedOutline> divided = resolve();
     if (!divided) return divided.error();
+    if (sources_.size() > counted_sources_) {  // narrow places and bad triangles have smaller sizes
+      if (auto error = count_expected()) return *error;
+      if (auto error = check_expected()) return *error;
+      tell_estimate();
+    }
     Expected<OutlineMesh> made = make(*divided);
     if (!made) return made;
     made->delaunay_bad = made->bad = bad_triangles(made->mesh).size();
@@ -648,16 +758,8 @@ class Mesher {
   /// optimization removes all that it can.
   Expected<OutlineMesh> few_points() {
     constexpr int kSweepsForFew = 10'000;  // repairs follow many restarts
-    DividedOutline whole{places_, {}};
-    for (std::size_t e = 0; e < edges_.size(); ++e) {
-      const auto [a, b] = edges_[e].ends;
-      whole.pieces.push_back(
-          {{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)}, static_cast<std::uint32_t>(e)});
-    }
-    const Expected<Triangulated> triangulated = triangulate(surface_, whole, {}, areas_, deadline_);
-    if (deadline_.stopped()) return stopped("triangulated");
-    if (!triangulated) return too_fine(triangulated.error());
-    Expected<OutlineMesh> made = build(whole, {}, *triangulated);
+    if (auto error = triangulate_undivided()) return *error;
+    Expected<OutlineMesh> made = build(undivided(), {}, *undivided_);
     if (!made) return made;
     made->delaunay_bad = made->bad = bad_triangles(made->mesh).size();
     OptimizeOptions options = *options_.optimize;
@@ -706,24 +808,53 @@ class Mesher {
   CornerRadii corners_;
   std::vector<SizeSource> sources_;
   std::optional<Gap> narrowest_;
+  std::optional<Triangulated> undivided_;  // the outline alone
+  double expected_ = 0, told_ = 0;         // number of triangles
+  std::size_t counted_sources_ = 0;        // that it is for
 };
 
 }  // namespace
 
-Expected<OutlineMesh> mesh_outline(const Outline& outline, const MesherOptions& options, const OptimizeHooks& hooks) {
+namespace {
+
+std::vector<Vec3> places_of(const Outline& outline) {
   std::vector<Vec3> places;
   places.reserve(outline.points.size());
   for (const Vec2 p : outline.points) places.push_back({p.x, p.y, 0});
-  return Mesher(Space(), outline, std::move(places), options, hooks).run();
+  return places;
 }
 
-Expected<OutlineMesh> mesh_sphere(const SphereOutline& outline, const MesherOptions& options,
-                                  const OptimizeHooks& hooks) {
+/// Calls `use` with the mesher of a sphere.
+template <class Result, class Use>
+Expected<Result> with_sphere(const SphereOutline& outline, const MesherOptions& options, const OptimizeHooks& hooks,
+                             const Use& use) {
   if (!(outline.radius > 0 && is_exact_coordinate(outline.radius)))
     return invalid("the radius of a sphere must be positive and finite");
   Expected<SphereOutlines> all = united(outline);
   if (!all) return all.error();
-  return Mesher(Space::sphere(outline.radius), all->outline, std::move(all->places), options, hooks).run();
+  Mesher mesher(Space::sphere(outline.radius), all->outline, std::move(all->places), options, hooks);
+  return use(mesher);
+}
+
+}  // namespace
+
+Expected<OutlineMesh> mesh_outline(const Outline& outline, const MesherOptions& options, const OptimizeHooks& hooks) {
+  return Mesher(Space(), outline, places_of(outline), options, hooks).run();
+}
+
+Expected<MeshEstimate> estimate_outline(const Outline& outline, const MesherOptions& options,
+                                        const OptimizeHooks& hooks) {
+  return Mesher(Space(), outline, places_of(outline), options, hooks).estimate();
+}
+
+Expected<OutlineMesh> mesh_sphere(const SphereOutline& outline, const MesherOptions& options,
+                                  const OptimizeHooks& hooks) {
+  return with_sphere<OutlineMesh>(outline, options, hooks, [](Mesher& mesher) { return mesher.run(); });
+}
+
+Expected<MeshEstimate> estimate_sphere(const SphereOutline& outline, const MesherOptions& options,
+                                       const OptimizeHooks& hooks) {
+  return with_sphere<MeshEstimate>(outline, options, hooks, [](Mesher& mesher) { return mesher.estimate(); });
 }
 
 }  // namespace temper

@@ -42,6 +42,9 @@ struct Progress {
   /// Estimate of the share of the present phase that is done, in [0, 1]. Each objective of `last` is a phase, and its
   /// energy has another meaning than in the phase before. Absent if there is no estimate.
   std::optional<double> share_of_phase = {};
+  /// Phase of the mesher before an optimization, such as "placing points". `fraction` is then the share of the phase
+  /// that is done, as far as it is known. Empty in an optimization.
+  std::string_view phase = {};
 };
 
 /// The reason why a run ended.

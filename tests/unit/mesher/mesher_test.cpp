@@ -321,7 +321,7 @@ TEST(Mesher, WithoutOptimizationTheMeshIsConstrainedDelaunay) {
 TEST(Mesher, StoppingEarlyStillGivesAMesh) {
   const auto stop = [](const Progress&) { return Continue::no; };
   const Expected<OutlineMesh> made = mesh_outline(comb(), sized(0.1), {.observer = stop});
-  ASSERT_TRUE(made.has_value());
+  ASSERT_TRUE(made.has_value()) << made.error().what();
   EXPECT_EQ(made->report.stopped, Stopped::canceled);
   EXPECT_EQ(made->mesh.validate(), std::nullopt);
 }
