@@ -24,9 +24,11 @@ Continue tell(const Progress& progress) {
                {"max_sweeps", max_sweeps},
                {"sweeps_left", nullptr},
                {"n_vertices", nullptr},
+               {"share_of_phase", nullptr},
                {"phase", std::string(phase)}};
   if (sweeps_left) json["sweeps_left"] = *sweeps_left;
   if (n_vertices) json["n_vertices"] = *n_vertices;
+  if (share_of_phase) json["share_of_phase"] = *share_of_phase;
   const std::string text = json.dump();
   return report_progress(text.data(), text.size()) != 0 ? Continue::yes : Continue::no;
 }

@@ -1,12 +1,17 @@
 // temper example NAME -o OUT: the generators of generate.hpp, each with its parameters.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "console.hpp"
 #include "files/outputs.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "temper/detail/suggest.hpp"
 #include "temper/generate.hpp"
+#include "temper/io.hpp"
+#include "temper/mesher.hpp"
 
 namespace temper::app {
 namespace {
@@ -181,11 +186,21 @@ Expected<Mesh> make_random(ExampleSettings& s) {
   return random_mesh(s.random);
 }
 
+double vertices_asked(const ExampleSettings& s) { return static_cast<double>(s.vertices); }
+
+/// At most: some points inside, and four sides in steps of finest + growth r, where r is the distance.
+double vertices_of_graded(const ExampleSettings& s) {
+  constexpr double kInside = 20'000;
+  const double f = s.graded.finest, g = s.graded.growth;
+  return kInside + 4 * (g > 0 ? std::log1p(g / f) / g : 1 / f);
+}
+
 struct Generator {
   const char* name;
   const char* description;
   void (*add_options)(Command&, ExampleSettings&);
   Expected<Mesh> (*make)(ExampleSettings&);
+  double (*vertices)(const ExampleSettings&) = nullptr;                     ///< about, if it has no limit by itself
   double (*size)(const ExampleSettings&, const Mesh&, VertexId) = nullptr;  ///< what its points follow, if anything
 };
 
@@ -193,33 +208,41 @@ constexpr Generator kGenerators[] = {
     {"sparse-horseshoe", "the paper's horseshoe of 5 vertices and 4 triangles", [](Command&, ExampleSettings&) {},
      [](ExampleSettings&) -> Expected<Mesh> { return sparse_horseshoe(); }},
     {"horseshoe", "the paper's parameterized horseshoe, constrained Delaunay", add_horseshoe,
-     [](ExampleSettings& s) { return horseshoe(s.horseshoe); }},
+     [](ExampleSettings& s) { return horseshoe(s.horseshoe); },
+     [](const ExampleSettings& s) { return 1.0 * s.horseshoe.a * s.horseshoe.b; }},
     {"triangle", "a single triangle", add_triangle, [](ExampleSettings& s) { return single_triangle(s.triangle); }},
-    {"random", "random points in a polygon, Delaunay: about half of the triangles are bad", add_random, make_random},
+    {"random", "random points in a polygon, Delaunay: about half of the triangles are bad", add_random, make_random,
+     vertices_asked},
     {"sheared-grid", "squares cut along one diagonal, then sheared", add_sheared_grid,
-     [](ExampleSettings& s) { return sheared_grid(s.grid); }},
+     [](ExampleSettings& s) { return sheared_grid(s.grid); },
+     [](const ExampleSettings& s) { return (s.grid.nx + 1.0) * (s.grid.ny + 1.0); }},
     {"annulus", "jittered rings between two circles", add_annulus,
-     [](ExampleSettings& s) { return annulus(s.annulus); }},
+     [](ExampleSettings& s) { return annulus(s.annulus); },
+     [](const ExampleSettings& s) { return 1.0 * s.annulus.around * s.annulus.rings; }},
     {"airfoil", "a box with an airfoil-like hole, graded", add_airfoil,
      [](ExampleSettings& s) { return airfoil(s.airfoil); }},
     {"polygon", "a regular polygon without a vertex inside", add_polygon,
-     [](ExampleSettings& s) { return regular_polygon(s.polygon); }},
+     [](ExampleSettings& s) { return regular_polygon(s.polygon); },
+     [](const ExampleSettings& s) { return 1.0 * s.polygon.corners; }},
     {"letter-a", "a letter A of 29 triangles without a vertex inside", [](Command&, ExampleSettings&) {},
      [](ExampleSettings&) -> Expected<Mesh> { return letter_a(); }},
     {"wedge", "a triangle with a sharp corner, and random points inside", add_wedge,
-     [](ExampleSettings& s) { return wedge(s.wedge); }},
+     [](ExampleSettings& s) { return wedge(s.wedge); }, [](const ExampleSettings& s) { return 3.0 * s.wedge.pieces; }},
     {"graded", "random points in a square, finer towards one corner", add_graded,
-     [](ExampleSettings& s) { return graded_mesh(s.graded); }},
+     [](ExampleSettings& s) { return graded_mesh(s.graded); }, vertices_of_graded},
     {"icosahedral", "the bisected icosahedron, a mesh of the sphere", add_icosahedral,
-     [](ExampleSettings& s) { return icosahedral(s.icosahedral); }},
+     [](ExampleSettings& s) { return icosahedral(s.icosahedral); },
+     [](const ExampleSettings& s) { return 10 * std::exp2(2.0 * s.icosahedral.level) + 2; }},
     {"random-sphere", "random points around the sphere, Delaunay: about half of the triangles are bad",
-     add_random_sphere, make_random_sphere},
+     add_random_sphere, make_random_sphere, vertices_asked},
     {"graded-sphere", "random points around the sphere, finer towards one place, with their sizes", add_graded_sphere,
-     make_graded_sphere, size_of_graded_sphere},
+     make_graded_sphere, [](const ExampleSettings& s) { return 1.0 * static_cast<double>(s.graded_vertices); },
+     size_of_graded_sphere},
     {"random-periodic", "random points in a periodic plane, Delaunay: about half of the triangles are bad",
-     add_random_periodic, make_random_periodic},
+     add_random_periodic, make_random_periodic, vertices_asked},
     {"periodic-hexagons", "rows of hexagons in a periodic plane or a channel", add_periodic_hexagons,
-     [](ExampleSettings& s) { return periodic_hexagons(s.periodic_hexagons); }},
+     [](ExampleSettings& s) { return periodic_hexagons(s.periodic_hexagons); },
+     [](const ExampleSettings& s) { return 1.0 * s.periodic_hexagons.nx * s.periodic_hexagons.ny; }},
 };
 
 void add_options(Command& command, ExampleSettings& s) {
@@ -265,6 +288,21 @@ io::MeshFile file_of(const Mesh& mesh, const Generator& generator, const Example
   return file;
 }
 
+/// Refuses meshes that do not fit in the memory.
+void check_memory(const Generator& generator, const ExampleSettings& s) {
+  constexpr double kBytesPerVertex = 300;  // measured: 150 to 250, to make and to write
+  const auto free = io::free_memory();
+  if (generator.vertices == nullptr || !free) return;
+  const double vertices = generator.vertices(s), bytes = kBytesPerVertex * vertices;
+  const auto free_bytes = static_cast<double>(*free);
+  if (bytes <= free_bytes) return;
+  refuse_usage("example",
+               fmt::format("{}: about {} vertices need about {} of memory, but {} are free. Next: at most {} vertices",
+                           generator.name, MeshEstimate{vertices, 0}.triangles_text(),
+                           MeshEstimate{0, bytes}.memory_text(), MeshEstimate{0, free_bytes}.memory_text(),
+                           MeshEstimate{free_bytes / kBytesPerVertex, 0}.triangles_text()));
+}
+
 }  // namespace
 
 Exit run_example(const Arguments& arguments) {
@@ -284,6 +322,7 @@ Exit run_example(const Arguments& arguments) {
   Outputs outputs("example");
   outputs.expect_mesh(s.output);
 
+  check_memory(generator, s);
   const Expected<Mesh> mesh = generator.make(s);
   if (!mesh)
     refuse_usage("example", std::string(generator.name) + ": " + mesh.error().what());  // options are its only input

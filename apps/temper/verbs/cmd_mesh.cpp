@@ -14,6 +14,7 @@
 #include "exit.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
+#include "files/size_hint.hpp"
 #include "files/size_options.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
@@ -189,7 +190,6 @@ void check_usage(const Command& command, const MeshSettings& s) {
   }
   if (few && s.sphere) refuse_usage("mesh", "--points few is for the plane. Next: --sphere with --size h");
   if (few && s.no_optimize) refuse_usage("mesh", "--points few needs the optimization. Next: leave out --no-optimize");
-  if (!few && s.size.empty()) refuse_usage("mesh", "--size is missing. Next: --size h, or --points few");
   expect_no_unit(s.size);
   if (s.sphere) return;
   if (s.input.empty())
@@ -277,6 +277,14 @@ OutlineMesh run_library(const MeshSettings& s, MesherOptions options, Executor* 
     return interrupted() ? Continue::no : Continue::yes;
   };
   options.time_limit = s.since.left(options.time_limit);
+  options.memory = io::free_memory();
+  options.estimated = [&line](const MeshEstimate& estimate) {
+    constexpr double kSomeSeconds = 200'000;  // triangles
+    if (is_quiet() || estimate.triangles < kSomeSeconds) return;
+    line.clear();
+    put_to_error(fmt::format("temper: the mesh will have about {} triangles, and need about {} of memory\n",
+                             estimate.triangles_text(), estimate.memory_text()));
+  };
   options.region_sizes = region_sizes(s.region_sizes);
   if (s.no_optimize) options.optimize.reset();
   return or_fail(meshing(options, {.executor = executor, .observer = observer, .solvers = solvers()}));
@@ -350,6 +358,27 @@ Result mesh_globe(const MeshSettings& s, Executor* executor) {
   return result;
 }
 
+/// Names a size. If an outline cannot be read, that is the error of the next run.
+[[noreturn]] void refuse_missing_size(const MeshSettings& s) {
+  SphereOutline sphere;
+  sphere.radius = s.radius.value_or(sphere.radius);
+  Outline plane;
+  bool geographic = false, all_read = true;
+  const auto take = [&](const std::string& path, Outline& outline) {
+    if (path.empty()) return;
+    const Expected<io::OutlineFile> file = io::read_outline(path);
+    all_read = all_read && file.has_value();
+    if (!file) return;
+    outline = file->outline;
+    geographic = file->geographic;
+  };
+  take(s.input, s.sphere ? sphere.basins : plane);
+  take(s.coast, sphere.coasts);
+  std::string hint = "Next: --size h, or --points few";
+  if (all_read) hint = s.sphere ? size_hint(sphere, s.options) : size_hint(plane, geographic, s.projection, s.options);
+  refuse_usage("mesh", "--size is missing. " + hint);
+}
+
 Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   catch_interrupts();
@@ -396,6 +425,7 @@ Exit run_mesh(const Arguments& arguments) {
   if (!command.parse(arguments)) return Exit::done;
   take_input(command, s);
   check_usage(command, s);
+  if (s.options.points != MeshPoints::few && s.size.empty()) refuse_missing_size(s);
   s.options.optimize = *options_for(s.target);
   if (s.no_weights) s.options.optimize->unknowns = Unknowns::positions;
   s.files = sorted_outputs("mesh", s.write, kMeshOutputs);

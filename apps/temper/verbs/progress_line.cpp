@@ -49,7 +49,11 @@ void ProgressLine::show(const Progress& progress) {
       progress.share_of_phase ? fmt::format(" {:.0f} %", std::floor(100 * *progress.share_of_phase)) : std::string();
   std::string text = fmt::format("{}{}: sweep {}, {} {} bad, {} {:.6g}, {}", phase, share, progress.last.sweep,
                                  progress.last.bad, elements_, measure, progress.last.energy, duration(seconds));
-  if (progress.n_vertices) {
+  if (!progress.phase.empty()) {
+    text = std::string(progress.phase);
+    if (progress.fraction > 0) text += fmt::format(", {:.0f} %", 100 * progress.fraction);
+    text += ", " + duration(seconds);
+  } else if (progress.n_vertices) {
     text = fmt::format("{} vertices, {} {} bad, {}", *progress.n_vertices, progress.last.bad, elements_,
                        duration(seconds));
   } else if (progress.sweeps_left && sweeps > 0) {

@@ -297,6 +297,34 @@ TEST_F(MeshSphere, BadFilesAreNamedWithTheirFeatureAndNothingIsWritten) {
   EXPECT_FALSE(exists("x.vtu"));
 }
 
+TEST_F(MeshVerb, ASizeThatNeedsMoreMemoryThanThereIsIsRefusedWithOneThatFits) {
+  make_outline();
+  for (const char* size : {"1e-9", "1e-300"}) {
+    const Outcome tiny = temper({"mesh", "in.poly", "-o", "x.vtu", "--size", size});
+    EXPECT_EQ(tiny.exit, 2);
+    EXPECT_TRUE(contains(tiny.err, "would make about")) << tiny.err;
+    EXPECT_TRUE(contains(tiny.err, "Next: a size of ")) << tiny.err;
+  }
+  const Outcome example = temper({"example", "horseshoe", "--a", "1000000", "--b", "1000000", "-o", "x.vtu"});
+  EXPECT_EQ(example.exit, 2);
+  EXPECT_TRUE(contains(example.err, "about 1e+12 vertices need about 300 TB of memory")) << example.err;
+  EXPECT_FALSE(exists("x.vtu"));
+}
+
+TEST_F(MeshVerb, WithoutASizeOneIsNamed) {
+  write("square.poly", "4 2 0 0\n1 0 0\n2 1000 0\n3 1000 500\n4 0 500\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
+  const Outcome none = temper({"mesh", "square.poly", "-o", "x.vtu"});
+  EXPECT_EQ(none.exit, 2);
+  EXPECT_TRUE(contains(none.err, "The outline is 1000 by 500. Next: --size 17, which makes about 4000 triangles"))
+      << none.err;
+  make_country();
+  const Outcome degrees = temper({"mesh", "in.json", "-o", "x.vtu"});
+  EXPECT_EQ(degrees.exit, 2);
+  EXPECT_TRUE(contains(degrees.err, "The outline is 1.5° by 1.5°, or ")) << degrees.err;
+  EXPECT_TRUE(contains(degrees.err, " --projection stereographic, which makes about ")) << degrees.err;
+  EXPECT_TRUE(contains(temper({"mesh", "--sphere", "-o", "x.vtu"}).err, "Next: --size 540000, which makes about"));
+}
+
 TEST_F(MeshSphere, BadUsageAndSizesAreRefused) {
   make_world();
   temper_ok({"example", "random-sphere", "--vertices", "50", "-o", "plain.vtu"});
