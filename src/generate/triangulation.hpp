@@ -58,7 +58,7 @@ struct Triangulation {
 /// Erases the triangles outside the segments and in holes.
 [[nodiscard]] std::optional<InputError> carve(Triangulation& triangulation);
 
-/// The mesh with the user's numbers.
-[[nodiscard]] Mesh in_input_order(Triangulation triangulation);
+/// The mesh with the user's numbers. `stop` is called a few times.
+[[nodiscard]] Expected<Mesh> in_input_order(Triangulation triangulation, const std::function<bool()>& stop = {});
 
 }  // namespace temper::generate

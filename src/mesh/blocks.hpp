@@ -20,7 +20,7 @@ class StoppableExecutor final : public Executor {
       : executor_(or_serial(executor)), stop_(std::move(stop)) {}
 
   void run(std::size_t n, const std::function<void(std::size_t)>& block) override {
-    constexpr std::size_t kAtATime = 64;  // a tenth of a second, and enough for many threads
+    constexpr std::size_t kAtATime = 32;  // some hundredths of a second, and enough for many threads
     for (std::size_t first = 0; first < n && !asked_to_stop(); first += kAtATime) {
       executor_.run(std::min(kAtATime, n - first), [&](std::size_t i) { block(first + i); });
     }

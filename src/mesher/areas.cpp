@@ -29,21 +29,13 @@ struct Hull {
   IdVector<HalfedgeId, std::uint32_t> piece;
 };
 
-Expected<Mesh> delaunay_of_plane(const std::vector<Vec3>& places, std::span<const std::array<std::int32_t, 2>> segments,
-                                 const std::function<bool()>& stop) {
+Expected<generate::Triangulation> delaunay_of(const Surface& surface, const std::vector<Vec3>& places,
+                                              const std::function<bool()>& stop) {
+  if (surface.space().is_closed()) return generate::triangulate_sphere(places, surface.space().radius(), stop);
   std::vector<Vec2> points;
   points.reserve(places.size());
   for (const Vec3 p : places) points.push_back({p.x, p.y});
-  return constrained_delaunay({points, segments, false, stop});
-}
-
-Expected<Mesh> delaunay_of_sphere(const Space& sphere, const std::vector<Vec3>& places,
-                                  std::span<const std::array<std::int32_t, 2>> segments,
-                                  const std::function<bool()>& stop) {
-  auto triangulation = generate::triangulate_sphere(places, sphere.radius(), stop);
-  if (!triangulation) return triangulation.error();
-  if (auto error = generate::insert_segments(*triangulation, segments, stop)) return *error;
-  return generate::in_input_order(*std::move(triangulation));
+  return generate::triangulate_points(points, stop);
 }
 
 Expected<Hull> triangulate_hull(const Surface& surface, const std::vector<Vec3>& points,
@@ -54,9 +46,12 @@ Expected<Hull> triangulate_hull(const Surface& surface, const std::vector<Vec3>&
     segments.push_back({static_cast<std::int32_t>(p.ends[0]), static_cast<std::int32_t>(p.ends[1])});
   }
   const auto stop = [&] { return deadline.asked_to_stop(); };
-  Expected<Mesh> mesh = surface.space().is_closed() ? delaunay_of_sphere(surface.space(), points, segments, stop)
-                                                    : delaunay_of_plane(points, segments, stop);
+  Expected<generate::Triangulation> triangulation = delaunay_of(surface, points, stop);
+  if (!triangulation) return triangulation.error();
+  if (auto error = generate::insert_segments(*triangulation, segments, stop)) return *error;
+  Expected<Mesh> mesh = generate::in_input_order(*std::move(triangulation), [&] { return deadline.ask(); });
   if (!mesh) return mesh.error();
+  if (deadline.ask()) return generate::stopped_error();
   Hull hull{*std::move(mesh), {}};
   hull.piece.resize(hull.mesh.n_halfedges(), kNone);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
