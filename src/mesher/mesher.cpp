@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <set>
@@ -102,6 +103,8 @@ class Mesher {
         deadline_(options.time_limit, hooks_.observer) {}
 
   Expected<OutlineMesh> run() {
+    expected_ = 2 * static_cast<double>(given_places_.size());
+    if (!(expected_ <= most_triangles())) return too_many_points();
     if (auto error = prepare()) return *error;
     if (auto error = check_expected()) return *error;
     tell_estimate();
@@ -257,16 +260,22 @@ class Mesher {
   [[nodiscard]] InputError too_many_triangles() {
     const std::optional<std::string> advice = sizes_that_fit();
     if (!advice) return too_many();
+    return refused(options_.field && !(options_.size > 0) ? "the size field" : "a size of " + to_text(options_.size),
+                   *advice);
+  }
+  [[nodiscard]] InputError too_many_points() const {
+    return refused("an outline of " + quantity(given_places_.size(), "points"),
+                   "an outline with fewer points, or more memory");
+  }
+  /// `what` would make `expected_` triangles.
+  [[nodiscard]] InputError refused(const std::string& what, const std::string& advice) const {
     const MeshEstimate estimate = estimate_of(expected_);
     const bool no_memory = options_.memory && !(expected_ <= triangles_within(*options_.memory));
-    return invalid((options_.points == MeshPoints::few       ? "an outline of " + quantity(places_.size(), "points")
-                    : options_.field && !(options_.size > 0) ? std::string("the size field")
-                                                             : "a size of " + to_text(options_.size)) +
-                   " would make about " + estimate.triangles_text() + " triangles" +
+    return invalid(what + " would make about " + estimate.triangles_text() + " triangles" +
                    (no_memory ? ", which need about " + estimate.memory_text() + " of memory, but " +
                                     MeshEstimate{0, static_cast<double>(*options_.memory)}.memory_text() + " are free"
-                              : "; at most " + to_text(most_triangles()) + " are made") +
-                   ". Next: " + *advice);
+                              : "; at most " + estimate_of(most_triangles()).triangles_text() + " are made") +
+                   ". Next: " + advice);
   }
 
   /// What makes fewer triangles, after `expected_` are too many. Nothing if it is not the size.
@@ -276,7 +285,6 @@ class Mesher {
     constexpr double kFine = 1e-3;     // of the extent: short edges matter less
     constexpr int kTries = 8;
     const double most = kRoom * most_triangles();
-    if (options_.points == MeshPoints::few) return "an outline with fewer points, or more memory";
     if (most < 1) return "more memory";
     if (options_.field) {
       return std::isfinite(expected_) ? "sizes " + rounded(std::sqrt(expected_ / most)) + " times as large"
@@ -301,7 +309,7 @@ class Mesher {
     expected_ = count_on_lines();
     if (!(expected_ <= most_triangles())) {
       return invalid("sizes of regions and lines would make about " + estimate_of(expected_).triangles_text() +
-                     " triangles along them; at most " + to_text(most_triangles()) +
+                     " triangles along them; at most " + estimate_of(most_triangles()).triangles_text() +
                      " are made. Next: larger sizes there");
     }
     for (std::size_t i = 0; i < edges_.size(); ++i) {
@@ -435,7 +443,7 @@ class Mesher {
     const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
     char text[32];
     std::snprintf(text, sizeof text, "%.2g", std::ceil(value / unit) * unit);
-    return text;
+    return to_text(std::strtod(text, nullptr));  // 20000 rather than 2e+04
   }
 
   [[nodiscard]] InputError stopped(const std::string& doing) const {

@@ -45,6 +45,8 @@ ELSEWHERE = {
     "printable": "messages are", "needs_projection": "TemperError says it", "projection_text": "Projection's fields",
     "from_mesh": "write does it", "from_outline": "mesh_outline does it", "files_to_write": "write does it", "check_tetrahedra_to_write": "write does it", "files_to_read": "read does it",
     "discard_unfinished": "a signal ends Python by an exception",
+    "free_memory": "mesh_outline(memory=None) takes it",
+    "estimate_outline": "mesh_outline refuses what does not fit", "estimate_sphere": "as estimate_outline",
     "summarize": "DecComplex.summarize", "power_cells": "DecComplex.power_cells", "write_dec": "DecComplex.write, Columns.write",
     "dec_file_names": "write_dec returns the paths", "needs_columns": "as dec_file_names", "read_layers": "numpy.genfromtxt",
     "fault_of_surfaces": "columns says it", "cells_of_groups": "Columns.groups", "draw_before_after_svg": "draw_svg(before=…)", "write_text": "Svg.save and Html.save",

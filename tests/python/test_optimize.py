@@ -407,6 +407,20 @@ def test_sizes_are_reported_and_can_be_held(ring):
         temper.SizeField.from_values(ring, np.where(np.arange(ring.n_vertices) == 7, -1, 1))
 
 
+def test_a_mesh_that_does_not_fit_in_the_memory_is_refused():
+    square = temper.Outline([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1), (1, 2), (2, 3), (3, 0)])
+    with pytest.raises(temper.TemperError, match="about 637 MB of memory, but 100 MB are free. Next: a size of "):
+        temper.mesh_outline(square, 0.001, memory=100_000_000)
+    for size in (1e-9, 1e-300):
+        with pytest.raises(temper.TemperError, match="triangles.* Next: a size of "):
+            temper.mesh_outline(square, size)
+    with pytest.raises(temper.TemperError, match="Next: a size of "):
+        temper.mesh_sphere(1.0)
+    phases = []
+    temper.mesh_outline(square, 0.004, optimize=False, observer=lambda now: phases.append(now.phase))
+    assert "placing points" in phases
+
+
 def test_an_outline_is_meshed_well_centered():
     points = [(0, 0), (4, 0), (4, 3), (0, 3), (1, 1), (2, 1), (2, 2), (1, 2)]
     segments = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4)]

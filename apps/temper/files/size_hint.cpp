@@ -38,12 +38,17 @@ using Estimating = std::function<Expected<MeshEstimate>(const MesherOptions&)>;
 std::string usual_size(MesherOptions options, double extent, const std::string& further, const Estimating& estimate) {
   constexpr double kSomeThousand = 4000, kFirst = 50, kCoarsest = 5;  // parts of the extent
   constexpr int kTries = 4;
+  constexpr double kPatience = 2;  // seconds: then a size without a number is better
   options.size = extent / kFirst;
+  options.time_limit = kPatience;
   double triangles = 0;
   for (int i = 0; i < kTries; ++i) {
     if (i > 0) options.size = std::min(options.size * std::sqrt(triangles / kSomeThousand), extent / kCoarsest);
     options.size = std::stod(fmt::format("{:.2g}", options.size));
-    triangles = or_fail(estimate(options)).triangles;
+    const Expected<MeshEstimate> found = estimate(options);
+    if (!found && found.error().code == ErrorCode::stopped)
+      return fmt::format("Next: --size {}{}", options.size, further);
+    triangles = or_fail(found).triangles;
   }
   constexpr double kDigits = 100;
   return fmt::format("Next: --size {}{}, which makes about {} triangles", options.size, further,

@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "io/system/system.hpp"
@@ -42,8 +44,8 @@ bool is_open_to_write(int /*file*/) { return true; }
 int open_to_write(const std::string& path) { return ::open(path.c_str(), O_WRONLY | O_TRUNC); }
 
 std::optional<std::uint64_t> free_memory() {
-  constexpr std::uint64_t kPage = 65536, kPages = 65536;  // addresses have 32 bits
-  return (kPages - __builtin_wasm_memory_size(0)) * kPage;
+  constexpr std::uint64_t kAddresses = std::uint64_t{1} << 32;
+  return kAddresses - reinterpret_cast<std::uintptr_t>(sbrk(0));  // the end of the memory so far
 }
 
 }  // namespace temper::io
