@@ -143,6 +143,8 @@ export interface Progress {
   sweeps_left: number | null;
   /** Number of vertices, while the run searches for a mesh with fewer. */
   n_vertices: number | null;
+  /** Estimate of the share of the present phase that is done, from 0 to 1. Each objective of `last` is a phase. */
+  share_of_phase: number | null;
   /** Phase of the mesher before an optimization, which has no sweeps. Empty in an optimization. */
   phase: string;
 }
