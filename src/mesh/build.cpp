@@ -20,7 +20,10 @@
 namespace temper {
 namespace {
 
-// The bounds of exact_range.hpp, for lengths and weights.
+// Within these bounds nothing over- or underflows in the exact predicates (geometry.hpp), in the user's units and after
+// scaling to an extent of about 1, whatever the other coordinates are. They are far beyond any unit of length.
+constexpr double kLargestCoordinate = 1e60;
+constexpr double kSmallestCoordinate = 1e-60;  // absolute, and relative to the largest coordinate
 constexpr double kSmallestExtent = 1e-60;
 constexpr double kLargestWeight = 1e120;    // absolute, and relative to the extent squared
 constexpr double kSmallestWeight = 1e-120;  // absolute, and relative to the largest coordinate squared
@@ -170,7 +173,7 @@ class MeshBuilder {
                             to_text(kSmallestExtent) + ", which exact arithmetic needs"};
     }
     const double large = std::max(1.0, largest);
-    if (auto error = check_coordinates(exact_range(largest))) return error;
+    if (auto error = check_coordinates({kSmallestCoordinate * large, kLargestCoordinate})) return error;
     if (auto error = check_weights({kSmallestWeight * large * large, kLargestWeight * std::min(1.0, extent * extent)}))
       return error;
     if (!in_.space.is_periodic()) return std::nullopt;

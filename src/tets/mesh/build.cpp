@@ -18,6 +18,11 @@
 namespace temper::tets {
 namespace {
 
+// Within these bounds nothing over- or underflows in the exact predicates (geometry.hpp), in the user's units and after
+// scaling to an extent of about 1.
+constexpr double kLargestCoordinate = 1e35;
+constexpr double kSmallestCoordinate = 1e-35;  // absolute, and relative to the largest coordinate
+
 VertexId id(std::int32_t i) { return VertexId(static_cast<std::size_t>(i)); }
 
 /// "a, b and c"
@@ -135,7 +140,7 @@ class TetMeshBuilder {
   std::optional<InputError> add_vertices() {
     const std::size_t n = in_.points.size();
     mesh_.places_.resize(n);
-    double largest = 0;
+    double largest = 1;
     for (std::size_t i = 0; i < n; ++i) {
       const Vec3 p = in_.points[i];
       const double w = in_.weights.empty() ? 0.0 : in_.weights[i];
@@ -148,7 +153,7 @@ class TetMeshBuilder {
       mesh_.set_point(VertexId(i), {p.x, p.y, p.z, w});
       largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }
-    const ExactRange range = exact_range(largest);
+    const ExactRange range = {kSmallestCoordinate * std::min(largest, kLargestCoordinate), kLargestCoordinate};
     for (const VertexId v : mesh_.vertices()) {
       const auto [x, y, z, w] = mesh_.point(v);
       if (!range.allows(x) || !range.allows(y) || !range.allows(z))

@@ -89,7 +89,7 @@ TEST_F(TetFiles, GeometryTagsAndWeightsComeBackFromEveryFormat) {
 }
 
 TEST_F(TetFiles, CoordinatesOfAnyMagnitudeComeBackFromEveryFormat) {
-  for (const double x : {1.1e35, -1e154, 1e200, -1e308, 1e-200}) {
+  for (const double x : {0x1.1p125, -1e154, 1e200, -1e308, 1e-200}) {
     TetFile sample = tet_sample();
     sample.points[1].x = x;
     for (const std::string& format : tet_formats()) {

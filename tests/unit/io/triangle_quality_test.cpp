@@ -75,9 +75,9 @@ TEST_F(TriangleQualityOfFiles, IsNoDataOfTheUserAndIsThereOnceAfterManyRounds) {
 TEST_F(TriangleQualityOfFiles, IsTheLowestIfExactArithmeticCannotMeasureATriangle) {
   MeshFile file;
   file.triangles = {{0, 1, 2}};
-  for (const double x : {1e60, -1e60, 1e-60, 1.1e60, 1e154, -1e308, 0.9e-60, -1e-200}) {
+  for (const double x : {0x1p250, -0x1p250, 0x1p-214, 0x1.1p250, 1e154, -1e308, 0x1.fp-215, -1e-200}) {
     file.points = {{0, 0}, {1, 0}, {x, 1}};
-    const bool is_unknown = std::abs(x) > 1e60 || std::abs(x) < 1e-60;
+    const bool is_unknown = std::abs(x) > 0x1p250 || std::abs(x) < 0x1p-214;
     const auto warnings = write(path("m.vtu"), file);
     ASSERT_TRUE(warnings) << warnings.error().what();
     const auto data = all_cell_data(path("m.vtu"));

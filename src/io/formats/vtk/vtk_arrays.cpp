@@ -2,19 +2,18 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <memory>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "io/conversion/globe.hpp"
 #include "io/formats/cells.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
-#include "mesh/exact_range.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/quality.hpp"
 #include "temper/tets/geometry.hpp"
@@ -257,45 +256,35 @@ Vec3 measured_place(const WriteJob& job, std::size_t point) {
   return job.measured.sphere() != nullptr ? p : Vec3{p.x, p.y, 0};
 }
 
-/// The range of the coordinates of these corners.
-template <std::size_t N>
-ExactRange range_of(const WriteJob& job, const std::array<std::int32_t, N>& corners) {
-  double largest = 0;
-  for (const std::int32_t corner : corners) {
-    const Vec3 p = measured_place(job, static_cast<std::size_t>(corner));
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
-  return N == 3 ? exact_range(largest) : tets::exact_range(largest);
+bool is_exact(const WriteJob& job, Vec3 p) {
+  const auto all = [&](const auto& is_in_range) { return is_in_range(p.x) && is_in_range(p.y) && is_in_range(p.z); };
+  return job.n_tetrahedra() > 0 ? all(tets::is_exact_coordinate) : all(is_exact_coordinate);
 }
 
 /// The first of these corners with coordinates out of range, or −1.
-template <std::size_t N>
-std::int32_t corner_out_of_range(const WriteJob& job, const std::array<std::int32_t, N>& corners) {
-  const ExactRange range = range_of(job, corners);
-  for (const std::int32_t corner : corners) {
-    const Vec3 p = measured_place(job, static_cast<std::size_t>(corner));
-    if (!range.allows(p.x) || !range.allows(p.y) || !range.allows(p.z)) return corner;
-  }
-  return -1;
+std::int32_t corner_out_of_range(const WriteJob& job, std::span<const std::int32_t> corners) {
+  const auto found = std::ranges::find_if(corners, [&](std::int32_t corner) {
+    return !is_exact(job, measured_place(job, static_cast<std::size_t>(corner)));
+  });
+  return found == corners.end() ? -1 : *found;
 }
 
-template <std::size_t N>
-bool is_measurable(const WriteJob& job, const std::array<std::int32_t, N>& corners) {
-  const ExactRange range = range_of(job, corners).squared();
+bool is_measurable(const WriteJob& job, std::span<const std::int32_t> corners) {
   const auto& weights = job.measured.weights;
+  const auto is_in_range = job.n_tetrahedra() > 0 ? tets::is_exact_weight : is_exact_weight;
   return corner_out_of_range(job, corners) < 0 && std::ranges::all_of(corners, [&](std::int32_t corner) {
-           return weights.empty() || range.allows(weights[static_cast<std::size_t>(corner)]);
+           return weights.empty() || is_in_range(weights[static_cast<std::size_t>(corner)]);
          });
 }
 
-template <std::size_t N>
-void warn_of_scale(const WriteJob& job, std::span<const std::array<std::int32_t, N>> elements, std::string_view name) {
+template <class Elements>
+void warn_of_scale(const WriteJob& job, const Elements& elements, std::string_view name) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const std::int32_t corner = corner_out_of_range(job, elements[i]);
     if (corner < 0) continue;
+    const Vec3 p = measured_place(job, static_cast<std::size_t>(corner));
     job.warn("the quality of ", name, " ", i, " and perhaps of others is unknown, and written as the lowest: point ",
-             corner, " has coordinates ", coordinates(measured_place(job, static_cast<std::size_t>(corner))), "; ",
-             range_of(job, elements[i]).text());
+             corner, " has coordinates (", p.x, ", ", p.y, ", ", p.z, "), which exact arithmetic cannot take");
     return;
   }
 }
@@ -303,9 +292,9 @@ void warn_of_scale(const WriteJob& job, std::span<const std::array<std::int32_t,
 /// Warns of the first element that cannot be measured.
 void warn_of_scale(const WriteJob& job) {
   if (job.n_tetrahedra() > 0)
-    warn_of_scale<4>(job, job.tetrahedra->corners, "tetrahedron");
+    warn_of_scale(job, job.tetrahedra->corners, "tetrahedron");
   else
-    warn_of_scale<3>(job, job.measured.triangles, "triangle");
+    warn_of_scale(job, job.measured.triangles, "triangle");
 }
 
 constexpr double kUnknown = -std::numeric_limits<double>::infinity();
