@@ -160,10 +160,11 @@ bool contradict(const Requirement& a, const Requirement& b) {
   return a.key == b.key && a.better != Preference::less && b.better != Preference::larger && a.value > b.value;
 }
 
-/// The keys and short names, for --help.
+/// The keys and short names of fields of reports, for --help.
 std::string requirement_keys(MeshKind kind) {
   std::string text;
   for (const Key& each : keys_of(kind)) {
+    if (each.key == kBad) continue;
     if (!text.empty()) text += ", ";
     text += each.key;
     if (!each.alias.empty()) text += fmt::format(" ({})", each.alias);
@@ -194,8 +195,9 @@ Option& add_requirements(Command& command, std::vector<std::string>& lists, bool
       "Requirements key=value, key>=value or key<=value, separated by commas. If one is not met, exit with 3. For a "
       "count, key=value requires equality. For a minimum or a fraction it means at least, and for a maximum or an "
       "energy at most. A key alone stands for its usual value, see docs/reference/limits.md. Keys: " +
-          requirement_keys(MeshKind::triangles) + ", energy.NAME.STAR" +
-          (tetrahedra ? ". Keys for tetrahedra: " + requirement_keys(MeshKind::tetrahedra) : ""));
+          requirement_keys(MeshKind::triangles) + ", energy.NAME.STAR, bad" +
+          (tetrahedra ? ". Keys for tetrahedra: " + requirement_keys(MeshKind::tetrahedra) + ", bad" : "") +
+          ". The key bad counts elements that are not well-centered");
 }
 
 std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists, MeshKind kind) {

@@ -115,8 +115,9 @@ TEST(Presets, TheNameOfASolverStandsForItsTarget) {
 }
 
 TEST(Presets, ASolverOfSeveralUsesIsToldWithItsTargets) {
-  const std::string text = "'modflow' stands for no target of its own; expected target vertex with power cells on the "
-                           "mesh, target cell with triangles as cells";
+  const std::string text =
+      "'modflow' stands for no target of its own; expected target vertex with power cells on the "
+      "mesh, target cell with triangles as cells";
   EXPECT_EQ(message(options_for("modflow")), text);
   EXPECT_NE(message(options_for("Decapodes")).find("target stars for forms"), std::string::npos);
 }
