@@ -7,6 +7,7 @@
 #include "support/tet_lattice.hpp"
 #include "temper/generate.hpp"
 #include "temper/io.hpp"
+#include "temper/tets/io.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
