@@ -37,12 +37,12 @@ using Estimating = std::function<Expected<MeshEstimate>(const MesherOptions&)>;
 /// Short edges of the outline make triangles at any size, so the last of some sizes may make more.
 std::string usual_size(MesherOptions options, double extent, const std::string& further, const Estimating& estimate) {
   constexpr double kSomeThousand = 4000, kFirst = 50, kCoarsest = 5;  // parts of the extent
-  constexpr int kTries = 4;
+  constexpr int kRounds = 4;
   constexpr double kPatience = 2;  // seconds: then a size without a number is better
   options.size = extent / kFirst;
   options.time_limit = kPatience;
   double triangles = 0;
-  for (int i = 0; i < kTries; ++i) {
+  for (int i = 0; i < kRounds; ++i) {
     if (i > 0) options.size = std::min(options.size * std::sqrt(triangles / kSomeThousand), extent / kCoarsest);
     options.size = std::stod(fmt::format("{:.2g}", options.size));
     const Expected<MeshEstimate> found = estimate(options);
