@@ -89,8 +89,8 @@ bool GuardValues::hold(const GuardValues& before, const GuardValues& limits) con
   return true;
 }
 
-Guard::Guard(const Mesh& mesh, const WorkingUnits& units, std::shared_ptr<const GuardLimits> limits)
-    : mesh_(mesh), units_(units), limits_(std::move(limits)) {
+Guard::Guard(const Mesh& mesh, const WorkingUnits& units, std::shared_ptr<const GuardLimits> limits, bool in_copy)
+    : mesh_(mesh), units_(units), limits_(std::move(limits)), in_copy_(in_copy) {
   if (on() && has_depth()) depths_ = std::make_shared<IdVector<VertexId, Depth>>();
   grow();
 }
@@ -287,7 +287,7 @@ bool Guard::allows_move(VertexId v, const WeightedPoint& p) {
     if (!star_) star_ = around(old_);
     if (!after.hold(*star_, limits_->for_steps)) return false;
   }
-  if (!limits_->has_cells) return true;
+  if (!reads_stars()) return true;
   const GuardValues cells = cells_around(v, true);
   if (cells.are_within(limits_->for_steps)) return true;
   if (!cells_) cells_ = cells_around(v, false);
@@ -331,7 +331,7 @@ void Guard::about_to_flip(HalfedgeId h) {
     before_.take(around(t, std::span(touched_).first(n)));
     touched_.push_back(t);
   }
-  if (!limits_->has_cells) return;
+  if (!reads_stars()) return;
   for (const VertexId v : {mesh_.origin(h), mesh_.target(h), mesh_.opposite(h), mesh_.opposite(mesh_.twin(h))}) {
     if (std::ranges::find(corners_, v) != corners_.end()) continue;
     before_.take(cell(v));

@@ -89,12 +89,13 @@ struct OutsideNeighbors {
 /// vertices.
 class Guard {
  public:
-  /// The guard of a mesh in working units. Without limits it is off.
-  Guard(const Mesh& mesh, const WorkingUnits& units, std::shared_ptr<const GuardLimits> limits);
+  /// The guard of a mesh in working units. Without limits it is off. A copy of a few triangles does not know all cells
+  /// at its rim, and asking for cells takes most of the time. So steps there do not ask, but worst() does at the end.
+  Guard(const Mesh& mesh, const WorkingUnits& units, std::shared_ptr<const GuardLimits> limits, bool in_copy = false);
 
   [[nodiscard]] bool on() const { return limits_ != nullptr; }
   /// Says whether a question reads the stars of neighbors.
-  [[nodiscard]] bool reads_stars() const { return on() && limits_->has_cells; }
+  [[nodiscard]] bool reads_stars() const { return on() && limits_->has_cells && !in_copy_; }
 
   /// Say whether these changes are within the guard: v moves to p, a plan is committed. Call begin_step() before the
   /// moves that one step tries.
@@ -164,6 +165,7 @@ class Guard {
   const Mesh& mesh_;
   const WorkingUnits& units_;
   std::shared_ptr<const GuardLimits> limits_;
+  bool in_copy_;
   std::shared_ptr<IdVector<VertexId, Depth>> depths_;  // of all parts; if there are depths
   VertexId moving_;
   WeightedPoint place_;

@@ -81,6 +81,7 @@ struct Settings {
   bool lacks_discretization_error = false;     ///< the run would use `errors`, but the build has none
   std::shared_ptr<LpSolver> lp{};              ///< for repairs, or null
   std::shared_ptr<const GuardLimits> guard{};  ///< of steps and of the judge, or null
+  bool in_copy = false;                        ///< sweeps work on a copy of a few triangles (repair/local_copy.hpp)
   double worst_violation = kInfinity;          ///< of the input's triangles (judge.hpp): no result has a worse one
   std::optional<SizeField> size_field{};       ///< of the size band, in the user's units; absent without a band
 

@@ -137,6 +137,7 @@ Settings settings_of_copies(const Settings& settings) {
   s.model.kind = s.options.energy;
   if (!s.options.size_band) s.size_field.reset();
   s.hooks = {};
+  s.in_copy = true;
   return s;
 }
 

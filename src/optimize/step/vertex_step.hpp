@@ -27,7 +27,7 @@ struct VertexLimits {
       : mobility(mobilities(work.mesh, settings.options, settings.executor())),
         degree(work.mesh.n_vertices(), 0),
         band(work.mesh, units, settings.size_field, settings.options.size_band),
-        guard(work.mesh, units, settings.guard),
+        guard(work.mesh, units, settings.guard, settings.in_copy),
         work_(work),
         mesh_(work.mesh),
         options_(settings.options) {
