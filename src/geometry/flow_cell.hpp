@@ -43,6 +43,43 @@ struct FlowCell {
   return {a + weight(1) * (b - a) + weight(2) * (c - a), 0.5 * length(cross(b - a, c - a))};
 }
 
+/// The cell of a convex quadrilateral. Its center lies as near as possible to the perpendicular bisectors of the sides
+/// that have a neighbor: least squares, nearest to the mean of the corners. With less than two such sides it is this
+/// mean. A center outside is where the way from the mean leaves the cell.
+[[nodiscard]] inline FlowCell flow_cell(const std::array<Vec3, 4>& corners, const std::array<bool, 4>& has_neighbor) {
+  const Vec3 normal = cross(corners[2] - corners[0], corners[3] - corners[1]);
+  const Vec3 mean = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+  const Vec3 x = (1 / length(corners[1] - corners[0])) * (corners[1] - corners[0]),
+             y = (1 / length(normal)) * cross(normal, x);
+  const auto in_plane = [&](Vec3 v) { return Vec2{dot(v, x), dot(v, y)}; };
+  // The bisector of side k: (c − middle) · along = 0, for the step c from the mean.
+  double xx = 0, xy = 0, yy = 0;
+  Vec2 right;
+  int n = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (!has_neighbor[k]) continue;
+    const Vec3 side = corners[(k + 1) % 4] - corners[k];
+    const Vec2 along = in_plane((1 / length(side)) * side), middle = in_plane(corners[k] + 0.5 * side - mean);
+    xx += along.x * along.x, xy += along.x * along.y, yy += along.y * along.y;
+    right = right + dot(middle, along) * along;
+    ++n;
+  }
+  Vec2 step;
+  const double determinant = xx * yy - xy * xy, trace = xx + yy;
+  constexpr double kParallel = 1e-9;  // of the sides with neighbors: there is no second direction
+  if (n > 1 && determinant > kParallel * trace * trace)
+    step = (1 / determinant) * Vec2{yy * right.x - xy * right.y, xx * right.y - xy * right.x};
+  else if (n > 1)
+    step = (1 / trace) * right;
+  double way = 1;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec2 from = in_plane(corners[k] - mean), to = in_plane(corners[(k + 1) % 4] - mean);
+    const double inside = cross(from, to), across = cross(step, to - from);
+    if (across > inside) way = std::min(way, inside / across);
+  }
+  return {mean + (way * step.x) * x + (way * step.y) * y, 0.5 * length(normal)};
+}
+
 /// The line between the centers of two cells that share an edge.
 struct FlowLink {
   double orthogonality = 0;  ///< |cosine| of its angle with the edge; 0 if rounding determines its direction

@@ -46,19 +46,6 @@ void merge(SolverMeasures& into, const SolverMeasures& from) {
 
 // --- D-Flow FM -----------------------------------------------------------------------------------------------
 
-FlowCell flow_cell_of(const Mesh& mesh, TriangleId t, const WeightedPoint& near) {
-  const auto [a, b, c] = mesh.corners(t);
-  FlowCell cell = flow_cell(position_of(mesh, a, near), position_of(mesh, b, near), position_of(mesh, c, near));
-  // Half a quadrilateral has its own center, but the area of the whole.
-  for (int k = 0; k < 3; ++k) {
-    const HalfedgeId h = Mesh::halfedge(t, k), other = mesh.twin(h);
-    if (!mesh.is_diagonal(h) || !other.valid()) continue;
-    const auto at = [&](VertexId v) { return position_of(mesh, v, near); };
-    cell.area += flow_cell(at(mesh.origin(other)), at(mesh.target(other)), at(mesh.opposite(other))).area;
-  }
-  return cell;
-}
-
 void add_flow_link(SolverMeasures& m, const Mesh& mesh, HalfedgeId h) {
   const WeightedPoint from = mesh.point(mesh.origin(h));
   const FlowCell left = flow_cell_of(mesh, Mesh::triangle(h), from),
@@ -143,6 +130,20 @@ SolverMeasures over(std::size_t n, Executor* executor, Add&& add) {
 }
 
 }  // namespace
+
+FlowCell flow_cell_of(const Mesh& mesh, TriangleId t, const WeightedPoint& near) {
+  const auto at = [&](VertexId v) { return position_of(mesh, v, near); };
+  const auto has_neighbor = [&](HalfedgeId h) { return mesh.twin(h).valid(); };
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeId h = Mesh::halfedge(t, k), other = mesh.twin(h);
+    if (!mesh.is_diagonal(h) || !other.valid()) continue;
+    const HalfedgeId next = Mesh::next(h), last = Mesh::prev(h), first = Mesh::next(other), second = Mesh::prev(other);
+    return flow_cell({at(mesh.origin(first)), at(mesh.origin(second)), at(mesh.origin(next)), at(mesh.origin(last))},
+                     {has_neighbor(first), has_neighbor(second), has_neighbor(next), has_neighbor(last)});
+  }
+  const auto [a, b, c] = mesh.corners(t);
+  return flow_cell(at(a), at(b), at(c));
+}
 
 SolverMeasures solver_measures(const Mesh& mesh, bool brief, Executor* executor) {
   const Walk walk(mesh, executor);

@@ -50,7 +50,8 @@ def test_the_guard_takes_depths_from_point_data():
         return (areas / longest / np.sqrt(9.81 * depths)).min()
 
     least = []
-    for guard in ({"guard_areas": 0}, {"guard_step": 1e9}):
+    off = {"guard": "none", "guard_angle": 0, "guard_edge": 0, "guard_areas": None}
+    for guard in (off, off | {"guard_step": 1e9}):
         mesh = temper.generate.annulus()
         x, y = np.asarray(mesh.points).T
         mesh.point_data["depth"] = 50 + 40 * x

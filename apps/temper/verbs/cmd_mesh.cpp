@@ -225,7 +225,8 @@ SizeField read_sizes(const MeshSettings& s, const std::string& degrees, const st
   }
   std::optional<DepthRule> depths;
   if (!s.from_depth.empty()) depths = parse_depth_rule("mesh", s.from_depth);
-  if (depths) options.positive = depths->positive;
+  // Only z of a 2DM file asks for a sign; other data get it from the rule.
+  if (depths && path_of(s.size).extension() == ".2dm") options.positive = depths->positive;
   io::MeshFile file = read_tried(s.size, options);
   const std::string projection = file.degrees() != nullptr ? degrees : "";
   const auto read = [&file](const std::string&) { return std::move(file); };

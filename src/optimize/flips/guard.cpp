@@ -132,17 +132,19 @@ Guard::Triangle Guard::triangle(const Corners& corners, bool of_plan) const {
 
 Guard::Triangle Guard::triangle(TriangleId id) const {
   Triangle t = triangle(mesh_.corners(id));
-  for (int k = 0; k < 3; ++k) {
-    const HalfedgeId h = Mesh::halfedge(id, k);
-    if (!mesh_.is_diagonal(h) || !mesh_.twin(h).valid()) continue;  // a copy may end there
-    const Triangle other = triangle(mesh_.corners(Mesh::triangle(mesh_.twin(h))));
-    t.doubled_area += other.doubled_area;
-    t.cell.area += other.cell.area;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const HalfedgeId h = Mesh::halfedge(id, static_cast<int>(k));
+    if (!mesh_.is_diagonal(h)) continue;
+    t.diagonal = k;
+    if (!mesh_.twin(h).valid()) continue;  // a copy may end there
+    t.doubled_area += triangle(mesh_.corners(Mesh::triangle(mesh_.twin(h)))).doubled_area;
+    if (limits_->has_flow) t.cell = flow_cell_of(mesh_, id, mesh_.point(mesh_.corners(id)[0]));
   }
   return t;
 }
 
 GuardValues Guard::alone(const Triangle& t) const {
+  if (t.diagonal) return {};  // a quadrilateral stays as it is, and half of it has other angles
   const auto [least, most] = std::minmax({t.l2[0], t.l2[1], t.l2[2]});
   const double middle = t.l2[0] + t.l2[1] + t.l2[2] - least - most;
   const double height2 = t.doubled_area * t.doubled_area / most;

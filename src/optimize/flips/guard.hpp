@@ -134,6 +134,7 @@ class Guard {
     double doubled_area = 0;        // of the whole cell, if this is half a quadrilateral
     std::array<double, 3> l2 = {};  // of the edges from corner k to k + 1
     double depth = 0;
+    std::optional<std::size_t> diagonal = {};  // of half a quadrilateral: the edge inside of it
     // For flow links: center and area of the cell, and places of the corners near the first one.
     FlowCell cell;
     std::array<Vec3, 3> at = {};

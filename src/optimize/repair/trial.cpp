@@ -58,7 +58,8 @@ class Trial {
     if (settings_.guard == nullptr) return true;
     const Guard guard(copy_.mesh(), grid_, settings_.guard);
     const Guard original(around_.mesh, grid_, settings_.guard);
-    return worst(guard, copy_.mesh()).hold(worst(original, around_.mesh), guard.limits());
+    const GuardValues now = worst(guard, copy_.mesh());
+    return now.are_within(guard.limits()) || now.hold(worst(original, around_.mesh), guard.limits());
   }
   [[nodiscard]] GuardValues worst(const Guard& guard, const Mesh& mesh) const {
     GuardValues v = guard.worst(nullptr, around_.outside);

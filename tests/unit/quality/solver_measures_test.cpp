@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/flow_cell.hpp"
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/detail/geometry.hpp"
@@ -137,6 +138,31 @@ TEST(SolverMeasures, OfTwoTrianglesAreAsByHand) {
 TEST(SolverMeasures, OrthogonalityIsThatOfCircumcentersKeptInside) {
   const Quality q = quality(mesh_of({{0, 0}, {4, 0}, {1, 1}, {2, -4}}, {{0, 1, 2}, {1, 0, 3}}));
   EXPECT_NEAR(q.max_orthogonality, 0.25 / std::hypot(0.25, 1.5), kClose);
+}
+
+/// By hand: the bisectors of two sides meet in the center; of one side, the center is the mean of the corners; of four
+/// sides of a kite it is the point nearest to all bisectors, found by Gauss's normal equations.
+TEST(FlowCell, OfAQuadrilateralIsNearestToTheBisectorsOfItsInnerSides) {
+  const std::array<Vec3, 4> p = {{{0, 0, 0}, {4, 0, 0}, {5, 3, 0}, {0, 4, 0}}};
+  const auto center = [&](std::array<bool, 4> inner) { return flow_cell(p, inner).center; };
+  EXPECT_NEAR(length(center({true, false, false, true}) - Vec3{2, 2, 0}), 0, 1e-14);
+  EXPECT_NEAR(length(center({true, false, false, false}) - Vec3{2.25, 1.75, 0}), 0, 1e-14);
+  EXPECT_DOUBLE_EQ(flow_cell(p, {}).area, 16);
+  // Two parallel sides leave one direction free: the center keeps the height of the mean.
+  const std::array<Vec3, 4> trapezoid = {{{0, 0, 0}, {4, 0, 0}, {3, 2, 0}, {2, 2, 0}}};
+  EXPECT_NEAR(length(flow_cell(trapezoid, {true, false, true, false}).center - Vec3{2.25, 1, 0}), 0, 1e-14);
+  // The gradient of the sum of squares vanishes at the center of four sides, which is inside.
+  const Vec3 c = center({true, true, true, true});
+  Vec3 gradient;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec3 side = p[(k + 1) % 4] - p[k], along = (1 / length(side)) * side;
+    gradient = gradient + dot(c - p[k] - 0.5 * side, along) * along;
+  }
+  EXPECT_NEAR(length(gradient), 0, 1e-14);
+  // The bisectors x = 2 and 2.5 (x - 4.25) + y = 0.1 meet at y = 5.725: the center stays on the upper side.
+  const std::array<Vec3, 4> thin = {{{0, 0, 0}, {4, 0, 0}, {4.5, 0.2, 0}, {0, 0.2, 0}}};
+  const Vec3 on_side = flow_cell(thin, {true, true, false, false}).center;
+  EXPECT_NEAR(on_side.y, 0.2, 1e-14);
 }
 
 TEST(SolverMeasures, DoNotChangeWhenTheMeshIsTurnedMovedOrScaled) {
