@@ -158,12 +158,16 @@ export interface OptimizeOptions {
   time_limit?: number;
   /** Seed of the jitter that frees symmetric grids, of repairs, and of order: "random"; at least 0. Default: 1. */
   seed?: number;
-  /** Bound of the guard for the least angle in degrees. The angle never falls below it, or below the least one of the input if that is smaller. 60: the input's. 0: no limit; at least 0 and at most 60. Default: 0. */
+  /** Solver whose measures the guard keeps. None becomes worse than in the input. If the input meets the limits of D-Flow FM, ADCIRC or MPAS, it comes back. Default: "none". */
+  guard?: "none" | "fem" | "adcirc" | "dflowfm" | "mpas";
+  /** Bound of the guard for the least angle a in degrees, and 180 - 2a for the largest one. The least angle never falls below it, or below the least one of the input if that is smaller. 60: the input's. 0: no limit; at least 0 and at most 60. Default: 0.0. */
   guard_angle?: number;
-  /** Bound of the guard for the least length of an inner edge over the size of its triangles. 0: no limit; at least 0 and at most 1. Default: 0. */
+  /** Bound of the guard for the least length of an inner edge over the size of its triangles. 0: no limit; at least 0 and at most 1. Default: 0.0. */
   guard_edge?: number;
-  /** Bound of the guard for the largest ratio of the areas of two triangles that share an edge, at least 1. 0: no limit; at least 0. Default: 0. */
-  guard_areas?: number;
+  /** Bound of the guard for the largest ratio of the areas of two triangles that share an edge, at least 1; at least 1. null: no limit. Default: null. */
+  guard_areas?: number | null;
+  /** Bound of the guard for the shortest edge, in the unit of the coordinates; at least 0. null: the shortest edge of the input, if there is another limit. Default: null. */
+  guard_length?: number | null;
   /** Bound of the guard for the time in seconds in which a long wave crosses a triangle or an edge. It holds if the mesh has point data with the name depth; at least 0. null: the shortest time of the input, if there is another limit. Default: null. */
   guard_step?: number | null;
 }
