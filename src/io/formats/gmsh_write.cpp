@@ -193,9 +193,12 @@ class GmshWriter {
     taken.erase(0);
     if (taken.empty()) return;
     for (const PhysicalName& n : file_.names) taken.insert(n.tag);
-    const std::int32_t tag = free_tag(taken);
+    std::array<std::int32_t, 4> tags = {};  // one for each dimension: some readers find names by the tag alone
     for (Kind* kind : kinds()) {
-      if (has_ungrouped[static_cast<std::size_t>(kind->dimension)]) kind->ungrouped = tag;
+      const auto dimension = static_cast<std::size_t>(kind->dimension);
+      if (!has_ungrouped[dimension]) continue;
+      if (tags[dimension] == 0) taken.insert(tags[dimension] = free_tag(taken));
+      kind->ungrouped = tags[dimension];
     }
   }
   /// The names of the file, except those of regions that are no groups; and the names of elements without a group.

@@ -452,7 +452,7 @@ constexpr OptionRow kGuardRows[] = {
         {.range = from_to(0, 1), .needs = {kForAccuracy}}),
     row<kGuard, &GuardOptions::areas>("guard_areas",
                                       "Bound of the guard for the largest ratio of the areas of two triangles that "
-                                      "share an edge, at least 1",
+                                      "share an edge",
                                       {.range = at_least(1), .absent = "no limit", .needs = {kForAccuracy}}),
     row<kGuard, &GuardOptions::length>("guard_length",
                                        "Bound of the guard for the shortest edge, in the unit of the coordinates",

@@ -232,6 +232,32 @@ TEST(Explain, OfTrianglesThatOnlyLackWeightsSaysHowManyAndWhatCheckSays) {
   EXPECT_TRUE(contains(reason_text(mesh, reason), quality(mesh).worst[0].why)) << reason_text(mesh, reason);
 }
 
+/// The triangles of a square beside a quadrilateral have right angles: weights would help, and nobody may change them.
+///
+///     3---4---5
+///     |   | / |
+///     0---1---2
+TEST(Explain, OfAMeshWithQuadrilateralsAdvisesNoWeights) {
+  const std::vector<Vec2> points = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}};
+  const std::vector<std::array<std::int32_t, 3>> triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};
+  Mesh mesh = Mesh::build({.points = points, .triangles = triangles})->mesh;
+  const auto advises_weights = [](const Explanation& e) {
+    bool any = e.verdict == Feasibility::feasible;
+    for (const Reason& reason : e.reasons) {
+      for (const Cure& cure : reason.cures) any = any || cure.action == Cure::Action::find_weights;
+    }
+    return any;
+  };
+  EXPECT_GT(why(mesh).bad, 0u);
+  const bool without_quadrilaterals = advises_weights(why(mesh));
+  mesh.set_diagonal(mesh.find_halfedge(VertexId(0), VertexId(4)));
+  mesh.set_constrained(mesh.find_halfedge(VertexId(1), VertexId(4)), true);
+  const Explanation e = why(mesh);
+  EXPECT_EQ(e.bad, 2u);
+  EXPECT_TRUE(without_quadrilaterals);
+  EXPECT_FALSE(advises_weights(e));
+}
+
 /// The mesh with a cure carried out; edges as the change leaves them.
 Mesh cured(Mesh mesh, const Cure& cure) {
   const auto halfedge = [&] {

@@ -169,7 +169,7 @@ TEST_F(TetFiles, EachElementOfAGmshFileHasAGroupIfAnyElementHasOne) {
        {std::pair("gmsh22", Encoding::ascii), {"gmsh22", Encoding::appended}, {"gmsh41", Encoding::ascii}}) {
     const TetFile file = through(sample, format, encoding);
     EXPECT_NE(slurp(path(tet_file_name(format)))
-                  .find("3\n2 4 \"floor\"\n2 5 \"temper_ungrouped_faces\"\n3 5 \"temper_ungrouped_tetrahedra\"\n$End"),
+                  .find("3\n2 4 \"floor\"\n2 5 \"temper_ungrouped_faces\"\n3 6 \"temper_ungrouped_tetrahedra\"\n$End"),
               std::string::npos);
     EXPECT_TRUE(file.regions.empty());
     EXPECT_EQ(file.face_tags, sample.face_tags);

@@ -7,14 +7,14 @@
 namespace temper::io {
 namespace {
 
-constexpr std::array<std::string_view, 4> kNames = {"well_centered", "min_h_over_l", "min_d_over_l", "min_angle_deg"};
+constexpr std::array<std::string_view, 4> kQualityNames = {"well_centered", "min_h_over_l", "min_d_over_l", "min_angle_deg"};
 
 class TriangleQualityOfFiles : public FileTest {
  protected:
   /// The cell data of a VTU file, those of temper included, whose names are hidden from the reader.
   [[nodiscard]] std::vector<DataArray> all_cell_data(const std::string& from) const {
     std::string bytes = slurp(from);
-    for (const std::string_view name : kNames) {
+    for (const std::string_view name : kQualityNames) {
       const std::size_t at = bytes.find("Name=\"" + std::string(name));
       if (at != std::string::npos) bytes[at + 6] = '_';
     }
@@ -24,7 +24,7 @@ class TriangleQualityOfFiles : public FileTest {
   }
 
   void expect_quality_of(const Mesh& mesh, const std::vector<DataArray>& data) const {
-    ASSERT_EQ(data.size(), kNames.size());
+    ASSERT_EQ(data.size(), kQualityNames.size());
     const auto& good = std::get<std::vector<std::uint8_t>>(data[0].values);
     ASSERT_EQ(good.size(), mesh.n_triangles());
     const auto floats = [&](std::size_t k) { return std::get<std::vector<float>>(data[k].values); };
@@ -81,7 +81,7 @@ TEST_F(TriangleQualityOfFiles, IsTheLowestIfExactArithmeticCannotMeasureATriangl
     const auto warnings = write(path("m.vtu"), file);
     ASSERT_TRUE(warnings) << warnings.error().what();
     const auto data = all_cell_data(path("m.vtu"));
-    ASSERT_EQ(data.size(), kNames.size()) << x;
+    ASSERT_EQ(data.size(), kQualityNames.size()) << x;
     EXPECT_EQ(std::get<std::vector<float>>(data[3].values)[0] == std::numeric_limits<float>::lowest(), is_unknown) << x;
     EXPECT_TRUE(!is_unknown || std::get<std::vector<std::uint8_t>>(data[0].values)[0] == 0) << x;
     ASSERT_EQ(warnings->size(), is_unknown ? 1U : 0U) << x;

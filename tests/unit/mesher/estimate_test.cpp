@@ -11,12 +11,6 @@
 namespace temper::test {
 namespace {
 
-MesherOptions of_size(double size) {
-  MesherOptions options;
-  options.size = size;
-  return options;
-}
-
 double expected_triangles(const Outline& outline, const MesherOptions& options) {
   const Expected<MeshEstimate> estimate = estimate_outline(outline, options);
   EXPECT_TRUE(estimate.has_value()) << estimate.error().what();

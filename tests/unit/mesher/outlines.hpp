@@ -170,4 +170,10 @@ inline void expect_kept(const Outline& o, const OutlineMesh& made) {
   EXPECT_NEAR(lines, segments, 1e-12 * segments);
 }
 
+inline MesherOptions of_size(double size) {
+  MesherOptions options;
+  options.size = size;
+  return options;
+}
+
 }  // namespace temper::test

@@ -84,12 +84,6 @@ TEST(Snap, NothingIsLeftNearerThanTheToleranceAndNothingCrosses) {
   }
 }
 
-MesherOptions of_size(double size) {
-  MesherOptions options;
-  options.size = size;
-  return options;
-}
-
 /// A line from the outline's segment `side` to the middle, its end moved off the segment.
 Outline with_line_beside(double off) {
   Outline o = loop({{0, 0}, {10, 1}, {9, 9}, {1, 8}}, 1);

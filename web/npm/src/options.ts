@@ -160,11 +160,13 @@ export interface OptimizeOptions {
   seed?: number;
   /** Solver whose measures the guard keeps. None becomes worse than in the input. If the input meets the limits of D-Flow FM, ADCIRC or MPAS, it comes back. Default: "none". */
   guard?: "none" | "fem" | "adcirc" | "dflowfm" | "mpas";
-  /** Bound of the guard for the least angle a in degrees, and 180 - 2a for the largest one. The least angle never falls below it, or below the least one of the input if that is smaller. 60: the input's. 0: no limit; at least 0 and at most 60. Default: 0.0. */
+  /** Solver whose measures the guard keeps. None becomes worse than in the input. If the input meets the limits of D-Flow FM, ADCIRC or MPAS, it comes back. Default: "none". */
+  guard?: "none" | "fem" | "adcirc" | "dflowfm" | "mpas";
+  /** Bound of the guard for the least angle a in degrees, and 180 - 2a for the largest one. The least angle never falls below it, or below the least one of the input if that is smaller. 60: the input's. 0: no limit; at least 0 and at most 60. Default: 0. */
   guard_angle?: number;
-  /** Bound of the guard for the least length of an inner edge over the size of its triangles. 0: no limit; at least 0 and at most 1. Default: 0.0. */
+  /** Bound of the guard for the least length of an inner edge over the size of its triangles. 0: no limit; at least 0 and at most 1. Default: 0. */
   guard_edge?: number;
-  /** Bound of the guard for the largest ratio of the areas of two triangles that share an edge, at least 1; at least 1. null: no limit. Default: null. */
+  /** Bound of the guard for the largest ratio of the areas of two triangles that share an edge; at least 1. null: no limit. Default: null. */
   guard_areas?: number | null;
   /** Bound of the guard for the shortest edge, in the unit of the coordinates; at least 0. null: the shortest edge of the input, if there is another limit. Default: null. */
   guard_length?: number | null;
