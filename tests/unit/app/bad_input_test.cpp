@@ -271,10 +271,26 @@ TEST_F(BadInput, MoreThreadsThanAFewTimesTheProcessorsAreRefused) {
 
 #if !TEMPER_SANITIZED
 TEST_F(BadInput, OutOfMemoryIsNoCrash) {
-  const Outcome outcome = shell("ulimit -v 300000; temper example random --vertices 50000000 -o out.vtu");
-  EXPECT_EQ(outcome.exit, 5);
-  EXPECT_TRUE(contains(outcome.err, "temper: error: out of memory"));
+  const Outcome refused = shell("ulimit -v 300000; temper example random --vertices 50000000 -o out.vtu");
+  EXPECT_EQ(refused.exit, 2);
+  EXPECT_TRUE(contains(refused.err, "Next: at most "));
   EXPECT_TRUE(names().empty());
+  // A file that fits, and a run that needs more: somewhere below the limit at which it ends well.
+  temper_ok({"example", "sheared-grid", "--nx", "900", "--ny", "900", "-o", "in.vtu", "--encoding", "appended"});
+  std::size_t out_of_memory = 0;
+  bool done = false;
+  for (int megabytes = 100; !done && megabytes < 400; megabytes += 5) {
+    const Outcome outcome = shell("ulimit -v " + std::to_string(1024 * megabytes) +
+                                  "; temper optimize in.vtu -o out.vtu --set max_sweeps=0 --threads 1");
+    done = outcome.exit == 0 || outcome.exit == 4;
+    if (done) break;
+    EXPECT_TRUE(outcome.exit == 5 || outcome.exit == 1) << outcome.exit;
+    out_of_memory += outcome.exit == 5 ? 1 : 0;
+    EXPECT_TRUE(contains(outcome.err, outcome.exit == 5 ? "temper: error: out of memory" : "needs more memory"));
+    EXPECT_EQ(names(), (std::vector<std::string>{"in.vtu"}));
+  }
+  EXPECT_TRUE(done);
+  EXPECT_GT(out_of_memory, 0u);
 }
 #endif
 

@@ -133,8 +133,8 @@ TEST_F(FileTest, EachElementHasAGroupIfAnyElementHasOne) {
       "$PhysicalNames\n5\n1 5 \"inflow\"\n2 8 \"nowhere\"\n0 9 \"temper_ungrouped_points\"\n"
       "1 10 \"temper_ungrouped_lines\"\n2 11 \"temper_ungrouped_faces\"\n$End";
   for (const auto& [format, encoding, elements] :
-       {std::tuple("gmsh22", Encoding::ascii, "1 15 2 9 1 3 \n2 1 2 5 1 1 2 \n3 1 2 9 2 3 4 \n4 2 2 9 1 1 2 3 \n"),
-        {"gmsh41", Encoding::ascii, "$Entities\n1 2 1 0 \n1 0 0 0 1 9 \n1 0 0 0 1 1 0 1 5 0 \n2 0 0 0 1 1 0 1 9 0 \n"},
+       {std::tuple("gmsh22", Encoding::ascii, "1 15 2 9 1 3 \n2 1 2 5 1 1 2 \n3 1 2 10 2 3 4 \n4 2 2 11 1 1 2 3 \n"),
+        {"gmsh41", Encoding::ascii, "$Entities\n1 2 1 0 \n1 0 0 0 1 9 \n1 0 0 0 1 1 0 1 5 0 \n2 0 0 0 1 1 0 1 10 0 \n"},
         {"gmsh22", Encoding::appended, ""},
         {"gmsh41", Encoding::appended, ""}}) {
     SCOPED_TRACE(format);

@@ -134,7 +134,7 @@ TEST(MesherMemory, NumbersAreForPeople) {
   EXPECT_EQ((MeshEstimate{0, 850e6}.memory_text()), "850 MB");
 }
 
-TEST(MesherProgress, EachPhaseHasItsNameAndItsShare) {
+TEST(MesherProgress, EachLongPhaseHasItsNameAndItsShare) {
   MesherOptions options = of_size(0.004);
   options.optimize.reset();
   std::set<std::string> phases;
@@ -146,8 +146,8 @@ TEST(MesherProgress, EachPhaseHasItsNameAndItsShare) {
     return Continue::yes;
   };
   ASSERT_TRUE(mesh_outline(square(), options, hooks).has_value());
-  for (const char* phase : {"placing points", "triangulating", "building the mesh"})
-    EXPECT_EQ(phases.count(phase), 1u) << phase;
+  // Shorter phases may end before it is time to tell them.
+  for (const char* phase : {"placing points", "triangulating"}) EXPECT_EQ(phases.count(phase), 1u) << phase;
   EXPECT_EQ(phases.count(""), 0u);
 }
 

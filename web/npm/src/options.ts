@@ -160,8 +160,6 @@ export interface OptimizeOptions {
   seed?: number;
   /** Solver whose measures the guard keeps. None becomes worse than in the input. If the input meets the limits of D-Flow FM, ADCIRC or MPAS, it comes back. Default: "none". */
   guard?: "none" | "fem" | "adcirc" | "dflowfm" | "mpas";
-  /** Solver whose measures the guard keeps. None becomes worse than in the input. If the input meets the limits of D-Flow FM, ADCIRC or MPAS, it comes back. Default: "none". */
-  guard?: "none" | "fem" | "adcirc" | "dflowfm" | "mpas";
   /** Bound of the guard for the least angle a in degrees, and 180 - 2a for the largest one. The least angle never falls below it, or below the least one of the input if that is smaller. 60: the input's. 0: no limit; at least 0 and at most 60. Default: 0. */
   guard_angle?: number;
   /** Bound of the guard for the least length of an inner edge over the size of its triangles. 0: no limit; at least 0 and at most 1. Default: 0. */
