@@ -19,12 +19,8 @@ TEMPER_IMPORT(snapshot) void show_snapshot(const HeldMesh* mesh, int sweep);
 
 Continue tell(const Progress& progress) {
   const auto& [last, fraction, max_sweeps, sweeps_left, n_vertices, share_of_phase, phase] = progress;
-  Json json = {{"last", to_json(last)},
-               {"fraction", fraction},
-               {"max_sweeps", max_sweeps},
-               {"sweeps_left", nullptr},
-               {"n_vertices", nullptr},
-               {"share_of_phase", nullptr},
+  Json json = {{"last", to_json(last)},      {"fraction", fraction},  {"max_sweeps", max_sweeps},
+               {"sweeps_left", nullptr},     {"n_vertices", nullptr}, {"share_of_phase", nullptr},
                {"phase", std::string(phase)}};
   if (sweeps_left) json["sweeps_left"] = *sweeps_left;
   if (n_vertices) json["n_vertices"] = *n_vertices;

@@ -7,7 +7,8 @@
 namespace temper::io {
 namespace {
 
-constexpr std::array<std::string_view, 4> kQualityNames = {"well_centered", "min_h_over_l", "min_d_over_l", "min_angle_deg"};
+constexpr std::array<std::string_view, 4> kQualityNames = {"well_centered", "min_h_over_l", "min_d_over_l",
+                                                           "min_angle_deg"};
 
 class TriangleQualityOfFiles : public FileTest {
  protected:
