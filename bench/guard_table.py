@@ -118,7 +118,8 @@ def worse(before, after):
 
 def main(program, target, files, options):
     failures = 0
-    print("| file | triangles | bad | least angle | largest angle | smoothness | seconds | worse |\n|-|-|-|-|-|-|-|-|")
+    print("| file | obtuse | least angle | time step | ratio of areas | shortest edge | orthogonality | seconds | worse |\n"
+          "|-|-|-|-|-|-|-|-|-|")
     for path in files:
         arguments = projection_of(path)
         if "--projection" in options:
@@ -137,10 +138,14 @@ def main(program, target, files, options):
             after, new = measure(program, out, target, arguments + shown)
         found = worse(before, after)
         failures += bool(found)
-        bad = [round((1 - r["well_centered_fraction"]) * r["triangles"]) for r in (old, new)]
-        print(f"| {os.path.basename(path)} | {old['triangles']} → {new['triangles']} | {bad[0]} → {bad[1]} "
-              f"| {old['min_angle_deg']:.1f}° → {new['min_angle_deg']:.1f}° | {old['max_angle_deg']:.1f}° → {new['max_angle_deg']:.1f}° "
-              f"| {old['max_smoothness']:.3g} → {new['max_smoothness']:.3g} | {seconds:.1f} | {'; '.join(found)} |", flush=True)
+        cells = [f"{old['obtuse_triangles']} → {new['obtuse_triangles']}"]
+        cells += [f"{old['min_angle_deg']:.1f}° → {new['min_angle_deg']:.1f}°"]
+        for name in ("time step", "ratio of areas", "shortest edge"):
+            cells.append(f"{before[name][0]:.3g} → {after[name][0]:.3g}" if name in before else "")
+        if not cells[3]:
+            cells[3] = f"{old['max_smoothness']:.3g} → {new['max_smoothness']:.3g}"
+        cells.append(f"{old['max_orthogonality']:.2g} → {new['max_orthogonality']:.2g}")
+        print(f"| {os.path.basename(path)} | {' | '.join(cells)} | {seconds:.1f} | {'; '.join(found)} |", flush=True)
     return 1 if failures else 0
 
 

@@ -172,6 +172,10 @@ struct Format {
 /// at once. However, other code in the process (h5py) may share libnetcdf and libhdf5, and temper cannot lock it out.
 /// While temper reads or writes NetCDF or VTKHDF, no other thread may call these libraries.
 [[nodiscard]] Expected<MeshFile> read(const std::string& path, const ReadOptions& options = {});
+
+/// Returns the bed at each point as depths, positive down; nothing if the file has none. The bed is point data `depth`,
+/// the bed level of D-Flow FM, or z if the format or ReadOptions::positive says so.
+[[nodiscard]] std::optional<DataArray> depths_of(const MeshFile& file);
 /// Writes to a temporary file next to path and renames it. On an error the file at path is unchanged. If a mesh needs
 /// several files, they are renamed one after the other when all are complete. If one cannot be renamed, the files
 /// before it are new, and the error names them. Returns warnings (weights in a side file, data that the format cannot

@@ -64,8 +64,8 @@ def read(
         Take the mesh as one of the plane of x and y, with z as point data ``z``, which follow the vertices. Formats
         with three coordinates get z back.
     positive : {"up", "down"}, optional
-        Sign of the bed in the file: ``"up"`` for heights, ``"down"`` for depths, if its format does not tell. In 2DM, z
-        is a height unless you say ``"down"``. Formats that tell, such as fort.14, get the sign that they have.
+        Sign of the bed in the file: ``"up"`` for heights, ``"down"`` for depths. Only z needs it, since other data have
+        a name that tells. In 2DM, z is a height unless you say ``"down"``. ``write`` gives the sign of its format.
         ``fixed_tags``, ``projection``, ``flat`` and ``positive`` are for triangles alone.
     threads : int, optional
         Threads that unpack; None or 0: all of the machine. The result does not depend on them.

@@ -34,6 +34,7 @@ ELSEWHERE = {
     "local_sizes": "local_size",
     "dot": "NumPy", "cross": "NumPy", "length": "NumPy", "squared_length": "NumPy",
     "version": "__version__", "compiled_instruction_sets": "build_info says them",
+    "depths_of": "optimize takes point data depth",
     "find_solver": "options_for takes names of solvers", "solver_names": "as find_solver", "target_named": "as find_solver",
     "is_stream": "files and streams of Python", "open_file_of": "as is_stream", "is_open_to_write": "as is_stream",
     "netcdf_version": "as compiled_instruction_sets", "hdf5_version": "as compiled_instruction_sets",

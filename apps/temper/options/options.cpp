@@ -37,8 +37,9 @@ Option& add_counted(Command& command, const std::string& name, T& target, T leas
 std::string without_unit(const std::string& text) {
   const std::size_t end = text.find_last_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ°% ") + 1;
   if (end == 0 || end == text.size() || !parse_number(text.substr(0, end))) return {};
-  return fmt::format(": numbers have no unit, and lengths are in the units of the coordinates. Next: {}",
-                     text.substr(0, end));
+  return ": numbers have no unit. Next: the number alone. Lengths are in the unit of the coordinates, or in meters "
+         "with "
+         "--projection, and times are in seconds";
 }
 
 double to_number(const std::string& text, Interval allowed) {
@@ -231,9 +232,10 @@ void add_heights(Command& command, Heights& target) {
                    "follow the vertices. Formats with three coordinates get z back.");
   static constexpr Choice<io::Positive> kSigns[] = {{"up", io::Positive::up}, {"down", io::Positive::down}};
   const auto use = [&target](io::Positive sign) { target.positive = sign; };
-  add_choice(command, "--positive", kSigns, use,
-             "Sign of the bed in the file: 'up' for heights, 'down' for depths, if its format does not tell. In 2DM, z "
-             "is a height unless you say 'down'. Formats that tell, such as fort.14, get the sign that they have.");
+  add_choice(
+      command, "--positive", kSigns, use,
+      "Sign of the bed in the input: 'up' for heights, 'down' for depths. Only z needs it, since other data have "
+      "a name that tells. In 2DM, z is a height unless you say 'down'. The output gets the sign of its format.");
 }
 
 }  // namespace temper::app

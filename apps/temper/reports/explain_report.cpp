@@ -46,7 +46,7 @@ std::string wrapped(const std::string& text, std::size_t indent, const TextStyle
 }
 
 constexpr const char* kKeepsWeights =
-    "The mesh has quadrilaterals, so weights cannot change. Vertices have to move. Next: temper optimize";
+    "The mesh has quadrilaterals, so weights cannot change. Vertices have to move. Next: temper optimize IN -o OUT";
 
 std::string headline(const Explanation& e, const Input& input) {
   std::string text = fmt::format("{}: {}\n", input.path, well_centered(e.bad, e.triangles));

@@ -304,9 +304,7 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
     warn(results, sizes.warnings);
     s.options.size_field = std::move(sizes.field);
   }
-  if (const io::DataArray* const depth = find_numbers(input.file.point_data, "depth")) {
-    s.options.guard.depth = at_vertices(input, *depth);
-  }
+  if (const auto depth = io::depths_of(input.file)) s.options.guard.depth = at_vertices(input, *depth);
   if (s.problem.given()) {
     s.options.problem = read_problem(command, s.problem, input);
     warn(results, problem_warnings(input.mesh(), *s.options.problem));

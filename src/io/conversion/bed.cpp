@@ -38,6 +38,15 @@ std::size_t index_of_bed(const MeshFile& file) {
   return static_cast<std::size_t>(found - all.begin());
 }
 
+void negate(DataArray& a) {
+  std::visit(
+      [](auto& values) {
+        if constexpr (std::is_floating_point_v<ElementOf<decltype(values)>>)
+          std::ranges::for_each(values, [](auto& x) { x = -x; });
+      },
+      a.values);
+}
+
 }  // namespace
 
 const DataArray* bed_of(const MeshFile& file) {
@@ -56,16 +65,17 @@ bool needs_turned_bed(Bed bed, const MeshFile& file) {
   return (a.name == kHeight || a.name == kDepth) && !is_of_netcdf && is_free(kBedLevel);
 }
 
+std::optional<DataArray> depths_of(const MeshFile& file) {
+  const DataArray* const bed = bed_of(file);
+  if (bed == nullptr || bed->components != 1) return std::nullopt;
+  DataArray depths = *bed;
+  if (is_level(file, *bed)) negate(depths);
+  return depths;
+}
+
 void turn_bed(MeshFile& file, Bed bed) {
   DataArray& a = file.point_data[index_of_bed(file)];
-  if (is_level(file, a) != (bed != Bed::depth)) {
-    std::visit(
-        [](auto& values) {
-          if constexpr (std::is_floating_point_v<ElementOf<decltype(values)>>)
-            std::ranges::for_each(values, [](auto& x) { x = -x; });
-        },
-        a.values);
-  }
+  if (is_level(file, a) != (bed != Bed::depth)) negate(a);
   a.name = bed == Bed::level ? kBedLevel : bed == Bed::depth ? kDepth : kHeight;
   file.z_is_data = bed == Bed::z;
   file.positive.reset();  // its new name says it

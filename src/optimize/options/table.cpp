@@ -435,21 +435,21 @@ constexpr OptionRow kStoppingRows[] = {
 };
 
 constexpr OptionRow kGuardRows[] = {
-    row<kGuard, &GuardOptions::client>(
-        "guard",
-        "Solver whose measures the guard keeps. None becomes worse than in the input. If the input meets the limits of "
-        "D-Flow FM, ADCIRC or MPAS, it comes back",
-        {.needs = {kForAccuracy}}),
+    row<kGuard, &GuardOptions::client>("guard",
+                                       "Solver whose measures the guard keeps. No measure of it becomes worse than in "
+                                       "the input. If the input meets the limits of "
+                                       "D-Flow FM, ADCIRC or MPAS, it comes back",
+                                       {.needs = {kForAccuracy}}),
     row<kGuard, &GuardOptions::angle>(
         "guard_angle",
         "Bound of the guard for the least angle a in degrees, and 180 - 2a for the largest one. The least angle never "
         "falls below it, or below the least one of "
         "the input if that is smaller. 60: the input's. 0: no limit",
         {.range = from_to(0, 60), .needs = {kForAccuracy}}),
-    row<kGuard, &GuardOptions::edge>(
-        "guard_edge",
-        "Bound of the guard for the least length of an inner edge over the size of its triangles. 0: no limit",
-        {.range = from_to(0, 1), .needs = {kForAccuracy}}),
+    row<kGuard, &GuardOptions::edge>("guard_edge",
+                                     "Bound of the guard for the least length of an inner edge over the size of its "
+                                     "triangles. 1: the input's. 0: no limit",
+                                     {.range = from_to(0, 1), .needs = {kForAccuracy}}),
     row<kGuard, &GuardOptions::areas>("guard_areas",
                                       "Bound of the guard for the largest ratio of the areas of two triangles that "
                                       "share an edge",

@@ -236,7 +236,9 @@ void add_notes(const Mesh& mesh, const Settings& settings, const RunFacts& facts
   notes.note_corners_that_stay(ending.bad);
   notes.note_edges_that_must_be_split(ending.bad);
   if (settings.guard != nullptr && ending.bad > 0 && !facts.meets_limits)
-    notes.add("the guard may keep triangles from becoming well-centered: a larger `guard_areas` leaves more room");
+    notes.add(
+        "the guard may keep triangles from becoming well-centered: a larger `guard_areas` leaves more room, except for "
+        "D-Flow FM, where `guard=none` does");
   if (settings.lacks_discretization_error) {
     notes.add(
         "the objective was accuracy, not the error of the solver: this run had no model of that error; builds with "

@@ -157,8 +157,8 @@ TEST_F(MeshVerb, ASizeWithAUnitIsRefusedWithTheNumberAlone) {
   for (const char* size : {"0.5m", "0.5 km", "0.5degrees"}) {
     const Outcome outcome = temper({"mesh", "nothing.poly", "-o", "o.vtu", "--size", size});
     EXPECT_EQ(outcome.exit, 2);
-    EXPECT_TRUE(
-        contains(outcome.err, "numbers have no unit, and lengths are in the units of the coordinates. Next: 0.5"))
+    EXPECT_TRUE(contains(outcome.err,
+                         "numbers have no unit. Next: the number alone. Lengths are in the unit of the coordinates"))
         << outcome.err;
   }
   EXPECT_TRUE(contains(temper({"convert", "in.off", "-o", "o.off", "--merge", "1mm"}).err,

@@ -462,8 +462,13 @@ TEST_F(OtherFormats, TheUserSaysTheSignOfTheBed) {
   EXPECT_EQ(depths_in_gr3({}), (std::vector<double>{-9.66, -2, 1}));
   EXPECT_EQ(depths_in_gr3({.positive = Positive::up}), (std::vector<double>{-9.66, -2, 1}));
   EXPECT_EQ(depths_in_gr3({.positive = Positive::down}), (std::vector<double>{9.66, 2, -1}));
-  for (const Positive sign : {Positive::up, Positive::down})
-    EXPECT_TRUE(read(path("m.2dm"), {.positive = sign})->warnings.empty());
+  for (const Positive sign : {Positive::up, Positive::down}) {
+    const auto f = read(path("m.2dm"), {.positive = sign});
+    EXPECT_TRUE(f->warnings.empty());
+    const double factor = sign == Positive::up ? -1 : 1;
+    EXPECT_EQ(depths_of(*f)->values, Values(std::vector<double>{9.66 * factor, 2 * factor, -1 * factor}));
+  }
+  EXPECT_FALSE(depths_of({}));
 }
 
 TEST_F(OtherFormats, ASignThatTheUserSaysMakesZTheBedAndOverrulesTheFormat) {
