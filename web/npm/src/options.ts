@@ -158,11 +158,11 @@ export interface OptimizeOptions {
   time_limit?: number;
   /** Seed of the jitter that frees symmetric grids, of repairs, and of order: "random"; at least 0. Default: 1. */
   seed?: number;
-  /** Solver whose measures the guard keeps. None becomes worse than in the input. If the input meets the limits of D-Flow FM, ADCIRC or MPAS, it comes back. Default: "none". */
+  /** Solver whose measures the guard keeps. No measure of it becomes worse than in the input. If the input meets the limits of D-Flow FM, ADCIRC or MPAS, it comes back. Default: "none". */
   guard?: "none" | "fem" | "adcirc" | "dflowfm" | "mpas";
   /** Bound of the guard for the least angle a in degrees, and 180 - 2a for the largest one. The least angle never falls below it, or below the least one of the input if that is smaller. 60: the input's. 0: no limit; at least 0 and at most 60. Default: 0. */
   guard_angle?: number;
-  /** Bound of the guard for the least length of an inner edge over the size of its triangles. 0: no limit; at least 0 and at most 1. Default: 0. */
+  /** Bound of the guard for the least length of an inner edge over the size of its triangles. 1: the input's. 0: no limit; at least 0 and at most 1. Default: 0. */
   guard_edge?: number;
   /** Bound of the guard for the largest ratio of the areas of two triangles that share an edge; at least 1. null: no limit. Default: null. */
   guard_areas?: number | null;
