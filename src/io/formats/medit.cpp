@@ -108,6 +108,7 @@ class MeditReader {
   void vertices() {
     if (dimension_ == 0) scanner_.fail_here(ErrorCode::syntax, "expected Dimension before Vertices");
     MeshFile& f = document_.file;
+    if (!f.points.empty()) scanner_.fail_here(ErrorCode::syntax, "expected one section Vertices, found a second one");
     const std::size_t n = scanner_.count("vertices", dimension_ == 2 ? 6 : 8);
     f.points.reserve(n);
     PlaneCheck plane(document_);

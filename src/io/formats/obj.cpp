@@ -72,8 +72,8 @@ class ObjReader {
     names.points.push_back(static_cast<std::int64_t>(document_.file.points.size()) + 1);
     names.point_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
     document_.file.points.push_back({x, scanner_.real("the y coordinate of a vertex")});
-    if (scanner_.more_on_line())
-      plane_.add(document_.file.points.size() - 1, scanner_.real("the z coordinate of a vertex"));
+    const double z = scanner_.more_on_line() ? scanner_.real("the z coordinate of a vertex") : 0;
+    plane_.add(document_.file.points.size() - 1, z);
     while (scanner_.more_on_line()) scanner_.word("a color");
   }
   void face() {
