@@ -245,7 +245,7 @@ class Explainer {
 
   void ask_whole() {
     if (bad_.empty()) result_.verdict = Feasibility::feasible;
-    if (bad_.empty() || !result_.reasons.empty() || has_quadrilaterals(mesh_)) return;
+    if (bad_.empty() || !result_.reasons.empty() || keeps_weights_) return;
     if (mesh_.n_triangles() > options_.whole && bad_.size() > options_.whole) return;
     WeightOptions weights;
     weights.goal = WeightGoal::margin;
@@ -313,8 +313,7 @@ class Explainer {
         continue;
       }
       if (rank(reason) == 0) conflicts.push_back(&reason);
-      // Weights of a mesh with quadrilaterals stay: each of these has one center.
-      if (reason.kind == ReasonKind::weights && !has_quadrilaterals(mesh_)) add_find_weights(reason);
+      if (reason.kind == ReasonKind::weights && !keeps_weights_) add_find_weights(reason);
       if (rank(reason) != 0 && !reason.free.empty()) reason.cures.emplace_back();  // optimize
     }
     for (std::size_t i = 0; i < conflicts.size(); ++i) {
@@ -353,6 +352,7 @@ class Explainer {
   const Mesh& mesh_;
   LpSolver& solver_;
   const ExplainOptions& options_;
+  const bool keeps_weights_ = has_quadrilaterals(mesh_);  ///< each of these has one center
   const std::vector<BadTriangle> bad_;
   IdVector<TriangleId, std::uint8_t> state_;
   IdVector<VertexId, double> weights_;  ///< that cure the whole mesh; empty when there are none, or nobody asked

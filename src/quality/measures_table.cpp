@@ -1,6 +1,7 @@
 // The table of the numbers of a report: their names, their words for people, their users, and the better direction.
 #include <array>
 
+#include "geometry/flow_cell.hpp"
 #include "temper/quality.hpp"
 
 namespace temper {
@@ -60,14 +61,14 @@ constexpr auto kMeasures = std::to_array<QualityMeasure>({
     {"max_orthogonality", "orthogonality", "orthogonality", kFlow,
      "largest |cosine| between an interior edge and the line between the circumcenters on its sides, kept inside their "
      "triangles (MeshKernel, MeshOrthogonality). Advice: 0.01. D-Flow FM refuses 0.5 (cosPhiUTrsh)",
-     kLess, false, 0.01, TEMPER_OF(max_orthogonality)},
+     kLess, false, kAdvisedOrthogonality, TEMPER_OF(max_orthogonality)},
     {"max_smoothness", "smoothness", "smoothness", kFlow,
      "largest ratio of the areas on the sides of an interior edge (MeshKernel, MeshSmoothness)", kLess, false, kNothing,
      TEMPER_OF(max_smoothness)},
     {"min_flow_link", "flow_link", "least flow link", kFlow,
      "least distance between neighboring circumcenters, kept inside their triangles, over the mean square root of both "
      "areas (MeshKernel, GetEdgesCrossingSmallFlowEdges)",
-     kLarger, false, 0.1, TEMPER_OF(min_flow_link)},
+     kLarger, false, kSmallFlowLink, TEMPER_OF(min_flow_link)},
     {"small_flow_links", "", "small flow links", kFlow,
      "interior edges with a flow link below 0.1, which D-Flow FM removes (removeSmallLinksTrsh)", kEqual, true, 0,
      TEMPER_OF(small_flow_links)},
