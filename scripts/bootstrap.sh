@@ -20,7 +20,7 @@ build=(g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev nlohmann-json3-d
        libhdf5-dev
        coinor-libclp-dev libtbb-dev libeigen3-dev
        pybind11-dev python3-dev python3-numpy python3-pip)
-test=(libgtest-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-h5py python3-meshio python3-scipy python3-matplotlib
+test=(ccache libgtest-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-h5py python3-meshio python3-scipy python3-matplotlib
       python3-pytest python3-jsonschema zsh fish mandoc groff-base gmsh librsvg2-bin clang-format-14 clang-tidy-14 clang-19 lld-19
       libclang-rt-19-dev libopenmpi-dev openmpi-bin python3-mpi4py)
 lint=(python3-venv shellcheck ruby zip unzip)

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Checks files that no compiler reads: workflows, scripts, recipes, the container file, the citation and the version.
+# Checks what no compiler reads: workflows, scripts, recipes, the container file, the citation, the version, and the messages of
+# commits.
 #
 #   scripts/lint.sh             exit code 77 if a tool could not be installed; all others have run
 #
@@ -29,7 +30,26 @@ recipes() {  # of a release that has no more than their names
     "$python" scripts/check_recipes.py "$scratch/recipes" && "$python" -m yamllint -s -c .yamllint "$scratch/recipes"
 }
 
+# Commits since the main branch, or the last one: the subject is `area: Do this`, and a large change has its reasons in a body.
+messages() {
+  local base commit subject lines wrong=0
+  base=$(git merge-base HEAD origin/main 2>/dev/null || true)
+  if [[ -z "$base" || "$base" == "$(git rev-parse HEAD)" ]]; then base=HEAD~1; fi
+  for commit in $(git rev-list --no-merges "$base..HEAD"); do
+    subject=$(git log -1 --format=%s "$commit")
+    lines=$(git show --numstat --format= "$commit" | awk '{ n += $1 + $2 } END { print n + 0 }')
+    if ! [[ "$subject" =~ ^[^:]+:\ [A-Z] ]] || ((${#subject} > 72)); then
+      echo "${commit:0:8} '$subject': expected 'area: Do this', at most 72 letters"; wrong=1
+    fi
+    if ((lines > 30)) && [[ -z "$(git log -1 --format=%b "$commit")" ]]; then
+      echo "${commit:0:8} '$subject': $lines lines changed, and no body. Next: give problem, choice and evidence"; wrong=1
+    fi
+  done
+  return "$wrong"
+}
+
 mapfile -t shells < <(git ls-files '*.sh' .ci/run 'packaging/debian/*/p*')
+check "messages of commits" messages
 check "version" scripts/version.py --check
 check "shellcheck" shellcheck "${shells[@]}"
 if actionlint=$(tool_actionlint); then check "actionlint" "$actionlint"; else missing+=(actionlint); fi

@@ -19,6 +19,7 @@ missing=()
 if ((make)); then
   [[ ! -e "$folder" ]] || { echo "release: $folder is there already" >&2; exit 1; }
   [[ -z "$(git status --porcelain)" ]] || echo "release: some changes are not committed; the source archive has only the commit"
+  scripts/claims.sh
   scripts/package.sh --output "$folder" source wheel debian npm windows
   if command -v podman docker >/dev/null; then
     scripts/package.sh --output "$folder" container || missing+=("container: no engine that builds")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Everything that must hold before a change goes in, from a clean clone. Fails when any stage fails; the last
-# line says how many checks and tests passed and failed, in all builds together.
+# Everything that must hold before a change goes in, from a clean clone. Fails when any stage fails. The last lines say which
+# stages took longest, and how many checks and tests passed and failed, in all builds together.
 #
 #   scripts/test.sh                 all stages
 #   scripts/test.sh --quick         without sanitizers: of the tests, only those that need an optimized library
@@ -21,17 +21,16 @@ done
 jobs=${TEMPER_TEST_JOBS:-$(nproc)}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-launcher=()
-if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
 
 passed=0 failed=0 skipped=0
-failures=()
+failures=() times=()
 
 # stage NAME COMMAND …: runs it, shows its output only when it fails, counts it as one check. Exit code 77: it is skipped.
 stage() {
   local name=$1 start=$SECONDS status=0
   shift
   "$@" >"$scratch/log" 2>&1 || status=$?
+  times+=("$((SECONDS - start)) s  $name")
   if ((status == 0)); then
     passed=$((passed + 1))
     printf '%-44s ok      %4d s   %s\n' "$name" $((SECONDS - start)) "$(tail -n 1 "$scratch/log" | cut -c 1-90)"
@@ -56,6 +55,7 @@ suite() {
   env -u GTEST_FILTER -u GTEST_TOTAL_SHARDS ctest --test-dir "$dir" "${@:3}" -j "$jobs" --no-tests=error --output-on-failure \
     --test-output-size-passed 10000000 --output-junit "$results" >"$scratch/log" 2>&1
   local status=$?
+  times+=("$((SECONDS - start)) s  $name")
   read -r -a counts < <(python3 scripts/count_tests.py "$results" 2>/dev/null || echo 0 1 0)
   if ((status != 0 && counts[1] == 0)); then counts[1]=1; fi
   passed=$((passed + counts[0])) failed=$((failed + counts[1])) skipped=$((skipped + counts[2]))
@@ -69,6 +69,8 @@ suite() {
 }
 
 configure_and_build() {  # PRESET ARGUMENT OF THE BUILD …
+  local launcher=()
+  if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
   cmake --preset "$1" "${launcher[@]}" && cmake --build --preset "$1" -j "$jobs" "${@:2}"
 }
 
@@ -173,7 +175,9 @@ clang() {
 
 # Prints the counts; fails if anything has failed.
 summary() {
-  printf '\n%d s in all' "$SECONDS"
+  printf '\n'
+  printf '%s\n' "${times[@]}" | sort -rn | head -n 8 | sed 's/^/  /'
+  printf '%d s in all' "$SECONDS"
   if ((skipped > 0)); then printf '; %d skipped (they need clients, VTK, or meshes that are not in the repository)' "$skipped"; fi
   printf '\n'
   if ((${#failures[@]} > 0)); then printf 'failed: %s\n' "${failures[@]}"; fi
