@@ -220,30 +220,6 @@ TEST(Guard, AGridWithQuadrilateralsKeepsItsMeasures) {
   }
 }
 
-/// The largest of −h/ℓ, −d/ℓ and d/ℓ − 1.
-double worst_of(const Mesh& mesh) {
-  const Quality q = quality(mesh);
-  return std::max(-q.min_h_over_l, -q.min_d_over_l);
-}
-
-/// Meshes that no run can cure without more vertices: sharp wedges, and outlines without inner vertices.
-TEST(Guard, NoRunMakesTheWorstTriangleWorse) {
-  std::size_t left_bad = 0;
-  for (const Mesh& input : {*wedge({.angle_deg = 5, .pieces = 8}), *wedge({.angle_deg = 3, .pieces = 5, .seed = 2}),
-                            letter_a(), *regular_polygon({.corners = 17}), *random_mesh({40, 5, {}})}) {
-    for (const char* const target : {"any", "valid", "vertex", "cell", "stars", "mpas", "dflowfm", "adcirc", "fem"}) {
-      Mesh mesh = input;
-      OptimizeOptions options = *options_for(target, "quick");
-      options.repair_trials = 300;
-      ASSERT_TRUE(optimize(mesh, options));
-      if (quality(mesh).well_centered_fraction == 1) continue;
-      ++left_bad;
-      EXPECT_LE(worst_of(mesh), worst_of(input) + kRounding) << target << ", " << input.n_triangles() << " triangles";
-    }
-  }
-  EXPECT_GT(left_bad, 5u);
-}
-
 TEST(Guard, DepthsAreOfAllVertices) {
   OptimizeOptions options;
   options.guard = {.angle = 60, .depth = {1, 2}};

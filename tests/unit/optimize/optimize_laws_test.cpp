@@ -124,41 +124,6 @@ TEST(Optimize, GivesTheSameBytesTwiceAndForAnyExecutor) {
   EXPECT_EQ(first, third);
 }
 
-TEST(Optimize, OfAMeshThatNobodyLooksAtIsTheSame) {
-  const auto made = random_mesh({.vertices = 400, .seed = 4});
-  ASSERT_TRUE(made);
-  const OptimizeOptions cases[] = {
-      {},
-      {.objective = Objective::accuracy},
-      {.max_sweeps = 1},                                         // left bad: repaired
-      {.energy = EnergyKind::F, .unknowns = Unknowns::weights},  // may be no better: then the input is returned
-      {.repair = Repair::none, .paper = {.tolerance = 1e-2}},    // more than one restart
-      {.boundary = BoundaryVertices::split, .size_band = 1.5},   // the field of the band refers to it
-  };
-  for (const OptimizeOptions& options : cases) {
-    Mesh seen = *made, unseen = *made;
-    const auto expected = optimize(seen, options), report = optimize(unseen, options, {.exclusive = true});
-    ASSERT_EQ(expected.has_value(), report.has_value());
-    EXPECT_EQ(unseen, seen);
-    EXPECT_EQ(unseen.validate(), std::nullopt);
-  }
-  const auto scattered = random_mesh({.vertices = 33000, .seed = 4});
-  ASSERT_TRUE(scattered);
-  const OptimizeOptions one_sweep = {.repair = Repair::none, .max_sweeps = 1};
-  Mesh seen = *scattered, unseen = *scattered;
-  std::vector<std::size_t> viewed;
-  const auto view = [&](const Mesh& mesh) { viewed.push_back(mesh.n_vertices()); };
-  const auto expected = optimize(seen, one_sweep),
-             report = optimize(unseen, one_sweep, {.exclusive = true, .viewer = view});
-  ASSERT_TRUE(expected && report);
-  EXPECT_EQ(unseen, seen);
-  EXPECT_EQ(report->objective_after, expected->objective_after);
-  EXPECT_EQ(viewed, std::vector<std::size_t>(2, 33000));
-  Mesh refused = *made;
-  EXPECT_FALSE(optimize(refused, {.max_sweeps = -1}, {.exclusive = true}));
-  EXPECT_EQ(refused, *made);
-}
-
 TEST(Optimize, CommutesWithScalingByPowersOfTwo) {
   const LatticeOptions unit{.n = 8, .jitter = 0.3, .weight = 0};
   LatticeOptions scaled = unit;

@@ -5,9 +5,6 @@
 #include <cmath>
 
 #include "mesh/bad_triangles.hpp"
-#include "support/sanitizers.hpp"
-#include "support/std_threads.hpp"
-#include "temper/detail/instruction_set.hpp"
 #include "temper/detail/trace.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
@@ -199,29 +196,6 @@ TEST(PeriodicOptimize, WhatIsNotThereSaysSo) {
       "weights hide point 7 (weight -1); expected weights that leave every vertex a power cell, and edges shorter "
       "than half a period");
   EXPECT_NE(message(*options_for("paper")).find("`inversion=allow` is for meshes of the plane"), std::string::npos);
-}
-
-TEST(PeriodicOptimize, SameBytesForAnyThreadsAndInstructionSet) {
-  const Mesh before = torus(2500, 9);
-  const OptimizeOptions both{.objective = Objective::accuracy, .max_sweeps = 20};
-  Mesh first = before;
-  optimized_periodic(first, both);
-  for (const std::size_t threads : {1U, 2U, 3U, 8U}) {
-    if (TEMPER_SANITIZED && threads != 3) continue;
-    test::StdThreads executor(threads);
-    Mesh mesh = before;
-    optimized_periodic(mesh, both, {.executor = &executor});
-    EXPECT_GT(executor.runs(), 0U);
-    EXPECT_TRUE(mesh == first) << threads << " threads";
-  }
-  const InstructionSet used = instruction_set();
-  for (const InstructionSet set : instruction_sets()) {
-    ASSERT_TRUE(use_instruction_set(set));
-    Mesh mesh = before;
-    optimized_periodic(mesh, both);
-    EXPECT_TRUE(mesh == first) << name(set);
-  }
-  ASSERT_TRUE(use_instruction_set(used));
 }
 
 }  // namespace

@@ -5,11 +5,8 @@
 #include <cmath>
 
 #include "mesh/bad_triangles.hpp"
-#include "support/sanitizers.hpp"
 #include "support/spheres.hpp"
-#include "support/std_threads.hpp"
 #include "temper/detail/geometry.hpp"
-#include "temper/detail/instruction_set.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
@@ -260,29 +257,6 @@ TEST(Sphere, TurnedGlobesEndTheSameButForRounding) {
     farthest = std::max(farthest, length(turned(mesh.weighted_vector(v)) - other->mesh.weighted_vector(v)));
   }
   EXPECT_LT(farthest, 1e-8);
-}
-
-TEST(Sphere, SameBytesForAnyThreadsAndInstructionSet) {
-  const Mesh before = globe(2500, 9);
-  const OptimizeOptions both{.objective = Objective::accuracy};  // after the sweeps of a barrier
-  Mesh first = before;
-  optimized(first, both);
-  for (const std::size_t threads : {1U, 2U, 3U, 8U}) {
-    if (TEMPER_SANITIZED && threads != 3) continue;
-    test::StdThreads executor(threads);
-    Mesh mesh = before;
-    optimized(mesh, both, {.executor = &executor});
-    EXPECT_GT(executor.runs(), 0U);
-    EXPECT_EQ(mesh, first) << threads << " threads";
-  }
-  const InstructionSet used = instruction_set();
-  for (const InstructionSet set : instruction_sets()) {
-    ASSERT_TRUE(use_instruction_set(set));
-    Mesh mesh = before;
-    optimized(mesh, both);
-    EXPECT_EQ(mesh, first) << name(set);
-  }
-  ASSERT_TRUE(use_instruction_set(used));
 }
 
 // Heights, crossings and energies of a small cap agree with the tangent plane's, except for terms in (ℓ/R)².
