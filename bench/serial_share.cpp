@@ -20,7 +20,6 @@
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
-#include "temper/tets/io.hpp"
 #include "temper/tets/optimize.hpp"
 #include "temper/tets/quality.hpp"
 
@@ -130,7 +129,7 @@ void insist(const auto& result) {
 }
 
 /// Both return the number of sweeps.
-int run(io::MeshFile& file, const std::string& output, CountingExecutor& executor) {
+int run_triangles(io::MeshFile& file, const std::string& output, CountingExecutor& executor) {
   auto loaded = io::make_mesh(file, {}, &executor);
   insist(loaded);
   io::release_geometry(file, *loaded);
@@ -146,8 +145,8 @@ int run(io::MeshFile& file, const std::string& output, CountingExecutor& executo
   return report->sweeps;
 }
 
-int run(io::TetFile& file, const std::string& output, CountingExecutor& executor) {
-  const auto loaded = io::make_mesh(file, &executor);
+int run_tetrahedra(io::MeshFile& file, const std::string& output, CountingExecutor& executor) {
+  const auto loaded = io::make_tet_mesh(file, &executor);
   insist(loaded);
   static_cast<void>(quality(loaded->mesh, {.executor = &executor}));
   tets::TetMesh mesh = loaded->mesh;
@@ -156,16 +155,17 @@ int run(io::TetFile& file, const std::string& output, CountingExecutor& executor
   const auto report = optimize(mesh, {.keep_edges = true}, hooks);
   insist(report);
   static_cast<void>(quality(mesh, {.executor = &executor}));
-  io::update(file, *loaded, mesh, report->vertices, {{}, &executor});
+  io::update(file, *loaded, mesh, report->origins, {{}, &executor});
   insist(io::write(output, file, {{}, {}, &executor}));
   return report->sweeps;
 }
 
 int run(const std::string& input, const std::string& output) {
   CountingExecutor executor;
-  auto file = io::read_any(input, {&executor});
+  auto file = io::read(input, {&executor});
   insist(file);
-  const int sweeps = std::visit([&](auto& f) { return run(f, output, executor); }, *file);
+  const int sweeps =
+      file->dimension() == 3 ? run_tetrahedra(*file, output, executor) : run_triangles(*file, output, executor);
   executor.end_serial(nullptr);
   executor.print(std::max(1, sweeps));
   return 0;

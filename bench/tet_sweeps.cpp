@@ -12,7 +12,6 @@
 
 #include "child.hpp"
 #include "options.hpp"
-#include "temper/tets/io.hpp"
 #include "tets/energy/star.hpp"
 #include "tets/optimize/sweeper.hpp"
 
@@ -49,10 +48,10 @@ double kernel_seconds(const tets::TetMesh& mesh, const std::vector<VertexId>& ve
 }
 
 tets::TetMesh mesh_of(const std::string& path) {
-  auto file = io::read_any(path);
+  auto file = io::read(path);
   if (!file) fail(file.error().what());
-  if (!std::holds_alternative<io::TetFile>(*file)) fail(path + " has no tetrahedra");
-  auto loaded = io::make_mesh(std::get<io::TetFile>(*file));
+  if (file->dimension() == 2) fail(path + " has no tetrahedra");
+  auto loaded = io::make_tet_mesh(*file);
   if (!loaded) fail(loaded.error().what());
   return std::move(loaded->mesh);
 }

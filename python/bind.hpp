@@ -16,7 +16,6 @@
 #include "temper/detail/tensor.hpp"
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"
-#include "temper/tets/io.hpp"
 
 namespace temper::python {
 
@@ -92,7 +91,7 @@ class PyMesh {
 
 /// A mesh of tetrahedra, and its file. Views and calls without the GIL share both, and a change replaces them.
 struct PyTetMesh {
-  std::shared_ptr<const io::TetFile> file;
+  std::shared_ptr<const io::MeshFile> file;
   std::shared_ptr<const io::LoadedTetMesh> loaded;
   std::vector<std::int32_t> vertex_of_point;  ///< Present vertex of each point in the original file; −1: none
   std::uint64_t version = 0;                  ///< Number of changes
@@ -102,7 +101,7 @@ struct PyTetMesh {
 };
 
 /// The mesh of a file, and the warnings.
-[[nodiscard]] py::tuple load_tetrahedra(io::TetFile file, Executor* executor);
+[[nodiscard]] py::tuple load_tetrahedra(io::MeshFile file, Executor* executor);
 
 /// Returns the result of `work`, and releases the GIL meanwhile.
 template <class Work>

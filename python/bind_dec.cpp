@@ -260,7 +260,7 @@ std::vector<io::GroupCell> groups_of(const PyMesh& self, const Mesh& mesh) {
   io::MeshFile file = self.source()->file;
   if (file.lines.empty() && file.marked_points.empty()) return {};
   file.point_data.clear();
-  file.cell_data.clear();
+  file.triangles.data.clear();
   io::update(file, self.source()->loaded, mesh, self.origin());
   return io::cells_of_groups(file, or_raise(io::make_mesh(file)), mesh);
 }

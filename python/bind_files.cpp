@@ -50,7 +50,7 @@ UpdatedFile updated_file_of(const PyMesh& self, Executor* executor, bool with_da
   UpdatedFile result{self.source()->file, {}};
   if (!with_data) {
     result.file.point_data.clear();
-    result.file.cell_data.clear();
+    result.file.triangles.data.clear();
   }
   result.data = io::update(result.file, self.source()->loaded, *mesh, self.origin(), {self.data_rules(), executor});
   return result;
@@ -62,7 +62,7 @@ io::MeshFile file_of(const PyMesh& self, Executor* executor = nullptr) { return 
 void set_data(PyMesh& self, bool of_points, const std::string& name, const py::object& values) {
   const std::uint64_t version = self.version();
   io::MeshFile file = file_of(self);
-  std::vector<io::DataArray>& arrays = of_points ? file.point_data : file.cell_data;
+  std::vector<io::DataArray>& arrays = of_points ? file.point_data : file.triangles.data;
   auto array = std::find_if(arrays.begin(), arrays.end(), [&](const io::DataArray& a) { return a.name == name; });
   if (values.is_none()) {
     if (array == arrays.end()) throw py::key_error(name);
@@ -143,9 +143,9 @@ py::object vertices_of_points(const PyMesh& self) {
 /// A file of these arrays, without the points; their number is given.
 io::MeshFile file_of_arrays(const py::dict& d, std::size_t n_points) {
   io::MeshFile file;
-  file.triangles = narrow<3>(d["triangles"].cast<Int64s>(), "triangle");
-  take_contents(file, d, n_points, file.triangles.size());
-  check_range<3>(file.triangles, n_points, "triangle");
+  file.triangles.corners = narrow<3>(d["triangles"].cast<Int64s>(), "triangle");
+  take_contents(file, file.triangles, d, n_points);
+  check_range<3>(file.triangles.corners, n_points, "triangle");
   return file;
 }
 
@@ -166,9 +166,9 @@ py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, con
   const auto executor = make_threads(threads_from(threads));
   io::ReadOptions options = {.executor = executor.get(), .flat = flat};
   if (!positive.empty()) options.positive = from_name<io::Positive>("positive", positive);
-  auto read = aside([&] { return io::read_any(path, options); });
+  auto read = aside([&] { return io::read(path, options); });
   auto file = or_raise(std::move(read));
-  if (auto* const tets = std::get_if<io::TetFile>(&file)) {
+  if (file.dimension() == 3) {
     const char* const given = !tags.empty()         ? "fixed_tags"
                               : !projection.empty() ? "projection"
                               : flat                ? "flat"
@@ -178,9 +178,9 @@ py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, con
       throw BadInput{{ErrorCode::invalid_option, path,
                       "has tetrahedra, and " + std::string(given) + " is for triangles alone. Next: leave it out"}};
     }
-    return load_tetrahedra(std::move(*tets), executor.get());
+    return load_tetrahedra(std::move(file), executor.get());
   }
-  return load(std::move(std::get<io::MeshFile>(file)), projection, tags, executor.get());
+  return load(std::move(file), projection, tags, executor.get());
 }
 
 py::object write_file(const std::string& path, const PyMesh& self, const std::string& format,
@@ -211,6 +211,7 @@ struct PointsToPython {
   py::tuple operator()(const io::SpherePoints& p) const {
     return py::make_tuple("sphere", p.radius, rows_of<double>(std::span(p.places)));
   }
+  py::tuple operator()(const io::SpacePoints& p) const { return py::make_tuple("space", array_of<double>(p.heights)); }
   py::tuple operator()(const io::DegreePoints& p) const { return py::make_tuple("degrees", p.is_guessed, p.z); }
   py::tuple operator()(const io::MappedPoints& p) const {
     const auto& [projection, lon_lat, places] = *p.map;
@@ -225,6 +226,7 @@ io::PointsIn points_in_from(const py::tuple& t) {
   if (kind == "plane") return io::PlanePoints{number(1), t[2].cast<int>()};
   if (kind == "periodic") return io::PeriodicPoints{{number(1), number(2)}, number(3)};
   if (kind == "sphere") return io::SpherePoints{number(1), copy_of<Vec3>(t[2].cast<Doubles>())};
+  if (kind == "space") return io::SpacePoints{copy_of<double>(t[1].cast<Doubles>())};
   if (kind == "degrees") return io::DegreePoints{t[1].cast<bool>(), number(2)};
   auto map = std::make_shared<const io::GeographicMap>(io::GeographicMap{
       {from_name<ProjectionKind>("projection", t[1].cast<std::string>()), {number(2), number(3)}, number(4)},
@@ -280,7 +282,7 @@ void set_source_from_dict(PyMesh& self, const py::dict& d) {
   if (!has_size(file.points.size(), kept.size()) ||
       (file.sphere() != nullptr && !has_size(file.sphere()->places.size(), kept.size())) ||
       !has_size(file.weights.size(), kept.size()) || !has_size(origin.size(), n_vertices) ||
-      file.line_tags.size() != file.lines.size() || file.point_tags.size() != file.marked_points.size() ||
+      file.lines.tags.size() != file.lines.size() || file.marked_points.tags.size() != file.marked_points.size() ||
       (origin.empty() && n != n_vertices) || !std::all_of(origin.begin(), origin.end(), is_new_or_known)) {
     fail(ErrorCode::size_mismatch, "the pickle of a mesh has arrays that do not belong together");
   }

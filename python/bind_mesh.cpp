@@ -277,7 +277,7 @@ void bind_state(py::class_<PyMesh>& type) {
   type.def("validate", [](const PyMesh& self) { return to_python(self.read_with_erased()->validate()); });
   type.def("has_data", [](const PyMesh& self) {
     const auto& source = self.source();
-    return source && source->file.point_data.size() + source->file.cell_data.size() > 0;
+    return source && source->file.point_data.size() + source->file.triangles.data.size() > 0;
   });
   type.def("version", [](const PyMesh& self) { return self.version(); });
   type.def("copy", [](const PyMesh& self) { return self.copy(); });

@@ -18,7 +18,7 @@ using tets::HalffaceId;
 using tets::TetId;
 
 /// Gives all tetrahedra the corners of the mesh: those that were negative are reversed in the file, too.
-void reverse_as_mesh(io::TetFile& file, const io::LoadedTetMesh& loaded) {
+void reverse_as_mesh(io::MeshFile& file, const io::LoadedTetMesh& loaded) {
   for (std::size_t t = 0; t < file.tetrahedra.size(); ++t) {
     auto& corners = file.tetrahedra[t];
     const std::int32_t third = loaded.vertex_of_point[static_cast<std::size_t>(corners[2])];
@@ -29,15 +29,15 @@ void reverse_as_mesh(io::TetFile& file, const io::LoadedTetMesh& loaded) {
 /// `strict`: points of no tetrahedron are an error, as they are for triangles from arrays.
 py::tuple tets_from_arrays(const py::dict& d, bool strict, const py::object& threads) {
   const auto points = d["points"].cast<Doubles>();
-  io::TetFile file;
-  file.points = copy_of<Vec3>(points);
-  file.tetrahedra = narrow<4>(d["tetrahedra"].cast<Int64s>(), "tetrahedron");
-  check_range<4>(file.tetrahedra, file.points.size(), "tetrahedron");
-  take_contents(file, d, file.points.size(), file.tetrahedra.size());
-  file.faces = narrow<3>(d["faces"].cast<Int64s>(), "face");
-  check_range<3>(file.faces, file.points.size(), "face");
-  file.face_tags = copy_of<std::int32_t>(d["face_tags"].cast<Int32s>());
-  file.face_data = from_python_dict(d["face_data"].cast<py::dict>(), file.faces.size(), "face data");
+  io::MeshFile file;
+  file.tetrahedra.corners = narrow<4>(d["tetrahedra"].cast<Int64s>(), "tetrahedron");
+  or_raise(io::set_points(file, copy_of<Vec3>(points)));
+  check_range<4>(file.tetrahedra.corners, file.points.size(), "tetrahedron");
+  take_contents(file, file.tetrahedra, d, file.points.size());
+  file.triangles.corners = narrow<3>(d["faces"].cast<Int64s>(), "face");
+  check_range<3>(file.triangles.corners, file.points.size(), "face");
+  file.triangles.tags = copy_of<std::int32_t>(d["face_tags"].cast<Int32s>());
+  file.triangles.data = from_python_dict(d["face_data"].cast<py::dict>(), file.triangles.size(), "face data");
   const auto executor = make_threads(threads_from(threads));
   py::tuple made = load_tetrahedra(std::move(file), executor.get());
   const auto& vertex = made[0].cast<const PyTetMesh&>().vertex_of_point;
@@ -94,10 +94,11 @@ std::vector<std::int32_t> numbers_of(const io::VertexOfPoint& vertex) {
 
 /// Everything in the file but points and tetrahedra, in its numbers, and the vertex of each point.
 py::dict file_of_tets(const PyTetMesh& self) {
-  const io::TetFile& file = *self.file;
-  return contents_of(file)("faces", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 3>>(file.faces)))(
-             "face_tags", array_of<std::int32_t>(file.face_tags))("face_data",
-                                                                  py::object(to_python_dict(file.face_data)))(
+  const io::MeshFile& file = *self.file;
+  return contents_of(file)("faces",
+                           rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 3>>(file.triangles)))(
+             "face_tags", array_of<std::int32_t>(file.triangles.tags))("face_data",
+                                                                       py::object(to_python_dict(file.triangles.data)))(
              "vertices", array_of<std::int32_t>(numbers_of(self.loaded->vertex_of_point)))
       .dict;
 }
@@ -106,7 +107,7 @@ py::dict file_of_tets(const PyTetMesh& self) {
 
 /// The mesh gets a new state, with its file.
 io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const tets::Origins& origins, Executor* executor) {
-  io::TetFile file = *self.file;
+  io::MeshFile file = *self.file;
   io::DataReport data = aside([&] { return io::update(file, *self.loaded, mesh, origins, {{}, executor}); });
   std::vector<std::int32_t> now(self.mesh().n_vertices(), -1);
   for (const VertexId v : mesh.vertices()) {
@@ -115,9 +116,9 @@ io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const tets::Origins&
   }
   for (std::int32_t& v : self.vertex_of_point) v = v < 0 ? -1 : now[static_cast<std::size_t>(v)];
   // New vertices of a part that a tag lists are marked in the file alone.
-  if (file.marked_points.size() != mesh.tagged_points().size()) mesh = or_raise(io::make_mesh(file)).mesh;
+  if (file.marked_points.size() != mesh.tagged_points().size()) mesh = or_raise(io::make_tet_mesh(file)).mesh;
   io::VertexOfPoint all(mesh.n_vertices());
-  self.file = std::make_shared<const io::TetFile>(std::move(file));
+  self.file = std::make_shared<const io::MeshFile>(std::move(file));
   self.loaded = std::make_shared<const io::LoadedTetMesh>(io::LoadedTetMesh{std::move(mesh), std::move(all), {}});
   ++self.version;
   return data;
@@ -162,7 +163,7 @@ py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const std::strin
   hooks.error = tets::discretization_error(options.scheme);
   const Run run(self.running);
   Expected<tets::OptimizeReport> report = aside([&] { return optimize(mesh, options, hooks); });
-  const bool has_data = !self.file->point_data.empty() || !self.file->cell_data.empty();
+  const bool has_data = !self.file->point_data.empty() || !self.file->tetrahedra.data.empty();
   const std::size_t known = self.file->warnings.size();
   py::object data = py::none();
   std::vector<std::string> lost;
@@ -224,14 +225,14 @@ py::object write_tets(const std::string& path, const PyTetMesh& self, const std:
 
 }  // namespace
 
-py::tuple load_tetrahedra(io::TetFile file, Executor* executor) {
-  auto made = aside([&] { return io::make_mesh(file, executor); });
+py::tuple load_tetrahedra(io::MeshFile file, Executor* executor) {
+  auto made = aside([&] { return io::make_tet_mesh(file, executor); });
   io::LoadedTetMesh loaded = or_raise(std::move(made));
   reverse_as_mesh(file, loaded);
   std::vector<std::string> warnings = std::exchange(file.warnings, {});
   warnings.insert(warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
   std::vector<std::int32_t> vertices = numbers_of(loaded.vertex_of_point);
-  return py::make_tuple(PyTetMesh{std::make_shared<const io::TetFile>(std::move(file)),
+  return py::make_tuple(PyTetMesh{std::make_shared<const io::MeshFile>(std::move(file)),
                                   std::make_shared<const io::LoadedTetMesh>(std::move(loaded)), std::move(vertices)},
                         to_python(warnings));
 }

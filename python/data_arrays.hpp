@@ -91,16 +91,20 @@ void check_range(const std::vector<std::array<std::int32_t, n>>& cells, std::siz
   }
 }
 
-/// Everything in a file, of triangles or of tetrahedra, but the points and the cells.
-template <class File>
-Record contents_of(const File& file) {
-  return Record()("weights", file.weights)("regions", array_of<std::int32_t>(file.regions))(
+/// Everything in a file but the points, the cells of the mesh, and the tags of its faces.
+inline Record contents_of(const io::MeshFile& file) {
+  const bool tetrahedra = file.dimension() == 3;
+  return Record()("weights", file.weights)(
+      "regions", array_of<std::int32_t>(tetrahedra ? file.tetrahedra.tags : file.triangles.tags))(
       "lines", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(file.lines)))(
-      "line_tags", array_of<std::int32_t>(file.line_tags))("marked_points", array_of<std::int32_t>(file.marked_points))(
-      "point_tags", array_of<std::int32_t>(file.point_tags))("names", py::object(physical_names_to_python(file.names)))(
-      "point_data", py::object(to_python_dict(file.point_data)))(
-      "cell_data", py::object(to_python_dict(file.cell_data)))("line_data", py::object(to_python_dict(file.line_data)))(
-      "marked_point_data", py::object(to_python_dict(file.marked_point_data)))(
+      "line_tags", array_of<std::int32_t>(file.lines.tags))("marked_points",
+                                                            array_of<std::int32_t>(file.marked_points.corners))(
+      "point_tags", array_of<std::int32_t>(file.marked_points.tags))(
+      "names", py::object(physical_names_to_python(file.names)))("point_data",
+                                                                 py::object(to_python_dict(file.point_data)))(
+      "cell_data", py::object(to_python_dict(tetrahedra ? file.tetrahedra.data : file.triangles.data)))(
+      "line_data", py::object(to_python_dict(file.lines.data)))("marked_point_data",
+                                                                py::object(to_python_dict(file.marked_points.data)))(
       "field_data", py::object(to_python_dict(file.field_data)))("path", file.path)("format", file.format)(
       "warnings", file.warnings);
 }
@@ -113,22 +117,22 @@ inline py::dict data_report_to_dict(const io::DataReport& r) {
       .dict;
 }
 
-/// Takes the same contents from Python.
-template <class File>
-void take_contents(File& file, const py::dict& d, std::size_t n_points, std::size_t n_cells) {
+/// Takes the same contents from Python, with the regions and data of the cells of the mesh.
+template <int dimension>
+void take_contents(io::MeshFile& file, io::Cells<dimension>& cells, const py::dict& d, std::size_t n_points) {
   file.weights = copy_of<double>(d["weights"].cast<Doubles>());
-  file.regions = copy_of<std::int32_t>(d["regions"].cast<Int32s>());
-  file.lines = narrow<2>(d["lines"].cast<Int64s>(), "line");
-  check_range<2>(file.lines, n_points, "line");
-  file.line_tags = copy_of<std::int32_t>(d["line_tags"].cast<Int32s>());
+  cells.tags = copy_of<std::int32_t>(d["regions"].cast<Int32s>());
+  file.lines.corners = narrow<2>(d["lines"].cast<Int64s>(), "line");
+  check_range<2>(file.lines.corners, n_points, "line");
+  file.lines.tags = copy_of<std::int32_t>(d["line_tags"].cast<Int32s>());
   file.point_data = from_python_dict(d["point_data"].cast<py::dict>(), n_points, "point data");
-  file.cell_data = from_python_dict(d["cell_data"].cast<py::dict>(), n_cells, "cell data");
-  file.line_data = from_python_dict(d["line_data"].cast<py::dict>(), file.lines.size(), "line data");
+  cells.data = from_python_dict(d["cell_data"].cast<py::dict>(), cells.size(), "cell data");
+  file.lines.data = from_python_dict(d["line_data"].cast<py::dict>(), file.lines.size(), "line data");
   const auto vertex_cells = narrow<1>(d["marked_points"].cast<Int64s>(), "vertex cell");
   check_range<1>(vertex_cells, n_points, "vertex cell");
-  for (const auto& [point] : vertex_cells) file.marked_points.push_back(point);
-  file.point_tags = copy_of<std::int32_t>(d["point_tags"].cast<Int32s>());
-  file.marked_point_data =
+  for (const auto& [point] : vertex_cells) file.marked_points.corners.push_back(point);
+  file.marked_points.tags = copy_of<std::int32_t>(d["point_tags"].cast<Int32s>());
+  file.marked_points.data =
       from_python_dict(d["marked_point_data"].cast<py::dict>(), file.marked_points.size(), "data of vertex cells");
   file.names = physical_names_from(d["names"]);
   file.field_data = from_python_dict(d["field_data"].cast<py::dict>());

@@ -1,8 +1,8 @@
 // Mesh files. The content of a file decides its format, each format has one source file, and all data pass through.
 //
-// A MeshFile holds the content of a file in neutral arrays: points, weights, triangles, lines, tags, names and data.
-// make_mesh() builds the mesh from it; errors use the file's own numbers and lines. update() puts an optimized mesh
-// back, so that everything else in the file is written again.
+// A MeshFile holds the content of a file in neutral arrays: points, weights, names, and cells of dimension 0 to 3 with
+// tags and data. make_mesh() and make_tet_mesh() build the mesh from it; errors use the file's own numbers and lines.
+// update() puts an optimized mesh back, so that everything else in the file is written again.
 #pragma once
 
 #include <array>
@@ -13,6 +13,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -22,6 +24,7 @@
 #include "temper/detail/projection.hpp"
 #include "temper/detail/size.hpp"
 #include "temper/mesh.hpp"
+#include "temper/tets/mesh.hpp"
 
 namespace temper {
 struct OutlineMesh;
@@ -75,7 +78,11 @@ struct MappedPoints {
   std::shared_ptr<const GeographicMap> map;  ///< Map of the points, never null
   double z = 0;
 };
-using PointsIn = std::variant<PlanePoints, PeriodicPoints, SpherePoints, DegreePoints, MappedPoints>;
+/// Points in space, of a mesh of tetrahedra.
+struct SpacePoints {
+  std::vector<double> heights;  ///< Third coordinate of each point
+};
+using PointsIn = std::variant<PlanePoints, PeriodicPoints, SpherePoints, DegreePoints, MappedPoints, SpacePoints>;
 
 /// The direction in which the numbers of a bed of water grow.
 enum class Positive {
@@ -83,31 +90,59 @@ enum class Positive {
   down,  ///< Depths
 };
 
+/// The cells of one dimension in a file: points, lines, triangles or tetrahedra. They are a range of corners.
+template <int dimension>
+struct Cells {
+  /// The corners of a cell, 0-based. A point is a number alone.
+  using Corners = std::conditional_t<dimension == 0, std::int32_t, std::array<std::int32_t, dimension + 1>>;
+  std::vector<Corners> corners = {};
+  std::vector<std::int32_t> tags = {};  ///< One tag per cell (medit reference, Gmsh physical tag, …)
+  std::vector<DataArray> data = {};     ///< Data with one tuple per cell
+
+  [[nodiscard]] std::size_t size() const { return corners.size(); }
+  [[nodiscard]] bool empty() const { return corners.empty(); }
+  [[nodiscard]] Corners& operator[](std::size_t i) { return corners[i]; }
+  [[nodiscard]] const Corners& operator[](std::size_t i) const { return corners[i]; }
+  [[nodiscard]] auto begin() { return corners.begin(); }
+  [[nodiscard]] auto begin() const { return corners.begin(); }
+  [[nodiscard]] auto end() { return corners.end(); }
+  [[nodiscard]] auto end() const { return corners.end(); }
+  void add(const Corners& cell, std::int32_t tag) {
+    corners.push_back(cell);
+    tags.push_back(tag);
+  }
+};
+
+/// A mesh as a file has it. The cells of the largest dimension, triangles or tetrahedra, are the mesh. Their tags are
+/// regions, and may be empty. Cells of lower dimensions are tags of its faces, edges and vertices.
 struct MeshFile {
-  std::vector<Vec2> points;                            ///< Points of the plane, or longitude and latitude [degrees]
-  PointsIn points_in;                                  ///< Kind of the points
-  std::vector<double> weights;                         ///< One weight per point, or empty
-  std::vector<std::array<std::int32_t, 3>> triangles;  ///< Corners of each triangle, 0-based
-  std::vector<std::int32_t> regions;  ///< One region per triangle (medit reference, Gmsh physical tag, …), or empty
-  std::vector<std::array<std::int32_t, 2>> lines;  ///< Tagged lines, on the boundary or inside
-  std::vector<std::int32_t> line_tags;             ///< One tag per line
-  std::vector<std::int32_t> marked_points;         ///< Points that carry a tag (Gmsh point elements, …)
-  std::vector<std::int32_t> point_tags;            ///< One tag per marked point
+  std::vector<Vec2> points;     ///< The first two coordinates, or longitude and latitude [degrees]
+  PointsIn points_in;           ///< Kind of the points, with their third coordinate
+  std::vector<double> weights;  ///< One weight per point, or empty
+  Cells<0> marked_points;       ///< Points that carry a tag (Gmsh point elements, …)
+  Cells<1> lines;               ///< Tagged lines, on the boundary or inside
+  Cells<2> triangles;           ///< Triangles of the mesh; beside tetrahedra tagged faces
+  Cells<3> tetrahedra;
   std::vector<PhysicalName> names;
-  std::vector<DataArray> point_data;         ///< Data with one tuple per point
-  std::vector<DataArray> cell_data;          ///< Data with one tuple per triangle
-  std::vector<DataArray> line_data;          ///< Data with one tuple per line
-  std::vector<DataArray> marked_point_data;  ///< Data with one tuple per marked point
-  std::vector<DataArray> field_data;         ///< Data of the file as a whole
-  bool z_is_data = false;                    ///< Point data "z" are the third coordinate of a mesh of the plane
+  std::vector<DataArray> point_data;  ///< Data with one tuple per point
+  std::vector<DataArray> field_data;  ///< Data of the file as a whole
+  bool z_is_data = false;             ///< Point data "z" are the third coordinate of a mesh of the plane
   std::optional<Positive> positive;   ///< Sign of the bed, if the user said it or z of 2DM; else its name shows it
   std::string path;                   ///< Path of the file that was read, for messages
   std::string format;                 ///< Name of the row of formats() that read the file: "vtu", "gmsh41", …
   std::vector<std::string> warnings;  ///< Warnings about what was dropped or repaired in reading
-  std::shared_ptr<const InputNames> numbering;  ///< Numbers and lines of the file, for errors
+  std::shared_ptr<const tets::InputNames> numbering;  ///< Numbers and lines of the file, for errors
 
+  /// The dimension of the mesh: 3 if there are tetrahedra or points in space, else 2.
+  [[nodiscard]] int dimension() const { return tetrahedra.empty() && in_space() == nullptr ? 2 : 3; }
+  /// The cells by their dimension, for std::get and std::apply.
+  [[nodiscard]] auto cells() { return std::tie(marked_points, lines, triangles, tetrahedra); }
+  [[nodiscard]] auto cells() const { return std::tie(marked_points, lines, triangles, tetrahedra); }
+  /// The three coordinates of a point: in space, on the sphere, or in the plane with its common coordinate.
+  [[nodiscard]] Vec3 place(std::size_t point) const;
   [[nodiscard]] const SpherePoints* sphere() const { return std::get_if<SpherePoints>(&points_in); }
   [[nodiscard]] const PeriodicPoints* periodic() const { return std::get_if<PeriodicPoints>(&points_in); }
+  [[nodiscard]] const SpacePoints* in_space() const { return std::get_if<SpacePoints>(&points_in); }
   [[nodiscard]] const DegreePoints* degrees() const { return std::get_if<DegreePoints>(&points_in); }
   [[nodiscard]] const GeographicMap* map() const {
     const auto* mapped = std::get_if<MappedPoints>(&points_in);
@@ -115,9 +150,9 @@ struct MeshFile {
   }
   /// The space of a mesh of these points.
   [[nodiscard]] Space space() const;
-  /// The common z of the points of a plane; 0 on a sphere.
+  /// The common z of the points of a plane; 0 on a sphere and in space.
   [[nodiscard]] double z() const;
-  void set_z(double z);  ///< Sets the common z; does nothing on a sphere
+  void set_z(double z);  ///< Sets the common z; does nothing for others
 };
 
 enum class Encoding { ascii, base64, appended };
@@ -157,7 +192,7 @@ struct Format {
   bool holds_weights;         ///< Format can hold weights; else weights go to PATH.weights.csv, with a warning
   bool holds_planes;          ///< Format can hold any mesh of the plane; else only meshes that were read in degrees
   bool holds_spheres;         ///< Format can hold meshes of the sphere
-  bool holds_tetrahedra;      ///< Format can hold meshes of tetrahedra (temper/tets/io.hpp)
+  bool holds_tetrahedra;      ///< Format can hold meshes of tetrahedra
 };
 [[nodiscard]] std::span<const Format> formats();
 /// The version of libnetcdf, such as "4.9.0"; empty if there is none. The library is loaded now, if no file has needed
@@ -168,9 +203,10 @@ struct Format {
 /// The version of GDAL, such as "3.6.2"; loaded in the same way.
 [[nodiscard]] std::string gdal_version();
 
-/// Reads any known format. Weights come from the side file PATH.weights.csv if it exists. Several threads may call it
-/// at once. However, other code in the process (h5py) may share libnetcdf and libhdf5, and temper cannot lock it out.
-/// While temper reads or writes NetCDF or VTKHDF, no other thread may call these libraries.
+/// Reads any known format: a mesh of triangles or of tetrahedra, as MeshFile::dimension() tells. Weights come from the
+/// side file PATH.weights.csv if it exists. Several threads may call it at once. However, other code in the process
+/// (h5py) may share libnetcdf and libhdf5, and temper cannot lock it out. While temper reads or writes NetCDF or
+/// VTKHDF, no other thread may call these libraries.
 [[nodiscard]] Expected<MeshFile> read(const std::string& path, const ReadOptions& options = {});
 
 /// Returns the bed at each point as depths, positive down; nothing if the file has none. The bed is point data `depth`,
@@ -187,7 +223,8 @@ struct Format {
 /// path alone if it does not exist or is a pipe, which is not read.
 [[nodiscard]] std::vector<std::string> files_to_read(const std::string& path);
 /// The files that write() would replace or make, the weights file included; or the error that it would return. `file`:
-/// what is to be written, if it is known. The format must have a place for its space, and its mesh may change.
+/// what is to be written, if it is known. The format must have a place for its space or its tetrahedra, and its mesh
+/// may change.
 [[nodiscard]] Expected<std::vector<std::string>> files_to_write(const std::string& path, const std::string& format = {},
                                                                 const MeshFile* file = nullptr);
 
@@ -271,10 +308,10 @@ inline constexpr std::string_view kNoProjection = "none";
 /// projection.
 [[nodiscard]] Expected<void> project(MeshFile& file, std::string_view projection);
 
-/// Sets the points of a file from three coordinates. If z is constant to one part in a million of the extent, they are
-/// in a plane; a warning says so if z is not exactly constant. So they are if x or y is constant. If all have the same
-/// distance from the origin, to one part in a million, they are on a sphere. Points that no triangle of the file uses
-/// may be anywhere. An error names a point that is in neither.
+/// Sets the points of a file from three coordinates. Beside tetrahedra they are in space. If z is constant to one part
+/// in a million of the extent, they are in a plane; a warning says so if z is not exactly constant. So they are if x or
+/// y is constant. If all have the same distance from the origin, to one part in a million, they are on a sphere. Points
+/// that no triangle of the file uses may be anywhere. An error names a point that is in neither.
 [[nodiscard]] Expected<void> set_points(MeshFile& file, std::vector<Vec3> points);
 
 /// The mesh of a file, in a plane or on a sphere. A file in degrees needs project() first. Points of no triangle are
@@ -294,6 +331,18 @@ struct LoadedMesh {
 /// of the boundary are also fixed if tagged lines end or change their tag there.
 [[nodiscard]] Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags = {},
                                              Executor* executor = nullptr);
+/// The error of a file with tetrahedra, where triangles are expected. make_mesh() and project() return it, too.
+[[nodiscard]] Expected<void> expect_triangles(const MeshFile& file);
+
+/// The mesh of a file with tetrahedra. Points of no tetrahedron are dropped, and a warning names them. Negative
+/// tetrahedra are reversed and counted in a warning. Warnings name faces and lines that are no face or edge of the
+/// mesh.
+struct LoadedTetMesh {
+  tets::TetMesh mesh;
+  VertexOfPoint vertex_of_point;
+  std::vector<std::string> warnings;
+};
+[[nodiscard]] Expected<LoadedTetMesh> make_tet_mesh(const MeshFile& file, Executor* executor = nullptr);
 
 /// The treatment of floating point data of points when vertices move. (Integers, flags and tags stay with their
 /// points.)
@@ -356,6 +405,12 @@ struct DataReport {
 DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
                   const IdVector<VertexId, VertexId>& vertices = {}, const UpdateOptions& options = {});
 
+/// Puts points, weights, tetrahedra and regions of a mesh back into the file that it came from, by the same rules.
+/// `loaded` is the mesh of the file, unchanged, and `origins` says where the parts of the mesh are in it. Data are
+/// linear on the tetrahedra of the file. In the report, triangles are tetrahedra. O(n) if points move little.
+DataReport update(MeshFile& file, const LoadedTetMesh& loaded, const tets::TetMesh& mesh,
+                  const tets::Origins& origins = {}, const UpdateOptions& options = {});
+
 /// Frees the points, weights and triangles of a file after make_mesh(); update() writes them again. It does nothing in
 /// these cases:
 ///   - points were dropped or are on a sphere
@@ -363,6 +418,8 @@ DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
 ///
 /// The memory goes back to the system.
 void release_geometry(MeshFile& file, const LoadedMesh& loaded);
+/// Frees points, weights and tetrahedra after make_tet_mesh(), unless points were dropped.
+void release_geometry(MeshFile& file, const LoadedTetMesh& loaded);
 
 /// An outline, as a file gives it.
 struct OutlineFile {

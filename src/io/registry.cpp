@@ -13,13 +13,11 @@
 #include "io/conversion/quadrilaterals.hpp"
 #include "io/disk/files.hpp"
 #include "io/formats/format.hpp"
-#include "io/tet_files.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 #include "io/text/values.hpp"
 #include "temper/detail/projection.hpp"
 #include "temper/detail/suggest.hpp"
-#include "temper/tets/io.hpp"
 
 namespace temper::io {
 
@@ -27,7 +25,7 @@ namespace temper::io {
 using Sniff = bool(std::string_view head);
 using Read = Document(Source& source);
 using Write = void(const WriteJob& job);
-using Keeps = bool(ArraysOf of, const DataArray& array);
+using Keeps = bool(Content of, const DataArray& array);
 using Files = std::vector<std::string>(const std::string& path);
 
 Sniff sniff_vtu, sniff_gmsh22, sniff_gmsh41, sniff_medit, sniff_triangle, sniff_obj, sniff_legacy_vtk, sniff_vtk51,
@@ -133,8 +131,7 @@ const FormatRow& recognize(const std::string& path, std::string_view beginning, 
 /// Makes the names of all arrays of a kind distinct, without characters that a terminal or a text file would interpret.
 void tidy_names(MeshFile& file) {
   make_names_plain(file);
-  for (auto* arrays : {&file.point_data, &file.cell_data, &file.line_data, &file.marked_point_data, &file.field_data})
-    make_names_unique(*arrays);
+  for (auto* arrays : all_data(file)) make_names_unique(*arrays);
 }
 
 /// A file with a hundred thousand sections that temper drops needs no warning for each.
@@ -158,25 +155,6 @@ Document read_document(const std::string& path, const ReadOptions& options) {
   std::string().swap(source.bytes);
   if (document.file.format.empty()) document.file.format = row->name;
   return document;
-}
-
-/// What is the same for all meshes, after the checks.
-void finish(Document& document) {
-  read_side_file(document);
-  drop_zero_weights(document.file);
-  tidy_names(document.file);
-  tidy_warnings(document.file);
-  constexpr std::size_t kLarge = std::size_t{1} << 20;  // below it does not count, and reading is fast
-  if (document.file.points.size() + document.file.triangles.size() + document.tetrahedra.corners.size() > kLarge)
-    give_memory_back();
-}
-
-MeshFile mesh_file(Document&& document, const std::string& path, const ReadOptions& options) {
-  check(document, options);
-  document.file.path = path;
-  document.file.numbering = document.names;
-  finish(document);
-  return std::move(document.file);
 }
 
 bool ends_with(std::string_view path, std::string_view suffix, bool any_case) {
@@ -245,35 +223,46 @@ std::string names_with(Contents contents) {
   return result;
 }
 
+/// What messages call the cells of one dimension.
+struct NamesOfCells {
+  std::string_view one, several, tags, data;
+};
+
 }  // namespace
 
 void check_sizes(const std::string& path, const MeshFile& f) {
   const auto insist = [&](bool good, std::string_view what) {
     if (!good) fail(ErrorCode::size_mismatch, path, "the mesh to be written has ", what);
   };
-  insist(f.sphere() == nullptr || f.sphere()->places.size() == f.points.size(),
-         "another number of places on the sphere than of points");
-  insist(f.weights.empty() || f.weights.size() == f.points.size(), "another number of weights than of points");
-  insist(f.regions.empty() || f.regions.size() == f.triangles.size(), "another number of regions than of triangles");
-  insist(f.line_tags.size() == f.lines.size(), "another number of line tags than of lines");
-  insist(f.point_tags.size() == f.marked_points.size(), "another number of point tags than of marked points");
   const auto check_data = [&](const std::vector<DataArray>& arrays, std::size_t n, std::string_view kind) {
-    for (const DataArray& a : arrays) {
-      const std::size_t have = std::visit([](const auto& v) { return v.size(); }, a.values);
-      insist(a.components >= 1 && have == n * static_cast<std::size_t>(a.components),
-             text(kind, " ", in_quotes(a.name), " with ", have, " values, expected ", n, " times ", a.components));
-    }
+    for (const DataArray& a : arrays)
+      insist(a.components >= 1 && size(a.values) == n * static_cast<std::size_t>(a.components),
+             text(kind, " ", in_quotes(a.name), " with ", size(a.values), " values, expected ", n, " times ",
+                  a.components));
   };
-  check_data(f.point_data, f.points.size(), "point data");
-  check_data(f.cell_data, f.triangles.size(), "cell data");
-  check_data(f.line_data, f.lines.size(), "line data");
-  check_data(f.marked_point_data, f.marked_points.size(), "data of marked points");
-  const auto n = f.points.size();
+  const std::size_t n = f.points.size();
   const auto in_range = [n](std::int32_t p) { return p >= 0 && static_cast<std::size_t>(p) < n; };
-  for (const auto& t : f.triangles)
-    insist(std::all_of(t.begin(), t.end(), in_range), "a triangle with a vertex that is none");
-  for (const auto& l : f.lines) insist(std::all_of(l.begin(), l.end(), in_range), "a line with a vertex that is none");
-  insist(std::all_of(f.marked_points.begin(), f.marked_points.end(), in_range), "a marked point that is none");
+  insist(f.sphere() == nullptr || f.sphere()->places.size() == n,
+         "another number of places on the sphere than of points");
+  insist((f.dimension() == 3) == (f.in_space() != nullptr), "tetrahedra without points in space, or such points alone");
+  insist(f.in_space() == nullptr || f.in_space()->heights.size() == n, "another number of heights than of points");
+  insist(f.weights.empty() || f.weights.size() == n, "another number of weights than of points");
+  check_data(f.point_data, n, "point data");
+  const auto check_cells = [&](const auto& cells, const NamesOfCells& names, bool may_be_untagged) {
+    insist(cells.tags.size() == cells.size() || (may_be_untagged && cells.tags.empty()),
+           text("another number of ", names.tags, " than of ", names.several));
+    check_data(cells.data, cells.size(), names.data);
+    for (const auto& cell : cells)
+      insist(std::ranges::all_of(corners_of(cell), in_range), text(names.one, " that is none"));
+  };
+  const bool tets = f.dimension() == 3;
+  check_cells(f.tetrahedra, {"a tetrahedron with a vertex", "tetrahedra", "regions", "cell data"}, true);
+  check_cells(f.triangles,
+              tets ? NamesOfCells{"a triangle with a vertex", "faces", "face tags", "face data"}
+                   : NamesOfCells{"a triangle with a vertex", "triangles", "regions", "cell data"},
+              !tets);
+  check_cells(f.lines, {"a line with a vertex", "lines", "line tags", "line data"}, false);
+  check_cells(f.marked_points, {"a marked point", "marked points", "point tags", "data of marked points"}, false);
 }
 
 std::span<const Format> formats() { return kFormats; }
@@ -287,26 +276,17 @@ const FormatRow* find_row(std::string_view name) {
 Expected<MeshFile> read(const std::string& path, const ReadOptions& options) {
   return guarded<MeshFile>(path, [&] {
     Document document = read_document(path, options);
-    const std::size_t n = document.tetrahedra.corners.size();
-    if (n > 0) {
-      fail(ErrorCode::unsupported, document.names->tetrahedron_where(0), "has ", n,
-           n == 1 ? " tetrahedron" : " tetrahedra",
-           "; expected a mesh of triangles. Next: temper check, convert, draw, explain, optimize, weights, operators "
-           "and errors take tetrahedra");
-    }
-    return mesh_file(std::move(document), path, options);
-  });
-}
-
-Expected<std::variant<MeshFile, TetFile>> read_any(const std::string& path, const ReadOptions& options) {
-  using Any = std::variant<MeshFile, TetFile>;
-  return guarded<Any>(path, [&]() -> Any {
-    Document document = read_document(path, options);
-    if (document.tetrahedra.corners.empty()) return mesh_file(std::move(document), path, options);
-    check_tetrahedra(document);
-    document.file.path = path;
-    finish(document);
-    return tet_file(std::move(document));
+    check(document, options);
+    MeshFile& file = document.file;
+    file.path = path;
+    file.numbering = document.names;
+    read_side_file(document);
+    drop_zero_weights(file);
+    tidy_names(file);
+    tidy_warnings(file);
+    constexpr std::size_t kLarge = std::size_t{1} << 20;  // below it does not count, and reading is fast
+    if (file.points.size() + file.triangles.size() + file.tetrahedra.size() > kLarge) give_memory_back();
+    return std::move(file);
   });
 }
 
@@ -333,15 +313,13 @@ void warn_of_weights_beside_degrees(const WriteJob& job, const MeshFile& on_map)
   job.warn("points are longitude and latitude, but weights are squared lengths", map);
 }
 
-/// Refuses a format that has no place for tetrahedra.
-void expect_tetrahedra(const FormatRow& row, const std::string& path) {
-  if ((row.holds & kTetrahedra) != 0) return;
-  fail(ErrorCode::unsupported, path, row.description, " is not written with tetrahedra; expected one of ",
-       names_with(kTetrahedra));
-}
-
-/// Refuses a space that the format has no place for.
-void expect_space(const FormatRow& row, const std::string& path, const MeshFile& file) {
+/// Refuses a mesh that the format has no place for, by its dimension or its space.
+void expect_place(const FormatRow& row, const std::string& path, const MeshFile& file) {
+  if (file.dimension() == 3) {
+    if ((row.holds & kTetrahedra) != 0) return;
+    fail(ErrorCode::unsupported, path, row.description, " is not written with tetrahedra; expected one of ",
+         names_with(kTetrahedra));
+  }
   if (file.sphere() != nullptr && (row.holds & kSphere) == 0) {
     fail(ErrorCode::unsupported, path, "points are on a sphere, which ", row.description,
          " is not written with; expected one of ", names_with(kSphere));
@@ -377,7 +355,7 @@ FileInFormat file_in_format(const FormatRow& row, const MeshFile& file) {
   const DataArray* const heights = now.z_is_data && has_place ? find(now.point_data, kHeight) : nullptr;
   if (heights != nullptr && is_finite(heights->values))  // a missing height stays a number of data
     result.heights = to_doubles(std::move(take(change().point_data, kHeight)->values));
-  if ((row.holds & kQuadrilaterals) == 0 || row.details.joins_halves) return result;
+  if ((row.holds & kQuadrilaterals) == 0 || row.details.joins_halves || file.dimension() == 3) return result;
   if (const auto quadrilaterals = quadrilaterals_of(file); !quadrilaterals.empty())
     result.fourth_corners = join_quadrilaterals(change(), quadrilaterals);
   return result;
@@ -388,13 +366,14 @@ FileInFormat file_in_format(const FormatRow& row, const MeshFile& file) {
 Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file, const WriteOptions& options) {
   return guarded<std::vector<std::string>>(path, [&] {
     const FormatRow& row = row_to_write(path, options.format);
+    if (file.dimension() == 3) expect_place(row, path, file);
     if (row.details.files_to_write != nullptr && row.details.files_to_write(path).size() > 1 && is_stream(path)) {
       fail(ErrorCode::not_writable, path, row.description,
            " is several files; expected the name of a file, found a stream");
     }
     check_sizes(path, file);
     check_names(path, file);
-    expect_space(row, path, file);
+    expect_place(row, path, file);
     std::vector<std::string> warnings;
     OutputSet outputs;
     FileInFormat written = file_in_format(row, file);
@@ -422,35 +401,6 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
   });
 }
 
-Expected<std::vector<std::string>> write(const std::string& path, const TetFile& file, const WriteOptions& options) {
-  return guarded<std::vector<std::string>>(path, [&] {
-    const FormatRow& row = row_to_write(path, options.format);
-    expect_tetrahedra(row, path);
-    if (row.details.files_to_write != nullptr && row.details.files_to_write(path).size() > 1 && is_stream(path)) {
-      fail(ErrorCode::not_writable, path, row.description,
-           " is several files; expected the name of a file, found a stream");
-    }
-    const MeshFile tags = tags_of_file(file);
-    check_sizes(path, file);
-    check_sizes(path, tags);
-    check_names(path, tags);
-    std::vector<double> z;
-    z.reserve(file.points.size());
-    for (const Vec3& p : file.points) z.push_back(p.z);
-    const Tetrahedra tetrahedra = {file.tetrahedra, file.regions, file.cell_data};
-    std::vector<std::string> warnings;
-    OutputSet outputs;
-    const WriteJob job = {
-        path,    tags,     tags,         row, options.encoding, options.triangle_quality, options.executor,
-        outputs, warnings, std::move(z), {},  &tetrahedra};
-    row.write(job);
-    warn_of_losses(job);
-    if ((row.holds & kWeights) == 0) write_side_file(job);
-    outputs.commit();
-    return warnings;
-  });
-}
-
 std::vector<std::string> files_to_read(const std::string& path) {
   if (is_stream(path) || !exists(path)) return {path};
   const FormatRow* const row = row_of(first_bytes(path, kSniffBytes));
@@ -466,16 +416,12 @@ Expected<std::vector<std::string>> files_to_write(const std::string& path, const
                                                   const MeshFile* file) {
   return guarded<std::vector<std::string>>(path, [&] {
     const FormatRow& row = row_to_write(path, format);
-    if (file != nullptr) expect_space(row, path, *file);
+    if (file != nullptr) expect_place(row, path, *file);
     std::vector<std::string> files =
         row.details.files_to_write == nullptr ? std::vector<std::string>{path} : row.details.files_to_write(path);
     if ((row.holds & kWeights) == 0 && !is_stream(path)) files.push_back(side_file_path(path));
     return files;
   });
-}
-
-Expected<void> check_tetrahedra_to_write(const std::string& path, const std::string& format) {
-  return guarded<void>(path, [&] { expect_tetrahedra(row_to_write(path, format), path); });
 }
 
 Expected<void> write_text(const std::string& path, std::string_view content) {

@@ -71,8 +71,8 @@ void write_and_read_again(const Scratch& scratch, const io::MeshFile& file, cons
   insist(again->triangles.size() == file.triangles.size(), "as many triangles are read as were written");
 }
 
-void run_tetrahedra(const Scratch& scratch, const io::TetFile& file, std::string_view bytes) {
-  const auto made = io::make_mesh(file);
+void run_tetrahedra(const Scratch& scratch, const io::MeshFile& file, std::string_view bytes) {
+  const auto made = io::make_tet_mesh(file);
   if (!made) return insist_on_message(made.error());
   const auto wrong = made->mesh.validate();
   insist(!wrong, wrong.value_or(""));
@@ -81,20 +81,18 @@ void run_tetrahedra(const Scratch& scratch, const io::TetFile& file, std::string
   const std::string out = scratch.path("out" + names_of(format.name)[0].substr(1));
   const auto written = io::write(out, file, {std::string(format.name), {}});
   if (!written) return insist_on_message(written.error());
-  const auto again = io::read_any(out);
+  const auto again = io::read(out);
   insist(again.has_value(), again ? "" : std::string(format.name) + ": " + again.error().what());
-  const auto* tets = std::get_if<io::TetFile>(&*again);
-  insist(tets != nullptr && tets->tetrahedra == file.tetrahedra, "the tetrahedra are read that were written");
+  insist(again->tetrahedra.corners == file.tetrahedra.corners, "the tetrahedra are read that were written");
 }
 
 void run(const std::string& format, std::string_view bytes) {
   static const Scratch scratch;
   scratch.clear();
   if (bytes.starts_with("\x89HDF")) return;  // libhdf5 reads it, which may never return
-  const auto any = io::read_any(place(scratch, format, bytes));
-  if (!any) return insist_on_message(any.error());
-  if (const auto* const tets = std::get_if<io::TetFile>(&*any)) return run_tetrahedra(scratch, *tets, bytes);
-  const auto* const file = std::get_if<io::MeshFile>(&*any);
+  const auto file = io::read(place(scratch, format, bytes));
+  if (!file) return insist_on_message(file.error());
+  if (file->dimension() == 3) return run_tetrahedra(scratch, *file, bytes);
   insist(printable(file->warnings.empty() ? "" : file->warnings[0]).size() < 100000, "warnings are short");
   const auto made = io::make_mesh(*file);
   if (!made) return insist_on_message(made.error());
@@ -113,7 +111,7 @@ std::vector<std::string> seeds(const io::Format& format) {
   std::vector<std::string> all;
   const std::string out = scratch.path(names_of(format.name)[0]);
   io::MeshFile globe = io::from_mesh(*icosahedral({.level = 1}));
-  globe.triangles.pop_back();
+  globe.triangles.corners.pop_back();
   const auto add = [&](const auto& file) {
     for (const auto encoding : {io::Encoding::ascii, io::Encoding::base64, io::Encoding::appended}) {
       scratch.clear();

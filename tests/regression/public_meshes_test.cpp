@@ -12,7 +12,6 @@
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
-#include "temper/tets/io.hpp"
 #include "temper/tets/optimize.hpp"
 #include "temper/tets/quality.hpp"
 
@@ -101,9 +100,9 @@ class PublicTets : public testing::TestWithParam<const char*> {};
 TEST_P(PublicTets, EndWellCenteredWithTheirBoundaryAndInterfacesBitForBit) {
   const std::string path = std::string(TEMPER_SHARED "/tets/") + GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
-  const auto file = io::read_any(path);
+  const auto file = io::read(path);
   ASSERT_TRUE(file) << file.error().what();
-  const auto loaded = io::make_mesh(std::get<io::TetFile>(*file));
+  const auto loaded = io::make_tet_mesh(*file);
   ASSERT_TRUE(loaded) << loaded.error().what();
   const tets::TetMesh& before = loaded->mesh;
   tets::TetMesh mesh = before;

@@ -21,9 +21,11 @@ constexpr double kCrack = 1e-6;
 
 std::vector<Vec3> places_of(const io::MeshFile& file) {
   if (const io::SpherePoints* sphere = file.sphere()) return sphere->places;
+  const io::SpacePoints* const space = file.in_space();
   std::vector<Vec3> places;
   places.reserve(file.points.size());
-  for (const Vec2 p : file.points) places.push_back({p.x, p.y, 0});
+  for (std::size_t i = 0; i < file.points.size(); ++i)
+    places.push_back({file.points[i].x, file.points[i].y, space != nullptr ? space->heights[i] : 0});
   return places;
 }
 
@@ -121,19 +123,16 @@ struct MergedPoints {
   void renumber(std::int32_t& point) const {
     if (point >= 0 && static_cast<std::size_t>(point) < number.size()) point = number[static_cast<std::size_t>(point)];
   }
-  template <std::size_t N>
-  void renumber(std::vector<std::array<std::int32_t, N>>& elements) const {
-    for (auto& element : elements) {
-      for (std::int32_t& point : element) renumber(point);
-    }
+  void renumber(auto& cell) const {
+    for (std::int32_t& point : cell) renumber(point);
   }
-  /// `name`: of cell number i.
-  template <std::size_t N, class Name>
-  void renumber_cells(std::vector<std::array<std::int32_t, N>>& cells, const std::string& path, double radius,
+  /// Refuses cells of which two corners would become one. `name`: of cell number i.
+  template <int dimension, class Name>
+  void expect_corners(const io::Cells<dimension>& cells, const std::string& path, double radius,
                       const Name& name) const {
-    renumber(cells);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       auto corners = cells[i];
+      renumber(corners);
       std::ranges::sort(corners);
       if (std::ranges::adjacent_find(corners) == corners.end()) continue;
       throw Failure(Exit::bad_input,
@@ -141,12 +140,12 @@ struct MergedPoints {
                                 radius, name(i)));
     }
   }
-  /// All but the cells.
-  template <class File>
-  void apply(File& file) const {
-    renumber(file.lines);
-    for (std::int32_t& point : file.marked_points) renumber(point);
+  void apply(io::MeshFile& file) const {
+    std::apply([&](auto&... cells) { (std::ranges::for_each(cells, [&](auto& cell) { renumber(cell); }), ...); },
+               file.cells());
     keep(file.points, stays);
+    if (auto* sphere = std::get_if<io::SpherePoints>(&file.points_in)) keep(sphere->places, stays);
+    if (auto* space = std::get_if<io::SpacePoints>(&file.points_in)) keep(space->heights, stays);
     if (!file.weights.empty()) keep(file.weights, stays);
     for (io::DataArray& array : file.point_data) {
       std::visit([&](auto& values) { keep(values, stays, static_cast<std::size_t>(array.components)); }, array.values);
@@ -177,22 +176,15 @@ void drop_without_area(io::MeshFile& file) {
 std::size_t merge_points(io::MeshFile& file, double radius) {
   const MergedPoints merged(places_of(file), radius);
   if (merged.gone == 0) return 0;
-  drop_without_area(file);
-  merged.renumber_cells(file.triangles, file.path, radius, [&](std::size_t t) {
-    return file.numbering ? file.numbering->triangle(t) : InputNames().triangle(t);
-  });
-  if (auto* sphere = std::get_if<io::SpherePoints>(&file.points_in)) keep(sphere->places, merged.stays);
-  merged.apply(file);
-  return merged.gone;
-}
-
-std::size_t merge_points(io::TetFile& file, double radius) {
-  const MergedPoints merged(file.points, radius);
-  if (merged.gone == 0) return 0;
-  merged.renumber_cells(file.tetrahedra, file.path, radius, [&](std::size_t t) {
+  if (file.dimension() == 2) {
+    drop_without_area(file);
+    merged.expect_corners(file.triangles, file.path, radius, [&](std::size_t t) {
+      return file.numbering ? file.numbering->triangle(t) : InputNames().triangle(t);
+    });
+  }
+  merged.expect_corners(file.tetrahedra, file.path, radius, [&](std::size_t t) {
     return file.numbering ? file.numbering->tetrahedron(t) : tets::InputNames().tetrahedron(t);
   });
-  merged.renumber(file.faces);
   merged.apply(file);
   return merged.gone;
 }

@@ -23,6 +23,5 @@ namespace temper::app {
 /// of each place stays. Triangles with two corners at exactly one place are dropped, with a warning. Failure if another
 /// triangle or a tetrahedron loses a corner. Returns the number of points that are gone.
 std::size_t merge_points(io::MeshFile& file, double radius);
-std::size_t merge_points(io::TetFile& file, double radius);
 
 }  // namespace temper::app

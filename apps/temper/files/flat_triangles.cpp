@@ -79,14 +79,14 @@ class Flips {
       return 0;
     }
     divide_lines();
-    if (!file_.regions.empty()) file_.regions = listed_values(file_.regions, from_, 1);
-    take_data(file_.cell_data, from_);
+    if (!file_.triangles.tags.empty()) file_.triangles.tags = listed_values(file_.triangles.tags, from_, 1);
+    take_data(file_.triangles.data, from_);
     keep_triangles(file_, stays_);
     return n_flat - std::min(left + flat_.size(), n_flat);
   }
 
  private:
-  std::vector<Corners>& triangles() { return file_.triangles; }
+  std::vector<Corners>& triangles() { return file_.triangles.corners; }
   [[nodiscard]] Vec2 at(std::int32_t p) const { return file_.points[static_cast<std::size_t>(p)]; }
   /// Without area, or turned over. Precondition: all are oriented.
   [[nodiscard]] bool is_bad(std::size_t t) const {
@@ -211,9 +211,9 @@ class Flips {
         }
       }
     }
-    file_.line_tags = listed_values(file_.line_tags, from, 1);
-    take_data(file_.line_data, from);
-    file_.lines = std::move(lines);
+    file_.lines.tags = listed_values(file_.lines.tags, from, 1);
+    take_data(file_.lines.data, from);
+    file_.lines.corners = std::move(lines);
   }
 
   io::MeshFile& file_;
@@ -233,9 +233,9 @@ void keep_triangles(io::MeshFile& file, const std::vector<bool>& stays) {
     if (stays[t]) from.push_back(t);
   }
   if (from.size() == stays.size()) return;
-  file.triangles = listed_values(file.triangles, from, 1);
-  if (!file.regions.empty()) file.regions = listed_values(file.regions, from, 1);
-  take_data(file.cell_data, from);
+  file.triangles.corners = listed_values(file.triangles.corners, from, 1);
+  if (!file.triangles.tags.empty()) file.triangles.tags = listed_values(file.triangles.tags, from, 1);
+  take_data(file.triangles.data, from);
   file.numbering = nullptr;  // triangles have other numbers now
 }
 

@@ -90,11 +90,11 @@ std::string TetInput::tetrahedron_number(tets::TetId t) const { return last_word
 
 std::vector<std::string> TetInput::warnings() const { return all_of(file.warnings, loaded.warnings); }
 
-TetInput make_input(const std::string& path, io::TetFile file, Executor* executor) {
+TetInput make_input(const std::string& path, io::MeshFile file, Executor* executor) {
   TetInput input;
   input.path = path;
   input.file = std::move(file);
-  input.loaded = or_fail(io::make_mesh(input.file, executor));
+  input.loaded = or_fail(io::make_tet_mesh(input.file, executor));
   input.points = invert(input.loaded.vertex_of_point);
   input.names = input.file.numbering;
   if (!input.points.empty()) input.names = std::make_shared<TetNames>(input.file.numbering, input.points);

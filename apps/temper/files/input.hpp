@@ -8,14 +8,12 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "exit.hpp"
 #include "options/options.hpp"
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"
-#include "temper/tets/io.hpp"
 
 namespace temper::app {
 
@@ -38,7 +36,7 @@ struct Input {
 /// The same of a mesh of tetrahedra.
 struct TetInput {
   std::string path;
-  io::TetFile file;
+  io::MeshFile file;
   io::LoadedTetMesh loaded;
   std::vector<std::size_t> points;                ///< mesh vertex → point of the file, both from 0; empty: the same
   std::shared_ptr<const tets::InputNames> names;  ///< the file's own numbers of the mesh's vertices and tetrahedra
@@ -49,7 +47,7 @@ struct TetInput {
   [[nodiscard]] std::vector<std::string> warnings() const;
 };
 /// Builds the mesh of a file; Failure when anything is wrong with it.
-[[nodiscard]] TetInput make_input(const std::string& path, io::TetFile file, Executor* executor);
+[[nodiscard]] TetInput make_input(const std::string& path, io::MeshFile file, Executor* executor);
 
 /// A text file to be read line by line; Failure if it cannot be read, or is a device such as /dev/zero without an end.
 [[nodiscard]] std::ifstream open_text(const std::string& path);
@@ -139,8 +137,5 @@ inline constexpr int kDeepestJson = 16;
 /// loop forever or crash, and then only the child does. Failure when the file cannot be used, or the child exceeds its
 /// budget of time and memory. A pipe can be read only once, and is read at once.
 [[nodiscard]] io::MeshFile read_tried(const std::string& path, const io::ReadOptions& options = {});
-/// io::read_any(), in the same way.
-[[nodiscard]] std::variant<io::MeshFile, io::TetFile> read_any_tried(const std::string& path,
-                                                                     const io::ReadOptions& options = {});
 
 }  // namespace temper::app

@@ -14,7 +14,6 @@
 #include "system/system.hpp"
 #include "temper/detail/path.hpp"
 #include "temper/detail/suggest.hpp"
-#include "temper/tets/io.hpp"
 
 namespace temper::app {
 namespace {
@@ -200,15 +199,10 @@ void Outputs::expect_mesh(const MeshOutput& output, const std::vector<std::strin
   if (io::open_file_of(path) == 1) print_to_standard_error();
 }
 
-void Outputs::expect_space(const MeshOutput& output, const io::MeshFile& file) const {
+void Outputs::expect_place(const MeshOutput& output, const io::MeshFile& file) const {
   if (output.path.empty()) return;
   const auto files = io::files_to_write(output.path, output.options.format, &file);
   if (!files) fail(files.error());
-}
-
-void Outputs::expect_tetrahedra(const MeshOutput& output) const {
-  if (output.path.empty()) return;
-  if (const auto right = io::check_tetrahedra_to_write(output.path, output.options.format); !right) fail(right.error());
 }
 
 void Outputs::expect(const FurtherOutputs& outputs, const std::vector<std::string>& inputs) {
@@ -239,8 +233,7 @@ void Outputs::fail(const InputError& error) const {
   throw Failure(Exit::bad_input, message);
 }
 
-template <class File>
-std::vector<std::string> Outputs::write_any(const MeshOutput& output, const File& file, Executor* executor) {
+std::vector<std::string> Outputs::write_mesh(const MeshOutput& output, const io::MeshFile& file, Executor* executor) {
   io::WriteOptions options = output.options;
   options.executor = executor;
   flush_output();  // the path may be standard output
@@ -248,14 +241,6 @@ std::vector<std::string> Outputs::write_any(const MeshOutput& output, const File
   if (!warnings) fail(warnings.error());
   written_.push_back(output.path);
   return *std::move(warnings);
-}
-
-std::vector<std::string> Outputs::write_mesh(const MeshOutput& output, const io::MeshFile& file, Executor* executor) {
-  return write_any(output, file, executor);
-}
-
-std::vector<std::string> Outputs::write_mesh(const MeshOutput& output, const io::TetFile& file, Executor* executor) {
-  return write_any(output, file, executor);
 }
 
 void Outputs::write_text(const std::string& path, std::string_view text) {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "options/options.hpp"
-#include "temper/tets/io.hpp"
 
 namespace temper::app {
 
@@ -50,11 +49,9 @@ class Outputs {
   /// not be another output, nor one of the files of `others`, which are inputs. If the mesh goes to standard output,
   /// later messages go to standard error.
   void expect_mesh(const MeshOutput& output, const std::vector<std::string>& others = {});
-  /// Failure if the format has no place for the space of the mesh: before the work, not after it. Does nothing without
-  /// an output.
-  void expect_space(const MeshOutput& output, const io::MeshFile& file) const;
-  /// Failure if the format has no place for tetrahedra. Does nothing without an output.
-  void expect_tetrahedra(const MeshOutput& output) const;
+  /// Failure if the format has no place for the space of the mesh, or for tetrahedra: before the work, not after it.
+  /// Does nothing without an output.
+  void expect_place(const MeshOutput& output, const io::MeshFile& file) const;
   /// A text file that must not be another output, or one of the files that these inputs are read from. An empty path
   /// means no output.
   void expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
@@ -65,7 +62,6 @@ class Outputs {
 
   /// The warnings of writing.
   std::vector<std::string> write_mesh(const MeshOutput& output, const io::MeshFile& file, Executor* executor = nullptr);
-  std::vector<std::string> write_mesh(const MeshOutput& output, const io::TetFile& file, Executor* executor = nullptr);
   void write_text(const std::string& path, std::string_view text);
   void write_picture(const std::string& path, std::string_view svg);
   /// Text that is written piece by piece: opened before the work, put in its place after it.
@@ -80,8 +76,6 @@ class Outputs {
     std::string option, path, file;
   };
   void expect(const std::string& option, const std::string& path, const std::vector<std::string>& files);
-  template <class File>
-  std::vector<std::string> write_any(const MeshOutput& output, const File& file, Executor* executor);
   [[noreturn]] void refuse(const std::string& option, const std::string& message) const;
   [[noreturn]] void fail(const InputError& error) const;
 

@@ -34,8 +34,8 @@ auto elements_of(const tets::TetMesh& mesh) { return mesh.tetrahedra(); }
 /// The data of triangles or tetrahedra with this name.
 template <class AnyInput>
 std::vector<double> from_data(const Command& command, const std::string& name, const AnyInput& input) {
-  if (const io::DataArray* const found = find_numbers(input.file.cell_data, name)) return as_doubles(*found);
-  const std::vector<std::string_view> names = names_of_numbers(input.file.cell_data);
+  if (const io::DataArray* const found = find_numbers(input.file.triangles.data, name)) return as_doubles(*found);
+  const std::vector<std::string_view> names = names_of_numbers(input.file.triangles.data);
   throw Failure(Exit::bad_usage,
                 fmt::format("{}: {}: --coefficient: there are no data '{}' of {}; {}. Next: give one of these, "
                             "or REGION=K,...",
@@ -178,7 +178,7 @@ void add_boundary_values(const Command& command, bool is_flux, const std::string
     } else {
       const std::int32_t tag = tag_of(command, option, name, 1, input.file.names);
       for (std::size_t i = 0; i < input.file.lines.size(); ++i) {
-        if (input.file.line_tags[i] != tag) continue;
+        if (input.file.lines.tags[i] != tag) continue;
         const auto& [from, to] = input.file.lines[i];
         const std::int32_t a = input.loaded.vertex_of_point[static_cast<std::size_t>(from)],
                            b = input.loaded.vertex_of_point[static_cast<std::size_t>(to)];

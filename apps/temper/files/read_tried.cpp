@@ -31,7 +31,7 @@ std::optional<std::uint64_t> size_of_hdf5(const std::string& path) {
 }
 
 /// Nothing, or the code of the error, its place, a zero, and its message.
-std::string packed(const Expected<std::variant<io::MeshFile, io::TetFile>>& file) {
+std::string packed(const Expected<io::MeshFile>& file) {
   if (file) return {};
   const InputError& error = file.error();
   return static_cast<char>(error.code) + error.where + '\0' + error.message;
@@ -44,7 +44,7 @@ InputError unpacked(const std::string& text) {
 
 /// The reason not to read the file here; nothing when the child could read it, or when there can be no child.
 Expected<void> read_in_child(const std::string& path, const Budget& budget, const io::ReadOptions& options) {
-  const auto tried = try_in_child(budget, [&] { return packed(io::read_any(path, {.flat = options.flat})); });
+  const auto tried = try_in_child(budget, [&] { return packed(io::read(path, {.flat = options.flat})); });
   if (!tried) return {};
   switch (tried->end) {
     case Tried::End::done:
@@ -65,20 +65,11 @@ Expected<void> read_in_child(const std::string& path, const Budget& budget, cons
       std::string("cannot be read: the process that reads it first could not be started: ") + std::strerror(errno)};
 }
 
-void try_hdf5(const std::string& path, const io::ReadOptions& options) {
-  if (const auto size = size_of_hdf5(path)) or_fail(read_in_child(path, budget_of(*size), options));
-}
-
 }  // namespace
 
 io::MeshFile read_tried(const std::string& path, const io::ReadOptions& options) {
-  try_hdf5(path, options);
+  if (const auto size = size_of_hdf5(path)) or_fail(read_in_child(path, budget_of(*size), options));
   return or_fail(io::read(path, options));
-}
-
-std::variant<io::MeshFile, io::TetFile> read_any_tried(const std::string& path, const io::ReadOptions& options) {
-  try_hdf5(path, options);
-  return or_fail(io::read_any(path, options));
 }
 
 }  // namespace temper::app

@@ -93,9 +93,9 @@ class Checks {
   }
 
   void add(const std::string& path) {
-    auto file = read_any_tried(path, s_.heights.to_read(threads_.get()));
-    if (auto* const tets = std::get_if<io::TetFile>(&file)) return add_tetrahedra(path, std::move(*tets));
-    const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
+    io::MeshFile file = read_tried(path, s_.heights.to_read(threads_.get()));
+    if (file.dimension() == 3) return add_tetrahedra(path, std::move(file));
+    const auto read = [&](const std::string&) { return std::move(file); };
     add_triangles(path, read_input(path, {s_.projection, {}, threads_.get(), true, s_.heights, read}));
   }
 
@@ -115,7 +115,7 @@ class Checks {
   }
 
  private:
-  void add_tetrahedra(const std::string& path, io::TetFile file) {
+  void add_tetrahedra(const std::string& path, io::MeshFile file) {
     refuse_for_tetrahedra("check", path,
                           {{!s_.projection.empty(), "--projection"},
                            {s_.heights.flat, "--flat"},

@@ -75,25 +75,17 @@ Exit run_convert(const Arguments& arguments) {
   outputs.expect_mesh(s.output);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  auto any = read_any_tried(s.input, s.heights.to_read(threads.get()));
-  if (std::holds_alternative<io::TetFile>(any))
+  io::MeshFile file = read_tried(s.input, s.heights.to_read(threads.get()));
+  if (file.dimension() == 3)
     refuse_for_tetrahedra("convert", s.input,
                           {{!s.projection.empty(), "--projection"},
                            {s.heights.flat, "--flat"},
                            {s.heights.positive.has_value(), "--positive"},
                            {s.flip_flat, "--flip-flat"}});
-  std::size_t merged = 0, flipped = 0;
-  std::visit(
-      [&](auto& file) {
-        if (s.merge) merged = merge_points(file, *s.merge);
-        if constexpr (std::is_same_v<decltype(file), io::MeshFile&>) {
-          if (s.flip_flat) flipped = flip_away(file);
-          if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
-        }
-        print_warnings(file.warnings);
-        print_warnings(outputs.write_mesh(s.output, file, threads.get()));
-      },
-      any);
+  const std::size_t merged = s.merge ? merge_points(file, *s.merge) : 0, flipped = s.flip_flat ? flip_away(file) : 0;
+  if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
+  print_warnings(file.warnings);
+  print_warnings(outputs.write_mesh(s.output, file, threads.get()));
   if (s.merge) print(fmt::format("{} merged\n", plural(merged, "point", "points")));
   if (s.flip_flat) print(fmt::format("{} flipped away\n", plural(flipped, "triangle", "triangles")));
   return Exit::done;

@@ -94,7 +94,7 @@ IdVector<TriangleId, double> values_of(const Input& input, const std::string& na
   const auto known = std::ranges::find(triangle_values(), name, &TriangleValue::name);
   if (known != triangle_values().end()) {
     for (const TriangleId t : mesh.triangles()) values.push_back(known->of(mesh, t));
-  } else if (const io::DataArray* of_triangles = find_numbers(input.file.cell_data, name)) {
+  } else if (const io::DataArray* of_triangles = find_numbers(input.file.triangles.data, name)) {
     for (const double value : as_doubles(*of_triangles)) values.push_back(value);
   } else if (const io::DataArray* of_points = find_numbers(input.file.point_data, name)) {
     const std::vector<double> at = at_vertices(input, *of_points);
@@ -105,7 +105,7 @@ IdVector<TriangleId, double> values_of(const Input& input, const std::string& na
   } else {
     std::vector<std::string_view> names;
     for (const TriangleValue& m : triangle_values()) names.push_back(m.name);
-    for (const auto* data : {&input.file.cell_data, &input.file.point_data}) {
+    for (const auto* data : {&input.file.triangles.data, &input.file.point_data}) {
       for (const io::DataArray& d : *data) {
         if (d.components == 1) names.push_back(d.name);
       }
@@ -186,13 +186,12 @@ void draw_tetrahedra(const Command& command, const DrawSettings& s, const TetInp
   options.fill = s.color != "none";
   const tets::Plane plane = plane_of(s, input.mesh());
   if (s.before.empty()) return outputs.write_picture(s.output, draw_svg(input.mesh(), plane, options));
-  auto file = read_any_tried(s.before);
-  auto* const tets = std::get_if<io::TetFile>(&file);
-  if (tets == nullptr)
+  io::MeshFile file = read_tried(s.before);
+  if (file.dimension() == 2)
     throw Failure(Exit::bad_input, fmt::format("{}: has triangles, but {} has tetrahedra; expected two meshes of the "
                                                "same kind",
                                                s.before, s.input));
-  const TetInput before = make_input(s.before, std::move(*tets), nullptr);
+  const TetInput before = make_input(s.before, std::move(file), nullptr);
   print_warnings(before.warnings());
   outputs.write_picture(s.output, draw_before_after_svg(before.mesh(), input.mesh(), plane, options));
 }
@@ -215,15 +214,15 @@ Exit run_draw(const Arguments& arguments) {
   Outputs outputs("draw");
   outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});
 
-  auto file = read_any_tried(s.input, s.heights.to_read(nullptr));
-  if (auto* const tets = std::get_if<io::TetFile>(&file)) {
-    draw_tetrahedra(command, s, make_input(s.input, std::move(*tets), nullptr), outputs);
+  io::MeshFile file = read_tried(s.input, s.heights.to_read(nullptr));
+  if (file.dimension() == 3) {
+    draw_tetrahedra(command, s, make_input(s.input, std::move(file), nullptr), outputs);
     return Exit::done;
   }
   if (!s.cut.empty())
     refuse_usage("draw",
                  fmt::format("{} has triangles, and --cut is for tetrahedra alone. Next: leave it out", s.input));
-  const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
+  const auto read = [&](const std::string&) { return std::move(file); };
   Input input = read_input(s.input, {s.projection, {}, nullptr, true, s.heights, read});
   print_warnings(input.warnings());
   check_view(s.options, input);

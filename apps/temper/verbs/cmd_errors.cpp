@@ -142,16 +142,15 @@ DiffusionErrors measure_problem(const Command& command, const ErrorSettings& s, 
 
 /// The mesh of a file of tetrahedra.
 TetInput read_tetrahedra(const std::string& path, Executor* executor) {
-  auto file = read_any_tried(path, {executor});
-  auto* const tets = std::get_if<io::TetFile>(&file);
-  if (tets == nullptr)
+  io::MeshFile file = read_tried(path, {executor});
+  if (file.dimension() == 2)
     throw Failure(Exit::bad_input, fmt::format("{}: expected tetrahedra, as in the other mesh, found triangles", path));
-  TetInput input = make_input(path, std::move(*tets), executor);
+  TetInput input = make_input(path, std::move(file), executor);
   print_warnings(input.warnings());
   return input;
 }
 
-Exit run_tetrahedra(const Command& command, const ErrorSettings& s, io::TetFile file, Executor* executor) {
+Exit run_tetrahedra(const Command& command, const ErrorSettings& s, io::MeshFile file, Executor* executor) {
   for (const char* option : {"--projection", "--flat", "--positive", "--edges", "--refine", "--tensor", "--dirichlet"})
     refuse_for_tetrahedra("errors", s.input, {{command.was_given(option), option}});
   const TetInput input = make_input(s.input, std::move(file), executor);
@@ -202,12 +201,11 @@ Exit run_errors(const Arguments& arguments) {
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   expect_complete(command, s.problem);
-  auto file = read_any_tried(s.input, s.heights.to_read(threads.get()));
-  if (auto* const tets = std::get_if<io::TetFile>(&file))
-    return run_tetrahedra(command, s, std::move(*tets), threads.get());
+  io::MeshFile file = read_tried(s.input, s.heights.to_read(threads.get()));
+  if (file.dimension() == 3) return run_tetrahedra(command, s, std::move(file), threads.get());
   if (s.problem.given()) return run_problem(command, s, threads.get());
   options.executor = threads.get();
-  const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
+  const auto read = [&](const std::string&) { return std::move(file); };
   Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.heights, read});
   print_warnings(input.warnings());
   take_to_metric(input, s.metric);

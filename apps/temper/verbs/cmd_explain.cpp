@@ -109,12 +109,12 @@ Exit run_explain(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
 
-  auto file = read_any_tried(s.input, s.heights.to_read(nullptr));
-  if (auto* const tets = std::get_if<io::TetFile>(&file)) {
-    explain_tetrahedra(s, make_input(s.input, std::move(*tets), nullptr));
+  io::MeshFile file = read_tried(s.input, s.heights.to_read(nullptr));
+  if (file.dimension() == 3) {
+    explain_tetrahedra(s, make_input(s.input, std::move(file), nullptr));
     return Exit::done;
   }
-  const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
+  const auto read = [&](const std::string&) { return std::move(file); };
   const Input input = read_input(s.input, {s.projection, {}, nullptr, true, s.heights, read});
   print_warnings(input.warnings());
   const auto solver = clp_solver();

@@ -385,7 +385,7 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   catch_interrupts();
   io::MeshFile space;
   if (s.sphere) space.points_in = io::SpherePoints{};
-  outputs.expect_space(s.output, space);
+  outputs.expect_place(s.output, space);
   const auto [inputs, map, made] = s.sphere ? mesh_globe(s, threads.get()) : mesh_plane(s, threads.get());
   QualityOptions measuring;
   measuring.executor = threads.get();

@@ -138,7 +138,7 @@ std::optional<Columns> make_columns(const DecSettings& s, const Input& input, co
   return *std::move(made);
 }
 
-Exit write_tetrahedra(const Command& command, const DecSettings& s, io::TetFile file,
+Exit write_tetrahedra(const Command& command, const DecSettings& s, io::MeshFile file,
                       const std::vector<io::DecFormat>& formats, Executor* executor) {
   refuse_for_tetrahedra("operators", s.input,
                         {{!s.projection.empty(), "--projection"},
@@ -180,10 +180,9 @@ Exit run_operators(const Arguments& arguments) {
   check_folder(s, formats, s.layers.empty() ? io::DecKind::triangles : io::DecKind::columns);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  auto file = read_any_tried(s.input, s.heights.to_read(threads.get()));
-  if (auto* const tets = std::get_if<io::TetFile>(&file))
-    return write_tetrahedra(command, s, std::move(*tets), formats, threads.get());
-  const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
+  io::MeshFile file = read_tried(s.input, s.heights.to_read(threads.get()));
+  if (file.dimension() == 3) return write_tetrahedra(command, s, std::move(file), formats, threads.get());
+  const auto read = [&](const std::string&) { return std::move(file); };
   Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.heights, read});
   print_warnings(input.warnings());
   if (s.layers.empty()) io::release_geometry(input.file, input.loaded);  // the mesh has it

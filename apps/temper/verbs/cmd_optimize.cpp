@@ -279,13 +279,12 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   std::optional<TraceFile> trace;
   if (!s.files.trace.empty()) trace.emplace(TraceFile{outputs.open(s.files.trace), {}});
   const RunFiles files = {threads.get(), trace ? &*trace : nullptr};
-  auto file = read_any_tried(s.input, s.heights.to_read(threads.get()));
-  if (auto* const tets = std::get_if<io::TetFile>(&file))
-    return optimize_tetrahedra(command, s, outputs, {std::move(*tets), threads.get()});
+  io::MeshFile file = read_tried(s.input, s.heights.to_read(threads.get()));
+  if (file.dimension() == 3) return optimize_tetrahedra(command, s, outputs, {std::move(file), threads.get()});
   s.requirements = s.requirement_lists.of(MeshKind::triangles);
-  const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
+  const auto read = [&](const std::string&) { return std::move(file); };
   Input input = read_input(s.input, {s.projection, s.fix, threads.get(), true, s.heights, read});
-  outputs.expect_space(s.output, input.file);
+  outputs.expect_place(s.output, input.file);
   if (!s.files.page.empty()) expect_plane(input.mesh(), s.input, "--write " + s.files.page);
   RunResults results;
   warn(results, input.warnings());

@@ -59,7 +59,7 @@ Exit replay(const ReplaySettings& s) {
   outputs.expect_mesh(s.output, {s.trace});
 
   Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .heights = s.heights});
-  outputs.expect_space(s.output, input.file);
+  outputs.expect_place(s.output, input.file);
   print_warnings(input.warnings());
   const io::DataRules rules = data_rules(s.point_data, input.path, input.file.point_data);
   const Trace trace = read_trace(s.trace, input);

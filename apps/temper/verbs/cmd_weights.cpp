@@ -427,20 +427,20 @@ Exit run_weights(const Arguments& arguments) {
   if (!s.output.path.empty()) outputs.expect_mesh(s.output, {s.edges});
   outputs.expect_text("--certificate", s.certificate, {s.input, s.edges});
 
-  auto file = read_any_tried(s.input, s.heights.to_read(nullptr));
-  if (auto* const tets = std::get_if<io::TetFile>(&file)) {
+  io::MeshFile file = read_tried(s.input, s.heights.to_read(nullptr));
+  if (file.dimension() == 3) {
     refuse_options_of_triangles(command, s);
-    outputs.expect_tetrahedra(s.output);
-    return weigh_tetrahedra(s, make_input(s.input, std::move(*tets), nullptr), outputs);
+    outputs.expect_place(s.output, file);
+    return weigh_tetrahedra(s, make_input(s.input, std::move(file), nullptr), outputs);
   }
   if (s.options.constraints == Constraints::completely_well_centered)
     refuse_usage("weights",
                  fmt::format("{} has triangles, and --constraints completely-well-centered is for tetrahedra "
                              "alone. Next: --constraints well-centered",
                              s.input));
-  const auto read = [&](const std::string&) { return std::move(std::get<io::MeshFile>(file)); };
+  const auto read = [&](const std::string&) { return std::move(file); };
   Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .heights = s.heights, .read = read});
-  outputs.expect_space(s.output, input.file);
+  outputs.expect_place(s.output, input.file);
   print_warnings(input.warnings());
   if (!s.check.empty()) return check(s, input);
   if (s.zero) return drop(s, input, outputs);

@@ -135,7 +135,7 @@ class TetRun {
     hooks.error = tets::discretization_error(options_.scheme);
     if (s_.save_every) {
       hooks.best_so_far = saver(s_, [this](const tets::BestSoFar& best) {
-        io::TetFile file = input_.file;
+        io::MeshFile file = input_.file;
         io::update(file, input_.loaded, best.mesh, best.origins, {rules_, threads_});
         return save(s_, file, threads_);
       });
@@ -206,7 +206,7 @@ Exit optimize_tetrahedra(const Command& command, OptimizeSettings& settings, Out
   refuse_options(command, settings);
   const tets::OptimizeOptions options = options_of(settings);
   settings.requirements = settings.requirement_lists.of(MeshKind::tetrahedra);
-  outputs.expect_tetrahedra(settings.output);
+  outputs.expect_place(settings.output, tets.file);
   TetInput input = make_input(settings.input, std::move(tets.file), tets.threads);
   agree_to_go_on();
   if (!is_first_rank()) return Exit::done;

@@ -3,13 +3,12 @@
 
 #include "files/outputs.hpp"
 #include "help/command.hpp"
-#include "temper/tets/io.hpp"
 #include "verbs/optimize_settings.hpp"
 
 namespace temper::app {
 
 struct TetsToOptimize {
-  io::TetFile file;
+  io::MeshFile file;
   Executor* threads = nullptr;
 };
 

@@ -7,14 +7,12 @@
 #include <vector>
 
 #include "console.hpp"
-#include "temper/tets/io.hpp"
 #include "verbs/optimize_settings.hpp"
 
 namespace temper::app {
 
 /// Writes a file as the result will be written.
-template <class File>
-Expected<void> save(const OptimizeSettings& s, const File& file, Executor* threads) {
+inline Expected<void> save(const OptimizeSettings& s, const io::MeshFile& file, Executor* threads) {
   io::WriteOptions options = s.output.options;
   options.executor = threads;
   const Expected<std::vector<std::string>> written = io::write(s.output.path, file, options);

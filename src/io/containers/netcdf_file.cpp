@@ -281,7 +281,7 @@ void NetcdfWriter::finish(const std::function<void(std::string_view bytes)>& tak
 bool needs_cdf5(const MeshFile& f, std::size_t most_values) {
   constexpr std::size_t kMostBytes = (std::size_t{1} << 32) - 4;
   if (most_values > kMostBytes / sizeof(double)) return true;
-  for (const auto* arrays : {&f.point_data, &f.cell_data, &f.line_data, &f.marked_point_data, &f.field_data}) {
+  for (const auto* arrays : all_data(f)) {
     for (const DataArray& a : *arrays) {
       if (a.name == kNetcdfAttributes) continue;  // no variable of the file
       const Scalar s = scalar_of(a.values);

@@ -42,7 +42,7 @@ class DataUpdater {
       : file_(file), mesh_(mesh), former_(former), options_(options) {}
 
   DataReport update() {
-    if (file_.point_data.empty() && file_.cell_data.empty()) return {};
+    if (file_.point_data.empty() && file_.triangles.data.empty()) return {};
     measure();
     if (needs_places()) {
       if (const Expected<void> found = find_sources(); !found) {
@@ -93,7 +93,7 @@ class DataUpdater {
     return before == now;
   }
   [[nodiscard]] bool needs_places() const {
-    if (report_.points_inserted > 0 || (report_.triangles_changed > 0 && !file_.cell_data.empty())) return true;
+    if (report_.points_inserted > 0 || (report_.triangles_changed > 0 && !file_.triangles.data.empty())) return true;
     return report_.points_moved > 0 &&
            std::any_of(file_.point_data.begin(), file_.point_data.end(),
                        [this](const DataArray& a) { return options_.rules.of(a) == DataRule::interpolate; });
@@ -104,22 +104,22 @@ class DataUpdater {
     input.points = file_.points;
     input.sphere_points = sphere_places(file_);
     input.triangles = file_.triangles;
-    input.regions = file_.regions;
+    input.regions = file_.triangles.tags;
     input.executor = options_.executor;
     const Expected<BuiltMesh> before = Mesh::build(input);
     if (!before) return before.error();
     places_ = positions_of_vertices(before->mesh, mesh_, former_, options_.executor);
-    if (!file_.cell_data.empty()) sources_ = sources_of_triangles(before->mesh, mesh_, places_, options_.executor);
+    if (!file_.triangles.data.empty()) sources_ = sources_of_triangles(before->mesh, mesh_, places_, options_.executor);
     return {};
   }
   void update_cells() {
-    for (DataArray& a : file_.cell_data) {
+    for (DataArray& a : file_.triangles.data) {
       if (a.name != kQuadrilateral) report_.of_triangles.push_back(a.name);
       if (!sources_.empty()) a.values = at_triangles(a, sources_);
     }
   }
   void drop_all(const std::string& why) {
-    for (auto* arrays : {&file_.point_data, &file_.cell_data}) {
+    for (auto* arrays : {&file_.point_data, &file_.triangles.data}) {
       for (const DataArray& a : *arrays) report_.dropped.push_back(a.name);
       arrays->clear();
     }
@@ -346,9 +346,9 @@ void cut_edges(MeshFile& file, const Mesh& mesh, const Chains& chains) {
     lines.push_back({point(last), point(b)});
     from.push_back(i);
   }
-  file.lines = std::move(lines);
-  file.line_tags = at(file.line_tags, from);
-  take_rows(file.line_data, from);
+  file.lines.corners = std::move(lines);
+  file.lines.tags = at(file.lines.tags, from);
+  take_rows(file.lines.data, from);
 }
 
 void mark_new_points(MeshFile& file, const Mesh& mesh, const Chains& chains) {
@@ -359,14 +359,14 @@ void mark_new_points(MeshFile& file, const Mesh& mesh, const Chains& chains) {
   for (const Chain& chain : chains.all()) {
     const auto a = mark_of.find(chain.a), b = mark_of.find(chain.b);
     if (a == mark_of.end() || b == mark_of.end() || !mesh.is_boundary(chain.inside.front())) continue;
-    if (file.point_tags[a->second] != file.point_tags[b->second]) continue;
+    if (file.marked_points.tags[a->second] != file.marked_points.tags[b->second]) continue;
     for (const VertexId v : chain.inside) {
-      file.marked_points.push_back(point(v));
+      file.marked_points.corners.push_back(point(v));
       from.push_back(a->second);
     }
   }
-  file.point_tags = at(file.point_tags, from);
-  take_rows(file.marked_point_data, from);
+  file.marked_points.tags = at(file.marked_points.tags, from);
+  take_rows(file.marked_points.data, from);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ void drop_what_differs(MeshFile& file, const std::vector<bool>& edge_lines) {
         array.values);
   };
   std::string names;
-  std::erase_if(file.line_data, [&](const DataArray& array) {
+  std::erase_if(file.lines.data, [&](const DataArray& array) {
     if (!differs(array)) return false;
     names += text(names.empty() ? "" : ", ", array.name);
     return true;
@@ -84,8 +84,8 @@ std::optional<EdgeLines> find_edge_lines(const MeshFile& file, const VertexOfPoi
     const bool inner = edges[i].valid() && !mesh.is_boundary(edges[i]);
     found.lines.push_back(inner);
     if (!inner) continue;
-    if (listed.empty()) found.tag = file.line_tags[i];
-    if (found.tag != file.line_tags[i]) return {};
+    if (listed.empty()) found.tag = file.lines.tags[i];
+    if (found.tag != file.lines.tags[i]) return {};
     listed.push_back(edges[i]);
   }
   std::sort(listed.begin(), listed.end());
@@ -118,18 +118,18 @@ void replace_edge_lines(MeshFile& file, const std::vector<bool>& edge_lines, con
 EdgeLinesTakenOut::EdgeLinesTakenOut(MeshFile& file, const std::vector<bool>& edge_lines) {
   drop_what_differs(file, edge_lines);
   const std::size_t first = first_of(edge_lines);
-  tag_ = file.line_tags[first];
+  tag_ = file.lines.tags[first];
   RunLength others;
   std::size_t n = 0;
   for (std::size_t i = 0; i < edge_lines.size(); ++i) {
     if (edge_lines[i]) continue;
     others.push_back(static_cast<std::int64_t>(i));
     file.lines[n] = file.lines[i];
-    file.line_tags[n++] = file.line_tags[i];
+    file.lines.tags[n++] = file.lines.tags[i];
   }
-  file.lines.resize(n);
-  file.line_tags.resize(n);
-  for (DataArray& array : file.line_data) {
+  file.lines.corners.resize(n);
+  file.lines.tags.resize(n);
+  for (DataArray& array : file.lines.data) {
     rows_.push_back(gather(array.values, array.components, RunLength(static_cast<std::int64_t>(first), 1)));
     array.values = gather(array.values, array.components, others);
   }
@@ -137,10 +137,10 @@ EdgeLinesTakenOut::EdgeLinesTakenOut(MeshFile& file, const std::vector<bool>& ed
 
 void EdgeLinesTakenOut::put_back(MeshFile& file, const Mesh& mesh) const {
   const std::vector<SortedEnds> edges = inner_edges(mesh);
-  file.lines.insert(file.lines.end(), edges.begin(), edges.end());
-  file.line_tags.insert(file.line_tags.end(), edges.size(), tag_);
+  file.lines.corners.insert(file.lines.end(), edges.begin(), edges.end());
+  file.lines.tags.insert(file.lines.tags.end(), edges.size(), tag_);
   for (std::size_t k = 0; k < rows_.size(); ++k) {
-    for (std::size_t i = 0; i < edges.size(); ++i) append(file.line_data[k].values, rows_[k]);
+    for (std::size_t i = 0; i < edges.size(); ++i) append(file.lines.data[k].values, rows_[k]);
   }
 }
 

@@ -194,6 +194,16 @@ void put_on_sphere(MeshFile& file, double radius, const InputNames& names) {
   file.points_in = SpherePoints{radius, std::move(places)};
 }
 
+void put_in_space(MeshFile& file, std::span<const Vec3> points) {
+  file.points.clear();
+  std::vector<double> heights;
+  for (const Vec3& p : points) {
+    file.points.push_back({p.x, p.y});
+    heights.push_back(p.z);
+  }
+  file.points_in = SpacePoints{std::move(heights)};
+}
+
 void resize_sphere(MeshFile& file, double radius) {
   auto& sphere = std::get<SpherePoints>(file.points_in);
   const double scale = radius / sphere.radius;
@@ -240,7 +250,10 @@ void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& n
 Expected<void> set_points(MeshFile& file, std::vector<Vec3> points) {
   const InputNames from_0;
   const InputNames& names = file.numbering ? *file.numbering : from_0;
-  return guarded<void>({}, [&] { settle_points(file, std::move(points), names); });
+  return guarded<void>({}, [&] {
+    if (file.dimension() == 3) return put_in_space(file, points);
+    settle_points(file, std::move(points), names);
+  });
 }
 
 std::optional<double> common_radius(const std::vector<Vec3>& points) {
@@ -268,6 +281,12 @@ void MeshFile::set_z(double z) {
         if constexpr (requires { in.z; }) in.z = z;
       },
       points_in);
+}
+
+Vec3 MeshFile::place(std::size_t point) const {
+  const Vec3 p = position_of(*this, point);
+  const int normal = normal_of(*this);
+  return normal == 0 ? Vec3{p.z, p.x, p.y} : normal == 1 ? Vec3{p.x, p.z, p.y} : p;
 }
 
 Space MeshFile::space() const {
@@ -401,6 +420,7 @@ std::optional<Expected<double>> radius_of_sphere(std::string_view words) {
 }  // namespace
 
 Expected<void> project(MeshFile& file, std::string_view projection) {
+  if (auto right = expect_triangles(file); !right) return right;
   const auto radius = radius_of_sphere(projection);
   if (radius && !*radius) return radius->error();
   if (file.sphere() != nullptr) {

@@ -20,6 +20,8 @@ namespace temper::io {
 
 /// Puts points in degrees onto the sphere. Fails if a latitude or a longitude is out of range.
 void put_on_sphere(MeshFile& file, double radius, const InputNames& names);
+/// Gives a mesh of tetrahedra its points.
+void put_in_space(MeshFile& file, std::span<const Vec3> points);
 /// Changes the radius of the sphere, with weights that keep the power diagram.
 void resize_sphere(MeshFile& file, double radius);
 /// Turns points in space into points on the sphere.
@@ -34,7 +36,8 @@ void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& n
 /// The position of a point in the space of its mesh, in three coordinates.
 [[nodiscard]] inline Vec3 position_of(const MeshFile& file, std::size_t point) {
   const Vec2 p = file.points[point];
-  return file.sphere() != nullptr ? file.sphere()->places[point] : Vec3{p.x, p.y, file.z()};
+  if (file.sphere() != nullptr) return file.sphere()->places[point];
+  return {p.x, p.y, file.in_space() != nullptr ? file.in_space()->heights[point] : file.z()};
 }
 
 /// The axis across the plane of the points: 0 x, 1 y, 2 z.
@@ -47,12 +50,6 @@ inline constexpr int kZAxis = 2;
 /// Coordinates in the order of a plane across this axis, (y, z) or (x, z), and then the one along the axis.
 [[nodiscard]] inline Vec3 turned(Vec3 p, int normal) {
   return normal == 0 ? Vec3{p.y, p.z, p.x} : normal == 1 ? Vec3{p.x, p.z, p.y} : p;
-}
-/// The three coordinates of a point in its file.
-[[nodiscard]] inline Vec3 place_of(const MeshFile& file, std::size_t point) {
-  const Vec3 p = position_of(file, point);
-  const int normal = normal_of(file);
-  return normal == 0 ? Vec3{p.z, p.x, p.y} : normal == 1 ? Vec3{p.x, p.z, p.y} : p;
 }
 
 /// The places of the points of a sphere; of other files none.

@@ -30,7 +30,7 @@ namespace {
 /// In a mesh that was made by hand, errors may come before all numbers are known to be right.
 bool numbers_are_right(const MeshFile& file) {
   const auto right = [&](std::int32_t p) { return p >= 0 && static_cast<std::size_t>(p) < file.points.size(); };
-  return !file.points.empty() && file.point_tags.size() == file.marked_points.size() &&
+  return !file.points.empty() && file.marked_points.tags.size() == file.marked_points.size() &&
          std::all_of(file.marked_points.begin(), file.marked_points.end(), right) &&
          std::all_of(file.triangles.begin(), file.triangles.end(),
                      [&](const auto& triangle) { return std::all_of(triangle.begin(), triangle.end(), right); });
@@ -94,8 +94,8 @@ struct TagSet {
 };
 
 std::string available_tags(const MeshFile& file) {
-  std::vector<std::int32_t> tags(file.line_tags);
-  tags.insert(tags.end(), file.point_tags.begin(), file.point_tags.end());
+  std::vector<std::int32_t> tags(file.lines.tags);
+  tags.insert(tags.end(), file.marked_points.tags.begin(), file.marked_points.tags.end());
   std::sort(tags.begin(), tags.end());
   tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
   std::string result;
@@ -120,7 +120,7 @@ TagSet find_tags(const MeshFile& file, std::span<const std::string> wanted) {
       return std::find(tags.begin(), tags.end(), number) != tags.end();
     };
     if (error == std::errc() && end == tag.data() + tag.size() &&
-        (has(file.line_tags) || has(file.point_tags) || has(file.regions))) {
+        (has(file.lines.tags) || has(file.marked_points.tags) || has(file.triangles.tags))) {
       set.points.push_back(number);
       set.lines.push_back(number);
       set.triangles.push_back(number);
@@ -198,10 +198,10 @@ class MeshMaker {
     const TagSet tags = find_tags(file_, wanted);
     std::vector<std::int32_t> fixed = required_points(file_.point_data);
     for (std::size_t i = 0; i < file_.marked_points.size(); ++i) {
-      if (contains(tags.points, file_.point_tags[i])) fixed.push_back(file_.marked_points[i]);
+      if (contains(tags.points, file_.marked_points.tags[i])) fixed.push_back(file_.marked_points[i]);
     }
     for (std::size_t i = 0; i < file_.lines.size(); ++i) {
-      if (contains(tags.lines, file_.line_tags[i]))
+      if (contains(tags.lines, file_.lines.tags[i]))
         fixed.insert(fixed.end(), file_.lines[i].begin(), file_.lines[i].end());
     }
     const std::vector<bool> inside = triangles_of(tags.triangles);
@@ -222,8 +222,8 @@ class MeshMaker {
         inside[t] = inside[t] || is_wanted(of_triangles[t]);
     };
     const auto is_of_tags = [&](std::int32_t tag) { return contains(tags, tag); };
-    add(file_.regions, is_of_tags);
-    for (const DataArray& array : file_.cell_data) {
+    add(file_.triangles.tags, is_of_tags);
+    for (const DataArray& array : file_.triangles.data) {
       const std::optional<std::int32_t> group = further_group(array);
       const bool is_wanted_group = group && contains(tags, *group);
       if (tags.empty() || (!is_wanted_group && array.name != kGmshFirstGroup)) continue;
@@ -236,7 +236,7 @@ class MeshMaker {
   // The file's own arrays when every point is used; else copies without the others.
   Expected<BuiltMesh> build(const std::vector<std::int32_t>& fixed) const {
     MeshInput input;
-    input.regions = file_.regions;
+    input.regions = file_.triangles.tags;
     input.fixed_vertices = fixed;
     input.executor = executor_;
     input.space = file_.space();
@@ -361,7 +361,7 @@ class MeshMaker {
       const HalfedgeId h = edges_[i];
       if (!h.valid() || !mesh.is_boundary(h)) continue;
       for (const VertexId v : {mesh.origin(h), mesh.target(h)})
-        ends.push_back({v.index, static_cast<std::uint32_t>(file_.line_tags[i]), h.index});
+        ends.push_back({v.index, static_cast<std::uint32_t>(file_.lines.tags[i]), h.index});
     }
     std::sort(ends.begin(), ends.end());
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
@@ -386,8 +386,8 @@ class MeshMaker {
     std::vector<std::pair<VertexId, std::int32_t>> marks, of_lines;
     for (std::size_t i = 0; i < file_.marked_points.size(); ++i) {
       const std::int32_t v = loaded_.vertex_of_point[static_cast<std::size_t>(file_.marked_points[i])];
-      if (v < 0 || file_.point_tags[i] == 0) continue;
-      marks.emplace_back(static_cast<std::size_t>(v), file_.point_tags[i]);
+      if (v < 0 || file_.marked_points.tags[i] == 0) continue;
+      marks.emplace_back(static_cast<std::size_t>(v), file_.marked_points.tags[i]);
       marked[marks.back().first] = 1;
     }
     if (marks.empty() || std::find(marked.begin(), marked.end(), 0) == marked.end()) return;
@@ -397,7 +397,7 @@ class MeshMaker {
     for (std::size_t i = 0; i < file_.lines.size(); ++i) {
       for (const std::int32_t p : file_.lines[i]) {
         const std::int32_t v = loaded_.vertex_of_point[static_cast<std::size_t>(p)];
-        if (v >= 0) of_lines.emplace_back(static_cast<std::size_t>(v), file_.line_tags[i]);
+        if (v >= 0) of_lines.emplace_back(static_cast<std::size_t>(v), file_.lines.tags[i]);
       }
     }
     std::sort(of_lines.begin(), of_lines.end());
@@ -406,10 +406,11 @@ class MeshMaker {
       if (n.dimension == 0) named.push_back(n.tag);
     }
     std::vector<std::int32_t> paired;
-    if (const DataArray* const side = find(file_.marked_point_data, kAdcircSide)) {
+    if (const DataArray* const side = find(file_.marked_points.data, kAdcircSide)) {
       const std::vector<double> sides = to_doubles(Values(side->values));
-      for (std::size_t i = 0; i < std::min(sides.size(), file_.point_tags.size()); ++i) {
-        if (sides[i] == 1 && !contains(paired, file_.point_tags[i])) paired.push_back(file_.point_tags[i]);
+      for (std::size_t i = 0; i < std::min(sides.size(), file_.marked_points.tags.size()); ++i) {
+        if (sides[i] == 1 && !contains(paired, file_.marked_points.tags[i]))
+          paired.push_back(file_.marked_points.tags[i]);
       }
     }
     for (const auto& mark : marks) {
@@ -444,7 +445,17 @@ VertexOfPoint::VertexOfPoint(const std::vector<bool>& kept) : VertexOfPoint(kept
   }
 }
 
+Expected<void> expect_triangles(const MeshFile& file) {
+  const std::size_t n = file.tetrahedra.size();
+  if (n == 0) return {};
+  return InputError{ErrorCode::unsupported, file.numbering ? file.numbering->tetrahedron_where(0) : file.path,
+                    text("has ", n, n == 1 ? " tetrahedron" : " tetrahedra",
+                         "; expected a mesh of triangles. Next: temper check, convert, draw, explain, optimize, "
+                         "weights, operators and errors take tetrahedra")};
+}
+
 Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags, Executor* executor) {
+  if (auto right = expect_triangles(file); !right) return right.error();
   if (const DegreePoints* const degrees = file.degrees())
     return InputError{ErrorCode::geographic, file.path, needs_projection(degrees->is_guessed)};
   return guarded<LoadedMesh>(file.path, [&] { return MeshMaker(file, executor).make(fixed_tags); });

@@ -98,15 +98,15 @@ void copy_vertices(MeshFile& file, const Mesh& mesh, const Former& former) {
 }
 
 void copy_triangles(MeshFile& file, const Mesh& mesh) {
-  file.triangles.resize(mesh.n_triangles());
-  bool regions = !file.regions.empty();
+  file.triangles.corners.resize(mesh.n_triangles());
+  bool regions = !file.triangles.tags.empty();
   for (const TriangleId t : mesh.triangles()) {
     const auto corners = mesh.corners(t);
     for (std::size_t k = 0; k < 3; ++k) file.triangles[t.index][k] = static_cast<std::int32_t>(corners[k].index);
     regions = regions || mesh.region(t) != 0;
   }
-  file.regions.resize(regions ? mesh.n_triangles() : 0);
-  for (std::size_t t = 0; t < file.regions.size(); ++t) file.regions[t] = mesh.region(TriangleId(t));
+  file.triangles.tags.resize(regions ? mesh.n_triangles() : 0);
+  for (std::size_t t = 0; t < file.triangles.tags.size(); ++t) file.triangles.tags[t] = mesh.region(TriangleId(t));
 }
 
 template <class T>
@@ -139,12 +139,12 @@ void renumber(MeshFile& file, NewIndex new_index) {
     file.marked_points[i] = new_index(file.marked_points[i]);
     kept_points[i] = file.marked_points[i] >= 0;
   }
-  keep(file.lines, kept_lines);
-  keep(file.line_tags, kept_lines);
-  keep(file.line_data, kept_lines);
-  keep(file.marked_points, kept_points);
-  keep(file.point_tags, kept_points);
-  keep(file.marked_point_data, kept_points);
+  keep(file.lines.corners, kept_lines);
+  keep(file.lines.tags, kept_lines);
+  keep(file.lines.data, kept_lines);
+  keep(file.marked_points.corners, kept_points);
+  keep(file.marked_points.tags, kept_points);
+  keep(file.marked_points.data, kept_points);
 }
 
 void drop_unused_points(MeshFile& file, const VertexOfPoint& vertex_of_point) {
@@ -246,7 +246,7 @@ class LineMerger {
     const auto found = lines_at_.find(v);
     if (found == lines_at_.end()) return 0;
     std::map<std::int32_t, std::vector<std::size_t>> lines_of;  // by tag, ascending
-    for (const std::size_t line : found->second) lines_of[file_.line_tags[line]].push_back(line);
+    for (const std::size_t line : found->second) lines_of[file_.lines.tags[line]].push_back(line);
     std::size_t merged = 0;
     for (auto& [tag, lines] : lines_of) {
       std::sort(lines.begin(), lines.end());
@@ -332,8 +332,8 @@ DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
 
 void release_geometry(MeshFile& file, const LoadedMesh& loaded) {
   if (file.points.size() != loaded.mesh.n_vertices()) return;
-  if (!file.point_data.empty() || !file.cell_data.empty() || !(file.space() == Space())) return;
-  give_memory_back_of(file.points, file.weights, file.triangles);
+  if (!file.point_data.empty() || !file.triangles.data.empty() || !(file.space() == Space())) return;
+  give_memory_back_of(file.points, file.weights, file.triangles.corners);
 }
 
 namespace {
@@ -359,8 +359,8 @@ void add_degrees(MeshFile& file, const OutlineMesh& made, std::span<const Vec2> 
 
 MeshFile from_outline(const OutlineMesh& made, std::span<const Vec2> lon_lat, const std::optional<Projection>& map) {
   MeshFile file = from_mesh(made.mesh);
-  for (auto* const tags : {&file.line_tags, &file.marked_points, &file.point_tags}) tags->clear();
-  file.lines.clear();
+  file.lines = {};
+  file.marked_points = {};
   constexpr std::int32_t kBoundary = 1, kHighest = std::numeric_limits<std::int32_t>::max() - 2;
   std::int32_t highest = kBoundary;
   for (const MeshLine& line : made.lines) highest = std::max(highest, line.tag);
@@ -371,13 +371,10 @@ MeshFile from_outline(const OutlineMesh& made, std::span<const Vec2> lon_lat, co
   for (const MeshLine& line : made.lines) {
     const HalfedgeId h = made.mesh.find_halfedge(line.a, line.b);
     const bool boundary = !h.valid() || made.mesh.is_boundary(h);
-    file.lines.push_back({number(line.a), number(line.b)});
-    file.line_tags.push_back(line.tag != 0 ? line.tag : boundary ? kBoundary : inside);
+    file.lines.add({number(line.a), number(line.b)}, line.tag != 0 ? line.tag : boundary ? kBoundary : inside);
   }
-  for (const MarkedVertex& mark : made.marked) {
-    file.marked_points.push_back(number(mark.vertex));
-    file.point_tags.push_back(mark.tag != 0 ? mark.tag : point);
-  }
+  for (const MarkedVertex& mark : made.marked)
+    file.marked_points.add(number(mark.vertex), mark.tag != 0 ? mark.tag : point);
   file.names = made.groups;
   if (map) add_degrees(file, made, lon_lat, *map);
   if (made.mesh.space().is_plane()) return file;
@@ -399,22 +396,19 @@ MeshFile from_mesh(const Mesh& mesh) {
     const TriangleId t = Mesh::triangle(h), other = Mesh::triangle(mesh.twin(h));
     if (mesh.is_diagonal(h)) pairs.push_back({t, other});
     if (mesh.region(t) != mesh.region(other) || mesh.is_half(t) || mesh.is_half(other)) continue;
-    file.lines.push_back(
-        {static_cast<std::int32_t>(mesh.origin(h).index), static_cast<std::int32_t>(mesh.target(h).index)});
-    file.line_tags.push_back(0);
+    file.lines.add({static_cast<std::int32_t>(mesh.origin(h).index), static_cast<std::int32_t>(mesh.target(h).index)},
+                   0);
   }
   if (!pairs.empty()) {
     std::vector<std::int32_t> numbers(mesh.n_triangles());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       for (const TriangleId t : pairs[i]) numbers[t.index] = static_cast<std::int32_t>(i + 1);
     }
-    file.cell_data.push_back({std::string(kQuadrilateral), 1, std::move(numbers)});
+    file.triangles.data.push_back({std::string(kQuadrilateral), 1, std::move(numbers)});
   }
   constexpr std::int32_t kFixed = 1;
   for (const VertexId v : mesh.vertices()) {
-    if (!mesh.is_fixed(v)) continue;
-    file.marked_points.push_back(static_cast<std::int32_t>(v.index));
-    file.point_tags.push_back(kFixed);
+    if (mesh.is_fixed(v)) file.marked_points.add(static_cast<std::int32_t>(v.index), kFixed);
   }
   return file;
 }

@@ -31,9 +31,10 @@ RunLength gathered(const RunLength& numbers, const RunLength& from) {
 }  // namespace
 
 void gather_faces(MeshFile& file, const RunLength& from) {
-  static_cast<void>(take(file.cell_data, kQuadrilateral));
-  if (!file.regions.empty()) file.regions = std::get<std::vector<std::int32_t>>(gather(file.regions, 1, from));
-  for (DataArray& a : file.cell_data) a.values = gather(a.values, a.components, from);
+  static_cast<void>(take(file.triangles.data, kQuadrilateral));
+  if (!file.triangles.tags.empty())
+    file.triangles.tags = std::get<std::vector<std::int32_t>>(gather(file.triangles.tags, 1, from));
+  for (DataArray& a : file.triangles.data) a.values = gather(a.values, a.components, from);
 }
 
 void cut_quadrilaterals(MeshFile& file, FileNames& names, const std::vector<std::int32_t>& fourth_corners,
@@ -68,15 +69,15 @@ void cut_quadrilaterals(MeshFile& file, FileNames& names, const std::vector<std:
     add(f, by_bd ? std::array{a, b, d} : std::array{a, b, c}, ++n);
     add(f, by_bd ? std::array{b, c, d} : std::array{a, c, d}, n);
   }
-  file.triangles = std::move(triangles);
+  file.triangles.corners = std::move(triangles);
   gather_faces(file, faces);
-  if (n > 0) file.cell_data.push_back({std::string(kQuadrilateral), 1, std::move(numbers)});
+  if (n > 0) file.triangles.data.push_back({std::string(kQuadrilateral), 1, std::move(numbers)});
   names.triangles = gathered(names.triangles, faces);
   names.triangle_lines = gathered(names.triangle_lines, faces);
 }
 
 std::vector<Halves> quadrilaterals_of(const MeshFile& file) {
-  const DataArray* const data = find(file.cell_data, kQuadrilateral);
+  const DataArray* const data = find(file.triangles.data, kQuadrilateral);
   const auto numbers = data == nullptr || data->components != 1 ? std::nullopt : to_int32(data->values);
   if (!numbers || numbers->size() != file.triangles.size()) return {};
   std::map<std::int32_t, std::vector<std::size_t>> of_number;
@@ -118,7 +119,7 @@ std::vector<std::int32_t> join_quadrilaterals(MeshFile& file, const std::vector<
     from.push_back(static_cast<std::int64_t>(q.triangle));
     fourth_corners.push_back(q.fourth);
   }
-  file.triangles = std::move(faces);
+  file.triangles.corners = std::move(faces);
   gather_faces(file, from);
   return fourth_corners;
 }

@@ -8,7 +8,7 @@
 #include "io/conversion/data_update.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/names.hpp"
-#include "temper/tets/io.hpp"
+#include "temper/io.hpp"
 
 namespace temper::io {
 namespace {
@@ -35,13 +35,13 @@ class NamesOfKept final : public tets::InputNames {
 
 class TetMeshMaker {
  public:
-  TetMeshMaker(const TetFile& file, Executor* executor) : file_(file), executor_(executor) {}
+  TetMeshMaker(const MeshFile& file, Executor* executor) : file_(file), executor_(executor) {}
 
   Expected<LoadedTetMesh> make() {
     number_vertices();
-    const auto tetrahedra = renumbered(file_.tetrahedra);
-    const auto faces = renumbered(file_.faces);
-    const auto lines = renumbered(file_.lines);
+    const auto tetrahedra = renumbered(file_.tetrahedra.corners);
+    const auto faces = renumbered(file_.triangles.corners);
+    const auto lines = renumbered(file_.lines.corners);
     const auto [points, weights] = kept_points();
     const auto [marked, tags] = kept_marks();
     std::vector<std::int32_t> fixed;
@@ -54,11 +54,11 @@ class TetMeshMaker {
     input.points = points;
     input.weights = weights;
     input.tetrahedra = tetrahedra;
-    input.regions = file_.regions;
+    input.regions = file_.tetrahedra.tags;
     input.faces = faces;
-    input.face_tags = file_.face_tags;
+    input.face_tags = file_.triangles.tags;
     input.lines = lines;
-    input.line_tags = file_.line_tags;
+    input.line_tags = file_.lines.tags;
     input.marked_points = marked;
     input.point_tags = tags;
     input.fixed_points = fixed;
@@ -137,12 +137,11 @@ class TetMeshMaker {
   }
   [[nodiscard]] std::pair<std::vector<Vec3>, std::vector<double>> kept_points() const {
     const VertexOfPoint& vertex = loaded_.vertex_of_point;
-    if (vertex.n_kept() == vertex.size()) return {file_.points, file_.weights};
     std::vector<Vec3> points;
     std::vector<double> weights;
     for (std::size_t p = 0; p < vertex.size(); ++p) {
       if (vertex[p] < 0) continue;
-      points.push_back(file_.points[p]);
+      points.push_back(file_.place(p));
       if (p < file_.weights.size()) weights.push_back(file_.weights[p]);
     }
     return {std::move(points), std::move(weights)};
@@ -154,12 +153,12 @@ class TetMeshMaker {
       const std::int32_t v = is_point(p) ? loaded_.vertex_of_point[static_cast<std::size_t>(p)] : p;
       if (is_point(p) && v < 0) continue;  // dropped with its point, which a warning names
       marked.push_back(v);
-      if (i < file_.point_tags.size()) tags.push_back(file_.point_tags[i]);
+      if (i < file_.marked_points.tags.size()) tags.push_back(file_.marked_points.tags[i]);
     }
     return {std::move(marked), std::move(tags)};
   }
 
-  const TetFile& file_;
+  const MeshFile& file_;
   Executor* executor_;
   tets::InputNames counting_;
   LoadedTetMesh loaded_;
@@ -167,7 +166,7 @@ class TetMeshMaker {
 
 }  // namespace
 
-Expected<LoadedTetMesh> make_mesh(const TetFile& file, Executor* executor) {
+Expected<LoadedTetMesh> make_tet_mesh(const MeshFile& file, Executor* executor) {
   return guarded<LoadedTetMesh>(file.path, [&] { return TetMeshMaker(file, executor).make(); });
 }
 

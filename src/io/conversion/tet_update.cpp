@@ -13,11 +13,12 @@
 #include <vector>
 
 #include "io/conversion/data_update.hpp"
+#include "io/conversion/globe.hpp"
 #include "io/disk/files.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/file_names.hpp"
 #include "io/text/values.hpp"
-#include "temper/tets/io.hpp"
+#include "temper/io.hpp"
 
 namespace temper::io {
 namespace {
@@ -129,17 +130,17 @@ bool is_there(const std::array<std::int32_t, N>& element) {
   return std::ranges::all_of(element, [](std::int32_t p) { return p >= 0; });
 }
 
-/// Drops the elements that lost a point, with their tags and data.
-template <class Elements>
-void drop_lost(Elements& elements, std::vector<std::int32_t>& tags, std::vector<DataArray>& data) {
+/// Drops the cells that lost a point, with their tags and data.
+template <int dimension>
+void drop_lost(Cells<dimension>& cells) {
   std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    if (is_there(elements[i])) kept.push_back(i);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (is_there(cells[i])) kept.push_back(i);
   }
-  if (kept.size() == elements.size()) return;
-  elements = at(elements, kept);
-  tags = at(tags, kept);
-  take_rows(data, kept);
+  if (kept.size() == cells.size()) return;
+  cells.corners = at(cells.corners, kept);
+  cells.tags = at(cells.tags, kept);
+  take_rows(cells.data, kept);
 }
 
 /// Numbers of the vertices of a face or line.
@@ -169,14 +170,14 @@ struct Pieces {
 };
 /// Renumbers elements, or puts pieces in their place. Those that are not in the mesh follow their points. Returns the
 /// number of those that lost one, which are dropped.
-template <class Element>
-std::size_t take_pieces(std::vector<Element>& elements, std::vector<std::int32_t>& tags, std::vector<DataArray>& data,
-                        const std::vector<std::int32_t>& number, const Pieces<Element>& pieces) {
-  std::vector<Element> taken;
+template <int dimension>
+std::size_t take_pieces(Cells<dimension>& cells, const std::vector<std::int32_t>& number,
+                        const Pieces<typename Cells<dimension>::Corners>& pieces) {
+  std::vector<typename Cells<dimension>::Corners> taken;
   std::vector<std::size_t> rows;
   std::size_t tag = 0, piece = 0, lost = 0;
-  for (std::size_t row = 0; row < elements.size(); ++row) {
-    Element element = elements[row];
+  for (std::size_t row = 0; row < cells.size(); ++row) {
+    auto element = cells[row];
     const bool is_tag = tag < pieces.former.size() && same_corners(element, pieces.former[tag]);
     const bool alike = is_tag && turn_alike(element, pieces.former[tag]);
     renumber(element, number);
@@ -196,21 +197,21 @@ std::size_t take_pieces(std::vector<Element>& elements, std::vector<std::int32_t
       ++lost;
     }
   }
-  elements = std::move(taken);
-  tags = at(tags, rows);
-  take_rows(data, rows);
+  cells.corners = std::move(taken);
+  cells.tags = at(cells.tags, rows);
+  take_rows(cells.data, rows);
   return lost;
 }
 
-class TetFileUpdater {
+class TetUpdater {
  public:
-  TetFileUpdater(TetFile& file, const LoadedTetMesh& loaded, const TetMesh& mesh, const tets::Origins& origins,
-                 const UpdateOptions& options)
+  TetUpdater(MeshFile& file, const LoadedTetMesh& loaded, const TetMesh& mesh, const tets::Origins& origins,
+             const UpdateOptions& options)
       : file_(file), loaded_(loaded), before_(loaded.mesh), mesh_(mesh), origins_(origins), options_(options) {}
 
   DataReport update() {
     drop_unused_points();
-    if (!file_.point_data.empty() || !file_.cell_data.empty()) update_data();
+    if (!file_.point_data.empty() || !file_.tetrahedra.data.empty()) update_data();
     if (!origins_.vertices.empty()) follow_vertices();
     copy_mesh();
     return std::move(report_);
@@ -236,12 +237,12 @@ class TetFileUpdater {
     file_.numbering = nullptr;  // its numbers no longer fit the points
   }
   void renumber_tags(const std::vector<std::int32_t>& number) {
-    renumber(file_.faces, number);
-    renumber(file_.lines, number);
-    renumber(file_.marked_points, number);
-    drop_lost(file_.faces, file_.face_tags, file_.face_data);
-    drop_lost(file_.lines, file_.line_tags, file_.line_data);
-    drop_lost(file_.marked_points, file_.point_tags, file_.marked_point_data);
+    renumber(file_.triangles.corners, number);
+    renumber(file_.lines.corners, number);
+    renumber(file_.marked_points.corners, number);
+    drop_lost(file_.triangles);
+    drop_lost(file_.lines);
+    drop_lost(file_.marked_points);
   }
   void follow_vertices() {
     std::vector<std::int32_t> number(before_.n_vertices(), -1);
@@ -255,12 +256,11 @@ class TetFileUpdater {
     for (const auto& l : before_.tagged_lines()) lines_before.push_back(numbers(l.ends));
     for (const auto& f : mesh_.tagged_faces()) faces.push_back(numbers(mesh_.vertices(f.face)));
     for (const auto& l : mesh_.tagged_lines()) lines.push_back(numbers(l.ends));
-    const std::size_t lost =
-        take_pieces(file_.faces, file_.face_tags, file_.face_data, number, {faces_before, faces, origins_.faces}) +
-        take_pieces(file_.lines, file_.line_tags, file_.line_data, number, {lines_before, lines, origins_.lines});
-    renumber(file_.marked_points, number);
+    const std::size_t lost = take_pieces(file_.triangles, number, {faces_before, faces, origins_.faces}) +
+                             take_pieces(file_.lines, number, {lines_before, lines, origins_.lines});
+    renumber(file_.marked_points.corners, number);
     const std::size_t marked = file_.marked_points.size();
-    drop_lost(file_.marked_points, file_.point_tags, file_.marked_point_data);
+    drop_lost(file_.marked_points);
     if (const std::size_t all = lost + marked - file_.marked_points.size(); all > 0)
       file_.warnings.push_back(text(all, " tags are dropped, because their faces, lines or points have lost vertices"));
     file_.numbering = nullptr;
@@ -272,7 +272,7 @@ class TetFileUpdater {
     std::map<Mark, std::size_t> marks;
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < file_.marked_points.size(); ++i) {
-      marks.emplace(Mark(file_.marked_points[i], file_.point_tags[i]), i);
+      marks.emplace(Mark(file_.marked_points[i], file_.marked_points.tags[i]), i);
       rows.push_back(i);
     }
     for (const VertexId v : mesh_.vertices()) {
@@ -283,34 +283,34 @@ class TetFileUpdater {
            at != marks.end() && at->first.first == mark(corners[0], 0).first; ++at) {
         const std::int32_t tag = at->first.second;
         if (!std::ranges::all_of(corners, [&](VertexId c) { return marks.contains(mark(c, tag)); })) continue;
-        file_.marked_points.push_back(static_cast<std::int32_t>(number.size()));
-        file_.point_tags.push_back(tag);
+        file_.marked_points.add(static_cast<std::int32_t>(number.size()), tag);
         rows.push_back(at->second);
       }
       number.push_back(static_cast<std::int32_t>(v.index));
     }
-    take_rows(file_.marked_point_data, rows);
+    take_rows(file_.marked_points.data, rows);
   }
   void copy_mesh() {
-    file_.points.clear();
+    std::vector<Vec3> points;
     file_.weights.clear();
     bool weighted = false;
     for (const VertexId v : mesh_.vertices()) {
-      file_.points.push_back(mesh_.position(v));
+      points.push_back(mesh_.position(v));
       file_.weights.push_back(mesh_.weight(v));
       weighted = weighted || mesh_.weight(v) != 0;
     }
     if (!weighted) file_.weights = {};
-    bool regions = !file_.regions.empty();
-    file_.tetrahedra.clear();
+    put_in_space(file_, points);
+    bool regions = !file_.tetrahedra.tags.empty();
+    file_.tetrahedra.corners.clear();
     for (const TetId t : mesh_.tetrahedra()) {
-      auto& corners = file_.tetrahedra.emplace_back();
+      auto& corners = file_.tetrahedra.corners.emplace_back();
       for (std::size_t k = 0; k < 4; ++k) corners[k] = static_cast<std::int32_t>(mesh_.corners(t)[k].index);
       regions = regions || mesh_.region(t) != 0;
     }
-    file_.regions.clear();
+    file_.tetrahedra.tags.clear();
     for (const TetId t : mesh_.tetrahedra()) {
-      if (regions) file_.regions.push_back(mesh_.region(t));
+      if (regions) file_.tetrahedra.tags.push_back(mesh_.region(t));
     }
   }
 
@@ -322,8 +322,8 @@ class TetFileUpdater {
       find_places();
     update_point_data(
         file_, mesh_, options_.rules, [this](VertexId v) { return former(v); }, places_, report_);
-    for (DataArray& a : file_.cell_data) report_.of_triangles.push_back(a.name);
-    if (report_.triangles_changed > 0 && !file_.cell_data.empty()) take_rows(file_.cell_data, sources());
+    for (DataArray& a : file_.tetrahedra.data) report_.of_triangles.push_back(a.name);
+    if (report_.triangles_changed > 0 && !file_.tetrahedra.data.empty()) take_rows(file_.tetrahedra.data, sources());
   }
   void measure() {
     std::vector<double> distances;
@@ -385,7 +385,7 @@ class TetFileUpdater {
     return all;
   }
 
-  TetFile& file_;
+  MeshFile& file_;
   const LoadedTetMesh& loaded_;
   const TetMesh &before_, &mesh_;
   const tets::Origins& origins_;
@@ -396,14 +396,15 @@ class TetFileUpdater {
 
 }  // namespace
 
-DataReport update(TetFile& file, const LoadedTetMesh& loaded, const tets::TetMesh& mesh, const tets::Origins& origins,
+DataReport update(MeshFile& file, const LoadedTetMesh& loaded, const tets::TetMesh& mesh, const tets::Origins& origins,
                   const UpdateOptions& options) {
-  return TetFileUpdater(file, loaded, mesh, origins, options).update();
+  return TetUpdater(file, loaded, mesh, origins, options).update();
 }
 
-void release_geometry(TetFile& file, const LoadedTetMesh& loaded) {
+void release_geometry(MeshFile& file, const LoadedTetMesh& loaded) {
   if (file.points.size() != loaded.mesh.n_vertices()) return;
-  give_memory_back_of(file.points, file.weights, file.tetrahedra);
+  give_memory_back_of(file.points, std::get<SpacePoints>(file.points_in).heights, file.weights,
+                      file.tetrahedra.corners);
 }
 
 }  // namespace temper::io

@@ -96,8 +96,8 @@ class AdcircReader {
                                 " no type, which SCHISM reads none of: read as type 0"));
     }
     if (!sides_.empty()) {
-      f.marked_point_data.push_back({std::string(kAdcircSide), 1, std::move(sides_)});
-      f.marked_point_data.push_back({std::string(kAdcircLevee), kAdcircLeveeNumbers, std::move(levees_)});
+      f.marked_points.data.push_back({std::string(kAdcircSide), 1, std::move(sides_)});
+      f.marked_points.data.push_back({std::string(kAdcircLevee), kAdcircLeveeNumbers, std::move(levees_)});
     }
     return std::move(document_);
   }
@@ -121,7 +121,7 @@ class AdcircReader {
   void elements(std::size_t n, const NumberLookup& lookup) {
     MeshFile& f = document_.file;
     FileNames& names = *document_.names;
-    f.triangles.reserve(n);
+    f.triangles.corners.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
       const auto number = scanner_.number<std::int64_t>("the number of an element");
       names.triangles.push_back(number);
@@ -161,8 +161,7 @@ class AdcircReader {
     const AdcircRow row = adcirc_row(kind);
     const std::int32_t tag = ++last_tag_;
     const auto mark = [&](std::int32_t point, std::int8_t side) {
-      f.marked_points.push_back(point);
-      f.point_tags.push_back(tag);
+      f.marked_points.add(point, tag);
       sides_.push_back(side);
     };
     ReadString string = {tag, f.lines.size()};
@@ -206,8 +205,7 @@ class AdcircReader {
       if (f.lines.size() > string.first_line) rows_of_lines_.back()[1] = string.n_rows;
       return;
     }
-    f.lines.push_back({last, to});
-    f.line_tags.push_back(string.tag);
+    f.lines.add({last, to}, string.tag);
     rows_of_lines_.push_back({std::exchange(string.n_rows, 1), 1, 1});
     document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
   }
@@ -303,14 +301,14 @@ class AdcircReader {
       if (rows_of_lines_[i][2] == 0 && sides[i] == std::array{0, 0}) continue;
       are_plain_ = are_plain_ && sides[i] == std::array{1, 0};
       f.lines[n] = f.lines[i];
-      f.line_tags[n++] = f.line_tags[i];
+      f.lines.tags[n++] = f.lines.tags[i];
       rows.insert(rows.end(), rows_of_lines_[i].begin(), rows_of_lines_[i].end());
       text_lines.push_back(document_.names->line_lines[static_cast<std::int64_t>(i)]);
     }
-    f.lines.resize(n);
-    f.line_tags.resize(n);
+    f.lines.corners.resize(n);
+    f.lines.tags.resize(n);
     document_.names->line_lines = std::move(text_lines);
-    if (!are_plain_ && n > 0) f.line_data.push_back({std::string(kAdcircRows), kAdcircRowNumbers, std::move(rows)});
+    if (!are_plain_ && n > 0) f.lines.data.push_back({std::string(kAdcircRows), kAdcircRowNumbers, std::move(rows)});
   }
 
   Scanner scanner_;

@@ -168,7 +168,7 @@ class AdcircWriter {
     std::size_t inside = 0;
     for (std::size_t i = 0; i < f.lines.size(); ++i) {
       const auto [a, b] = f.lines[i];
-      const std::int32_t tag = f.line_tags[i];
+      const std::int32_t tag = f.lines.tags[i];
       const bool forward = boundary.contains({a, b});
       if (!forward && !boundary.contains({b, a})) {
         inside += as_read.contains(tag) ? 0 : 1;
@@ -207,14 +207,14 @@ class AdcircWriter {
   /// Strings of those boundaries whose lines all have the data adcirc:rows; returns their tags.
   std::set<std::int32_t> collect_strings_as_read() {
     const MeshFile& f = file_;
-    const DataArray* array = find(f.line_data, kAdcircRows);
+    const DataArray* array = find(f.lines.data, kAdcircRows);
     if (array == nullptr || array->components != kAdcircRowNumbers) return {};
     const std::vector<double> numbers = to_doubles(Values(array->values));
     std::map<std::int32_t, std::vector<RowsOfLine>> lines;
     std::vector<std::int32_t> tags;  // in the order of their first line
     for (std::size_t i = 0; i < f.lines.size(); ++i) {
-      auto& list = lines[f.line_tags[i]];
-      if (list.empty()) tags.push_back(f.line_tags[i]);
+      auto& list = lines[f.lines.tags[i]];
+      if (list.empty()) tags.push_back(f.lines.tags[i]);
       const double* const rows = &numbers[i * static_cast<std::size_t>(kAdcircRowNumbers)];
       list.push_back({f.lines[i], rows[0], rows[1], rows[2] != 0});
     }
@@ -249,17 +249,17 @@ class AdcircWriter {
   }
   void collect_levees() {
     const MeshFile& f = file_;
-    const DataArray* side_data = find(f.marked_point_data, kAdcircSide);
-    const DataArray* levee_data = find(f.marked_point_data, kAdcircLevee);
+    const DataArray* side_data = find(f.marked_points.data, kAdcircSide);
+    const DataArray* levee_data = find(f.marked_points.data, kAdcircLevee);
     if (side_data == nullptr || levee_data == nullptr || levee_data->components != kAdcircLeveeNumbers) return;
     const auto sides = to_int32(side_data->values);
     if (!sides || side_data->components != 1) return;
     levee_numbers_ = to_doubles(Values(levee_data->values));
     for (std::size_t i = 0; i < f.marked_points.size(); ++i) {
       if ((*sides)[i] != 0) continue;
-      const TagAndNode node(f.point_tags[i], f.marked_points[i]);
+      const TagAndNode node(f.marked_points.tags[i], f.marked_points[i]);
       const bool has_partner =
-          i + 1 < f.marked_points.size() && f.point_tags[i + 1] == node.first && (*sides)[i + 1] == 1;
+          i + 1 < f.marked_points.size() && f.marked_points.tags[i + 1] == node.first && (*sides)[i + 1] == 1;
       levees_.emplace(node, i);
       if (has_partner) paired_levees_.emplace(node, i);
     }
@@ -318,7 +318,7 @@ class AdcircWriter {
       if (n.dimension != 1 || !numbered || !adcirc_boundary(n.name)) names.push_back(n);
     }
     warn_of_names(job_, names);
-    const bool levees = find(f.marked_point_data, kAdcircSide) != nullptr;
+    const bool levees = find(f.marked_points.data, kAdcircSide) != nullptr;
     if (!f.marked_points.empty() && !levees) job_.warn("marked points are not written, fort.14 has no place for them");
   }
 
@@ -335,9 +335,9 @@ class AdcircWriter {
 }  // namespace
 
 // Files of the VTK family have the data of levees and strings on all their cells.
-bool adcirc_keeps(ArraysOf of, const DataArray& array) {
-  if (of == &MeshFile::point_data) return array.name == kDepth;
-  if (of == &MeshFile::field_data) return array.name == kAdcircTitle;
+bool adcirc_keeps(Content of, const DataArray& array) {
+  if (of == kPointData) return array.name == kDepth;
+  if (of == kFieldData) return array.name == kAdcircTitle;
   return array.name == kAdcircLevee || array.name == kAdcircSide || array.name == kAdcircRows;
 }
 

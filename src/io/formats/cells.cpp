@@ -56,7 +56,7 @@ void CellSorter::add(int type, const std::int32_t* p, std::size_t n, const std::
       triangle_cells_.push_back(cell);
       return;
     case kVtkTetrahedron:
-      document_.tetrahedra.corners.push_back({p[0], p[1], p[2], p[3]});
+      document_.file.tetrahedra.corners.push_back({p[0], p[1], p[2], p[3]});
       tet_cells_.push_back(cell);
       return;
     case kVtkPixel:  // in rows
@@ -66,21 +66,21 @@ void CellSorter::add(int type, const std::int32_t* p, std::size_t n, const std::
     case kVtkLine:
     case kVtkPolyLine:
       for (std::size_t k = 0; k + 1 < n; ++k) {
-        f.lines.push_back({p[k], p[k + 1]});
+        f.lines.corners.push_back({p[k], p[k + 1]});
         line_cells_.push_back(cell);
       }
       return;
     case kVtkVertex:
     case kVtkPolyVertex:
       for (std::size_t k = 0; k < n; ++k) {
-        f.marked_points.push_back(p[k]);
+        f.marked_points.corners.push_back(p[k]);
         point_cells_.push_back(cell);
       }
       return;
     case kVtkEmptyCell:
       return;
     default:
-      refuse_element(where, cell, vtk_cell_name(type), Cells::all);
+      refuse_element(where, cell, vtk_cell_name(type), KindsOfCells::all);
   }
 }
 
@@ -124,7 +124,7 @@ void CellSorter::distribute(std::vector<DataArray>&& cell_data) {
   const bool only_tetrahedra = !tet_cells_.empty() && tet_cells_.size() == n_cells_;
   for (DataArray& array : cell_data) {
     if (only_triangles || only_tetrahedra) {
-      (only_triangles ? f.cell_data : document_.tetrahedra.data).push_back(std::move(array));
+      (only_triangles ? f.triangles.data : document_.file.tetrahedra.data).push_back(std::move(array));
       continue;
     }
     // One cell may be many lines or points, and each gets the cell's data.
@@ -132,10 +132,10 @@ void CellSorter::distribute(std::vector<DataArray>&& cell_data) {
       allocation_.take(cells.size(), static_cast<std::uint64_t>(array.components), document_.names->path);
       return DataArray{array.name, array.components, gather(array.values, array.components, cells)};
     };
-    if (!tet_cells_.empty()) document_.tetrahedra.data.push_back(part(tet_cells_));
-    if (tet_cells_.empty() || !triangle_cells_.empty()) f.cell_data.push_back(part(triangle_cells_));
-    if (!line_cells_.empty()) f.line_data.push_back(part(line_cells_));
-    if (!point_cells_.empty()) f.marked_point_data.push_back(part(point_cells_));
+    if (!tet_cells_.empty()) document_.file.tetrahedra.data.push_back(part(tet_cells_));
+    if (tet_cells_.empty() || !triangle_cells_.empty()) f.triangles.data.push_back(part(triangle_cells_));
+    if (!line_cells_.empty()) f.lines.data.push_back(part(line_cells_));
+    if (!point_cells_.empty()) f.marked_points.data.push_back(part(point_cells_));
   }
   take_tags();
   document_.names->tetrahedra = std::move(tet_cells_);
@@ -146,12 +146,12 @@ void CellSorter::distribute(std::vector<DataArray>&& cell_data) {
 void CellSorter::take_tags() {
   MeshFile& f = document_.file;
   const std::string& path = document_.names->path;
-  document_.tetrahedra.regions = tags_of(document_.tetrahedra.data, path);
-  f.regions = tags_of(f.cell_data, path);
-  f.line_tags = tags_of(f.line_data, path);
-  f.line_tags.resize(f.lines.size());
-  f.point_tags = tags_of(f.marked_point_data, path);
-  f.point_tags.resize(f.marked_points.size());
+  f.tetrahedra.tags = tags_of(f.tetrahedra.data, path);
+  f.triangles.tags = tags_of(f.triangles.data, path);
+  f.lines.tags = tags_of(f.lines.data, path);
+  f.lines.tags.resize(f.lines.size());
+  f.marked_points.tags = tags_of(f.marked_points.data, path);
+  f.marked_points.tags.resize(f.marked_points.size());
 }
 
 void take_physical_names(Document& document) {

@@ -22,7 +22,7 @@ class CellSorter {
  public:
   /// Both must outlive the sorter.
   CellSorter(Document& document, AllocationLimits& allocation) : document_(document), allocation_(allocation) {}
-  void reserve(std::size_t triangles) { document_.file.triangles.reserve(triangles); }
+  void reserve(std::size_t triangles) { document_.file.triangles.corners.reserve(triangles); }
   /// The next cell of the file. `where`: for errors.
   void add(int type, const std::int32_t* points, std::size_t n, const std::string& where);
   /// Hands cell data to tetrahedra, triangles, lines and marked points, and takes regions and tags out of them.

@@ -84,7 +84,7 @@ class FesomReader {
     MeshFile& f = document_.file;
     for (const std::string_view quantity : kQuantities) {
       add_quantity(base, text(quantity, kOfPoints), f.points.size(), f.point_data);
-      add_quantity(base, text(quantity, kOfTriangles), f.triangles.size(), f.cell_data);
+      add_quantity(base, text(quantity, kOfTriangles), f.triangles.size(), f.triangles.data);
     }
     return std::move(document_);
   }
@@ -127,7 +127,7 @@ class FesomReader {
       const std::int32_t a = scanner.vertex(1);
       document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner.line()));
       const std::int32_t b = scanner.vertex(1);
-      document_.file.triangles.push_back({a, b, scanner.vertex(1)});
+      document_.file.triangles.corners.push_back({a, b, scanner.vertex(1)});
     }
   }
 
@@ -200,13 +200,13 @@ std::vector<double> numbers_of(const std::vector<DataArray>& arrays, std::string
   return array == nullptr || array->components != 1 ? std::vector<double>() : to_doubles(Values(array->values));
 }
 
-/// The kind of values that a name with its place says: `depth@node` of points. Null: the name is of no such file.
-ArraysOf place_of_quantity(std::string_view name) {
+/// The kind of values that a name with its place says: `depth@node` of points. Nothing: the name is of no such file.
+std::optional<Content> place_of_quantity(std::string_view name) {
   for (const std::string_view quantity : kQuantities) {
-    if (name == text(quantity, kOfPoints)) return &MeshFile::point_data;
-    if (name == text(quantity, kOfTriangles)) return &MeshFile::cell_data;
+    if (name == text(quantity, kOfPoints)) return kPointData;
+    if (name == text(quantity, kOfTriangles)) return kCellData;
   }
-  return nullptr;
+  return {};
 }
 
 /// All files of numbers of points or triangles, in the order in which they are read.
@@ -222,8 +222,8 @@ std::vector<std::string> quantity_files(const std::string& base) {
 /// Writes what is there, and returns the paths.
 std::set<std::string> write_quantities(const WriteJob& job, const std::string& base) {
   std::set<std::string> written;
-  for (const ArraysOf place : {&MeshFile::point_data, &MeshFile::cell_data}) {
-    for (const DataArray& array : job.file.*place) {
+  for (const Content place : {kPointData, kCellData}) {
+    for (const DataArray& array : data_of(job.file, place)) {
       if (place_of_quantity(array.name) != place) continue;
       Output& out = job.outputs.open(*written.insert(text(base, array.name, kSuffix)).first);
       const std::vector<double> values = to_doubles(Values(array.values));
@@ -305,10 +305,10 @@ std::vector<std::string> fesom_files(const std::string& path) {
   return files;
 }
 
-bool fesom_keeps(ArraysOf of, const DataArray& array) {
-  if (of != &MeshFile::field_data && place_of_quantity(array.name) == of) return true;
-  if (of == &MeshFile::point_data) return array.name == kFlag || array.name == kDepth;
-  return of == &MeshFile::field_data && array.name == kLevels;
+bool fesom_keeps(Content of, const DataArray& array) {
+  if (of != kFieldData && place_of_quantity(array.name) == of) return true;
+  if (of == kPointData) return array.name == kFlag || array.name == kDepth;
+  return of == kFieldData && array.name == kLevels;
 }
 
 void write_fesom(const WriteJob& job) {

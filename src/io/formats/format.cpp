@@ -36,8 +36,8 @@ void check_ranges(const Document& d) {
       if (outside(p)) check_range(d, p, d.names->triangle(t), d.names->triangle_where(t));
     }
   }
-  for (std::size_t t = 0; t < d.tetrahedra.corners.size(); ++t) {
-    for (const std::int32_t p : d.tetrahedra.corners[t]) {
+  for (std::size_t t = 0; t < f.tetrahedra.size(); ++t) {
+    for (const std::int32_t p : f.tetrahedra[t]) {
       if (outside(p)) check_range(d, p, d.names->tetrahedron(t), d.names->tetrahedron_where(t));
     }
   }
@@ -113,10 +113,34 @@ void guess_degrees(Document& d) {
   if (look_like_degrees(f.points, heights)) f.points_in = DegreePoints{.is_guessed = true, .z = f.z()};
 }
 
+void check_tetrahedra(Document& d) {
+  MeshFile& f = d.file;
+  if (f.points.empty())
+    fail(ErrorCode::empty_input, d.names->path, "the file has tetrahedra, and no points. Next: write its points, too");
+  const auto quadrilateral = std::find_if(d.fourth_corners.begin(), d.fourth_corners.end(),
+                                          [](std::int32_t corner) { return corner != kNoCorner; });
+  if (quadrilateral != d.fourth_corners.end()) {
+    const auto t = static_cast<std::size_t>(quadrilateral - d.fourth_corners.begin());
+    refuse_beside_tetrahedra(d.names->triangle_where(t), d.names->triangle(t));
+  }
+  check_ranges(d);
+  for (std::size_t i = 0; i < f.points.size(); ++i) {
+    const Vec3 p = d.place(i);
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+    fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has coordinates (", p.x, ", ", p.y, ", ",
+         p.z, "), expected finite numbers. Next: give its place");
+  }
+  check_weights(d);
+  if (d.heights.empty()) d.heights.assign(f.points.size(), d.z);
+  f.points_in = SpacePoints{std::move(d.heights)};
+  f.triangles.tags.resize(f.triangles.size());
+}
+
 }  // namespace
 
 void check(Document& d, const ReadOptions& options) {
   MeshFile& f = d.file;
+  if (f.dimension() == 3) return check_tetrahedra(d);
   if (f.points.empty()) fail(ErrorCode::empty_input, d.names->path, "the file has no points");
   if (f.triangles.empty()) {
     // Other programs call JIGSAW's outlines meshes.
@@ -151,33 +175,13 @@ void check(Document& d, const ReadOptions& options) {
   guess_degrees(d);
 }
 
-void check_tetrahedra(const Document& d) {
-  const MeshFile& f = d.file;
-  if (f.points.empty())
-    fail(ErrorCode::empty_input, d.names->path, "the file has tetrahedra, and no points. Next: write its points, too");
-  const auto quadrilateral = std::find_if(d.fourth_corners.begin(), d.fourth_corners.end(),
-                                          [](std::int32_t corner) { return corner != kNoCorner; });
-  if (quadrilateral != d.fourth_corners.end()) {
-    const auto t = static_cast<std::size_t>(quadrilateral - d.fourth_corners.begin());
-    refuse_beside_tetrahedra(d.names->triangle_where(t), d.names->triangle(t));
-  }
-  check_ranges(d);
-  for (std::size_t i = 0; i < f.points.size(); ++i) {
-    const Vec3 p = d.place(i);
-    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
-    fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has coordinates (", p.x, ", ", p.y, ", ",
-         p.z, "), expected finite numbers. Next: give its place");
-  }
-  check_weights(d);
-}
-
 namespace {
 
 /// The next step for an element that is not read, or nothing.
-std::string_view next_for(std::string_view kind, Cells read) {
+std::string_view next_for(std::string_view kind, KindsOfCells read) {
   constexpr std::string_view kSolids[] = {"hexahedron", "voxel", "prism", "wedge", "pyramid"};
-  const bool quadrilaterals = read == Cells::faces || read == Cells::all;
-  const bool tetrahedra = read == Cells::simplices || read == Cells::all;
+  const bool quadrilaterals = read == KindsOfCells::faces || read == KindsOfCells::all;
+  const bool tetrahedra = read == KindsOfCells::simplices || read == KindsOfCells::all;
   if (kind.starts_with("quadratic") || kind.starts_with("Lagrange")) return ". Next: write linear elements";
   if (kind == "quadrilateral" && !quadrilaterals) return kNextForQuadrilaterals;
   if (kind == "tetrahedron" && !tetrahedra) return kNextForTetrahedra;
@@ -187,7 +191,7 @@ std::string_view next_for(std::string_view kind, Cells read) {
 
 }  // namespace
 
-void refuse_element(const std::string& where, std::int64_t number, std::string_view kind, Cells read) {
+void refuse_element(const std::string& where, std::int64_t number, std::string_view kind, KindsOfCells read) {
   constexpr std::string_view kRead[] = {"in this format temper reads linear triangles",
                                         "temper reads linear triangles and quadrilaterals",
                                         "in this format temper reads linear triangles and tetrahedra",
@@ -270,16 +274,11 @@ void write_side_file(const WriteJob& job) {
 
 namespace {
 
-struct KindOfArrays {
-  Content content;
-  std::string_view name;
-  ArraysOf of;
-};
-constexpr KindOfArrays kKindsOfArrays[] = {{kPointData, "point data", &MeshFile::point_data},
-                                           {kCellData, "cell data", &MeshFile::cell_data},
-                                           {kLineData, "line data", &MeshFile::line_data},
-                                           {kMarkedPointData, "data of marked points", &MeshFile::marked_point_data},
-                                           {kFieldData, "field data", &MeshFile::field_data}};
+constexpr std::pair<Content, std::string_view> kKindsOfArrays[] = {{kPointData, "point data"},
+                                                                   {kCellData, "cell data"},
+                                                                   {kLineData, "line data"},
+                                                                   {kMarkedPointData, "data of marked points"},
+                                                                   {kFieldData, "field data"}};
 
 std::string has_no_place_for(const WriteJob& job, std::string_view what) {
   return text(" not written, ", job.row.description, " has no place for ", what);
@@ -306,32 +305,33 @@ void warn_of_losses(const WriteJob& job) {
   const MeshFile& f = job.file;
   const FormatRow& row = job.row;
   const auto lost = [&row](Content content) { return (row.holds & content) == 0; };
-  const bool tets = job.tetrahedra != nullptr;
+  const bool tets = f.dimension() == 3;
   const std::string_view axis = name_of_axis(normal_of(f));
   if (!tets && lost(kZ) && f.sphere() == nullptr && !is_flat(f))
     job.warn(axis, " = ", f.z(), " of the points is", has_no_place_for(job, "it"));
   if (!lost(kZ) && normal_of(f) != kZAxis && !row.is_in_space())
     job.warn("the plane of ", axis, " = ", f.z(), " is written as one of z");
-  const bool has_regions = std::any_of(f.regions.begin(), f.regions.end(), [](std::int32_t r) { return r != 0; });
+  const bool has_regions =
+      std::any_of(f.triangles.tags.begin(), f.triangles.tags.end(), [](std::int32_t r) { return r != 0; });
   if (lost(kRegions) && has_regions) job.warn("regions are", has_no_place_for(job, "them"));
   if (lost(kLines) && !f.lines.empty()) job.warn("lines are", has_no_place_for(job, "them"));
   if (const std::size_t n = lost(kQuadrilaterals) ? quadrilaterals_of(f).size() : 0; n > 0)
     job.warn(n, n == 1 ? " quadrilateral is" : " quadrilaterals are",
              " written as two triangles each, as temper writes no quadrilaterals in ", row.description);
   if (lost(kMarkedPoints) && !f.marked_points.empty()) job.warn("marked points are", has_no_place_for(job, "them"));
-  for (const auto& [content, name, of] : kKindsOfArrays) {
+  for (const auto& [content, name] : kKindsOfArrays) {
     const bool of_faces = tets && content == kCellData;  // a format with data of lines has data of faces
     if (!lost(of_faces ? kLineData : content)) continue;
     std::vector<std::string_view> names;
-    for (const DataArray& a : f.*of) {
+    for (const DataArray& a : data_of(f, content)) {
       if (a.name == kQuadrilateral) continue;
-      if (row.details.keeps == nullptr || !row.details.keeps(of, a)) names.push_back(a.name);
+      if (row.details.keeps == nullptr || !row.details.keeps(content, a)) names.push_back(a.name);
     }
     warn_of_arrays(job, of_faces ? "face data" : name, names);
   }
   if (tets && lost(kCellData)) {
     std::vector<std::string_view> names;
-    for (const DataArray& a : job.tetrahedra->data) names.push_back(a.name);
+    for (const DataArray& a : f.tetrahedra.data) names.push_back(a.name);
     warn_of_arrays(job, "cell data", names);
   }
   if (lost(kNames)) warn_of_names(job, f.names);
@@ -357,10 +357,10 @@ std::vector<std::int32_t> one_tag_a_point(const WriteJob& job) {
   for (std::size_t i = 0; i < f.marked_points.size(); ++i) {
     std::int32_t& tag = tags[static_cast<std::size_t>(f.marked_points[i])];
     if (tag == 0) {
-      tag = f.point_tags[i];
-    } else if (tag != f.point_tags[i]) {
+      tag = f.marked_points.tags[i];
+    } else if (tag != f.marked_points.tags[i]) {
       ++lost;
-      lost_tags.emplace(f.point_tags[i], text(f.point_tags[i]));
+      lost_tags.emplace(f.marked_points.tags[i], text(f.marked_points.tags[i]));
     }
   }
   if (lost == 0) return tags;

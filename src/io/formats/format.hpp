@@ -16,13 +16,6 @@
 
 namespace temper::io {
 
-/// The tetrahedra of a file. The triangles beside them are tagged faces: their regions are tags.
-struct Tetrahedra {
-  std::vector<std::array<std::int32_t, 4>> corners = {};
-  std::vector<std::int32_t> regions = {};  ///< one per tetrahedron, or empty
-  std::vector<DataArray> data = {};
-};
-
 /// The result of a reader: the arrays, and the file's own numbers for them.
 struct Document {
   MeshFile file;
@@ -30,7 +23,6 @@ struct Document {
   double z = 0;                                   ///< of the first point
   std::vector<double> heights = {};               ///< z of each point; empty while all points have the z of the first
   std::vector<std::int32_t> fourth_corners = {};  ///< of the first faces that were read, or kNoCorner
-  Tetrahedra tetrahedra = {};
   bool may_be_degrees = false;  ///< nothing says that the points are lengths, and meshes of the sea have this format
 
   /// The three coordinates of a point, as they were read.
@@ -39,7 +31,7 @@ struct Document {
   }
   /// A quadrilateral is the next of the triangles, with its fourth corner beside it: quadrilaterals.hpp.
   void add_face(const std::array<std::int32_t, 3>& corners, std::int32_t fourth = kNoCorner) {
-    file.triangles.push_back(corners);
+    file.triangles.corners.push_back(corners);
     if (fourth == kNoCorner) return;
     fourth_corners.resize(file.triangles.size(), kNoCorner);
     fourth_corners.back() = fourth;
@@ -47,12 +39,10 @@ struct Document {
 };
 [[nodiscard]] Document new_document(const std::string& path);
 
-/// Checks what every format must satisfy once its arrays are read. Points and triangles exist, and numbers are in
-/// range. Coordinates and weights are finite. Points lie in a plane or on a sphere around the origin. Degrees are
-/// guessed if the file may have them.
+/// Checks what every format must satisfy once its arrays are read. Points and triangles or tetrahedra exist, and
+/// numbers are in range. Coordinates and weights are finite. Points of triangles lie in a plane or on a sphere around
+/// the origin; degrees are guessed if the file may have them. Points of tetrahedra are in space.
 void check(Document& document, const ReadOptions& options);
-/// The same of a document with tetrahedra: numbers are in range, coordinates and weights finite.
-void check_tetrahedra(const Document& document);
 
 /// Collects z, of one point after the other.
 class PlaneCheck {
@@ -70,7 +60,7 @@ class PlaneCheck {
 };
 
 /// The kinds of elements that temper reads in a format, beside lines and points.
-enum class Cells {
+enum class KindsOfCells {
   triangles,
   faces,      ///< triangles and quadrilaterals
   simplices,  ///< triangles and tetrahedra
@@ -81,12 +71,11 @@ inline constexpr std::string_view kNextForTetrahedra = ". Next: write meshes of 
 
 /// Refuses an element that is neither point, line nor one of these, with the reason.
 [[noreturn]] void refuse_element(const std::string& where, std::int64_t number, std::string_view kind,
-                                 Cells read = Cells::faces);
+                                 KindsOfCells read = KindsOfCells::faces);
 /// Refuses a quadrilateral in a file with tetrahedra.
 [[noreturn]] void refuse_beside_tetrahedra(const std::string& where, std::string_view name);
 
 struct WriteJob;
-using ArraysOf = std::vector<DataArray> MeshFile::*;
 
 /// The parts of a mesh file beyond triangles and points in the plane. Not every format has a place for each.
 enum Content : unsigned {
@@ -107,6 +96,15 @@ enum Content : unsigned {
   kTetrahedra = 1u << 14,
 };
 using Contents = unsigned;
+/// The arrays of a kind of data. Cell data are data of triangles.
+template <class File>
+[[nodiscard]] auto& data_of(File& file, Content kind) {
+  return kind == kPointData         ? file.point_data
+         : kind == kCellData        ? file.triangles.data
+         : kind == kLineData        ? file.lines.data
+         : kind == kMarkedPointData ? file.marked_points.data
+                                    : file.field_data;
+}
 inline constexpr Contents kAllTags = kRegions | kLines | kMarkedPoints;
 inline constexpr Contents kAllData = kPointData | kCellData | kLineData | kMarkedPointData | kFieldData;
 inline constexpr Contents kAll = kZ | kWeights | kAllTags | kNames | kAllData;
@@ -124,7 +122,7 @@ enum class Degrees {
 /// Properties that few formats have.
 struct FormatDetails {
   /// Says whether the format has a place for an array whose content is not in `holds`. Null: for none.
-  bool (*keeps)(ArraysOf of, const DataArray& array) = nullptr;
+  bool (*keeps)(Content of, const DataArray& array) = nullptr;
   /// The files that are written, or the reason why none can be; null: path alone.
   std::vector<std::string> (*files_to_write)(const std::string& path) = nullptr;
   /// The files that are read if they exist, the file of the points first; null: path alone.
@@ -167,16 +165,16 @@ struct WriteJob {
   std::vector<std::string>& warnings;
   std::vector<double> heights = {};               ///< z of each point, from data; empty: all have the z of the file
   std::vector<std::int32_t> fourth_corners = {};  ///< of the last triangles of the file, which are quadrilaterals
-  const Tetrahedra* tetrahedra = nullptr;         ///< null: a mesh of triangles; else these are tagged faces
 
   /// The number of triangles; the rest are quadrilaterals.
   [[nodiscard]] std::size_t n_triangles() const { return file.triangles.size() - fourth_corners.size(); }
-  [[nodiscard]] std::size_t n_tetrahedra() const { return tetrahedra == nullptr ? 0 : tetrahedra->corners.size(); }
   /// The three coordinates of a point, as they are written.
   [[nodiscard]] Vec3 place(std::size_t point) const {
-    return heights.empty() ? place_of(file, point) : Vec3{file.points[point].x, file.points[point].y, heights[point]};
+    return heights.empty() ? file.place(point) : Vec3{file.points[point].x, file.points[point].y, heights[point]};
   }
-  [[nodiscard]] bool is_flat() const { return heights.empty() && normal_of(file) == kZAxis && io::is_flat(file); }
+  /// Says whether each point has a z of its own.
+  [[nodiscard]] bool has_heights() const { return !heights.empty() || file.in_space() != nullptr; }
+  [[nodiscard]] bool is_flat() const { return !has_heights() && normal_of(file) == kZAxis && io::is_flat(file); }
   /// The message in parts, as for text().
   template <class... Parts>
   void warn(const Parts&... message) const {

@@ -214,10 +214,11 @@ class GmshReader {
   /// A name without a dimension is for all dimensions whose elements carry its tag.
   void settle_names() {
     MeshFile& f = document_.file;
-    const std::vector<std::int32_t>& regions = document_.tetrahedra.regions;
+    const std::vector<std::int32_t>& regions = document_.file.tetrahedra.tags;
     const std::array<std::set<std::int32_t>, 4> tags = {
-        std::set(f.point_tags.begin(), f.point_tags.end()), std::set(f.line_tags.begin(), f.line_tags.end()),
-        std::set(f.regions.begin(), f.regions.end()), std::set(regions.begin(), regions.end())};
+        std::set(f.marked_points.tags.begin(), f.marked_points.tags.end()),
+        std::set(f.lines.tags.begin(), f.lines.tags.end()), std::set(f.triangles.tags.begin(), f.triangles.tags.end()),
+        std::set(regions.begin(), regions.end())};
     for (const PhysicalName& name : names_without_dimension_) {
       bool used = false;
       for (const std::int32_t dimension : {0, 1, 2, 3}) {
@@ -477,10 +478,10 @@ class GmshReader {
       std::vector<double> values;
       std::size_t given = 0;
     };
-    std::array<Target, 4> targets = {{{&*tet_lookup_, tets_.nodes.size(), &document_.tetrahedra.data, {}},
-                                      {&*triangle_lookup_, triangles_.nodes.size(), &f.cell_data, {}},
-                                      {&*line_lookup_, lines_.nodes.size(), &f.line_data, {}},
-                                      {&*point_lookup_, points_.nodes.size(), &f.marked_point_data, {}}}};
+    std::array<Target, 4> targets = {{{&*tet_lookup_, tets_.nodes.size(), &document_.file.tetrahedra.data, {}},
+                                      {&*triangle_lookup_, triangles_.nodes.size(), &f.triangles.data, {}},
+                                      {&*line_lookup_, lines_.nodes.size(), &f.lines.data, {}},
+                                      {&*point_lookup_, points_.nodes.size(), &f.marked_points.data, {}}}};
     for (std::size_t i = 0; i < entries; ++i) {
       const auto number = get<std::int32_t>("the number of an element");
       Target* target = nullptr;
@@ -625,11 +626,11 @@ class GmshReader {
     forget_ungrouped();
     MeshFile& f = document_.file;
     const bool has_tets = !tets_.nodes.empty();
-    add_groups(tets_, *tet_lookup_, document_.tetrahedra.data);
-    has_tets ? repeat_for_groups(triangles_, *triangle_lookup_, f.cell_data)
-             : add_groups(triangles_, *triangle_lookup_, f.cell_data);
-    repeat_for_groups(lines_, *line_lookup_, f.line_data);
-    repeat_for_groups(points_, *point_lookup_, f.marked_point_data);
+    add_groups(tets_, *tet_lookup_, document_.file.tetrahedra.data);
+    has_tets ? repeat_for_groups(triangles_, *triangle_lookup_, f.triangles.data)
+             : add_groups(triangles_, *triangle_lookup_, f.triangles.data);
+    repeat_for_groups(lines_, *line_lookup_, f.lines.data);
+    repeat_for_groups(points_, *point_lookup_, f.marked_points.data);
   }
   void finish() {
     settle_groups();
@@ -650,13 +651,13 @@ class GmshReader {
       // No physical group at all: no regions.
       if (std::count(regions.begin(), regions.end(), 0) == std::ssize(regions)) regions.clear();
     };
-    hand_over_cells(triangles_, f.triangles, f.regions, f.cell_data);
-    hand_over_cells(tets_, document_.tetrahedra.corners, document_.tetrahedra.regions, document_.tetrahedra.data);
-    hand_over(lines_, f.lines, f.line_tags, f.line_data);
-    f.marked_points.reserve(points_.nodes.size());
-    for (const auto& [node] : points_.nodes) f.marked_points.push_back(node);
+    hand_over_cells(triangles_, f.triangles.corners, f.triangles.tags, f.triangles.data);
+    hand_over_cells(tets_, f.tetrahedra.corners, f.tetrahedra.tags, f.tetrahedra.data);
+    hand_over(lines_, f.lines.corners, f.lines.tags, f.lines.data);
+    f.marked_points.corners.reserve(points_.nodes.size());
+    for (const auto& [node] : points_.nodes) f.marked_points.corners.push_back(node);
     std::vector<std::array<std::int32_t, 1>> unused;
-    hand_over(points_, unused, f.point_tags, f.marked_point_data);
+    hand_over(points_, unused, f.marked_points.tags, f.marked_points.data);
     settle_names();
 
     FileNames& names = *document_.names;
@@ -718,7 +719,7 @@ class GmshReader {
         return of.of_partition_alone ? leave_out(number) : points_.add(point, of, number, line);
       }
       default:
-        refuse_element(where(), number, element_name(type), Cells::all);
+        refuse_element(where(), number, element_name(type), KindsOfCells::all);
     }
   }
   void leave_out(std::int64_t number) {

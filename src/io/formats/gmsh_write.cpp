@@ -117,26 +117,41 @@ class GmshWriter {
         version4_(version4),
         binary_(job.encoding.value_or(Encoding::ascii) != Encoding::ascii) {
     const MeshFile& f = file_;
-    points_ = {
-        0, kGmshPoint, f.marked_points.size(), 1, f.marked_points.data(), &f.point_tags, &f.marked_point_data, 1, {},
-        1, {}};
+    points_ = {0,
+               kGmshPoint,
+               f.marked_points.size(),
+               1,
+               f.marked_points.corners.data(),
+               &f.marked_points.tags,
+               &f.marked_points.data,
+               1,
+               {},
+               1,
+               {}};
     lines_ = {1,
               kGmshLine,
               f.lines.size(),
               2,
               f.lines.empty() ? nullptr : f.lines[0].data(),
-              &f.line_tags,
-              &f.line_data,
+              &f.lines.tags,
+              &f.lines.data,
               1 + points_.n,
               {},
               1,
               {}};
-    triangles_ = {
-        2,          kGmshTriangle, f.triangles.size(),       3,  f.triangles.empty() ? nullptr : f.triangles[0].data(),
-        &f.regions, &f.cell_data,  1 + points_.n + lines_.n, {}, 1,
-        {}};
-    if (job.tetrahedra != nullptr) {
-      const auto& [corners, regions, data] = *job.tetrahedra;
+    triangles_ = {2,
+                  kGmshTriangle,
+                  f.triangles.size(),
+                  3,
+                  f.triangles.empty() ? nullptr : f.triangles[0].data(),
+                  &f.triangles.tags,
+                  &f.triangles.data,
+                  1 + points_.n + lines_.n,
+                  {},
+                  1,
+                  {}};
+    if (f.dimension() == 3) {
+      const auto& [corners, regions, data] = f.tetrahedra;
       tets_ = {3,
                kGmshTetrahedron,
                corners.size(),
@@ -177,7 +192,7 @@ class GmshWriter {
 
  private:
   /// WAVEWATCH III has depths in z, and reads a whole number as the version. Without names, 2.2 is the same as 2.
-  [[nodiscard]] bool is_for_wavewatch() const { return !version4_ && !job_.heights.empty() && file_.names.empty(); }
+  [[nodiscard]] bool is_for_wavewatch() const { return !version4_ && job_.has_heights() && file_.names.empty(); }
   /// Gives each element a group if any has one.
   void group_all() {
     std::set<std::int32_t> taken;

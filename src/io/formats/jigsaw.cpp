@@ -39,7 +39,8 @@ class JigsawMeshReader {
   Document read() {
     while (!scanner_.at_end()) section(upper_case(scanner_.word("a section")));
     MeshFile& f = document_.file;
-    if (std::all_of(f.regions.begin(), f.regions.end(), [](std::int32_t r) { return r == 0; })) f.regions.clear();
+    if (std::all_of(f.triangles.tags.begin(), f.triangles.tags.end(), [](std::int32_t r) { return r == 0; }))
+      f.triangles.tags.clear();
     for (const auto& [name, array] : kJigsawData) {
       const DataArray* data = find(f.point_data, array);
       if (data == nullptr || size(data->values) == f.points.size() * static_cast<std::size_t>(data->components))
@@ -119,8 +120,7 @@ class JigsawMeshReader {
       if (dimension_ == 3) plane.add(i, scanner_.real("the z coordinate of a point"));
       const std::int32_t tag = scanner_.integer("the tag of a point");
       if (tag == 0) continue;
-      f.marked_points.push_back(static_cast<std::int32_t>(i));
-      f.point_tags.push_back(tag);
+      f.marked_points.add(static_cast<std::int32_t>(i), tag);
     }
   }
   /// Radians become degrees, which go onto the sphere.
@@ -157,21 +157,21 @@ class JigsawMeshReader {
     for (std::size_t i = 0; i < n; ++i) {
       const std::int32_t a = scanner_.vertex(0);
       document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
-      f.lines.push_back({a, scanner_.vertex(0)});
-      f.line_tags.push_back(scanner_.integer("the tag of an edge"));
+      const std::int32_t b = scanner_.vertex(0);
+      f.lines.add({a, b}, scanner_.integer("the tag of an edge"));
     }
   }
   void triangles() {
     MeshFile& f = document_.file;
     const std::size_t n = scanner_.count("triangles", 8);
-    f.triangles.reserve(f.triangles.size() + n);
-    f.regions.reserve(f.triangles.size() + n);
+    f.triangles.corners.reserve(f.triangles.size() + n);
+    f.triangles.tags.reserve(f.triangles.size() + n);
     for (std::size_t i = 0; i < n; ++i) {
       const std::int32_t a = scanner_.vertex(0);
       document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
       const std::int32_t b = scanner_.vertex(0);
-      f.triangles.push_back({a, b, scanner_.vertex(0)});
-      f.regions.push_back(scanner_.integer("the tag of a triangle"));
+      const std::int32_t c = scanner_.vertex(0);
+      f.triangles.add({a, b, c}, scanner_.integer("the tag of a triangle"));
     }
   }
   void other(const std::string& name) {
@@ -181,7 +181,7 @@ class JigsawMeshReader {
     for (const auto& [cells, kind] : kOtherJigsawCells) {
       if (name != cells || n == 0) continue;
       scanner_.next_line();
-      refuse_element(scanner_.where(), 0, kind, Cells::triangles);
+      refuse_element(scanner_.where(), 0, kind, KindsOfCells::triangles);
     }
     if (n > 0) document_.file.warnings.push_back(text(scanner_.where(), ": section ", in_quotes(name), " is dropped"));
     scanner_.next_line();
@@ -212,9 +212,7 @@ void write_jigsaw_values(Output& out, std::string_view name, std::size_t columns
 
 Document read_jigsaw_mesh(Source& source) { return JigsawMeshReader(source).read(); }
 
-bool jigsaw_keeps(ArraysOf of, const DataArray& array) {
-  return of == &MeshFile::point_data && jigsaw_values(array) != nullptr;
-}
+bool jigsaw_keeps(Content of, const DataArray& array) { return of == kPointData && jigsaw_values(array) != nullptr; }
 
 void write_jigsaw_mesh(const WriteJob& job) {
   const MeshFile& f = job.file;
@@ -237,12 +235,12 @@ void write_jigsaw_mesh(const WriteJob& job) {
   if (!f.lines.empty()) {
     out.put("EDGE2=", f.lines.size(), '\n');
     for (std::size_t i = 0; i < f.lines.size(); ++i)
-      out.put(f.lines[i][0], ';', f.lines[i][1], ';', f.line_tags[i], '\n');
+      out.put(f.lines[i][0], ';', f.lines[i][1], ';', f.lines.tags[i], '\n');
   }
   out.put("TRIA3=", f.triangles.size(), '\n');
   for (std::size_t i = 0; i < f.triangles.size(); ++i) {
     const auto& t = f.triangles[i];
-    out.put(t[0], ';', t[1], ';', t[2], ';', f.regions.empty() ? 0 : f.regions[i], '\n');
+    out.put(t[0], ';', t[1], ';', t[2], ';', f.triangles.tags.empty() ? 0 : f.triangles.tags[i], '\n');
   }
 }
 

@@ -26,14 +26,14 @@ namespace {
 /// A section that lists elements by number, and the array that remembers it.
 struct FlagSection {
   std::string_view keyword;
-  std::vector<DataArray> MeshFile::*data;
+  Content data;
   std::string_view array;
 };
-constexpr FlagSection kFlagSections[] = {{"Corners", &MeshFile::point_data, "medit:corner"},
-                                         {"RequiredVertices", &MeshFile::point_data, "medit:required"},
-                                         {"Ridges", &MeshFile::line_data, "medit:ridge"},
-                                         {"RequiredEdges", &MeshFile::line_data, "medit:required"},
-                                         {"RequiredTriangles", &MeshFile::cell_data, "medit:required"}};
+constexpr FlagSection kFlagSections[] = {{"Corners", kPointData, "medit:corner"},
+                                         {"RequiredVertices", kPointData, "medit:required"},
+                                         {"Ridges", kLineData, "medit:ridge"},
+                                         {"RequiredEdges", kLineData, "medit:required"},
+                                         {"RequiredTriangles", kCellData, "medit:required"}};
 
 constexpr std::pair<std::string_view, std::string_view> kUnsupported[] = {
     {"Hexahedra", "hexahedron"},
@@ -62,13 +62,13 @@ class MeditReader {
       if (!ended) section(keyword);
     }
     if (!quadrilateral_lines_.empty()) refuse_quadrilaterals();
-    if (!ended && document_.file.triangles.empty() && document_.tetrahedra.corners.empty())
+    if (!ended && document_.file.triangles.empty() && document_.file.tetrahedra.empty())
       scanner_.fail_truncated("the section Triangles or Tetrahedra");
     for (const auto& [flag_section, numbers] : flags_) set_flags(*flag_section, numbers);
     document_.names->points = RunLength(1, document_.file.points.size());
     document_.names->triangles = RunLength(1, document_.file.triangles.size());
     document_.names->lines = RunLength(1, document_.file.lines.size());
-    document_.names->tetrahedra = RunLength(1, document_.tetrahedra.corners.size());
+    document_.names->tetrahedra = RunLength(1, document_.file.tetrahedra.size());
     return std::move(document_);
   }
 
@@ -84,16 +84,16 @@ class MeditReader {
     } else if (keyword == "Vertices") {
       vertices();
     } else if (keyword == "Edges") {
-      elements("edges", "the reference of an edge", f.lines, f.line_tags, names.line_lines);
+      elements("edges", "the reference of an edge", f.lines.corners, f.lines.tags, names.line_lines);
     } else if (keyword == "Triangles") {
-      elements("triangles", "the reference of a triangle", f.triangles, f.regions, names.triangle_lines);
+      elements("triangles", "the reference of a triangle", f.triangles.corners, f.triangles.tags, names.triangle_lines);
     } else if (keyword == "Quadrilaterals") {
       std::vector<std::array<std::int32_t, 4>> corners;
       std::vector<std::int32_t> references;
       elements("quadrilaterals", "the reference of a quadrilateral", corners, references, quadrilateral_lines_);
     } else if (keyword == "Tetrahedra") {
-      Tetrahedra& t = document_.tetrahedra;
-      elements("tetrahedra", "the reference of a tetrahedron", t.corners, t.regions, names.tetrahedron_lines);
+      Cells<3>& t = f.tetrahedra;
+      elements("tetrahedra", "the reference of a tetrahedron", t.corners, t.tags, names.tetrahedron_lines);
     } else {
       for (const FlagSection& flag_section : kFlagSections) {
         if (flag_section.keyword != keyword) continue;
@@ -120,8 +120,7 @@ class MeditReader {
       if (dimension_ == 3) plane.add(i, scanner_.real("the z coordinate of a vertex"));
       const std::int32_t reference = scanner_.integer("the reference of a vertex");
       if (reference == 0) continue;
-      f.marked_points.push_back(static_cast<std::int32_t>(i));
-      f.point_tags.push_back(reference);
+      f.marked_points.add(static_cast<std::int32_t>(i), reference);
     }
   }
   /// Reads elements of N vertices; a row has the vertices and the reference.
@@ -149,7 +148,7 @@ class MeditReader {
       if (keyword != unsupported) continue;
       if (scanner_.count("elements", 2) == 0) return;
       scanner_.skip_space();
-      refuse_element(scanner_.where(), 1, kind, Cells::simplices);
+      refuse_element(scanner_.where(), 1, kind, KindsOfCells::simplices);
     }
     document_.file.warnings.push_back(text(scanner_.where(), ": section ", in_quotes(keyword), " is dropped"));
     for (std::string_view next = scanner_.peek(); !next.empty(); next = scanner_.peek()) {
@@ -166,8 +165,8 @@ class MeditReader {
   /// Tetrahedra may come after quadrilaterals, and the cure depends on them.
   [[noreturn]] void refuse_quadrilaterals() const {
     const std::string where = at_line(scanner_.path(), quadrilateral_lines_, 0);
-    if (!document_.tetrahedra.corners.empty()) refuse_beside_tetrahedra(where, "element 1");
-    refuse_element(where, 1, "quadrilateral", Cells::simplices);
+    if (!document_.file.tetrahedra.empty()) refuse_beside_tetrahedra(where, "element 1");
+    refuse_element(where, 1, "quadrilateral", KindsOfCells::simplices);
   }
   /// The numbers that sections of this row have listed so far.
   std::vector<std::int32_t>& flags_of(const FlagSection& flag_section) {
@@ -187,13 +186,11 @@ class MeditReader {
       flags[static_cast<std::size_t>(number) - 1] = 1;
     }
     if (numbers.empty()) return;
-    (document_.file.*flag_section.data).push_back({std::string(flag_section.array), 1, std::move(flags)});
+    data_of(document_.file, flag_section.data).push_back({std::string(flag_section.array), 1, std::move(flags)});
   }
-  [[nodiscard]] std::size_t count_of(std::vector<DataArray> MeshFile::*data) const {
+  [[nodiscard]] std::size_t count_of(Content data) const {
     const MeshFile& f = document_.file;
-    return data == &MeshFile::point_data  ? f.points.size()
-           : data == &MeshFile::line_data ? f.lines.size()
-                                          : f.triangles.size();
+    return data == kPointData ? f.points.size() : data == kLineData ? f.lines.size() : f.triangles.size();
   }
 
   Scanner scanner_;
@@ -208,7 +205,7 @@ class MeditReader {
 
 void write_flags(Output& out, const MeshFile& f) {
   for (const FlagSection& s : kFlagSections) {
-    const DataArray* array = find(f.*s.data, s.array);
+    const DataArray* array = find(data_of(f, s.data), s.array);
     const auto* flags = array == nullptr ? nullptr : std::get_if<std::vector<std::uint8_t>>(&array->values);
     if (flags == nullptr) continue;
     out.put('\n', s.keyword, '\n',
@@ -223,7 +220,7 @@ void write_flags(Output& out, const MeshFile& f) {
 
 Document read_medit(Source& source) { return MeditReader(source).read(); }
 
-bool medit_keeps(ArraysOf of, const DataArray& array) {
+bool medit_keeps(Content of, const DataArray& array) {
   return std::any_of(std::begin(kFlagSections), std::end(kFlagSections), [&](const FlagSection& s) {
     return s.data == of && s.array == array.name && scalar_of(array.values) == Scalar::u8;
   });
@@ -244,16 +241,16 @@ void write_medit(const WriteJob& job) {
   if (!f.lines.empty()) {
     out.put("\nEdges\n", f.lines.size(), '\n');
     for (std::size_t i = 0; i < f.lines.size(); ++i)
-      out.put(f.lines[i][0] + 1, ' ', f.lines[i][1] + 1, ' ', f.line_tags[i], '\n');
+      out.put(f.lines[i][0] + 1, ' ', f.lines[i][1] + 1, ' ', f.lines.tags[i], '\n');
   }
-  if (job.tetrahedra == nullptr || !f.triangles.empty()) out.put("\nTriangles\n", f.triangles.size(), '\n');
+  if (f.dimension() == 2 || !f.triangles.empty()) out.put("\nTriangles\n", f.triangles.size(), '\n');
   for (std::size_t i = 0; i < f.triangles.size(); ++i) {
     const auto& t = f.triangles[i];
-    out.put(t[0] + 1, ' ', t[1] + 1, ' ', t[2] + 1, ' ', f.regions.empty() ? 0 : f.regions[i], '\n');
+    out.put(t[0] + 1, ' ', t[1] + 1, ' ', t[2] + 1, ' ', f.triangles.tags.empty() ? 0 : f.triangles.tags[i], '\n');
   }
-  if (job.tetrahedra != nullptr) {
-    out.put("\nTetrahedra\n", job.n_tetrahedra(), '\n');
-    const auto& [corners, regions, data] = *job.tetrahedra;
+  if (f.dimension() == 3) {
+    out.put("\nTetrahedra\n", f.tetrahedra.size(), '\n');
+    const auto& [corners, regions, data] = f.tetrahedra;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const auto& [a, b, c, d] = corners[i];
       out.put(a + 1, ' ', b + 1, ' ', c + 1, ' ', d + 1, ' ', regions.empty() ? 0 : regions[i], '\n');

@@ -45,7 +45,7 @@ class Reader2dm {
       document_.add_face({corner(0), corner(1), corner(2)}, corners_[t][3] == kNoNode ? kNoCorner : corner(3));
     }
     for (std::size_t i = 0; i < ends_.size(); ++i) {
-      auto& line = f.lines.emplace_back();
+      auto& line = f.lines.corners.emplace_back();
       for (std::size_t k = 0; k < 2; ++k)
         line[k] = index(lookup, ends_[i][k], "a node string", at_line(scanner_.path(), document_.names->line_lines, i));
     }
@@ -86,7 +86,8 @@ class Reader2dm {
     auto& corners = corners_.emplace_back();
     corners.fill(kNoNode);
     for (std::size_t k = 0; k < n; ++k) corners[k] = scanner_.number<std::int64_t>("a node of an element");
-    document_.file.regions.push_back(scanner_.more_on_line() ? scanner_.integer("the material of an element") : 0);
+    document_.file.triangles.tags.push_back(scanner_.more_on_line() ? scanner_.integer("the material of an element")
+                                                                    : 0);
     scanner_.next_line();
   }
   /// All lines of a string: its nodes, of which the last is negative, then its number and its name if they are there.
@@ -119,7 +120,7 @@ class Reader2dm {
       if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
       f.names.push_back({1, tag, std::string(name)});
     }
-    f.line_tags.resize(f.line_tags.size() + ends_.size() - first_line, tag);
+    f.lines.tags.resize(f.lines.tags.size() + ends_.size() - first_line, tag);
   }
   [[nodiscard]] std::int32_t index(const NumberLookup& lookup, std::int64_t number, const std::string& element,
                                    const std::string& where) const {
@@ -153,7 +154,7 @@ class Reader2dm {
 void write_strings(const WriteJob& job, Output& out) {
   const MeshFile& f = job.file;
   std::map<std::int32_t, std::vector<std::array<std::int32_t, 2>>> lines;  // of each tag
-  for (std::size_t i = 0; i < f.lines.size(); ++i) lines[f.line_tags[i]].push_back(f.lines[i]);
+  for (std::size_t i = 0; i < f.lines.size(); ++i) lines[f.lines.tags[i]].push_back(f.lines[i]);
   std::vector<PhysicalName> lost;
   std::map<std::int32_t, std::string> names;
   for (const PhysicalName& n : f.names) {
@@ -189,7 +190,7 @@ void write_2dm(const WriteJob& job) {
     const bool is_triangle = t < job.n_triangles();
     out.put(is_triangle ? "E3T " : "E4Q ", t + 1, ' ', a + 1, ' ', b + 1, ' ', c + 1, ' ');
     if (!is_triangle) out.put(job.fourth_corners[t - job.n_triangles()] + 1, ' ');
-    out.put(f.regions.empty() ? 0 : f.regions[t], '\n');
+    out.put(f.triangles.tags.empty() ? 0 : f.triangles.tags[t], '\n');
   }
   for (std::size_t i = 0; i < f.points.size(); ++i) {
     const double z = job.heights.empty() ? f.z() : job.heights[i];

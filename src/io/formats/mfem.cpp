@@ -54,16 +54,17 @@ class MfemReader {
   void elements() {
     MeshFile& f = document_.file;
     const std::size_t n = scanner_.count("elements", 10);
-    f.triangles.reserve(n);
-    f.regions.reserve(n);
+    f.triangles.corners.reserve(n);
+    f.triangles.tags.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
-      f.regions.push_back(scanner_.integer("the attribute of an element"));
+      f.triangles.tags.push_back(scanner_.integer("the attribute of an element"));
       document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
       const std::int32_t geometry = scanner_.integer("the geometry of an element");
       if (geometry != kTriangle)
-        refuse_element(scanner_.where(), static_cast<std::int64_t>(i), geometry_name(geometry), Cells::triangles);
+        refuse_element(scanner_.where(), static_cast<std::int64_t>(i), geometry_name(geometry),
+                       KindsOfCells::triangles);
       const std::int32_t a = scanner_.vertex(0), b = scanner_.vertex(0);
-      f.triangles.push_back({a, b, scanner_.vertex(0)});
+      f.triangles.corners.push_back({a, b, scanner_.vertex(0)});
     }
     document_.names->triangles = RunLength(0, n);
   }
@@ -71,7 +72,7 @@ class MfemReader {
     MeshFile& f = document_.file;
     const std::size_t n = scanner_.count("boundary elements", 8);
     for (std::size_t i = 0; i < n; ++i) {
-      f.line_tags.push_back(scanner_.integer("the attribute of a boundary element"));
+      f.lines.tags.push_back(scanner_.integer("the attribute of a boundary element"));
       document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
       const std::int32_t geometry = scanner_.integer("the geometry of a boundary element");
       if (geometry != kSegment) {
@@ -79,7 +80,7 @@ class MfemReader {
                            "; expected a segment");
       }
       const std::int32_t a = scanner_.vertex(0);
-      f.lines.push_back({a, scanner_.vertex(0)});
+      f.lines.corners.push_back({a, scanner_.vertex(0)});
     }
     document_.names->lines = RunLength(0, n);
   }

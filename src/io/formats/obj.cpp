@@ -32,7 +32,7 @@ class ObjReader {
       : scanner_(source.path, source.bytes, '#'), document_(new_document(source.path)), plane_(document_) {}
   Document read() {
     while (!scanner_.at_end()) statement(scanner_.word("a statement"));
-    if (!has_regions_) document_.file.regions.clear();
+    if (!has_regions_) document_.file.triangles.tags.clear();
     if (!ignored_.empty()) {
       std::string names;
       for (const std::string& name : ignored_) names += text(names.empty() ? "" : ", ", name);
@@ -52,8 +52,7 @@ class ObjReader {
     if (word == "g") return group();
     if (word == "p") {
       while (scanner_.more_on_line()) {
-        document_.file.marked_points.push_back(index());
-        document_.file.point_tags.push_back(tags_[0]);
+        document_.file.marked_points.add(index(), tags_[0]);
         keep_name(0);
       }
       return;
@@ -90,8 +89,7 @@ class ObjReader {
            f.triangles.size() + 1, " has ", n, " corners; temper reads triangles",
            n == 4 ? kNextForQuadrilaterals : "");
     }
-    f.triangles.push_back(corners);
-    f.regions.push_back(tags_[2]);
+    f.triangles.add(corners, tags_[2]);
     document_.names->triangle_lines.push_back(text_line);
     has_regions_ = has_regions_ || in_region_ || tags_[2] != 0;
     keep_name(2);
@@ -102,8 +100,7 @@ class ObjReader {
     while (scanner_.more_on_line()) {
       const std::int32_t p = index();
       if (last >= 0) {
-        f.lines.push_back({last, p});
-        f.line_tags.push_back(tags_[1]);
+        f.lines.add({last, p}, tags_[1]);
         document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
         keep_name(1);
       }
@@ -189,16 +186,16 @@ class ObjWriter {
       out_.put("v ", p.x, ' ', p.y, ' ', p.z, '\n');
     }
     for (std::size_t i = 0; i < f.triangles.size(); ++i) {
-      if (!f.regions.empty()) group(2, f.regions[i]);
+      if (!f.triangles.tags.empty()) group(2, f.triangles.tags[i]);
       const auto& t = f.triangles[i];
       out_.put("f ", t[0] + 1, ' ', t[1] + 1, ' ', t[2] + 1, '\n');
     }
     for (std::size_t i = 0; i < f.lines.size(); ++i) {
-      group(1, f.line_tags[i]);
+      group(1, f.lines.tags[i]);
       out_.put("l ", f.lines[i][0] + 1, ' ', f.lines[i][1] + 1, '\n');
     }
     for (std::size_t i = 0; i < f.marked_points.size(); ++i) {
-      group(0, f.point_tags[i]);
+      group(0, f.marked_points.tags[i]);
       out_.put("p ", f.marked_points[i] + 1, '\n');
     }
     warn_of_unused_names();

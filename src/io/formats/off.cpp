@@ -59,7 +59,7 @@ class OffReader {
   }
   void faces(std::size_t n) {
     MeshFile& f = document_.file;
-    f.triangles.reserve(n);
+    f.triangles.corners.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
       const std::int32_t corners = scanner_.integer("the number of corners of a face");
       if (corners != 3) {
@@ -68,7 +68,7 @@ class OffReader {
       }
       document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
       const std::int32_t a = scanner_.vertex(0), b = scanner_.vertex(0);
-      f.triangles.push_back({a, b, scanner_.vertex(0)});
+      f.triangles.corners.push_back({a, b, scanner_.vertex(0)});
       skip_rest(more_of_faces_);
     }
   }

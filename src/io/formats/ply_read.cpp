@@ -287,8 +287,7 @@ class PlyReader {
     static_cast<void>(temper::io::take(f.point_data, kPlyTag));
     for (std::size_t i = 0; i < e.n; ++i) {
       if ((*tags)[i] == 0) continue;
-      f.marked_points.push_back(static_cast<std::int32_t>(i));
-      f.point_tags.push_back((*tags)[i]);
+      f.marked_points.add(static_cast<std::int32_t>(i), (*tags)[i]);
     }
   }
   void faces(PlyElement& e) {
@@ -299,7 +298,7 @@ class PlyReader {
         document_.file.warnings.push_back(
             text(scanner_.path(), ": lists ", in_quotes(p.name), " of faces are dropped"));
     }
-    const auto tags = document_.file.point_tags;  // of vertices
+    const auto tags = document_.file.marked_points.tags;  // of vertices
     CellSorter sorter(document_, allocation_);
     sorter.reserve(e.n);
     std::int32_t start = 0;
@@ -319,7 +318,7 @@ class PlyReader {
       fail(ErrorCode::unsupported, scanner_.path(),
            "has marked points both as vertices with tags and as faces of one corner");
     sorter.distribute(take_data(e));
-    if (!tags.empty()) document_.file.point_tags = tags;
+    if (!tags.empty()) document_.file.marked_points.tags = tags;
   }
   void edges(PlyElement& e) {
     MeshFile& f = document_.file;
@@ -327,10 +326,10 @@ class PlyReader {
     if (e.n == 0) return;
     if (!f.lines.empty())
       fail(ErrorCode::unsupported, scanner_.path(), "has edges both as elements and as faces of two corners");
-    for (std::size_t i = 0; i < e.n; ++i) f.lines.push_back({from[i], to[i]});
-    f.line_data = take_data(e);
-    f.line_tags = tags_of(f.line_data, scanner_.path());
-    f.line_tags.resize(e.n);
+    for (std::size_t i = 0; i < e.n; ++i) f.lines.corners.push_back({from[i], to[i]});
+    f.lines.data = take_data(e);
+    f.lines.tags = tags_of(f.lines.data, scanner_.path());
+    f.lines.tags.resize(e.n);
     document_.names->lines = RunLength(0, e.n);
     document_.names->line_lines = e.text_lines;
   }

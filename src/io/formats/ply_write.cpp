@@ -39,14 +39,14 @@ class PlyWriter {
     for (std::size_t i = 0; i < f.triangles.size(); ++i) {
       put(std::uint8_t{3}, true);
       for (const std::int32_t p : f.triangles[i]) put(p);
-      if (!f.regions.empty()) put(f.regions[i]);
+      if (!f.triangles.tags.empty()) put(f.triangles.tags[i]);
       put_row(cell_data_, i);
       end_row();
     }
     for (std::size_t i = 0; i < f.lines.size(); ++i) {
       put(f.lines[i][0], true);
       put(f.lines[i][1]);
-      put(f.line_tags[i]);
+      put(f.lines.tags[i]);
       put_row(line_data_, i);
       end_row();
     }
@@ -96,14 +96,14 @@ class PlyWriter {
     for (const PhysicalName& n : f.names) out_.put("comment ", kPlyNameComment, line_of(n), '\n');
     point_data_ = choose(f.point_data, "vertex", {"x", "y", "z", std::string(kPlyWeight), std::string(kPlyTag)});
     const std::string region(kPlyRegion);
-    cell_data_ = choose(f.cell_data, "face", {"vertex_indices", "vertex_index", region});
-    line_data_ = choose(f.line_data, "edge", {"vertex1", "vertex2", region});
+    cell_data_ = choose(f.triangles.data, "face", {"vertex_indices", "vertex_index", region});
+    line_data_ = choose(f.lines.data, "edge", {"vertex1", "vertex2", region});
     out_.put("element vertex ", f.points.size(), "\nproperty double x\nproperty double y\nproperty double z\n");
     if (!f.weights.empty()) out_.put("property double ", kPlyWeight, '\n');
     if (!f.marked_points.empty()) out_.put("property int ", kPlyTag, '\n');
     declare(point_data_);
     out_.put("element face ", f.triangles.size(), "\nproperty list uchar int vertex_indices\n");
-    if (!f.regions.empty()) out_.put("property int ", kPlyRegion, '\n');
+    if (!f.triangles.tags.empty()) out_.put("property int ", kPlyRegion, '\n');
     declare(cell_data_);
     if (!f.lines.empty()) {
       out_.put("element edge ", f.lines.size(), "\nproperty int vertex1\nproperty int vertex2\nproperty int ",

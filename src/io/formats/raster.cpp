@@ -169,7 +169,7 @@ class RasterMesh {
   }
   void triangle(std::int32_t a, std::int32_t b, std::int32_t c) {
     if (std::min({a, b, c}) == kNoPoint || a == b || b == c || c == a) return;  // equal at a pole
-    document_.file.triangles.push_back({a, b, c});
+    document_.file.triangles.corners.push_back({a, b, c});
   }
 
   Raster raster_;

@@ -236,8 +236,7 @@ class TriangleReader {
       const auto marker = markers ? row.next<std::int32_t>("the marker of a point") : 0;
       row.end();
       if (marker == 0) continue;
-      f.marked_points.push_back(static_cast<std::int32_t>(i));
-      f.point_tags.push_back(marker);
+      f.marked_points.add(static_cast<std::int32_t>(i), marker);
     }
     if (columns.undeclared() > 0) {
       f.warnings.push_back(text(source.path,
@@ -256,8 +255,8 @@ class TriangleReader {
     const std::string_view kind = tets ? "tetrahedra" : "triangles";
     const std::size_t n = scanner.count(kind, 8);
     const std::int32_t corners = scanner.integer("the number of corners");
-    if (corners == 6) refuse_element(scanner.where(), first_, "quadratic triangle", Cells::simplices);
-    if (corners == 10) refuse_element(scanner.where(), first_, "quadratic tetrahedron", Cells::simplices);
+    if (corners == 6) refuse_element(scanner.where(), first_, "quadratic triangle", KindsOfCells::simplices);
+    if (corners == 10) refuse_element(scanner.where(), first_, "quadratic tetrahedron", KindsOfCells::simplices);
     if (corners != dimension_ + 1)
       scanner.fail_here(ErrorCode::unsupported, "has elements of ", corners, " corners, and points of dimension ",
                         dimension_, "; expected ", kind, " of ", dimension_ + 1);
@@ -266,7 +265,7 @@ class TriangleReader {
     Declarations declared = declarations(source.bytes);
     AttributeColumns columns(std::move(declared.arrays), n_attributes, scanner);
     FileNames& names = *document_.names;
-    tets ? document_.tetrahedra.corners.reserve(n) : f.triangles.reserve(n);
+    tets ? document_.file.tetrahedra.corners.reserve(n) : f.triangles.corners.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
       TriangleRow row(scanner, tets ? "the number of a tetrahedron" : "the number of a triangle",
                       1 + static_cast<std::size_t>(corners) + n_attributes);
@@ -274,20 +273,20 @@ class TriangleReader {
       (tets ? names.tetrahedron_lines : names.triangle_lines).push_back(static_cast<std::int64_t>(scanner.line()));
       const std::int32_t a = row.next_vertex(first_), b = row.next_vertex(first_), c = row.next_vertex(first_);
       if (tets)
-        document_.tetrahedra.corners.push_back({a, b, c, row.next_vertex(first_)});
+        document_.file.tetrahedra.corners.push_back({a, b, c, row.next_vertex(first_)});
       else
-        f.triangles.push_back({a, b, c});
+        f.triangles.corners.push_back({a, b, c});
       columns.read(row);
       row.end();
     }
     const bool last_is_region = columns.undeclared() > 0;
-    std::vector<DataArray>& data = tets ? document_.tetrahedra.data : f.cell_data;
+    std::vector<DataArray>& data = tets ? document_.file.tetrahedra.data : f.triangles.data;
     data = columns.take();
     const std::string region = last_is_region ? data.back().name : "region";
     const DataArray* array = find(data, region);
     if (array == nullptr || array->components != 1) return;
     if (auto regions = to_int32(array->values)) {
-      (tets ? document_.tetrahedra.regions : f.regions) = std::move(*regions);
+      (tets ? document_.file.tetrahedra.tags : f.triangles.tags) = std::move(*regions);
       static_cast<void>(take(data, region));
     }
   }
@@ -307,8 +306,7 @@ class TriangleReader {
       if (marker == 0) continue;
       document_.names->triangles.push_back(number);
       document_.names->triangle_lines.push_back(text_line);
-      f.triangles.push_back({a, b, c});
-      f.regions.push_back(marker);
+      f.triangles.add({a, b, c}, marker);
     }
   }
   /// TetGen -nn adds the numbers of tetrahedra to faces and edges.
@@ -336,8 +334,7 @@ class TriangleReader {
       if (edges && (marker == 0 || b + first_ == -1)) continue;
       document_.names->lines.push_back(number);
       document_.names->line_lines.push_back(text_line);
-      f.lines.push_back({a, b});
-      f.line_tags.push_back(marker);
+      f.lines.add({a, b}, marker);
     }
   }
 
@@ -401,7 +398,7 @@ void write_node(const WriteJob& job, const std::string& base) {
   const auto arrays = f.weights.empty() ? f.point_data : without(f.point_data, "weight", job);
   if (!f.weights.empty()) declare(out, "float64", 1, "weight");
   const std::size_t columns = declare_all(out, arrays) + (f.weights.empty() ? 0 : 1);
-  const bool in_space = job.tetrahedra != nullptr;
+  const bool in_space = f.dimension() == 3;
   if (!in_space && !is_flat(f)) out.put(kDeclaredZ, f.z(), '\n');
   for (const PhysicalName& n : f.names) out.put(kDeclaredName, n.dimension, ' ', n.tag, ' ', n.name, '\n');
   const bool marked = !f.marked_points.empty();
@@ -416,9 +413,9 @@ void write_node(const WriteJob& job, const std::string& base) {
   }
 }
 
-template <std::size_t N>
-void write_ele(const WriteJob& job, const std::string& base, const std::vector<std::array<std::int32_t, N>>& elements,
-               const std::vector<std::int32_t>& regions, const std::vector<DataArray>& data) {
+template <int dimension>
+void write_ele(const WriteJob& job, const std::string& base, const Cells<dimension>& elements) {
+  const auto& [corners, regions, data] = elements;
   Output& out = job.outputs.open(base + ".ele");
   const auto arrays = regions.empty() ? data : without(data, "region", job);
   std::size_t columns = declare_all(out, arrays);
@@ -426,7 +423,7 @@ void write_ele(const WriteJob& job, const std::string& base, const std::vector<s
     declare(out, "int32", 1, "region");
     ++columns;
   }
-  out.put(elements.size(), ' ', N, ' ', columns, '\n');
+  out.put(elements.size(), ' ', dimension + 1, ' ', columns, '\n');
   for (std::size_t i = 0; i < elements.size(); ++i) {
     out.put(i + 1, ' ');
     put_corners(out, elements[i]);
@@ -438,10 +435,10 @@ void write_ele(const WriteJob& job, const std::string& base, const std::vector<s
 
 /// The file of tagged faces or edges of a mesh of TetGen. An old one would give its tags to this mesh, so it has to be
 /// replaced. `kind`: of the elements, for the warning on those that the reader will not take for tagged.
-template <std::size_t N>
-void write_tagged(const WriteJob& job, const std::string& path,
-                  const std::vector<std::array<std::int32_t, N>>& elements, const std::vector<std::int32_t>& tags,
+template <int dimension>
+void write_tagged(const WriteJob& job, const std::string& path, const Cells<dimension>& elements,
                   std::string_view kind) {
+  const std::vector<std::int32_t>& tags = elements.tags;
   if (elements.empty() && !exists(path)) return;
   if (const auto n = std::count(tags.begin(), tags.end(), 0); n > 0)
     job.warn(n, " ", kind, n == 1 ? " has" : "s have", " tag 0, which is no tag in files of TetGen: nobody can read ",
@@ -462,7 +459,7 @@ void write_poly(const WriteJob& job, const std::string& base) {
   Output& out = job.outputs.open(base + ".poly");
   out.put("0 2 0 0\n", f.lines.size(), " 1\n");
   for (std::size_t i = 0; i < f.lines.size(); ++i) {
-    out.put(i + 1, ' ', f.lines[i][0] + 1, ' ', f.lines[i][1] + 1, ' ', f.line_tags[i], '\n');
+    out.put(i + 1, ' ', f.lines[i][0] + 1, ' ', f.lines[i][1] + 1, ' ', f.lines.tags[i], '\n');
   }
   out.put("0\n", "");
 }
@@ -489,13 +486,13 @@ void write_triangle(const WriteJob& job) {
   const std::string base = base_path(job.path);
   const MeshFile& f = job.file;
   write_node(job, base);
-  if (job.tetrahedra == nullptr) {
-    write_ele(job, base, f.triangles, f.regions, f.cell_data);
+  if (f.dimension() == 2) {
+    write_ele(job, base, f.triangles);
     return write_poly(job, base);
   }
-  write_ele(job, base, job.tetrahedra->corners, job.tetrahedra->regions, job.tetrahedra->data);
-  write_tagged(job, base + ".face", f.triangles, f.regions, "face");
-  write_tagged(job, base + ".edge", f.lines, f.line_tags, "line");
+  write_ele(job, base, f.tetrahedra);
+  write_tagged(job, base + ".face", f.triangles, "face");
+  write_tagged(job, base + ".edge", f.lines, "line");
 }
 
 }  // namespace temper::io

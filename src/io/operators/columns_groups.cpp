@@ -71,7 +71,8 @@ std::vector<GroupCell> cells_of_groups(const MeshFile& file, const LoadedMesh& l
   };
   for (std::size_t i = 0; i < file.marked_points.size(); ++i) {
     const VertexId v = vertex(file.marked_points[i]);
-    if (v.valid() && file.point_tags[i] != 0) lengths[{GroupKind::point, file.point_tags[i], owner_of(mesh, v)}] = 0;
+    if (v.valid() && file.marked_points.tags[i] != 0)
+      lengths[{GroupKind::point, file.marked_points.tags[i], owner_of(mesh, v)}] = 0;
   }
   std::size_t in_mesh = 0;
   for (std::size_t i = 0; i < file.lines.size(); ++i) {
@@ -83,7 +84,7 @@ std::vector<GroupCell> cells_of_groups(const MeshFile& file, const LoadedMesh& l
     if (!h.valid()) h = mesh.find_halfedge(b, a);
     if (lists_edges || !h.valid()) continue;
     const GroupKind kind = mesh.is_boundary(h) ? GroupKind::boundary : GroupKind::line;
-    for_each_cell(mesh, a, b, [&](VertexId v, double part) { lengths[{kind, file.line_tags[i], v}] += part; });
+    for_each_cell(mesh, a, b, [&](VertexId v, double part) { lengths[{kind, file.lines.tags[i], v}] += part; });
   }
   std::multimap<std::pair<int, std::int32_t>, std::string_view> names;  // of a dimension and tag
   for (const PhysicalName& n : file.names) names.emplace(std::pair(n.dimension, n.tag), n.name);

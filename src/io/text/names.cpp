@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/text/failure.hpp"
+#include "io/text/values.hpp"
 
 namespace temper::io {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 /// use(name) for the name of each array and each group.
 template <class File, class Use>
 void for_each_name(File& file, Use use) {
-  for (auto* arrays : {&file.point_data, &file.cell_data, &file.line_data, &file.marked_point_data, &file.field_data}) {
+  for (auto* arrays : all_data(file)) {
     for (auto& array : *arrays) use(array.name);
   }
   for (auto& name : file.names) use(name.name);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -60,6 +61,27 @@ using ElementOf = typename std::remove_cvref_t<Vector>::value_type;
 /// Appends `more`, which must be of the same type.
 void append(Values& values, const Values& more);
 
+/// The corners of a cell, from a line to a tetrahedron, or of a point.
+template <std::size_t n>
+[[nodiscard]] std::span<std::int32_t, n> corners_of(std::array<std::int32_t, n>& cell) {
+  return cell;
+}
+template <std::size_t n>
+[[nodiscard]] std::span<const std::int32_t, n> corners_of(const std::array<std::int32_t, n>& cell) {
+  return cell;
+}
+[[nodiscard]] inline std::span<std::int32_t, 1> corners_of(std::int32_t& point) {
+  return std::span<std::int32_t, 1>(&point, 1);
+}
+[[nodiscard]] inline std::span<const std::int32_t, 1> corners_of(const std::int32_t& point) {
+  return std::span<const std::int32_t, 1>(&point, 1);
+}
+/// All lists of arrays of a file.
+template <class File>
+[[nodiscard]] auto all_data(File& file) {
+  return std::array{&file.point_data, &file.tetrahedra.data,    &file.triangles.data,
+                    &file.lines.data, &file.marked_points.data, &file.field_data};
+}
 /// The array of that name, or null.
 [[nodiscard]] const DataArray* find(const std::vector<DataArray>& arrays, std::string_view name);
 /// A lookup for many names: each costs O(log n).

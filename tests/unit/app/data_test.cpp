@@ -22,7 +22,7 @@ class Data : public Workshop {
     for (const Vec2 p : file.points) depths.push_back(depth(p)), node.push_back(static_cast<int>(node.size()));
     for (std::size_t t = 0; t < file.triangles.size(); ++t) bottom.push_back(static_cast<int>(t));
     file.point_data = {{"depth", 1, depths}, {"node", 1, node}};
-    file.cell_data = {{"bottom", 1, bottom}};
+    file.triangles.data = {{"bottom", 1, bottom}};
     ASSERT_TRUE(io::write(path, file));
   }
   static std::vector<double> depths(const io::MeshFile& file) {

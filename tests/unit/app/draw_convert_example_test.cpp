@@ -344,9 +344,9 @@ TEST_F(Convert, FlipsStripsWithoutAreaAwayWithTheirLinesAndRegions) {
   EXPECT_EQ(temper_ok({"convert", "in.mesh", "--flip-flat", "-o", "out.mesh"}).out, "3 triangles flipped away\n");
   temper_ok({"check", "out.mesh"});
   const io::MeshFile file = *io::read("out.mesh");
-  EXPECT_EQ(file.line_tags, (std::vector<std::int32_t>{7, 7, 5})) << "point 8 is on the first line";
-  EXPECT_EQ(std::ranges::count(file.regions, 3), 2) << "the halves of the triangle above";
-  EXPECT_EQ(std::ranges::count(file.regions, 2), 0) << "regions without area are gone";
+  EXPECT_EQ(file.lines.tags, (std::vector<std::int32_t>{7, 7, 5})) << "point 8 is on the first line";
+  EXPECT_EQ(std::ranges::count(file.triangles.tags, 3), 2) << "the halves of the triangle above";
+  EXPECT_EQ(std::ranges::count(file.triangles.tags, 2), 0) << "regions without area are gone";
 }
 
 TEST_F(Convert, MergeDropsTrianglesThatHaveTwoCornersAtOnePlace) {

@@ -5,7 +5,6 @@
 
 #include "support/sanitizers.hpp"
 #include "temper/io.hpp"
-#include "temper/tets/io.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -82,10 +81,10 @@ TEST_F(Explain, ATetrahedronHasItsNumbersAndAdvice) {
   const nlohmann::json& reason = json["reasons"].at(0);
   EXPECT_EQ(reason["vertices"], (nlohmann::json{1, 3, 2, 5}));  // points[i] of the file, from 0
   // The orthocenter has equal power to all corners, and the least height is the reason.
-  const auto file = std::get<io::TetFile>(*io::read_any("two.mesh"));
+  const auto file = *io::read("two.mesh");
   std::vector<double> powers, heights;
   for (std::size_t k = 0; k < 4; ++k) {
-    const Vec3 p = file.points[reason["vertices"][k].get<std::size_t>()];
+    const Vec3 p = file.place(reason["vertices"][k].get<std::size_t>());
     const auto& o = reason["orthocenter"];
     powers.push_back(std::pow(o[0].get<double>() - p.x, 2) + std::pow(o[1].get<double>() - p.y, 2) +
                      std::pow(o[2].get<double>() - p.z, 2) - reason["weights"][k].get<double>());

@@ -33,7 +33,7 @@ TEST_F(MeshVerb, OneCommandMakesAWellCenteredMeshThatKeepsTheOutline) {
   ASSERT_TRUE(file);
   EXPECT_EQ(file->points[2], (Vec2{2, 1}));
   ASSERT_GT(file->lines.size(), 0u);
-  std::vector<std::int32_t> tags = file->line_tags;
+  std::vector<std::int32_t> tags = file->lines.tags;
   std::sort(tags.begin(), tags.end());
   tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
   EXPECT_EQ(tags, (std::vector<std::int32_t>{3, 4, 5}));  // 5: the line inside had none
@@ -227,7 +227,7 @@ TEST_F(MeshSphere, OneCommandMakesAWellCenteredOceanWithCoastsAndRivers) {
   const auto file = io::read("out.vtu");
   ASSERT_TRUE(file);
   EXPECT_EQ(file->space().radius(), 6371000);
-  std::vector<std::int32_t> tags = file->line_tags;
+  std::vector<std::int32_t> tags = file->lines.tags;
   std::sort(tags.begin(), tags.end());
   tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
   EXPECT_EQ(tags, (std::vector<std::int32_t>{1, 2}));  // coasts, rivers

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <thread>
 
+#include "support/tet_files.hpp"
 #include "support/tet_lattice.hpp"
 #include "temper/detail/optimize_table.hpp"
-#include "temper/tets/io.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -40,10 +40,10 @@ TEST_F(Optimize, LinesThatAreAllEdgesOfTheMeshHoldNothing) {
   const std::size_t n_lines = file.lines.size();
   for (const auto& [a, b, c] : file.triangles) {
     for (const std::array<std::int32_t, 2>& side : {std::array{a, b}, {b, c}, {c, a}}) {
-      if (side[0] < side[1]) file.lines.push_back(side);
+      if (side[0] < side[1]) file.lines.corners.push_back(side);
     }
   }
-  file.line_tags.resize(file.lines.size(), 0);
+  file.lines.tags.resize(file.lines.size(), 0);
   ASSERT_GT(file.lines.size(), n_lines);
   ASSERT_TRUE(io::write("lines.msh", file));
   const std::string warning = "inner edges are lines of tag 0: they are taken for the edges of the mesh";
@@ -59,11 +59,11 @@ TEST_F(Optimize, LinesThatAreAllEdgesOfTheMeshHoldNothing) {
 
 TEST_F(Optimize, EveryTagComesThroughConversionsAndSweeps) {
   io::MeshFile file = *io::read("in.vtu");
-  file.regions.assign(file.triangles.size(), 7);
-  std::fill(file.regions.begin() + 36, file.regions.end(), 3);
-  file.lines.clear(), file.line_tags.clear();
-  for (std::int32_t i = 0; i < 6; ++i) file.lines.push_back({i, i + 1}), file.line_tags.push_back(20 + i);
-  file.marked_points = {0, 6, 24}, file.point_tags = {31, 32, 33};
+  file.triangles.tags.assign(file.triangles.size(), 7);
+  std::fill(file.triangles.tags.begin() + 36, file.triangles.tags.end(), 3);
+  file.lines.corners.clear(), file.lines.tags.clear();
+  for (std::int32_t i = 0; i < 6; ++i) file.lines.corners.push_back({i, i + 1}), file.lines.tags.push_back(20 + i);
+  file.marked_points.corners = {0, 6, 24}, file.marked_points.tags = {31, 32, 33};
   file.names = {{2, 7, "steel"}, {1, 20, "wall"}};
   ASSERT_TRUE(io::write("tags.msh", file));
   temper_ok({"convert", "tags.msh", "-o", "tags.vtu"});
@@ -74,14 +74,14 @@ TEST_F(Optimize, EveryTagComesThroughConversionsAndSweeps) {
     SCOPED_TRACE(path);
     io::MeshFile found = *io::read(path);
     if (std::string_view(path) == "flipped.msh") {  // an edge flips within its region
-      std::sort(found.regions.begin(), found.regions.end(), std::greater());
-      std::sort(file.regions.begin(), file.regions.end(), std::greater());
+      std::sort(found.triangles.tags.begin(), found.triangles.tags.end(), std::greater());
+      std::sort(file.triangles.tags.begin(), file.triangles.tags.end(), std::greater());
     }
-    EXPECT_EQ(found.regions, file.regions);
-    EXPECT_EQ(found.lines, file.lines);
-    EXPECT_EQ(found.line_tags, file.line_tags);
-    EXPECT_EQ(found.marked_points, file.marked_points);
-    EXPECT_EQ(found.point_tags, file.point_tags);
+    EXPECT_EQ(found.triangles.tags, file.triangles.tags);
+    EXPECT_EQ(found.lines.corners, file.lines.corners);
+    EXPECT_EQ(found.lines.tags, file.lines.tags);
+    EXPECT_EQ(found.marked_points.corners, file.marked_points.corners);
+    EXPECT_EQ(found.marked_points.tags, file.marked_points.tags);
     ASSERT_EQ(found.names.size(), 2u);
     for (const io::PhysicalName& name : file.names) {
       EXPECT_EQ(std::count_if(found.names.begin(), found.names.end(),
@@ -464,26 +464,26 @@ TEST_F(Optimize, NamesWhatIsWrongWithASizeField) {
 // --- tetrahedra ------------------------------------------------------------------------------------------------
 
 /// A body-centered lattice with inner vertices off their places, two physical parts of its boundary, and data.
-io::TetFile lattice_file(int n = 3) {
+io::MeshFile lattice_file(int n = 3) {
   const TetArrays exact = body_centered(n);
   TetArrays moved = shaken(exact, 0.18, 0);
   const tets::TetMesh mesh = mesh_of(exact);
   const auto on_boundary = tets::boundary_vertices(mesh);
-  io::TetFile file;
+  std::vector<Vec3> points;
   std::vector<double> depth;
   std::vector<std::int32_t> number;
   for (const VertexId v : mesh.vertices()) {
     const Vec3 p = on_boundary[v] != 0 ? exact.points[v.index] : moved.points[v.index];
-    file.points.push_back(p);
+    points.push_back(p);
     depth.push_back(p.x - 2 * p.y + 3 * p.z);
     number.push_back(static_cast<std::int32_t>(v.index));
   }
-  file.tetrahedra = exact.tetrahedra;
+  io::MeshFile file = test::tet_file(points, exact.tetrahedra);
   for (const tets::HalffaceId h : mesh.halffaces()) {
     if (!mesh.is_boundary(h)) continue;
-    auto& face = file.faces.emplace_back();
+    std::array<std::int32_t, 3> face = {};
     for (std::size_t k = 0; k < 3; ++k) face[k] = static_cast<std::int32_t>(mesh.vertices(h)[k].index);
-    file.face_tags.push_back(h.index % 2 == 0 ? 4 : 9);
+    file.triangles.add(face, h.index % 2 == 0 ? 4 : 9);
   }
   file.names = {{2, 4, "inflow"}};
   file.point_data = {{"depth", 1, depth}, {"number", 1, number}};
@@ -493,7 +493,7 @@ io::TetFile lattice_file(int n = 3) {
 class OptimizeTetrahedra : public Workshop {
  protected:
   void SetUp() override { EXPECT_TRUE(io::write("in.vtu", lattice_file(), {})); }
-  static io::TetFile tets(const std::string& path) { return std::get<io::TetFile>(*io::read_any(path)); }
+  static io::MeshFile tets(const std::string& path) { return *io::read(path); }
 };
 
 TEST_F(OptimizeTetrahedra, AreMadeWellCenteredAndTheReportHasTheNumbersOfTheFile) {
@@ -511,21 +511,21 @@ TEST_F(OptimizeTetrahedra, AreMadeWellCenteredAndTheReportHasTheNumbersOfTheFile
   EXPECT_EQ(report["history"].size(), report["sweeps"].get<std::size_t>() + 1);
   EXPECT_EQ(report["data"]["interpolated"], nlohmann::json({"depth"}));
 
-  const io::TetFile before = tets("in.vtu"), after = tets("out.vtu");
-  EXPECT_EQ(after.faces, before.faces);
-  EXPECT_EQ(after.face_tags, before.face_tags);
+  const io::MeshFile before = tets("in.vtu"), after = tets("out.vtu");
+  EXPECT_EQ(after.triangles.corners, before.triangles.corners);
+  EXPECT_EQ(after.triangles.tags, before.triangles.tags);
   EXPECT_EQ(after.names.at(0).name, "inflow");
   EXPECT_EQ(after.point_data[1].values, before.point_data[1].values);
   const auto& depth = std::get<std::vector<double>>(after.point_data[0].values);
   std::size_t moved = 0;
   for (std::size_t i = 0; i < after.points.size(); ++i) {
-    const Vec3 p = after.points[i];
+    const Vec3 p = after.place(i);
     EXPECT_NEAR(depth[i], p.x - 2 * p.y + 3 * p.z, 1e-12);
-    moved += p == before.points[i] ? 0 : 1;
+    moved += p == before.place(i) ? 0 : 1;
   }
   EXPECT_GT(moved, 4U);
-  for (const auto& face : after.faces) {
-    for (const std::int32_t p : face) EXPECT_EQ(after.points[std::size_t(p)], before.points[std::size_t(p)]);
+  for (const auto& face : after.triangles) {
+    for (const std::int32_t p : face) EXPECT_EQ(after.place(std::size_t(p)), before.place(std::size_t(p)));
   }
 }
 

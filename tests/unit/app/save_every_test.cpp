@@ -4,10 +4,10 @@
 #include <chrono>
 #include <thread>
 
+#include "support/tet_files.hpp"
 #include "support/tet_lattice.hpp"
 #include "temper/generate.hpp"
 #include "temper/io.hpp"
-#include "temper/tets/io.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -67,9 +67,7 @@ TEST_F(SaveEvery, TheResultIsThatOfARunWithoutIt) {
 
 TEST_F(SaveEvery, AKilledRunLeavesAMeshOfTetrahedraToo) {
   const TetArrays arrays = shaken(cubes(12, kSixTets), 0.25, 0);
-  io::TetFile in;
-  in.points = arrays.points, in.tetrahedra = arrays.tetrahedra;
-  ASSERT_TRUE(io::write("in.mesh", in));
+  ASSERT_TRUE(io::write("in.mesh", test::tet_file(arrays.points, arrays.tetrahedra)));
   const pid_t process =
       start({"optimize", "in.mesh", "-o", "out.vtu", "--save-every", "0", "--threads", "1"}, "out.txt", "err.txt");
   wait_until([] { return exists("out.vtu"); });

@@ -113,7 +113,7 @@ TEST_F(Trace, PointsThatAreLeftKeepTheirDataWhenToldTo) {
   std::iota(id.begin(), id.end(), 0.0);
   std::iota(number.begin(), number.end(), 0.0);
   file.point_data = {{"id", 1, id}};
-  file.cell_data = {{"one", 1, one}, {"number", 1, number}};
+  file.triangles.data = {{"one", 1, one}, {"number", 1, number}};
   for (const char* name : {"m.vtu", "m.msh", "m.msh2", "m.node"}) {
     SCOPED_TRACE(name);
     ASSERT_TRUE(io::write(name, file));
@@ -132,9 +132,9 @@ TEST_F(Trace, PointsThatAreLeftKeepTheirDataWhenToldTo) {
     const auto result = io::read(output);
     ASSERT_TRUE(result) << result.error().what();
     EXPECT_EQ(numbers(result->point_data, "id"), left);
-    EXPECT_EQ(numbers(result->cell_data, "one"), std::vector<double>(result->triangles.size(), 1));
-    for (const double n : numbers(result->cell_data, "number")) EXPECT_TRUE(n >= 0 && n < number.back() + 1);
-    EXPECT_EQ(numbers(result->cell_data, "number").size(), result->triangles.size());
+    EXPECT_EQ(numbers(result->triangles.data, "one"), std::vector<double>(result->triangles.size(), 1));
+    for (const double n : numbers(result->triangles.data, "number")) EXPECT_TRUE(n >= 0 && n < number.back() + 1);
+    EXPECT_EQ(numbers(result->triangles.data, "number").size(), result->triangles.size());
   }
 }
 
@@ -321,11 +321,11 @@ TEST_F(Trace, FlipsNoneIsNoFlipsAndKeepsEveryEdge) {
   temper_ok({"optimize", "in.vtu", "-o", "b.vtu", "--keep", "edges", "--quiet", "--set", "max_sweeps=5"});
   EXPECT_EQ(read("a.vtu"), read("b.vtu"));
   const auto input = *io::read("in.vtu"), output = *io::read("a.vtu");
-  EXPECT_EQ(output.triangles, input.triangles);
+  EXPECT_EQ(output.triangles.corners, input.triangles.corners);
   EXPECT_NE(output.points, input.points);
   temper_ok({"optimize", "in.vtu", "-o", "c.vtu", "--set", "max_sweeps=5", "--write", "r.json"});
   EXPECT_GT(read_json("r.json")["flips"], 0);
-  EXPECT_NE(io::read("c.vtu")->triangles, input.triangles);
+  EXPECT_NE(io::read("c.vtu")->triangles.corners, input.triangles.corners);
 }
 
 TEST_F(Trace, RemovalsAreSaidAndCounted) {

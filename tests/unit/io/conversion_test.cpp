@@ -13,7 +13,7 @@ TEST_F(FileTest, TheMeshHasThePointsWeightsAndRegionsOfTheFile) {
     EXPECT_EQ(made->mesh.position(v), f.points[v.index]);
     EXPECT_EQ(made->mesh.weight(v), f.weights[v.index]);
   }
-  for (const TriangleId t : made->mesh.triangles()) EXPECT_EQ(made->mesh.region(t), f.regions[t.index]);
+  for (const TriangleId t : made->mesh.triangles()) EXPECT_EQ(made->mesh.region(t), f.triangles.tags[t.index]);
 }
 
 TEST_F(FileTest, ReadingAndPuttingBackAnUnchangedMeshChangesNothing) {
@@ -24,7 +24,7 @@ TEST_F(FileTest, ReadingAndPuttingBackAnUnchangedMeshChangesNothing) {
     update(g, *made, made->mesh);
     expect_same_mesh(f, g);
     expect_same_data(f.point_data, g.point_data, "point data");
-    expect_same_data(f.cell_data, g.cell_data, "cell data");
+    expect_same_data(f.triangles.data, g.triangles.data, "cell data");
   }
 }
 
@@ -43,8 +43,8 @@ TEST_F(FileTest, InteriorLinesAreConstrainedAndBoundaryLinesAreNot) {
 
 TEST_F(FileTest, LinesThatAreNoEdgesAreNamedAndConstrainNothing) {
   MeshFile f = tamed(sample());
-  f.lines.push_back({0, 4});
-  f.line_tags.push_back(1);
+  f.lines.corners.push_back({0, 4});
+  f.lines.tags.push_back(1);
   const auto made = make_mesh(f);
   ASSERT_TRUE(made) << made.error().what();
   ASSERT_EQ(made->warnings.size(), 1u);
@@ -89,10 +89,10 @@ TEST_F(FileTest, UnusedPointsAreDroppedAndNamedInTheNumbersOfTheFile) {
     update(*f, *made, made->mesh);
     EXPECT_EQ(f->points, (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
     EXPECT_EQ(f->weights, (std::vector<double>{0, 1, 2, 3}));
-    EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
-    EXPECT_EQ(f->lines, (std::vector<std::array<std::int32_t, 2>>{{0, 1}}));
-    EXPECT_EQ(f->marked_points, (std::vector<std::int32_t>{3}));
-    EXPECT_EQ(f->point_tags, (std::vector<std::int32_t>{5}));
+    EXPECT_EQ(f->triangles.corners, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(f->lines.corners, (std::vector<std::array<std::int32_t, 2>>{{0, 1}}));
+    EXPECT_EQ(f->marked_points.corners, (std::vector<std::int32_t>{3}));
+    EXPECT_EQ(f->marked_points.tags, (std::vector<std::int32_t>{5}));
     EXPECT_EQ(std::get<std::vector<std::int32_t>>(f->point_data[0].values), (std::vector<std::int32_t>{1, 3, 4, 6}));
     ASSERT_TRUE(write(path("out.vtu"), *f));
   }
@@ -154,20 +154,21 @@ TEST_F(FileTest, AMeshWhoseVerticesAreKnownByTheirPlaceAloneKeepsLinesAndData) {
   ASSERT_TRUE(made);
   MeshFile smaller;  // without triangle 0 and its vertex 0
   smaller.points = {{1.0 / 3, -0.0}, {2, 0}, {2, 1}, {0.1 + 0.2, 1}, {0, 1}};
-  smaller.triangles = {{0, 3, 4}, {0, 1, 3}, {1, 2, 3}};
+  smaller.triangles.corners = {{0, 3, 4}, {0, 1, 3}, {1, 2, 3}};
   const auto other = make_mesh(smaller);
   ASSERT_TRUE(other);
   update(f, *made, other->mesh);
   EXPECT_EQ(f.points, smaller.points);
-  EXPECT_EQ(f.triangles, smaller.triangles);
-  EXPECT_EQ(f.lines, (std::vector<std::array<std::int32_t, 2>>{{1, 0}, {1, 3}}));
-  EXPECT_EQ(f.line_tags, (std::vector<std::int32_t>{4, 9}));
-  EXPECT_EQ(f.marked_points, std::vector<std::int32_t>{2});
+  EXPECT_EQ(f.triangles.corners, smaller.triangles.corners);
+  EXPECT_EQ(f.lines.corners, (std::vector<std::array<std::int32_t, 2>>{{1, 0}, {1, 3}}));
+  EXPECT_EQ(f.lines.tags, (std::vector<std::int32_t>{4, 9}));
+  EXPECT_EQ(f.marked_points.corners, std::vector<std::int32_t>{2});
   ASSERT_EQ(f.point_data.size(), 4u);
   EXPECT_EQ(std::get<std::vector<double>>(f.point_data[0].values), (std::vector<double>{-0.0, 0.1, 1e300, 2, 3}));
   EXPECT_EQ(std::get<std::vector<std::uint8_t>>(f.point_data[3].values),
             (std::vector<std::uint8_t>{1, 2, 253, 254, 255}));
-  EXPECT_EQ(std::get<std::vector<std::int32_t>>(f.cell_data[0].values), (std::vector<std::int32_t>{2, 3, -2147483647}));
+  EXPECT_EQ(std::get<std::vector<std::int32_t>>(f.triangles.data[0].values),
+            (std::vector<std::int32_t>{2, 3, -2147483647}));
   EXPECT_EQ(f.warnings, std::vector<std::string>{"2 lines or marked points have lost their vertices and are dropped"});
   EXPECT_TRUE(write(path("m.vtu"), f));
 }

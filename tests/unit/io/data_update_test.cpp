@@ -40,7 +40,7 @@ MeshFile file_with_data(const Mesh& mesh = *random_mesh({.vertices = 150, .seed 
     east.push_back(sum / 3);
   }
   f.point_data = {{"depth", 1, depths}, {"coarse", 2, coarse}, {"node", 1, node}, {"id", 1, id}};
-  f.cell_data = {{"triangle", 1, triangle}, {"east", 1, east}};
+  f.triangles.data = {{"triangle", 1, triangle}, {"east", 1, east}};
   return f;
 }
 
@@ -128,7 +128,7 @@ TEST(PointData, OfAPlaceThatWasAnotherVertexAreThoseOfThatVertexBitForBit) {
     }
   }
   for (const TriangleId t : mesh.triangles()) {
-    EXPECT_EQ(values<std::int32_t>(f.cell_data, "triangle")[t.index], static_cast<int>(order.triangles[t].index));
+    EXPECT_EQ(values<std::int32_t>(f.triangles.data, "triangle")[t.index], static_cast<int>(order.triangles[t].index));
   }
 }
 
@@ -139,12 +139,12 @@ TEST(CellData, AreThoseOfTheTriangleThatTheMiddleIsIn) {
     const Changed c = change(options);
     ASSERT_GT(c.report.triangles_changed, 50u);
     EXPECT_EQ(c.report.of_triangles, (std::vector<std::string>{"triangle", "east"}));
-    const auto& triangle = values<std::int32_t>(c.after.cell_data, "triangle");
-    const auto& east = values<double>(c.after.cell_data, "east");
+    const auto& triangle = values<std::int32_t>(c.after.triangles.data, "triangle");
+    const auto& east = values<double>(c.after.triangles.data, "east");
     std::size_t others = 0;
     for (std::size_t t = 0; t < c.after.triangles.size(); ++t) {
       const auto source = static_cast<std::size_t>(triangle[t]);
-      EXPECT_EQ(east[t], values<double>(c.before.cell_data, "east")[source]) << "all arrays from one triangle";
+      EXPECT_EQ(east[t], values<double>(c.before.triangles.data, "east")[source]) << "all arrays from one triangle";
       Vec2 middle;
       for (const std::int32_t p : c.after.triangles[t]) {
         middle = middle + (1.0 / 3) * c.after.points[static_cast<std::size_t>(p)];
@@ -165,14 +165,14 @@ TEST(CellData, StayInTheirRegionWhenVerticesAreRemovedAndNothingIsLost) {
   MeshFile f = from_mesh(*sheared_grid({6, 6, 0.25}));
   std::vector<std::int32_t> material;
   std::vector<float> head;
-  f.regions.clear();
+  f.triangles.tags.clear();
   for (const auto& corners : f.triangles) {
     const int low = std::min({corners[0] % 7, corners[1] % 7, corners[2] % 7});
-    f.regions.push_back(low < 3 ? 1 : 2);
-    material.push_back(10 * f.regions.back());
+    f.triangles.tags.push_back(low < 3 ? 1 : 2);
+    material.push_back(10 * f.triangles.tags.back());
     head.push_back(static_cast<float>(head.size()));
   }
-  f.cell_data = {{"material", 1, material}, {"head", 1, head}};
+  f.triangles.data = {{"material", 1, material}, {"head", 1, head}};
   auto loaded = make_mesh(f);
   ASSERT_TRUE(loaded);
   for (const std::size_t v : {8u, 2u, 24u}) {  // inside, on the boundary, between the regions
@@ -183,11 +183,11 @@ TEST(CellData, StayInTheirRegionWhenVerticesAreRemovedAndNothingIsLost) {
   const auto left = loaded->mesh.compact().vertices;
   for (int twice = 0; twice < 2; ++twice) {
     update(f, *loaded, loaded->mesh, left);
-    ASSERT_EQ(values<std::int32_t>(f.cell_data, "material").size(), f.triangles.size());
+    ASSERT_EQ(values<std::int32_t>(f.triangles.data, "material").size(), f.triangles.size());
     for (std::size_t t = 0; t < f.triangles.size(); ++t) {
-      EXPECT_EQ(values<std::int32_t>(f.cell_data, "material")[t], 10 * f.regions[t]);
+      EXPECT_EQ(values<std::int32_t>(f.triangles.data, "material")[t], 10 * f.triangles.tags[t]);
     }
-    EXPECT_EQ(values<float>(f.cell_data, "head").size(), f.triangles.size());
+    EXPECT_EQ(values<float>(f.triangles.data, "head").size(), f.triangles.size());
     EXPECT_TRUE(f.warnings.empty());
   }
 }
@@ -204,7 +204,7 @@ TEST(DataReport, CountsPointsAndTrianglesAndSaysHowFarPointsHaveMoved) {
     EXPECT_EQ(nothing.points_moved + nothing.points_inserted + nothing.triangles_changed, 0u);
     EXPECT_EQ(nothing.distance.max, 0);
     expect_same_data(same.point_data, f.point_data, "point data");
-    expect_same_data(same.cell_data, f.cell_data, "cell data");
+    expect_same_data(same.triangles.data, f.triangles.data, "cell data");
   }
   VertexId inner(0);
   while (loaded->mesh.is_boundary(inner)) inner = VertexId(inner.index + 1);
@@ -245,7 +245,7 @@ TEST(DataRules, ThatMakeNoSenseAreRefusedByName) {
 TEST(DataUpdate, AMissingValueSpreadsHalfWayToTheNextCorners) {
   MeshFile f;
   f.points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {2, 2}};
-  f.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  f.triangles.corners = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   f.point_data = {{"depth", 1, std::vector<double>{kNone, 6, 6, 6, 8}}};
   const auto value_at = [&](Vec2 p) {

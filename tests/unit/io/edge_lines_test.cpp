@@ -28,7 +28,7 @@ std::set<Line> edges_of(const Mesh& mesh, bool boundary) {
 std::set<Line> lines_of_tag(const MeshFile& file, std::int32_t tag) {
   std::set<Line> all;
   for (std::size_t i = 0; i < file.lines.size(); ++i) {
-    if (file.line_tags[i] != tag) continue;
+    if (file.lines.tags[i] != tag) continue;
     EXPECT_TRUE(all.insert(sorted(file.lines[i])).second) << "twice";
   }
   return all;
@@ -38,22 +38,22 @@ std::set<Line> lines_of_tag(const MeshFile& file, std::int32_t tag) {
 MeshFile listed_grid() {
   const Mesh mesh = *sheared_grid({4, 4, 0.25});
   MeshFile file = from_mesh(mesh);
-  file.lines.clear();
-  file.line_tags.clear();
+  file.lines.corners.clear();
+  file.lines.tags.clear();
   for (const bool boundary : {false, true}) {
     for (const Line& edge : edges_of(mesh, boundary)) {
       const auto at = static_cast<std::ptrdiff_t>(boundary ? file.lines.size() / 2 : file.lines.size());
-      file.lines.insert(file.lines.begin() + at, edge);
-      file.line_tags.insert(file.line_tags.begin() + at, boundary ? kBoundaryTag : kEdgeTag);
+      file.lines.corners.insert(file.lines.begin() + at, edge);
+      file.lines.tags.insert(file.lines.tags.begin() + at, boundary ? kBoundaryTag : kEdgeTag);
     }
   }
   std::vector<std::int32_t> entity;
   std::vector<double> length;
   for (std::size_t i = 0; i < file.lines.size(); ++i) {
-    entity.push_back(file.line_tags[i] == kEdgeTag ? 7 : static_cast<std::int32_t>(i));
+    entity.push_back(file.lines.tags[i] == kEdgeTag ? 7 : static_cast<std::int32_t>(i));
     length.push_back(static_cast<double>(i));
   }
-  file.line_data = {{"entity", 1, entity}, {"length", 1, length}};
+  file.lines.data = {{"entity", 1, entity}, {"length", 1, length}};
   return file;
 }
 
@@ -85,15 +85,15 @@ TEST(EdgeLines, LinesOnAllInnerEdgesConstrainNothingWhichAWarningSays) {
 
 TEST(EdgeLines, LinesThatTellEdgesApartConstrain) {
   const auto first_edge = [](const MeshFile& f) {
-    return std::find(f.line_tags.begin(), f.line_tags.end(), kEdgeTag) - f.line_tags.begin();
+    return std::find(f.lines.tags.begin(), f.lines.tags.end(), kEdgeTag) - f.lines.tags.begin();
   };
   MeshFile one_missing = listed_grid();
-  one_missing.line_data.clear();
+  one_missing.lines.data.clear();
   const auto at = first_edge(one_missing);
-  one_missing.lines.erase(one_missing.lines.begin() + at);
-  one_missing.line_tags.erase(one_missing.line_tags.begin() + at);
+  one_missing.lines.corners.erase(one_missing.lines.begin() + at);
+  one_missing.lines.tags.erase(one_missing.lines.tags.begin() + at);
   MeshFile two_tags = listed_grid();
-  two_tags.line_tags[static_cast<std::size_t>(first_edge(two_tags))] = 5;
+  two_tags.lines.tags[static_cast<std::size_t>(first_edge(two_tags))] = 5;
   for (const auto& [file, n] : {std::pair(one_missing, 39u), std::pair(two_tags, 40u)}) {
     const auto made = make_mesh(file);
     ASSERT_TRUE(made);
@@ -103,9 +103,9 @@ TEST(EdgeLines, LinesThatTellEdgesApartConstrain) {
   }
   MeshFile single;
   single.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  single.triangles = {{0, 1, 2}, {0, 2, 3}};
-  single.lines = {{0, 2}};
-  single.line_tags = {kEdgeTag};
+  single.triangles.corners = {{0, 1, 2}, {0, 2, 3}};
+  single.lines.corners = {{0, 2}};
+  single.lines.tags = {kEdgeTag};
   EXPECT_EQ(n_constrained(make_mesh(single)->mesh), 1u) << "one inner edge may be a feature";
 }
 
@@ -116,7 +116,7 @@ TEST(EdgeLines, AnUnchangedMeshLeavesTheFileAsItIs) {
   MeshFile after = before;
   update(after, *made, made->mesh);
   expect_same_mesh(before, after);
-  expect_same_data(before.line_data, after.line_data, "line data");
+  expect_same_data(before.lines.data, after.lines.data, "line data");
 }
 
 TEST(EdgeLines, EdgesThatFlipsMakeTakeThePlacesOfThoseThatAreGone) {
@@ -128,13 +128,13 @@ TEST(EdgeLines, EdgesThatFlipsMakeTakeThePlacesOfThoseThatAreGone) {
     ASSERT_GT(flip_some(made->mesh), 0u);
     update(after, *made, made->mesh);
     EXPECT_EQ(lines_of_tag(after, kEdgeTag), edges_of(made->mesh, false));
-    EXPECT_EQ(after.line_tags, before.line_tags);
+    EXPECT_EQ(after.lines.tags, before.lines.tags);
     for (std::size_t i = 0; i < before.lines.size(); ++i) {
-      EXPECT_TRUE(before.line_tags[i] == kEdgeTag || after.lines[i] == before.lines[i]) << i;
+      EXPECT_TRUE(before.lines.tags[i] == kEdgeTag || after.lines[i] == before.lines[i]) << i;
     }
-    ASSERT_EQ(after.line_data.size(), 1u) << "nothing says how long new edges are";
-    EXPECT_EQ(after.line_data[0].name, "entity");
-    EXPECT_TRUE(after.line_data[0].values == before.line_data[0].values);
+    ASSERT_EQ(after.lines.data.size(), 1u) << "nothing says how long new edges are";
+    EXPECT_EQ(after.lines.data[0].name, "entity");
+    EXPECT_TRUE(after.lines.data[0].values == before.lines.data[0].values);
     EXPECT_EQ(after.warnings,
               std::vector<std::string>{"edges have changed: data of lines on them are dropped: length"});
   }
@@ -156,23 +156,23 @@ TEST(EdgeLines, AMeshOfFewerVerticesHasItsEdgesListedBehindAllOtherLines) {
   update(after, *made, mesh, vertices);
   EXPECT_EQ(lines_of_tag(after, kEdgeTag), edges_of(mesh, false));
   EXPECT_EQ(lines_of_tag(after, kBoundaryTag), edges_of(mesh, true));
-  EXPECT_TRUE(std::is_sorted(after.line_tags.rbegin(), after.line_tags.rend()));
-  ASSERT_EQ(after.line_data.size(), 1u);
-  const auto& entity = std::get<std::vector<std::int32_t>>(after.line_data[0].values);
+  EXPECT_TRUE(std::is_sorted(after.lines.tags.rbegin(), after.lines.tags.rend()));
+  ASSERT_EQ(after.lines.data.size(), 1u);
+  const auto& entity = std::get<std::vector<std::int32_t>>(after.lines.data[0].values);
   ASSERT_EQ(entity.size(), after.lines.size());
-  for (std::size_t i = 0; i < entity.size(); ++i) EXPECT_EQ(entity[i] == 7, after.line_tags[i] == kEdgeTag) << i;
+  for (std::size_t i = 0; i < entity.size(); ++i) EXPECT_EQ(entity[i] == 7, after.lines.tags[i] == kEdgeTag) << i;
 }
 
 TEST(EdgeLines, PointsOfNoTriangleAndTheirLinesDoNotMatter) {
   MeshFile file = listed_grid();
-  file.line_data.clear();
+  file.lines.data.clear();
   for (Line& line : file.lines) line = {line[0] + 1, line[1] + 1};
   for (auto& triangle : file.triangles) {
     for (std::int32_t& p : triangle) ++p;
   }
   file.points.insert(file.points.begin(), Vec2{9, 9});
-  file.lines.insert(file.lines.begin(), Line{0, 1});
-  file.line_tags.insert(file.line_tags.begin(), kEdgeTag);
+  file.lines.corners.insert(file.lines.begin(), Line{0, 1});
+  file.lines.tags.insert(file.lines.tags.begin(), kEdgeTag);
   auto made = make_mesh(file);
   ASSERT_TRUE(made);
   EXPECT_EQ(n_constrained(made->mesh), 0u);

@@ -11,10 +11,10 @@ TEST_F(FileTest, SparseNodeNumbersAndElementsOutOfOrderAreRead) {
   const auto f = read(make(
       "m.msh", kNodes2 + "$Elements\n3\n9 2 2 5 1 10 30 7\n3 1 2 8 1 10 20\n4 2 3 6 1 0 10 20 30\n$EndElements\n"));
   ASSERT_TRUE(f) << f.error().what();
-  EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}))
+  EXPECT_EQ(f->triangles.corners, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}))
       << "in the order of their numbers";
-  EXPECT_EQ(f->regions, (std::vector<std::int32_t>{6, 5}));
-  EXPECT_EQ(f->line_tags, std::vector<std::int32_t>{8});
+  EXPECT_EQ(f->triangles.tags, (std::vector<std::int32_t>{6, 5}));
+  EXPECT_EQ(f->lines.tags, std::vector<std::int32_t>{8});
   EXPECT_EQ(f->numbering->point(3), "point 7");
   EXPECT_EQ(f->numbering->triangle(1), "triangle 9");
   EXPECT_EQ(plain(f->numbering->triangle_where(1)), "m.msh:13");
@@ -45,16 +45,16 @@ TEST_F(FileTest, ATriangleThatVersion2ListsOnceForEachGroupIsInAllOfThem) {
       "$EndElementData\n";
   const auto f = read(make("m.msh", kNodes2 + elements));
   ASSERT_TRUE(f) << f.error().what();
-  EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
-  EXPECT_EQ(f->regions, (std::vector<std::int32_t>{6, 5})) << "6 is a part of 5, and 7 is not";
+  EXPECT_EQ(f->triangles.corners, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(f->triangles.tags, (std::vector<std::int32_t>{6, 5})) << "6 is a part of 5, and 7 is not";
   EXPECT_EQ(f->numbering->triangle(1), "triangle 4");
-  EXPECT_EQ(std::get<std::vector<double>>(f->cell_data.at(0).values), (std::vector<double>{1.5, 3.5}));
-  ASSERT_EQ(f->cell_data.size(), 5u);
+  EXPECT_EQ(std::get<std::vector<double>>(f->triangles.data.at(0).values), (std::vector<double>{1.5, 3.5}));
+  ASSERT_EQ(f->triangles.data.size(), 5u);
   for (const auto& [i, name, inside] : {std::tuple(1, "gmsh:physical:first", std::vector<std::int32_t>{5, 5}),
                                         {2, "gmsh:physical:6", std::vector<std::int32_t>{1, 0}},
                                         {3, "gmsh:physical:7", std::vector<std::int32_t>{1, 1}}}) {
-    EXPECT_EQ(f->cell_data[i].name, name);
-    EXPECT_EQ(std::get<std::vector<std::int32_t>>(f->cell_data[i].values), inside);
+    EXPECT_EQ(f->triangles.data[i].name, name);
+    EXPECT_EQ(std::get<std::vector<std::int32_t>>(f->triangles.data[i].values), inside);
   }
   EXPECT_TRUE(f->warnings.empty());
 }
@@ -76,7 +76,7 @@ std::vector<std::string> lines_of(const std::vector<PhysicalName>& names) {
 TEST_F(FileTest, TrianglesWithDifferentSetsOfGroupsAreDifferentRegions) {
   const auto f = read(make("m.msh", kOverlap));
   ASSERT_TRUE(f) << f.error().what();
-  EXPECT_EQ(f->regions, (std::vector<std::int32_t>{1, 4, 6, 5}));
+  EXPECT_EQ(f->triangles.tags, (std::vector<std::int32_t>{1, 4, 6, 5}));
   EXPECT_EQ(lines_of(f->names), (std::vector<std::string>{"2 1 all", "2 2 wet", "2 3 clay", "2 4 all and wet",
                                                           "2 5 all and clay", "2 6 all and wet and clay"}));
   for (const auto& [format, encoding] :
@@ -91,13 +91,13 @@ TEST_F(FileTest, TrianglesWithDifferentSetsOfGroupsAreDifferentRegions) {
     EXPECT_NE(bytes.find("$PhysicalNames\n3\n2 1 \"all\"\n2 2 \"wet\"\n2 3 \"clay\"\n$End"), std::string::npos);
     const auto back = read(path("b.msh"));
     ASSERT_TRUE(back) << back.error().what();
-    EXPECT_EQ(back->regions, f->regions);
+    EXPECT_EQ(back->triangles.tags, f->triangles.tags);
     EXPECT_EQ(lines_of(back->names), lines_of(f->names));
     for (const std::string group : {"first", "2", "3"}) {
       const auto named = [&](const DataArray& a) { return a.name == "gmsh:physical:" + group; };
-      const auto before = std::find_if(f->cell_data.begin(), f->cell_data.end(), named);
-      const auto after = std::find_if(back->cell_data.begin(), back->cell_data.end(), named);
-      ASSERT_TRUE(before != f->cell_data.end() && after != back->cell_data.end()) << group;
+      const auto before = std::find_if(f->triangles.data.begin(), f->triangles.data.end(), named);
+      const auto after = std::find_if(back->triangles.data.begin(), back->triangles.data.end(), named);
+      ASSERT_TRUE(before != f->triangles.data.end() && after != back->triangles.data.end()) << group;
       EXPECT_EQ(before->values, after->values) << group;
     }
   }
@@ -123,11 +123,11 @@ TEST_F(FileTest, VerticesOfAGroupAreFixedInAllItsRegions) {
 TEST_F(FileTest, EachElementHasAGroupIfAnyElementHasOne) {
   MeshFile f;
   f.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  f.triangles = {{0, 1, 2}, {0, 2, 3}};
-  f.lines = {{0, 1}, {2, 3}};
-  f.line_tags = {5, 0};
-  f.marked_points = {2};
-  f.point_tags = {0};
+  f.triangles.corners = {{0, 1, 2}, {0, 2, 3}};
+  f.lines.corners = {{0, 1}, {2, 3}};
+  f.lines.tags = {5, 0};
+  f.marked_points.corners = {2};
+  f.marked_points.tags = {0};
   f.names = {{1, 5, "inflow"}, {2, 8, "nowhere"}};
   const std::string names =
       "$PhysicalNames\n5\n1 5 \"inflow\"\n2 8 \"nowhere\"\n0 9 \"temper_ungrouped_points\"\n"
@@ -144,9 +144,9 @@ TEST_F(FileTest, EachElementHasAGroupIfAnyElementHasOne) {
     EXPECT_NE(bytes.find(elements), std::string::npos) << bytes;
     const auto back = read(path("m.msh"));
     ASSERT_TRUE(back) << back.error().what();
-    EXPECT_TRUE(back->regions.empty());
-    EXPECT_EQ(back->line_tags, f.line_tags);
-    EXPECT_EQ(back->point_tags, f.point_tags);
+    EXPECT_TRUE(back->triangles.tags.empty());
+    EXPECT_EQ(back->lines.tags, f.lines.tags);
+    EXPECT_EQ(back->marked_points.tags, f.marked_points.tags);
     EXPECT_EQ(lines_of(back->names), lines_of(f.names));
   }
 }
@@ -154,15 +154,15 @@ TEST_F(FileTest, EachElementHasAGroupIfAnyElementHasOne) {
 TEST_F(FileTest, TheGroupOfTheOtherElementsHasATagThatIsFree) {
   MeshFile f;
   f.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  f.triangles = {{0, 1, 2}, {0, 2, 3}};
-  f.regions = {std::numeric_limits<std::int32_t>::max(), 0};
+  f.triangles.corners = {{0, 1, 2}, {0, 2, 3}};
+  f.triangles.tags = {std::numeric_limits<std::int32_t>::max(), 0};
   f.names = {{1, 1, "wall"}};
   ASSERT_TRUE(write(path("m.msh2"), f));
   EXPECT_NE(slurp(path("m.msh2")).find("2 2 \"temper_ungrouped_faces\"\n"), std::string::npos);
   const auto back = read(path("m.msh2"));
   ASSERT_TRUE(back) << back.error().what();
-  EXPECT_EQ(back->regions, f.regions);
-  f.regions = {0, 0};
+  EXPECT_EQ(back->triangles.tags, f.triangles.tags);
+  f.triangles.tags = {0, 0};
   ASSERT_TRUE(write(path("m.msh2"), f));
   EXPECT_EQ(slurp(path("m.msh2")).find("temper_ungrouped"), std::string::npos) << "no element has a group";
 }
@@ -245,10 +245,10 @@ TEST_F(FileTest, TimeStepsOfOneNameAreKeptApart) {
   const auto f = read(
       make("m.msh", kNodes2 + "$Elements\n1\n1 2 2 0 1 10 20 30\n$EndElements\n" + step("0", "3") + step("0.5", "4")));
   ASSERT_TRUE(f) << f.error().what();
-  ASSERT_EQ(f->cell_data.size(), 3u);
-  EXPECT_EQ(f->cell_data[0].name, "e");
-  EXPECT_EQ(f->cell_data[1].name, "e@0.5");
-  EXPECT_EQ(f->cell_data[2].name, "gmsh:geometrical");
+  ASSERT_EQ(f->triangles.data.size(), 3u);
+  EXPECT_EQ(f->triangles.data[0].name, "e");
+  EXPECT_EQ(f->triangles.data[1].name, "e@0.5");
+  EXPECT_EQ(f->triangles.data[2].name, "gmsh:geometrical");
 }
 
 TEST_F(FileTest, ParametricNodesCommentsAndDroppedSectionsOfVersion41AreRead) {
@@ -260,9 +260,9 @@ TEST_F(FileTest, ParametricNodesCommentsAndDroppedSectionsOfVersion41AreRead) {
                 "0 5 15 1\n1 1\n1 3 1 1\n2 1 2\n2 1 2 1\n3 1 2 3\n$EndElements\n$Periodic\n0\n$EndPeriodic\n"));
   ASSERT_TRUE(f) << f.error().what();
   EXPECT_EQ(f->points, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}));
-  EXPECT_EQ(f->regions, std::vector<std::int32_t>{4});
-  EXPECT_EQ(f->line_tags, (std::vector<std::int32_t>{8, 9}));
-  EXPECT_EQ(f->point_tags, std::vector<std::int32_t>{77});
+  EXPECT_EQ(f->triangles.tags, std::vector<std::int32_t>{4});
+  EXPECT_EQ(f->lines.tags, (std::vector<std::int32_t>{8, 9}));
+  EXPECT_EQ(f->marked_points.tags, std::vector<std::int32_t>{77});
   ASSERT_EQ(f->warnings.size(), 1u);
   EXPECT_EQ(plain(f->warnings[0]), "m.msh:33: section $Periodic is dropped");
 }
@@ -283,7 +283,7 @@ TEST_F(FileTest, BigEndianBinaryIsRead) {
   ASSERT_TRUE(f) << f.error().what();
   EXPECT_EQ(f->z(), 0.25);
   EXPECT_EQ(f->points, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}));
-  EXPECT_EQ(f->regions, std::vector<std::int32_t>{6});
+  EXPECT_EQ(f->triangles.tags, std::vector<std::int32_t>{6});
 }
 
 /// Numbers of a file, as words or as bytes.
@@ -363,20 +363,21 @@ TEST_F(FileTest, APartitionedMeshIsTheMeshOfItsParts) {
     auto f = read(make("parts.msh", square_41(binary, true)));
     ASSERT_TRUE(plain_file) << plain_file.error().what();
     ASSERT_TRUE(f) << f.error().what();
-    EXPECT_EQ(f->triangles, plain_file->triangles);
-    EXPECT_EQ(f->regions, plain_file->regions);
-    EXPECT_EQ(f->regions, (std::vector<std::int32_t>{10, 20}));
-    EXPECT_EQ(f->lines, plain_file->lines);
-    EXPECT_EQ(f->lines, (std::vector<std::array<std::int32_t, 2>>{{2, 1}, {3, 0}})) << "in the direction of the group";
-    EXPECT_EQ(f->line_tags, plain_file->line_tags);
-    EXPECT_EQ(f->line_tags, (std::vector<std::int32_t>{31, 32}));
-    EXPECT_EQ(f->point_tags, plain_file->point_tags);
-    EXPECT_EQ(f->point_tags, std::vector<std::int32_t>{40});
-    ASSERT_EQ(f->line_data.size(), 1u);
-    EXPECT_EQ(f->line_data[0].values, plain_file->line_data.at(0).values) << "entities that the partition divided";
-    const auto partition = std::find_if(f->cell_data.begin(), f->cell_data.end(),
+    EXPECT_EQ(f->triangles.corners, plain_file->triangles.corners);
+    EXPECT_EQ(f->triangles.tags, plain_file->triangles.tags);
+    EXPECT_EQ(f->triangles.tags, (std::vector<std::int32_t>{10, 20}));
+    EXPECT_EQ(f->lines.corners, plain_file->lines.corners);
+    EXPECT_EQ(f->lines.corners, (std::vector<std::array<std::int32_t, 2>>{{2, 1}, {3, 0}}))
+        << "in the direction of the group";
+    EXPECT_EQ(f->lines.tags, plain_file->lines.tags);
+    EXPECT_EQ(f->lines.tags, (std::vector<std::int32_t>{31, 32}));
+    EXPECT_EQ(f->marked_points.tags, plain_file->marked_points.tags);
+    EXPECT_EQ(f->marked_points.tags, std::vector<std::int32_t>{40});
+    ASSERT_EQ(f->lines.data.size(), 1u);
+    EXPECT_EQ(f->lines.data[0].values, plain_file->lines.data.at(0).values) << "entities that the partition divided";
+    const auto partition = std::find_if(f->triangles.data.begin(), f->triangles.data.end(),
                                         [](const DataArray& a) { return a.name == "gmsh:partition"; });
-    ASSERT_NE(partition, f->cell_data.end());
+    ASSERT_NE(partition, f->triangles.data.end());
     EXPECT_EQ(std::get<std::vector<std::int32_t>>(partition->values), (std::vector<std::int32_t>{1, 2}));
     ASSERT_EQ(f->warnings.size(), 1u);
     EXPECT_EQ(plain(f->warnings[0]), "parts.msh: 3 elements that the partition added are left out");
@@ -395,11 +396,11 @@ TEST_F(FileTest, PartitionsOfVersion2AreDataAndTheEdgesBetweenThemAreLeftOut) {
                                "3 1 5 9 8 2 2 -1 10 20\n4 2 4 5 1 1 2 10 20 30\n5 2 5 5 1 2 3 -2 10 30 7\n"
                                "$EndElements\n"));
   ASSERT_TRUE(f) << f.error().what();
-  EXPECT_EQ(f->line_tags, (std::vector<std::int32_t>{30, 9})) << "a ghost is not between partitions";
-  EXPECT_EQ(f->regions, (std::vector<std::int32_t>{5, 5}));
-  ASSERT_FALSE(f->cell_data.empty());
-  EXPECT_EQ(f->cell_data[0].name, "gmsh:partition");
-  EXPECT_EQ(std::get<std::vector<std::int32_t>>(f->cell_data[0].values), (std::vector<std::int32_t>{2, 3}));
+  EXPECT_EQ(f->lines.tags, (std::vector<std::int32_t>{30, 9})) << "a ghost is not between partitions";
+  EXPECT_EQ(f->triangles.tags, (std::vector<std::int32_t>{5, 5}));
+  ASSERT_FALSE(f->triangles.data.empty());
+  EXPECT_EQ(f->triangles.data[0].name, "gmsh:partition");
+  EXPECT_EQ(std::get<std::vector<std::int32_t>>(f->triangles.data[0].values), (std::vector<std::int32_t>{2, 3}));
   ASSERT_EQ(f->warnings.size(), 1u);
   EXPECT_EQ(plain(f->warnings[0]), "m.msh: 1 element that the partition added is left out");
 }

@@ -36,12 +36,12 @@ using Group = std::pair<int, std::int32_t>;  // dimension and tag
 std::map<Group, double> measures(const MeshFile& f) {
   std::map<Group, double> sums;
   const auto at = [&](std::int32_t p) { return f.points[static_cast<std::size_t>(p)]; };
-  for (const std::int32_t tag : f.point_tags) sums[{0, tag}] += 1;
+  for (const std::int32_t tag : f.marked_points.tags) sums[{0, tag}] += 1;
   for (std::size_t i = 0; i < f.lines.size(); ++i)
-    sums[{1, f.line_tags[i]}] += length(at(f.lines[i][1]) - at(f.lines[i][0]));
-  for (std::size_t t = 0; t < f.regions.size(); ++t) {
+    sums[{1, f.lines.tags[i]}] += length(at(f.lines[i][1]) - at(f.lines[i][0]));
+  for (std::size_t t = 0; t < f.triangles.tags.size(); ++t) {
     const auto [a, b, c] = f.triangles[t];
-    sums[{2, f.regions[t]}] += 0.5 * cross(at(b) - at(a), at(c) - at(a));
+    sums[{2, f.triangles.tags[t]}] += 0.5 * cross(at(b) - at(a), at(c) - at(a));
   }
   return sums;
 }
@@ -207,8 +207,8 @@ TEST(MarkedPoints, AreFixedUnlessTheyListVertices) {
   }
   const auto with = [&](std::vector<std::int32_t> points, std::vector<std::int32_t> tags) {
     MeshFile f = plain;
-    f.marked_points = std::move(points);
-    f.point_tags = std::move(tags);
+    f.marked_points.corners = std::move(points);
+    f.marked_points.tags = std::move(tags);
     return f;
   };
   using Fixed = std::vector<std::size_t>;
@@ -223,8 +223,8 @@ TEST(MarkedPoints, AreFixedUnlessTheyListVertices) {
   tags.insert(tags.end(), {2, 1});
   EXPECT_EQ(fixed_points(with(points, tags)), (Fixed{12})) << "Triangle marks the boundary, and the user a well";
   MeshFile levee = with({6, 7, 8}, {9, 9, 9});
-  levee.lines = {{5, 6}, {6, 11}};
-  levee.line_tags = {9, 9};
+  levee.lines.corners = {{5, 6}, {6, 11}};
+  levee.lines.tags = {9, 9};
   EXPECT_EQ(fixed_points(levee), Fixed{}) << "the points of a line";
   levee.names = {{0, 9, "gauges"}};
   EXPECT_EQ(fixed_points(levee), (Fixed{6, 7, 8})) << "their own name says otherwise";
@@ -265,8 +265,8 @@ TEST_F(Groups, HaveTheCellsThatTheirPointsAndLinesAreIn) {
   for (std::size_t i = 0; i < f.lines.size(); ++i) {
     const Vec2 a = f.points[static_cast<std::size_t>(f.lines[i][0])],
                b = f.points[static_cast<std::size_t>(f.lines[i][1])];
-    std::string name = std::to_string(f.line_tags[i]);
-    for (const PhysicalName& n : f.names) name = n.dimension == 1 && n.tag == f.line_tags[i] ? n.name : name;
+    std::string name = std::to_string(f.lines.tags[i]);
+    for (const PhysicalName& n : f.names) name = n.dimension == 1 && n.tag == f.lines.tags[i] ? n.name : name;
     expected[name] += length(b - a);
     for (int k = 0; k < kSamples; ++k)
       sampled[{name, owner(mesh, a + ((k + 0.5) / kSamples) * (b - a))}] += length(b - a) / kSamples;
@@ -284,9 +284,9 @@ TEST_F(Groups, HaveTheCellsThatTheirPointsAndLinesAreIn) {
 TEST_F(Groups, HaveTheCellsOfThirdVerticesThatALinePasses) {
   MeshFile f;
   f.points = {{0, 0}, {4, 0}, {2, 0.5}, {2, -9}};
-  f.triangles = {{0, 1, 2}, {1, 0, 3}};
-  f.lines = {{1, 0}};
-  f.line_tags = {5};
+  f.triangles.corners = {{0, 1, 2}, {1, 0, 3}};
+  f.lines.corners = {{1, 0}};
+  f.lines.tags = {5};
   const auto loaded = make_mesh(f);
   ASSERT_TRUE(loaded);
   const std::vector<GroupCell> cells = cells_of_groups(f, *loaded, loaded->mesh);

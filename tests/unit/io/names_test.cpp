@@ -88,7 +88,7 @@ TEST_F(Names, MadeByHandWithControlCharactersAreRefusedInWriting) {
   for (const Format& format : formats()) {
     if (!format.writes) continue;
     MeshFile f = tamed(rich_sample());
-    f.cell_data[0].name = kNasty;
+    f.triangles.data[0].name = kNasty;
     const auto written = write(path("m.out"), f, {std::string(format.name), {}});
     ASSERT_FALSE(written) << format.name;
     EXPECT_EQ(plain(written.error().what()), "m.out: the mesh to be written has the name '" + std::string(kPlain) +

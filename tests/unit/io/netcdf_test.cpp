@@ -124,8 +124,8 @@ MeshFile bent_lattice() {
   for (int j = 0; j < kRows; ++j) {
     for (int i = 0; i < kColumns; ++i) {
       const int a = j * (kColumns + 1) + i, d = a + kColumns + 1;
-      f.triangles.push_back({a, a + 1, d});
-      f.triangles.push_back({a + 1, d + 1, d});
+      f.triangles.corners.push_back({a, a + 1, d});
+      f.triangles.corners.push_back({a + 1, d + 1, d});
     }
   }
   return f;
@@ -414,7 +414,7 @@ TEST_F(NetcdfFormats, MpasOfPeriodicPlanesIsReadBackBitForBit) {
     ASSERT_TRUE(back) << back.error().what();
     EXPECT_EQ(back->periodic()->period, period);
     EXPECT_TRUE(same_bits(back->weights, f.weights));
-    EXPECT_EQ(back->triangles, f.triangles);
+    EXPECT_EQ(back->triangles.corners, f.triangles.corners);
     ASSERT_TRUE(write(path("again.mpas.nc"), *back));
     EXPECT_EQ(slurp(path("again.mpas.nc")), slurp(path("m.mpas.nc")));
     const auto made = make_mesh(*back);
@@ -490,7 +490,7 @@ TEST_F(NetcdfFormats, MpasOfTheSphereIsReadBackBitForBit) {
     EXPECT_EQ(back->space().radius(), 2);
     EXPECT_EQ(back->sphere()->places, f.sphere()->places);
     EXPECT_TRUE(same_bits(back->weights, f.weights));
-    EXPECT_EQ(back->triangles, f.triangles);
+    EXPECT_EQ(back->triangles.corners, f.triangles.corners);
     ASSERT_TRUE(write(path("again.mpas.nc"), *back));
     EXPECT_EQ(slurp(path("again.mpas.nc")), slurp(path("m.mpas.nc")));
   }
@@ -547,11 +547,11 @@ TEST_F(NetcdfFormats, MpasOfOthersGivesTrianglesWeightsAndData) {
   ASSERT_TRUE(f) << f.error().what();
   EXPECT_EQ(f->format, "mpas");
   EXPECT_EQ(f->z(), 3);
-  EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(f->triangles.corners, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
   ASSERT_EQ(f->point_data.size(), 1u);
   EXPECT_EQ(f->point_data[0].name, "bottomDepth");
-  ASSERT_EQ(f->cell_data.size(), 1u);
-  EXPECT_EQ(std::get<std::vector<double>>(f->cell_data[0].values), (std::vector<double>{5, 7}));
+  ASSERT_EQ(f->triangles.data.size(), 1u);
+  EXPECT_EQ(std::get<std::vector<double>>(f->triangles.data[0].values), (std::vector<double>{5, 7}));
   ASSERT_EQ(f->warnings.size(), 1u);
   EXPECT_EQ(plain(f->warnings[0]), "o.nc: 1 vertices of fewer than three cells are no triangles and are left out");
 }
@@ -582,13 +582,13 @@ TEST_F(NetcdfFormats, UgridOfOthersCountsFromOneFillsUpAndMayLieOnItsSide) {
     const auto f = read(path("o.nc"));
     ASSERT_TRUE(f) << f.error().what();
     EXPECT_EQ(f->format, "ugrid");
-    EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(f->triangles.corners, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
     ASSERT_EQ(f->point_data.size(), 1u);
     EXPECT_EQ(f->point_data[0].name, "depth");
     const auto& depths = std::get<std::vector<double>>(f->point_data[0].values);
     EXPECT_EQ(depths[2], 30);
     EXPECT_TRUE(std::isnan(depths[3])) << "missing";
-    ASSERT_EQ(f->cell_data.size(), 1u);
+    ASSERT_EQ(f->triangles.data.size(), 1u);
     EXPECT_EQ(f->numbering->point(0), "point 1");
   }
 }
@@ -613,7 +613,7 @@ TEST_F(NetcdfFormats, UgridMayHaveItsTablesInDoublesFilledUpWithNan) {
   for (const double fill : {-999.0, std::nan("")}) {
     const auto f = with(4, fill);
     ASSERT_TRUE(f) << f.error().what();
-    EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(f->triangles.corners, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
   }
   EXPECT_EQ(plain(with(3.5, -999).error().what()), "o.nc: variable fn has the value 3.5; expected whole numbers");
   EXPECT_EQ(plain(with(HUGE_VAL, -999).error().what()), "o.nc: variable fn has the value inf; expected whole numbers");
@@ -816,7 +816,7 @@ TEST_F(NetcdfFormats, EdgesAloneEncloseTriangles) {
   const auto corners = [](MeshFile file) {
     for (auto& t : file.triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     std::sort(file.triangles.begin(), file.triangles.end());
-    return file.triangles;
+    return file.triangles.corners;
   };
   for (const bool old : {false, true}) {
     net(old, true);
@@ -828,7 +828,7 @@ TEST_F(NetcdfFormats, EdgesAloneEncloseTriangles) {
     const auto with_a_square = read(path("o.nc"));
     ASSERT_TRUE(with_a_square) << with_a_square.error().what();
     EXPECT_EQ(with_a_square->triangles.size(), lattice.triangles.size());
-    EXPECT_EQ(with_a_square->cell_data.back().name, "temper:quadrilateral");
+    EXPECT_EQ(with_a_square->triangles.data.back().name, "temper:quadrilateral");
   }
 }
 
@@ -1197,11 +1197,11 @@ TEST_F(NetcdfFormats, ExodusHasBlocksSetsNamesAndTheLastValues) {
   write_exodus(4, "TRI3");
   const auto f = read(path("o.e"));
   ASSERT_TRUE(f) << f.error().what();
-  EXPECT_EQ(f->regions, (std::vector<std::int32_t>{10, 10, 20, 20}));
+  EXPECT_EQ(f->triangles.tags, (std::vector<std::int32_t>{10, 10, 20, 20}));
   EXPECT_EQ(f->numbering->triangle(3), "triangle 3") << "the number of the element";
-  EXPECT_EQ(f->lines, (std::vector<std::array<std::int32_t, 2>>{{3, 0}}));
-  EXPECT_EQ(f->marked_points, (std::vector<std::int32_t>{2}));
-  EXPECT_EQ(f->point_tags, (std::vector<std::int32_t>{7}));
+  EXPECT_EQ(f->lines.corners, (std::vector<std::array<std::int32_t, 2>>{{3, 0}}));
+  EXPECT_EQ(f->marked_points.corners, (std::vector<std::int32_t>{2}));
+  EXPECT_EQ(f->marked_points.tags, (std::vector<std::int32_t>{7}));
   const std::vector<PhysicalName> expected = {{2, 10, "rock"}, {1, 1, "inflow"}, {0, 7, "well"}};
   ASSERT_EQ(f->names.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -1210,7 +1210,7 @@ TEST_F(NetcdfFormats, ExodusHasBlocksSetsNamesAndTheLastValues) {
     EXPECT_EQ(f->names[i].name, expected[i].name);
   }
   EXPECT_EQ(std::get<std::vector<double>>(f->point_data.at(0).values), (std::vector<double>{1, 2, 3, 4, 5, 6}));
-  const auto& k = std::get<std::vector<double>>(f->cell_data.at(0).values);
+  const auto& k = std::get<std::vector<double>>(f->triangles.data.at(0).values);
   EXPECT_TRUE(std::isnan(k[0]) && std::isnan(k[1]) && k[2] == 8 && k[3] == 9);
   EXPECT_TRUE(make_mesh(*f));
 

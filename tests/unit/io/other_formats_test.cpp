@@ -36,13 +36,13 @@ TEST_F(OtherFormats, JigsawGivesWeightsTagsAndValues) {
                              "1;1;0\n0;1;0\nPOWER=4;1\n0.5\n-0\n1e-300\n-2\nVALUE=4;2\n1;2\n3;4\n5;6\n7;8\n"
                              "EDGE2=1\n0;1;5\nTRIA3=2\n0;1;2;1\n0;2;3;2\nBOUND=1\n1;0;20\n");
   EXPECT_EQ(f.format, "jigsaw");
-  EXPECT_EQ(f.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
-  EXPECT_EQ(f.regions, (Tags{1, 2}));
+  EXPECT_EQ(f.triangles.corners, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(f.triangles.tags, (Tags{1, 2}));
   EXPECT_TRUE(same_bits(f.weights, {0.5, -0.0, 1e-300, -2}));
-  EXPECT_EQ(f.lines, (Lines{{0, 1}}));
-  EXPECT_EQ(f.line_tags, (Tags{5}));
-  EXPECT_EQ(f.marked_points, (Tags{1}));
-  EXPECT_EQ(f.point_tags, (Tags{7}));
+  EXPECT_EQ(f.lines.corners, (Lines{{0, 1}}));
+  EXPECT_EQ(f.lines.tags, (Tags{5}));
+  EXPECT_EQ(f.marked_points.corners, (Tags{1}));
+  EXPECT_EQ(f.marked_points.tags, (Tags{7}));
   ASSERT_EQ(f.point_data.size(), 1u);
   EXPECT_EQ(f.point_data[0].name, "value");
   EXPECT_EQ(f.point_data[0].components, 2);
@@ -53,7 +53,7 @@ TEST_F(OtherFormats, JigsawGivesWeightsTagsAndValues) {
 TEST_F(OtherFormats, JigsawWritesPowerUnderTheValuesOfItsPoints) {
   MeshFile f;
   f.points = {{0, 0}, {1, 0}, {0, 1}};
-  f.triangles = {{0, 1, 2}};
+  f.triangles.corners = {{0, 1, 2}};
   f.weights = {0.25, -0.0, 3};
   ASSERT_TRUE(write(path("m.jigsaw.msh"), f));
   EXPECT_EQ(
@@ -84,8 +84,8 @@ TEST_F(OtherFormats, MeditOfBamgHasTextsInQuotesWhichAreDropped) {
   const MeshFile f = read_ok("m.msh", head +
                                           "Geometry\n\"a.msh\"\nVertices\n3\n0 0 1\n1 0 1\n0 1 1\nTriangles\n1\n"
                                           "1 2 3 4\nSubDomainFromMesh\n1\n3 1 1 0\nEnd\n");
-  EXPECT_EQ(f.triangles, (Triangles{{0, 1, 2}}));
-  EXPECT_EQ(f.regions, (Tags{4}));
+  EXPECT_EQ(f.triangles.corners, (Triangles{{0, 1, 2}}));
+  EXPECT_EQ(f.triangles.tags, (Tags{4}));
   ASSERT_EQ(f.warnings.size(), 3u);
   EXPECT_EQ(plain(f.warnings[1]), "m.msh:9: section 'Geometry' is dropped");
   EXPECT_EQ(refused("m.msh", "MeshVersionFormatted 0\nDimension 2\nGeometry \"a.msh\nVertices\n"),
@@ -97,10 +97,10 @@ TEST_F(OtherFormats, MeditOfBamgHasTextsInQuotesWhichAreDropped) {
 TEST_F(OtherFormats, ObjWithARegionOfTag0IsWrittenAsItWas) {
   const std::string content = "v 0 0 0\nv 1 0 0\nv 0 1 0\ng region_0\nf 1 2 3\n";
   const MeshFile f = read_ok("m.obj", content);
-  EXPECT_EQ(f.regions, Tags{0});
+  EXPECT_EQ(f.triangles.tags, Tags{0});
   ASSERT_TRUE(write(path("n.obj"), f));
   EXPECT_EQ(slurp(path("n.obj")), content);
-  EXPECT_TRUE(read_ok("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ng line_2\nf 1 2 3\n").regions.empty());
+  EXPECT_TRUE(read_ok("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ng line_2\nf 1 2 3\n").triangles.tags.empty());
 }
 
 // --- OFF -------------------------------------------------------------------------------------------------------
@@ -111,9 +111,9 @@ TEST_F(OtherFormats, OffWithColorsAndCommentsIsReadAndSaysWhatItDrops) {
                              "0 1 2 0 0 0 255\n3 0 1 2 0.5 0.5 0.5\n3 0 2 3\n");
   EXPECT_EQ(f.format, "off");
   EXPECT_EQ(f.z(), 2);
-  EXPECT_EQ(f.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(f.triangles.corners, (Triangles{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(f.warnings.size(), 2u);
-  EXPECT_EQ(read_ok("m.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").triangles, (Triangles{{0, 1, 2}}));
+  EXPECT_EQ(read_ok("m.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").triangles.corners, (Triangles{{0, 1, 2}}));
 }
 
 TEST_F(OtherFormats, OffOfPolygonsOrInBinaryIsNamed) {
@@ -157,8 +157,8 @@ TEST_F(OtherFormats, BinaryPlyOfBothByteOrdersIsRead) {
     EXPECT_EQ(f.points, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}));
     EXPECT_EQ(f.z(), 0.5);
     EXPECT_TRUE(same_bits(f.weights, {0, 1 / 3.0, 2 / 3.0}));
-    EXPECT_EQ(f.triangles, (Triangles{{0, 1, 2}}));
-    EXPECT_EQ(f.regions, (Tags{-7}));
+    EXPECT_EQ(f.triangles.corners, (Triangles{{0, 1, 2}}));
+    EXPECT_EQ(f.triangles.tags, (Tags{-7}));
     ASSERT_EQ(f.point_data.size(), 1u);
     EXPECT_EQ(std::get<std::vector<std::uint8_t>>(f.point_data[0].values), (std::vector<std::uint8_t>{250, 251, 252}));
     ASSERT_EQ(f.warnings.size(), 1u);
@@ -171,12 +171,12 @@ TEST_F(OtherFormats, PlyFacesOfTwoCornersAndOneAreLinesAndMarkedPoints) {
       "m.ply",
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nelement face 3\nproperty list "
       "uchar int vertex_indices\nproperty int region\nend_header\n0 0\n1 0\n0 1\n2 0 1 5\n3 0 1 2 6\n1 2 7\n");
-  EXPECT_EQ(f.triangles, (Triangles{{0, 1, 2}}));
-  EXPECT_EQ(f.lines, (Lines{{0, 1}}));
-  EXPECT_EQ(f.marked_points, (Tags{2}));
-  EXPECT_EQ(f.regions, (Tags{6}));
-  EXPECT_EQ(f.line_tags, (Tags{5}));
-  EXPECT_EQ(f.point_tags, (Tags{7}));
+  EXPECT_EQ(f.triangles.corners, (Triangles{{0, 1, 2}}));
+  EXPECT_EQ(f.lines.corners, (Lines{{0, 1}}));
+  EXPECT_EQ(f.marked_points.corners, (Tags{2}));
+  EXPECT_EQ(f.triangles.tags, (Tags{6}));
+  EXPECT_EQ(f.lines.tags, (Tags{5}));
+  EXPECT_EQ(f.marked_points.tags, (Tags{7}));
 }
 
 TEST_F(OtherFormats, PlyMayHaveCoordinatesInUpperCase) {
@@ -234,17 +234,17 @@ const std::string kFort14 =
 TEST_F(OtherFormats, Fort14GivesDepthsAndBoundariesByTheirNumbers) {
   const MeshFile f = read_ok("fort.14", kFort14);
   EXPECT_EQ(f.format, "adcirc");
-  EXPECT_EQ(f.triangles, (Triangles{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}));
+  EXPECT_EQ(f.triangles.corners, (Triangles{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}));
   ASSERT_EQ(f.point_data.size(), 1u);
   EXPECT_EQ(f.point_data[0].name, "depth");
   EXPECT_EQ(std::get<std::vector<double>>(f.point_data[0].values), (std::vector<double>{1.5, 2.5, -3, 4, 5}));
-  EXPECT_EQ(f.lines, (Lines{{0, 1}, {1, 2}, {2, 3}, {3, 0}}));
-  EXPECT_EQ(f.line_tags, (Tags{1, 2, 2, 3}));
+  EXPECT_EQ(f.lines.corners, (Lines{{0, 1}, {1, 2}, {2, 3}, {3, 0}}));
+  EXPECT_EQ(f.lines.tags, (Tags{1, 2, 2, 3}));
   ASSERT_EQ(f.names.size(), 3u);
   EXPECT_EQ(f.names[0].name, "open boundary 1");
   EXPECT_EQ(f.names[1].name, "land boundary 1, type 20");
   EXPECT_EQ(f.names[2].name, "land boundary 2, type 23");
-  EXPECT_EQ(f.marked_points, (Tags{3, 0}));
+  EXPECT_EQ(f.marked_points.corners, (Tags{3, 0}));
 }
 
 TEST_F(OtherFormats, Fort14BoundariesGoThroughVtuAndComeBack) {
@@ -269,8 +269,8 @@ TEST_F(OtherFormats, Fort14ClosesIslandsAndKeepsPairsOfLevees) {
       "two halves\n2 6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1.1 0 0\n5 1.1 1 0\n6 0.1 1 0\n1 3 1 2 3\n2 3 4 5 6\n"
       "0\n0\n2\n7\n3 1\n1\n2\n3\n2 24\n4 2 1 2 3\n6 3 4 5 6\n";
   const MeshFile f = read_ok("fort.14", content);
-  EXPECT_EQ(f.lines, (Lines{{0, 1}, {1, 2}, {2, 0}, {3, 5}}));
-  EXPECT_EQ(f.marked_points, (Tags{3, 1, 5, 2})) << "a node and its partner";
+  EXPECT_EQ(f.lines.corners, (Lines{{0, 1}, {1, 2}, {2, 0}, {3, 5}}));
+  EXPECT_EQ(f.marked_points.corners, (Tags{3, 1, 5, 2})) << "a node and its partner";
   const auto warnings = write(path("n.14"), f);
   ASSERT_TRUE(warnings);
   const std::string out = slurp(path("n.14"));
@@ -314,13 +314,13 @@ TEST_F(OtherFormats, Fort14StringsComeBackAsTheyWere) {
   EXPECT_NE(slurp(path("n.14")).find("land boundary 2\n4\n1\n2\n2\n5\n1\n4\n"), std::string::npos);
   // Without the data that a fort.14 brings, the domain is on the left, and strings end where the boundary does.
   MeshFile drawn = f;
-  drawn.line_data.clear();
+  drawn.lines.data.clear();
   ASSERT_TRUE(write(path("n.14"), drawn));
   EXPECT_NE(slurp(path("n.14")).find("type of open boundary 1\n3\n12\n"), std::string::npos);
 }
 
 TEST_F(OtherFormats, Fort14OfOrdinaryStringsNeedsNoDataOfItsLines) {
-  EXPECT_TRUE(read_ok("fort.14", kFort14).line_data.empty());
+  EXPECT_TRUE(read_ok("fort.14", kFort14).lines.data.empty());
 }
 
 TEST_F(OtherFormats, Fort14OfSchismHasNoTypesOfLandBoundaries) {
@@ -328,7 +328,7 @@ TEST_F(OtherFormats, Fort14OfSchismHasNoTypesOfLandBoundaries) {
   const std::string warning = "hgrid.gr3: 2 land boundaries have no type, which SCHISM reads none of: read as type 0";
   for (const std::string after : {"", " = Number of nodes", " !"}) {
     const MeshFile f = read_ok("hgrid.gr3", head + "3" + after + "\n1\n2\n3\n2" + after + "\n4\n1\n");
-    EXPECT_EQ(f.lines, (Lines{{0, 1}, {1, 2}, {3, 0}}));
+    EXPECT_EQ(f.lines.corners, (Lines{{0, 1}, {1, 2}, {3, 0}}));
     ASSERT_EQ(f.names.size(), 2u);
     EXPECT_EQ(f.names[0].name, "land boundary 1, type 0");
     ASSERT_EQ(f.warnings.size(), 1u);
@@ -346,8 +346,8 @@ TEST_F(OtherFormats, Fort14IsWhatTheSuffixGr3Means) {
 TEST_F(OtherFormats, Fort14IslandsAreNotClosedByWhatIsNoEdge) {
   const std::string square = "two\n2 4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n1 3 1 2 3\n2 3 1 3 4\n0\n0\n2\n7\n";
   const MeshFile f = read_ok("fort.14", square + "3 1\n4\n1\n2\n4 21\n1\n2\n3\n4\n");
-  EXPECT_EQ(f.lines, (Lines{{3, 0}, {0, 1}, {0, 1}, {1, 2}, {2, 3}, {3, 0}})) << "from 2 to 4 there is no edge";
-  EXPECT_EQ(f.line_tags, (Tags{1, 1, 2, 2, 2, 2}));
+  EXPECT_EQ(f.lines.corners, (Lines{{3, 0}, {0, 1}, {0, 1}, {1, 2}, {2, 3}, {3, 0}})) << "from 2 to 4 there is no edge";
+  EXPECT_EQ(f.lines.tags, (Tags{1, 1, 2, 2, 2, 2}));
   const auto made = make_mesh(f);
   ASSERT_TRUE(made);
   EXPECT_TRUE(made->warnings.empty());
@@ -405,7 +405,7 @@ TEST_F(OtherFormats, Fort14OfLinesWithoutAKindSaysWhatItMakesOfThem) {
   EXPECT_NE(all.find("m.14: 1 lines that are not on the boundary"), std::string::npos) << all;
   const auto g = read(path("m.14"));
   ASSERT_TRUE(g) << g.error().what();
-  EXPECT_EQ(g->lines, (Lines{{0, 1}, {1, 2}})) << "with the domain on their left";
+  EXPECT_EQ(g->lines.corners, (Lines{{0, 1}, {1, 2}})) << "with the domain on their left";
 }
 
 TEST_F(OtherFormats, BadFort14IsNamed) {
@@ -429,10 +429,10 @@ TEST_F(OtherFormats, MeshesOfSmsHaveHeightsMaterialsAndNamedStrings) {
       "ND 10 0 0 -5\nND 20 10 0 -6.5\nND 30 10 10 1\nND 40 0 10 0\nNS 20 30\nNS -40 7 \"sea side\"\nBEGPARAMDEF\n";
   const MeshFile f = read_ok("m.2dm", content);
   EXPECT_EQ(f.format, "2dm");
-  EXPECT_EQ(f.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
-  EXPECT_EQ(f.regions, (Tags{2, 3}));
-  EXPECT_EQ(f.lines, (Lines{{1, 2}, {2, 3}}));
-  EXPECT_EQ(f.line_tags, (Tags{7, 7}));
+  EXPECT_EQ(f.triangles.corners, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(f.triangles.tags, (Tags{2, 3}));
+  EXPECT_EQ(f.lines.corners, (Lines{{1, 2}, {2, 3}}));
+  EXPECT_EQ(f.lines.tags, (Tags{7, 7}));
   ASSERT_EQ(f.names.size(), 1u);
   EXPECT_EQ(f.names[0].name, "sea side");
   ASSERT_EQ(f.warnings.size(), 2u);
@@ -562,9 +562,9 @@ TEST_F(OtherFormats, FesomFilesBesideTheMeshAreReadOrNamed) {
   ASSERT_EQ(f->point_data.size(), 2u);
   EXPECT_EQ(f->point_data[1].name, "cavity_depth@node");
   EXPECT_EQ(f->point_data[1].values, Values(std::vector<double>{-294.5, 0, -100, -7}));
-  ASSERT_EQ(f->cell_data.size(), 1u);
-  EXPECT_EQ(f->cell_data[0].name, "windstress@elem");
-  EXPECT_EQ(f->cell_data[0].components, 2);
+  ASSERT_EQ(f->triangles.data.size(), 1u);
+  EXPECT_EQ(f->triangles.data[0].name, "windstress@elem");
+  EXPECT_EQ(f->triangles.data[0].components, 2);
   ASSERT_EQ(f->warnings.size(), 1u);
   EXPECT_EQ(plain(f->warnings[0]),
             "depth@node.out: has 3 numbers for 4 points, and is left out. Next: see whether it is of this mesh");
@@ -581,7 +581,7 @@ TEST_F(OtherFormats, FesomFilesBesideTheMeshAreReadOrNamed) {
 
   MeshFile moved = *f;
   std::get<std::vector<double>>(moved.point_data[1].values)[1] = -3;
-  moved.cell_data.clear();
+  moved.triangles.data.clear();
   const auto in_place = write(path("nod2d.out"), moved);
   ASSERT_TRUE(in_place) << in_place.error().what();
   EXPECT_EQ(slurp(path("cavity_depth@node.out")), "-294.5\n-3\n-100\n-7\n");
@@ -598,7 +598,7 @@ TEST_F(OtherFormats, FesomKeepsDepthsWithoutLevels) {
   MeshFile f;
   f.points = {{0, 0}, {1, 0}, {0, 1}};
   f.points_in = DegreePoints{};
-  f.triangles = {{0, 1, 2}};
+  f.triangles.corners = {{0, 1, 2}};
   f.point_data = {{"depth", 1, std::vector<double>{10, 20, 30}}};
   ASSERT_TRUE(project(f, "sphere"));
   const auto warnings = write(path("m.nod2d.out"), f);

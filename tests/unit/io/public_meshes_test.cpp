@@ -31,7 +31,7 @@ TEST(PublicMeshes, AreReadWithTheirNumbersOfVerticesAndTriangles) {
     EXPECT_EQ(made->mesh.n_vertices(), expected.vertices) << expected.file;
     EXPECT_EQ(made->mesh.n_triangles(), expected.triangles) << expected.file;
     EXPECT_EQ(made->reversed_triangles, expected.reversed) << expected.file;
-    std::vector<std::int32_t> regions = f->regions;
+    std::vector<std::int32_t> regions = f->triangles.tags;
     std::sort(regions.begin(), regions.end());
     const auto distinct = std::unique(regions.begin(), regions.end()) - regions.begin();
     EXPECT_EQ(std::max<std::ptrdiff_t>(distinct, 1), static_cast<std::ptrdiff_t>(expected.regions)) << expected.file;
@@ -56,7 +56,7 @@ TEST_F(PublicFiles, GoThroughEveryFormatWithoutLosingABitOfPointsAndTriangles) {
       ASSERT_TRUE(g) << g.error().what();
       EXPECT_EQ(g->format, format.name);
       EXPECT_EQ(g->points, f->points) << name << " as " << format.name;
-      EXPECT_EQ(g->triangles, f->triangles) << name << " as " << format.name;
+      EXPECT_EQ(g->triangles.corners, f->triangles.corners) << name << " as " << format.name;
       ++trips;
     }
   }
@@ -71,9 +71,9 @@ TEST(PublicMeshes, KeepTheirNamesAndLines) {
   EXPECT_EQ(f->names[0].name, "exter");
   EXPECT_EQ(f->names[0].tag, 7);
   EXPECT_EQ(f->lines.size(), 22u);
-  EXPECT_EQ(
-      std::count(f->line_tags.begin(), f->line_tags.end(), 7) + std::count(f->line_tags.begin(), f->line_tags.end(), 8),
-      22);
+  EXPECT_EQ(std::count(f->lines.tags.begin(), f->lines.tags.end(), 7) +
+                std::count(f->lines.tags.begin(), f->lines.tags.end(), 8),
+            22);
   const std::string inner[] = {"inter"};
   const auto made = make_mesh(*f, inner);
   ASSERT_TRUE(made) << made.error().what();

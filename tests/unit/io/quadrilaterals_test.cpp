@@ -67,8 +67,8 @@ TEST_F(Quadrilaterals, AreInEveryFormatWhatTheyWere) {
   EXPECT_EQ(cycles(f), kCycles);
   EXPECT_EQ(f.numbering->triangle(3), "triangle 2") << "the number of the element";
   EXPECT_EQ(f.numbering->triangle(4), "triangle 3");
-  f.regions = {7, 7, 8, 8, 1, 2, 3, 4};
-  f.cell_data.push_back({"roughness", 1, std::vector<double>{5, 5, 6, 6, 1, 2, 3, 4}});
+  f.triangles.tags = {7, 7, 8, 8, 1, 2, 3, 4};
+  f.triangles.data.push_back({"roughness", 1, std::vector<double>{5, 5, 6, 6, 1, 2, 3, 4}});
   const std::vector<double> of_faces = {1, 2, 3, 4, 5, 5, 6, 6};  // triangles come first
   for (const std::string& format : formats_with_quadrilaterals()) {
     for (const auto encoding : {Encoding::ascii, Encoding::base64, Encoding::appended}) {
@@ -78,10 +78,10 @@ TEST_F(Quadrilaterals, AreInEveryFormatWhatTheyWere) {
       EXPECT_EQ(again.points.size(), 9u);
       EXPECT_EQ(cycles(again), kCycles);
       if (format == "adcirc") continue;  // without regions
-      auto regions = again.regions;
+      auto regions = again.triangles.tags;
       std::ranges::sort(regions);
       EXPECT_EQ(regions, (Tags{1, 2, 3, 4, 7, 7, 8, 8}));
-      for (const auto& a : again.cell_data) {
+      for (const auto& a : again.triangles.data) {
         if (a.name != "roughness") continue;
         auto values = std::get<std::vector<double>>(a.values);
         std::ranges::sort(values);

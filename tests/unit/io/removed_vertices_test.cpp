@@ -17,25 +17,25 @@ constexpr int kSquares = 6;
 MeshFile grid() {
   MeshFile f = from_mesh(*sheared_grid({kSquares, kSquares, 0.25}));
   const auto at = [](int x, int y) { return y * (kSquares + 1) + x; };
-  f.regions.clear();
+  f.triangles.tags.clear();
   std::vector<std::int32_t> material, number;
   for (std::size_t t = 0; t < f.triangles.size(); ++t) {
     int low = kSquares;
     for (const std::int32_t p : f.triangles[t]) low = std::min(low, p % (kSquares + 1));
-    f.regions.push_back(low < kSquares / 2 ? 1 : 2);
-    material.push_back(10 * f.regions.back());
+    f.triangles.tags.push_back(low < kSquares / 2 ? 1 : 2);
+    material.push_back(10 * f.triangles.tags.back());
     number.push_back(static_cast<std::int32_t>(t));
   }
-  f.lines.clear();
-  f.line_tags.clear();
+  f.lines.corners.clear();
+  f.lines.tags.clear();
   for (int i = 0; i < kSquares; ++i) {
-    f.lines.push_back({at(i, 0), at(i + 1, 0)});
-    f.line_tags.push_back(4);
-    f.lines.push_back({at(kSquares / 2, i), at(kSquares / 2, i + 1)});
-    f.line_tags.push_back(9);
+    f.lines.corners.push_back({at(i, 0), at(i + 1, 0)});
+    f.lines.tags.push_back(4);
+    f.lines.corners.push_back({at(kSquares / 2, i), at(kSquares / 2, i + 1)});
+    f.lines.tags.push_back(9);
   }
-  f.marked_points = {at(0, 0), at(2, 2)};
-  f.point_tags = {11, 12};
+  f.marked_points.corners = {at(0, 0), at(2, 2)};
+  f.marked_points.tags = {11, 12};
   std::vector<double> temperature, id;
   f.weights.resize(f.points.size());
   for (std::size_t p = 0; p < f.points.size(); ++p) {
@@ -44,7 +44,7 @@ MeshFile grid() {
     id.push_back(static_cast<double>(p));
   }
   f.point_data = {{"temperature", 1, temperature}, {"id", 1, id}};
-  f.cell_data = {{"material", 1, material}, {"number", 1, number}};
+  f.triangles.data = {{"material", 1, material}, {"number", 1, number}};
   return f;
 }
 
@@ -77,7 +77,7 @@ std::map<Line, std::int32_t> tagged_lines(const MeshFile& f) {
   for (std::size_t i = 0; i < f.lines.size(); ++i) {
     Line line = {place(f, f.lines[i][0]), place(f, f.lines[i][1])};
     if (line.second < line.first) std::swap(line.first, line.second);
-    lines[line] = f.line_tags[i];
+    lines[line] = f.lines.tags[i];
   }
   return lines;
 }
@@ -124,7 +124,7 @@ TEST_P(RemovedVertices, TheOthersKeepTheirDataTagsAndWeights) {
     }
   }
   if ((find_row(GetParam())->holds & kRegions) != 0) {
-    EXPECT_EQ(again->regions.size(), again->triangles.size());
+    EXPECT_EQ(again->triangles.tags.size(), again->triangles.size());
   }
 
   auto lines = tagged_lines(before);
@@ -218,7 +218,7 @@ Vec2 middle_of(const MeshFile& f, const std::array<std::int32_t, 2>& line) {
 bool is_on_a_line_of_tag(const MeshFile& f, Vec2 at, std::int32_t tag) {
   for (std::size_t i = 0; i < f.lines.size(); ++i) {
     const Vec2 a = end_of(f, f.lines[i][0]), b = end_of(f, f.lines[i][1]);
-    if (f.line_tags[i] == tag && length(at - a) + length(b - at) < length(b - a) + 1e-12) return true;
+    if (f.lines.tags[i] == tag && length(at - a) + length(b - at) < length(b - a) + 1e-12) return true;
   }
   return false;
 }
@@ -274,7 +274,7 @@ TEST_P(InsertedVertices, GetDataAndCutLinesKeepTheirTagOnAllPieces) {
   EXPECT_EQ(tag_between(1, 2), -1);
   if (adcirc) return;
   for (std::size_t i = 0; i < again->lines.size(); ++i) {
-    EXPECT_TRUE(is_on_a_line_of_tag(before, middle_of(*again, again->lines[i]), again->line_tags[i])) << "line " << i;
+    EXPECT_TRUE(is_on_a_line_of_tag(before, middle_of(*again, again->lines[i]), again->lines.tags[i])) << "line " << i;
   }
   constexpr std::size_t kRow = kSquares + 1, kHalf = kSquares / 2;
   EXPECT_EQ(tag_between(index_of(*again, before.points[2 * kRow + kHalf]), middle), 9);
@@ -308,10 +308,11 @@ TEST_F(FileTest, MarkersOfBoundaryPointsGoToPointsBetweenThemWhereFormatsMarkThe
   for (const char* format : {"triangle", "medit", "gmsh41"}) {
     MeshFile f = grid();
     f.format = format;
-    f.marked_points.clear();
-    f.point_tags.clear();
-    for (int i = 0; i <= kSquares; ++i) f.marked_points.push_back(i), f.point_tags.push_back(i < 2 ? 5 : 6);
-    f.point_tags[1] = 6;
+    f.marked_points.corners.clear();
+    f.marked_points.tags.clear();
+    for (int i = 0; i <= kSquares; ++i)
+      f.marked_points.corners.push_back(i), f.marked_points.tags.push_back(i < 2 ? 5 : 6);
+    f.marked_points.tags[1] = 6;
     auto loaded = make_mesh(f);
     ASSERT_TRUE(loaded);
     const InsertedAndRemoved changed = insert_and_remove(loaded->mesh);
@@ -319,18 +320,18 @@ TEST_F(FileTest, MarkersOfBoundaryPointsGoToPointsBetweenThemWhereFormatsMarkThe
     const std::string_view name = format;
     const std::size_t more = name == "gmsh41" ? 0 : 2;
     EXPECT_EQ(f.marked_points.size(), kSquares + more) << format;  // one of the bottom was removed
-    EXPECT_EQ(f.point_tags.size(), f.marked_points.size());
-    EXPECT_EQ(f.point_tags.back(), 6);
+    EXPECT_EQ(f.marked_points.tags.size(), f.marked_points.size());
+    EXPECT_EQ(f.marked_points.tags.back(), 6);
   }
 }
 
 // Between them groups would change their shape if it slid.
 TEST_F(FileTest, PointsOfStraightBoundariesWhereTagsEndOrChangeAreFixed) {
   MeshFile f = grid();
-  f.marked_points.clear(), f.point_tags.clear();
-  f.line_tags[6] = 5;  // bottom and middle alternate: the fourth piece of the bottom
-  f.lines.pop_back(), f.line_tags.pop_back();
-  f.lines.pop_back(), f.line_tags.pop_back();  // the last piece of the bottom
+  f.marked_points.corners.clear(), f.marked_points.tags.clear();
+  f.lines.tags[6] = 5;  // bottom and middle alternate: the fourth piece of the bottom
+  f.lines.corners.pop_back(), f.lines.tags.pop_back();
+  f.lines.corners.pop_back(), f.lines.tags.pop_back();  // the last piece of the bottom
   const auto loaded = make_mesh(f);
   ASSERT_TRUE(loaded) << loaded.error().what();
   std::vector<std::size_t> fixed;
@@ -344,23 +345,23 @@ TEST_F(FileTest, PointsOfStraightBoundariesWhereTagsEndOrChangeAreFixed) {
 void tag_the_bottom_twice(MeshFile& f) {
   const std::size_t n = f.lines.size();
   for (std::size_t i = 0; i < n; ++i) {
-    if (f.line_tags[i] != 4) continue;
-    f.lines.push_back(f.lines[i]);
-    f.line_tags.push_back(6);
+    if (f.lines.tags[i] != 4) continue;
+    f.lines.corners.push_back(f.lines[i]);
+    f.lines.tags.push_back(6);
   }
 }
 
 TEST_F(FileTest, EachTagOfAnEdgeFollowsVerticesThatGoOrCome) {
   MeshFile f = grid();
   tag_the_bottom_twice(f);
-  f.marked_points.clear(), f.point_tags.clear();
+  f.marked_points.corners.clear(), f.marked_points.tags.clear();
   auto loaded = make_mesh(f);
   ASSERT_TRUE(loaded);
   for (const VertexId v : loaded->mesh.vertices()) EXPECT_FALSE(loaded->mesh.is_fixed(v)) << "both tags go on";
   const InsertedAndRemoved changed = insert_and_remove(loaded->mesh);
   update(f, *loaded, loaded->mesh, changed.vertices);
   std::map<std::int32_t, std::vector<std::array<std::int32_t, 2>>> lines;
-  for (std::size_t i = 0; i < f.lines.size(); ++i) lines[f.line_tags[i]].push_back(f.lines[i]);
+  for (std::size_t i = 0; i < f.lines.size(); ++i) lines[f.lines.tags[i]].push_back(f.lines[i]);
   EXPECT_EQ(lines.at(4).size(), kSquares + 2u - 1) << "two vertices more and one less";
   EXPECT_EQ(lines.at(6), lines.at(4));
 }
@@ -380,17 +381,17 @@ MeshFile rich_globe() {
   }
   for (std::size_t t = 0; t < f.triangles.size(); ++t) number.push_back(static_cast<std::int32_t>(t));
   f.point_data = {{"height", 1, height}, {"basin", 1, basin}};
-  f.cell_data = {{"number", 1, number}};
-  f.lines.clear(), f.line_tags.clear();
+  f.triangles.data = {{"number", 1, number}};
+  f.lines.corners.clear(), f.lines.tags.clear();
   std::vector<double> wall;
   for (std::size_t t = 0; t < 40; ++t) {
-    f.lines.push_back({f.triangles[t][0], f.triangles[t][1]});
-    f.line_tags.push_back(static_cast<std::int32_t>(t % 3));
+    f.lines.corners.push_back({f.triangles[t][0], f.triangles[t][1]});
+    f.lines.tags.push_back(static_cast<std::int32_t>(t % 3));
     wall.push_back(static_cast<double>(t));
   }
-  f.line_data = {{"wall", 1, wall}};
-  f.marked_points = {f.triangles[7][0], static_cast<std::int32_t>(f.points.size() - 1)};
-  f.point_tags = {11, 12};
+  f.lines.data = {{"wall", 1, wall}};
+  f.marked_points.corners = {f.triangles[7][0], static_cast<std::int32_t>(f.points.size() - 1)};
+  f.marked_points.tags = {11, 12};
   return f;
 }
 
@@ -447,12 +448,12 @@ TEST(VerticesOfTheSphere, ThatAreNotToldAreKnownByTheirPlace) {
                  b = f.sphere()->places[static_cast<std::size_t>(f.lines[i][1])];
       return std::array{a.x, a.y, a.z, b.x, b.y, b.z};
     };
-    for (std::size_t i = 0; i < before.lines.size(); ++i) lines[ends(before, i)] = before.line_tags[i];
+    for (std::size_t i = 0; i < before.lines.size(); ++i) lines[ends(before, i)] = before.lines.tags[i];
     ASSERT_GT(not_told.lines.size(), 0u);
     for (std::size_t i = 0; i < not_told.lines.size(); ++i) {
       const auto found = lines.find(ends(not_told, i));
       ASSERT_NE(found, lines.end()) << "a line with other ends";
-      EXPECT_EQ(found->second, not_told.line_tags[i]);
+      EXPECT_EQ(found->second, not_told.lines.tags[i]);
     }
     EXPECT_TRUE(make_mesh(not_told));
   }

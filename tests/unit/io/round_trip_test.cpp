@@ -55,9 +55,9 @@ TEST_P(RoundTrip, OfGeometryWeightsRegionsAndTagsLosesNoBit) {
     EXPECT_TRUE(!lost || warnings.find(what) != std::string::npos) << warnings;
     return lost;
   };
-  if (is_lost(kRegions, "regions")) f.regions.clear();
-  if (is_lost(kLines, "lines")) f.lines = g.lines, f.line_tags = g.line_tags;
-  if (is_lost(kMarkedPoints, "marked points")) f.marked_points.clear(), f.point_tags.clear();
+  if (is_lost(kRegions, "regions")) f.triangles.tags.clear();
+  if (is_lost(kLines, "lines")) f.lines.corners = g.lines.corners, f.lines.tags = g.lines.tags;
+  if (is_lost(kMarkedPoints, "marked points")) f.marked_points.corners.clear(), f.marked_points.tags.clear();
   expect_same_mesh(f, g);
 }
 
@@ -81,15 +81,15 @@ TEST_P(RoundTrip, WriteReadWriteGivesTheSameBytes) {
 TEST_P(RoundTrip, OfAMeshWithoutWeightsOrTagsAddsNone) {
   MeshFile f;
   f.points = {{0, 0}, {1, 0}, {0, 1}};
-  f.triangles = {{0, 1, 2}};
+  f.triangles.corners = {{0, 1, 2}};
   EXPECT_TRUE(written(f, GetParam().file).empty());
   const MeshFile g = again(GetParam().file);
   EXPECT_EQ(g.points, f.points);
-  EXPECT_EQ(g.triangles, f.triangles);
+  EXPECT_EQ(g.triangles.corners, f.triangles.corners);
   EXPECT_TRUE(g.weights.empty());
   EXPECT_TRUE(g.lines.empty());
   EXPECT_TRUE(g.marked_points.empty());
-  for (const std::int32_t region : g.regions) EXPECT_EQ(region, 0);
+  for (const std::int32_t region : g.triangles.tags) EXPECT_EQ(region, 0);
 }
 
 // What a format cannot hold is named: nothing disappears in silence.
@@ -109,9 +109,9 @@ TEST_P(RoundTrip, EveryArrayThatDoesNotComeBackIsNamedInAWarning) {
     }
   };
   check(f.point_data, g.point_data);
-  check(f.cell_data, g.cell_data);
-  check(f.line_data, g.line_data);
-  check(f.marked_point_data, g.marked_point_data);
+  check(f.triangles.data, g.triangles.data);
+  check(f.lines.data, g.lines.data);
+  check(f.marked_points.data, g.marked_points.data);
   check(f.field_data, g.field_data);
   for (const PhysicalName& n : f.names) {
     const bool same = std::any_of(g.names.begin(), g.names.end(), [&](const PhysicalName& m) {
@@ -175,8 +175,8 @@ TEST_F(FileTest, VtuOfManyBlocksComesBackWhole) {
   for (int j = 0; j < kSide; ++j) {
     for (int i = 0; i < kSide; ++i) {
       const int a = j * (kSide + 1) + i, c = a + kSide + 2;
-      f.triangles.push_back({a, a + 1, c});
-      f.triangles.push_back({a, c, c - 1});
+      f.triangles.corners.push_back({a, a + 1, c});
+      f.triangles.corners.push_back({a, c, c - 1});
     }
   }
   for (const Encoding encoding : {Encoding::ascii, Encoding::base64, Encoding::appended}) {

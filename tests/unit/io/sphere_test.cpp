@@ -39,7 +39,7 @@ TEST_F(SphereFiles, EveryFormatHasTheirPlacesOrSaysThatItCannot) {
       continue;
     }
     MeshFile back = read_back(to);
-    EXPECT_EQ(back.triangles, file.triangles);
+    EXPECT_EQ(back.triangles.corners, file.triangles.corners);
     if (format.name == "ugrid") {
       ++in_degrees;
       EXPECT_TRUE(back.degrees() != nullptr);
@@ -143,7 +143,7 @@ TEST_F(SphereFiles, FesomMarksTheCoastAndCarriesDepths) {
   const auto whole = icosahedral({.level = 1});
   ASSERT_TRUE(whole);
   MeshFile file = from_mesh(*whole);
-  file.triangles.erase(file.triangles.begin());
+  file.triangles.corners.erase(file.triangles.begin());
   file.point_data.push_back({"depth", 1, std::vector<double>(file.points.size(), 4000)});
   file.field_data.push_back({"levels", 1, std::vector<double>{0, -10, -5000}});
   ASSERT_TRUE(write(path("nod2d.out"), file));
@@ -161,7 +161,7 @@ TEST_F(SphereFiles, FesomMarksTheCoastAndCarriesDepths) {
 TEST_F(SphereFiles, DegreesGoOntoTheSphereAndOntoMaps) {
   MeshFile file;
   file.points = {{0, 0}, {90, 0}, {0, 90}, {180, 0}, {-90, 0}, {0, -90}};
-  file.triangles = {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {4, 0, 2}, {1, 0, 5}, {3, 1, 5}, {4, 3, 5}, {0, 4, 5}};
+  file.triangles.corners = {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {4, 0, 2}, {1, 0, 5}, {3, 1, 5}, {4, 3, 5}, {0, 4, 5}};
   file.points_in = DegreePoints{};
   MeshFile sphere = file;
   ASSERT_TRUE(project(sphere, "sphere:radius=2"));
@@ -314,7 +314,7 @@ TEST_F(SphereFiles, SmallPiecesOfSpheresAreNoPlanes) {
   // A meter on the Earth, about a pole: flat to a ten millionth of it, and on the sphere to the last digits.
   MeshFile f;
   for (const double lon : {0.0, 120.0, 240.0}) f.points.push_back({lon, 90 - 1e-5});
-  f.triangles = {{0, 1, 2}};
+  f.triangles.corners = {{0, 1, 2}};
   ASSERT_TRUE(project(f, "sphere"));
   std::get<SpherePoints>(f.points_in).places[0] = f.space().radius() * direction_of(Vec2{0, 90});
   ASSERT_TRUE(write(path("m.obj"), f));

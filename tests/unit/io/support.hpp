@@ -14,7 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "temper/tets/io.hpp"
+#include "support/tet_files.hpp"
+#include "temper/io.hpp"
 
 namespace temper::io {
 
@@ -88,35 +89,34 @@ inline MeshFile sample() {
   f.points_in = PlanePoints{0.7};
   f.weights = {
       0, -0.0, 1.0 / 3, std::numeric_limits<double>::denorm_min(), -1e-300, std::numeric_limits<double>::max()};
-  f.triangles = {{0, 1, 5}, {1, 4, 5}, {1, 2, 4}, {2, 3, 4}};
-  f.regions = {1, 1, 7, -3};
-  f.lines = {{0, 1}, {2, 1}, {2, 4}};
-  f.line_tags = {4, 4, 9};
-  f.marked_points = {0, 3};
-  f.point_tags = {11, 12};
+  f.triangles.corners = {{0, 1, 5}, {1, 4, 5}, {1, 2, 4}, {2, 3, 4}};
+  f.triangles.tags = {1, 1, 7, -3};
+  f.lines.corners = {{0, 1}, {2, 1}, {2, 4}};
+  f.lines.tags = {4, 4, 9};
+  f.marked_points.corners = {0, 3};
+  f.marked_points.tags = {11, 12};
   return f;
 }
 
 /// Two tetrahedra in two regions, with tags and data on everything. Numbers that are hard on text.
-inline TetFile tet_sample() {
-  TetFile f;
-  f.points = {{0, 0, -0.0}, {1, 0, 1.0 / 3}, {0, 0.1 + 0.2, 0}, {0, 0, 1}, {2, 2, 2}};
+inline MeshFile tet_sample() {
+  MeshFile f = test::tet_file({{0, 0, -0.0}, {1, 0, 1.0 / 3}, {0, 0.1 + 0.2, 0}, {0, 0, 1}, {2, 2, 2}},
+                              {{0, 1, 2, 3}, {1, 2, 3, 4}});
   f.weights = {0, 1.0 / 3, -1e-30, 0.25, 7};
-  f.tetrahedra = {{0, 1, 2, 3}, {1, 2, 3, 4}};
-  f.regions = {3, -4};
-  f.faces = {{1, 2, 3}, {0, 2, 1}};
-  f.face_tags = {7, 8};
-  f.lines = {{3, 4}};
-  f.line_tags = {5};
-  f.marked_points = {4, 0};
-  f.point_tags = {2, 9};
+  f.tetrahedra.tags = {3, -4};
+  f.triangles.corners = {{1, 2, 3}, {0, 2, 1}};
+  f.triangles.tags = {7, 8};
+  f.lines.corners = {{3, 4}};
+  f.lines.tags = {5};
+  f.marked_points.corners = {4, 0};
+  f.marked_points.tags = {2, 9};
   f.names = {{0, 9, "corner"}, {1, 5, "pipe"}, {2, 7, "fracture of old"}, {3, 3, "clay"}};
   f.point_data = {{"depth", 1, std::vector<double>{0.1, 2, 3, 4, 1e300}},
                   {"id", 1, std::vector<std::int32_t>{9, 8, 7, 6, 5}}};
-  f.cell_data = {{"flux", 3, std::vector<double>{0.1, 2, 3, 4, 5, 6}}};
-  f.face_data = {{"load", 1, std::vector<double>{0.5, 0.1}}};
-  f.line_data = {{"width", 1, std::vector<double>{0.3}}};
-  f.marked_point_data = {{"rate", 1, std::vector<double>{0.7, 0.9}}};
+  f.tetrahedra.data = {{"flux", 3, std::vector<double>{0.1, 2, 3, 4, 5, 6}}};
+  f.triangles.data = {{"load", 1, std::vector<double>{0.5, 0.1}}};
+  f.lines.data = {{"width", 1, std::vector<double>{0.3}}};
+  f.marked_points.data = {{"rate", 1, std::vector<double>{0.7, 0.9}}};
   return f;
 }
 
@@ -130,17 +130,17 @@ inline MeshFile rich_sample() {
       {"pair", 2,
        std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, std::numeric_limits<std::int64_t>::max()}},
       {"byte", 1, std::vector<std::uint8_t>{0, 1, 2, 253, 254, 255}}};
-  f.cell_data = {{"material", 1, std::vector<std::int32_t>{1, 2, 3, -2147483647}},
-                 {"small", 1, std::vector<std::int8_t>{1, -128, 127, 0}},
-                 {"short", 1, std::vector<std::int16_t>{1, -32768, 32767, 0}},
-                 {"ushort", 1, std::vector<std::uint16_t>{1, 2, 65535, 0}},
-                 {"uint", 1, std::vector<std::uint32_t>{1, 2, 4294967295u, 0}},
-                 {"ulong", 1, std::vector<std::uint64_t>{1, 2, std::numeric_limits<std::uint64_t>::max(), 0}}};
-  f.line_data = {
+  f.triangles.data = {{"material", 1, std::vector<std::int32_t>{1, 2, 3, -2147483647}},
+                      {"small", 1, std::vector<std::int8_t>{1, -128, 127, 0}},
+                      {"short", 1, std::vector<std::int16_t>{1, -32768, 32767, 0}},
+                      {"ushort", 1, std::vector<std::uint16_t>{1, 2, 65535, 0}},
+                      {"uint", 1, std::vector<std::uint32_t>{1, 2, 4294967295u, 0}},
+                      {"ulong", 1, std::vector<std::uint64_t>{1, 2, std::numeric_limits<std::uint64_t>::max(), 0}}};
+  f.lines.data = {
       {"material", 1, std::vector<std::int32_t>{5, 6, 7}}, {"small", 1, std::vector<std::int8_t>{0, 0, 0}},
       {"short", 1, std::vector<std::int16_t>{0, 0, 0}},    {"ushort", 1, std::vector<std::uint16_t>{0, 0, 0}},
       {"uint", 1, std::vector<std::uint32_t>{0, 0, 0}},    {"ulong", 1, std::vector<std::uint64_t>{0, 0, 0}}};
-  f.marked_point_data = {
+  f.marked_points.data = {
       {"material", 1, std::vector<std::int32_t>{8, 9}}, {"small", 1, std::vector<std::int8_t>{0, 0}},
       {"short", 1, std::vector<std::int16_t>{0, 0}},    {"ushort", 1, std::vector<std::uint16_t>{0, 0}},
       {"uint", 1, std::vector<std::uint32_t>{0, 0}},    {"ulong", 1, std::vector<std::uint64_t>{0, 0}}};
@@ -172,9 +172,9 @@ inline void expect_same_data(const std::vector<DataArray>& a, const std::vector<
 /// All that files have besides, bit for bit.
 inline void expect_same_data(const MeshFile& a, const MeshFile& b) {
   expect_same_data(a.point_data, b.point_data, "point data");
-  expect_same_data(a.cell_data, b.cell_data, "cell data");
-  expect_same_data(a.line_data, b.line_data, "line data");
-  expect_same_data(a.marked_point_data, b.marked_point_data, "data of marked points");
+  expect_same_data(a.triangles.data, b.triangles.data, "cell data");
+  expect_same_data(a.lines.data, b.lines.data, "line data");
+  expect_same_data(a.marked_points.data, b.marked_points.data, "data of marked points");
   expect_same_data(a.field_data, b.field_data, "field data");
 }
 
@@ -184,12 +184,12 @@ inline void expect_same_mesh(const MeshFile& a, const MeshFile& b) {
   EXPECT_EQ(std::memcmp(a.points.data(), b.points.data(), a.points.size() * sizeof(Vec2)), 0);
   EXPECT_EQ(a.z(), b.z());
   EXPECT_TRUE(same_bits(a.weights, b.weights));
-  EXPECT_EQ(a.triangles, b.triangles);
-  EXPECT_EQ(a.regions, b.regions);
-  EXPECT_EQ(a.lines, b.lines);
-  EXPECT_EQ(a.line_tags, b.line_tags);
-  EXPECT_EQ(a.marked_points, b.marked_points);
-  EXPECT_EQ(a.point_tags, b.point_tags);
+  EXPECT_EQ(a.triangles.corners, b.triangles.corners);
+  EXPECT_EQ(a.triangles.tags, b.triangles.tags);
+  EXPECT_EQ(a.lines.corners, b.lines.corners);
+  EXPECT_EQ(a.lines.tags, b.lines.tags);
+  EXPECT_EQ(a.marked_points.corners, b.marked_points.corners);
+  EXPECT_EQ(a.marked_points.tags, b.marked_points.tags);
 }
 
 }  // namespace temper::io

@@ -8,6 +8,8 @@
 namespace temper::io {
 namespace {
 
+using test::places_of, test::tet_file;
+
 std::vector<std::string> tet_formats() {
   std::vector<std::string> names;
   for (const Format& format : formats()) {
@@ -21,17 +23,17 @@ std::string tet_file_name(const std::string& format) {
   return "m" + std::string(suffixes.substr(0, suffixes.find(' ')));
 }
 
-std::vector<std::string> names_of(const TetFile& file) {
+std::vector<std::string> names_of(const MeshFile& file) {
   std::vector<std::string> lines;
   for (const PhysicalName& n : file.names)
     lines.push_back(std::to_string(n.dimension) + " " + std::to_string(n.tag) + " " + n.name);
   return lines;
 }
 
-class TetFiles : public FileTest {
+class FilesOfTetrahedra : public FileTest {
  protected:
   /// Writes and reads; the warnings of writing go to `warnings`.
-  TetFile through(const TetFile& file, const std::string& format, Encoding encoding = Encoding::ascii) {
+  MeshFile through(const MeshFile& file, const std::string& format, Encoding encoding = Encoding::ascii) {
     auto written = write(path(tet_file_name(format)), file, {.format = format, .encoding = encoding});
     if (!written) {
       ADD_FAILURE() << written.error().what();
@@ -39,17 +41,17 @@ class TetFiles : public FileTest {
     }
     warnings.clear();
     for (const std::string& warning : *written) warnings += plain(warning) + "\n";
-    auto back = read_any(path(tet_file_name(format)));
-    if (!back || !std::holds_alternative<TetFile>(*back)) {
+    auto back = read(path(tet_file_name(format)));
+    if (!back || back->dimension() != 3) {
       ADD_FAILURE() << format << ": " << (back ? "read as triangles" : back.error().what());
       return {};
     }
-    return std::get<TetFile>(*std::move(back));
+    return *std::move(back);
   }
   std::string error_of(const std::string& name, std::string_view content) {
-    const auto file = read_any(make(name, content));
+    const auto file = read(make(name, content));
     if (!file) return plain(file.error().what());
-    const auto made = make_mesh(std::get<TetFile>(*file));
+    const auto made = make_tet_mesh(*file);
     return made ? std::string() : plain(made.error().what());
   }
   std::string warnings;
@@ -61,26 +63,26 @@ bool has(const std::vector<DataArray>& arrays, const DataArray& wanted) {
   });
 }
 
-TEST_F(TetFiles, GeometryTagsAndWeightsComeBackFromEveryFormat) {
-  const TetFile sample = tet_sample();
+TEST_F(FilesOfTetrahedra, GeometryTagsAndWeightsComeBackFromEveryFormat) {
+  const MeshFile sample = tet_sample();
   ASSERT_GE(tet_formats().size(), 7U);
   for (const std::string& format : tet_formats()) {
     for (const Encoding encoding : {Encoding::ascii, Encoding::base64}) {
       SCOPED_TRACE(format);
-      const TetFile back = through(sample, format, encoding);
-      EXPECT_EQ(back.points, sample.points);
+      const MeshFile back = through(sample, format, encoding);
+      EXPECT_EQ(places_of(back), places_of(sample));
       EXPECT_EQ(back.weights, sample.weights);
-      EXPECT_EQ(back.tetrahedra, sample.tetrahedra);
-      EXPECT_EQ(back.regions, sample.regions);
-      EXPECT_EQ(back.faces, sample.faces);
-      EXPECT_EQ(back.face_tags, sample.face_tags);
-      EXPECT_EQ(back.lines, sample.lines);
-      EXPECT_EQ(back.line_tags, sample.line_tags);
+      EXPECT_EQ(back.tetrahedra.corners, sample.tetrahedra.corners);
+      EXPECT_EQ(back.tetrahedra.tags, sample.tetrahedra.tags);
+      EXPECT_EQ(back.triangles.corners, sample.triangles.corners);
+      EXPECT_EQ(back.triangles.tags, sample.triangles.tags);
+      EXPECT_EQ(back.lines.corners, sample.lines.corners);
+      EXPECT_EQ(back.lines.tags, sample.lines.tags);
       std::vector<std::pair<std::int32_t, std::int32_t>> marks, wanted;
       for (std::size_t i = 0; i < back.marked_points.size(); ++i)
-        marks.emplace_back(back.marked_points[i], back.point_tags[i]);
+        marks.emplace_back(back.marked_points[i], back.marked_points.tags[i]);
       for (std::size_t i = 0; i < sample.marked_points.size(); ++i)
-        wanted.emplace_back(sample.marked_points[i], sample.point_tags[i]);
+        wanted.emplace_back(sample.marked_points[i], sample.marked_points.tags[i]);
       std::sort(marks.begin(), marks.end()), std::sort(wanted.begin(), wanted.end());
       EXPECT_EQ(marks, wanted);
       EXPECT_EQ(back.format, format);
@@ -88,13 +90,13 @@ TEST_F(TetFiles, GeometryTagsAndWeightsComeBackFromEveryFormat) {
   }
 }
 
-TEST_F(TetFiles, CoordinatesOfAnyMagnitudeComeBackFromEveryFormat) {
+TEST_F(FilesOfTetrahedra, CoordinatesOfAnyMagnitudeComeBackFromEveryFormat) {
   for (const double x : {0x1.1p125, -1e154, 1e200, -1e308, 1e-200}) {
-    TetFile sample = tet_sample();
+    MeshFile sample = tet_sample();
     sample.points[1].x = x;
     for (const std::string& format : tet_formats()) {
       SCOPED_TRACE(format);
-      EXPECT_EQ(through(sample, format).points, sample.points);
+      EXPECT_EQ(places_of(through(sample, format)), places_of(sample));
       if (format != "vtu" && format != "vtkhdf") continue;
       const std::string unknown =
           "the quality of tetrahedron 0 and perhaps of others is unknown, and written as the lowest: point 1 has "
@@ -104,35 +106,35 @@ TEST_F(TetFiles, CoordinatesOfAnyMagnitudeComeBackFromEveryFormat) {
   }
 }
 
-TEST_F(TetFiles, NamesAndDataComeBackOrAWarningNamesThem) {
-  const TetFile sample = tet_sample();
+TEST_F(FilesOfTetrahedra, NamesAndDataComeBackOrAWarningNamesThem) {
+  const MeshFile sample = tet_sample();
   for (const std::string& format : tet_formats()) {
     SCOPED_TRACE(format);
-    const TetFile back = through(sample, format);
+    const MeshFile back = through(sample, format);
     const auto warned = [&](std::string_view what) { return warnings.find(what) != std::string::npos; };
     EXPECT_TRUE(names_of(back) == names_of(sample) || warned("physical names are not written")) << warnings;
     for (const DataArray& a : sample.point_data)
       EXPECT_TRUE(has(back.point_data, a) || warned("'" + a.name + "'") || warned(": depth, id")) << a.name << warnings;
-    EXPECT_TRUE(has(back.cell_data, sample.cell_data[0]) || warned("cell data is not written")) << warnings;
-    EXPECT_TRUE(has(back.face_data, sample.face_data[0]) || warned("face data is not written")) << warnings;
-    EXPECT_TRUE(has(back.line_data, sample.line_data[0]) || warned("line data is not written")) << warnings;
-    EXPECT_TRUE(has(back.marked_point_data, sample.marked_point_data[0]) ||
+    EXPECT_TRUE(has(back.tetrahedra.data, sample.tetrahedra.data[0]) || warned("cell data is not written")) << warnings;
+    EXPECT_TRUE(has(back.triangles.data, sample.triangles.data[0]) || warned("face data is not written")) << warnings;
+    EXPECT_TRUE(has(back.lines.data, sample.lines.data[0]) || warned("line data is not written")) << warnings;
+    EXPECT_TRUE(has(back.marked_points.data, sample.marked_points.data[0]) ||
                 warned("data of marked points is not written"))
         << warnings;
   }
 }
 
-TEST_F(TetFiles, WhatWasReadIsWrittenAgainByteForByte) {
+TEST_F(FilesOfTetrahedra, WhatWasReadIsWrittenAgainByteForByte) {
   for (const std::string& format : tet_formats()) {
     SCOPED_TRACE(format);
-    const TetFile once = through(through(tet_sample(), format), format);
+    const MeshFile once = through(through(tet_sample(), format), format);
     const std::string before = slurp(path(tet_file_name(format)));
     static_cast<void>(through(once, format));
     EXPECT_EQ(slurp(path(tet_file_name(format))), before);
   }
 }
 
-TEST_F(TetFiles, EntitiesOfSeveralGroupsOfGmshKeepAllOfThem) {
+TEST_F(FilesOfTetrahedra, EntitiesOfSeveralGroupsOfGmshKeepAllOfThem) {
   const std::string content =
       "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n3 1 \"rock\"\n3 7 \"wet\"\n2 2 \"top\"\n"
       "2 9 \"rain\"\n$EndPhysicalNames\n$Entities\n0 0 1 2\n4 0 0 0 1 1 0 2 2 9 0\n"
@@ -140,64 +142,59 @@ TEST_F(TetFiles, EntitiesOfSeveralGroupsOfGmshKeepAllOfThem) {
       "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n$EndNodes\n$Elements\n3 3 1 3\n2 4 2 1\n1 1 3 2\n"
       "3 5 4 1\n2 1 2 3 4\n3 6 4 1\n3 2 3 4 5\n$EndElements\n$ElementData\n1\n\"q\"\n1\n0\n3\n0\n1\n1\n"
       "1 2.5\n$EndElementData\n";
-  const auto read = read_any(make("in.msh", content));
+  const auto read = io::read(make("in.msh", content));
   ASSERT_TRUE(read) << read.error().what();
-  EXPECT_TRUE(std::get<TetFile>(*read).warnings.empty());
-  for (const TetFile& file :
-       {std::get<TetFile>(*read), through(std::get<TetFile>(*read), "gmsh22"),
-        through(std::get<TetFile>(*read), "gmsh22", Encoding::appended), through(std::get<TetFile>(*read), "gmsh41")}) {
-    EXPECT_EQ(file.regions, (std::vector<std::int32_t>{7, 1})) << "the boundary of wet stays";
-    EXPECT_TRUE(has(file.cell_data, {"gmsh:physical:7", 1, std::vector<std::int32_t>{1, 0}}));
-    ASSERT_EQ(file.faces.size(), 2U);
-    EXPECT_EQ(file.faces[0], file.faces[1]);
-    EXPECT_EQ(file.face_tags, (std::vector<std::int32_t>{2, 9}));
-    EXPECT_TRUE(has(file.face_data, {"q", 1, std::vector<double>{2.5, 2.5}}));
+  EXPECT_TRUE(read->warnings.empty());
+  for (const MeshFile& file :
+       {*read, through(*read, "gmsh22"), through(*read, "gmsh22", Encoding::appended), through(*read, "gmsh41")}) {
+    EXPECT_EQ(file.tetrahedra.tags, (std::vector<std::int32_t>{7, 1})) << "the boundary of wet stays";
+    EXPECT_TRUE(has(file.tetrahedra.data, {"gmsh:physical:7", 1, std::vector<std::int32_t>{1, 0}}));
+    ASSERT_EQ(file.triangles.size(), 2U);
+    EXPECT_EQ(file.triangles[0], file.triangles[1]);
+    EXPECT_EQ(file.triangles.tags, (std::vector<std::int32_t>{2, 9}));
+    EXPECT_TRUE(has(file.triangles.data, {"q", 1, std::vector<double>{2.5, 2.5}}));
     EXPECT_EQ(names_of(file), (std::vector<std::string>{"3 1 rock", "3 7 wet", "2 2 top", "2 9 rain"}));
-    EXPECT_TRUE(make_mesh(file));
+    EXPECT_TRUE(make_tet_mesh(file));
   }
   EXPECT_NE(slurp(path("m.msh")).find(" 2 1 7 0"), std::string::npos) << "one entity in two groups, as it was";
 }
 
-TEST_F(TetFiles, EachElementOfAGmshFileHasAGroupIfAnyElementHasOne) {
-  TetFile sample;
-  sample.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  sample.tetrahedra = {{0, 1, 2, 3}};
-  sample.faces = {{0, 2, 1}, {0, 1, 3}};
-  sample.face_tags = {4, 0};
+TEST_F(FilesOfTetrahedra, EachElementOfAGmshFileHasAGroupIfAnyElementHasOne) {
+  MeshFile sample = tet_file({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}});
+  sample.triangles.corners = {{0, 2, 1}, {0, 1, 3}};
+  sample.triangles.tags = {4, 0};
   sample.names = {{2, 4, "floor"}};
   for (const auto& [format, encoding] :
        {std::pair("gmsh22", Encoding::ascii), {"gmsh22", Encoding::appended}, {"gmsh41", Encoding::ascii}}) {
-    const TetFile file = through(sample, format, encoding);
+    const MeshFile file = through(sample, format, encoding);
     EXPECT_NE(slurp(path(tet_file_name(format)))
                   .find("3\n2 4 \"floor\"\n2 5 \"temper_ungrouped_faces\"\n3 6 \"temper_ungrouped_tetrahedra\"\n$End"),
               std::string::npos);
-    EXPECT_TRUE(file.regions.empty());
-    EXPECT_EQ(file.face_tags, sample.face_tags);
+    EXPECT_TRUE(file.tetrahedra.tags.empty());
+    EXPECT_EQ(file.triangles.tags, sample.triangles.tags);
     EXPECT_EQ(names_of(file), std::vector<std::string>{"2 4 floor"});
   }
 }
 
-TEST_F(TetFiles, AFurtherGroupOfGmshThatIsTheRegionIsListedOnce) {
-  TetFile sample;
-  sample.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
-  sample.tetrahedra = {{0, 1, 2, 3}, {1, 2, 3, 4}};
-  sample.regions = {7, 1};
-  sample.cell_data = {{"gmsh:physical:7", 1, std::vector<std::int32_t>{1, 1}},
-                      {"gmsh:physical:5", 1, std::vector<std::int32_t>{0, 1}}};
+TEST_F(FilesOfTetrahedra, AFurtherGroupOfGmshThatIsTheRegionIsListedOnce) {
+  MeshFile sample = tet_file({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}, {{0, 1, 2, 3}, {1, 2, 3, 4}});
+  sample.tetrahedra.tags = {7, 1};
+  sample.tetrahedra.data = {{"gmsh:physical:7", 1, std::vector<std::int32_t>{1, 1}},
+                            {"gmsh:physical:5", 1, std::vector<std::int32_t>{0, 1}}};
   for (const auto& [format, encoding] :
        {std::pair("gmsh22", Encoding::ascii), {"gmsh22", Encoding::appended}, {"gmsh41", Encoding::ascii}}) {
-    const TetFile file = through(sample, format, encoding);
-    EXPECT_EQ(file.tetrahedra, sample.tetrahedra) << format;
-    EXPECT_EQ(file.regions, sample.regions);
-    EXPECT_TRUE(has(file.cell_data, {"gmsh:physical:7", 1, std::vector<std::int32_t>{0, 1}}));
-    EXPECT_TRUE(has(file.cell_data, {"gmsh:physical:5", 1, std::vector<std::int32_t>{0, 1}}));
-    EXPECT_TRUE(make_mesh(file));
+    const MeshFile file = through(sample, format, encoding);
+    EXPECT_EQ(file.tetrahedra.corners, sample.tetrahedra.corners) << format;
+    EXPECT_EQ(file.tetrahedra.tags, sample.tetrahedra.tags);
+    EXPECT_TRUE(has(file.tetrahedra.data, {"gmsh:physical:7", 1, std::vector<std::int32_t>{0, 1}}));
+    EXPECT_TRUE(has(file.tetrahedra.data, {"gmsh:physical:5", 1, std::vector<std::int32_t>{0, 1}}));
+    EXPECT_TRUE(make_tet_mesh(file));
   }
   EXPECT_NE(slurp(path("m.msh")).find(" 1 1 7 0"), std::string::npos) << "an entity of the group 7 alone";
 }
 
-TEST_F(TetFiles, GhostsInTheFileOfAPartitionAreLeftOut) {
-  const auto read = read_any(
+TEST_F(FilesOfTetrahedra, GhostsInTheFileOfAPartitionAreLeftOut) {
+  const auto read = io::read(
       make("in.msh",
            "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 1\n9 0 0 0 1 1 0 2 4 5 0\n1 0 0 0 1 1 1 1 7 0\n"
            "$EndEntities\n$PartitionedEntities\n2\n1\n9 2\n0 0 1 1\n9 2 9 1 1 0 0 0 1 1 0 1 4 0\n"
@@ -205,41 +202,42 @@ TEST_F(TetFiles, GhostsInTheFileOfAPartitionAreLeftOut) {
            "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n$EndNodes\n$Elements\n3 3 1 3\n2 9 2 1\n1 1 3 2\n3 5 4 1\n"
            "2 1 2 3 4\n3 9 4 1\n3 2 3 4 5\n$EndElements\n"));
   ASSERT_TRUE(read) << read.error().what();
-  const TetFile& file = std::get<TetFile>(*read);
-  EXPECT_EQ(file.regions, (std::vector<std::int32_t>{7}));
-  EXPECT_EQ(file.face_tags, (std::vector<std::int32_t>{4, 5})) << "a face may have the number of the ghosts";
+  const MeshFile& file = *read;
+  EXPECT_EQ(file.tetrahedra.tags, (std::vector<std::int32_t>{7}));
+  EXPECT_EQ(file.triangles.tags, (std::vector<std::int32_t>{4, 5})) << "a face may have the number of the ghosts";
   ASSERT_EQ(file.warnings.size(), 1U);
   EXPECT_EQ(plain(file.warnings[0]), "in.msh: 1 element that the partition added is left out");
 }
 
-TEST_F(TetFiles, FormatsWithoutTetrahedraAreRefusedAndNothingIsWritten) {
+TEST_F(FilesOfTetrahedra, FormatsWithoutTetrahedraAreRefusedAndNothingIsWritten) {
   const auto written = write(path("m.obj"), tet_sample());
   ASSERT_FALSE(written);
   EXPECT_EQ(plain(written.error().what())
                 .find("m.obj: Wavefront OBJ is not written with tetrahedra; expected one of vtu, gmsh41"),
             0U)
       << written.error().what();
-  TetFile wrong = tet_sample();
-  wrong.regions.pop_back();
+  MeshFile wrong = tet_sample();
+  wrong.tetrahedra.tags.pop_back();
   ASSERT_FALSE(write(path("m.vtu"), wrong));
   EXPECT_TRUE(files().empty());
 }
 
-TEST_F(TetFiles, AMeshOfAFileHasItsTagsAndWarnsOfWhatItDrops) {
-  TetFile file = tet_sample();
-  file.points.insert(file.points.begin() + 1, {9, 9, 9});
+TEST_F(FilesOfTetrahedra, AMeshOfAFileHasItsTagsAndWarnsOfWhatItDrops) {
+  MeshFile file = tet_sample();
+  std::vector<Vec3> points = places_of(file);
+  points.insert(points.begin() + 1, {9, 9, 9});
+  ASSERT_TRUE(set_points(file, points));
   const auto shift = [](auto& elements) {
     for (auto& element : elements) {
       for (std::int32_t& p : element) p += p > 0 ? 1 : 0;
     }
   };
-  shift(file.tetrahedra), shift(file.faces), shift(file.lines);
+  shift(file.tetrahedra), shift(file.triangles), shift(file.lines);
   file.weights.insert(file.weights.begin() + 1, 5.0);
-  file.marked_points = {1, 5};
+  file.marked_points.corners = {1, 5};
   std::swap(file.tetrahedra[0][0], file.tetrahedra[0][1]);
-  file.faces.push_back({0, 1, 2});
-  file.face_tags.push_back(6);
-  const auto made = make_mesh(file);
+  file.triangles.add({0, 1, 2}, 6);
+  const auto made = make_tet_mesh(file);
   ASSERT_TRUE(made) << made.error().what();
   EXPECT_EQ(made->mesh.validate(), std::nullopt);
   EXPECT_EQ(made->mesh.n_vertices(), 5U);
@@ -255,7 +253,7 @@ TEST_F(TetFiles, AMeshOfAFileHasItsTagsAndWarnsOfWhatItDrops) {
                                       "1 face is no face of the mesh and tags nothing: face 2"}));
 }
 
-TEST_F(TetFiles, ErrorsHaveTheNumbersAndTheLinesOfTheFile) {
+TEST_F(FilesOfTetrahedra, ErrorsHaveTheNumbersAndTheLinesOfTheFile) {
   const auto gmsh = [](const std::string& elements, const std::string& fourth = "0 0 1") {
     return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n11 0 0 0\n12 1 0 0\n13 0 1 0\n14 " + fourth +
            "\n15 1 1 0\n16 1 0 1\n17 0 1 1\n18 1 1 1\n$EndNodes\n$Elements\n" + elements + "$EndElements\n";
@@ -308,15 +306,15 @@ TEST_F(TetFiles, ErrorsHaveTheNumbersAndTheLinesOfTheFile) {
       "with lines and points as tags. Next: write linear elements");
 }
 
-TEST_F(TetFiles, FacesWithoutATagAreNoTagsInFilesOfTetgen) {
-  TetFile file = tet_sample();
-  file.face_tags[1] = 0;
-  EXPECT_EQ(through(file, "triangle").face_tags, std::vector<std::int32_t>{7});
+TEST_F(FilesOfTetrahedra, FacesWithoutATagAreNoTagsInFilesOfTetgen) {
+  MeshFile file = tet_sample();
+  file.triangles.tags[1] = 0;
+  EXPECT_EQ(through(file, "triangle").triangles.tags, std::vector<std::int32_t>{7});
   EXPECT_NE(warnings.find("m.node: 1 face has tag 0, which is no tag in files of TetGen"), std::string::npos)
       << warnings;
 }
 
-TEST_F(TetFiles, DamagedFilesAreMeshesOrErrors) {
+TEST_F(FilesOfTetrahedra, DamagedFilesAreMeshesOrErrors) {
   std::mt19937 random(5);
   std::size_t meshes = 0, errors = 0;
   for (const std::string& format : tet_formats()) {
@@ -331,9 +329,9 @@ TEST_F(TetFiles, DamagedFilesAreMeshesOrErrors) {
         for (int k = 0; k < round % 4; ++k)
           bytes[random() % bytes.size()] = static_cast<char>(random() % 3 == 0 ? random() : '0' + random() % 10);
         spill(file, bytes);
-        const auto read = read_any(file);
-        const auto* tets = read ? std::get_if<TetFile>(&*read) : nullptr;
-        const auto made = tets == nullptr ? Expected<LoadedTetMesh>(InputError{}) : make_mesh(*tets);
+        const auto read = io::read(file);
+        const auto made =
+            !read || read->dimension() == 2 ? Expected<LoadedTetMesh>(InputError{}) : make_tet_mesh(*read);
         ++(made ? meshes : errors);
         if (made) {
           EXPECT_EQ(made->mesh.validate(), std::nullopt);
@@ -345,56 +343,57 @@ TEST_F(TetFiles, DamagedFilesAreMeshesOrErrors) {
   EXPECT_GT(errors, 100U);
 }
 
-TEST_F(TetFiles, FilesOfTetgenHaveTheirOwnNumbersAndRegions) {
+TEST_F(FilesOfTetrahedra, FilesOfTetgenHaveTheirOwnNumbersAndRegions) {
   make("m.1.node", "4 3 0 1\n0 0 0 0 0\n1 1 0 0 0\n2 0 1 0 6\n3 0 0 1 0\n");
   make("m.1.face", "2 1\n0 0 1 2 -1 7 -1\n1 0 1 3 0 7 -1\n");
   make("m.1.edge", "1 1\n0 2 3 4\n");
-  const auto file = read_any(make("m.1.ele", "1 4 1\n0 0 1 2 3 12\n"));
+  const auto file = read(make("m.1.ele", "1 4 1\n0 0 1 2 3 12\n"));
   ASSERT_TRUE(file) << file.error().what();
-  const auto& tets = std::get<TetFile>(*file);
+  const auto& tets = *file;
   EXPECT_EQ(tets.format, "triangle");
-  EXPECT_EQ(tets.regions, std::vector<std::int32_t>{12});
-  EXPECT_EQ(tets.faces, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}}));
-  EXPECT_EQ(tets.face_tags, std::vector<std::int32_t>{-1});
-  EXPECT_EQ(tets.lines, (std::vector<std::array<std::int32_t, 2>>{{2, 3}}));
-  EXPECT_EQ(tets.marked_points, std::vector<std::int32_t>{2});
+  EXPECT_EQ(tets.tetrahedra.tags, std::vector<std::int32_t>{12});
+  EXPECT_EQ(tets.triangles.corners, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}}));
+  EXPECT_EQ(tets.triangles.tags, std::vector<std::int32_t>{-1});
+  EXPECT_EQ(tets.lines.corners, (std::vector<std::array<std::int32_t, 2>>{{2, 3}}));
+  EXPECT_EQ(tets.marked_points.corners, std::vector<std::int32_t>{2});
 }
 
 /// A cube of six tetrahedra around an inner point, with a point of none before it, data of all kinds and tags.
-TetFile centered_cube() {
-  TetFile f;
-  f.points = {{9, 9, 9}, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0},
-              {0, 0, 2}, {2, 0, 2}, {0, 2, 2}, {2, 2, 2}, {1, 1, 1}};
+MeshFile centered_cube() {
+  const std::vector<Vec3> points = {{9, 9, 9}, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0},
+                                    {0, 0, 2}, {2, 0, 2}, {0, 2, 2}, {2, 2, 2}, {1, 1, 1}};
+  std::vector<std::array<std::int32_t, 4>> tetrahedra;
   for (const std::array<std::int32_t, 4>& side :
        {std::array{1, 2, 4, 3}, std::array{5, 6, 8, 7}, std::array{1, 2, 6, 5}, std::array{3, 4, 8, 7},
         std::array{1, 3, 7, 5}, std::array{2, 4, 8, 6}}) {
-    f.tetrahedra.push_back({side[0], side[1], side[2], 9});
-    f.tetrahedra.push_back({side[0], side[2], side[3], 9});
-    f.regions.insert(f.regions.end(), {3, 3});
+    tetrahedra.push_back({side[0], side[1], side[2], 9});
+    tetrahedra.push_back({side[0], side[2], side[3], 9});
   }
-  f.faces = {{1, 2, 4}, {0, 1, 2}};
-  f.face_tags = {7, 8};
-  f.lines = {{1, 2}, {0, 3}};
-  f.line_tags = {5, 6};
-  f.marked_points = {0, 4};
-  f.point_tags = {2, 9};
+  MeshFile f = tet_file(points, tetrahedra);
+  f.tetrahedra.tags.assign(12, 3);
+  f.triangles.corners = {{1, 2, 4}, {0, 1, 2}};
+  f.triangles.tags = {7, 8};
+  f.lines.corners = {{1, 2}, {0, 3}};
+  f.lines.tags = {5, 6};
+  f.marked_points.corners = {0, 4};
+  f.marked_points.tags = {2, 9};
   f.names = {{2, 7, "floor"}};
   std::vector<double> at_points;
   std::vector<std::int32_t> numbers, cells;
-  for (const Vec3& p : f.points) {
+  for (const Vec3& p : points) {
     at_points.push_back(1 + 2 * p.x - 3 * p.y + 5 * p.z);
     numbers.push_back(static_cast<std::int32_t>(numbers.size()));
   }
   for (std::int32_t t = 0; t < 12; ++t) cells.push_back(t);
   f.point_data = {{"linear", 1, at_points}, {"stays", 1, at_points}, {"id", 1, numbers}};
-  f.cell_data = {{"cell", 1, cells}};
-  f.face_data = {{"load", 1, std::vector<double>{0.5, 0.1}}};
+  f.tetrahedra.data = {{"cell", 1, cells}};
+  f.triangles.data = {{"load", 1, std::vector<double>{0.5, 0.1}}};
   return f;
 }
 
-TEST_F(TetFiles, DataFollowMovedVerticesAndAllElseStays) {
-  TetFile file = centered_cube();
-  const LoadedTetMesh loaded = *make_mesh(file);
+TEST_F(FilesOfTetrahedra, DataFollowMovedVerticesAndAllElseStays) {
+  MeshFile file = centered_cube();
+  const LoadedTetMesh loaded = *make_tet_mesh(file);
   tets::TetMesh mesh = loaded.mesh;
   mesh.set_point(VertexId(8), {0.5, 0.75, 1.625, 0.25});
   UpdateOptions options;
@@ -404,18 +403,19 @@ TEST_F(TetFiles, DataFollowMovedVerticesAndAllElseStays) {
   const DataReport report = update(file, loaded, mesh, {}, options);
   EXPECT_GT(threads.runs(), 0U);
   EXPECT_EQ(file.points.size(), 9U);
-  EXPECT_EQ(file.points[8], (Vec3{0.5, 0.75, 1.625}));
+  EXPECT_EQ(file.place(8), (Vec3{0.5, 0.75, 1.625}));
   EXPECT_EQ(file.weights[8], 0.25);
-  EXPECT_EQ(file.regions, std::vector<std::int32_t>(12, 3));
-  EXPECT_EQ(file.faces, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 3}}));  // without those at the unused point
-  EXPECT_EQ(file.face_tags, std::vector<std::int32_t>{7});
-  EXPECT_EQ(file.face_data[0].values, Values(std::vector<double>{0.5}));
-  EXPECT_EQ(file.lines, (std::vector<std::array<std::int32_t, 2>>{{0, 1}}));
-  EXPECT_EQ(file.marked_points, std::vector<std::int32_t>{3});
+  EXPECT_EQ(file.tetrahedra.tags, std::vector<std::int32_t>(12, 3));
+  EXPECT_EQ(file.triangles.corners,
+            (std::vector<std::array<std::int32_t, 3>>{{0, 1, 3}}));  // without those at the unused point
+  EXPECT_EQ(file.triangles.tags, std::vector<std::int32_t>{7});
+  EXPECT_EQ(file.triangles.data[0].values, Values(std::vector<double>{0.5}));
+  EXPECT_EQ(file.lines.corners, (std::vector<std::array<std::int32_t, 2>>{{0, 1}}));
+  EXPECT_EQ(file.marked_points.corners, std::vector<std::int32_t>{3});
   EXPECT_EQ(file.names[0].name, "floor");
   const auto& linear = std::get<std::vector<double>>(file.point_data[0].values);
   for (std::size_t v = 0; v < 9; ++v) {
-    const Vec3 p = file.points[v];
+    const Vec3 p = file.place(v);
     EXPECT_NEAR(linear[v], 1 + 2 * p.x - 3 * p.y + 5 * p.z, 1e-14);
   }
   EXPECT_EQ(std::get<std::vector<double>>(file.point_data[1].values)[8], 1 + 2 - 3 + 5);
@@ -425,25 +425,24 @@ TEST_F(TetFiles, DataFollowMovedVerticesAndAllElseStays) {
   EXPECT_EQ(report.triangles_changed, 12U);
   EXPECT_EQ(report.interpolated, std::vector<std::string>{"linear"});
   EXPECT_EQ(report.kept, (std::vector<std::string>{"stays", "id"}));
-  const auto again = make_mesh(file);
+  const auto again = make_tet_mesh(file);
   ASSERT_TRUE(again);
   EXPECT_EQ(again->mesh.point(VertexId(8)), mesh.point(VertexId(8)));
 }
 
-TEST_F(TetFiles, PiecesOfAFaceOrLineTakeItsTagAndData) {
-  TetFile file;
-  file.points = {{0, 0, 0}, {0.3, 0.7, 0}, {0, 1, 0.1}, {0, 0, 1}};
-  file.tetrahedra = {{0, 1, 2, 3}};
+TEST_F(FilesOfTetrahedra, PiecesOfAFaceOrLineTakeItsTagAndData) {
+  MeshFile file = tet_file({{0, 0, 0}, {0.3, 0.7, 0}, {0, 1, 0.1}, {0, 0, 1}}, {{0, 1, 2, 3}});
   // The second face points inward, and the third is not in the mesh.
-  file.faces = {{0, 2, 1}, {1, 0, 3}, {0, 1, 1}, {0, 3, 2}};
-  file.face_tags = {1, 2, 3, 4};
-  file.face_data = {{"load", 1, std::vector<double>{10, 20, 30, 40}}};
-  file.lines = {{1, 0}, {2, 3}};
-  file.line_tags = {5, 6};
+  file.triangles.corners = {{0, 2, 1}, {1, 0, 3}, {0, 1, 1}, {0, 3, 2}};
+  file.triangles.tags = {1, 2, 3, 4};
+  file.triangles.data = {{"load", 1, std::vector<double>{10, 20, 30, 40}}};
+  file.lines.corners = {{1, 0}, {2, 3}};
+  file.lines.tags = {5, 6};
   file.point_data = {{"z", 1, std::vector<double>{0, 3, 1, 2}}};
-  const LoadedTetMesh loaded = *make_mesh(file);
+  const LoadedTetMesh loaded = *make_tet_mesh(file);
   // The edge from 0 to 1 is split.
-  const std::vector<Vec3> points = {file.points[0], file.points[1], file.points[2], file.points[3], {0.15, 0.35, 0}};
+  std::vector<Vec3> points = places_of(file);
+  points.push_back({0.15, 0.35, 0});
   const std::vector<std::array<std::int32_t, 4>> tetrahedra = {{0, 4, 2, 3}, {4, 1, 2, 3}};
   const std::vector<std::array<std::int32_t, 3>> faces = {{0, 2, 4}, {4, 2, 1}, {0, 4, 3}, {4, 1, 3}, {0, 3, 2}};
   const std::vector<std::array<std::int32_t, 2>> lines = {{1, 4}, {4, 0}, {2, 3}};
@@ -458,31 +457,31 @@ TEST_F(TetFiles, PiecesOfAFaceOrLineTakeItsTagAndData) {
   release_geometry(file, loaded);
   EXPECT_TRUE(file.points.empty() && file.tetrahedra.empty());
   update(file, loaded, tets::TetMesh::build(input)->mesh, origins);
-  EXPECT_EQ(file.points, points);
-  EXPECT_EQ(file.tetrahedra, tetrahedra);
+  EXPECT_EQ(places_of(file), points);
+  EXPECT_EQ(file.tetrahedra.corners, tetrahedra);
   const std::vector<std::array<std::int32_t, 3>> oriented = {{0, 2, 4}, {4, 2, 1}, {4, 0, 3},
                                                              {1, 4, 3}, {0, 1, 1}, {0, 3, 2}};
-  ASSERT_EQ(file.faces.size(), oriented.size());
+  ASSERT_EQ(file.triangles.size(), oriented.size());
   for (std::size_t i = 0; i < oriented.size(); ++i) {
-    const auto& face = file.faces[i];
+    const auto& face = file.triangles[i];
     const auto first = std::size_t(std::find(face.begin(), face.end(), oriented[i][0]) - face.begin());
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(face[(first + k) % 3], oriented[i][k]) << i;
   }
-  EXPECT_EQ(file.face_tags, (std::vector<std::int32_t>{1, 1, 2, 2, 3, 4}));
-  EXPECT_EQ(file.face_data[0].values, Values(std::vector<double>{10, 10, 20, 20, 30, 40}));
-  EXPECT_EQ(file.lines, (std::vector<std::array<std::int32_t, 2>>{{1, 4}, {4, 0}, {2, 3}}));
-  EXPECT_EQ(file.line_tags, (std::vector<std::int32_t>{5, 5, 6}));
+  EXPECT_EQ(file.triangles.tags, (std::vector<std::int32_t>{1, 1, 2, 2, 3, 4}));
+  EXPECT_EQ(file.triangles.data[0].values, Values(std::vector<double>{10, 10, 20, 20, 30, 40}));
+  EXPECT_EQ(file.lines.corners, (std::vector<std::array<std::int32_t, 2>>{{1, 4}, {4, 0}, {2, 3}}));
+  EXPECT_EQ(file.lines.tags, (std::vector<std::int32_t>{5, 5, 6}));
   EXPECT_NEAR(std::get<std::vector<double>>(file.point_data[0].values)[4], 1.5, 1e-15);
 }
 
-TEST_F(TetFiles, NewVerticesTakeTheDataOfTheirPlace) {
-  TetFile file = centered_cube();
+TEST_F(FilesOfTetrahedra, NewVerticesTakeTheDataOfTheirPlace) {
+  MeshFile file = centered_cube();
   // Tag 5 lists the corners of the first tetrahedron, as of a part, and tag 6 is on one of them.
-  file.marked_points = {1, 2, 4, 9, 1};
-  file.point_tags = {5, 5, 5, 5, 6};
-  file.marked_point_data = {{"head", 1, std::vector<double>{0.5, 1, 1, 1, 2}}};
-  const LoadedTetMesh loaded = *make_mesh(file);
-  const TetFile before = file;
+  file.marked_points.corners = {1, 2, 4, 9, 1};
+  file.marked_points.tags = {5, 5, 5, 5, 6};
+  file.marked_points.data = {{"head", 1, std::vector<double>{0.5, 1, 1, 1, 2}}};
+  const LoadedTetMesh loaded = *make_tet_mesh(file);
+  const MeshFile before = file;
   // The first tetrahedron of the file becomes four. The vertices come in another order, the new one first.
   const Vec3 middle = {1.25, 0.5, 0.25};
   std::vector<Vec3> points = {middle};
@@ -509,32 +508,29 @@ TEST_F(TetFiles, NewVerticesTakeTheDataOfTheirPlace) {
   EXPECT_NE(std::find(file.warnings.begin(), file.warnings.end(),
                       "data are dropped, because integers differ around a new point: id"),
             file.warnings.end());
-  const auto& cells = std::get<std::vector<std::int32_t>>(file.cell_data[0].values);
+  const auto& cells = std::get<std::vector<std::int32_t>>(file.tetrahedra.data[0].values);
   EXPECT_EQ(cells, (std::vector<std::int32_t>{0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));
-  EXPECT_EQ(file.lines, (std::vector<std::array<std::int32_t, 2>>{{1, 2}}));
-  EXPECT_EQ(file.marked_points, (std::vector<std::int32_t>{1, 2, 4, 9, 1, 0}));
-  EXPECT_EQ(file.point_tags, (std::vector<std::int32_t>{5, 5, 5, 5, 6, 5}));
-  EXPECT_EQ(file.marked_point_data[0].values, Values(std::vector<double>{0.5, 1, 1, 1, 2, 0.5}));
+  EXPECT_EQ(file.lines.corners, (std::vector<std::array<std::int32_t, 2>>{{1, 2}}));
+  EXPECT_EQ(file.marked_points.corners, (std::vector<std::int32_t>{1, 2, 4, 9, 1, 0}));
+  EXPECT_EQ(file.marked_points.tags, (std::vector<std::int32_t>{5, 5, 5, 5, 6, 5}));
+  EXPECT_EQ(file.marked_points.data[0].values, Values(std::vector<double>{0.5, 1, 1, 1, 2, 0.5}));
 }
 
-TEST_F(TetFiles, PointsThatMeditRequiresAreFixed) {
-  const auto file =
-      read_any(make("a.mesh",
-                    "MeshVersionFormatted 2\nDimension 3\nVertices\n5\n9 9 9 0\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
-                    "0 0 1 0\nTetrahedra\n1\n2 3 4 5 1\nRequiredVertices\n2\n1 3\nEnd\n"));
+TEST_F(FilesOfTetrahedra, PointsThatMeditRequiresAreFixed) {
+  const auto file = read(make("a.mesh",
+                              "MeshVersionFormatted 2\nDimension 3\nVertices\n5\n9 9 9 0\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+                              "0 0 1 0\nTetrahedra\n1\n2 3 4 5 1\nRequiredVertices\n2\n1 3\nEnd\n"));
   ASSERT_TRUE(file) << file.error().what();
-  const auto made = make_mesh(std::get<TetFile>(*file));
+  const auto made = make_tet_mesh(*file);
   ASSERT_TRUE(made) << made.error().what();
   EXPECT_EQ(made->mesh.fixed_points(), std::vector<VertexId>{VertexId(1)});
 }
 
-TEST_F(TetFiles, RegionsBeyond32BitsAreRefused) {
-  TetFile file;
-  file.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  file.tetrahedra = {{0, 1, 2, 3}};
-  file.cell_data = {{"gmsh:physical", 1, std::vector<std::int64_t>{std::int64_t{1} << 31}}};
+TEST_F(FilesOfTetrahedra, RegionsBeyond32BitsAreRefused) {
+  MeshFile file = tet_file({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}});
+  file.tetrahedra.data = {{"gmsh:physical", 1, std::vector<std::int64_t>{std::int64_t{1} << 31}}};
   ASSERT_TRUE(write(path("m.vtu"), file, {}));
-  const auto back = read_any(path("m.vtu"));
+  const auto back = read(path("m.vtu"));
   ASSERT_FALSE(back);
   EXPECT_EQ(
       plain(back.error().what()),
@@ -542,8 +538,8 @@ TEST_F(TetFiles, RegionsBeyond32BitsAreRefused) {
       "most 2147483647. Next: give the cells smaller tags, or the array another name");
 }
 
-TEST_F(TetFiles, VtuHasTheQualityOfEachTetrahedronWhichIsMadeAgain) {
-  TetFile file = centered_cube();
+TEST_F(FilesOfTetrahedra, VtuHasTheQualityOfEachTetrahedronWhichIsMadeAgain) {
+  MeshFile file = centered_cube();
   std::swap(file.tetrahedra[1][0], file.tetrahedra[1][1]);  // in either orientation
   file.weights.resize(file.points.size());
   file.weights[9] = 0.75;
@@ -552,17 +548,17 @@ TEST_F(TetFiles, VtuHasTheQualityOfEachTetrahedronWhichIsMadeAgain) {
   std::string own = bytes;  // with names that the reader takes for the user's
   for (const char* name : {"well_centered", "min_h_over_l", "min_dihedral_deg"})
     own[own.find(std::string("Name=\"") + name) + 6] = '_';
-  const TetFile shown = std::get<TetFile>(*read_any(make("own.vtu", own)));
-  const tets::TetMesh mesh = make_mesh(file)->mesh;
-  const std::vector<DataArray> data(shown.cell_data.end() - 3, shown.cell_data.end());
+  const MeshFile shown = *read(make("own.vtu", own));
+  const tets::TetMesh mesh = make_tet_mesh(file)->mesh;
+  const std::vector<DataArray> data(shown.tetrahedra.data.end() - 3, shown.tetrahedra.data.end());
   for (const tets::TetId t : mesh.tetrahedra()) {
     const tets::TetrahedronQuality q = tets::tetrahedron_quality(mesh.points(t));
     EXPECT_EQ(std::get<std::vector<std::uint8_t>>(data[0].values)[t.index] == 1, q.well_centered);
     EXPECT_EQ(std::get<std::vector<float>>(data[1].values)[t.index], static_cast<float>(q.min_h_over_l));
     EXPECT_EQ(std::get<std::vector<float>>(data[2].values)[t.index], static_cast<float>(q.min_dihedral_deg));
   }
-  const TetFile back = std::get<TetFile>(*read_any(path("m.vtu")));
-  EXPECT_EQ(back.cell_data.size(), shown.cell_data.size() - 3);
+  const MeshFile back = *read(path("m.vtu"));
+  EXPECT_EQ(back.tetrahedra.data.size(), shown.tetrahedra.data.size() - 3);
   ASSERT_TRUE(write(path("again.vtu"), back, {.format = "vtu", .encoding = Encoding::ascii}));
   EXPECT_EQ(slurp(path("again.vtu")), bytes);
 }
@@ -592,9 +588,9 @@ TEST(PublicTets, HaveTheNumbersOfTheirTable) {
                                {"sfepy_perfusion_micro3d.mesh", 3728, 2444, 18161, 7160, 1316}};
   for (const TetRow& expected : kFiles) {
     SCOPED_TRACE(expected.file);
-    const auto file = read_any(folder + expected.file);
+    const auto file = read(folder + expected.file);
     ASSERT_TRUE(file) << file.error().what();
-    const auto made = make_mesh(std::get<TetFile>(*file));
+    const auto made = make_tet_mesh(*file);
     ASSERT_TRUE(made) << made.error().what();
     const tets::Quality q = tets::quality(made->mesh);
     EXPECT_EQ(q.vertices, expected.vertices);

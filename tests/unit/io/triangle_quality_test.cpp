@@ -21,7 +21,7 @@ class TriangleQualityOfFiles : public FileTest {
     }
     const auto file = read(make("all.vtu", bytes));
     EXPECT_TRUE(file) << file.error().what();
-    return file ? file->cell_data : std::vector<DataArray>();
+    return file ? file->triangles.data : std::vector<DataArray>();
   }
 
   void expect_quality_of(const Mesh& mesh, const std::vector<DataArray>& data) const {
@@ -68,14 +68,14 @@ TEST_F(TriangleQualityOfFiles, IsNoDataOfTheUserAndIsThereOnceAfterManyRounds) {
   ASSERT_TRUE(write(path("1.vtu"), from_mesh(*horseshoe())));
   const auto first = read(path("1.vtu"));
   ASSERT_TRUE(first);
-  EXPECT_TRUE(first->cell_data.empty());
+  EXPECT_TRUE(first->triangles.data.empty());
   ASSERT_TRUE(write(path("2.vtu"), *first));
   EXPECT_EQ(slurp(path("2.vtu")), slurp(path("1.vtu")));
 }
 
 TEST_F(TriangleQualityOfFiles, IsTheLowestIfExactArithmeticCannotMeasureATriangle) {
   MeshFile file;
-  file.triangles = {{0, 1, 2}};
+  file.triangles.corners = {{0, 1, 2}};
   for (const double x : {0x1p250, -0x1p250, 0x1p-214, 0x1.1p250, 1e154, -1e308, 0x1.fp-215, -1e-200}) {
     file.points = {{0, 0}, {1, 0}, {x, 1}};
     const bool is_unknown = std::abs(x) > 0x1p250 || std::abs(x) < 0x1p-214;
@@ -118,7 +118,7 @@ TEST_F(TriangleQualityOfFiles, IsLeftOutWhenAskedTo) {
 TEST_F(TriangleQualityOfFiles, IsLeftOutForDataOfThatNameWhichStay) {
   MeshFile file = sample();
   file.weights.clear();
-  file.cell_data = {{"min_angle_deg", 1, std::vector<double>{1, 2, 3, 4}}};
+  file.triangles.data = {{"min_angle_deg", 1, std::vector<double>{1, 2, 3, 4}}};
   const auto warnings = write(path("m.vtu"), file);
   ASSERT_TRUE(warnings);
   ASSERT_EQ(warnings->size(), 1u);
@@ -126,14 +126,14 @@ TEST_F(TriangleQualityOfFiles, IsLeftOutForDataOfThatNameWhichStay) {
             "m.vtu: the quality of triangles is not written: the mesh has data 'min_angle_deg' of its own");
   const auto back = read(path("m.vtu"));
   ASSERT_TRUE(back);
-  ASSERT_EQ(back->cell_data.size(), 1u);
-  EXPECT_EQ(back->cell_data[0].values, file.cell_data[0].values);
+  ASSERT_EQ(back->triangles.data.size(), 1u);
+  EXPECT_EQ(back->triangles.data[0].values, file.triangles.data[0].values);
 }
 
 TEST_F(TriangleQualityOfFiles, IsThatOfTheCounterClockwiseTriangleAndNoNumberWhereThereIsNoArea) {
   MeshFile file;
   file.points = {{0, 0}, {1, 0}, {0.5, 0.8}, {2, 0}};
-  file.triangles = {{0, 1, 2}, {0, 2, 1}, {0, 1, 3}};
+  file.triangles.corners = {{0, 1, 2}, {0, 2, 1}, {0, 1, 3}};
   ASSERT_TRUE(write(path("m.vtu"), file, {"", Encoding::ascii}));
   const std::vector<DataArray> data = all_cell_data(path("m.vtu"));
   ASSERT_EQ(data.size(), 4u);
@@ -147,7 +147,7 @@ TEST_F(TriangleQualityOfFiles, IsThatOfTheCounterClockwiseTriangleAndNoNumberWhe
 TEST_F(TriangleQualityOfFiles, IsOfLengthsAndSoNotOfPointsInDegrees) {
   MeshFile file;
   file.points = {{0, 60}, {1, 60}, {0.5, 60.5}};
-  file.triangles = {{0, 1, 2}};
+  file.triangles.corners = {{0, 1, 2}};
   file.points_in = DegreePoints{};
   ASSERT_TRUE(write(path("degrees.vtu"), file));
   EXPECT_TRUE(all_cell_data(path("degrees.vtu")).empty());

@@ -21,10 +21,10 @@ TEST_F(TriangleFiles, AreFoundFromEitherOfTheTwo) {
     const auto f = read(path(name));
     ASSERT_TRUE(f) << f.error().what();
     EXPECT_EQ(f->format, "triangle");
-    EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
-    EXPECT_EQ(f->regions, (std::vector<std::int32_t>{4, 5})) << "the attribute of -A";
-    EXPECT_EQ(f->marked_points, (std::vector<std::int32_t>{0, 1, 3}));
-    EXPECT_EQ(f->point_tags, (std::vector<std::int32_t>{1, 1, 2}));
+    EXPECT_EQ(f->triangles.corners, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(f->triangles.tags, (std::vector<std::int32_t>{4, 5})) << "the attribute of -A";
+    EXPECT_EQ(f->marked_points.corners, (std::vector<std::int32_t>{0, 1, 3}));
+    EXPECT_EQ(f->marked_points.tags, (std::vector<std::int32_t>{1, 1, 2}));
   }
 }
 
@@ -65,7 +65,7 @@ TEST_F(TriangleFiles, MayCountFromOne) {
   make("m.ele", "1 3 0\n1 1 2 3\n");
   const auto f = read(path("m.ele"));
   ASSERT_TRUE(f) << f.error().what();
-  EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}}));
+  EXPECT_EQ(f->triangles.corners, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}}));
   EXPECT_EQ(f->numbering->point(0), "point 1");
 }
 
@@ -92,12 +92,12 @@ TEST_F(TriangleFiles, GiveTheirSegmentsAndMarkedEdgesAsLines) {
   make("m.edge", "5 1\n0 0 1 7\n1 1 2 0\n2 2 3 8\n3 3 0 0\n4 0 2 0\n");
   const auto f = read(path("m.node"));
   ASSERT_TRUE(f) << f.error().what();
-  EXPECT_EQ(f->lines, (std::vector<std::array<std::int32_t, 2>>{{0, 1}, {2, 3}}));
-  EXPECT_EQ(f->line_tags, (std::vector<std::int32_t>{7, 8}));
+  EXPECT_EQ(f->lines.corners, (std::vector<std::array<std::int32_t, 2>>{{0, 1}, {2, 3}}));
+  EXPECT_EQ(f->lines.tags, (std::vector<std::int32_t>{7, 8}));
   make("m.poly", "0 2 1 1\n1 1\n0 0 2 3\n0\n");
   const auto g = read(path("m.node"));
   ASSERT_TRUE(g) << g.error().what();
-  EXPECT_EQ(g->lines, (std::vector<std::array<std::int32_t, 2>>{{0, 2}})) << "segments are what is constrained";
+  EXPECT_EQ(g->lines.corners, (std::vector<std::array<std::int32_t, 2>>{{0, 2}})) << "segments are what is constrained";
 }
 
 TEST_F(TriangleFiles, NameErrorsInTheFileTheyAreIn) {

@@ -29,15 +29,15 @@ TEST_F(FileTest, BinaryVtkOfVersion3IsRead) {
       big_endian<std::int16_t>({1, 2, 3, 4, 5, 6, 7, -8}) + "\n";
   const auto f = read(make("m.vtk", content));
   ASSERT_TRUE(f) << f.error().what();
-  EXPECT_EQ(f->triangles, kTriangles);
-  EXPECT_EQ(f->regions, (std::vector<std::int32_t>{6, 7}));
-  EXPECT_EQ(f->line_tags, (std::vector<std::int32_t>{8}));
+  EXPECT_EQ(f->triangles.corners, kTriangles);
+  EXPECT_EQ(f->triangles.tags, (std::vector<std::int32_t>{6, 7}));
+  EXPECT_EQ(f->lines.tags, (std::vector<std::int32_t>{8}));
   EXPECT_TRUE(same_bits(f->weights, {0.1, -0.0, 3, 4}));
   ASSERT_EQ(f->point_data.size(), 1u);
   EXPECT_EQ(f->point_data[0].name, "v x");
   EXPECT_EQ(std::get<std::vector<std::int16_t>>(f->point_data[0].values),
             (std::vector<std::int16_t>{1, 2, 3, 4, 5, 6, 7, -8}));
-  ASSERT_EQ(f->cell_data.size(), 1u) << "mat_id also stays as data of its own type";
+  ASSERT_EQ(f->triangles.data.size(), 1u) << "mat_id also stays as data of its own type";
 }
 
 TEST_F(FileTest, BinaryVtkOfVersion5WithMetadataIsRead) {
@@ -48,7 +48,7 @@ TEST_F(FileTest, BinaryVtkOfVersion5WithMetadataIsRead) {
       big_endian<std::int64_t>({0, 1, 2, 0, 2, 3}) + "\nCELL_TYPES 2\n" + big_endian<std::int32_t>({5, 5}) + "\n";
   const auto f = read(make("m.vtk", content));
   ASSERT_TRUE(f) << f.error().what();
-  EXPECT_EQ(f->triangles, kTriangles);
+  EXPECT_EQ(f->triangles.corners, kTriangles);
 }
 
 TEST_F(FileTest, TypesOfFixedWidthAreKnownByTheirNames) {
@@ -59,10 +59,10 @@ TEST_F(FileTest, TypesOfFixedWidthAreKnownByTheirNames) {
            "CELL_TYPES 2\n5\n5\nCELL_DATA 2\nFIELD FieldData 3\nregion 1 2 vtktypeint32\n6 7\n"
            "a 1 2 vtktypeuint8\n1 255\nb 1 2 vtktypeuint64\n1 2\n"));
   ASSERT_TRUE(f) << f.error().what();
-  EXPECT_EQ(f->regions, (std::vector<std::int32_t>{6, 7}));
-  ASSERT_EQ(f->cell_data.size(), 2u);
-  EXPECT_EQ(std::get<std::vector<std::uint8_t>>(f->cell_data[0].values), (std::vector<std::uint8_t>{1, 255}));
-  EXPECT_EQ(std::get<std::vector<std::uint64_t>>(f->cell_data[1].values), (std::vector<std::uint64_t>{1, 2}));
+  EXPECT_EQ(f->triangles.tags, (std::vector<std::int32_t>{6, 7}));
+  ASSERT_EQ(f->triangles.data.size(), 2u);
+  EXPECT_EQ(std::get<std::vector<std::uint8_t>>(f->triangles.data[0].values), (std::vector<std::uint8_t>{1, 255}));
+  EXPECT_EQ(std::get<std::vector<std::uint64_t>>(f->triangles.data[1].values), (std::vector<std::uint64_t>{1, 2}));
 }
 
 TEST_F(FileTest, PolydataWithLinesAndVerticesIsRead) {
@@ -73,12 +73,12 @@ TEST_F(FileTest, PolydataWithLinesAndVerticesIsRead) {
            "LOOKUP_TABLE default\n1 2 3 4\n"));
   ASSERT_TRUE(f) << f.error().what();
   EXPECT_EQ(f->z(), 1);
-  EXPECT_EQ(f->triangles, kTriangles);
-  EXPECT_EQ(f->regions, (std::vector<std::int32_t>{3, 4}));
-  EXPECT_EQ(f->lines, (std::vector<std::array<std::int32_t, 2>>{{0, 1}, {1, 2}}));
-  EXPECT_EQ(f->line_tags, (std::vector<std::int32_t>{2, 2}));
-  EXPECT_EQ(f->marked_points, (std::vector<std::int32_t>{0, 3}));
-  EXPECT_EQ(f->point_tags, (std::vector<std::int32_t>{1, 1}));
+  EXPECT_EQ(f->triangles.corners, kTriangles);
+  EXPECT_EQ(f->triangles.tags, (std::vector<std::int32_t>{3, 4}));
+  EXPECT_EQ(f->lines.corners, (std::vector<std::array<std::int32_t, 2>>{{0, 1}, {1, 2}}));
+  EXPECT_EQ(f->lines.tags, (std::vector<std::int32_t>{2, 2}));
+  EXPECT_EQ(f->marked_points.corners, (std::vector<std::int32_t>{0, 3}));
+  EXPECT_EQ(f->marked_points.tags, (std::vector<std::int32_t>{1, 1}));
 }
 
 TEST_F(FileTest, AttributesOfAllKindsAreKeptWithTheirTypes) {

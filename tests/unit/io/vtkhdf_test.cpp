@@ -175,7 +175,7 @@ TEST_F(Vtkhdf, TriangleQualityIsNoDataOfTheUser) {
   MeshFile f = sample();
   ASSERT_TRUE(write(path("a.vtkhdf"), f));
   EXPECT_NE(slurp(path("a.vtkhdf")).find("min_angle_deg"), std::string::npos);
-  EXPECT_TRUE(read(path("a.vtkhdf"))->cell_data.empty());
+  EXPECT_TRUE(read(path("a.vtkhdf"))->triangles.data.empty());
   ASSERT_TRUE(write(path("a.vtkhdf"), f, {"", {}, nullptr, false}));
   EXPECT_EQ(slurp(path("a.vtkhdf")).find("min_angle_deg"), std::string::npos);
 }
@@ -210,11 +210,11 @@ TEST_F(Vtkhdf, PiecesBecomeOneMesh) {
     const auto f = read(make_pieces(file));
     ASSERT_TRUE(f) << f.error().what();
     EXPECT_EQ(f->points, (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
-    EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {2, 3, 0}}));
+    EXPECT_EQ(f->triangles.corners, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {2, 3, 0}}));
     ASSERT_EQ(f->point_data.size(), 1u);
     EXPECT_EQ(std::get<std::vector<double>>(f->point_data[0].values), (std::vector<double>{1, 2, 3, 4}));
-    ASSERT_EQ(f->cell_data.size(), 1u);
-    EXPECT_EQ(std::get<std::vector<std::int64_t>>(f->cell_data[0].values), (std::vector<std::int64_t>{10, 20}));
+    ASSERT_EQ(f->triangles.data.size(), 1u);
+    EXPECT_EQ(std::get<std::vector<std::int64_t>>(f->triangles.data[0].values), (std::vector<std::int64_t>{10, 20}));
     EXPECT_EQ(f->numbering->point(3), "point 4");
     ASSERT_EQ(f->warnings.size(), 1u);
     EXPECT_EQ(plain(f->warnings[0]),
@@ -237,9 +237,9 @@ TEST_F(Vtkhdf, GhostsOfOtherPiecesAreLeftOut) {
     file.cell_data = {longs("number", {10, 20, 20}), ghosts};
     const auto f = read(make_pieces(file));
     ASSERT_TRUE(f) << f.error().what();
-    EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {2, 3, 0}}));
-    ASSERT_EQ(f->cell_data.size(), 1u);
-    EXPECT_EQ(std::get<std::vector<std::int64_t>>(f->cell_data[0].values), (std::vector<std::int64_t>{10, 20}));
+    EXPECT_EQ(f->triangles.corners, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {2, 3, 0}}));
+    ASSERT_EQ(f->triangles.data.size(), 1u);
+    EXPECT_EQ(std::get<std::vector<std::int64_t>>(f->triangles.data[0].values), (std::vector<std::int64_t>{10, 20}));
     EXPECT_TRUE(make_mesh(*f));
   }
   file.cell_data = {doubles("vtkGhostType", {0, 1, 0})};

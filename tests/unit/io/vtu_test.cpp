@@ -115,8 +115,8 @@ TEST_P(VtuStyles, AreReadAlike) {
   const auto f = read(make("m.vtu", ByHand(GetParam()).file()));
   ASSERT_TRUE(f) << f.error().what();
   EXPECT_EQ(f->points, (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
-  EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
-  EXPECT_EQ(f->lines, (std::vector<std::array<std::int32_t, 2>>{{0, 1}}));
+  EXPECT_EQ(f->triangles.corners, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(f->lines.corners, (std::vector<std::array<std::int32_t, 2>>{{0, 1}}));
   EXPECT_TRUE(same_bits(f->weights, {0.1, -0.0, 1e-300, 7}));
   ASSERT_EQ(f->point_data.size(), 1u);
   EXPECT_EQ(std::get<std::vector<float>>(f->point_data[0].values), (std::vector<float>{0.1f, 2, 3, 4}));
@@ -199,9 +199,9 @@ MeshFile many_blocks(bool random) {
   for (std::int32_t j = 0; j < kSide; ++j) {
     for (std::int32_t i = 0; i < kSide; ++i) {
       const std::int32_t a = j * (kSide + 1) + i, b = a + kSide + 1;
-      f.triangles.push_back({a, a + 1, b + 1});
-      f.triangles.push_back({a, b + 1, b});
-      f.regions.insert(f.regions.end(), 2, i / 50);
+      f.triangles.corners.push_back({a, a + 1, b + 1});
+      f.triangles.corners.push_back({a, b + 1, b});
+      f.triangles.tags.insert(f.triangles.tags.end(), 2, i / 50);
     }
   }
   return f;

@@ -93,12 +93,11 @@ class ExodusReader {
       if (n >= 3) {
         document_.add_face({a, b, c}, n == 4 ? d : kNoCorner);
         document_.names->triangles.push_back(static_cast<std::int64_t>(elements_.size()));
-        f.regions.push_back(tag);
+        f.triangles.tags.push_back(tag);
       } else if (n == 2) {
         add_line(a, b, tag);
       } else {
-        f.marked_points.push_back(a);
-        f.point_tags.push_back(tag);
+        f.marked_points.add(a, tag);
       }
     }
     blocks_.push_back({n >= 3, v.sizes[0]});
@@ -122,14 +121,10 @@ class ExodusReader {
   void node_set(std::size_t number) {
     const std::int32_t tag = tag_of("ns", 0, number);
     for (const std::int64_t point : in_.integers(in_.variable(text("node_ns", number)))) {
-      document_.file.marked_points.push_back(node(point, text("node set ", number)));
-      document_.file.point_tags.push_back(tag);
+      document_.file.marked_points.add(node(point, text("node set ", number)), tag);
     }
   }
-  void add_line(std::int32_t a, std::int32_t b, std::int32_t tag) {
-    document_.file.lines.push_back({a, b});
-    document_.file.line_tags.push_back(tag);
-  }
+  void add_line(std::int32_t a, std::int32_t b, std::int32_t tag) { document_.file.lines.add({a, b}, tag); }
   [[nodiscard]] std::int32_t node(std::int64_t number, const std::string& user) const {
     const std::size_t n = document_.file.points.size();
     if (number < 1 || static_cast<std::uint64_t>(number) > n)
@@ -179,7 +174,7 @@ class ExodusReader {
         const auto part = last_values(text("vals_elem_var", i + 1, "eb", b + 1), blocks_[b].n);
         all.insert(all.end(), part.begin(), part.end());
       }
-      f.cell_data.push_back({of_elements[i], 1, std::move(all)});
+      f.triangles.data.push_back({of_elements[i], 1, std::move(all)});
     }
     if (has_times_) f.warnings.push_back(text(path(), ": data of the last time are read, others are dropped"));
   }

@@ -70,7 +70,7 @@ class IconReader {
     const auto all = in_.integers(v);
     const std::size_t n = all.size() / 3;
     for (std::size_t t = 0; t < n; ++t) {
-      auto& corners = document_.file.triangles.emplace_back();
+      auto& corners = document_.file.triangles.corners.emplace_back();
       for (std::size_t k = 0; k < 3; ++k) {
         const std::int64_t number = all[is_turned ? k * n + t : 3 * t + k];
         if (number < 1 || number > static_cast<std::int64_t>(lon.size()))
@@ -96,8 +96,8 @@ class IconReader {
                              std::round(lat[i] / kTick)};
       const auto [found, is_new] = vertices.emplace(key, static_cast<std::int32_t>(vertices.size()));
       if (is_new) document_.file.points.push_back({lon[i], lat[i]});
-      if (i % 3 == 0) document_.file.triangles.emplace_back();
-      document_.file.triangles.back()[i % 3] = found->second;
+      if (i % 3 == 0) document_.file.triangles.corners.emplace_back();
+      document_.file.triangles.corners.back()[i % 3] = found->second;
     }
   }
   void data() {
@@ -107,7 +107,7 @@ class IconReader {
       if (taken && v.sizes[0] == document_.file.points.size()) {
         add_netcdf_data(in_, v, document_.file.point_data, kept_);
       } else if (taken && v.sizes[0] == document_.file.triangles.size()) {
-        add_netcdf_data(in_, v, document_.file.cell_data, kept_);
+        add_netcdf_data(in_, v, document_.file.triangles.data, kept_);
       } else if (!kIconGrid.contains(v.name)) {
         dropped.push_back(v.name);
       }

@@ -183,7 +183,7 @@ class MpasReader {
         }
         corners[k] = static_cast<std::int32_t>(c[k] - 1);
       }
-      document_.file.triangles.push_back(corners);
+      document_.file.triangles.corners.push_back(corners);
       complete_.push_back(static_cast<std::int64_t>(t));
       document_.names->triangles.push_back(static_cast<std::int64_t>(t) + 1);
     }
@@ -203,8 +203,8 @@ class MpasReader {
       if (v.scalar && dimension == "nCells") {
         add_netcdf_data(in_, v, document_.file.point_data, kept_);
       } else if (v.scalar && dimension == "nVertices") {
-        add_netcdf_data(in_, v, document_.file.cell_data, kept_);
-        DataArray& a = document_.file.cell_data.back();
+        add_netcdf_data(in_, v, document_.file.triangles.data, kept_);
+        DataArray& a = document_.file.triangles.data.back();
         if (!all_triangles_) a.values = gather(a.values, 1, complete_);
       } else if (is_kept_alone(in_, v)) {
         kept_.variable(v);

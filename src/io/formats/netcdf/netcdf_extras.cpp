@@ -24,14 +24,14 @@ constexpr const char *kKindAttribute = "temper_kind", *kNameAttribute = "temper_
 
 struct ExtraKind {
   std::string_view name;
-  std::vector<DataArray> MeshFile::*data;
+  Content data;
   std::string_view location;  // of UGRID
 };
-constexpr std::array<ExtraKind, 5> kExtraKinds = {{{"point", &MeshFile::point_data, "node"},
-                                                   {"cell", &MeshFile::cell_data, "face"},
-                                                   {"line", &MeshFile::line_data, ""},
-                                                   {"marked", &MeshFile::marked_point_data, ""},
-                                                   {"field", &MeshFile::field_data, ""}}};
+constexpr std::array<ExtraKind, 5> kExtraKinds = {{{"point", kPointData, "node"},
+                                                   {"cell", kCellData, "face"},
+                                                   {"line", kLineData, ""},
+                                                   {"marked", kMarkedPointData, ""},
+                                                   {"field", kFieldData, ""}}};
 
 /// A name that NetCDF accepts and no variable has.
 std::string free_name(const NetcdfWriter& out, const ExtraKind& kind, const std::string& name) {
@@ -66,19 +66,19 @@ class ExtrasWriter {
     const MeshFile& f = file_;
     if (!is_flat(f)) out_.attribute(NetcdfWriter::kFile, kZAttribute, f.z());
     if (!f.names.empty()) out_.attribute(NetcdfWriter::kFile, kNamesAttribute, lines_of(f.names));
-    if (!f.regions.empty()) put(kExtraKinds[1], std::string(kRegionVariable), {places_.cells}, f.regions);
+    if (!f.triangles.tags.empty()) put(kExtraKinds[1], std::string(kRegionVariable), {places_.cells}, f.triangles.tags);
     if (!f.lines.empty()) {
       lines_ = out_.dimension("temper_lines", f.lines.size());
-      out_.variable(std::string(kLinePointsVariable), {lines_, out_.dimension("TWO", 2)}, flattened(f.lines));
-      out_.variable(std::string(kLineTagsVariable), {lines_}, f.line_tags);
+      out_.variable(std::string(kLinePointsVariable), {lines_, out_.dimension("TWO", 2)}, flattened(f.lines.corners));
+      out_.variable(std::string(kLineTagsVariable), {lines_}, f.lines.tags);
     }
     if (!f.marked_points.empty()) {
       marked_ = out_.dimension("temper_marked", f.marked_points.size());
-      out_.variable(std::string(kMarkedPointsVariable), {marked_}, f.marked_points);
-      out_.variable(std::string(kPointTagsVariable), {marked_}, f.point_tags);
+      out_.variable(std::string(kMarkedPointsVariable), {marked_}, f.marked_points.corners);
+      out_.variable(std::string(kPointTagsVariable), {marked_}, f.marked_points.tags);
     }
     for (const ExtraKind& kind : kExtraKinds) {
-      for (const DataArray& a : f.*kind.data) {
+      for (const DataArray& a : data_of(f, kind.data)) {
         if (a.name != kNetcdfAttributes) data(kind, a);
       }
     }
@@ -201,7 +201,7 @@ void read_own_data(const NetcdfReader& in, Document& document, const NetcdfVaria
   if (kind.name == "cell") expect_rows(document, v, f.triangles.size());
   if (kind.name == "line") expect_rows(document, v, f.lines.size());
   if (kind.name == "marked") expect_rows(document, v, f.marked_points.size());
-  auto& arrays = f.*kind.data;
+  auto& arrays = data_of(f, kind.data);
   arrays.push_back({std::move(name), static_cast<int>(components), in.unpacked(v)});
 }
 
@@ -234,24 +234,24 @@ void read_netcdf_extras(const NetcdfReader& in, Document& document, NetcdfCollec
   read_physical_names(scanner, f.names);
   if (const NetcdfVariable* v = in.find(kRegionVariable); v != nullptr && v->sizes.size() == 1) {
     expect_rows(document, *v, f.triangles.size());
-    f.regions = read_int32(in, document, *v);
+    f.triangles.tags = read_int32(in, document, *v);
   }
   if (const NetcdfVariable* v = in.find(kLinePointsVariable)) {
     const auto ends = read_int32(in, document, *v);
     if (v->sizes.size() != 2 || v->sizes[1] != 2)
       fail(ErrorCode::syntax, document.names->path, "variable ", v->name, " has other than two columns");
-    for (std::size_t i = 0; i + 1 < ends.size(); i += 2) f.lines.push_back({ends[i], ends[i + 1]});
+    for (std::size_t i = 0; i + 1 < ends.size(); i += 2) f.lines.corners.push_back({ends[i], ends[i + 1]});
     const NetcdfVariable& tags = in.variable(kLineTagsVariable);
     expect_rows(document, tags, f.lines.size());
-    f.line_tags = read_int32(in, document, tags);
-    f.line_tags.resize(f.lines.size());
+    f.lines.tags = read_int32(in, document, tags);
+    f.lines.tags.resize(f.lines.size());
   }
   if (const NetcdfVariable* v = in.find(kMarkedPointsVariable)) {
-    f.marked_points = read_int32(in, document, *v);
+    f.marked_points.corners = read_int32(in, document, *v);
     const NetcdfVariable& tags = in.variable(kPointTagsVariable);
     expect_rows(document, tags, f.marked_points.size());
-    f.point_tags = read_int32(in, document, tags);
-    f.point_tags.resize(f.marked_points.size());
+    f.marked_points.tags = read_int32(in, document, tags);
+    f.marked_points.tags.resize(f.marked_points.size());
   }
   for (const NetcdfVariable& v : in.variables()) {
     const std::string kind = in.text_attribute(&v, kKindAttribute);

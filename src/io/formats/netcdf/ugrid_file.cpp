@@ -301,7 +301,7 @@ class UgridReader {
         add_netcdf_data(in_, v, document_.file.point_data, kept_,
                         topology_ == nullptr && v.name == kOldLevel ? std::string(kBedLevel) : v.name);
       } else if (one && v.dimensions[0] == face_dimension_) {
-        add_netcdf_data(in_, v, document_.file.cell_data, kept_);
+        add_netcdf_data(in_, v, document_.file.triangles.data, kept_);
       } else if (is_kept_alone(in_, v)) {
         kept_.variable(v);
       } else {
@@ -343,7 +343,8 @@ class UgridReader {
 /// looks for stay what they are.
 std::string name_of_topology(const MeshFile& file) {
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
-  for (const auto& [data, location] : {std::pair{&file.point_data, "_node_"}, std::pair{&file.cell_data, "_face_"}}) {
+  for (const auto& [data, location] :
+       {std::pair{&file.point_data, "_node_"}, std::pair{&file.triangles.data, "_face_"}}) {
     for (const DataArray& a : *data) {
       const std::size_t at = a.name.find(location);
       if (at == std::string::npos || at == 0) continue;

@@ -332,7 +332,7 @@ class LegacyVtkReader {
         const std::string here = array.text_lines.empty() ? scanner_.path() : text(scanner_.path(), ":", line);
         sorter.add(type_of(i), array.points.data() + start, static_cast<std::size_t>(array.ends[i] - start), here);
         start = array.ends[i];
-        while (!array.text_lines.empty() && tet_lines.size() < document_.tetrahedra.corners.size())
+        while (!array.text_lines.empty() && tet_lines.size() < document_.file.tetrahedra.corners.size())
           tet_lines.push_back(line);
         while (!array.text_lines.empty() && triangle_lines.size() < document_.file.triangles.size())
           triangle_lines.push_back(line);

@@ -106,7 +106,7 @@ VtkArray vtk_connectivity(const WriteJob& job) {
                     n2 = n4 + 2 * cells.lines;
   return computed_vtk_array<std::int32_t>(
       "connectivity", Scalar::i32, cells.points_of_first(cells.size()), [&job, n_tets, n3, n4, n2](std::size_t i) {
-        if (i < n_tets) return job.tetrahedra->corners[i / 4][i % 4];
+        if (i < n_tets) return job.file.tetrahedra[i / 4][i % 4];
         i -= n_tets;
         const MeshFile& f = job.file;
         if (i < n3) return f.triangles[i / 3][i % 3];
@@ -144,16 +144,16 @@ namespace {
 
 VtkArray regions(const WriteJob& job) {
   const MeshFile& f = job.file;
-  const std::size_t s = job.n_tetrahedra(), t = f.triangles.size(), l = f.lines.size();
+  const std::size_t s = job.file.tetrahedra.size(), t = f.triangles.size(), l = f.lines.size();
   return computed_vtk_array<std::int32_t>("region", Scalar::i32, s + t + l + f.marked_points.size(),
                                           [&job, &f, s, t, l](std::size_t i) {
                                             if (i < s) {
-                                              const auto& of_tets = job.tetrahedra->regions;
+                                              const auto& of_tets = job.file.tetrahedra.tags;
                                               return of_tets.empty() ? 0 : of_tets[i];
                                             }
                                             i -= s;
-                                            if (i < t) return f.regions.empty() ? 0 : f.regions[i];
-                                            return i < t + l ? f.line_tags[i - t] : f.point_tags[i - t - l];
+                                            if (i < t) return f.triangles.tags.empty() ? 0 : f.triangles.tags[i];
+                                            return i < t + l ? f.lines.tags[i - t] : f.marked_points.tags[i - t - l];
                                           });
 }
 
@@ -179,15 +179,14 @@ std::vector<VtkArray> vtk_point_data(const WriteJob& job) {
 std::vector<VtkArray> vtk_cell_data(const WriteJob& job) {
   const MeshFile& f = job.file;
   std::vector<VtkArray> list;
-  static const Tetrahedra none;
-  const Tetrahedra& tets = job.tetrahedra == nullptr ? none : *job.tetrahedra;
-  const bool tagged = !tets.regions.empty() || !f.regions.empty() || !f.lines.empty() || !f.marked_points.empty();
+  const Cells<3>& tets = f.tetrahedra;
+  const bool tagged = !tets.tags.empty() || !f.triangles.tags.empty() || !f.lines.empty() || !f.marked_points.empty();
   if (tagged) list.push_back(regions(job));
 
-  const std::vector<DataArray>* kinds[] = {&tets.data, &f.cell_data, &f.line_data, &f.marked_point_data};
-  const std::size_t counts[] = {tets.corners.size(), f.triangles.size(), f.lines.size(), f.marked_points.size()};
-  const ArraysByName named[] = {ArraysByName(tets.data), ArraysByName(f.cell_data), ArraysByName(f.line_data),
-                                ArraysByName(f.marked_point_data)};
+  const std::vector<DataArray>* kinds[] = {&tets.data, &f.triangles.data, &f.lines.data, &f.marked_points.data};
+  const std::size_t counts[] = {tets.size(), f.triangles.size(), f.lines.size(), f.marked_points.size()};
+  const ArraysByName named[] = {ArraysByName(tets.data), ArraysByName(f.triangles.data), ArraysByName(f.lines.data),
+                                ArraysByName(f.marked_points.data)};
   std::set<std::string_view> done;
   for (const auto* kind : kinds) {
     for (const DataArray& a : *kind) {
@@ -202,8 +201,8 @@ std::vector<VtkArray> vtk_cell_data(const WriteJob& job) {
         const bool alike =
             other != nullptr && other->components == a.components && other->values.index() == a.values.index();
         if (other != nullptr && !alike) {
-          job.warn("data ", a.name, " of ", tets.corners.empty() ? "" : "faces, ",
-                   "lines or points have another type than data of ", tets.corners.empty() ? "triangles" : "tetrahedra",
+          job.warn("data ", a.name, " of ", tets.empty() ? "" : "faces, ",
+                   "lines or points have another type than data of ", tets.empty() ? "triangles" : "tetrahedra",
                    " and are not written");
         }
         parts.push_back({alike ? &other->values : nullptr, counts[k] * static_cast<std::size_t>(a.components)});
@@ -251,14 +250,14 @@ float as_float(double value) {
 
 /// The coordinates that measures use: those of a plane are two.
 Vec3 measured_place(const WriteJob& job, std::size_t point) {
-  if (job.n_tetrahedra() > 0) return job.place(point);
+  if (job.file.dimension() == 3) return job.place(point);
   const Vec3 p = position_of(job.measured, point);
   return job.measured.sphere() != nullptr ? p : Vec3{p.x, p.y, 0};
 }
 
 bool is_exact(const WriteJob& job, Vec3 p) {
   const auto all = [&](const auto& is_in_range) { return is_in_range(p.x) && is_in_range(p.y) && is_in_range(p.z); };
-  return job.n_tetrahedra() > 0 ? all(tets::is_exact_coordinate) : all(is_exact_coordinate);
+  return job.file.dimension() == 3 ? all(tets::is_exact_coordinate) : all(is_exact_coordinate);
 }
 
 /// The first of these corners with coordinates out of range, or −1.
@@ -271,7 +270,7 @@ std::int32_t corner_out_of_range(const WriteJob& job, std::span<const std::int32
 
 bool is_measurable(const WriteJob& job, std::span<const std::int32_t> corners) {
   const auto& weights = job.measured.weights;
-  const auto is_in_range = job.n_tetrahedra() > 0 ? tets::is_exact_weight : is_exact_weight;
+  const auto is_in_range = job.file.dimension() == 3 ? tets::is_exact_weight : is_exact_weight;
   return corner_out_of_range(job, corners) < 0 && std::ranges::all_of(corners, [&](std::int32_t corner) {
            return weights.empty() || is_in_range(weights[static_cast<std::size_t>(corner)]);
          });
@@ -291,8 +290,8 @@ void warn_of_scale(const WriteJob& job, const Elements& elements, std::string_vi
 
 /// Warns of the first element that cannot be measured.
 void warn_of_scale(const WriteJob& job) {
-  if (job.n_tetrahedra() > 0)
-    warn_of_scale(job, job.tetrahedra->corners, "tetrahedron");
+  if (job.file.dimension() == 3)
+    warn_of_scale(job, job.file.tetrahedra, "tetrahedron");
   else
     warn_of_scale(job, job.measured.triangles, "triangle");
 }
@@ -349,11 +348,11 @@ QualityColumns columns_of_triangles(const WriteJob& job) {
 /// Corners may come in either orientation.
 QualityColumns columns_of_tetrahedra(const WriteJob& job) {
   const auto& weights = job.file.weights;
-  return measure_all(job.n_tetrahedra(), kTetrahedronQuality.size(), job.executor, [&](std::size_t t) {
-    if (!is_measurable(job, job.tetrahedra->corners[t])) return std::array{0.0, kUnknown, kUnknown};
+  return measure_all(job.file.tetrahedra.size(), kTetrahedronQuality.size(), job.executor, [&](std::size_t t) {
+    if (!is_measurable(job, job.file.tetrahedra[t])) return std::array{0.0, kUnknown, kUnknown};
     std::array<tets::WeightedPoint, 4> corners;
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto point = static_cast<std::size_t>(job.tetrahedra->corners[t][k]);
+      const auto point = static_cast<std::size_t>(job.file.tetrahedra[t][k]);
       const Vec3 p = job.place(point);
       corners[k] = {p.x, p.y, p.z, weights.empty() ? 0 : weights[point]};
     }
@@ -367,11 +366,10 @@ QualityColumns columns_of_tetrahedra(const WriteJob& job) {
 
 /// The name of an array that data of the file already have, or nothing.
 std::string_view name_taken(const WriteJob& job, std::span<const QualityArray> rows) {
-  static const std::vector<DataArray> none;
   const MeshFile& file = job.measured;
   for (const QualityArray& row : rows) {
-    for (const auto* arrays : {job.tetrahedra == nullptr ? &none : &job.tetrahedra->data, &file.cell_data,
-                               &file.line_data, &file.marked_point_data}) {
+    for (const auto* arrays :
+         {&file.tetrahedra.data, &file.triangles.data, &file.lines.data, &file.marked_points.data}) {
       if (find(*arrays, row.name) != nullptr) return row.name;
     }
   }
@@ -395,7 +393,7 @@ std::span<const QualityArray> quality_among(
 
 std::vector<VtkArray> vtk_quality(const WriteJob& job) {
   const MeshFile& file = job.measured;
-  const bool tetrahedra = job.n_tetrahedra() > 0;
+  const bool tetrahedra = job.file.dimension() == 3;
   if (file.degrees() != nullptr) return {};
   if (!tetrahedra && (file.triangles.empty() || !job.fourth_corners.empty())) return {};
   const std::span<const QualityArray> rows =

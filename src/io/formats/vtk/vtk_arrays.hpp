@@ -26,7 +26,7 @@ void put_big_endian(Output& out, const VtkArray& array);
 struct VtkCells {
   std::size_t tetrahedra = 0, triangles = 0, quadrilaterals = 0, lines = 0, points = 0;
   explicit VtkCells(const WriteJob& job)
-      : tetrahedra(job.n_tetrahedra()),
+      : tetrahedra(job.file.tetrahedra.size()),
         triangles(job.n_triangles()),
         quadrilaterals(job.fourth_corners.size()),
         lines(job.file.lines.size()),
