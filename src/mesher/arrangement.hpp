@@ -4,15 +4,11 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "geometry/surface.hpp"
 #include "mesher/deadline.hpp"
-#include "mesher/snap.hpp"
-#include "temper/detail/error.hpp"
-#include "temper/detail/outline.hpp"
+#include "mesher/problem.hpp"
 
 namespace temper::mesher {
 
@@ -33,28 +29,15 @@ struct Arrangement {
   std::vector<OutlineEdge> edges;            ///< in the order of the segments
   std::vector<std::uint8_t> kept;            ///< of each part, then ring: does it have an edge?
   std::vector<std::string> notes, warnings;  ///< on joins
+
+  [[nodiscard]] Vec3 place(std::int32_t i) const { return places[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] std::array<Vec3, 2> ends(std::size_t edge) const {
+    return {place(edges[edge].ends[0]), place(edges[edge].ends[1])};
+  }
 };
 
-/// Leaves out rings whose extent is below `drop_below`. Joins, divides and merges. Errors: everything that makes
-/// segments no planar graph. `places`: of the points. A whole sphere needs no segments.
-[[nodiscard]] Expected<Arrangement> arrange(const Surface& surface, const Outline& outline,
-                                            const std::vector<Vec3>& places, const SnapOptions& options,
-                                            double drop_below, Deadline& deadline);
-
-/// An error if a tag is for none of the n elements of the outline.
-[[nodiscard]] std::optional<InputError> check_tags(const std::vector<OutlineTag>& tags, const std::string& what,
-                                                   std::size_t n);
-
-/// An error if a size is for no point of the outline, or no length.
-[[nodiscard]] std::optional<InputError> check_sizes(const Outline& outline);
-
-/// The names of the outline, or names that count from 0.
-[[nodiscard]] const OutlineNames& names_of(const Outline& outline);
-
-/// "'river'", or "tag 5" without a name.
-[[nodiscard]] std::string name_of_tag(const Outline& outline, int dimension, std::int32_t tag);
-
-/// "(8.5, 53.25)": a place in the coordinates of the file.
-[[nodiscard]] std::string text_of(const Surface& surface, const OutlineNames& names, Vec3 place);
+/// Leaves out rings whose extent is below the option `drop_below`. Joins, divides and merges. Errors: everything that
+/// makes segments no planar graph. A whole sphere needs no segments.
+[[nodiscard]] Expected<Arrangement> arrange(const Problem& problem, Deadline& deadline);
 
 }  // namespace temper::mesher

@@ -8,78 +8,6 @@
 
 namespace temper::mesher {
 
-// The graded size by a tree over its sources: branches that cannot lower the best value so far are skipped.
-
-namespace {
-
-constexpr std::size_t kLeaf = 8;  // sources tested one by one
-
-}  // namespace
-
-GradedSize::GradedSize(const Surface& surface, std::span<const SizeSource> sources, const WantedSize& wanted,
-                       double grade)
-    : surface_(surface), wanted_(wanted), grade_(grade) {
-  for (const SizeSource& source : sources) {
-    if (source.size < wanted.most) sources_.push_back(source);
-  }
-  if (!sources_.empty()) build(0, sources_.size());
-}
-
-std::uint32_t GradedSize::build(std::size_t begin, std::size_t end) {
-  const auto index = static_cast<std::uint32_t>(nodes_.size());
-  Node node{box_of(sources_[begin].at, sources_[begin].at), sources_[begin].size, static_cast<std::uint32_t>(begin),
-            static_cast<std::uint32_t>(end)};
-  for (std::size_t i = begin + 1; i < end; ++i) {
-    const SizeSource& s = sources_[i];
-    node.box = united(node.box, {s.at, s.at});
-    node.least = std::min(node.least, s.size);
-  }
-  nodes_.push_back(node);
-  if (end - begin <= kLeaf) return index;
-  const std::size_t middle = begin + (end - begin) / 2;
-  double Vec3::*const side = node.box.longest();
-  const auto before = [side](const SizeSource& a, const SizeSource& b) {
-    if (a.at.*side != b.at.*side) return a.at.*side < b.at.*side;
-    for (double Vec3::*const other : {&Vec3::x, &Vec3::y, &Vec3::z}) {
-      if (a.at.*other != b.at.*other) return a.at.*other < b.at.*other;
-    }
-    return a.size < b.size;
-  };
-  const auto at = [&](std::size_t i) { return sources_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(begin), at(middle), at(end), before);
-  build(begin, middle);
-  const std::uint32_t right = build(middle, end);
-  nodes_[index].right = right;
-  return index;
-}
-
-double GradedSize::bound(const Node& node, Vec3 x) const {
-  const auto beyond = [&](double Vec3::*side) {
-    return std::max({node.box.low.*side - x.*side, 0.0, x.*side - node.box.high.*side});
-  };
-  return node.least + grade_ * length(Vec3{beyond(&Vec3::x), beyond(&Vec3::y), beyond(&Vec3::z)});
-}
-
-void GradedSize::lower(std::uint32_t at, Vec3 x, double& best) const {
-  const Node& node = nodes_[at];
-  if (node.right == 0) {
-    for (std::uint32_t i = node.begin; i < node.end; ++i) {
-      if (sources_[i].size < best) best = std::min(best, sources_[i].size + grade_ * length(x - sources_[i].at));
-    }
-    return;
-  }
-  const double left = bound(nodes_[at + 1], x), right = bound(nodes_[node.right], x);
-  const bool left_first = left <= right;
-  if (std::min(left, right) < best) lower(left_first ? at + 1 : node.right, x, best);
-  if (std::max(left, right) < best) lower(left_first ? node.right : at + 1, x, best);
-}
-
-double GradedSize::operator()(Vec3 x) const {
-  double best = wanted_.at(x, surface_);
-  if (!nodes_.empty() && bound(nodes_[0], x) < best) lower(0, x, best);
-  return best;
-}
-
 namespace {
 
 /// Distances of the division points along a segment of given length: equal parts of the integral of 1/size.
@@ -168,9 +96,9 @@ NearEdge nearest_edge(const Surface& surface, const Arrangement& arrangement, co
 BoundingBoxTree tree_of_edges(const Surface& surface, const Arrangement& arrangement) {
   std::vector<BoundingBox> boxes;
   boxes.reserve(arrangement.edges.size());
-  for (const OutlineEdge& e : arrangement.edges) {
-    boxes.push_back(box_around(surface, arrangement.places[static_cast<std::size_t>(e.ends[0])],
-                               arrangement.places[static_cast<std::size_t>(e.ends[1])]));
+  for (std::size_t i = 0; i < arrangement.edges.size(); ++i) {
+    const auto [a, b] = arrangement.ends(i);
+    boxes.push_back(box_around(surface, a, b));
   }
   return BoundingBoxTree(boxes);
 }
@@ -196,8 +124,21 @@ CornerRadii corner_radii(const Surface& surface, const Arrangement& arrangement,
   return radii;
 }
 
-DividedOutline divide(const Surface& surface, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
-                      const GradedSize& size, const CornerRadii& corners, std::size_t most, Deadline& deadline) {
+DividedOutline undivided(const Arrangement& arrangement) {
+  DividedOutline whole{arrangement.places, {}};
+  for (std::size_t e = 0; e < arrangement.edges.size(); ++e) {
+    const auto [a, b] = arrangement.edges[e].ends;
+    whole.pieces.push_back(
+        {{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)}, static_cast<std::uint32_t>(e)});
+  }
+  return whole;
+}
+
+DividedOutline divide(const Arrangement& arrangement, const GradedSize& size, const CornerRadii& corners,
+                      std::size_t most, Deadline& deadline) {
+  const std::vector<Vec3>& points = arrangement.places;
+  const std::vector<OutlineEdge>& edges = arrangement.edges;
+  const Surface& surface = size.surface();
   DividedOutline divided{points, {}};
   for (std::size_t e = 0; e < edges.size() && divided.pieces.size() <= most && !deadline.stopped(); ++e) {
     const auto a = static_cast<std::uint32_t>(edges[e].ends[0]), b = static_cast<std::uint32_t>(edges[e].ends[1]);
@@ -223,12 +164,11 @@ DividedOutline divide(const Surface& surface, const std::vector<Vec3>& points, c
   return divided;
 }
 
-double count_pieces(const Surface& surface, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
-                    double size) {
+double count_pieces(const Surface& surface, const Arrangement& arrangement, double size) {
   double pieces = 0;
-  for (const OutlineEdge& e : edges) {
-    const double whole =
-        surface.distance(points[static_cast<std::size_t>(e.ends[0])], points[static_cast<std::size_t>(e.ends[1])]);
+  for (std::size_t i = 0; i < arrangement.edges.size(); ++i) {
+    const auto [a, b] = arrangement.ends(i);
+    const double whole = surface.distance(a, b);
     pieces += std::max(1.0, std::ceil(whole / size));
   }
   return pieces;

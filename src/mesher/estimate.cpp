@@ -22,8 +22,8 @@ constexpr double kBytesOfProgram = 60e6;  // libraries, and buffers that do not 
 
 class Counter {
  public:
-  Counter(const Surface& surface, const Triangulated& outline, const Areas& areas, const GradedSize& size)
-      : surface_(surface), outline_(outline), areas_(areas), size_(size) {}
+  Counter(const Triangulated& outline, const Areas& areas, const GradedSize& size)
+      : surface_(size.surface()), outline_(outline), areas_(areas), size_(size) {}
 
   double run(bool has_field, Deadline& deadline) {
     for (const TriangleId t : outline_.mesh.triangles()) {
@@ -148,9 +148,8 @@ double count_in(double area, double size) {
   return area / size / size / kOfSquare;            // the square of a tiny size would be 0
 }
 
-double count_triangles(const Surface& surface, const Triangulated& outline, const Areas& areas, const GradedSize& size,
-                       Deadline& deadline) {
-  return Counter(surface, outline, areas, size).run(size.has_field(), deadline);
+double count_triangles(const Triangulated& outline, const Areas& areas, const GradedSize& size, Deadline& deadline) {
+  return Counter(outline, areas, size).run(size.has_field(), deadline);
 }
 
 double count_field(const Surface& surface, const Triangulated& outline, const WantedSize& wanted, Deadline& deadline) {

@@ -6,7 +6,7 @@
 
 #include "mesher/areas.hpp"
 #include "mesher/deadline.hpp"
-#include "mesher/divided_outline.hpp"
+#include "mesher/triangulated.hpp"
 
 namespace temper::mesher {
 
@@ -15,8 +15,8 @@ namespace temper::mesher {
 
 /// The number of triangles of these sizes inside the outline. `outline`: the triangulation of `points` and edges alone.
 /// It takes a limited number of steps. Then it counts too many triangles, if any.
-[[nodiscard]] double count_triangles(const Surface& surface, const Triangulated& outline, const Areas& areas,
-                                     const GradedSize& size, Deadline& deadline);
+[[nodiscard]] double count_triangles(const Triangulated& outline, const Areas& areas, const GradedSize& size,
+                                     Deadline& deadline);
 
 /// The least number of triangles of a size field inside the outline: it sees each triangle of the field.
 [[nodiscard]] double count_field(const Surface& surface, const Triangulated& outline, const WantedSize& wanted,

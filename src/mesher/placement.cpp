@@ -42,7 +42,7 @@ class Narrow {
     for (const HalfedgeId h : mesh_.halfedges()) {
       if (deadline.asked_to_stop()) break;
       if (triangulated_.area[Mesh::triangle(h)] == kOutside) continue;
-      if (triangulated_.piece[h] != Triangulated::kNoPiece) {
+      if (triangulated_.piece[h] != kNoPiece) {
         across(h);
       } else if (mesh_.is_edge_representative(h)) {
         along(h);
@@ -90,8 +90,8 @@ class Narrow {
   /// Visits a triangle on a piece: from the piece to the other side.
   void across(HalfedgeId h) {
     const VertexId a = mesh_.origin(h), b = mesh_.target(h), c = mesh_.opposite(h);
-    if (helps(c) || triangulated_.piece[Mesh::next(h)] != Triangulated::kNoPiece ||
-        triangulated_.piece[Mesh::prev(h)] != Triangulated::kNoPiece || neighbors(a, c) || neighbors(b, c))
+    if (helps(c) || triangulated_.piece[Mesh::next(h)] != kNoPiece || triangulated_.piece[Mesh::prev(h)] != kNoPiece ||
+        neighbors(a, c) || neighbors(b, c))
       return;
     const Vec3 ab = at(b) - at(a);
     const double part = dot(at(c) - at(a), ab) / squared_length(ab);
@@ -227,25 +227,24 @@ struct Front {
 
 class Placement {
  public:
-  Placement(const Surface& surface, const DividedOutline& divided, const Areas& areas, const GradedSize& size,
-            Deadline& deadline)
-      : surface_(surface),
+  Placement(const DividedOutline& divided, const Areas& areas, const GradedSize& size, Deadline& deadline)
+      : surface_(size.surface()),
         divided_(divided),
         areas_(areas),
         size_(size),
         deadline_(deadline),
-        grid_(surface.space().dimension() == 2) {
+        grid_(surface_.space().dimension() == 2) {
     std::vector<BoundingBox> boxes;
     boxes.reserve(divided.pieces.size());
     for (const Piece& p : divided.pieces)
-      boxes.push_back(box_around(surface, divided.points[p.ends[0]], divided.points[p.ends[1]]));
+      boxes.push_back(box_around(surface_, divided.points[p.ends[0]], divided.points[p.ends[1]]));
     tree_ = BoundingBoxTree(boxes);
     for (const Vec3 p : divided.points) grid_.add(p, size(p));
   }
 
-  std::vector<Vec3> run(Vec3 start, std::size_t most) {
+  std::vector<Vec3> run(std::size_t most) {
     for (std::size_t i = 0; i < divided_.pieces.size() && !deadline_.asked_to_stop(); ++i) start_from(i);
-    const std::size_t given = divided_.pieces.empty() ? start_without_pieces(start) : 0;
+    const std::size_t given = divided_.pieces.empty() ? start_without_pieces() : 0;
     for (std::size_t i = 0; i < front_.size() && front_.size() < most && !deadline_.asked_to_stop(); ++i) {
       const Front from = front_[i];  // a copy: front_ grows
       const double here = size_at(from.at, from.area);
@@ -264,8 +263,6 @@ class Placement {
   }
 
  private:
-  static constexpr std::size_t kNoPiece = static_cast<std::size_t>(-1);
-
   [[nodiscard]] double size_at(Vec3 p, std::int32_t area) const {
     return std::min(size_(p), areas_.areas[static_cast<std::size_t>(area)].size);
   }
@@ -288,9 +285,10 @@ class Placement {
   }
 
   /// Returns the number of points of the front that exist already.
-  std::size_t start_without_pieces(Vec3 start) {
+  std::size_t start_without_pieces() {
     for (const Vec3 p : divided_.points) front_.push_back({p, surface_.some_direction(p), 0});
     if (front_.empty()) {
+      const Vec3 start = size_.start();
       grid_.add(start, size_at(start, 0));
       front_.push_back({start, surface_.some_direction(start), 0});
     }
@@ -328,9 +326,9 @@ class Placement {
 
 }  // namespace
 
-std::vector<Vec3> place_points(const Surface& surface, const DividedOutline& divided, const Areas& areas,
-                               const GradedSize& size, Vec3 start, std::size_t most, Deadline& deadline) {
-  return Placement(surface, divided, areas, size, deadline).run(start, most);
+std::vector<Vec3> place_points(const DividedOutline& divided, const Areas& areas, const GradedSize& size,
+                               std::size_t most, Deadline& deadline) {
+  return Placement(divided, areas, size, deadline).run(most);
 }
 
 }  // namespace temper::mesher

@@ -9,6 +9,7 @@
 
 #include "mesher/areas.hpp"
 #include "mesher/deadline.hpp"
+#include "mesher/triangulated.hpp"
 
 namespace temper::mesher {
 
@@ -33,9 +34,9 @@ struct NarrowPlaces {
 
 /// Places points. Each candidate is one size away from its point or piece. It is taken when nothing is too near and no
 /// piece lies between. The order is the order of the pieces, then of the points: deterministic. Ends when there are
-/// `most`, or when it is time to stop. A whole sphere without pieces is filled from its isolated points, or from
-/// `start`. O(n log n).
-[[nodiscard]] std::vector<Vec3> place_points(const Surface& surface, const DividedOutline& divided, const Areas& areas,
-                                             const GradedSize& size, Vec3 start, std::size_t most, Deadline& deadline);
+/// `most`, or when it is time to stop. A whole sphere without pieces is filled from its isolated points, or from the
+/// start of the sizes. O(n log n).
+[[nodiscard]] std::vector<Vec3> place_points(const DividedOutline& divided, const Areas& areas, const GradedSize& size,
+                                             std::size_t most, Deadline& deadline);
 
 }  // namespace temper::mesher

@@ -27,6 +27,29 @@ constexpr double kRoundingOfDegrees = 1e-13;
 // Each round finds the crossings that the parts of the last one make. Nearly always one is enough.
 constexpr int kCrossingRounds = 100;
 
+using Ends = std::array<Vec3, 2>;
+
+/// Two great circles meet twice: arcs cross only if c and a are on opposite sides of each other's arc.
+bool cross(const Surface& surface, const Ends& one, const Ends& other) {
+  const auto [a, b] = one;
+  const auto [c, d] = other;
+  const Sign of_c = surface.orientation(a, b, c);
+  return of_c != Sign::zero && surface.orientation(a, b, d) == -of_c && surface.orientation(c, d, a) == -of_c &&
+         surface.orientation(c, d, b) == of_c;
+}
+
+Vec3 crossing_of(const Surface& surface, const Ends& one, const Ends& other) {
+  const auto [a, b] = one;
+  const auto [c, d] = other;
+  if (surface.is_plane()) {
+    const double part = temper::cross(c - a, d - c).z / temper::cross(b - a, d - c).z;
+    return a + std::clamp(part, 0.0, 1.0) * (b - a);
+  }
+  const Vec3 normal = temper::cross(c, d - c);
+  const double of_a = dot(normal, a - c), of_b = dot(normal, b - c);
+  return surface.below(a + std::clamp(of_a / (of_a - of_b), 0.0, 1.0) * (b - a));
+}
+
 class Snapper {
  public:
   Snapper(const Surface& surface, std::vector<Vec3> places, std::vector<SegmentPart> segments,
@@ -62,6 +85,7 @@ class Snapper {
  private:
   [[nodiscard]] std::size_t n_places() const { return result_.places.size(); }
   [[nodiscard]] Vec3 at(std::int32_t i) const { return result_.places[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] Ends ends(const SegmentPart& part) const { return {at(part.ends[0]), at(part.ends[1])}; }
   [[nodiscard]] std::int32_t& joined(std::int32_t i) { return result_.joined[static_cast<std::size_t>(i)]; }
   [[nodiscard]] std::int32_t find(std::int32_t i) {
     while (joined(i) != i) i = joined(i) = joined(joined(i));
@@ -214,40 +238,19 @@ class Snapper {
     }
   }
 
-  /// Two great circles meet twice: arcs cross only if c and a are on opposite sides of each other's arc.
-  [[nodiscard]] bool cross(const SegmentPart& one, const SegmentPart& other) const {
-    const auto [a, b] = one.ends;
-    const auto [c, d] = other.ends;
-    const auto side = [&](std::int32_t p, std::int32_t q, std::int32_t r) {
-      return surface_.orientation(at(p), at(q), at(r));
-    };
-    const Sign of_c = side(a, b, c);
-    return of_c != Sign::zero && side(a, b, d) == -of_c && side(c, d, a) == -of_c && side(c, d, b) == of_c;
-  }
-
-  [[nodiscard]] Vec3 crossing_of(const SegmentPart& one, const SegmentPart& other) const {
-    const Vec3 a = at(one.ends[0]), b = at(one.ends[1]), c = at(other.ends[0]), d = at(other.ends[1]);
-    if (surface_.is_plane()) {
-      const double part = temper::cross(c - a, d - c).z / temper::cross(b - a, d - c).z;
-      return a + std::clamp(part, 0.0, 1.0) * (b - a);
-    }
-    const Vec3 normal = temper::cross(c, d - c);
-    const double of_a = dot(normal, a - c), of_b = dot(normal, b - c);
-    return surface_.below(a + std::clamp(of_a / (of_a - of_b), 0.0, 1.0) * (b - a));
-  }
-
   /// Divides parts where they cross. Returns false if there is no crossing, or one to report.
   bool divide_at_crossings() {
     std::vector<BoundingBox> boxes;
     boxes.reserve(result_.parts.size());
     for (const SegmentPart& part : result_.parts) {
-      boxes.push_back(box_around(surface_, at(part.ends[0]), at(part.ends[1])));
+      const auto [a, b] = ends(part);
+      boxes.push_back(box_around(surface_, a, b));
     }
     const BoundingBoxTree tree(boxes);
     std::vector<std::array<std::size_t, 2>> pairs;
     for (std::size_t i = 0; i < boxes.size() && !deadline_.asked_to_stop(); ++i) {
       tree.visit(boxes[i], [&](std::size_t j) {
-        if (j > i && cross(result_.parts[i], result_.parts[j])) pairs.push_back({i, j});
+        if (j > i && cross(surface_, ends(result_.parts[i]), ends(result_.parts[j]))) pairs.push_back({i, j});
         return !deadline_.asked_to_stop();
       });
     }
@@ -257,8 +260,8 @@ class Snapper {
     std::vector<std::vector<std::int32_t>> through(boxes.size());
     for (const auto& [i, j] : pairs) {
       const SegmentPart &one = result_.parts[i], &other = result_.parts[j];
-      const Vec3 place = crossing_of(one, other);
-      if (!options_.split_crossings && cross(segments_[one.segment], segments_[other.segment])) {
+      const Vec3 place = crossing_of(surface_, ends(one), ends(other));
+      if (!options_.split_crossings && cross(surface_, ends(segments_[one.segment]), ends(segments_[other.segment]))) {
         result_.crossing = {one.segment, other.segment, place};
         return false;
       }

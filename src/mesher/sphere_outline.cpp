@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "mesher/arrangement.hpp"
+#include "mesher/problem.hpp"
 #include "temper/detail/projection.hpp"
 
 namespace temper::mesher {
@@ -208,6 +208,13 @@ class Uniter {
     }
   }
 
+  /// Appends elements of outline k to all of their kind, and their origins.
+  template <class T>
+  static void append(const std::vector<T>& elements, std::size_t k, std::vector<T>& all, std::vector<Origin>& origins) {
+    for (std::size_t i = 0; i < elements.size(); ++i) origins.push_back({k, i});
+    all.insert(all.end(), elements.begin(), elements.end());
+  }
+
   Error add(std::size_t k) {
     const Outline& o = *sources_[k];
     const auto first_point = static_cast<std::int32_t>(result_.places.size());
@@ -217,11 +224,8 @@ class Uniter {
       const auto found = tags.find({dimension, tag});
       return found == tags.end() ? tag : found->second;
     };
-    for (std::size_t i = 0; i < o.points.size(); ++i) {
-      result_.outline.points.push_back(o.points[i]);
-      result_.places.push_back(radius_ * direction_of(o.points[i]));
-      names_->points.push_back({k, i});
-    }
+    append(o.points, k, result_.outline.points, names_->points);
+    for (const Vec2 p : o.points) result_.places.push_back(radius_ * direction_of(p));
     for (std::size_t i = 0; i < o.segments.size(); ++i) {
       OutlineSegment segment = o.segments[i];
       for (std::int32_t& end : segment.ends) end += first_point;
@@ -239,14 +243,8 @@ class Uniter {
       result_.outline.further_tags.push_back({first_segment_ + further.element, common(1, further.tag)});
     for (const OutlineSize& s : o.sizes)
       result_.outline.sizes.push_back({{first_point + s.points[0], first_point + s.points[1]}, s.size});
-    for (std::size_t i = 0; i < o.holes.size(); ++i) {
-      result_.outline.holes.push_back(o.holes[i]);
-      names_->holes.push_back({k, i});
-    }
-    for (std::size_t i = 0; i < o.regions.size(); ++i) {
-      result_.outline.regions.push_back(o.regions[i]);
-      names_->regions.push_back({k, i});
-    }
+    append(o.holes, k, result_.outline.holes, names_->holes);
+    append(o.regions, k, result_.outline.regions, names_->regions);
     return k == kLines ? Error() : add_parts(k);
   }
   [[nodiscard]] Vec3 place(std::int32_t i) const { return result_.places[static_cast<std::size_t>(i)]; }

@@ -1,0 +1,34 @@
+// The sizes of a run: sources that grow from attempt to attempt, and what the division of the outline needs besides.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mesher/domain.hpp"
+#include "mesher/placement.hpp"
+
+namespace temper::mesher {
+
+struct Sizing {
+  std::vector<SizeSource> sources;
+  CornerRadii corners;
+  std::optional<Gap> narrowest;  ///< the shortest edge at first
+
+  [[nodiscard]] GradedSize size(const Problem& problem) const {
+    return {problem.surface, sources, problem.wanted, problem.options.grade};
+  }
+};
+
+/// The number of triangles along lines and areas with sizes of their own.
+[[nodiscard]] double count_on_lines(const Problem& problem, const Domain& domain);
+
+/// Sources for short edges, for areas of smaller size, and at places where the size field grows faster than the grade.
+[[nodiscard]] Sizing first_sizing(const Problem& problem, const Domain& domain);
+
+/// Makes sizes around the triangles that stay bad smaller.
+void refine_around_bad(const Problem& problem, const Mesh& mesh, Sizing& sizing);
+
+/// Adds what one round found at narrow places.
+void add(const NarrowPlaces& narrow, Sizing& sizing);
+
+}  // namespace temper::mesher
