@@ -9,7 +9,7 @@
 //       gn \     / gp    cost:   O(1), no allocation; finding a lost outgoing() again walks around a vertex
 //           \   /
 //             d          The slots turn with the quad: a → d, b → c, c → a, d → b. Four turns are none, so the
-//                        inverse is three flips, or one turn the other way.
+//                        inverse is three flips, or one turn back: a → c, c → b, b → d, d → a.
 #pragma once
 
 #include <algorithm>
@@ -43,44 +43,30 @@ inline void attach(Mesh& mesh, HalfedgeId h, OuterSide side) {
   if (mesh.is_constrained(h) != side.constrained) mesh.set_constrained(h, side.constrained);
 }
 
-inline HalfedgeId flip(Mesh& mesh, HalfedgeId h) {
+/// Turns the quad around h: to the next diagonal, or back to the last one.
+template <bool forward>
+void turn(Mesh& mesh, HalfedgeId h) {
   TEMPER_ASSERT(!mesh.is_boundary(h) && !mesh.is_constrained(h));
   const HalfedgeId g = mesh.twin(h);
   const HalfedgeId n = Mesh::next(h), p = Mesh::prev(h), gn = Mesh::next(g), gp = Mesh::prev(g);
   const auto [a, b, c, d] = quad(mesh, h);
-  const OuterSide bc = outer_side(mesh, n), ca = outer_side(mesh, p);
-  const OuterSide ad = outer_side(mesh, gn), db = outer_side(mesh, gp);
+  const Quad to = forward ? Quad{d, c, a, b} : Quad{c, d, b, a};
+  const OuterSide sides[] = {outer_side(mesh, n), outer_side(mesh, p), outer_side(mesh, gn), outer_side(mesh, gp)};
+  constexpr int k = forward ? 1 : 3;
 
   MeshEditor edit(mesh);
-  edit.set_corner(h, d), edit.set_corner(n, c), edit.set_corner(p, a);
-  edit.set_corner(g, c), edit.set_corner(gn, d), edit.set_corner(gp, b);
-  attach(mesh, n, ca), attach(mesh, p, ad), attach(mesh, gn, db), attach(mesh, gp, bc);
+  edit.set_corner(h, to.a), edit.set_corner(n, to.b), edit.set_corner(p, to.c);
+  edit.set_corner(g, to.b), edit.set_corner(gn, to.a), edit.set_corner(gp, to.d);
+  attach(mesh, n, sides[k]), attach(mesh, p, sides[(k + 1) % 4]);
+  attach(mesh, gn, sides[(k + 2) % 4]), attach(mesh, gp, sides[(k + 3) % 4]);
 
-  update_outgoing(mesh, a, p);
-  update_outgoing(mesh, b, gp);
-  update_outgoing(mesh, c, std::max(n, g));
-  update_outgoing(mesh, d, std::max(h, gn));
-  return h;
+  update_outgoing(mesh, to.a, std::max(h, gn));
+  update_outgoing(mesh, to.b, std::max(n, g));
+  update_outgoing(mesh, to.c, p);
+  update_outgoing(mesh, to.d, gp);
 }
 
-// One turn the other way: a → c, c → b, b → d, d → a, with the letters of the quad before the call.
-inline void unflip(Mesh& mesh, HalfedgeId h) {
-  TEMPER_ASSERT(!mesh.is_boundary(h) && !mesh.is_constrained(h));
-  const HalfedgeId g = mesh.twin(h);
-  const HalfedgeId n = Mesh::next(h), p = Mesh::prev(h), gn = Mesh::next(g), gp = Mesh::prev(g);
-  const auto [a, b, c, d] = quad(mesh, h);
-  const OuterSide bc = outer_side(mesh, n), ca = outer_side(mesh, p);
-  const OuterSide ad = outer_side(mesh, gn), db = outer_side(mesh, gp);
-
-  MeshEditor edit(mesh);
-  edit.set_corner(h, c), edit.set_corner(n, d), edit.set_corner(p, b);
-  edit.set_corner(g, d), edit.set_corner(gn, c), edit.set_corner(gp, a);
-  attach(mesh, n, db), attach(mesh, p, bc), attach(mesh, gn, ca), attach(mesh, gp, ad);
-
-  update_outgoing(mesh, a, gp);
-  update_outgoing(mesh, b, p);
-  update_outgoing(mesh, c, std::max(h, gn));
-  update_outgoing(mesh, d, std::max(n, g));
-}
+inline HalfedgeId flip(Mesh& mesh, HalfedgeId h) { return turn<true>(mesh, h), h; }
+inline void unflip(Mesh& mesh, HalfedgeId h) { turn<false>(mesh, h); }
 
 }  // namespace temper::inlined
