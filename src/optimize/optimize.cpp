@@ -94,9 +94,16 @@ bool is_grid(const Mesh& mesh, const Settings& settings) {
   return static_cast<double>(ties) >= kTiedPart * static_cast<double>(mesh.n_vertices());
 }
 
-/// Takes the input with small weights at its ties instead, if errors are smaller there. Returns the ratio of errors.
-double weigh_ties_instead(Candidate& best, double ratio, const ErrorJudge& judge, const Mesh& input,
-                          const Settings& settings, SweepState state, Run& run) {
+/// A candidate, and the largest ratio of its errors to the input's.
+struct Judged {
+  Candidate candidate;
+  double ratio = 1;
+};
+
+/// Takes the input with small weights at its ties instead, if errors are smaller there. `end`: settings by weights.
+void weigh_ties_instead(Judged& best, const ErrorJudge& judge, const Mesh& input, const RunEnd& end, Run& run) {
+  const Settings& settings = end.settings;
+  SweepState state = end.state;
   // With the least, errors change by a percent or two. Trapezoids of rings need more.
   for (const double amount : {0.01, 0.04, 0.16}) {
     const std::size_t records = run.report.history.size();
@@ -105,36 +112,36 @@ double weigh_ties_instead(Candidate& best, double ratio, const ErrorJudge& judge
     driver.recorder().returned_to(-1);
     const bool is_good = driver.make_regular() && driver.reweight_ties(amount);
     now.sweep = run.report.sweeps;
-    const double now_ratio = is_good ? judge.largest_ratio(now.work.mesh) : ratio;
-    if (now_ratio < ratio) {
-      best = std::move(now);
-      return now_ratio;
+    const double ratio = is_good ? judge.largest_ratio(now.work.mesh) : best.ratio;
+    if (ratio < best.ratio) {
+      best = {std::move(now), ratio};
+      return;
     }
-    driver.recorder().returned_to(best.sweep);
+    driver.recorder().returned_to(best.candidate.sweep);
     run.report.history.resize(records);  // its last record is of the returned mesh
-    if (is_good) break;
+    if (is_good) return;
   }
-  return ratio;
 }
 
 /// Returns the mesh of the run, or a rival on which measured errors are smaller. On structured grids errors of
 /// neighbors cancel, and vertices that move end this. A sound input is a rival, and so is a grid whose ties get small
 /// weights.
-Candidate least_error(Candidate best, InputMesh& given, const MeshScore& counts, const Settings& settings,
-                      const SweepState& state, Run& run) {
+Candidate least_error(Candidate best, InputMesh& given, const RunEnd& end, Run& run) {
+  const Settings& settings = end.settings;
   if (settings.options.coarsen) return best;  // it should have fewer vertices, and larger errors
   if (run.stopped_early() || !is_judged_by_errors(given.n_vertices(), best.work.units.space, settings)) return best;
   const Mesh& input = given.whole();
   Settings by_weights = settings;
   by_weights.options.unknowns = Unknowns::weights;
-  const bool sound = is_sound(input, counts, settings);
+  const bool sound = is_sound(input, end.of_input.counts, settings);
   if (!sound && !is_grid(input, by_weights)) return best;
   const ErrorJudge judge(input, settings);
-  double ratio = judge.largest_ratio(best.work.mesh);
-  if (ratio > 1 && !sound) ratio = weigh_ties_instead(best, ratio, judge, input, by_weights, state, run);
-  run.facts.keeps_input = ratio > 1 && sound;
-  if (ratio > 1) run.facts.error_ratio = ratio;
-  return best;
+  const double ratio = judge.largest_ratio(best.work.mesh);
+  Judged judged = {std::move(best), ratio};
+  if (ratio > 1 && !sound) weigh_ties_instead(judged, judge, input, {by_weights, end.state, end.of_input}, run);
+  run.facts.keeps_input = judged.ratio > 1 && sound;
+  if (judged.ratio > 1) run.facts.error_ratio = judged.ratio;
+  return std::move(judged.candidate);
 }
 
 /// Runs in the plane of the mesh.
@@ -161,9 +168,9 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   run.facts.meets_limits = meets_limits_of_client(input.any_order(), settings);
   auto found = run.facts.meets_limits ? Candidate{input.copy()} : attempt(input, settings, state, run, sizes);
   if (!found) return found.error();
-  Candidate best = *std::move(found);
-  best = least_error(std::move(best), input, of_input.counts, settings, state, run);
-  give_back(input, std::move(best), settings, state, of_input, std::move(sizes), run);
+  const RunEnd end = {settings, state, of_input};
+  Candidate best = least_error(*std::move(found), input, end, run);
+  give_back(input, std::move(best), end, std::move(sizes), run);
   return std::move(run.report);
 }
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "energy/whole_mesh.hpp"
 #include "mesh/curve.hpp"
@@ -132,66 +133,97 @@ InputMeasures::InputMeasures(InputMesh& input, const Settings& settings, std::op
   score = temper::score(mesh, counts, settings, settings.model, numbers.empty() ? &sizes->of_input() : &there);
 }
 
-void give_back(InputMesh& input, Candidate best, const Settings& settings, const SweepState& state,
-               const InputMeasures& of_input, std::optional<AccuracySizes> sizes, Run& run) {
-  OptimizeReport& report = run.report;
-  report.objective = settings.objective;
-  Recorder recorder(settings.hooks.tracer, best.work, 1);
-  recorder.begin_sweep(run.next_sweep());
-  const EnergyModel model = in_user_units(state.model, best.work.units);
-  const bool for_accuracy = sizes.has_value();
-  Result result = result_of(input, std::move(best.work), settings, model, std::move(sizes));
+namespace {
+
+/// The two meshes of which one goes back to the user.
+struct Rivals {
+  Result made;
+  Result as_given;                 ///< the score of the input; if `flips`, the input made regular
+  bool flips = false;              ///< the input lacks flips that may make it the better mesh
+  std::vector<TraceEvent> events;  ///< of these flips
+  double energy_before = 0;        ///< of the input
+};
+
+Rivals measure(InputMesh& input, WorkingCopy best, const RunEnd& end, std::optional<AccuracySizes> sizes,
+               const Run& run) {
+  const auto& [settings, state, of_input] = end;
+  const EnergyModel model = in_user_units(state.model, best.units);
+  Rivals rivals;
+  rivals.made = result_of(input, std::move(best), settings, model, std::move(sizes));
   const MeshScore before =
       of_input.score ? *of_input.score : score(input.whole(), of_input.counts, settings, model, nullptr);
-  report.size.before = report.size.after = of_input.size;
-  report.objective_before = before.energy;
-  report.bad_before = of_input.counts.bad;
-  const double bad_part_before = bad_part(input.n_triangles(), of_input.counts.bad);
+  rivals.energy_before = before.energy;
+  rivals.as_given.score = before;
   // Flips that make the input regular have priority over all other criteria.
-  const bool may_be_better = before < result.score || result.score.bad > 0 || result.score.non_regular > 0;
-  bool flips = may_be_better && !run.facts.meets_limits && lacks_flips(of_input.counts, settings, run.facts);
-  Result as_given;
-  as_given.score = before;
-  if (flips) {
-    Settings silent = settings;
-    silent.hooks.tracer = {};
-    std::optional<AccuracySizes> again;
-    if (for_accuracy) {
-      const NearbyCopy near(input.whole(), settings.executor());
-      again.emplace(near.mesh(), numbers_of(near), settings.options.size_field, settings.executor());
-    }
-    as_given =
-        result_of(input, made_regular(input.whole(), silent, state, report.sweeps), settings, model, std::move(again));
-    // Regularity comes before the worst triangle, but not before the measures of the client.
-    if (settings.guard != nullptr && as_given.score.beyond_guard > 0) {
-      flips = false;
-      as_given = {};
-      as_given.score = before;
-    }
+  const MeshScore& made = rivals.made.score;
+  const bool may_be_better = before < made || made.bad > 0 || made.non_regular > 0;
+  if (!may_be_better || run.facts.meets_limits || !lacks_flips(of_input.counts, settings, run.facts)) return rivals;
+  std::optional<AccuracySizes> again;
+  if (settings.objective != Objective::energy) {
+    const NearbyCopy near(input.whole(), settings.executor());
+    again.emplace(near.mesh(), numbers_of(near), settings.options.size_field, settings.executor());
   }
-  const bool coarser = settings.options.coarsen && result.work.mesh.n_vertices() < input.n_vertices() &&
-                       result.score.bad <= as_given.score.bad && result.score.non_regular <= as_given.score.non_regular;
-  const bool worse =
-      run.facts.keeps_input || (!coarser && !replaces(result.score, as_given.score, Requirement::not_worse));
-  if (worse) {
+  Settings recorded = settings;
+  std::vector<TraceEvent> events;
+  if (settings.hooks.tracer) recorded.hooks.tracer = [&events](const TraceEvent& e) { events.push_back(e); };
+  Result flipped = result_of(input, made_regular(input.whole(), recorded, state, run.report.sweeps), settings, model,
+                             std::move(again));
+  // Regularity comes before the worst triangle, but not before the measures of the client.
+  if (settings.guard != nullptr && flipped.score.beyond_guard > 0) return rivals;
+  rivals.as_given = std::move(flipped);
+  rivals.flips = true;
+  rivals.events = std::move(events);
+  return rivals;
+}
+
+/// Says whether the input is better than the mesh of the run.
+bool returns_input(const Rivals& rivals, const InputMesh& input, const Settings& settings, const RunFacts& facts) {
+  if (facts.keeps_input) return true;
+  const MeshScore &made = rivals.made.score, &as_given = rivals.as_given.score;
+  const bool coarser = settings.options.coarsen && rivals.made.work.mesh.n_vertices() < input.n_vertices() &&
+                       made.bad <= as_given.bad && made.non_regular <= as_given.non_regular;
+  return !coarser && !replaces(made, as_given, Requirement::not_worse);
+}
+
+void hand_over(InputMesh& input, Rivals rivals, bool returns_input, const RunEnd& end, Run& run) {
+  const Settings& settings = end.settings;
+  OptimizeReport& report = run.report;
+  Ending ending = {returns_input, rivals.flips, settings.objective != Objective::energy, rivals.made.score.bad,
+                   bad_part(input.n_triangles(), end.of_input.counts.bad)};
+  Result& result = rivals.made;
+  if (returns_input) {
+    Recorder recorder(settings.hooks.tracer, result.work, 1);
+    recorder.begin_sweep(run.next_sweep());
     recorder.returned_to(-1);
-    if (flips && recorder.on()) static_cast<void>(made_regular(input.whole(), settings, state, report.sweeps));
-    result = std::move(as_given);
+    for (const TraceEvent& e : rivals.events) settings.hooks.tracer(e);
+    result = std::move(rivals.as_given);
+    ending.bad = result.score.bad;
   }
-  report.vertices = std::move(result.vertices);
+  const bool is_new = !returns_input || rivals.flips;
+  report.objective = settings.objective;
+  report.objective_before = rivals.energy_before;
   report.objective_after = result.score.energy;
-  report.bad_after = !worse || flips ? result.score.bad : of_input.counts.bad;
+  report.bad_before = end.of_input.counts.bad;
+  report.bad_after = is_new ? result.score.bad : end.of_input.counts.bad;
+  report.size.before = end.of_input.size;
+  report.size.after = is_new ? result.size : end.of_input.size;
+  report.vertices = std::move(result.vertices);
   count_changes(input.n_vertices(), report);
-  if (!worse || flips) {
-    report.size.after = result.size;
+  if (is_new) {
     if (settings.hooks.viewer) settings.hooks.viewer(result.work.mesh);
     input.replace(std::move(result.work));
   }
-  const Mesh& mesh = input.whole();
-  report.hidden = hidden_vertices_of(mesh, settings);
-
-  add_notes(mesh, settings, run.facts, {worse, flips, for_accuracy, result.score.bad, bad_part_before}, report);
+  report.hidden = hidden_vertices_of(input.whole(), settings);
+  add_notes(input.whole(), settings, run.facts, ending, report);
   report.seconds = run.seconds();
+}
+
+}  // namespace
+
+void give_back(InputMesh& input, Candidate best, const RunEnd& end, std::optional<AccuracySizes> sizes, Run& run) {
+  Rivals rivals = measure(input, std::move(best.work), end, std::move(sizes), run);
+  const bool worse = returns_input(rivals, input, end.settings, run.facts);
+  hand_over(input, std::move(rivals), worse, end, run);
 }
 
 }  // namespace temper

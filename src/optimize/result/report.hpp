@@ -22,9 +22,15 @@ struct InputMeasures {
   std::optional<MeshScore> score;  ///< if it does not depend on the run's energies
 };
 
+/// What a run has at its end, besides its best mesh.
+struct RunEnd {
+  const Settings& settings;
+  const SweepState& state;
+  const InputMeasures& of_input;
+};
+
 /// Puts the candidate in the place of the input, unless the input is better, and completes the report. `sizes`: the
 /// accuracy objective's.
-void give_back(InputMesh& input, Candidate best, const Settings& settings, const SweepState& state,
-               const InputMeasures& of_input, std::optional<AccuracySizes> sizes, Run& run);
+void give_back(InputMesh& input, Candidate best, const RunEnd& end, std::optional<AccuracySizes> sizes, Run& run);
 
 }  // namespace temper
