@@ -31,16 +31,14 @@ constexpr double kSideways = 0.33;
 
 }  // namespace
 
-Coarsening::Coarsening(WorkingCopy& work, const Settings& settings, Run& run, Flipper& flipper,
-                       const Recorder& recorder, int moves_of_cure)
+Coarsening::Coarsening(WorkingCopy& work, Run& run, Flipper& flipper, int moves_of_cure)
     : work_(work),
-      settings_(settings_of_copies(settings)),
+      settings_(settings_of_copies(flipper.settings())),
       run_(run),
       flipper_(flipper),
-      recorder_(recorder),
-      sizes_(work, *settings.size_field, *settings.options.coarsen),
-      rng_(settings.policy.seed),
-      moves_left_(settings.options.coarsen_moves),
+      sizes_(work, *flipper.settings().size_field, *flipper.settings().options.coarsen),
+      rng_(flipper.settings().policy.seed),
+      moves_left_(flipper.settings().options.coarsen_moves),
       moves_of_cure_(moves_of_cure) {}
 
 bool Coarsening::improve() {
@@ -151,7 +149,7 @@ Coarsening::Changed Coarsening::make(const Neighborhood& around, const Move& mov
   TEMPER_ASSERT(result.valid && result.defect == tried.defect);  // as without events
   const bool coarsens = !cures || !move.removed.empty();
   if (coarsens && !sizes_.allows(around, result.mesh)) return std::nullopt;
-  return splice(work_, flipper_, recorder_, around, result.events);
+  return splice(work_, flipper_, around, result.events);
 }
 
 std::vector<VertexId> Coarsening::removable() const {

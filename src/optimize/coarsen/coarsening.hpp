@@ -20,10 +20,9 @@ namespace temper {
 
 class Coarsening {
  public:
-  /// `settings`: of the run, with a factor of coarsening. `moves_of_cure`: after so many moves without fewer bad
+  /// The flipper's settings have a factor of coarsening. `moves_of_cure`: after so many moves without fewer bad
   /// triangles the search is over.
-  Coarsening(WorkingCopy& work, const Settings& settings, Run& run, Flipper& flipper, const Recorder& recorder,
-             int moves_of_cure);
+  Coarsening(WorkingCopy& work, Run& run, Flipper& flipper, int moves_of_cure);
 
   /// Makes one round of moves. Removed vertices stay isolated until the caller compacts, before the next round. Returns
   /// false if the search is over.
@@ -48,7 +47,6 @@ class Coarsening {
   const Settings settings_;  // of local copies
   Run& run_;
   Flipper& flipper_;
-  const Recorder& recorder_;
   SizeLimit sizes_;
   Rng rng_;
   int moves_left_, moves_of_cure_;

@@ -22,6 +22,10 @@ class Flipper {
   Flipper(Mesh& mesh, const Settings& settings, const SweepState& state, const Recorder& recorder)
       : mesh_(mesh), settings_(settings), state_(state), recorder_(recorder) {}
 
+  [[nodiscard]] const Settings& settings() const { return settings_; }
+  [[nodiscard]] const SweepState& state() const { return state_; }
+  [[nodiscard]] const Recorder& recorder() const { return recorder_; }
+
   /// A step of v from `origin`. v has moved already.
   struct Step {
     VertexId v;

@@ -16,7 +16,7 @@
 namespace temper {
 namespace {
 
-constexpr int kKicks = 3;
+constexpr int kPerturbations = 3;
 // Largest number of bad triangles of a neighborhood at which edits begin.
 constexpr std::size_t kMostBad = 6;
 constexpr std::size_t kMostRemovals = 12;
@@ -41,14 +41,14 @@ void add_insertions(const Mesh& mesh, TriangleId t, InsertionPlace place, std::v
     const WeightedPoint p = insertion_point(mesh.space(), rule, a, b, c);
     const Location at = locate(mesh, p, t);
     if (at.kind != Location::Kind::in_triangle) return;
-    edits.push_back({.kind = Edit::insert, .triangle = at.triangle, .place = p});
+    edits.push_back(Insert{at.triangle, p});
   };
   if (place != InsertionPlace::best) return add(place);
   add(InsertionPlace::centroid);
   add(InsertionPlace::orthocenter);
   for (int side = 0; side < 3; ++side) {
     const HalfedgeId h = Mesh::halfedge(t, side);
-    if (!mesh.is_boundary(h) && !mesh.is_constrained(h)) edits.push_back({.kind = Edit::split, .edge = h});
+    if (!mesh.is_boundary(h) && !mesh.is_constrained(h)) edits.push_back(Split{h});
   }
 }
 
@@ -71,7 +71,7 @@ void add_removals(const Neighborhood& around, const std::vector<TriangleId>& bad
     if (!may_be_removed(around.mesh, around.frozen, around.divided, v)) continue;
     if (plan_removal(around.mesh, v).status != RemovalStatus::possible) continue;
     if (++count > kMostRemovals) return;
-    edits.push_back({.kind = Edit::remove, .vertex = v});
+    edits.push_back(Remove{v});
   }
 }
 
@@ -132,17 +132,13 @@ void add_corner_cuts(const Mesh& mesh, const std::vector<TriangleId>& triangles,
       for (std::size_t j = 0; j < i; ++j) is_sharp = is_sharp || dot(spokes[i], spokes[j]) > 0;
     }
     if (!is_sharp) continue;
-    for (const double part : {1.0, 0.5}) {
-      edits.push_back({.kind = Edit::cut_corner, .vertex = v, .distance = part * shortest});
-    }
+    for (const double part : {1.0, 0.5}) edits.push_back(CutCorner{v, part * shortest});
   }
 }
 
 void add_line_splits(const Neighborhood& around, const std::vector<TriangleId>& bad, std::vector<Edit>& edits) {
   for (const HalfedgeId h : lines_near(around, bad)) {
-    for (const double part : parts_to_split(around.mesh, h)) {
-      edits.push_back({.kind = Edit::split, .edge = h, .part = part});
-    }
+    for (const double part : parts_to_split(around.mesh, h)) edits.push_back(Split{h, part});
   }
   add_corner_cuts(around.mesh, bad, edits);
 }
@@ -150,9 +146,9 @@ void add_line_splits(const Neighborhood& around, const std::vector<TriangleId>& 
 }  // namespace
 
 std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, const Allowed& allowed, Rng& rng) {
-  std::vector<Edit> moves = {{.kind = Edit::nothing}}, weights, one, many, anew;
-  for (int i = 0; i < kKicks; ++i) moves.push_back({.kind = Edit::kick, .seed = rng.next()});
-  if (allowed.weights) weights.push_back({.kind = Edit::assign_weights});
+  std::vector<Edit> moves = {JustSweep{}}, weights, one, many, anew;
+  for (int i = 0; i < kPerturbations; ++i) moves.push_back(Perturb{rng.next()});
+  if (allowed.weights) weights.push_back(AssignWeights{});
   if (!allowed.vertices) return {moves, weights};
   const std::vector<TriangleId> bad = some_bad_triangles(around);
   add_removals(around, bad, one);
@@ -161,11 +157,11 @@ std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, const Allow
   // Refinement has places of its own, and measures across the neighborhood.
   if (allowed.place != InsertionPlace::best || around.mesh.space().is_periodic()) return {moves, weights, one};
   for (const double gradation : kGradations) {
-    many.push_back({.kind = Edit::refine, .gradation = gradation});
-    anew.push_back({.kind = Edit::remesh, .gradation = gradation});
-    if (!allowed.lines) continue;
-    many.push_back({.kind = Edit::refine, .gradation = gradation, .splits_lines = true});
-    anew.push_back({.kind = Edit::remesh, .gradation = gradation, .splits_lines = true});
+    for (const bool splits : {false, true}) {
+      if (splits && !allowed.lines) continue;
+      many.push_back(Refine{{gradation}, splits});
+      anew.push_back(Refine{{gradation}, splits, true});
+    }
   }
   return {moves, weights, one, many, anew};
 }
@@ -174,9 +170,7 @@ std::vector<Edit> splits_of(const Neighborhood& around, HalfedgeId h, double par
   const Mesh& mesh = around.mesh;
   const VertexId u = mesh.origin(h), v = mesh.target(h);
   const double whole = length(mesh.position(v) - mesh.position(u));
-  return {{.kind = Edit::split, .edge = h, .part = part},
-          {.kind = Edit::cut_corner, .vertex = u, .distance = part * whole},
-          {.kind = Edit::cut_corner, .vertex = v, .distance = (1 - part) * whole}};
+  return {Split{h, part}, CutCorner{u, part * whole}, CutCorner{v, (1 - part) * whole}};
 }
 
 }  // namespace temper

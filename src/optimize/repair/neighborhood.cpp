@@ -95,14 +95,12 @@ std::vector<HalfedgeId> lines_at(const Mesh& mesh, VertexId v) {
   return lines;
 }
 
-Neighborhood neighborhood_of(const WorkingCopy& work, TriangleId seed, int rings) {
+namespace {
+
+/// Copies these triangles with their vertices, in order.
+void copy_triangles(const WorkingCopy& work, const std::vector<TriangleId>& triangles, Neighborhood& around) {
   const Mesh& mesh = work.mesh;
-  const std::vector<TriangleId> triangles = rings_around(mesh, seed, rings);
-  Neighborhood around;
-  around.mesh.set_space(mesh.space());
   MeshEditor edit(around.mesh);
-  around.seed = TriangleId(
-      static_cast<std::size_t>(std::lower_bound(triangles.begin(), triangles.end(), seed) - triangles.begin()));
   std::unordered_map<std::uint32_t, VertexId> local;
   const auto local_vertex = [&](VertexId v) {
     const auto [entry, is_new] = local.try_emplace(v.index, around.vertices.size());
@@ -118,7 +116,11 @@ Neighborhood neighborhood_of(const WorkingCopy& work, TriangleId seed, int rings
     const auto [a, b, c] = mesh.corners(t);
     edit.add_triangle({local_vertex(a), local_vertex(b), local_vertex(c)}, mesh.region(t));
   }
-  around.frozen.assign(around.vertices.size(), 0);
+}
+
+/// Links the halfedges of the copies of these triangles. Without a twin among them they are the rim.
+void copy_edges(const Mesh& mesh, const std::vector<TriangleId>& triangles, Neighborhood& around) {
+  MeshEditor edit(around.mesh);
   for (const HalfedgeId h : around.mesh.halfedges()) {
     const HalfedgeId whole(3 * std::size_t{triangles[h.index / 3].index} + h.index % 3);
     around.mesh.set_constrained(h, mesh.is_constrained(whole));
@@ -134,6 +136,12 @@ Neighborhood neighborhood_of(const WorkingCopy& work, TriangleId seed, int rings
     around.rim.push_back({around.mesh.origin(h), around.mesh.target(h)});
     around.beyond.push_back(mesh.point(mesh.opposite(twin)));
   }
+}
+
+/// Finds an outgoing halfedge of each vertex, and what of its star is outside.
+void complete_vertices(const Mesh& mesh, const std::vector<TriangleId>& triangles, Neighborhood& around) {
+  MeshEditor edit(around.mesh);
+  around.frozen.assign(around.vertices.size(), 0);
   for (const HalfedgeId h : around.mesh.halfedges()) edit.set_outgoing(around.mesh.origin(h), h);
   for (const VertexId v : around.mesh.vertices()) {
     edit.set_outgoing(v, canonical_outgoing(around.mesh, around.mesh.outgoing(v)));
@@ -142,6 +150,26 @@ Neighborhood neighborhood_of(const WorkingCopy& work, TriangleId seed, int rings
     }
     around.outside.push_back(outside_of(mesh, around.vertices[v.index], triangles));
   }
+}
+
+/// Gives v the place or the weight of an event.
+void place(Mesh& mesh, VertexId v, const TraceEvent& e, const Recorder& recorder) {
+  const WeightedPoint from = mesh.point(v), reweighted = mesh.space().with_weight(from, e.point.w);
+  mesh.set_point(v, e.kind == EventKind::move ? e.point : reweighted);
+  recorder.placed(v, from, mesh.point(v), e.before, e.after);
+}
+
+}  // namespace
+
+Neighborhood neighborhood_of(const WorkingCopy& work, TriangleId seed, int rings) {
+  const std::vector<TriangleId> triangles = rings_around(work.mesh, seed, rings);
+  Neighborhood around;
+  around.mesh.set_space(work.mesh.space());
+  around.seed = TriangleId(
+      static_cast<std::size_t>(std::lower_bound(triangles.begin(), triangles.end(), seed) - triangles.begin()));
+  copy_triangles(work, triangles, around);
+  copy_edges(work.mesh, triangles, around);
+  complete_vertices(work.mesh, triangles, around);
   return around;
 }
 
@@ -156,7 +184,7 @@ bool rim_is_regular(const Neighborhood& around, const Mesh& local) {
   return true;
 }
 
-std::vector<VertexId> splice(WorkingCopy& work, Flipper& flipper, const Recorder& recorder, const Neighborhood& around,
+std::vector<VertexId> splice(WorkingCopy& work, Flipper& flipper, const Neighborhood& around,
                              std::span<const TraceEvent> events) {
   TEMPER_ASSERT_SLOW(std::all_of(around.mesh.vertices().begin(), around.mesh.vertices().end(), [&](VertexId v) {
     return around.mesh.point(v) == work.mesh.point(around.vertices[v.index]);
@@ -169,13 +197,9 @@ std::vector<VertexId> splice(WorkingCopy& work, Flipper& flipper, const Recorder
     TEMPER_ASSERT((e.kind != EventKind::insertion && e.kind != EventKind::split) || e.vertex.index == vertices.size());
     switch (e.kind) {
       case EventKind::move:
-      case EventKind::weight: {
-        const VertexId v = whole(e.vertex);
-        const WeightedPoint from = mesh.point(v), reweighted = mesh.space().with_weight(from, e.point.w);
-        mesh.set_point(v, e.kind == EventKind::move ? e.point : reweighted);
-        recorder.placed(v, from, mesh.point(v), e.before, e.after);
+      case EventKind::weight:
+        place(mesh, whole(e.vertex), e, flipper.recorder());
         break;
-      }
       case EventKind::flip:
         flipper.flip(edge(e.quad[0], e.quad[1]), e.before, e.after);
         break;

@@ -41,7 +41,7 @@ struct Neighborhood {
 /// Applies the events of a trial on `around` to its mesh, which must not have changed since, and traces them. Removed
 /// vertices stay isolated until the caller compacts. Returns the new vertices of the place: they include all corners of
 /// changed triangles.
-std::vector<VertexId> splice(WorkingCopy& work, Flipper& flipper, const Recorder& recorder, const Neighborhood& around,
+std::vector<VertexId> splice(WorkingCopy& work, Flipper& flipper, const Neighborhood& around,
                              std::span<const TraceEvent> events);
 
 }  // namespace temper

@@ -75,7 +75,7 @@ bool RepairSearch::improve_one_place() {
     if (!edit) continue;
     const TrialResult result = try_edit(around, *edit, settings_, work_.units, true);
     TEMPER_ASSERT(result.valid);  // as without a listener
-    const std::vector<VertexId> there = splice(work_, flipper_, recorder_, around, result.events);
+    const std::vector<VertexId> there = splice(work_, flipper_, around, result.events);
     changed_.reset();
     if (!flipper_.has_removed()) changed_ = triangles_at(work_.mesh, there);
     std::erase_if(weighed_, [&](TriangleId t) { return !changed_ || is_changed(t); });
@@ -114,7 +114,7 @@ bool RepairSearch::assigns_weights(TriangleId seed) const {
 }
 
 TrialResult RepairSearch::tried(const Neighborhood& around, const Edit& edit) {
-  const bool program = edit.kind == Edit::assign_weights;
+  const bool program = std::holds_alternative<AssignWeights>(edit);
   const std::size_t visits = (settings_.guard != nullptr ? kVisitsByGuard : 1) *
                              (2 * bad_.size() > work_.mesh.n_triangles() ? kVisitsWhereMostAreBad : 1) *
                              around.mesh.n_triangles();
@@ -168,7 +168,7 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
   for (const auto& tier : edits_for(around, allowed, rng_)) {
     for (const Edit& edit : tier) {
       if (run_.repair_trials_left() == 0 || run_.asked_to_stop(0)) return best;
-      if (edit.kind == Edit::assign_weights) weighed_.push_back(seed);
+      if (std::holds_alternative<AssignWeights>(edit)) weighed_.push_back(seed);
       const TrialResult result = tried(around, edit);
       if (!result.valid) continue;
       all.push_back({edit, result.defect});

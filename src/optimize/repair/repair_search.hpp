@@ -21,13 +21,11 @@ namespace temper {
 class RepairSearch {
  public:
   /// `seed`: of all random choices. `asks_programs`: linear programs find weights for places that nothing else cures.
-  RepairSearch(WorkingCopy& work, const Settings& settings, Run& run, Flipper& flipper, const Recorder& recorder,
-               std::uint64_t seed, bool asks_programs)
+  RepairSearch(WorkingCopy& work, Run& run, Flipper& flipper, std::uint64_t seed, bool asks_programs)
       : work_(work),
-        settings_(settings),
+        settings_(flipper.settings()),
         run_(run),
         flipper_(flipper),
-        recorder_(recorder),
         rng_(seed),
         asks_programs_(asks_programs) {}
 
@@ -58,7 +56,6 @@ class RepairSearch {
   const Settings& settings_;
   Run& run_;
   Flipper& flipper_;
-  const Recorder& recorder_;
   Rng rng_;
   const bool asks_programs_;
   int failures_ = 0;                 // places without a helpful edit since the last success

@@ -23,13 +23,18 @@ namespace {
 // Below this γ/ℓ sweeps rarely make well-centered triangles bad again.
 constexpr double kSharp = 0.1;
 // Length of a random perturbation, relative to the shortest edge. Most longer ones would turn a triangle over.
-constexpr double kKick = 0.4;
+constexpr double kPerturbation = 0.4;
 // Half of the margin of `temper weights`. With more, one triangle would turn bad for the margins of a few others.
 constexpr double kWeighedMargin = 0.005;
 // Programs with one more ring take four times as long and cure hardly more.
 constexpr int kWeighedRings = 2;
 // More vertices than any neighborhood lacks.
 constexpr int kMostInserted = 300;
+
+bool lacks_sweeps(const Edit& edit) {
+  const auto* const refine = std::get_if<Refine>(&edit);
+  return refine != nullptr && !refine->sweeps;
+}
 
 class Trial {
  public:
@@ -39,9 +44,10 @@ class Trial {
 
   TrialResult run(const Edit& edit, bool levels) && {
     if (levels && !level_weights()) return {};
-    if (!apply(edit) || !copy_.make_regular()) return {};
-    if (edit.kind == Edit::only_refine) return {true, defect_of(copy_.mesh()), copy_.take_events()};
-    if (edit.kind != Edit::assign_weights) sweep();  // the first γ of sweeps would undo the weights
+    const bool applied = std::visit([this](const auto& e) { return apply(e); }, edit);
+    if (!applied || !copy_.make_regular()) return {};
+    if (lacks_sweeps(edit)) return {true, defect_of(copy_.mesh()), copy_.take_events()};
+    if (!std::holds_alternative<AssignWeights>(edit)) sweep();  // the first γ of sweeps would undo the weights
     TrialResult result;
     result.defect = defect_of(copy_.mesh(), settings_.accuracy);
     result.valid = copy_.is_regular() && is_guarded();
@@ -70,35 +76,15 @@ class Trial {
     return v;
   }
 
-  bool apply(const Edit& edit) {
-    switch (edit.kind) {
-      case Edit::nothing:
-        return true;
-      case Edit::kick: {
-        Rng rng(edit.seed);
-        copy_.shake(kKick, rng);
-        return true;
-      }
-      case Edit::assign_weights:
-        assign_weights();
-        return true;
-      case Edit::insert:
-        return copy_.insert(edit.triangle, edit.place);
-      case Edit::split:
-        return copy_.split(edit.edge, edit.part);
-      case Edit::cut_corner:
-        return cut_corner(edit.vertex, edit.distance);
-      case Edit::remove:
-        return copy_.remove(edit.vertex);
-      case Edit::remesh:
-        remove_free_vertices();
-        return refine({edit.gradation, edit.factor}, edit.splits_lines);
-      case Edit::refine:
-      case Edit::only_refine:
-        return refine({edit.gradation, edit.factor}, edit.splits_lines);
-    }
-    return false;
+  static bool apply(JustSweep /*edit*/) { return true; }
+  bool apply(Perturb edit) {
+    Rng rng(edit.seed);
+    copy_.shake(kPerturbation, rng);
+    return true;
   }
+  bool apply(const Insert& edit) { return copy_.insert(edit.triangle, edit.place); }
+  bool apply(Split edit) { return copy_.split(edit.edge, edit.part); }
+  bool apply(Remove edit) { return copy_.remove(edit.vertex); }
 
   /// Gives the vertices that are not frozen weights that are linear in their positions, as near as possible to the
   /// weights of frozen vertices. Linear weights hide no vertex, also none that comes between. Returns false if an edge
@@ -137,19 +123,21 @@ class Trial {
   }
 
   /// Assigns weights around the bad triangle.
-  void assign_weights() {
+  bool apply(AssignWeights /*edit*/) {
     const Mesh& mesh = copy_.mesh();
     VertexMask free(mesh.n_vertices(), 0);
     const auto corners = mesh.corners(around_.seed);
     for (const VertexId v : corners) free[v] = 1;
     grow(TriangleDemand(mesh, Constraints::well_centered), free, {corners.begin(), corners.end()}, kWeighedRings);
     copy_.assign_weights(std::move(free), kWeighedMargin);
+    return true;
   }
 
   /// Splits the lines at v at one distance from v. Pieces of one length do not ask each other for more splits. Returns
   /// false if no line is long enough.
-  bool cut_corner(VertexId v, double distance) {
+  bool apply(CutCorner edit) {
     const Mesh& mesh = copy_.mesh();
+    const VertexId v = edit.vertex;
     std::vector<VertexId> ends;
     for (const HalfedgeId h : lines_at(mesh, v)) ends.push_back(mesh.origin(h) == v ? mesh.target(h) : mesh.origin(h));
     bool any = false;
@@ -157,7 +145,7 @@ class Trial {
       HalfedgeId h = mesh.find_halfedge(v, end);
       const bool towards = h.valid();
       if (!towards) h = mesh.find_halfedge(end, v);
-      const double part = distance / length(mesh.position(end) - mesh.position(v));
+      const double part = edit.distance / length(mesh.position(end) - mesh.position(v));
       if (part > 1 - EdgeConflict::kLeastPiece || around_.is_rim(v, end) || mesh.is_diagonal(h)) continue;
       any = copy_.split(h, towards ? part : 1 - part) || any;
     }
@@ -165,10 +153,11 @@ class Trial {
   }
 
   /// Returns false if no vertex was missing, or an edge could not be made regular.
-  bool refine(const DelaunayRefinement::Sizes& sizes, bool splits_lines) {
+  bool apply(const Refine& edit) {
+    if (edit.anew) remove_free_vertices();
     const Mesh& mesh = copy_.mesh();
     DelaunayRefinement refinement(
-        mesh, sizes, [&](HalfedgeId h) { return splits_lines && !mesh.is_diagonal(h) && !copy_.is_rim(h); });
+        mesh, edit.sizes, [&](HalfedgeId h) { return edit.splits_lines && !mesh.is_diagonal(h) && !copy_.is_rim(h); });
     int inserted = 0;
     for (auto place = refinement.next(); place && inserted < kMostInserted; place = refinement.next()) {
       const bool done =
@@ -213,17 +202,8 @@ class Trial {
 }  // namespace
 
 bool inserts_vertices(const Edit& edit) {
-  switch (edit.kind) {
-    case Edit::insert:
-    case Edit::split:
-    case Edit::cut_corner:
-    case Edit::refine:
-    case Edit::remesh:
-    case Edit::only_refine:
-      return true;
-    default:
-      return false;
-  }
+  return std::holds_alternative<Insert>(edit) || std::holds_alternative<Split>(edit) ||
+         std::holds_alternative<CutCorner>(edit) || std::holds_alternative<Refine>(edit);
 }
 
 LocalDefect defect_of(const Mesh& mesh, const AccuracyModel& model) {
@@ -242,8 +222,8 @@ TrialResult try_edit(const Neighborhood& around, const Edit& edit, const Setting
   const Settings of_trial = settings_of_copies(settings);
   TrialResult result = Trial(around, of_trial, grid, with_events).run(edit, false);
   const Space& space = around.mesh.space();
-  const bool may_level = inserts_vertices(edit) && edit.kind != Edit::only_refine && space.is_plane() &&
-                         !space.is_periodic() && settings.options.unknowns != Unknowns::positions;
+  const bool may_level = inserts_vertices(edit) && !lacks_sweeps(edit) && space.is_plane() && !space.is_periodic() &&
+                         settings.options.unknowns != Unknowns::positions;
   if (result.valid || !may_level) return result;
   return Trial(around, of_trial, grid, with_events).run(edit, true);
 }

@@ -6,38 +6,51 @@
 
 #include <compare>
 #include <cstdint>
+#include <variant>
 #include <vector>
 
 #include "optimize/options/settings.hpp"
 #include "optimize/repair/neighborhood.hpp"
+#include "optimize/repair/refinement.hpp"
 
 namespace temper {
 
-/// The first edit of a trial, in the numbers of the neighborhood.
-struct Edit {
-  enum Kind {
-    nothing,         ///< sweeps alone
-    kick,            ///< moves all free vertices at random, by part of their shortest edge
-    assign_weights,  ///< a linear program gives the weights that lack least of a margin; positions stay
-    insert,          ///< a vertex in a triangle
-    split,           ///< an edge, at a part of the way
-    cut_corner,      ///< all lines at a vertex, at one distance from it
-    remove,          ///< a vertex
-    refine,          ///< inserts vertices until no triangle is too large for its place
-    remesh,          ///< removes all free vertices, then refines
-    only_refine,     ///< refines without sweeps; the caller makes edges of the rim regular
-  } kind = nothing;
-  TriangleId triangle = {};   ///< insert
-  WeightedPoint place = {};   ///< insert; without a weight
-  HalfedgeId edge = {};       ///< split
-  double part = 0.5;          ///< split: part of the way from the edge's origin
-  VertexId vertex = {};       ///< remove, cut_corner
-  double distance = 0;        ///< cut_corner
-  double gradation = 0;       ///< refine (all three): growth of the size of triangles with the distance from what stays
-  double factor = 1;          ///< refine: of these sizes
-  bool splits_lines = false;  ///< refine: where they are too long
-  std::uint64_t seed = 0;     ///< kick
+// The first edit of a trial, in the numbers of the neighborhood.
+
+/// Sweeps alone.
+struct JustSweep {};
+/// Moves all free vertices at random, by part of their shortest edge.
+struct Perturb {
+  std::uint64_t seed = 0;
 };
+/// A linear program gives the weights that lack least of a margin; positions stay.
+struct AssignWeights {};
+/// Inserts a vertex in a triangle, without a weight.
+struct Insert {
+  TriangleId triangle;
+  WeightedPoint place;
+};
+/// Splits an edge at a part of the way from its origin.
+struct Split {
+  HalfedgeId edge;
+  double part = 0.5;
+};
+/// Splits all lines at a vertex, at one distance from it.
+struct CutCorner {
+  VertexId vertex;
+  double distance = 0;
+};
+struct Remove {
+  VertexId vertex;
+};
+/// Inserts vertices until no triangle is too large for its place.
+struct Refine {
+  DelaunayRefinement::Sizes sizes;
+  bool splits_lines = false;  ///< where they are too long
+  bool anew = false;          ///< removes all free vertices first
+  bool sweeps = true;         ///< if not, the caller makes edges of the rim regular
+};
+using Edit = std::variant<JustSweep, Perturb, AssignWeights, Insert, Split, CutCorner, Remove, Refine>;
 
 /// Says whether the edit brings new vertices.
 [[nodiscard]] bool inserts_vertices(const Edit& edit);

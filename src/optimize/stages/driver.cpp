@@ -26,7 +26,7 @@ Driver::Driver(WorkingCopy& work, const Settings& settings, SweepState& state, R
       run_(run),
       recorder_(settings.hooks.tracer, work, state.energy_unit(work.units)),
       flipper_(mesh_, settings, state, recorder_),
-      sweeper_(work, settings, state, flipper_, recorder_, part_size) {
+      sweeper_(work, flipper_, part_size) {
   recorder_.begin_sweep(run.next_sweep());
   const SweepOrder order = settings.policy.order;
   if (order == SweepOrder::hilbert) return;
@@ -268,7 +268,7 @@ std::size_t Driver::refine_where_bad(double factor) {
   for (const VertexId v : mesh_.vertices()) set_weight(v, 0);
   const std::size_t before = work_.n_vertices_named;
   if (!flipper_.restore_all()) return 0;
-  const Edit edit = {.kind = Edit::only_refine, .gradation = kGradation, .factor = factor, .splits_lines = true};
+  const Edit edit = Refine{.sizes = {kGradation, factor}, .splits_lines = true, .sweeps = false};
   TriangleId near(0);
   for (const Vec2 p : places) {
     if (run_.asked_to_stop(0)) break;
@@ -278,7 +278,7 @@ std::size_t Driver::refine_where_bad(double factor) {
     const Neighborhood around = neighborhood_of(work_, near, kRingsAround);
     const TrialResult refined = try_edit(around, edit, settings_, work_.units, true);
     if (!refined.valid) continue;
-    splice(work_, flipper_, recorder_, around, refined.events);
+    splice(work_, flipper_, around, refined.events);
     grow();
     flipper_.restore_all();
   }
@@ -328,7 +328,7 @@ void Driver::end_sweep_of_its_own() {
 
 bool Driver::repair(std::uint64_t seed, bool asks_programs) {
   EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);  // puts repairs into the history
-  RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed, asks_programs);
+  RepairSearch search(work_, run_, flipper_, seed, asks_programs);
   bool changed = false;
   RunningEnergyAndBad totals;
   while (run_.sweeps_left() && search.improve_one_place()) {
@@ -346,7 +346,7 @@ bool Driver::repair(std::uint64_t seed, bool asks_programs) {
 
 void Driver::coarsen(int moves_of_cure) {
   EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);  // puts rounds into the history
-  Coarsening search(work_, settings_, run_, flipper_, recorder_, moves_of_cure);
+  Coarsening search(work_, run_, flipper_, moves_of_cure);
   recorder_.begin_sweep(run_.report.sweeps + 1);
   for (bool goes_on = true; goes_on;) {  // rounds of moves, which `max_sweeps` does not limit
     run_.n_vertices = mesh_.n_vertices();

@@ -109,10 +109,9 @@ void Improvers::begin_sweep(int iteration, Unknowns unknowns) {
   for_each([&](Improver& improver) { improver.step().begin_sweep(iteration, unknowns); });
 }
 
-Sweeper::Sweeper(WorkingCopy& work, const Settings& settings, const SweepState& state, Flipper& flipper,
-                 const Recorder& recorder, std::size_t part_size)
-    : limits_(work, settings, work.units),
-      context_{work.mesh, settings, state, work.units, limits_, recorder},
+Sweeper::Sweeper(WorkingCopy& work, Flipper& flipper, std::size_t part_size)
+    : limits_(work, flipper.settings(), work.units),
+      context_{work.mesh, flipper.settings(), flipper.state(), work.units, limits_, flipper.recorder()},
       flipper_(flipper),
       improvers_(context_),
       part_size_(part_size) {}

@@ -144,9 +144,8 @@ class StopToken;
 
 class Sweeper {
  public:
-  /// `flipper` counts the changes of all parts.
-  Sweeper(WorkingCopy& work, const Settings& settings, const SweepState& state, Flipper& flipper,
-          const Recorder& recorder, std::size_t part_size);
+  /// `flipper` counts the changes of all parts. Steps use its settings, state and recorder.
+  Sweeper(WorkingCopy& work, Flipper& flipper, std::size_t part_size);
 
   Sweeper(const Sweeper&) = delete;
   Sweeper& operator=(const Sweeper&) = delete;

@@ -407,8 +407,7 @@ TEST(Trial, SplitsLinesOnBothSidesAndKeepsThemExactly) {
   std::size_t valid = 0, inside = 0;
   for (const HalfedgeId h : mesh.halfedges()) {
     if (!mesh.is_unflippable(h) || !mesh.is_edge_representative(h)) continue;
-    const TrialResult result =
-        try_edit(around, {.kind = Edit::split, .edge = h, .part = 0.4}, settings, WorkingUnits(), true);
+    const TrialResult result = try_edit(around, Split{h, 0.4}, settings, WorkingUnits(), true);
     if (!result.valid) continue;
     ++valid;
     inside += mesh.is_boundary(h) ? 0 : 1;
@@ -441,7 +440,7 @@ TEST(Trial, CutsAllLinesOfACornerAtOneDistance) {
   for (const VertexId v : mesh.vertices()) {
     if (mesh.position(v) == points[0]) corner = v;
   }
-  const Edit edit = {.kind = Edit::cut_corner, .vertex = corner, .distance = 50};
+  const Edit edit = CutCorner{corner, 50};
   Settings settings = splitting_settings(mesh);
   settings.options.unknowns = Unknowns::weights;  // new vertices stay where they are put
   const TrialResult result = try_edit(around, edit, settings, WorkingUnits(), true);
@@ -449,7 +448,7 @@ TEST(Trial, CutsAllLinesOfACornerAtOneDistance) {
   ASSERT_TRUE(after);
   ASSERT_EQ(after->n_vertices(), 5u);
   for (const std::size_t i : {3U, 4U}) EXPECT_NEAR(length(after->position(VertexId(i))), 50, 1e-4);
-  const Edit too_far = {.kind = Edit::cut_corner, .vertex = corner, .distance = 99};
+  const Edit too_far = CutCorner{corner, 99};
   EXPECT_FALSE(try_edit(around, too_far, settings, WorkingUnits(), false).valid);
 }
 
@@ -530,7 +529,7 @@ TEST(Trial, RefinesLinesOnlyIfItMay) {
   const Neighborhood around = neighborhood_of(WorkingCopy::part(polygon_with_line()), TriangleId(0), 9);
   const Settings settings = splitting_settings(around.mesh);
   for (const bool splits : {false, true}) {
-    const Edit edit = {.kind = Edit::only_refine, .gradation = 0.6, .factor = 0.3, .splits_lines = splits};
+    const Edit edit = Refine{.sizes = {0.6, 0.3}, .splits_lines = splits, .sweeps = false};
     const TrialResult result = try_edit(around, edit, settings, WorkingUnits(), true);
     ASSERT_TRUE(result.valid);
     const auto after = replay(around.mesh, result.events);
@@ -600,7 +599,7 @@ TEST(Trial, LeavesFrozenVerticesAndTellsWhatItDid) {
     const Neighborhood around = neighborhood_of(WorkingCopy::part(mesh), t, 1);
     const auto [a, b, c] = around.mesh.corners(TriangleId(0));
     const Vec2 middle = (1.0 / 3) * (around.mesh.position(a) + around.mesh.position(b) + around.mesh.position(c));
-    const Edit edit{.kind = Edit::insert, .triangle = TriangleId(0), .place = {middle.x, middle.y}};
+    const Edit edit = Insert{TriangleId(0), {middle.x, middle.y}};
     const TrialResult quiet = try_edit(around, edit, settings, WorkingUnits(), false);
     const TrialResult told = try_edit(around, edit, settings, WorkingUnits(), true);
     EXPECT_EQ(quiet.valid, told.valid);
