@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "base/box.hpp"
 #include "base/sum.hpp"
 #include "base/text.hpp"
 #include "mesh/blocks.hpp"
 #include "mesh/boundary_sweep.hpp"
-#include "mesh/exact_range.hpp"
+#include "mesh/input_check.hpp"
 #include "mesh/mesh_editor.hpp"
 #include "mesh/predicates.hpp"
 #include "mesh/stoppable_build.hpp"
@@ -20,18 +19,42 @@
 namespace temper {
 namespace {
 
-// Within these bounds nothing over- or underflows in the exact predicates (geometry.hpp), in the user's units and after
-// scaling to an extent of about 1, whatever the other coordinates are. They are far beyond any unit of length.
-constexpr double kLargestCoordinate = 1e60;
-constexpr double kSmallestCoordinate = 1e-60;  // absolute, and relative to the largest coordinate
-constexpr double kSmallestExtent = 1e-60;
-constexpr double kLargestWeight = 1e120;    // absolute, and relative to the extent squared
-constexpr double kSmallestWeight = 1e-120;  // absolute, and relative to the largest coordinate squared
-
 bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// Points of the sphere may be off its radius by this part of it: the precision of coordinates with seven digits.
-constexpr double kOffRadius = 1e-6;
+using Sides = std::vector<EdgeBuckets::Side>;
+
+InputError edge_error(const Mesh& mesh, const NamedInput& input, ErrorCode code, std::array<HalfedgeId, 2> sides,
+                      std::size_t count) {
+  const auto [g, h] = sides;
+  const std::size_t s = Mesh::triangle(g).index, t = Mesh::triangle(h).index;
+  const std::string edge =
+      "the edge from " + input.names.point(mesh.origin(g).index) + " to " + input.names.point(mesh.target(g).index);
+  if (code == ErrorCode::overlap) {
+    return input.triangle_error(
+        code, t, input.names.triangle(s) + " and " + input.names.triangle(t) + " lie on the same side of " + edge);
+  }
+  return input.triangle_error(code, t,
+                              edge + " belongs to " + std::to_string(count) + " triangles (" + input.names.triangle(s) +
+                                  " and " + input.names.triangle(t) + " among them); expected at most 2");
+}
+
+std::optional<InputError> wrong_edge(const Mesh& mesh, const NamedInput& input, const Sides& edges) {
+  for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
+    while (j < edges.size() && edges[j].greater == edges[i].greater) ++j;
+    const HalfedgeId g = edges[i].halfedge, h = edges[j - 1].halfedge;
+    if (j - i > 2) return edge_error(mesh, input, ErrorCode::non_manifold_edge, {g, h}, j - i);
+    if (j - i == 2 && mesh.origin(g) == mesh.origin(h)) return edge_error(mesh, input, ErrorCode::overlap, {g, h}, 2);
+  }
+  return std::nullopt;
+}
+
+std::string why_flat(const NamedInput& input, const std::array<std::int32_t, 3>& c) {
+  const auto name = [&](std::int32_t i) { return input.names.point(static_cast<std::size_t>(i)); };
+  if (c[0] == c[1] || c[0] == c[2]) return "it uses " + name(c[0]) + " more than once";
+  if (c[1] == c[2]) return "it uses " + name(c[1]) + " more than once";
+  return "its corners " + name(c[0]) + ", " + name(c[1]) + " and " + name(c[2]) +
+         (input.on_sphere() ? " are on one great circle" : " are collinear");
+}
 
 }  // namespace
 
@@ -40,13 +63,14 @@ class MeshBuilder {
  public:
   MeshBuilder(const MeshInput& input, const std::function<bool()>& stop)
       : in_(input),
-        names_(input.names != nullptr ? *input.names : default_),
+        input_(input),
+        names_(input_.names),
         stoppable_(input.executor, stop),
         executor_(stop ? &stoppable_ : input.executor) {}
 
   Expected<BuiltMesh> build() {
     using Step = std::optional<InputError> (MeshBuilder::*)();
-    constexpr Step kSteps[] = {&MeshBuilder::check_sizes,     &MeshBuilder::add_vertices, &MeshBuilder::check_scale,
+    constexpr Step kSteps[] = {&MeshBuilder::check_sizes,     &MeshBuilder::add_vertices, &MeshBuilder::settle_scale,
                                &MeshBuilder::add_triangles,   &MeshBuilder::check_unused, &MeshBuilder::embed,
                                &MeshBuilder::constrain_edges, &MeshBuilder::fix_vertices};
     for (const Step step : kSteps) {
@@ -58,144 +82,43 @@ class MeshBuilder {
   }
 
  private:
-  InputError point_error(ErrorCode code, std::size_t i, const std::string& message) const {
-    return {code, names_.point_where(i), message};
-  }
-  InputError triangle_error(ErrorCode code, std::size_t t, const std::string& message) const {
-    return {code, names_.triangle_where(t), message};
-  }
-
-  std::optional<InputError> check_sizes() {
-    const std::size_t n = n_points(), m = in_.triangles.size();
-    if (n == 0) return InputError{ErrorCode::empty_input, {}, "the mesh has no points"};
-    if (m == 0) return InputError{ErrorCode::empty_input, {}, "the mesh has no triangles"};
-    if (!in_.weights.empty() && in_.weights.size() != n) {
-      return InputError{ErrorCode::size_mismatch,
-                        {},
-                        quantity(in_.weights.size(), "weights") + " given for " + quantity(n, "points")};
-    }
-    if (!in_.regions.empty() && in_.regions.size() != m) {
-      return InputError{ErrorCode::size_mismatch,
-                        {},
-                        quantity(in_.regions.size(), "regions") + " given for " + quantity(m, "triangles")};
-    }
-    return std::nullopt;
-  }
+  std::optional<InputError> check_sizes() { return temper::check_sizes(input_); }
 
   std::optional<InputError> add_vertices() {
     mesh_.space_ = in_.space;
-    mesh_.vertices_.resize(n_points());
-    const auto wrong = first_index(n_points(), executor_, [&](std::size_t i) {
-      const double w = in_.weights.empty() ? 0.0 : in_.weights[i];
-      if (!is_finite(place(i)) || !std::isfinite(w)) return true;
-      mesh_.set_point(VertexId(i), on_sphere() ? mesh_.space_.vertex_at(in_.sphere_points[i], w)
-                                               : WeightedPoint{in_.points[i].x, in_.points[i].y, w});
+    mesh_.vertices_.resize(input_.n_points());
+    const auto wrong = first_index(input_.n_points(), executor_, [&](std::size_t i) {
+      const double w = input_.weight(i);
+      if (!is_finite(input_.place(i)) || !std::isfinite(w)) return true;
+      mesh_.set_point(VertexId(i), input_.on_sphere() ? mesh_.space_.vertex_at(in_.sphere_points[i], w)
+                                                      : WeightedPoint{in_.points[i].x, in_.points[i].y, w});
       return false;
     });
     if (!wrong) return std::nullopt;
     const std::size_t i = *wrong;
-    if (!is_finite(place(i))) {
-      return point_error(ErrorCode::not_finite, i,
-                         names_.point(i) + " has coordinates " + place_text(i) + ", expected finite numbers");
+    if (!is_finite(input_.place(i))) {
+      return input_.point_error(
+          ErrorCode::not_finite, i,
+          names_.point(i) + " has coordinates " + input_.place_text(i) + ", expected finite numbers");
     }
-    return point_error(ErrorCode::not_finite, i,
-                       names_.point(i) + " has weight " + to_text(in_.weights[i]) + ", expected a finite number");
+    return input_.point_error(
+        ErrorCode::not_finite, i,
+        names_.point(i) + " has weight " + to_text(in_.weights[i]) + ", expected a finite number");
   }
 
-  std::optional<InputError> check_periods() const {
-    const Vec2 period = in_.space.period();
-    for (const double length : {period.x, period.y}) {
-      if (length == 0 || ExactRange{kSmallestExtent, kLargestCoordinate}.allows(length)) continue;
-      return InputError{ErrorCode::out_of_scale,
-                        {},
-                        "the plane has period " + to_text(length) + ", expected one from " + to_text(kSmallestExtent) +
-                            " to " + to_text(kLargestCoordinate)};
-    }
-    return std::nullopt;
-  }
-
-  [[nodiscard]] bool on_sphere() const { return in_.space.dimension() == 3; }
-  [[nodiscard]] std::size_t n_points() const { return on_sphere() ? in_.sphere_points.size() : in_.points.size(); }
-  [[nodiscard]] Vec3 place(std::size_t i) const {
-    return on_sphere() ? in_.sphere_points[i] : Vec3{in_.points[i].x, in_.points[i].y, 0};
-  }
-  [[nodiscard]] std::string place_text(std::size_t i) const {
-    return on_sphere() ? coordinates(in_.sphere_points[i]) : coordinates(in_.points[i]);
-  }
-
-  std::optional<InputError> check_sphere() {
-    const double radius = in_.space.radius(), lightest = -radius * radius;
-    if (!ExactRange{kSmallestExtent, kLargestCoordinate}.allows(radius)) {
-      return InputError{ErrorCode::out_of_scale,
-                        {},
-                        "the sphere has radius " + to_text(radius) + ", expected one from " + to_text(kSmallestExtent) +
-                            " to " + to_text(kLargestCoordinate)};
-    }
-    for (std::size_t i = 0; i < n_points(); ++i) {
-      const double distance = length(in_.sphere_points[i]), w = in_.weights.empty() ? 0.0 : in_.weights[i];
-      if (!(std::abs(distance - radius) <= kOffRadius * radius)) {
-        return point_error(ErrorCode::not_on_sphere, i,
-                           names_.point(i) + " is at " + place_text(i) + ", " + to_text(distance) +
-                               " from the center of the sphere; expected its radius, " + to_text(radius) +
-                               ", to one part in a million");
+  /// Checks the scale. Then rounds zeros of the sphere, and moves points into the domain of a periodic plane.
+  std::optional<InputError> settle_scale() {
+    if (auto error = check_scale(input_)) return error;
+    if (input_.on_sphere()) {
+      // Rounded zeros of a longitude or latitude would cost exact arithmetic too many bits.
+      const double least = kSmallestCoordinate * in_.space.radius();
+      for (const VertexId v : mesh_.vertices()) {
+        WeightedPoint p = mesh_.point(v);
+        for (double* x : {&p.x, &p.y, &p.w}) *x = std::abs(*x) < least ? 0 : *x;
+        mesh_.set_point(v, p);
       }
-      if (!(w > lightest)) {
-        return point_error(ErrorCode::out_of_scale, i,
-                           names_.point(i) + " has weight " + to_text(w) + "; expected more than " + to_text(lightest) +
-                               ", minus the square of the radius");
-      }
-    }
-    // Rounded zeros of a longitude or latitude would cost exact arithmetic too many bits.
-    for (std::size_t i = 0; i < n_points(); ++i) {
-      WeightedPoint p = mesh_.point(VertexId(i));
-      for (double* x : {&p.x, &p.y, &p.w}) *x = std::abs(*x) < kSmallestCoordinate * radius ? 0 : *x;
-      mesh_.set_point(VertexId(i), p);
-    }
-    return std::nullopt;
-  }
-
-  std::optional<InputError> check_scale() {
-    if (on_sphere()) return check_sphere();
-    if (auto error = check_periods()) return error;
-    if (auto error = check_coordinates({kSmallestCoordinate, kLargestCoordinate})) return error;
-    Box box;
-    double largest = 0;
-    for (const Vec2 p : in_.points) {
-      box.add(p);
-      largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
-    }
-    const double extent = box.longer_side();
-    if (extent == 0) return std::nullopt;  // the zero areas will be named
-    if (extent < kSmallestExtent) {
-      return InputError{ErrorCode::out_of_scale,
-                        {},
-                        "the points lie within " + to_text(extent) + "; expected an extent of at least " +
-                            to_text(kSmallestExtent) + ", which exact arithmetic needs"};
-    }
-    const double large = std::max(1.0, largest);
-    if (auto error = check_coordinates({kSmallestCoordinate * large, kLargestCoordinate})) return error;
-    if (auto error = check_weights({kSmallestWeight * large * large, kLargestWeight * std::min(1.0, extent * extent)}))
-      return error;
-    if (!in_.space.is_periodic()) return std::nullopt;
-    for (const VertexId v : mesh_.vertices()) mesh_.set_point(v, in_.space.in_domain(mesh_.point(v)));
-    return std::nullopt;
-  }
-
-  std::optional<InputError> check_coordinates(ExactRange range) const {
-    for (std::size_t i = 0; i < in_.points.size(); ++i) {
-      const Vec2 p = in_.points[i];
-      if (range.allows(p.x) && range.allows(p.y)) continue;
-      return point_error(ErrorCode::out_of_scale, i,
-                         names_.point(i) + " has coordinates " + coordinates(p) + "; " + range.text());
-    }
-    return std::nullopt;
-  }
-
-  std::optional<InputError> check_weights(ExactRange range) const {
-    for (std::size_t i = 0; i < in_.weights.size(); ++i) {
-      if (range.allows(in_.weights[i])) continue;
-      return point_error(ErrorCode::out_of_scale, i,
-                         names_.point(i) + " has weight " + to_text(in_.weights[i]) + "; " + range.text());
+    } else if (in_.space.is_periodic()) {
+      for (const VertexId v : mesh_.vertices()) mesh_.set_point(v, in_.space.in_domain(mesh_.point(v)));
     }
     return std::nullopt;
   }
@@ -218,7 +141,7 @@ class MeshBuilder {
   bool add_triangle(std::size_t t) {
     auto corners = in_.triangles[t];
     for (const std::int32_t i : corners) {
-      if (!is_point(i)) return false;
+      if (!input_.is_point(i)) return false;
     }
     const Sign sign = inlined::orientation(mesh_, id(corners[0]), id(corners[1]), id(corners[2]));
     if (sign == Sign::negative) std::swap(corners[1], corners[2]);
@@ -228,25 +151,23 @@ class MeshBuilder {
 
   InputError wrong_triangle(std::size_t t) const {
     for (const std::int32_t i : in_.triangles[t]) {
-      if (is_point(i)) continue;
-      return triangle_error(ErrorCode::index_out_of_range, t,
-                            names_.triangle(t) + " uses point index " + std::to_string(i) + ", but there are " +
-                                quantity(n_points(), "points"));
+      if (input_.is_point(i)) continue;
+      return input_.triangle_error(ErrorCode::index_out_of_range, t,
+                                   names_.triangle(t) + " uses point index " + std::to_string(i) + ", but there are " +
+                                       quantity(input_.n_points(), "points"));
     }
     if (const std::string wide = why_wide(in_.triangles[t]); !wide.empty()) {
-      return triangle_error(ErrorCode::overlap, t, names_.triangle(t) + wide);
+      return input_.triangle_error(ErrorCode::overlap, t, names_.triangle(t) + wide);
     }
-    return triangle_error(ErrorCode::zero_area, t,
-                          names_.triangle(t) + " has zero area: " + why_flat(in_.triangles[t]));
+    return input_.triangle_error(ErrorCode::zero_area, t,
+                                 names_.triangle(t) + " has zero area: " + why_flat(input_, in_.triangles[t]));
   }
-
-  [[nodiscard]] bool is_point(std::int32_t i) const { return i >= 0 && static_cast<std::size_t>(i) < n_points(); }
 
   std::optional<InputError> check_unused() {
     for (const HalfedgeId h : mesh_.halfedges()) MeshEditor(mesh_).set_outgoing(mesh_.origin(h), h);
     for (const VertexId v : mesh_.vertices()) {
       if (!mesh_.outgoing(v).valid()) {
-        return point_error(ErrorCode::unused_point, v.index, names_.point(v.index) + " belongs to no triangle");
+        return input_.point_error(ErrorCode::unused_point, v.index, names_.point(v.index) + " belongs to no triangle");
       }
     }
     return std::nullopt;
@@ -260,30 +181,8 @@ class MeshBuilder {
     if (!error && !stoppable_.asked_to_stop()) error = check_stars();
     if (!error && !stoppable_.asked_to_stop()) error = check_embedding();
     if (!error || stoppable_.asked_to_stop()) return std::nullopt;
-    auto duplicate = find_duplicate();
+    auto duplicate = find_duplicate(input_);
     return duplicate ? std::move(duplicate) : std::move(error);
-  }
-
-  std::optional<InputError> find_duplicate() const {
-    std::vector<std::uint32_t> order(n_points());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto at = [&](std::uint32_t i) { return as_vector(in_.space.in_domain(as_point(place(i)))); };
-    const auto before = [&](std::uint32_t a, std::uint32_t b) {
-      const Vec3 p = at(a), q = at(b);
-      if (p.x != q.x) return p.x < q.x;
-      if (p.y != q.y) return p.y < q.y;
-      return p.z != q.z ? p.z < q.z : a < b;
-    };
-    std::sort(order.begin(), order.end(), before);
-    for (std::size_t i = 1; i < order.size(); ++i) {
-      const std::uint32_t a = order[i - 1], b = order[i];
-      if (at(a) == at(b)) {
-        return point_error(ErrorCode::duplicate_point, b,
-                           names_.point(a) + " and " + names_.point(b) + " are both at " + place_text(b) +
-                               "; expected distinct points");
-      }
-    }
-    return std::nullopt;
   }
 
   /// Halfedges by their lesser vertex, matched within each small bucket.
@@ -298,43 +197,18 @@ class MeshBuilder {
     if (!wrong) return std::nullopt;
     Sides sides;
     buckets.collect(VertexId(*wrong), sides);
-    return wrong_edge(sides);
+    return wrong_edge(mesh_, input_, sides);
   }
-
-  using Sides = std::vector<EdgeBuckets::Side>;
 
   /// Links the edges of a lesser vertex. False when one has more than two sides, or two equal ones.
   bool match(const Sides& sides) {
-    if (wrong_edge(sides)) return false;
+    if (wrong_edge(mesh_, input_, sides)) return false;
     for (std::size_t i = 0; i < sides.size();) {
       const bool pair = i + 1 < sides.size() && sides[i].greater == sides[i + 1].greater;
       MeshEditor(mesh_).link(sides[i].halfedge, pair ? sides[i + 1].halfedge : HalfedgeId());
       i += pair ? 2 : 1;
     }
     return true;
-  }
-
-  std::optional<InputError> wrong_edge(const Sides& edges) const {
-    for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
-      while (j < edges.size() && edges[j].greater == edges[i].greater) ++j;
-      const HalfedgeId g = edges[i].halfedge, h = edges[j - 1].halfedge;
-      if (j - i > 2) return edge_error(ErrorCode::non_manifold_edge, g, h, j - i);
-      if (j - i == 2 && mesh_.origin(g) == mesh_.origin(h)) return edge_error(ErrorCode::overlap, g, h, 2);
-    }
-    return std::nullopt;
-  }
-
-  InputError edge_error(ErrorCode code, HalfedgeId g, HalfedgeId h, std::size_t count) const {
-    const std::size_t s = Mesh::triangle(g).index, t = Mesh::triangle(h).index;
-    const std::string edge =
-        "the edge from " + names_.point(mesh_.origin(g).index) + " to " + names_.point(mesh_.target(g).index);
-    if (code == ErrorCode::overlap) {
-      return triangle_error(code, t,
-                            names_.triangle(s) + " and " + names_.triangle(t) + " lie on the same side of " + edge);
-    }
-    return triangle_error(code, t,
-                          edge + " belongs to " + std::to_string(count) + " triangles (" + names_.triangle(s) +
-                              " and " + names_.triangle(t) + " among them); expected at most 2");
   }
 
   std::optional<InputError> check_stars() {
@@ -358,7 +232,7 @@ class MeshBuilder {
         if (message.empty()) {
           message = "the mesh touches itself at " + names_.point(v.index) + ": its triangles are not one fan around it";
         }
-        return point_error(ErrorCode::non_manifold_vertex, v.index, message);
+        return input_.point_error(ErrorCode::non_manifold_vertex, v.index, message);
       }
     }
     return std::nullopt;
@@ -367,25 +241,25 @@ class MeshBuilder {
   std::optional<InputError> check_embedding() {
     const auto overlap = find_overlap(mesh_, names_, executor_);
     if (!overlap) return std::nullopt;
-    return triangle_error(ErrorCode::overlap, overlap->triangle.index, overlap->message);
+    return input_.triangle_error(ErrorCode::overlap, overlap->triangle.index, overlap->message);
   }
 
   std::optional<InputError> constrain_edges() {
     for (const auto& [a, b] : in_.constrained_edges) {
       for (const std::int32_t i : {a, b}) {
-        if (!is_point(i)) {
+        if (!input_.is_point(i)) {
           return InputError{ErrorCode::index_out_of_range,
                             {},
                             "a constrained edge uses point index " + std::to_string(i) + ", but there are " +
-                                quantity(n_points(), "points")};
+                                quantity(input_.n_points(), "points")};
         }
       }
       HalfedgeId h = mesh_.find_halfedge(id(a), id(b));
       if (!h.valid()) h = mesh_.find_halfedge(id(b), id(a));
       if (!h.valid()) {
-        return point_error(ErrorCode::missing_edge, static_cast<std::size_t>(a),
-                           "the constrained edge from " + names_.point(static_cast<std::size_t>(a)) + " to " +
-                               names_.point(static_cast<std::size_t>(b)) + " is no edge of the mesh");
+        return input_.point_error(ErrorCode::missing_edge, static_cast<std::size_t>(a),
+                                  "the constrained edge from " + names_.point(static_cast<std::size_t>(a)) + " to " +
+                                      names_.point(static_cast<std::size_t>(b)) + " is no edge of the mesh");
       }
       mesh_.set_constrained(h, true);
     }
@@ -401,11 +275,11 @@ class MeshBuilder {
 
   std::optional<InputError> fix_vertices() {
     for (const std::int32_t i : in_.fixed_vertices) {
-      if (!is_point(i)) {
-        return InputError{
-            ErrorCode::index_out_of_range,
-            {},
-            "a fixed vertex has index " + std::to_string(i) + ", but there are " + quantity(n_points(), "points")};
+      if (!input_.is_point(i)) {
+        return InputError{ErrorCode::index_out_of_range,
+                          {},
+                          "a fixed vertex has index " + std::to_string(i) + ", but there are " +
+                              quantity(input_.n_points(), "points")};
       }
       mesh_.set_fixed(id(i), true);
     }
@@ -423,16 +297,8 @@ class MeshBuilder {
            name(c[1]) + " and " + name(c[2]) + " to be its edges; more points around the period make that so";
   }
 
-  std::string why_flat(const std::array<std::int32_t, 3>& c) const {
-    const auto name = [&](std::int32_t i) { return names_.point(static_cast<std::size_t>(i)); };
-    if (c[0] == c[1] || c[0] == c[2]) return "it uses " + name(c[0]) + " more than once";
-    if (c[1] == c[2]) return "it uses " + name(c[1]) + " more than once";
-    return "its corners " + name(c[0]) + ", " + name(c[1]) + " and " + name(c[2]) +
-           (on_sphere() ? " are on one great circle" : " are collinear");
-  }
-
   const MeshInput& in_;
-  InputNames default_;
+  NamedInput input_;
   const InputNames& names_;
   StoppableExecutor stoppable_;
   Executor* executor_;
