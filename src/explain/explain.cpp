@@ -45,19 +45,80 @@ struct BadTriangle {
   }
 };
 
-std::vector<BadTriangle> worst_first(const Mesh& mesh) {
+std::vector<BadTriangle> worst_first(const Mesh& mesh, const std::vector<TriangleId>& triangles) {
   std::vector<BadTriangle> bad;
-  for (const TriangleId t : bad_triangles(mesh)) {
+  for (const TriangleId t : triangles) {
     bad.push_back({measure_triangle(mesh, t).margin(), middle_of(mesh, t), t});
   }
   std::sort(bad.begin(), bad.end());
   return bad;
 }
 
+int rank(const Reason& reason) {
+  if (reason.kind == ReasonKind::split) return -1;
+  return reason.kind == ReasonKind::weights ? 2 : reason.kind == ReasonKind::undecided ? 1 : 0;
+}
+/// Rounded: twins of a symmetric mesh are listed in the order of their places, whatever their last digits.
+double severity(const Reason& reason) {
+  if (reason.must_split) return std::round(reason.must_split->sum / kSame);
+  return std::round((rank(reason) == 0 ? reason.margin : reason.least_margin) / kSame);
+}
+
+void measure_bad(const Mesh& mesh, Reason& reason) {
+  const std::vector<BadTriangle> bad = worst_first(mesh, reason.bad);
+  for (std::size_t i = 0; i < bad.size(); ++i) reason.bad[i] = bad[i].triangle;
+  reason.least_margin = bad.front().margin;
+  reason.at = bad.front().at;
+}
+
+Vec2 split_point(const Mesh& mesh, const EdgeConflict& c) {
+  const Surface surface(mesh.space());
+  const Vec3 u = surface.place(mesh.point(mesh.origin(c.edge))), v = surface.place(mesh.point(mesh.target(c.edge)));
+  return mesh.space().as_shown(surface.between(u, v, c.split_at));
+}
+
+void add_split(const Mesh& mesh, Reason& reason, bool checked) {
+  const EdgeConflict& c = *reason.must_split;
+  const VertexId u = mesh.origin(c.edge), v = mesh.target(c.edge);
+  Cure cure;
+  cure.action = mesh.is_boundary(c.edge) ? Cure::Action::split_boundary : Cure::Action::split_edge;
+  cure.edge = {u, v};
+  cure.at = split_point(mesh, c);
+  reason.cures_searched = checked;
+  if (checked) {
+    Mesh split = mesh;
+    const InsertionPlan plan = plan_split(split, c.edge, c.split_at);
+    if (plan.status == InsertionStatus::possible || plan.status == InsertionStatus::not_regular) {
+      const VertexId middle = insert_vertex(split, plan);
+      const auto is_free = [&](VertexId p, VertexId q) {
+        const HalfedgeId h = split.find_halfedge(p, q);
+        return !edge_conflict(split, h.valid() ? h : split.find_halfedge(q, p));
+      };
+      cure.ends_conflict = is_free(u, middle) && is_free(middle, v);
+      cure.at = split.space().as_shown(Surface(split.space()).place(split.point(middle)));
+    }
+  }
+  reason.cures.push_back(cure);
+}
+
+/// The number of vertices near a reason whose weights these change.
+std::size_t changed_near(const Mesh& mesh, const Reason& reason, const IdVector<VertexId, double>& weights) {
+  std::vector<VertexId> near;
+  for (const TriangleId t : triangles_around(mesh, reason.bad)) {
+    for (const VertexId v : mesh.corners(t)) near.push_back(v);
+  }
+  sort_unique(near);
+  return static_cast<std::size_t>(std::count_if(near.begin(), near.end(), [&](VertexId v) { return weights[v] != 0; }));
+}
+
 class Explainer {
  public:
   Explainer(const Mesh& mesh, LpSolver& solver, const ExplainOptions& options)
-      : mesh_(mesh), solver_(solver), options_(options), bad_(worst_first(mesh)), state_(mesh.n_triangles(), kGood) {
+      : mesh_(mesh),
+        solver_(solver),
+        options_(options),
+        bad_(worst_first(mesh, bad_triangles(mesh))),
+        state_(mesh.n_triangles(), kGood) {
     for (const BadTriangle& bad : bad_) state_[bad.triangle] = kUnexplained;
   }
 
@@ -81,30 +142,9 @@ class Explainer {
  private:
   enum State : std::uint8_t { kGood, kUnexplained, kOwned };
 
-  [[nodiscard]] static int rank(const Reason& reason) {
-    if (reason.kind == ReasonKind::split) return -1;
-    return reason.kind == ReasonKind::weights ? 2 : reason.kind == ReasonKind::undecided ? 1 : 0;
-  }
-  /// Rounded: twins of a symmetric mesh are listed in the order of their places, whatever their last digits.
-  [[nodiscard]] static double severity(const Reason& reason) {
-    if (reason.must_split) return std::round(reason.must_split->sum / kSame);
-    return std::round((rank(reason) == 0 ? reason.margin : reason.least_margin) / kSame);
-  }
-
   [[nodiscard]] std::vector<TriangleId> without_owned(std::vector<TriangleId> triangles) const {
     std::erase_if(triangles, [&](TriangleId t) { return state_[t] == kOwned; });
     return triangles;
-  }
-
-  void measure_bad(Reason& reason) const {
-    std::vector<BadTriangle> bad;
-    for (const TriangleId t : reason.bad) {
-      bad.push_back({measure_triangle(mesh_, t).margin(), middle_of(mesh_, t), t});
-    }
-    std::sort(bad.begin(), bad.end());
-    for (std::size_t i = 0; i < bad.size(); ++i) reason.bad[i] = bad[i].triangle;
-    reason.least_margin = bad.front().margin;
-    reason.at = bad.front().at;
   }
 
   /// The bad triangles at each edge that must be split; if these triangles are good, the bad ones near the edge.
@@ -124,42 +164,11 @@ class Explainer {
           reason.bad.push_back(t);
         }
       }
-      if (!reason.bad.empty()) measure_bad(reason);
-      reason.at = split_point(c);
+      if (!reason.bad.empty()) measure_bad(mesh_, reason);
+      reason.at = split_point(mesh_, c);
       result_.reasons.push_back(std::move(reason));
       result_.verdict = Feasibility::infeasible;
     }
-  }
-
-  [[nodiscard]] Vec2 split_point(const EdgeConflict& c) const {
-    const Surface surface(mesh_.space());
-    const Vec3 u = surface.place(mesh_.point(mesh_.origin(c.edge))),
-               v = surface.place(mesh_.point(mesh_.target(c.edge)));
-    return mesh_.space().as_shown(surface.between(u, v, c.split_at));
-  }
-
-  void add_split(Reason& reason, bool checked) const {
-    const EdgeConflict& c = *reason.must_split;
-    const VertexId u = mesh_.origin(c.edge), v = mesh_.target(c.edge);
-    Cure cure;
-    cure.action = mesh_.is_boundary(c.edge) ? Cure::Action::split_boundary : Cure::Action::split_edge;
-    cure.edge = {u, v};
-    cure.at = split_point(c);
-    reason.cures_searched = checked;
-    if (checked) {
-      Mesh split = mesh_;
-      const InsertionPlan plan = plan_split(split, c.edge, c.split_at);
-      if (plan.status == InsertionStatus::possible || plan.status == InsertionStatus::not_regular) {
-        const VertexId middle = insert_vertex(split, plan);
-        const auto is_free = [&](VertexId p, VertexId q) {
-          const HalfedgeId h = split.find_halfedge(p, q);
-          return !edge_conflict(split, h.valid() ? h : split.find_halfedge(q, p));
-        };
-        cure.ends_conflict = is_free(u, middle) && is_free(middle, v);
-        cure.at = split.space().as_shown(Surface(split.space()).place(split.point(middle)));
-      }
-    }
-    reason.cures.push_back(cure);
   }
 
   void own(Conflict conflict) {
@@ -169,7 +178,7 @@ class Explainer {
       reason.bad.push_back(t);
       state_[t] = kOwned;
     }
-    measure_bad(reason);
+    measure_bad(mesh_, reason);
     reason.crossing = crossing_conflict(mesh_, conflict.triangles);
     reason.center = fan_center(mesh_, conflict.triangles);
     reason.kind = kind_of(conflict, reason.center.has_value(), reason.crossing.has_value());
@@ -265,7 +274,7 @@ class Explainer {
       Reason reason;
       reason.bad = std::move(group.bad);
       reason.free = free_vertices(mesh_, reason.bad);
-      measure_bad(reason);
+      measure_bad(mesh_, reason);
       find_margin(reason, group.region);
       result_.reasons.push_back(std::move(reason));
     }
@@ -294,22 +303,12 @@ class Explainer {
     reason.kind = found || result_.verdict == Feasibility::feasible ? ReasonKind::weights : ReasonKind::undecided;
   }
 
-  [[nodiscard]] std::size_t changed_near(const Reason& reason) const {
-    std::vector<VertexId> near;
-    for (const TriangleId t : triangles_around(mesh_, reason.bad)) {
-      for (const VertexId v : mesh_.corners(t)) near.push_back(v);
-    }
-    sort_unique(near);
-    return static_cast<std::size_t>(
-        std::count_if(near.begin(), near.end(), [&](VertexId v) { return weights_[v] != 0; }));
-  }
-
   void add_cures() {
     std::vector<Reason*> conflicts;
     std::size_t splits = 0;
     for (Reason& reason : result_.reasons) {
       if (reason.kind == ReasonKind::split) {
-        add_split(reason, splits++ < options_.cures);
+        add_split(mesh_, reason, splits++ < options_.cures);
         continue;
       }
       if (rank(reason) == 0) conflicts.push_back(&reason);
@@ -345,7 +344,7 @@ class Explainer {
     const bool whole = result_.verdict == Feasibility::feasible;
     cure.triangles = whole ? mesh_.n_triangles() : reason.checked;
     cure.margin = whole ? result_.margin : reason.margin;
-    cure.changed = weights_.empty() ? 0 : changed_near(reason);
+    cure.changed = weights_.empty() ? 0 : changed_near(mesh_, reason, weights_);
     reason.cures.push_back(cure);
   }
 

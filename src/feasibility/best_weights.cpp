@@ -189,9 +189,9 @@ class BestWeights {
     return proof;
   }
 
-  /// Returns the largest difference between two potentials of each vertex that keep the constraints.
-  [[nodiscard]] VertexWeights reach_of_potentials() const {
-    VertexWeights reach(demand_.n_vertices(), 0.0);  // first from the root of the component
+  /// Returns a bound of the difference between the potentials of each vertex and of the root of its component.
+  [[nodiscard]] VertexWeights reach_from_roots() const {
+    VertexWeights reach(demand_.n_vertices(), 0.0);
     VertexMask seen(demand_.n_vertices(), 0);
     std::vector<VertexId> corners;
     std::vector<CellId> cells;
@@ -215,6 +215,12 @@ class BestWeights {
         }
       }
     }
+    return reach;
+  }
+
+  /// Returns the largest difference between two potentials of each vertex that keep the constraints.
+  [[nodiscard]] VertexWeights reach_of_potentials() const {
+    VertexWeights reach = reach_from_roots();
     if (!has_scale()) {
       for (double& r : reach) r *= space().is_plane() ? 2 : 2 / slope_of_scale(space());
       return reach;

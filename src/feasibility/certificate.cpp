@@ -78,7 +78,8 @@ Polynomial crossing_polynomial(Vec3 p, Vec3 q, double margin) {
   return polynomial;
 }
 
-Polynomial dual_polynomial(Vec3 p, Vec3 q, Vec3 r, Vec3 s, double radius, double margin) {
+Polynomial dual_polynomial(const std::array<Vec3, 4>& at, double radius, double margin) {
+  const auto& [p, q, r, s] = at;
   Polynomial polynomial = {{-determinant(q, r, s), determinant(p, r, s), -determinant(p, q, s), determinant(p, q, r)},
                            Number()};
   take_margin(polynomial, margin, volume(p, q, r) * volume(q, p, s) / (radius * radius * radius));
@@ -175,7 +176,7 @@ class SphereTerms {
       case Kind::height:
         return height_polynomial(at(c.p), at(c.q), at(c.r), radius_, margin);
       case Kind::dual:
-        return dual_polynomial(at(c.p), at(c.q), at(c.r), at(c.s), radius_, margin);
+        return dual_polynomial({at(c.p), at(c.q), at(c.r), at(c.s)}, radius_, margin);
       default:
         return crossing_polynomial(at(c.p), at(c.q), margin);
     }

@@ -9,15 +9,53 @@
 #include "base/sort_unique.hpp"
 #include "feasibility/certify.hpp"
 #include "feasibility/edge_rows.hpp"
+#include "feasibility/knowledge.hpp"
 #include "feasibility/proof_checker.hpp"
 
 namespace temper {
 namespace {
 
-using LemmaId = std::size_t;
-
 constexpr std::size_t kShort = 3;  // lemmas with more edges are left out when apexes are only counted
 constexpr double kGoodSide = 4;    // factor of the number of apexes, for a side where weights are good
+
+/// The proof that ends with a lemma, of the lemmas that it needs.
+std::vector<Lemma> needed_lemmas(std::vector<Lemma>& lemmas, LemmaId last) {
+  std::vector<Lemma> needed;
+  std::vector<std::uint8_t> is_needed(last + 1, 0);
+  is_needed[last] = 1;
+  for (LemmaId i = last + 1; i-- > 0;) {
+    if (is_needed[i] == 0) continue;
+    for (const Lemma::Case& c : lemmas[i].cases) is_needed[c.lemma] = 1;
+  }
+  std::vector<LemmaId> number(last + 1, 0);
+  for (LemmaId i = 0; i <= last; ++i) {
+    if (is_needed[i] == 0) continue;
+    for (Lemma::Case& c : lemmas[i].cases) c.lemma = number[c.lemma];
+    number[i] = needed.size();
+    needed.push_back(std::move(lemmas[i]));
+  }
+  return needed;
+}
+
+/// Says whether a triangle keeps the constraints with these weights, up to rounding.
+template <class Weight>
+bool keeps(const Mesh& mesh, Constraints constraints, const std::array<VertexId, 3>& corners, const Weight& weight) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const VertexId p = corners[k], q = corners[(k + 1) % 3], r = corners[(k + 2) % 3];
+    if (value_of(linear_form(mesh, {WeightConstraint::Kind::height, p, q, r}), weight) <= 0) return false;
+    if (constraints == Constraints::heights_only) continue;
+    const double crossing = value_of(linear_form(mesh, split_constraint(p, q)), weight);
+    if (crossing <= 0 || crossing >= 1) return false;
+  }
+  return true;
+}
+
+/// Says whether the triangle keeps the constraints of the edge pq.
+bool keeps_exactly(const Space& space, Constraints constraints, const std::array<WeightedPoint, 3>& corners) {
+  const auto& [p, q, r] = corners;
+  if (constraints == Constraints::well_centered) return is_well_centered(space, p, q, r);
+  return signed_height_sign(space, p, q, r) == Sign::positive;
+}
 
 class CompleteSearch {
  public:
@@ -28,7 +66,7 @@ class CompleteSearch {
         sight_(mesh),
         checker_(mesh, sight_, constraints),
         rows_(mesh, sight_, constraints),
-        pairs_(mesh.n_vertices() * mesh.n_vertices()) {
+        know_(mesh, sight_) {
     ranges_.push_back(rows_.of_pairs());
     std::vector<ProofEdge> of_all;  // sorted, so that the search does not depend on the connectivity of the mesh
     for (const HalfedgeId h : mesh.halfedges()) {
@@ -50,7 +88,8 @@ class CompleteSearch {
     if (lemma) {
       result_.end = CompleteSearchResult::End::none;
       result_.bound = 0;
-      keep_needed_lemmas(*lemma);
+      result_.proof.lemmas = needed_lemmas(know_.lemmas(), *lemma);
+      result_.proof.constraints = constraints_;
     } else if (stopped_) {
       result_.end = CompleteSearchResult::End::stopped;
     } else if (found_) {
@@ -60,54 +99,18 @@ class CompleteSearch {
   }
 
  private:
-  using Side = std::array<VertexId, 2>;  ///< the left side of the edge from the first vertex to the second
-  enum class Tested : std::uint8_t { no, alive, dead };
-
-  /// The knowledge about two vertices: about their edge, and about the left side from the first to the second.
-  struct Pair {
-    bool is_known = false;              ///< an edge
-    Tested tested = Tested::no;         ///< without the rows of other chosen edges
-    std::vector<LemmaId> lemmas;        ///< that name the edge
-    bool has_apexes = false;            ///< whether `apexes` was made
-    std::vector<VertexId> apexes = {};  ///< that the triangle on this side has in some triangulation
-  };
-
-  [[nodiscard]] Pair& pair(VertexId a, VertexId b) { return pairs_[a.index * mesh_.n_vertices() + b.index]; }
-  [[nodiscard]] const Pair& pair(VertexId a, VertexId b) const {
-    return pairs_[a.index * mesh_.n_vertices() + b.index];
-  }
-  [[nodiscard]] Pair& pair(const ProofEdge& e) { return pair(e[0], e[1]); }
-  [[nodiscard]] bool is_known(const ProofEdge& e) const { return pair(e[0], e[1]).is_known; }
   [[nodiscard]] bool is_over() const { return found_ || stopped_; }
 
   void push(const ProofEdge& e) {
-    pair(e).is_known = true;
-    known_.push_back(e);
+    know_.push(e);
     ranges_.push_back(rows_.of_edge(e[0], e[1]));
   }
   void pop() {
-    pair(known_.back()).is_known = false;
-    known_.pop_back();
+    know_.pop();
     ranges_.pop_back();
   }
 
-  const std::vector<VertexId>& apexes(const Side& side) {
-    Pair& of_side = pair(side[0], side[1]);
-    if (!std::exchange(of_side.has_apexes, true)) {
-      for (const VertexId x : mesh_.vertices()) {
-        if (x != side[0] && x != side[1] && sight_.can_be_triangle(side[0], side[1], x)) of_side.apexes.push_back(x);
-      }
-    }
-    return of_side.apexes;
-  }
-
   // --- lemmas --------------------------------------------------------------------------------------
-
-  LemmaId store(Lemma lemma) {
-    for (const ProofEdge& e : lemma.edges) pair(e).lemmas.push_back(lemmas_.size());
-    lemmas_.push_back(std::move(lemma));
-    return lemmas_.size() - 1;
-  }
 
   /// The lemma of a program without margin; nothing if the exact check does not accept it.
   std::optional<LemmaId> lemma_of(const MarginSimplex& program) {
@@ -122,7 +125,7 @@ class CompleteSearch {
         if (rows_.needs_edge(row) && !sight_.must_be_edge(c.p, c.q)) lemma.edges.push_back(edge_between(c.p, c.q));
       });
       sort_unique(lemma.edges);
-      if (checker_.check(lemma, lemmas_) == CertificateCheck::proves) return store(std::move(lemma));
+      if (checker_.check(lemma, know_.lemmas()) == CertificateCheck::proves) return know_.store(std::move(lemma));
     }
     return std::nullopt;
   }
@@ -142,57 +145,28 @@ class CompleteSearch {
     return std::nullopt;
   }
 
-  /// Returns a lemma that excludes the triangle with the apex x, and has at most `most_edges` edges.
-  [[nodiscard]] std::optional<LemmaId> lemma_against(const Side& side, VertexId x, std::size_t most_edges) const {
-    const ProofEdge ax = edge_between(side[0], x), bx = edge_between(side[1], x);
-    const auto holds = [&](const ProofEdge& e) { return is_known(e) || e == ax || e == bx; };
-    for (const ProofEdge& added : {ax, bx}) {
-      if (is_known(added)) continue;
-      for (const LemmaId i : pair(added[0], added[1]).lemmas) {
-        const std::vector<ProofEdge>& edges = lemmas_[i].edges;
-        if (edges.size() <= most_edges && std::all_of(edges.begin(), edges.end(), holds)) return i;
-      }
-    }
-    return std::nullopt;
-  }
-
   // --- apexes --------------------------------------------------------------------------------------
-
-  [[nodiscard]] std::optional<ProofEdge> known_across(const ProofEdge& e) const {
-    if (is_known(e)) return std::nullopt;
-    const auto at = std::find_if(known_.begin(), known_.end(),
-                                 [&](const ProofEdge& other) { return sight_.cross(e[0], e[1], other[0], other[1]); });
-    return at == known_.end() ? std::nullopt : std::optional(*at);
-  }
 
   /// Says whether the edge alone has no margin, in all triangulations.
   bool is_dead(const ProofEdge& e) {
     if (sight_.must_be_edge(e[0], e[1])) return false;
-    Tested& tested = pair(e).tested;
-    if (tested == Tested::no && !is_over()) {
+    Knowledge::Tested& tested = know_.pair(e).tested;
+    if (tested == Knowledge::Tested::no && !is_over()) {
       MarginSimplex program = *root_;
       std::vector<EdgeRows::Range> ranges(ranges_.begin(),
                                           ranges_.begin() + static_cast<std::ptrdiff_t>(n_root_ranges_));
       ranges.push_back(rows_.of_edge(e[0], e[1]));
-      tested = refute(program, ranges) ? Tested::dead : Tested::alive;
+      tested = refute(program, ranges) ? Knowledge::Tested::dead : Knowledge::Tested::alive;
     }
-    return tested == Tested::dead;
-  }
-
-  [[nodiscard]] bool is_open(const Side& side) {
-    const auto& [a, b] = side;
-    if (!mesh_.find_halfedge(a, b).valid() && mesh_.find_halfedge(b, a).valid()) return false;  // outside
-    const std::vector<VertexId>& all = apexes(side);
-    return std::none_of(all.begin(), all.end(), [&](VertexId x) {
-      return is_known(edge_between(side[0], x)) && is_known(edge_between(side[1], x));
-    });
+    return tested == Knowledge::Tested::dead;
   }
 
   std::size_t count_apexes(const Side& side) {
-    const std::vector<VertexId>& all = apexes(side);
+    const std::vector<VertexId>& all = know_.apexes(side);
     return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](VertexId x) {
       const ProofEdge ax = edge_between(side[0], x), bx = edge_between(side[1], x);
-      return !known_across(ax) && !known_across(bx) && !is_dead(ax) && !is_dead(bx) && !lemma_against(side, x, kShort);
+      return !know_.known_across(ax) && !know_.known_across(bx) && !is_dead(ax) && !is_dead(bx) &&
+             !know_.lemma_against(side, x, kShort);
     }));
   }
 
@@ -201,12 +175,13 @@ class CompleteSearch {
   std::optional<Side> open_side(const MarginSimplex& program) {
     std::optional<Side> best;
     double least = kUnbounded;
-    for (const ProofEdge& e : known_) {
+    const auto weight = [&](VertexId v) { return rows_.weight(program, v); };
+    for (const ProofEdge& e : know_.known()) {
       for (const Side& side : {Side{e[0], e[1]}, Side{e[1], e[0]}}) {
-        if (!is_open(side)) continue;
+        if (!know_.is_open(side)) continue;
         const std::vector<VertexId> order = by_height(side, program);
-        const bool is_kept = !order.empty() && keeps(side, order.front(), program);
-        const auto n_lemmas = static_cast<double>(pair(e).lemmas.size());
+        const bool is_kept = !order.empty() && keeps(mesh_, constraints_, {side[0], side[1], order.front()}, weight);
+        const auto n_lemmas = static_cast<double>(know_.pair(e).lemmas.size());
         const double score = (is_kept ? kGoodSide : 1) * static_cast<double>(count_apexes(side)) / (1 + n_lemmas);
         if (score < least) best = side, least = score;
         if (score == 0) return best;
@@ -215,24 +190,10 @@ class CompleteSearch {
     return best;
   }
 
-  /// Says whether the triangle on a side keeps the constraints with the weights of the program, up to rounding.
-  [[nodiscard]] bool keeps(const Side& side, VertexId x, const MarginSimplex& program) const {
-    const auto weight = [&](VertexId v) { return rows_.weight(program, v); };
-    const std::array<VertexId, 3> corners = {side[0], side[1], x};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const VertexId p = corners[k], q = corners[(k + 1) % 3], r = corners[(k + 2) % 3];
-      if (value_of(linear_form(mesh_, {WeightConstraint::Kind::height, p, q, r}), weight) <= 0) return false;
-      if (constraints_ == Constraints::heights_only) continue;
-      const double crossing = value_of(linear_form(mesh_, split_constraint(p, q)), weight);
-      if (crossing <= 0 || crossing >= 1) return false;
-    }
-    return true;
-  }
-
   /// Returns the apexes of a side. The apex of the regular triangulation comes first: it has the lowest orthocenter.
   std::vector<VertexId> by_height(const Side& side, const MarginSimplex& program) {
     std::vector<std::pair<double, VertexId>> order;
-    for (const VertexId x : apexes(side)) {
+    for (const VertexId x : know_.apexes(side)) {
       const LinearForm form = linear_form(mesh_, {WeightConstraint::Kind::height, side[0], side[1], x});
       order.emplace_back(value_of(form, [&](VertexId v) { return rows_.weight(program, v); }), x);
     }
@@ -272,12 +233,12 @@ class CompleteSearch {
     need(edge_between(a, b));
     for (const VertexId x : by_height(side, program)) {
       const ProofEdge ax = edge_between(a, x), bx = edge_between(b, x);
-      const auto across_ax = known_across(ax), across_bx = known_across(bx);
+      const auto across_ax = know_.known_across(ax), across_bx = know_.known_across(bx);
       if (across_ax || across_bx) {
         need(across_ax ? *across_ax : *across_bx);
         continue;
       }
-      std::optional<LemmaId> against = lemma_against(side, x, known_.size());
+      std::optional<LemmaId> against = know_.lemma_against(side, x, know_.known().size());
       if (!against) {
         against = explore_with({ax, bx}, program);
         if (is_over()) return std::nullopt;
@@ -285,26 +246,27 @@ class CompleteSearch {
           is_proved = false;
           continue;
         }
-        const std::vector<ProofEdge>& edges = lemmas_[*against].edges;
-        if (std::all_of(edges.begin(), edges.end(), [&](const ProofEdge& e) { return is_known(e); })) return against;
+        const std::vector<ProofEdge>& edges = know_.lemmas()[*against].edges;
+        if (std::all_of(edges.begin(), edges.end(), [&](const ProofEdge& e) { return know_.is_known(e); }))
+          return against;
       }
-      for (const ProofEdge& e : lemmas_[*against].edges) {
+      for (const ProofEdge& e : know_.lemmas()[*against].edges) {
         if (e != ax && e != bx) need(e);
       }
       lemma.cases.push_back({x, *against});
     }
     if (!is_proved) return std::nullopt;
     sort_unique(lemma.edges);
-    return store(std::move(lemma));
+    return know_.store(std::move(lemma));
   }
 
   std::optional<LemmaId> explore_with(const std::array<ProofEdge, 2>& edges, const MarginSimplex& program) {
-    const std::size_t before = known_.size();
+    const std::size_t before = know_.known().size();
     for (const ProofEdge& e : edges) {
-      if (!is_known(e)) push(e);
+      if (!know_.is_known(e)) push(e);
     }
     const auto lemma = explore(program);
-    while (known_.size() > before) pop();
+    while (know_.known().size() > before) pop();
     return lemma;
   }
 
@@ -314,11 +276,11 @@ class CompleteSearch {
       const Vec2 p = mesh_.position(v);
       return WeightedPoint{p.x, p.y, rows_.weight(program, v)};
     };
-    for (const ProofEdge& e : known_) {
+    for (const ProofEdge& e : know_.known()) {
       for (const Side& side : {Side{e[0], e[1]}, Side{e[1], e[0]}}) {
-        for (const VertexId x : apexes(side)) {
-          if (!is_known(edge_between(side[0], x)) || !is_known(edge_between(side[1], x))) continue;
-          if (!keeps(at(side[0]), at(side[1]), at(x))) return;
+        for (const VertexId x : know_.apexes(side)) {
+          if (!know_.is_known(edge_between(side[0], x)) || !know_.is_known(edge_between(side[1], x))) continue;
+          if (!keeps_exactly(mesh_.space(), constraints_, {at(side[0]), at(side[1]), at(x)})) return;
         }
       }
     }
@@ -327,41 +289,16 @@ class CompleteSearch {
     for (const VertexId v : mesh_.vertices()) result_.weights[v] = rows_.weight(program, v);
   }
 
-  /// Says whether the triangle keeps the constraints of the edge pq.
-  [[nodiscard]] bool keeps(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) const {
-    if (constraints_ == Constraints::well_centered) return is_well_centered(mesh_.space(), p, q, r);
-    return signed_height_sign(mesh_.space(), p, q, r) == Sign::positive;
-  }
-
-  void keep_needed_lemmas(LemmaId last) {
-    std::vector<std::uint8_t> is_needed(last + 1, 0);
-    is_needed[last] = 1;
-    for (LemmaId i = last + 1; i-- > 0;) {
-      if (is_needed[i] == 0) continue;
-      for (const Lemma::Case& c : lemmas_[i].cases) is_needed[c.lemma] = 1;
-    }
-    std::vector<LemmaId> number(last + 1, 0);
-    for (LemmaId i = 0; i <= last; ++i) {
-      if (is_needed[i] == 0) continue;
-      for (Lemma::Case& c : lemmas_[i].cases) c.lemma = number[c.lemma];
-      number[i] = result_.proof.lemmas.size();
-      result_.proof.lemmas.push_back(std::move(lemmas_[i]));
-    }
-    result_.proof.constraints = constraints_;
-  }
-
   const Mesh& mesh_;
   Constraints constraints_;
   const std::function<bool()>& stop_;
   Sight sight_;
   ProofChecker checker_;
   EdgeRows rows_;
-  std::vector<Pair> pairs_;
-  std::vector<ProofEdge> known_;         ///< edges of all triangulations, then the chosen edges in their order
+  Knowledge know_;
   std::vector<EdgeRows::Range> ranges_;  ///< of pairs, then of the known edges
   std::optional<MarginSimplex> root_;    ///< the program of the edges of all triangulations
   std::size_t n_root_ranges_ = 0;
-  std::vector<Lemma> lemmas_;
   bool found_ = false, stopped_ = false;
   CompleteSearchResult result_;
 };

@@ -19,34 +19,25 @@
 #include "base/assert.hpp"
 #include "feasibility/best_weights.hpp"
 #include "feasibility/certify.hpp"
-#include "feasibility/change.hpp"
 #include "feasibility/constraints.hpp"
-#include "feasibility/region.hpp"
+#include "feasibility/region_solver.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {
 
-constexpr int kMoreRings = 2;   // one ring each time would solve each program twice as often
 constexpr int kHalvings = 30;   // of the requested margin: down to the rounding of the programs
 constexpr double kKept = 1e-9;  // a margin is kept if at most this is lacking: the solvers' tolerance
 
-/// A finished region: its change of weights, or the proof that there is none.
-struct RegionResult {
-  Region region;
-  std::optional<RegionChange> change;
-  Bound bound;  ///< without change
-};
+double value(const Demand& demand, const WeightConstraint& constraint, const VertexWeights& weights) {
+  return value_of(demand.linear_form(constraint), [&](VertexId v) { return potential_of(demand.space(), weights[v]); });
+}
 
 class WeightFinder {
  public:
   WeightFinder(const Demand& demand, LpSolver& solver, const WeightOptions& options)
-      : demand_(demand),
-        solver_(solver),
-        options_(options),
-        start_(options.from_input ? demand.weights() : VertexWeights(demand.n_vertices(), 0.0)),
-        components_(components_of(demand)) {}
+      : demand_(demand), solver_(solver), options_(options), regions_(demand, solver, options) {}
 
   WeightReport run() {
     if (options_.goal == WeightGoal::margin) measure_components();
@@ -57,8 +48,8 @@ class WeightFinder {
     }
     if (refuted_by_a_ring(asked)) return report(asked);
     for (int round = 0; round < kHalvings && asked > kNoMargin; ++round) {
-      attempt(asked, asked);
-      if (failures() == 0) break;
+      regions_.attempt(asked, asked);
+      if (regions_.failures() == 0) break;
       note_bound(asked);
       asked = bound_->best.margin / 2;
     }
@@ -66,20 +57,6 @@ class WeightFinder {
   }
 
  private:
-  [[nodiscard]] double value(const WeightConstraint& constraint, const VertexWeights& weights) const {
-    return value_of(demand_.linear_form(constraint),
-                    [&](VertexId v) { return potential_of(demand_.space(), weights[v]); });
-  }
-  [[nodiscard]] Bound bound_of(std::span<const CellId> cells) const { return bound_margin(demand_, cells, solver_); }
-  [[nodiscard]] RegionProblem problem(double asked, double floor = -kUnbounded) const {
-    return {demand_, start_, asked, floor};
-  }
-
-  /// A best margin that rules out all weights. Dual lengths are all zero for w = |x|², so their best margin is never
-  /// below zero.
-  [[nodiscard]] bool is_hopeless(double margin) const {
-    return margin <= (demand_.has_duals() ? kNoMargin : -kNoMargin);
-  }
   /// The margin that is refuted when no weights satisfy the constraints.
   [[nodiscard]] double refuted_margin() const {
     return demand_.refuted_margin(std::clamp(options_.margin, kLeastRefutedDual, kRefutedDual));
@@ -87,9 +64,9 @@ class WeightFinder {
 
   /// The best margins of components that fit into one program.
   void measure_components() {
-    for (const Region& component : components_) {
+    for (const Region& component : regions_.components()) {
       if (component.cells.size() > options_.whole) continue;
-      Bound bound = bound_of(component.cells);
+      Bound bound = regions_.bound_of(component.cells);
       if (bound.best.status != LpStatus::optimal) bound.best.margin = 0;
       if (bound.best.margin >= small_margin_) continue;
       small_margin_ = bound.best.margin;
@@ -97,18 +74,14 @@ class WeightFinder {
     }
   }
 
-  [[nodiscard]] bool is_bad(CellId cell, double asked) const {
-    return demand_.margin_of(cell, start_) < asked || !demand_.is_kept(cell, start_);
-  }
-
   /// The cheapest possible proof, when programs of regions may be large: the ring of one bad triangle.
   bool refuted_by_a_ring(double asked) {
-    for (const Region& component : components_) {
+    for (const Region& component : regions_.components()) {
       if (component.cells.size() <= options_.whole) continue;
       for (const CellId cell : component.cells) {
-        if (!is_bad(cell, asked)) continue;
-        Bound bound = bound_of(ring_of(demand_, cell));
-        if (bound.best.status != LpStatus::optimal || !is_hopeless(bound.best.margin)) continue;
+        if (!regions_.is_bad(cell, asked)) continue;
+        Bound bound = regions_.bound_of(ring_of(demand_, cell));
+        if (bound.best.status != LpStatus::optimal || !regions_.is_hopeless(bound.best.margin)) continue;
         if (!bound_ || bound.best.margin < bound_->best.margin) bound_ = std::move(bound);
         // No best margin of dual lengths is less than zero: the first proof is as good as any.
         if (demand_.has_duals() && proves(*bound_)) return true;
@@ -125,74 +98,9 @@ class WeightFinder {
     return refuted_.has_value();
   }
 
-  [[nodiscard]] VertexMask first_mask(double asked) const {
-    VertexMask mask(demand_.n_vertices(), 0);
-    for (const Region& component : components_) {
-      std::vector<VertexId> bad;
-      for (const CellId cell : component.cells) {
-        if (is_bad(cell, asked)) demand_.add_corners(cell, bad);
-      }
-      if (bad.empty()) continue;
-      if (component.cells.size() <= options_.whole) bad = component.free;
-      for (const VertexId v : bad) mask[v] = 1;
-      grow(demand_, mask, std::move(bad), options_.rings);
-    }
-    return mask;
-  }
-
-  /// With `floor` below `asked`, a region that cannot have the margin `asked` violates it down to `floor`.
-  void attempt(double asked, double floor) {
-    VertexMask mask = first_mask(asked);
-    results_.clear();
-    for (bool grown = true; grown;) {
-      grown = false;
-      std::vector<RegionResult> next;
-      for (Region& region : regions_of(demand_, mask, demand_.has_duals())) {
-        if (std::optional<RegionResult> known = take_result(region)) {
-          next.push_back(*std::move(known));
-        } else if (std::optional<RegionResult> found = solve(region, asked, floor)) {
-          next.push_back(*std::move(found));
-        } else {
-          grow(demand_, mask, region.free, kMoreRings);
-          grown = true;
-        }
-      }
-      results_ = std::move(next);
-    }
-  }
-
-  /// The result of the last round, if the region has not changed. Free vertices only increase, so first and number
-  /// decide.
-  std::optional<RegionResult> take_result(const Region& region) {
-    for (RegionResult& result : results_) {
-      if (result.region.free.size() == region.free.size() && result.region.free.front() == region.free.front()) {
-        return std::move(result);
-      }
-    }
-    return std::nullopt;
-  }
-
-  /// Nothing: the region must grow.
-  std::optional<RegionResult> solve(Region& region, double asked, double floor) {
-    RegionChange change = least_change(problem(asked), region, solver_);
-    if (change.status != LpStatus::optimal && floor < asked)
-      change = least_violation(problem(asked, floor), region, solver_);
-    if (change.status == LpStatus::optimal) return RegionResult{std::move(region), std::move(change), {}};
-    Bound bound = bound_of(region.cells);
-    const bool below = demand_.has_duals() ? is_hopeless(bound.best.margin) : bound.best.margin < floor;
-    const bool proof = bound.best.status == LpStatus::optimal && below;
-    if (!proof && region.has_rim) return std::nullopt;
-    return RegionResult{std::move(region), std::nullopt, std::move(bound)};
-  }
-
-  [[nodiscard]] std::size_t failures() const {
-    return static_cast<std::size_t>(
-        std::count_if(results_.begin(), results_.end(), [](const RegionResult& o) { return !o.change; }));
-  }
-
   /// Keeps the least bound, and its verdict on the first requested margin.
   void note_bound(double asked) {
-    for (RegionResult& result : results_) {
+    for (RegionResult& result : regions_.results()) {
       if (result.change) continue;
       if (result.bound.best.status != LpStatus::optimal) result.bound.best.margin = 0;
       bound_is_exact_ = bound_is_exact_ && !result.region.has_rim;
@@ -212,43 +120,30 @@ class WeightFinder {
   /// is the floor of violations, unless no weights exist.
   void violate_least(double asked) {
     double floor = asked;
-    attempt(asked, floor);
-    for (int round = 0; round < kHalvings && failures() > 0; ++round) {
+    regions_.attempt(asked, floor);
+    for (int round = 0; round < kHalvings && regions_.failures() > 0; ++round) {
       note_bound(floor);
       floor = bound_->best.margin / 2;
       if (floor <= kNoMargin) break;
-      attempt(asked, floor);
+      regions_.attempt(asked, floor);
     }
-    for (RegionResult& result : results_) {
+    for (RegionResult& result : regions_.results()) {
       if (result.change) continue;
-      RegionChange change = least_violation(problem(asked), result.region, solver_);
+      RegionChange change = least_violation(regions_.problem(asked), result.region, solver_);
       if (change.status == LpStatus::optimal) result.change = std::move(change);
     }
-  }
-
-  [[nodiscard]] VertexWeights changed_weights() const {
-    VertexWeights weights = start_;
-    for (const RegionResult& result : results_) {
-      if (!result.change) continue;
-      for (std::size_t i = 0; i < result.region.free.size(); ++i) {
-        const double change = result.change->change[i];
-        double& w = weights[result.region.free[i]];
-        if (change != 0) w = changed_weight(demand_.space(), w, change);
-      }
-    }
-    return weights;
   }
 
   WeightReport report(double asked) {
     WeightReport r;
     r.asked = asked;
-    r.weights = changed_weights();
-    r.programs = results_.size();
-    for (const RegionResult& result : results_) r.largest = std::max(r.largest, result.region.cells.size());
+    r.weights = regions_.changed_weights();
+    r.programs = regions_.results().size();
+    for (const RegionResult& result : regions_.results()) r.largest = std::max(r.largest, result.region.cells.size());
     measure(r);
     const bool all_good = std::all_of(demand_.cells().begin(), demand_.cells().end(),
                                       [&](CellId cell) { return demand_.is_kept(cell, r.weights); });
-    const bool found = all_good && asked > kNoMargin && failures() == 0;
+    const bool found = all_good && asked > kNoMargin && regions_.failures() == 0;
     judge_margin(r, found);
     judge(r, found);
     if (options_.goal == WeightGoal::elastic) add_violations(r);
@@ -257,16 +152,16 @@ class WeightFinder {
 
   void measure(WeightReport& r) const {
     r.attained = least_margin(demand_, r.weights);
-    const auto change = [&](VertexId v) { return r.weights[v] - start_[v]; };
+    const auto change = [&](VertexId v) { return r.weights[v] - regions_.start()[v]; };
     for (const VertexId v : demand_.vertices()) r.moved += change(v) != 0 ? 1 : 0;
-    r.change = weight_change(demand_, start_, r.weights);
+    r.change = weight_change(demand_, regions_.start(), r.weights);
   }
 
   void judge_margin(WeightReport& r, bool found) const {
-    const bool all_measured = options_.goal == WeightGoal::margin &&
-                              std::all_of(components_.begin(), components_.end(), [&](const Region& component) {
-                                return component.cells.size() <= options_.whole;
-                              });
+    const bool all_measured =
+        options_.goal == WeightGoal::margin &&
+        std::all_of(regions_.components().begin(), regions_.components().end(),
+                    [&](const Region& component) { return component.cells.size() <= options_.whole; });
     if (all_measured) {
       r.margin = small_margin_;
       r.margin_kind = demand_.has_duals() && small_margin_ > kNoMargin ? MarginKind::at_least : MarginKind::exact;
@@ -298,7 +193,7 @@ class WeightFinder {
         r.solved = r.verdict == Feasibility::feasible && r.asked == options_.margin;
         break;
       case WeightGoal::elastic:
-        r.solved = failures() == 0;
+        r.solved = regions_.failures() == 0;
         break;
       case WeightGoal::center:
       case WeightGoal::accuracy:
@@ -308,7 +203,7 @@ class WeightFinder {
 
   void add_violations(WeightReport& r) const {
     for (const WeightConstraint& c : demand_.constraints_of(all_cells(demand_))) {
-      const double got = value(c, r.weights);
+      const double got = value(demand_, c, r.weights);
       if (got < r.asked - kKept) r.violations.push_back({c, got, r.asked - got, demand_.angle_deg(c)});
     }
     std::stable_sort(r.violations.begin(), r.violations.end(),
@@ -318,12 +213,10 @@ class WeightFinder {
   const Demand& demand_;
   LpSolver& solver_;
   const WeightOptions& options_;
-  VertexWeights start_;
-  std::vector<Region> components_;
+  RegionSolver regions_;
 
   double small_margin_ = 1;  ///< least best margin of the components measured; 1: none was
   std::optional<Bound> worst_component_;
-  std::vector<RegionResult> results_;
   std::optional<Bound> bound_;  ///< the least
   bool bound_is_exact_ = true;
   std::optional<Certificate> refuted_;

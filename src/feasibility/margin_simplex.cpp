@@ -48,17 +48,9 @@ double MarginSimplex::slack(const MarginRow& row) const {
   return value;
 }
 
-/// Gauss and Jordan, with pivots of columns.
-bool MarginSimplex::refactor() {
+/// Gauss and Jordan, with pivots of columns. Returns false if the matrix is singular.
+bool MarginSimplex::invert(std::vector<double> matrix) {
   const std::size_t d = unknowns_.size();
-  std::vector<double> matrix(d * d, 0.0);
-  for (std::size_t i = 0; i < d; ++i) {
-    const MarginRow row = row_of(i);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (row.columns[k] >= 0) matrix[i * d + static_cast<std::size_t>(row.columns[k])] += row.coefficients[k];
-    }
-    matrix[i * d + d - 1] -= row.slope;
-  }
   inverse_.assign(d * d, 0.0);
   for (std::size_t i = 0; i < d; ++i) inverse_[i * d + i] = 1;
   for (std::size_t c = 0; c < d; ++c) {
@@ -82,6 +74,20 @@ bool MarginSimplex::refactor() {
       }
     }
   }
+  return true;
+}
+
+bool MarginSimplex::refactor() {
+  const std::size_t d = unknowns_.size();
+  std::vector<double> matrix(d * d, 0.0);
+  for (std::size_t i = 0; i < d; ++i) {
+    const MarginRow row = row_of(i);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (row.columns[k] >= 0) matrix[i * d + static_cast<std::size_t>(row.columns[k])] += row.coefficients[k];
+    }
+    matrix[i * d + d - 1] -= row.slope;
+  }
+  if (!invert(std::move(matrix))) return false;
   std::fill(unknowns_.begin(), unknowns_.end(), 0.0);
   for (std::size_t j = 0; j < d; ++j) {
     const double constant = row_of(j).constant;

@@ -74,6 +74,7 @@ class MarginSimplex {
   [[nodiscard]] std::size_t leaving_position(bool by_number) const;
   [[nodiscard]] bool step(RowId entering, bool by_number);
   /// Computes all but the basis again. Returns false if the basis is singular.
+  bool invert(std::vector<double> matrix);
   bool refactor();
 
   const std::vector<MarginRow>* rows_;

@@ -1,0 +1,84 @@
+#include "feasibility/region_solver.hpp"
+
+#include <utility>
+
+namespace temper {
+namespace {
+
+constexpr int kMoreRings = 2;  // one ring each time would solve each program twice as often
+
+}  // namespace
+
+VertexMask RegionSolver::first_mask(double asked) const {
+  VertexMask mask(demand_.n_vertices(), 0);
+  for (const Region& component : components_) {
+    std::vector<VertexId> bad;
+    for (const CellId cell : component.cells) {
+      if (is_bad(cell, asked)) demand_.add_corners(cell, bad);
+    }
+    if (bad.empty()) continue;
+    if (component.cells.size() <= options_.whole) bad = component.free;
+    for (const VertexId v : bad) mask[v] = 1;
+    grow(demand_, mask, std::move(bad), options_.rings);
+  }
+  return mask;
+}
+
+void RegionSolver::attempt(double asked, double floor) {
+  VertexMask mask = first_mask(asked);
+  results_.clear();
+  for (bool grown = true; grown;) {
+    grown = false;
+    std::vector<RegionResult> next;
+    for (Region& region : regions_of(demand_, mask, demand_.has_duals())) {
+      if (std::optional<RegionResult> known = take_result(region)) {
+        next.push_back(*std::move(known));
+      } else if (std::optional<RegionResult> found = solve(region, asked, floor)) {
+        next.push_back(*std::move(found));
+      } else {
+        grow(demand_, mask, region.free, kMoreRings);
+        grown = true;
+      }
+    }
+    results_ = std::move(next);
+  }
+}
+
+/// The result of the last round, if the region has not changed. Free vertices only increase, so first and number
+/// decide.
+std::optional<RegionResult> RegionSolver::take_result(const Region& region) {
+  for (RegionResult& result : results_) {
+    if (result.region.free.size() == region.free.size() && result.region.free.front() == region.free.front()) {
+      return std::move(result);
+    }
+  }
+  return std::nullopt;
+}
+
+/// Nothing: the region must grow.
+std::optional<RegionResult> RegionSolver::solve(Region& region, double asked, double floor) {
+  RegionChange change = least_change(problem(asked), region, solver_);
+  if (change.status != LpStatus::optimal && floor < asked)
+    change = least_violation(problem(asked, floor), region, solver_);
+  if (change.status == LpStatus::optimal) return RegionResult{std::move(region), std::move(change), {}};
+  Bound bound = bound_of(region.cells);
+  const bool below = demand_.has_duals() ? is_hopeless(bound.best.margin) : bound.best.margin < floor;
+  const bool proof = bound.best.status == LpStatus::optimal && below;
+  if (!proof && region.has_rim) return std::nullopt;
+  return RegionResult{std::move(region), std::nullopt, std::move(bound)};
+}
+
+VertexWeights RegionSolver::changed_weights() const {
+  VertexWeights weights = start_;
+  for (const RegionResult& result : results_) {
+    if (!result.change) continue;
+    for (std::size_t i = 0; i < result.region.free.size(); ++i) {
+      const double change = result.change->change[i];
+      double& w = weights[result.region.free[i]];
+      if (change != 0) w = changed_weight(demand_.space(), w, change);
+    }
+  }
+  return weights;
+}
+
+}  // namespace temper

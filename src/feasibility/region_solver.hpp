@@ -1,0 +1,76 @@
+// The regions of a mesh that need weights, solved one by one.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "feasibility/certify.hpp"
+#include "feasibility/change.hpp"
+#include "feasibility/constraints.hpp"
+#include "feasibility/region.hpp"
+
+namespace temper {
+
+/// A finished region: its change of weights, or the proof that there is none.
+struct RegionResult {
+  Region region;
+  std::optional<RegionChange> change;
+  Bound bound;  ///< without change
+};
+
+class RegionSolver {
+ public:
+  RegionSolver(const Demand& demand, LpSolver& solver, const WeightOptions& options)
+      : demand_(demand),
+        solver_(solver),
+        options_(options),
+        start_(options.from_input ? demand.weights() : VertexWeights(demand.n_vertices(), 0.0)),
+        components_(components_of(demand)) {}
+
+  [[nodiscard]] const VertexWeights& start() const { return start_; }
+  [[nodiscard]] const std::vector<Region>& components() const { return components_; }
+  /// The results of the last attempt.
+  [[nodiscard]] std::vector<RegionResult>& results() { return results_; }
+  [[nodiscard]] const std::vector<RegionResult>& results() const { return results_; }
+
+  /// The number of regions without weights.
+  [[nodiscard]] std::size_t failures() const {
+    return static_cast<std::size_t>(
+        std::count_if(results_.begin(), results_.end(), [](const RegionResult& o) { return !o.change; }));
+  }
+  [[nodiscard]] Bound bound_of(std::span<const CellId> cells) const { return bound_margin(demand_, cells, solver_); }
+  [[nodiscard]] RegionProblem problem(double asked, double floor = -kUnbounded) const {
+    return {demand_, start_, asked, floor};
+  }
+  /// A best margin that rules out all weights. Dual lengths are all zero for w = |x|², so their best margin is never
+  /// below zero.
+  [[nodiscard]] bool is_hopeless(double margin) const {
+    return margin <= (demand_.has_duals() ? kNoMargin : -kNoMargin);
+  }
+  [[nodiscard]] bool is_bad(CellId cell, double asked) const {
+    return demand_.margin_of(cell, start_) < asked || !demand_.is_kept(cell, start_);
+  }
+
+  /// Solves all regions for a margin. With `floor` below `asked`, a region that cannot have the margin `asked` violates
+  /// it down to `floor`.
+  void attempt(double asked, double floor);
+  /// The weights at the start with the changes of the regions.
+  [[nodiscard]] VertexWeights changed_weights() const;
+
+ private:
+  [[nodiscard]] VertexMask first_mask(double asked) const;
+  std::optional<RegionResult> take_result(const Region& region);
+  std::optional<RegionResult> solve(Region& region, double asked, double floor);
+
+  const Demand& demand_;
+  LpSolver& solver_;
+  const WeightOptions& options_;
+  VertexWeights start_;
+  std::vector<Region> components_;
+  std::vector<RegionResult> results_;
+};
+
+}  // namespace temper
