@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable_log.hpp"
 #include "base/sum.hpp"
 
 namespace temper {
@@ -56,6 +57,17 @@ void Descent::learn(Vector step, Vector change) {
   if (!(curvature > kLeastCurvature * std::sqrt(dot(step, step) * dot(change, change)))) return;
   if (pairs_.size() == kPairs) pairs_.erase(pairs_.begin());
   pairs_.push_back({std::move(step), std::move(change), 1 / curvature});
+}
+
+LogObjective log_objective(const std::vector<double>& errors, const std::vector<double>& start, double total,
+                           double share) {
+  const auto n = static_cast<double>(errors.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i) sum += errors[i] / start[i];
+  const double mean = sum / n;
+  LogObjective result = {portable_log(mean) + share * portable_log(total), share / total, {}};
+  for (const double s : start) result.by_error.push_back(1 / (n * s * mean));
+  return result;
 }
 
 }  // namespace temper

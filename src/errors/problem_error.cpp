@@ -183,33 +183,9 @@ class ProblemErrorModel final : public DiscretizationError {
       : scheme_(scheme), problem_(mesh, std::move(discrete), std::move(reference), problem) {}
 
   [[nodiscard]] const PlacedProblem& problem() const { return problem_; }
-  [[nodiscard]] std::vector<double> errors(const Mesh& mesh, Executor* /*executor*/) const override {
-    return measure(mesh, nullptr);
-  }
-  [[nodiscard]] std::vector<double> errors(const Mesh& mesh, std::vector<Gradient>& gradients,
+  [[nodiscard]] std::vector<double> errors(const Mesh& mesh, std::vector<Gradient>* gradients,
                                            Executor* /*executor*/) const override {
-    gradients.clear();
-    return measure(mesh, &gradients);
-  }
-
- private:
-  /// A scheme with its matrix factored, and c of J.
-  struct Factored {
-    const DiffusionSubject& s;
-    const ProblemOnMesh& on;
-    double c;
-    Equations equations;
-    Cholesky matrix;
-
-    [[nodiscard]] std::vector<double> solution(const std::vector<double>& sources, std::vector<double> values) const {
-      std::vector<double> right = equations.points.right_side(sources, values);
-      matrix.solve(right);
-      equations.points.put(right, values);
-      return values;
-    }
-  };
-
-  [[nodiscard]] std::vector<double> measure(const Mesh& mesh, std::vector<Gradient>* gradients) const {
+    if (gradients != nullptr) gradients->clear();
     const ProblemOnMesh on(problem_, mesh);
     const Discrete discrete = discrete_of(mesh, on.problem());
     Expected<DecComplex> dec = with_coefficient(mesh, dec_operators(mesh), discrete.coefficient);
@@ -235,6 +211,23 @@ class ProblemErrorModel final : public DiscretizationError {
     }
     return errors;
   }
+
+ private:
+  /// A scheme with its matrix factored, and c of J.
+  struct Factored {
+    const DiffusionSubject& s;
+    const ProblemOnMesh& on;
+    double c;
+    Equations equations;
+    Cholesky matrix;
+
+    [[nodiscard]] std::vector<double> solution(const std::vector<double>& sources, std::vector<double> values) const {
+      std::vector<double> right = equations.points.right_side(sources, values);
+      matrix.solve(right);
+      equations.points.put(right, values);
+      return values;
+    }
+  };
 
   static double error_at_vertices(const Factored& scheme, std::optional<Adjoint>& by) {
     const auto& [s, on, c, equations, matrix] = scheme;

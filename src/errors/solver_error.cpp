@@ -318,18 +318,9 @@ class SolverErrorModel final : public DiscretizationError {
  public:
   explicit SolverErrorModel(Scheme scheme) : scheme_(scheme) {}
 
-  [[nodiscard]] std::vector<double> errors(const Mesh& mesh, Executor* executor) const override {
-    return measure(mesh, nullptr, executor);
-  }
-  [[nodiscard]] std::vector<double> errors(const Mesh& mesh, std::vector<Gradient>& gradients,
+  [[nodiscard]] std::vector<double> errors(const Mesh& mesh, std::vector<Gradient>* gradients,
                                            Executor* executor) const override {
-    gradients.clear();
-    return measure(mesh, &gradients, executor);
-  }
-
- private:
-  [[nodiscard]] std::vector<double> measure(const Mesh& mesh, std::vector<Gradient>* gradients,
-                                            Executor* executor) const {
+    if (gradients != nullptr) gradients->clear();
     const ErrorSubject subject = subject_of(mesh);
     const auto matrices = last_.take();
     std::optional<VertexSolver> at_vertices;
@@ -349,6 +340,7 @@ class SolverErrorModel final : public DiscretizationError {
     return errors;
   }
 
+ private:
   [[nodiscard]] ErrorSubject subject_of(const Mesh& mesh) const {
     ErrorSubject subject{mesh, dec_operators(mesh), {}};
     double area = 0;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -21,6 +20,7 @@
 namespace temper::tets {
 namespace {
 
+using Gradient = DiscretizationError::Gradient;
 using error_detail::Cholesky;
 using error_detail::kLanes;
 using error_detail::Lanes;
@@ -140,34 +140,35 @@ void pull_back(const TetMesh& mesh, const VertexScheme& dec, const TetAdjoint& b
 class TetCellError final : public DiscretizationError {
  public:
   [[nodiscard]] bool has_gradient() const override { return false; }
-  [[nodiscard]] double squared_error(const TetMesh& mesh,
-                                     IdVector<VertexId, WeightedPoint>* /*gradient*/) const override {
+  [[nodiscard]] std::vector<double> errors(const TetMesh& mesh, std::vector<Gradient>* /*gradients*/,
+                                           Executor* /*executor*/) const override {
     const auto report = measure_errors(mesh, {.fields = {"chosen"}});
+    if (!report) return {};
     double sum = 0;
-    if (report) {
-      for (const FieldErrors& f : report->fields) sum += f.errors.flux.l2 * f.errors.flux.l2;
-    }
-    return report ? sum / static_cast<double>(report->fields.size()) : std::numeric_limits<double>::infinity();
+    for (const FieldErrors& f : report->fields) sum += f.errors.flux.l2 * f.errors.flux.l2;
+    return {sum / static_cast<double>(report->fields.size())};
   }
 };
 
 class TetVertexError final : public DiscretizationError {
  public:
-  [[nodiscard]] double squared_error(const TetMesh& mesh, IdVector<VertexId, WeightedPoint>* gradient) const override {
+  [[nodiscard]] std::vector<double> errors(const TetMesh& mesh, std::vector<Gradient>* gradients,
+                                           Executor* /*executor*/) const override {
     const VertexScheme dec(mesh);
     std::vector<bool> given;
     for (const std::uint8_t on_boundary : boundary_vertices(mesh)) given.push_back(on_boundary != 0);
     const PointSystem points = vertex_system(dec, given);
     const auto matrix = last_.take();
-    if (!matrix->factor(points.n_unknowns(), points.lower())) return std::numeric_limits<double>::infinity();
+    if (!matrix->factor(points.n_unknowns(), points.lower())) return {};
+    if (gradients != nullptr) gradients->clear();
     TetAdjoint by = {IdVector<VertexId, Vec3>(mesh.n_vertices()), IdVector<VertexId, double>(mesh.n_vertices()),
                      IdVector<EdgeId, double>(dec.edges.size())};
     double sum = 0;
     for (const SpaceWaves& waves : space_waves(mesh, dec.volume)) {
-      sum += error(*matrix, mesh, dec, points, waves, gradient != nullptr ? &by : nullptr);
+      sum += error(*matrix, mesh, dec, points, waves, gradients != nullptr ? &by : nullptr);
     }
-    if (gradient != nullptr) pull_back(mesh, dec, by, *gradient);
-    return sum;
+    if (gradients != nullptr) pull_back(mesh, dec, by, gradients->emplace_back(mesh.n_vertices()));
+    return {sum};
   }
 
  private:

@@ -1,4 +1,4 @@
-// Loops over long arrays in blocks, on the executor's threads when there is one. The blocks depend on the length alone.
+// Loops in blocks (base/loops.hpp) that may end early.
 #pragma once
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/loops.hpp"
 #include "temper/detail/executor.hpp"
 
 namespace temper {
@@ -35,23 +36,6 @@ class StoppableExecutor final : public Executor {
   std::function<bool()> stop_;
   bool stopped_ = false;
 };
-
-inline constexpr std::size_t kLoopBlock = 16384;  // enough work to be worth a task, small enough to balance
-
-/// work(first, last) of each block of 0 … n − 1.
-template <class Work>
-void for_blocks(std::size_t n, Executor* executor, Work&& work) {
-  const std::size_t blocks = (n + kLoopBlock - 1) / kLoopBlock;
-  or_serial(executor).run(blocks, [&](std::size_t b) { work(b * kLoopBlock, std::min(n, (b + 1) * kLoopBlock)); });
-}
-
-/// work(i) for each i.
-template <class Work>
-void for_each_index(std::size_t n, Executor* executor, Work&& work) {
-  for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) work(i);
-  });
-}
 
 /// The least i with wrong(i); make_test() gives each block a test of its own. Blocks behind a found index are skipped.
 template <class MakeTest>

@@ -33,21 +33,26 @@ struct DiffusionProblem {
   std::vector<BoundaryValue> boundary = {};
 };
 
-class DiscretizationError {
+/// For a mesh of triangles or tetrahedra, whose vertices are points of this type.
+template <class AnyMesh, class Point>
+class DiscretizationErrorOf {
  public:
-  using Gradient = IdVector<VertexId, WeightedPoint>;
+  using Gradient = IdVector<VertexId, Point>;
 
-  virtual ~DiscretizationError() = default;
+  virtual ~DiscretizationErrorOf() = default;
 
+  /// Says whether errors() has derivatives. Without them it only chooses between meshes.
+  [[nodiscard]] virtual bool has_gradient() const { return true; }
   /// Returns the mean squared error of each selected scheme, without unit. Meshes of one domain can be compared in any
   /// units and order. Empty if the matrix of a scheme is not positive definite. The matrices are positive definite if
-  /// all triangles are well-centered.
-  [[nodiscard]] virtual std::vector<double> errors(const Mesh& mesh, Executor* executor = nullptr) const = 0;
-
-  /// Also returns the derivatives of each error by x, y and w of every vertex. The derivatives by the places of
-  /// boundary vertices are left out, because these do not move.
-  [[nodiscard]] virtual std::vector<double> errors(const Mesh& mesh, std::vector<Gradient>& gradients,
+  /// all triangles or tetrahedra are well-centered.
+  ///
+  /// `gradients`, unless null, gets the derivatives of each error by the coordinates and the weight of every vertex.
+  /// In the plane the derivatives by the places of boundary vertices are left out, because these do not move.
+  /// Precondition then: has_gradient().
+  [[nodiscard]] virtual std::vector<double> errors(const AnyMesh& mesh, std::vector<Gradient>* gradients = nullptr,
                                                    Executor* executor = nullptr) const = 0;
 };
+using DiscretizationError = DiscretizationErrorOf<Mesh, WeightedPoint>;
 
 }  // namespace temper

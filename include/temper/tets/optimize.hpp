@@ -40,18 +40,7 @@ struct OptimizeOptions {
   std::optional<Star> hot_star = {};
 };
 
-/// The error of a scheme on a mesh and its derivatives, as temper::DiscretizationError for triangles.
-class DiscretizationError {
- public:
-  virtual ~DiscretizationError() = default;
-
-  /// Says whether squared_error() has derivatives. Without them it only chooses between meshes.
-  [[nodiscard]] virtual bool has_gradient() const { return true; }
-  /// Returns the mean squared error, without unit; +∞ if the scheme has no solution. `gradient`, unless null, gets the
-  /// derivatives by x, y, z and w of every vertex. Precondition then: has_gradient().
-  [[nodiscard]] virtual double squared_error(const TetMesh& mesh,
-                                             IdVector<VertexId, WeightedPoint>* gradient) const = 0;
-};
+using DiscretizationError = DiscretizationErrorOf<TetMesh, WeightedPoint>;
 
 /// The words of a user, which program and Python share with triangles (temper/detail/optimize_table.hpp).
 struct OptimizeWords {

@@ -180,7 +180,7 @@ MeshScore score(const Mesh& mesh, const MeshScore& counts, const Settings& setti
     return s;
   }
   s.lacks_margins = !has_margins(mesh, settings.accuracy.margin, executor);
-  s.energy = settings.errors != nullptr ? root_mean_square(settings.errors->errors(mesh, executor))
+  s.energy = settings.errors != nullptr ? root_mean_square(settings.errors->errors(mesh, nullptr, executor))
                                         : accuracy_energy(mesh, *sizes, settings.accuracy, executor);
   return s;
 }

@@ -4,9 +4,7 @@
 //
 // The options' model gives the errors (temper/detail/discretization_error.hpp). E and B are the energy and barrier of
 // the accuracy objective: they keep triangles well-centered with their margins, and other errors low. The method is
-// L-BFGS. Its unknowns are places over the local size, and weights over its square. If a triangle is not well-centered,
-// the phase does nothing. The connectivity stays. A step that would bring triangles to their floors is shortened at
-// their vertices alone, since one such triangle in a large mesh would else end the way of all vertices.
+// L-BFGS. If a triangle is not well-centered, the phase does nothing. The connectivity stays.
 #pragma once
 
 #include <vector>
@@ -14,6 +12,7 @@
 #include "base/descent.hpp"
 #include "optimize/accuracy/accuracy_phase.hpp"
 #include "optimize/step/dofs.hpp"
+#include "temper/detail/discretization_error.hpp"
 
 namespace temper {
 
@@ -30,7 +29,10 @@ class SolverErrorPhase final : public SizedPhase {
   [[nodiscard]] Keeps keeps() const override { return Keeps::best_points; }
 
  private:
+  friend class Descent;  // which takes steps
   using Vector = Descent::Vector;
+  using Gradient = DiscretizationError::Gradient;
+  static constexpr std::size_t kUnknowns = 3;  // x and y over the local size, the weight over its square
   struct Value {
     double lowered = 0;  ///< the objective; +∞ outside of the barrier
     double error = 0;    ///< geometric mean of the root mean squares of all schemes
@@ -38,18 +40,20 @@ class SolverErrorPhase final : public SizedPhase {
   };
 
   [[nodiscard]] Value value();
-  void add_gradient_of_energy(double factor, IdVector<VertexId, WeightedPoint>& gradient) const;
+  void add_gradient_of_energy(double factor, Gradient& gradient) const;
+  [[nodiscard]] Vector scaled(const Gradient& gradient) const;
   [[nodiscard]] bool is_inside() const;
-  /// Shortens the step of each vertex so far that its triangles keep a part of their room above their floors.
-  void shorten(const IdVector<VertexId, WeightedPoint>& from, Vector& step);
-  /// Moves the vertices from `from` by t times the step.
-  void place(const IdVector<VertexId, WeightedPoint>& from, const Vector& step, double t);
-  [[nodiscard]] Vector scaled(const IdVector<VertexId, WeightedPoint>& gradient) const;
+  [[nodiscard]] std::size_t n_elements() const { return mesh_.n_triangles(); }
+  [[nodiscard]] auto corners(std::size_t triangle) const { return mesh_.corners(TriangleId(triangle)); }
+  [[nodiscard]] double room(std::size_t triangle) const;
+  /// Moves the vertices from before_ by t times the step.
+  void place(const Vector& step, double t);
 
   const WorkingUnits& units_;
   IdVector<VertexId, Dofs> dofs_;
-  std::vector<double> start_;     // errors at the first value
-  std::size_t beyond_guard_ = 0;  // triangles at the start
+  IdVector<VertexId, WeightedPoint> before_;  // the step
+  std::vector<double> start_;                 // errors at the first value
+  std::size_t beyond_guard_ = 0;              // triangles at the start
   Value now_;
   Descent descent_;
   bool stuck_ = false;           // no step lowers the objective

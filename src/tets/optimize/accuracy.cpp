@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "base/cube_root.hpp"
-#include "base/portable_log.hpp"
-#include "tets/energy/star.hpp"
 
 namespace temper::tets {
 namespace {
@@ -18,9 +16,6 @@ constexpr double kMargin = 0.02, kFloorOfMargin = 0.01;
 constexpr double kBarrier = 0.005;  // μ
 constexpr double kOffsetShare = 3;  // κ
 constexpr int kSmoothings = 10;
-// As in the plane (optimize/solver_error/solver_error_phase.cpp).
-constexpr double kLongestStep = 0.3, kKeptRoom = 0.2, kArmijo = 1e-4;
-constexpr int kMostHalvings = 25;
 // The phase ends if kStepsToGain steps lower the sum by less than kLeastGain.
 constexpr std::size_t kStepsToGain = 20;
 constexpr double kLeastGain = 1e-3;
@@ -60,6 +55,7 @@ Accuracy::Accuracy(TetMesh& mesh, IdVector<VertexId, Mobility> mobility, const A
       mobility_(std::move(mobility)),
       error_(error),
       executor_(executor),
+      before_(mesh.n_vertices()),
       sizes_(local_sizes(mesh)),
       floors_(mesh.n_tetrahedra()) {
   for (const TetId t : mesh.tetrahedra()) {
@@ -69,76 +65,49 @@ Accuracy::Accuracy(TetMesh& mesh, IdVector<VertexId, Mobility> mobility, const A
     for (const VertexId v : mesh.corners(t)) mobility_[v] = Mobility::none;
   }
   energy_ = AccuracyEnergy(mesh, sizes_, floors_, model);
-  now_ = total();
+  now_ = value();
 }
 
-Accuracy::Total Accuracy::total() const {
-  Total result;
+Accuracy::Value Accuracy::value() const {
+  Value result;
   result.lowered = result.measure = HUGE_VAL;
-  Gradient of_error(mesh_.n_vertices()), of_energy;
-  const double error = error_ != nullptr ? error_->squared_error(mesh_, &of_error) : 1;
+  std::vector<Gradient> of_errors;
+  const std::vector<double> errors = error_ ? error_->errors(mesh_, &of_errors, executor_) : std::vector{1.0};
+  if (!error_) of_errors.emplace_back(mesh_.n_vertices());
+  Gradient of_energy;
   const auto [offsets, barrier] = energy_.of(mesh_, &of_energy, executor_);
   const double sum = offsets + barrier;
-  if (!(error > 0 && std::isfinite(error) && sum > 0 && std::isfinite(sum))) return result;
-  result.measure = error_ != nullptr ? std::sqrt(error) : offsets;
-  result.lowered = portable_log(error) + kOffsetShare * portable_log(sum);
-  result.gradient.resize(4 * mesh_.n_vertices());
-  const double by_error = 1 / error, by_sum = kOffsetShare / sum;
+  if (errors.empty() || !(errors[0] > 0 && std::isfinite(errors[0]) && sum > 0 && std::isfinite(sum))) return result;
+  result.measure = error_ ? std::sqrt(errors[0]) : offsets;
+  const LogObjective objective = log_objective(errors, {1}, sum, kOffsetShare);
+  result.lowered = objective.value;
+  result.gradient.resize(kUnknowns * mesh_.n_vertices());
+  const double by_error = objective.by_error[0], by_sum = objective.by_total;
   for (const VertexId v : mesh_.vertices()) {
-    double* to = &result.gradient[4 * std::size_t{v.index}];
+    double* to = &result.gradient[kUnknowns * v.index];
     const double s = sizes_[v];
+    const WeightedPoint &of_error = of_errors[0][v], &of_sum = of_energy[v];
     if (mobility_[v].moves()) {
-      const Vec3 at = mobility_[v].allowed(by_error * of_error[v].position() + by_sum * of_energy[v].position());
+      const Vec3 at = mobility_[v].allowed(by_error * of_error.position() + by_sum * of_sum.position());
       to[0] = s * at.x, to[1] = s * at.y, to[2] = s * at.z;
     }
-    if (mobility_[v].weighs) to[3] = s * s * (by_error * of_error[v].w + by_sum * of_energy[v].w);
+    if (mobility_[v].weighs) to[3] = s * s * (by_error * of_error.w + by_sum * of_sum.w);
   }
   return result;
 }
 
-void Accuracy::place(const IdVector<VertexId, WeightedPoint>& from, const Descent::Vector& step, double t) {
+void Accuracy::place(const Descent::Vector& step, double t) {
   for (const VertexId v : mesh_.vertices()) {
-    const double *by = &step[4 * std::size_t{v.index}], s = sizes_[v];
-    WeightedPoint p = from[v];
+    const double *by = &step[kUnknowns * v.index], s = sizes_[v];
+    WeightedPoint p = before_[v];
     const Vec3 move = mobility_[v].allowed({t * s * by[0], t * s * by[1], t * s * by[2]});
     if (mobility_[v].moves()) p.x += move.x, p.y += move.y, p.z += move.z;
     if (mobility_[v].weighs) p.w += t * s * s * by[3];
-    mesh_.set_point(v, t != 0 && is_exact(p) ? p : from[v]);
+    mesh_.set_point(v, t != 0 && is_exact(p) ? p : before_[v]);
   }
 }
 
-/// Shortens the step of each vertex so far that its tetrahedra keep a part of their margin: one of them would else end
-/// the way of all vertices.
-void Accuracy::shorten(const IdVector<VertexId, WeightedPoint>& from, Descent::Vector& step) {
-  const auto scale = [&step](VertexId v, double factor) {
-    for (std::size_t i = 0; i < 4; ++i) step[4 * std::size_t{v.index} + i] *= factor;
-  };
-  for (const VertexId v : mesh_.vertices()) {
-    double most = 0;
-    for (std::size_t i = 0; i < 4; ++i) most = std::max(most, std::abs(step[4 * std::size_t{v.index} + i]));
-    if (most > kLongestStep) scale(v, kLongestStep / most);
-  }
-  const auto room = [this](TetId t) { return least_height(mesh_, t) - floors_[t]; };
-  std::vector<double> least;
-  least.reserve(mesh_.n_tetrahedra());
-  for (const TetId t : mesh_.tetrahedra()) least.push_back(kKeptRoom * room(t));
-  for (int i = 0; i < kMostHalvings; ++i) {
-    place(from, step, 1);
-    IdVector<VertexId, std::uint8_t> is_short(mesh_.n_vertices());
-    bool any = false;
-    for (const TetId t : mesh_.tetrahedra()) {
-      if (room(t) >= least[t.index]) continue;
-      for (const VertexId v : mesh_.corners(t)) is_short[v] = 1;
-      any = true;
-    }
-    if (!any) return;
-    for (const VertexId v : mesh_.vertices()) {
-      if (is_short[v] != 0) scale(v, 0.5);
-    }
-  }
-}
-
-bool Accuracy::is_valid() const {
+bool Accuracy::is_inside() const {
   const auto all = mesh_.tetrahedra();
   return std::all_of(all.begin(), all.end(),
                      [this](TetId t) { return floors_[t] == AccuracyEnergy::kNoFloor || is_good(mesh_, t); });
@@ -148,33 +117,13 @@ bool Accuracy::descend(const MustStop& must_stop) {
   if (!std::isfinite(now_.lowered)) return false;
   if (lowered_.size() > kStepsToGain && lowered_.end()[-1 - std::ptrdiff_t(kStepsToGain)] - now_.lowered < kLeastGain)
     return false;
-  IdVector<VertexId, WeightedPoint> before(mesh_.n_vertices());
-  for (const VertexId v : mesh_.vertices()) before[v] = mesh_.point(v);
-  for (;;) {
-    Descent::Vector step = descent_.direction(now_.gradient);
-    shorten(before, step);
-    const double slope = temper::dot(now_.gradient, step);
-    double t = 1;
-    for (int i = 0; i < kMostHalvings && slope < 0; ++i, t *= 0.5) {
-      if (must_stop(0)) {
-        place(before, step, 0);
-        return false;
-      }
-      place(before, step, t);
-      if (!is_valid()) continue;
-      Total there = total();
-      if (!(there.lowered <= now_.lowered + kArmijo * t * slope)) continue;
-      Descent::Vector change = there.gradient;
-      for (std::size_t k = 0; k < change.size(); ++k) change[k] -= now_.gradient[k], step[k] *= t;
-      descent_.learn(std::move(step), std::move(change));
-      now_ = std::move(there);
-      lowered_.push_back(now_.lowered);
-      return true;
-    }
-    place(before, step, 0);
-    if (descent_.knows_nothing()) return false;
-    descent_.forget();
-  }
+  for (const VertexId v : mesh_.vertices()) before_[v] = mesh_.point(v);
+  Descent::Outcome outcome;
+  do {
+    outcome = descent_.take_step(*this, now_, executor_, [&must_stop] { return must_stop(0); });
+  } while (outcome == Descent::Outcome::none);
+  if (outcome == Descent::Outcome::taken) lowered_.push_back(now_.lowered);
+  return outcome == Descent::Outcome::taken;
 }
 
 }  // namespace temper::tets

@@ -13,6 +13,7 @@
 #include "base/descent.hpp"
 #include "temper/tets/optimize.hpp"
 #include "tets/energy/accuracy_energy.hpp"
+#include "tets/energy/star.hpp"
 #include "tets/optimize/newton_step.hpp"
 #include "tets/optimize/sweeper.hpp"
 
@@ -36,25 +37,33 @@ class Accuracy {
   [[nodiscard]] double measure() const { return now_.measure; }
 
  private:
-  struct Total {
+  friend class temper::Descent;                // which takes steps
+  static constexpr std::size_t kUnknowns = 4;  // places over the local size, the weight over its square
+  struct Value {
     double lowered = 0, measure = 0;
-    Descent::Vector gradient;  // of `lowered`, by scaled unknowns: four per vertex
+    Descent::Vector gradient;  // of `lowered`, by the scaled unknowns
   };
 
-  [[nodiscard]] Total total() const;
-  void place(const IdVector<VertexId, WeightedPoint>& from, const Descent::Vector& step, double t);
-  void shorten(const IdVector<VertexId, WeightedPoint>& from, Descent::Vector& step);
-  [[nodiscard]] bool is_valid() const;
+  [[nodiscard]] Value value() const;
+  [[nodiscard]] bool is_inside() const;
+  [[nodiscard]] std::size_t n_elements() const { return mesh_.n_tetrahedra(); }
+  [[nodiscard]] const auto& corners(std::size_t tetrahedron) const { return mesh_.corners(TetId(tetrahedron)); }
+  [[nodiscard]] double room(std::size_t tetrahedron) const {
+    return least_height(mesh_, TetId(tetrahedron)) - floors_[TetId(tetrahedron)];
+  }
+  /// Moves the vertices from before_ by t times the step.
+  void place(const Descent::Vector& step, double t);
 
   TetMesh& mesh_;
   IdVector<VertexId, Mobility> mobility_;
   const DiscretizationError* error_;
   Executor* executor_;
-  VertexSizes sizes_;  // units of positions; their squares are those of weights
+  IdVector<VertexId, WeightedPoint> before_;  // the step
+  VertexSizes sizes_;                         // units of positions; their squares are those of weights
   IdVector<TetId, double> floors_;
   AccuracyEnergy energy_;
   Descent descent_;
-  Total now_;
+  Value now_;
   std::vector<double> lowered_;  // after each step
 };
 

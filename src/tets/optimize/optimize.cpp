@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -186,7 +187,10 @@ class Run {
   /// Lowers the errors of the scheme. The best mesh is the one with the least error.
   void lower_errors() {
     if (!lowers_errors()) return;
-    const auto error_of = [this](const TetMesh& mesh) { return error_ ? error_->squared_error(mesh, nullptr) : 0; };
+    const auto error_of = [this](const TetMesh& mesh) {
+      const std::vector<double> errors = error_ ? error_->errors(mesh) : std::vector{0.0};
+      return errors.empty() ? HUGE_VAL : errors[0];
+    };
     double least = begin_phase(error_of);
     const DiscretizationError* error = best_bad_ == 0 && error_ && error_->has_gradient() ? error_ : nullptr;
     Accuracy accuracy(draft_.mesh, draft_.mobilities(), accuracy_model(options_.scheme), error, hooks_.executor);

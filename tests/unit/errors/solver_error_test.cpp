@@ -32,7 +32,7 @@ double& unknown(WeightedPoint& p, int i) { return i == 0 ? p.x : i == 1 ? p.y : 
 /// The largest difference between derivatives of a model and differences with a step, relative to the largest.
 double error_of_derivatives(const DiscretizationError& model, const Mesh& mesh, std::size_t scheme, double step) {
   Gradients gradients;
-  EXPECT_EQ(model.errors(mesh, gradients).size(), 2u);
+  EXPECT_EQ(model.errors(mesh, &gradients).size(), 2u);
   EXPECT_EQ(gradients.size(), 2u);
   double largest = 0, worst = 0;
   for (const WeightedPoint& g : gradients[scheme]) {
@@ -140,11 +140,11 @@ TEST(SolverErrorModel, IsTheSameForAnyThreads) {
   const Mesh mesh = well_centered_mesh(150);
   const auto model = *make_discretization_error(mesh);
   Gradients one, many;
-  const auto alone = model->errors(mesh, one);
+  const auto alone = model->errors(mesh, &one);
   ASSERT_EQ(alone, model->errors(mesh));
   for (const std::size_t threads : {2, 3, 8}) {
     StdThreads executor(threads);
-    EXPECT_EQ(model->errors(mesh, many, &executor), alone);
+    EXPECT_EQ(model->errors(mesh, &many, &executor), alone);
     EXPECT_EQ(many, one);
   }
 }

@@ -17,10 +17,11 @@ TEST(TetSolverError, DifferencesConvergeToTheGradientWithOrderTwo) {
   const auto model = make_discretization_error(Scheme::vertex);
   ASSERT_NE(model, nullptr);
   TetMesh mesh = lattice();
-  IdVector<VertexId, WeightedPoint> gradient(mesh.n_vertices());
-  const double here = model->squared_error(mesh, &gradient);
+  std::vector<DiscretizationError::Gradient> gradients;
+  const double here = model->errors(mesh, &gradients).at(0);
+  const DiscretizationError::Gradient& gradient = gradients.at(0);
   ASSERT_TRUE(std::isfinite(here));
-  EXPECT_EQ(model->squared_error(mesh, nullptr), here);
+  EXPECT_EQ(model->errors(mesh).at(0), here);
   const auto on_boundary = boundary_vertices(mesh);
   double coarse = 0, fine = 0, size = 0;
   for (const VertexId v : mesh.vertices()) {
@@ -31,9 +32,9 @@ TEST(TetSolverError, DifferencesConvergeToTheGradientWithOrderTwo) {
         WeightedPoint high = at, low = at;
         high.*i += step, low.*i -= step;
         mesh.set_point(v, high);
-        const double above = model->squared_error(mesh, nullptr);
+        const double above = model->errors(mesh).at(0);
         mesh.set_point(v, low);
-        const double below = model->squared_error(mesh, nullptr);
+        const double below = model->errors(mesh).at(0);
         mesh.set_point(v, at);
         return (above - below) / (2 * step);
       };
@@ -55,12 +56,12 @@ TEST(TetSolverError, ARunLowersItAndReturnsTheBestMesh) {
   OptimizeHooks hooks;
   hooks.error = make_discretization_error(Scheme::vertex);
   ASSERT_TRUE(optimize(mesh, options, hooks));
-  EXPECT_LT(hooks.error->squared_error(mesh, nullptr), 0.95 * hooks.error->squared_error(before, nullptr));
+  EXPECT_LT(hooks.error->errors(mesh).at(0), 0.95 * hooks.error->errors(before).at(0));
   EXPECT_EQ(quality(mesh).orthocenters_outside, 0U);
   options.accuracy_steps = 0;
   hooks.error = make_discretization_error(Scheme::vertex);
   ASSERT_TRUE(optimize(again, options, hooks));
-  EXPECT_LE(hooks.error->squared_error(again, nullptr), hooks.error->squared_error(before, nullptr));
+  EXPECT_LE(hooks.error->errors(again).at(0), hooks.error->errors(before).at(0));
 }
 
 TEST(TetSolverError, NoSchemeReturnsALargerErrorThanThatOfAGoodInput) {
@@ -73,7 +74,7 @@ TEST(TetSolverError, NoSchemeReturnsALargerErrorThanThatOfAGoodInput) {
     OptimizeHooks hooks;
     hooks.error = make_discretization_error(scheme);
     ASSERT_TRUE(optimize(mesh, options, hooks));
-    EXPECT_LE(hooks.error->squared_error(mesh, nullptr), hooks.error->squared_error(input, nullptr));
+    EXPECT_LE(hooks.error->errors(mesh).at(0), hooks.error->errors(input).at(0));
   }
   EXPECT_EQ(make_discretization_error(Scheme::stars), nullptr);
 }

@@ -242,14 +242,16 @@ TEST(TetMobility, TheFrontOfASlitStays) {
 /// An error that is less the nearer all vertices are to a point inside, off the planes.
 class Pull final : public DiscretizationError {
  public:
-  [[nodiscard]] double squared_error(const TetMesh& mesh, IdVector<VertexId, WeightedPoint>* gradient) const override {
+  [[nodiscard]] std::vector<double> errors(const TetMesh& mesh, std::vector<Gradient>* gradients,
+                                           Executor* /*executor*/) const override {
+    if (gradients != nullptr) gradients->assign(1, Gradient(mesh.n_vertices()));
     double sum = 1;
     for (const VertexId v : mesh.vertices()) {
       const Vec3 by = mesh.position(v) - Vec3{1.8, 2.1, 1.9};
       sum += squared_length(by);
-      if (gradient != nullptr) (*gradient)[v] = {2 * by.x, 2 * by.y, 2 * by.z, 0};
+      if (gradients != nullptr) gradients->front()[v] = {2 * by.x, 2 * by.y, 2 * by.z, 0};
     }
-    return sum;
+    return {sum};
   }
 };
 
