@@ -5,11 +5,8 @@
 // areas. The adjoint λ solves A λ = 2 c m e. Now v depends on A, b, m and u. The total derivative
 // of J by any of them is the derivative of J − λᵀ(A v − b) with v and λ kept.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -19,6 +16,7 @@
 #include "errors/fields.hpp"
 #include "errors/lender.hpp"
 #include "errors/poisson.hpp"
+#include "errors/waves.hpp"
 #include "temper/dec.hpp"
 #include "temper/detail/discretization_error.hpp"
 #include "temper/errors.hpp"
@@ -26,12 +24,6 @@
 namespace temper {
 namespace error_detail {
 namespace {
-
-// Wave numbers in radians per half of the bounding box, one for each block of waves.
-constexpr double kWaveNumbers[] = {1.5, 3.5};
-// A block has a sine and a cosine in each direction. So the sum of their squares does not depend on the place. The sum
-// of k k k k over four directions does not depend on directions.
-constexpr std::size_t kDirections = kLanes / 2;
 
 /// ½∫ cos(s h) ds and ½∫ s sin(s h) ds over [−1, 1]: a wave's means over a segment on which its angle changes by 2h.
 struct SegmentMeans {
@@ -49,42 +41,13 @@ struct SegmentMeans {
   }
 };
 
-/// Waves side by side: in each direction the sine of its angle k · p + phase, then the cosine.
-struct WaveBlock {
-  std::array<Vec2, kDirections> k = {};
-  std::array<double, kDirections> phase = {};
-  double k2 = 0;     // |k|²
-  double share = 0;  // c of J, relative to the mean square ½, over k⁴ in the frame, in the mean
-
-  [[nodiscard]] Lanes at(Vec2 p) const {
-    Lanes values;
-    for (std::size_t d = 0; d < kDirections; ++d) {
-      const auto [sine, cosine] = sine_cosine(dot(k[d], p) + phase[d]);
-      values[2 * d] = sine, values[2 * d + 1] = cosine;
-    }
-    return values;
-  }
-  /// The derivatives by the angles, from the values.
-  static Lanes slopes(const Lanes& values) {
-    Lanes slopes;
-    for (std::size_t d = 0; d < kDirections; ++d) {
-      slopes[2 * d] = values[2 * d + 1], slopes[2 * d + 1] = -values[2 * d];
-    }
-    return slopes;
-  }
-  /// Σ by_angle k.
-  [[nodiscard]] Vec2 by_place(const Lanes& by_angle) const {
-    Vec2 sum;
-    for (std::size_t d = 0; d < kDirections; ++d) sum = sum + (by_angle[2 * d] + by_angle[2 * d + 1]) * k[d];
-    return sum;
-  }
-};
+using Waves = WaveBlock<Vec2>;
 
 /// A mesh with its operators, and the waves in its units.
 struct ErrorSubject {
   const Mesh& mesh;
   DecComplex dec;
-  std::vector<WaveBlock> waves;
+  std::vector<Waves> waves;
 };
 
 /// A scheme on a mesh, its matrix factored. It solves for e directly: A e = b − A u.
@@ -101,7 +64,7 @@ class Solver {
 
   [[nodiscard]] bool is_definite() const { return is_definite_; }
   /// The squared error of a block of waves. If `by` is not null, adds its derivatives there.
-  [[nodiscard]] virtual double error(const WaveBlock& waves, Adjoint* by) const = 0;
+  [[nodiscard]] virtual double error(const Waves& waves, Adjoint* by) const = 0;
 
  protected:
   /// Replaces sources by the solution at all points, 0 where it is given.
@@ -111,7 +74,7 @@ class Solver {
 
   /// J = c Σ m e². At given points e is 0.
   template <class Masses>
-  static double squared(const WaveBlock& waves, const Masses& masses, const std::vector<Lanes>& errors) {
+  static double squared(const Waves& waves, const Masses& masses, const std::vector<Lanes>& errors) {
     Lanes sums = {};
     for (std::size_t p = 0; p < errors.size(); ++p) {
       for (std::size_t i = 0; i < kLanes; ++i) sums[i] += masses.begin()[p] * errors[p][i] * errors[p][i];
@@ -122,7 +85,7 @@ class Solver {
   }
   /// The adjoint λ, from the derivative of J by e.
   template <class Masses>
-  [[nodiscard]] std::vector<Lanes> adjoint(const WaveBlock& waves, const Masses& masses,
+  [[nodiscard]] std::vector<Lanes> adjoint(const Waves& waves, const Masses& masses,
                                            const std::vector<Lanes>& errors) const {
     std::vector<Lanes> lambda(errors.size());
     for (std::size_t p = 0; p < errors.size(); ++p) {
@@ -158,7 +121,7 @@ class VertexSolver final : public Solver {
   VertexSolver(const ErrorSubject& s, Cholesky& matrix)
       : Solver(s, vertex_system(s.dec, given_vertices(s.mesh)), matrix) {}
 
-  [[nodiscard]] double error(const WaveBlock& waves, Adjoint* by) const override {
+  [[nodiscard]] double error(const Waves& waves, Adjoint* by) const override {
     const auto& [mesh, dec, all] = subject();
     std::vector<Lanes> value(mesh.n_vertices());
     for (const VertexId v : mesh.vertices()) value[v.index] = waves.at(mesh.position(v));
@@ -170,7 +133,7 @@ class VertexSolver final : public Solver {
     for (const VertexId v : mesh.vertices()) {
       const std::size_t p = v.index;
       if (points().is_given(p)) continue;
-      const Lanes slopes = WaveBlock::slopes(value[p]);
+      const Lanes slopes = Waves::slopes(value[p]);
       Lanes by_angle;
       double by_area = 0;
       for (std::size_t i = 0; i < kLanes; ++i) {
@@ -203,7 +166,7 @@ class CellSolver final : public Solver {
  public:
   CellSolver(const ErrorSubject& s, Cholesky& matrix) : Solver(s, cell_system(s.dec, s.dec.transmissibility), matrix) {}
 
-  [[nodiscard]] double error(const WaveBlock& waves, Adjoint* by) const override {
+  [[nodiscard]] double error(const Waves& waves, Adjoint* by) const override {
     const auto& [mesh, dec, all] = subject();
     std::vector<Lanes> value(mesh.n_triangles()), errors(value.size());
     for (const TriangleId t : mesh.triangles()) value[t.index] = waves.at(dec.orthocenters[t]);
@@ -231,7 +194,7 @@ class CellSolver final : public Solver {
     const std::vector<Lanes> lambda = adjoint(waves, dec.areas, errors);
     for (const TriangleId t : mesh.triangles()) {
       const std::size_t p = t.index;
-      Lanes by_angle = WaveBlock::slopes(value[p]);
+      Lanes by_angle = Waves::slopes(value[p]);
       for (std::size_t i = 0; i < kLanes; ++i) {
         by_angle[i] *= -2 * waves.share * dec.areas[t] * errors[p][i];
         value[p][i] += errors[p][i];
@@ -245,9 +208,9 @@ class CellSolver final : public Solver {
 
  private:
   /// ∫ ∇u · n over an edge, n to its left.
-  [[nodiscard]] Lanes flow_through(const WaveBlock& waves, const DecEdge& edge) const {
+  [[nodiscard]] Lanes flow_through(const Waves& waves, const DecEdge& edge) const {
     const Vec2 a = subject().mesh.position(edge.from), e = subject().mesh.position(edge.to) - a;
-    Lanes flow = WaveBlock::slopes(waves.at(a + 0.5 * e));
+    Lanes flow = Waves::slopes(waves.at(a + 0.5 * e));
     for (std::size_t d = 0; d < kDirections; ++d) {
       const double factor = cross(e, waves.k[d]) * SegmentMeans(0.5 * dot(waves.k[d], e)).even;
       flow[2 * d] *= factor, flow[2 * d + 1] *= factor;
@@ -255,7 +218,7 @@ class CellSolver final : public Solver {
     return flow;
   }
 
-  void add_edge(EdgeId id, const WaveBlock& waves, const std::vector<Lanes>& value, const std::vector<Lanes>& lambda,
+  void add_edge(EdgeId id, const Waves& waves, const std::vector<Lanes>& value, const std::vector<Lanes>& lambda,
                 Adjoint& by) const {
     const auto& [mesh, dec, all] = subject();
     const DecEdge& edge = dec.edges[id];
@@ -264,7 +227,7 @@ class CellSolver final : public Solver {
       const std::size_t k = inner_triangle(edge).index;
       const Lanes outside = waves.at(edge.midpoint);
       by.transmissibility[id] += by_coefficient(lambda[k], {}, value[k], outside);
-      Lanes by_angle = WaveBlock::slopes(outside);
+      Lanes by_angle = Waves::slopes(outside);
       for (std::size_t i = 0; i < kLanes; ++i) by_angle[i] *= lambda[k][i] * dec.transmissibility[id];
       by.crossing[id] += dot(waves.by_place(by_angle), e) / edge.length;
       return;
@@ -274,7 +237,7 @@ class CellSolver final : public Solver {
     // ∫ f over the triangle on the left grows by f times the way if the edge moves to the right. The ends take ∫ f (1 −
     // t) and ∫ f t, t from 0 to 1.
     const Lanes middle = waves.at(from + 0.5 * e);
-    const Lanes slopes = WaveBlock::slopes(middle);
+    const Lanes slopes = Waves::slopes(middle);
     double even = 0, odd = 0;
     for (std::size_t d = 0; d < kDirections; ++d) {
       const SegmentMeans means(0.5 * dot(waves.k[d], e));
@@ -290,24 +253,6 @@ class CellSolver final : public Solver {
 };
 
 // --- the model -------------------------------------------------------------------------------------------------------
-
-/// The waves of all blocks, in the units of a mesh. The directions of one block are halfway between those of the other.
-std::vector<WaveBlock> waves_of(const FieldFrame& frame, double area) {
-  constexpr std::size_t kBlocks = std::size(kWaveNumbers);
-  std::vector<WaveBlock> blocks(kBlocks);
-  for (std::size_t b = 0; b < kBlocks; ++b) {
-    const double in_frame = kWaveNumbers[b], number = in_frame / frame.half_size;
-    blocks[b].k2 = number * number;
-    blocks[b].share = 2 / (area * in_frame * in_frame * in_frame * in_frame * kBlocks * kLanes);
-    for (std::size_t d = 0; d < kDirections; ++d) {
-      const double turn = static_cast<double>(2 * (d * kBlocks + b) + 1) / (2 * kBlocks * kDirections);
-      const auto [sine, cosine] = sine_cosine(std::numbers::pi * turn);
-      blocks[b].k[d] = number * Vec2{cosine, sine};
-      blocks[b].phase[d] = -dot(blocks[b].k[d], frame.center);
-    }
-  }
-  return blocks;
-}
 
 /// Matrices that the measurement of one mesh leaves to the next, whose connectivity is mostly the same.
 struct Matrices {
@@ -345,13 +290,13 @@ class SolverErrorModel final : public DiscretizationError {
     ErrorSubject subject{mesh, dec_operators(mesh), {}};
     double area = 0;
     for (const double of_triangle : subject.dec.areas) area += of_triangle;
-    subject.waves = waves_of(field_frame(mesh), area);
+    subject.waves = waves_of<Vec2>(field_frame(mesh), area, 1);
     return subject;
   }
 
   /// The sum over all waves, and over their derivatives, in an order independent of the number of threads.
   static double mean_error(const Solver& solver, const ErrorSubject& subject, Adjoint* by, Executor* executor) {
-    const std::vector<WaveBlock>& waves = subject.waves;
+    const std::vector<Waves>& waves = subject.waves;
     std::vector<double> sums(waves.size(), 0.0);
     std::vector<std::optional<Adjoint>> parts(by != nullptr ? waves.size() : 0);
     or_serial(executor).run(waves.size(), [&](std::size_t block) {

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
-#include "base/sine_cosine.hpp"
 #include "errors/lender.hpp"
 #include "errors/poisson.hpp"
+#include "errors/waves.hpp"
 #include "temper/tets/errors.hpp"
 #include "temper/tets/operators.hpp"
 #include "temper/tets/optimize.hpp"
@@ -29,47 +28,8 @@ using error_detail::PointSystem;
 using error_detail::vertex_residuals;
 using error_detail::vertex_system;
 
-// Wave numbers in radians per half of the bounding box. Each has two blocks of four directions, with a sine and a
-// cosine.
-constexpr double kTetWaveNumbers[] = {1.5, 3.5};
-constexpr std::size_t kTetDirections = kLanes / 2, kBlocksOfNumber = 2;
-constexpr std::size_t kTetBlocks = kBlocksOfNumber * std::size(kTetWaveNumbers);
-
-struct SpaceWaves {
-  std::array<Vec3, kTetDirections> k = {};
-  std::array<double, kTetDirections> phase = {};
-  double k2 = 0;     // |k|²
-  double share = 0;  // c of J
-
-  [[nodiscard]] Lanes at(Vec3 p) const {
-    Lanes values;
-    for (std::size_t d = 0; d < kTetDirections; ++d) {
-      const auto [sine, cosine] = sine_cosine(dot(k[d], p) + phase[d]);
-      values[2 * d] = sine, values[2 * d + 1] = cosine;
-    }
-    return values;
-  }
-};
-
-/// Directions on a spiral from one pole to the equator.
-std::array<SpaceWaves, kTetBlocks> space_waves(const TetMesh& mesh, double volume) {
-  const auto [center, half_size] = field_frame(mesh);
-  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
-  std::array<SpaceWaves, kTetBlocks> blocks;
-  for (std::size_t b = 0; b < kTetBlocks; ++b) {
-    const double in_frame = kTetWaveNumbers[b / kBlocksOfNumber], number = in_frame / half_size;
-    blocks[b].k2 = number * number;
-    blocks[b].share = 2 / (volume * in_frame * in_frame * in_frame * in_frame * kTetBlocks * kLanes);
-    for (std::size_t d = 0; d < kTetDirections; ++d) {
-      const auto i = static_cast<double>(kTetBlocks * d + b);
-      const double z = (i + 0.5) / (kTetBlocks * kTetDirections), r = std::sqrt(1 - z * z);
-      const auto [sine, cosine] = sine_cosine(golden * i);
-      blocks[b].k[d] = number * Vec3{r * cosine, r * sine, z};
-      blocks[b].phase[d] = -dot(blocks[b].k[d], center);
-    }
-  }
-  return blocks;
-}
+using Waves = error_detail::WaveBlock<Vec3>;
+constexpr std::size_t kBlocksOfNumber = 2;
 
 /// ★0 and ★1 as sums over the parts of tetrahedra: ★1 of |e| |e*| over |e|², ★0 of its thirds, by the crossing.
 struct VertexScheme {
@@ -164,7 +124,7 @@ class TetVertexError final : public DiscretizationError {
     TetAdjoint by = {IdVector<VertexId, Vec3>(mesh.n_vertices()), IdVector<VertexId, double>(mesh.n_vertices()),
                      IdVector<EdgeId, double>(dec.edges.size())};
     double sum = 0;
-    for (const SpaceWaves& waves : space_waves(mesh, dec.volume)) {
+    for (const Waves& waves : error_detail::waves_of<Vec3>(field_frame(mesh), dec.volume, kBlocksOfNumber)) {
       sum += error(*matrix, mesh, dec, points, waves, gradients != nullptr ? &by : nullptr);
     }
     if (gradients != nullptr) pull_back(mesh, dec, by, gradients->emplace_back(mesh.n_vertices()));
@@ -173,7 +133,7 @@ class TetVertexError final : public DiscretizationError {
 
  private:
   static double error(const Cholesky& matrix, const TetMesh& mesh, const VertexScheme& dec, const PointSystem& points,
-                      const SpaceWaves& waves, TetAdjoint* by) {
+                      const Waves& waves, TetAdjoint* by) {
     std::vector<Lanes> value(mesh.n_vertices());
     for (const VertexId v : mesh.vertices()) value[v.index] = waves.at(mesh.position(v));
     std::vector<Lanes> errors = vertex_residuals(dec, waves.k2, value);
