@@ -10,11 +10,6 @@ void add_place(Gradient& gradient, VertexId v, Vec2 by) {
   gradient[v].y += by.y;
 }
 
-template <class Values>
-void add_all(Values& to, const Values& from) {
-  for (std::size_t i = 0; i < to.size(); ++i) to.begin()[i] = to.begin()[i] + from.begin()[i];
-}
-
 /// The derivatives by length, crossing and the two heights of an edge.
 struct EdgeAdjoint {
   double length = 0, crossing = 0, left = 0, right = 0;
@@ -92,18 +87,14 @@ void pull_back_triangle(const Mesh& mesh, const DecComplex& dec, TriangleId t, V
 }  // namespace
 
 Adjoint::Adjoint(const Mesh& mesh, const DecComplex& dec)
-    : vertex(mesh.n_vertices(), Vec2{}),
-      star0(mesh.n_vertices(), 0.0),
-      star1(dec.edges.size(), 0.0),
+    : VertexAdjoint(mesh.n_vertices(), dec.edges.size()),
       transmissibility(dec.edges.size(), 0.0),
       crossing(dec.edges.size(), 0.0),
       orthocenter(mesh.n_triangles(), Vec2{}),
       area(mesh.n_triangles(), 0.0) {}
 
 void Adjoint::add(const Adjoint& other) {
-  add_all(vertex, other.vertex);
-  add_all(star0, other.star0);
-  add_all(star1, other.star1);
+  VertexAdjoint::add(other);
   add_all(transmissibility, other.transmissibility);
   add_all(crossing, other.crossing);
   add_all(orthocenter, other.orthocenter);

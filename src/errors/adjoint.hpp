@@ -20,15 +20,34 @@
 
 namespace temper::error_detail {
 
-/// The derivatives by the input of a scheme, in the units of the mesh; sized by the mesh, zeros at first.
-struct Adjoint {
+template <class Values>
+void add_all(Values& to, const Values& from) {
+  for (std::size_t i = 0; i < to.size(); ++i) to.begin()[i] = to.begin()[i] + from.begin()[i];
+}
+
+/// The derivatives by the input of the scheme at the vertices, in the units of the mesh; zeros at first.
+template <class Vec>
+struct VertexAdjoint {
+  IdVector<VertexId, Vec> vertex;    ///< by the place itself, all else kept
+  IdVector<VertexId, double> star0;  ///< by the size of the dual cell
+  IdVector<EdgeId, double> star1;    ///< by the size of the dual of an edge over its length
+
+  VertexAdjoint(std::size_t vertices, std::size_t edges)
+      : vertex(vertices, Vec{}), star0(vertices, 0.0), star1(edges, 0.0) {}
+  void add(const VertexAdjoint& other) {
+    add_all(vertex, other.vertex);
+    add_all(star0, other.star0);
+    add_all(star1, other.star1);
+  }
+};
+
+/// The derivatives by the input of both schemes of triangles; sized by the mesh, zeros at first.
+struct Adjoint : VertexAdjoint<Vec2> {
   explicit Adjoint(const Mesh& mesh, const DecComplex& dec);
 
-  IdVector<VertexId, Vec2> vertex;                   ///< by the place itself, all else kept
-  IdVector<VertexId, double> star0;                  ///< by the area of the dual cell
-  IdVector<EdgeId, double> star1, transmissibility;  ///< by D/ℓ and ℓ/D
-  IdVector<EdgeId, double> crossing;                 ///< by d itself
-  IdVector<TriangleId, Vec2> orthocenter;            ///< by its place
+  IdVector<EdgeId, double> transmissibility;  ///< by ℓ/D
+  IdVector<EdgeId, double> crossing;          ///< by d itself
+  IdVector<TriangleId, Vec2> orthocenter;     ///< by its place
   IdVector<TriangleId, double> area;
 
   void add(const Adjoint& other);

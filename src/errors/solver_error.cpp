@@ -1,9 +1,5 @@
 // See make_discretization_error() in temper/errors.hpp. The mean squared error of a scheme over many waves, and its
 // derivatives by the discrete adjoint.
-//
-// A scheme solves A v = b(u) for a wave u. The squared error is J = c Σ m e², e = v − u at the unknowns and m their
-// areas. The adjoint λ solves A λ = 2 c m e. Now v depends on A, b, m and u. The total derivative
-// of J by any of them is the derivative of J − λᵀ(A v − b) with v and λ kept.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -11,12 +7,11 @@
 #include <utility>
 
 #include "base/sine_cosine.hpp"
-#include "errors/adjoint.hpp"
 #include "errors/diffusion.hpp"
 #include "errors/fields.hpp"
 #include "errors/lender.hpp"
 #include "errors/poisson.hpp"
-#include "errors/waves.hpp"
+#include "errors/vertex_error.hpp"
 #include "temper/dec.hpp"
 #include "temper/detail/discretization_error.hpp"
 #include "temper/errors.hpp"
@@ -67,38 +62,8 @@ class Solver {
   [[nodiscard]] virtual double error(const Waves& waves, Adjoint* by) const = 0;
 
  protected:
-  /// Replaces sources by the solution at all points, 0 where it is given.
-  void solve(std::vector<Lanes>& sources) const { matrix_.solve(points_, sources); }
   [[nodiscard]] const ErrorSubject& subject() const { return s_; }
-  [[nodiscard]] const PointSystem& points() const { return points_; }
-
-  /// J = c Σ m e². At given points e is 0.
-  template <class Masses>
-  static double squared(const Waves& waves, const Masses& masses, const std::vector<Lanes>& errors) {
-    Lanes sums = {};
-    for (std::size_t p = 0; p < errors.size(); ++p) {
-      for (std::size_t i = 0; i < kLanes; ++i) sums[i] += masses.begin()[p] * errors[p][i] * errors[p][i];
-    }
-    double sum = 0;
-    for (const double part : sums) sum += part;
-    return waves.share * sum;
-  }
-  /// The adjoint λ, from the derivative of J by e.
-  template <class Masses>
-  [[nodiscard]] std::vector<Lanes> adjoint(const Waves& waves, const Masses& masses,
-                                           const std::vector<Lanes>& errors) const {
-    std::vector<Lanes> lambda(errors.size());
-    for (std::size_t p = 0; p < errors.size(); ++p) {
-      for (std::size_t i = 0; i < kLanes; ++i) lambda[p][i] = 2 * waves.share * masses.begin()[p] * errors[p][i];
-    }
-    solve(lambda);
-    return lambda;
-  }
-  static double squared(const Lanes& a) {
-    double sum = 0;
-    for (const double x : a) sum += x * x;
-    return sum;
-  }
+  [[nodiscard]] FactoredPoints factored() const { return {points_, matrix_}; }
 
  private:
   const ErrorSubject& s_;
@@ -106,13 +71,6 @@ class Solver {
   Cholesky& matrix_;
   bool is_definite_;
 };
-
-/// The derivative of −λᵀ A v by the coefficient between two points.
-double by_coefficient(const Lanes& lambda_a, const Lanes& lambda_b, const Lanes& a, const Lanes& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < kLanes; ++i) sum -= (lambda_a[i] - lambda_b[i]) * (a[i] - b[i]);
-  return sum;
-}
 
 // --- unknowns at the vertices: d0ᵀ ★1 d0 u = ★0 f --------------------------------------------------------------------
 
@@ -122,34 +80,7 @@ class VertexSolver final : public Solver {
       : Solver(s, vertex_system(s.dec, given_vertices(s.mesh)), matrix) {}
 
   [[nodiscard]] double error(const Waves& waves, Adjoint* by) const override {
-    const auto& [mesh, dec, all] = subject();
-    std::vector<Lanes> value(mesh.n_vertices());
-    for (const VertexId v : mesh.vertices()) value[v.index] = waves.at(mesh.position(v));
-    std::vector<Lanes> errors = vertex_residuals(dec, waves.k2, value);
-    solve(errors);
-    const double sum = squared(waves, dec.star0, errors);
-    if (by == nullptr) return sum;
-    const std::vector<Lanes> lambda = adjoint(waves, dec.star0, errors);
-    for (const VertexId v : mesh.vertices()) {
-      const std::size_t p = v.index;
-      if (points().is_given(p)) continue;
-      const Lanes slopes = Waves::slopes(value[p]);
-      Lanes by_angle;
-      double by_area = 0;
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        const double by_source = waves.k2 * lambda[p][i], by_error = 2 * waves.share * errors[p][i];
-        by_area += by_source * value[p][i];
-        by_angle[i] = dec.star0[v] * (by_source - by_error) * slopes[i];
-        value[p][i] += errors[p][i];
-      }
-      by->star0[v] += waves.share * squared(errors[p]) + by_area;
-      by->vertex[v] = by->vertex[v] + waves.by_place(by_angle);
-    }
-    for (std::size_t e = 0; e < dec.edges.size(); ++e) {
-      const auto [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
-      by->star1[EdgeId(e)] += by_coefficient(lambda[from], lambda[to], value[from], value[to]);
-    }
-    return sum;
+    return vertex_error(subject().mesh, subject().dec, factored(), waves, by);
   }
 
  private:
@@ -188,10 +119,11 @@ class CellSolver final : public Solver {
         }
       }
     }
-    solve(errors);
-    const double sum = squared(waves, dec.areas, errors);
+    const FactoredPoints scheme = factored();
+    scheme.matrix.solve(scheme.points, errors);
+    const double sum = squared_error(waves.share, dec.areas, errors);
     if (by == nullptr) return sum;
-    const std::vector<Lanes> lambda = adjoint(waves, dec.areas, errors);
+    const std::vector<Lanes> lambda = scheme.adjoint(waves.share, dec.areas, errors);
     for (const TriangleId t : mesh.triangles()) {
       const std::size_t p = t.index;
       Lanes by_angle = Waves::slopes(value[p]);
@@ -279,7 +211,8 @@ class SolverErrorModel final : public DiscretizationError {
     for (const Solver* solver : solvers) {
       std::optional<Adjoint> by;
       if (gradients != nullptr) by.emplace(mesh, subject.dec);
-      errors.push_back(mean_error(*solver, subject, by ? &*by : nullptr, executor));
+      errors.push_back(sum_over(subject.waves, by ? &*by : nullptr, executor,
+                                [&](const Waves& waves, Adjoint* part) { return solver->error(waves, part); }));
       if (by) gradients->push_back(pulled_back(mesh, subject.dec, *by));
     }
     return errors;
@@ -292,21 +225,6 @@ class SolverErrorModel final : public DiscretizationError {
     for (const double of_triangle : subject.dec.areas) area += of_triangle;
     subject.waves = waves_of<Vec2>(field_frame(mesh), area, 1);
     return subject;
-  }
-
-  /// The sum over all waves, and over their derivatives, in an order independent of the number of threads.
-  static double mean_error(const Solver& solver, const ErrorSubject& subject, Adjoint* by, Executor* executor) {
-    const std::vector<Waves>& waves = subject.waves;
-    std::vector<double> sums(waves.size(), 0.0);
-    std::vector<std::optional<Adjoint>> parts(by != nullptr ? waves.size() : 0);
-    or_serial(executor).run(waves.size(), [&](std::size_t block) {
-      Adjoint* part = by != nullptr ? &parts[block].emplace(subject.mesh, subject.dec) : nullptr;
-      sums[block] = solver.error(waves[block], part);
-    });
-    double sum = 0;
-    for (const double part : sums) sum += part;
-    for (const std::optional<Adjoint>& part : parts) by->add(*part);
-    return sum;
   }
 
   Scheme scheme_;

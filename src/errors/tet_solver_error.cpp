@@ -1,15 +1,13 @@
 // See make_discretization_error() in temper/tets/errors.hpp: solver_error.cpp, with a dimension more, for
-// unknowns at the vertices. d0ᵀ ★1 d0 v = ★0 f for a wave u; J = c Σ ★0 e², e = v − u, and A λ = ∂J/∂e. Then the
-// derivative of J is that of J − λᵀ (A v − ★0 f) with v and λ kept. It reaches positions and weights through the parts
-// of ★1 and ★0 in each tetrahedron.
+// unknowns at the vertices. The derivatives reach positions and weights through the parts of ★1 and ★0 in each
+// tetrahedron.
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <optional>
 #include <utility>
 
 #include "errors/lender.hpp"
-#include "errors/poisson.hpp"
-#include "errors/waves.hpp"
+#include "errors/vertex_error.hpp"
 #include "temper/tets/errors.hpp"
 #include "temper/tets/operators.hpp"
 #include "temper/tets/optimize.hpp"
@@ -21,13 +19,9 @@ namespace {
 
 using Gradient = DiscretizationError::Gradient;
 using error_detail::Cholesky;
-using error_detail::kLanes;
-using error_detail::Lanes;
 using error_detail::Lender;
 using error_detail::PointSystem;
-using error_detail::vertex_residuals;
 using error_detail::vertex_system;
-
 using Waves = error_detail::WaveBlock<Vec3>;
 constexpr std::size_t kBlocksOfNumber = 2;
 
@@ -71,15 +65,10 @@ struct VertexScheme {
   }
 };
 
-/// The derivatives of J by the operators, and by the places of vertices with all else kept.
-struct TetAdjoint {
-  IdVector<VertexId, Vec3> vertex;
-  IdVector<VertexId, double> star0;
-  IdVector<EdgeId, double> star1;
-};
+using Adjoint = error_detail::VertexAdjoint<Vec3>;
 
-void pull_back(const TetMesh& mesh, const VertexScheme& dec, const TetAdjoint& by,
-               IdVector<VertexId, WeightedPoint>& gradient) {
+Gradient pulled_back(const TetMesh& mesh, const VertexScheme& dec, const Adjoint& by) {
+  Gradient gradient(mesh.n_vertices());
   for (const VertexId v : mesh.vertices()) gradient[v] = {by.vertex[v].x, by.vertex[v].y, by.vertex[v].z, 0};
   for (const TetId t : mesh.tetrahedra()) {
     TetParts slopes;
@@ -94,6 +83,7 @@ void pull_back(const TetMesh& mesh, const VertexScheme& dec, const TetAdjoint& b
     }
     add_to(gradient, mesh.corners(t), TetDuals(mesh, t).pulled_back(slopes));
   }
+  return gradient;
 }
 
 /// Measures two-point fluxes as measure_errors() does.
@@ -113,63 +103,24 @@ class TetCellError final : public DiscretizationError {
 class TetVertexError final : public DiscretizationError {
  public:
   [[nodiscard]] std::vector<double> errors(const TetMesh& mesh, std::vector<Gradient>* gradients,
-                                           Executor* /*executor*/) const override {
+                                           Executor* executor) const override {
     const VertexScheme dec(mesh);
     std::vector<bool> given;
     for (const std::uint8_t on_boundary : boundary_vertices(mesh)) given.push_back(on_boundary != 0);
     const PointSystem points = vertex_system(dec, given);
     const auto matrix = last_.take();
     if (!matrix->factor(points.n_unknowns(), points.lower())) return {};
-    if (gradients != nullptr) gradients->clear();
-    TetAdjoint by = {IdVector<VertexId, Vec3>(mesh.n_vertices()), IdVector<VertexId, double>(mesh.n_vertices()),
-                     IdVector<EdgeId, double>(dec.edges.size())};
-    double sum = 0;
-    for (const Waves& waves : error_detail::waves_of<Vec3>(field_frame(mesh), dec.volume, kBlocksOfNumber)) {
-      sum += error(*matrix, mesh, dec, points, waves, gradients != nullptr ? &by : nullptr);
-    }
-    if (gradients != nullptr) pull_back(mesh, dec, by, gradients->emplace_back(mesh.n_vertices()));
+    std::optional<Adjoint> by;
+    if (gradients != nullptr) by.emplace(mesh.n_vertices(), dec.edges.size());
+    const double sum = sum_over(error_detail::waves_of<Vec3>(field_frame(mesh), dec.volume, kBlocksOfNumber),
+                                by ? &*by : nullptr, executor, [&](const Waves& waves, Adjoint* part) {
+                                  return vertex_error(mesh, dec, {points, *matrix}, waves, part);
+                                });
+    if (by) gradients->assign(1, pulled_back(mesh, dec, *by));
     return {sum};
   }
 
  private:
-  static double error(const Cholesky& matrix, const TetMesh& mesh, const VertexScheme& dec, const PointSystem& points,
-                      const Waves& waves, TetAdjoint* by) {
-    std::vector<Lanes> value(mesh.n_vertices());
-    for (const VertexId v : mesh.vertices()) value[v.index] = waves.at(mesh.position(v));
-    std::vector<Lanes> errors = vertex_residuals(dec, waves.k2, value);
-    matrix.solve(points, errors);
-    double sum = 0;
-    std::vector<Lanes> lambda(errors.size());
-    for (const VertexId v : mesh.vertices()) {
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        const double e = errors[v.index][i], by_error = waves.share * dec.star0[v] * e;
-        sum += by_error * e;
-        lambda[v.index][i] = 2 * by_error;
-      }
-    }
-    if (by == nullptr) return sum;
-    matrix.solve(points, lambda);
-    for (const VertexId v : mesh.vertices()) {
-      const std::size_t p = v.index;
-      if (points.is_given(p)) continue;
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        const double by_source = waves.k2 * lambda[p][i], by_error = 2 * waves.share * errors[p][i];
-        by->star0[v] += waves.share * errors[p][i] * errors[p][i] + by_source * value[p][i];
-        const double slope = i % 2 == 0 ? value[p][i + 1] : -value[p][i - 1];  // of the sine and the cosine
-        by->vertex[v] = by->vertex[v] + dec.star0[v] * (by_source - by_error) * slope * waves.k[i / 2];
-      }
-    }
-    for (const VertexId v : mesh.vertices()) {
-      for (std::size_t i = 0; i < kLanes; ++i) value[v.index][i] += errors[v.index][i];
-    }
-    for (std::size_t e = 0; e < dec.edges.size(); ++e) {
-      const auto [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);
-      for (std::size_t i = 0; i < kLanes; ++i)
-        by->star1[EdgeId(e)] -= (lambda[from][i] - lambda[to][i]) * (value[from][i] - value[to][i]);
-    }
-    return sum;
-  }
-
   mutable Lender<Cholesky> last_;  // which keeps the order of elimination
 };
 
