@@ -152,7 +152,7 @@ int run_tetrahedra(io::MeshFile& file, const std::string& output, CountingExecut
   tets::TetMesh mesh = loaded->mesh;
   tets::OptimizeHooks hooks;
   hooks.executor = &executor;
-  const auto report = optimize(mesh, {.keep_edges = true}, hooks);
+  const auto report = optimize(mesh, {.flips = Flips::none}, hooks);
   insist(report);
   static_cast<void>(quality(mesh, {.executor = &executor}));
   io::update(file, *loaded, mesh, report->origins, {{}, &executor});

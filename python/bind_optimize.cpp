@@ -239,6 +239,13 @@ void bind_optimize(py::module_& m) {
     const std::vector<std::string_view> parts(names.begin(), names.end());
     or_raise(check_kept(options, parts));
   });
+  m.def("check_cells", [](const py::dict& given, const std::string& target, const py::sequence& keep,
+                          const py::sequence& options, bool tetrahedra) {
+    const std::vector<std::string> kept = strings_from(keep), set = strings_from(options);
+    const std::vector<std::string_view> parts(kept.begin(), kept.end()), names(set.begin(), set.end());
+    or_raise(check_cells(options_from(given), {target, parts, names},
+                         tetrahedra ? CellKinds::tetrahedra : CellKinds::triangles));
+  });
   m.def("presets", [] {
     const auto rows = [](std::span<const Preset> presets) {
       py::dict sentences;

@@ -148,13 +148,8 @@ void set_tet_weights(PyTetMesh& self, const Doubles& weights) {
 
 /// The mesh gets its new state, whatever ended the run. Exceptions of the observer are raised after that. Returns the
 /// report, the report on the data or None, and what is lost.
-py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const std::string& target, const std::string& effort,
-                        const py::sequence& keep, const py::sequence& rows, const py::object& threads,
-                        const py::object& observer) {
-  const std::vector<std::string> kept = strings_from(keep), set = strings_from(rows);
-  const std::vector<std::string_view> parts(kept.begin(), kept.end()), names(set.begin(), set.end());
-  const tets::OptimizeOptions options =
-      or_raise(tets::options_from(options_from(given), {target, effort, parts, names}));
+py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const py::object& threads, const py::object& observer) {
+  const OptimizeOptions options = options_from(given);
   const auto executor = make_threads(threads_from(threads));
   const auto loaded = self.loaded;
   tets::TetMesh mesh = loaded->mesh;

@@ -3,9 +3,9 @@
 // the paper's form.
 //
 // Options come in groups. OptimizeOptions has the options of every run, AccuracyOptions the options of the accuracy
-// objective, and PaperSwitches the options of the algorithm. Each has a row in optimize_table.hpp. It defines the
-// checks, and the command line, Python and the documentation are made from it. OptimizeHooks has the listeners of a
-// run.
+// objective, PaperSwitches the options of the algorithm, and TetrahedraOptions what tetrahedra alone have
+// (temper/tets/optimize.hpp). Each has a row in optimize_table.hpp. It defines the checks, and the command line, Python
+// and the documentation are made from it. OptimizeHooks has the listeners of a run.
 #pragma once
 
 #include <chrono>
@@ -307,6 +307,24 @@ struct GuardOptions {
   std::vector<double> depth = {};
 };
 
+/// The places where trials change a mesh of tetrahedra.
+enum class Patches {
+  shared,  ///< Bad tetrahedra near each other have trials together
+  each,    ///< Each bad tetrahedron has trials of its own
+};
+
+/// Options of meshes of tetrahedra alone.
+struct TetrahedraOptions {
+  /// Trials in vain in one patch, >= 0; after four patches a place is left as it is. 0: the connectivity stays.
+  int repair_trials = 20;
+  Patches patches = Patches::shared;
+  /// Least h/ℓ, >= 0: tetrahedra with a smaller one are improved in trials, too, if none is bad.
+  double small_margin = 0;
+  /// Largest number of steps, >= 0, that lower the errors of `scheme`. A HOT energy has at most 32.
+  int accuracy_steps = 300;
+  int most_error_vertices = 10'000;  ///< Largest number of vertices for a model of errors, >= 0
+};
+
 struct OptimizeOptions;
 
 /// The solvers of other libraries. temper::solvers() returns the solvers of this build (temper/solvers.hpp).
@@ -370,6 +388,7 @@ struct OptimizeOptions {
   int max_sweeps = 1000;  ///< Largest number of sweeps; each repair counts as a sweep
   double time_limit = 0;  ///< Time limit of the whole run [s]; 0: none
   PaperSwitches paper = {};
+  TetrahedraOptions tets = {};
 };
 
 /// The objective that a run lowers. If the options have none, it is accuracy. It is `energy` alone if `energy` or

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from . import _temper
 from ._mesh import Mesh, MeshLike, as_mesh
 from ._records import Record
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
 
 CoefficientLike = Union[npt.ArrayLike, Mapping[int, float], Mapping[str, float], Mapping[Union[str, int], float]]
 """A value for each triangle or tetrahedron, or for each region by its tag or name."""
@@ -439,8 +439,7 @@ def dec_operators(
     """
     any_mesh = as_any_mesh(mesh)
     if isinstance(any_mesh, TetMesh):
-        if tensor is not None:
-            raise TypeError("tensor is for triangles alone. Next: leave it out")
+        expect_no_options_of_triangles(dec_operators, tensor=tensor)
         return _tet_dec_of(any_mesh, _coefficient_of(any_mesh, coefficient))
     tensor = None if tensor is None else tuple(tensor)
     return _dec_of(any_mesh, tensor, _coefficient_of(any_mesh, coefficient), _named_lines(any_mesh))

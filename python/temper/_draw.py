@@ -14,7 +14,7 @@ from ._measure import quality
 from ._mesh import PICTURE_WIDTH, Mesh, as_mesh
 from ._optimize import OptimizeReport
 from ._records import Record, expect, table
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh, refuse_for_tetrahedra
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
 
 _EXPLAINED = 500  # bad triangles: about one second, as in the program
 
@@ -93,9 +93,9 @@ def draw_svg(
     options = _options(locals())
     any_mesh = as_any_mesh(mesh)
     if isinstance(any_mesh, TetMesh):
-        refuse_for_tetrahedra(
-            dual=(dual, True), weights=(weights, False), weight_scale=(weight_scale, 1.0), near_coincident=(near_coincident, True),
-            vertex_numbers=(vertex_numbers, False), view=(view, None),
+        expect_no_options_of_triangles(
+            draw_svg, dual=dual, weights=weights, weight_scale=weight_scale, near_coincident=near_coincident,
+            vertex_numbers=vertex_numbers, view=view,
         )  # fmt: skip
         axis, at = (cut, None) if cut is None or isinstance(cut, str) else cut
         if axis not in (None, "x", "y", "z"):

@@ -12,7 +12,7 @@ from . import _temper
 from ._mesh import MeshLike, as_mesh
 from ._options import LengthParameter, LengthParameterLike, _length_parameter
 from ._records import Record, merged, table
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh, refuse_for_tetrahedra
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
 
 
 _GAMMA, _H0 = LengthParameter(1.0, "absolute"), LengthParameter(0.0, "absolute")
@@ -232,7 +232,7 @@ def quality(
     """
     any_mesh = as_any_mesh(mesh)
     if isinstance(any_mesh, TetMesh):
-        refuse_for_tetrahedra(gamma=(gamma, _GAMMA), h0=(h0, _H0))
+        expect_no_options_of_triangles(quality, gamma=gamma, h0=h0)
         d = _temper.tet_quality(any_mesh._handle, worst, threads)
         histograms = {name: Histogram(**d[name]) for name in ("dihedrals", "h_over_l")}
         return TetQuality(**merged(d, worst=[WorstTet(**w) for w in d["worst"]], **histograms))

@@ -17,7 +17,7 @@ from ._mesh import PICTURE, Mesh, MeshLike, as_mesh, put_back
 from ._options import EffortName, KeepName, ObjectiveName, OptimizeOptions, TargetName, _words, lists_presets, rows_set, settled
 from ._progress import Line, Progress, SweepRecord
 from ._records import Record
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh, refuse_for_tetrahedra
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
 from .size import SizeField, SizeReport, Spread, _size_report
 
 if TYPE_CHECKING:
@@ -349,14 +349,11 @@ def optimize(
     is_silent = observer is not None or _is_helper(hooks.communicator)
     line = Line(False if is_silent else progress, "tetrahedra" if isinstance(changed, TetMesh) else "triangles")
     watch = _observer(line, observer)
+    _temper.check_cells(plain, target, _words(keep), rows_set(options, changes), isinstance(changed, TetMesh))
     if isinstance(changed, TetMesh):
-        refuse_for_tetrahedra(
-            size_field=(size_field, None), tensor=(tensor, None), problem=(own, None),
-            **{f.name: (getattr(hooks, f.name), None) for f in dataclasses.fields(hooks)},
-        )  # fmt: skip
-        words = target, effort, _words(keep), rows_set(options, changes)
+        expect_no_options_of_triangles(optimize, size_field=size_field, tensor=tensor, problem=own, **vars(hooks))
         with _put_back_at_end(mesh, changed, line):
-            report, of_data, lost = _temper.tet_optimize(changed._handle, plain, *words, threads, watch)
+            report, of_data, lost = _temper.tet_optimize(changed._handle, plain, threads, watch)
         for sentence in lost:
             warnings.warn(sentence, TemperWarning, stacklevel=2)
         data = None if of_data is None else DataReport._of(of_data)

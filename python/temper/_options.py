@@ -10,7 +10,7 @@ import itertools
 import numbers
 import textwrap
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Callable, Literal, TypeVar, Union
 
 from . import _temper
@@ -113,8 +113,11 @@ def settled(target: str, effort: str, keep: Any, options: Any, **changes: Any) -
 
 
 def rows_set(options: Any, changes: Mapping[str, Any]) -> list[str]:
-    """Names of the options that a user set; of an ``OptimizeOptions`` all."""
-    names = OPTION_NAMES if isinstance(options, OptimizeOptions) else tuple(options or ())
+    """Names of the options that a user set; of an ``OptimizeOptions`` those that no effort sets so."""
+    names: Sequence[str] = tuple(options or ()) if not isinstance(options, OptimizeOptions) else ()
+    if isinstance(options, OptimizeOptions):
+        usual = [_options_for("any", effort, (), {}) for effort in PRESETS["effort"]]
+        names = [name for name in OPTION_NAMES if getattr(options, name) not in [getattr(each, name) for each in usual]]
     return [*names, *(name for name, value in changes.items() if value is not None)]
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Union
+import inspect
+from typing import Any, Callable, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -293,8 +294,10 @@ def as_any_mesh(mesh: AnyMeshLike, *, in_place: bool = False) -> Mesh | TetMesh:
     return as_mesh(mesh, in_place=in_place)
 
 
-def refuse_for_tetrahedra(**given: tuple[Any, Any]) -> None:
-    """TypeError for the first option whose value is not its default."""
-    for name, (value, default) in given.items():
-        if value is not default and value != default:
+def expect_no_options_of_triangles(function: Callable[..., Any], **given: Any) -> None:
+    """TypeError for the first of these arguments whose value is not its default in the function, or None."""
+    parameters = inspect.signature(function).parameters
+    for name, value in given.items():
+        default = parameters[name].default if name in parameters else None
+        if value is not default and (default is None or value != default):
             raise TypeError(f"{name} is for triangles alone. Next: leave it out")

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from . import _temper
 from ._mesh import Mesh, MeshLike, _ints, as_mesh
 from ._records import Record, expect, merged
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh, refuse_for_tetrahedra
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
 
 Constraints = Literal["well_centered", "heights_only", "regular", "completely_well_centered"]
 
@@ -250,7 +250,7 @@ def find_weights(
     any_mesh = as_any_mesh(mesh)
     wanted = goal, margin, from_input, whole, rings, constraints, offset_factor, boundary_offset_factor
     if isinstance(any_mesh, TetMesh):
-        refuse_for_tetrahedra(edges=(edges, None))
+        expect_no_options_of_triangles(find_weights, edges=edges)
         d = _temper.tet_find_weights(any_mesh._handle, *wanted)
     else:
         d = _temper.find_weights(any_mesh._handle, *wanted, _edges(edges))
@@ -284,7 +284,7 @@ def weight_margin(
     constraints have. Infinite if they have none."""
     any_mesh = as_any_mesh(mesh)
     if isinstance(any_mesh, TetMesh):
-        refuse_for_tetrahedra(edges=(edges, None))
+        expect_no_options_of_triangles(weight_margin, edges=edges)
         return _temper.tet_weight_margin(any_mesh._handle, constraints)
     return _temper.weight_margin(any_mesh._handle, constraints, _edges(edges))
 

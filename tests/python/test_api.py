@@ -23,9 +23,9 @@ MODULES = [temper, temper.energy, temper.generate, temper.geometry, temper.proje
 ELSEWHERE = {
     "name": "enums are their names", "energy_info": "energies() lists the rows", "find_energy": "as energy_info",
     "objective_of": "help(OptimizeOptions)", "make_discretization_error": "optimize does it", "discretization_error": "as make_discretization_error", "squared_solver_errors": "as make_discretization_error", "solvers": "as make_discretization_error", "problem_warnings": "optimize warns", "wants_error_model": "as make_discretization_error", "scheme_weights": "as objective_of",
-    "targets": "help(optimize)", "with_coefficient": "dec_operators does it", "efforts": "as targets", "keeps": "as targets", "option_groups": "help(OptimizeOptions)", "find_option": "as option_groups", "check_option": "optimize checks", "check_kept": "optimize checks", "check_target": "optimize checks",
+    "targets": "help(optimize)", "with_coefficient": "dec_operators does it", "efforts": "as targets", "keeps": "as targets", "option_groups": "help(OptimizeOptions)", "find_option": "as option_groups", "check_option": "optimize checks", "check_kept": "optimize checks", "check_cells": "optimize checks", "fits": "as check_cells", "check_target": "optimize checks",
     "check_options": "as check_option", "option_text": "repr", "option_range_text": "as option_groups",
-    "options_from": "optimize does it", "tetrahedron_energy": "the gallery draws it", "missing_need": "optimize warns", "spell_options": "texts are spelled", "stopped_early": "OptimizeReport.stopped",
+    "tetrahedron_energy": "the gallery draws it", "missing_need": "optimize warns", "spell_options": "texts are spelled", "stopped_early": "OptimizeReport.stopped",
     "nearest": "errors suggest a name", "join": "as nearest", "did_you_mean": "as nearest", "none_of": "as nearest",
     "read_number": "float", "read_by_strtod": "float",
     "triangle_values": "NumPy, of mesh and dec", "spread": "NumPy", "orient2d": "geometry.orientation",
@@ -67,7 +67,7 @@ ELSEWHERE = {
 
 # Struct in C++, class in Python, fields that have another name or place there.
 STRUCTS = {
-    "OptimizeOptions": (temper.OptimizeOptions, {"size_field", "tensor", "problem", "paper", "accuracy", "solver_error", "guard"}),
+    "OptimizeOptions": (temper.OptimizeOptions, {"size_field", "tensor", "problem", "paper", "accuracy", "solver_error", "guard", "tets"}),
     "PaperSwitches": (temper.OptimizeOptions, set()),
     "OptimizeReport": (temper.types.OptimizeReport, set()),
     "SweepRecord": (temper.types.SweepRecord, set()),

@@ -179,8 +179,8 @@ INSTANTIATE_TEST_SUITE_P(Rows, OnThreads, testing::ValuesIn(kRows),
 /// Sweeps over all vertices, and searches in patches: some tetrahedra of this cube stay bad without.
 TEST(Threads, TetrahedraHaveTheSameBytes) {
   const tets::TetMesh input = mesh_of(shaken(cubes(3, kSixTets), 0.3, 0));
-  tets::OptimizeOptions options;
-  options.repair_trials = 1;
+  OptimizeOptions options;
+  options.tets.repair_trials = 1;
   tets::TetMesh one = input, many = input;
   StdThreads threads(3);
   ASSERT_TRUE(tets::optimize(one, options));

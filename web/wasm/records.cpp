@@ -116,7 +116,7 @@ Json unmarked(const Json& given) {
 /// Throws WrongType if there is no such option, or if the value has another type.
 void set_option(OptimizeOptions& options, const std::string& key, const Json& value) {
   const OptionRow* row = find_option(key);
-  if (row == nullptr) throw WrongType{"there is no option " + key};
+  if (row == nullptr || !fits(row->cells, CellKinds::triangles)) throw WrongType{"there is no option " + key};
   std::string text;
   const auto wrong = [&] { return WrongType{key + ": expected " + type_of(*row) + ", found " + value.dump()}; };
   OptionValue taken;
@@ -323,6 +323,7 @@ Json option_table() {
   Json table = Json::array();
   for (const OptionGroup& group : option_groups()) {
     for (const OptionRow& row : group.rows) {
+      if (!fits(row.cells, CellKinds::triangles)) continue;
       Json choices = Json::array();
       for (const std::string_view each : row.choices) choices.push_back(choice(each));
       table.push_back({{"name", row.name},
@@ -342,7 +343,9 @@ Json option_table() {
 Json to_json(const OptimizeOptions& options) {
   Json json;
   for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) json[std::string(row.name)] = to_json(row.get(options));
+    for (const OptionRow& row : group.rows) {
+      if (fits(row.cells, CellKinds::triangles)) json[std::string(row.name)] = to_json(row.get(options));
+    }
   }
   return json;
 }

@@ -109,15 +109,6 @@ std::ifstream open_text(const std::string& path) {
   return file;
 }
 
-void refuse_for_tetrahedra(const std::string& verb, const std::string& path,
-                           std::initializer_list<GivenOption> options) {
-  for (const auto& [is_given, name] : options) {
-    if (is_given)
-      refuse_usage(verb,
-                   fmt::format("{} has tetrahedra, and {} is for triangles alone. Next: leave it out", path, name));
-  }
-}
-
 std::vector<double> as_doubles(const io::DataArray& data) {
   return std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); }, data.values);
 }

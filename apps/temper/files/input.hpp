@@ -52,15 +52,6 @@ struct TetInput {
 /// A text file to be read line by line; Failure if it cannot be read, or is a device such as /dev/zero without an end.
 [[nodiscard]] std::ifstream open_text(const std::string& path);
 
-/// An option, and if it is given.
-struct GivenOption {
-  bool is_given;
-  std::string_view name;
-};
-/// Failure (bad usage of the verb) for the first option that is given, although it is for triangles alone.
-void refuse_for_tetrahedra(const std::string& verb, const std::string& path,
-                           std::initializer_list<GivenOption> options);
-
 /// Options for reading a file.
 struct ReadingOptions {
   std::string projection = {};  ///< of points in degrees: as --projection has it

@@ -151,10 +151,12 @@ std::string options_json(const Command& command, const Assignments& assignments)
   return json.dump();
 }
 
-std::string options_json(const OptimizeOptions& options) {
+std::string options_json(const OptimizeOptions& options, CellKinds cells) {
   Json json = Json::object();
   for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) json[std::string(row.name)] = value_of(row, row.get(options));
+    for (const OptionRow& row : group.rows) {
+      if (fits(row.cells, cells)) json[std::string(row.name)] = value_of(row, row.get(options));
+    }
   }
   return json.dump();
 }

@@ -13,7 +13,7 @@ void read_options(Command& command, const std::string& path, Assignments& assign
 
 /// The options of a run as the JSON text of such an object: flags and assignments that were given.
 [[nodiscard]] std::string options_json(const Command& command, const Assignments& assignments);
-/// All options of the table with their values, as JSON.
-[[nodiscard]] std::string options_json(const OptimizeOptions& options);
+/// The options of the table for these cells with their values, as JSON.
+[[nodiscard]] std::string options_json(const OptimizeOptions& options, CellKinds cells);
 
 }  // namespace temper::app

@@ -127,8 +127,13 @@ void add_mesh_output(Command& command, MeshOutput& target, const std::string& va
 }
 
 Option& add_write(Command& command, std::vector<std::string>& paths, std::span<const OutputKind> kinds) {
-  return add_texts(command, "--write", "FILE ...", Values::words, paths,
-                   fmt::format("Further files, by suffix: {}.", list_of(kinds)));
+  Option& option = add_texts(command, "--write", "FILE ...", Values::words, paths,
+                             fmt::format("Further files, by suffix: {}.", list_of(kinds)));
+  option.cells_of = [kinds](std::string_view path) {
+    const OutputKind* const kind = kind_of(kinds, std::string(path));
+    return kind == nullptr ? CellKinds::both : kind->cells;
+  };
+  return option;
 }
 
 std::string suffix_of(const std::string& path) {

@@ -26,11 +26,12 @@ struct FurtherOutputs {
 struct OutputKind {
   std::string_view suffixes, what;  ///< ".svg .png .pdf", "picture"
   std::string FurtherOutputs::*path;
+  CellKinds cells = CellKinds::both;  ///< cells of the meshes that have it
 };
 inline constexpr OutputKind kReportKind = {".json", "report", &FurtherOutputs::report},
                             kPageKind = {".html", "page", &FurtherOutputs::page},
                             kHistoryKind = {".csv", "history", &FurtherOutputs::history},
-                            kTraceKind = {".jsonl", "trace", &FurtherOutputs::trace},
+                            kTraceKind = {".jsonl", "trace", &FurtherOutputs::trace, CellKinds::triangles},
                             kPictureKind = {".svg .png .pdf", "picture", &FurtherOutputs::picture};
 Option& add_write(Command& command, std::vector<std::string>& paths, std::span<const OutputKind> kinds);
 /// ".svg" of "mesh.SVG".

@@ -211,6 +211,7 @@ void add_boundary_values(const Command& command, bool is_flux, const std::string
 }  // namespace
 
 void add_problem(Command& command, ProblemOptions& options, const std::string& effect) {
+  const std::size_t first = command.options().size();
   add_text(command, "--dirichlet", "NAME=U,...", options.dirichlet,
            "Values of u on parts of the boundary, by the name or tag of their lines; 'boundary' is the rest of it. " +
                effect);
@@ -218,6 +219,7 @@ void add_problem(Command& command, ProblemOptions& options, const std::string& e
            "Fluxes K du/dn into the domain, on parts of the boundary. Other edges have no flux.");
   add_text(command, "--source", "F|NAME", options.source, "Source f: a number, or the name of point data.");
   add_coefficient(command, options.coefficient);
+  for (std::size_t i = first; i < command.options().size(); ++i) command.option_at(i).cells = CellKinds::triangles;
 }
 
 void expect_complete(const Command& command, const ProblemOptions& options) {

@@ -17,7 +17,8 @@ void add_tensor(Command& command, std::optional<Metric>& metric, const std::stri
   };
   add_numbers(
       command, "--tensor", "KXX,KXY,KYY", 3, use,
-      "Constant diffusion tensor K of -div(K grad u). " + what + " in its metric. See docs/howto/anisotropic.md.");
+      "Constant diffusion tensor K of -div(K grad u). " + what + " in its metric. See docs/howto/anisotropic.md.")
+      .cells = CellKinds::triangles;
 }
 
 void expect_without(const Command& command, const std::optional<Metric>& metric, const std::string& option) {

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "exit.hpp"
+#include "temper/detail/cell_kinds.hpp"
 #include "verbs.hpp"
 
 namespace temper::app {
@@ -50,7 +51,10 @@ struct Option {
   std::function<std::string()> spell = {};  ///< the default; none: there is none, or default_text says it
   Values values = Values::one;
   bool required = false;
-  bool rare = false;  ///< left out by --help, not by --help-all
+  bool rare = false;                  ///< left out by --help, not by --help-all
+  CellKinds cells = CellKinds::both;  ///< cells of the meshes that it is for
+  /// The cells that a value is for; none: each value is for all cells of the option.
+  std::function<CellKinds(std::string_view text)> cells_of = {};
   /// Values with their meanings, each in a line below the option.
   std::vector<std::pair<std::string, std::string>> meanings = {};
   std::string excludes = {};  ///< the option that may not be given, too
@@ -126,6 +130,8 @@ class Command {
   [[nodiscard]] Option& option(std::string_view name);
   [[nodiscard]] Option& option_at(std::size_t index) { return options_[index]; }
   [[nodiscard]] bool was_given(std::string_view name) const;
+  /// Refuses (bad usage) an option or a value that was given, but is for other cells than the mesh in `path` has.
+  void expect_for(CellKinds cells, const std::string& path) const;
 
  private:
   class Parser;

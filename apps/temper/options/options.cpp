@@ -223,19 +223,23 @@ void add_projection(Command& command, std::string& target) {
            "Map from longitude and latitude to meters: stereographic, mercator or transverse-mercator about this "
            "center. Without a center, the middle of the points is used. The mesh that is written has degrees again. "
            "'sphere' makes a mesh of the sphere without a map, with radius 6371000 unless you give R. 'none' uses all "
-           "coordinates as coordinates of a plane.");
+           "coordinates as coordinates of a plane.")
+      .cells = CellKinds::triangles;
 }
 
 void add_heights(Command& command, Heights& target) {
-  command.add_flag("--flat", target.flat,
-                   "Take the mesh as one of the plane of x and y, with z as point data 'z': heights or depths, which "
-                   "follow the vertices. Formats with three coordinates get z back.");
+  command
+      .add_flag("--flat", target.flat,
+                "Take the mesh as one of the plane of x and y, with z as point data 'z': heights or depths, which "
+                "follow the vertices. Formats with three coordinates get z back.")
+      .cells = CellKinds::triangles;
   static constexpr Choice<io::Positive> kSigns[] = {{"up", io::Positive::up}, {"down", io::Positive::down}};
   const auto use = [&target](io::Positive sign) { target.positive = sign; };
   add_choice(
       command, "--positive", kSigns, use,
       "Sign of the bed in the input: 'up' for heights, 'down' for depths. Only z needs it, since other data have "
-      "a name that tells. In 2DM, z is a height unless you say 'down'. The output gets the sign of its format.");
+      "a name that tells. In 2DM, z is a height unless you say 'down'. The output gets the sign of its format.")
+      .cells = CellKinds::triangles;
 }
 
 }  // namespace temper::app

@@ -4,6 +4,7 @@
 // report are made from these declarations, so that none of them can forget an option.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -83,6 +84,7 @@ template <class T>
 struct Choice {
   std::string_view name;
   T value;
+  CellKinds cells = CellKinds::both;  ///< cells of the meshes that it is for
 };
 
 Option& add_name(Command& command, const std::string& name, std::vector<std::string_view> names,
@@ -99,7 +101,12 @@ Option& add_choice(Command& command, const std::string& name, const Choice<T> (&
       if (choice.name == text) use(choice.value);
     }
   };
-  return add_name(command, name, names, use_name, description);
+  Option& option = add_name(command, name, names, use_name, description);
+  option.cells_of = [table](std::string_view text) {
+    const auto chosen = std::ranges::find(table, text, &Choice<T>::name);
+    return chosen == table.end() ? CellKinds::both : chosen->cells;
+  };
+  return option;
 }
 
 /// Sets a variable directly, whose value is the default.

@@ -49,12 +49,12 @@ struct Key {
   /// Says whether a plain = stands for a comparison. No value equals a length or a volume, which are rounded.
   [[nodiscard]] bool has_equal_sign() const { return count || better != Preference::equal; }
 };
-std::vector<Key> keys_of(MeshKind kind) {
+std::vector<Key> keys_of(CellKinds kind) {
   std::vector<Key> keys;
   const auto add = [&](const auto& rows) {
     for (const auto& row : rows) keys.push_back({row.key, row.alias, row.better, row.count, row.wanted});
   };
-  kind == MeshKind::triangles ? add(quality_measures()) : add(tets::quality_measures());
+  kind == CellKinds::triangles ? add(quality_measures()) : add(tets::quality_measures());
   keys.push_back({kBad, {}, Preference::equal, true, 0});
   return keys;
 }
@@ -69,7 +69,7 @@ bool is_energy_key(std::string_view key) {
 [[noreturn]] void refuse(const std::string& message) { throw BadValue(message); }
 
 /// Names that are near, and those that begin with the same word: "min_angle" has "min_h".
-[[noreturn]] void refuse_key(std::string_view key, std::span<const Key> keys, MeshKind kind) {
+[[noreturn]] void refuse_key(std::string_view key, std::span<const Key> keys, CellKinds kind) {
   const std::string_view word = key.substr(0, key.find_first_of("_."));
   std::vector<std::string_view> names, alike;
   for (const Key& each : keys) {
@@ -78,19 +78,19 @@ bool is_energy_key(std::string_view key) {
     if (each.key.starts_with(word)) alike.push_back(each.alias.empty() ? each.key : each.alias);
   }
   const std::string_view guess = nearest(key, names);
-  if (kind == MeshKind::triangles && word == "energy") alike.emplace_back("energy.NAME.STAR, such as energy.BP.1");
+  if (kind == CellKinds::triangles && word == "energy") alike.emplace_back("energy.NAME.STAR, such as energy.BP.1");
   const std::string near = !guess.empty()   ? fmt::format(", did you mean '{}'?", guess)
                            : !alike.empty() ? fmt::format("; there are {}.", join(alike))
                                             : ".";
   refuse(fmt::format("unknown key '{}'{}{} Next: temper check --help lists all keys", key,
-                     kind == MeshKind::triangles ? "" : " for tetrahedra", near));
+                     kind == CellKinds::triangles ? "" : " for tetrahedra", near));
 }
 
 /// A key alone stands for the usual requirement.
-Requirement usual_requirement(std::string_view key, std::span<const Key> keys, MeshKind kind) {
+Requirement usual_requirement(std::string_view key, std::span<const Key> keys, CellKinds kind) {
   const Key* measure = find_row(keys, key);
   if (key.empty()) refuse("'' is not key=value");
-  if (measure == nullptr && kind == MeshKind::triangles && is_energy_key(key))
+  if (measure == nullptr && kind == CellKinds::triangles && is_energy_key(key))
     refuse(fmt::format("'{0}' has no usual value: write {0}<=VALUE", key));
   if (measure == nullptr) refuse_key(key, keys, kind);
   if (!measure->wanted) {
@@ -101,7 +101,7 @@ Requirement usual_requirement(std::string_view key, std::span<const Key> keys, M
   return {std::string(key), std::string(measure->key), measure->better, *measure->wanted};
 }
 
-Requirement parse_requirement(std::string_view text, std::span<const Key> keys, MeshKind kind) {
+Requirement parse_requirement(std::string_view text, std::span<const Key> keys, CellKinds kind) {
   const std::size_t at = text.find_first_of("<>=");
   if (at == std::string_view::npos) return usual_requirement(text, keys, kind);
   const std::string_view key = text.substr(0, at);
@@ -111,7 +111,7 @@ Requirement parse_requirement(std::string_view text, std::span<const Key> keys, 
   Requirement requirement;
   requirement.text = text;
   const Key* measure = find_row(keys, key);
-  const bool known = measure != nullptr || (kind == MeshKind::triangles && is_energy_key(key));
+  const bool known = measure != nullptr || (kind == CellKinds::triangles && is_energy_key(key));
   if (!known) refuse_key(key, keys, kind);
   requirement.key = measure != nullptr ? measure->key : key;
   if (!two && measure != nullptr && !measure->has_equal_sign())
@@ -161,7 +161,7 @@ bool contradict(const Requirement& a, const Requirement& b) {
 }
 
 /// The keys and short names of fields of reports, for --help.
-std::string requirement_keys(MeshKind kind) {
+std::string requirement_keys(CellKinds kind) {
   std::string text;
   for (const Key& each : keys_of(kind)) {
     if (each.key == kBad) continue;
@@ -195,12 +195,12 @@ Option& add_requirements(Command& command, std::vector<std::string>& lists, bool
       "Requirements key=value, key>=value or key<=value, separated by commas. If one is not met, exit with 3. For a "
       "count, key=value requires equality. For a minimum or a fraction it means at least, and for a maximum or an "
       "energy at most. A key alone stands for its usual value, see docs/reference/limits.md. Keys: " +
-          requirement_keys(MeshKind::triangles) + ", energy.NAME.STAR, bad" +
-          (tetrahedra ? ". Keys for tetrahedra: " + requirement_keys(MeshKind::tetrahedra) + ", bad" : "") +
+          requirement_keys(CellKinds::triangles) + ", energy.NAME.STAR, bad" +
+          (tetrahedra ? ". Keys for tetrahedra: " + requirement_keys(CellKinds::tetrahedra) + ", bad" : "") +
           ". The key bad counts elements that are not well-centered");
 }
 
-std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists, MeshKind kind) {
+std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists, CellKinds kind) {
   const std::vector<Key> keys = keys_of(kind);
   std::vector<Requirement> requirements;
   try {
@@ -218,11 +218,11 @@ std::vector<Requirement> parse_requirements(std::string_view verb, std::span<con
   return requirements;
 }
 
-bool knows_keys(std::span<const std::string> lists, MeshKind kind) {
+bool knows_keys(std::span<const std::string> lists, CellKinds kind) {
   const std::vector<Key> keys = keys_of(kind);
   const auto is_known = [&](std::string_view word) {
     const std::string_view key = word.substr(0, word.find_first_of("<>="));
-    return find_row<Key>(keys, key) != nullptr || (kind == MeshKind::triangles && is_energy_key(key));
+    return find_row<Key>(keys, key) != nullptr || (kind == CellKinds::triangles && is_energy_key(key));
   };
   return std::ranges::all_of(lists,
                              [&](const std::string& list) { return std::ranges::all_of(separated(list), is_known); });

@@ -38,17 +38,14 @@ struct Outcome {
 /// Triangles that are not well-centered: the key `bad`, and the number of all reports.
 [[nodiscard]] std::size_t bad_triangles(const Quality& quality);
 
-/// The meshes that a verb takes: their reports have different keys.
-enum class MeshKind { triangles, tetrahedra };
-
 /// --require, with all keys in its help. `tetrahedra`: the verb takes both kinds of meshes.
 Option& add_requirements(Command& command, std::vector<std::string>& lists, bool tetrahedra = false);
 /// The requirements of the lists; Failure (bad usage of the verb) for a key or a value that makes no sense.
 [[nodiscard]] std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists,
-                                                          MeshKind kind = MeshKind::triangles);
+                                                          CellKinds kind = CellKinds::triangles);
 
 /// Says whether all keys of the lists are of this kind of meshes.
-[[nodiscard]] bool knows_keys(std::span<const std::string> lists, MeshKind kind);
+[[nodiscard]] bool knows_keys(std::span<const std::string> lists, CellKinds kind);
 
 /// The requirements on meshes of both kinds, for verbs that see the kind when they have read the file.
 class RequirementLists {
@@ -57,9 +54,10 @@ class RequirementLists {
   /// Lists may make sense for one kind alone. Failure if they make sense for none; it is about the kind that knows
   /// their keys, and says that the other kind does not.
   RequirementLists(std::string_view verb, std::span<const std::string> lists)
-      : triangles_(verb, lists, MeshKind::triangles), tetrahedra_(verb, lists, MeshKind::tetrahedra) {
+      : triangles_(verb, lists, CellKinds::triangles), tetrahedra_(verb, lists, CellKinds::tetrahedra) {
     if (!triangles_.refusal || !tetrahedra_.refusal) return;
-    const bool of_triangles = knows_keys(lists, MeshKind::triangles), of_tets = knows_keys(lists, MeshKind::tetrahedra);
+    const bool of_triangles = knows_keys(lists, CellKinds::triangles),
+               of_tets = knows_keys(lists, CellKinds::tetrahedra);
     const Failure& refusal = of_triangles || !of_tets ? *triangles_.refusal : *tetrahedra_.refusal;
     std::string text = refusal.what();
     if (of_triangles != of_tets) {
@@ -69,8 +67,8 @@ class RequirementLists {
     throw Failure(refusal.exit, text);
   }
   /// Failure when the lists make no sense for this kind.
-  [[nodiscard]] const std::vector<Requirement>& of(MeshKind kind) const {
-    const Parsed& parsed = kind == MeshKind::triangles ? triangles_ : tetrahedra_;
+  [[nodiscard]] const std::vector<Requirement>& of(CellKinds kind) const {
+    const Parsed& parsed = kind == CellKinds::triangles ? triangles_ : tetrahedra_;
     if (parsed.refusal) throw Failure(*parsed.refusal);
     return parsed.list;
   }
@@ -78,7 +76,7 @@ class RequirementLists {
  private:
   struct Parsed {
     Parsed() = default;
-    Parsed(std::string_view verb, std::span<const std::string> lists, MeshKind kind) {
+    Parsed(std::string_view verb, std::span<const std::string> lists, CellKinds kind) {
       try {
         list = parse_requirements(verb, lists, kind);
       } catch (const Failure& failure) {

@@ -138,7 +138,8 @@ Option& add_flag_of(Command& command, std::string_view name, Assignments& target
        .value_name = value_name(row),
        .sentence = sentence_of(row),
        .take = [&target, name](const std::string& text) { target.push_back(parse_assignment(name, text)); },
-       .spell = [&row] { return default_of(row); }});
+       .spell = [&row] { return default_of(row); },
+       .cells = row.cells});
 }
 
 std::vector<HelpPart> help_parts(bool research) {

@@ -52,11 +52,13 @@ void add_options(Command& command, CheckSettings& s) {
   add_write(command, s.write, kCheckOutputs);
   add_count(command, "--worst", s.worst, 0, "Number of worst triangles or tetrahedra to list.");
   add_length_parameter(command, "--gamma", s.gamma, kPositive,
-                       "Gamma of E_BP: a multiple of each edge's length, or a length. (default: 1:absolute)");
+                       "Gamma of E_BP: a multiple of each edge's length, or a length. (default: 1:absolute)")
+      .cells = CellKinds::triangles;
   add_length_parameter(
       command, "--h0", s.h0, kNotNegative,
       "Distance below zero to which E_BHs lets h fall, a multiple of each edge's length, or a length. It "
-      "is -h0 of the paper. (default: 0)");
+      "is -h0 of the paper. (default: 0)")
+      .cells = CellKinds::triangles;
   add_tensor(command, s.metric, "Take all measures");
   add_threads(command, s.threads);
   command.group("Requirements");
@@ -116,14 +118,8 @@ class Checks {
 
  private:
   void add_tetrahedra(const std::string& path, io::MeshFile file) {
-    refuse_for_tetrahedra("check", path,
-                          {{!s_.projection.empty(), "--projection"},
-                           {s_.heights.flat, "--flat"},
-                           {s_.heights.positive.has_value(), "--positive"},
-                           {s_.gamma.has_value(), "--gamma"},
-                           {s_.h0.has_value(), "--h0"},
-                           {s_.metric.has_value(), "--tensor"}});
-    const std::vector<Requirement>& requirements = requirements_.of(MeshKind::tetrahedra);
+    command_.expect_for(CellKinds::tetrahedra, path);
+    const std::vector<Requirement>& requirements = requirements_.of(CellKinds::tetrahedra);
     const TetInput input = make_input(path, std::move(file), threads_.get());
     print_warnings(input.warnings());
     const tets::Quality measured = quality(input.mesh(), {s_.worst, threads_.get()});
@@ -151,7 +147,7 @@ class Checks {
   }
 
   void add_triangles(const std::string& path, Input input) {
-    const std::vector<Requirement>& requirements = requirements_.of(MeshKind::triangles);
+    const std::vector<Requirement>& requirements = requirements_.of(CellKinds::triangles);
     print_warnings(input.warnings());
     if (const std::string crack = crack_warning(input); !crack.empty()) print_warnings(std::vector{crack});
     if (files_.page.empty()) io::release_geometry(input.file, input.loaded);

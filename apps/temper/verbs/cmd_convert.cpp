@@ -38,9 +38,11 @@ void add_options(Command& command, ConvertSettings& s) {
   command.option("--output").require();
   add_number(command, "--merge", s.merge, kNotNegative,
              "Make points one that are at most this far apart, in the units of IN. This closes cracks.");
-  command.add_flag("--flip-flat", s.flip_flat,
-                   "Flip away triangles of zero area or turned over, after --merge. Coordinates with few digits make "
-                   "them. All points stay.");
+  command
+      .add_flag("--flip-flat", s.flip_flat,
+                "Flip away triangles of zero area or turned over, after --merge. Coordinates with few digits make "
+                "them. All points stay.")
+      .cells = CellKinds::triangles;
   add_threads(command, s.threads);
   command.group("Help");
   command.add_help({"IN -o OUT [options]",
@@ -76,12 +78,7 @@ Exit run_convert(const Arguments& arguments) {
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   io::MeshFile file = read_tried(s.input, s.heights.to_read(threads.get()));
-  if (file.dimension() == 3)
-    refuse_for_tetrahedra("convert", s.input,
-                          {{!s.projection.empty(), "--projection"},
-                           {s.heights.flat, "--flat"},
-                           {s.heights.positive.has_value(), "--positive"},
-                           {s.flip_flat, "--flip-flat"}});
+  if (file.dimension() == 3) command.expect_for(CellKinds::tetrahedra, s.input);
   const std::size_t merged = s.merge ? merge_points(file, *s.merge) : 0, flipped = s.flip_flat ? flip_away(file) : 0;
   if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
   print_warnings(file.warnings);

@@ -45,7 +45,8 @@ void add_options(Command& command, DrawSettings& s) {
       command, "--cut", "AXIS[=VALUE]", s.cut,
       "Plane that cuts a mesh of tetrahedra, such as x=0.5. Without VALUE, the plane goes through the middle of the "
       "mesh. Without --cut, it is the middle plane at a right angle to the shortest side of the mesh. Tetrahedra are "
-      "colored by their margin, and bad ones are hatched.");
+      "colored by their margin, and bad ones are hatched.")
+      .cells = CellKinds::tetrahedra;
   add_numbers(
       command, "--view", "LON,LAT", 2,
       [&s](const std::vector<double>& v) {
@@ -64,7 +65,10 @@ void add_options(Command& command, DrawSettings& s) {
            "Number by which triangles are filled, dark for the least. If you do not give it, bad triangles are hatched "
            "and the others show their margin, which is the 'quality' from 0 to 0.3. 'none' leaves triangles white. "
            "'quality' is the least of h/l, d/l and 1 - d/l. 'angle' is the largest angle. 'size' is the mean length of "
-           "the edges. 'region' is the number of the region. NAME is data of triangles or points in the files.");
+           "the edges. 'region' is the number of the region. NAME is data of triangles or points in the files.")
+      .cells_of = [](std::string_view color) {
+    return color.empty() || color == "none" ? CellKinds::both : CellKinds::triangles;
+  };
   add_tensor(command, s.metric, "Draw meshes");
   command.add_flag("--numbers", s.options.vertex_numbers, "Number the vertices, from 0.");
   add_number(command, "--weight-scale", s.options.weight_scale, kPositive, "Factor on the radius of weight circles.");
@@ -77,6 +81,8 @@ void add_options(Command& command, DrawSettings& s) {
       "and y up from its middle.");
   add_number(command, "--width", s.options.width, kPositive, "Width of one panel, in CSS pixels.");
   add_text(command, "--title", "TEXT", s.options.title, "Title above the picture.");
+  for (const char* name : {"--view", "--no-dual", "--no-rings", "--weights", "--numbers", "--weight-scale"})
+    command.option(name).cells = CellKinds::triangles;
   command.group("Help");
   command.add_help({"IN -o FILE [options]",
                     "  temper draw in.vtu -o mesh.svg\n"
@@ -153,10 +159,6 @@ void check_same_space(const Input& before, const Input& after) {
                             before.path, name(before), after.path, name(after)));
 }
 
-/// The options that have a meaning for tetrahedra.
-constexpr auto kForTetrahedra = std::to_array<std::string_view>(
-    {"IN", "--output", "--before", "--cut", "--no-primal", "--color", "--zoom", "--width", "--title"});
-
 /// The plane of --cut. Failure if the words are no plane, or it misses the mesh.
 tets::Plane plane_of(const DrawSettings& s, const tets::TetMesh& mesh) {
   if (s.cut.empty()) return tets::middle_plane(mesh);
@@ -175,12 +177,7 @@ tets::Plane plane_of(const DrawSettings& s, const tets::TetMesh& mesh) {
 }
 
 void draw_tetrahedra(const Command& command, const DrawSettings& s, const TetInput& input, Outputs& outputs) {
-  for (const Option& option : command.options()) {
-    const std::string name = long_name(option.names);
-    const bool fits = std::ranges::find(kForTetrahedra, name) != kForTetrahedra.end();
-    refuse_for_tetrahedra("draw", s.input, {{!fits && !option.given.empty(), name}});
-  }
-  refuse_for_tetrahedra("draw", s.input, {{!s.color.empty() && s.color != "none", "--color " + s.color}});
+  command.expect_for(CellKinds::tetrahedra, s.input);
   print_warnings(input.warnings());
   DrawOptions options = s.options;
   options.fill = s.color != "none";
@@ -219,9 +216,7 @@ Exit run_draw(const Arguments& arguments) {
     draw_tetrahedra(command, s, make_input(s.input, std::move(file), nullptr), outputs);
     return Exit::done;
   }
-  if (!s.cut.empty())
-    refuse_usage("draw",
-                 fmt::format("{} has triangles, and --cut is for tetrahedra alone. Next: leave it out", s.input));
+  command.expect_for(CellKinds::triangles, s.input);
   const auto read = [&](const std::string&) { return std::move(file); };
   Input input = read_input(s.input, {s.projection, {}, nullptr, true, s.heights, read});
   print_warnings(input.warnings());

@@ -64,7 +64,8 @@ void add_options(Command& command, ErrorSettings& s) {
   add_text(command, "--against", "MESH", s.against,
            "Another mesh of the same domain. For each field, also print the error of IN divided by the error of MESH.");
   add_text(command, "--edges", "FILE", s.edges,
-           "Write the error of star 1 at each edge as CSV, with points counted from 0.");
+           "Write the error of star 1 at each edge as CSV, with points counted from 0.")
+      .cells = CellKinds::triangles;
   command.group("Measures");
   add_text(
       command, "--fields", "LIST", s.fields,
@@ -72,7 +73,8 @@ void add_options(Command& command, ErrorSettings& s) {
       .defaults_to([&s] { return s.fields; });
   add_count(
       command, "--refine", s.refine, 0,
-      "Number of refinements, each of which cuts every triangle into four. The report then has orders of convergence.");
+      "Number of refinements, each of which cuts every triangle into four. The report then has orders of convergence.")
+      .cells = CellKinds::triangles;
   add_tensor(command, s.metric, "Take solutions and errors");
   command.add_flag("--condition", s.condition, "Also estimate the condition numbers of both matrices.");
   add_threads(command, s.threads);
@@ -151,8 +153,7 @@ TetInput read_tetrahedra(const std::string& path, Executor* executor) {
 }
 
 Exit run_tetrahedra(const Command& command, const ErrorSettings& s, io::MeshFile file, Executor* executor) {
-  for (const char* option : {"--projection", "--flat", "--positive", "--edges", "--refine", "--tensor", "--dirichlet"})
-    refuse_for_tetrahedra("errors", s.input, {{command.was_given(option), option}});
+  command.expect_for(CellKinds::tetrahedra, s.input);
   const TetInput input = make_input(s.input, std::move(file), executor);
   print_warnings(input.warnings());
   tets::MeasureErrorsOptions options = {separated(s.fields), tets::field_frame(input.mesh()), s.condition};

@@ -70,10 +70,6 @@ class Counter {
 };
 
 void explain_tetrahedra(const ExplainSettings& s, const TetInput& input) {
-  refuse_for_tetrahedra("explain", s.input,
-                        {{!s.projection.empty(), "--projection"},
-                         {s.heights.flat, "--flat"},
-                         {s.heights.positive.has_value(), "--positive"}});
   print_warnings(input.warnings());
   const tets::TetMesh& mesh = input.mesh();
   const auto on_boundary = boundary_vertices(mesh);
@@ -111,6 +107,7 @@ Exit run_explain(const Arguments& arguments) {
 
   io::MeshFile file = read_tried(s.input, s.heights.to_read(nullptr));
   if (file.dimension() == 3) {
+    command.expect_for(CellKinds::tetrahedra, s.input);
     explain_tetrahedra(s, make_input(s.input, std::move(file), nullptr));
     return Exit::done;
   }

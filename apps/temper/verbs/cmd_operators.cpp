@@ -59,10 +59,12 @@ void add_options(Command& command, DecSettings& s) {
   add_text(command, "--layers", "FILE", s.layers,
            "CSV file with the heights of the surfaces between layers, for columns of cells below the power cells. Its "
            "title line is vertex,top,bottom 1,bottom 2,... Each vertex has a row, or one row with * holds for all. See "
-           "docs/reference/formats/layers.md.");
+           "docs/reference/formats/layers.md.")
+      .cells = CellKinds::triangles;
   add_number(command, "--pinch-out", s.pinch_out, kNotNegative,
              "Least thickness. If a layer is not thicker than this at a vertex, it has no cell there. The cells above "
-             "and below are then connected.");
+             "and below are then connected.")
+      .cells = CellKinds::triangles;
   command.group("Report");
   command.add_flag("--json", s.json, "Print the summary as JSON.");
   add_threads(command, s.threads);
@@ -140,13 +142,7 @@ std::optional<Columns> make_columns(const DecSettings& s, const Input& input, co
 
 Exit write_tetrahedra(const Command& command, const DecSettings& s, io::MeshFile file,
                       const std::vector<io::DecFormat>& formats, Executor* executor) {
-  refuse_for_tetrahedra("operators", s.input,
-                        {{!s.projection.empty(), "--projection"},
-                         {s.heights.flat, "--flat"},
-                         {s.heights.positive.has_value(), "--positive"},
-                         {s.metric.has_value(), "--tensor"},
-                         {!s.layers.empty(), "--layers"},
-                         {command.was_given("--pinch-out"), "--pinch-out"}});
+  command.expect_for(CellKinds::tetrahedra, s.input);
   check_folder(s, formats, io::DecKind::tetrahedra);
   const TetInput input = make_input(s.input, std::move(file), executor);
   print_warnings(input.warnings());

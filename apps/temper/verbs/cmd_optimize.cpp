@@ -228,7 +228,7 @@ void write_all(const Command& command, const OptimizeSettings& s, Input& input, 
   if (!s.files.report.empty() || !s.files.page.empty()) {
     const OptimizeRecord record = {command_line(command, {s.input}),
                                    options_json(command, s.assignments),
-                                   options_json(s.options),
+                                   options_json(s.options, CellKinds::triangles),
                                    results.before,
                                    input.points,
                                    results.after,
@@ -281,7 +281,8 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   const RunFiles files = {threads.get(), trace ? &*trace : nullptr};
   io::MeshFile file = read_tried(s.input, s.heights.to_read(threads.get()));
   if (file.dimension() == 3) return optimize_tetrahedra(command, s, outputs, {std::move(file), threads.get()});
-  s.requirements = s.requirement_lists.of(MeshKind::triangles);
+  expect_for(command, s, CellKinds::triangles);
+  s.requirements = s.requirement_lists.of(CellKinds::triangles);
   const auto read = [&](const std::string&) { return std::move(file); };
   Input input = read_input(s.input, {s.projection, s.fix, threads.get(), true, s.heights, read});
   outputs.expect_place(s.output, input.file);

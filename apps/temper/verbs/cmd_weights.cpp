@@ -46,7 +46,8 @@ constexpr Choice<Scheme> kSchemes[] = {
     {"any", Scheme::all}, {"vertex", Scheme::vertex}, {"cell", Scheme::cell}, {"stars", Scheme::stars}};
 
 enum class Connectivity { fixed, search };
-constexpr Choice<Connectivity> kConnectivities[] = {{"fixed", Connectivity::fixed}, {"search", Connectivity::search}};
+constexpr Choice<Connectivity> kConnectivities[] = {{"fixed", Connectivity::fixed},
+                                                    {"search", Connectivity::search, CellKinds::triangles}};
 
 struct WeightsSettings {
   std::string projection;
@@ -75,6 +76,16 @@ const std::vector<ConstraintsInfo>& all_constraints() {
   return all;
 }
 
+/// The cells that have these constraints.
+CellKinds cells_of(std::string_view constraints) {
+  const auto has = [&](std::span<const ConstraintsInfo> rows) {
+    return std::ranges::any_of(rows, [&](const auto& row) { return option_name(row.constraints) == constraints; });
+  };
+  return !has(constraints_table())         ? CellKinds::tetrahedra
+         : !has(tets::constraints_table()) ? CellKinds::triangles
+                                           : CellKinds::both;
+}
+
 const ConstraintsInfo& row_of(std::span<const ConstraintsInfo> rows, Constraints constraints) {
   return *std::ranges::find(rows, constraints, &ConstraintsInfo::constraints);
 }
@@ -95,9 +106,9 @@ void add_conditions(Command& command, WeightsSettings& s) {
     const auto at = std::find(names.begin(), names.end(), chosen);
     s.options.constraints = all_constraints()[static_cast<std::size_t>(at - names.begin())].constraints;
   };
-  add_name(command, "--constraints", {names.begin(), names.end()}, use, text).defaults_to([] {
-    return option_name(Constraints::well_centered);
-  });
+  Option& option = add_name(command, "--constraints", {names.begin(), names.end()}, use, text);
+  option.defaults_to([] { return option_name(Constraints::well_centered); });
+  option.cells_of = cells_of;
 }
 
 void add_files(Command& command, WeightsSettings& s) {
@@ -113,9 +124,10 @@ void add_files(Command& command, WeightsSettings& s) {
            "See docs/reference/formats/certificate.md.");
   add_text(command, "--check-certificate", "FILE", s.check,
            "Only check the proof in FILE against IN, in exact arithmetic.");
-  command.add_flag(
-      "--zero", s.zero,
-      "Set all weights to zero, and flip edges until they are Delaunay. Solvers without weights need this.");
+  command
+      .add_flag("--zero", s.zero,
+                "Set all weights to zero, and flip edges until they are Delaunay. Solvers without weights need this.")
+      .cells = CellKinds::triangles;
   command.add_flag("--json", s.json, "Print the report as JSON, with vertices and elements counted from 0.");
 }
 
@@ -144,7 +156,8 @@ void add_connectivity(Command& command, WeightsSettings& s) {
   add_conditions(command, s);
   add_text(command, "--edges", "all|lines|FILE", s.edges,
            "Edges of --constraints regular. 'all' are all edges inside. 'lines' are tagged lines and the edges between "
-           "regions. FILE has two vertices per line, numbered as in IN.");
+           "regions. FILE has two vertices per line, numbered as in IN.")
+      .cells = CellKinds::triangles;
   add_choice(command, "--connectivity", kConnectivities, s.connectivity,
              "Connectivity of the result. 'fixed' keeps the edges of IN. 'search' looks for edges with a margin, and "
              "flips edges while this raises the best margin. If the mesh is in the plane and has at most "
@@ -362,17 +375,6 @@ Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
 
 // --- tetrahedra ---------------------------------------------------------------------------------------
 
-void refuse_options_of_triangles(const Command& command, const WeightsSettings& s) {
-  refuse_for_tetrahedra("weights", s.input,
-                        {{!s.projection.empty(), "--projection"},
-                         {s.heights.flat, "--flat"},
-                         {s.heights.positive.has_value(), "--positive"},
-                         {s.zero, "--zero"},
-                         {command.was_given("--edges"), "--edges"},
-                         {s.connectivity == Connectivity::search, "--connectivity search"},
-                         {s.options.constraints == Constraints::heights_only, "--constraints heights-only"}});
-}
-
 Exit weigh_tetrahedra(const WeightsSettings& s, TetInput input, Outputs& outputs) {
   print_warnings(input.warnings());
   if (!s.check.empty()) {
@@ -429,15 +431,11 @@ Exit run_weights(const Arguments& arguments) {
 
   io::MeshFile file = read_tried(s.input, s.heights.to_read(nullptr));
   if (file.dimension() == 3) {
-    refuse_options_of_triangles(command, s);
+    command.expect_for(CellKinds::tetrahedra, s.input);
     outputs.expect_place(s.output, file);
     return weigh_tetrahedra(s, make_input(s.input, std::move(file), nullptr), outputs);
   }
-  if (s.options.constraints == Constraints::completely_well_centered)
-    refuse_usage("weights",
-                 fmt::format("{} has triangles, and --constraints completely-well-centered is for tetrahedra "
-                             "alone. Next: --constraints well-centered",
-                             s.input));
+  command.expect_for(CellKinds::triangles, s.input);
   const auto read = [&](const std::string&) { return std::move(file); };
   Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .heights = s.heights, .read = read});
   outputs.expect_place(s.output, input.file);

@@ -82,8 +82,10 @@ void add_common(Command& command, OptimizeSettings& s) {
       "The boundary stays bit for bit, or its vertices slide along straight lines and in planes, or its edges are "
       "split.";
   add_texts(command, "--fix", "TAG ...", Values::words, s.fix,
-            "Tags or physical names of vertices that keep their positions.");
-  add_text(command, "--size", "FILE", s.size, "Mesh file with the target edge length at each of its points.");
+            "Tags or physical names of vertices that keep their positions.")
+      .cells = CellKinds::triangles;
+  add_text(command, "--size", "FILE", s.size, "Mesh file with the target edge length at each of its points.").cells =
+      CellKinds::triangles;
   add_flag_of(command, "min_edge", s.assignments).sentence = "Least length of interior edges over the local size.";
   add_flag_of(command, "min_dual", s.assignments).sentence = "Least length of their duals over the local size.";
   add_requirements(command, s.require, true).sentence =
@@ -105,8 +107,10 @@ void add_rare(Command& command, OptimizeSettings& s) {
       "file. Options of the command line override it.");
   command.add_flag("--details", s.details, "Print all measures, energies, sizes and notes.");
 #ifdef TEMPER_WITH_ERRORS
-  command.add_flag("--measure-errors", s.measure_errors,
-                   "Measure the errors of solvers before and after, as temper errors does, and print them.");
+  command
+      .add_flag("--measure-errors", s.measure_errors,
+                "Measure the errors of solvers before and after, as temper errors does, and print them.")
+      .cells = CellKinds::triangles;
 #endif
   add_projection(command, s.projection);
   add_heights(command, s.heights);
@@ -114,8 +118,8 @@ void add_rare(Command& command, OptimizeSettings& s) {
   add_problem(command, s.problem,
               "Needs --for vertex or --for cell. The run then lowers the error of this problem, -div(K grad u) = f. "
               "Without --dirichlet it lowers the mean error of many smooth solutions with K = 1. Not with --tensor.");
-  add_text(command, "--size-data", "NAME", s.size_data, "Name of the point data in the file of --size.").default_text =
-      "size";
+  Option& data = add_text(command, "--size-data", "NAME", s.size_data, "Name of the point data in the file of --size.");
+  data.default_text = "size", data.cells = CellKinds::triangles;
   add_point_data(command, s.point_data);
   add_threads(command, s.threads,
               "Number of threads of each process. 0 uses all threads of the machine, or all that the process may use.");
@@ -244,6 +248,16 @@ void settle_options(Command& command, OptimizeSettings& s) {
   for (const auto& checked : {check_target(s.options, s.target), check_kept(s.options, keep)}) {
     if (!checked) refuse_usage("optimize", spell_options(checked.error()).message);
   }
+}
+
+void expect_for(const Command& command, const OptimizeSettings& s, CellKinds cells) {
+  command.expect_for(cells, s.input);
+  const std::vector<std::string_view> keep(s.keep.begin(), s.keep.end());
+  std::vector<std::string_view> rows;
+  for (const Assignment& a : s.assignments) rows.push_back(a.row->name);
+  if (const auto right = check_cells(s.options, {s.target, keep, rows}, cells); !right)
+    refuse_usage("optimize",
+                 fmt::format("{} has {}, and {}", s.input, name(cells), spell_options(right.error().message)));
 }
 
 std::string ending(Stopped stopped) {

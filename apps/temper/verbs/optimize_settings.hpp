@@ -61,6 +61,9 @@ void take_input(Command& command, OptimizeSettings& settings);
 /// Finds the options that follow from the command line and the options file. Failure if they contradict each other.
 void settle_options(Command& command, OptimizeSettings& settings);
 
+/// Failure if options, or words or values of them, are for other cells than the mesh has.
+void expect_for(const Command& command, const OptimizeSettings& settings, CellKinds cells);
+
 /// "12 sweeps in 0.3 s, 4 flips, 2 vertices inserted".
 template <class Report>
 [[nodiscard]] std::string work_done(const Report& report) {

@@ -3,11 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
-#include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,7 +13,6 @@
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
 #include "system/system.hpp"
-#include "temper/energy.hpp"
 #include "temper/solvers.hpp"
 #include "temper/tets/draw.hpp"
 #include "temper/tets/optimize.hpp"
@@ -27,62 +22,10 @@
 namespace temper::app {
 namespace {
 
-/// The options that have a meaning for tetrahedra. All others are refused by name.
-constexpr auto kOptions = std::to_array<std::string_view>(
-    {"IN", "--output", "--format", "--encoding", "--for", "--effort", "--keep", "--boundary", "--require",
-     "--time-limit", "--write", "--set", "--options", "--details", "--quiet", "--point-data", "--threads",
-     "--no-triangle-quality", "--save-every"});
-
-template <class Names>
-bool has(const Names& names, std::string_view name) {
-  return std::ranges::find(names, name) != names.end();
-}
-
-void refuse_options(const Command& command, const OptimizeSettings& s) {
-  const auto refuse = [&](bool given, const std::string& name) {
-    refuse_for_tetrahedra("optimize", s.input, {{given, name}});
-  };
-  for (const Option& option : command.options()) {
-    const std::string name = long_name(option.names);
-    refuse(!option.given.empty() && !has(kOptions, name), name);
-  }
-  refuse(!s.files.trace.empty(), fmt::format("--write {}, a trace,", s.files.trace));
-}
-
-tets::OptimizeOptions options_of(const OptimizeSettings& s) {
-  const std::vector<std::string_view> keep(s.keep.begin(), s.keep.end());
-  std::vector<std::string_view> rows;
-  for (const Assignment& a : s.assignments) rows.push_back(a.row->name);
-  const Expected<tets::OptimizeOptions> options = tets::options_from(s.options, {s.target, s.effort, keep, rows});
-  if (!options)
-    refuse_usage("optimize", fmt::format("{} has tetrahedra, and {}", s.input, spell_options(options.error().message)));
-  return *options;
-}
-
-std::string settings_json(const OptimizeSettings& s, const tets::OptimizeOptions& options) {
-  using Json = nlohmann::ordered_json;
-  return Json({{"keep_positions", options.keep_positions},
-               {"keep_weights", options.keep_weights},
-               {"keep_edges", options.keep_edges},
-               {"repair_trials", options.repair_trials},
-               {"slide_boundary", options.slide_boundary},
-               {"split_boundary", options.split_boundary},
-               {"search_each", options.search_each},
-               {"small_margin", options.small_margin},
-               {"target", s.target},
-               {"energy", energy_info(s.options.energy).name},
-               {"star", options.hot_star ? Json(static_cast<int>(*options.hot_star)) : Json()},
-               {"accuracy_steps", options.accuracy_steps},
-               {"max_sweeps", options.max_sweeps},
-               {"time_limit", options.time_limit}})
-      .dump();
-}
-
 class TetRun {
  public:
-  TetRun(const Command& command, const OptimizeSettings& s, const tets::OptimizeOptions& options, Outputs& outputs,
-         TetInput input, Executor* threads)
-      : command_(command), s_(s), options_(options), outputs_(outputs), input_(std::move(input)), threads_(threads) {}
+  TetRun(const Command& command, const OptimizeSettings& s, Outputs& outputs, TetInput input, Executor* threads)
+      : command_(command), s_(s), outputs_(outputs), input_(std::move(input)), threads_(threads) {}
 
   Exit run() {
     warn(input_.warnings());
@@ -110,10 +53,9 @@ class TetRun {
   }
   /// More trials change the connectivity or lower errors. Some runs do neither.
   [[nodiscard]] std::vector<std::string> warning_of_effort() const {
-    const bool lowers_errors = options_.scheme == Scheme::vertex || options_.scheme == Scheme::cell;
-    if (s_.effort != "high" || !(options_.keep_edges || options_.keep_positions || options_.keep_weights) ||
-        lowers_errors)
-      return {};
+    const OptimizeOptions& o = s_.options;
+    const bool keeps_connectivity = o.flips == Flips::none || o.unknowns != Unknowns::positions_and_weights;
+    if (s_.effort != "high" || !keeps_connectivity || o.scheme != Scheme::all) return {};
     return {
         fmt::format("--effort high has no effect with --keep {}, which allows no new connectivity. Next: leave one "
                     "of them out",
@@ -132,7 +74,7 @@ class TetRun {
       return interrupted() ? Continue::no : Continue::yes;
     };
     mesh_ = input_.mesh();
-    hooks.error = tets::discretization_error(options_.scheme);
+    hooks.error = tets::discretization_error(s_.options.scheme);
     if (s_.save_every) {
       hooks.best_so_far = saver(s_, [this](const tets::BestSoFar& best) {
         io::MeshFile file = input_.file;
@@ -140,7 +82,7 @@ class TetRun {
         return save(s_, file, threads_);
       });
     }
-    Expected<tets::OptimizeReport> report = optimize(mesh_, options_, hooks);
+    Expected<tets::OptimizeReport> report = optimize(mesh_, s_.options, hooks);
     if (!report) throw as_failure(spell_options(report.error()));
     report_ = *std::move(report);
   }
@@ -153,7 +95,7 @@ class TetRun {
     if (!s_.files.report.empty() || !s_.files.page.empty()) {
       const TetOptimizeRecord record = {command_line(command_, {s_.input}),
                                         options_json(command_, s_.assignments),
-                                        settings_json(s_, options_),
+                                        options_json(s_.options, CellKinds::tetrahedra),
                                         before_,
                                         input_.points,
                                         after_,
@@ -187,7 +129,6 @@ class TetRun {
 
   const Command& command_;
   const OptimizeSettings& s_;
-  const tets::OptimizeOptions& options_;
   Outputs& outputs_;
   TetInput input_;
   Executor* threads_;
@@ -203,14 +144,13 @@ class TetRun {
 }  // namespace
 
 Exit optimize_tetrahedra(const Command& command, OptimizeSettings& settings, Outputs& outputs, TetsToOptimize tets) {
-  refuse_options(command, settings);
-  const tets::OptimizeOptions options = options_of(settings);
-  settings.requirements = settings.requirement_lists.of(MeshKind::tetrahedra);
+  expect_for(command, settings, CellKinds::tetrahedra);
+  settings.requirements = settings.requirement_lists.of(CellKinds::tetrahedra);
   outputs.expect_place(settings.output, tets.file);
   TetInput input = make_input(settings.input, std::move(tets.file), tets.threads);
   agree_to_go_on();
   if (!is_first_rank()) return Exit::done;
-  return TetRun(command, settings, options, outputs, std::move(input), tets.threads).run();
+  return TetRun(command, settings, outputs, std::move(input), tets.threads).run();
 }
 
 }  // namespace temper::app

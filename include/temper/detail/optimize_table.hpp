@@ -15,6 +15,7 @@
 #include <string_view>
 #include <variant>
 
+#include "temper/detail/cell_kinds.hpp"
 #include "temper/detail/error.hpp"
 #include "temper/optimize.hpp"
 
@@ -44,13 +45,16 @@ struct OptionRow {
   std::string_view name = {};      ///< Name as in C++ and Python, but flat: accuracy.sweeps is accuracy_sweeps
   std::string_view sentence = {};  ///< Effect of the option, in ASCII
   OptionKind kind = OptionKind::number;
+  CellKinds cells = CellKinds::triangles;          ///< Cells of the meshes that the option is for
   std::span<const std::string_view> choices = {};  ///< Names of the choices, for OptionKind::choice
-  OptionRange range = {};                          ///< Range of counts, numbers and length_parameters
-  bool optional = false;                           ///< Option may be absent
-  bool common = false;                             ///< Option has a flag of its own in the program
-  bool research = false;                           ///< Option is a switch of the paper, for the study of methods
-  std::string_view absent_name = "auto";           ///< Text for an absent value; "auto": temper chooses
-  std::string_view absent = {};                    ///< Meaning of an absent value
+  /// Choices for one kind of cells, such as "F|BP"; empty: all.
+  std::string_view for_triangles = {}, for_tetrahedra = {};
+  OptionRange range = {};                 ///< Range of counts, numbers and length_parameters
+  bool optional = false;                  ///< Option may be absent
+  bool common = false;                    ///< Option has a flag of its own in the program
+  bool research = false;                  ///< Option is a switch of the paper, for the study of methods
+  std::string_view absent_name = "auto";  ///< Text for an absent value; "auto": temper chooses
+  std::string_view absent = {};           ///< Meaning of an absent value
   std::array<OptionNeed, 3> needs = {};
   OptionValue (*get)(const OptimizeOptions&) = nullptr;
   void (*set)(OptimizeOptions&,
@@ -66,6 +70,7 @@ struct OptionGroup {
 struct Preset {
   std::string_view name;
   std::string_view sentence;  ///< Who needs it and what it does, in ASCII
+  CellKinds cells;            ///< Cells of the meshes that it is for
   void (*apply)(OptimizeOptions&);
   bool research = false;           ///< Preset is for the study of methods
   std::string_view synonyms = {};  ///< Words, with blanks between them, that people take for this one
@@ -97,6 +102,14 @@ struct SolverName {
 /// Returns an error if options change a part of the mesh to keep.
 [[nodiscard]] Expected<void> check_kept(const OptimizeOptions& options, std::span<const std::string_view> keep);
 
+/// What a user set by name.
+struct GivenNames {
+  std::string_view target = "any";
+  std::span<const std::string_view> keep = {}, options = {};
+};
+/// Returns an error for the first of these that is for other cells than the mesh has. Options at their default pass.
+[[nodiscard]] Expected<void> check_cells(const OptimizeOptions& options, const GivenNames& given, CellKinds cells);
+
 /// Returns the table.
 [[nodiscard]] std::span<const OptionGroup> option_groups();
 /// Returns the row with this name, or null.
@@ -104,8 +117,9 @@ struct SolverName {
 
 /// Returns an error if the option may not have this value.
 [[nodiscard]] Expected<void> check_option(const OptionRow& row, const OptionValue& value);
-/// Returns an error for the first option with a value that it may not have.
-[[nodiscard]] Expected<void> check_options(const OptimizeOptions& options);
+/// Returns an error for the first option with a value that it may not have in a mesh of these cells. Options for other
+/// cells alone are not looked at.
+[[nodiscard]] Expected<void> check_options(const OptimizeOptions& options, CellKinds cells);
 
 /// Returns the value as text: "4", "newton", "auto".
 [[nodiscard]] std::string option_text(const OptionRow& row, const OptionValue& value);

@@ -11,8 +11,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
-#include <string_view>
 #include <vector>
 
 #include "temper/detail/discretization_error.hpp"
@@ -22,36 +20,7 @@
 
 namespace temper::tets {
 
-struct OptimizeOptions {
-  int max_sweeps = 1000;        ///< Largest number of sweeps
-  double time_limit = 0;        ///< Time limit of the whole run [s]; 0: none
-  bool keep_positions = false;  ///< All vertices stay, and only weights change
-  bool keep_weights = false;    ///< All weights stay, and only positions change
-  bool keep_edges = false;      ///< The connectivity stays: no flips, no new vertices
-  int repair_trials = 20;       ///< Trials in vain in one patch; after four patches a place is left as it is
-  bool slide_boundary = false;  ///< Vertices that stay on one plane or straight line may move there
-  bool split_boundary = false;  ///< Edges and faces that stay may get new vertices where nothing else helps
-  bool search_each = false;     ///< Each bad tetrahedron has trials of its own, not along with those nearby
-  double small_margin = 0;      ///< Tetrahedra with a smaller least h/ℓ are improved in trials, too, if none is bad
-  Scheme scheme = Scheme::all;  ///< Scheme whose errors the run lowers after that: vertex or cell; others: none
-  int accuracy_steps = 300;     ///< Largest number of steps for this
-  std::size_t most_error_vertices = 10'000;  ///< Largest number of vertices for a model of errors
-  /// Star of the HOT energy that the run lowers after that, zero to three; none: no HOT energy
-  std::optional<Star> hot_star = {};
-};
-
 using DiscretizationError = DiscretizationErrorOf<TetMesh, WeightedPoint>;
-
-/// The words of a user, which program and Python share with triangles (temper/detail/optimize_table.hpp).
-struct OptimizeWords {
-  std::string_view target = "any";
-  std::string_view effort = "normal";
-  std::span<const std::string_view> keep = {};  ///< Parts of the mesh that stay
-  std::span<const std::string_view> rows = {};  ///< Options of the table that the user set
-};
-/// The options that the words and the table's options stand for. Error: a target, a part or a row that is for triangles
-/// alone.
-[[nodiscard]] Expected<OptimizeOptions> options_from(const temper::OptimizeOptions& table, const OptimizeWords& words);
 
 /// The mesh to keep if the run ends now.
 struct BestSoFar {
@@ -85,16 +54,19 @@ struct OptimizeReport {
 /// The energy of a tetrahedron that optimize() lowers, +∞ unless it is positive.
 [[nodiscard]] double tetrahedron_energy(const std::array<WeightedPoint, 4>& corners, double gamma);
 
-/// Improves the mesh in place. Weights change everywhere. Connectivity changes only around tetrahedra that moves alone
-/// leave bad, or with small margins on request, by flips and by vertices that are inserted or removed; not if
-/// positions, weights or edges are kept. The boundary, faces between regions, and tagged faces and lines keep their
-/// connectivity, unless they may be split. Some vertices keep their position, bit for bit.
+/// Improves the mesh in place. Rows of optimize_table.hpp for tetrahedra say which options have an effect;
+/// EnergyKind::F stands for the HOT energy of `star`, and the scheme vertex or cell for its errors. Weights change
+/// everywhere. Connectivity changes only around tetrahedra that moves alone leave bad, or with small margins on
+/// request, by flips and by vertices that are inserted or removed; not if positions, weights or edges are kept. The
+/// boundary, faces between regions, and tagged faces and lines keep their connectivity, unless they may be split. Some
+/// vertices keep their position, bit for bit.
 ///   - They are on the boundary, or on faces between regions.
 ///   - They are on tagged faces or lines.
 ///   - They are fixed points.
 ///   - They are points with a tag other than 0. But a tag that all corners of some tetrahedron share fixes nothing.
-/// With `slide_boundary`, vertices of the first two kinds move in their plane or along their straight line, if the
-/// parts around them are in one (src/tets/optimize/mobility.hpp). Moves are exact along axes, elsewhere to rounding.
+/// With BoundaryVertices::slide, vertices of the first two kinds move in their plane or along their straight line, if
+/// the parts around them are in one (src/tets/optimize/mobility.hpp). Moves are exact along axes, elsewhere to
+/// rounding.
 ///
 /// For a scheme the run then lowers the offsets between primal and dual elements (src/tets/energy/accuracy_energy.hpp).
 /// It also lowers the error of the model, if the hooks have one with derivatives and no tetrahedron is bad. The result
@@ -103,7 +75,8 @@ struct OptimizeReport {
 /// For a star the run then lowers its HOT energy (src/tets/energy/hot.hpp), and makes no tetrahedron bad.
 ///
 /// Every tetrahedron stays positive. The result never has more tetrahedra with outside orthocenters than the input.
-/// Wrong options (numbers < 0, positions and weights both kept) are an error, which leaves the mesh unchanged.
+/// Options that are out of range, for triangles alone or contradict each other are an error, which leaves the mesh
+/// unchanged.
 /// An exception of the observer, or for lack of memory, leaves it empty.
 /// O((sweeps + changes) · n).
 [[nodiscard]] Expected<OptimizeReport> optimize(TetMesh& mesh, const OptimizeOptions& options = {},

@@ -119,15 +119,6 @@ Expected<void> check_option(const OptionRow& row, const OptionValue& value) {
   return {};
 }
 
-Expected<void> check_options(const OptimizeOptions& options) {
-  for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) {
-      if (auto right = check_option(row, row.get(options)); !right) return right;
-    }
-  }
-  return {};
-}
-
 std::string missing_need(const OptionRow& row, const OptimizeOptions& options) {
   for (const OptionNeed& need : row.needs) {
     if (need.option.empty() || holds(need, options)) continue;

@@ -13,6 +13,8 @@ namespace temper {
 namespace {
 
 using Options = OptimizeOptions;
+constexpr auto kForBoth = CellKinds::both;
+constexpr auto kForTriangles = CellKinds::triangles;
 
 /// Grading that --keep sizes allows: sizes stay within this factor of the sizes of the input.
 constexpr double kBandOfSizes = 2;
@@ -39,34 +41,35 @@ void keep_measures(Options& o, Client client) {
 }
 
 constexpr auto kTargets = std::to_array<Preset>({
-    {"any", "Any solver on a dual mesh: large margins, smaller errors", [](Options&) {}},
-    {"valid", "Valid triangles alone: the fastest run",
+    {"any", "Any solver on a dual mesh: large margins, smaller errors", kForBoth, [](Options&) {}},
+    {"valid", "Valid triangles alone: the fastest run", kForBoth,
      [](Options& o) {
        o.objective = Objective::accuracy;
        o.accuracy.sweeps = 0;
        o.accuracy.margin = 0.02;
      }},
-    {"vertex", "Unknowns at vertices: MODFLOW, DEVSIM, exterior calculus",
+    {"vertex", "Unknowns at vertices: MODFLOW, DEVSIM, exterior calculus", kForBoth,
      [](Options& o) { o.scheme = Scheme::vertex; }},
-    {"cell", "Unknowns in triangles, two-point flux: PorePy, FiPy", [](Options& o) { o.scheme = Scheme::cell; }},
-    {"stars", "Diagonal Hodge stars of exterior calculus", [](Options& o) { o.scheme = Scheme::stars; }},
-    {"mpas", "MPAS: no weights, centered edges; may add and remove vertices",
+    {"cell", "Unknowns in triangles, two-point flux: PorePy, FiPy", kForBoth,
+     [](Options& o) { o.scheme = Scheme::cell; }},
+    {"stars", "Diagonal Hodge stars of exterior calculus", kForTriangles, [](Options& o) { o.scheme = Scheme::stars; }},
+    {"mpas", "MPAS: no weights, centered edges; may add and remove vertices", kForTriangles,
      [](Options& o) {
        place_vertices(o, kLongDual);
        keep_measures(o, Client::mpas);
        o.star = Star::zero;
      }},
-    {"dflowfm", "D-Flow FM: no weights, orthogonal; may add and remove vertices",
+    {"dflowfm", "D-Flow FM: no weights, orthogonal; may add and remove vertices", kForTriangles,
      [](Options& o) {
        place_vertices(o, kLongDual);
        keep_measures(o, Client::dflowfm);
      }},
-    {"adcirc", "ADCIRC, SCHISM: no weights, long edges; may add and remove vertices",
+    {"adcirc", "ADCIRC, SCHISM: no weights, long edges; may add and remove vertices", kForTriangles,
      [](Options& o) {
        place_vertices(o, 0);
        keep_measures(o, Client::adcirc);
      }},
-    {"fem", "Linear finite elements: no weights, good angles, the same vertices",
+    {"fem", "Linear finite elements: no weights, good angles, the same vertices", kForTriangles,
      [](Options& o) {
        move_positions_alone(o);
        keep_measures(o, Client::fem);
@@ -77,6 +80,7 @@ constexpr auto kTargets = std::to_array<Preset>({
     {"paper",
      "Algorithm 1 of the paper: golden section, deferred flips, collapses, the patch test, inversions, the first "
      "vertex as anchor and gamma 1",
+     kForTriangles,
      [](Options& o) {
        o.flips = Flips::deferred;
        o.repair = Repair::none;
@@ -100,6 +104,7 @@ constexpr auto kTargets = std::to_array<Preset>({
      true},
     {"odt",
      "Optimal Delaunay triangulation (Chen and Xu 2004): positions alone lower energy ODT. All weights must be equal",
+     kForTriangles,
      [](Options& o) {
        move_positions_alone(o);
        o.energy = EnergyKind::ODT;
@@ -107,6 +112,7 @@ constexpr auto kTargets = std::to_array<Preset>({
      true},
     // The energy is the moment of the Voronoi cells about their vertices. Lloyd's iterations lower the same energy.
     {"cvt", "Centroidal Voronoi tessellation (Du, Faber and Gunzburger 1999): positions alone lower energy F of star 0",
+     kForTriangles,
      [](Options& o) {
        move_positions_alone(o);
        o.energy = EnergyKind::F;
@@ -116,16 +122,19 @@ constexpr auto kTargets = std::to_array<Preset>({
 });
 
 constexpr auto kEfforts = std::to_array<Preset>({
-    {"quick", "Few sweeps and repairs, in about half of the time",
+    {"quick", "Few sweeps and repairs, in about half of the time", kForBoth,
      [](Options& o) {
        o.accuracy.sweeps = std::min(o.accuracy.sweeps, 5);
        o.repair_trials = 2000;
        o.solver_error.most_vertices = 0;
+       o.tets.repair_trials = o.tets.most_error_vertices = 0;
+       o.tets.accuracy_steps = 30;
      },
      false, "fast faster fastest low lowest small min minimal short"},
     {"normal", "Sweeps until little is gained. Targets vertex and cell also lower the error of the solver itself",
-     [](Options&) {}, false, "default medium middle usual standard"},
+     kForBoth, [](Options&) {}, false, "default medium middle usual standard"},
     {"high", "More sweeps and repairs, which may add and remove vertices. More steps lower the solver's own error",
+     kForBoth,
      [](Options& o) {
        if (o.accuracy.sweeps > 0) o.accuracy.sweeps = 200;
        o.accuracy.tolerance = 1e-7;
@@ -133,24 +142,29 @@ constexpr auto kEfforts = std::to_array<Preset>({
        o.repair_trials = 100'000;
        o.solver_error.steps = 200;
        o.solver_error.most_vertices = 1'000'000;
+       o.tets = {.repair_trials = 40,
+                 .patches = Patches::each,
+                 .small_margin = 0.01,
+                 .accuracy_steps = 1000,
+                 .most_error_vertices = 100'000};
      },
      false, "best better slow max maximal maximum thorough full long"},
 });
 
 constexpr auto kKeeps = std::to_array<Preset>({
-    {"positions", "All vertices stay, and only weights change",
+    {"positions", "All vertices stay, and only weights change", kForBoth,
      [](Options& o) {
        o.unknowns = Unknowns::weights;
        if (o.boundary == BoundaryVertices::slide) o.boundary = BoundaryVertices::keep;
      }},
-    {"weights", "All weights stay, and only positions change", move_positions_alone},
-    {"edges", "No edge flips", [](Options& o) { o.flips = Flips::none; }},
-    {"boundary", "Vertices of the boundary and of interfaces stay",
+    {"weights", "All weights stay, and only positions change", kForBoth, move_positions_alone},
+    {"edges", "No edge flips", kForBoth, [](Options& o) { o.flips = Flips::none; }},
+    {"boundary", "Vertices of the boundary and of interfaces stay", kForBoth,
      [](Options& o) {
        o.boundary = BoundaryVertices::keep;
        o.interfaces = InterfaceVertices::fixed;
      }},
-    {"sizes", "Local sizes stay within a factor of 2", [](Options& o) { o.size_band = kBandOfSizes; }},
+    {"sizes", "Local sizes stay within a factor of 2", kForTriangles, [](Options& o) { o.size_band = kBandOfSizes; }},
 });
 
 /// The solvers of docs/howto/choose.md.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "mesh/bad_triangles.hpp"
 #include "temper/detail/optimize_table.hpp"
@@ -20,23 +20,21 @@ LengthParameter in_working_units(LengthParameter s, const WorkingUnits& units) {
   return s;
 }
 
-/// A combination that options must not have, and the sentence of its error.
+/// A combination that options must not have, the sentence of its error, and the cells of the meshes that it is about.
 struct Rule {
   bool broken;
   std::string sentence;
+  CellKinds cells = CellKinds::triangles;
 };
-std::optional<InputError> first_broken(std::initializer_list<Rule> rules) {
-  const auto rule = std::ranges::find(rules, true, &Rule::broken);
-  return rule == rules.end() ? std::nullopt : std::optional(invalid(rule->sentence));
-}
+using Rules = std::vector<Rule>;
 
-/// Refuses options that contradict deferred updates.
-std::optional<InputError> check_updates(const OptimizeOptions& o) {
+/// Options that contradict deferred updates.
+Rules rules_of_updates(const OptimizeOptions& o) {
   const PaperSwitches& p = o.paper;
   const bool all_deferred = p.position_updates == Updates::deferred;
   const bool weights_deferred = p.weight_updates == Updates::deferred;
   const std::string deferred = all_deferred ? "`position_updates=deferred`" : "`weight_updates=deferred`";
-  return first_broken({
+  return {
       {all_deferred && o.unknowns == Unknowns::positions_and_weights && !weights_deferred,
        "`position_updates=deferred` takes all unknowns from the sweep before; expected `weight_updates=deferred` too, "
        "or `unknowns=positions`"},
@@ -49,15 +47,15 @@ std::optional<InputError> check_updates(const OptimizeOptions& o) {
       {all_deferred && p.visits == Visits::twice,
        "`visits=twice` shows weights the new positions, which `position_updates=deferred` keeps from them; expected "
        "`visits=once`"},
-  });
+  };
 }
 
-/// Refuses options that contradict the rules against inverted triangles.
-std::optional<InputError> check_inversions(const OptimizeOptions& o) {
+/// Options that contradict the rules against inverted triangles.
+Rules rules_of_inversions(const OptimizeOptions& o) {
   const Inversion inversion = o.paper.inversion;
   const EnergyInfo& last = energy_info(o.energy);
   const EnergyInfo& first = energy_info(o.paper.first_energy.value_or(o.energy));
-  return first_broken({
+  return {
       {inversion == Inversion::allow && o.flips != Flips::deferred,
        "`inversion=allow` needs `flips=deferred`, since edges cannot be flipped among inverted triangles; or "
        "`inversion=refuse`"},
@@ -69,14 +67,14 @@ std::optional<InputError> check_inversions(const OptimizeOptions& o) {
        "a corner"},
       {inversion != Inversion::refuse && o.size_band,
        "`size_band` needs `inversion=refuse`: inverted triangles have no size"},
-  });
+  };
 }
 
-/// Refuses options that contradict coarsening.
-std::optional<InputError> check_coarsening(const OptimizeOptions& o) {
-  if (!o.coarsen) return std::nullopt;
+/// Options that contradict coarsening.
+Rules rules_of_coarsening(const OptimizeOptions& o) {
+  if (!o.coarsen) return {};
   const GuardOptions& g = o.guard;
-  return first_broken({
+  return {
       {!energy_info(o.energy).barrier,
        "`coarsen` needs a barrier, which makes triangles well-centered; expected `energy=BP`, `energy=BHs` or "
        "`energy=BH`"},
@@ -91,17 +89,16 @@ std::optional<InputError> check_coarsening(const OptimizeOptions& o) {
        "`coarsen` makes a coarser mesh, which the guard does not judge; expected a target without a guard"},
       {o.paper.inversion == Inversion::allow || o.paper.hidden == HiddenPolicy::keep,
        "`coarsen` needs regular meshes; expected `inversion=refuse` and `hidden=undo`"},
-  });
+  };
 }
 
-/// Refuses other options that contradict each other, or the accuracy objective.
-std::optional<InputError> check_combinations(const OptimizeOptions& o) {
+/// Other options that contradict each other, or the accuracy objective.
+Rules rules_of_combinations(const OptimizeOptions& o) {
   const bool for_accuracy = objective_of(o) != Objective::energy;
   const EnergyInfo& energy = energy_info(o.energy);
   const std::string changes_connectivity =
       " changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or `flips=deferred`";
-  return first_broken({
-      {o.star == Star::three, "`star=3` is for tetrahedra; for triangles expected 0, 1 or 2"},
+  return {
       {o.star == Star::all && !for_accuracy, "`star=all` is for `objective=accuracy`; of an energy expected 0, 1 or 2"},
       {o.flips == Flips::none && o.paper.insertion_from, "`insertion_from`" + changes_connectivity},
       {o.paper.insertion_from && o.size_band,
@@ -112,7 +109,24 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
            std::string(energy.name) + " does not; expected `energy=BP`, `energy=BHs` or `energy=BH`"},
       {for_accuracy && o.paper.inversion != Inversion::refuse,
        "`objective=accuracy` needs `inversion=refuse`: its second phase is for well-centered triangles"},
-  });
+  };
+}
+
+/// Options that contradict each other in meshes of tetrahedra.
+Rules rules_of_tetrahedra(const OptimizeOptions& o) {
+  constexpr auto kTetrahedra = CellKinds::tetrahedra;
+  const bool is_hot = o.energy == EnergyKind::F;
+  const bool for_scheme = o.scheme == Scheme::vertex || o.scheme == Scheme::cell;
+  const bool may_insert = o.unknowns == Unknowns::positions_and_weights && o.flips != Flips::none;
+  return {
+      {!is_hot && o.star != Star::one, "`star` needs `energy=F` for tetrahedra. Next: add it", kTetrahedra},
+      {is_hot && for_scheme,
+       "`energy=F` and the target vertex or cell lower different things. Next: leave one of them out", kTetrahedra},
+      {o.boundary == BoundaryVertices::split && !(may_insert && o.tets.repair_trials > 0),
+       "`boundary=split` inserts vertices, which keep=positions, weights or edges and effort=quick forbid. Next: leave "
+       "one of them out",
+       kTetrahedra},
+  };
 }
 
 /// Returns the first vertex with another weight than vertex 0, if there is one.
@@ -237,6 +251,17 @@ Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
 
 }  // namespace
 
+Expected<void> check_together(const OptimizeOptions& options, CellKinds cells) {
+  if (auto right = check_options(options, cells); !right) return right;
+  for (const auto rules :
+       {rules_of_updates, rules_of_inversions, rules_of_combinations, rules_of_coarsening, rules_of_tetrahedra}) {
+    for (const Rule& rule : rules(options)) {
+      if (rule.broken && fits(rule.cells, cells)) return invalid(rule.sentence);
+    }
+  }
+  return {};
+}
+
 Policy::Policy(const OptimizeOptions& o) : PaperSwitches(o.paper), flips(o.flips) {
   if (switch_at == 0) first_energy.reset();
 }
@@ -317,11 +342,7 @@ EnergyModel in_user_units(EnergyModel model, const WorkingUnits& units) {
 
 Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh, const WorkingUnits& units,
                                  const OptimizeHooks& hooks) {
-  if (auto right = check_options(options); !right) return right.error();
-  if (auto error = check_updates(options)) return *std::move(error);
-  if (auto error = check_inversions(options)) return *std::move(error);
-  if (auto error = check_combinations(options)) return *std::move(error);
-  if (auto error = check_coarsening(options)) return *std::move(error);
+  if (auto right = check_together(options, CellKinds::triangles); !right) return right.error();
   if (auto error = check_vertices(options, mesh)) return *std::move(error);
   if (auto error = check_space(options, mesh)) return *std::move(error);
 

@@ -6,6 +6,7 @@
 
 #include "energy/accuracy_energy.hpp"
 #include "optimize/working/working_units.hpp"
+#include "temper/detail/cell_kinds.hpp"
 #include "temper/feasibility.hpp"
 #include "temper/optimize.hpp"
 
@@ -110,6 +111,9 @@ struct SweepState {
 
 /// Returns the model with absolute γ and h° in the user's units of length.
 [[nodiscard]] EnergyModel in_user_units(EnergyModel model, const WorkingUnits& units);
+
+/// Returns an error if values are out of range or contradict each other, for a mesh of these cells.
+[[nodiscard]] Expected<void> check_together(const OptimizeOptions& options, CellKinds cells);
 
 /// It fails if values are out of range or contradict each other.
 [[nodiscard]] Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh,

@@ -45,6 +45,7 @@ constexpr auto names_of(HiddenPolicy) { return std::to_array<Name>({"undo", "rem
 constexpr auto names_of(Inversion) { return std::to_array<Name>({"refuse", "allow", "infinite"}); }
 constexpr auto names_of(SweepOrder) { return std::to_array<Name>({"hilbert", "input", "reverse", "random"}); }
 constexpr auto names_of(Client) { return std::to_array<Name>({"none", "fem", "adcirc", "dflowfm", "mpas"}); }
+constexpr auto names_of(Patches) { return std::to_array<Name>({"shared", "each"}); }
 constexpr auto names_of(StoppingRule) { return std::to_array<Name>({"relative", "paper"}); }
 template <class Enum>
 constexpr auto kNames = names_of(Enum());
@@ -140,6 +141,8 @@ constexpr auto kAccuracy = &Options::accuracy;
 constexpr auto kError = &Options::solver_error;
 constexpr auto kPaper = &Options::paper;
 constexpr auto kGuard = &Options::guard;
+constexpr auto kTets = &Options::tets;
+constexpr auto kBoth = CellKinds::both;
 
 constexpr OptionRange at_least(double low) { return {.low = low}; }
 constexpr OptionRange more_than(double low) { return {.low = low, .open = true}; }
@@ -187,11 +190,13 @@ bool makes_golden_searches(const Options& o) { return o.paper.solver == Solver::
 constexpr OptionRow kEnergyRows[] = {
     row<&Options::energy>("energy",
                           "Energy to lower. Barriers: BH, BHs, BP. HOT energies: F, T, dT. HOT energies over squared "
-                          "areas: nF, nT, ndT. Optimal Delaunay triangulation: ODT"),
+                          "areas: nF, nT, ndT. Optimal Delaunay triangulation: ODT",
+                          {.cells = kBoth, .for_tetrahedra = "F|BP"}),
     row<&Options::star>("star",
                         "Hodge star whose error should be small. all: the three at once, except with "
                         "`objective=energy`. The first sweeps for accuracy always use star 1. Star 3 is for "
-                        "tetrahedra, for which only `energy=F` has stars"),
+                        "tetrahedra, for which only `energy=F` has stars",
+                        {.cells = kBoth, .for_triangles = "0|1|2|all", .for_tetrahedra = "0|1|2|3"}),
     row<kPaper, &Paper::gamma>("gamma", "Parameter gamma of E_BP",
                                {.range = more_than(0),
                                 .absent = "gamma is relative to each edge. It shrinks to 0.003, from 1 if many "
@@ -229,7 +234,7 @@ constexpr OptionRow kAccuracyRows[] = {
     row<&Options::scheme>("scheme",
                           "Scheme of the solver. vertex: unknowns at vertices. cell: unknowns at orthocenters, "
                           "two-point flux. stars: diagonal Hodge stars. all: each of these, with larger margins",
-                          {.needs = {kForAccuracy}}),
+                          {.cells = kBoth, .for_tetrahedra = "all|vertex|cell", .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::margin>(
         "margin", "Least margin in every triangle: h/l, d/l and 1 - d/l stay above it",
         {.range = inside(0, kMostMargin), .absent = "0.1, or 0.02 if `scheme` is one scheme", .needs = {kForAccuracy}}),
@@ -277,7 +282,8 @@ constexpr OptionRow kMoveRows[] = {
         "solver",
         "Method that improves one vertex. newton: Newton steps in position and weight together. golden: the paper's "
         "golden section. alternating: Newton in position, then in weight"),
-    row<&Options::unknowns>("unknowns", "Unknowns that steps may change. The others keep their values"),
+    row<&Options::unknowns>("unknowns", "Unknowns that steps may change. The others keep their values",
+                            {.cells = kBoth}),
     row<kPaper, &Paper::weights_from>("weights_from", "First sweep that changes weights, counted from 0",
                                       {.needs = {{{"unknowns", "positions_and_weights"}}}}),
     row<kPaper, &Paper::relaxation>("relaxation", "Over-relaxation of Newton steps",
@@ -302,7 +308,8 @@ constexpr OptionRow kMoveRows[] = {
 constexpr OptionRow kConnectivityRows[] = {
     row<&Options::flips>("flips",
                          "Time at which edges flip. immediate: at once. deferred: after the inner sweeps. none: never. "
-                         "Then the connectivity stays, and no step may make an edge non-regular"),
+                         "Then the connectivity stays, and no step may make an edge non-regular",
+                         {.cells = kBoth, .for_tetrahedra = "immediate|none"}),
     row<kPaper, &Paper::flip_limit>(
         "flip_limit",
         "Limit of a step that makes an edge flip. The step ends before, at or after the flip, or is unlimited",
@@ -331,7 +338,7 @@ constexpr OptionRow kConnectivityRows[] = {
         "interfaces, next to much shorter ones, before the sweeps, and with `repair=vertices` also where triangles "
         "stay bad. In tetrahedra, new vertices are on edges and faces, and only if a tetrahedron stays bad without "
         "them. The old vertices stay bit for bit",
-        {.common = true}),
+        {.cells = kBoth, .common = true}),
     row<&Options::boundary_ratio>("boundary_ratio",
                                   "Largest ratio of the lengths of two boundary or interface edges that meet, with "
                                   "`boundary=split`. Longer edges are cut",
@@ -422,14 +429,14 @@ constexpr OptionRow kPaperRows[] = {
 };
 
 constexpr OptionRow kStoppingRows[] = {
-    row<&Options::max_sweeps>("max_sweeps", "Largest number of sweeps over the vertices"),
+    row<&Options::max_sweeps>("max_sweeps", "Largest number of sweeps over the vertices", {.cells = kBoth}),
     row<kPaper, &Paper::tolerance>("tolerance", "Tolerance. The sweeps end when one gains less than this",
                                    {.range = at_least(0)}),
     row<kPaper, &Paper::stopping>("stopping",
                                   "Measure of the gain of a sweep. relative: relative to the energy. paper: change of "
                                   "the mean energy per triangle, absolute"),
     row<&Options::time_limit>("time_limit", "Time limit of the run in seconds. 0: no limit",
-                              {.range = at_least(0), .common = true}),
+                              {.cells = kBoth, .range = at_least(0), .common = true}),
     row<kPaper, &Paper::seed>("seed",
                               "Seed of the jitter that frees symmetric grids, of repairs, and of `order=random`"),
 };
@@ -468,11 +475,39 @@ constexpr OptionRow kGuardRows[] = {
          .needs = {kForAccuracy}}),
 };
 
+constexpr auto kForTetrahedra = CellKinds::tetrahedra;
+
+constexpr OptionRow kTetrahedraRows[] = {
+    row<kTets, &TetrahedraOptions::repair_trials>(
+        "tet_repair_trials",
+        "Number of trials in vain in one patch. After four patches a place is left as it is. 0: the connectivity stays",
+        {.cells = kForTetrahedra}),
+    row<kTets, &TetrahedraOptions::patches>("tet_patches",
+                                            "Places of trials. shared: bad tetrahedra near each other have trials "
+                                            "together. each: each bad tetrahedron has trials of its own",
+                                            {.cells = kForTetrahedra}),
+    row<kTets, &TetrahedraOptions::small_margin>(
+        "tet_small_margin", "Least h/l. Tetrahedra with a smaller one are improved in trials, too, if none is bad",
+        {.cells = kForTetrahedra, .range = at_least(0)}),
+    row<kTets, &TetrahedraOptions::accuracy_steps>(
+        "tet_accuracy_steps",
+        "Largest number of steps that lower the errors of `scheme`. `energy=F` has at most 32 steps",
+        {.cells = kForTetrahedra}),
+    row<kTets, &TetrahedraOptions::most_error_vertices>(
+        "tet_error_vertices", "Largest number of vertices for which the error of the solver is lowered",
+        {.cells = kForTetrahedra}),
+};
+
 constexpr OptionGroup kGroups[] = {
-    {"Energy", kEnergyRows},     {"Accuracy", kAccuracyRows},
-    {"Moves", kMoveRows},        {"Connectivity and constraints", kConnectivityRows},
-    {"Size", kSizeRows},         {"The paper's switches", kPaperRows},
-    {"Stopping", kStoppingRows}, {"Guard", kGuardRows},
+    {"Energy", kEnergyRows},
+    {"Accuracy", kAccuracyRows},
+    {"Moves", kMoveRows},
+    {"Connectivity and constraints", kConnectivityRows},
+    {"Size", kSizeRows},
+    {"The paper's switches", kPaperRows},
+    {"Stopping", kStoppingRows},
+    {"Guard", kGuardRows},
+    {"Tetrahedra", kTetrahedraRows},
 };
 
 }  // namespace

@@ -225,7 +225,7 @@ IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptio
   }
   PointTags points(mesh);
   std::optional<Slides> slides;
-  if (options.slide_boundary) slides.emplace(mesh, points);
+  if (options.boundary == BoundaryVertices::slide) slides.emplace(mesh, points);
   for (const VertexId v : mesh.vertices()) {
     if (!slides || all[v].moves()) continue;
     all[v] = slides->place_of(v);
@@ -237,8 +237,8 @@ IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptio
   });
   for (const VertexId v : mesh.fixed_points()) all[v] = Mobility::weight;
   for (const VertexId v : mesh.vertices()) {
-    if (options.keep_positions) all[v] = Mobility::weight;
-    if (options.keep_weights) all[v].weighs = false;
+    if (options.unknowns == temper::Unknowns::weights) all[v] = Mobility::weight;
+    if (options.unknowns == temper::Unknowns::positions) all[v].weighs = false;
   }
   return all;
 }

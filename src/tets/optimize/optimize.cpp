@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/text.hpp"
+#include "optimize/options/settings.hpp"
 #include "tets/optimize/accuracy.hpp"
 #include "tets/optimize/hot_sweeps.hpp"
 #include "tets/optimize/local_search.hpp"
@@ -34,33 +34,12 @@ constexpr int kMostHotSweeps = 32;
 // 1.10 times that of the input, not 0.80.
 constexpr double kMarginForAccuracy = 0.01;
 
-std::optional<InputError> wrong_option(const OptimizeOptions& options) {
-  if (options.max_sweeps < 0)
-    return InputError{
-        ErrorCode::invalid_option, {}, "max_sweeps: expected at least 0, found " + std::to_string(options.max_sweeps)};
-  if (options.keep_positions && options.keep_weights)
-    return InputError{ErrorCode::invalid_option, {}, "positions and weights are both to be kept; expected one"};
-  if (options.hot_star && (options.scheme == Scheme::vertex || options.scheme == Scheme::cell))
-    return InputError{ErrorCode::invalid_option, {}, "hot_star and a scheme are both to be lowered; expected one"};
-  if (options.slide_boundary && options.split_boundary)
-    return InputError{ErrorCode::invalid_option, {}, "the boundary is both to slide and to be split; expected one"};
-  if (options.hot_star == Star::all)
-    return InputError{ErrorCode::invalid_option, {}, "hot_star: expected zero, one, two or three"};
-  if (options.repair_trials < 0)
-    return InputError{ErrorCode::invalid_option,
-                      {},
-                      "repair_trials: expected at least 0, found " + std::to_string(options.repair_trials)};
-  if (options.accuracy_steps < 0)
-    return InputError{ErrorCode::invalid_option,
-                      {},
-                      "accuracy_steps: expected at least 0, found " + std::to_string(options.accuracy_steps)};
-  if (!(options.small_margin >= 0))
-    return InputError{
-        ErrorCode::invalid_option, {}, "small_margin: expected at least 0, found " + to_text(options.small_margin)};
-  if (!(options.time_limit >= 0))
-    return InputError{
-        ErrorCode::invalid_option, {}, "time_limit: expected at least 0, found " + to_text(options.time_limit)};
-  return std::nullopt;
+[[nodiscard]] bool lowers_errors(const OptimizeOptions& o) {
+  return o.scheme == Scheme::vertex || o.scheme == Scheme::cell;
+}
+[[nodiscard]] bool lowers_hot(const OptimizeOptions& o) { return o.energy == EnergyKind::F; }
+[[nodiscard]] bool changes_connectivity(const OptimizeOptions& o) {
+  return o.unknowns == temper::Unknowns::positions_and_weights && o.flips != Flips::none && o.tets.repair_trials > 0;
 }
 
 class Run {
@@ -73,11 +52,10 @@ class Run {
   OptimizeReport run() {
     report_.objective_before = objective_of(draft_.mesh);
     record();
-    if ((error_ || options_.hot_star) && best_bad_ == 0) input_ = draft_;
-    const bool repairs = !options_.keep_positions && !options_.keep_weights && !options_.keep_edges;
-    if (anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma) && repairs) repair();
-    if (!stopped_early(report_.stopped)) lower_errors();
-    if (!stopped_early(report_.stopped)) lower_hot();
+    if ((error_ || lowers_hot(options_)) && best_bad_ == 0) input_ = draft_;
+    if (anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma) && changes_connectivity(options_)) repair();
+    if (!stopped_early(report_.stopped) && lowers_errors(options_)) lower_errors();
+    if (!stopped_early(report_.stopped) && lowers_hot(options_)) lower_hot();
     return end();
   }
 
@@ -126,14 +104,15 @@ class Run {
       in_vain = best_bad_ < before ? 0 : in_vain + 1;
     }
     draft_ = best_;
-    const int trials = options_.repair_trials;
-    const bool each = options_.search_each;
+    const int trials = options_.tets.repair_trials;
+    const double small_margin = options_.tets.small_margin;
+    const bool each = options_.tets.patches == Patches::each;
     repair_patches({trials, 0, false, each});
-    if (options_.split_boundary && best_bad_ > 0) repair_patches({trials, 0, true, each});
+    if (options_.boundary == BoundaryVertices::split && best_bad_ > 0) repair_patches({trials, 0, true, each});
     if (best_bad_ > 0) return;
-    if (options_.small_margin > 0)
-      repair_patches({trials, options_.small_margin, false, each});
-    else if (lowers_errors())
+    if (small_margin > 0)
+      repair_patches({trials, small_margin, false, each});
+    else if (lowers_errors(options_))
       repair_patches({(trials + 3) / 4, kMarginForAccuracy, false, each});
   }
   void repair_patches(const SearchOptions& options) {
@@ -169,9 +148,6 @@ class Run {
     record(best);
   }
 
-  [[nodiscard]] bool lowers_errors() const {
-    return options_.scheme == Scheme::vertex || options_.scheme == Scheme::cell;
-  }
   /// Goes on from the best mesh, or returns to an input without bad tetrahedra if `measure` of this is less. Returns
   /// the lesser one.
   template <class Measure>
@@ -186,7 +162,6 @@ class Run {
   }
   /// Lowers the errors of the scheme. The best mesh is the one with the least error.
   void lower_errors() {
-    if (!lowers_errors()) return;
     const auto error_of = [this](const TetMesh& mesh) {
       const std::vector<double> errors = error_ ? error_->errors(mesh) : std::vector{0.0};
       return errors.empty() ? HUGE_VAL : errors[0];
@@ -194,7 +169,7 @@ class Run {
     double least = begin_phase(error_of);
     const DiscretizationError* error = best_bad_ == 0 && error_ && error_->has_gradient() ? error_ : nullptr;
     Accuracy accuracy(draft_.mesh, draft_.mobilities(), accuracy_model(options_.scheme), error, hooks_.executor);
-    for (int i = 0; i < options_.accuracy_steps && may_sweep(); ++i) {
+    for (int i = 0; i < options_.tets.accuracy_steps && may_sweep(); ++i) {
       if (!accuracy.descend([this](double fraction) { return is_stopped(fraction); })) break;
       ++report_.sweeps;
       record(error != nullptr ? Objective::solver_error : Objective::accuracy, accuracy.measure());
@@ -208,10 +183,9 @@ class Run {
 
   /// Lowers a HOT energy. The best mesh is the one with the least.
   void lower_hot() {
-    if (!options_.hot_star) return;
     double least = begin_phase([this](const TetMesh& mesh) { return objective_of(mesh); });
     HotSweeps sweeps(draft_.mesh, draft_.mobilities(), hot_, kRelaxation, hooks_.executor);
-    for (int i = 0; i < std::min(kMostHotSweeps, options_.accuracy_steps) && may_sweep(); ++i) {
+    for (int i = 0; i < std::min(kMostHotSweeps, options_.tets.accuracy_steps) && may_sweep(); ++i) {
       if (sweeps.sweep([this](double fraction) { return is_stopped(fraction); })) ++report_.sweeps;
       const double before = report_.history.back().energy, now = objective_of(draft_.mesh);
       if (now <= least) least = now, keep();
@@ -222,8 +196,8 @@ class Run {
   }
   /// The HOT energy to lower, or the energy at the last γ.
   [[nodiscard]] double objective_of(const TetMesh& mesh) const {
-    return options_.hot_star ? hot_energy(mesh, hot_, hooks_.executor)
-                             : state_of(mesh, kLastGamma, hooks_.executor).energy;
+    return lowers_hot(options_) ? hot_energy(mesh, hot_, hooks_.executor)
+                                : state_of(mesh, kLastGamma, hooks_.executor).energy;
   }
 
   using Clock = std::chrono::steady_clock;
@@ -308,8 +282,8 @@ class Run {
   const OptimizeOptions& options_;
   const OptimizeHooks& hooks_;
   const DiscretizationError* error_ =  // absent for large meshes
-      n_before_ <= options_.most_error_vertices ? hooks_.error.get() : nullptr;
-  HotEnergy hot_ = kHotEnergies[static_cast<std::size_t>(options_.hot_star.value_or(Star::one))];
+      n_before_ <= static_cast<std::size_t>(options_.tets.most_error_vertices) ? hooks_.error.get() : nullptr;
+  HotEnergy hot_ = kHotEnergies[static_cast<std::size_t>(options_.star)];
   Draft draft_, best_;
   Clock::time_point start_ = Clock::now();
   // The time limit includes reading and writing. Writing takes about as long as reading took.
@@ -323,7 +297,7 @@ class Run {
 }  // namespace
 
 Expected<OptimizeReport> optimize(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks) {
-  if (auto wrong = wrong_option(options)) return *std::move(wrong);
+  if (auto right = check_together(options, CellKinds::tetrahedra); !right) return right.error();
   if (mesh.n_tetrahedra() == 0) return OptimizeReport{};
   return Run(mesh, options, hooks).run();
 }

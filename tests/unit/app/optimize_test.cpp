@@ -311,7 +311,8 @@ TEST_F(Optimize, TheReportHasWhatWasGivenAndEverySetting) {
   const nlohmann::json report = read_json("r.json"), settings = report["settings"];
   EXPECT_EQ(report["options"], (nlohmann::json{{"effort", "quick"}, {"gamma", "0.25"}}));
   for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) EXPECT_TRUE(settings.contains(row.name)) << row.name;
+    for (const OptionRow& row : group.rows)
+      EXPECT_EQ(settings.contains(row.name), fits(row.cells, CellKinds::triangles)) << row.name;
   }
   const OptimizeOptions quick = *options_for("any", "quick");
   EXPECT_EQ(settings["max_sweeps"], quick.max_sweeps);
@@ -541,11 +542,10 @@ TEST_F(OptimizeTetrahedra, PositionsOrWeightsMayBeKept) {
 TEST_F(OptimizeTetrahedra, OptionsForTrianglesAloneAreRefusedByNameAndNothingIsWritten) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
       {{"--for", "mpas"}, "target 'mpas'"},
-      {{"--boundary", "split", "--effort", "quick"}, "--boundary split inserts vertices"},
       {{"--keep", "sizes"}, "keep 'sizes'"},
       {{"--set", "energy=T"}, "--set energy=T is for triangles alone. Next: leave it out; for tetrahedra there are F"},
       {{"--set", "gamma=1"},
-       "--set gamma=1 is for triangles alone. Next: leave it out; for tetrahedra there are max_sw"},
+       "--set gamma=1 is for triangles alone. Next: leave it out; for tetrahedra there are energy, star, scheme, "},
       {{"--min-edge", "0.5"}, "--min-edge"},
       {{"--write", "t.jsonl"}, "--write t.jsonl"},
       {{"--projection", "sphere"}, "--projection"},
@@ -557,6 +557,9 @@ TEST_F(OptimizeTetrahedra, OptionsForTrianglesAloneAreRefusedByNameAndNothingIsW
     EXPECT_EQ(outcome.exit, 2) << name << outcome.err;
     EXPECT_TRUE(contains(outcome.err, "in.vtu has tetrahedra, and " + name)) << outcome.err;
   }
+  const Outcome both = temper({"optimize", "in.vtu", "-o", "out.vtu", "--boundary", "split", "--effort", "quick"});
+  EXPECT_EQ(both.exit, 2);
+  EXPECT_TRUE(contains(both.err, "--boundary split inserts vertices, which keep=")) << both.err;
   EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.obj"}).exit, 1);  // holds no tetrahedra
   EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.vtu", "--require", "min_angle>=1"}).exit, 2);
   EXPECT_EQ(names(), std::vector<std::string>{"in.vtu"});

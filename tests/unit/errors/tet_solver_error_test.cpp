@@ -52,13 +52,13 @@ TEST(TetSolverError, ARunLowersItAndReturnsTheBestMesh) {
   ASSERT_TRUE(optimize(before));
   TetMesh mesh = before, again = before;
   OptimizeOptions options;
-  options.scheme = Scheme::vertex, options.accuracy_steps = 5;
+  options.scheme = Scheme::vertex, options.tets.accuracy_steps = 5;
   OptimizeHooks hooks;
   hooks.error = make_discretization_error(Scheme::vertex);
   ASSERT_TRUE(optimize(mesh, options, hooks));
   EXPECT_LT(hooks.error->errors(mesh).at(0), 0.95 * hooks.error->errors(before).at(0));
   EXPECT_EQ(quality(mesh).orthocenters_outside, 0U);
-  options.accuracy_steps = 0;
+  options.tets.accuracy_steps = 0;
   hooks.error = make_discretization_error(Scheme::vertex);
   ASSERT_TRUE(optimize(again, options, hooks));
   EXPECT_LE(hooks.error->errors(again).at(0), hooks.error->errors(before).at(0));
@@ -70,7 +70,7 @@ TEST(TetSolverError, NoSchemeReturnsALargerErrorThanThatOfAGoodInput) {
   for (const Scheme scheme : {Scheme::vertex, Scheme::cell}) {
     TetMesh mesh = input;
     OptimizeOptions options;
-    options.scheme = scheme, options.accuracy_steps = 3;
+    options.scheme = scheme, options.tets.accuracy_steps = 3;
     OptimizeHooks hooks;
     hooks.error = make_discretization_error(scheme);
     ASSERT_TRUE(optimize(mesh, options, hooks));

@@ -54,8 +54,8 @@ OptionValue wrong_value(const OptionRow& row) {
 
 TEST(TableOfOptions, HasADefaultInRangeAndRefusesOthersByNameAndRange) {
   const OptimizeOptions defaults;
-  EXPECT_TRUE(check_options(defaults));
-  EXPECT_TRUE(check_options(*options_for("paper")));
+  EXPECT_TRUE(check_options(defaults, CellKinds::triangles));
+  EXPECT_TRUE(check_options(*options_for("paper"), CellKinds::triangles));
   std::set<std::string_view> names;
   for (const OptionGroup& group : option_groups()) {
     for (const OptionRow& row : group.rows) {

@@ -44,7 +44,10 @@ TEST(Presets, EveryCombinationIsValidOrRefused) {
           ++refused;
           continue;
         }
-        EXPECT_TRUE(check_options(*options)) << target.name << " " << effort.name << " " << part.name;
+        for (const CellKinds cells : {CellKinds::triangles, CellKinds::tetrahedra}) {
+          if (!fits(target.cells, cells)) continue;
+          EXPECT_TRUE(check_options(*options, cells)) << target.name << " " << effort.name << " " << part.name;
+        }
         ++valid;
       }
     }

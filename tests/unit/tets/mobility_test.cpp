@@ -75,7 +75,7 @@ class Block {
 
 OptimizeOptions sliding() {
   OptimizeOptions options;
-  options.slide_boundary = options.keep_edges = true;
+  options.boundary = BoundaryVertices::slide, options.flips = Flips::none;
   return options;
 }
 
@@ -131,10 +131,10 @@ TEST(TetMobility, ABentFaceAndUserChoicesFixVertices) {
     EXPECT_EQ(bent[VertexId(number(0, y, z))], Mobility::weight);
   }
   OptimizeOptions options = sliding();
-  options.keep_weights = true;
+  options.unknowns = Unknowns::positions;
   EXPECT_EQ(mobilities(block.mesh(), options)[VertexId(number(1, 1, 1))], Mobility::position);
   EXPECT_EQ(mobilities(block.mesh(), options)[VertexId(number(0, 0, 0))], Mobility::none);
-  options.keep_positions = true, options.keep_weights = false;
+  options.unknowns = Unknowns::weights;
   for (const Mobility& m : mobilities(block.mesh(), options)) EXPECT_EQ(m, Mobility::weight);
 }
 
@@ -196,7 +196,7 @@ TEST(TetMobility, SlidingKeepsVolumePlanesLinesCornersAndTagsOnAnyThread) {
     EXPECT_EQ(mesh.tagged_faces(), input.tagged_faces());
     EXPECT_EQ(mesh.tagged_lines(), input.tagged_lines());
     OptimizeOptions keep = sliding();
-    keep.slide_boundary = false;
+    keep.boundary = BoundaryVertices::keep;
     ASSERT_TRUE(optimize(kept, keep));
     EXPECT_LT(quality(mesh).orthocenters_outside, quality(kept).orthocenters_outside);
     test::StdThreads threads(3);
@@ -225,7 +225,7 @@ TEST(TetMobility, TheFrontOfASlitStays) {
     for (std::int32_t& v : t) v = z > 2 && copy[std::size_t(v)] >= 0 ? copy[std::size_t(v)] : v;
   }
   OptimizeOptions options;
-  options.slide_boundary = true;
+  options.boundary = BoundaryVertices::slide;
   const TetMesh mesh = test::mesh_of(arrays);
   const auto all = mobilities(mesh, options);
   std::size_t front = 0, sides = 0;
@@ -261,8 +261,8 @@ TEST(TetMobility, RepairsAndSweepsForErrorsSlideToo) {
     const TetMesh input = block.mesh();
     TetMesh mesh = input;
     OptimizeOptions options;
-    options.slide_boundary = true;
-    options.scheme = scheme, options.repair_trials = 2, options.accuracy_steps = 2;
+    options.boundary = BoundaryVertices::slide;
+    options.scheme = scheme, options.tets.repair_trials = 2, options.tets.accuracy_steps = 2;
     OptimizeHooks hooks;
     hooks.error = std::make_shared<Pull>();
     const auto report = optimize(mesh, options, hooks);

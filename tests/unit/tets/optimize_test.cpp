@@ -60,9 +60,9 @@ TEST(TetOptimize, AListenerSeesBetterAndBetterMeshesAndLastTheResult) {
   const TetMesh input = test::mesh_of(test::shaken(test::cubes(2, test::kSixTets), 0.3, 0));
   OptimizeOptions all, vertex, hot;
   vertex.scheme = Scheme::vertex;
-  hot.hot_star = temper::Star::one;
+  hot.energy = EnergyKind::F;
   for (OptimizeOptions options : {all, vertex, hot}) {
-    options.accuracy_steps = 3;
+    options.tets.accuracy_steps = 3;
     TetMesh mesh = input, last;
     Origins origins;
     std::vector<std::size_t> bad = {quality(input).orthocenters_outside};
@@ -197,7 +197,7 @@ TEST(TetOptimize, PositionsOrWeightsStayWhenTheyAreKept) {
   const TetMesh input = test::mesh_of(input_arrays());
   TetMesh weighed = input, moved = input;
   OptimizeOptions positions, weights;
-  positions.keep_positions = true, weights.keep_weights = true;
+  positions.unknowns = Unknowns::weights, weights.unknowns = Unknowns::positions;
   ASSERT_TRUE(optimize(weighed, positions));
   ASSERT_TRUE(optimize(moved, weights));
   EXPECT_NE(weighed, input);
@@ -206,7 +206,7 @@ TEST(TetOptimize, PositionsOrWeightsStayWhenTheyAreKept) {
     EXPECT_EQ(weighed.position(v), input.position(v));
     EXPECT_EQ(moved.weight(v), input.weight(v));
   }
-  weights.keep_positions = true;
+  weights.boundary = BoundaryVertices::split;
   EXPECT_FALSE(optimize(moved, weights));
 }
 
@@ -303,7 +303,7 @@ TEST(TetOptimize, VerticesAreInsertedWhereMovesAloneLeaveBadTetrahedra) {
   const TetMesh input = test::mesh_of(test::shaken(test::cubes(2, test::kSixTets), 0.3, 0));
   TetMesh moved = input, changed = input;
   OptimizeOptions keep;
-  keep.keep_edges = true;
+  keep.flips = Flips::none;
   const auto before = optimize(moved, keep), report = optimize(changed);
   ASSERT_TRUE(before && report);
   EXPECT_GT(quality(moved).orthocenters_outside, 0U);
@@ -338,9 +338,9 @@ TEST(TetOptimize, TheBoundaryIsSplitOnRequestAlone) {
   const TetMesh input = test::mesh_of(arrays);
   TetMesh kept = input, split = input;
   OptimizeOptions options;
-  options.repair_trials = 5;
+  options.tets.repair_trials = 5;
   ASSERT_TRUE(optimize(kept, options));
-  options.split_boundary = true;
+  options.boundary = BoundaryVertices::split;
   const auto report = optimize(split, options);
   ASSERT_TRUE(report);
   const Quality before = quality(kept), after = quality(split);
@@ -355,9 +355,9 @@ TEST(TetOptimize, SmallMarginsAreImprovedOnRequest) {
   const TetMesh input = test::mesh_of(test::shaken(test::cubes(2, test::kSixTets), 0.2, 0));
   TetMesh good = input, better = input;
   OptimizeOptions options;
-  options.repair_trials = 8;
+  options.tets.repair_trials = 8;
   ASSERT_TRUE(optimize(good, options));
-  options.small_margin = 0.02;
+  options.tets.small_margin = 0.02;
   ASSERT_TRUE(optimize(better, options));
   EXPECT_EQ(quality(good).orthocenters_outside, 0U);
   EXPECT_EQ(quality(better).orthocenters_outside, 0U);
@@ -376,11 +376,11 @@ TEST(TetOptimize, AHotEnergyFallsWithinTheGoodMeshesOnAnyThread) {
   for (const temper::Star star : {zero, one, two, three}) {
     const HotEnergy& energy = kHotEnergies[static_cast<std::size_t>(star)];
     OptimizeOptions options;
-    options.hot_star = star, options.accuracy_steps = 0;
+    options.energy = EnergyKind::F, options.star = star, options.tets.accuracy_steps = 0;
     TetMesh none = good, mesh = good, again = good;
     const auto without = optimize(none, options);
     ASSERT_TRUE(without);
-    options.accuracy_steps = 2;
+    options.tets.accuracy_steps = 2;
     const auto report = optimize(mesh, options);
     ASSERT_TRUE(report);
     EXPECT_EQ(report->objective_after, hot_energy(mesh, energy));
@@ -398,9 +398,9 @@ TEST(TetOptimize, AHotEnergyFallsWithinTheGoodMeshesOnAnyThread) {
     EXPECT_EQ(twice->objective_after, hot_energy(again, energy));
     EXPECT_EQ(quality(again).orthocenters_outside, 0U);
   }
-  OptimizeOptions wrong;
-  wrong.hot_star = temper::Star::all;
-  EXPECT_FALSE(optimize(good, wrong));
+  EXPECT_FALSE(optimize(good, {.energy = EnergyKind::F, .star = temper::Star::all}));
+  EXPECT_FALSE(optimize(good, {.star = temper::Star::two}));  // without a HOT energy
+  EXPECT_FALSE(optimize(good, {.scheme = Scheme::cell, .energy = EnergyKind::F}));
 }
 
 TEST(TetOptimize, PointsThatListAllVerticesStayFree) {
@@ -431,8 +431,8 @@ TEST(TetOptimize, TheObserverAndTheClockStopARunWithAMeshThatIsNoWorse) {
   late.started = std::chrono::steady_clock::now() - std::chrono::hours(1);
   for (const auto& [hooks, options, stopped] :
        {std::tuple{canceled, OptimizeOptions{}, Stopped::canceled},
-        std::tuple{late, OptimizeOptions{1000, 60}, Stopped::time_limit},
-        std::tuple{OptimizeHooks{}, OptimizeOptions{2, 0}, Stopped::max_sweeps}}) {
+        std::tuple{late, OptimizeOptions{.time_limit = 60}, Stopped::time_limit},
+        std::tuple{OptimizeHooks{}, OptimizeOptions{.max_sweeps = 2}, Stopped::max_sweeps}}) {
     TetMesh mesh = input;
     const auto report = optimize(mesh, options, hooks);
     ASSERT_TRUE(report);
@@ -446,14 +446,14 @@ TEST(TetOptimize, TheObserverAndTheClockStopARunWithAMeshThatIsNoWorse) {
   const std::size_t at_first = quality(worse).orthocenters_outside;
   for (int sweeps = 1; sweeps < 3; ++sweeps) {
     TetMesh mesh = worse;
-    const auto report = optimize(mesh, {sweeps, 0});
+    const auto report = optimize(mesh, {.max_sweeps = sweeps});
     ASSERT_TRUE(report);
     EXPECT_GT(report->history.back().bad, at_first);
     EXPECT_EQ(mesh, worse);
   }
   TetMesh mesh = input;
-  EXPECT_FALSE(optimize(mesh, {-1, 0}));
-  EXPECT_FALSE(optimize(mesh, {1, -1}));
+  EXPECT_FALSE(optimize(mesh, {.max_sweeps = -1}));
+  EXPECT_FALSE(optimize(mesh, {.time_limit = -1}));
   EXPECT_EQ(mesh, input);
 }
 

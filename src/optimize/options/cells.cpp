@@ -1,0 +1,92 @@
+// Options, words and values that are for meshes of triangles or of tetrahedra alone.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "temper/detail/optimize_table.hpp"
+#include "temper/detail/suggest.hpp"
+
+namespace temper {
+namespace {
+
+using Names = std::vector<std::string_view>;
+
+/// Refuses what is for other cells; `instead` lists what these cells have.
+InputError for_others(const std::string& what, CellKinds cells, const std::string& instead) {
+  const CellKinds others = cells == CellKinds::triangles ? CellKinds::tetrahedra : CellKinds::triangles;
+  return {ErrorCode::invalid_option,
+          {},
+          what + " is for " + std::string(name(others)) + " alone. Next: leave it out; for " +
+              std::string(name(cells)) + " there are " + instead};
+}
+
+/// Refuses a word that is for other cells. Other words are checked elsewhere.
+Expected<void> check_word(const std::string& what, std::span<const Preset> presets, std::string_view word,
+                          CellKinds cells) {
+  const auto preset = std::ranges::find(presets, word, &Preset::name);
+  if (preset == presets.end() || fits(preset->cells, cells)) return {};
+  Names names;
+  for (const Preset& each : presets) {
+    if (fits(each.cells, cells)) names.push_back(each.name);
+  }
+  return for_others(what + " '" + std::string(word) + "'", cells, join(names));
+}
+
+std::string with_value(const OptionRow& row, const OptimizeOptions& options) {
+  return "`" + std::string(row.name) + "=" + option_text(row, row.get(options)) + "`";
+}
+
+/// Refuses a choice that is for other cells.
+Expected<void> check_choice(const OptionRow& row, const OptimizeOptions& options, CellKinds cells) {
+  std::string_view names = cells == CellKinds::triangles ? row.for_triangles : row.for_tetrahedra;
+  Names allowed;
+  for (; !names.empty(); names.remove_prefix(std::min(names.size(), allowed.back().size() + 1)))
+    allowed.push_back(names.substr(0, names.find('|')));
+  if (allowed.empty() || std::ranges::find(allowed, option_text(row, row.get(options))) != allowed.end()) return {};
+  return for_others(with_value(row, options), cells, join(allowed));
+}
+
+/// Calls `use` with each row of the table.
+template <class Use>
+void for_each_row(const Use& use) {
+  for (const OptionGroup& group : option_groups()) {
+    for (const OptionRow& row : group.rows) use(row);
+  }
+}
+
+/// The options for these cells, in back quotes, without the paper's switches.
+std::string rows_for(CellKinds cells) {
+  Names names;
+  for_each_row([&](const OptionRow& row) {
+    if (fits(row.cells, cells) && !row.research) names.push_back(row.name);
+  });
+  return "`" + join(names, "`, `") + "`";
+}
+
+}  // namespace
+
+Expected<void> check_options(const OptimizeOptions& options, CellKinds cells) {
+  Expected<void> all;
+  for_each_row([&](const OptionRow& row) {
+    if (all && fits(row.cells, cells)) all = check_option(row, row.get(options));
+    if (all && fits(row.cells, cells)) all = check_choice(row, options, cells);
+  });
+  return all;
+}
+
+Expected<void> check_cells(const OptimizeOptions& options, const GivenNames& given, CellKinds cells) {
+  if (auto right = check_word("target", targets(), given.target, cells); !right) return right;
+  for (const std::string_view part : given.keep) {
+    if (auto right = check_word("keep", keeps(), part, cells); !right) return right;
+  }
+  for (const std::string_view name : given.options) {
+    const OptionRow& row = *find_option(name);
+    if (!fits(row.cells, cells) && row.get(options) != row.get({}))
+      return for_others(with_value(row, options), cells, rows_for(cells));
+    if (!fits(row.cells, cells)) continue;
+    if (auto right = check_choice(row, options, cells); !right) return right;
+  }
+  return {};
+}
+
+}  // namespace temper
