@@ -8,9 +8,9 @@
 #include <iterator>
 
 #include "io/conversion/bed.hpp"
-#include "io/conversion/data_update.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/conversion/quadrilaterals.hpp"
+#include "io/conversion/update.hpp"
 #include "io/disk/files.hpp"
 #include "io/formats/format.hpp"
 #include "io/text/names.hpp"
@@ -53,9 +53,9 @@ constexpr FormatRow kRows[] = {
     {"gmsh22", "Gmsh MSH 2.2", ".msh2", (kAll & ~kFieldData) | kSphere | kQuadrilaterals | kTetrahedra,
      sniff_gmsh22, read_gmsh, write_gmsh22, {.name_ends = "\""}},
     {"medit", "medit (INRIA, Mmg)", ".mesh", kInSpace | kAllTags | kTetrahedra,
-     sniff_medit, read_medit, write_medit, {.keeps = medit_keeps}},
+     sniff_medit, read_medit, write_medit, {.keeps = medit_keeps, .traits = {.marks_boundary = true}}},
     {"jigsaw", "JIGSAW mesh", ".jigsaw.msh", kInSpace | kWeights | kAllTags,
-     sniff_jigsaw, read_jigsaw_mesh, write_jigsaw_mesh, {.keeps = jigsaw_keeps}},
+     sniff_jigsaw, read_jigsaw_mesh, write_jigsaw_mesh, {.keeps = jigsaw_keeps, .may_be_outline = true}},
     {"ply", "PLY", ".ply", (kAll & ~(kMarkedPointData | kFieldData)) | kSphere,
      sniff_ply, read_ply, write_ply},
     {"off", "OFF", ".off", kInSpace,
@@ -82,21 +82,22 @@ constexpr FormatRow kRows[] = {
     {"fesom", "FESOM nod2d.out and elem2d.out", ".nod2d.out .elem2d.out nod2d.out elem2d.out", kSphere,
      sniff_fesom, read_fesom, write_fesom,
      {.keeps = fesom_keeps, .files_to_write = fesom_files, .files_to_read = fesom_files, .degrees = Degrees::always,
-      .bed = Bed::depth}},
+      .bed = Bed::depth, .traits = {.may_join_ends = true}}},
     {"triangle", "Triangle", ".node .ele",
      (kAll & ~(kLineData | kMarkedPointData | kFieldData)) | kTetrahedra,
      sniff_triangle, read_triangle, write_triangle,
-     {.files_to_write = triangle_files, .files_to_read = triangle_files_to_read}},
+     {.files_to_write = triangle_files, .files_to_read = triangle_files_to_read,
+      .traits = {.marks_boundary = true}}},
     // This row is before the rows of NetCDF, which may be HDF5: it hands files of other contents on to them.
     {"vtkhdf", "VTKHDF unstructured grid (HDF5)", ".vtkhdf .hdf .hdf5",
      kAll | kSphere | kPeriod | kQuadrilaterals | kTetrahedra,
      sniff_vtkhdf, read_vtkhdf, write_vtkhdf, {.files_to_write = vtkhdf_files}},
     {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll | kSphere | kPeriod,
-     sniff_mpas, read_mpas, write_mpas, {.files_to_write = netcdf_files, .degrees = Degrees::by_writer}},
+     sniff_mpas, read_mpas, write_mpas, {.files_to_write = netcdf_files, .degrees = Degrees::by_writer, .traits = {.keeps_bed_names = true}}},
     {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll | kSphere | kQuadrilaterals,
      sniff_ugrid, read_ugrid, write_ugrid,
      {.files_to_write = netcdf_files, .degrees = Degrees::by_writer, .bed = Bed::level,
-      .joins_halves = true}},
+      .joins_halves = true, .traits = {.keeps_bed_names = true}}},
     {"ncgrid", "grid of CF or COARDS (NetCDF)", ".nc .grd", 0,
      sniff_ugrid, read_ugrid},
     // clang-format on
@@ -272,6 +273,14 @@ const FormatRow* find_row(std::string_view name) {
       std::find_if(std::begin(kRows), std::end(kRows), [&](const FormatRow& each) { return each.name == name; });
   return row == std::end(kRows) ? nullptr : row;
 }
+
+const FormatDetails& details_of(const MeshFile& file) {
+  static constexpr FormatDetails kNone;
+  const FormatRow* const row = find_row(file.format);
+  return row == nullptr ? kNone : row->details;
+}
+
+const FormatTraits& traits_of(const MeshFile& file) { return details_of(file).traits; }
 
 Expected<MeshFile> read(const std::string& path, const ReadOptions& options) {
   return guarded<MeshFile>(path, [&] {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kDimensionTag = 10, kVariableTag = 11, kAttributeTag = 12;
 constexpr std::array<std::uint64_t, 12> kTypeBytes = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};  // nc_type counts from 1
-constexpr std::size_t kClassicTypes = 6, kTypes = 11;
+constexpr std::size_t kClassicTypes = 6, kAllTypes = 11;
 
 class ClassicHeader {
  public:
@@ -80,7 +80,7 @@ class ClassicHeader {
 
   std::uint64_t type_bytes() {
     const std::uint64_t type = big_endian(4);
-    if (type < 1 || type > (large_ ? kTypes : kClassicTypes)) refuse(text("has a type ", type));
+    if (type < 1 || type > (large_ ? kAllTypes : kClassicTypes)) refuse(text("has a type ", type));
     return kTypeBytes[static_cast<std::size_t>(type)];
   }
 

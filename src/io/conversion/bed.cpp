@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "io/conversion/format_traits.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/text/values.hpp"
 
@@ -61,8 +62,8 @@ bool needs_turned_bed(Bed bed, const MeshFile& file) {
   if (bed == Bed::depth) return a.name != kDepth || is_level(file, a);
   const auto is_free = [&](std::string_view name) { return a.name == name || find(file.point_data, name) == nullptr; };
   if (bed == Bed::z) return !file.z_is_data && is_free(kHeight);
-  const bool is_of_netcdf = file.format == "ugrid" || file.format == "mpas" || netcdf_attribute(file, a.name, "units");
-  return (a.name == kHeight || a.name == kDepth) && !is_of_netcdf && is_free(kBedLevel);
+  const bool keeps_name = traits_of(file).keeps_bed_names || netcdf_attribute(file, a.name, "units");
+  return (a.name == kHeight || a.name == kDepth) && !keeps_name && is_free(kBedLevel);
 }
 
 std::optional<DataArray> depths_of(const MeshFile& file) {

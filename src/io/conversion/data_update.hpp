@@ -1,7 +1,8 @@
-// The parts of a file that follow a changed mesh: data of points and triangles, and lines.
+// Data of points and cells that follow a changed mesh: once for triangles and tetrahedra.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -13,27 +14,20 @@
 #include <variant>
 #include <vector>
 
+#include "io/conversion/follow.hpp"
+#include "io/conversion/quadrilaterals.hpp"
 #include "io/text/values.hpp"
 #include "temper/detail/location.hpp"
 #include "temper/io.hpp"
 
 namespace temper::io {
 
-/// Says whether some weight is not 0. A mesh without weights is a file without them, for which some programs have no
-/// place (DEVSIM).
-[[nodiscard]] bool is_weighted(const MeshFile& file);
-void drop_zero_weights(MeshFile& file);
-
 /// The former point of each vertex in a file, invalid for a new vertex; empty: equal numbers.
 using Former = IdVector<VertexId, VertexId>;
 
-/// Data of the file for the vertices and triangles of the mesh: see update(). Reads the former points, triangles and
-/// regions, which the file still has.
-DataReport update_data(MeshFile& file, const Mesh& mesh, const Former& former, const UpdateOptions& options);
-
-/// Flags of medit mark special points of the user's: a new point has none.
+/// Says whether an array flags special points of the user's: a new point has none.
 [[nodiscard]] bool is_flag(const DataArray& a);
-/// The points that medit calls required: they must not move.
+/// The points that a file calls required: they must not move.
 [[nodiscard]] std::vector<std::int32_t> required_points(const std::vector<DataArray>& point_data);
 
 /// Linear between the corners that have a value (not NaN), if these have at least half of the shares; else NaN. So a
@@ -71,40 +65,112 @@ std::optional<T> value_at(const std::vector<T>& values, std::size_t n, std::size
   }
 }
 
-/// Elements by indices that may repeat.
-template <class T>
-std::vector<T> at(const std::vector<T>& values, const std::vector<std::size_t>& indices) {
-  std::vector<T> result;
-  result.reserve(indices.size());
-  for (const std::size_t i : indices) result.push_back(values[i]);
-  return result;
-}
-/// Rows of data by indices that may repeat.
-void take_rows(std::vector<DataArray>& arrays, const std::vector<std::size_t>& indices);
-
 /// The warning that names data which are dropped; nothing if there are none.
 [[nodiscard]] std::optional<std::string> warning_of_dropped(const std::vector<std::string>& names,
                                                             std::string_view why);
 
-/// Takes the point data of a file to the vertices of a mesh, and names each array in the report. Integers that differ
-/// around a new vertex are dropped, with a warning. `former(v)`: the point of v, invalid for a new vertex. `places`: of
-/// the vertices among the former elements; empty if no array is interpolated and no vertex is new.
-template <class File, class M, class FormerOf, class Place>
-void update_point_data(File& file, const M& mesh, const DataRules& rules, const FormerOf& former,
-                       const IdVector<VertexId, Place>& places, DataReport& report) {
-  const auto at_vertices = [&](const DataArray& a) {
-    const bool stays = rules.of(a) == DataRule::keep || places.empty();
+/// Takes the data of a file from its former mesh to a new one, and reports it. A Change tells about the two:
+///   - its type Place, and the constant `dimension` of the cells
+///   - mesh(): the new mesh
+///   - former_corners(i): the points of cell i in the file, nothing if the file has fewer cells
+///   - moved(v, was): the distance of a vertex from its place in the file; nothing if it has not moved
+///   - find(former, of_points, of_cells): the places of the vertices and the sources of the cells in the former mesh,
+///   as
+///     far as they are wanted
+template <class Change>
+class DataUpdater {
+ public:
+  DataUpdater(MeshFile& file, const Change& change, const Former& former, const UpdateOptions& options)
+      : file_(file),
+        cells_(std::get<Change::dimension>(file.cells())),
+        change_(change),
+        former_(former),
+        options_(options) {}
+
+  DataReport update() {
+    if (file_.point_data.empty() && cells_.data.empty()) return {};
+    measure();
+    const bool of_cells = report_.triangles_changed > 0 && !cells_.data.empty();
+    if (const bool of_points = must_move(); of_points || of_cells) {
+      auto found = change_.find(former_, of_points, of_cells);
+      if (!found) {
+        drop_all(found.error().what());
+        return std::move(report_);
+      }
+      places_ = std::move(found->places);
+      if (of_cells) take_rows(cells_.data, found->sources);
+    }
+    update_point_data();
+    for (const DataArray& a : cells_.data) {
+      if (a.name != kQuadrilateral) report_.of_triangles.push_back(a.name);
+    }
+    return std::move(report_);
+  }
+
+ private:
+  [[nodiscard]] const auto& mesh() const { return change_.mesh(); }
+  [[nodiscard]] VertexId former(VertexId v) const { return former_.empty() ? v : former_[v]; }
+  void measure() {
+    std::vector<double> distances;
+    for (const VertexId v : mesh().vertices()) {
+      const VertexId was = former(v);
+      ++(was.valid() ? report_.points : report_.points_inserted);
+      const auto distance = was.valid() ? change_.moved(v, was) : std::nullopt;
+      if (distance) distances.push_back(*distance);
+    }
+    report_.points_moved = distances.size();
+    report_.distance = spread(std::move(distances));
+    report_.triangles = n_cells(mesh());
+    for (const auto id : ids_of_cells(mesh())) report_.triangles_changed += is_same(id) ? 0 : 1;
+  }
+  /// Says whether a cell has the same corners as in the file, at the same places.
+  template <class Id>
+  [[nodiscard]] bool is_same(Id id) const {
+    auto before = change_.former_corners(id.index);
+    if (!before) return false;
+    auto now = *before;
+    for (std::size_t k = 0; k < now.size(); ++k) {
+      const VertexId v = mesh().corners(id)[k], was = former(v);
+      if (!was.valid() || change_.moved(v, was)) return false;
+      now[k] = static_cast<std::int32_t>(was.index);
+    }
+    std::ranges::sort(*before);  // some were reversed
+    std::ranges::sort(now);
+    return *before == now;
+  }
+  /// Says whether data of points change their values.
+  [[nodiscard]] bool must_move() const {
+    return report_.points_inserted > 0 ||
+           (report_.points_moved > 0 && std::ranges::any_of(file_.point_data, [this](const DataArray& a) {
+              return options_.rules.of(a) == DataRule::interpolate;
+            }));
+  }
+  /// Names each array in the report. Integers that differ around a new vertex are dropped, with a warning.
+  void update_point_data() {
+    std::vector<DataArray> left;
+    for (DataArray& a : file_.point_data) {
+      const bool follows = options_.rules.of(a) == DataRule::interpolate;
+      std::optional<Values> values = at_vertices(a);
+      (!values ? report_.dropped : follows ? report_.interpolated : report_.kept).push_back(a.name);
+      if (values) left.push_back({std::move(a.name), a.components, *std::move(values)});
+    }
+    file_.point_data = std::move(left);
+    if (auto warning = warning_of_dropped(report_.dropped, "integers differ around a new point"))
+      file_.warnings.push_back(*std::move(warning));
+  }
+  [[nodiscard]] std::optional<Values> at_vertices(const DataArray& a) const {
+    const bool stays = options_.rules.of(a) == DataRule::keep || places_.empty();
     const auto n = static_cast<std::size_t>(a.components);
     return std::visit(
         [&](const auto& values) -> std::optional<Values> {
           std::remove_cvref_t<decltype(values)> result;
-          result.reserve(mesh.n_vertices() * n);
-          for (const VertexId v : mesh.vertices()) {
+          result.reserve(mesh().n_vertices() * n);
+          for (const VertexId v : mesh().vertices()) {
             const VertexId was = former(v);
             for (std::size_t i = 0; i < n; ++i) {
               const auto value = stays && was.valid() ? std::optional(values[n * was.index + i])
                                  : is_flag(a)         ? std::optional(ElementOf<decltype(values)>())
-                                                      : value_at(values, n, i, places[v]);
+                                                      : value_at(values, n, i, places_[v]);
               if (!value) return {};
               result.push_back(*value);
             }
@@ -112,55 +178,22 @@ void update_point_data(File& file, const M& mesh, const DataRules& rules, const 
           return result;
         },
         a.values);
-  };
-  std::vector<DataArray> left;
-  for (DataArray& a : file.point_data) {
-    const bool follows = rules.of(a) == DataRule::interpolate;
-    std::optional<Values> values = at_vertices(a);
-    (!values ? report.dropped : follows ? report.interpolated : report.kept).push_back(a.name);
-    if (values) left.push_back({std::move(a.name), a.components, *std::move(values)});
   }
-  file.point_data = std::move(left);
-  if (auto warning = warning_of_dropped(report.dropped, "integers differ around a new point"))
-    file.warnings.push_back(*std::move(warning));
-}
+  void drop_all(const std::string& why) {
+    for (auto* arrays : {&file_.point_data, &cells_.data}) {
+      for (const DataArray& a : *arrays) report_.dropped.push_back(a.name);
+      arrays->clear();
+    }
+    if (auto warning = warning_of_dropped(report_.dropped, why)) file_.warnings.push_back(*std::move(warning));
+  }
 
-/// Cuts the lines of the file at vertices that the mesh has inserted on them (`vertices` invalid). The lines have the
-/// numbers of the mesh. In files with a marker for every boundary point (Triangle, medit), a new boundary point gets
-/// the marker of its neighbors if both have the same.
-void split_lines(MeshFile& file, const Mesh& mesh, const IdVector<VertexId, VertexId>& vertices);
-
-// Lines that list the edges of a mesh, and no features of it.
-//
-// Some programs (Fluidity, whose meshes come from Triangle's edges) write each edge of a mesh as a line of tag 0. If
-// these were constraints, nothing could flip. So if all inner edges are lines of one tag, these constrain nothing. The
-// file that is written again has such a line for each inner edge.
-
-/// Lines on all inner edges of a mesh, of one tag.
-struct EdgeLines {
-  std::vector<bool> lines;  ///< as LoadedMesh::edge_lines
-  std::int32_t tag = 0;
-  std::size_t n_inner_edges = 0;  ///< of the mesh
-};
-/// The edge lines of a file. Nothing if not all inner edges are lines of one tag, or there is only one. `edges` has the
-/// edge of each line, invalid if it has none. O(n).
-[[nodiscard]] std::optional<EdgeLines> find_edge_lines(const MeshFile& file, const VertexOfPoint& vertex_of_point,
-                                                       const Mesh& mesh, const std::vector<HalfedgeId>& edges);
-
-/// Puts the edges that flips have made into the place of the edges that are gone. The vertices of the lines stay, and
-/// edge_lines stays right. O(n log n).
-void replace_edge_lines(MeshFile& file, const std::vector<bool>& edge_lines, const Mesh& mesh);
-
-/// For meshes with other vertices: takes the lines out before the rest of the file follows. Afterwards it puts them
-/// behind all other lines, one for each inner edge.
-class EdgeLinesTakenOut {
- public:
-  EdgeLinesTakenOut(MeshFile& file, const std::vector<bool>& edge_lines);
-  void put_back(MeshFile& file, const Mesh& mesh) const;
-
- private:
-  std::int32_t tag_ = 0;
-  std::vector<Values> rows_;  // of each array of line data
+  MeshFile& file_;
+  Cells<Change::dimension>& cells_;
+  const Change& change_;
+  const Former& former_;
+  const UpdateOptions& options_;
+  IdVector<VertexId, typename Change::Place> places_;  // in the former mesh; empty: not needed
+  DataReport report_;
 };
 
 }  // namespace temper::io

@@ -1,9 +1,10 @@
+#include "io/conversion/edge_lines.hpp"
+
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <utility>
 
-#include "io/conversion/data_update.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/file_names.hpp"

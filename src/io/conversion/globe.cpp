@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <unordered_map>
 
+#include "io/conversion/kept_points.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/values.hpp"
 #include "temper/detail/read_number.hpp"
@@ -222,7 +223,7 @@ void set_sphere(MeshFile& file, double radius, std::vector<Vec3> points) {
 void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& names) {
   expect_finite(points, names);
   const std::vector<bool> used =
-      file.triangles.empty() ? std::vector<bool>(points.size(), true) : points_of_triangles(file, points.size());
+      file.triangles.empty() ? std::vector<bool>(points.size(), true) : corners_among(points.size(), file.triangles);
   const bool whole = std::find(used.begin(), used.end(), false) == used.end();
   const std::vector<Vec3> some = whole ? std::vector<Vec3>() : kept(points, used);
   const std::vector<Vec3>& all = whole ? points : some;
@@ -295,16 +296,6 @@ Space MeshFile::space() const {
 }
 
 bool is_flat(const MeshFile& file) { return file.sphere() == nullptr && file.z() == 0 && !std::signbit(file.z()); }
-
-std::vector<bool> points_of_triangles(const MeshFile& file, std::size_t n) {
-  std::vector<bool> used(n, false);
-  for (const auto& triangle : file.triangles) {
-    for (const std::int32_t p : triangle) {
-      if (p >= 0 && static_cast<std::size_t>(p) < n) used[static_cast<std::size_t>(p)] = true;
-    }
-  }
-  return used;
-}
 
 namespace {
 

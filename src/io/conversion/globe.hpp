@@ -59,9 +59,6 @@ inline constexpr int kZAxis = 2;
 /// Says whether points are in the plane z = 0.
 [[nodiscard]] bool is_flat(const MeshFile& file);
 
-/// For each of the first n points: is it the corner of a triangle?
-[[nodiscard]] std::vector<bool> points_of_triangles(const MeshFile& file, std::size_t n);
-
 /// Guesses whether points are degrees, if nothing says it or that they are lengths. They are if they fit longitude and
 /// latitude. Points around the origin, or from it to the upper right, are local coordinates of a plane, unless a depth
 /// or height is more than their extent. Models of shallow water make no sense there.

@@ -2,7 +2,7 @@
 //
 // Points of no triangle are left out of the mesh. Tagged lines inside the domain become constrained edges, unless they
 // list all edges of the mesh. Marked points are fixed, unless they list vertices. Points of fixed tags are fixed, too,
-// and points that medit calls required.
+// and points that the file calls required.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -10,10 +10,12 @@
 #include <optional>
 #include <utility>
 
-#include "io/conversion/adcirc.hpp"
 #include "io/conversion/data_update.hpp"
+#include "io/conversion/edge_lines.hpp"
+#include "io/conversion/format_traits.hpp"
 #include "io/conversion/globe.hpp"
-#include "io/conversion/gmsh.hpp"
+#include "io/conversion/kept_points.hpp"
+#include "io/conversion/known_arrays.hpp"
 #include "io/conversion/quadrilaterals.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/file_names.hpp"
@@ -64,28 +66,18 @@ std::string cyclic_in_longitude(const MeshFile& file) {
               "periodic plane, of MPAS, VTU or VTKHDF files");
 }
 
-/// The error that a mesh of the file was refused with, in words of its format if the cause is known: meshes of FESOM
-/// that are cyclic in longitude.
+/// The error that a mesh of the file was refused with, and its cause if the format tells: a mesh that is cyclic in
+/// longitude.
 InputError with_known_cause(InputError error, const MeshFile& file) {
-  if (file.format == "fesom" && numbers_are_right(file)) error.message += cyclic_in_longitude(file);
+  if (traits_of(file).may_join_ends && numbers_are_right(file)) error.message += cyclic_in_longitude(file);
   return error;
 }
 
-/// The names of the points and triangles that are left.
-class KeptNames final : public InputNames {
+class KeptTriangleNames final : public KeptNames<InputNames> {
  public:
-  KeptNames(const InputNames& all, std::vector<std::int32_t> points) : all_(all), points_(std::move(points)) {}
-  [[nodiscard]] std::string point(std::size_t i) const override { return all_.point(kept(i)); }
-  [[nodiscard]] std::string triangle(std::size_t i) const override { return all_.triangle(i); }
-  [[nodiscard]] std::string point_where(std::size_t i) const override { return all_.point_where(kept(i)); }
-  [[nodiscard]] std::string triangle_where(std::size_t i) const override { return all_.triangle_where(i); }
-
- private:
-  [[nodiscard]] std::size_t kept(std::size_t i) const {
-    return points_.empty() || i >= points_.size() ? i : static_cast<std::size_t>(points_[i]);
-  }
-  const InputNames& all_;
-  std::vector<std::int32_t> points_;  // empty: all
+  using KeptNames::KeptNames;
+  [[nodiscard]] std::string triangle(std::size_t i) const override { return all().triangle(i); }
+  [[nodiscard]] std::string triangle_where(std::size_t i) const override { return all().triangle_where(i); }
 };
 
 /// A tag, as a user writes it: its number or its physical name.
@@ -178,16 +170,8 @@ class MeshMaker {
 
  private:
   void number_vertices() {
-    const std::vector<bool> used = points_of_triangles(file_, file_.points.size());
-    loaded_.vertex_of_point = VertexOfPoint(used);
-    if (whole()) return;
-    std::vector<std::string> dropped;
-    for (std::size_t p = 0; p < used.size() && dropped.size() < kNamed; ++p) {
-      if (!used[p]) dropped.push_back(names().point(p));
-    }
-    const std::size_t n_dropped = used.size() - loaded_.vertex_of_point.n_kept();
-    warn(listed(n_dropped, n_dropped == 1 ? "point of no triangle is dropped" : "points of no triangle are dropped",
-                dropped));
+    loaded_.vertex_of_point = VertexOfPoint(corners_among(file_.points.size(), file_.triangles));
+    if (auto warning = warning_of_unused(loaded_.vertex_of_point, names(), "triangle")) warn(*std::move(warning));
   }
   void warn(std::string message) {
     loaded_.warnings.push_back(file_.path.empty() ? std::move(message) : text(file_.path, ": ", message));
@@ -214,7 +198,7 @@ class MeshMaker {
     for (std::int32_t& p : fixed) p = loaded_.vertex_of_point[static_cast<std::size_t>(p)];
     return fixed;
   }
-  /// Says of each triangle whether it is of one of these regions, or groups of Gmsh. Empty: none is.
+  /// Says of each triangle whether it is of one of these regions, or groups. Empty: none is.
   [[nodiscard]] std::vector<bool> triangles_of(const std::vector<std::int32_t>& tags) const {
     std::vector<bool> inside(tags.empty() ? 0 : file_.triangles.size());
     const auto add = [&](const std::vector<std::int32_t>& of_triangles, const auto& is_wanted) {
@@ -226,7 +210,7 @@ class MeshMaker {
     for (const DataArray& array : file_.triangles.data) {
       const std::optional<std::int32_t> group = further_group(array);
       const bool is_wanted_group = group && contains(tags, *group);
-      if (tags.empty() || (!is_wanted_group && array.name != kGmshFirstGroup)) continue;
+      if (tags.empty() || (!is_wanted_group && array.name != kFirstGroup)) continue;
       const auto values = to_int32(array.values);
       if (!values || array.components != 1) continue;
       is_wanted_group ? add(*values, [](std::int32_t value) { return value != 0; }) : add(*values, is_of_tags);
@@ -235,46 +219,28 @@ class MeshMaker {
   }
   // The file's own arrays when every point is used; else copies without the others.
   Expected<BuiltMesh> build(const std::vector<std::int32_t>& fixed) const {
+    const auto& vertex = loaded_.vertex_of_point;
+    const KeptTriangleNames kept_names(names(), vertex);
     MeshInput input;
     input.regions = file_.triangles.tags;
     input.fixed_vertices = fixed;
     input.executor = executor_;
     input.space = file_.space();
-    if (whole()) {
-      const KeptNames kept(names(), {});
-      input.points = file_.points;
-      input.sphere_points = sphere_places(file_);
-      input.weights = file_.weights;
-      input.triangles = file_.triangles;
-      input.names = &kept;
-      return Mesh::build(input);
-    }
-    const auto& vertex = loaded_.vertex_of_point;
-    std::vector<Vec2> points;
-    std::vector<Vec3> sphere_points;
-    std::vector<double> weights;
-    std::vector<std::int32_t> old;
-    for (std::size_t p = 0; p < vertex.size(); ++p) {
-      if (vertex[p] < 0) continue;
-      points.push_back(file_.points[p]);
-      if (file_.sphere() != nullptr) sphere_points.push_back(file_.sphere()->places[p]);
-      if (!file_.weights.empty()) weights.push_back(file_.weights[p]);
-      old.push_back(static_cast<std::int32_t>(p));
-    }
-    auto triangles = file_.triangles;
-    for (auto& triangle : triangles) {
-      for (std::int32_t& p : triangle) {
-        // Numbers out of range stay, for Mesh::build to refuse.
-        p = p >= 0 && static_cast<std::size_t>(p) < vertex.size() ? vertex[static_cast<std::size_t>(p)]
-                                                                  : std::int32_t{-1};
-      }
-    }
-    const KeptNames kept(names(), std::move(old));
+    input.names = &kept_names;
+    input.points = file_.points;
+    input.sphere_points = sphere_places(file_);
+    input.weights = file_.weights;
+    input.triangles = file_.triangles;
+    if (whole()) return Mesh::build(input);
+    const std::vector<Vec2> points = kept(file_.points, vertex);
+    const std::vector<Vec3> places =
+        file_.sphere() != nullptr ? kept(file_.sphere()->places, vertex) : std::vector<Vec3>();
+    const std::vector<double> weights = kept(file_.weights, vertex);
+    const auto triangles = renumbered(file_.triangles.corners, vertex);
     input.points = points;
-    input.sphere_points = sphere_points;
+    input.sphere_points = places;
     input.weights = weights;
     input.triangles = triangles;
-    input.names = &kept;
     return Mesh::build(input);
   }
   // Finds the edges of all lines together. At a vertex with very many lines, one search per line would take the square
@@ -379,7 +345,7 @@ class MeshMaker {
   ///   - tags of vertices of the boundary, if all of these are marked (Triangle)
   ///   - tags of lines that pass through one of their points, unless they have a name for points
   ///
-  /// A tag of 0 is none. Pairs of nodes across ADCIRC's levees stay opposite: they are fixed.
+  /// A tag of 0 is none. Pairs across levees stay opposite: they are fixed.
   void fix_marked_points() {
     Mesh& mesh = loaded_.mesh;
     IdVector<VertexId, std::uint8_t> marked(mesh.n_vertices());
@@ -406,7 +372,7 @@ class MeshMaker {
       if (n.dimension == 0) named.push_back(n.tag);
     }
     std::vector<std::int32_t> paired;
-    if (const DataArray* const side = find(file_.marked_points.data, kAdcircSide)) {
+    if (const DataArray* const side = find(file_.marked_points.data, kPairSide)) {
       const std::vector<double> sides = to_doubles(Values(side->values));
       for (std::size_t i = 0; i < std::min(sides.size(), file_.marked_points.tags.size()); ++i) {
         if (sides[i] == 1 && !contains(paired, file_.marked_points.tags[i]))

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/conversion/data_update.hpp"
+#include "io/conversion/kept_points.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/names.hpp"
 #include "temper/io.hpp"
@@ -13,24 +14,11 @@
 namespace temper::io {
 namespace {
 
-/// The names of the points that are left.
-class NamesOfKept final : public tets::InputNames {
+class KeptTetNames final : public KeptNames<tets::InputNames> {
  public:
-  NamesOfKept(const tets::InputNames& all, const VertexOfPoint& vertices) : all_(all) {
-    if (vertices.n_kept() == vertices.size()) return;
-    for (std::size_t p = 0; p < vertices.size(); ++p) {
-      if (vertices[p] >= 0) points_.push_back(p);
-    }
-  }
-  [[nodiscard]] std::string point(std::size_t i) const override { return all_.point(kept(i)); }
-  [[nodiscard]] std::string point_where(std::size_t i) const override { return all_.point_where(kept(i)); }
-  [[nodiscard]] std::string tetrahedron(std::size_t i) const override { return all_.tetrahedron(i); }
-  [[nodiscard]] std::string tetrahedron_where(std::size_t i) const override { return all_.tetrahedron_where(i); }
-
- private:
-  [[nodiscard]] std::size_t kept(std::size_t i) const { return i < points_.size() ? points_[i] : i; }
-  const tets::InputNames& all_;
-  std::vector<std::size_t> points_;  // empty: all
+  using KeptNames::KeptNames;
+  [[nodiscard]] std::string tetrahedron(std::size_t i) const override { return all().tetrahedron(i); }
+  [[nodiscard]] std::string tetrahedron_where(std::size_t i) const override { return all().tetrahedron_where(i); }
 };
 
 class TetMeshMaker {
@@ -39,17 +27,18 @@ class TetMeshMaker {
 
   Expected<LoadedTetMesh> make() {
     number_vertices();
-    const auto tetrahedra = renumbered(file_.tetrahedra.corners);
-    const auto faces = renumbered(file_.triangles.corners);
-    const auto lines = renumbered(file_.lines.corners);
-    const auto [points, weights] = kept_points();
+    const VertexOfPoint& vertex = loaded_.vertex_of_point;
+    const auto tetrahedra = renumbered(file_.tetrahedra.corners, vertex);
+    const auto faces = renumbered(file_.triangles.corners, vertex);
+    const auto lines = renumbered(file_.lines.corners, vertex);
+    const std::vector<Vec3> points = kept_places();
+    const std::vector<double> weights = kept(file_.weights, vertex);
     const auto [marked, tags] = kept_marks();
     std::vector<std::int32_t> fixed;
     for (const std::int32_t p : required_points(file_.point_data)) {
-      if (is_point(p) && loaded_.vertex_of_point[static_cast<std::size_t>(p)] >= 0)
-        fixed.push_back(loaded_.vertex_of_point[static_cast<std::size_t>(p)]);
+      if (is_point(p) && vertex[static_cast<std::size_t>(p)] >= 0) fixed.push_back(vertex[static_cast<std::size_t>(p)]);
     }
-    const NamesOfKept names(names_of_file(), loaded_.vertex_of_point);
+    const KeptTetNames names(names_of_file(), loaded_.vertex_of_point);
     tets::TetMeshInput input;
     input.points = points;
     input.weights = weights;
@@ -108,43 +97,16 @@ class TetMeshMaker {
   }
 
   void number_vertices() {
-    std::vector<bool> used(file_.points.size());
-    for (const auto& corners : file_.tetrahedra) {
-      for (const std::int32_t p : corners) {
-        if (is_point(p)) used[static_cast<std::size_t>(p)] = true;
-      }
-    }
-    loaded_.vertex_of_point = VertexOfPoint(used);
-    std::vector<std::size_t> dropped;
-    for (std::size_t p = 0; p < used.size(); ++p) {
-      if (!used[p]) dropped.push_back(p);
-    }
-    if (dropped.empty()) return;
-    warn_of(dropped,
-            dropped.size() == 1 ? "point of no tetrahedron is dropped" : "points of no tetrahedron are dropped",
-            [&](std::size_t p) { return names_of_file().point(p); });
+    loaded_.vertex_of_point = VertexOfPoint(corners_among(file_.points.size(), file_.tetrahedra));
+    if (auto warning = warning_of_unused(loaded_.vertex_of_point, names_of_file(), "tetrahedron"))
+      warn(*std::move(warning));
   }
-  /// Numbers out of range stay, for TetMesh::build to refuse.
-  template <std::size_t N>
-  [[nodiscard]] std::vector<std::array<std::int32_t, N>> renumbered(
-      std::vector<std::array<std::int32_t, N>> elements) const {
-    const VertexOfPoint& vertex = loaded_.vertex_of_point;
-    if (vertex.n_kept() == vertex.size()) return elements;
-    for (auto& element : elements) {
-      for (std::int32_t& p : element) p = is_point(p) ? vertex[static_cast<std::size_t>(p)] : std::int32_t{-1};
+  [[nodiscard]] std::vector<Vec3> kept_places() const {
+    std::vector<Vec3> places;
+    for (std::size_t p = 0; p < file_.points.size(); ++p) {
+      if (loaded_.vertex_of_point[p] >= 0) places.push_back(file_.place(p));
     }
-    return elements;
-  }
-  [[nodiscard]] std::pair<std::vector<Vec3>, std::vector<double>> kept_points() const {
-    const VertexOfPoint& vertex = loaded_.vertex_of_point;
-    std::vector<Vec3> points;
-    std::vector<double> weights;
-    for (std::size_t p = 0; p < vertex.size(); ++p) {
-      if (vertex[p] < 0) continue;
-      points.push_back(file_.place(p));
-      if (p < file_.weights.size()) weights.push_back(file_.weights[p]);
-    }
-    return {std::move(points), std::move(weights)};
+    return places;
   }
   [[nodiscard]] std::pair<std::vector<std::int32_t>, std::vector<std::int32_t>> kept_marks() const {
     std::vector<std::int32_t> marked, tags;

@@ -19,9 +19,9 @@
 #include <map>
 #include <utility>
 
-#include "io/conversion/adcirc.hpp"
 #include "io/conversion/bed.hpp"
 #include "io/conversion/globe.hpp"
+#include "io/formats/adcirc.hpp"
 #include "io/formats/format.hpp"
 #include "io/text/scanner.hpp"
 #include "io/text/values.hpp"
@@ -96,7 +96,7 @@ class AdcircReader {
                                 " no type, which SCHISM reads none of: read as type 0"));
     }
     if (!sides_.empty()) {
-      f.marked_points.data.push_back({std::string(kAdcircSide), 1, std::move(sides_)});
+      f.marked_points.data.push_back({std::string(kPairSide), 1, std::move(sides_)});
       f.marked_points.data.push_back({std::string(kAdcircLevee), kAdcircLeveeNumbers, std::move(levees_)});
     }
     return std::move(document_);

@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
-#include "io/conversion/adcirc.hpp"
 #include "io/conversion/bed.hpp"
+#include "io/formats/adcirc.hpp"
 #include "io/formats/format.hpp"
 #include "io/text/values.hpp"
 
@@ -249,7 +249,7 @@ class AdcircWriter {
   }
   void collect_levees() {
     const MeshFile& f = file_;
-    const DataArray* side_data = find(f.marked_points.data, kAdcircSide);
+    const DataArray* side_data = find(f.marked_points.data, kPairSide);
     const DataArray* levee_data = find(f.marked_points.data, kAdcircLevee);
     if (side_data == nullptr || levee_data == nullptr || levee_data->components != kAdcircLeveeNumbers) return;
     const auto sides = to_int32(side_data->values);
@@ -318,7 +318,7 @@ class AdcircWriter {
       if (n.dimension != 1 || !numbered || !adcirc_boundary(n.name)) names.push_back(n);
     }
     warn_of_names(job_, names);
-    const bool levees = find(f.marked_points.data, kAdcircSide) != nullptr;
+    const bool levees = find(f.marked_points.data, kPairSide) != nullptr;
     if (!f.marked_points.empty() && !levees) job_.warn("marked points are not written, fort.14 has no place for them");
   }
 
@@ -338,7 +338,7 @@ class AdcircWriter {
 bool adcirc_keeps(Content of, const DataArray& array) {
   if (of == kPointData) return array.name == kDepth;
   if (of == kFieldData) return array.name == kAdcircTitle;
-  return array.name == kAdcircLevee || array.name == kAdcircSide || array.name == kAdcircRows;
+  return array.name == kAdcircLevee || array.name == kPairSide || array.name == kAdcircRows;
 }
 
 void write_adcirc(const WriteJob& job) { AdcircWriter(job).write(); }

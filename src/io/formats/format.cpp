@@ -9,8 +9,8 @@
 #include <cstring>
 #include <map>
 
-#include "io/conversion/data_update.hpp"
 #include "io/conversion/globe.hpp"
+#include "io/conversion/update.hpp"
 #include "io/disk/files.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
@@ -89,8 +89,8 @@ void make_z_data(Document& d) {
   d.may_be_degrees = std::holds_alternative<PlanePoints>(f.points_in);
 }
 
-/// Gives the bed the sign that the user says. Without it, z of a 2DM file is a height, as in SMS, and a warning says
-/// so: SCHISM has depths there.
+/// Gives the bed the sign that the user says. Without it, z that is data is a height, and a warning says so: SCHISM has
+/// depths in 2DM files.
 void settle_bed(Document& d, std::optional<Positive> positive) {
   MeshFile& f = d.file;
   f.positive = positive;
@@ -98,7 +98,7 @@ void settle_bed(Document& d, std::optional<Positive> positive) {
     f.warnings.push_back(text(d.names->path, ": has no depths or heights of a bed, so positive ",
                               *positive == Positive::up ? "up" : "down", " has no effect"));
   }
-  if (positive || f.format != "2dm" || !f.z_is_data) return;
+  if (positive || !details_of(f).has_heights || !f.z_is_data) return;
   f.positive = Positive::up;
   f.warnings.push_back(text(d.names->path,
                             ": z is taken as heights, positive up. Next: --positive down if they are depths, or "
@@ -143,8 +143,8 @@ void check(Document& d, const ReadOptions& options) {
   if (f.dimension() == 3) return check_tetrahedra(d);
   if (f.points.empty()) fail(ErrorCode::empty_input, d.names->path, "the file has no points");
   if (f.triangles.empty()) {
-    // Other programs call JIGSAW's outlines meshes.
-    const bool outline = f.format == "jigsaw" && !f.lines.empty();
+    // Other programs call outlines meshes.
+    const bool outline = details_of(f).may_be_outline && !f.lines.empty();
     fail(ErrorCode::empty_input, d.names->path, "the file has no triangles",
          outline ? ": it is an outline, for `temper mesh` to mesh" : " or tetrahedra");
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/conversion/bed.hpp"
+#include "io/conversion/format_traits.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/conversion/quadrilaterals.hpp"
 #include "io/disk/files.hpp"
@@ -131,8 +132,10 @@ struct FormatDetails {
   std::string_view name_ends = {};  ///< characters that would end a name: written as %22
   Degrees degrees = Degrees::as_they_came;
   Bed bed = Bed::as_it_came;
-  bool has_heights = false;   ///< z of its points is data
-  bool joins_halves = false;  ///< the writer makes the quadrilaterals of triangles itself
+  bool has_heights = false;     ///< z of its points is data
+  bool joins_halves = false;    ///< the writer makes the quadrilaterals of triangles itself
+  bool may_be_outline = false;  ///< files without triangles are outlines
+  FormatTraits traits = {};
 };
 
 struct FormatRow {
@@ -151,6 +154,8 @@ struct FormatRow {
 inline constexpr std::size_t kSniffBytes = 4096;
 /// The row of that name, or null.
 [[nodiscard]] const FormatRow* find_row(std::string_view name);
+/// The details of the format that a file was read from; those of no format for others.
+[[nodiscard]] const FormatDetails& details_of(const MeshFile& file);
 
 /// One file to be written.
 struct WriteJob {

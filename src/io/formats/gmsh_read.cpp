@@ -29,8 +29,8 @@
 #include <utility>
 
 #include "io/conversion/data_update.hpp"
-#include "io/conversion/gmsh.hpp"
 #include "io/formats/format.hpp"
+#include "io/formats/gmsh.hpp"
 #include "io/text/scanner.hpp"
 #include "io/text/values.hpp"
 
@@ -535,7 +535,7 @@ class GmshReader {
       inside[*lookup.find(number)] = 1;
     }
     part_regions(cells, groups, data);
-    for (auto& [group, inside] : groups) data.push_back({text(kGmshFurtherGroup, group), 1, std::move(inside)});
+    for (auto& [group, inside] : groups) data.push_back({text(kFurtherGroup, group), 1, std::move(inside)});
   }
   /// Makes cells with different sets of groups different regions. `inside` has 1 for each cell of a further group.
   template <std::size_t N>
@@ -555,7 +555,7 @@ class GmshReader {
     for (std::size_t i = 0; i < firsts.size(); ++i) cells.physical[i] = region_of[set_of_cell[i]];
     if (firsts == cells.physical) return;
     allocation_.take(firsts.size(), 1, scanner_.path());
-    data.push_back({std::string(kGmshFirstGroup), 1, std::move(firsts)});
+    data.push_back({std::string(kFirstGroup), 1, std::move(firsts)});
   }
   /// Of sets with one first group, the smallest keeps its tag. Another set takes the tag of a group that no other set
   /// has, as an inner group. Else it gets a free tag, and a name from its groups.

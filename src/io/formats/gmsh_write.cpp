@@ -18,7 +18,7 @@
 #include <set>
 
 #include "io/conversion/globe.hpp"
-#include "io/conversion/gmsh.hpp"
+#include "io/formats/gmsh.hpp"
 #include "io/formats/format.hpp"
 #include "io/text/values.hpp"
 
@@ -168,7 +168,7 @@ class GmshWriter {
       for (const DataArray& array : *kind->data) {
         if (const auto tag = further_group(array))
           kind->further_groups.emplace_back(*tag, to_doubles(Values(array.values)));
-        if (array.name != kGmshFirstGroup || array.components != 1) continue;
+        if (array.name != kFirstGroup || array.components != 1) continue;
         if (auto firsts = to_int32(array.values)) kind->firsts = *std::move(firsts);
       }
     }
@@ -390,7 +390,7 @@ class GmshWriter {
     }
   }
   void element_data() {
-    std::set<std::string_view> done = {kGmshEntity, kGmshFirstGroup};
+    std::set<std::string_view> done = {kGmshEntity, kFirstGroup};
     const std::pair<const Kind*, ArraysByName> named[] = {{&points_, ArraysByName(*points_.data)},
                                                           {&lines_, ArraysByName(*lines_.data)},
                                                           {&triangles_, ArraysByName(*triangles_.data)},

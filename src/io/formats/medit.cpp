@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "io/conversion/globe.hpp"
+#include "io/conversion/known_arrays.hpp"
 #include "io/formats/format.hpp"
 #include "io/text/scanner.hpp"
 #include "io/text/values.hpp"
@@ -29,11 +30,11 @@ struct FlagSection {
   Content data;
   std::string_view array;
 };
-constexpr FlagSection kFlagSections[] = {{"Corners", kPointData, "medit:corner"},
-                                         {"RequiredVertices", kPointData, "medit:required"},
+constexpr FlagSection kFlagSections[] = {{"Corners", kPointData, kCorner},
+                                         {"RequiredVertices", kPointData, kRequired},
                                          {"Ridges", kLineData, "medit:ridge"},
-                                         {"RequiredEdges", kLineData, "medit:required"},
-                                         {"RequiredTriangles", kCellData, "medit:required"}};
+                                         {"RequiredEdges", kLineData, kRequired},
+                                         {"RequiredTriangles", kCellData, kRequired}};
 
 constexpr std::pair<std::string_view, std::string_view> kUnsupported[] = {
     {"Hexahedra", "hexahedron"},

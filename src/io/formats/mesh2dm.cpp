@@ -17,8 +17,8 @@
 #include <optional>
 #include <set>
 
-#include "io/conversion/adcirc.hpp"
 #include "io/conversion/globe.hpp"
+#include "io/formats/adcirc.hpp"
 #include "io/formats/format.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"

@@ -10,8 +10,8 @@
 #include <numbers>
 #include <set>
 
-#include "io/conversion/data_update.hpp"
 #include "io/conversion/globe.hpp"
+#include "io/conversion/update.hpp"
 #include "io/formats/netcdf/mpas.hpp"
 #include "io/formats/netcdf/netcdf_extras.hpp"
 #include "io/text/names.hpp"

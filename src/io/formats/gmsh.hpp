@@ -2,14 +2,12 @@
 #pragma once
 
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <set>
 #include <string_view>
 
-#include "temper/io.hpp"
+#include "io/conversion/known_arrays.hpp"
 
 namespace temper::io {
 
@@ -19,24 +17,9 @@ inline constexpr std::int32_t kGmshLine = 1, kGmshTriangle = 2, kGmshQuadrilater
 inline constexpr std::string_view kGmshEntity = "gmsh:geometrical";
 /// Data array with the partition of each triangle.
 inline constexpr std::string_view kGmshPartition = "gmsh:partition";
-/// Data array of the cells in a physical group that is not their first: this and the tag, "gmsh:physical:7".
-inline constexpr std::string_view kGmshFurtherGroup = "gmsh:physical:";
-/// Data array with the first physical group of each cell. Without it, this is the region.
-inline constexpr std::string_view kGmshFirstGroup = "gmsh:physical:first";
 /// By dimension, the name of the group of all elements without another one. Readers know it, and take it for no group.
 inline constexpr std::array<std::string_view, 4> kGmshUngrouped = {
     "temper_ungrouped_points", "temper_ungrouped_lines", "temper_ungrouped_faces", "temper_ungrouped_tetrahedra"};
-
-/// The tag in the name gmsh:physical:TAG; nothing for other arrays.
-[[nodiscard]] inline std::optional<std::int32_t> further_group(const DataArray& array) {
-  const std::string_view name = array.name;
-  if (array.components != 1 || !name.starts_with(kGmshFurtherGroup)) return {};
-  const std::string_view digits = name.substr(kGmshFurtherGroup.size());
-  std::int32_t tag = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), tag);
-  if (error != std::errc() || end != digits.data() + digits.size() || tag == 0) return {};
-  return tag;
-}
 
 /// A positive tag that is not taken: one above the largest, while there is one.
 [[nodiscard]] inline std::int32_t free_tag(const std::set<std::int32_t>& taken) {

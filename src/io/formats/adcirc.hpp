@@ -14,12 +14,13 @@
 #include <string_view>
 #include <vector>
 
+#include "io/conversion/known_arrays.hpp"
+
 namespace temper::io {
 
 inline constexpr std::string_view kAdcircTitle = "adcirc:title";  ///< field data: bytes of the first line
 inline constexpr std::string_view kAdcircLevee =
-    "adcirc:levee";                                             ///< of marked points: what follows the node in its row
-inline constexpr std::string_view kAdcircSide = "adcirc:side";  ///< of marked points: 0 the node, 1 its partner
+    "adcirc:levee";  ///< of marked points: what follows the node in its row
 inline constexpr int kAdcircLeveeNumbers = 6;
 /// Line data: how many rows of its string have the first node of the line, how many have the second one, and 0 if the
 /// line is none of the string's: it closes an island. A file has them if its strings are other than the writer's own:
