@@ -18,14 +18,12 @@
 #include <set>
 
 #include "io/conversion/globe.hpp"
-#include "io/formats/gmsh.hpp"
 #include "io/formats/format.hpp"
+#include "io/formats/gmsh/gmsh.hpp"
 #include "io/text/values.hpp"
 
 namespace temper::io {
 namespace {
-
-const std::vector<DataArray> kNoData;
 
 /// Physical groups: the region or tag, 0 if there is none, and the tags of further ones.
 struct Groups {
@@ -42,7 +40,7 @@ struct Kind {
   std::size_t corners = 1;
   const std::int32_t* nodes = nullptr;
   const std::vector<std::int32_t>* tags = nullptr;  // empty: all 0
-  const std::vector<DataArray>* data = &kNoData;
+  const std::vector<DataArray>* data = nullptr;
   std::size_t first_number = 1;
   std::vector<std::int32_t> entities = {};  // of each element; empty: all `only_entity`
   std::int32_t only_entity = 1;
@@ -66,6 +64,16 @@ struct Kind {
   }
   [[nodiscard]] std::int32_t entity(std::size_t i) const { return entities.empty() ? only_entity : entities[i]; }
 };
+
+template <int dimension>
+Kind kind_of(std::int32_t type, const Cells<dimension>& cells, std::size_t first_number) {
+  Kind kind = {.dimension = dimension, .type = type, .n = cells.size(), .corners = dimension + 1};
+  if (!cells.empty()) kind.nodes = corners_of(cells[0]).data();
+  kind.tags = &cells.tags;
+  kind.data = &cells.data;
+  kind.first_number = first_number;
+  return kind;
+}
 
 /// The entity numbers that came with the file, if any.
 const std::vector<std::int32_t>* given_entities(const Kind& kind) {
@@ -116,54 +124,10 @@ class GmshWriter {
         out_(job.outputs.open(job.path)),
         version4_(version4),
         binary_(job.encoding.value_or(Encoding::ascii) != Encoding::ascii) {
-    const MeshFile& f = file_;
-    points_ = {0,
-               kGmshPoint,
-               f.marked_points.size(),
-               1,
-               f.marked_points.corners.data(),
-               &f.marked_points.tags,
-               &f.marked_points.data,
-               1,
-               {},
-               1,
-               {}};
-    lines_ = {1,
-              kGmshLine,
-              f.lines.size(),
-              2,
-              f.lines.empty() ? nullptr : f.lines[0].data(),
-              &f.lines.tags,
-              &f.lines.data,
-              1 + points_.n,
-              {},
-              1,
-              {}};
-    triangles_ = {2,
-                  kGmshTriangle,
-                  f.triangles.size(),
-                  3,
-                  f.triangles.empty() ? nullptr : f.triangles[0].data(),
-                  &f.triangles.tags,
-                  &f.triangles.data,
-                  1 + points_.n + lines_.n,
-                  {},
-                  1,
-                  {}};
-    if (f.dimension() == 3) {
-      const auto& [corners, regions, data] = f.tetrahedra;
-      tets_ = {3,
-               kGmshTetrahedron,
-               corners.size(),
-               4,
-               corners.empty() ? nullptr : corners[0].data(),
-               &regions,
-               &data,
-               triangles_.first_number + triangles_.n,
-               {},
-               1,
-               {}};
-    }
+    points_ = kind_of(kGmshPoint, file_.marked_points, 1);
+    lines_ = kind_of(kGmshLine, file_.lines, 1 + points_.n);
+    triangles_ = kind_of(kGmshTriangle, file_.triangles, lines_.first_number + lines_.n);
+    tets_ = kind_of(kGmshTetrahedron, file_.tetrahedra, triangles_.first_number + triangles_.n);
     for (Kind* kind : kinds()) {
       for (const DataArray& array : *kind->data) {
         if (const auto tag = further_group(array))
@@ -482,7 +446,7 @@ class GmshWriter {
   const MeshFile& file_;
   Output& out_;
   bool version4_, binary_;
-  Kind points_, lines_, triangles_, tets_ = {.dimension = 3, .type = kGmshTetrahedron};
+  Kind points_, lines_, triangles_, tets_;
 };
 
 }  // namespace
