@@ -177,27 +177,22 @@ std::size_t suffix_length(const FormatRow& row, const std::string& path) {
   return longest;
 }
 
-std::string writable_suffixes() {
-  std::string result;
-  for (const Format& format : kFormats) {
-    if (format.writes) result += text(result.empty() ? "" : " ", format.suffixes);
+/// One column of the rows that are written and hold these contents.
+std::vector<std::string_view> of_written(std::string_view FormatRow::*column, Contents contents = 0) {
+  std::vector<std::string_view> all;
+  for (const FormatRow& row : kRows) {
+    if (row.write != nullptr && (row.holds & contents) == contents) all.push_back(row.*column);
   }
-  return result;
+  return all;
 }
 
-std::vector<std::string_view> writable_names() {
-  std::vector<std::string_view> names;
-  for (const Format& format : kFormats) {
-    if (format.writes) names.push_back(format.name);
-  }
-  return names;
-}
+std::string names_with(Contents contents) { return join(of_written(&FormatRow::name, contents)); }
 
 const FormatRow& row_to_write(const std::string& path, const std::string& format) {
   if (!format.empty()) {
     const FormatRow* row = find_row(format);
     if (row != nullptr && row->write != nullptr) return *row;
-    const std::vector<std::string_view> names = writable_names();
+    const std::vector<std::string_view> names = of_written(&FormatRow::name);
     fail(ErrorCode::invalid_option, path, "cannot be written as '", format, "'; expected one of ", join(names),
          did_you_mean(format, names));
   }
@@ -212,16 +207,7 @@ const FormatRow& row_to_write(const std::string& path, const std::string& format
   }
   if (best != nullptr) return *best;
   fail(ErrorCode::invalid_option, path, "the suffix names no format that temper writes; expected one of ",
-       writable_suffixes(), ", or a format");
-}
-
-std::string names_with(Contents contents) {
-  std::string result;
-  for (const FormatRow& row : kRows) {
-    if (row.write != nullptr && (row.holds & contents) == contents)
-      result += text(result.empty() ? "" : ", ", row.name);
-  }
-  return result;
+       join(of_written(&FormatRow::suffixes), " "), ", or a format");
 }
 
 /// What messages call the cells of one dimension.

@@ -15,6 +15,9 @@
 
 namespace temper::io {
 
+/// Relative to the radius, or to the extent of a plane: the precision of coordinates with seven digits.
+inline constexpr double kOff = 1e-6;
+
 /// The unit vector to the east; on the axis, the east of longitude 0.
 [[nodiscard]] Vec3 east_of(Vec3 direction);
 

@@ -53,28 +53,28 @@ void CellSorter::add(int type, const std::int32_t* p, std::size_t n, const std::
     case kVtkTriangle:
     case kVtkQuad:
       document_.add_face({p[0], p[1], p[2]}, n == 4 ? p[3] : kNoCorner);
-      triangle_cells_.push_back(cell);
+      cells_of_[2].push_back(cell);
       return;
     case kVtkTetrahedron:
       document_.file.tetrahedra.corners.push_back({p[0], p[1], p[2], p[3]});
-      tet_cells_.push_back(cell);
+      cells_of_[3].push_back(cell);
       return;
     case kVtkPixel:  // in rows
       document_.add_face({p[0], p[1], p[3]}, p[2]);
-      triangle_cells_.push_back(cell);
+      cells_of_[2].push_back(cell);
       return;
     case kVtkLine:
     case kVtkPolyLine:
       for (std::size_t k = 0; k + 1 < n; ++k) {
         f.lines.corners.push_back({p[k], p[k + 1]});
-        line_cells_.push_back(cell);
+        cells_of_[1].push_back(cell);
       }
       return;
     case kVtkVertex:
     case kVtkPolyVertex:
       for (std::size_t k = 0; k < n; ++k) {
         f.marked_points.corners.push_back(p[k]);
-        point_cells_.push_back(cell);
+        cells_of_[0].push_back(cell);
       }
       return;
     case kVtkEmptyCell:
@@ -120,8 +120,8 @@ std::vector<std::int32_t> tags_of(std::vector<DataArray>& arrays, const std::str
 void CellSorter::distribute(std::vector<DataArray>&& cell_data) {
   MeshFile& f = document_.file;
   make_names_unique(cell_data);
-  const bool only_triangles = triangle_cells_.size() == n_cells_ && triangle_cells_.counts_from(0);
-  const bool only_tetrahedra = !tet_cells_.empty() && tet_cells_.size() == n_cells_;
+  const bool only_triangles = cells_of_[2].size() == n_cells_ && cells_of_[2].counts_from(0);
+  const bool only_tetrahedra = !cells_of_[3].empty() && cells_of_[3].size() == n_cells_;
   for (DataArray& array : cell_data) {
     if (only_triangles || only_tetrahedra) {
       (only_triangles ? f.triangles.data : document_.file.tetrahedra.data).push_back(std::move(array));
@@ -132,25 +132,23 @@ void CellSorter::distribute(std::vector<DataArray>&& cell_data) {
       allocation_.take(cells.size(), static_cast<std::uint64_t>(array.components), document_.names->path);
       return DataArray{array.name, array.components, gather(array.values, array.components, cells)};
     };
-    if (!tet_cells_.empty()) document_.file.tetrahedra.data.push_back(part(tet_cells_));
-    if (tet_cells_.empty() || !triangle_cells_.empty()) f.triangles.data.push_back(part(triangle_cells_));
-    if (!line_cells_.empty()) f.lines.data.push_back(part(line_cells_));
-    if (!point_cells_.empty()) f.marked_points.data.push_back(part(point_cells_));
+    const std::array lists = {&f.marked_points.data, &f.lines.data, &f.triangles.data, &f.tetrahedra.data};
+    for (std::size_t d = 4; d-- > 0;) {
+      const bool are_of_mesh = d == 2 && cells_of_[3].empty();
+      if (are_of_mesh || !cells_of_[d].empty()) lists[d]->push_back(part(cells_of_[d]));
+    }
   }
   take_tags();
-  document_.names->tetrahedra = std::move(tet_cells_);
-  document_.names->triangles = std::move(triangle_cells_);
-  document_.names->lines = std::move(line_cells_);
+  document_.names->tetrahedra = std::move(cells_of_[3]);
+  document_.names->triangles = std::move(cells_of_[2]);
+  document_.names->lines = std::move(cells_of_[1]);
 }
 
 void CellSorter::take_tags() {
   MeshFile& f = document_.file;
-  const std::string& path = document_.names->path;
-  f.tetrahedra.tags = tags_of(f.tetrahedra.data, path);
-  f.triangles.tags = tags_of(f.triangles.data, path);
-  f.lines.tags = tags_of(f.lines.data, path);
+  const auto take = [&](auto&... cells) { ((cells.tags = tags_of(cells.data, document_.names->path)), ...); };
+  take(f.tetrahedra, f.triangles, f.lines, f.marked_points);
   f.lines.tags.resize(f.lines.size());
-  f.marked_points.tags = tags_of(f.marked_points.data, path);
   f.marked_points.tags.resize(f.marked_points.size());
 }
 

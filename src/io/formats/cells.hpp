@@ -1,6 +1,7 @@
 // Cells of the VTK family (VTU and legacy): sorted into tetrahedra, faces, lines and marked points, with their data.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -34,7 +35,7 @@ class CellSorter {
   Document& document_;
   AllocationLimits& allocation_;
   std::size_t n_cells_ = 0;
-  RunLength tet_cells_, triangle_cells_, line_cells_, point_cells_;  // which cell of the file each one was
+  std::array<RunLength, 4> cells_of_;  // by dimension: which cell of the file each one was
 };
 
 /// Takes the regions or tags out of the arrays of triangles, lines or points, if they are there. `region` itself is
