@@ -1,67 +1,21 @@
 #include "temper/detail/error.hpp"
 
 #include <cstddef>
+#include <iterator>
 
 namespace temper {
 
 std::string_view name(ErrorCode code) {
-  switch (code) {
-    case ErrorCode::not_found:
-      return "not_found";
-    case ErrorCode::empty_input:
-      return "empty_input";
-    case ErrorCode::truncated:
-      return "truncated";
-    case ErrorCode::syntax:
-      return "syntax";
-    case ErrorCode::unsupported:
-      return "unsupported";
-    case ErrorCode::index_out_of_range:
-      return "index_out_of_range";
-    case ErrorCode::size_mismatch:
-      return "size_mismatch";
-    case ErrorCode::not_finite:
-      return "not_finite";
-    case ErrorCode::not_planar:
-      return "not_planar";
-    case ErrorCode::not_on_sphere:
-      return "not_on_sphere";
-    case ErrorCode::duplicate_point:
-      return "duplicate_point";
-    case ErrorCode::unused_point:
-      return "unused_point";
-    case ErrorCode::zero_area:
-      return "zero_area";
-    case ErrorCode::zero_volume:
-      return "zero_volume";
-    case ErrorCode::non_manifold_face:
-      return "non_manifold_face";
-    case ErrorCode::non_manifold_edge:
-      return "non_manifold_edge";
-    case ErrorCode::non_manifold_vertex:
-      return "non_manifold_vertex";
-    case ErrorCode::overlap:
-      return "overlap";
-    case ErrorCode::missing_edge:
-      return "missing_edge";
-    case ErrorCode::geographic:
-      return "geographic";
-    case ErrorCode::out_of_scale:
-      return "out_of_scale";
-    case ErrorCode::invalid_option:
-      return "invalid_option";
-    case ErrorCode::hidden_vertex:
-      return "hidden_vertex";
-    case ErrorCode::stopped:
-      return "stopped";
-    case ErrorCode::trace_mismatch:
-      return "trace_mismatch";
-    case ErrorCode::rank_mismatch:
-      return "rank_mismatch";
-    case ErrorCode::not_writable:
-      return "not_writable";
-  }
-  return "unknown";
+  constexpr std::string_view kNames[] = {
+      // in the order of the enum
+      "not_found",          "empty_input",         "truncated",     "syntax",       "unsupported",
+      "index_out_of_range", "size_mismatch",       "not_finite",    "not_planar",   "not_on_sphere",
+      "duplicate_point",    "unused_point",        "zero_area",     "zero_volume",  "non_manifold_face",
+      "non_manifold_edge",  "non_manifold_vertex", "overlap",       "missing_edge", "geographic",
+      "out_of_scale",       "invalid_option",      "hidden_vertex", "stopped",      "trace_mismatch",
+      "rank_mismatch",      "not_writable"};
+  const auto i = static_cast<std::size_t>(code);
+  return i < std::size(kNames) ? kNames[i] : "unknown";
 }
 
 // Makes text from anywhere safe for a terminal: no byte of it moves the cursor, and all of it is UTF-8.

@@ -160,11 +160,7 @@ void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch) {
   patch.space = mesh.space();
   patch.center = v;
   const WeightedPoint center = mesh.point(v);
-  patch.link.clear();
-  patch.spoke.clear();
-  patch.outer_g.clear();
-  patch.outer_doubled_area.clear();
-  patch.link_boundary.clear();
+  patch.clear();
   const auto add = [&](VertexId q) {
     const std::size_t i = patch.link.size();
     if (i + 2 + kLanes > patch.x.size()) {  // q_0 again, and what is read beyond

@@ -29,6 +29,11 @@ struct Patch {
   std::vector<double> outer_doubled_area;  ///< of that triangle; as long as outer_g
   std::vector<std::uint8_t> link_boundary;  ///< link edge i is a boundary edge; as long as outer_g
 
+  /// Forgets the star, and keeps the memory.
+  void clear() {
+    link.clear(), spoke.clear();
+    outer_g.clear(), outer_doubled_area.clear(), link_boundary.clear();
+  }
   [[nodiscard]] std::size_t size() const { return spoke.size(); }
   [[nodiscard]] WeightedPoint q(std::size_t i) const { return {x[i], y[i], w[i]}; }
   [[nodiscard]] WeightedPoint r(std::size_t i) const { return q(i + 1); }

@@ -105,6 +105,44 @@ Vec2 joukowski(Complex zeta) {
   return {z.real(), z.imag()};
 }
 
+// The circle that becomes the foil, and the angle of the cusp on it.
+const double kRadius = std::abs(1.0 - kCenter), kStart = std::arg(1.0 - kCenter);
+
+std::vector<Vec2> foil_points(int n) {
+  std::vector<Vec2> foil;
+  for (int i = 0; i < n; ++i) {
+    // The first point is the cusp itself: exactly (2, 0).
+    const double angle = kStart + 2 * std::numbers::pi * i / n;
+    foil.push_back(i == 0 ? Vec2{2, 0} : joukowski(kCenter + std::polar(kRadius, angle)));
+  }
+  return foil;
+}
+
+/// Points between the foil and the box, and the spacing of the widest ring.
+struct Rings {
+  std::vector<Vec2> points;
+  double spacing = 0;
+};
+
+Rings rings_around(const Airfoil& shape) {
+  Rng rng(shape.seed);
+  Rings rings;
+  double spacing = 2 * std::numbers::pi * kRadius / shape.around;
+  for (double at = kRadius + kRowHeight * spacing; at < std::numbers::sqrt2 * kHalfBox; at += kRowHeight * spacing) {
+    spacing = std::min(spacing * shape.growth, 2 * std::numbers::pi * at / kFewestAround);
+    const int n = static_cast<int>(std::round(2 * std::numbers::pi * at / spacing));
+    const double phase = rng.uniform(), limit = kHalfBox - kBoxGap * spacing;
+    for (int i = 0; i < n; ++i) {
+      const double outwards = kJitter * spacing * rng.uniform(-1, 1);
+      const double angle = kStart + 2 * std::numbers::pi * (i + phase + kJitter * rng.uniform(-1, 1)) / n;
+      const Vec2 p = joukowski(kCenter + std::polar(at + outwards, angle));
+      if (std::abs(p.x) < limit && std::abs(p.y) < limit) rings.points.push_back(p);
+    }
+  }
+  rings.spacing = spacing;
+  return rings;
+}
+
 }  // namespace
 
 Expected<Mesh> airfoil(const Airfoil& shape) {
@@ -117,27 +155,10 @@ Expected<Mesh> airfoil(const Airfoil& shape) {
   if (shape.around / (shape.growth - 1) > kMostPoints) {
     return generate::invalid("an airfoil mesh of that many points and so little growth is out of reach");
   }
-  Rng rng(shape.seed);
-  const double radius = std::abs(1.0 - kCenter), start = std::arg(1.0 - kCenter);
-  std::vector<Vec2> foil;
-  for (int i = 0; i < shape.around; ++i) {
-    // The first point is the cusp itself: exactly (2, 0).
-    const double angle = start + 2 * std::numbers::pi * i / shape.around;
-    foil.push_back(i == 0 ? Vec2{2, 0} : joukowski(kCenter + std::polar(radius, angle)));
-  }
-  std::vector<Vec2> inner;
-  double spacing = 2 * std::numbers::pi * radius / shape.around;
-  for (double at = radius + kRowHeight * spacing; at < std::numbers::sqrt2 * kHalfBox; at += kRowHeight * spacing) {
-    spacing = std::min(spacing * shape.growth, 2 * std::numbers::pi * at / kFewestAround);
-    const int n = static_cast<int>(std::round(2 * std::numbers::pi * at / spacing));
-    const double phase = rng.uniform(), limit = kHalfBox - kBoxGap * spacing;
-    for (int i = 0; i < n; ++i) {
-      const double outwards = kJitter * spacing * rng.uniform(-1, 1);
-      const double angle = start + 2 * std::numbers::pi * (i + phase + kJitter * rng.uniform(-1, 1)) / n;
-      const Vec2 p = joukowski(kCenter + std::polar(at + outwards, angle));
-      if (std::abs(p.x) < limit && std::abs(p.y) < limit) inner.push_back(p);
-    }
-  }
+  const std::vector<Vec2> foil = foil_points(shape.around);
+  const Rings rings = rings_around(shape);
+  const std::vector<Vec2>& inner = rings.points;
+  const double spacing = rings.spacing;
   const Polygon box = {{-kHalfBox, -kHalfBox}, {kHalfBox, -kHalfBox}, {kHalfBox, kHalfBox}, {-kHalfBox, kHalfBox}};
   generate::Outline outline;
   outline.add_loop(foil);

@@ -135,13 +135,12 @@ bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
     h = mesh.twin(back);
     open = !h.valid();
   } while (!open && h != first);
-  if (open) batch_.spoke_flips[0][lane] = 0;
   batch_.open[lane] = open ? -1 : 0;
   if (i <= kMost) {
     occupant.link[i] = q;
     batch_.link[i].set(lane, mesh.point(q, center));
   }
-  if (open) mark(q) = Mark::looked_at;
+  if (open) batch_.spoke_flips[0][lane] = 0, mark(q) = Mark::looked_at;
   occupant.n_link = i + (open ? 1 : 0);
   return true;
 }

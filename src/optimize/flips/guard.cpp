@@ -11,83 +11,15 @@
 #include "optimize/working/working_copy.hpp"
 #include "size/solver_measures.hpp"
 #include "size/star_area.hpp"
-#include "temper/detail/location.hpp"
 
 namespace temper {
 namespace {
 
 constexpr double kLeastDepth = 1;  // [m]: on dry land waves need a speed, too
-// Values in the user's units differ by rounding from those in the units of the run.
-constexpr double kRounding = 1e-9;
-// A right angle of coordinates with some nine digits is one to this cosine.
-constexpr double kRoundedOrthogonality = 1e-6;
-// A map from degrees changes the areas of neighbors by up to a few thousandths, each in its own way.
-constexpr double kMargin = 1.005;
-
-/// The power of the factor by which a measure changes if lengths, angles and ratios change by it. A negative measure
-/// is divided.
-constexpr std::array<int, GuardValues::kMeasures> kPowers = {2, 1, 2, 1, 2, 2, 2, -1, 1, 2, 1, 1, -1, 1, -1};
-
-GuardValues scaled(GuardValues v, double factor) {
-  for (std::size_t i = 0; i < GuardValues::kMeasures; ++i) {
-    v.value[i] *= kPowers[i] == 2 ? factor * factor : kPowers[i] == 1 ? factor : 1 / factor;
-  }
-  return v;
-}
-
 /// 1 + cosine of the angle between two edges, across from the third. All lengths are squared.
 double cosine_of(double across, double p, double q) { return 1 + (p + q - across) / (2 * std::sqrt(p * q)); }
 
-/// The bounds of the options, as limits. A bound that is off is below each value.
-GuardValues bounds_of(const GuardOptions& o) {
-  const auto squared = [](double x) { return x * x; };
-  const double nothing = std::numeric_limits<double>::infinity();
-  GuardValues bounds;
-  const double angle = o.angle * std::numbers::pi / 180;
-  bounds.value[GuardValues::sine] = squared(std::sin(angle));
-  // A triangle whose two other angles are at the bound has this largest angle.
-  bounds.value[GuardValues::cosine] = o.angle > 0 ? 1 - std::cos(2 * angle) : 0;
-  bounds.value[GuardValues::edge] = squared(o.edge);
-  bounds.value[GuardValues::areas] = o.areas ? 1 / *o.areas : 0;
-  bounds.value[GuardValues::shortest] = squared(o.length.value_or(nothing));
-  const double step = o.depth.empty() ? 0 : o.step.value_or(nothing);
-  bounds.value[GuardValues::crossing] = bounds.value[GuardValues::edge_crossing] = squared(step);
-  bounds.value[GuardValues::orthogonality] = -kRoundedOrthogonality;
-  bounds.value[GuardValues::flow_link] = kSmallFlowLink;
-  return bounds;
-}
-
 }  // namespace
-
-class DepthField {
- public:
-  DepthField(Mesh mesh, std::span<const double> depths)
-      : mesh_(std::move(mesh)), depths_(depths.begin(), depths.end()) {
-    for (double& depth : depths_) depth = std::isnan(depth) ? 0 : depth;
-  }
-  [[nodiscard]] double at(const WeightedPoint& p, TriangleId& near) const {
-    const Place place = finder_.find(p, near);
-    near = place.triangle;
-    return interpolated(place, [this](VertexId v) { return depths_[v.index]; });
-  }
-
- private:
-  Mesh mesh_;
-  std::vector<double> depths_;
-  PointLocator finder_{mesh_};
-};
-
-void GuardValues::take(const GuardValues& other) {
-  for (std::size_t i = 0; i < kMeasures; ++i) value[i] = std::min(value[i], other.value[i]);
-}
-
-/// Values that are infinite before hold only within the limits.
-bool GuardValues::hold(const GuardValues& before, const GuardValues& limits) const {
-  for (std::size_t i = 0; i < kMeasures; ++i) {
-    if (value[i] < before.value[i] && value[i] < limits.value[i]) return false;
-  }
-  return true;
-}
 
 Guard::Guard(const Mesh& mesh, const WorkingUnits& units, std::shared_ptr<const GuardLimits> limits, bool in_copy)
     : mesh_(mesh), units_(units), limits_(std::move(limits)), in_copy_(in_copy) {
@@ -380,8 +312,7 @@ GuardValues Guard::across(HalfedgeId h, const WeightedPoint& beyond) const {
   return of_pair(inside, k, outside);
 }
 
-std::size_t Guard::count_beyond(Executor* executor) const {
-  const GuardValues limits = scaled(limits_->values, 1 - kRounding);
+std::size_t Guard::count_beyond(const GuardValues& limits, Executor* executor) const {
   return static_cast<std::size_t>(blockwise_sum(mesh_.n_triangles(), executor, [&](std::size_t i) {
     return mesh_.is_erased(TriangleId(i)) || around(TriangleId(i)).are_within(limits) ? 0.0 : 1.0;
   }));
@@ -404,59 +335,6 @@ void Guard::grow() {
 
 void Guard::renumber(const Compaction& kept) {
   if (on() && has_depth()) *depths_ = kept_of(*depths_, kept.vertices);
-}
-
-Expected<std::shared_ptr<const GuardLimits>> guard_limits(const Mesh& input, const OptimizeOptions& options,
-                                                          Executor* executor) {
-  const GuardOptions& o = options.guard;
-  if (!o.depth.empty() && o.depth.size() != input.n_vertices()) {
-    return InputError{ErrorCode::size_mismatch,
-                      {},
-                      "the guard has " + std::to_string(o.depth.size()) + " depths; expected one for each of the " +
-                          std::to_string(input.n_vertices()) + " vertices"};
-  }
-  const bool off = o.angle == 0 && o.edge == 0 && !o.areas && !o.length && !o.step && o.client == Client::none;
-  if (off || objective_of(options) == Objective::energy) return std::shared_ptr<const GuardLimits>();
-  auto limits = std::make_shared<GuardLimits>();
-  if (!o.depth.empty()) limits->depth = std::make_shared<const DepthField>(input, o.depth);
-  limits->client = o.client;
-  limits->has_flow = o.client == Client::dflowfm;
-  limits->has_cells = o.client == Client::mpas;
-  WorkingUnits same;
-  same.space = input.space();
-  const Guard guard(input, same, limits);
-  limits->values = guard.worst(executor);
-  limits->values.take(bounds_of(o));
-  limits->for_steps = scaled(limits->values, kMargin);
-  limits->of_client = client_values(o.client, input, same, executor);
-  return std::shared_ptr<const GuardLimits>(std::move(limits));
-}
-
-std::vector<double> client_values(Client client, const Mesh& mesh, const WorkingUnits& units, Executor* executor) {
-  if (client == Client::none) return {};
-  const SolverMeasures m = solver_measures(mesh, false, executor);
-  std::vector<double> values = {-static_cast<double>(m.obtuse_triangles)};
-  if (client == Client::dflowfm) {
-    values.insert(values.end(), {-std::max(m.max_orthogonality, kRoundedOrthogonality), -m.max_smoothness,
-                                 m.min_flow_link, -static_cast<double>(m.small_flow_links)});
-  } else if (client == Client::mpas) {
-    values.insert(values.end(),
-                  {m.min_cell_quality, units.scale * m.min_grid_spacing, -units.scale * m.max_grid_spacing,
-                   m.min_triangle_quality, m.min_triangle_angle_quality, -m.max_centroid_offset_over_size});
-  }
-  return values;
-}
-
-std::size_t count_beyond(const Mesh& mesh, const WorkingUnits& units, const std::shared_ptr<const GuardLimits>& limits,
-                         Executor* executor) {
-  if (limits == nullptr) return 0;
-  std::size_t beyond = Guard(mesh, units, limits).count_beyond(executor);
-  const std::vector<double> values = client_values(limits->client, mesh, units, executor);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double limit = limits->of_client[i];
-    beyond += values[i] < limit - kRounding * std::abs(limit) ? 1 : 0;
-  }
-  return beyond;
 }
 
 }  // namespace temper

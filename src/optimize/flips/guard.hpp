@@ -17,7 +17,6 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,6 +24,7 @@
 #include <vector>
 
 #include "geometry/flow_cell.hpp"
+#include "optimize/flips/guard_limits.hpp"
 #include "optimize/flips/partition.hpp"
 #include "optimize/working/working_units.hpp"
 #include "size/cell_ring.hpp"
@@ -32,51 +32,6 @@
 #include "temper/topology.hpp"
 
 namespace temper {
-
-/// Values of which the least counts: larger is better. None depends on weights.
-struct GuardValues {
-  enum Measure {
-    sine,           ///< sin² of the least angle
-    cosine,         ///< 1 + cosine of the largest angle
-    edge,           ///< (edge over size)² of an inner edge
-    areas,          ///< Smaller over larger area of a pair
-    shortest,       ///< Length² of an edge
-    crossing,       ///< Time² of a wave across a triangle [s²]
-    edge_crossing,  ///< Time² of a wave along an edge [s²]
-    orthogonality,  ///< −|cosine| of the angle between an inner edge and its flow link
-    flow_link,      ///< Length of the flow link over the mean size of its cells
-    edges_alike,    ///< (Shortest over longest edge of a triangle)²
-    angles_alike,   ///< Least over largest angle of a triangle
-    spacing,        ///< Mean distance of a vertex from its neighbors
-    wide_spacing,   ///< −the same
-    duals_alike,    ///< Shortest over longest dual of a cell
-    centroid,       ///< −distance of a vertex from the centroid of its cell, over local size
-  };
-  static constexpr std::size_t kMeasures = 15;
-  std::array<double, kMeasures> value;
-
-  GuardValues() { value.fill(std::numeric_limits<double>::infinity()); }
-  /// Takes the worse of the two, measure by measure.
-  void take(const GuardValues& other);
-  /// Says whether no measure is worse than here and beyond the limit.
-  [[nodiscard]] bool hold(const GuardValues& before, const GuardValues& limits) const;
-  /// Says whether no measure is beyond the limit.
-  [[nodiscard]] bool are_within(const GuardValues& limits) const { return hold(GuardValues(), limits); }
-};
-
-/// The depths of the input, linear on its triangles. It is in the user's units.
-class DepthField;
-
-/// The limits of a run.
-struct GuardLimits {
-  GuardValues values;     ///< of the judge
-  GuardValues for_steps;  ///< tighter by a margin, since other maps and units give slightly other values
-  std::shared_ptr<const DepthField> depth;  ///< or null
-  Client client = Client::none;
-  bool has_cells = false;         ///< cells and their triangles are measured
-  bool has_flow = false;          ///< flow links are measured
-  std::vector<double> of_client;  ///< client_values() of the input
-};
 
 /// The neighbors of a vertex that a copy of a few triangles does not have: counter-clockwise, after those it has.
 struct OutsideNeighbors {
@@ -121,8 +76,8 @@ class Guard {
   /// Returns the values at boundary edge h, if its triangle had a neighbor with this third corner.
   [[nodiscard]] GuardValues across(HalfedgeId h, const WeightedPoint& beyond) const;
   [[nodiscard]] const GuardValues& limits() const { return limits_->for_steps; }
-  /// Counts the triangles that are beyond the limits, alone or with a neighbor.
-  [[nodiscard]] std::size_t count_beyond(Executor* executor = nullptr) const;
+  /// Counts the triangles that are beyond these limits, alone or with a neighbor.
+  [[nodiscard]] std::size_t count_beyond(const GuardValues& limits, Executor* executor = nullptr) const;
 
   /// Follow a compaction of the mesh, and new vertices at its end.
   void renumber(const Compaction& kept);
@@ -181,19 +136,5 @@ class Guard {
   std::vector<Corners> fresh_;
   std::vector<Triangle> shapes_;
 };
-
-/// Returns the limits for an input, by the options, or null if they set none.
-/// Error: the number of depths is not that of the vertices.
-[[nodiscard]] Expected<std::shared_ptr<const GuardLimits>> guard_limits(const Mesh& input,
-                                                                        const OptimizeOptions& options,
-                                                                        Executor* executor = nullptr);
-
-/// Returns the measures of the client over a mesh, larger ones better: of `check`, in the user's units. O(n).
-[[nodiscard]] std::vector<double> client_values(Client client, const Mesh& mesh, const WorkingUnits& units,
-                                                Executor* executor);
-
-/// Counts the triangles of a mesh, and the measures of the client, that are beyond the limits. O(n).
-[[nodiscard]] std::size_t count_beyond(const Mesh& mesh, const WorkingUnits& units,
-                                       const std::shared_ptr<const GuardLimits>& limits, Executor* executor = nullptr);
 
 }  // namespace temper

@@ -24,25 +24,31 @@ using Kind = WeightConstraint::Kind;
 
 constexpr double kOfEdge = 0.5, kOfFace = 0.75;
 
-}  // namespace
+double volume(const TetMesh& mesh, TetId t) {
+  const auto [p, q, r, s] = mesh.points(t);
+  return six_volumes(p.position(), q.position(), r.position(), s.position()) / 6;
+}
 
-std::vector<OffsetTerm> TetDemand::offsets(const WeightOptions& options) const {
-  const VertexSizes sizes = local_sizes(mesh_);
-  const auto volume = [&](TetId t) {
-    const auto [p, q, r, s] = mesh_.points(t);
-    return six_volumes(p.position(), q.position(), r.position(), s.position()) / 6;
-  };
-  std::vector<OffsetTerm> terms;
+/// The sum over the tetrahedra at each edge of a part of their volumes.
+std::map<std::array<VertexId, 2>, double> volumes_of_edges(const TetMesh& mesh) {
   std::map<std::array<VertexId, 2>, double> of_edge;
-  for (const TetId t : mesh_.tetrahedra()) {
-    std::array<VertexId, 4> v = mesh_.corners(t);
+  for (const TetId t : mesh.tetrahedra()) {
+    std::array<VertexId, 4> v = mesh.corners(t);
     std::sort(v.begin(), v.end());
-    const double part = kOfEdge * volume(t);
+    const double part = kOfEdge * volume(mesh, t);
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = i + 1; j < 4; ++j) of_edge[{v[i], v[j]}] += part;
     }
   }
-  for (const auto& [ends, part] : of_edge) {
+  return of_edge;
+}
+
+}  // namespace
+
+std::vector<OffsetTerm> TetDemand::offsets(const WeightOptions& options) const {
+  const VertexSizes sizes = local_sizes(mesh_);
+  std::vector<OffsetTerm> terms;
+  for (const auto& [ends, part] : volumes_of_edges(mesh_)) {
     const auto [p, q] = ends;
     const double s = 0.5 * (sizes[p] + sizes[q]), l2 = squared_length(mesh_.position(q) - mesh_.position(p));
     terms.push_back({split_constraint(p, q), options.offset_factor * part * l2 / (s * s), 0.5});
@@ -54,8 +60,9 @@ std::vector<OffsetTerm> TetDemand::offsets(const WeightOptions& options) const {
       if (!on_boundary && !mesh_.is_face_representative(h)) continue;
       const auto [p, q, r] = mesh_.vertices(h);
       const double s = (sizes[p] + sizes[q] + sizes[r]) / 3;
-      const double part =
-          kOfFace * (volume(t) + (on_boundary ? 0 : volume(TetMesh::tetrahedron(mesh_.twin(h))))) / (s * s);
+      const double part = kOfFace *
+                          (volume(mesh_, t) + (on_boundary ? 0 : volume(mesh_, TetMesh::tetrahedron(mesh_.twin(h))))) /
+                          (s * s);
       const Vec3 pq = mesh_.position(q) - mesh_.position(p), pr = mesh_.position(r) - mesh_.position(p);
       const double twice_area = length(cross(pq, pr)), side = length_of_area(0.5 * twice_area);
       const double l2 = squared_length(pq), inside = options.offset_factor * part;

@@ -1,0 +1,44 @@
+// The measures of the guard (guard.hpp).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+
+namespace temper {
+
+/// Values of which the least counts: larger is better. None depends on weights.
+struct GuardValues {
+  enum Measure {
+    sine,           ///< sin² of the least angle
+    cosine,         ///< 1 + cosine of the largest angle
+    edge,           ///< (edge over size)² of an inner edge
+    areas,          ///< Smaller over larger area of a pair
+    shortest,       ///< Length² of an edge
+    crossing,       ///< Time² of a wave across a triangle [s²]
+    edge_crossing,  ///< Time² of a wave along an edge [s²]
+    orthogonality,  ///< −|cosine| of the angle between an inner edge and its flow link
+    flow_link,      ///< Length of the flow link over the mean size of its cells
+    edges_alike,    ///< (Shortest over longest edge of a triangle)²
+    angles_alike,   ///< Least over largest angle of a triangle
+    spacing,        ///< Mean distance of a vertex from its neighbors
+    wide_spacing,   ///< −the same
+    duals_alike,    ///< Shortest over longest dual of a cell
+    centroid,       ///< −distance of a vertex from the centroid of its cell, over local size
+  };
+  static constexpr std::size_t kMeasures = 15;
+  std::array<double, kMeasures> value;
+
+  GuardValues() { value.fill(std::numeric_limits<double>::infinity()); }
+  /// Takes the worse of the two, measure by measure.
+  void take(const GuardValues& other);
+  /// Says whether no measure is worse than here and beyond the limit.
+  [[nodiscard]] bool hold(const GuardValues& before, const GuardValues& limits) const;
+  /// Says whether no measure is beyond the limit.
+  [[nodiscard]] bool are_within(const GuardValues& limits) const { return hold(GuardValues(), limits); }
+};
+
+/// The values after lengths, angles and ratios change by a factor. Negative measures change by its inverse.
+[[nodiscard]] GuardValues scaled(GuardValues v, double factor);
+
+}  // namespace temper
