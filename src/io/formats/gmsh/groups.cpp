@@ -23,7 +23,7 @@ struct GroupSet {
   }
 };
 
-struct Groups {
+struct GroupsOfFile {
   Document& document;
   AllocationLimits& allocation;
 };
@@ -69,7 +69,7 @@ void name_regions(std::vector<PhysicalName>& names, std::int32_t dimension,
 /// Makes cells with different sets of groups different regions. `inside` has 1 for each cell of a further group.
 template <std::size_t N>
 void part_regions(Elements<N>& cells, const std::map<std::int32_t, std::vector<std::int32_t>>& inside,
-                  std::vector<DataArray>& data, const Groups& to) {
+                  std::vector<DataArray>& data, const GroupsOfFile& to) {
   std::vector<GroupSet> set_of_cell(cells.nodes.size());
   std::map<GroupSet, std::int32_t> region_of;
   for (std::size_t i = 0; i < set_of_cell.size(); ++i) {
@@ -88,7 +88,7 @@ void part_regions(Elements<N>& cells, const std::map<std::int32_t, std::vector<s
 }
 
 template <std::size_t N>
-void add_groups(Elements<N>& cells, std::vector<DataArray>& data, const Groups& to) {
+void add_groups(Elements<N>& cells, std::vector<DataArray>& data, const GroupsOfFile& to) {
   if (cells.further.empty()) return;
   std::map<std::int32_t, std::vector<std::int32_t>> groups;
   for (const auto& [number, group] : cells.further) {
@@ -136,7 +136,7 @@ void forget_ungrouped(GmshElements& all, std::vector<PhysicalName>& names) {
 
 void settle_groups(GmshElements& elements, Document& document, AllocationLimits& allocation) {
   MeshFile& f = document.file;
-  const Groups to = {document, allocation};
+  const GroupsOfFile to = {document, allocation};
   forget_ungrouped(elements, f.names);
   const bool has_tets = !elements.tets.nodes.empty();
   add_groups(elements.tets, f.tetrahedra.data, to);
