@@ -1,5 +1,7 @@
 #include "errors/adjoint.hpp"
 
+#include <utility>
+
 namespace temper::error_detail {
 namespace {
 
@@ -17,8 +19,9 @@ struct EdgeAdjoint {
 
 /// ★0 of the ends is d D/2 and (ℓ − d) D/2 with D = h_left + h_right. ★1 is P/ℓ with P = Σ K h, the flux ℓ/S with
 /// S = Σ h/K.
-EdgeAdjoint of_operators(const DecComplex& dec, const DecEdge& edge, double star1, double flux, double from,
-                         double to) {
+EdgeAdjoint of_operators(const DecComplex& dec, const Adjoint& of, EdgeId e) {
+  const DecEdge& edge = dec.edges[e];
+  const double star1 = of.star1[e], flux = of.transmissibility[e], from = of.star0[edge.from], to = of.star0[edge.to];
   const double l = edge.length, d = edge.crossing, dual = edge.dual_length;
   const auto k_of = [&](TriangleId t) { return dec.coefficient.empty() || !t.valid() ? 1 : dec.coefficient[t]; };
   const double left = k_of(edge.left), right = k_of(edge.right);
@@ -39,9 +42,19 @@ EdgeAdjoint of_operators(const DecComplex& dec, const DecEdge& edge, double star
   return by;
 }
 
+/// Derivatives on their way to the vertices.
+struct PullBack {
+  const Mesh& mesh;
+  const DecComplex& dec;
+  IdVector<TriangleId, Vec2> orthocenter;
+  Gradient gradient = Gradient(mesh.n_vertices(), WeightedPoint{});
+
+  void edge(const DecEdge& edge, EdgeAdjoint by);
+  void triangle(TriangleId t, double by_area);
+};
+
 /// From an edge to its ends, and to the orthocenters on its sides.
-void pull_back_edge(const Mesh& mesh, const DecComplex& dec, const DecEdge& edge, EdgeAdjoint by,
-                    IdVector<TriangleId, Vec2>& orthocenter, Gradient& gradient) {
+void PullBack::edge(const DecEdge& edge, EdgeAdjoint by) {
   const Vec2 from = mesh.position(edge.from), e = mesh.position(edge.to) - from;
   const double l = edge.length;
   Vec2 by_e, by_from;
@@ -66,8 +79,8 @@ void pull_back_edge(const Mesh& mesh, const DecComplex& dec, const DecEdge& edge
 }
 
 /// From the orthocenter of a triangle, and its area, to its corners.
-void pull_back_triangle(const Mesh& mesh, const DecComplex& dec, TriangleId t, Vec2 by_orthocenter, double by_area,
-                        Gradient& gradient) {
+void PullBack::triangle(TriangleId t, double by_area) {
+  const Vec2 by_orthocenter = orthocenter[t];
   const auto [i, j, k] = mesh.corners(t);
   const Vec2 p = mesh.position(i), e = mesh.position(j) - p, f = mesh.position(k) - p;
   const Vec2 c = dec.orthocenters[t] - p;
@@ -117,21 +130,16 @@ void Adjoint::add_flux(const DecComplex& dec, const std::vector<double>& v, cons
 }
 
 Gradient pulled_back(const Mesh& mesh, const DecComplex& dec, const Adjoint& by) {
-  Gradient gradient(mesh.n_vertices(), WeightedPoint{});
-  for (const VertexId v : mesh.vertices()) add_place(gradient, v, by.vertex[v]);
-  IdVector<TriangleId, Vec2> orthocenter = by.orthocenter;
+  PullBack back = {mesh, dec, by.orthocenter};
+  for (const VertexId v : mesh.vertices()) add_place(back.gradient, v, by.vertex[v]);
   for (std::size_t i = 0; i < dec.edges.size(); ++i) {
     const EdgeId e(i);
-    const DecEdge& edge = dec.edges[e];
-    EdgeAdjoint of_edge =
-        of_operators(dec, edge, by.star1[e], by.transmissibility[e], by.star0[edge.from], by.star0[edge.to]);
+    EdgeAdjoint of_edge = of_operators(dec, by, e);
     of_edge.crossing += by.crossing[e];
-    pull_back_edge(mesh, dec, edge, of_edge, orthocenter, gradient);
+    back.edge(dec.edges[e], of_edge);
   }
-  for (const TriangleId t : mesh.triangles()) {
-    pull_back_triangle(mesh, dec, t, orthocenter[t], by.area[t], gradient);
-  }
-  return gradient;
+  for (const TriangleId t : mesh.triangles()) back.triangle(t, by.area[t]);
+  return std::move(back.gradient);
 }
 
 }  // namespace temper::error_detail

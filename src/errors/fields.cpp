@@ -253,11 +253,6 @@ FieldSize size_of_modes(const Field& field) {
   return {std::sqrt(sum.value), std::sqrt(sum.gradient)};
 }
 
-bool asks_for(std::string_view word, const ErrorField& field) {
-  if (word == "all") return field.group != FieldGroup::exact;
-  return word == field.name || word == name(field.group);
-}
-
 constexpr int kPieces = 8;  // of each side, so that the rule's error is rounding
 
 FieldSize size_in_plane(const Field& field) {
@@ -332,36 +327,6 @@ Vec2 first_waves(const Space& space, const FieldFrame& frame) {
     return period > 0 ? 2 * std::numbers::pi * frame.half_size / period : std::numbers::pi;
   };
   return {wave(space.period().x), wave(space.period().y)};
-}
-
-Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names, SpaceKind space) {
-  constexpr const char* kGroups[] = {"the fields are all, chosen, held-back, exact",
-                                     "the fields on the sphere are all, chosen, held-back",
-                                     "the fields in a periodic plane are all, chosen, held-back"};
-  return select_fields(names, all_fields(space), kGroups[static_cast<std::size_t>(space)]);
-}
-
-Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names, std::span<const Field> all,
-                                           std::string known_fields) {
-  const std::vector<std::string> asked = names.empty() ? std::vector<std::string>{"all"} : names;
-  std::vector<bool> wanted(all.size(), false);
-  for (const std::string& word : asked) {
-    bool known = false;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (!asks_for(word, all[i].field)) continue;
-      wanted[i] = known = true;
-    }
-    if (!known) {
-      for (const Field& f : all) known_fields.append(", ").append(f.field.name);
-      known_fields.insert(0, "no field '" + word + "'; ");
-      return InputError{ErrorCode::invalid_option, "", known_fields};
-    }
-  }
-  std::vector<Field> fields;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (wanted[i]) fields.push_back(all[i]);
-  }
-  return fields;
 }
 
 }  // namespace error_detail

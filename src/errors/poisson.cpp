@@ -6,7 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "base/median.hpp"
 #include "errors/stars.hpp"
 
 namespace temper::error_detail {
@@ -98,15 +97,9 @@ SchemeErrors poisson_errors(const Setting& s, const std::vector<Field>& fields, 
   const LinearSolution solution = solve(linear, condition);
 
   SchemeErrors result;
-  std::vector<double> inside;
-  for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
-    const DecEdge& edge = s.dec.edges[EdgeId(e)];
-    const double star1 = s.dec.star1[EdgeId(e)];
-    if (!edge.is_boundary()) inside.push_back(std::abs(star1));
-    if (star1 < 0 && !(points.is_given(edge.from.index) && points.is_given(edge.to.index))) ++result.system.negative;
-  }
+  describe_coefficients(
+      s.dec, points, [](const DecEdge& edge) { return edge.is_boundary(); }, result.system);
   describe(linear, solution, result.system);
-  result.system.largest_over_median = largest_over_median(std::move(inside));
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const double infinity = std::numeric_limits<double>::infinity();
     result.fields.push_back(solution.singular ? ErrorNorms{infinity, infinity}

@@ -2,11 +2,13 @@
 // up to a constant. So one unknown is given, and the mean of the error is subtracted.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "base/median.hpp"
 #include "errors/solve.hpp"
 #include "errors/stars.hpp"
 #include "temper/detail/error.hpp"
@@ -28,6 +30,19 @@ template <class Dec>
     points.connect(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index, dec.star1[EdgeId(e)]);
   }
   return points;
+}
+/// Describes the coefficients of this matrix. `is_boundary`: of an edge.
+template <class Dec, class IsBoundary>
+void describe_coefficients(const Dec& dec, const PointSystem& points, const IsBoundary& is_boundary,
+                           ErrorSystem& system) {
+  std::vector<double> inside;
+  for (std::size_t e = 0; e < dec.edges.size(); ++e) {
+    const auto& edge = dec.edges[EdgeId(e)];
+    const double star1 = dec.star1[EdgeId(e)];
+    if (!is_boundary(edge)) inside.push_back(std::abs(star1));
+    if (star1 < 0 && !(points.is_given(edge.from.index) && points.is_given(edge.to.index))) ++system.negative;
+  }
+  system.largest_over_median = largest_over_median(std::move(inside));
 }
 /// The residuals ★0 k² u − d0ᵀ ★1 d0 u of waves u with −Δu = k² u.
 template <class Dec>

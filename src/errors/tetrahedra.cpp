@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/median.hpp"
 #include "errors/poisson.hpp"
 #include "temper/tets/errors.hpp"
 #include "temper/tets/operators.hpp"
@@ -190,13 +189,8 @@ Subject::Schemes Subject::poisson_errors(const std::vector<Field>& fields, bool 
   for (const std::uint8_t on_boundary : boundary_vertices(mesh_)) given.push_back(on_boundary != 0);
   const error_detail::PointSystem points = error_detail::vertex_system(dec_, given);
   Schemes result;
-  std::vector<double> inside;
-  for (std::size_t e = 0; e < dec_.edges.size(); ++e) {
-    const DecEdge& edge = dec_.edges[EdgeId(e)];
-    const double star1 = dec_.star1[EdgeId(e)];
-    if (!edge.is_boundary) inside.push_back(std::abs(star1));
-    if (star1 < 0 && !(given[edge.from.index] && given[edge.to.index])) ++result.system.negative;
-  }
+  describe_coefficients(
+      dec_, points, [](const DecEdge& edge) { return edge.is_boundary; }, result.system);
   error_detail::LinearSystem linear = {points.n_unknowns(), points.lower(), {}};
   for (const Field& plain : fields) {
     const Framed field = {plain, frame_};
@@ -209,7 +203,6 @@ Subject::Schemes Subject::poisson_errors(const std::vector<Field>& fields, bool 
   }
   const error_detail::LinearSolution solution = error_detail::solve(linear, condition);
   describe(linear, solution, result.system);
-  result.system.largest_over_median = largest_over_median(std::move(inside));
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const Framed field = {fields[i], frame_};
     const double size = field.size().value;

@@ -55,29 +55,6 @@ struct LoweredStar {
   }
 };
 
-/// Takes one step of v that lowers the energy of `star`: over-relaxed, then plain, then halved. All tetrahedra between
-/// v and its link are good then. Otherwise v stays.
-void take_valid_step(TetMesh& mesh, VertexId v, std::span<const HalffaceId> link, const LoweredStar& star,
-                     const Mobility& mobility, double radius, double relaxation) {
-  constexpr int kTrials = 6;
-  constexpr double kRounding = 1e-15;  // a smaller part of the energy is rounding
-  const WeightedPoint origin = mesh.point(v);
-  const PointDerivatives<double> here = star.derivatives(origin);
-  if (!std::isfinite(here.value)) return;
-  const auto [step, predicted] = newton_step(here, mobility, radius);
-  if (!(predicted > kRounding * here.value)) return;
-  double t = relaxation;
-  for (int trial = 0; trial < kTrials; ++trial, t = trial == 1 ? 1 : 0.5 * t) {
-    WeightedPoint p = {origin.x, origin.y, origin.z, origin.w + t * step.w};  // -0.0 + 0 is another zero
-    if (mobility.moves()) p.x += t * step.x, p.y += t * step.y, p.z += t * step.z;
-    if (!is_exact(p) || !(star.value(p) < here.value)) continue;
-    mesh.set_point(v, p);
-    if (std::all_of(link.begin(), link.end(), [&](HalffaceId h) { return is_good(mesh, TetMesh::tetrahedron(h)); }))
-      return;
-    mesh.set_point(v, origin);
-  }
-}
-
 double rms_distance(const TetMesh& mesh, VertexId v, std::span<const HalffaceId> link) {
   double sum = 0;
   for (const HalffaceId h : link) {
@@ -105,11 +82,30 @@ bool HotSweeps::sweep(const MustStop& must_stop) {
   return sweeper_.sweep(new_step, must_stop);
 }
 
+/// Takes one step of v that lowers the energy of its star: over-relaxed, then plain, then halved. All tetrahedra
+/// between v and its link are good then. Otherwise v stays.
 WeightedPoint HotSweeps::improved(VertexId v, std::span<const HalffaceId> halffaces, Room& room) {
+  constexpr int kTrials = 6;
+  constexpr double kRounding = 1e-15;  // a smaller part of the energy is rounding
   room.hot.gather(mesh_, halffaces);
   const LoweredStar star = {room.hot, energy_, gather(mesh_, halffaces, room.link), barrier_};
-  take_valid_step(mesh_, v, halffaces, star, mobility_[v], rms_distance(mesh_, v, halffaces), relaxation_);
-  return mesh_.point(v);
+  const WeightedPoint origin = mesh_.point(v);
+  const PointDerivatives<double> here = star.derivatives(origin);
+  if (!std::isfinite(here.value)) return origin;
+  const auto [step, predicted] = newton_step(here, mobility_[v], rms_distance(mesh_, v, halffaces));
+  if (!(predicted > kRounding * here.value)) return origin;
+  double t = relaxation_;
+  for (int trial = 0; trial < kTrials; ++trial, t = trial == 1 ? 1 : 0.5 * t) {
+    WeightedPoint p = {origin.x, origin.y, origin.z, origin.w + t * step.w};  // -0.0 + 0 is another zero
+    if (mobility_[v].moves()) p.x += t * step.x, p.y += t * step.y, p.z += t * step.z;
+    if (!is_exact(p) || !(star.value(p) < here.value)) continue;
+    mesh_.set_point(v, p);
+    if (std::all_of(halffaces.begin(), halffaces.end(),
+                    [&](HalffaceId h) { return is_good(mesh_, TetMesh::tetrahedron(h)); }))
+      return p;
+    mesh_.set_point(v, origin);
+  }
+  return origin;
 }
 
 }  // namespace temper::tets

@@ -157,14 +157,14 @@ StarStep step(const Link& link, const WeightedPoint& origin, const Mobility& mob
   return {};
 }
 
-/// Adds what the height over the face abc of abcd says.
-TEMPER_INLINE void judge_height(const Point (&at)[4], std::size_t a, std::size_t b, std::size_t c, std::size_t d,
-                                Mask& inside, Mask& outside) {
+/// Adds what the height over the face of the first three corners says.
+TEMPER_INLINE void judge_height(const Point (&at)[4], const std::size_t (&corners)[4], Mask& inside, Mask& outside) {
   struct Coordinates {
     Pack x, y, z, w;
   };
   const auto of = [&](std::size_t i) { return Coordinates{at[i].at.x, at[i].at.y, at[i].at.z, at[i].w}; };
-  const auto height = tets::height_polynomial<tets::EstimateOf<Pack>>(of(a), of(b), of(c), of(d));
+  const auto height =
+      tets::height_polynomial<tets::EstimateOf<Pack>>(of(corners[0]), of(corners[1]), of(corners[2]), of(corners[3]));
   const Pack bound = tets::kHeightBound * height.permanent;
   inside = inside & (height.value > bound);
   outside = outside | (height.value < -bound);
@@ -176,10 +176,10 @@ tets::Certainty tetrahedra(const tets::TetLanes& tetrahedra, double gamma, tets:
   const Face face = tets::link_face_of(at[0], at[1], at[2]);
   tets::tet_energy(face, at[3].at, at[3].w, Pack::all(gamma)).store(energies);
   Mask inside = face.length2 >= 0, outside = ~inside;
-  judge_height(at, 0, 1, 2, 3, inside, outside);
-  judge_height(at, 0, 3, 1, 2, inside, outside);
-  judge_height(at, 0, 2, 3, 1, inside, outside);
-  judge_height(at, 1, 3, 2, 0, inside, outside);
+  judge_height(at, {0, 1, 2, 3}, inside, outside);
+  judge_height(at, {0, 3, 1, 2}, inside, outside);
+  judge_height(at, {0, 2, 3, 1}, inside, outside);
+  judge_height(at, {1, 3, 2, 0}, inside, outside);
   return {inside.bits(), outside.bits()};
 }
 

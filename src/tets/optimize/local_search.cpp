@@ -1,6 +1,7 @@
 #include "tets/optimize/local_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <unordered_set>
 #include <utility>
 
@@ -88,6 +89,14 @@ bool is_better(const MeshState& now, const MeshState& before) {
   return now.bad != before.bad ? now.bad < before.bad : now.energy < (1 - kLeastGainOfSearch) * before.energy;
 }
 
+/// The corners of a tetrahedron by name.
+std::array<VertexId, 4> names_of(const Draft& draft, TetId t) {
+  std::array<VertexId, 4> corners = draft.mesh.corners(t);
+  for (VertexId& v : corners) v = draft.names.vertices[v];
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
 }  // namespace
 
 bool change_all(Draft& draft, const MustStop& must_stop, Executor* executor) {
@@ -137,17 +146,11 @@ std::vector<Patch> Places::choose(const Draft& draft, Executor* executor) {
   const std::vector<TetId> needy = to_change(mesh, options_.small_margin, executor);
   PatchMaker maker(draft);
   const VertexStars& stars = maker.stars();
-  const auto names_of = [&](TetId t) {
-    Corners corners = mesh.corners(t);
-    for (VertexId& v : corners) v = draft.names.vertices[v];
-    std::sort(corners.begin(), corners.end());
-    return corners;
-  };
   IdVector<TetId, std::uint8_t> is_needy(mesh.n_tetrahedra());
   for (const TetId t : needy) is_needy[t] = 1;
   IdVector<TetId, std::size_t> patch_of_tet(mesh.n_tetrahedra());  // from 1; 0: none
   for (const TetId t : needy) {
-    const auto tried = tries_.find(names_of(t));
+    const auto tried = tries_.find(names_of(draft, t));
     const int tries = tried == tries_.end() ? 0 : tried->second;
     if (tries >= kTriesOfPlace) continue;
     std::vector<TetId> around = with_rings(mesh, stars, {t}, kRings + tries);
@@ -165,7 +168,7 @@ std::vector<Patch> Places::choose(const Draft& draft, Executor* executor) {
     for (const TetId s : around) {
       const auto& corners = mesh.corners(s);
       if (s == t || (!alone && is_needy[s] != 0 && std::all_of(corners.begin(), corners.end(), may_change)))
-        along.push_back(names_of(s));
+        along.push_back(names_of(draft, s));
     }
     for (const Corners& corners : along) ++tries_[corners];
   }

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/rng.hpp"
-#include "optimize/solver_error/solver_error_phase.hpp"
 #include "support/lattice.hpp"
 #include "support/std_threads.hpp"
 #include "temper/errors.hpp"
@@ -264,42 +263,6 @@ TEST(ErrorObjective, IsForSchemesAndEnergiesThatCenterTriangles) {
   hot.energy = EnergyKind::T;
   EXPECT_FALSE(optimize(mesh, hot));
   EXPECT_EQ(mesh, before);
-}
-
-// --- L-BFGS ----------------------------------------------------------------------------------------------------------
-
-/// ½ xᵀ A x with A = diag(1, 2, …, n): the gradient.
-std::vector<double> gradient_at(const std::vector<double>& x) {
-  std::vector<double> g = x;
-  for (std::size_t i = 0; i < g.size(); ++i) g[i] *= static_cast<double>(i + 1);
-  return g;
-}
-
-TEST(Descent, WithExactSearchesEndsAQuadraticFunctionInAsManyStepsAsUnknowns) {
-  std::vector<double> x = {1, -2, 0.5, 3, -1};
-  Descent descent;
-  for (std::size_t step = 0; step < x.size(); ++step) {
-    const std::vector<double> g = gradient_at(x);
-    std::vector<double> d = descent.direction(g);
-    EXPECT_LT(dot(d, g), 0);
-    const double t = -dot(d, g) / dot(d, gradient_at(d));
-    for (std::size_t i = 0; i < x.size(); ++i) d[i] *= t, x[i] += d[i];
-    std::vector<double> change = gradient_at(x);
-    for (std::size_t i = 0; i < x.size(); ++i) change[i] -= g[i];
-    descent.learn(d, change);
-  }
-  EXPECT_LT(largest(x), 1e-10);
-}
-
-TEST(Descent, LearnsNothingFromStepsWithoutCurvature) {
-  Descent descent;
-  descent.learn({1, 0}, {-1, 0});
-  EXPECT_TRUE(descent.knows_nothing());
-  descent.learn({1, 0}, {2, 0});
-  EXPECT_FALSE(descent.knows_nothing());
-  EXPECT_EQ(descent.direction({2, 0}), (std::vector<double>{-1, 0}));
-  descent.forget();
-  EXPECT_TRUE(descent.knows_nothing());
 }
 
 // --- never worse -----------------------------------------------------------------------------------------------------
