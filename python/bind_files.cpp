@@ -6,6 +6,7 @@
 
 #include "bind.hpp"
 #include "data_arrays.hpp"
+#include "temper/detail/file_cures.hpp"
 
 namespace temper::python {
 namespace {
@@ -161,13 +162,14 @@ py::tuple mesh_from_file_arrays(const py::dict& d, const py::sequence& fixed_tag
 }
 
 py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, const std::string& projection, bool flat,
-                    const std::string& positive, const py::object& threads) {
+                    const std::string& positive, const py::object& merge, const py::object& threads) {
   const auto tags = strings_from(fixed_tags);
   const auto executor = make_threads(threads_from(threads));
   io::ReadOptions options = {.executor = executor.get(), .flat = flat};
   if (!positive.empty()) options.positive = from_name<io::Positive>("positive", positive);
   auto read = aside([&] { return io::read(path, options); });
   auto file = or_raise(std::move(read));
+  if (!merge.is_none()) static_cast<void>(or_raise(io::merge_points(file, merge.cast<double>())));
   if (file.dimension() == 3) {
     const char* const given = !tags.empty()         ? "fixed_tags"
                               : !projection.empty() ? "projection"

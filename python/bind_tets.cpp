@@ -178,12 +178,7 @@ py::dict tet_quality(const PyTetMesh& self, std::size_t worst, const py::object&
   const auto loaded = self.loaded;
   const tets::Quality q = aside([&] { return tets::quality(loaded->mesh, {worst, executor.get()}); });
   py::list listed;
-  for (const tets::WorstTet& w : q.worst) {
-    listed.append(
-        Record()("tetrahedron", w.tetrahedron)("vertices", w.vertices)("at", std::array{w.at.x, w.at.y, w.at.z})(
-            "h_over_l", w.h_over_l)("dihedral_deg", w.dihedral_deg)("why", w.why)
-            .dict);
-  }
+  for (const tets::WorstTet& w : q.worst) listed.append(worst_to_record(w).dict);
   return measures_of(tets::quality_measures(), q)("worst", listed)("dihedrals", histogram_to_dict(q.dihedrals))(
              "h_over_l", histogram_to_dict(q.h_over_l))
       .dict;

@@ -1,14 +1,18 @@
 // Weights by linear programming, certificates, and reasons: feasibility.hpp, connectivity.hpp, necessity.hpp and
 // explain.hpp.
 #include <chrono>
+#include <limits>
 #include <optional>
+#include <variant>
 
 #include "bind.hpp"
+#include "temper/detail/certificate_io.hpp"
 #include "temper/detail/connectivity.hpp"
 #include "temper/detail/lp.hpp"
 #include "temper/detail/necessity.hpp"
 #include "temper/explain.hpp"
 #include "temper/feasibility.hpp"
+#include "temper/tets/explain.hpp"
 #include "temper/tets/weights.hpp"
 
 TEMPER_PYTHON_NAMES(temper::LpStatus, "optimal", "infeasible", "unbounded", "failed");
@@ -247,6 +251,15 @@ void bind_feasibility(py::module_& m) {
     const auto mesh = self.read();
     return std::string(name(check_certificate(*mesh, certificate_from(certificate))));
   });
+  m.def("certificate_to_json", [](const py::dict& d) {
+    return d.contains("lemmas") ? io::certificate_to_json(proof_from(d)) : io::certificate_to_json(certificate_from(d));
+  });
+  m.def("certificate_from_json", [](const std::string& text) {
+    const io::VertexOfPoint all_points(std::numeric_limits<std::int32_t>::max());
+    const io::AnyCertificate any = or_raise(io::certificate_from_json(text, all_points));
+    const auto* const proof = std::get_if<ConnectivityProof>(&any);
+    return proof != nullptr ? proof_to_python(*proof) : py::object(certificate_to_dict(std::get<Certificate>(any)));
+  });
   m.def("check_proof", [](const PyMesh& self, const py::dict& proof) {
     const auto mesh = self.read();
     require_plane(*mesh, "check_certificate() of a proof over connectivities");
@@ -365,6 +378,29 @@ py::dict explain_mesh(const PyMesh& self, std::size_t cures, std::size_t whole, 
       .dict;
 }
 
+py::dict explain_tetrahedra(const PyTetMesh& self, std::size_t whole) {
+  const auto loaded = self.loaded;
+  const tets::ExplainOptions options = {.whole = whole};
+  const tets::Explanation why = or_raise(aside([&] { return tets::explain(loaded->mesh, *clp_solver(), options); }));
+  py::list reasons;
+  for (const tets::Reason& reason : why.reasons) {
+    py::list faces;
+    for (const tets::FaceHeight& f : reason.faces) {
+      faces.append(Record()("vertices", f.vertices)("boundary", f.boundary)("h", f.h)("h_over_l", f.h_over_l)(
+                       "outside", f.outside)("crossed", f.crossed)
+                       .dict);
+    }
+    const Vec3 center = reason.orthocenter;
+    reasons.append(worst_to_record(reason)("orthocenter", std::array{center.x, center.y, center.z})("faces", faces)(
+                       "all_on_boundary", reason.all_on_boundary)("cure", tets::name(reason.cure))
+                       .dict);
+  }
+  return Record()("tetrahedra", why.quality.tetrahedra)("bad", why.bad)("verdict", name(why.verdict()))(
+             "all_on_boundary", why.all_on_boundary)(
+             "weights", why.weights ? py::object(weight_report_to_dict(*why.weights)) : py::none())("reasons", reasons)
+      .dict;
+}
+
 }  // namespace
 
 void bind_weights(py::module_& m) {
@@ -372,6 +408,7 @@ void bind_weights(py::module_& m) {
   bind_weights_of_tetrahedra(m);
   bind_necessity(m);
   m.def("explain", explain_mesh);
+  m.def("tet_explain", explain_tetrahedra);
 }
 
 }  // namespace temper::python

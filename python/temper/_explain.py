@@ -1,17 +1,19 @@
-"""For each triangle that is not well-centered, the reason and a cure."""
+"""For each triangle or tetrahedron that is not well-centered, the reason and a cure."""
 
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, Callable, Literal
+from typing import Any, Callable, Literal, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _temper
-from ._mesh import MeshLike, as_mesh
+from ._measure import WorstTet
+from ._mesh import MeshLike
 from ._records import Record, merged, table
-from ._weights import Certificate, EdgeConflict
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, refuse_for_tetrahedra
+from ._weights import Certificate, EdgeConflict, WeightReport
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -131,6 +133,54 @@ class Explanation(Record):
         return table("Explanation", rows, table("reasons", reasons) if reasons else "")
 
 
+@dataclasses.dataclass(frozen=True)
+class FaceHeight(Record):
+    """The height of the orthocenter of a tetrahedron over one of its faces."""
+
+    vertices: tuple[int, int, int]
+    boundary: bool
+    h: float
+    """Height, positive inside [length]."""
+    h_over_l: float
+    """Height over the side of the equilateral triangle with the area of the face."""
+    outside: bool
+    """h ≤ 0, exact."""
+    crossed: bool
+    """The orthocenter of the face is strictly inside it, exact."""
+
+
+@dataclasses.dataclass(frozen=True)
+class TetReason(WorstTet):
+    """A tetrahedron that is not well-centered."""
+
+    orthocenter: tuple[float, float, float]
+    faces: list[FaceHeight]
+    """Heights over its four faces."""
+    all_on_boundary: bool
+    """All corners are on the boundary."""
+    cure: Literal["weights", "optimize", "split_boundary"]
+    """What may help: ``find_weights``, ``optimize``, or ``optimize`` with ``boundary="split"``. It is not tried."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetExplanation(Record):
+    """The result of ``explain`` for tetrahedra."""
+
+    tetrahedra: int
+    bad: int
+    verdict: Literal["feasible", "infeasible", "undecided"]
+    """Verdict on the whole mesh with its positions and connectivity; undecided if no weights were searched for."""
+    all_on_boundary: int
+    """Number of bad tetrahedra with all corners on the boundary."""
+    weights: WeightReport | None
+    """Weights of the whole mesh, or the certificate that none exist; None if they were not searched for."""
+    reasons: list[TetReason]
+    """Bad tetrahedra, worst first."""
+
+    def __str__(self) -> str:
+        return "\n".join([super().__str__(), *(f"  tetrahedron {r.tetrahedron}: {r.why}" for r in self.reasons)])
+
+
 def _crossing(d: dict[str, Any] | None) -> CrossingConflict | None:
     if d is None:
         return None
@@ -148,25 +198,42 @@ def _reason(d: dict[str, Any]) -> Reason:
     return Reason(**merged(d, **changed))
 
 
+_CURES = 20
+
+
+@overload
 def explain(
-    mesh: MeshLike,
+    mesh: TetMesh, *, cures: int = ..., whole: int = ..., progress: Callable[[int, int], Any] | None = ...
+) -> TetExplanation: ...
+@overload
+def explain(
+    mesh: MeshLike, *, cures: int = ..., whole: int = ..., progress: Callable[[int, int], Any] | None = ...
+) -> Explanation: ...
+def explain(
+    mesh: AnyMeshLike,
     *,
-    cures: int = 20,
+    cures: int = _CURES,
     whole: int = 1000,
     progress: Callable[[int, int], Any] | None = None,
-) -> Explanation:
-    """Explains each triangle that is not well-centered by exactly one reason (docs/explanation/proofs.md).
+) -> Explanation | TetExplanation:
+    """Explains each triangle that is not well-centered by exactly one reason (docs/explanation/proofs.md). For each
+    tetrahedron that is not well-centered, it gives the heights over its faces, and what may help.
 
     Parameters
     ----------
-    mesh : MeshLike
+    mesh : Mesh, TetMesh, or of another library
     cures : int
-        Largest number of reasons, the worst, for which cures are searched.
+        Largest number of reasons, the worst, for which cures are searched. For triangles alone.
     whole : int
-        Size limit of the search for weights of the whole mesh: at most this many triangles, or this many bad ones.
+        Size limit of the search for weights of the whole mesh: at most this many triangles or tetrahedra, or this many
+        bad ones.
     progress : callable, optional
         Function that is called now and then with the number of explained bad triangles, and the number of all. If it
-        returns False, the call stops with TemperError.
+        returns False, the call stops with TemperError. For triangles alone.
+
+    Returns
+    -------
+    Explanation, or TetExplanation for tetrahedra
 
     Notes
     -----
@@ -178,5 +245,12 @@ def explain(
     >>> why.verdict, len(why.reasons) > 0
     ('infeasible', True)
     """
-    d = _temper.explain(as_mesh(mesh)._handle, cures, whole, progress)
+    any_mesh = as_any_mesh(mesh)
+    if isinstance(any_mesh, TetMesh):
+        refuse_for_tetrahedra(cures=(cures, _CURES), progress=(progress, None))
+        d = _temper.tet_explain(any_mesh._handle, whole)
+        weights = None if d["weights"] is None else WeightReport._of(d["weights"])
+        reasons = [TetReason(**merged(r, faces=[FaceHeight(**f) for f in r["faces"]])) for r in d["reasons"]]
+        return TetExplanation(**merged(d, weights=weights, reasons=reasons))
+    d = _temper.explain(any_mesh._handle, cures, whole, progress)
     return Explanation(**merged(d, reasons=[_reason(r) for r in d["reasons"]]))

@@ -44,6 +44,7 @@ def read(
     projection: str | None = None,
     flat: bool = False,
     positive: Literal["up", "down"] | None = None,
+    merge: float | None = None,
     threads: int | None = None,
 ) -> Mesh | TetMesh:
     """Reads a mesh file. Its content decides the format, never its name. A file with tetrahedra gives a ``TetMesh``.
@@ -67,6 +68,10 @@ def read(
         Sign of the bed in the file: ``"up"`` for heights, ``"down"`` for depths. Only z needs it, since other data have
         a name that tells. In 2DM, z is a height unless you say ``"down"``. ``write`` gives the sign of its format.
         ``fixed_tags``, ``projection``, ``flat`` and ``positive`` are for triangles alone.
+    merge : float, optional
+        Distance up to which points become one, at least 0, in the units of the file; on a sphere along the chord. It
+        closes cracks. The first point of each place stays. Triangles with two corners at exactly one place are dropped,
+        with a warning.
     threads : int, optional
         Threads that unpack; None or 0: all of the machine. The result does not depend on them.
 
@@ -80,7 +85,7 @@ def read(
     ------
     TemperError
         An error in the file. The message has file and line, the element in the file's numbering, and the value expected
-        and found.
+        and found. With ``merge``: a triangle or tetrahedron that would lose a corner.
 
     Warns
     -----
@@ -88,7 +93,7 @@ def read(
         Each of ``Mesh.warnings``.
     """
     tags = [str(tag) for tag in fixed_tags]
-    handle, messages = _temper.read(os.fspath(path), tags, projection or "", flat, positive or "", threads)
+    handle, messages = _temper.read(os.fspath(path), tags, projection or "", flat, positive or "", merge, threads)
     if isinstance(handle, _temper.TetMesh):
         return TetMesh._of(handle, messages, 2)
     return _warn(Mesh._of(handle), messages, 2)

@@ -64,6 +64,14 @@ class WeightConstraint:
     """Fifth vertex, only for a dual of a face; else −1."""
 
 
+def _read(text: str, part: str) -> dict[str, Any]:
+    """The certificate or proof in a text, which must have this part."""
+    d = _temper.certificate_from_json(text)
+    if part not in d:
+        raise TypeError(f"expected a certificate with {part}. Next: temper.types.{'ConnectivityProof' if 'lemmas' in d else 'Certificate'} reads it")
+    return d
+
+
 @dataclasses.dataclass(frozen=True)
 class Certificate(Record):
     """A proof that no weights exist (Farkas): constraints with multipliers ≥ 0 whose sum is a contradiction. The
@@ -83,6 +91,26 @@ class Certificate(Record):
     @classmethod
     def _of(cls, d: dict[str, Any]) -> Certificate:
         return cls(d["margin"], [(WeightConstraint(*c), m) for c, m in d["terms"]], d["constraints"])
+
+    def to_json(self) -> str:
+        """The certificate as JSON, which ``temper weights --check-certificate`` reads. Vertices count from 0."""
+        return str(_temper.certificate_to_json(self._plain()))
+
+    @classmethod
+    def from_json(cls, text: str) -> Certificate:
+        """Reads the text of ``to_json`` or of ``temper weights --certificate``.
+
+        Raises
+        ------
+        TemperError
+            No such certificate. The message names the wrong term.
+
+        >>> import temper
+        >>> proof = temper.find_weights(temper.generate.sparse_horseshoe(), goal="margin").certificate
+        >>> temper.types.Certificate.from_json(proof.to_json()) == proof
+        True
+        """
+        return cls._of(_read(text, "terms"))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -188,6 +216,13 @@ class WeightReport(Record):
     optimality: Optimality | None = None
     """Proof that the weights are best; only for center and accuracy, if solved."""
 
+    @classmethod
+    def _of(cls, d: dict[str, Any]) -> WeightReport:
+        violations = [Violation(**merged(v, constraint=WeightConstraint(*v["constraint"]))) for v in d["violations"]]
+        proof = d["optimality"]
+        optimality = None if proof is None else Optimality._of(proof)
+        return cls(**merged(d, violations=violations, certificate=Certificate._of(d["certificate"]), optimality=optimality))
+
 
 def find_weights(
     mesh: AnyMeshLike,
@@ -254,11 +289,7 @@ def find_weights(
         d = _temper.tet_find_weights(any_mesh._handle, *wanted)
     else:
         d = _temper.find_weights(any_mesh._handle, *wanted, _edges(edges))
-    violations = [Violation(**merged(v, constraint=WeightConstraint(*v["constraint"]))) for v in d["violations"]]
-    certificate = Certificate._of(d["certificate"])
-    proof = d["optimality"]
-    optimality = None if proof is None else Optimality._of(proof)
-    return WeightReport(**merged(d, violations=violations, certificate=certificate, optimality=optimality))
+    return WeightReport._of(d)
 
 
 def best_margin(
@@ -328,6 +359,15 @@ class ConnectivityProof(Record):
     def _of(cls, d: dict[str, Any]) -> ConnectivityProof:
         terms = lambda row: [(WeightConstraint(*c), m) for c, m in row["terms"]]  # noqa: E731
         return cls(d["constraints"], [Lemma(row["edges"], terms(row), row["side"], row["cases"]) for row in d["lemmas"]])
+
+    def to_json(self) -> str:
+        """The proof as JSON, which ``temper weights --check-certificate`` reads. Vertices count from 0."""
+        return str(_temper.certificate_to_json(self._plain()))
+
+    @classmethod
+    def from_json(cls, text: str) -> ConnectivityProof:
+        """Reads the text of ``to_json``. TemperError: no such proof; the message names the wrong lemma."""
+        return cls._of(_read(text, "lemmas"))
 
 
 def check_certificate(mesh: AnyMeshLike, certificate: Certificate | ConnectivityProof) -> str:

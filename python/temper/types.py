@@ -6,7 +6,7 @@ Submodules have such classes of their own, for example ``temper.topology``.
 
 from ._dec import Columns, DecComplex, DecEdges, DecSummary, IncidenceMatrix, PowerCells, TetDecComplex, TetDecEdges, TetDecFaces, TetDecSummary
 from ._draw import Html, Svg
-from ._explain import CrossingConflict, CrossingSide, Cure, Explanation, FanCenter, Reason
+from ._explain import CrossingConflict, CrossingSide, Cure, Explanation, FaceHeight, FanCenter, Reason, TetExplanation, TetReason
 from ._io import Format
 from ._measure import Histogram, Quality, QualityMeasure, TetQuality, TetrahedronQuality, TriangleQuality, WorstTet, WorstTriangle
 from ._optimize import DataReport, OptimizeReport, Replay, SizeChange, Snapshot, TraceEvent

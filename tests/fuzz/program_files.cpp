@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "exit.hpp"
-#include "files/certificate_json.hpp"
 #include "files/trace_jsonl.hpp"
 #include "target.hpp"
+#include "temper/detail/certificate_io.hpp"
 #include "temper/detail/dec_io.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
@@ -38,20 +38,19 @@ void survive(Work work) {
 }
 
 void read_certificate(std::string_view bytes) {
-  static const Scratch scratch;
-  const auto read = [](const std::string& path) {
-    return app::read_certificate(path, input().loaded.vertex_of_point, "triangle");
+  const auto read = [](std::string_view text) {
+    return app::or_fail(io::certificate_from_json(text, input().loaded.vertex_of_point, "c.json"));
   };
   survive([&] {
-    const app::AnyCertificate any = read(scratch.make("c.json", bytes));
+    const io::AnyCertificate any = read(bytes);
     if (const auto* const proof = std::get_if<ConnectivityProof>(&any)) {
       static_cast<void>(check_proof(input().mesh(), *proof));
-      static_cast<void>(read(scratch.make("d.json", app::proof_text(*proof, input().points))));
+      static_cast<void>(read(io::certificate_to_json(*proof, input().points)));
       return;
     }
     const auto& certificate = std::get<Certificate>(any);
     static_cast<void>(check_certificate(input().mesh(), certificate));
-    static_cast<void>(read(scratch.make("d.json", app::certificate_text(certificate, input().points))));
+    static_cast<void>(read(io::certificate_to_json(certificate, input().points)));
   });
 }
 

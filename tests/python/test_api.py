@@ -41,6 +41,8 @@ ELSEWHERE = {
     "gdal_version": "as compiled_instruction_sets", "path_of": "pathlib", "utf8": "as path_of",
     "clp_solver": "find_weights, best_margin and explain use it", "interior_point_solver": "find_weights uses it",
     "check_proof": "check_certificate checks proofs, too",
+    "certificate_to_json": "Certificate.to_json", "certificate_from_json": "Certificate.from_json", "optimality_to_json": "temper weights writes it", "is_too_deep": "from_json checks",
+    "merge_points": "read(merge=…)", "find_crack": "temper check warns", "flip_flat_triangles": "temper convert does it",
     "reason_text": "Reason.text", "cure_text": "Cure.text",
     "make_mesh": "read and from_meshio make the mesh", "make_tet_mesh": "as make_mesh", "expect_triangles": "read takes both kinds", "update": "write does it", "set_points": "from_meshio does it", "release_geometry": "read does it",
     "parse_data_rules": "Mesh.point_data_rules", "check_data_rules": "as parse_data_rules",
@@ -97,6 +99,9 @@ STRUCTS = {
     "Reason": (temper.types.Reason, set()),
     "Cure": (temper.types.Cure, set()),
     "Explanation": (temper.types.Explanation, set()),
+    "tets::FaceHeight": (temper.types.FaceHeight, set()),
+    "tets::Reason": (temper.types.TetReason, set()),
+    "tets::Explanation": (temper.types.TetExplanation, {"quality"}),
     "ErrorReport": (temper.types.ErrorReport, set()),
     "ErrorSystem": (temper.types.ErrorSystem, set()), "DiffusionErrors": (temper.types.DiffusionErrors, set()),
     "Restoration": (temper.topology.Restoration, set()),
@@ -128,7 +133,7 @@ def fields_of(struct):
         body = re.sub(r"^  (?:enum class|struct) .*?^  \};", "", match[2], flags=re.M | re.S)
         body = re.sub(r" = [\w:<>]+\(\);", ";", body)
         body = "\n".join(line for line in body.splitlines() if "(" not in line.split("=")[0] or "std::function" in line)
-        found = fields_of(match[1]) if match[1] else set()
+        found = fields_of("tets::" * tets + match[1]) if match[1] else set()
         for statement in re.findall(r"^  (?!friend|\[\[|static|return|enum|  )([A-Za-z][^;{}()]*(?:\{[^;]*\})?[^;]*);", body, re.M):
             for piece in re.split(r",(?![^<{]*[>}])", statement):
                 name = re.search(r"(\w+)\s*(?:=.*)?$", piece.strip(), re.S)

@@ -269,6 +269,15 @@ def test_weights_that_exist_are_found_and_others_refuted():
     nothing = temper.types.Certificate(0.0, [(c, 1.0) for c, _ in best.certificate.terms[:1]])
     assert temper.check_certificate(hard, nothing) != "proves"
     assert temper.check_certificate(mesh, best.certificate) != "proves"
+    text = best.certificate.to_json()
+    assert temper.types.Certificate.from_json(text) == best.certificate and '"temper_certificate": 1' in text
+    with pytest.raises(temper.TemperError, match='^term 1: expected "multiplier" to be a number, found "x"'):
+        broken = json.loads(text)
+        broken["terms"][1]["multiplier"] = "x"
+        temper.types.Certificate.from_json(json.dumps(broken))
+    for bad, message in (("[", "not JSON: byte 2"), ("[" * 20, "nested more than 16 deep"), ("{}", "expected a certificate of temper weights")):
+        with pytest.raises(temper.TemperError, match=message):
+            temper.types.Certificate.from_json(bad)
     with pytest.raises(temper.TemperError, match="margin"):
         temper.find_weights(hard, margin=0.7)
 
@@ -320,6 +329,9 @@ def test_a_proof_over_connectivities_is_checked():
     report = temper.best_connectivity(mesh)
     assert report.end == "none_exists" and report.bound == 0 and report.proof is not None
     assert temper.check_certificate(mesh, report.proof) == "proves"
+    assert temper.types.ConnectivityProof.from_json(report.proof.to_json()) == report.proof
+    with pytest.raises(TypeError, match="expected a certificate with terms. Next: temper.types.ConnectivityProof reads it"):
+        temper.types.Certificate.from_json(report.proof.to_json())
     (lemma,) = report.proof.lemmas
     empty = dataclasses.replace(report.proof, lemmas=[dataclasses.replace(lemma, terms=lemma.terms[1:])])
     assert temper.check_certificate(mesh, empty) == "proves_nothing"

@@ -435,3 +435,20 @@ def test_threads_of_python_may_read_while_a_mesh_is_optimized(ring):
     stop.set()
     counter.join()
     assert len(ticks) > 3  # the GIL was free
+
+
+CRACKED = "OFF\n8 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n1 1e-9 0\n2 0 0\n2 1 0\n1 1 0\n3 0 1 2\n3 0 2 3\n3 4 5 6\n3 4 6 7\n"
+
+
+def test_points_that_are_near_each_other_become_one(tmp_path):
+    path = tmp_path / "in.off"
+    path.write_text(CRACKED, encoding="utf-8")
+    with pytest.raises(temper.TemperError, match=r"point 2 and point 7 are both at \(1, 1\)"):
+        temper.read(path)
+    mesh = temper.read(path, merge=1e-8)
+    assert mesh.n_vertices == 6 and mesh.n_triangles == 4 and len(mesh.boundary_edges) == 6
+    assert mesh.points.tolist() == [[0, 0], [1, 0], [1, 1], [0, 1], [2, 0], [2, 1]]
+    with pytest.raises(temper.TemperError, match="makes two corners of triangle 0 one; expected less than its edges"):
+        temper.read(path, merge=1)
+    with pytest.raises(temper.TemperError, match="expected a radius of at least 0, found -1"):
+        temper.read(path, merge=-1)

@@ -194,7 +194,9 @@ def test_errors_have_the_numbers_of_the_arrays_and_a_next_step():
 
 def test_functions_for_triangles_say_so(shaken):
     with pytest.raises(TypeError, match="expected a mesh of triangles, found a TetMesh. Next: "):
-        temper.explain(shaken)
+        temper.best_margin(shaken)
+    with pytest.raises(TypeError, match="cures is for triangles alone"):
+        temper.explain(shaken, cures=1)
     with pytest.raises(TypeError, match="gamma is for triangles alone"):
         temper.quality(shaken, gamma=0.5)
 
@@ -239,6 +241,21 @@ def test_ctrl_c_ends_a_run_within_a_second_and_keeps_the_best_mesh():
     with pytest.raises(KeyboardInterrupt):
         temper.optimize(mesh)
     assert time.monotonic() - pressed[0] < 1 and mesh.validate() is None and temper.quality(mesh).orthocenters_outside < before
+
+
+def test_each_bad_tetrahedron_is_explained_worst_first(shaken):
+    why = temper.explain(shaken)
+    quality = temper.quality(shaken, worst=len(why.reasons))
+    assert why.bad == len(why.reasons) == quality.orthocenters_outside > 0 and why.tetrahedra == quality.tetrahedra
+    assert [r.why for r in why.reasons] == [w.why for w in quality.worst]
+    assert why.verdict == why.weights.verdict == "infeasible"
+    assert temper.check_certificate(shaken, why.weights.certificate) == "proves"
+    assert why.all_on_boundary == sum(r.all_on_boundary for r in why.reasons)
+    for reason in why.reasons:
+        assert min(face.h_over_l for face in reason.faces) == pytest.approx(reason.h_over_l)
+        assert any(face.outside for face in reason.faces) and sorted(sum((f.vertices for f in reason.faces), ())) == sorted(3 * reason.vertices)
+        assert reason.cure == ("split_boundary" if reason.all_on_boundary else "optimize")
+    assert temper.explain(shaken, whole=0).verdict == "undecided" and str(why).count("tetrahedron ") >= why.bad
 
 
 def test_weights_are_found_or_a_certificate_proves_that_there_are_none(shaken):

@@ -119,10 +119,6 @@ void take_to_map(io::MeshFile& file, const std::string& path, const std::string&
 /// read, names something else than edges of the mesh (with its line), or when no edge is inside the mesh.
 [[nodiscard]] std::vector<HalfedgeId> prescribed_edges(const std::string& which, const Input& input);
 
-/// temper writes no JSON deeper than this. JSON from anywhere may be deeper, and is checked before it is parsed.
-/// Printing or dropping a value recurses into it, and a file must not decide how much of the stack that takes.
-inline constexpr int kDeepestJson = 16;
-[[nodiscard]] bool is_too_deep(std::string_view json);
 
 /// io::read(), which reads a file of HDF5 (NetCDF-4, VTKHDF) first in a child process. On a damaged file libhdf5 may
 /// loop forever or crash, and then only the child does. Failure when the file cannot be used, or the child exceeds its

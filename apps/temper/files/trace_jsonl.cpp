@@ -13,6 +13,7 @@
 
 #include "exit.hpp"
 #include "files/input.hpp"
+#include "temper/detail/certificate_io.hpp"
 #include "temper/detail/suggest.hpp"
 #include "temper/detail/version.hpp"
 
@@ -101,7 +102,7 @@ class Line {
 class Record {
  public:
   Record(const std::string& text, std::string where, const Input& input) : where_(std::move(where)), input_(input) {
-    if (is_too_deep(text)) fail(fmt::format("is nested more than {} deep", kDeepestJson));
+    if (io::is_too_deep(text)) fail(fmt::format("is nested more than {} deep", io::kDeepestJson));
     try {
       json_ = ParsedJson::parse(text);
     } catch (const ParsedJson::parse_error& error) {

@@ -22,6 +22,7 @@
 #include "temper/mesher.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
+#include "temper/tets/explain.hpp"
 #include "temper/tets/operators.hpp"
 
 namespace temper::app {
@@ -59,16 +60,10 @@ struct TetDecRecord {
 /// All reasons. Vertices and triangles are counted from 0, in the texts too.
 [[nodiscard]] std::string explanation_json(const Explanation& explanation, const Input& input);
 
-/// The reasons why tetrahedra are bad.
-struct TetExplanation {
-  const TetInput& input;
-  const tets::Quality& quality;  ///< With the list of the bad tetrahedra to explain, and of no other ones
-  const IdVector<VertexId, std::uint8_t>& on_boundary;
-  std::size_t on_boundary_alone;        ///< Number of bad tetrahedra with all corners on the boundary
-  std::optional<WeightReport> weights;  ///< Weights of the whole mesh, if they were searched for
-};
-[[nodiscard]] std::string explanation_text(const TetExplanation& explanation, const TextStyle& style);
-[[nodiscard]] std::string explanation_json(const TetExplanation& explanation);
+/// Explanations of tetrahedra.
+[[nodiscard]] std::string explanation_text(const tets::Explanation& explanation, const TetInput& input,
+                                           const TextStyle& style);
+[[nodiscard]] std::string explanation_json(const tets::Explanation& explanation, const TetInput& input);
 
 // The reports of `temper weights`: text for people, and JSON.
 

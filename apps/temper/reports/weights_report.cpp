@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "console.hpp"
-#include "files/certificate_json.hpp"
 #include "options/options.hpp"
 #include "reports/reports.hpp"
+#include "temper/detail/certificate_io.hpp"
 #include "temper/detail/geometry.hpp"
 
 namespace temper::app {
@@ -261,7 +261,7 @@ std::string weights_json(const WeightsRecord& r) {
   json["violations"] = Json::array();
   for (const Violation& v : report.violations) json["violations"].push_back(violation_json(v, r));
   json["certificate"] =
-      report.certificate.terms.empty() ? Json(nullptr) : certificate_json(report.certificate, r.points);
+      report.certificate.terms.empty() ? Json(nullptr) : Json::parse(io::certificate_to_json(report.certificate, r.points));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "console.hpp"
-#include "files/close_points.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
 #include "files/tensor_option.hpp"
@@ -16,6 +15,7 @@
 #include "options/options.hpp"
 #include "options/requirement.hpp"
 #include "reports/quality_report.hpp"
+#include "temper/detail/file_cures.hpp"
 #include "temper/quality.hpp"
 #include "temper/tets/quality.hpp"
 #include "threads.hpp"
@@ -24,6 +24,21 @@ namespace temper::app {
 namespace {
 
 constexpr OutputKind kCheckOutputs[] = {kReportKind, kPageKind};
+
+/// Says which vertices of the boundary are nearly at one place but not the same, and how to merge them. Empty: none.
+std::string crack_warning(const Input& input) {
+  const io::Crack crack = io::find_crack(input.mesh());
+  if (crack.pairs == 0) return {};
+  const auto [a, b] = crack.first;
+  const Space& space = input.mesh().space();
+  const Vec2 at = space.as_shown(space.place(input.mesh().point(a)));
+  const std::string radius = crack.widest > 0 ? fmt::format("{:.0e}", 10 * crack.widest) : "0";
+  return fmt::format(
+      "{}: {} nearly at one place, as if the mesh had a crack: first {} and {} at ({:.6g}, {:.6g}); "
+      "the widest is {:.3g}. Next: join them with temper convert {} --merge {} -o OUT",
+      input.path, plural(crack.pairs, "pair of boundary points is", "pairs of boundary points are"),
+      input.names->point(a.index), input.names->point(b.index), at.x, at.y, crack.widest, input.path, radius);
+}
 
 struct CheckSettings {
   std::string projection;

@@ -7,12 +7,11 @@
 #include <variant>
 
 #include "console.hpp"
-#include "files/close_points.hpp"
-#include "files/flat_triangles.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
+#include "temper/detail/file_cures.hpp"
 #include "threads.hpp"
 
 namespace temper::app {
@@ -55,15 +54,6 @@ void add_options(Command& command, ConvertSettings& s) {
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
-std::size_t flip_away(io::MeshFile& file) {
-  if (file.sphere() != nullptr || file.periodic() != nullptr) {
-    throw Failure(Exit::bad_input, file.path +
-                                       ": is a mesh of the sphere or of a periodic plane, and --flip-flat is for "
-                                       "a plane without periods. Next: leave it out");
-  }
-  return flip_flat_triangles(file);
-}
-
 }  // namespace
 
 Exit run_convert(const Arguments& arguments) {
@@ -79,7 +69,8 @@ Exit run_convert(const Arguments& arguments) {
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   io::MeshFile file = read_tried(s.input, s.heights.to_read(threads.get()));
   if (file.dimension() == 3) command.expect_for(CellKinds::tetrahedra, s.input);
-  const std::size_t merged = s.merge ? merge_points(file, *s.merge) : 0, flipped = s.flip_flat ? flip_away(file) : 0;
+  const std::size_t merged = s.merge ? or_fail(io::merge_points(file, *s.merge)) : 0;
+  const std::size_t flipped = s.flip_flat ? or_fail(io::flip_flat_triangles(file)) : 0;
   if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
   print_warnings(file.warnings);
   print_warnings(outputs.write_mesh(s.output, file, threads.get()));

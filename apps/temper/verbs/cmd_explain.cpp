@@ -1,9 +1,7 @@
 // temper explain IN: the reason for every triangle or tetrahedron that is not well-centered, and cures.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <optional>
 #include <utility>
 #include <variant>
 
@@ -15,8 +13,6 @@
 #include "reports/reports.hpp"
 #include "system/system.hpp"
 #include "temper/detail/lp.hpp"
-#include "temper/tets/quality.hpp"
-#include "temper/tets/weights.hpp"
 
 namespace temper::app {
 namespace {
@@ -71,22 +67,10 @@ class Counter {
 
 void explain_tetrahedra(const ExplainSettings& s, const TetInput& input) {
   print_warnings(input.warnings());
-  const tets::TetMesh& mesh = input.mesh();
-  const auto on_boundary = boundary_vertices(mesh);
-  std::size_t bad = 0, on_boundary_alone = 0;
-  for (const tets::TetId t : mesh.tetrahedra()) {
-    if (tetrahedron_quality(mesh.points(t)).well_centered) continue;
-    ++bad;
-    on_boundary_alone += std::ranges::all_of(mesh.corners(t), [&](VertexId v) { return on_boundary[v] != 0; });
-  }
-  const tets::Quality measured = quality(mesh, {s.json ? bad : std::min<std::size_t>(bad, s.limit)});
-  TetExplanation explanation = {input, measured, on_boundary, on_boundary_alone, std::nullopt};
-  if (bad > 0 && (mesh.n_tetrahedra() <= s.whole || bad <= s.whole)) {
-    WeightOptions options;
-    options.goal = WeightGoal::margin;
-    explanation.weights = or_fail(find_weights(mesh, *clp_solver(), options));
-  }
-  s.json ? print_data(explanation_json(explanation)) : print(explanation_text(explanation, text_style()));
+  tets::ExplainOptions options = {.whole = s.whole};
+  if (!s.json) options.reasons = s.limit;
+  const tets::Explanation explanation = or_fail(explain(input.mesh(), *clp_solver(), options));
+  s.json ? print_data(explanation_json(explanation, input)) : print(explanation_text(explanation, input, text_style()));
 }
 
 }  // namespace

@@ -5,18 +5,20 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <variant>
 
 #include "console.hpp"
-#include "files/certificate_json.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "reports/reports.hpp"
 #include "system/system.hpp"
+#include "temper/detail/certificate_io.hpp"
 #include "temper/detail/connectivity.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/lp.hpp"
@@ -243,7 +245,7 @@ std::string_view fault_text(CertificateCheck fault) {
 }
 
 /// Reports the verdict on the certificate of --check-certificate.
-Exit report_check(const WeightsSettings& s, const AnyCertificate& any, CertificateCheck result,
+Exit report_check(const WeightsSettings& s, const io::AnyCertificate& any, CertificateCheck result,
                   std::span<const ConstraintsInfo> rows) {
   const bool proves = result == CertificateCheck::proves;
   if (s.json) {
@@ -269,8 +271,17 @@ Exit report_check(const WeightsSettings& s, const AnyCertificate& any, Certifica
   return Exit::done;
 }
 
+io::AnyCertificate read_certificate(const std::string& path, const io::VertexOfPoint& vertex_of_point,
+                                    std::string_view cell) {
+  std::ifstream file = open_text(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!text) throw Failure(Exit::bad_input, path + ": cannot be read, or empty");
+  return or_fail(io::certificate_from_json(text.str(), vertex_of_point, path, cell));
+}
+
 Exit check(const WeightsSettings& s, const Input& input) {
-  const AnyCertificate any = read_certificate(s.check, input.loaded.vertex_of_point, "triangle");
+  const io::AnyCertificate any = read_certificate(s.check, input.loaded.vertex_of_point, "triangle");
   const auto* const certificate = std::get_if<Certificate>(&any);
   if (certificate) return report_check(s, any, check_certificate(input.mesh(), *certificate), constraints_table());
   if (!input.mesh().space().is_plane() || input.mesh().space().is_periodic())
@@ -337,11 +348,11 @@ Exit drop(const WeightsSettings& s, Input& input, Outputs& outputs) {
 Exit end(const WeightsSettings& s, WeightsRecord& record, Outputs& outputs) {
   const WeightReport& report = record.report;
   if (!s.certificate.empty() && record.search && !record.search->proof.lemmas.empty()) {
-    outputs.write_text(s.certificate, proof_text(record.search->proof, record.points));
+    outputs.write_text(s.certificate, io::certificate_to_json(record.search->proof, record.points));
     record.certificate = s.certificate;
   } else if (!s.certificate.empty() && (report.optimality || !report.certificate.terms.empty())) {
-    outputs.write_text(s.certificate, report.optimality ? optimality_text(report, record.space, record.points)
-                                                        : certificate_text(report.certificate, record.points));
+    outputs.write_text(s.certificate, report.optimality ? io::optimality_to_json(report, record.space, record.points)
+                                                        : io::certificate_to_json(report.certificate, record.points));
     record.certificate = s.certificate;
   }
   s.json ? print_data(weights_json(record)) : print(weights_text(record));
@@ -378,7 +389,7 @@ Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
 Exit weigh_tetrahedra(const WeightsSettings& s, TetInput input, Outputs& outputs) {
   print_warnings(input.warnings());
   if (!s.check.empty()) {
-    const AnyCertificate any = read_certificate(s.check, input.loaded.vertex_of_point, "tetrahedron");
+    const io::AnyCertificate any = read_certificate(s.check, input.loaded.vertex_of_point, "tetrahedron");
     const auto* const certificate = std::get_if<Certificate>(&any);
     if (!certificate)
       throw Failure(Exit::bad_input,

@@ -31,6 +31,9 @@ void take_contents(Cells<dimension>& cells, const std::vector<std::size_t>& indi
   take_rows(cells.data, indices);
 }
 
+/// Removes the triangles that do not stay, with their tags and data. Numbers of the file no longer hold.
+void keep_triangles(MeshFile& file, const std::vector<bool>& stays);
+
 /// The new number of each point; −1: it is gone.
 class NewNumbers {
  public:

@@ -1,62 +1,36 @@
-// See flat_triangles.hpp.
+// See flip_flat_triangles() in temper/detail/file_cures.hpp.
 //
 //        d                 d
 //      /   \             / | \        b is on ac, so abc has no area. The flip of ac gives both new triangles a part of
 //     a-----c    --->   a--b--c       acd. If d is on this line, too, the new triangles are shorter, and the next flips
 //      \ b /                          find a triangle above the line. If b has come to lie in acd, abc is turned over,
 //                                     and the same flip cures it.
-#include "files/flat_triangles.hpp"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <queue>
 #include <utility>
-#include <variant>
 
-#include "exit.hpp"
+#include "io/conversion/follow.hpp"
+#include "io/text/failure.hpp"
+#include "temper/detail/file_cures.hpp"
 #include "temper/detail/geometry.hpp"
 
-namespace temper::app {
+namespace temper::io {
 namespace {
 
 // Per bad triangle, far more than flips need if triangles have no area: then lengths fall. Others may go in a circle.
-constexpr std::size_t kTries = 64;
+constexpr std::size_t kTriesOfFlips = 64;
 
-using Corners = std::array<std::int32_t, 3>;
-using Ends = std::pair<std::int32_t, std::int32_t>;
+class FlatFlips {
+  using Corners = std::array<std::int32_t, 3>;
+  using Ends = std::pair<std::int32_t, std::int32_t>;
 
-Ends ends_of(std::int32_t a, std::int32_t b) { return std::minmax({a, b}); }
-
-/// The values of the elements that are listed.
-template <class T>
-std::vector<T> listed_values(const std::vector<T>& values, const std::vector<std::size_t>& from,
-                             std::size_t components) {
-  std::vector<T> result;
-  result.reserve(from.size() * components);
-  for (const std::size_t i : from) {
-    for (std::size_t k = 0; k < components; ++k) result.push_back(values[i * components + k]);
-  }
-  return result;
-}
-
-/// Gives elements the data of those that they come from.
-void take_data(std::vector<io::DataArray>& arrays, const std::vector<std::size_t>& from) {
-  for (io::DataArray& array : arrays) {
-    const auto components = static_cast<std::size_t>(array.components);
-    std::visit([&](auto& values) { values = listed_values(values, from, components); }, array.values);
-  }
-}
-
-class Flips {
  public:
-  explicit Flips(io::MeshFile& file) : file_(file), from_(file.triangles.size()), stays_(file.triangles.size(), true) {
+  explicit FlatFlips(MeshFile& file) : file_(file), from_(file.triangles.size()), stays_(file.triangles.size(), true) {
     std::iota(from_.begin(), from_.end(), std::size_t{0});
   }
 
@@ -68,7 +42,7 @@ class Flips {
       if (stays_[t] && is_bad(t)) push(t);
     }
     const std::size_t n_flat = flat_.size() + n_dropped_;
-    std::size_t left = 0, tries = kTries * (n_flat + 1);
+    std::size_t left = 0, tries = kTriesOfFlips * (n_flat + 1);
     for (; !flat_.empty() && tries > 0; --tries) {
       const std::size_t t = flat_.top().second;
       flat_.pop();
@@ -79,13 +53,13 @@ class Flips {
       return 0;
     }
     divide_lines();
-    if (!file_.triangles.tags.empty()) file_.triangles.tags = listed_values(file_.triangles.tags, from_, 1);
-    take_data(file_.triangles.data, from_);
+    take_contents(file_.triangles, from_);
     keep_triangles(file_, stays_);
     return n_flat - std::min(left + flat_.size(), n_flat);
   }
 
  private:
+  static Ends ends_of(std::int32_t a, std::int32_t b) { return std::minmax({a, b}); }
   std::vector<Corners>& triangles() { return file_.triangles.corners; }
   [[nodiscard]] Vec2 at(std::int32_t p) const { return file_.points[static_cast<std::size_t>(p)]; }
   /// Without area, or turned over. Precondition: all are oriented.
@@ -137,8 +111,8 @@ class Flips {
   void push(std::size_t t) {
     const auto [a, b, c] = turned_to_middle(t);
     if (at(a) == at(b) || at(b) == at(c)) {
-      throw Failure(Exit::bad_input, fmt::format("{}: {} has two corners at x = {}, y = {}. Next: add --merge 0",
-                                                 file_.path, name(t), at(b).x, at(b).y));
+      fail(ErrorCode::zero_area, file_.path, name(t), " has two corners at x = ", at(b).x, ", y = ", at(b).y,
+           ". Next: add --merge 0");
     }
     flat_.emplace(length(at(c) - at(a)), t);
   }
@@ -169,7 +143,7 @@ class Flips {
     return true;
   }
 
-  /// Flips the longest edge of a flat triangle t, which `other` is beyond.
+  /// FlatFlips the longest edge of a flat triangle t, which `other` is beyond.
   bool flip(std::size_t t, std::size_t other, const Corners& corners) {
     const auto [a, b, c] = corners;
     Corners with_c = triangles()[other];
@@ -211,12 +185,11 @@ class Flips {
         }
       }
     }
-    file_.lines.tags = listed_values(file_.lines.tags, from, 1);
-    take_data(file_.lines.data, from);
+    take_contents(file_.lines, from);
     file_.lines.corners = std::move(lines);
   }
 
-  io::MeshFile& file_;
+  MeshFile& file_;
   std::vector<std::size_t> from_;  // whose region and data a triangle has
   std::vector<bool> stays_;
   std::size_t n_dropped_ = 0;
@@ -227,18 +200,27 @@ class Flips {
 
 }  // namespace
 
-void keep_triangles(io::MeshFile& file, const std::vector<bool>& stays) {
+void keep_triangles(MeshFile& file, const std::vector<bool>& stays) {
   std::vector<std::size_t> from;
   for (std::size_t t = 0; t < stays.size(); ++t) {
     if (stays[t]) from.push_back(t);
   }
   if (from.size() == stays.size()) return;
-  file.triangles.corners = listed_values(file.triangles.corners, from, 1);
-  if (!file.triangles.tags.empty()) file.triangles.tags = listed_values(file.triangles.tags, from, 1);
-  take_data(file.triangles.data, from);
+  file.triangles.corners = at(file.triangles.corners, from);
+  take_contents(file.triangles, from);
   file.numbering = nullptr;  // triangles have other numbers now
 }
 
-std::size_t flip_flat_triangles(io::MeshFile& file) { return Flips(file).run(); }
+Expected<std::size_t> flip_flat_triangles(MeshFile& file) {
+  return guarded<std::size_t>(file.path, [&] {
+    if (file.sphere() != nullptr || file.periodic() != nullptr) {
+      fail(
+          ErrorCode::unsupported, file.path,
+          "is a mesh of the sphere or of a periodic plane, and --flip-flat is for a plane without periods. Next: leave "
+          "it out");
+    }
+    return FlatFlips(file).run();
+  });
+}
 
-}  // namespace temper::app
+}  // namespace temper::io

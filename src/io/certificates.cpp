@@ -1,47 +1,34 @@
-#include "files/certificate_json.hpp"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
-#include <span>
-#include <sstream>
 
-#include "exit.hpp"
-#include "files/input.hpp"
+#include "io/text/failure.hpp"
+#include "temper/detail/certificate_io.hpp"
 #include "temper/tets/weights.hpp"
 
-namespace temper::app {
+namespace temper::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Kind = WeightConstraint::Kind;
+using TermKind = WeightConstraint::Kind;
 
-constexpr int kVersion = 1;
-
-std::string text_of(const std::string& path) {
-  std::ifstream file = open_text(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!text) throw Failure(Exit::bad_input, path + ": cannot be read, or empty");
-  return text.str();
-}
+constexpr int kCertificateVersion = 1;
 
 /// Reads members; errors name the wrong member of the wrong term.
-class Reader {
+class CertificateReader {
  public:
-  Reader(std::string path, const io::VertexOfPoint& vertex_of_point, std::string_view cell)
-      : path_(std::move(path)), vertex_of_point_(vertex_of_point), cell_(cell) {}
+  CertificateReader(std::string where, const VertexOfPoint& vertex_of_point, std::string_view cell)
+      : file_(std::move(where)), vertex_of_point_(vertex_of_point), cell_(cell) {}
 
   AnyCertificate read(const Json& json) {
     if (!json.is_object() || !json.contains("temper_certificate")) {
       fail("expected a certificate of temper weights, found no \"temper_certificate\"");
     }
-    if (json["temper_certificate"] != kVersion) {
-      fail(fmt::format("expected version {} of \"temper_certificate\", found {}", kVersion,
-                       json["temper_certificate"].dump()));
+    if (json["temper_certificate"] != kCertificateVersion) {
+      fail("expected version ", kCertificateVersion, " of \"temper_certificate\", found ",
+           json["temper_certificate"].dump());
     }
     if (json.contains("goal"))
       fail("it is about the best weights, and temper checks proofs that there are none. Next: bench/check_best.py");
@@ -54,16 +41,17 @@ class Reader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& message) const {
-    throw Failure(Exit::bad_input, fmt::format("{}: {}{}", path_, where_, message));
+  template <class... Parts>
+  [[noreturn]] void fail(const Parts&... message) const {
+    io::fail(ErrorCode::syntax, file_, where_, message...);
   }
   const Json& member(const Json& json, const char* key) const {
-    if (!json.is_object() || !json.contains(key)) fail(fmt::format("there is no \"{}\"", key));
+    if (!json.is_object() || !json.contains(key)) fail("there is no \"", key, "\"");
     return json[key];
   }
   double number(const Json& json, const char* key) const {
     const Json& value = member(json, key);
-    if (!value.is_number()) fail(fmt::format("expected \"{}\" to be a number, found {}", key, value.dump()));
+    if (!value.is_number()) fail("expected \"", key, "\" to be a number, found ", value.dump());
     return value.get<double>();
   }
   Constraints constraints(const Json& value) const {
@@ -74,34 +62,34 @@ class Reader {
         if (names.find(row.name) == std::string::npos) names += (names.empty() ? "" : ", ") + std::string(row.name);
       }
     }
-    fail(fmt::format("expected \"constraints\" to be one of {}, found {}", names, value.dump()));
+    fail("expected \"constraints\" to be one of ", names, ", found ", value.dump());
   }
   VertexId vertex(const Json& value) const {
     if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= vertex_of_point_.size()) {
-      fail(fmt::format("expected a point, 0 to {}, found {}", vertex_of_point_.size() - 1, value.dump()));
+      fail("expected a point, 0 to ", vertex_of_point_.size() - 1, ", found ", value.dump());
     }
     const std::int32_t v = vertex_of_point_[value.get<std::size_t>()];
-    if (v < 0) fail(fmt::format("point {} is in no {}", value.dump(), cell_));
+    if (v < 0) fail("point ", value.dump(), " is in no ", cell_);
     return VertexId(static_cast<std::size_t>(v));
   }
   template <std::size_t n>
   std::array<VertexId, n> vertices(const Json& json, const char* key) const {
     const Json& list = member(json, key);
-    if (!list.is_array() || list.size() != n) fail(fmt::format("expected \"{}\" to be {} points", key, n));
+    if (!list.is_array() || list.size() != n) fail("expected \"", key, "\" to be ", n, " points");
     std::array<VertexId, n> result;
     for (std::size_t i = 0; i < n; ++i) result[i] = vertex(list[i]);
     return result;
   }
   const Json& array(const Json& json, const char* key) const {
     const Json& list = member(json, key);
-    if (!list.is_array()) fail(fmt::format("expected \"{}\" to be an array", key));
+    if (!list.is_array()) fail("expected \"", key, "\" to be an array");
     return list;
   }
   std::vector<Certificate::Term> read_terms(const Json& json) {
     std::vector<Certificate::Term> terms;
     const std::string before = where_;
     for (const Json& term : array(json, "terms")) {
-      where_ = fmt::format("{}term {}: ", before, terms.size());
+      where_ = text(before, "term ", terms.size(), ": ");
       terms.push_back(read_term(term));
     }
     where_ = before;
@@ -111,7 +99,7 @@ class Reader {
     ConnectivityProof proof;
     if (json.contains("constraints")) proof.constraints = constraints(json["constraints"]);
     for (const Json& lemma : array(json, "lemmas")) {
-      where_ = fmt::format("lemma {}: ", proof.lemmas.size());
+      where_ = text("lemma ", proof.lemmas.size(), ": ");
       proof.lemmas.push_back(read_lemma(lemma));
     }
     return proof;
@@ -141,50 +129,46 @@ class Reader {
     if (kind == "height_over_face" || kind == "dual_of_face") {
       const auto [p, q, r] = vertices<3>(json, "face");
       const VertexId s = remaining(vertices<4>(json, "tetrahedron"), {p, q, r}, "tetrahedron");
-      if (kind == "height_over_face") return {{Kind::height_over_face, p, q, r, s}, multiplier};
-      return {{Kind::dual_of_face, p, q, r, s, vertex(member(json, "across"))}, multiplier};
+      if (kind == "height_over_face") return {{TermKind::height_over_face, p, q, r, s}, multiplier};
+      return {{TermKind::dual_of_face, p, q, r, s, vertex(member(json, "across"))}, multiplier};
     }
     const auto [p, q] = vertices<2>(json, "edge");
-    if (kind == "crossing") return {{Kind::crossing, p, q, VertexId()}, multiplier};
+    if (kind == "crossing") return {{TermKind::crossing, p, q, VertexId()}, multiplier};
     if (kind != "height" && kind != "dual") {
       fail(
-          fmt::format("expected \"kind\" to be \"height\", \"crossing\", \"dual\", \"height_over_face\" or "
-                      "\"dual_of_face\", found {}",
-                      kind.dump()));
+          "expected \"kind\" to be \"height\", \"crossing\", \"dual\", \"height_over_face\" or \"dual_of_face\", "
+          "found ",
+          kind.dump());
     }
     const VertexId r = remaining(vertices<3>(json, "triangle"), {p, q}, "triangle");
-    if (kind == "height") return {{Kind::height, p, q, r}, multiplier};
-    return {{Kind::dual, p, q, r, vertex(member(json, "across"))}, multiplier};
+    if (kind == "height") return {{TermKind::height, p, q, r}, multiplier};
+    return {{TermKind::dual, p, q, r, vertex(member(json, "across"))}, multiplier};
   }
   /// The corner that is none of the others.
   VertexId remaining(std::span<const VertexId> corners, std::initializer_list<VertexId> others, const char* key) const {
     for (const VertexId v : corners) {
       if (std::find(others.begin(), others.end(), v) == others.end()) return v;
     }
-    fail(fmt::format("\"{}\" has no {} corner", key, others.size() == 2 ? "third" : "fourth"));
+    fail("\"", key, "\" has no ", others.size() == 2 ? "third" : "fourth", " corner");
   }
 
-  std::string path_, where_;
-  const io::VertexOfPoint& vertex_of_point_;
+  std::string file_, where_;  // the file, and the part of it
+  const VertexOfPoint& vertex_of_point_;
   std::string_view cell_;
 };
 
-}  // namespace
-
-namespace {
-
-Json constraint_json(const WeightConstraint& constraint, const std::vector<std::size_t>& points) {
+Json constraint_json(const WeightConstraint& constraint, std::span<const std::size_t> points) {
   const auto point = [&](VertexId v) { return points.empty() ? std::size_t{v.index} : points[v.index]; };
   const auto& [kind, p, q, r, s, t] = constraint;
-  const bool of_face = kind == Kind::height_over_face || kind == Kind::dual_of_face;
+  const bool of_face = kind == TermKind::height_over_face || kind == TermKind::dual_of_face;
   Json json;
   json["kind"] = name(kind);
   if (of_face) {
     json["tetrahedron"] = {point(p), point(q), point(r), point(s)};
-  } else if (kind != Kind::crossing) {
+  } else if (kind != TermKind::crossing) {
     json["triangle"] = {point(p), point(q), point(r)};
   }
-  if (kind == Kind::dual || kind == Kind::dual_of_face) json["across"] = point(of_face ? t : s);
+  if (kind == TermKind::dual || kind == TermKind::dual_of_face) json["across"] = point(of_face ? t : s);
   if (of_face) {
     json["face"] = {point(p), point(q), point(r)};
   } else {
@@ -193,7 +177,7 @@ Json constraint_json(const WeightConstraint& constraint, const std::vector<std::
   return json;
 }
 
-Json terms_json(const std::vector<Certificate::Term>& terms, const std::vector<std::size_t>& points) {
+Json terms_json(const std::vector<Certificate::Term>& terms, std::span<const std::size_t> points) {
   Json json = Json::array();
   for (const auto& [constraint, multiplier] : terms) {
     json.push_back(constraint_json(constraint, points));
@@ -204,18 +188,22 @@ Json terms_json(const std::vector<Certificate::Term>& terms, const std::vector<s
 
 }  // namespace
 
-Json certificate_json(const Certificate& certificate, const std::vector<std::size_t>& points) {
-  return {{"temper_certificate", kVersion},
-          {"constraints", name(certificate.constraints)},
-          {"margin", certificate.margin},
-          {"terms", terms_json(certificate.terms, points)}};
+std::string certificate_to_json(const Certificate& certificate, std::span<const std::size_t> points) {
+  const Json json = {{"temper_certificate", kCertificateVersion},
+                     {"constraints", name(certificate.constraints)},
+                     {"margin", certificate.margin},
+                     {"terms", terms_json(certificate.terms, points)}};
+  return json.dump(2) + "\n";
 }
 
-std::string optimality_text(const WeightReport& report, const Space& space, const std::vector<std::size_t>& points) {
+std::string optimality_to_json(const WeightReport& report, const Space& space, std::span<const std::size_t> points) {
   const Optimality& proof = *report.optimality;
-  Json json = {{"temper_certificate", kVersion}, {"constraints", name(proof.constraints)},
-               {"margin", proof.margin},         {"goal", proof.goal == WeightGoal::center ? "center" : "accuracy"},
-               {"objective", proof.objective},   {"gap", proof.gap}};
+  Json json = {{"temper_certificate", kCertificateVersion},
+               {"constraints", name(proof.constraints)},
+               {"margin", proof.margin},
+               {"goal", proof.goal == WeightGoal::center ? "center" : "accuracy"},
+               {"objective", proof.objective},
+               {"gap", proof.gap}};
   if (space.radius() > 0) {
     json["radius"] = space.radius();
     json["weights"] = Json::array();
@@ -234,11 +222,7 @@ std::string optimality_text(const WeightReport& report, const Space& space, cons
   return json.dump(1) + "\n";
 }
 
-std::string certificate_text(const Certificate& certificate, const std::vector<std::size_t>& points) {
-  return certificate_json(certificate, points).dump(2) + "\n";
-}
-
-std::string proof_text(const ConnectivityProof& proof, const std::vector<std::size_t>& points) {
+std::string certificate_to_json(const ConnectivityProof& proof, std::span<const std::size_t> points) {
   const auto point = [&](VertexId v) { return points.empty() ? std::size_t{v.index} : points[v.index]; };
   const auto edge = [&](const ConnectivityProof::Edge& e) { return Json::array({point(e[0]), point(e[1])}); };
   std::string lemmas;  // a line each: there may be thousands
@@ -257,24 +241,43 @@ std::string proof_text(const ConnectivityProof& proof, const std::vector<std::si
     }
     lemmas += (lemmas.empty() ? "\n  " : ",\n  ") + json.dump();
   }
-  return fmt::format("{{\"temper_certificate\": {}, \"constraints\": \"{}\", \"lemmas\": [{}\n]}}\n", kVersion,
-                     name(proof.constraints), lemmas);
+  return text("{\"temper_certificate\": ", kCertificateVersion, ", \"constraints\": \"", name(proof.constraints),
+              "\", \"lemmas\": [", lemmas, "\n]}\n");
 }
 
-AnyCertificate read_certificate(const std::string& path, const io::VertexOfPoint& vertex_of_point,
-                                std::string_view cell) {
-  const std::string text = text_of(path);
-  const auto fail = [&](const std::string& why) -> Failure { return {Exit::bad_input, path + ": " + why}; };
-  if (is_too_deep(text)) throw fail(fmt::format("nested more than {} deep", kDeepestJson));
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    throw fail(fmt::format("not JSON: byte {}", error.byte));
-  } catch (const Json::out_of_range&) {
-    throw fail("holds a number beyond what a double can hold");
+Expected<AnyCertificate> certificate_from_json(std::string_view text, const VertexOfPoint& vertex_of_point,
+                                               const std::string& where, std::string_view cell) {
+  return guarded<AnyCertificate>(where, [&] {
+    if (is_too_deep(text)) fail(ErrorCode::syntax, where, "nested more than ", kDeepestJson, " deep");
+    Json json;
+    try {
+      json = Json::parse(text);
+    } catch (const Json::parse_error& error) {
+      fail(ErrorCode::syntax, where, "not JSON: byte ", error.byte);
+    } catch (const Json::out_of_range&) {
+      fail(ErrorCode::syntax, where, "holds a number beyond what a double can hold");
+    }
+    return CertificateReader(where, vertex_of_point, cell).read(json);
+  });
+}
+
+bool is_too_deep(std::string_view json) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kDeepestJson) return true;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
   }
-  return Reader(path, vertex_of_point, cell).read(json);
+  return false;
 }
 
-}  // namespace temper::app
+}  // namespace temper::io

@@ -1,0 +1,68 @@
+// Explanations of tetrahedra: each bad one is explained once, by numbers that other functions have, too.
+#include "temper/tets/explain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/rng.hpp"
+#include "support/tet_lattice.hpp"
+#include "temper/detail/lp.hpp"
+#include "temper/tets/geometry.hpp"
+
+namespace temper::tets {
+namespace {
+
+/// Cubes with moved vertices: some tetrahedra are bad, others are not.
+TetMesh shaken() {
+  test::TetArrays arrays = test::cubes(3, test::kFiveTets);
+  Rng rng(7);
+  for (Vec3& p : arrays.points) p = p + 0.2 * Vec3{rng.uniform(), rng.uniform(), rng.uniform()};
+  return test::mesh_of(arrays);
+}
+
+TEST(TetExplanation, HasEachBadTetrahedronOnceWithItsFourHeights) {
+  const TetMesh mesh = shaken();
+  const auto why = explain(mesh, *clp_solver());
+  ASSERT_TRUE(why);
+  EXPECT_GT(why->bad, 0U);
+  EXPECT_EQ(why->bad, why->quality.orthocenters_outside);
+  ASSERT_EQ(why->reasons.size(), why->bad);
+  std::vector<TetId> seen;
+  std::size_t on_boundary = 0;
+  for (const Reason& reason : why->reasons) {
+    seen.push_back(reason.tetrahedron);
+    EXPECT_FALSE(tetrahedron_quality(mesh.points(reason.tetrahedron)).well_centered);
+    double least = HUGE_VAL;
+    for (const FaceHeight& face : reason.faces) {
+      least = std::min(least, face.h_over_l);
+      EXPECT_EQ(face.h > 0, !face.outside);
+    }
+    EXPECT_NEAR(least, reason.h_over_l, 1e-9);
+    const auto [a, b, c, d] = mesh.points(reason.tetrahedron);
+    EXPECT_EQ(reason.orthocenter, orthocenter(a, b, c, d));
+    on_boundary += reason.all_on_boundary;
+  }
+  EXPECT_EQ(why->all_on_boundary, on_boundary);
+  std::sort(seen.begin(), seen.end());
+  EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
+}
+
+TEST(TetExplanation, NamesTheCureThatTheVerdictAllows) {
+  const TetMesh mesh = shaken();
+  const auto known = explain(mesh, *clp_solver()), unknown = explain(mesh, *clp_solver(), {.reasons = 1, .whole = 0});
+  ASSERT_TRUE(known && unknown);
+  ASSERT_TRUE(known->weights);
+  EXPECT_EQ(known->verdict(), known->weights->verdict);
+  EXPECT_EQ(unknown->verdict(), Feasibility::undecided);
+  EXPECT_EQ(unknown->reasons.size(), 1U);
+  EXPECT_EQ(unknown->cure(false), Cure::optimize);
+  EXPECT_EQ(unknown->cure(true), Cure::split_boundary);
+  EXPECT_EQ(known->cure(true), known->verdict() == Feasibility::feasible ? Cure::weights : Cure::split_boundary);
+  for (const Reason& reason : known->reasons) EXPECT_EQ(reason.cure, known->cure(reason.all_on_boundary));
+}
+
+}  // namespace
+}  // namespace temper::tets
