@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "draw/painter.hpp"
 #include "draw/text.hpp"
 #include "draw/viewport.hpp"
 #include "geometry/surface.hpp"
@@ -15,16 +16,10 @@
 namespace temper {
 namespace {
 
-// Widths, from the median edge: thin enough to see through, thick enough to print.
-constexpr double kPrimalWidth = 0.018, kLeastPrimal = 0.018, kMostPrimal = 0.07;  // of an edge; of the font size
-constexpr double kDenseWidth = 0.2;  // pixels, where edges are close: bad triangles show through
-constexpr double kConstrainedTimes = 2.5, kDualTimes = 2.2, kNegativeTimes = 3.5;
-constexpr double kOutlineWidth = 0.08, kRingWidth = 0.09, kPeriodWidth = 0.1;  // of the font size
-constexpr double kHatchPeriod = 0.25, kLeastHatch = 0.15, kMostHatch = 0.36;   // of an edge; of the font size
+constexpr double kDualTimes = 2.2, kNegativeTimes = 3.5;
+constexpr double kRingWidth = 0.09, kPeriodWidth = 0.1;                       // of the font size
+constexpr double kHatchPeriod = 0.25, kLeastHatch = 0.15, kMostHatch = 0.36;  // of an edge; of the font size
 constexpr double kNearCoincident = 0.05;  // of the mean of the other edges around: nothing to see between the two ends
-constexpr double kSeam = 0.3;             // pixels: hides the hairlines between filled neighbors
-constexpr double kSpot = 3;               // pixels added around bad triangles too small and too few to be seen
-constexpr double kFew = 0.02;             // of all triangles
 constexpr double kRingRadius = 0.35;      // of the font size
 constexpr double kFontPerEdge = 0.22, kLeastFont = 3;
 
@@ -40,66 +35,6 @@ std::vector<Vec2> shifts_of(const Space& space) {
   }
   return shifts;
 }
-
-/// Paints cells of any kind: it fills them by color and draws edges, with one path for each class.
-class Painter {
- public:
-  Painter(const Viewport& viewport, const DrawOptions& options)
-      : viewport_(viewport), options_(options), detailed_(viewport.shows_detail()) {}
-
- protected:
-  /// Paths of filled cells: one for each color of the scale, and one for bad cells.
-  struct Fills {
-    std::array<PathText, kScaleColors.size()> colors;
-    PathText bad;
-  };
-
-  [[nodiscard]] double primal_width() const {
-    const double em = viewport_.em;
-    return detailed_ ? std::clamp(kPrimalWidth * viewport_.edge, kLeastPrimal * em, kMostPrimal * em) : kDenseWidth;
-  }
-  void add_segment(PathText& path, const Segment& segment) const {
-    const auto seen = clip(segment, viewport_.clip);
-    if (seen) path.segment(viewport_.grid(seen->from), viewport_.grid(seen->to));
-  }
-  void add_polygon(PathText& path, std::vector<Vec2> polygon) const {
-    polygon = clip(std::move(polygon), viewport_.clip);
-    if (polygon.empty()) return;
-    path.move_to(viewport_.grid(polygon[0]));
-    for (std::size_t i = 1; i < polygon.size(); ++i) path.line_to(viewport_.grid(polygon[i]));
-    path.close();
-  }
-
-  void stroke(const PathText& path, const char* name, const char* color, double width, const char* more = "") {
-    if (path.empty()) return;
-    panel_.svg += std::string("<path class=\"") + name + "\" fill=\"none\" stroke=\"" + color + "\" stroke-width=\"" +
-                  short_number(width / viewport_.unit) + "\" " + more + "d=\"" + path.text() + "\"/>\n";
-  }
-  void fill(const PathText& path, const char* name, const std::string& color, double stroke_width = kSeam) {
-    if (path.empty()) return;
-    panel_.svg += std::string("<path class=\"") + name + "\" fill=\"" + color + "\" stroke=\"" + color +
-                  "\" stroke-width=\"" + short_number(stroke_width / viewport_.unit) + "\" d=\"" + path.text() +
-                  "\"/>\n";
-  }
-  void fill(const Fills& fills) {
-    for (std::size_t i = 0; i < fills.colors.size(); ++i)
-      fill(fills.colors[i], options_.colors ? "value" : "margin", kScaleColors[i]);
-    const bool few = static_cast<double>(panel_.bad) < kFew * static_cast<double>(panel_.elements);
-    fill(fills.bad, "bad", detailed_ ? hatched(viewport_, 1 / viewport_.unit) : Palette::warning,
-         few && !detailed_ ? kSpot : kSeam);
-  }
-  /// The domain boundary and what else the optimizer keeps is thicker.
-  void stroke_edges(const PathText& plain, const PathText& kept) {
-    stroke(plain, "primal", Palette::primal, primal_width());
-    stroke(kept, "constrained", Palette::outline,
-           std::max(kConstrainedTimes * primal_width(), kOutlineWidth * viewport_.em), "stroke-linecap=\"round\" ");
-  }
-
-  const Viewport& viewport_;
-  const DrawOptions& options_;
-  bool detailed_;
-  Panel panel_;
-};
 
 class PanelPainter : public Painter {
  public:

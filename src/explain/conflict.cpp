@@ -160,6 +160,17 @@ ReasonKind kind_of(const Conflict& conflict, bool has_center, bool has_crossing)
   return has_center ? ReasonKind::fan : ReasonKind::patch;
 }
 
+bool suits(const Mesh& mesh, std::span<const TriangleId> triangles, const BestMargin& best) {
+  const auto at = [&](VertexId v) {
+    const auto found = std::lower_bound(best.vertices.begin(), best.vertices.end(), v);
+    return point_with_weight(mesh, v, best.weights[static_cast<std::size_t>(found - best.vertices.begin())]);
+  };
+  return std::all_of(triangles.begin(), triangles.end(), [&](TriangleId t) {
+    const auto [p, q, r] = mesh.corners(t);
+    return is_well_centered(mesh.space(), at(p), at(q), at(r));
+  });
+}
+
 std::vector<VertexId> free_vertices(const Mesh& mesh, std::span<const TriangleId> triangles) {
   std::vector<VertexId> vertices;
   std::vector<TriangleId> sorted(triangles.begin(), triangles.end());

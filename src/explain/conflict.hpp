@@ -33,6 +33,9 @@ struct Conflict {
 /// The vertices of these triangles that an optimization may move: inside, not fixed, on no constrained edge.
 [[nodiscard]] std::vector<VertexId> free_vertices(const Mesh& mesh, std::span<const TriangleId> triangles);
 
+/// Do the weights of the solved program make all these triangles well-centered? Exact.
+[[nodiscard]] bool suits(const Mesh& mesh, std::span<const TriangleId> triangles, const BestMargin& best);
+
 // The places where the dual may cross the edges of a well-centered triangle, for one triangle and for several that
 // share edges.
 //

@@ -353,17 +353,6 @@ class CureFinder {
 
 }  // namespace
 
-bool suits(const Mesh& mesh, std::span<const TriangleId> triangles, const BestMargin& best) {
-  const auto at = [&](VertexId v) {
-    const auto found = std::lower_bound(best.vertices.begin(), best.vertices.end(), v);
-    return point_with_weight(mesh, v, best.weights[static_cast<std::size_t>(found - best.vertices.begin())]);
-  };
-  return std::all_of(triangles.begin(), triangles.end(), [&](TriangleId t) {
-    const auto [p, q, r] = mesh.corners(t);
-    return is_well_centered(mesh.space(), at(p), at(q), at(r));
-  });
-}
-
 std::vector<Cure> suggested_cures(const Mesh& mesh, const Conflict& conflict) {
   std::vector<Cure> cures;
   if (!free_vertices(mesh, conflict.triangles).empty()) cures.emplace_back();  // optimize

@@ -19,7 +19,4 @@ namespace temper {
 /// Cures that may help and need no search.
 [[nodiscard]] std::vector<Cure> suggested_cures(const Mesh& mesh, const Conflict& conflict);
 
-/// Do the weights of the solved program make all these triangles well-centered? Exact.
-[[nodiscard]] bool suits(const Mesh& mesh, std::span<const TriangleId> triangles, const BestMargin& best);
-
 }  // namespace temper
