@@ -1,7 +1,10 @@
 #include "temper/detail/error.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
+
+#include "temper/detail/utf8.hpp"
 
 namespace temper {
 
@@ -46,12 +49,16 @@ void append_escape(std::string& text, unsigned code) {
 }
 
 void append_latin(std::string& text, unsigned code) {
-  if (is_control(code) && code != '\n' && code != '\t') return append_escape(text, code);
   if (code < 0x80) {
     text += static_cast<char>(code);
   } else {
     text += {static_cast<char>(0xc0 | code >> 6), static_cast<char>(0x80 | (code & 0x3f))};
   }
+}
+
+void append_printable(std::string& text, unsigned code) {
+  if (is_control(code) && code != '\n' && code != '\t') return append_escape(text, code);
+  append_latin(text, code);
 }
 
 }  // namespace
@@ -64,13 +71,27 @@ std::string printable(std::string_view text) {
     const std::size_t n = length_of_first(text);
     const bool below_256 = n == 2 && first < 0xc4;
     if (n < 2) {
-      append_latin(result, first);
+      append_printable(result, first);
     } else if (below_256) {
-      append_latin(result, (first & 3u) << 6 | (static_cast<unsigned char>(text[1]) & 0x3fu));
+      append_printable(result, (first & 3u) << 6 | (static_cast<unsigned char>(text[1]) & 0x3fu));
     } else {
       result += text.substr(0, n);
     }
     text.remove_prefix(n == 0 ? 1 : n);
+  }
+  return result;
+}
+
+std::optional<std::string> recoded(std::string_view text) {
+  std::optional<std::string> result;
+  for (std::size_t i = 0, n = 0; i < text.size(); i += std::max<std::size_t>(n, 1)) {
+    n = length_of_first(text.substr(i));
+    if (n == 0 && !result) result = text.substr(0, i);
+    if (!result) continue;
+    if (n == 0)
+      append_latin(*result, static_cast<unsigned char>(text[i]));
+    else
+      *result += text.substr(i, n);
   }
   return result;
 }

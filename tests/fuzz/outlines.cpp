@@ -1,5 +1,5 @@
 // Readers of outlines, and of the JSON that some are.
-#include "io/outlines/outline_input.hpp"
+#include "io/outlines/json_tree.hpp"
 #include "io/text/failure.hpp"
 #include "target.hpp"
 #include "temper/io.hpp"

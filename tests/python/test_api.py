@@ -47,7 +47,7 @@ ELSEWHERE = {
     "make_mesh": "read and from_meshio make the mesh", "make_tet_mesh": "as make_mesh", "expect_triangles": "read takes both kinds", "update": "write does it", "set_points": "from_meshio does it", "release_geometry": "read does it",
     "parse_data_rules": "Mesh.point_data_rules", "check_data_rules": "as parse_data_rules",
     "positions_of_vertices": "Mesh.point_data", "sources_of_tetrahedra": "TetMesh.cell_data", "find_tetrahedron": "as sources_of_tetrahedra", "tetrahedron_near": "as sources_of_tetrahedra", "sources_of_triangles": "Mesh.cell_data", "interpolated": "Mesh.point_data",
-    "printable": "messages are", "needs_projection": "TemperError says it", "projection_text": "Projection's fields",
+    "printable": "messages are", "recoded": "bytes.decode", "needs_projection": "TemperError says it", "projection_text": "Projection's fields",
     "from_mesh": "write does it", "from_outline": "mesh_outline does it", "files_to_write": "write does it", "files_to_read": "read does it",
     "discard_unfinished": "a signal ends Python by an exception",
     "free_memory": "mesh_outline(memory=None) takes it",

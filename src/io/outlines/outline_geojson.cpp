@@ -8,11 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
+#include "io/outlines/feature_names.hpp"
 #include "io/outlines/outline_input.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
@@ -48,13 +49,46 @@ struct Feature {
   std::string group;  ///< the property "name"
 };
 
-/// The points or segments of a feature with a name, in the order of the features.
-struct NamedElements {
-  int dimension = 0;
-  std::int32_t tag = 0;  ///< of the feature; 0: none
-  std::string name;
-  std::vector<std::int32_t> elements;
-};
+/// The name without blanks at its ends, which formats of text cannot keep, and without control characters.
+std::string group_name(std::string_view name) {
+  constexpr std::string_view kBlank = " \t\r\n";
+  name.remove_prefix(std::min(name.find_first_not_of(kBlank), name.size()));
+  name = name.substr(0, name.find_last_not_of(kBlank) + 1);
+  return plain_name(name);
+}
+
+std::string kind(const JsonValue& value) {
+  return value.type == Type::object ? in_quotes(value.text("type")) : std::string(describe(value));
+}
+
+/// Says whether positions are longitude and latitude.
+bool is_geographic(const JsonValue& root) {
+  const JsonValue* crs = root.find("crs");
+  const JsonValue* properties = crs != nullptr ? crs->find("properties") : nullptr;
+  const std::string_view name = properties != nullptr ? properties->text("name") : root.text("crs");
+  for (const std::string_view geographic : {"CRS84", "4326", "4269", "4258"}) {
+    if (name.ends_with(geographic)) return true;
+  }
+  return name.empty();
+}
+
+/// Warns of numbers under a name that nearly has a meaning, and of values that should be numbers and are not.
+void warn_of_misspelt(const JsonValue& properties, const std::string& feature,
+                      const std::function<void(const JsonValue&, const std::string&)>& warn_at) {
+  for (std::size_t i = 0; i < properties.names.size(); ++i) {
+    const std::string& name = properties.names[i];
+    const JsonValue& value = properties.items[i];
+    const std::string_view meant = meant_by(name);
+    const bool number = value.type == Type::number, exact = name == meant;
+    if (meant.empty() || value.type == Type::null || number == exact) continue;
+    if (exact) {
+      warn_at(value,
+              text(feature, ": property ", in_quotes(name), " is ", describe(value), ", not a number, and ignored"));
+    } else {
+      warn_at(value, text(feature, ": property ", in_quotes(name), " is ignored; is ", in_quotes(meant), " meant?"));
+    }
+  }
+}
 
 class GeoJsonReader {
  public:
@@ -65,7 +99,7 @@ class GeoJsonReader {
   }
 
   OutlineDocument read() {
-    document_.file.geographic = is_geographic();
+    document_.file.geographic = is_geographic(root_);
     const std::string_view type = root_.text("type");
     if (type == "FeatureCollection") {
       const std::vector<JsonValue>& features = items(root_, "features");
@@ -76,8 +110,8 @@ class GeoJsonReader {
     } else {
       geometry(root_, Feature());
     }
-    number_regions();
-    name_groups();
+    names_.number_regions(path_, document_.file.warnings);
+    names_.name_groups();
     if (dropped_ > 0) {
       document_.file.warnings.push_back(text(path_, ": ", dropped_, dropped_ == 1 ? " position is" : " positions are",
                                              " the same as the one before"));
@@ -97,16 +131,6 @@ class GeoJsonReader {
     fail(code, where(value), message...);
   }
 
-  [[nodiscard]] bool is_geographic() const {
-    const JsonValue* crs = root_.find("crs");
-    const JsonValue* properties = crs != nullptr ? crs->find("properties") : nullptr;
-    const std::string_view name = properties != nullptr ? properties->text("name") : root_.text("crs");
-    for (const std::string_view geographic : {"CRS84", "4326", "4269", "4258"}) {
-      if (name.ends_with(geographic)) return true;
-    }
-    return name.empty();
-  }
-
   const std::vector<JsonValue>& items(const JsonValue& owner, std::string_view name) const {
     const JsonValue* member = owner.find(name);
     if (member == nullptr || member->type != Type::array) {
@@ -123,7 +147,7 @@ class GeoJsonReader {
     Feature about;
     about.name = name;
     if (const JsonValue* properties = value.find("properties")) {
-      warn_of_misspelt(*properties, name);
+      warn_of_misspelt(*properties, name, [this](const auto& at, const auto& message) { warn_at(at, message); });
       about.region = integer(*properties, "region", name);
       about.tag = integer(*properties, "tag", name);
       about.group = group_name(properties->text("name"));
@@ -143,37 +167,12 @@ class GeoJsonReader {
     document_.file.warnings.push_back(text(where(value), ": ", message));
   }
 
-  /// Warns of numbers under a name that nearly has a meaning, and of values that should be numbers and are not.
-  void warn_of_misspelt(const JsonValue& properties, const std::string& feature) {
-    for (std::size_t i = 0; i < properties.names.size(); ++i) {
-      const std::string& name = properties.names[i];
-      const JsonValue& value = properties.items[i];
-      const std::string_view meant = meant_by(name);
-      const bool number = value.type == Type::number, exact = name == meant;
-      if (meant.empty() || value.type == Type::null || number == exact) continue;
-      if (exact) {
-        warn_at(value,
-                text(feature, ": property ", in_quotes(name), " is ", describe(value), ", not a number, and ignored"));
-      } else {
-        warn_at(value, text(feature, ": property ", in_quotes(name), " is ignored; is ", in_quotes(meant), " meant?"));
-      }
-    }
-  }
-
   /// Warns of properties of polygons on other geometries.
   void warn_of_idle(const JsonValue& shape, const Feature& about) {
     const std::string_view type = shape.text("type");
     const bool polygon = type == "Polygon" || type == "MultiPolygon" || type == "GeometryCollection";
     if (about.region && !polygon)
       warn_at(shape, text(about.name, ": 'region' is for polygons and has no effect on a ", type));
-  }
-
-  /// The name without blanks at its ends, which formats of text cannot keep, and without control characters.
-  [[nodiscard]] static std::string group_name(std::string_view name) {
-    constexpr std::string_view kBlank = " \t\r\n";
-    name.remove_prefix(std::min(name.find_first_not_of(kBlank), name.size()));
-    name = name.substr(0, name.find_last_not_of(kBlank) + 1);
-    return plain_name(name);
   }
 
   std::optional<std::int32_t> integer(const JsonValue& properties, std::string_view key,
@@ -184,10 +183,6 @@ class GeoJsonReader {
       fail_at(*value, ErrorCode::syntax, name, ": expected a whole number as ", key, ", found ", value->number);
     }
     return static_cast<std::int32_t>(value->number);
-  }
-
-  [[nodiscard]] static std::string kind(const JsonValue& value) {
-    return value.type == Type::object ? in_quotes(value.text("type")) : std::string(describe(value));
   }
 
   void geometry(const JsonValue& value, const Feature& about) {
@@ -206,51 +201,40 @@ class GeoJsonReader {
               kind(value));
     }
     if (coordinates == nullptr) fail_at(value, ErrorCode::syntax, about.name, ": has no \"coordinates\"");
-    if (type == "Polygon") polygons({coordinates}, about);
-    if (type == "MultiPolygon") {
-      std::vector<const JsonValue*> all;
-      for (const JsonValue& polygon : array(*coordinates, about.name)) all.push_back(&polygon);
-      polygons(all, about);
+    std::vector<const JsonValue*> parts = {coordinates};
+    if (type.starts_with("Multi")) {
+      parts.clear();
+      for (const JsonValue& one : array(*coordinates, about.name)) parts.push_back(&one);
     }
+    if (type.ends_with("Polygon")) polygons(parts, about);
+    if (type.ends_with("LineString")) lines(parts, about);
+    if (type.ends_with("Point")) marks(parts, about);
+  }
+
+  void lines(const std::vector<const JsonValue*>& all, const Feature& about) {
     const std::size_t first = document_.file.outline.segments.size();
-    if (type == "LineString") line(*coordinates, about, about.name);
-    if (type == "MultiLineString") {
-      for (const JsonValue& one : array(*coordinates, about.name)) line(one, about, about.name);
-    }
-    if (type.ends_with("LineString")) {
-      name_segments(about, first);
-      for (std::size_t s = first; s < document_.file.outline.segments.size(); ++s)
-        add_size(document_.file.outline.segments[s].ends, about);
-    }
-    if (type == "Point") marks({coordinates}, about);
-    if (type == "MultiPoint") {
-      std::vector<const JsonValue*> all;
-      for (const JsonValue& one : array(*coordinates, about.name)) all.push_back(&one);
-      marks(all, about);
-    }
+    for (const JsonValue* one : all) line(*one, about, about.name);
+    name_segments(about, first);
+    for (std::size_t s = first; s < document_.file.outline.segments.size(); ++s)
+      add_size(document_.file.outline.segments[s].ends, about);
   }
 
   void name_segments(const Feature& about, std::size_t first) {
-    if (about.group.empty()) return;
     NamedElements named{1, about.tag.value_or(0), about.group, {}};
     for (std::size_t s = first; s < document_.file.outline.segments.size(); ++s)
       named.elements.push_back(static_cast<std::int32_t>(s));
-    named_.push_back(std::move(named));
+    names_.add(std::move(named));
   }
 
   void marks(const std::vector<const JsonValue*>& positions, const Feature& about) {
     NamedElements named{0, about.tag.value_or(0), about.group, {}};
     for (const JsonValue* position : positions) named.elements.push_back(well(*position, about));
-    for (const std::int32_t p : named.elements) add_tag(p, named.tag), add_size({p, p}, about);
-    if (!about.group.empty()) named_.push_back(std::move(named));
+    for (const std::int32_t p : named.elements) names_.add_tag(p, named.tag), add_size({p, p}, about);
+    names_.add(std::move(named));
   }
   void add_size(const std::array<std::int32_t, 2>& points, const Feature& about) {
     if (about.size) document_.file.outline.sizes.push_back({points, *about.size});
   }
-  void add_tag(std::int32_t point, std::int32_t tag) {
-    if (tag != 0 && point_tags_.emplace(point, tag).second) document_.file.outline.point_tags.push_back({point, tag});
-  }
-
   const std::vector<JsonValue>& array(const JsonValue& value, const std::string& name) const {
     if (value.type != Type::array) {
       fail_at(value, ErrorCode::syntax, name, ": expected an array, found ", describe(value));
@@ -263,8 +247,7 @@ class GeoJsonReader {
     OutlinePart part;
     part.size = about.size;
     part.region = about.region.value_or(0);
-    given_region_.push_back(about.region.has_value() ? 1 : 0);
-    part_groups_.push_back(about.group);
+    names_.add_part(about.region.has_value(), about.group);
     const std::size_t first_segment = document_.file.outline.segments.size();
     for (std::size_t i = 0; i < all.size(); ++i) {
       const std::vector<JsonValue>& rings = array(*all[i], about.name);
@@ -341,85 +324,11 @@ class GeoJsonReader {
     return known->second;
   }
 
-  /// Several polygons without regions of their own count from 1. Polygons of one name are one region; a name without a
-  /// region gets a free one.
-  void number_regions() {
-    std::vector<OutlinePart>& parts = document_.file.outline.parts;
-    const bool counts =
-        parts.size() > 1 && std::find(given_region_.begin(), given_region_.end(), 1) == given_region_.end();
-    std::int32_t highest = 0;
-    for (const OutlinePart& part : parts) highest = std::max(highest, part.region);
-    std::map<std::string, std::int32_t> region_of;
-    std::map<std::int32_t, std::string> name_of;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      if (parts[i].region != 0) region_of.emplace(part_groups_[i], parts[i].region);
-    }
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      std::int32_t& region = parts[i].region;
-      if (region == 0 && counts) region = static_cast<std::int32_t>(i + 1);
-      if (part_groups_[i].empty()) continue;
-      if (given_region_[i] == 0) region = region_of.emplace(part_groups_[i], counts ? region : ++highest).first->second;
-      const auto [known, is_new] = name_of.emplace(region, part_groups_[i]);
-      if (is_new) {
-        document_.file.outline.groups.push_back({2, region, known->second});
-      } else if (known->second != part_groups_[i]) {
-        document_.file.warnings.push_back(text(path_, ": region ", region, " is named '", known->second,
-                                               "'; its name '", part_groups_[i],
-                                               "' is dropped, because a region has one name"));
-      }
-    }
-  }
-
-  /// Gives each name of points and lines its tag. It is the tag of its features, if that is one tag with one name. Else
-  /// it is a free one, above 1 and all others. Elements then carry it beside the tags that they have.
-  void name_groups() {
-    std::map<std::pair<int, std::string>, std::set<std::int32_t>> tags_of;
-    std::map<std::pair<int, std::int32_t>, std::set<std::string>> names_of;
-    std::int32_t highest = 1;
-    for (const OutlineSegment& s : document_.file.outline.segments) highest = std::max(highest, s.tag);
-    for (const OutlineTag& p : document_.file.outline.point_tags) highest = std::max(highest, p.tag);
-    for (const NamedElements& named : named_) {
-      auto& tags = tags_of[{named.dimension, named.name}];
-      if (named.tag == 0) continue;
-      tags.insert(named.tag);
-      names_of[{named.dimension, named.tag}].insert(named.name);
-    }
-    std::map<std::pair<int, std::string>, std::int32_t> tag_of;
-    for (const NamedElements& named : named_) {
-      const std::pair group(named.dimension, named.name);
-      if (!tag_of.contains(group)) {
-        const std::set<std::int32_t>& tags = tags_of[group];
-        const bool own = tags.size() == 1 && names_of[{named.dimension, *tags.begin()}].size() == 1;
-        tag_of[group] = own ? *tags.begin() : ++highest;
-        document_.file.outline.groups.push_back({named.dimension, tag_of[group], named.name});
-      }
-      carry(named, tag_of[group]);
-    }
-  }
-  void carry(const NamedElements& named, std::int32_t tag) {
-    Outline& o = document_.file.outline;
-    for (const std::int32_t element : named.elements) {
-      if (named.dimension == 0) {
-        add_tag(element, tag);
-        continue;
-      }
-      OutlineSegment& segment = o.segments[static_cast<std::size_t>(element)];
-      if (segment.tag == 0) {
-        segment.tag = tag;
-      } else if (segment.tag != tag) {
-        o.further_tags.push_back({element, tag});
-      }
-    }
-  }
-
   std::string path_;
   JsonValue root_;
   OutlineDocument document_;
+  FeatureNames names_{document_.file.outline};
   std::map<std::array<double, 2>, std::int32_t> point_at_;  // no hash, which a file could be made to defeat
-  std::vector<std::uint8_t> given_region_;
-  std::vector<std::string> part_groups_;  // names of parts
-  std::vector<NamedElements> named_;
-  std::set<std::pair<std::int32_t, std::int32_t>> point_tags_;  // that the outline has
   std::size_t dropped_ = 0;
   bool heights_ = false;
 };

@@ -96,14 +96,14 @@ class GisReader {
   }
 
   [[nodiscard]] JsonValue geometry(void* shape) {
-    constexpr std::array<std::string_view, 8> kTypes = {
+    constexpr std::array<std::string_view, 8> kShapes = {
         "", "Point", "LineString", "Polygon", "MultiPoint", "MultiLineString", "MultiPolygon", "GeometryCollection"};
     // The highest bit and thousands stand for heights and measures.
     const auto type = (static_cast<unsigned>(gdal_->OGR_G_GetGeometryType(shape)) & 0x7fffffffU) % 1000;
     JsonValue value = json(Type::object);
-    const bool is_known = type > 0 && type < kTypes.size();
-    add(value, "type", json(is_known ? std::string(kTypes.at(type)) : gdal_->OGR_G_GetGeometryName(shape)));
-    if (type < kTypes.size() - 1) {
+    const bool is_known = type > 0 && type < kShapes.size();
+    add(value, "type", json(is_known ? std::string(kShapes.at(type)) : gdal_->OGR_G_GetGeometryName(shape)));
+    if (type < kShapes.size() - 1) {
       add(value, "coordinates", coordinates(shape, type));
       return value;
     }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "temper/detail/error.hpp"
+#include "temper/detail/utf8.hpp"
 
 namespace temper {
 namespace {
@@ -24,6 +25,13 @@ TEST(Printable, BytesThatAreNoUtf8AreLatin1) {
   EXPECT_EQ(printable("\xc3"), "Ã") << "cut off";
   EXPECT_EQ(printable("\xc0\xaf"), "À¯") << "longer than it must be";
   EXPECT_EQ(printable("\xed\xa0\x80"), "í\xc2\xa0\\x80") << "half of a pair";
+}
+
+TEST(Recoded, BytesThatAreNoUtf8AreLatin1AndTheRestStays) {
+  EXPECT_EQ(recoded("Temp\xe9rature, 海\x1b\n"), "Température, 海\x1b\n");
+  EXPECT_EQ(recoded("a\x85"), "a\xc2\x85");
+  EXPECT_EQ(recoded("海, \xf0\x9f\x8c\x8a\n\x01"), std::nullopt) << "all is UTF-8";
+  EXPECT_EQ(recoded(""), std::nullopt);
 }
 
 TEST(Printable, TwiceIsTheSameAsOnce) {

@@ -308,9 +308,11 @@ TEST_F(OutlineFiles, BadGeoJsonIsNamedWithLineAndFeature) {
   const auto polygon = [](const std::string& rings) {
     return "{\"type\": \"Polygon\",\n\"coordinates\": " + rings + "}";
   };
-  expect_error("{", "bad:1: expected a name in quotes, found the end of the file");
-  expect_error("{\"type\": \"Polygon\", \"coordinates\": [[[0, 0], [1, 0}]]]}", "expected ',' or ']', found '}]]]}'");
-  expect_error("{\"type\": nothing}", "expected a value, found 'nothing}'");
+  expect_error(
+      "{",
+      "bad:1: is no JSON: syntax error while parsing object key - unexpected end of input; expected string literal");
+  expect_error("{\"type\": \"Polygon\", \"coordinates\": [[[0, 0], [1, 0}]]]}", "unexpected '}'; expected ']'");
+  expect_error("{\"type\": nothing}", "syntax error while parsing value - invalid literal; last read: '\"type\": no'");
   expect_error(polygon("[[[0, 0], [1, 0], [1, 1]]]"), "bad:2: ring 0 of the geometry is not closed");
   expect_error(polygon("[[[0, 0], [1, 0], [0, 0]]]"), "has 2 sides; expected three or more");
   expect_error(polygon("[[[0, 0]]]"), "expected two positions or more, found 1");
