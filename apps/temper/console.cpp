@@ -88,10 +88,6 @@ std::string plural(std::size_t n, std::string_view one, std::string_view several
   return fmt::format("{} {}", n, n == 1 ? one : several);
 }
 
-std::string mesh_size(std::size_t vertices, std::size_t triangles) {
-  return plural(vertices, "vertex", "vertices") + ", " + plural(triangles, "triangle", "triangles");
-}
-
 std::vector<std::string> wrap(std::string_view text, std::size_t width) {
   std::vector<std::string> lines = {""};
   while (!text.empty()) {

@@ -40,7 +40,6 @@ void flush_output();
 /// "1 edge", "3 edges"
 [[nodiscard]] std::string plural(std::size_t n, std::string_view one, std::string_view several);
 /// "4 vertices, 1 triangle"
-[[nodiscard]] std::string mesh_size(std::size_t vertices, std::size_t triangles);
 /// Lines of at most width columns, broken at spaces.
 [[nodiscard]] std::vector<std::string> wrap(std::string_view text, std::size_t width);
 

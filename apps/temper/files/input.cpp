@@ -36,19 +36,6 @@ std::vector<std::size_t> invert(const io::VertexOfPoint& vertex_of_point) {
   return points;
 }
 
-/// The file's own numbers, if points of the file that no tetrahedron uses were dropped.
-class TetNames final : public tets::InputNames {
- public:
-  TetNames(std::shared_ptr<const tets::InputNames> file, std::vector<std::size_t> points)
-      : file_(std::move(file)), points_(std::move(points)) {}
-  [[nodiscard]] std::string point(std::size_t index) const override { return file_->point(points_[index]); }
-  [[nodiscard]] std::string tetrahedron(std::size_t index) const override { return file_->tetrahedron(index); }
-
- private:
-  std::shared_ptr<const tets::InputNames> file_;
-  std::vector<std::size_t> points_;
-};
-
 /// The error of a mesh, with the command that cures it if there is one.
 InputError with_cure(InputError error, const Input& input) {
   const auto cure = [&](std::string_view what, std::string_view option) {
@@ -63,43 +50,80 @@ InputError with_cure(InputError error, const Input& input) {
 
 }  // namespace
 
-std::string Input::vertex_number(VertexId v) const { return last_word(names->point(v.index)); }
+template <class Subject>
+std::string InputOf<Subject>::vertex_number(VertexId v) const {
+  return last_word(names->point(v.index));
+}
+template <>
+std::string Input::element_number(TriangleId t) const {
+  return last_word(names->triangle(t.index));
+}
+template <>
+std::string TetInput::element_number(tets::TetId t) const {
+  return last_word(names->tetrahedron(t.index));
+}
+template <class Subject>
+std::vector<std::string> InputOf<Subject>::warnings() const {
+  return all_of(file.warnings, loaded.warnings);
+}
+template struct InputOf<Triangles>;
+template struct InputOf<Tetrahedra>;
 
-std::string Input::triangle_number(TriangleId t) const { return last_word(names->triangle(t.index)); }
+namespace {
 
-std::vector<std::string> Input::warnings() const { return all_of(file.warnings, loaded.warnings); }
-
-Input read_input(const std::string& path, const ReadingOptions& options) {
-  Input input;
-  input.path = path;
-  input.file = options.read ? options.read(path) : read_tried(path, options.heights.to_read(options.executor));
-  take_to_map(input.file, path, options.projection);
+void load(Input& input, const ReadingOptions& options) {
+  take_to_map(input.file, input.path, options.projection);
   Expected<io::LoadedMesh> loaded = io::make_mesh(input.file, options.fixed_tags, options.executor);
   if (!loaded) throw as_failure(with_cure(loaded.error(), input));
   input.loaded = or_fail(std::move(loaded));
-  if (!options.spheres) expect_plane(input.loaded.mesh, path, "this verb");
-  input.n_vertices = input.loaded.mesh.n_vertices();
+}
+void load(TetInput& input, const ReadingOptions& options) {
+  input.loaded = or_fail(io::make_tet_mesh(input.file, options.executor));
+}
+
+template <class Subject>
+InputOf<Subject> made_of(io::MeshFile file, const std::string& path, const ReadingOptions& options) {
+  if (options.expect) options.expect(Subject::cells);
+  InputOf<Subject> input;
+  input.path = path;
+  input.file = std::move(file);
+  load(input, options);
+  input.n_vertices = input.mesh().n_vertices();
   input.points = invert(input.loaded.vertex_of_point);
   input.names = std::make_shared<VertexNames>(input.file.numbering, input.points, input.n_vertices);
   return input;
 }
 
-std::string TetInput::vertex_number(VertexId v) const { return last_word(names->point(v.index)); }
-
-std::string TetInput::tetrahedron_number(tets::TetId t) const { return last_word(names->tetrahedron(t.index)); }
-
-std::vector<std::string> TetInput::warnings() const { return all_of(file.warnings, loaded.warnings); }
-
-TetInput make_input(const std::string& path, io::MeshFile file, Executor* executor) {
-  TetInput input;
-  input.path = path;
-  input.file = std::move(file);
-  input.loaded = or_fail(io::make_tet_mesh(input.file, executor));
-  input.points = invert(input.loaded.vertex_of_point);
-  input.names = input.file.numbering;
-  if (!input.points.empty()) input.names = std::make_shared<TetNames>(input.file.numbering, input.points);
-  return input;
+io::MeshFile read_file(const std::string& path, const ReadingOptions& options) {
+  return read_tried(path, options.heights.to_read(options.executor));
 }
+
+}  // namespace
+
+AnyInput read_any(const std::string& path, const ReadingOptions& options) {
+  io::MeshFile file = read_file(path, options);
+  if (cells_of(file) == Tetrahedra::cells) return made_of<Tetrahedra>(std::move(file), path, options);
+  return made_of<Triangles>(std::move(file), path, options);
+}
+
+Input make_input(io::MeshFile file, const std::string& path, const ReadingOptions& options) {
+  return made_of<Triangles>(std::move(file), path, options);
+}
+
+Input read_input(const std::string& path, const ReadingOptions& options) {
+  return make_input(read_file(path, options), path, options);
+}
+
+template <class Subject>
+InputOf<Subject> read_like(const InputOf<Subject>& input, const std::string& path, const ReadingOptions& options) {
+  AnyInput other = read_any(path, options);
+  if (auto* const same = std::get_if<InputOf<Subject>>(&other)) return std::move(*same);
+  throw Failure(Exit::bad_input, fmt::format("{}: expected {}, as in {}, found {}", path, Subject::elements, input.path,
+                                             name(Subject::cells == CellKinds::triangles ? CellKinds::tetrahedra
+                                                                                         : CellKinds::triangles)));
+}
+template Input read_like(const Input& input, const std::string& path, const ReadingOptions& options);
+template TetInput read_like(const TetInput& input, const std::string& path, const ReadingOptions& options);
 
 std::ifstream open_text(const std::string& path) {
   std::ifstream file(path_of(path), std::ios::binary);
@@ -141,8 +165,8 @@ Vec2 place_in_file(const io::MeshFile& file, Vec2 place) {
   return map == nullptr ? place : LongitudeTurn(map->lon_lat)(inverse(map->projection, place));
 }
 
-std::string same_projection(const Input& input, const std::string& projection) {
-  return input.file.map() != nullptr ? projection_text(input.file.map()->projection) : projection;
+std::string same_projection(const io::MeshFile& file, const std::string& projection) {
+  return file.map() != nullptr ? projection_text(file.map()->projection) : projection;
 }
 
 std::string renumber(const std::string& text, const std::function<std::string(VertexId)>& name) {
@@ -176,24 +200,32 @@ std::string renumber(const std::string& text, const std::function<std::string(Ve
   return result;
 }
 
-VertexNames::VertexNames(std::shared_ptr<const InputNames> file, std::vector<std::size_t> points,
+VertexNames::VertexNames(std::shared_ptr<const tets::InputNames> file, std::vector<std::size_t> points,
                          std::size_t n_vertices)
-    : file_(file ? std::move(file) : std::make_shared<const InputNames>()),
-      points_(std::move(points)),
-      n_vertices_(n_vertices) {}
+    : file_(std::move(file)), points_(std::move(points)), n_vertices_(n_vertices) {}
 
 std::size_t VertexNames::in_file(std::size_t index) const { return index < points_.size() ? points_[index] : index; }
 
 /// The file may number its points in any way, so new points count separately, from 1.
 std::string VertexNames::point(std::size_t index) const {
   if (index >= n_vertices_) return "new point " + std::to_string(index - n_vertices_ + 1);
-  return file_->point(in_file(index));
+  return file_ ? file_->point(in_file(index)) : InputNames::point(in_file(index));
 }
-std::string VertexNames::triangle(std::size_t index) const { return file_->triangle(index); }
+std::string VertexNames::triangle(std::size_t index) const {
+  return file_ ? file_->triangle(index) : temper::InputNames::triangle(index);
+}
+std::string VertexNames::tetrahedron(std::size_t index) const {
+  return file_ ? file_->tetrahedron(index) : InputNames::tetrahedron(index);
+}
 std::string VertexNames::point_where(std::size_t index) const {
-  return index < n_vertices_ ? file_->point_where(in_file(index)) : std::string();
+  return file_ && index < n_vertices_ ? file_->point_where(in_file(index)) : std::string();
 }
-std::string VertexNames::triangle_where(std::size_t index) const { return file_->triangle_where(index); }
+std::string VertexNames::triangle_where(std::size_t index) const {
+  return file_ ? file_->triangle_where(index) : std::string();
+}
+std::string VertexNames::tetrahedron_where(std::size_t index) const {
+  return file_ ? file_->tetrahedron_where(index) : std::string();
+}
 
 std::string spell_projection(std::string message) {
   constexpr std::string_view kOption = "`projection`";

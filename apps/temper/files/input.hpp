@@ -11,43 +11,33 @@
 #include <vector>
 
 #include "exit.hpp"
+#include "files/subject.hpp"
 #include "options/options.hpp"
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper::app {
 
-struct Input {
+/// A mesh that was read: of triangles or of tetrahedra, as its Subject says.
+template <class Subject>
+struct InputOf {
   std::string path;
   io::MeshFile file;
-  io::LoadedMesh loaded;
-  std::size_t n_vertices = 0;               ///< of the mesh as it was read
-  std::vector<std::size_t> points;          ///< mesh vertex → point of the file, both from 0; empty: the same
-  std::shared_ptr<const InputNames> names;  ///< the file's own numbers of the mesh's vertices and triangles
+  typename Subject::Loaded loaded;
+  std::size_t n_vertices = 0;                     ///< of the mesh as it was read
+  std::vector<std::size_t> points;                ///< mesh vertex → point of the file, both from 0; empty: the same
+  std::shared_ptr<const tets::InputNames> names;  ///< the file's own numbers of the mesh's vertices and elements
 
-  [[nodiscard]] const Mesh& mesh() const { return loaded.mesh; }
+  [[nodiscard]] const typename Subject::Mesh& mesh() const { return loaded.mesh; }
   /// The file's own number of a vertex, as text.
   [[nodiscard]] std::string vertex_number(VertexId v) const;
-  [[nodiscard]] std::string triangle_number(TriangleId t) const;
+  [[nodiscard]] std::string element_number(typename Subject::Element e) const;
   /// Warnings of reading and of building.
   [[nodiscard]] std::vector<std::string> warnings() const;
 };
-
-/// The same of a mesh of tetrahedra.
-struct TetInput {
-  std::string path;
-  io::MeshFile file;
-  io::LoadedTetMesh loaded;
-  std::vector<std::size_t> points;                ///< mesh vertex → point of the file, both from 0; empty: the same
-  std::shared_ptr<const tets::InputNames> names;  ///< the file's own numbers of the mesh's vertices and tetrahedra
-
-  [[nodiscard]] const tets::TetMesh& mesh() const { return loaded.mesh; }
-  [[nodiscard]] std::string vertex_number(VertexId v) const;
-  [[nodiscard]] std::string tetrahedron_number(tets::TetId t) const;
-  [[nodiscard]] std::vector<std::string> warnings() const;
-};
-/// Builds the mesh of a file; Failure when anything is wrong with it.
-[[nodiscard]] TetInput make_input(const std::string& path, io::MeshFile file, Executor* executor);
+using Input = InputOf<Triangles>;
+using TetInput = InputOf<Tetrahedra>;
+using AnyInput = std::variant<Input, TetInput>;
 
 /// A text file to be read line by line; Failure if it cannot be read, or is a device such as /dev/zero without an end.
 [[nodiscard]] std::ifstream open_text(const std::string& path);
@@ -57,13 +47,20 @@ struct ReadingOptions {
   std::string projection = {};  ///< of points in degrees: as --projection has it
   std::vector<std::string> fixed_tags = {};
   Executor* executor = nullptr;
-  bool spheres = false;  ///< meshes of the sphere are taken too
   Heights heights = {};  ///< as --flat and --positive have it
-  /// The source of the file; none: the disk.
-  std::function<io::MeshFile(const std::string& path)> read = {};
+  /// Refuses what is for other cells than the file has, before the mesh is built; none: nothing is refused.
+  std::function<void(CellKinds cells)> expect = {};
 };
 /// Reads a file and builds its mesh; Failure when anything is wrong with it.
+[[nodiscard]] AnyInput read_any(const std::string& path, const ReadingOptions& options = {});
+/// The same for verbs of triangles alone.
 [[nodiscard]] Input read_input(const std::string& path, const ReadingOptions& options = {});
+/// The same of a file that was read.
+[[nodiscard]] Input make_input(io::MeshFile file, const std::string& path, const ReadingOptions& options);
+/// Another mesh of the same kind as `input`; Failure if it is of the other kind.
+template <class Subject>
+[[nodiscard]] InputOf<Subject> read_like(const InputOf<Subject>& input, const std::string& path,
+                                         const ReadingOptions& options);
 
 /// Longitude and latitude, as in the file, of a place on the map of a file in degrees. Other places are unchanged.
 [[nodiscard]] Vec2 place_in_file(const io::MeshFile& file, Vec2 place);
@@ -79,26 +76,28 @@ struct ReadingOptions {
 void expect_plane(const Mesh& mesh, const std::string& path, std::string_view what);
 
 /// The projection of another file onto the same map: with the center that was chosen for this one.
-[[nodiscard]] std::string same_projection(const Input& input, const std::string& projection);
+[[nodiscard]] std::string same_projection(const io::MeshFile& file, const std::string& projection);
 
 /// The text with another name for each vertex number in it ("vertex 3", "edge 3-9", "face 3-9-12").
 [[nodiscard]] std::string renumber(const std::string& text, const std::function<std::string(VertexId)>& name);
 
-/// The file's own numbers for the vertices of a mesh, if points of the file that no triangle uses were dropped. Also
+/// The file's own numbers for the vertices of a mesh, if points of the file that no element uses were dropped. Also
 /// names for vertices that the file does not have.
-class VertexNames final : public InputNames {
+class VertexNames final : public tets::InputNames {
  public:
   /// `points`: mesh vertex → point of the file; empty: equal numbers. `n_vertices`: of the file's mesh; later ones are
   /// new.
-  VertexNames(std::shared_ptr<const InputNames> file, std::vector<std::size_t> points, std::size_t n_vertices);
+  VertexNames(std::shared_ptr<const tets::InputNames> file, std::vector<std::size_t> points, std::size_t n_vertices);
   [[nodiscard]] std::string point(std::size_t index) const override;
   [[nodiscard]] std::string triangle(std::size_t index) const override;
+  [[nodiscard]] std::string tetrahedron(std::size_t index) const override;
   [[nodiscard]] std::string point_where(std::size_t index) const override;
   [[nodiscard]] std::string triangle_where(std::size_t index) const override;
+  [[nodiscard]] std::string tetrahedron_where(std::size_t index) const override;
 
  private:
   [[nodiscard]] std::size_t in_file(std::size_t index) const;
-  std::shared_ptr<const InputNames> file_;
+  std::shared_ptr<const tets::InputNames> file_;  // null: numbers from 0
   std::vector<std::size_t> points_;
   std::size_t n_vertices_;
 };
@@ -118,7 +117,6 @@ void take_to_map(io::MeshFile& file, const std::string& path, const std::string&
 /// the path of a file with two vertices per line, in the numbers of the mesh file. Failure when the file cannot be
 /// read, names something else than edges of the mesh (with its line), or when no edge is inside the mesh.
 [[nodiscard]] std::vector<HalfedgeId> prescribed_edges(const std::string& which, const Input& input);
-
 
 /// io::read(), which reads a file of HDF5 (NetCDF-4, VTKHDF) first in a child process. On a damaged file libhdf5 may
 /// loop forever or crash, and then only the child does. Failure when the file cannot be used, or the child exceeds its

@@ -25,21 +25,20 @@ std::vector<std::string_view> names_of_numbers(const std::vector<io::DataArray>&
   return names;
 }
 
-template <class AnyInput>
-constexpr bool kOfTetrahedra = std::is_same_v<AnyInput, TetInput>;
 /// A coefficient has a value for each of these elements.
 auto elements_of(const Mesh& mesh) { return mesh.triangles(); }
 auto elements_of(const tets::TetMesh& mesh) { return mesh.tetrahedra(); }
 
 /// The data of triangles or tetrahedra with this name.
-template <class AnyInput>
-std::vector<double> from_data(const Command& command, const std::string& name, const AnyInput& input) {
-  if (const io::DataArray* const found = find_numbers(input.file.triangles.data, name)) return as_doubles(*found);
-  const std::vector<std::string_view> names = names_of_numbers(input.file.triangles.data);
+template <class Subject>
+std::vector<double> from_data(const Command& command, const std::string& name, const InputOf<Subject>& input) {
+  const std::vector<io::DataArray>& data = (input.file.*Subject::cells_of_file).data;
+  if (const io::DataArray* const found = find_numbers(data, name)) return as_doubles(*found);
+  const std::vector<std::string_view> names = names_of_numbers(data);
   throw Failure(Exit::bad_usage,
                 fmt::format("{}: {}: --coefficient: there are no data '{}' of {}; {}. Next: give one of these, "
                             "or REGION=K,...",
-                            command.name(), input.path, name, kOfTetrahedra<AnyInput> ? "tetrahedra" : "triangles",
+                            command.name(), input.path, name, Subject::elements,
                             names.empty() ? "the file has none of one number" : "there are " + join(names)));
 }
 
@@ -68,14 +67,13 @@ std::pair<std::string, double> name_and_value(const Command& command, const std:
   return {entry.substr(0, equals), *value};
 }
 
-template <class AnyInput>
+template <class Subject>
 std::map<std::int32_t, double> values_of_regions(const Command& command, const std::string& text,
-                                                 const AnyInput& input) {
+                                                 const InputOf<Subject>& input) {
   std::map<std::int32_t, double> values;
   for (const std::string& entry : separated(text)) {
     const auto [name, value] = name_and_value(command, "--coefficient", entry);
-    const std::int32_t region =
-        tag_of(command, "--coefficient", name, kOfTetrahedra<AnyInput> ? 3 : 2, input.file.names);
+    const std::int32_t region = tag_of(command, "--coefficient", name, Subject::dimension, input.file.names);
     if (!values.emplace(region, value).second) {
       refuse_usage(command.name(), fmt::format("--coefficient: region {} has two values", region));
     }
@@ -83,8 +81,8 @@ std::map<std::int32_t, double> values_of_regions(const Command& command, const s
   return values;
 }
 
-template <class AnyInput>
-std::vector<double> from_regions(const Command& command, const std::string& text, const AnyInput& input) {
+template <class Subject>
+std::vector<double> from_regions(const Command& command, const std::string& text, const InputOf<Subject>& input) {
   const std::map<std::int32_t, double> values = values_of_regions(command, text, input);
   std::map<std::int32_t, std::size_t> elements;
   std::vector<double> coefficient;
@@ -117,23 +115,13 @@ void add_coefficient(Command& command, std::string& target) {
       "for each region, by number or name: 1=1e-4,clay=1e-9.");
 }
 
-namespace {
-
-template <class AnyInput>
-std::vector<double> coefficient_of(const Command& command, const std::string& text, const AnyInput& input) {
+template <class Subject>
+std::vector<double> read_coefficient(const Command& command, const std::string& text, const InputOf<Subject>& input) {
   if (text.empty()) return {};
   return text.find('=') == std::string::npos ? from_data(command, text, input) : from_regions(command, text, input);
 }
-
-}  // namespace
-
-std::vector<double> read_coefficient(const Command& command, const std::string& text, const Input& input) {
-  return coefficient_of(command, text, input);
-}
-
-std::vector<double> read_coefficient(const Command& command, const std::string& text, const TetInput& input) {
-  return coefficient_of(command, text, input);
-}
+template std::vector<double> read_coefficient(const Command&, const std::string&, const Input&);
+template std::vector<double> read_coefficient(const Command&, const std::string&, const TetInput&);
 
 namespace {
 

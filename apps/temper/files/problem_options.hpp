@@ -13,12 +13,11 @@ namespace temper::app {
 /// Adds --coefficient.
 void add_coefficient(Command& command, std::string& target);
 
-/// The coefficient of each triangle; empty if the text is. Failure if the file has no such data, or if a region has no
+/// The coefficient of each element; empty if the text is. Failure if the file has no such data, or if a region has no
 /// value or is not in the file.
-[[nodiscard]] std::vector<double> read_coefficient(const Command& command, const std::string& text, const Input& input);
-/// The coefficient of each tetrahedron.
+template <class Subject>
 [[nodiscard]] std::vector<double> read_coefficient(const Command& command, const std::string& text,
-                                                   const TetInput& input);
+                                                   const InputOf<Subject>& input);
 
 /// The options of a problem, as text.
 struct ProblemOptions {

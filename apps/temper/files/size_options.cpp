@@ -118,16 +118,14 @@ DepthRule parse_depth_rule(const std::string& verb, const std::string& text) {
   return rule;
 }
 
-ReadSizeField read_size_field(const std::string& path, const std::string& data, const ReadingOptions& options,
-                              const std::optional<DepthRule>& depths) {
-  const Input input = read_input(path, options);
+ReadSizeField read_size_field(const Input& input, const std::string& data, const std::optional<DepthRule>& depths) {
   const io::DataArray& array = find_data(input, data, depths.has_value());
   std::vector<double> sizes = at_vertices(input, array);
   if (depths) sizes = from_depths(input, array.name, *depths, std::move(sizes));
   const auto field = SizeField::from_values(input.mesh(), sizes, input.names.get());
   if (!field) {
     const bool names_file = !field.error().where.empty();
-    throw Failure(Exit::bad_input, names_file ? field.error().what() : path + ": " + field.error().message);
+    throw Failure(Exit::bad_input, names_file ? field.error().what() : input.path + ": " + field.error().message);
   }
   return {*field, input.warnings()};
 }

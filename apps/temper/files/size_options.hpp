@@ -24,7 +24,7 @@ struct ReadSizeField {
   SizeField field;
   std::vector<std::string> warnings;  ///< of reading the file
 };
-[[nodiscard]] ReadSizeField read_size_field(const std::string& path, const std::string& data,
-                                            const ReadingOptions& options, const std::optional<DepthRule>& depths = {});
+[[nodiscard]] ReadSizeField read_size_field(const Input& input, const std::string& data,
+                                            const std::optional<DepthRule>& depths = {});
 
 }  // namespace temper::app

@@ -129,7 +129,7 @@ Requirement parse_requirement(std::string_view text, std::span<const Key> keys, 
 }
 
 double value_of(const std::string& key, const Quality& quality) {
-  if (key == kBad) return static_cast<double>(bad_triangles(quality));
+  if (key == kBad) return static_cast<double>(bad_elements(quality));
   if (const QualityMeasure* measure = find_row(quality_measures(), key)) return measure->of(quality);
   for (const EnergyKey& energy : energy_keys()) {
     if (energy.key == key) return quality.energy[energy.row][energy.star];
@@ -138,7 +138,7 @@ double value_of(const std::string& key, const Quality& quality) {
 }
 
 double value_of(const std::string& key, const tets::Quality& quality) {
-  if (key == kBad) return static_cast<double>(quality.orthocenters_outside);
+  if (key == kBad) return static_cast<double>(bad_elements(quality));
   const tets::QualityMeasure* measure = find_row(tets::quality_measures(), key);
   return measure == nullptr ? std::nan("") : measure->of(quality);
 }
@@ -184,10 +184,12 @@ std::vector<Outcome> outcomes_of(std::span<const Requirement> requirements, cons
 
 }  // namespace
 
-std::size_t bad_triangles(const Quality& quality) {
+std::size_t bad_elements(const Quality& quality) {
   const double good = quality.well_centered_fraction * static_cast<double>(quality.triangles);
   return quality.triangles - std::min(quality.triangles, static_cast<std::size_t>(std::lround(good)));
 }
+
+std::size_t bad_elements(const tets::Quality& quality) { return quality.orthocenters_outside; }
 
 Option& add_requirements(Command& command, std::vector<std::string>& lists, bool tetrahedra) {
   return add_texts(

@@ -36,7 +36,8 @@ struct Outcome {
 };
 
 /// Triangles that are not well-centered: the key `bad`, and the number of all reports.
-[[nodiscard]] std::size_t bad_triangles(const Quality& quality);
+[[nodiscard]] std::size_t bad_elements(const Quality& quality);
+[[nodiscard]] std::size_t bad_elements(const tets::Quality& quality);
 
 /// --require, with all keys in its help. `tetrahedra`: the verb takes both kinds of meshes.
 Option& add_requirements(Command& command, std::vector<std::string>& lists, bool tetrahedra = false);

@@ -184,7 +184,9 @@ class JsonWriter {
     json["crossing"] = r.crossing ? crossing(*r.crossing) : Json(nullptr);
     json["center"] = r.center ? center(*r.center) : Json(nullptr);
     json["must_split"] = r.must_split ? must_split(*r.must_split) : Json(nullptr);
-    json["certificate"] = r.certificate.terms.empty() ? Json(nullptr) : Json::parse(io::certificate_to_json(r.certificate, input_.points));
+    json["certificate"] = r.certificate.terms.empty()
+                              ? Json(nullptr)
+                              : Json::parse(io::certificate_to_json(r.certificate, input_.points));
     json["cures_searched"] = r.cures_searched;
     json["cures"] = Json::array();
     for (const Cure& c : r.cures) json["cures"].push_back(cure(c));

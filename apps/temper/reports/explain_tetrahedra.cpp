@@ -49,7 +49,7 @@ std::string paragraph(const TetInput& input, const tets::Reason& reason, std::si
   const std::string blank(kTetIndent, ' ');
   const auto name = [&](VertexId v) { return input.vertex_number(v); };
   std::string why = fmt::format("Tetrahedron {} ({}) at ({:.9g}, {:.9g}, {:.9g}): {}.",
-                                input.tetrahedron_number(reason.tetrahedron), joined(input, reason.vertices, " "),
+                                input.element_number(reason.tetrahedron), joined(input, reason.vertices, " "),
                                 reason.at.x, reason.at.y, reason.at.z, renumber(reason.why, name));
   if (!style.utf8) why = in_ascii(why);
   std::string text = pad_left(std::to_string(number) + ". ", kTetIndent);

@@ -19,7 +19,7 @@ constexpr std::size_t kCures = 20;
 /// The reasons why triangles are not well-centered, in the user's numbers. None if too many are, or some are inverted.
 Json reasons_json(const Mesh& mesh, const Quality& quality, const InputNames* names) {
   Json json = Json::array();
-  const std::size_t bad = bad_triangles(quality);
+  const std::size_t bad = bad_elements(quality);
   if (bad == 0 || bad > kMostExplained || quality.inverted_triangles > 0) return json;
   const auto solver = clp_solver();
   ExplainOptions options;

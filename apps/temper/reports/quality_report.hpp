@@ -53,17 +53,33 @@ struct TextStyle {
 [[nodiscard]] std::string brief_text(const tets::Quality& quality);
 [[nodiscard]] std::string brief_text(const tets::Quality& before, const tets::Quality& after);
 [[nodiscard]] std::string verdict(const tets::Quality& quality);
-/// "5 vertices (0 inside), 2 tetrahedra".
+
+/// "5 vertices, 2 triangles", or "5 vertices (0 inside), 2 tetrahedra".
+[[nodiscard]] std::string mesh_size(const Quality& quality);
 [[nodiscard]] std::string mesh_size(const tets::Quality& quality);
+/// "5 vertices, 2 tetrahedra".
+[[nodiscard]] std::string mesh_size(const Mesh& mesh);
+[[nodiscard]] std::string mesh_size(const tets::TetMesh& mesh);
 
 /// "2 of 9 triangles are not well-centered", or "all 9 triangles are well-centered".
 [[nodiscard]] std::string well_centered(std::size_t bad, std::size_t triangles);
 
-/// "Next: temper explain out.vtu", if a triangle of the file is not well-centered.
-[[nodiscard]] std::string next_step(const Quality& quality, const std::string& path, const std::string& projection);
+/// "Next: temper explain out.vtu", if an element of the file is not well-centered.
+template <class AnyQuality>
+[[nodiscard]] std::string next_step(const AnyQuality& quality, const std::string& path, const std::string& projection) {
+  if (bad_elements(quality) == 0 || io::is_stream(path)) return {};
+  return "Next: " + command_line("explain", path, projection) + "\n";
+}
 
 /// Quadrilaterals, which are two triangles each.
 [[nodiscard]] std::size_t count_quadrilaterals(const Mesh& mesh);
+/// "4 of these triangles are halves of 2 quadrilaterals", a line; empty if there are none.
+[[nodiscard]] std::string halves_text(const Mesh& mesh);
+[[nodiscard]] inline std::string halves_text(const tets::TetMesh& /*mesh*/) { return {}; }
+
+/// Takes the places in a report from the map of a file to its degrees.
+void show_places_of_file(Quality& quality, const Input& input);
+inline void show_places_of_file(const tets::Quality& /*quality*/, const TetInput& /*input*/) {}
 
 // Reports as JSON, for programs. Infinite energies are null. Vertices and triangles count from 0, in the order of the
 // file's arrays (points[i] of any reader), not in the numbers of a format.

@@ -129,7 +129,7 @@ std::string worst_text(const tets::Quality& quality, const TetInput& input, cons
   for (const tets::WorstTet& worst : quality.worst) {
     const auto name = [&input](VertexId v) { return input.vertex_number(v); };
     text += fmt::format("  {} ({} {} {} {}) at {:.9g} {:.9g} {:.9g}: h/l {:.4g}, largest dihedral {:.5g}\n",
-                        input.tetrahedron_number(worst.tetrahedron), name(worst.vertices[0]), name(worst.vertices[1]),
+                        input.element_number(worst.tetrahedron), name(worst.vertices[0]), name(worst.vertices[1]),
                         name(worst.vertices[2]), name(worst.vertices[3]), worst.at.x, worst.at.y, worst.at.z,
                         worst.h_over_l, worst.dihedral_deg);
     text += why_text(worst.why, name, style);
@@ -143,7 +143,7 @@ std::string worst_text(const Quality& quality, const Input& input, const TextSty
   for (const WorstTriangle& worst : quality.worst) {
     const auto name = [&input](VertexId v) { return input.vertex_number(v); };
     text += fmt::format("  {} ({} {} {}) at {:.9g} {:.9g}: h/l {:.4g}, largest angle {:.5g}\n",
-                        input.triangle_number(worst.triangle), name(worst.vertices[0]), name(worst.vertices[1]),
+                        input.element_number(worst.triangle), name(worst.vertices[0]), name(worst.vertices[1]),
                         name(worst.vertices[2]), worst.at.x, worst.at.y, worst.h_over_l, worst.angle_deg);
     text += why_text(worst.why, name, style);
   }
@@ -171,7 +171,7 @@ const BriefRow<tets::Quality> kBriefTetRows[] = {
 };
 
 const BriefRow<Quality> kBriefRows[] = {
-    {"triangles not well-centered", [](const Quality& q) { return std::to_string(bad_triangles(q)); }},
+    {"triangles not well-centered", [](const Quality& q) { return std::to_string(bad_elements(q)); }},
     {"least margin", [](const Quality& q) { return brief_number(std::min(q.min_h_over_l, q.min_d_over_l)); }},
     {"transmissibility, max/median", [](const Quality& q) { return brief_number(q.max_transmissibility_over_median); }},
     {"angles (degrees)",
@@ -201,6 +201,16 @@ std::size_t count_quadrilaterals(const Mesh& mesh) {
   return n;
 }
 
+std::string halves_text(const Mesh& mesh) {
+  const std::size_t n = count_quadrilaterals(mesh);
+  if (n == 0) return {};
+  return fmt::format("{} of these triangles are halves of {}\n", 2 * n, plural(n, "quadrilateral", "quadrilaterals"));
+}
+
+void show_places_of_file(Quality& quality, const Input& input) {
+  for (WorstTriangle& worst : quality.worst) worst.at = place_in_file(input.file, worst.at);
+}
+
 namespace {
 
 std::string well_centered(std::size_t bad, std::size_t all, const char* one, const char* several) {
@@ -223,13 +233,30 @@ std::string verdict(const tets::Quality& quality) {
               : ", " + plural(quality.non_regular_faces, "face is not regular", "faces are not regular"));
 }
 
+namespace {
+
+std::string mesh_size(std::size_t vertices, std::size_t elements, std::string_view one, std::string_view several) {
+  return fmt::format("{}, {}", plural(vertices, "vertex", "vertices"), plural(elements, one, several));
+}
+
+}  // namespace
+
+std::string mesh_size(const Mesh& mesh) {
+  return mesh_size(mesh.n_vertices(), mesh.n_triangles(), "triangle", "triangles");
+}
+std::string mesh_size(const tets::TetMesh& mesh) {
+  return mesh_size(mesh.n_vertices(), mesh.n_tetrahedra(), "tetrahedron", "tetrahedra");
+}
+std::string mesh_size(const Quality& quality) {
+  return mesh_size(quality.vertices, quality.triangles, "triangle", "triangles");
+}
 std::string mesh_size(const tets::Quality& quality) {
   return fmt::format("{} ({} inside), {}", plural(quality.vertices, "vertex", "vertices"), quality.inner_vertices,
                      plural(quality.tetrahedra, "tetrahedron", "tetrahedra"));
 }
 
 std::string verdict(const Quality& quality) {
-  const std::size_t bad = bad_triangles(quality);
+  const std::size_t bad = bad_elements(quality);
   std::string text = well_centered(bad, quality.triangles);
   text += quality.non_regular_edges == 0
               ? ", every edge is regular"
@@ -238,11 +265,6 @@ std::string verdict(const Quality& quality) {
     text += ", " + plural(quality.inverted_triangles, "triangle is inverted", "triangles are inverted");
   }
   return text;
-}
-
-std::string next_step(const Quality& quality, const std::string& path, const std::string& projection) {
-  if (bad_triangles(quality) == 0 || io::is_stream(path)) return {};
-  return fmt::format("Next: {}\n", command_line("explain", path, projection));
 }
 
 namespace {

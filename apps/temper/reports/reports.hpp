@@ -88,7 +88,8 @@ struct WeightsRecord {
 
 /// "h over edge 3-9 of triangle 17 (angle of 138.3 degrees at vertex 10)", in the file's numbers.
 [[nodiscard]] std::string constraint_text(const WeightConstraint& constraint, const Input& input, const Mesh& mesh);
-[[nodiscard]] std::string constraint_text(const WeightConstraint& constraint, const TetInput& input);
+[[nodiscard]] std::string constraint_text(const WeightConstraint& constraint, const TetInput& input,
+                                          const tets::TetMesh& mesh);
 /// The triangle of a height.
 [[nodiscard]] TriangleId triangle_of(const Mesh& mesh, const WeightConstraint& constraint);
 

@@ -193,7 +193,7 @@ TriangleId triangle_of(const Mesh& mesh, const WeightConstraint& c) {
   return Mesh::triangle(mesh.find_halfedge(c.p, c.q));
 }
 
-std::string constraint_text(const WeightConstraint& c, const TetInput& input) {
+std::string constraint_text(const WeightConstraint& c, const TetInput& input, const tets::TetMesh& /*mesh*/) {
   const auto number = [&](VertexId v) { return input.vertex_number(v); };
   const std::string edge = fmt::format("{}-{}", number(c.p), number(c.q));
   if (c.kind == Kind::crossing) return fmt::format("d of edge {} from vertex {}", edge, number(c.p));
@@ -213,7 +213,7 @@ std::string constraint_text(const WeightConstraint& c, const Input& input, const
   const double angle =
       corner_angle(mesh.space(), mesh.point(c.r), mesh.point(c.p), mesh.point(c.q)) * 180 / std::numbers::pi;
   return fmt::format("h over edge {}-{} in triangle {} (angle of {:.1f} degrees at vertex {})", p, q,
-                     input.triangle_number(triangle_of(mesh, c)), angle, input.vertex_number(c.r));
+                     input.element_number(triangle_of(mesh, c)), angle, input.vertex_number(c.r));
 }
 
 std::string weights_text(const WeightsRecord& r) {
@@ -260,8 +260,9 @@ std::string weights_json(const WeightsRecord& r) {
   json["optimality"] = optimality_json(report);
   json["violations"] = Json::array();
   for (const Violation& v : report.violations) json["violations"].push_back(violation_json(v, r));
-  json["certificate"] =
-      report.certificate.terms.empty() ? Json(nullptr) : Json::parse(io::certificate_to_json(report.certificate, r.points));
+  json["certificate"] = report.certificate.terms.empty()
+                            ? Json(nullptr)
+                            : Json::parse(io::certificate_to_json(report.certificate, r.points));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -110,10 +110,9 @@ class Checks {
   }
 
   void add(const std::string& path) {
-    io::MeshFile file = read_tried(path, s_.heights.to_read(threads_.get()));
-    if (file.dimension() == 3) return add_tetrahedra(path, std::move(file));
-    const auto read = [&](const std::string&) { return std::move(file); };
-    add_triangles(path, read_input(path, {s_.projection, {}, threads_.get(), true, s_.heights, read}));
+    const auto expect = [&](CellKinds cells) { command_.expect_for(cells, path); };
+    AnyInput any = read_any(path, {s_.projection, {}, threads_.get(), s_.heights, expect});
+    std::visit([this](auto& input) { check(input); }, any);
   }
 
   /// An error in one mesh does not stop the check of the others.
@@ -132,20 +131,34 @@ class Checks {
   }
 
  private:
-  void add_tetrahedra(const std::string& path, io::MeshFile file) {
-    command_.expect_for(CellKinds::tetrahedra, path);
-    const std::vector<Requirement>& requirements = requirements_.of(CellKinds::tetrahedra);
-    const TetInput input = make_input(path, std::move(file), threads_.get());
+  template <class Subject>
+  void check(InputOf<Subject>& input) {
+    const std::vector<Requirement>& requirements = requirements_.of(Subject::cells);
     print_warnings(input.warnings());
-    const tets::Quality measured = quality(input.mesh(), {s_.worst, threads_.get()});
+    typename Subject::Quality measured = measure(input);
     const std::vector<Outcome> outcomes = judge(requirements, measured);
     if (!files_.page.empty())
-      outputs_.write_text(files_.page, check_html(command_line(command_, {path}), input, measured));
-    report(path, outcomes, check_json(path, measured, input.points, outcomes),
-           s_.details
-               ? quality_text(measured, input, text_style())
-               : fmt::format("{}: {}\n{}{}\n", path, mesh_size(measured), brief_text(measured), verdict(measured)) +
-                     next_step(path, measured.orthocenters_outside, {}));
+      outputs_.write_text(files_.page, check_html(command_line(command_, {input.path}), input, measured));
+    show_places_of_file(measured, input);
+    report(input.path, outcomes, check_json(input.path, measured, input.points, outcomes),
+           s_.details ? quality_text(measured, input, text_style()) : short_text(input, measured));
+  }
+  [[nodiscard]] Quality measure(Input& input) const {
+    if (const std::string crack = crack_warning(input); !crack.empty()) print_warnings(std::vector{crack});
+    if (files_.page.empty()) {
+      io::release_geometry(input.file, input.loaded);
+    } else {
+      expect_plane(input.mesh(), input.path, "--write " + files_.page);
+    }
+    take_to_metric(input, s_.metric);
+    Quality measured = quality_in_place(input.loaded.mesh, options_);
+    for (WorstTriangle& worst : measured.worst) {
+      if (s_.metric) worst.at = s_.metric->from_metric(worst.at);
+    }
+    return measured;
+  }
+  [[nodiscard]] tets::Quality measure(TetInput& input) const {
+    return quality(input.mesh(), {s_.worst, threads_.get()});
   }
   /// Prints or keeps the report, writes it where --write asks for it, and gives the verdict on the requirements.
   void report(const std::string& path, const std::vector<Outcome>& outcomes, const std::string& json,
@@ -161,39 +174,13 @@ class Checks {
     if (const Exit verdict = report_unmet(outcomes, path); exit_ == Exit::done) exit_ = verdict;
   }
 
-  void add_triangles(const std::string& path, Input input) {
-    const std::vector<Requirement>& requirements = requirements_.of(CellKinds::triangles);
-    print_warnings(input.warnings());
-    if (const std::string crack = crack_warning(input); !crack.empty()) print_warnings(std::vector{crack});
-    if (files_.page.empty()) io::release_geometry(input.file, input.loaded);
-    take_to_metric(input, s_.metric);
-    Quality measured = quality_in_place(input.loaded.mesh, options_);
-    for (WorstTriangle& worst : measured.worst) {
-      if (s_.metric) worst.at = s_.metric->from_metric(worst.at);
-    }
-    const std::vector<Outcome> outcomes = judge(requirements, measured);
-    if (!files_.page.empty()) {
-      expect_plane(input.mesh(), path, "--write " + files_.page);
-      outputs_.write_text(files_.page, check_html(command_line(command_, {path}), input, measured));
-    }
-    for (WorstTriangle& worst : measured.worst) worst.at = place_in_file(input.file, worst.at);
-    report(path, outcomes, check_json(path, measured, input.points, outcomes),
-           s_.details ? quality_text(measured, input, text_style()) : short_text(path, input.mesh(), measured));
-  }
-
-  [[nodiscard]] std::string short_text(const std::string& path, const Mesh& mesh, const Quality& measured) const {
-    const std::size_t quadrilaterals = count_quadrilaterals(mesh);
-    std::string text = fmt::format("{}: {}\n", path, mesh_size(measured.vertices, measured.triangles));
-    if (quadrilaterals > 0)
-      text += fmt::format("{} of these triangles are halves of {}\n", 2 * quadrilaterals,
-                          plural(quadrilaterals, "quadrilateral", "quadrilaterals"));
-    text += fmt::format("{}{}\n", brief_text(measured), verdict(measured));
-    return text + next_step(path, bad_triangles(measured), s_.projection);
-  }
-  [[nodiscard]] static std::string next_step(const std::string& path, std::size_t bad, const std::string& projection) {
-    if (bad == 0 || path == kStandardInput) return {};
-    return fmt::format("Next: {} -o OUT, or {}\n", command_line("optimize", path, projection),
-                       command_line("explain", path, projection));
+  template <class Subject>
+  [[nodiscard]] std::string short_text(const InputOf<Subject>& input, const typename Subject::Quality& measured) const {
+    std::string text = fmt::format("{}: {}\n{}{}{}\n", input.path, mesh_size(measured), halves_text(input.mesh()),
+                                   brief_text(measured), verdict(measured));
+    if (bad_elements(measured) == 0 || input.path == kStandardInput) return text;
+    return text + fmt::format("Next: {} -o OUT, or {}\n", command_line("optimize", input.path, s_.projection),
+                              command_line("explain", input.path, s_.projection));
   }
 
   const Command& command_;

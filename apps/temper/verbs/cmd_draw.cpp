@@ -176,21 +176,38 @@ tets::Plane plane_of(const DrawSettings& s, const tets::TetMesh& mesh) {
   return *plane;
 }
 
-void draw_tetrahedra(const Command& command, const DrawSettings& s, const TetInput& input, Outputs& outputs) {
-  command.expect_for(CellKinds::tetrahedra, s.input);
-  print_warnings(input.warnings());
+/// The picture of a mesh, or of two if `before` is not null.
+std::string picture(const DrawSettings& s, Input& input, Input* before) {
+  check_view(s.options, input);
+  DrawOptions options = s.options;
+  take_to_metric(input, s.metric);
+  if (before == nullptr) {
+    set_colors(options, s.color, {&input});
+    return draw_svg(input.mesh(), options);
+  }
+  take_to_metric(*before, s.metric);
+  check_same_space(*before, input);
+  set_colors(options, s.color, {before, &input});
+  return draw_before_after_svg(before->mesh(), input.mesh(), options);
+}
+
+std::string picture(const DrawSettings& s, const TetInput& input, const TetInput* before) {
   DrawOptions options = s.options;
   options.fill = s.color != "none";
   const tets::Plane plane = plane_of(s, input.mesh());
-  if (s.before.empty()) return outputs.write_picture(s.output, draw_svg(input.mesh(), plane, options));
-  io::MeshFile file = read_tried(s.before);
-  if (file.dimension() == 2)
-    throw Failure(Exit::bad_input, fmt::format("{}: has triangles, but {} has tetrahedra; expected two meshes of the "
-                                               "same kind",
-                                               s.before, s.input));
-  const TetInput before = make_input(s.before, std::move(file), nullptr);
-  print_warnings(before.warnings());
-  outputs.write_picture(s.output, draw_before_after_svg(before.mesh(), input.mesh(), plane, options));
+  return before == nullptr ? draw_svg(input.mesh(), plane, options)
+                           : draw_before_after_svg(before->mesh(), input.mesh(), plane, options);
+}
+
+template <class Subject>
+void draw(const DrawSettings& s, InputOf<Subject>& input, Outputs& outputs) {
+  print_warnings(input.warnings());
+  std::optional<InputOf<Subject>> before;
+  if (!s.before.empty()) {
+    before = read_like(input, s.before, {same_projection(input.file, s.projection), {}, nullptr, s.heights});
+    print_warnings(before->warnings());
+  }
+  outputs.write_picture(s.output, picture(s, input, before ? &*before : nullptr));
 }
 
 }  // namespace
@@ -211,29 +228,9 @@ Exit run_draw(const Arguments& arguments) {
   Outputs outputs("draw");
   outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});
 
-  io::MeshFile file = read_tried(s.input, s.heights.to_read(nullptr));
-  if (file.dimension() == 3) {
-    draw_tetrahedra(command, s, make_input(s.input, std::move(file), nullptr), outputs);
-    return Exit::done;
-  }
-  command.expect_for(CellKinds::triangles, s.input);
-  const auto read = [&](const std::string&) { return std::move(file); };
-  Input input = read_input(s.input, {s.projection, {}, nullptr, true, s.heights, read});
-  print_warnings(input.warnings());
-  check_view(s.options, input);
-  take_to_metric(input, s.metric);
-  if (s.before.empty()) {
-    set_colors(s.options, s.color, {&input});
-    outputs.write_picture(s.output, draw_svg(input.mesh(), s.options));
-  } else {
-    Input before = read_input(
-        s.before, {.projection = same_projection(input, s.projection), .spheres = true, .heights = s.heights});
-    print_warnings(before.warnings());
-    take_to_metric(before, s.metric);
-    check_same_space(before, input);
-    set_colors(s.options, s.color, {&before, &input});
-    outputs.write_picture(s.output, draw_before_after_svg(before.mesh(), input.mesh(), s.options));
-  }
+  const auto expect = [&](CellKinds cells) { command.expect_for(cells, s.input); };
+  AnyInput any = read_any(s.input, {s.projection, {}, nullptr, s.heights, expect});
+  std::visit([&](auto& input) { draw(s, input, outputs); }, any);
   return Exit::done;
 }
 

@@ -119,66 +119,84 @@ void compare_boxes(const ErrorSettings& s, const Frame& a, const Frame& b) {
       "{} and {} do not have the same bounding box: both are measured in the box of {}", s.input, s.against, s.input)});
 }
 
-ErrorRecord::Reference measure_reference(const ErrorSettings& s, const std::string& projection,
-                                         const MeasureErrorsOptions& options, const FieldFrame& frame) {
-  Input reference = read_input(s.against, {projection, {}, options.executor, true, s.heights});
+/// The options of the measures, in the frame of `input`.
+MeasureErrorsOptions error_options(const ErrorSettings& s, const Input& input, Executor* executor) {
+  MeasureErrorsOptions options;
+  options.fields = separated(s.fields);
+  options.executor = executor;
+  options.frame = field_frame(input.mesh());
+  options.refine = s.refine;
+  options.condition = s.condition;
+  options.local = !s.edges.empty();
+  return options;
+}
+tets::MeasureErrorsOptions error_options(const ErrorSettings& s, const TetInput& input, Executor* /*executor*/) {
+  return {separated(s.fields), tets::field_frame(input.mesh()), s.condition};
+}
+/// Those for the mesh of --against.
+MeasureErrorsOptions without_orders(MeasureErrorsOptions options) {
+  options.refine = 0;
+  options.local = false;
+  return options;
+}
+tets::MeasureErrorsOptions without_orders(tets::MeasureErrorsOptions options) { return options; }
+
+/// The meshes as the measures see them.
+void take_metric(const ErrorSettings& s, Input& input) { take_to_metric(input, s.metric); }
+void take_metric(const ErrorSettings& /*s*/, const TetInput& /*input*/) {}
+
+void write_edges(const ErrorSettings& s, const ErrorRecord& record, const Input& input, Outputs& outputs) {
+  if (!s.edges.empty()) outputs.write_text(s.edges, edge_errors_csv(record.report, input));
+}
+void write_edges(const ErrorSettings&, const TetErrorRecord&, const TetInput&, Outputs&) {}
+
+template <class Subject>
+InputOf<Subject> read_reference(const ErrorSettings& s, const InputOf<Subject>& input, Executor* executor) {
+  InputOf<Subject> reference =
+      read_like(input, s.against, {same_projection(input.file, s.projection), {}, executor, s.heights});
   print_warnings(reference.warnings());
-  take_to_metric(reference, s.metric);
-  compare_boxes(s, frame, field_frame(reference.mesh()));
-  MeasureErrorsOptions same = options;
-  same.refine = 0;
-  same.local = false;
-  return {s.against, or_fail(measure_errors(reference.mesh(), same)), {}};
+  return reference;
 }
 
-DiffusionErrors measure_problem(const Command& command, const ErrorSettings& s, const std::string& path,
-                                const std::string& projection, Executor* executor) {
-  const Input input = read_input(path, {projection, {}, executor, true});
-  print_warnings(input.warnings());
+/// The report about manufactured solutions.
+template <class Subject>
+void report_fields(const ErrorSettings& s, InputOf<Subject>& input, Outputs& outputs, Executor* executor) {
+  take_metric(s, input);
+  const auto options = error_options(s, input, executor);
+  const auto measured = [](const auto& mesh, const auto& how) { return or_fail(measure_errors(mesh, how)); };
+  ErrorRecordOf<decltype(measured(input.mesh(), options))> record = {s.input, measured(input.mesh(), options), {}};
+  if (!s.against.empty()) {
+    InputOf<Subject> reference = read_reference(s, input, executor);
+    take_metric(s, reference);
+    compare_boxes(s, *options.frame, field_frame(reference.mesh()));
+    record.against = {s.against, measured(reference.mesh(), without_orders(options)), {}};
+    record.against->ratios = or_fail(error_ratios(record.report, record.against->report));
+  }
+  write_edges(s, record, input, outputs);
+  s.json ? print_data(error_json(record)) : print(error_text(record, text_style()));
+}
+
+DiffusionErrors measure_problem(const Command& command, const ErrorSettings& s, const Input& input) {
   const DiffusionProblem problem = read_problem(command, s.problem, input);
   const int refinements = s.refine > 0 ? s.refine : 2;
   auto errors = measure_diffusion_errors(input.mesh(), problem, refinements, input.names.get());
-  if (!errors) throw Failure(Exit::bad_input, located(errors.error(), path).what());
+  if (!errors) throw Failure(Exit::bad_input, located(errors.error(), input.path).what());
   return *std::move(errors);
 }
 
-/// The mesh of a file of tetrahedra.
-TetInput read_tetrahedra(const std::string& path, Executor* executor) {
-  io::MeshFile file = read_tried(path, {executor});
-  if (file.dimension() == 2)
-    throw Failure(Exit::bad_input, fmt::format("{}: expected tetrahedra, as in the other mesh, found triangles", path));
-  TetInput input = make_input(path, std::move(file), executor);
-  print_warnings(input.warnings());
-  return input;
-}
-
-Exit run_tetrahedra(const Command& command, const ErrorSettings& s, io::MeshFile file, Executor* executor) {
-  command.expect_for(CellKinds::tetrahedra, s.input);
-  const TetInput input = make_input(s.input, std::move(file), executor);
-  print_warnings(input.warnings());
-  tets::MeasureErrorsOptions options = {separated(s.fields), tets::field_frame(input.mesh()), s.condition};
-  TetErrorRecord record = {s.input, or_fail(tets::measure_errors(input.mesh(), options)), {}};
-  if (!s.against.empty()) {
-    const TetInput reference = read_tetrahedra(s.against, executor);
-    compare_boxes(s, *options.frame, tets::field_frame(reference.mesh()));
-    record.against = {s.against, or_fail(tets::measure_errors(reference.mesh(), options)), {}};
-    record.against->ratios = or_fail(tets::error_ratios(record.report, record.against->report));
-  }
-  s.json ? print_data(error_json(record)) : print(error_text(record, text_style()));
-  return Exit::done;
-}
-
-/// The report of the user's own problem.
-Exit run_problem(const Command& command, const ErrorSettings& s, Executor* executor) {
+void expect_no_fields(const Command& command) {
   for (const char* option : {"--fields", "--tensor", "--edges", "--condition"}) {
     if (command.was_given(option))
       refuse_usage("errors",
                    std::string(option) + " is about manufactured solutions, and does not go with --dirichlet");
   }
-  ProblemRecord record = {s.input, measure_problem(command, s, s.input, s.projection, executor), s.against, {}};
-  if (!s.against.empty()) record.reference = measure_problem(command, s, s.against, s.projection, executor);
+}
+
+/// The report of the user's own problem.
+void report_problem(const Command& command, const ErrorSettings& s, const Input& input, Executor* executor) {
+  ProblemRecord record = {s.input, measure_problem(command, s, input), s.against, {}};
+  if (!s.against.empty()) record.reference = measure_problem(command, s, read_reference(s, input, executor));
   s.json ? print_data(problem_json(record)) : print(problem_text(record));
-  return Exit::done;
 }
 
 }  // namespace
@@ -192,9 +210,7 @@ Exit run_errors(const Arguments& arguments) {
   ErrorSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
-  MeasureErrorsOptions options;
-  options.fields = separated(s.fields);
-  check_fields(options);
+  check_fields({.fields = separated(s.fields)});
   Outputs outputs("errors");
   std::vector<std::string> inputs = {s.input};
   if (!s.against.empty()) inputs.push_back(s.against);
@@ -202,25 +218,17 @@ Exit run_errors(const Arguments& arguments) {
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   expect_complete(command, s.problem);
-  io::MeshFile file = read_tried(s.input, s.heights.to_read(threads.get()));
-  if (file.dimension() == 3) return run_tetrahedra(command, s, std::move(file), threads.get());
-  if (s.problem.given()) return run_problem(command, s, threads.get());
-  options.executor = threads.get();
-  const auto read = [&](const std::string&) { return std::move(file); };
-  Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.heights, read});
-  print_warnings(input.warnings());
-  take_to_metric(input, s.metric);
-  options.frame = field_frame(input.mesh());
-  options.refine = s.refine;
-  options.condition = s.condition;
-  options.local = !s.edges.empty();
-  ErrorRecord record = {s.input, or_fail(measure_errors(input.mesh(), options)), {}};
-  if (!s.against.empty()) {
-    record.against = measure_reference(s, same_projection(input, s.projection), options, *options.frame);
-    record.against->ratios = or_fail(error_ratios(record.report, record.against->report));
+  const auto expect = [&](CellKinds cells) {
+    command.expect_for(cells, s.input);
+    if (s.problem.given()) expect_no_fields(command);
+  };
+  AnyInput any = read_any(s.input, {s.projection, {}, threads.get(), s.heights, expect});
+  std::visit([](const auto& input) { print_warnings(input.warnings()); }, any);
+  if (s.problem.given()) {
+    report_problem(command, s, std::get<Input>(any), threads.get());
+  } else {
+    std::visit([&](auto& input) { report_fields(s, input, outputs, threads.get()); }, any);
   }
-  if (!s.edges.empty()) outputs.write_text(s.edges, edge_errors_csv(record.report, input));
-  s.json ? print_data(error_json(record)) : print(error_text(record, text_style()));
   return Exit::done;
 }
 

@@ -65,12 +65,28 @@ class Counter {
   bool enabled_ = error_is_terminal();
 };
 
-void explain_tetrahedra(const ExplainSettings& s, const TetInput& input) {
-  print_warnings(input.warnings());
+void explain_mesh(const ExplainSettings& s, const TetInput& input) {
   tets::ExplainOptions options = {.whole = s.whole};
   if (!s.json) options.reasons = s.limit;
   const tets::Explanation explanation = or_fail(explain(input.mesh(), *clp_solver(), options));
   s.json ? print_data(explanation_json(explanation, input)) : print(explanation_text(explanation, input, text_style()));
+}
+
+void explain_mesh(const ExplainSettings& s, const Input& input) {
+  const auto solver = clp_solver();
+  Counter counter;
+  ExplainOptions options;
+  options.cures = s.limit;
+  options.whole = s.whole;
+  options.progress = [&counter](std::size_t done, std::size_t all) { return counter.show(done, all); };
+  Explanation explanation = or_fail(explain(input.mesh(), *solver, options));
+  for (Reason& reason : explanation.reasons) {
+    reason.at = place_in_file(input.file, reason.at);
+    for (Cure& cure : reason.cures) cure.at = place_in_file(input.file, cure.at);
+  }
+  counter.clear();
+  s.json ? print_data(explanation_json(explanation, input))
+         : print(explanation_text(explanation, input, s.limit, text_style()));
 }
 
 }  // namespace
@@ -89,29 +105,14 @@ Exit run_explain(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
 
-  io::MeshFile file = read_tried(s.input, s.heights.to_read(nullptr));
-  if (file.dimension() == 3) {
-    command.expect_for(CellKinds::tetrahedra, s.input);
-    explain_tetrahedra(s, make_input(s.input, std::move(file), nullptr));
-    return Exit::done;
-  }
-  const auto read = [&](const std::string&) { return std::move(file); };
-  const Input input = read_input(s.input, {s.projection, {}, nullptr, true, s.heights, read});
-  print_warnings(input.warnings());
-  const auto solver = clp_solver();
-  Counter counter;
-  ExplainOptions options;
-  options.cures = s.limit;
-  options.whole = s.whole;
-  options.progress = [&counter](std::size_t done, std::size_t all) { return counter.show(done, all); };
-  Explanation explanation = or_fail(explain(input.mesh(), *solver, options));
-  for (Reason& reason : explanation.reasons) {
-    reason.at = place_in_file(input.file, reason.at);
-    for (Cure& cure : reason.cures) cure.at = place_in_file(input.file, cure.at);
-  }
-  counter.clear();
-  s.json ? print_data(explanation_json(explanation, input))
-         : print(explanation_text(explanation, input, s.limit, text_style()));
+  const auto expect = [&](CellKinds cells) { command.expect_for(cells, s.input); };
+  const AnyInput any = read_any(s.input, {s.projection, {}, nullptr, s.heights, expect});
+  std::visit(
+      [&](const auto& input) {
+        print_warnings(input.warnings());
+        explain_mesh(s, input);
+      },
+      any);
   return Exit::done;
 }
 

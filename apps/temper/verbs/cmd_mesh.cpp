@@ -229,8 +229,8 @@ SizeField read_sizes(const MeshSettings& s, const std::string& degrees, const st
   if (depths && path_of(s.size).extension() == ".2dm") options.positive = depths->positive;
   io::MeshFile file = read_tried(s.size, options);
   const std::string projection = file.degrees() != nullptr ? degrees : "";
-  const auto read = [&file](const std::string&) { return std::move(file); };
-  ReadSizeField sizes = read_size_field(s.size, s.size_data, {projection, {}, executor, true, {}, read}, depths);
+  ReadSizeField sizes =
+      read_size_field(make_input(std::move(file), s.size, {projection, {}, executor}), s.size_data, depths);
   print_warnings(sizes.warnings);
   return std::move(sizes.field);
 }

@@ -118,13 +118,12 @@ void check_folder(const DecSettings& s, const std::vector<io::DecFormat>& format
   }
 }
 
-/// Takes K into the operators of triangles or tetrahedra, if it is given.
-template <class AnyInput, class Complex, class Names>
-Complex with_k(const Command& command, const DecSettings& s, const AnyInput& input, Complex complex,
-               const Names& names) {
+/// Takes K into the operators, if it is given.
+template <class Subject, class Complex>
+Complex with_k(const Command& command, const DecSettings& s, const InputOf<Subject>& input, Complex complex) {
   const std::vector<double> k = read_coefficient(command, s.coefficient, input);
   if (k.empty()) return complex;
-  auto made = with_coefficient(input.mesh(), std::move(complex), k, names.get());
+  auto made = with_coefficient(input.mesh(), std::move(complex), k, input.names.get());
   if (!made) throw Failure(Exit::bad_input, located(made.error(), s.input).what());
   return *std::move(made);
 }
@@ -140,13 +139,9 @@ std::optional<Columns> make_columns(const DecSettings& s, const Input& input, co
   return *std::move(made);
 }
 
-Exit write_tetrahedra(const Command& command, const DecSettings& s, io::MeshFile file,
-                      const std::vector<io::DecFormat>& formats, Executor* executor) {
-  command.expect_for(CellKinds::tetrahedra, s.input);
-  check_folder(s, formats, io::DecKind::tetrahedra);
-  const TetInput input = make_input(s.input, std::move(file), executor);
-  print_warnings(input.warnings());
-  const tets::DecComplex complex = with_k(command, s, input, tets::dec_operators(input.mesh()), input.file.numbering);
+void write(const Command& command, const DecSettings& s, const TetInput& input,
+           const std::vector<io::DecFormat>& formats, Executor* executor) {
+  const tets::DecComplex complex = with_k(command, s, input, tets::dec_operators(input.mesh()));
   const tets::DecSummary summary = tets::summarize(complex);
   TetDecRecord record = {s.input, summary, {}};
   print_warnings(dec_warnings(record));
@@ -156,7 +151,38 @@ Exit write_tetrahedra(const Command& command, const DecSettings& s, io::MeshFile
   options.executor = executor;
   record.files = or_fail(io::write_dec(s.output, input.mesh(), complex, options));
   s.json ? print_data(dec_json(record)) : print(dec_text(record));
-  return Exit::done;
+}
+
+/// The warning that operators have the halves of quadrilaterals.
+void warn_of_halves(const Input& input) {
+  const std::size_t n = count_quadrilaterals(input.mesh());
+  if (n == 0) return;
+  print_warnings(std::array{fmt::format("{}: {} two triangles each in the operators, with the diagonal as an edge",
+                                        input.path, plural(n, "quadrilateral is", "quadrilaterals are"))});
+}
+
+void write(const Command& command, const DecSettings& s, Input& input, const std::vector<io::DecFormat>& formats,
+           Executor* executor) {
+  if (s.layers.empty()) io::release_geometry(input.file, input.loaded);  // the mesh has it
+  const std::optional<Mesh> plain = take_to_metric(input, s.metric);
+  DecComplex complex = with_k(command, s, input, dec_operators(input.mesh()));
+  PowerCells cells = power_cells(input.mesh(), complex);
+  if (s.metric) {
+    complex = mapped_back(std::move(complex), *s.metric);
+    cells = mapped_back(std::move(cells), *s.metric);
+  }
+  const DecSummary summary = summarize(input.mesh(), complex);
+  const std::optional<Columns> under_layers = make_columns(s, input, complex, cells);
+  const Columns* const columns = under_layers ? &*under_layers : nullptr;
+  DecRecord record = {s.input, summary, cells, columns, {}};
+  print_warnings(dec_warnings(record));
+  warn_of_halves(input);
+  const std::vector<io::GroupCell> groups =
+      columns != nullptr ? io::cells_of_groups(input.file, input.loaded, input.mesh()) : std::vector<io::GroupCell>();
+  record.files =
+      or_fail(io::write_dec(s.output, plain ? *plain : input.mesh(), complex, cells,
+                            {formats, input.points, input.file.z(), columns, groups, input.names.get(), executor}));
+  s.json ? print_data(dec_json(record)) : print(dec_text(record));
 }
 
 }  // namespace
@@ -173,37 +199,21 @@ Exit run_operators(const Arguments& arguments) {
   const std::vector<io::DecFormat> formats = parse_formats(s.formats);
   check_layers(command, s, formats);
   expect_without(command, s.metric, "--layers");
-  check_folder(s, formats, s.layers.empty() ? io::DecKind::triangles : io::DecKind::columns);
+  const io::DecKind of_triangles = s.layers.empty() ? io::DecKind::triangles : io::DecKind::columns;
+  check_folder(s, formats, of_triangles);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  io::MeshFile file = read_tried(s.input, s.heights.to_read(threads.get()));
-  if (file.dimension() == 3) return write_tetrahedra(command, s, std::move(file), formats, threads.get());
-  const auto read = [&](const std::string&) { return std::move(file); };
-  Input input = read_input(s.input, {s.projection, {}, threads.get(), true, s.heights, read});
-  print_warnings(input.warnings());
-  if (s.layers.empty()) io::release_geometry(input.file, input.loaded);  // the mesh has it
-  const std::optional<Mesh> plain = take_to_metric(input, s.metric);
-  DecComplex complex = with_k(command, s, input, dec_operators(input.mesh()), input.names);
-  PowerCells cells = power_cells(input.mesh(), complex);
-  if (s.metric) {
-    complex = mapped_back(std::move(complex), *s.metric);
-    cells = mapped_back(std::move(cells), *s.metric);
-  }
-  const DecSummary summary = summarize(input.mesh(), complex);
-  const std::optional<Columns> under_layers = make_columns(s, input, complex, cells);
-  const Columns* const columns = under_layers ? &*under_layers : nullptr;
-  DecRecord record = {s.input, summary, cells, columns, {}};
-  print_warnings(dec_warnings(record));
-  if (const std::size_t n = count_quadrilaterals(input.mesh()); n > 0) {
-    print_warnings(std::array{fmt::format("{}: {} two triangles each in the operators, with the diagonal as an edge",
-                                          s.input, plural(n, "quadrilateral is", "quadrilaterals are"))});
-  }
-  const std::vector<io::GroupCell> groups =
-      columns != nullptr ? io::cells_of_groups(input.file, input.loaded, input.mesh()) : std::vector<io::GroupCell>();
-  record.files = or_fail(
-      io::write_dec(s.output, plain ? *plain : input.mesh(), complex, cells,
-                    {formats, input.points, input.file.z(), columns, groups, input.names.get(), threads.get()}));
-  s.json ? print_data(dec_json(record)) : print(dec_text(record));
+  const auto expect = [&](CellKinds cells) {
+    command.expect_for(cells, s.input);
+    if (cells == Tetrahedra::cells) check_folder(s, formats, io::DecKind::tetrahedra);
+  };
+  AnyInput any = read_any(s.input, {s.projection, {}, threads.get(), s.heights, expect});
+  std::visit(
+      [&](auto& input) {
+        print_warnings(input.warnings());
+        write(command, s, input, formats, threads.get());
+      },
+      any);
   return Exit::done;
 }
 

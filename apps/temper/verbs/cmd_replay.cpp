@@ -58,7 +58,7 @@ Exit replay(const ReplaySettings& s) {
   Outputs outputs("paper replay");
   outputs.expect_mesh(s.output, {s.trace});
 
-  Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .heights = s.heights});
+  Input input = read_input(s.input, {.projection = s.projection, .heights = s.heights});
   outputs.expect_place(s.output, input.file);
   print_warnings(input.warnings());
   const io::DataRules rules = data_rules(s.point_data, input.path, input.file.point_data);
@@ -78,7 +78,7 @@ Exit replay(const ReplaySettings& s) {
   print_warnings(std::span(input.file.warnings).subspan(known));
   print_warnings(outputs.write_mesh(s.output, input.file));
   print(fmt::format("{} of {}: {}\nwrote {}\n", applied.size(), plural(events.size(), "event", "events"),
-                    mesh_size(replayed->mesh.n_vertices(), replayed->mesh.n_triangles()), s.output.path));
+                    mesh_size(replayed->mesh), s.output.path));
   return Exit::done;
 }
 

@@ -280,20 +280,43 @@ io::AnyCertificate read_certificate(const std::string& path, const io::VertexOfP
   return or_fail(io::certificate_from_json(text.str(), vertex_of_point, path, cell));
 }
 
-Exit check(const WeightsSettings& s, const Input& input) {
-  const io::AnyCertificate any = read_certificate(s.check, input.loaded.vertex_of_point, "triangle");
+// What differs between the kinds of cells.
+
+std::span<const ConstraintsInfo> constraints_of(const Mesh& /*mesh*/) { return constraints_table(); }
+std::span<const ConstraintsInfo> constraints_of(const tets::TetMesh& /*mesh*/) { return tets::constraints_table(); }
+
+Space space_of(const Mesh& mesh) { return mesh.space(); }
+Space space_of(const tets::TetMesh& /*mesh*/) { return {}; }
+
+std::function<TriangleId(const WeightConstraint&)> triangles_of(const Mesh& mesh) {
+  return [&mesh](const WeightConstraint& c) { return triangle_of(mesh, c); };
+}
+std::function<TriangleId(const WeightConstraint&)> triangles_of(const tets::TetMesh& /*mesh*/) { return {}; }
+
+CertificateCheck check_of(const WeightsSettings& s, const Mesh& mesh, const ConnectivityProof& proof) {
+  if (mesh.space().is_plane() && !mesh.space().is_periodic()) return check_proof(mesh, proof);
+  throw Failure(Exit::bad_input, fmt::format("{}: proofs over connectivities are for meshes of the plane. Next: give "
+                                             "the mesh for which it was written",
+                                             s.check));
+}
+CertificateCheck check_of(const WeightsSettings& s, const tets::TetMesh& /*mesh*/, const ConnectivityProof& /*proof*/) {
+  throw Failure(Exit::bad_input, fmt::format("{}: proofs over connectivities are for triangles alone. Next: give the "
+                                             "mesh for which it was written",
+                                             s.check));
+}
+
+template <class Subject>
+Exit check(const WeightsSettings& s, const InputOf<Subject>& input) {
+  const io::AnyCertificate any = read_certificate(s.check, input.loaded.vertex_of_point, Subject::element);
   const auto* const certificate = std::get_if<Certificate>(&any);
-  if (certificate) return report_check(s, any, check_certificate(input.mesh(), *certificate), constraints_table());
-  if (!input.mesh().space().is_plane() || input.mesh().space().is_periodic())
-    throw Failure(Exit::bad_input,
-                  fmt::format("{}: proofs over connectivities are for meshes of the plane. Next: give the mesh "
-                              "for which it was written",
-                              s.check));
-  return report_check(s, any, check_proof(input.mesh(), std::get<ConnectivityProof>(any)), constraints_table());
+  const CertificateCheck found = certificate ? check_certificate(input.mesh(), *certificate)
+                                             : check_of(s, input.mesh(), std::get<ConnectivityProof>(any));
+  return report_check(s, any, found, constraints_of(input.mesh()));
 }
 
 /// On the sphere setting a weight rounds the place: only changed weights are set.
-Mesh with_weights(Mesh mesh, const IdVector<VertexId, double>& weights) {
+template <class AnyMesh>
+AnyMesh with_weights(AnyMesh mesh, const IdVector<VertexId, double>& weights) {
   for (const VertexId v : mesh.vertices()) {
     if (mesh.weight(v) != weights[v]) mesh.set_weight(v, weights[v]);
   }
@@ -311,9 +334,10 @@ std::optional<ConnectivityReport> searched(const WeightsSettings& s, const Input
   return or_fail(best_connectivity(input.mesh(), solver, {s.options.constraints, s.programs, stop}));
 }
 
-/// Puts the mesh back into the file of the input, of triangles or of tetrahedra, and writes it.
-template <class AnyInput, class AnyMesh>
-void write_weighted(const WeightsSettings& s, AnyInput& input, const AnyMesh& mesh, Outputs& outputs) {
+/// Puts the mesh back into the file of the input, and writes it.
+template <class Subject>
+void write_weighted(const WeightsSettings& s, InputOf<Subject>& input, const typename Subject::Mesh& mesh,
+                    Outputs& outputs) {
   const std::size_t known = input.file.warnings.size();
   io::update(input.file, input.loaded, mesh);
   print_warnings(std::span(input.file.warnings).subspan(known));
@@ -360,63 +384,37 @@ Exit end(const WeightsSettings& s, WeightsRecord& record, Outputs& outputs) {
   return record.search && record.search->end == SearchEnd::stopped ? Exit::stopped_early : Exit::infeasible;
 }
 
-Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
-  const auto solver = clp_solver();
-  const std::optional<ConnectivityReport> search = searched(s, input, *solver);
-  const Mesh& mesh = search ? search->mesh : input.mesh();
-  const WeightReport report = or_fail(find_weights(mesh, *solver, s.options, interior_point_solver().get()));
+/// Finds weights of the mesh: that of the input, or that of a search for connectivity, which is null without one.
+template <class Subject>
+Exit find(const WeightsSettings& s, InputOf<Subject>& input, const typename Subject::Mesh& mesh,
+          const ConnectivityReport* search, Outputs& outputs) {
+  const WeightReport report = or_fail(find_weights(mesh, *clp_solver(), s.options, interior_point_solver().get()));
   WeightsRecord record = {kModes[static_cast<std::size_t>(s.options.goal)].name,
                           s.options,
-                          row_of(constraints_table(), s.options.constraints),
+                          row_of(constraints_of(mesh), s.options.constraints),
                           report,
                           input.path,
-                          mesh_size(mesh.n_vertices(), mesh.n_triangles()),
-                          mesh.space(),
+                          mesh_size(mesh),
+                          space_of(mesh),
                           input.points,
                           [&](const WeightConstraint& c) { return constraint_text(c, input, mesh); },
-                          [&](const WeightConstraint& c) { return triangle_of(mesh, c); },
-                          search ? &*search : nullptr};
+                          triangles_of(mesh),
+                          search};
   if (report.solved && !s.output.path.empty()) {
-    const Mesh weighted = with_weights(mesh, report.weights);
-    write_weighted(s, input, weighted, outputs);
+    write_weighted(s, input, with_weights(mesh, report.weights), outputs);
     record.output = s.output.path;
   }
   return end(s, record, outputs);
 }
 
-// --- tetrahedra ---------------------------------------------------------------------------------------
-
-Exit weigh_tetrahedra(const WeightsSettings& s, TetInput input, Outputs& outputs) {
-  print_warnings(input.warnings());
-  if (!s.check.empty()) {
-    const io::AnyCertificate any = read_certificate(s.check, input.loaded.vertex_of_point, "tetrahedron");
-    const auto* const certificate = std::get_if<Certificate>(&any);
-    if (!certificate)
-      throw Failure(Exit::bad_input,
-                    fmt::format("{}: proofs over connectivities are for triangles alone. Next: give the mesh "
-                                "for which it was written",
-                                s.check));
-    return report_check(s, any, tets::check_certificate(input.mesh(), *certificate), tets::constraints_table());
-  }
-  const WeightReport report =
-      or_fail(tets::find_weights(input.mesh(), *clp_solver(), s.options, interior_point_solver().get()));
-  WeightsRecord record = {kModes[static_cast<std::size_t>(s.options.goal)].name,
-                          s.options,
-                          row_of(tets::constraints_table(), s.options.constraints),
-                          report,
-                          input.path,
-                          fmt::format("{}, {}", plural(input.mesh().n_vertices(), "vertex", "vertices"),
-                                      plural(input.mesh().n_tetrahedra(), "tetrahedron", "tetrahedra")),
-                          Space(),
-                          input.points,
-                          [&](const WeightConstraint& c) { return constraint_text(c, input); }};
-  if (report.solved && !s.output.path.empty()) {
-    tets::TetMesh weighted = input.mesh();
-    for (const VertexId v : weighted.vertices()) weighted.set_weight(v, report.weights[v]);
-    write_weighted(s, input, weighted, outputs);
-    record.output = s.output.path;
-  }
-  return end(s, record, outputs);
+Exit run(WeightsSettings& s, Input& input, Outputs& outputs) {
+  if (s.zero) return drop(s, input, outputs);
+  if (s.options.constraints == Constraints::regular) s.options.edges = prescribed_edges(s.edges, input);
+  const std::optional<ConnectivityReport> search = searched(s, input, *clp_solver());
+  return search ? find(s, input, search->mesh, &*search, outputs) : find(s, input, input.mesh(), nullptr, outputs);
+}
+Exit run(const WeightsSettings& s, TetInput& input, Outputs& outputs) {
+  return find(s, input, input.mesh(), nullptr, outputs);
 }
 
 }  // namespace
@@ -440,21 +438,15 @@ Exit run_weights(const Arguments& arguments) {
   if (!s.output.path.empty()) outputs.expect_mesh(s.output, {s.edges});
   outputs.expect_text("--certificate", s.certificate, {s.input, s.edges});
 
-  io::MeshFile file = read_tried(s.input, s.heights.to_read(nullptr));
-  if (file.dimension() == 3) {
-    command.expect_for(CellKinds::tetrahedra, s.input);
-    outputs.expect_place(s.output, file);
-    return weigh_tetrahedra(s, make_input(s.input, std::move(file), nullptr), outputs);
-  }
-  command.expect_for(CellKinds::triangles, s.input);
-  const auto read = [&](const std::string&) { return std::move(file); };
-  Input input = read_input(s.input, {.projection = s.projection, .spheres = true, .heights = s.heights, .read = read});
-  outputs.expect_place(s.output, input.file);
-  print_warnings(input.warnings());
-  if (!s.check.empty()) return check(s, input);
-  if (s.zero) return drop(s, input, outputs);
-  if (s.options.constraints == Constraints::regular) s.options.edges = prescribed_edges(s.edges, input);
-  return find(s, input, outputs);
+  const auto expect = [&](CellKinds cells) { command.expect_for(cells, s.input); };
+  AnyInput any = read_any(s.input, {s.projection, {}, nullptr, s.heights, expect});
+  return std::visit(
+      [&](auto& input) {
+        outputs.expect_place(s.output, input.file);
+        print_warnings(input.warnings());
+        return s.check.empty() ? run(s, input, outputs) : check(s, input);
+      },
+      any);
 }
 
 }  // namespace temper::app

@@ -1,0 +1,104 @@
+// The parts of `temper optimize` that differ between triangles and tetrahedra. cmd_optimize.cpp has the sequence.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "files/input.hpp"
+#include "system/system.hpp"
+#include "verbs/optimize_settings.hpp"
+#include "verbs/progress_line.hpp"
+#include "verbs/save_every.hpp"
+
+namespace temper::app {
+
+/// The results of a run.
+template <class Subject>
+struct RunResults {
+  typename Subject::Quality before, after;
+  typename Subject::Mesh second;  ///< the input if it is improved in place and something shows it; else the result
+  const typename Subject::Mesh* improved = nullptr;
+  typename Subject::OptimizeReport report;
+  std::vector<Outcome> outcomes;  ///< of --require
+  bool lacks_flips = false;       ///< edges are not regular that should be
+  io::DataReport data;
+  std::string picture;                   ///< SVG, when asked for
+  std::string errors_text, errors_json;  ///< of solvers, when asked for
+  std::vector<std::string> warnings;
+};
+
+template <class Subject>
+void warn(RunResults<Subject>& results, std::span<const std::string> warnings) {
+  print_warnings(warnings);
+  results.warnings.insert(results.warnings.end(), warnings.begin(), warnings.end());
+}
+
+struct TraceFile {
+  io::TextStream stream;
+  std::size_t events = 0;
+};
+
+/// The files and observers of a run, besides its settings. Null: there is none.
+struct RunFiles {
+  Executor* threads = nullptr;
+  TraceFile* trace = nullptr;
+};
+
+/// Finds in the mesh what the settings name, and warns of settings without effect.
+void prepare(const Command& command, OptimizeSettings& settings, const Input& input, const RunFiles& files,
+             RunResults<Triangles>& results);
+void prepare(const Command& command, const OptimizeSettings& settings, const TetInput& input, const RunFiles& files,
+             RunResults<Tetrahedra>& results);
+
+/// Improves and measures. Triangles are improved in place, because memory is scarce on the largest meshes.
+void improve(const OptimizeSettings& settings, Input& input, const RunFiles& files, RunResults<Triangles>& results);
+void improve(const OptimizeSettings& settings, TetInput& input, const RunFiles& files, RunResults<Tetrahedra>& results);
+
+/// The mesh before the run, if something shows it.
+[[nodiscard]] inline const Mesh& original(const Input& /*input*/, const RunResults<Triangles>& r) { return r.second; }
+[[nodiscard]] inline const tets::TetMesh& original(const TetInput& input, const RunResults<Tetrahedra>& /*results*/) {
+  return input.mesh();
+}
+
+/// Frees a mesh that the file has, unless something shows it.
+inline void release_mesh(Input& input, RunResults<Triangles>& /*results*/) { input.loaded.mesh = {}; }
+inline void release_mesh(TetInput& input, RunResults<Tetrahedra>& results) {
+  input.loaded.mesh = {};
+  results.second = {};
+}
+
+/// The parts of the result in the input.
+[[nodiscard]] inline const auto& parts_of(const OptimizeReport& report) { return report.vertices; }
+[[nodiscard]] inline const auto& parts_of(const BestSoFar& best) { return best.vertices; }
+[[nodiscard]] inline const auto& parts_of(const tets::OptimizeReport& report) { return report.origins; }
+[[nodiscard]] inline const auto& parts_of(const tets::BestSoFar& best) { return best.origins; }
+
+/// The objective that the run lowered at last, and its notes.
+[[nodiscard]] inline Objective last_objective(const OptimizeReport& report) { return report.objective; }
+[[nodiscard]] inline Objective last_objective(const tets::OptimizeReport& /*report*/) { return Objective::energy; }
+[[nodiscard]] inline std::span<const std::string> notes_of(const OptimizeReport& report) { return report.notes; }
+[[nodiscard]] inline std::span<const std::string> notes_of(const tets::OptimizeReport& /*report*/) { return {}; }
+
+/// What --details adds between the measures and the end.
+[[nodiscard]] std::string measures_text(const OptimizeSettings& settings, const RunResults<Triangles>& results);
+[[nodiscard]] std::string measures_text(const OptimizeSettings& settings, const RunResults<Tetrahedra>& results);
+
+/// The hooks that all runs have. `line` shows the progress.
+template <class Hooks, class Subject>
+void set_hooks(Hooks& hooks, ProgressLine& line, const OptimizeSettings& s, const InputOf<Subject>& input,
+               Executor* threads) {
+  hooks.executor = threads;
+  hooks.started = s.started;
+  hooks.observer = [&line](const Progress& progress) {
+    line.show(progress);
+    return interrupted() ? Continue::no : Continue::yes;
+  };
+  if (!s.save_every) return;
+  hooks.best_so_far = saver(s, [&s, &input, threads](const auto& best) {
+    io::MeshFile file = input.file;
+    io::update(file, input.loaded, best.mesh, parts_of(best), {s.rules, threads});
+    return save(s, file, threads);
+  });
+}
+
+}  // namespace temper::app
