@@ -105,10 +105,8 @@ OptimizeOptions options_from(const py::dict& dict) {
 
 py::dict options_to_dict(const OptimizeOptions& options) {
   py::dict dict;
-  for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) {
-      dict[py::str(std::string(row.name))] = value_to_python(row.get(options));
-    }
+  for (const OptionRow& row : option_rows()) {
+    dict[py::str(std::string(row.name))] = value_to_python(row.get(options));
   }
   return dict;
 }

@@ -240,9 +240,9 @@ def optimize(
 ) -> OptimizeReport:
     """Improves a mesh in place: moves vertices, changes weights and flips edges until every triangle is well-centered.
 
-    In a mesh of tetrahedra, orthocenters come inside their tetrahedra. ``effort``, ``keep``, ``time_limit``,
-    ``threads``, ``progress`` and the options ``max_sweeps`` and ``unknowns`` are for both kinds of meshes, the rest is
-    for triangles. Where tetrahedra stay bad, vertices are inserted and removed.
+    In a mesh of tetrahedra, orthocenters come inside their tetrahedra. ``size_field``, ``tensor``, ``hooks`` and many
+    options are for triangles alone, and options that begin with ``tets_`` for tetrahedra: an error names them. Where
+    tetrahedra stay bad, vertices are inserted and removed.
 
     A triangle is well-centered when its orthocenter is strictly inside and each of its edges is crossed by its dual:
     all h > 0 and all 0 < d < ℓ. Every triangle stays counter-clockwise. The domain boundary, fixed vertices and

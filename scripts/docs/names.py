@@ -98,7 +98,7 @@ def options_table(program):
 
 def member_for(name):
     """The member of OptimizeOptions: accuracy_sweeps is AccuracyOptions::sweeps."""
-    groups = [("OptimizeOptions", ""), ("PaperSwitches", "paper."), ("AccuracyOptions", "accuracy."), ("SolverErrorOptions", "solver_error."), ("GuardOptions", "guard.")]
+    groups = [("OptimizeOptions", ""), ("PaperSwitches", "paper."), ("AccuracyOptions", "accuracy."), ("SolverErrorOptions", "solver_error."), ("GuardOptions", "guard."), ("TetrahedraOptions", "tets.")]
     for struct, place in groups:
         short = name.removeprefix(place.replace(".", "_")) if place else name
         for member in (name, short, "most_" + short):

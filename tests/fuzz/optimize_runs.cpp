@@ -86,12 +86,10 @@ OptionValue some_value(const OptionRow& row, Choices& choices) {
 
 OptimizeOptions make_options(Choices& choices) {
   OptimizeOptions options = choices.one_in(3) ? *options_for("paper") : OptimizeOptions();
-  for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) {
-      if (!choices.one_in(6)) continue;
-      const OptionValue value = some_value(row, choices);
-      if (check_option(row, value)) row.set(options, value);
-    }
+  for (const OptionRow& row : option_rows()) {
+    if (!choices.one_in(6)) continue;
+    const OptionValue value = some_value(row, choices);
+    if (check_option(row, value)) row.set(options, value);
   }
   // What a run may cost: restarts, searches and returns to earlier sweeps need long ones.
   const int most = choices.one_in(8) ? 15 : 1;

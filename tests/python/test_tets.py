@@ -228,6 +228,11 @@ def test_words_for_triangles_are_refused_by_name(shaken):
     for given, message in (({"options": {"star": 2}}, "star needs "), ({"target": "cell", "options": {"energy": "F"}}, "lower different things")):
         with pytest.raises(temper.TemperError, match=f"{message}.*Next: "):
             temper.optimize(shaken, **given)
+    with pytest.raises(temper.TemperError, match='^tets_patches="each" is for tetrahedra alone. Next: leave it out'):
+        temper.optimize(temper.generate.annulus(), options={"tets_patches": "each"})
+    thorough = temper.options_for("any", "high", max_sweeps=1)
+    for mesh in (shaken.copy(), temper.generate.annulus()):
+        assert temper.optimize(mesh, options=thorough).sweeps == 1
     with pytest.raises(TypeError, match="edges is for triangles alone"):
         temper.find_weights(shaken, edges=[(0, 1)])
     assert shaken == before

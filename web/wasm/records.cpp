@@ -342,10 +342,8 @@ Json option_table() {
 
 Json to_json(const OptimizeOptions& options) {
   Json json;
-  for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) {
-      if (fits(row.cells, CellKinds::triangles)) json[std::string(row.name)] = to_json(row.get(options));
-    }
+  for (const OptionRow& row : option_rows()) {
+    if (fits(row.cells, CellKinds::triangles)) json[std::string(row.name)] = to_json(row.get(options));
   }
   return json;
 }

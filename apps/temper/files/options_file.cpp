@@ -153,10 +153,8 @@ std::string options_json(const Command& command, const Assignments& assignments)
 
 std::string options_json(const OptimizeOptions& options, CellKinds cells) {
   Json json = Json::object();
-  for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) {
-      if (fits(row.cells, cells)) json[std::string(row.name)] = value_of(row, row.get(options));
-    }
+  for (const OptionRow& row : option_rows()) {
+    if (fits(row.cells, cells)) json[std::string(row.name)] = value_of(row, row.get(options));
   }
   return json.dump();
 }

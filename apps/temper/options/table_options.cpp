@@ -88,9 +88,7 @@ std::string default_of(const OptionRow& row) { return option_text(row, row.get(O
 const OptionRow& row_of(std::string_view name, std::span<const std::string_view> names) {
   std::vector<std::string_view> known(names.begin(), names.end());
   if (names.empty()) {
-    for (const OptionGroup& group : option_groups()) {
-      for (const OptionRow& row : group.rows) known.push_back(row.name);
-    }
+    for (const OptionRow& row : option_rows()) known.push_back(row.name);
   }
   if (std::ranges::find(known, name) != known.end()) return *find_option(name);
   const std::string flag = name == "target" ? "--for" : "--" + in_flag(name);
@@ -178,11 +176,9 @@ std::vector<std::string> idle_assignments(const Assignments& assignments, const 
 
 std::string differences(const OptimizeOptions& a, const OptimizeOptions& b) {
   std::string text;
-  for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) {
-      if (row.get(a) == row.get(b)) continue;
-      text += fmt::format("{}{}={}", text.empty() ? "" : ", ", row.name, option_text(row, row.get(a)));
-    }
+  for (const OptionRow& row : option_rows()) {
+    if (row.get(a) == row.get(b)) continue;
+    text += fmt::format("{}{}={}", text.empty() ? "" : ", ", row.name, option_text(row, row.get(a)));
   }
   return text;
 }

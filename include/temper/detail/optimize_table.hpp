@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
@@ -112,6 +113,10 @@ struct GivenNames {
 
 /// Returns the table.
 [[nodiscard]] std::span<const OptionGroup> option_groups();
+/// Returns all rows of the table.
+[[nodiscard]] inline auto option_rows() {
+  return option_groups() | std::views::transform(&OptionGroup::rows) | std::views::join;
+}
 /// Returns the row with this name, or null.
 [[nodiscard]] const OptionRow* find_option(std::string_view name);
 

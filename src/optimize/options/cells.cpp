@@ -46,32 +46,24 @@ Expected<void> check_choice(const OptionRow& row, const OptimizeOptions& options
   return for_others(with_value(row, options), cells, join(allowed));
 }
 
-/// Calls `use` with each row of the table.
-template <class Use>
-void for_each_row(const Use& use) {
-  for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) use(row);
-  }
-}
-
 /// The options for these cells, in back quotes, without the paper's switches.
 std::string rows_for(CellKinds cells) {
   Names names;
-  for_each_row([&](const OptionRow& row) {
+  for (const OptionRow& row : option_rows()) {
     if (fits(row.cells, cells) && !row.research) names.push_back(row.name);
-  });
+  }
   return "`" + join(names, "`, `") + "`";
 }
 
 }  // namespace
 
 Expected<void> check_options(const OptimizeOptions& options, CellKinds cells) {
-  Expected<void> all;
-  for_each_row([&](const OptionRow& row) {
-    if (all && fits(row.cells, cells)) all = check_option(row, row.get(options));
-    if (all && fits(row.cells, cells)) all = check_choice(row, options, cells);
-  });
-  return all;
+  for (const OptionRow& row : option_rows()) {
+    if (!fits(row.cells, cells)) continue;
+    if (auto right = check_option(row, row.get(options)); !right) return right;
+    if (auto right = check_choice(row, options, cells); !right) return right;
+  }
+  return {};
 }
 
 Expected<void> check_cells(const OptimizeOptions& options, const GivenNames& given, CellKinds cells) {

@@ -71,10 +71,8 @@ bool holds(const OptionNeed& need, const OptimizeOptions& options) {
 }  // namespace
 
 const OptionRow* find_option(std::string_view name) {
-  for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) {
-      if (row.name == name) return &row;
-    }
+  for (const OptionRow& row : option_rows()) {
+    if (row.name == name) return &row;
   }
   return nullptr;
 }

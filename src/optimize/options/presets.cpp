@@ -326,11 +326,9 @@ Expected<void> check_kept(const OptimizeOptions& options, std::span<const std::s
     if (!part) return part.error();
     Options kept = options;
     (*part)->apply(kept);
-    for (const OptionGroup& group : option_groups()) {
-      for (const OptionRow& row : group.rows) {
-        if (row.get(options) == row.get(kept)) continue;
-        return contradiction("keep '" + std::string(name) + "'", row, options);
-      }
+    for (const OptionRow& row : option_rows()) {
+      if (row.get(options) == row.get(kept)) continue;
+      return contradiction("keep '" + std::string(name) + "'", row, options);
     }
   }
   return {};

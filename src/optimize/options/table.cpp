@@ -479,22 +479,22 @@ constexpr auto kForTetrahedra = CellKinds::tetrahedra;
 
 constexpr OptionRow kTetrahedraRows[] = {
     row<kTets, &TetrahedraOptions::repair_trials>(
-        "tet_repair_trials",
+        "tets_repair_trials",
         "Number of trials in vain in one patch. After four patches a place is left as it is. 0: the connectivity stays",
         {.cells = kForTetrahedra}),
-    row<kTets, &TetrahedraOptions::patches>("tet_patches",
+    row<kTets, &TetrahedraOptions::patches>("tets_patches",
                                             "Places of trials. shared: bad tetrahedra near each other have trials "
                                             "together. each: each bad tetrahedron has trials of its own",
                                             {.cells = kForTetrahedra}),
     row<kTets, &TetrahedraOptions::small_margin>(
-        "tet_small_margin", "Least h/l. Tetrahedra with a smaller one are improved in trials, too, if none is bad",
+        "tets_small_margin", "Least h/l. Tetrahedra with a smaller one are improved in trials, too, if none is bad",
         {.cells = kForTetrahedra, .range = at_least(0)}),
     row<kTets, &TetrahedraOptions::accuracy_steps>(
-        "tet_accuracy_steps",
+        "tets_accuracy_steps",
         "Largest number of steps that lower the errors of `scheme`. `energy=F` has at most 32 steps",
         {.cells = kForTetrahedra}),
     row<kTets, &TetrahedraOptions::most_error_vertices>(
-        "tet_error_vertices", "Largest number of vertices for which the error of the solver is lowered",
+        "tets_error_vertices", "Largest number of vertices for which the error of the solver is lowered",
         {.cells = kForTetrahedra}),
 };
 

@@ -310,10 +310,8 @@ TEST_F(Optimize, TheReportHasWhatWasGivenAndEverySetting) {
   temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--write", "r.json", "--effort", "quick", "--set", "gamma=0.25"});
   const nlohmann::json report = read_json("r.json"), settings = report["settings"];
   EXPECT_EQ(report["options"], (nlohmann::json{{"effort", "quick"}, {"gamma", "0.25"}}));
-  for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows)
-      EXPECT_EQ(settings.contains(row.name), fits(row.cells, CellKinds::triangles)) << row.name;
-  }
+  for (const OptionRow& row : option_rows())
+    EXPECT_EQ(settings.contains(row.name), fits(row.cells, CellKinds::triangles)) << row.name;
   const OptimizeOptions quick = *options_for("any", "quick");
   EXPECT_EQ(settings["max_sweeps"], quick.max_sweeps);
   EXPECT_EQ(settings["repair_trials"], quick.repair_trials);
@@ -557,6 +555,11 @@ TEST_F(OptimizeTetrahedra, OptionsForTrianglesAloneAreRefusedByNameAndNothingIsW
     EXPECT_EQ(outcome.exit, 2) << name << outcome.err;
     EXPECT_TRUE(contains(outcome.err, "in.vtu has tetrahedra, and " + name)) << outcome.err;
   }
+  temper_ok({"example", "annulus", "-o", "flat.vtu"});
+  const Outcome flat = temper({"optimize", "flat.vtu", "-o", "out.vtu", "--set", "tets_patches=each"});
+  EXPECT_EQ(flat.exit, 2);
+  EXPECT_TRUE(contains(flat.err, "flat.vtu has triangles, and --set tets_patches=each is for tetrahedra alone"));
+  std::filesystem::remove("flat.vtu");
   const Outcome both = temper({"optimize", "in.vtu", "-o", "out.vtu", "--boundary", "split", "--effort", "quick"});
   EXPECT_EQ(both.exit, 2);
   EXPECT_TRUE(contains(both.err, "--boundary split inserts vertices, which keep=")) << both.err;

@@ -57,43 +57,39 @@ TEST(TableOfOptions, HasADefaultInRangeAndRefusesOthersByNameAndRange) {
   EXPECT_TRUE(check_options(defaults, CellKinds::triangles));
   EXPECT_TRUE(check_options(*options_for("paper"), CellKinds::triangles));
   std::set<std::string_view> names;
-  for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) {
-      EXPECT_TRUE(names.insert(row.name).second) << row.name;
-      EXPECT_EQ(find_option(row.name), &row);
-      EXPECT_TRUE(check_option(row, row.get(defaults))) << row.name;
-      EXPECT_EQ(check_option(row, {}).has_value(), row.optional) << row.name;
-      EXPECT_EQ(row.absent.empty(), !row.optional) << row.name;
-      const auto refused = check_option(row, wrong_value(row));
-      ASSERT_FALSE(refused) << row.name;
-      const std::string& message = refused.error().message;
-      EXPECT_EQ(message.rfind("`" + std::string(row.name) + "` is ", 0), 0u) << message;
-      EXPECT_NE(message.find("; expected " + option_range_text(row)), std::string::npos) << message;
-    }
+  for (const OptionRow& row : option_rows()) {
+    EXPECT_TRUE(names.insert(row.name).second) << row.name;
+    EXPECT_EQ(find_option(row.name), &row);
+    EXPECT_TRUE(check_option(row, row.get(defaults))) << row.name;
+    EXPECT_EQ(check_option(row, {}).has_value(), row.optional) << row.name;
+    EXPECT_EQ(row.absent.empty(), !row.optional) << row.name;
+    const auto refused = check_option(row, wrong_value(row));
+    ASSERT_FALSE(refused) << row.name;
+    const std::string& message = refused.error().message;
+    EXPECT_EQ(message.rfind("`" + std::string(row.name) + "` is ", 0), 0u) << message;
+    EXPECT_NE(message.find("; expected " + option_range_text(row)), std::string::npos) << message;
   }
   EXPECT_GT(names.size(), 40u);
   EXPECT_EQ(find_option("no such option"), nullptr);
 }
 
 TEST(TableOfOptions, SetsEachOptionAndNoOther) {
-  for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) {
-      std::vector<OptionValue> values;
-      for (const std::string_view choice : row.choices) values.emplace_back(choice);
-      if (row.kind == OptionKind::count) values = {std::int64_t{3}};
-      if (row.kind == OptionKind::number) values = {0.5 * (row.range.low + std::fmin(row.range.high, 9))};
-      if (row.kind == OptionKind::length_parameter) values = {LengthParameter{0.25, LengthScale::absolute}};
-      if (row.kind == OptionKind::vertex) values = {VertexId(7)};
-      if (row.optional) values.emplace_back();
-      for (const OptionValue& value : values) {
-        OptimizeOptions options;
-        row.set(options, value);
-        EXPECT_TRUE(row.get(options) == value) << row.name;
-        for (const OptionGroup& other_group : option_groups()) {
-          for (const OptionRow& other : other_group.rows) {
-            if (&other == &row) continue;
-            EXPECT_TRUE(other.get(options) == other.get({})) << row.name << " sets " << other.name;
-          }
+  for (const OptionRow& row : option_rows()) {
+    std::vector<OptionValue> values;
+    for (const std::string_view choice : row.choices) values.emplace_back(choice);
+    if (row.kind == OptionKind::count) values = {std::int64_t{3}};
+    if (row.kind == OptionKind::number) values = {0.5 * (row.range.low + std::fmin(row.range.high, 9))};
+    if (row.kind == OptionKind::length_parameter) values = {LengthParameter{0.25, LengthScale::absolute}};
+    if (row.kind == OptionKind::vertex) values = {VertexId(7)};
+    if (row.optional) values.emplace_back();
+    for (const OptionValue& value : values) {
+      OptimizeOptions options;
+      row.set(options, value);
+      EXPECT_TRUE(row.get(options) == value) << row.name;
+      for (const OptionGroup& other_group : option_groups()) {
+        for (const OptionRow& other : other_group.rows) {
+          if (&other == &row) continue;
+          EXPECT_TRUE(other.get(options) == other.get({})) << row.name << " sets " << other.name;
         }
       }
     }
@@ -102,20 +98,18 @@ TEST(TableOfOptions, SetsEachOptionAndNoOther) {
 
 TEST(TableOfOptions, NeedsNameOptionsAndValuesOfThem) {
   std::size_t needs = 0;
-  for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) {
-      for (const OptionNeed& need : row.needs) {
-        if (need.option.empty()) continue;
-        const OptionRow* other = find_option(need.option);
-        ASSERT_NE(other, nullptr) << row.name;
-        std::string_view values = need.values;
-        while (!values.empty()) {
-          const std::string_view value = values.substr(0, values.find('|'));
-          EXPECT_TRUE(check_option(*other, value)) << row.name << " needs " << need.option << "=" << value;
-          values.remove_prefix(std::min(values.size(), value.size() + 1));
-        }
-        ++needs;
+  for (const OptionRow& row : option_rows()) {
+    for (const OptionNeed& need : row.needs) {
+      if (need.option.empty()) continue;
+      const OptionRow* other = find_option(need.option);
+      ASSERT_NE(other, nullptr) << row.name;
+      std::string_view values = need.values;
+      while (!values.empty()) {
+        const std::string_view value = values.substr(0, values.find('|'));
+        EXPECT_TRUE(check_option(*other, value)) << row.name << " needs " << need.option << "=" << value;
+        values.remove_prefix(std::min(values.size(), value.size() + 1));
       }
+      ++needs;
     }
   }
   EXPECT_GT(needs, 20u);
@@ -128,6 +122,31 @@ TEST(TableOfOptions, NeedsNameOptionsAndValuesOfThem) {
             "`solver=newton` or `solver=alternating`");
 }
 
+TEST(TableOfOptions, SaysForWhichCellsOptionsWordsAndValuesAre) {
+  constexpr auto kTriangles = CellKinds::triangles, kTetrahedra = CellKinds::tetrahedra;
+  using Names = std::vector<std::string_view>;
+  const auto refusal = [](const OptimizeOptions& options, const GivenNames& given, CellKinds cells) {
+    const auto right = check_cells(options, given, cells);
+    return right ? std::string() : right.error().message.substr(0, right.error().message.find(';'));
+  };
+  const Names all = {"seed", "star", "tets_patches"}, sizes = {"edges", "sizes"};
+  EXPECT_EQ(refusal({}, {.options = all}, kTriangles), "");
+  EXPECT_EQ(refusal({}, {.options = all}, kTetrahedra), "");
+  EXPECT_EQ(refusal({.tets = {.patches = Patches::each}}, {.options = all}, kTriangles),
+            "`tets_patches=each` is for tetrahedra alone. Next: leave it out");
+  EXPECT_EQ(refusal({.paper = {.seed = 5}}, {.options = all}, kTetrahedra),
+            "`seed=5` is for triangles alone. Next: leave it out");
+  EXPECT_EQ(refusal({.paper = {.seed = 5}}, {}, kTetrahedra), "");  // a word has set it
+  EXPECT_EQ(refusal({}, {.target = "mpas"}, kTetrahedra), "target 'mpas' is for triangles alone. Next: leave it out");
+  EXPECT_EQ(refusal({}, {.keep = sizes}, kTetrahedra), "keep 'sizes' is for triangles alone. Next: leave it out");
+  EXPECT_EQ(refusal({.star = Star::three}, {.options = all}, kTriangles),
+            "`star=3` is for tetrahedra alone. Next: leave it out");
+  EXPECT_FALSE(check_options({.star = Star::three}, kTriangles));
+  EXPECT_TRUE(check_options({.star = Star::three}, kTetrahedra));
+  EXPECT_TRUE(check_options({.tets = {.repair_trials = -1}}, kTriangles));
+  EXPECT_FALSE(check_options({.tets = {.repair_trials = -1}}, kTetrahedra));
+}
+
 TEST(TableOfOptions, AreSpelledByEachFrontEnd) {
   const OptionSpelling shout = [](const OptionRow& row, std::string_view value) {
     return "<" + std::string(row.name) + (value.empty() ? "" : " ") + std::string(value) + ">";
@@ -135,10 +154,8 @@ TEST(TableOfOptions, AreSpelledByEachFrontEnd) {
   EXPECT_EQ(spell_options("see `boundary=split`, `seed` and `nothing`", shout),
             "see <boundary split>, <seed> and `nothing`");
   EXPECT_EQ(spell_options("a lone ` and `seed", shout), "a lone ` and `seed");
-  for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) {
-      EXPECT_EQ(spell_options(row.sentence, shout).find('`'), std::string::npos) << row.sentence;
-    }
+  for (const OptionRow& row : option_rows()) {
+    EXPECT_EQ(spell_options(row.sentence, shout).find('`'), std::string::npos) << row.sentence;
   }
 }
 

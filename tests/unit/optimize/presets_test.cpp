@@ -16,9 +16,7 @@ using Words = std::vector<std::string_view>;
 
 Values values_of(const OptimizeOptions& options) {
   Values values;
-  for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) values[std::string(row.name)] = option_text(row, row.get(options));
-  }
+  for (const OptionRow& row : option_rows()) values[std::string(row.name)] = option_text(row, row.get(options));
   return values;
 }
 
