@@ -427,9 +427,8 @@ struct BestSoFar {
   const Mesh& mesh;                              ///< Mesh in the user's units
   const IdVector<VertexId, VertexId>& vertices;  ///< Numbers of the vertices, as in OptimizeReport::vertices
 };
-/// A function that can get the best mesh so far. `best` calls its argument with the best valid mesh, or does nothing if
-/// there is none yet. It copies the mesh.
-using BestListener = std::function<void(const std::function<void(const std::function<void(const BestSoFar&)>&)>& best)>;
+/// A listener for which the mesh is copied.
+using BestListener = BestListenerOf<BestSoFar>;
 
 /// Tools and listeners of a run. The result does not depend on them, unless the observer stops the run.
 struct OptimizeHooks {

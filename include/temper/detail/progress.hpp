@@ -66,6 +66,12 @@ enum class Stopped {
 
 enum class Continue { yes, no };
 
+/// A function that can get the best mesh so far. `best` calls its argument with the best valid mesh, or does nothing if
+/// there is none yet.
+template <class BestSoFar>
+using BestListenerOf =
+    std::function<void(const std::function<void(const std::function<void(const BestSoFar&)>&)>& best)>;
+
 /// Function that returns Continue::no to stop early. The mesh is then the best valid one so far.
 using Observer = std::function<Continue(const Progress&)>;
 

@@ -27,8 +27,8 @@ struct BestSoFar {
   const TetMesh& mesh;
   const Origins& origins;  ///< Parts of the mesh in the input, as in OptimizeReport
 };
-/// A function that can get the best mesh so far, as temper::BestListener. The mesh is not copied.
-using BestListener = std::function<void(const std::function<void(const std::function<void(const BestSoFar&)>&)>& best)>;
+/// A listener for which the mesh is not copied.
+using BestListener = BestListenerOf<BestSoFar>;
 
 struct OptimizeHooks {
   Observer observer = {};  ///< Observer of the progress, which may stop the run. Any thread calls it, one at a time

@@ -49,10 +49,8 @@ void add_mesh(Fingerprint& all, const Mesh& mesh) {
 
 void add_options(Fingerprint& all, const OptimizeOptions& options) {
   std::string text;
-  for (const OptionGroup& group : option_groups()) {
-    for (const OptionRow& row : group.rows) {
-      if (row.name != "time_limit") text.append(row.name).append(option_text(row, row.get(options))).append("\n");
-    }
+  for (const OptionRow& row : option_rows()) {
+    if (row.name != "time_limit") text.append(row.name).append(option_text(row, row.get(options))).append("\n");
   }
   all.add(text.data(), text.size());
   if (options.problem) {
@@ -101,8 +99,7 @@ bool one_stage(const SweepRecord& a, const SweepRecord& b) {
 }  // namespace
 
 void Run::offer(const WorkingCopy& now, const Settings& settings, const SweepState& state) const {
-  if (!hooks_.best_so_far) return;
-  hooks_.best_so_far([&](const std::function<void(const BestSoFar&)>& use) {
+  RunOf::offer([&](const std::function<void(const BestSoFar&)>& use) {
     const WorkingCopy* best = &now;
     if (best_before != nullptr && !replaces(now, *best_before, Requirement::not_worse, settings, state.model)) {
       best = best_before;
@@ -118,7 +115,13 @@ void Run::offer(const WorkingCopy& now, const Settings& settings, const SweepSta
 }
 
 bool Run::asked_to_stop(double fraction_of_sweep, bool alone) {
-  if (hooks_.communicator == nullptr || hooks_.communicator->rank() == 0) ask(fraction_of_sweep);
+  if (hooks_.communicator == nullptr || hooks_.communicator->rank() == 0) {
+    ask(fraction_of_sweep, [&](Progress& progress) {
+      progress.sweeps_left = estimate_sweeps_left(report.history, options_);
+      progress.n_vertices = n_vertices;
+      progress.share_of_phase = share_of_phase(report.history, options_, fraction_of_sweep);
+    });
+  }
   if (hooks_.communicator != nullptr && !alone) sync_stop();
   return stopped_early();
 }
@@ -130,21 +133,6 @@ void Run::sync_stop() {
   Stopped stopped = report.stopped;
   ByteReader(message).read(stopped);
   if (temper::stopped_early(stopped)) report.stopped = stopped;
-}
-
-void Run::ask(double fraction_of_sweep) {
-  const double limit = options_.time_limit;  // 0: none
-  if (limit > 0 && seconds_between(limit_from_, Clock::now()) + ending_seconds_ > limit) {
-    report.stopped = Stopped::time_limit;
-  } else if (hooks_.observer) {
-    const Progress progress = {report.history.back(),
-                               fraction_of_sweep,
-                               options_.max_sweeps,
-                               estimate_sweeps_left(report.history, options_),
-                               n_vertices,
-                               share_of_phase(report.history, options_, fraction_of_sweep)};
-    if (hooks_.observer(progress) == Continue::no) report.stopped = Stopped::canceled;
-  }
 }
 
 std::size_t count_inverted(const Mesh& mesh) {

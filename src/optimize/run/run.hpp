@@ -1,8 +1,7 @@
-// One run of optimize(): the report that its phases write, the clock, and the caller, who may stop it.
+// One run of optimize() over a mesh of triangles.
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -10,6 +9,7 @@
 #include "base/engine.hpp"
 #include "optimize/flips/flipper.hpp"
 #include "optimize/flips/grading.hpp"
+#include "optimize/run/run_of.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {
@@ -47,25 +47,17 @@ class BestBefore {
   const WorkingCopy*& place_;
 };
 
-class Run {
+class Run : public RunOf<OptimizeHooks, OptimizeReport> {
  public:
   /// `input`: the caller's mesh, for the places of vertices that stay.
   Run(const OptimizeOptions& options, const OptimizeHooks& hooks, const Mesh& input)
-      : options_(options),
-        hooks_(hooks),
+      : RunOf(options, hooks),
         input_(input),
-        start_(Clock::now()),
-        limit_from_(hooks.started.value_or(start_)),
         trials_left_(options.repair_trials),
         trial_triangles_left_(most_trial_triangles(options, input)) {}
 
-  [[nodiscard]] double seconds() const { return seconds_between(start_, Clock::now()); }
-  [[nodiscard]] bool sweeps_left() const { return report.sweeps < options_.max_sweeps; }
   /// Returns the number of the next sweep; 0 before the first sweep, while flips make the input regular.
   [[nodiscard]] int next_sweep() const { return report.sweeps == 0 ? 0 : report.sweeps + 1; }
-  [[nodiscard]] bool stopped_early() const { return temper::stopped_early(report.stopped); }
-  /// Says whether there is time for more.
-  [[nodiscard]] bool goes_on() const { return !stopped_early() && sweeps_left(); }
   /// Returns how many trials repairs may still make. Large neighborhoods use up a second budget, which depends on the
   /// size of the mesh.
   [[nodiscard]] int repair_trials_left() const { return trial_triangles_left_ > 0 ? std::max(0, trials_left_) : 0; }
@@ -78,11 +70,6 @@ class Run {
   void renew_trials() {
     trials_left_ = options_.repair_trials;
     trial_triangles_left_ = most_trial_triangles(options_, input_);
-  }
-  /// Call this before the first sweep. The work so far, copies and measures of the whole mesh, is repeated at the end
-  /// and takes about as long. The time limit includes all of it.
-  void begin_sweeps() {
-    if (ending_seconds_ == 0) ending_seconds_ = seconds_between(limit_from_, Clock::now());
   }
   /// Offers a mesh of the run to the listener, if there is one, which may save it.
   void offer(const WorkingCopy& now, const Settings& settings, const SweepState& state) const;
@@ -98,27 +85,16 @@ class Run {
     report.vertices_inserted += changes.inserted;
   }
 
-  OptimizeReport report;
   RunFacts facts;
   std::optional<std::size_t> n_vertices;     ///< of the mesh, for the progress of a search for fewer
   const WorkingCopy* best_before = nullptr;  ///< of earlier stages, while a stage works on another mesh
 
  private:
-  using Clock = std::chrono::steady_clock;
-  static double seconds_between(Clock::time_point from, Clock::time_point to) {
-    return std::chrono::duration<double>(to - from).count();
-  }
-
   static double most_trial_triangles(const OptimizeOptions& options, const Mesh& input);
-  void ask(double fraction_of_sweep);
 
-  const OptimizeOptions& options_;
-  const OptimizeHooks& hooks_;
   const Mesh& input_;
-  Clock::time_point start_, limit_from_;
   int trials_left_;
   double trial_triangles_left_;  // triangles of all trials together
-  double ending_seconds_ = 0;    // estimated time from the last sweep to the end
 };
 
 // All ranks of a run must get the same input. Otherwise they wait for each other forever.

@@ -64,8 +64,8 @@ void Driver::begin(Phase& phase, int sweep) {
   phase.begin();
   recorder_.set_energy_unit(state_.energy_unit(work_.units));
   if (run_.report.history.empty()) record(phase.measure());
-  best_energy_ = phase.total();
-  if (phase.keeps() == Phase::Keeps::best_points) keep(phase, best_energy_, sweep);
+  best_.measure = phase.total();
+  if (phase.keeps() == Phase::Keeps::best_points) keep(phase, best_.measure, sweep);
   keep_regular(sweep);
   run_.report.stopped = Stopped::max_sweeps;
   run_.begin_sweeps();
@@ -92,9 +92,8 @@ Driver::Verdict Driver::sweep(Phase& phase) {
   if (!whole) return Verdict::stopped;  // the caller or the clock stopped it
   const Verdict verdict = phase.judge(removed || inserted);
   if (verdict == Verdict::restarted) {
-    best_.reset();
+    best_ = {{}, phase.total()};
     best_points_ = {};
-    best_energy_ = phase.total();
     recorder_.set_energy_unit(state_.energy_unit(work_.units));
     return Verdict::improving;
   }
@@ -377,7 +376,7 @@ int Driver::polish(int sweep) {
 /// γ has settled, barrier energies fall.
 void Driver::keep_if_best(const Phase& phase) {
   const double energy = run_.report.history.back().energy;
-  if (phase.keeps() == Phase::Keeps::last || !(energy < best_energy_)) return;
+  if (phase.keeps() == Phase::Keeps::last || !best_.is_beaten_by(energy)) return;
   if (settings_.policy.allows_inversion() && count_inverted(mesh_) > 0) return;
   keep(phase, energy, recorder_.sweep());
 }
@@ -387,18 +386,18 @@ void Driver::keep(const Phase& phase, double energy, int sweep) {
     best_points_.resize(mesh_.n_vertices());  // in place: for the largest meshes memory has no room for a copy
     for (const VertexId v : mesh_.vertices()) best_points_[v] = mesh_.point(v);
   } else {
-    best_ = Candidate{work_, sweep};
+    best_.kept = Candidate{work_, sweep};
   }
-  best_energy_ = energy;
+  best_.measure = energy;
   best_sweep_ = sweep;
 }
 
 int Driver::return_best(const Phase& phase, int last_sweep) {
   const auto points = std::exchange(best_points_, {});  // frees them in any case
-  const bool has_best = best_.has_value() || !points.empty();
-  if (!has_best || !(best_energy_ < run_.report.history.back().energy)) return last_sweep;
-  if (best_) {
-    work_ = (*std::exchange(best_, std::nullopt)).work;
+  const bool has_best = best_.kept || !points.empty();
+  if (!has_best || !(best_.measure < run_.report.history.back().energy)) return last_sweep;
+  if (best_.kept) {
+    work_ = (*std::exchange(best_.kept, std::nullopt)).work;
   } else {
     for (const VertexId v : mesh_.vertices()) mesh_.set_point(v, points[v]);
   }
@@ -415,7 +414,7 @@ void Driver::keep_regular(int sweep) {
 
 /// Returns to the best mesh if one is kept, else to the last regular mesh.
 int Driver::return_regular(int last_sweep) {
-  std::optional<Candidate>& kept = best_ ? best_ : regular_;
+  std::optional<Candidate>& kept = best_.kept ? best_.kept : regular_;
   if (!kept) return last_sweep;
   const int sweep = kept->sweep;
   work_ = (*std::exchange(kept, std::nullopt)).work;
@@ -423,8 +422,8 @@ int Driver::return_regular(int last_sweep) {
   return sweep;
 }
 
-void Driver::record(SweepRecord measured) {
-  run_.report.history.push_back({.sweep = run_.report.sweeps});
+void Driver::record(const SweepRecord& measured) {
+  run_.record({});
   amend_record(measured);
 }
 

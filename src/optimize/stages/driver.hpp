@@ -68,7 +68,7 @@ class Driver {
   void keep_regular(int sweep);
   int return_best(const Phase& phase, int last_sweep);
   int return_regular(int last_sweep);
-  void record(SweepRecord measured);
+  void record(const SweepRecord& measured);
   void amend_record(const SweepRecord& measured);
   void show(Snapshot::Moment moment, const Phase& phase) const;
 
@@ -82,9 +82,8 @@ class Driver {
   Sweeper sweeper_;
   std::vector<VertexId> sequence_;                 // order in which a sweep visits the vertices; empty: by number
   int inner_ = 0, outer_ = 0;                      // iterations since the last flips, and rounds of flips
-  std::optional<Candidate> best_;                  // if the phase keeps a mesh
+  Best<Candidate> best_;                           // by energy; with a mesh if the phase keeps one
   IdVector<VertexId, WeightedPoint> best_points_;  // if the phase keeps points alone
-  double best_energy_ = 0;
   int best_sweep_ = 0;
   std::optional<Candidate> regular_;  // mesh after the last deferred flips that did not fail
 };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "optimize/options/settings.hpp"
+#include "optimize/run/run_of.hpp"
 #include "tets/optimize/accuracy.hpp"
 #include "tets/optimize/hot_sweeps.hpp"
 #include "tets/optimize/local_search.hpp"
@@ -42,26 +43,25 @@ constexpr double kMarginForAccuracy = 0.01;
   return o.unknowns == temper::Unknowns::positions_and_weights && o.flips != Flips::none && o.tets.repair_trials > 0;
 }
 
-class Run {
+class Run : RunOf<OptimizeHooks, OptimizeReport> {
  public:
   Run(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks)
-      : result_(mesh), options_(options), hooks_(hooks), draft_(mesh, mobilities(mesh, options)) {
-    best_ = Draft(std::move(mesh), draft_.mobility);
+      : RunOf(options, hooks), result_(mesh), draft_(mesh, mobilities(mesh, options)) {
+    best_.kept.emplace(std::move(mesh), draft_.mobility);
+    begin_sweeps();
   }
 
   OptimizeReport run() {
-    report_.objective_before = objective_of(draft_.mesh);
+    report.objective_before = objective_of(draft_.mesh);
     record();
     if ((error_ || lowers_hot(options_)) && best_bad_ == 0) input_ = draft_;
     if (anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma) && changes_connectivity(options_)) repair();
-    if (!stopped_early(report_.stopped) && lowers_errors(options_)) lower_errors();
-    if (!stopped_early(report_.stopped) && lowers_hot(options_)) lower_hot();
+    if (!stopped_early() && lowers_errors(options_)) lower_errors();
+    if (!stopped_early() && lowers_hot(options_)) lower_hot();
     return end();
   }
 
  private:
-  enum class Equals { last, first };
-
   /// Sweeps along the schedule of γ. False: the run must end.
   bool anneal(double first_gamma) {
     const auto all = draft_.mesh.vertices();  // by name, too: the connectivity is that of the input
@@ -73,7 +73,7 @@ class Run {
     }
     for (int i = 0; i < kLastSweeps; ++i) {
       if (!sweep(sweeper, kLastGamma)) return false;
-      const auto last = report_.history.end() - 1;
+      const auto last = report.history.end() - 1;
       if (i > 0 && (last - 1)->energy - last->energy <= kTolerance * last->energy) break;
     }
     return true;
@@ -82,15 +82,13 @@ class Run {
   bool sweep(Sweeper& sweeper, double gamma) {
     if (!may_sweep()) return false;
     gamma_ = gamma;
-    if (sweeper.sweep({gamma, kRelaxation}, [this](double fraction) { return is_stopped(fraction); })) ++report_.sweeps;
+    if (sweeper.sweep({gamma, kRelaxation}, [this](double fraction) { return is_stopped(fraction); })) ++report.sweeps;
     record();
-    return !stopped_early(report_.stopped);
+    return !stopped_early();
   }
   [[nodiscard]] bool may_sweep() {
-    if (stopped_early(report_.stopped)) return false;
-    if (report_.sweeps < options_.max_sweeps) return true;
-    report_.stopped = Stopped::max_sweeps;
-    return false;
+    if (!stopped_early() && !sweeps_left()) report.stopped = Stopped::max_sweeps;
+    return goes_on();
   }
 
   /// Changes the connectivity where sweeps alone are not enough: first at all bad tetrahedra at once, then, from the
@@ -100,10 +98,10 @@ class Run {
     for (int in_vain = 0; best_bad_ > 0 && in_vain < kRoundsInVain;) {
       const std::size_t before = best_bad_;
       if (!may_sweep() || !change_all(draft_, must_stop, hooks_.executor)) break;
-      end_round(Equals::first);
+      end_round(false);
       in_vain = best_bad_ < before ? 0 : in_vain + 1;
     }
-    draft_ = best_;
+    draft_ = *best_.kept;
     const int trials = options_.tets.repair_trials;
     const double small_margin = options_.tets.small_margin;
     const bool each = options_.tets.patches == Patches::each;
@@ -139,26 +137,23 @@ class Run {
         chosen.push_back(std::move(patches[i]));
       }
       if (!chosen.empty() && !put_back(chosen, draft_)) return;
-      end_round(Equals::last);
+      end_round(true);
     }
   }
-  void end_round(Equals best) {
+  void end_round(bool takes_equal) {
     gamma_ = kLastGamma;
-    if (!stopped_early(report_.stopped)) ++report_.sweeps;
-    record(best);
+    if (!stopped_early()) ++report.sweeps;
+    record(takes_equal);
   }
 
-  /// Goes on from the best mesh, or returns to an input without bad tetrahedra if `measure` of this is less. Returns
-  /// the lesser one.
+  /// Goes on from the best mesh. An input without bad tetrahedra is the best one if `measure` of it is less.
   template <class Measure>
-  double begin_phase(const Measure& measure) {
-    draft_ = best_;
-    const double here = measure(draft_.mesh);
-    if (input_.mesh.n_vertices() == 0 || is_stopped(0)) return here;
+  void begin_phase(const Measure& measure) {
+    draft_ = *best_.kept;
+    best_.measure = measure(draft_.mesh);
+    if (input_.mesh.n_vertices() == 0 || is_stopped(0)) return;
     const double of_input = measure(input_.mesh);
-    if (!(of_input < here)) return here;
-    best_ = std::move(input_);
-    return of_input;
+    if (best_.is_beaten_by(of_input)) best_ = {std::move(input_), of_input};
   }
   /// Lowers the errors of the scheme. The best mesh is the one with the least error.
   void lower_errors() {
@@ -166,30 +161,29 @@ class Run {
       const std::vector<double> errors = error_ ? error_->errors(mesh) : std::vector{0.0};
       return errors.empty() ? HUGE_VAL : errors[0];
     };
-    double least = begin_phase(error_of);
+    begin_phase(error_of);
     const DiscretizationError* error = best_bad_ == 0 && error_ && error_->has_gradient() ? error_ : nullptr;
     Accuracy accuracy(draft_.mesh, draft_.mobilities(), accuracy_model(options_.scheme), error, hooks_.executor);
     for (int i = 0; i < options_.tets.accuracy_steps && may_sweep(); ++i) {
       if (!accuracy.descend([this](double fraction) { return is_stopped(fraction); })) break;
-      ++report_.sweeps;
+      ++report.sweeps;
       record(error != nullptr ? Objective::solver_error : Objective::accuracy, accuracy.measure());
       if (error == nullptr) continue;
-      const double now = accuracy.measure() * accuracy.measure();
-      if (now <= least) least = now, keep();
+      keep_if_best(accuracy.measure() * accuracy.measure());
     }
     // A run that must stop does not measure any more: it keeps the mesh before these steps.
-    if (error == nullptr && !(error_ && stopped_early(report_.stopped)) && error_of(draft_.mesh) <= least) keep();
+    if (error == nullptr && !(error_ && stopped_early())) keep_if_best(error_of(draft_.mesh));
   }
 
   /// Lowers a HOT energy. The best mesh is the one with the least.
   void lower_hot() {
-    double least = begin_phase([this](const TetMesh& mesh) { return objective_of(mesh); });
+    begin_phase([this](const TetMesh& mesh) { return objective_of(mesh); });
     HotSweeps sweeps(draft_.mesh, draft_.mobilities(), hot_, kRelaxation, hooks_.executor);
     for (int i = 0; i < std::min(kMostHotSweeps, options_.tets.accuracy_steps) && may_sweep(); ++i) {
-      if (sweeps.sweep([this](double fraction) { return is_stopped(fraction); })) ++report_.sweeps;
-      const double before = report_.history.back().energy, now = objective_of(draft_.mesh);
-      if (now <= least) least = now, keep();
-      if (stopped_early(report_.stopped)) return;
+      if (sweeps.sweep([this](double fraction) { return is_stopped(fraction); })) ++report.sweeps;
+      const double before = report.history.back().energy, now = objective_of(draft_.mesh);
+      keep_if_best(now);
+      if (stopped_early()) return;
       record(Objective::accuracy, now);
       if (i > 0 && before - now <= kTolerance * before) return;
     }
@@ -200,67 +194,44 @@ class Run {
                                 : state_of(mesh, kLastGamma, hooks_.executor).energy;
   }
 
-  using Clock = std::chrono::steady_clock;
-  [[nodiscard]] static double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  }
-
   bool is_stopped(double fraction) {
-    if (options_.time_limit > 0 && seconds_since(start_) > options_.time_limit - 2 * seconds_before_) {
-      report_.stopped = Stopped::time_limit;
-    } else if (hooks_.observer &&
-               hooks_.observer({report_.history.back(), fraction, options_.max_sweeps}) == Continue::no) {
-      report_.stopped = Stopped::canceled;
-    }
-    return stopped_early(report_.stopped);
+    ask(fraction, [](Progress&) {});
+    return stopped_early();
   }
 
   /// Measures the mesh, and keeps it if it is the best so far: by the number of bad tetrahedra, and of equals the last
-  /// or the first one.
-  void record(Equals best = Equals::last) {
+  /// one if `takes_equal`, else the first one.
+  void record(bool takes_equal = true) {
     const auto [energy, bad] = state_of(draft_.mesh, gamma_, hooks_.executor);
-    if (report_.history.empty() || bad < best_bad_ || (bad == best_bad_ && best == Equals::last)) {
-      best_bad_ = bad;
-      keep();
-    }
-    if (stopped_early(report_.stopped)) return;
-    record(Objective::energy, energy);
-    report_.history.back().bad = bad;
-    report_.history.back().length_parameter = gamma_;
-  }
-  /// The mesh is the best so far.
-  void keep() {
-    best_ = draft_;
-    if (!hooks_.best_so_far || report_.history.empty()) return;
-    hooks_.best_so_far([this](const std::function<void(const BestSoFar&)>& use) {
-      use({best_.mesh, origins_of(best_)});
-    });
+    keep_if_best(static_cast<double>(bad), takes_equal);
+    best_bad_ = static_cast<std::size_t>(best_.measure);
+    if (!stopped_early()) RunOf::record({.energy = energy, .bad = bad, .length_parameter = gamma_});
   }
   /// Of a mesh with the number of bad tetrahedra of the best one.
   void record(Objective objective, double energy) {
-    SweepRecord now;
-    now.sweep = report_.sweeps;
-    now.objective = objective;
-    now.energy = energy;
-    now.bad = best_bad_;
-    now.seconds = seconds_since(start_);
-    report_.history.push_back(now);
+    RunOf::record({.energy = energy, .bad = best_bad_, .objective = objective});
+  }
+  void keep_if_best(double measure, bool takes_equal = true) {
+    if (!best_.is_beaten_by(measure, takes_equal)) return;
+    best_.kept = draft_;  // in its memory
+    best_.measure = measure;
+    if (!report.history.empty())
+      offer([this](const std::function<void(const BestSoFar&)>& use) {
+        use({best_.kept->mesh, origins_of(*best_.kept)});
+      });
   }
 
   OptimizeReport end() {
-    report_changes();
-    report_.objective_after = objective_of(best_.mesh);
-    result_ = std::move(best_.mesh);
-    report_.seconds = seconds_since(start_);
-    return std::move(report_);
-  }
-
-  void report_changes() {
-    const std::size_t kept = count_kept(best_);
-    report_.vertices_inserted = best_.mesh.n_vertices() - kept;
-    report_.vertices_removed = n_before_ - kept;
-    report_.flips = best_.flips;
-    report_.origins = origins_of(best_);
+    Draft best = *std::move(best_.kept);
+    const std::size_t kept = count_kept(best);
+    report.vertices_inserted = best.mesh.n_vertices() - kept;
+    report.vertices_removed = n_before_ - kept;
+    report.flips = best.flips;
+    report.origins = origins_of(best);
+    report.objective_after = objective_of(best.mesh);
+    result_ = std::move(best.mesh);
+    report.seconds = seconds();
+    return std::move(report);
   }
   [[nodiscard]] bool is_of_input(VertexId name) const { return name.index < n_before_; }
   [[nodiscard]] std::size_t count_kept(const Draft& draft) const {
@@ -279,16 +250,11 @@ class Run {
 
   TetMesh& result_;  // empty until the end: best_ has the mesh
   std::size_t n_before_ = result_.n_vertices();
-  const OptimizeOptions& options_;
-  const OptimizeHooks& hooks_;
   const DiscretizationError* error_ =  // absent for large meshes
       n_before_ <= static_cast<std::size_t>(options_.tets.most_error_vertices) ? hooks_.error.get() : nullptr;
   HotEnergy hot_ = kHotEnergies[static_cast<std::size_t>(options_.star)];
-  Draft draft_, best_;
-  Clock::time_point start_ = Clock::now();
-  // The time limit includes reading and writing. Writing takes about as long as reading took.
-  double seconds_before_ = std::chrono::duration<double>(start_ - hooks_.started.value_or(start_)).count();
-  OptimizeReport report_;
+  Draft draft_;
+  Best<Draft> best_;
   double gamma_ = kFirstGamma;
   std::size_t best_bad_ = 0;
   Draft input_;  // if it may be the best by its error or HOT energy
