@@ -6,7 +6,6 @@
 #include "base/assert.hpp"
 #include "mesh/edge_lengths.hpp"
 #include "optimize/step/descent.hpp"
-#include "optimize/step/removal.hpp"
 #include "optimize/step/search.hpp"
 #include "regularity/lawson.hpp"
 #include "temper/regularity.hpp"
@@ -53,9 +52,13 @@ bool VertexStep::improve(VertexId v, const Part& part) {
   if (!is_confined(mesh, v, part)) return false;
   part_ = part;
   escapes_ = false;
-  if (collapses_ && collapse(v)) return true;
+  const bool may_go = limits.mobility[v] == Mobility::free;
+  if (collapses_ && may_go && removal_.collapse(v)) return true;
   optimize_point(v);
-  if (removes_ && !escapes_) remove_if_better(v);
+  if (removes_ && may_go && !escapes_ && !mesh.is_isolated(v)) {
+    gather(v);
+    removal_.remove_if_better(v, star_->patch());
+  }
   TEMPER_ASSERT_SLOW(escapes_ || mesh.is_isolated(v) || is_confined(mesh, v, part));
   return !escapes_;
 }
@@ -68,38 +71,6 @@ bool VertexStep::suits_batches() const {
 /// Says whether Newton steps lower a barrier, with no limit on flips.
 bool VertexStep::makes_newton_steps() const {
   return state.energy.barrier && settings.policy.makes_newton_steps() && state.flip_limit == FlipLimit::unlimited;
-}
-
-/// Algorithm 2: if E_c would put v onto a neighbor, the mesh is better without v.
-bool VertexStep::collapse(VertexId v) {
-  if (!may_go(v)) return false;
-  const EnergyModel& model = settings.collapse_model;
-  gather_patch(mesh, v, needs_outer(model.kind), collapsing_);
-  if (!nearly_collapses(collapsing_, model, mesh.point(v), settings.policy)) return false;
-  plan_ = plan_removal(mesh, v, std::move(plan_));
-  if (plan_.status != RemovalStatus::possible) return false;
-  if (!settings.policy.defers_flips() && !is_regular(mesh, plan_)) return false;
-  if (!guard_.allows(plan_)) return false;
-  flipper_.remove(EventKind::collapse, plan_, patch_energy(collapsing_, model, mesh.point(v)),
-                  cavity_energy(mesh, model, plan_));
-  return true;
-}
-
-/// Line 15 of Algorithm 1 removes v if the patch is better without it. §7 removes a vertex that the weights are about
-/// to hide.
-void VertexStep::remove_if_better(VertexId v) {
-  if (!may_go(v) || mesh.is_isolated(v)) return;
-  gather(v);
-  const Policy& o = settings.policy;
-  const bool by_weight = o.removal == Removal::weight;
-  if (by_weight && !(relative_lightness(star_->patch(), origin_) > o.hidden_threshold)) return;
-  plan_ = plan_removal(mesh, v, std::move(plan_));
-  if (plan_.status != RemovalStatus::possible) return;
-  const PatchComparison e = compare_patch(mesh, star_->patch(), state.model, plan_, o.removal_measure);
-  if (!by_weight && !is_better(e.without, e.with, o.removal_margin)) return;
-  if (!settings.policy.defers_flips() && !is_regular(mesh, plan_)) return;
-  if (!guard_.allows(plan_)) return;
-  flipper_.remove(EventKind::removal, plan_, e.with, e.without);
 }
 
 /// Lines 13 and 14 of Algorithm 1.
@@ -307,7 +278,7 @@ bool VertexStep::keeps_connectivity() const {
 }
 
 void VertexStep::nudge(VertexId v, Vec2 by) {
-  if (!may_go(v)) return;
+  if (limits.mobility[v] != Mobility::free) return;
   part_ = {};
   gather(v);
   energy_ = star_->value(origin_);

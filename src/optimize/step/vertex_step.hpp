@@ -1,89 +1,20 @@
 // The improvement of one vertex: the body of the paper's inner loop (lines 10 to 16 of Algorithm 1).
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "base/rng.hpp"
 #include "optimize/flips/flipper.hpp"
-#include "optimize/flips/guard.hpp"
 #include "optimize/flips/partition.hpp"
-#include "optimize/flips/size_band.hpp"
-#include "optimize/options/settings.hpp"
 #include "optimize/step/descent.hpp"
 #include "optimize/step/dofs.hpp"
 #include "optimize/step/star_objective.hpp"
-#include "optimize/trace/recorder.hpp"
-#include "optimize/working/working_copy.hpp"
-#include "optimize/working/working_units.hpp"
+#include "optimize/step/vertex_limits.hpp"
+#include "optimize/step/vertex_removal.hpp"
 
 namespace temper {
-
-/// The limits of each vertex: mobility, size band and guard, shared by all that make steps on one mesh.
-struct VertexLimits {
-  VertexLimits(const WorkingCopy& work, const Settings& settings, const WorkingUnits& units)
-      : mobility(mobilities(work.mesh, settings.options, settings.executor())),
-        degree(work.mesh.n_vertices(), 0),
-        band(work.mesh, units, settings.size_field, settings.options.size_band),
-        guard(work.mesh, units, settings.guard, settings.in_copy),
-        work_(work),
-        mesh_(work.mesh),
-        options_(settings.options) {
-    if (work.divided.empty()) return;
-    for (const VertexId v : mesh_.vertices()) mobility[v] = mobility_of(v, mobility[v]);
-  }
-
-  IdVector<VertexId, Mobility> mobility;
-  IdVector<VertexId, std::uint8_t> degree;  ///< number of triangles when a batch last took the vertex; 0: never
-  SizeBand band;                            ///< keeps its last query, so with a band only one step runs at a time
-  Guard guard;                              ///< of which each step has a copy
-
-  /// Fixes the position and weight of v.
-  void freeze(VertexId v) { mobility[v] = Mobility::frozen; }
-  /// Follows a compaction of the mesh.
-  void renumber(const Compaction& kept) {
-    mobility = kept_of(mobility, kept.vertices);
-    degree.resize(mobility.size());
-    band.renumber(kept);
-    guard.renumber(kept);
-  }
-  /// Follows insertions and splits: new vertices are the last vertices of the mesh.
-  void grow() {
-    for (std::size_t i = mobility.size(); i < mesh_.n_vertices(); ++i) {
-      mobility.push_back(mobility_of(VertexId(i), temper::mobility(mesh_, VertexId(i), options_)));
-    }
-    degree.resize(mobility.size());
-    band.grow();
-    guard.grow();
-  }
-
-  /// Returns the divided edge along which v slides, if v is a vertex of the run.
-  [[nodiscard]] const DividedEdge* divided_edge(VertexId v) const {
-    return mobility[v] == Mobility::sliding ? work_.divided_edge(v) : nullptr;
-  }
-
- private:
-  /// The run's own vertices on lines slide, whatever the options say about the vertices of the input.
-  [[nodiscard]] Mobility mobility_of(VertexId v, Mobility of_input) const {
-    return work_.divided_edge(v) != nullptr ? Mobility::sliding : of_input;
-  }
-
-  const WorkingCopy& work_;
-  const Mesh& mesh_;
-  const OptimizeOptions& options_;
-};
-
-/// The mesh and the settings that all steps on one working copy share.
-struct StepContext {
-  Mesh& mesh;
-  const Settings& settings;
-  const SweepState& state;
-  const WorkingUnits& units;
-  VertexLimits& limits;
-  const Recorder& recorder;
-};
 
 /// The storage of vertex steps, kept from one vertex to the next: once warm, a step allocates nothing.
 class VertexStep : StepContext {
@@ -92,7 +23,11 @@ class VertexStep : StepContext {
       : StepContext(context),
         flipper_(flipper),
         guard_(limits.guard),
+        removal_(*this, flipper, guard_),
         star_(make_star_objective(mesh, settings, state)) {}
+  VertexStep(const VertexStep&) = delete;  // the removal refers to its guard
+  VertexStep& operator=(const VertexStep&) = delete;
+  ~VertexStep() = default;
 
   /// Prepares for a sweep, or for one of two visits: sets whether i ≥ i_c, and the overshoot of FlipLimit::after.
   void begin_sweep(int sweep, Unknowns unknowns);
@@ -122,15 +57,12 @@ class VertexStep : StepContext {
  private:
   enum class StepResult { accepted, not_lower, inverted, out_of_band, blocked_by_flip, escaped };
 
-  bool collapse(VertexId v);
   void optimize_point(VertexId v);
-  void remove_if_better(VertexId v);
   void make_steps();
   [[nodiscard]] Dofs freedom_in(Unknowns unknowns) const {
     if (edge_ != nullptr) return dofs(edge_->direction(), unknowns);
     return dofs(mesh, vertex_, limits.mobility[vertex_], unknowns);
   }
-  [[nodiscard]] bool may_go(VertexId v) const { return limits.mobility[v] == Mobility::free; }
 
   void newton_search(const Dofs& of);
   void golden_search(const Dofs& dofs);
@@ -149,6 +81,7 @@ class VertexStep : StepContext {
 
   Flipper& flipper_;
   Guard guard_;
+  VertexRemoval removal_;
   Unknowns unknowns_ = Unknowns::positions_and_weights;
   bool collapses_ = false, removes_ = false, has_moved_ = false;
   double overshoot_ = 1;
@@ -160,8 +93,6 @@ class VertexStep : StepContext {
   const DividedEdge* edge_ = nullptr;  // along which it slides, if it is a vertex of the run
   double energy_ = 0;                  // of the patch at origin_
   std::unique_ptr<StarObjective> star_;
-  Patch collapsing_;  // gathered for E_c
-  RemovalPlan plan_;
   std::vector<HalfedgeId> regular_;  // edges of star and link that a step must keep regular
   /// An update that waits for the end of the sweep. During the step of v, v is at its new place.
   struct Deferred {
