@@ -63,8 +63,9 @@ class PlaneMeasures {
     return 0.5 * (accurate::height_numerator(p, q, r) / (2 * area)) / l2;
   }
   /// (h_k + h_l)/ℓ over pq, in pqr and qps, with their areas. 0 − D rather than −D: a tie is +0.
-  [[nodiscard]] double dual_ratio(const Point& p, const Point& q, const Point& r, const Point& s,
-                                  std::array<double, 2> areas, double /*length*/) const {
+  [[nodiscard]] double dual_ratio(const std::array<Point, 4>& quad, std::array<double, 2> areas,
+                                  double /*length*/) const {
+    const auto& [p, q, r, s] = quad;
     return 0.5 * ((0 - accurate::power_determinant(p, q, r, s)) / (2 * areas[0])) / (2 * areas[1]);
   }
 
@@ -106,8 +107,9 @@ class SphereMeasures {
   [[nodiscard]] double end_ratio(const Point& p, const Point& q, const Point& r, double area, double length) const {
     return height(p, q, r, area, length) / length;
   }
-  [[nodiscard]] double dual_ratio(const Point& p, const Point& q, const Point& r, const Point& s,
-                                  std::array<double, 2> /*areas*/, double length) const {
+  [[nodiscard]] double dual_ratio(const std::array<Point, 4>& quad, std::array<double, 2> /*areas*/,
+                                  double length) const {
+    const auto& [p, q, r, s] = quad;
     const Vec3 a = q - p, n_k = cross(a, r - p), n_l = cross(s - p, a);
     const double sine = (0 - accurate::power_determinant(p, q, r, s)) * temper::length(a);
     return radius_ * std::atan2(sine, dot(n_k, n_l)) / length;
@@ -218,7 +220,7 @@ double DecBuilder<Measures>::star1(HalfedgeId left, HalfedgeId right, double len
   const double here = c_.areas[Mesh::triangle(h)];
   if (!left.valid() || !right.valid()) return measures_.end_ratio(p, q, r, here, length);
   const auto s = measures_.point(mesh_.opposite(right), p);
-  return measures_.dual_ratio(p, q, r, s, {here, c_.areas[Mesh::triangle(right)]}, length);
+  return measures_.dual_ratio({p, q, r, s}, {here, c_.areas[Mesh::triangle(right)]}, length);
 }
 
 template <class Measures>

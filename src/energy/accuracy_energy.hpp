@@ -111,9 +111,8 @@ struct AccuracyDomain {
 struct AccuracyTotal {
   double energy = 0, barrier = 0;
 };
-[[nodiscard]] AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                                           const AccuracyModel& model, const Engine& engine = nullptr,
-                                           bool with_energy = true);
+[[nodiscard]] AccuracyTotal accuracy_total(const Mesh& mesh, const AccuracyDomain& domain, const AccuracyModel& model,
+                                           const Engine& engine = nullptr, bool with_energy = true);
 
 /// Energy and barrier as a function of one vertex. Storage is kept from vertex to vertex.
 class AccuracyPatch {

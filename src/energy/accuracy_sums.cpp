@@ -54,7 +54,8 @@ class Triangles {
       for (int k = 0; k < 3; ++k) {
         const HalfedgeId h = Mesh::halfedge((*this)[i], k);
         if (!mesh_.is_edge_representative(h)) continue;
-        set(edges[n / kLanes], n % kLanes, h, edge(i, k), sizes, model);
+        edges[n / kLanes].height[n % kLanes] = mesh_.is_boundary(h) ? model.boundary_height : model.height;
+        set(edges[n / kLanes], n % kLanes, h, edge(i, k), sizes);
         triangle[n++] = i;
       }
     }
@@ -65,15 +66,13 @@ class Triangles {
   }
 
  private:
-  void set(EdgeLanes& edges, std::size_t lane, HalfedgeId h, const EdgeShape& inner, const VertexSizes& sizes,
-           const AccuracyModel& model) const {
+  void set(EdgeLanes& edges, std::size_t lane, HalfedgeId h, const EdgeShape& inner, const VertexSizes& sizes) const {
     const VertexId a = mesh_.origin(h), b = mesh_.target(h);
     const HalfedgeId twin = mesh_.twin(h);
     const bool is_inner = twin.valid();
     const auto points = mesh_.points(b, a, is_inner ? mesh_.opposite(twin) : b);
     edges.l2[lane] = inner.l2, edges.dw[lane] = inner.dw, edges.left[lane] = inner.g;
     edges.size_a[lane] = sizes[a], edges.size_b[lane] = sizes[b];
-    edges.height[lane] = is_inner ? model.height : model.boundary_height;
     edges.inner[lane] = is_inner ? -1 : 0;
     edges.b.set(lane, points[0]);
     edges.a.set(lane, points[1]);
@@ -132,8 +131,10 @@ double accuracy_energy(const Mesh& mesh, const VertexSizes& sizes, const Accurac
   });
 }
 
-AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                             const AccuracyModel& model, const Engine& engine, bool with_energy) {
+AccuracyTotal accuracy_total(const Mesh& mesh, const AccuracyDomain& domain, const AccuracyModel& model,
+                             const Engine& engine, bool with_energy) {
+  const VertexSizes& sizes = domain.sizes;
+  const AccuracyFloors& floors = domain.floors;
   const auto sums = sums_of_blocks(mesh.n_triangles(), 2, engine, [&](std::size_t block, std::span<double> of_block) {
     double energy = 0, barrier = 0, of_lengths = 0;
     for_triangles(mesh, block, [&](const Triangles& triangles) {

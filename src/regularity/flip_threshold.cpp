@@ -35,13 +35,13 @@ Quadratic conflict_in_plane(const WeightedPoint& p, const WeightedPoint& a, cons
     return WeightedPoint{x, y, x * x + y * y - (q.w - p.w)};
   };
   const WeightedPoint u = lift(a), v = lift(b), w = lift(c);
-  const auto minor = [](double u1, double u2, double v1, double v2, double w1, double w2) {
-    return (u1 * v2 - u2 * v1) + (v1 * w2 - v2 * w1) + (w1 * u2 - w2 * u1);  // det of rows (1, ·, ·)
+  const auto minor = [](Vec2 i, Vec2 j, Vec2 k) {
+    return (i.x * j.y - i.y * j.x) + (j.x * k.y - j.y * k.x) + (k.x * i.y - k.y * i.x);  // det of rows (1, ·, ·)
   };
   const double f0 = u.x * (v.y * w.w - v.w * w.y) - u.y * (v.x * w.w - v.w * w.x) + u.w * (v.x * w.y - v.y * w.x);
-  const double bx = -minor(u.y, u.w, v.y, v.w, w.y, w.w);
-  const double cy = minor(u.x, u.w, v.x, v.w, w.x, w.w);
-  const double d = -minor(u.x, u.y, v.x, v.y, w.x, w.y);
+  const double bx = -minor({u.y, u.w}, {v.y, v.w}, {w.y, w.w});
+  const double cy = minor({u.x, u.w}, {v.x, v.w}, {w.x, w.w});
+  const double d = -minor(u.position(), v.position(), w.position());
   const auto [sx, sy, sw] = step;
   return {f0, bx * sx + cy * sy - d * sw, d * (sx * sx + sy * sy)};
 }

@@ -94,12 +94,12 @@ void add_closed_cell(SolverMeasures& m, const Space& space, const CellRing& ring
 // --- all -----------------------------------------------------------------------------------------------------
 
 void add_triangles(SolverMeasures& m, const Mesh& mesh, const IdVector<VertexId, double>& sizes, bool brief,
-                   std::size_t first, std::size_t last) {
-  for (std::size_t i = first; i < last; ++i) {
-    if (mesh.is_erased(TriangleId(i))) continue;
-    if (!brief) add_triangle(m, mesh, TriangleId(i));
+                   IdRange<TriangleId> triangles) {
+  for (const TriangleId t : triangles) {
+    if (mesh.is_erased(t)) continue;
+    if (!brief) add_triangle(m, mesh, t);
     for (int k = 0; k < 3; ++k) {
-      const HalfedgeId h = Mesh::halfedge(TriangleId(i), k);
+      const HalfedgeId h = Mesh::halfedge(t, k);
       if (mesh.is_boundary(h) || !mesh.is_edge_representative(h) || mesh.is_diagonal(h)) continue;
       const auto [edge, dual] = relative_lengths(mesh, sizes, h);
       m.min_edge_over_size = std::min(m.min_edge_over_size, edge);
@@ -149,7 +149,7 @@ SolverMeasures solver_measures(const Mesh& mesh, bool brief, Executor* executor)
   const Walk walk(mesh, executor);
   const IdVector<VertexId, double> sizes = local_sizes(mesh, walk, executor);
   SolverMeasures all = over(mesh.n_triangles(), executor, [&](SolverMeasures& m, std::size_t first, std::size_t last) {
-    add_triangles(m, mesh, sizes, brief, first, last);
+    add_triangles(m, mesh, sizes, brief, {TriangleId(first), TriangleId(last)});
   });
   if (brief) return all;
   merge(all, over(mesh.n_vertices(), executor, [&](SolverMeasures& m, std::size_t first, std::size_t last) {

@@ -44,8 +44,7 @@ SizedPhase::SizedPhase(WorkingCopy& work, Settings settings, Run& run, VertexSiz
 }
 
 AccuracyTotal SizedPhase::sum(bool with_energy) const {
-  return accuracy_total(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, engine_of(settings_.hooks),
-                        with_energy);
+  return accuracy_total(mesh_, domain_, settings_.accuracy, engine_of(settings_.hooks), with_energy);
 }
 
 AccuracyPhase::AccuracyPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)

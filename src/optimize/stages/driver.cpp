@@ -299,7 +299,8 @@ int Driver::restart(const Restart& restart, bool may_give_up) {
   const bool may_return_there = restart.first_energy.has_value() || settings_.policy.defers_flips();
   // A trace names the sweep to which a run returns.
   if (first > 0 && may_return_there) end_sweep_of_its_own();
-  EnergyPhase phase(work_, settings_, state_, run_, restart, may_give_up);
+  EnergyPhase phase(work_, settings_, state_, run_, restart);
+  if (may_give_up) phase.let_give_up();
   const int last = run(phase, first);
   phase.take_last_energy();
   return last;
@@ -322,11 +323,11 @@ bool Driver::reweight_ties(double amount) {
 
 void Driver::end_sweep_of_its_own() {
   ++run_.report.sweeps;
-  record(EnergyPhase(work_, settings_, state_, run_, kPolish, false).measure());
+  record(EnergyPhase(work_, settings_, state_, run_, kPolish).measure());
 }
 
 bool Driver::repair(std::uint64_t seed, bool asks_programs) {
-  EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);  // puts repairs into the history
+  EnergyPhase phase(work_, settings_, state_, run_, kPolish);  // puts repairs into the history
   RepairSearch search(work_, run_, flipper_, seed, asks_programs);
   bool changed = false;
   RunningEnergyAndBad totals;
@@ -344,7 +345,7 @@ bool Driver::repair(std::uint64_t seed, bool asks_programs) {
 }
 
 void Driver::coarsen(int moves_of_cure) {
-  EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);  // puts rounds into the history
+  EnergyPhase phase(work_, settings_, state_, run_, kPolish);  // puts rounds into the history
   Coarsening search(work_, run_, flipper_, moves_of_cure);
   recorder_.begin_sweep(run_.report.sweeps + 1);
   for (bool goes_on = true; goes_on;) {  // rounds of moves, which `max_sweeps` does not limit
@@ -364,7 +365,7 @@ void Driver::coarsen(int moves_of_cure) {
 int Driver::polish(int sweep) {
   const WorkingCopy before = work_;
   const std::size_t bad = count_bad(mesh_, settings_.executor());
-  EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);
+  EnergyPhase phase(work_, settings_, state_, run_, kPolish);
   const int last = run(phase, sweep);
   if (count_bad(mesh_, settings_.executor()) <= bad) return last;
   work_ = before;

@@ -27,7 +27,8 @@ class Driver {
   /// Adds `amount` of their shortest edge squared to the heavier ends of ties (ties.hpp), and flips, as one sweep.
   /// Returns true if this is enough: then sweeps with a large γ would undo it.
   bool reweight_ties(double amount);
-  /// Makes one restart on the input. Returns the sweep whose mesh the copy is then. `may_give_up`: as in EnergyPhase.
+  /// Makes one restart on the input. Returns the sweep whose mesh the copy is then. `may_give_up`: lets EnergyPhase
+  /// give up.
   int restart(const Restart& restart, bool may_give_up);
   /// Makes the sweeps of one phase. `sweep`: the sweep whose mesh the working copy is. Returns as restart().
   int run(Phase& phase, int sweep);

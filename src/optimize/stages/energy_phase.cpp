@@ -17,8 +17,8 @@ constexpr int kInfinitePatience = 5;
 }  // namespace
 
 EnergyPhase::EnergyPhase(const WorkingCopy& work, const Settings& settings, SweepState& state, Run& run,
-                         const Restart& restart, bool may_give_up)
-    : work_(work), settings_(settings), state_(state), run_(run), restart_(restart), may_give_up_(may_give_up) {}
+                         const Restart& restart)
+    : work_(work), settings_(settings), state_(state), run_(run), restart_(restart) {}
 
 void EnergyPhase::begin() {
   before_switch_ = restart_.first_energy.has_value();

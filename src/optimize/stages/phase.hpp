@@ -47,9 +47,9 @@ class Phase {
 /// Lowers an energy of the registry: one restart, or a polish.
 class EnergyPhase final : public Phase {
  public:
-  /// `may_give_up`: the phase also ends if triangles stay bad for many sweeps.
-  EnergyPhase(const WorkingCopy& work, const Settings& settings, SweepState& state, Run& run, const Restart& restart,
-              bool may_give_up);
+  EnergyPhase(const WorkingCopy& work, const Settings& settings, SweepState& state, Run& run, const Restart& restart);
+  /// From now on the phase also ends if triangles stay bad for many sweeps.
+  void let_give_up() { may_give_up_ = true; }
 
   void begin() override;
   [[nodiscard]] bool may_sweep() const override { return run_.sweeps_left(); }
@@ -77,7 +77,7 @@ class EnergyPhase final : public Phase {
   Restart restart_;
   bool before_switch_ = false;  // from the first energy to options.energy
   GammaSchedule gamma_schedule_;
-  bool may_give_up_;
+  bool may_give_up_ = false;
   double before_ = 0;          // energy at the start of the sweep
   std::size_t least_bad_ = 0;  // least number of bad triangles, and sweeps since then
   int sweeps_since_fewer_bad_ = 0;

@@ -134,6 +134,13 @@ void note_splits(const Restart& restart, RunFacts& facts) {
   facts.stays_unsplit = restart.splitting == BoundarySplitting::none;
 }
 
+/// Says whether a restart from the same beginning as the one before may help. It is more thorough and takes many
+/// sweeps. It does not help if the one before left far more triangles bad, `left`, than the best mesh has.
+bool may_gain(const Restart& restart, const Restart& before, std::size_t left, const Candidate& best,
+              const Settings& settings) {
+  return before.splitting != restart.splitting || left <= kFarMore * count_bad(best.work.mesh, settings.executor());
+}
+
 }  // namespace
 
 bool has_gained(const Candidate& now, const Candidate& before, const Settings& settings, const EnergyModel& model) {
@@ -147,17 +154,10 @@ Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, Swe
   std::vector<Restart> all(1);
   std::size_t left = 0;  // bad triangles of the last restart that was not kept
   bool renewed = false;  // whether the best mesh is new since cuts at bad triangles failed
-  // The second restart from the same beginning is more thorough and takes many sweeps. It does not help if the first
-  // one left far more triangles bad than the best mesh has.
-  const auto may_gain = [&](std::size_t i) {
-    if (all[i].splitting == BoundarySplitting::where_bad) return renewed;
-    return all[i - 1].splitting != all[i].splitting ||
-           left <= kFarMore * count_bad(best->work.mesh, settings.executor());
-  };
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (best && !may_gain(i)) continue;
-    const BestBefore kept(run.best_before, best ? &best->work : nullptr);
     const bool goes_on = all[i].splitting == BoundarySplitting::where_bad;
+    if (best && !(goes_on ? renewed : may_gain(all[i], all[i - 1], left, *best, settings))) continue;
+    const BestBefore kept(run.best_before, best ? &best->work : nullptr);
     Candidate now = goes_on ? *best : Candidate{input.copy()};
     Driver driver(now.work, settings, state, run);
     if (best) driver.recorder().returned_to(goes_on ? best->sweep : -1);

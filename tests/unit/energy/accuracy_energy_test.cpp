@@ -124,7 +124,7 @@ TEST(AccuracyEnergy, IsTheNaiveTwinsInTotalAndByParts) {
     AccuracyFloors floors;
     floors.raise(mesh, kMargin);
     for (const StarOf& star : kStarsOf) {
-      const AccuracyTotal total = accuracy_total(mesh, sizes, floors, model_of(star, 10, 18));
+      const AccuracyTotal total = accuracy_total(mesh, {sizes, floors}, model_of(star, 10, 18));
       const Real plain = twin_total(mesh, sizes, {star, 10, 18, 0}, {}, {});
       const Real both = twin_total(mesh, sizes, {star, 10, 18, Real(kBarrier)}, {}, {});
       EXPECT_NEAR(total.energy / static_cast<double>(plain), 1, rounding) << star.name;
@@ -144,13 +144,13 @@ TEST(AccuracyEnergy, OfWholeMeshesIsTheSameBitsInEveryInstructionSet) {
     floors.raise(mesh, kMargin);
     const AccuracyModel model = model_of(kStarsOf[1], 10, 18);
     ASSERT_TRUE(use_instruction_set(instruction_sets().front()));
-    const AccuracyTotal first = accuracy_total(mesh, sizes, floors, model);
+    const AccuracyTotal first = accuracy_total(mesh, {sizes, floors}, model);
     for (const InstructionSet set : instruction_sets()) {
       ASSERT_TRUE(use_instruction_set(set));
-      const AccuracyTotal other = accuracy_total(mesh, sizes, floors, model);
+      const AccuracyTotal other = accuracy_total(mesh, {sizes, floors}, model);
       EXPECT_EQ(other.energy, first.energy) << name(set);
       EXPECT_EQ(other.barrier, first.barrier) << name(set);
-      EXPECT_EQ(accuracy_total(mesh, sizes, floors, model, nullptr, false).barrier, first.barrier) << name(set);
+      EXPECT_EQ(accuracy_total(mesh, {sizes, floors}, model, nullptr, false).barrier, first.barrier) << name(set);
     }
   }
   use_instruction_set(used);
@@ -196,7 +196,7 @@ TEST(AccuracyPatch, ChangesByWhatTheWholeChanges) {
         const double change = star.value(there) - star.value(p);
         ASSERT_TRUE(std::isfinite(change)) << v.index;
         const auto total = [&] {
-          const AccuracyTotal all = accuracy_total(mesh, sizes, floors, model);
+          const AccuracyTotal all = accuracy_total(mesh, {sizes, floors}, model);
           return all.energy + all.barrier;
         };
         const double before = total();
@@ -300,7 +300,7 @@ AccuracyFloors floors_with_lengths(const Mesh& mesh, const VertexSizes& sizes, c
 void expect_twin(Mesh mesh, const VertexSizes& sizes, const AccuracyModel& model, const AccuracyFloors& floors,
                  const Twin& twin, double scale) {
   AccuracyPatch star;
-  const AccuracyTotal total = accuracy_total(mesh, sizes, floors, model);
+  const AccuracyTotal total = accuracy_total(mesh, {sizes, floors}, model);
   EXPECT_NEAR((total.energy + total.barrier) / static_cast<double>(twin_total(mesh, sizes, twin, {}, {})), 1, 1e-12);
   for (const std::size_t v : {12, 6, 2, 10, 0, 4, 24}) {
     const VertexId center(v);
@@ -317,7 +317,7 @@ void expect_twin(Mesh mesh, const VertexSizes& sizes, const AccuracyModel& model
     const WeightedPoint there = along(mesh.space(), p, {0.01 * scale, -0.008 * scale, 0.005 * scale * scale}, 1);
     const double change = star.value(there) - star.value(p);
     mesh.set_point(center, there);
-    const AccuracyTotal after = accuracy_total(mesh, sizes, floors, model);
+    const AccuracyTotal after = accuracy_total(mesh, {sizes, floors}, model);
     EXPECT_NEAR((after.energy + after.barrier) - (total.energy + total.barrier), change, 1e-12 * total.energy) << v;
     mesh.set_point(center, p);
   }
