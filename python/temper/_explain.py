@@ -12,7 +12,7 @@ from . import _temper
 from ._measure import WorstTet
 from ._mesh import MeshLike
 from ._records import Record, merged, table
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh, refuse_for_tetrahedra
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
 from ._weights import Certificate, EdgeConflict, WeightReport
 
 
@@ -198,9 +198,6 @@ def _reason(d: dict[str, Any]) -> Reason:
     return Reason(**merged(d, **changed))
 
 
-_CURES = 20
-
-
 @overload
 def explain(
     mesh: TetMesh, *, cures: int = ..., whole: int = ..., progress: Callable[[int, int], Any] | None = ...
@@ -212,7 +209,7 @@ def explain(
 def explain(
     mesh: AnyMeshLike,
     *,
-    cures: int = _CURES,
+    cures: int = 20,
     whole: int = 1000,
     progress: Callable[[int, int], Any] | None = None,
 ) -> Explanation | TetExplanation:
@@ -247,7 +244,7 @@ def explain(
     """
     any_mesh = as_any_mesh(mesh)
     if isinstance(any_mesh, TetMesh):
-        refuse_for_tetrahedra(cures=(cures, _CURES), progress=(progress, None))
+        expect_no_options_of_triangles(explain, cures=cures, progress=progress)
         d = _temper.tet_explain(any_mesh._handle, whole)
         weights = None if d["weights"] is None else WeightReport._of(d["weights"])
         reasons = [TetReason(**merged(r, faces=[FaceHeight(**f) for f in r["faces"]])) for r in d["reasons"]]

@@ -94,8 +94,8 @@ std::vector<std::string> certificates() {
   ConnectivityProof proof;
   proof.lemmas.push_back({.edges = {{std::min(p, r), std::max(p, r)}}, .terms = certificate.terms});
   proof.lemmas.push_back({.edges = {}, .side = {p, q}, .cases = {{r, 0}}});
-  return {app::certificate_text(certificate, input().points), app::certificate_text(of_duals, input().points),
-          app::proof_text(proof, input().points)};
+  return {io::certificate_to_json(certificate, input().points), io::certificate_to_json(of_duals, input().points),
+          io::certificate_to_json(proof, input().points)};
 }
 
 std::vector<std::string> traces() {
