@@ -4,6 +4,7 @@
 
 #include "bind.hpp"
 #include "optimize_options.hpp"
+#include "reports.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/size.hpp"
 #include "temper/mesher.hpp"
@@ -315,7 +316,7 @@ void bind_size(py::module_& m) {
     if (mesh->space().kind() != field.mesh().space().kind()) {
       fail(ErrorCode::unsupported, "one of mesh and field is of the plane and the other of a sphere");
     }
-    return size_report_to_dict(measure_size(*mesh, field));
+    return report_to_python(measure_size(*mesh, field));
   });
 }
 
@@ -469,7 +470,7 @@ py::tuple outline_mesh_to_python(OutlineMesh result, const GivenDegrees& degrees
           "marked", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(marked)))(
           "groups", physical_names_to_python(result.groups))("vertex_of_point", result.vertex_of_point)(
           "bad", result.bad)("delaunay_bad", result.delaunay_bad)("attempts", result.attempts)(
-          "report", report_to_dict(result.report))("notes", result.notes)("warnings", result.warnings)
+          "report", report_to_python(result.report))("notes", result.notes)("warnings", result.warnings)
           .dict);
 }
 

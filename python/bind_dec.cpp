@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "bind.hpp"
+#include "reports.hpp"
 #include "temper/dec.hpp"
 #include "temper/detail/columns.hpp"
 #include "temper/detail/dec_io.hpp"
@@ -108,17 +109,6 @@ py::dict dec_to_dict(const PyDec& d) {
       .dict;
 }
 
-py::dict summary_to_dict(const DecSummary& s) {
-  return Record()("vertices", s.vertices)("edges", s.edges)("triangles", s.triangles)(
-             "boundary_edges", s.boundary_edges)("negative_star0", s.negative_star0)(
-             "negative_star1", s.negative_star1)("zero_star1", s.zero_star1)(
-             "negative_boundary_star1", s.negative_boundary_star1)("not_well_centered", s.not_well_centered)(
-             "area", s.area)("star0_sum", s.star0_sum)("min_star0", s.min_star0)("min_star1", s.min_star1)(
-             "median_star1", s.median_star1)("max_star1", s.max_star1)(
-             "median_transmissibility", s.median_transmissibility)("max_transmissibility", s.max_transmissibility)
-      .dict;
-}
-
 py::dict cells_to_dict(const PyDec& d) {
   auto cells = aside([&] { return std::make_shared<const PowerCells>(d.cells()); });
   const py::object owner = keep(cells);
@@ -152,7 +142,7 @@ void bind_operators(py::module_& m) {
              return py::make_tuple(k.xx, k.xy, k.yy);
            })
       .def("arrays", dec_to_dict)
-      .def("summarize", [](const PyDec& d) { return summary_to_dict(summarize(*d.measured, *d.complex)); })
+      .def("summarize", [](const PyDec& d) { return report_to_python(summarize(*d.measured, *d.complex)); })
       .def("power_cells", cells_to_dict)
       .def("write",
            [](const PyDec& d, const std::string& folder, const py::sequence& formats, const py::object& threads) {
@@ -219,22 +209,11 @@ py::dict tet_dec_to_dict(const PyTetDec& d) {
       .dict;
 }
 
-py::dict summary_to_dict(const tets::DecSummary& s) {
-  return Record()("vertices", s.vertices)("edges", s.edges)("faces", s.faces)("tetrahedra", s.tetrahedra)(
-             "boundary_faces", s.boundary_faces)("negative_star0", s.negative_star0)(
-             "negative_star1", s.negative_star1)("negative_star2", s.negative_star2)("zero_star2", s.zero_star2)(
-             "negative_boundary_star2", s.negative_boundary_star2)("not_well_centered", s.not_well_centered)(
-             "volume", s.volume)("star0_sum", s.star0_sum)("min_star0", s.min_star0)("min_star1", s.min_star1)(
-             "min_star2", s.min_star2)("median_star1", s.median_star1)("max_star1", s.max_star1)(
-             "median_transmissibility", s.median_transmissibility)("max_transmissibility", s.max_transmissibility)
-      .dict;
-}
-
 void bind_tet_operators(py::module_& m) {
   py::class_<PyTetDec>(m, "TetDecComplex")
       .def("mesh", [](const PyTetDec& d) { return d.mesh; })
       .def("arrays", tet_dec_to_dict)
-      .def("summarize", [](const PyTetDec& d) { return summary_to_dict(tets::summarize(*d.complex)); })
+      .def("summarize", [](const PyTetDec& d) { return report_to_python(tets::summarize(*d.complex)); })
       .def("write",
            [](const PyTetDec& d, const std::string& folder, const py::sequence& formats, const py::object& threads) {
              return to_python(write_files(formats, threads, [&](const io::DecWriteOptions& options) {

@@ -6,6 +6,7 @@
 
 #include "bind.hpp"
 #include "data_arrays.hpp"
+#include "reports.hpp"
 #include "temper/detail/file_cures.hpp"
 
 namespace temper::python {
@@ -96,11 +97,11 @@ std::vector<std::string> data_words(const PyMesh& self) {
   return words;
 }
 
-py::dict data_report(const PyMesh& self, const py::object& threads) {
+py::object data_report(const PyMesh& self, const py::object& threads) {
   const auto executor = make_threads(threads_from(threads));
   const PyMesh same = self.copy();
   const io::DataReport r = aside([&] { return updated_file_of(same, executor.get()).data; });
-  return data_report_to_dict(r);
+  return report_to_python(r);
 }
 
 /// The contents of a file that Python gets unchanged. Points are not included, because they may be in the plane or on a

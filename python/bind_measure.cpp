@@ -3,12 +3,14 @@
 #include <utility>
 
 #include "bind.hpp"
+#include "reports.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/html.hpp"
 #include "temper/draw.hpp"
 #include "temper/energy.hpp"
 #include "temper/quality.hpp"
 #include "temper/tets/draw.hpp"
+#include "temper/tets/quality.hpp"
 #ifdef TEMPER_WITH_ERRORS
 #include "temper/errors.hpp"
 #include "temper/tets/errors.hpp"
@@ -18,24 +20,6 @@ namespace temper::python {
 namespace {
 
 // --- quality and energies ---------------------------------------------------------------------------------------
-
-py::dict quality_to_dict(const Quality& q) {
-  py::dict energy;
-  for (std::size_t row = 0; row < energies().size(); ++row) {
-    energy[py::str(std::string(energies()[row].name))] = to_python(q.energy[row]);
-  }
-  py::list worst;
-  for (const WorstTriangle& w : q.worst) {
-    worst.append(Record()("triangle", w.triangle)("vertices", w.vertices)("at", w.at)("h_over_l", w.h_over_l)(
-                     "angle_deg", w.angle_deg)("why", w.why)
-                     .dict);
-  }
-  Record r = measures_of(quality_measures(), q);
-  r("energy", energy)("worst", worst);
-  r("angles", histogram_to_dict(q.angles))("h_over_l", histogram_to_dict(q.h_over_l))("d_over_l",
-                                                                                      histogram_to_dict(q.d_over_l));
-  return r.dict;
-}
 
 py::dict triangle_quality_to_dict(const PyMesh& self) {
   const auto mesh = self.read();
@@ -54,6 +38,17 @@ py::dict triangle_quality_to_dict(const PyMesh& self) {
   return Record()("well_centered", well_centered)("min_h_over_l", h_over_l)("min_d_over_l", d_over_l)("min_angle_deg",
                                                                                                       angle_deg)
       .dict;
+}
+
+template <class Report>
+py::list measures_list(std::span<const MeasureRow<Report>> rows) {
+  py::list list;
+  for (const MeasureRow<Report>& m : rows) {
+    list.append(Record()("key", m.key)("alias", m.alias)("label", m.label)("community", m.community)(
+                    "definition", m.definition)("better", name_of(m.better))("count", m.count)("wanted", m.wanted)
+                    .dict);
+  }
+  return list;
 }
 
 EnergyModel model_from(const py::dict& d) {
@@ -93,13 +88,15 @@ void bind_energy(py::module_& m) {
     options.h0 = length_parameter_from(h0);
     options.worst = worst;
     const auto count = threads_from(threads);
-    return quality_to_dict(aside([&] {
+    return report_to_python(aside([&] {
       const auto executor = make_threads(count);
       options.executor = executor.get();
       return quality(*mesh, options);
     }));
   });
-  m.def("quality_measures", [] { return measures_list(quality_measures()); });
+  m.def("quality_measures", [](bool tetrahedra) {
+    return tetrahedra ? measures_list(tets::quality_measures()) : measures_list(quality_measures());
+  });
   m.def("triangle_quality", triangle_quality_to_dict);
   m.def("energies", energies_list);
   m.def("total_energy", [](const PyMesh& self, const py::dict& model, const py::object& threads) {

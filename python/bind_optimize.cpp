@@ -4,13 +4,12 @@
 
 #include "bind.hpp"
 #include "optimize_options.hpp"
+#include "reports.hpp"
 #include "temper/detail/executor.hpp"
 #include "temper/detail/trace.hpp"
 #include "temper/solvers.hpp"
 
 TEMPER_PYTHON_NAMES(temper::Snapshot::Moment, "start", "after_sweep", "before_flips", "after_flips");
-TEMPER_PYTHON_NAMES(temper::EventKind, "move", "weight", "flip", "collapse", "removal", "insertion", "split", "hidden",
-                    "undo");
 
 namespace temper::python {
 namespace {
@@ -68,12 +67,7 @@ Observer observer_of(Visitor& visitor, const py::object& observer) {
     bool go_on = visitor.check_signals();
     if (go_on && !observer.is_none()) {
       go_on = visitor.call([&] {
-        const py::object answer =
-            observer(record_to_dict(progress.last), progress.fraction, progress.max_sweeps,
-                     progress.sweeps_left ? py::object(py::float_(*progress.sweeps_left)) : py::none(),
-                     progress.n_vertices ? py::object(py::int_(*progress.n_vertices)) : py::none(),
-                     progress.share_of_phase ? py::object(py::float_(*progress.share_of_phase)) : py::none(),
-                     std::string(progress.phase));
+        const py::object answer = observer(report_to_python(progress));
         return !(answer.is(py::bool_(false)));
       });
     }
@@ -82,15 +76,6 @@ Observer observer_of(Visitor& visitor, const py::object& observer) {
 }
 
 namespace {
-
-py::dict event_to_dict(const TraceEvent& e) {
-  py::list triangles;
-  for (const auto& t : e.triangles) triangles.append(to_python(t));
-  return Record()("kind", name(e.kind))("sweep", e.sweep)("vertex", e.vertex)("before", e.before)("after", e.after)(
-             "point", e.point)("quad", e.quad)("link", e.link)("triangles", py::object(triangles))("to_sweep",
-                                                                                                   e.to_sweep)
-      .dict;
-}
 
 /// Python's observers of a run. Each may be None.
 struct Callbacks {
@@ -101,7 +86,7 @@ void set_callbacks(OptimizeHooks& hooks, Visitor& visitor, const Callbacks& call
   if (!callbacks.tracer.is_none()) {
     hooks.tracer = [&visitor, &callbacks](const TraceEvent& event) {
       static_cast<void>(visitor.call([&] {
-        callbacks.tracer(event_to_dict(event));
+        callbacks.tracer(report_to_python(event));
         return true;
       }));
     };
@@ -155,7 +140,7 @@ struct RunArguments {
 };
 
 /// The mesh gets its new state, whatever ended the run. Exceptions of Python callbacks are raised after that.
-py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& arguments) {
+py::object optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& arguments) {
   OptimizeOptions options = options_from(given);
   options.size_field = size_field_from(arguments.size_field);
   if (!arguments.depth.is_none()) {
@@ -187,7 +172,7 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
   if (report->has_value()) self.replace(std::move(mesh), (*report)->vertices);
   visitor.raise();
   if (!*report) throw BadInput{report->error()};
-  return report_to_dict(**report);
+  return report_to_python(**report);
 }
 
 VertexId any_vertex(const py::handle& index) {
@@ -197,7 +182,7 @@ VertexId any_vertex(const py::handle& index) {
 
 TraceEvent event_from(const py::dict& d) {
   TraceEvent e;
-  e.kind = from_name<EventKind>("kind", d["kind"].cast<std::string>());
+  e.kind = static_cast<EventKind>(choose("kind", d["kind"].cast<std::string>(), words_of(EventKind())));
   e.sweep = d["sweep"].cast<int>();
   e.vertex = any_vertex(d["vertex"]);
   e.before = d["before"].cast<double>();

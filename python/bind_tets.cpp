@@ -7,6 +7,7 @@
 #include "bind.hpp"
 #include "data_arrays.hpp"
 #include "optimize_options.hpp"
+#include "reports.hpp"
 #include "temper/solvers.hpp"
 #include "temper/tets/optimize.hpp"
 #include "temper/tets/quality.hpp"
@@ -164,24 +165,20 @@ py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const py::object
   std::vector<std::string> lost;
   if (report) {
     const io::DataReport changed = replace(self, std::move(mesh), report->origins, executor.get());
-    if (has_data) data = data_report_to_dict(changed);
+    if (has_data) data = to_python(ReportView{&table_for_tetrahedra(&changed), view_of(changed).report});
     lost.assign(self.file->warnings.begin() + static_cast<std::ptrdiff_t>(known), self.file->warnings.end());
   }
   visitor.raise();
-  return py::make_tuple(report_to_dict(or_raise(std::move(report))), data, to_python(lost));
+  return py::make_tuple(report_to_python(or_raise(std::move(report))), data, to_python(lost));
 }
 
 // --- the report and files -----------------------------------------------------------------------------
 
-py::dict tet_quality(const PyTetMesh& self, std::size_t worst, const py::object& threads) {
+py::object tet_quality(const PyTetMesh& self, std::size_t worst, const py::object& threads) {
   const auto executor = make_threads(threads_from(threads));
   const auto loaded = self.loaded;
   const tets::Quality q = aside([&] { return tets::quality(loaded->mesh, {worst, executor.get()}); });
-  py::list listed;
-  for (const tets::WorstTet& w : q.worst) listed.append(worst_to_record(w).dict);
-  return measures_of(tets::quality_measures(), q)("worst", listed)("dihedrals", histogram_to_dict(q.dihedrals))(
-             "h_over_l", histogram_to_dict(q.h_over_l))
-      .dict;
+  return report_to_python(q);
 }
 
 py::dict tetrahedron_quality_of(const PyTetMesh& self) {
@@ -233,7 +230,6 @@ void bind_tets(py::module_& m) {
   m.def("tet_quality", tet_quality);
   m.def("tet_optimize", optimize_tets);
   m.def("tetrahedron_quality", tetrahedron_quality_of);
-  m.def("tet_quality_measures", [] { return measures_list(tets::quality_measures()); });
   py::class_<PyTetMesh> type(m, "TetMesh");
   type.def("n_vertices", [](const PyTetMesh& self) { return self.mesh().n_vertices(); });
   type.def("n_tetrahedra", [](const PyTetMesh& self) { return self.mesh().n_tetrahedra(); });

@@ -134,11 +134,6 @@ py::object to_python(Id<Tag> id) {
 }
 inline py::object to_python(Vec2 p) { return py::make_tuple(p.x, p.y); }
 inline py::object to_python(const WeightedPoint& p) { return py::make_tuple(p.x, p.y, p.w); }
-inline py::object to_python(const Spread& s) {
-  py::dict dict;
-  dict["min"] = s.min, dict["p05"] = s.p05, dict["median"] = s.median, dict["p95"] = s.p95, dict["max"] = s.max;
-  return dict;
-}
 inline py::object to_python(const LengthParameter& s) {
   return py::make_tuple(s.value, s.scale == LengthScale::relative ? "relative" : "absolute");
 }
@@ -194,34 +189,6 @@ std::string_view name_of(Enum value) {
 template <class Enum>
 Enum from_name(std::string_view option, std::string_view text) {
   return static_cast<Enum>(choose(option, text, Names<Enum>::list));
-}
-
-// --- reports on triangles and tetrahedra ----------------------------------------------------------------
-
-inline py::dict histogram_to_dict(const Histogram& h) {
-  return Record()("low", h.low)("high", h.high)("counts", h.counts).dict;
-}
-
-/// All numbers of a report that have a row.
-template <class Report>
-Record measures_of(std::span<const MeasureRow<Report>> rows, const Report& report) {
-  Record r;
-  for (const MeasureRow<Report>& m : rows) {
-    const std::string key(m.key);
-    m.count ? r(key.c_str(), static_cast<std::size_t>(m.of(report))) : r(key.c_str(), m.of(report));
-  }
-  return r;
-}
-
-template <class Report>
-py::list measures_list(std::span<const MeasureRow<Report>> rows) {
-  py::list list;
-  for (const MeasureRow<Report>& m : rows) {
-    list.append(Record()("key", m.key)("alias", m.alias)("label", m.label)("community", m.community)(
-                    "definition", m.definition)("better", name_of(m.better))("count", m.count)("wanted", m.wanted)
-                    .dict);
-  }
-  return list;
 }
 
 // --- ids and texts from Python --------------------------------------------------------------------------

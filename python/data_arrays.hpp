@@ -109,14 +109,6 @@ inline Record contents_of(const io::MeshFile& file) {
       "warnings", file.warnings);
 }
 
-inline py::dict data_report_to_dict(const io::DataReport& r) {
-  return Record()("points", r.points)("points_moved", r.points_moved)("distance", r.distance)(
-             "points_inserted", r.points_inserted)("interpolated", r.interpolated)("kept", r.kept)(
-             "dropped", r.dropped)("triangles", r.triangles)("triangles_changed", r.triangles_changed)("of_triangles",
-                                                                                                       r.of_triangles)
-      .dict;
-}
-
 /// Takes the same contents from Python, with the regions and data of the cells of the mesh.
 template <int dimension>
 void take_contents(io::MeshFile& file, io::Cells<dimension>& cells, const py::dict& d, std::size_t n_points) {

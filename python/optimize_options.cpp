@@ -139,42 +139,4 @@ py::list idle_options(const py::dict& given, const py::list& names) {
   return sentences;
 }
 
-py::dict record_to_dict(const SweepRecord& r) {
-  return Record()("sweep", r.sweep)("energy", r.energy)("bad", r.bad)("flips", r.flips)(
-             "length_parameter", r.length_parameter)("seconds", r.seconds)("objective", name(r.objective))
-      .dict;
-}
-
-py::dict size_report_to_dict(const SizeReport& report) {
-  return Record()("over_field", report.over_field)("gradation", report.gradation)(
-             "largest_edge_ratio", report.largest_edge_ratio)("outside", report.outside)("band", report.band())
-      .dict;
-}
-
-namespace {
-
-/// The part of a report that runs of triangles and of tetrahedra share.
-template <class Report>
-Record run_of(const Report& r) {
-  py::list history;
-  for (const SweepRecord& record : r.history) history.append(record_to_dict(record));
-  return Record()("stopped", name(r.stopped))("sweeps", r.sweeps)("flips", r.flips)(
-      "vertices_removed", r.vertices_removed)("vertices_inserted", r.vertices_inserted)("seconds", r.seconds)(
-      "objective_before", r.objective_before)("objective_after", r.objective_after)("history", py::object(history));
-}
-
-}  // namespace
-
-py::dict report_to_dict(const OptimizeReport& r) {
-  py::list notes;
-  for (const std::string& note : r.notes) notes.append(spelled(note));
-  return run_of(r)("vertices", r.vertices)("hidden", r.hidden)("objective", name(r.objective))(
-             "size_before", py::object(size_report_to_dict(r.size.before)))(
-             "size_after", py::object(size_report_to_dict(r.size.after)))("bad_before", r.bad_before)(
-             "bad_after", r.bad_after)("notes", py::object(notes))
-      .dict;
-}
-
-py::dict report_to_dict(const tets::OptimizeReport& r) { return run_of(r)("vertices", r.origins.vertices).dict; }
-
 }  // namespace temper::python

@@ -3,7 +3,6 @@
 
 #include "convert.hpp"
 #include "temper/detail/optimize_table.hpp"
-#include "temper/tets/optimize.hpp"
 
 TEMPER_PYTHON_NAMES(temper::HiddenPolicy, "undo", "remove", "keep");
 
@@ -16,10 +15,5 @@ py::dict options_to_dict(const OptimizeOptions& options);
 py::list option_table();
 /// Sentences about the named options that differ from the default and have no effect.
 py::list idle_options(const py::dict& options, const py::list& names);
-
-py::dict report_to_dict(const OptimizeReport& report);
-py::dict report_to_dict(const tets::OptimizeReport& report);
-py::dict record_to_dict(const SweepRecord& record);
-py::dict size_report_to_dict(const SizeReport& report);
 
 }  // namespace temper::python

@@ -34,6 +34,8 @@
 
 namespace temper {
 
+struct ReportTable;
+
 /// An undirected edge. Edges are sorted by their vertices: (0, 1), (0, 2), …, (1, 2), ….
 using EdgeId = Id<struct EdgeTag>;
 
@@ -114,6 +116,7 @@ struct DecSummary {
   /// Median and maximum of |transmissibility| over interior edges; the maximum is +∞ if a dual edge has length 0.
   double median_transmissibility = 0, max_transmissibility = 0;
 };
+[[nodiscard]] const ReportTable& table_of(const DecSummary*);
 [[nodiscard]] DecSummary summarize(const Mesh& mesh, const DecComplex& complex);
 
 /// The common face of two power cells within the domain: a piece of the line on which both vertices have equal power.

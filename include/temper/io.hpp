@@ -382,6 +382,9 @@ struct DataReport {
   std::vector<std::string> interpolated, kept, dropped;  ///< Names of point data, by their treatment
   std::vector<std::string> of_triangles;                 ///< Names of cell data
 };
+/// The rows for triangles, or for tetrahedra: there the keys say so.
+[[nodiscard]] const ReportTable& table_of(const DataReport*);
+[[nodiscard]] const ReportTable& table_for_tetrahedra(const DataReport*);
 
 /// Puts coordinates, weights, triangles and regions of the mesh back into the file that it came from. Dropped points
 /// disappear with their data. `vertices` is OptimizeReport::vertices: the number in `loaded` of each vertex of the

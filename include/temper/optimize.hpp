@@ -459,6 +459,7 @@ struct OptimizeHooks {
 struct SizeChange {
   SizeReport before, after;
 };
+[[nodiscard]] const ReportTable& table_of(const SizeChange*);
 
 struct OptimizeReport {
   Stopped stopped = Stopped::converged;
@@ -470,7 +471,7 @@ struct OptimizeReport {
   /// insertion, with an invalid number. Empty if no vertex was removed or inserted.
   IdVector<VertexId, VertexId> vertices;
   /// Vertices without power cell that HiddenPolicy::keep left; empty while triangles are inverted.
-  std::vector<VertexId> hidden;
+  std::vector<VertexId> hidden_vertices;
   Objective objective = Objective::accuracy;  ///< Objective that the run lowered
   double seconds = 0;                         ///< Time of the optimization alone [s]
   double objective_before = 0;  ///< Objective of the input, at the final γ. For Objective::accuracy: E of
@@ -483,6 +484,7 @@ struct OptimizeReport {
   std::vector<SweepRecord> history;  ///< History of the sweeps; history[0] is the input, flipped to be regular
   std::vector<std::string> notes;    ///< Notes for the user, in sentences
 };
+[[nodiscard]] const ReportTable& table_of(const OptimizeReport*);
 
 /// Improves the mesh in place. The domain boundary, fixed vertices and constrained edges stay, bit for bit, unless
 /// `boundary` and `interfaces` allow changes. Every triangle stays counter-clockwise. O(sweeps · n).

@@ -21,6 +21,7 @@
 namespace temper {
 
 class Executor;
+struct ReportTable;
 
 struct QualityOptions {
   LengthParameter gamma = {1.0, LengthScale::absolute};  ///< Parameter γ of E_BP in the report
@@ -43,10 +44,10 @@ struct WorstTriangle {
   double angle_deg = 0;  ///< Largest of its three angles
   std::string why;       ///< "orthocenter outside across edge 3-9: angle of 138.3° at vertex 10"
 };
+[[nodiscard]] const ReportTable& table_of(const WorstTriangle*);
 
 /// Counts in equal bins over [low, high]. Each bin includes its lower end. Values outside go to the end bins, and NaN
-/// to the first one. Reports have three histograms: the angles of all triangles in degrees, h/ℓ of each triangle and
-/// edge, and the lesser of d/ℓ and 1 − d/ℓ of each edge.
+/// to the first one.
 struct Histogram {
   double low = 0;
   double high = 0;
@@ -62,6 +63,14 @@ struct Histogram {
     for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
   }
 };
+[[nodiscard]] const ReportTable& table_of(const Histogram*);
+
+struct Histograms {
+  Histogram angles;    ///< Angles of all triangles [degrees]
+  Histogram h_over_l;  ///< h/ℓ of each triangle and edge
+  Histogram d_over_l;  ///< Lesser of d/ℓ and 1 − d/ℓ of each edge
+};
+[[nodiscard]] const ReportTable& table_of(const Histograms*);
 
 /// Total energies of a mesh, as [EnergyKind, the row of energies()][star]. A value is +∞ outside the domain of the
 /// energy.
@@ -84,9 +93,10 @@ struct Quality : SolverMeasures {
   double max_transmissibility_over_median = 0;
   double transmissibility_ratio = 0;  ///< Largest over least transmissibility; 1 and +∞ as above
   EnergiesByStar energy = {};
+  Histograms histograms;
   std::vector<WorstTriangle> worst;  ///< Worst triangles, the worst first
-  Histogram angles, h_over_l, d_over_l;
 };
+[[nodiscard]] const ReportTable& table_of(const Quality*);
 
 /// Quality of one triangle, for cell data.
 struct TriangleQuality {

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from . import _temper
 from ._mesh import Mesh, MeshLike, as_mesh
 from ._records import Record
+from ._reports import DecSummary, TetDecSummary
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
 
 CoefficientLike = Union[npt.ArrayLike, Mapping[int, float], Mapping[str, float], Mapping[Union[str, int], float]]
@@ -80,38 +81,6 @@ class DecEdges(Record):
     def is_boundary(self) -> npt.NDArray[np.bool_]:
         """Says for each edge whether it has only one triangle."""
         return (self.triangles < 0).any(axis=1)
-
-
-@dataclasses.dataclass(frozen=True)
-class DecSummary(Record):
-    """A summary of the operators, for a check before a solver uses them."""
-
-    vertices: int
-    edges: int
-    triangles: int
-    boundary_edges: int
-    negative_star0: int
-    negative_star1: int
-    """Number of interior edges that are not regular, exact."""
-    zero_star1: int
-    """Number of interior edges that are cocircular, exact."""
-    negative_boundary_star1: int
-    """Number of boundary edges with the orthocenter outside the domain, exact."""
-    not_well_centered: int
-    """Number of triangles, exact."""
-    area: float
-    """Area of the domain [length²]."""
-    star0_sum: float
-    """Sum of ★0: the area, except for rounding."""
-    min_star0: float
-    min_star1: float
-    median_star1: float
-    """Median of \\|★1\\| over all edges."""
-    max_star1: float
-    median_transmissibility: float
-    """Median of \\|transmissibility\\| over interior edges."""
-    max_transmissibility: float
-    """Maximum; inf if a dual edge has length 0."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -208,7 +177,7 @@ class DecComplex(_Complex):
 
     def summarize(self) -> DecSummary:
         """Summarizes counts, signs and extremes."""
-        return DecSummary(**self._handle.summarize())
+        return self._handle.summarize()
 
     def power_cells(self) -> PowerCells:
         """The power cell of each vertex, clipped to the domain. In any mesh the cells are disjoint and cover the
@@ -271,41 +240,6 @@ class TetDecFaces(Record):
         return (self.tetrahedra < 0).any(axis=1)
 
 
-@dataclasses.dataclass(frozen=True)
-class TetDecSummary(Record):
-    """A summary of the operators of tetrahedra, for a check before a solver uses them."""
-
-    vertices: int
-    edges: int
-    faces: int
-    tetrahedra: int
-    boundary_faces: int
-    negative_star0: int
-    negative_star1: int
-    negative_star2: int
-    """Number of interior faces that are not regular, exact."""
-    zero_star2: int
-    """Number of interior faces that are cospherical, exact."""
-    negative_boundary_star2: int
-    """Number of boundary faces with the orthocenter outside the domain, exact."""
-    not_well_centered: int
-    """Number of tetrahedra, exact."""
-    volume: float
-    """Volume of the domain [length³]."""
-    star0_sum: float
-    """Sum of ★0: the volume, except for rounding."""
-    min_star0: float
-    min_star1: float
-    min_star2: float
-    median_star1: float
-    """Median of \\|★1\\| over all edges."""
-    max_star1: float
-    median_transmissibility: float
-    """Median of \\|transmissibility\\| over interior faces."""
-    max_transmissibility: float
-    """Maximum; inf if a dual edge has length 0."""
-
-
 @dataclasses.dataclass(frozen=True, eq=False)
 class TetDecComplex(_Complex):
     """The operators and the dual of a mesh of tetrahedra. Vertices and tetrahedra have the numbers of the mesh. All
@@ -349,7 +283,7 @@ class TetDecComplex(_Complex):
 
     def summarize(self) -> TetDecSummary:
         """Summarizes counts, signs and extremes."""
-        return TetDecSummary(**self._handle.summarize())
+        return self._handle.summarize()
 
 
 def _coefficient_of(mesh: Mesh | TetMesh, coefficient: CoefficientLike | None) -> npt.NDArray[np.float64]:

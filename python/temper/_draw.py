@@ -12,7 +12,7 @@ from . import _temper
 from ._explain import explain
 from ._measure import quality
 from ._mesh import PICTURE_WIDTH, Mesh, as_mesh
-from ._optimize import OptimizeReport
+from ._reports import OptimizeReport
 from ._records import Record, expect, table
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
 
@@ -149,10 +149,8 @@ def grid_svg(svgs: Sequence[str], columns: int, *, title: str = "") -> Svg:
 
 
 def _measures(mesh: Mesh | TetMesh) -> dict[str, Any]:
-    q: Any = quality(mesh)
-    names = ("dihedrals", "h_over_l") if isinstance(mesh, TetMesh) else ("angles", "h_over_l", "d_over_l")
-    histograms = {name: getattr(q, name).as_dict() for name in names}
-    return {**q.as_dict(), "histograms": histograms}
+    q = quality(mesh)
+    return {**q.as_dict(), "histograms": q.histograms.as_dict()}
 
 
 def _reasons(mesh: Mesh, measures: dict[str, Any]) -> list[dict[str, Any]]:

@@ -14,43 +14,15 @@ from . import _temper
 from ._errors import TemperError, TemperWarning
 from ._measure_errors import _plain_problem
 from ._mesh import PICTURE, Mesh, MeshLike, as_mesh, put_back
-from ._options import EffortName, KeepName, ObjectiveName, OptimizeOptions, TargetName, _words, lists_presets, rows_set, settled
-from ._progress import Line, Progress, SweepRecord
-from ._records import Record
+from ._options import EffortName, KeepName, OptimizeOptions, TargetName, _words, lists_presets, rows_set, settled
+from ._progress import Line
+from ._records import CLASSES, Record
+from ._reports import OptimizeReport, Progress, TraceEvent
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
-from .size import SizeField, SizeReport, Spread, _size_report
+from .size import SizeField
 
 if TYPE_CHECKING:
     from ._options import OptionsAndProblem
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class TraceEvent:
-    """An event of a run. Vertices are numbered as in the input, also after removals; new vertices get the next numbers.
-    Coordinates and weights are in the user's units."""
-
-    kind: Literal["move", "weight", "flip", "collapse", "removal", "insertion", "split", "hidden", "undo"]
-    sweep: int
-    """Sweep of the event; 0: the input is made regular and its boundary cut."""
-    vertex: int
-    """Vertex of the event; −1 for flip, and for undo of whole sweeps. For insertion and split, the new vertex."""
-    before: float
-    """Energy before the event, of the vertex's patch or of all edges that a flip changes; NaN if the event has none."""
-    after: float
-    point: tuple[float, float, float]
-    """New x, y, w of the vertex for move, weight, insertion, split; on a sphere its weighted vector."""
-    quad: tuple[int, int, int, int]
-    """For flip: edge a→b, with c on its left and d on its right, becomes d→c. For split: a→b was cut (d is −1 on the
-    boundary)."""
-    link: npt.NDArray[np.int32]
-    """Neighbors, counter-clockwise, for collapse and removal; corners of the triangle for insertion."""
-    triangles: list[tuple[int, int, int]]
-    """New triangles of the cavity, in slot order, for collapse and removal."""
-    to_sweep: int
-    """For undo without a vertex: the sweep at whose end the mesh was the same; −1: the input as given."""
-
-    def _plain(self) -> dict[str, Any]:
-        return {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -75,117 +47,14 @@ class Snapshot:
         return cls(**d, mesh=Mesh._of(handle))
 
 
-@dataclasses.dataclass(frozen=True)
-class DataReport(Record):
-    """The fate of the data of points and triangles after the mesh has changed. All 0 without such data. For a
-    ``TetMesh`` triangles are tetrahedra."""
-
-    points: int
-    """Original points that are still there."""
-    points_moved: int
-    """Points among these that have moved."""
-    distance: Spread
-    """Distances that these have moved [length]."""
-    points_inserted: int
-    interpolated: list[str]
-    """Point data that belong to the place: linear on the original triangles."""
-    kept: list[str]
-    """Point data that stayed with their points."""
-    dropped: list[str]
-    """Integer point data that differ around an inserted point."""
-    triangles: int
-    triangles_changed: int
-    """Triangles among these whose corners or places differ from the original triangle of the same number."""
-    of_triangles: list[str]
-    """Data of triangles: each triangle has the data of the original triangle that contains its middle."""
-
-    @classmethod
-    def _of(cls, report: dict[str, Any]) -> DataReport:
-        return cls(**{**report, "distance": Spread(**report["distance"])})
-
-
-@dataclasses.dataclass(frozen=True)
-class SizeChange(Record):
-    """The change of the sizes: both meshes compared with the size field."""
-
-    before: SizeReport
-    after: SizeReport
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class OptimizeReport(Record):
-    """The result of ``optimize``."""
-
-    stopped: Literal[
-        "converged", "max_sweeps", "max_outer", "time_limit", "canceled", "tangled", "hidden", "sweep_limit"
-    ]
-    """Reason for the end of the run. ``tangled``: triangles are inverted (``inversion="allow"``) and no flips can make
-    the mesh regular. ``hidden``: deferred flips hid a vertex against the policy, and the mesh is an earlier one.
-    ``sweep_limit``: the second phase of the objective ``accuracy`` made all its sweeps, a normal end."""
-    sweeps: int
-    flips: int
-    vertices_removed: int
-    vertices_inserted: int
-    vertices: npt.NDArray[np.int32]
-    """Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted."""
-    hidden: npt.NDArray[np.int32]
-    """Vertices without a power cell that ``hidden="keep"`` left."""
-    objective: ObjectiveName
-    """Objective that the run lowered."""
-    seconds: float
-    """Time of the optimization alone [s]."""
-    objective_before: float
-    """Objective of the input, at the final γ."""
-    objective_after: float
-    bad_before: int
-    """Number of triangles or tetrahedra of the input that are not well-centered, before any flip."""
-    bad_after: int
-    """The same number of the result."""
-    size: SizeChange | None
-    """None for tetrahedra."""
-    data: DataReport | None
-    """Report on the data of the mesh; None without data."""
-    history: list[SweepRecord] = dataclasses.field(repr=False)
-    """One record per sweep; ``history[0]`` is the input, with its edges flipped to be regular."""
-    notes: list[str]
-    """Notes for the user, in sentences."""
-    _meshes: tuple[Mesh, Mesh] | None = dataclasses.field(default=None, repr=False, compare=False)
-    """The mesh before and after, for notebooks."""
-
-    def _rows(self) -> list[tuple[str, str]]:
-        shown_below = ("vertices", "hidden", "bad_before", "bad_after", "size", "data", "notes")
-        rows = [row for row in super()._rows() if row[0] not in shown_below]
-        rows.insert(1, ("bad triangles" if self.size else "bad tetrahedra", f"{self.bad_before} → {self.bad_after}"))
-        if self.size:
-            rows.append(("sizes within", f"1/{self.size.after.band:.3g} to {self.size.after.band:.3g} of the field"))
-        if self.data is not None and self.data.interpolated:
-            moved = f"of {self.data.points_moved} moved points: {', '.join(self.data.interpolated)}"
-            rows.append(("interpolated", moved))
-        return rows + [("note", note) for note in self.notes]
-
-    def as_dict(self) -> dict[str, Any]:
-        """Adds the history to ``Record.as_dict``."""
-        return {**super().as_dict(), "history": [record.as_dict() for record in self.history]}
-
-
-def _report(
-    d: dict[str, Any], data: DataReport | None = None, meshes: tuple[Mesh, Mesh] | None = None
-) -> OptimizeReport:
-    size = SizeChange(_size_report(d.pop("size_before")), _size_report(d.pop("size_after"))) if "size_before" in d else None
-    history = [SweepRecord(**record) for record in d.pop("history")]
-    if size is None:  # the mesh of tetrahedra is the best one of the history
-        d.update(bad_before=history[0].bad, bad_after=min(record.bad for record in history))
-    return OptimizeReport(**d, size=size, data=data, history=history, _meshes=meshes)
+CLASSES["TetOptimizeReport"] = OptimizeReport  # which has the fields of both
 
 
 def _observer(line: Line, observer: Callable[[Progress], Any] | None) -> Callable[..., bool] | None:
     if not line.enabled and observer is None:
         return None
 
-    def tell(
-        last: dict[str, Any], fraction: float, max_sweeps: int, sweeps_left: float | None, *rest: Any
-    ) -> bool:
-        progress = Progress(SweepRecord(**last), fraction, max_sweeps, sweeps_left, *rest)
+    def tell(progress: Progress) -> bool:
         line.show(progress)
         answer = None if observer is None else observer(progress)
         return not isinstance(answer, (bool, np.bool_)) or bool(answer)
@@ -353,29 +222,27 @@ def optimize(
     if isinstance(changed, TetMesh):
         expect_no_options_of_triangles(optimize, size_field=size_field, tensor=tensor, problem=own, **vars(hooks))
         with _put_back_at_end(mesh, changed, line):
-            report, of_data, lost = _temper.tet_optimize(changed._handle, plain, threads, watch)
+            report, data, lost = _temper.tet_optimize(changed._handle, plain, threads, watch)
         for sentence in lost:
             warnings.warn(sentence, TemperWarning, stacklevel=2)
-        data = None if of_data is None else DataReport._of(of_data)
-        return _report({**report, "objective": report["history"][-1]["objective"], "hidden": np.empty(0, dtype=np.int32), "notes": []}, data)
+        return dataclasses.replace(report, data=data)
     problem = None if own is None else _plain_problem(changed, **own)
     for sentence in () if problem is None else _temper.problem_warnings(changed._handle, problem):
         warnings.warn(sentence, TemperWarning, stacklevel=2)
-    tracer, snapshots = hooks.tracer, hooks.snapshots
-    trace = (lambda event: tracer(TraceEvent(**event))) if tracer is not None else None
+    snapshots = hooks.snapshots
     look = (lambda shot: snapshots(Snapshot._of(shot))) if snapshots is not None else None
     field = size_field._handle if size_field is not None else None
     original = changed.copy() if tensor is None and 0 < changed.n_triangles <= PICTURE else None
     with _put_back_at_end(mesh, changed, line):
         report = _temper.optimize(
-            changed._handle, plain, field, threads, watch, trace, look, None if tensor is None else tuple(tensor), hooks.communicator,
+            changed._handle, plain, field, threads, watch, hooks.tracer, look, None if tensor is None else tuple(tensor), hooks.communicator,
             _depth(changed, plain), problem,
         )
-    data = DataReport._of(_temper.data_report(changed._handle, threads)) if changed._handle.has_data() else None
+    data = _temper.data_report(changed._handle, threads) if changed._handle.has_data() else None
     if data is not None and data.dropped:
         what = f"point data {', '.join(data.dropped)} are dropped: their whole numbers differ around an inserted vertex"
         warnings.warn(what, TemperWarning, stacklevel=2)
-    return _report(report, data, None if original is None else (original, changed.copy()))
+    return dataclasses.replace(report, data=data, _meshes=None if original is None else (original, changed.copy()))
 
 
 @contextlib.contextmanager
@@ -411,5 +278,5 @@ class Replay(Record):
 def replay(input: MeshLike, events: Iterable[TraceEvent]) -> Replay:
     """Applies the events of a run (``optimize(tracer=…)``) to its input, and returns a new mesh. TemperError
     ``trace_mismatch`` names the first event, counted from 0, that does not fit."""
-    handle, vertices = _temper.replay(as_mesh(input)._handle, (event._plain() for event in events))
+    handle, vertices = _temper.replay(as_mesh(input)._handle, (vars(event) for event in events))
     return Replay(Mesh._of(handle), vertices)

@@ -13,10 +13,11 @@ import numpy.typing as npt
 from . import _temper
 from ._errors import TemperWarning
 from ._mesh import Mesh, _doubles, _ints, _tags
-from ._optimize import OptimizeReport, _observer, _report
+from ._optimize import _observer
 from ._options import OptimizeOptions, options_for
-from ._progress import Line, Progress
-from ._records import Record, expect, merged
+from ._progress import Line
+from ._records import Record, expect
+from ._reports import OptimizeReport, Progress
 from .size import SizeField
 
 
@@ -339,4 +340,4 @@ def _meshed(
         line.clear()
     for message in rest["warnings"]:
         warnings.warn(message, TemperWarning, stacklevel=3)
-    return OutlineMesh(**merged(rest, mesh=Mesh._of(handle), report=_report(rest["report"])))
+    return OutlineMesh(**rest, mesh=Mesh._of(handle))

@@ -188,7 +188,7 @@ def plot_history(report: Any, *, ax: Any = None) -> Any:
     """Plots bad triangles and energy against sweeps, from an ``OptimizeReport``. Returns the axes."""
     from matplotlib import pyplot
 
-    from ._optimize import OptimizeReport
+    from ._reports import OptimizeReport
 
     history = expect("report", report, OptimizeReport).history
     _expect_axes(ax)

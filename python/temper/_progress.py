@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 import sys
 import time
 from typing import Any
 
-from ._options import ObjectiveName
-from ._records import Record
+from ._reports import Progress
 
 _INTERVAL = 0.1  # seconds; nobody can read faster
 # The phase that lowers an objective, and what its energy is. At the change of the phase the number jumps.
@@ -17,48 +15,6 @@ _PHASES = {
     "accuracy": ("accuracy phase", "accuracy energy"),
     "solver_error": ("solver phase", "error"),
 }
-
-
-@dataclasses.dataclass(frozen=True)
-class SweepRecord(Record):
-    """One sweep over all vertices."""
-
-    sweep: int
-    """Number of the sweep; 0 is the input."""
-    energy: float
-    """Total energy at the end of the sweep, at its γ; for the objective ``accuracy`` see
-    docs/explanation/accuracy.md."""
-    bad: int
-    """Number of triangles or tetrahedra that are not well-centered."""
-    flips: int
-    """Number of edge flips in this sweep."""
-    length_parameter: float
-    """Value of γ or −h° in this sweep (relative to ℓ by default)."""
-    seconds: float
-    """Time since the start of the optimization [s]."""
-    objective: ObjectiveName = "energy"
-    """Objective that the sweep lowered."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Progress(Record):
-    """Progress of a run. Observers get it at least once per sweep, and more often on large meshes."""
-
-    last: SweepRecord
-    """Last whole sweep."""
-    fraction: float
-    """Fraction of the current sweep, in [0, 1)."""
-    max_sweeps: int
-    sweeps_left: float | None = None
-    """Estimate of the sweeps after the last one, while the energy converges; None in the first sweeps of a stage."""
-    n_vertices: int | None = None
-    """Number of vertices, while the run searches for a mesh with fewer."""
-    share_of_phase: float | None = None
-    """Estimate of the share of the present phase that is done, in [0, 1]; None without an estimate. Each objective of
-    ``last`` is a phase, and its energy has another meaning than in the phase before."""
-    phase: str = ""
-    """Phase of the mesher before an optimization, such as "placing points"; ``fraction`` is then the share of the phase
-    that is done, as far as it is known. Empty in an optimization."""
 
 
 def _duration(seconds: float) -> str:

@@ -71,8 +71,20 @@ def same(a: Any, b: Any) -> bool:
     return bool(a == b)
 
 
+CLASSES: dict[str, type[Record]] = {}
+"""Classes of records by the names of their tables."""
+
+
+def made(name: str, fields: dict[str, Any]) -> Record:
+    """The report whose fields the compiled half has read by their table."""
+    return CLASSES[name](**fields)
+
+
 class Record:
     """Base of the reports: text for ``print``, a table in notebooks, plain values from ``as_dict``."""
+
+    def __init_subclass__(cls) -> None:
+        CLASSES[cls.__name__] = cls
 
     def __eq__(self, other: object) -> bool:
         """Says whether all values are equal; NaN is equal to itself."""

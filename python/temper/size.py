@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import Any
 
 import numpy as np
@@ -10,42 +9,11 @@ import numpy.typing as npt
 
 from . import _temper
 from ._mesh import Mesh, MeshLike, _doubles, as_mesh
-from ._records import Record, expect
+from ._records import expect
+from ._reports import SizeReport, Spread
 
 __all__ = ["SizeReport", "Spread", "input_size_field", "local_size", "measure_size", "relative_lengths",
            "sizes_from_depths"]
-
-
-@dataclasses.dataclass(frozen=True)
-class Spread(Record):
-    """The distribution of many numbers: percentiles by nearest rank. All are 0 if there are no numbers."""
-
-    min: float
-    p05: float
-    median: float
-    p95: float
-    max: float
-
-
-@dataclasses.dataclass(frozen=True)
-class SizeReport(Record):
-    """The comparison of a mesh with a size field. No number depends on the unit of length."""
-
-    over_field: Spread
-    """Local size over field at the vertices: the band that holds the sizes."""
-    gradation: Spread
-    """Ratio of the greater to the smaller local size at the two ends of each edge."""
-    largest_edge_ratio: float
-    """Largest ratio of the longest to the shortest edge of a triangle."""
-    outside: int
-    """Number of vertices outside the field's mesh; there the field is extended."""
-    band: float
-    """B of the smallest band [1/B, B] that holds all ratios of size to field."""
-
-
-def _size_report(d: dict[str, Any]) -> SizeReport:
-    over, gradation = Spread(**d["over_field"]), Spread(**d["gradation"])
-    return SizeReport(over, gradation, d["largest_edge_ratio"], d["outside"], d["band"])
 
 
 class SizeField:
@@ -153,4 +121,4 @@ def relative_lengths(mesh: MeshLike) -> npt.NDArray[np.float64]:
 
 def measure_size(mesh: MeshLike, field: SizeField) -> SizeReport:
     """Compares the local sizes of a mesh with a field."""
-    return _size_report(_temper.measure_size(as_mesh(mesh)._handle, expect("field", field, SizeField)._handle))
+    return _temper.measure_size(as_mesh(mesh)._handle, expect("field", field, SizeField)._handle)

@@ -4,14 +4,14 @@ in notebooks.
 Submodules have such classes of their own, for example ``temper.topology``.
 """
 
-from ._dec import Columns, DecComplex, DecEdges, DecSummary, IncidenceMatrix, PowerCells, TetDecComplex, TetDecEdges, TetDecFaces, TetDecSummary
+from ._dec import Columns, DecComplex, DecEdges, IncidenceMatrix, PowerCells, TetDecComplex, TetDecEdges, TetDecFaces
 from ._draw import Html, Svg
 from ._explain import CrossingConflict, CrossingSide, Cure, Explanation, FaceHeight, FanCenter, Reason, TetExplanation, TetReason
 from ._io import Format
-from ._measure import Histogram, Quality, QualityMeasure, TetQuality, TetrahedronQuality, TriangleQuality, WorstTet, WorstTriangle
-from ._optimize import DataReport, OptimizeReport, Replay, SizeChange, Snapshot, TraceEvent
+from ._measure import QualityMeasure, TetrahedronQuality, TriangleQuality
+from ._optimize import Replay, Snapshot
 from ._outline import OutlineFile, OutlineMesh
-from ._progress import Progress, SweepRecord
+from ._reports import DataReport, DecSummary, Histogram, Histograms, OptimizeReport, Progress, Quality, SizeChange, SweepRecord, TetDataReport, TetDecSummary, TetHistograms, TetQuality, TraceEvent, WorstTet, WorstTriangle
 from ._measure_errors import ErrorNorms, FieldErrors, OperatorErrors, ErrorField, FieldFrame, ErrorLevel, ErrorReport, ErrorSystem, DiffusionErrors, DiffusionProblem, TetErrorReport
 from ._weights import (
     BestMargin,

@@ -220,9 +220,9 @@ WorstList<TriangleId> measure(Quality& q, const Mesh& mesh, const IdVector<Trian
   q.edges = sums.edges;
   q.boundary_edges = sums.boundary_edges;
   q.regions = count_regions(mesh, mesh.triangles());
-  q.angles = sums.angles;
-  q.h_over_l = sums.h_over_l;
-  q.d_over_l = sums.d_over_l;
+  q.histograms.angles = sums.angles;
+  q.histograms.h_over_l = sums.h_over_l;
+  q.histograms.d_over_l = sums.d_over_l;
   if (q.triangles == 0) return sums.worst;
 
   q.inverted_triangles = sums.inverted_triangles;

@@ -176,7 +176,7 @@ SizeReport measure_size(const Mesh& mesh, const SizeField& field, Executor* exec
   report.gradation = gradation(mesh, sizes, executor);
   // In place: a second array would raise the memory of a run, whose maximum is here.
   std::vector<double> ratios = std::move(sizes);
-  report.outside = static_cast<std::size_t>(blockwise_sum(ratios.size(), executor, [&](std::size_t i) {
+  report.vertices_outside_field = static_cast<std::size_t>(blockwise_sum(ratios.size(), executor, [&](std::size_t i) {
     const VertexId v = walk[i];
     const SizeField::Sample s = field.at(mesh.point(v), start_for(v, mesh, field.mesh(), near));
     ratios[v.index] /= s.size;

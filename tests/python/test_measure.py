@@ -34,7 +34,7 @@ def test_counts_agree_with_the_predicates(mesh):
     good = geometry.is_well_centered(*corners.transpose(1, 0, 2))
     assert np.array_equal(good, temper.triangle_quality(mesh).well_centered)
     assert q.well_centered_fraction == pytest.approx(good.mean()) and q.triangles == mesh.n_triangles
-    assert q.angles.counts.sum() == 3 * q.triangles and len(q.angles.edges) == len(q.angles.counts) + 1
+    assert q.histograms.angles.counts.sum() == 3 * q.triangles and len(q.histograms.angles.edges) == len(q.histograms.angles.counts) + 1
 
 
 @pytest.mark.parametrize("mesh", [temper.generate.annulus(), temper.generate.random_sphere(vertices=100)])

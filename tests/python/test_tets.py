@@ -77,7 +77,7 @@ def test_the_report_has_the_laws_of_the_mesh(shaken):
     assert q.volume == pytest.approx(27) and q.volume == pytest.approx(each.sum())
     assert (q.min_volume, q.max_volume) == (pytest.approx(each.min()), pytest.approx(each.max()))
     assert q.vertices + q.faces == q.edges + q.tetrahedra + 1  # Euler
-    assert q.regions == 2 and q.inner_vertices == 8 and q.dihedrals.counts.sum() == 6 * q.tetrahedra
+    assert q.regions == 2 and q.inner_vertices == 8 and q.histograms.dihedrals.counts.sum() == 6 * q.tetrahedra
     assert len(q.worst) == 3 and q.worst[0].h_over_l == q.min_h_over_l and "face " in q.worst[0].why
     worst = shaken.tetrahedra[q.worst[0].tetrahedron]
     assert q.worst[0].vertices == tuple(worst) and q.worst[0].at == pytest.approx(shaken.points[worst].mean(axis=0))

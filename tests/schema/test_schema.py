@@ -34,8 +34,8 @@ def other_documents(temper, folder):
         ("errors", said("errors", "square.vtu", "--refine", "1", "--against", "square.vtu")),
         ("errors_tetrahedra", said("errors", "tet.mesh", "--against", "tet.mesh")),
         ("problem", said("errors", "square.vtu", "--dirichlet", "1=0", "--source", "1", "--against", "square.vtu")),
-        ("operators", said("operators", "square.vtu", "-o", "dual", "--format", "npz")),
-        ("operators_tetrahedra", said("operators", "tet.mesh", "-o", "dual", "--format", "npz")),
+        ("Operators", said("operators", "square.vtu", "-o", "dual", "--format", "npz")),
+        ("TetOperators", said("operators", "tet.mesh", "-o", "dual", "--format", "npz")),
     ]  # fmt: skip
 
 

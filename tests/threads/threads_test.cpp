@@ -113,7 +113,7 @@ constexpr Row kRows[] = {
     {"quality",
      [](const Meshes& m, Executor* e) {
        const Quality q = quality(m.mesh, {.executor = e});
-       return bytes_of(q.min_h_over_l) + bytes_of(q.min_d_over_l) + bytes_of(q.angles.counts);
+       return bytes_of(q.min_h_over_l) + bytes_of(q.min_d_over_l) + bytes_of(q.histograms.angles.counts);
      }},
     {"size",
      [](const Meshes& m, Executor* e) {

@@ -58,7 +58,7 @@ export function optionsSource(table, presets) {
     return `  /** ${row.sentence}${range}${absent}. Default: ${JSON.stringify(row.default)}. */\n  ${row.name}?: ${row.type};`;
   });
   return `// Written by build.mjs --options from the tables in the library. Do not edit.
-import type { LengthParameterLike } from './records.ts';
+import type { LengthParameterLike } from './types.ts';
 
 ${wordsSource('TargetName', 'Use of the mesh', presets.target)}
 ${wordsSource('EffortName', 'Time that the run may take', presets.effort)}

@@ -24,7 +24,7 @@ TEMPER_EXPORT(mesh_quality) int mesh_quality(const HeldMesh* held, const char* o
     if (given.contains("gamma")) how.gamma = length_parameter_from("gamma", given["gamma"]);
     if (given.contains("h0")) how.h0 = length_parameter_from("h0", given["h0"]);
     take(given, "worst", how.worst);
-    answer(to_json(quality(held->mesh, how)));
+    answer(json_of(quality(held->mesh, how)));
   });
 }
 
@@ -149,26 +149,7 @@ TEMPER_EXPORT(dec_array) int dec_array(const DecComplex* complex, const char* na
   });
 }
 TEMPER_EXPORT(dec_summary) int dec_summary(const HeldMesh* held, const DecComplex* complex) {
-  return done([&] {
-    const DecSummary s = summarize(held->mesh, *complex);
-    answer(Json{{"vertices", s.vertices},
-                {"edges", s.edges},
-                {"triangles", s.triangles},
-                {"boundary_edges", s.boundary_edges},
-                {"negative_star0", s.negative_star0},
-                {"negative_star1", s.negative_star1},
-                {"zero_star1", s.zero_star1},
-                {"negative_boundary_star1", s.negative_boundary_star1},
-                {"not_well_centered", s.not_well_centered},
-                {"area", number(s.area)},
-                {"star0_sum", number(s.star0_sum)},
-                {"min_star0", number(s.min_star0)},
-                {"min_star1", number(s.min_star1)},
-                {"median_star1", number(s.median_star1)},
-                {"max_star1", number(s.max_star1)},
-                {"median_transmissibility", number(s.median_transmissibility)},
-                {"max_transmissibility", number(s.max_transmissibility)}});
-  });
+  return done([&] { answer(json_of(summarize(held->mesh, *complex))); });
 }
 
 // --- pictures

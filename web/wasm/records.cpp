@@ -133,30 +133,34 @@ void set_option(OptimizeOptions& options, const std::string& key, const Json& va
 
 // --- reports --------------------------------------------------------------------------------------------------------
 
-Json to_json(const Histogram& h) { return {{"low", h.low}, {"high", h.high}, {"counts", h.counts}}; }
-
-Json to_json(const Spread& s) {
-  return {{"min", number(s.min)},
-          {"p05", number(s.p05)},
-          {"median", number(s.median)},
-          {"p95", number(s.p95)},
-          {"max", number(s.max)}};
-}
-
-Json to_json(const SizeReport& r) {
-  return {{"over_field", to_json(r.over_field)},
-          {"gradation", to_json(r.gradation)},
-          {"largest_edge_ratio", number(r.largest_edge_ratio)},
-          {"outside", r.outside},
-          {"band", number(r.band())}};
-}
-
-template <class Ids>
-Json list(const Ids& ids) {
-  Json json = Json::array();
-  for (const auto id : ids) json.push_back(number(id));
-  return json;
-}
+/// Makes JSON of each kind of value.
+struct Maker {
+  Json operator()(std::monostate) const { return nullptr; }
+  Json operator()(bool value) const { return value; }
+  Json operator()(std::int64_t value) const { return value; }
+  Json operator()(double value) const { return number(value); }
+  Json operator()(VertexId v) const { return number(v); }
+  Json operator()(const std::string& text) const { return text; }
+  Json operator()(const NumberedText& text) const { return text.text; }
+  Json operator()(const TextWithOptions& text) const { return spelled(text.text); }
+  Json operator()(const ReportView& report) const { return json_of(report); }
+  Json operator()(const FieldList& values) const {
+    Json json = Json::array();
+    for (const FieldValue& value : values.items) json.push_back(std::visit(*this, value.is));
+    return json;
+  }
+  template <class T>
+  Json operator()(std::span<const T> values) const {
+    Json json = Json::array();
+    for (const T& value : values) {
+      if constexpr (std::is_same_v<T, std::size_t>)
+        json.push_back(value);
+      else
+        json.push_back(number(value));
+    }
+    return json;
+  }
+};
 
 VertexId vertex(const Json& given) {
   const auto v = given.get<std::int64_t>();
@@ -233,78 +237,20 @@ InputError spelled(InputError error) {
   return error;
 }
 
-Json to_json(const Quality& q) {
-  Json json;
-  for (const QualityMeasure& m : quality_measures()) {
-    json[std::string(m.key)] = m.count ? Json(static_cast<std::size_t>(m.of(q))) : number(m.of(q));
-  }
-  for (std::size_t row = 0; row < energies().size(); ++row) {
-    Json& stars = json["energy"][std::string(energies()[row].name)] = Json::array();
-    for (const double value : q.energy[row]) stars.push_back(number(value));
-  }
-  json["worst"] = Json::array();
-  for (const WorstTriangle& w : q.worst) {
-    json["worst"].push_back({{"triangle", w.triangle.index},
-                             {"vertices", list(w.vertices)},
-                             {"at", {number(w.at.x), number(w.at.y)}},
-                             {"h_over_l", number(w.h_over_l)},
-                             {"angle_deg", number(w.angle_deg)},
-                             {"why", w.why}});
-  }
-  json["angles"] = to_json(q.angles);
-  json["h_over_l"] = to_json(q.h_over_l);
-  json["d_over_l"] = to_json(q.d_over_l);
-  return json;
-}
-
-Json to_json(const SweepRecord& r) {
-  return {{"sweep", r.sweep},
-          {"energy", number(r.energy)},
-          {"bad", r.bad},
-          {"flips", r.flips},
-          {"length_parameter", number(r.length_parameter)},
-          {"seconds", r.seconds},
-          {"objective", name(r.objective)}};
-}
-
-Json to_json(const OptimizeReport& r) {
-  Json json = {{"stopped", name(r.stopped)},
-               {"sweeps", r.sweeps},
-               {"flips", r.flips},
-               {"vertices_removed", r.vertices_removed},
-               {"vertices_inserted", r.vertices_inserted},
-               {"vertices", list(r.vertices)},
-               {"hidden", list(r.hidden)},
-               {"objective", name(r.objective)},
-               {"seconds", r.seconds},
-               {"objective_before", number(r.objective_before)},
-               {"objective_after", number(r.objective_after)},
-               {"size", {{"before", to_json(r.size.before)}, {"after", to_json(r.size.after)}}},
-               {"history", Json::array()},
-               {"notes", Json::array()}};
-  for (const SweepRecord& record : r.history) json["history"].push_back(to_json(record));
-  for (const std::string& note : r.notes) json["notes"].push_back(spelled(note));
-  return json;
-}
-
-Json to_json(const TraceEvent& e) {
-  Json json = {{"kind", name(e.kind)},       {"sweep", e.sweep},         {"vertex", number(e.vertex)},
-               {"before", number(e.before)}, {"after", number(e.after)}, {"point", {e.point.x, e.point.y, e.point.w}},
-               {"quad", list(e.quad)},       {"link", list(e.link)},     {"triangles", Json::array()},
-               {"to_sweep", e.to_sweep}};
-  for (const auto& t : e.triangles) json["triangles"].push_back(list(t));
+Json json_of(const ReportView& report) {
+  Json json = Json::object();
+  for (const ReportRow& row : report.table->rows)
+    json[std::string(row.key)] = std::visit(Maker(), row.of(report.report.get()).is);
   return json;
 }
 
 TraceEvent event_from(const Json& given) {
   TraceEvent e;
   const auto kind = given.at("kind").get<std::string>();
-  bool known = false;
-  for (int k = 0; k <= static_cast<int>(EventKind::undo) && !known; ++k) {
-    e.kind = static_cast<EventKind>(k);
-    known = name(e.kind) == kind;
-  }
-  if (!known) fail(ErrorCode::trace_mismatch, "there is no kind of event '" + kind + "'");
+  const std::span<const std::string_view> kinds = words_of(EventKind());
+  const auto known = std::find(kinds.begin(), kinds.end(), kind);
+  if (known == kinds.end()) fail(ErrorCode::trace_mismatch, "there is no kind of event '" + kind + "'");
+  e.kind = static_cast<EventKind>(known - kinds.begin());
   e.sweep = given.at("sweep").get<int>();
   e.vertex = vertex(given.at("vertex"));
   e.before = unmarked(given.at("before")).get<double>();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "answer.hpp"
+#include "temper/detail/report.hpp"
 #include "temper/detail/trace.hpp"
 #include "temper/energy.hpp"
 #include "temper/optimize.hpp"
@@ -20,10 +21,12 @@ namespace temper::wasm {
 [[nodiscard]] std::string spelled(std::string_view text);
 [[nodiscard]] InputError spelled(InputError error);
 
-[[nodiscard]] Json to_json(const Quality& quality);
-[[nodiscard]] Json to_json(const SweepRecord& record);
-[[nodiscard]] Json to_json(const OptimizeReport& report);
-[[nodiscard]] Json to_json(const TraceEvent& event);
+/// A report, by the rows of its table.
+[[nodiscard]] Json json_of(const ReportView& report);
+template <class Report>
+[[nodiscard]] Json json_of(const Report& report) {
+  return json_of(view_of(report));
+}
 [[nodiscard]] TraceEvent event_from(const Json& given);
 [[nodiscard]] Json to_json(const OptimizeOptions& options);
 /// The table of options with their default values.

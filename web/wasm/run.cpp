@@ -18,14 +18,7 @@ TEMPER_IMPORT(trace) void report_event(const char* event, std::size_t size);
 TEMPER_IMPORT(snapshot) void show_snapshot(const HeldMesh* mesh, int sweep);
 
 Continue tell(const Progress& progress) {
-  const auto& [last, fraction, max_sweeps, sweeps_left, n_vertices, share_of_phase, phase] = progress;
-  Json json = {{"last", to_json(last)},      {"fraction", fraction},  {"max_sweeps", max_sweeps},
-               {"sweeps_left", nullptr},     {"n_vertices", nullptr}, {"share_of_phase", nullptr},
-               {"phase", std::string(phase)}};
-  if (sweeps_left) json["sweeps_left"] = *sweeps_left;
-  if (n_vertices) json["n_vertices"] = *n_vertices;
-  if (share_of_phase) json["share_of_phase"] = *share_of_phase;
-  const std::string text = json.dump();
+  const std::string text = json_of(progress).dump();
   return report_progress(text.data(), text.size()) != 0 ? Continue::yes : Continue::no;
 }
 
@@ -49,7 +42,7 @@ int mesh_optimize(HeldMesh* held, const char* run, std::size_t size, int traced,
     hooks.solvers = solvers();
     if (traced != 0) {
       hooks.tracer = [](const TraceEvent& event) {
-        const std::string text = to_json(event).dump();
+        const std::string text = json_of(event).dump();
         report_event(text.data(), text.size());
       };
     }
@@ -64,7 +57,7 @@ int mesh_optimize(HeldMesh* held, const char* run, std::size_t size, int traced,
     const Expected<OptimizeReport> report = optimize(mesh, options, hooks);
     if (!report) throw BadInput{spelled(report.error())};
     held->replace(std::move(mesh), report->vertices);
-    answer(to_json(*report));
+    answer(json_of(*report));
   });
 }
 

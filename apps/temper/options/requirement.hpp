@@ -34,6 +34,7 @@ struct Outcome {
   double found = 0;
   bool met = false;
 };
+[[nodiscard]] const ReportTable& table_of(const Outcome*);
 
 /// Triangles that are not well-centered: the key `bad`, and the number of all reports.
 [[nodiscard]] std::size_t bad_elements(const Quality& quality);

@@ -1,19 +1,17 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstddef>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "console.hpp"
+#include "reports/json_of.hpp"
 #include "reports/reports.hpp"
 
 namespace temper::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct CellCounts {
   std::size_t empty = 0;    ///< outside of the domain
@@ -34,6 +32,7 @@ CellCounts count(const PowerCells& cells) {
 }
 
 struct ColumnCounts {
+  std::size_t cells = 0, layers = 0;
   std::size_t active = 0, pinched_out = 0, inactive = 0;
   std::size_t beside = 0, below = 0;  ///< connections
   std::vector<double> volumes;        ///< of layers
@@ -41,6 +40,8 @@ struct ColumnCounts {
 
 ColumnCounts count(const Columns& columns) {
   ColumnCounts counts;
+  counts.cells = columns.n_cells();
+  counts.layers = columns.n_layers;
   counts.volumes.resize(columns.n_layers, 0.0);
   for (std::size_t cell = 0; cell < columns.n_cells(); ++cell) {
     const CellState state = columns.states[cell];
@@ -53,84 +54,55 @@ ColumnCounts count(const Columns& columns) {
   return counts;
 }
 
-double over_median(double largest, double median) { return largest > median && median > 0 ? largest / median : 1; }
-
-/// A number of the report: its key in JSON, and its label in the text, empty if it is not there.
-struct Row {
-  const char* key;
-  const char* label;
-  std::variant<std::size_t, double> value;
-};
-
-/// Sizes of coefficients, of triangles or tetrahedra.
-template <class Summary>
-void add_coefficients(std::vector<Row>& rows, const Summary& s) {
-  rows.insert(rows.end(), {{"median_star1", "median |star1|", s.median_star1},
-                           {"max_star1", "largest |star1|", s.max_star1},
-                           {"max_star1_over_median", "  over the median", over_median(s.max_star1, s.median_star1)},
-                           {"median_transmissibility", "", s.median_transmissibility},
-                           {"max_transmissibility", "largest |transmissibility|", s.max_transmissibility},
-                           {"max_transmissibility_over_median", "  over the median",
-                            over_median(s.max_transmissibility, s.median_transmissibility)}});
+const ReportTable& table_of(const ColumnCounts*) {
+  using C = ColumnCounts;
+  static const ReportTable table = report_table<C>(
+      "ColumnCounts", "Cells of the columns of --layers.",
+      {{"cells", "Number of cells", "", &C::cells, ShownIn::libraries, "cells in layers"},
+       {"layers", "Number of layers", "", &C::layers},
+       {"active", "Number of active cells", "", &C::active, ShownIn::everywhere, "  active"},
+       {"pinched_out", "Number of cells without height", "", &C::pinched_out, ShownIn::everywhere, "  pinched out"},
+       {"inactive", "Number of inactive cells", "", &C::inactive, ShownIn::everywhere, "  inactive"},
+       {"horizontal_connections", "Number of connections between columns", "", &C::beside, ShownIn::everywhere,
+        "connections, horizontal"},
+       {"vertical_connections", "Number of connections within columns", "", &C::below, ShownIn::everywhere,
+        "connections, vertical"},
+       {"volumes", "Volume of each layer", "length³", &C::volumes}});
+  return table;
 }
 
-std::vector<Row> rows_of(const DecRecord& record) {
-  const DecSummary& s = record.summary;
-  const CellCounts cells = count(record.cells);
-  std::vector<Row> rows = {{"vertices", "vertices", s.vertices},
-                           {"edges", "edges", s.edges},
-                           {"boundary_edges", "  on the boundary", s.boundary_edges},
-                           {"triangles", "triangles", s.triangles},
-                           {"not_well_centered", "  not well-centered", s.not_well_centered},
-                           {"area", "area of the domain", s.area},
-                           {"star0_sum", "sum of star0", s.star0_sum},
-                           {"cell_area_sum", "sum of the power cells' areas", cells.area},
-                           {"negative_star0", "negative star0", s.negative_star0},
-                           {"negative_star1", "negative star1, interior edges", s.negative_star1},
-                           {"negative_boundary_star1", "negative star1, boundary edges", s.negative_boundary_star1},
-                           {"zero_star1", "zero star1, interior edges", s.zero_star1},
-                           {"min_star0", "least star0", s.min_star0},
-                           {"min_star1", "least star1", s.min_star1}};
-  add_coefficients(rows, s);
-  rows.insert(rows.end(), {{"cell_polygons", "polygons of power cells", record.cells.n_polygons()},
-                           {"divided_cells", "  cells of several", cells.divided},
-                           {"empty_cells", "  cells outside of the domain", cells.empty}});
-  return rows;
+std::optional<ColumnCounts> columns_of(const DecRecord& record) {
+  return record.columns == nullptr ? std::nullopt : std::optional(count(*record.columns));
 }
 
-std::vector<Row> rows_of(const TetDecRecord& record) {
-  const tets::DecSummary& s = record.summary;
-  std::vector<Row> rows = {{"vertices", "vertices", s.vertices},
-                           {"edges", "edges", s.edges},
-                           {"faces", "faces", s.faces},
-                           {"boundary_faces", "  on the boundary", s.boundary_faces},
-                           {"tetrahedra", "tetrahedra", s.tetrahedra},
-                           {"not_well_centered", "  not well-centered", s.not_well_centered},
-                           {"volume", "volume of the domain", s.volume},
-                           {"star0_sum", "sum of star0", s.star0_sum},
-                           {"negative_star0", "negative star0", s.negative_star0},
-                           {"negative_star1", "negative star1", s.negative_star1},
-                           {"negative_star2", "negative star2, interior faces", s.negative_star2},
-                           {"negative_boundary_star2", "negative star2, boundary faces", s.negative_boundary_star2},
-                           {"zero_star2", "zero star2, interior faces", s.zero_star2},
-                           {"min_star0", "least star0", s.min_star0},
-                           {"min_star1", "least star1", s.min_star1},
-                           {"min_star2", "least star2", s.min_star2}};
-  add_coefficients(rows, s);
-  return rows;
+/// The record of a verb: what it has on the operators, between the version of the schema and the written files.
+template <class Record>
+ReportTable operators_table(std::string_view name, std::string_view sentence,
+                            const std::vector<Field<Record>>& after_sum, const std::vector<Field<Record>>& last) {
+  ReportTable table = {name, sentence, {Field<Record>("schema", "", "", [](const Record&) { return kSchema; })}};
+  const auto summary = [](const Record& record) -> const auto& { return record.summary; };
+  for (const ReportRow& row : rows_of_part<Record>(summary)) {
+    table.rows.push_back(row);
+    if (row.key == "star0_sum") table.rows.insert(table.rows.end(), after_sum.begin(), after_sum.end());
+  }
+  table.rows.insert(table.rows.end(), last.begin(), last.end());
+  table.rows.push_back(Field<Record>("files", "Files that were written", "", &Record::files));
+  return table;
 }
 
 std::string line(const std::string& label, const std::string& value) {
   constexpr std::size_t kNameColumns = 34, kValueColumns = 16;
   return pad_right(label, kNameColumns) + pad_left(value, kValueColumns) + "\n";
 }
-std::string line(const std::string& label, std::size_t value) { return line(label, fmt::format("{}", value)); }
-std::string line(const std::string& label, double value) { return line(label, fmt::format("{:.9g}", value)); }
-
-std::string text_of(const std::vector<Row>& rows) {
+/// A line per row with a label.
+std::string text_of(const ReportView& report) {
   std::string text;
-  for (const Row& row : rows) {
-    if (*row.label != '\0') std::visit([&](auto value) { text += line(row.label, value); }, row.value);
+  for (const ReportRow& row : report.table->rows) {
+    if (row.label.empty()) continue;
+    const FieldValue value = row.of(report.report.get());
+    const auto* number = std::get_if<double>(&value.is);
+    text += line(std::string(row.label), number != nullptr ? fmt::format("{:.9g}", *number)
+                                                           : fmt::format("{}", std::get<std::int64_t>(value.is)));
   }
   return text;
 }
@@ -141,64 +113,48 @@ std::string text_of(const std::vector<std::string>& files) {
   return text;
 }
 
-Json json_of(const std::vector<Row>& rows) {
-  Json json;
-  json["schema"] = kSchema;
-  for (const Row& row : rows) {
-    if (const double* const number = std::get_if<double>(&row.value))
-      json[row.key] = std::isfinite(*number) ? Json(*number) : Json(nullptr);
-    else
-      json[row.key] = std::get<std::size_t>(row.value);
-  }
-  return json;
-}
-
-std::string dec_dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
-std::string columns_text(const Columns& columns) {
-  const ColumnCounts c = count(columns);
-  std::string text = line("cells in layers", columns.n_cells()) + line("  active", c.active) +
-                     line("  pinched out", c.pinched_out) + line("  inactive", c.inactive);
-  text += line("connections, horizontal", c.beside) + line("connections, vertical", c.below);
-  for (std::size_t i = 0; i < c.volumes.size(); ++i)
-    text += line(fmt::format("volume of layer {}", i + 1), c.volumes[i]);
+std::string columns_text(const ColumnCounts& columns) {
+  std::string text = text_of(view_of(columns));
+  for (std::size_t i = 0; i < columns.volumes.size(); ++i)
+    text += line(fmt::format("volume of layer {}", i + 1), fmt::format("{:.9g}", columns.volumes[i]));
   return text;
-}
-
-Json columns_json(const Columns& columns) {
-  const ColumnCounts c = count(columns);
-  Json json;
-  json["layers"] = columns.n_layers;
-  json["active"] = c.active;
-  json["pinched_out"] = c.pinched_out;
-  json["inactive"] = c.inactive;
-  json["horizontal_connections"] = c.beside;
-  json["vertical_connections"] = c.below;
-  json["volumes"] = c.volumes;
-  return json;
 }
 
 }  // namespace
 
+const ReportTable& table_of(const DecRecord*) {
+  using R = DecRecord;
+  constexpr ShownIn kEverywhere = ShownIn::everywhere;
+  static const ReportTable table = operators_table<R>(
+      "Operators", "temper operators IN -o FOLDER --json",
+      {{"cell_area_sum", "Sum of the power cells' areas", "length²", [](const R& r) { return count(r.cells).area; },
+        kEverywhere, "sum of the power cells' areas"}},
+      {{"cell_polygons", "Number of polygons of power cells", "", [](const R& r) { return r.cells.n_polygons(); },
+        kEverywhere, "polygons of power cells"},
+       {"divided_cells", "Number of cells with several polygons", "", [](const R& r) { return count(r.cells).divided; },
+        kEverywhere, "  cells of several"},
+       {"empty_cells", "Number of cells outside of the domain", "", [](const R& r) { return count(r.cells).empty; },
+        kEverywhere, "  cells outside of the domain"},
+       {"columns", "With --layers", "", columns_of, ShownIn::if_any}});
+  return table;
+}
+
+const ReportTable& table_of(const TetDecRecord*) {
+  static const ReportTable table =
+      operators_table<TetDecRecord>("TetOperators", "temper operators IN -o FOLDER --json, of tetrahedra", {}, {});
+  return table;
+}
+
 std::string dec_text(const DecRecord& record) {
-  return text_of(rows_of(record)) + (record.columns != nullptr ? columns_text(*record.columns) : "") +
-         text_of(record.files);
+  const std::optional<ColumnCounts> columns = columns_of(record);
+  return text_of(view_of(record)) + (columns ? columns_text(*columns) : "") + text_of(record.files);
 }
 
-std::string dec_json(const DecRecord& record) {
-  Json json = json_of(rows_of(record));
-  if (record.columns != nullptr) json["columns"] = columns_json(*record.columns);
-  json["files"] = record.files;
-  return dec_dump(json);
-}
+std::string dec_json(const DecRecord& record) { return dump(json_of(record)); }
 
-std::string dec_text(const TetDecRecord& record) { return text_of(rows_of(record)) + text_of(record.files); }
+std::string dec_text(const TetDecRecord& record) { return text_of(view_of(record)) + text_of(record.files); }
 
-std::string dec_json(const TetDecRecord& record) {
-  Json json = json_of(rows_of(record));
-  json["files"] = record.files;
-  return dec_dump(json);
-}
+std::string dec_json(const TetDecRecord& record) { return dump(json_of(record)); }
 
 std::vector<std::string> dec_warnings(const DecRecord& record) {
   const DecSummary& s = record.summary;

@@ -4,16 +4,14 @@
 
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 
 #include "console.hpp"
 #include "exit.hpp"
+#include "reports/json_of.hpp"
 #include "temper/dec.hpp"
 
 namespace temper::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMeasureColumns = 34;
 constexpr std::size_t kColumns = 12;
@@ -215,7 +213,7 @@ std::string problem_json(const ProblemRecord& record) {
   json["problem"] = problem_report_json(record.errors);
   if (record.reference)
     json["against"] = {{"mesh", record.against}, {"problem", problem_report_json(*record.reference)}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return dump(json);
 }
 
 namespace {
@@ -323,7 +321,7 @@ std::string record_json(const Record& record) {
                        {"report", error_report_json(record.against->report)},
                        {"ratios", fields_json(record.against->ratios, Shown::ratios)}};
   }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return dump(json);
 }
 
 }  // namespace

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "console.hpp"
 #include "files/input.hpp"
+#include "reports/json_of.hpp"
 #include "reports/reports.hpp"
 #include "temper/detail/certificate_io.hpp"
 #include "temper/detail/geometry.hpp"
 
 namespace temper::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kIndent = 4;
 
@@ -288,7 +286,7 @@ std::string explanation_json(const Explanation& e, const Input& input) {
   json["weights_changed"] = e.verdict == Feasibility::feasible ? Json(e.changed) : Json(nullptr);
   json["reasons"] = Json::array();
   for (const Reason& reason : e.reasons) json["reasons"].push_back(writer.reason(reason));
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return dump(json);
 }
 
 }  // namespace temper::app

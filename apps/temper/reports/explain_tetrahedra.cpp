@@ -1,15 +1,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "console.hpp"
+#include "reports/json_of.hpp"
 #include "reports/reports.hpp"
 
 namespace temper::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kTetIndent = 4;
 
@@ -125,7 +123,7 @@ std::string explanation_json(const tets::Explanation& e, const TetInput& input) 
   json["all_on_boundary"] = e.all_on_boundary;
   json["reasons"] = Json::array();
   for (const tets::Reason& reason : e.reasons) json["reasons"].push_back(to_json(input, reason));
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return dump(json);
 }
 
 }  // namespace temper::app

@@ -1,6 +1,6 @@
-#include <nlohmann/json.hpp>
 
 #include "exit.hpp"
+#include "reports/json_of.hpp"
 #include "reports/quality_report.hpp"
 #include "temper/detail/html.hpp"
 #include "temper/detail/lp.hpp"
@@ -9,8 +9,6 @@
 
 namespace temper::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // To explain a bad triangle takes a millisecond, to search for its cures some ten: all together about a second.
 constexpr std::size_t kMostExplained = 500;

@@ -1,16 +1,13 @@
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "console.hpp"
+#include "reports/json_of.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
 #include "temper/detail/version.hpp"
 
 namespace temper::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string_view name(ProjectionKind kind) {
   switch (kind) {
@@ -104,7 +101,7 @@ std::string mesh_json(const MeshRecord& r) {
   json["stopped"] = temper::name(r.made.report.stopped);
   json["notes"] = r.made.notes;
   json["mesh"] = Json::parse(quality_json(r.quality, {}));
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return dump(json);
 }
 
 }  // namespace temper::app

@@ -321,9 +321,9 @@ std::string quality_text(const Quality& quality, const Input& input, const TextS
   std::string text = fmt::format("{}: {}\n\n", input.path, verdict(quality));
   text += measures_text(quality_measures(), quality);
   text += "\n" + energy_table(quality, style);
-  text += "\n" + histograms({histogram_panel("angles (degrees)", quality.angles, style),
-                             histogram_panel("h/" + ell(style), quality.h_over_l, style),
-                             histogram_panel("d/" + ell(style), quality.d_over_l, style)},
+  text += "\n" + histograms({histogram_panel("angles (degrees)", quality.histograms.angles, style),
+                             histogram_panel("h/" + ell(style), quality.histograms.h_over_l, style),
+                             histogram_panel("d/" + ell(style), quality.histograms.d_over_l, style)},
                             style);
   return text + worst_text(quality, input, style);
 }
@@ -331,8 +331,8 @@ std::string quality_text(const Quality& quality, const Input& input, const TextS
 std::string quality_text(const tets::Quality& quality, const TetInput& input, const TextStyle& style) {
   std::string text = fmt::format("{}: {}\n\n", input.path, verdict(quality));
   text += measures_text(tets::quality_measures(), quality);
-  text += "\n" + histograms({histogram_panel("dihedrals (degrees)", quality.dihedrals, style),
-                             histogram_panel("h/" + ell(style), quality.h_over_l, style)},
+  text += "\n" + histograms({histogram_panel("dihedrals (degrees)", quality.histograms.dihedrals, style),
+                             histogram_panel("h/" + ell(style), quality.histograms.h_over_l, style)},
                             style);
   return text + worst_text(quality, input, style);
 }

@@ -27,6 +27,9 @@
 
 namespace temper::app {
 
+/// The tables of all reports as JSON, for `temper --help=reports`.
+[[nodiscard]] std::string report_tables_json();
+
 // The reports of `temper operators` on the operators it wrote: as text, as JSON, and as warnings.
 
 struct DecRecord {
@@ -36,6 +39,7 @@ struct DecRecord {
   const Columns* columns;  ///< null: without layers
   std::vector<std::string> files;
 };
+[[nodiscard]] const ReportTable& table_of(const DecRecord*);
 
 [[nodiscard]] std::string dec_text(const DecRecord& record);
 [[nodiscard]] std::string dec_json(const DecRecord& record);
@@ -45,6 +49,7 @@ struct TetDecRecord {
   const tets::DecSummary& summary;
   std::vector<std::string> files;
 };
+[[nodiscard]] const ReportTable& table_of(const TetDecRecord*);
 [[nodiscard]] std::string dec_text(const TetDecRecord& record);
 [[nodiscard]] std::string dec_json(const TetDecRecord& record);
 [[nodiscard]] std::vector<std::string> dec_warnings(const TetDecRecord& record);

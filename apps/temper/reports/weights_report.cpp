@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "console.hpp"
 #include "options/options.hpp"
+#include "reports/json_of.hpp"
 #include "reports/reports.hpp"
 #include "temper/detail/certificate_io.hpp"
 #include "temper/detail/geometry.hpp"
@@ -263,7 +263,7 @@ std::string weights_json(const WeightsRecord& r) {
   json["certificate"] = report.certificate.terms.empty()
                             ? Json(nullptr)
                             : Json::parse(io::certificate_to_json(report.certificate, r.points));
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return dump(json);
 }
 
 }  // namespace temper::app

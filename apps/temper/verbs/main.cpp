@@ -13,6 +13,7 @@
 #include "exit.hpp"
 #include "help/help.hpp"
 #include "options/ranks.hpp"
+#include "reports/reports.hpp"
 #include "system/system.hpp"
 #include "temper/detail/build_info.hpp"
 #include "temper/detail/suggest.hpp"
@@ -76,6 +77,10 @@ Exit run(const Arguments& words) {
     Arguments of_verb = words;
     of_verb.erase(of_verb.begin() + 1);
     return run_verb(words[1], of_verb);
+  }
+  if (first == "--help=reports") {  // for scripts/docs/records.py
+    print(report_tables_json());
+    return Exit::done;
   }
   if (print_other_help(words)) return Exit::done;
   const bool help = first == "--help" || first == "-h" || first == "help";

@@ -21,7 +21,7 @@ std::string duration(double seconds) {
 struct PhaseWords {
   const char *phase, *measure;
 };
-PhaseWords words_of(Objective objective) {
+PhaseWords phase_words(Objective objective) {
   switch (objective) {
     case Objective::energy:
       break;
@@ -44,7 +44,7 @@ void ProgressLine::show(const Progress& progress) {
 
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const double sweeps = progress.last.sweep + progress.fraction;
-  const auto [phase, measure] = words_of(progress.last.objective);
+  const auto [phase, measure] = phase_words(progress.last.objective);
   const std::string share =
       progress.share_of_phase ? fmt::format(" {:.0f} %", std::floor(100 * *progress.share_of_phase)) : std::string();
   std::string text = fmt::format("{}{}: sweep {}, {} {} bad, {} {:.6g}, {}", phase, share, progress.last.sweep,

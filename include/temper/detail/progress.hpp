@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace temper {
+
+struct ReportTable;
 
 /// The objective that a run lowers.
 enum class Objective {
@@ -17,6 +20,7 @@ enum class Objective {
 
 /// "energy", "accuracy", "solver_error".
 [[nodiscard]] std::string_view name(Objective objective);
+[[nodiscard]] std::span<const std::string_view> words_of(Objective);
 
 /// One sweep over all vertices, in the history of a run.
 struct SweepRecord {
@@ -28,6 +32,7 @@ struct SweepRecord {
   double seconds = 0;           ///< Time since the start of the optimization [s]
   Objective objective = Objective::energy;  ///< Objective that the sweep lowered; `energy` is its value
 };
+[[nodiscard]] const ReportTable& table_of(const SweepRecord*);
 
 /// Progress of a run. The observer gets it at least once per sweep, and more often on large meshes.
 struct Progress {
@@ -46,6 +51,7 @@ struct Progress {
   /// that is done, as far as it is known. Empty in an optimization.
   std::string_view phase = {};
 };
+[[nodiscard]] const ReportTable& table_of(const Progress*);
 
 /// The reason why a run ended.
 enum class Stopped {
@@ -59,6 +65,7 @@ enum class Stopped {
   hidden,       ///< Deferred flips hid a vertex against the policy: the mesh is the last or best regular one
 };
 [[nodiscard]] std::string_view name(Stopped stopped);
+[[nodiscard]] std::span<const std::string_view> words_of(Stopped);
 /// Says whether the time limit or the observer ended the run. With more time the run would have continued.
 [[nodiscard]] constexpr bool stopped_early(Stopped stopped) {
   return stopped == Stopped::time_limit || stopped == Stopped::canceled;

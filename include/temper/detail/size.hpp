@@ -19,6 +19,7 @@
 namespace temper {
 
 class Executor;
+struct ReportTable;
 
 /// The local size √(4/√3 A), with A the mean area of the triangles at v. Precondition: v is not isolated. O(degree).
 [[nodiscard]] double local_size(const Mesh& mesh, VertexId v);
@@ -97,6 +98,7 @@ struct RelativeLengths {
 struct Spread {
   double min = 0, p05 = 0, median = 0, p95 = 0, max = 0;
 };
+[[nodiscard]] const ReportTable& table_of(const Spread*);
 [[nodiscard]] Spread spread(std::vector<double> values);
 
 /// The comparison of a mesh with a size field. No number depends on the unit of length.
@@ -104,11 +106,12 @@ struct SizeReport {
   Spread over_field;              ///< Local size over field at the vertices: the band that holds the sizes
   Spread gradation;               ///< Ratio of the greater to the smaller local size at the two ends of each edge
   double largest_edge_ratio = 1;  ///< Largest ratio of the longest to the shortest edge of a triangle
-  std::size_t outside = 0;        ///< Number of vertices outside the field's mesh
+  std::size_t vertices_outside_field = 0;  ///< Number of vertices outside the field's mesh
 
   /// B of the smallest band [1/B, B] that holds all ratios of size to field.
   [[nodiscard]] double band() const;
 };
+[[nodiscard]] const ReportTable& table_of(const SizeReport*);
 /// Compares the sizes of a mesh with a field. `nearby`: for each vertex a vertex of the field's mesh from which the
 /// search begins. If it is empty and both meshes have the same number of vertices, it is the same number; else
 /// anywhere. It affects only the time. Preconditions: no erased triangles; the mesh and the field's mesh lie in the

@@ -17,6 +17,8 @@
 
 namespace temper {
 
+struct ReportTable;
+
 enum class EventKind {
   move,       ///< A vertex has a new position, and with joint steps a new weight
   weight,     ///< A vertex has a new weight
@@ -29,6 +31,7 @@ enum class EventKind {
   undo,  ///< With a vertex: a step was taken back, nothing changes; without: the mesh of an earlier sweep is restored
 };
 [[nodiscard]] std::string_view name(EventKind kind);
+[[nodiscard]] std::span<const std::string_view> words_of(EventKind);
 
 /// Vertices are numbered as in the input, also after removals. New vertices get the next numbers, in the order in which
 /// they came. The number of a removed vertex is not used again. (If sweeps are taken back, their new numbers are free
@@ -53,6 +56,7 @@ struct TraceEvent {
   int to_sweep = 0;  ///< Sweep at whose end the mesh was the same, for undo without a vertex; −1: the input as given
   friend bool operator==(const TraceEvent&, const TraceEvent&) = default;
 };
+[[nodiscard]] const ReportTable& table_of(const TraceEvent*);
 
 /// Function that receives each event, in the order of the events.
 using Tracer = std::function<void(const TraceEvent&)>;

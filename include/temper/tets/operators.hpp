@@ -101,6 +101,7 @@ struct DecSummary {
   /// Median and maximum of |transmissibility| over interior faces; the maximum is +∞ if a dual edge has length 0.
   double median_transmissibility = 0, max_transmissibility = 0;
 };
+[[nodiscard]] const ReportTable& table_of(const DecSummary*);
 [[nodiscard]] DecSummary summarize(const DecComplex& complex);
 
 }  // namespace temper::tets

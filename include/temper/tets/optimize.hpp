@@ -50,6 +50,7 @@ struct OptimizeReport {
   Origins origins;                   ///< Parts of the result in the input
   std::vector<SweepRecord> history;  ///< History of the sweeps; history[0] is the input
 };
+[[nodiscard]] const ReportTable& table_of(const OptimizeReport*);
 
 /// The energy of a tetrahedron that optimize() lowers, +∞ unless it is positive.
 [[nodiscard]] double tetrahedron_energy(const std::array<WeightedPoint, 4>& corners, double gamma);

@@ -27,6 +27,13 @@ struct WorstTet {
   double dihedral_deg = 0;  ///< Largest of its six dihedral angles
   std::string why;  ///< "orthocenter outside across face 3-9-12: h/ℓ = -0.2; dihedral angle of 138.3° at edge 3-9"
 };
+[[nodiscard]] const ReportTable& table_of(const WorstTet*);
+
+struct Histograms {
+  Histogram dihedrals;  ///< All dihedral angles [degrees]
+  Histogram h_over_l;   ///< h/ℓ of each tetrahedron and face
+};
+[[nodiscard]] const ReportTable& table_of(const Histograms*);
 
 /// The length ℓ of a face is the side of the equilateral triangle with its area, the length ℓ of an edge its own.
 /// Heights are relative to the face or edge below them, so they do not depend on the size of other elements.
@@ -49,9 +56,10 @@ struct Quality {
   /// between the orthocenters.
   double max_transmissibility_over_median = 0;
   double transmissibility_ratio = 0;
+  Histograms histograms;
   std::vector<WorstTet> worst;  ///< Worst tetrahedra, the worst first
-  Histogram dihedrals, h_over_l;
 };
+[[nodiscard]] const ReportTable& table_of(const Quality*);
 
 /// Quality of one tetrahedron, for cell data.
 struct TetrahedronQuality {

@@ -512,6 +512,7 @@ constexpr OptionGroup kGroups[] = {
 
 }  // namespace
 
+std::span<const std::string_view> words_of(Objective) { return kNames<Objective>; }
 std::string_view name(Objective objective) { return kNames<Objective>[static_cast<std::size_t>(objective)]; }
 
 std::span<const OptionGroup> option_groups() { return kGroups; }

@@ -87,8 +87,8 @@ class Notes {
       add("the input is outside of its size band: sizes are up to " + to_text(before.band()) +
           " times off the size field, and what is outside can only come nearer to it");
     }
-    if (before.outside > 0) {
-      add("the size field does not reach " + count_of(before.outside, "vertex", "vertices") +
+    if (before.vertices_outside_field > 0) {
+      add("the size field does not reach " + count_of(before.vertices_outside_field, "vertex", "vertices") +
           " of the input, where its nearest value was taken");
     }
   }

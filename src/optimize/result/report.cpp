@@ -107,11 +107,12 @@ bool lacks_flips(const MeshScore& input, const Settings& settings, const RunFact
 
 }  // namespace
 
-std::string_view name(Stopped stopped) {
-  constexpr std::string_view kNames[] = {"converged", "max_sweeps", "max_outer",   "time_limit",
-                                         "canceled",  "tangled",    "sweep_limit", "hidden"};
-  return kNames[static_cast<std::size_t>(stopped)];
+std::span<const std::string_view> words_of(Stopped) {
+  static constexpr std::string_view kNames[] = {"converged", "max_sweeps", "max_outer",   "time_limit",
+                                                "canceled",  "tangled",    "sweep_limit", "hidden"};
+  return kNames;
 }
+std::string_view name(Stopped stopped) { return words_of(stopped)[static_cast<std::size_t>(stopped)]; }
 
 InputMeasures::InputMeasures(InputMesh& input, const Settings& settings, std::optional<AccuracySizes>& sizes) {
   Executor* const executor = settings.executor();
@@ -213,7 +214,7 @@ void hand_over(InputMesh& input, Rivals rivals, bool returns_input, const RunEnd
     if (settings.hooks.viewer) settings.hooks.viewer(result.work.mesh);
     input.replace(std::move(result.work));
   }
-  report.hidden = hidden_vertices_of(input.whole(), settings);
+  report.hidden_vertices = hidden_vertices_of(input.whole(), settings);
   add_notes(input.whole(), settings, run.facts, ending, report);
   report.seconds = run.seconds();
 }

@@ -6,11 +6,12 @@
 
 namespace temper {
 
-std::string_view name(EventKind kind) {
-  constexpr std::string_view kNames[] = {"move",      "weight", "flip",   "collapse", "removal",
-                                         "insertion", "split",  "hidden", "undo"};
-  return kNames[static_cast<std::size_t>(kind)];
+std::span<const std::string_view> words_of(EventKind) {
+  static constexpr std::string_view kNames[] = {"move",      "weight", "flip",   "collapse", "removal",
+                                                "insertion", "split",  "hidden", "undo"};
+  return kNames;
 }
+std::string_view name(EventKind kind) { return words_of(kind)[static_cast<std::size_t>(kind)]; }
 
 void Recorder::record(TraceEvent e) const {
   if (!on()) return;

@@ -160,8 +160,8 @@ Quality quality(const TetMesh& mesh, const QualityOptions& options) {
   q.boundary_faces = sums.boundary_faces;
   q.edges = edges.n_edges();
   q.regions = count_regions(mesh, mesh.tetrahedra());
-  q.dihedrals = sums.dihedrals;
-  q.h_over_l = sums.h_over_l;
+  q.histograms.dihedrals = sums.dihedrals;
+  q.histograms.h_over_l = sums.h_over_l;
   if (q.tetrahedra == 0) return q;
 
   const auto fraction = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(q.tetrahedra); };

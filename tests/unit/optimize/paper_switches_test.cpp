@@ -464,7 +464,7 @@ TEST(Inversions, OfTheInputThatStayNameNoHiddenVertices) {
   const auto report = optimize(mesh, o);
   ASSERT_TRUE(report);
   EXPECT_EQ(report->stopped, Stopped::tangled);
-  EXPECT_TRUE(report->hidden.empty());
+  EXPECT_TRUE(report->hidden_vertices.empty());
 }
 
 TEST(FlipLimits, BeforeNeverFlips) {
@@ -539,7 +539,7 @@ TEST(PaperMethod, GivesAnInputBackRegularWhateverIsCutOrKeptHidden) {
         Mesh again = mesh;
         const Restoration restored = restore_regularity(again);
         EXPECT_EQ(restored.flips, 0u);
-        EXPECT_EQ(restored.hidden, report->hidden);
+        EXPECT_EQ(restored.hidden, report->hidden_vertices);
         EXPECT_EQ(says("`hidden=keep`"), !restored.stuck.empty());
         const auto replayed = replay_with_vertices(input, events);
         ASSERT_TRUE(replayed) << replayed.error().what();

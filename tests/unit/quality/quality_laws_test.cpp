@@ -81,9 +81,9 @@ void expect_same_shape(const Quality& a, const Quality& b) {
   expect_close(a.max_angle_deg, b.max_angle_deg);
   // A ratio of nearly canceled lengths: the shortest dual of these meshes is 1e-4 of an edge.
   EXPECT_NEAR(a.max_transmissibility_over_median / b.max_transmissibility_over_median, 1, 1e-9);
-  EXPECT_EQ(a.angles.counts, b.angles.counts);
-  EXPECT_EQ(a.h_over_l.counts, b.h_over_l.counts);
-  EXPECT_EQ(a.d_over_l.counts, b.d_over_l.counts);
+  EXPECT_EQ(a.histograms.angles.counts, b.histograms.angles.counts);
+  EXPECT_EQ(a.histograms.h_over_l.counts, b.histograms.h_over_l.counts);
+  EXPECT_EQ(a.histograms.d_over_l.counts, b.histograms.d_over_l.counts);
   ASSERT_EQ(a.worst.size(), b.worst.size());
   for (std::size_t i = 0; i < a.worst.size(); ++i) {
     expect_close(a.worst[i].h_over_l, b.worst[i].h_over_l);
@@ -316,11 +316,12 @@ TEST(QualityLaws, EulerAndTheHistogramsAddUp) {
   const Quality q = quality(bad_mesh());
   EXPECT_EQ(q.vertices + q.triangles, q.edges + 1) << "a disc";
   EXPECT_EQ(3 * q.triangles + q.boundary_edges, 2 * q.edges);
-  EXPECT_EQ(sum(q.angles), 3 * q.triangles);
-  EXPECT_EQ(sum(q.h_over_l), 3 * q.triangles);
-  EXPECT_EQ(sum(q.d_over_l), q.edges);
+  EXPECT_EQ(sum(q.histograms.angles), 3 * q.triangles);
+  EXPECT_EQ(sum(q.histograms.h_over_l), 3 * q.triangles);
+  EXPECT_EQ(sum(q.histograms.d_over_l), q.edges);
   const std::size_t negative_bins = 2;  // of d/ℓ: [−0.1, 0)
-  EXPECT_EQ(std::accumulate(q.d_over_l.counts.begin(), q.d_over_l.counts.begin() + negative_bins, std::size_t{0}),
+  EXPECT_EQ(std::accumulate(q.histograms.d_over_l.counts.begin(), q.histograms.d_over_l.counts.begin() + negative_bins,
+                            std::size_t{0}),
             q.edges_not_crossed);
 }
 
@@ -388,9 +389,9 @@ TEST(QualityLaws, ManyBlocksAddUpToTheWhole) {
   expect_close(q.min_d_over_l, min_d);
   expect_close(q.min_angle_deg, min_angle);
   expect_close(q.max_angle_deg, max_angle);
-  EXPECT_EQ(sum(q.angles), 3 * q.triangles);
-  EXPECT_EQ(sum(q.h_over_l), 3 * q.triangles);
-  EXPECT_EQ(sum(q.d_over_l), q.edges);
+  EXPECT_EQ(sum(q.histograms.angles), 3 * q.triangles);
+  EXPECT_EQ(sum(q.histograms.h_over_l), 3 * q.triangles);
+  EXPECT_EQ(sum(q.histograms.d_over_l), q.edges);
 }
 
 // Two threads, the blocks from the last to the first.
@@ -425,7 +426,7 @@ TEST(QualityLaws, ThreadsDoNotChangeABit) {
   }
   EXPECT_EQ(alone.max_transmissibility_over_median, together.max_transmissibility_over_median);
   EXPECT_EQ(alone.energy, together.energy);
-  EXPECT_EQ(alone.angles.counts, together.angles.counts);
+  EXPECT_EQ(alone.histograms.angles.counts, together.histograms.angles.counts);
   ASSERT_EQ(alone.worst.size(), together.worst.size());
   for (std::size_t i = 0; i < alone.worst.size(); ++i) EXPECT_EQ(alone.worst[i].why, together.worst[i].why);
 }

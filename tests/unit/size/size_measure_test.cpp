@@ -49,7 +49,7 @@ TEST(MeasureSize, IsOneForAMeshAndItsOwnField) {
   EXPECT_EQ(report.over_field.min, 1);
   EXPECT_EQ(report.over_field.max, 1);
   EXPECT_EQ(report.band(), 1);
-  EXPECT_EQ(report.outside, 0U);
+  EXPECT_EQ(report.vertices_outside_field, 0U);
   EXPECT_GE(report.gradation.min, 1);
   EXPECT_GT(report.largest_edge_ratio, 1);
 }
@@ -68,7 +68,7 @@ TEST(MeasureSize, CountsVerticesBeyondTheField) {
   const Mesh mesh = lattice({.n = 6, .jitter = 0});
   const Mesh part = lattice({.n = 3, .jitter = 0});  // shares the origin and the spacing
   const SizeReport report = measure_size(mesh, input_size_field(part));
-  EXPECT_EQ(report.outside, mesh.n_vertices() - part.n_vertices());
+  EXPECT_EQ(report.vertices_outside_field, mesh.n_vertices() - part.n_vertices());
   EXPECT_NEAR(report.band(), 1, 1e-14);
 }
 
@@ -116,7 +116,7 @@ TEST(MeasureSize, DoesNotDependOnTheOrderOfThreads) {
   EXPECT_EQ(a.over_field.min, b.over_field.min);
   EXPECT_EQ(a.over_field.median, b.over_field.median);
   EXPECT_EQ(a.over_field.p95, b.over_field.p95);
-  EXPECT_EQ(a.outside, b.outside);
+  EXPECT_EQ(a.vertices_outside_field, b.vertices_outside_field);
 }
 
 TEST(LocalSizes, OfScatteredVerticesAreThoseOfEachByItself) {

@@ -2,16 +2,18 @@
 import { Mesh } from './mesh.ts';
 import { answer, answerBytes, answerText, call, type Files, fromJson, listening, module, takeWritten, toJson, withFiles } from './module.ts';
 import type { EffortName, KeepName, OptimizeOptions, TargetName } from './options.ts';
+import type { DecSummary, OptimizeReport, Progress, Quality, TraceEvent } from './records.ts';
 import type {
-  DecComplex, DecSummary, DrawOptions, EnergyInfo, EnergyModel, Explanation, Format, IncidenceMatrix, OptimizeReport, OptionRow, Preset,
-  Progress, Quality, Restoration, Snapshot, LengthParameterLike, TraceEvent, VertexDerivatives,
-} from './records.ts';
+  DecComplex, DrawOptions, EnergyInfo, EnergyModel, Explanation, Format, IncidenceMatrix, OptionRow, Preset, Restoration,
+  Snapshot, LengthParameterLike, VertexDerivatives,
+} from './types.ts';
 import { loadSolver } from './solver.ts';
 
 export { Mesh, type MeshParts, type Numbers } from './mesh.ts';
 export { type Files, TemperError } from './module.ts';
 export type { EffortName, KeepName, OptimizeOptions, TargetName } from './options.ts';
 export type * from './records.ts';
+export type * from './types.ts';
 
 /** The answer of a function of the module without arguments. */
 function told<T>(name: string): T {
@@ -269,10 +271,6 @@ export interface HtmlOptions {
 
 /** The page that the program writes with `--write FILE.html`. It needs no network. */
 export function html_report(mesh: Mesh, { before, report, explanation, title = 'temper.Mesh' }: HtmlOptions = {}): string {
-  const measures = (of: Mesh): object => {
-    const q = quality(of);
-    return { ...q, histograms: { angles: q.angles, h_over_l: q.h_over_l, d_over_l: q.d_over_l } };
-  };
   // Without times, the same run makes the same page.
   const run = report && {
     sweeps: report.sweeps,
@@ -283,8 +281,8 @@ export function html_report(mesh: Mesh, { before, report, explanation, title = '
   const shown = {
     verb: report ? 'optimize' : 'check',
     version: version(),
-    ...(before && { before: measures(before) }),
-    after: measures(mesh),
+    ...(before && { before: quality(before) }),
+    after: quality(mesh),
     ...run,
     reasons: explanation?.reasons.map((r) => ({ kind: r.kind, triangles: r.bad, text: r.text, cures: r.cures.map((cure) => cure.text) })) ?? [],
   };

@@ -1,5 +1,5 @@
 // Written by build.mjs --options from the tables in the library. Do not edit.
-import type { LengthParameterLike } from './records.ts';
+import type { LengthParameterLike } from './types.ts';
 
 /** Use of the mesh.
  * - `any`: Any solver on a dual mesh: large margins, smaller errors.

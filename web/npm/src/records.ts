@@ -1,154 +1,111 @@
-// Results of functions, with the names of Python and of reports.
-import type { Mesh } from './mesh.ts';
-import type { OptimizeOptions } from './options.ts';
+// Written by scripts/docs/records.py --write from the tables in the library. Do not edit.
 
+/** Counts in equal bins over [low, high]. Each bin includes its lower end. Values outside go to the end bins. */
 export interface Histogram {
   low: number;
   high: number;
-  /** Counts in equal bins. Each bin contains its lower end; the end bins contain values outside too. */
   counts: number[];
 }
 
-/** One of the triangles with the least h/ℓ or d/ℓ. */
-export interface WorstTriangle {
-  triangle: number;
-  vertices: [number, number, number];
-  /** Centroid. */
-  at: [number, number];
-  h_over_l: number;
-  angle_deg: number;
-  /** "orthocenter outside across edge 3-9: angle of 138.3° at vertex 10" */
-  why: string;
-}
-
-/** Measures of a mesh. Counts are exact; margins and energies are doubles. */
-export interface Quality {
-  vertices: number;
-  triangles: number;
-  edges: number;
-  boundary_edges: number;
-  regions: number;
-  inverted_triangles: number;
-  /** Interior edges with negative dual. */
-  non_regular_edges: number;
-  /** Boundary edges with h < 0. */
-  negative_boundary_duals: number;
-  /** Triangles with some h ≤ 0, and inverted ones. */
-  orthocenters_outside: number;
-  /** Edges without 0 < d < ℓ. */
-  edges_not_crossed: number;
-  well_centered_fraction: number;
-  min_h_over_l: number;
-  min_d_over_l: number;
-  min_angle_deg: number;
-  max_angle_deg: number;
-  max_transmissibility_over_median: number;
-  /** The largest transmissibility over the least. */
-  transmissibility_ratio: number;
-  /** Least length of interior edges over the local size. */
-  min_edge_over_size: number;
-  min_dual_over_size: number;
-  /** For closed cells. */
-  min_dual_over_cell_median: number;
-  /** D-Flow FM; so are the next three. */
-  max_orthogonality: number;
-  max_smoothness: number;
-  min_flow_link: number;
-  small_flow_links: number;
-  /** MPAS-Tools; so are the rest. */
-  min_cell_quality: number;
-  min_grid_spacing: number;
-  max_grid_spacing: number;
-  min_triangle_quality: number;
-  min_triangle_angle_quality: number;
-  obtuse_triangles: number;
-  max_centroid_offset_over_size: number;
-  /** Totals of each energy for ★0, ★1, ★2; Infinity outside its domain. */
-  energy: Record<EnergyName, [number, number, number]>;
-  /** Worst first. */
-  worst: WorstTriangle[];
+/** Histograms of a mesh. */
+export interface Histograms {
+  /** Angles of all triangles [degrees]. */
   angles: Histogram;
+  /** h/ℓ of each triangle and edge. */
   h_over_l: Histogram;
+  /** Lesser of d/ℓ and 1 − d/ℓ of each edge. */
   d_over_l: Histogram;
 }
 
-export type EnergyName = NonNullable<OptimizeOptions['energy']>;
-export type ObjectiveName = NonNullable<OptimizeOptions['objective']>;
-export type BoundaryTreatment = 'as_is' | 'absolute' | 'mirrored';
-
-/** A length, absolute or relative to each edge. */
-export interface LengthParameter {
-  value: number;
-  scale: 'absolute' | 'relative';
-}
-/** A plain number is relative to each edge. */
-export type LengthParameterLike = number | LengthParameter;
-
-/** A row of the registry of energies. */
-export interface EnergyInfo {
-  name: EnergyName;
-  formula: string;
-  boundary_treatment: BoundaryTreatment;
-  /** Infinite outside 0 < d < ℓ. */
-  barrier: boolean;
-  softened_by_gamma: boolean;
-  softened_by_h0: boolean;
-  length_exponent: number;
-  signed_by_dual: boolean;
-  normalized: boolean;
-  positions_alone: boolean;
+/** A triangle whose least h/ℓ or d/ℓ is among the smallest of the mesh. */
+export interface WorstTriangle {
+  /** Number of the triangle, from 0. */
+  triangle: number;
+  /** Its vertices. */
+  vertices: [number, number, number];
+  /** Its centroid; on a sphere longitude and latitude [degrees]. */
+  at: [number, number];
+  /** Least h/ℓ of its three edges. */
+  h_over_l: number;
+  /** Largest of its three angles [degrees]. */
+  angle_deg: number;
+  /** The reason, such as "orthocenter outside across edge 3-9: angle of 138.3° at vertex 10". */
+  why: string;
 }
 
-/** An energy and its parameters. */
-export interface EnergyModel {
-  energy?: EnergyName;
-  star?: 0 | 1 | 2;
-  boundary_treatment?: BoundaryTreatment;
-  gamma?: LengthParameterLike;
-  h0?: LengthParameterLike;
-  wall?: boolean;
+/** The result of `quality`: counts decided exactly, margins and energies in doubles. On a sphere lengths and angles are measured along arcs. */
+export interface Quality {
+  /** Vertices. */
+  vertices: number;
+  /** Triangles. */
+  triangles: number;
+  /** Edges. */
+  edges: number;
+  /** Edges of one triangle. */
+  boundary_edges: number;
+  /** Different regions of triangles. */
+  regions: number;
+  /** Triangles that are clockwise, exact. */
+  inverted_triangles: number;
+  /** Interior edges with negative dual, exact. */
+  non_regular_edges: number;
+  /** Boundary edges with h < 0, exact. */
+  negative_boundary_duals: number;
+  /** Triangles with some h ≤ 0, exact. */
+  orthocenters_outside: number;
+  /** Edges without 0 < d < ℓ, exact. */
+  edges_not_crossed: number;
+  /** Triangles with all h > 0 and 0 < d < ℓ. */
+  well_centered_fraction: number;
+  /** Least h/ℓ of triangles and their edges. */
+  min_h_over_l: number;
+  /** Least d/ℓ or 1 − d/ℓ of edges. */
+  min_d_over_l: number;
+  /** Least angle of triangles. */
+  min_angle_deg: number;
+  /** Largest angle of triangles. */
+  max_angle_deg: number;
+  /** Largest over median ℓ/|dual| of interior edges. */
+  max_transmissibility_over_median: number;
+  /** Largest over least ℓ/|dual| of interior edges. */
+  transmissibility_ratio: number;
+  /** Least length of interior edges over local size, as in --min-edge. */
+  min_edge_over_size: number;
+  /** Least signed length of interior duals over local size, as in --min-dual. */
+  min_dual_over_size: number;
+  /** Least signed dual of a closed cell over the median length of its duals. */
+  min_dual_over_cell_median: number;
+  /** Largest |cosine| between an interior edge and the line between the circumcenters on its sides, kept inside their triangles (MeshKernel, MeshOrthogonality). Advice: 0.01. D-Flow FM refuses 0.5 (cosPhiUTrsh). */
+  max_orthogonality: number;
+  /** Largest ratio of the areas on the sides of an interior edge (MeshKernel, MeshSmoothness). */
+  max_smoothness: number;
+  /** Least distance between neighboring circumcenters, kept inside their triangles, over the mean square root of both areas (MeshKernel, GetEdgesCrossingSmallFlowEdges). */
+  min_flow_link: number;
+  /** Interior edges with a flow link below 0.1, which D-Flow FM removes (removeSmallLinksTrsh). */
+  small_flow_links: number;
+  /** Shortest over longest dvEdge of a closed cell (MPAS-Tools, mpas_mesh_converter). */
+  min_cell_quality: number;
+  /** Mean dcEdge of a cell (MPAS-Tools, mpas_mesh_converter) [length]. */
+  min_grid_spacing: number;
+  /** Mean dcEdge of a cell (MPAS-Tools, mpas_mesh_converter) [length]. */
+  max_grid_spacing: number;
+  /** Shortest over longest dcEdge of a triangle (MPAS-Tools, mpas_mesh_converter). */
+  min_triangle_quality: number;
+  /** Least over largest angle of a triangle, by the law of cosines (MPAS-Tools, mpas_mesh_converter). */
+  min_triangle_angle_quality: number;
+  /** Triangles with an angle above 90° (MPAS-Tools, mpas_mesh_converter), exact. */
+  obtuse_triangles: number;
+  /** Largest distance of a vertex from the centroid of its closed cell, over local size; 0 in centroidal Voronoi meshes. */
+  max_centroid_offset_over_size: number;
+  /** Total of each energy for ★0, ★1, ★2; infinite outside its domain. */
+  energy: Record<'F' | 'T' | 'dT' | 'BH' | 'BHs' | 'BP' | 'nF' | 'nT' | 'ndT' | 'ODT', [number, number, number]>;
+  /** Histograms of angles, h/ℓ and d/ℓ. */
+  histograms: Histograms;
+  /** Worst triangles, the worst first. */
+  worst: WorstTriangle[];
 }
 
-/** The energy as a function of one vertex. */
-export interface VertexDerivatives {
-  /** Infinity if not feasible. */
-  value: number;
-  feasible: boolean;
-  /** ∂E/∂x, ∂E/∂y, ∂E/∂w. */
-  gradient: [number, number, number];
-  /** xx, xy, xw, yy, yw, ww. */
-  hessian: [number, number, number, number, number, number];
-}
-
-export interface SweepRecord {
-  /** 0 is the input. */
-  sweep: number;
-  energy: number;
-  /** Triangles that are not well-centered. */
-  bad: number;
-  flips: number;
-  length_parameter: number;
-  seconds: number;
-  objective: ObjectiveName;
-}
-
-/** The progress of a run. */
-export interface Progress {
-  /** The last whole sweep. */
-  last: SweepRecord;
-  /** Part of the current sweep that is done, in [0, 1). */
-  fraction: number;
-  max_sweeps: number;
-  /** An estimate of the sweeps after the last one; null in the first sweeps of a stage. Repairs may follow. */
-  sweeps_left: number | null;
-  /** Number of vertices, while the run searches for a mesh with fewer. */
-  n_vertices: number | null;
-  /** Estimate of the share of the present phase that is done, from 0 to 1. Each objective of `last` is a phase. */
-  share_of_phase: number | null;
-  /** Phase of the mesher before an optimization, which has no sweeps. Empty in an optimization. */
-  phase: string;
-}
-
+/** The distribution of many numbers: percentiles by nearest rank. All are 0 if there are no numbers. */
 export interface Spread {
   min: number;
   p05: number;
@@ -157,315 +114,162 @@ export interface Spread {
   max: number;
 }
 
+/** The comparison of a mesh with a size field. No number depends on the unit of length. */
 export interface SizeReport {
+  /** Local size over field at the vertices. */
   over_field: Spread;
+  /** Ratio of the greater to the smaller local size at the two ends of each edge. */
   gradation: Spread;
+  /** Largest ratio of the longest to the shortest edge of a triangle. */
   largest_edge_ratio: number;
-  outside: number;
+  /** Number of vertices outside the field's mesh. */
+  vertices_outside_field: number;
+  /** B of the smallest band [1/B, B] that holds all ratios of size to field. */
   band: number;
 }
 
-export type Stopped =
-  | 'converged' | 'max_sweeps' | 'max_outer' | 'time_limit' | 'canceled' | 'tangled' | 'hidden' | 'sweep_limit';
+/** The change of the sizes: both meshes compared with the size field. */
+export interface SizeChange {
+  /** The input. */
+  before: SizeReport;
+  /** The result. */
+  after: SizeReport;
+}
+
+/** One sweep over all vertices. */
+export interface SweepRecord {
+  /** Number of the sweep; 0 is the input. */
+  sweep: number;
+  /** Value of the objective at the end of the sweep, at its γ. */
+  energy: number;
+  /** Number of triangles or tetrahedra that are not well-centered. */
+  bad: number;
+  /** Number of flips in this sweep. */
+  flips: number;
+  /** Value of γ or −h° in this sweep, relative to ℓ by default. */
+  length_parameter: number;
+  /** Time since the start of the optimization [s]. */
+  seconds: number;
+  /** Objective that the sweep lowered. */
+  objective: 'energy' | 'accuracy' | 'solver_error';
+}
 
 /** The result of `optimize`. */
 export interface OptimizeReport {
-  stopped: Stopped;
+  /** Number of sweeps. */
   sweeps: number;
-  flips: number;
-  vertices_removed: number;
-  vertices_inserted: number;
-  /** Number of each vertex in the input, −1 for inserted ones. Empty if none was removed or inserted. */
-  vertices: number[];
-  hidden: number[];
-  /** Objective that the run lowered. */
-  objective: ObjectiveName;
+  /** Time of the optimization alone [s]. */
   seconds: number;
+  /** Reason for the end of the run. tangled: triangles are inverted and no flips can make the mesh regular. hidden: deferred flips hid a vertex against the policy, and the mesh is an earlier one. sweep_limit: all sweeps for the accuracy are done, a normal end. */
+  stopped: 'converged' | 'max_sweeps' | 'max_outer' | 'time_limit' | 'canceled' | 'tangled' | 'sweep_limit' | 'hidden';
+  /** Objective that the run lowered. */
+  objective: 'energy' | 'accuracy' | 'solver_error';
+  /** Objective of the input, at the final γ. */
   objective_before: number;
+  /** Objective of the result. */
   objective_after: number;
-  size: { before: SizeReport; after: SizeReport };
-  /** history[0] is the input. */
-  history: SweepRecord[];
+  /** Number of vertices of the input that were removed. */
+  vertices_removed: number;
+  /** Vertices without a power cell that the option hidden = keep left. */
+  hidden_vertices: number[];
+  /** Number of new vertices. */
+  vertices_inserted: number;
+  /** Number of flips. */
+  flips: number;
+  /** Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted. */
+  vertices: number[];
+  /** Number of triangles or tetrahedra of the input that are not well-centered, before any flip. */
+  bad_before: number;
+  /** The same number of the result. */
+  bad_after: number;
+  /** Change of the sizes; absent for tetrahedra. */
+  size: SizeChange;
   /** Notes for the user, in sentences. */
   notes: string[];
+  /** One record per sweep; history[0] is the input, with its edges flipped to be regular. */
+  history: SweepRecord[];
 }
 
-/** The mesh as it is after a sweep of a run. */
-export interface Snapshot {
-  sweep: number;
-  /** A copy. */
-  mesh: Mesh;
+/** Progress of a run. Observers get it at least once per sweep, and more often on large meshes. */
+export interface Progress {
+  /** Last whole sweep. */
+  last: SweepRecord;
+  /** Fraction of the current sweep, in [0, 1). */
+  fraction: number;
+  /** Largest number of sweeps. */
+  max_sweeps: number;
+  /** Estimate of the sweeps after the last one, while the energy converges. Absent in the first sweeps of a stage. */
+  sweeps_left: number | null;
+  /** Number of vertices, while the run searches for a mesh with fewer. */
+  n_vertices: number | null;
+  /** Estimate of the share of the present phase that is done, in [0, 1]. Each objective of `last` is a phase, and its energy has another meaning than in the phase before. */
+  share_of_phase: number | null;
+  /** Phase of the mesher before an optimization, such as "placing points"; `fraction` is then the share of the phase that is done, as far as it is known. Empty in an optimization. */
+  phase: string;
 }
 
-/** An event of a run. Vertices are numbered as in the input; inserted vertices follow. */
+/** An event of a run. Vertices are numbered as in the input, also after removals; new vertices get the next numbers. Coordinates and weights are in the user's units. */
 export interface TraceEvent {
+  /** Kind of the event. */
   kind: 'move' | 'weight' | 'flip' | 'collapse' | 'removal' | 'insertion' | 'split' | 'hidden' | 'undo';
+  /** Sweep of the event; 0: the input is made regular and its boundary cut. */
   sweep: number;
-  /** −1 for flip, and for undo of whole sweeps. */
+  /** Vertex of the event; −1 for flip, and for undo of whole sweeps. For insertion and split, the new vertex. */
   vertex: number;
+  /** Energy before the event, of the vertex's patch or of all edges that a flip changes; NaN if the event has none. */
   before: number;
+  /** Energy after the event. */
   after: number;
-  /** New x, y, w of the vertex. */
+  /** New x, y, w of the vertex for move, weight, insertion, split; on a sphere its weighted vector. */
   point: [number, number, number];
-  /** flip: edge a→b, with c on its left and d on its right, becomes d→c; split: a→b was cut. */
+  /** For flip: edge a→b, with c on its left and d on its right, becomes d→c. For split: a→b was cut; d is −1 on the boundary. */
   quad: [number, number, number, number];
+  /** Neighbors, counter-clockwise, for collapse and removal; corners of the triangle for insertion. */
   link: number[];
+  /** New triangles of the cavity, in slot order, for collapse and removal. */
   triangles: [number, number, number][];
+  /** For undo without a vertex: the sweep at whose end the mesh was the same; −1: the input as given. */
   to_sweep: number;
 }
 
-/** A file format: a row of `formats()`. */
-export interface Format {
-  name: string;
-  description: string;
-  /** Suffixes such as ".vtu", separated by spaces. `write` uses the first. */
-  suffixes: string;
-  writes: boolean;
-  /** If false, weights go to a file PATH.weights.csv. */
-  holds_weights: boolean;
-  /** Holds meshes of the plane. If false, it only holds meshes that were read in degrees. */
-  holds_planes: boolean;
-  holds_spheres: boolean;
-  holds_tetrahedra: boolean;
-}
-
-export interface Restoration {
-  flips: number;
-  regular: boolean;
-  /** Halfedges whose edges no flips make regular. */
-  stuck: number[];
-  /** Vertices that their weights hide. */
-  hidden: number[];
-}
-
-/** A word that sets several options. */
-export interface Preset {
-  name: string;
-  sentence: string;
-  /** Is for the study of methods. */
-  research: boolean;
-}
-
-/** A row of the table of options. */
-export interface OptionRow {
-  name: string;
-  group: string;
-  sentence: string;
-  /** Type in TypeScript. */
-  type: string;
-  choices: (string | number)[];
-  /** The value may be null. */
-  optional: boolean;
-  /** "at least 2" */
-  range: string;
-  /** Meaning of null. */
-  absent: string;
-  default: unknown;
-}
-
+/** A summary of the operators, for a check before a solver uses them. */
 export interface DecSummary {
+  /** Number of vertices. */
   vertices: number;
+  /** Number of edges. */
   edges: number;
-  triangles: number;
+  /** Number of edges on the boundary. */
   boundary_edges: number;
-  negative_star0: number;
-  negative_star1: number;
-  zero_star1: number;
-  negative_boundary_star1: number;
+  /** Number of triangles. */
+  triangles: number;
+  /** Number of triangles that are not well-centered, exact. */
   not_well_centered: number;
+  /** Area of the domain [length²]. */
   area: number;
+  /** Sum of ★0: the area, except for rounding [length²]. */
   star0_sum: number;
+  /** Number of negative ★0. */
+  negative_star0: number;
+  /** Number of interior edges that are not regular, exact. */
+  negative_star1: number;
+  /** Number of boundary edges with the orthocenter outside the domain, exact. */
+  negative_boundary_star1: number;
+  /** Number of interior edges that are cocircular, exact. */
+  zero_star1: number;
+  /** Least ★0. */
   min_star0: number;
+  /** Least ★1. */
   min_star1: number;
+  /** Median of |★1| over all edges. */
   median_star1: number;
+  /** Largest |★1|. */
   max_star1: number;
+  /** Largest over median |★1|. */
+  max_star1_over_median: number;
+  /** Median of |transmissibility| inside. */
   median_transmissibility: number;
+  /** Largest |transmissibility| inside; infinite if a dual edge has length 0. */
   max_transmissibility: number;
-}
-
-/** A sparse matrix of entries ±1, in compressed rows. */
-export interface IncidenceMatrix {
-  /** Rows + 1. */
-  starts: Int32Array;
-  columns: Int32Array;
-  signs: Int8Array;
-}
-
-/** Values of each edge, in the order of (from, to). Left and right are seen from from → to. Pairs are flat. */
-export interface DecEdges {
-  vertices: Int32Array;
-  /** Left and right; −1 on the boundary. */
-  triangles: Int32Array;
-  length: Float64Array;
-  /** d from `from`. */
-  crossing: Float64Array;
-  left_height: Float64Array;
-  right_height: Float64Array;
-  /** With the sign of the exact predicates. */
-  dual_length: Float64Array;
-  /** x, y of the weighted midpoint. */
-  midpoint: Float64Array;
-}
-
-/** Discrete exterior calculus on a mesh: incidence, diagonal stars with signed power duals, and the dual. */
-export interface DecComplex {
-  edges: DecEdges;
-  edge_of_halfedge: Int32Array;
-  /** Edges × vertices. */
-  d0: IncidenceMatrix;
-  /** Triangles × edges. */
-  d1: IncidenceMatrix;
-  star0: Float64Array;
-  star1: Float64Array;
-  star2: Float64Array;
-  /** Transmissibility of a two-point flux between orthocenters. It is Infinity if a dual edge has no length. */
-  transmissibility: Float64Array;
-  /** x, y of the orthocenter of each triangle. */
-  orthocenters: Float64Array;
-  areas: Float64Array;
-  summary: DecSummary;
-}
-
-export interface DrawOptions {
-  primal?: boolean;
-  dual?: boolean;
-  fill?: boolean;
-  weights?: boolean;
-  weight_scale?: number;
-  near_coincident?: boolean;
-  vertex_numbers?: boolean;
-  /** x0, y0, x1, y1: draw only parts in this box. */
-  zoom?: [number, number, number, number] | null;
-  width?: number;
-  title?: string;
-}
-
-/** An inequality of the weights: "height" over edge pq of the triangle pqr, "crossing" from p towards q, "dual" length of pq. */
-export interface WeightConstraint {
-  kind: 'height' | 'crossing' | 'dual';
-  p: number;
-  q: number;
-  /** −1: none. */
-  r: number;
-  s: number;
-}
-
-/** Proof that no weights exist (Farkas): constraints with multipliers ≥ 0 whose sum is a contradiction. */
-export interface Certificate {
-  /** No weights satisfy the constraints with more than this margin. */
-  margin: number;
-  /** None: no certificate. */
-  terms: [WeightConstraint, number][];
-  constraints: 'well_centered' | 'heights_only' | 'regular';
-}
-
-/** An edge u → v whose dual must cross it near u for one vertex, and near v for another. */
-export interface EdgeConflict {
-  /** u, v. */
-  edge: [number, number];
-  halfedge: number;
-  near_u: number;
-  near_v: number;
-  /** Distances, as parts of the edge's length. */
-  a: number;
-  b: number;
-  /** a + b. It is at most 1 if there is no place for the crossing. */
-  sum: number;
-  /** Part of the way from u. */
-  split_at: number;
-}
-
-/** One side of the edge in a conflict: the part of the edge where the dual may cross if its triangles are well-centered. */
-export interface CrossingSide {
-  triangles: number[];
-  /** Distances from the edge's first vertex, exclusive [length]. */
-  from_: number;
-  to: number;
-  /** Vertex of the largest angle of these triangles. */
-  widest: number;
-  /** The largest angle. */
-  angle_deg: number;
-}
-
-/** An edge whose sides cannot agree: left.to ≤ right.from_ or right.to ≤ left.from_. */
-export interface CrossingConflict {
-  p: number;
-  q: number;
-  length: number;
-  left: CrossingSide;
-  right: CrossingSide;
-}
-
-/** The corner that the triangles of a fan go around. */
-export interface FanCenter {
-  vertex: number;
-  on_boundary: boolean;
-  /** Angle of the domain at a vertex of the boundary; else 360. */
-  angle_deg: number;
-  shortest: number;
-  longest: number;
-  shortest_length: number;
-  longest_length: number;
-}
-
-/** A cure of a reason. */
-export interface Cure {
-  action: 'find_weights' | 'optimize' | 'move_vertex' | 'flip_edge' | 'insert_vertex' | 'split_edge' | 'split_boundary';
-  /** A sentence. */
-  text: string;
-  /** Two vertices, or none. */
-  edge: number[];
-  /** −1: none. */
-  vertex: number;
-  triangle: number;
-  at: [number, number];
-  /** The cure was tried: the neighborhood then has weights that make it well-centered, checked exactly. */
-  verified: boolean;
-  conflict_only: boolean;
-  triangles: number;
-  ends_conflict: boolean;
-  left_out: number;
-  margin: number;
-  changed: number;
-}
-
-/** The reason why triangles are not well-centered. */
-export interface Reason {
-  kind: 'split' | 'edge' | 'fan' | 'patch' | 'weights' | 'undecided';
-  /** The reason as text, with vertices counted from 0. */
-  text: string;
-  /** Triangles not well-centered for this reason, worst first. */
-  bad: number[];
-  /** edge, fan, patch: the smallest set of triangles without suitable weights. It contains `bad`. */
-  conflict: number[];
-  must_split: EdgeConflict | null;
-  /** edge, fan, patch: the proof. */
-  certificate: Certificate;
-  /** edge, fan, patch: best margin of the conflict, at most 0. weights: of the neighborhood, above 0. */
-  margin: number;
-  each: boolean;
-  checked: number;
-  crossing: CrossingConflict | null;
-  center: FanCenter | null;
-  /** Corners that may move. */
-  free: number[];
-  /** Least h/ℓ or d/ℓ of the bad triangles. */
-  least_margin: number;
-  /** Centroid of the worst of them. */
-  at: [number, number];
-  cures_searched: boolean;
-  /** Best first. */
-  cures: Cure[];
-}
-
-/** The result of `explain`. */
-export interface Explanation {
-  triangles: number;
-  bad: number;
-  /** Verdict for the whole mesh with these positions and edges. It is feasible if no triangle is bad. */
-  verdict: 'feasible' | 'infeasible' | 'undecided';
-  changed: number;
-  margin: number;
-  /** Certified ones first, least margin first; then by least_margin. */
-  reasons: Reason[];
+  /** Largest over median |transmissibility|. */
+  max_transmissibility_over_median: number;
 }

@@ -1,0 +1,78 @@
+// The tables of all reports as JSON: scripts/docs/records.py writes the schema, the classes of Python and the
+// interfaces of TypeScript from them.
+#include <set>
+#include <string>
+
+#include "reports/json_of.hpp"
+#include "reports/quality_report.hpp"
+#include "reports/reports.hpp"
+
+namespace temper::app {
+namespace {
+
+std::string_view word(FieldType::Kind kind) {
+  constexpr std::string_view kNames[] = {"flag", "count", "whole", "number", "text", "vertex", "element", "record"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string_view word(ShownIn shown) {
+  constexpr std::string_view kNames[] = {"everywhere", "libraries", "by_key", "if_any"};
+  return kNames[static_cast<std::size_t>(shown)];
+}
+
+/// Adds a table, and the tables of its records before it.
+class Tables {
+ public:
+  void add(const ReportTable& table) {
+    if (!added_.insert(&table).second) return;
+    const Json json = json_of_table(table);
+    list_.push_back(json);
+  }
+  [[nodiscard]] const Json& list() const { return list_; }
+
+ private:
+  Json json_of_type(const FieldType& type) {
+    Json json = {{"kind", word(type.kind)}, {"optional", type.optional}, {"sizes", type.sizes}, {"words", type.words}};
+    if (type.kind != FieldType::Kind::record) return json;
+    const ReportTable& table = type.record();
+    if (table.name.empty()) {
+      json["fields"] = json_of_table(table)["fields"];
+    } else {
+      json["record"] = table.name;
+      add(table);
+    }
+    return json;
+  }
+  Json json_of_table(const ReportTable& table) {
+    Json fields = Json::array();
+    for (const ReportRow& row : table.rows) {
+      const Json field = {{"key", row.key},
+                          {"sentence", row.sentence},
+                          {"unit", row.unit},
+                          {"shown", word(row.shown)},
+                          {"type", json_of_type(row.type)}};
+      fields.push_back(field);
+    }
+    return {{"name", table.name}, {"sentence", table.sentence}, {"fields", fields}};
+  }
+
+  std::set<const ReportTable*> added_;
+  Json list_ = Json::array();
+};
+
+template <class... Reports>
+void add_all(Tables& tables) {
+  (tables.add(table_of(static_cast<const Reports*>(nullptr))), ...);
+}
+
+}  // namespace
+
+std::string report_tables_json() {
+  Tables tables;
+  add_all<Quality, tets::Quality, OptimizeReport, tets::OptimizeReport, Progress, TraceEvent, io::DataReport, Outcome,
+          DecSummary, tets::DecSummary, DecRecord, TetDecRecord>(tables);
+  tables.add(table_for_tetrahedra(static_cast<const io::DataReport*>(nullptr)));
+  return dump(tables.list());
+}
+
+}  // namespace temper::app

@@ -1,0 +1,56 @@
+"""Records that show more than their fields. The fields come from the tables of reports (_reports.py)."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._records import Record, table
+
+if TYPE_CHECKING:
+    from ._mesh import Mesh
+
+
+class Histogram(Record):
+    @property
+    def edges(self: Any) -> npt.NDArray[np.float64]:
+        """The ends of the bins for ``matplotlib.pyplot.stairs``, one more than bins."""
+        return np.linspace(self.low, self.high, len(self.counts) + 1)
+
+
+class Quality(Record):
+    def _repr_html_(self: Any) -> str:
+        rows = [row for row in self._rows() if row[0] not in ("worst", "energy")]
+        worst = [(f"triangle {w.triangle}", w.why) for w in self.worst]
+        return table("Quality", rows, table("worst triangles", worst) if worst else "")
+
+
+class TetQuality(Record):
+    def _repr_html_(self: Any) -> str:
+        rows = [row for row in self._rows() if row[0] != "worst"]
+        worst = [(f"tetrahedron {w.tetrahedron}", w.why) for w in self.worst]
+        return table("TetQuality", rows, table("worst tetrahedra", worst) if worst else "")
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class OptimizeReport(Record):
+    _meshes: tuple[Mesh, Mesh] | None = dataclasses.field(default=None, repr=False, compare=False, kw_only=True)
+    """The mesh before and after, for notebooks."""
+
+    def _rows(self: Any) -> list[tuple[str, str]]:
+        shown_below = ("vertices", "hidden_vertices", "bad_before", "bad_after", "size", "data", "notes")
+        rows = [row for row in Record._rows(self) if row[0] not in shown_below]
+        rows.insert(1, ("bad triangles" if self.size else "bad tetrahedra", f"{self.bad_before} → {self.bad_after}"))
+        if self.size:
+            rows.append(("sizes within", f"1/{self.size.after.band:.3g} to {self.size.after.band:.3g} of the field"))
+        if self.data is not None and self.data.interpolated:
+            moved = f"of {self.data.points_moved} moved points: {', '.join(self.data.interpolated)}"
+            rows.append(("interpolated", moved))
+        return rows + [("note", note) for note in self.notes]
+
+    def as_dict(self: Any) -> dict[str, Any]:
+        """Adds the history to ``Record.as_dict``."""
+        return {**Record.as_dict(self), "history": [record.as_dict() for record in self.history]}

@@ -1,0 +1,513 @@
+"""Written by scripts/docs/records.py --write from the tables in the library. Do not edit."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _looks
+from ._records import Record
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Histogram(_looks.Histogram):
+    """Counts in equal bins over [low, high]. Each bin includes its lower end. Values outside go to the end bins."""
+
+    low: float
+    high: float
+    counts: npt.NDArray[np.uint64]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Histograms(Record):
+    """Histograms of a mesh."""
+
+    angles: Histogram
+    """Angles of all triangles [degrees]."""
+    h_over_l: Histogram
+    """h/ℓ of each triangle and edge."""
+    d_over_l: Histogram
+    """Lesser of d/ℓ and 1 − d/ℓ of each edge."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class WorstTriangle(Record):
+    """A triangle whose least h/ℓ or d/ℓ is among the smallest of the mesh."""
+
+    triangle: int
+    """Number of the triangle, from 0."""
+    vertices: tuple[int, int, int]
+    """Its vertices."""
+    at: tuple[float, float]
+    """Its centroid; on a sphere longitude and latitude [degrees]."""
+    h_over_l: float
+    """Least h/ℓ of its three edges."""
+    angle_deg: float
+    """Largest of its three angles [degrees]."""
+    why: str
+    """The reason, such as "orthocenter outside across edge 3-9: angle of 138.3° at vertex 10"."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Quality(_looks.Quality):
+    """The result of ``quality``: counts decided exactly, margins and energies in doubles. On a sphere lengths and
+    angles are measured along arcs."""
+
+    vertices: int
+    """Vertices."""
+    triangles: int
+    """Triangles."""
+    edges: int
+    """Edges."""
+    boundary_edges: int
+    """Edges of one triangle."""
+    regions: int
+    """Different regions of triangles."""
+    inverted_triangles: int
+    """Triangles that are clockwise, exact."""
+    non_regular_edges: int
+    """Interior edges with negative dual, exact."""
+    negative_boundary_duals: int
+    """Boundary edges with h < 0, exact."""
+    orthocenters_outside: int
+    """Triangles with some h ≤ 0, exact."""
+    edges_not_crossed: int
+    """Edges without 0 < d < ℓ, exact."""
+    well_centered_fraction: float
+    """Triangles with all h > 0 and 0 < d < ℓ."""
+    min_h_over_l: float
+    """Least h/ℓ of triangles and their edges."""
+    min_d_over_l: float
+    """Least d/ℓ or 1 − d/ℓ of edges."""
+    min_angle_deg: float
+    """Least angle of triangles."""
+    max_angle_deg: float
+    """Largest angle of triangles."""
+    max_transmissibility_over_median: float
+    """Largest over median ℓ/\\|dual\\| of interior edges."""
+    transmissibility_ratio: float
+    """Largest over least ℓ/\\|dual\\| of interior edges."""
+    min_edge_over_size: float
+    """Least length of interior edges over local size, as in --min-edge."""
+    min_dual_over_size: float
+    """Least signed length of interior duals over local size, as in --min-dual."""
+    min_dual_over_cell_median: float
+    """Least signed dual of a closed cell over the median length of its duals."""
+    max_orthogonality: float
+    """Largest \\|cosine\\| between an interior edge and the line between the circumcenters on its sides, kept inside
+    their triangles (MeshKernel, MeshOrthogonality). Advice: 0.01. D-Flow FM refuses 0.5 (cosPhiUTrsh)."""
+    max_smoothness: float
+    """Largest ratio of the areas on the sides of an interior edge (MeshKernel, MeshSmoothness)."""
+    min_flow_link: float
+    """Least distance between neighboring circumcenters, kept inside their triangles, over the mean square root of both
+    areas (MeshKernel, GetEdgesCrossingSmallFlowEdges)."""
+    small_flow_links: int
+    """Interior edges with a flow link below 0.1, which D-Flow FM removes (removeSmallLinksTrsh)."""
+    min_cell_quality: float
+    """Shortest over longest dvEdge of a closed cell (MPAS-Tools, mpas_mesh_converter)."""
+    min_grid_spacing: float
+    """Mean dcEdge of a cell (MPAS-Tools, mpas_mesh_converter) [length]."""
+    max_grid_spacing: float
+    """Mean dcEdge of a cell (MPAS-Tools, mpas_mesh_converter) [length]."""
+    min_triangle_quality: float
+    """Shortest over longest dcEdge of a triangle (MPAS-Tools, mpas_mesh_converter)."""
+    min_triangle_angle_quality: float
+    """Least over largest angle of a triangle, by the law of cosines (MPAS-Tools, mpas_mesh_converter)."""
+    obtuse_triangles: int
+    """Triangles with an angle above 90° (MPAS-Tools, mpas_mesh_converter), exact."""
+    max_centroid_offset_over_size: float
+    """Largest distance of a vertex from the centroid of its closed cell, over local size; 0 in centroidal Voronoi
+    meshes."""
+    energy: dict[str, tuple[float, float, float]]
+    """Total of each energy for ★0, ★1, ★2; infinite outside its domain."""
+    histograms: Histograms = dataclasses.field(repr=False)
+    """Histograms of angles, h/ℓ and d/ℓ."""
+    worst: list[WorstTriangle]
+    """Worst triangles, the worst first."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetHistograms(Record):
+    """Histograms of a mesh of tetrahedra."""
+
+    dihedrals: Histogram
+    """All dihedral angles [degrees]."""
+    h_over_l: Histogram
+    """h/ℓ of each tetrahedron and face."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class WorstTet(Record):
+    """A tetrahedron whose least h/ℓ is among the smallest of the mesh."""
+
+    tetrahedron: int
+    """Number of the tetrahedron, from 0."""
+    vertices: tuple[int, int, int, int]
+    """Its vertices."""
+    at: tuple[float, float, float]
+    """Its centroid."""
+    h_over_l: float
+    """Least h/ℓ of its four faces."""
+    dihedral_deg: float
+    """Largest of its six dihedral angles [degrees]."""
+    why: str
+    """The reason, such as "orthocenter outside across face 3-9-12: h/ℓ = -0.2"."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetQuality(_looks.TetQuality):
+    """The result of ``quality`` for tetrahedra: counts decided exactly, margins in doubles. The length ℓ of a face is
+    the side of the equilateral triangle with its area, the length ℓ of an edge its own."""
+
+    vertices: int
+    """Vertices."""
+    inner_vertices: int
+    """Vertices that are not on the boundary."""
+    tetrahedra: int
+    """Tetrahedra."""
+    faces: int
+    """Faces."""
+    boundary_faces: int
+    """Faces of one tetrahedron."""
+    edges: int
+    """Edges."""
+    regions: int
+    """Different regions of tetrahedra."""
+    inverted_tetrahedra: int
+    """Tetrahedra that are not positive, exact."""
+    non_regular_faces: int
+    """Interior faces with negative dual edge, exact."""
+    negative_boundary_duals: int
+    """Boundary faces with h < 0, exact."""
+    orthocenters_outside: int
+    """Tetrahedra with some h ≤ 0, exact."""
+    faces_not_crossed: int
+    """Faces whose orthocenter is not strictly inside, exact."""
+    edges_not_crossed: int
+    """Edges without 0 < d < ℓ, exact."""
+    well_centered_fraction: float
+    """Tetrahedra with all h > 0."""
+    completely_well_centered_fraction: float
+    """Tetrahedra with all h > 0 whose faces and edges are crossed."""
+    min_h_over_l: float
+    """Least h/ℓ of tetrahedra and their faces, ℓ the side of the equilateral triangle with the area of the face."""
+    min_face_h_over_l: float
+    """Least h/ℓ of faces and their edges."""
+    min_d_over_l: float
+    """Least d/ℓ or 1 − d/ℓ of edges."""
+    min_dihedral_deg: float
+    """Least angle between two faces."""
+    max_dihedral_deg: float
+    """Largest angle between two faces."""
+    volume: float
+    """Volume of all tetrahedra [length³]."""
+    min_volume: float
+    """Least volume of a tetrahedron [length³]."""
+    max_volume: float
+    """Largest volume of a tetrahedron [length³]."""
+    max_transmissibility_over_median: float
+    """Largest over median A/\\|dual\\| of interior faces."""
+    transmissibility_ratio: float
+    """Largest over least A/\\|dual\\| of interior faces."""
+    histograms: TetHistograms = dataclasses.field(repr=False)
+    """Histograms of dihedral angles and h/ℓ."""
+    worst: list[WorstTet]
+    """Worst tetrahedra, the worst first."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Spread(Record):
+    """The distribution of many numbers: percentiles by nearest rank. All are 0 if there are no numbers."""
+
+    min: float
+    p05: float
+    median: float
+    p95: float
+    max: float
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class SizeReport(Record):
+    """The comparison of a mesh with a size field. No number depends on the unit of length."""
+
+    over_field: Spread
+    """Local size over field at the vertices."""
+    gradation: Spread
+    """Ratio of the greater to the smaller local size at the two ends of each edge."""
+    largest_edge_ratio: float
+    """Largest ratio of the longest to the shortest edge of a triangle."""
+    vertices_outside_field: int
+    """Number of vertices outside the field's mesh."""
+    band: float
+    """B of the smallest band [1/B, B] that holds all ratios of size to field."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class SizeChange(Record):
+    """The change of the sizes: both meshes compared with the size field."""
+
+    before: SizeReport
+    """The input."""
+    after: SizeReport
+    """The result."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class SweepRecord(Record):
+    """One sweep over all vertices."""
+
+    sweep: int
+    """Number of the sweep; 0 is the input."""
+    energy: float
+    """Value of the objective at the end of the sweep, at its γ."""
+    bad: int
+    """Number of triangles or tetrahedra that are not well-centered."""
+    flips: int
+    """Number of flips in this sweep."""
+    length_parameter: float
+    """Value of γ or −h° in this sweep, relative to ℓ by default."""
+    seconds: float
+    """Time since the start of the optimization [s]."""
+    objective: Literal["energy", "accuracy", "solver_error"]
+    """Objective that the sweep lowered."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class OptimizeReport(_looks.OptimizeReport):
+    """The result of ``optimize``."""
+
+    sweeps: int
+    """Number of sweeps."""
+    seconds: float
+    """Time of the optimization alone [s]."""
+    stopped: Literal["converged", "max_sweeps", "max_outer", "time_limit", "canceled", "tangled", "sweep_limit", "hidden"]
+    """Reason for the end of the run. tangled: triangles are inverted and no flips can make the mesh regular. hidden:
+    deferred flips hid a vertex against the policy, and the mesh is an earlier one. sweep_limit: all sweeps for the
+    accuracy are done, a normal end."""
+    objective: Literal["energy", "accuracy", "solver_error"]
+    """Objective that the run lowered."""
+    objective_before: float
+    """Objective of the input, at the final γ."""
+    objective_after: float
+    """Objective of the result."""
+    vertices_removed: int
+    """Number of vertices of the input that were removed."""
+    hidden_vertices: npt.NDArray[np.int32]
+    """Vertices without a power cell that the option hidden = keep left."""
+    vertices_inserted: int
+    """Number of new vertices."""
+    flips: int
+    """Number of flips."""
+    vertices: npt.NDArray[np.int32]
+    """Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted."""
+    bad_before: int
+    """Number of triangles or tetrahedra of the input that are not well-centered, before any flip."""
+    bad_after: int
+    """The same number of the result."""
+    size: SizeChange | None
+    """Change of the sizes; absent for tetrahedra."""
+    notes: list[str]
+    """Notes for the user, in sentences."""
+    history: list[SweepRecord] = dataclasses.field(repr=False)
+    """One record per sweep; history[0] is the input, with its edges flipped to be regular."""
+    data: DataReport | TetDataReport | None = dataclasses.field(default=None, kw_only=True)
+    """Report on the data of the mesh; None without data."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Progress(Record):
+    """Progress of a run. Observers get it at least once per sweep, and more often on large meshes."""
+
+    last: SweepRecord
+    """Last whole sweep."""
+    fraction: float
+    """Fraction of the current sweep, in [0, 1)."""
+    max_sweeps: int
+    """Largest number of sweeps."""
+    sweeps_left: float | None
+    """Estimate of the sweeps after the last one, while the energy converges. Absent in the first sweeps of a stage."""
+    n_vertices: int | None
+    """Number of vertices, while the run searches for a mesh with fewer."""
+    share_of_phase: float | None
+    """Estimate of the share of the present phase that is done, in [0, 1]. Each objective of `last` is a phase, and its
+    energy has another meaning than in the phase before."""
+    phase: str
+    """Phase of the mesher before an optimization, such as "placing points"; `fraction` is then the share of the phase
+    that is done, as far as it is known. Empty in an optimization."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TraceEvent(Record):
+    """An event of a run. Vertices are numbered as in the input, also after removals; new vertices get the next numbers.
+    Coordinates and weights are in the user's units."""
+
+    kind: Literal["move", "weight", "flip", "collapse", "removal", "insertion", "split", "hidden", "undo"]
+    """Kind of the event."""
+    sweep: int
+    """Sweep of the event; 0: the input is made regular and its boundary cut."""
+    vertex: int
+    """Vertex of the event; −1 for flip, and for undo of whole sweeps. For insertion and split, the new vertex."""
+    before: float
+    """Energy before the event, of the vertex's patch or of all edges that a flip changes; NaN if the event has none."""
+    after: float
+    """Energy after the event."""
+    point: tuple[float, float, float]
+    """New x, y, w of the vertex for move, weight, insertion, split; on a sphere its weighted vector."""
+    quad: tuple[int, int, int, int]
+    """For flip: edge a→b, with c on its left and d on its right, becomes d→c. For split: a→b was cut; d is −1 on the
+    boundary."""
+    link: npt.NDArray[np.int32]
+    """Neighbors, counter-clockwise, for collapse and removal; corners of the triangle for insertion."""
+    triangles: list[tuple[int, int, int]]
+    """New triangles of the cavity, in slot order, for collapse and removal."""
+    to_sweep: int
+    """For undo without a vertex: the sweep at whose end the mesh was the same; −1: the input as given."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class DataReport(Record):
+    """The fate of the data of points and cells after the mesh has changed. All 0 without such data."""
+
+    points: int
+    """Points of the file that are still there."""
+    points_moved: int
+    """Points among these that have moved."""
+    distance: Spread
+    """Distances that these have moved [length]."""
+    points_inserted: int
+    """New points that the file did not have."""
+    interpolated: list[str]
+    """Point data that belong to the place: linear in the cells of the file."""
+    kept: list[str]
+    """Point data that stayed with their points."""
+    dropped: list[str]
+    """Integer point data that differ around an inserted point."""
+    triangles: int
+    """Number of cells."""
+    triangles_changed: int
+    """Cells among these that the file does not have at the same number and places."""
+    of_triangles: list[str]
+    """Data of cells: each cell has the data of the file's cell that contains its middle."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class DecSummary(Record):
+    """A summary of the operators, for a check before a solver uses them."""
+
+    vertices: int
+    """Number of vertices."""
+    edges: int
+    """Number of edges."""
+    boundary_edges: int
+    """Number of edges on the boundary."""
+    triangles: int
+    """Number of triangles."""
+    not_well_centered: int
+    """Number of triangles that are not well-centered, exact."""
+    area: float
+    """Area of the domain [length²]."""
+    star0_sum: float
+    """Sum of ★0: the area, except for rounding [length²]."""
+    negative_star0: int
+    """Number of negative ★0."""
+    negative_star1: int
+    """Number of interior edges that are not regular, exact."""
+    negative_boundary_star1: int
+    """Number of boundary edges with the orthocenter outside the domain, exact."""
+    zero_star1: int
+    """Number of interior edges that are cocircular, exact."""
+    min_star0: float
+    """Least ★0."""
+    min_star1: float
+    """Least ★1."""
+    median_star1: float
+    """Median of \\|★1\\| over all edges."""
+    max_star1: float
+    """Largest \\|★1\\|."""
+    max_star1_over_median: float
+    """Largest over median \\|★1\\|."""
+    median_transmissibility: float
+    """Median of \\|transmissibility\\| inside."""
+    max_transmissibility: float
+    """Largest \\|transmissibility\\| inside; infinite if a dual edge has length 0."""
+    max_transmissibility_over_median: float
+    """Largest over median \\|transmissibility\\|."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetDecSummary(Record):
+    """A summary of the operators of tetrahedra, for a check before a solver uses them."""
+
+    vertices: int
+    """Number of vertices."""
+    edges: int
+    """Number of edges."""
+    faces: int
+    """Number of faces."""
+    boundary_faces: int
+    """Number of faces on the boundary."""
+    tetrahedra: int
+    """Number of tetrahedra."""
+    not_well_centered: int
+    """Number of tetrahedra that are not well-centered, exact."""
+    volume: float
+    """Volume of the domain [length³]."""
+    star0_sum: float
+    """Sum of ★0: the volume, except for rounding [length³]."""
+    negative_star0: int
+    """Number of negative ★0."""
+    negative_star1: int
+    """Number of negative ★1."""
+    negative_star2: int
+    """Number of interior faces that are not regular, exact."""
+    negative_boundary_star2: int
+    """Number of boundary faces with the orthocenter outside the domain, exact."""
+    zero_star2: int
+    """Number of interior faces that are cospherical, exact."""
+    min_star0: float
+    """Least ★0."""
+    min_star1: float
+    """Least ★1."""
+    min_star2: float
+    """Least ★2."""
+    median_star1: float
+    """Median of \\|★1\\| over all edges."""
+    max_star1: float
+    """Largest \\|★1\\|."""
+    max_star1_over_median: float
+    """Largest over median \\|★1\\|."""
+    median_transmissibility: float
+    """Median of \\|transmissibility\\| inside."""
+    max_transmissibility: float
+    """Largest \\|transmissibility\\| inside; infinite if a dual edge has length 0."""
+    max_transmissibility_over_median: float
+    """Largest over median \\|transmissibility\\|."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetDataReport(Record):
+    """The fate of the data of points and cells after the mesh has changed. All 0 without such data."""
+
+    points: int
+    """Points of the file that are still there."""
+    points_moved: int
+    """Points among these that have moved."""
+    distance: Spread
+    """Distances that these have moved [length]."""
+    points_inserted: int
+    """New points that the file did not have."""
+    interpolated: list[str]
+    """Point data that belong to the place: linear in the cells of the file."""
+    kept: list[str]
+    """Point data that stayed with their points."""
+    dropped: list[str]
+    """Integer point data that differ around an inserted point."""
+    tetrahedra: int
+    """Number of cells."""
+    tetrahedra_changed: int
+    """Cells among these that the file does not have at the same number and places."""
+    of_tetrahedra: list[str]
+    """Data of cells: each cell has the data of the file's cell that contains its middle."""

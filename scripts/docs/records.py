@@ -1,0 +1,210 @@
+#!/usr/bin/env python3
+"""Writes what follows from the tables of reports: the schema of JSON, the classes of Python, the interfaces of TypeScript.
+
+    records.py PROGRAM           exit 1 and one line a file that is not what the tables say
+    records.py --write PROGRAM   writes the files
+
+`PROGRAM --help=reports` prints the tables. schema.json beside this script has the rest of the schema: "fields" in it
+names tables whose fields an object has, besides its own properties.
+"""
+
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import textwrap
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+WIDTH = 120
+VERSION = 1  # of the schema
+# Reports on tetrahedra that are of the same class in Python as those on triangles.
+SAME_CLASS = {"TetOptimizeReport": "OptimizeReport"}
+# Reports that only the program has, and reports that npm has not.
+PROGRAM_ALONE = {"Outcome", "Operators", "TetOperators", "ColumnCounts"}
+NOT_IN_NPM = {"DataReport"}
+# Fields that Python adds.
+MORE = {
+    "OptimizeReport": """    data: DataReport | TetDataReport | None = dataclasses.field(default=None, kw_only=True)
+    \"\"\"Report on the data of the mesh; None without data.\"\"\"
+"""
+}
+NOTE = "Written by scripts/docs/records.py --write from the tables in the library. Do not edit."
+
+
+def compact(value, indent=""):
+    """JSON with as much on a line as fits."""
+    line = json.dumps(value, ensure_ascii=False)
+    if len(indent) + len(line) <= WIDTH or not isinstance(value, (dict, list)):
+        return line
+    deeper = indent + "  "
+    if isinstance(value, dict):
+        items = [f"{json.dumps(key)}: {compact(item, deeper)}" for key, item in value.items()]
+    elif all(isinstance(item, str) for item in value):
+        items = textwrap.wrap(line[1:-1], WIDTH - len(deeper), break_long_words=False, break_on_hyphens=False)
+        return "[\n" + "\n".join(deeper + item for item in items) + f"\n{indent}]"
+    else:
+        items = [compact(item, deeper) for item in value]
+    left, right = "{}" if isinstance(value, dict) else "[]"
+    return left + "\n" + ",\n".join(deeper + item for item in items) + f"\n{indent}{right}"
+
+
+def sentence_of(field):
+    """The meaning of a field, as a sentence."""
+    text = field["sentence"] + (f" [{field['unit']}]" if field["unit"] else "")
+    text = text[:1].upper() + text[1:] if re.match("[a-z]+\\b(?!/)", text) else text
+    return text and (text if text.endswith(".") else text + ".")
+
+
+# --- schema ------------------------------------------------------------------------------------------------------
+
+NUMBERS = {"count": "count", "element": "count", "vertex": "count", "number": "number"}
+
+
+def schema_of_item(kind):
+    if kind["kind"] == "record":
+        return {"$ref": f"#/$defs/{kind['record']}"} if "record" in kind else schema_of_fields("", kind["fields"])
+    if kind["kind"] in NUMBERS:
+        return {"$ref": "#/$defs/" + NUMBERS[kind["kind"]]}
+    if kind["kind"] == "text":
+        return {"enum": kind["words"]} if kind["words"] else {"type": "string"}
+    return {"type": {"flag": "boolean", "whole": "integer"}[kind["kind"]]}
+
+
+def schema_of_type(kind, shown):
+    item = schema_of_item(kind)
+    for size in reversed(kind["sizes"]):
+        item = {"type": "array", "items": item, **({"minItems": size, "maxItems": size} if size else {})}
+    return {"anyOf": [item, {"type": "null"}]} if kind["optional"] and shown != "if_any" else item
+
+
+def schema_of_fields(description, fields, more=None):
+    shown = [field for field in fields if field["shown"] != "libraries"]
+    own = {f["key"]: {**({"description": sentence_of(f)} if f["sentence"] else {}), **schema_of_type(f["type"], f["shown"])} for f in shown}
+    own.update({"schema": {"const": VERSION}} if "schema" in own else {})
+    more = more or {}
+    return {
+        **({"description": description} if description else {}), "type": "object",
+        "properties": {**own, **more.get("properties", {})}, "required": [*(f["key"] for f in shown if f["shown"] != "if_any"), *more.get("required", [])],
+        "additionalProperties": False,
+    }  # fmt: skip
+
+
+def schema(tables):
+    made = json.loads((HERE / "schema.json").read_text(encoding="utf-8"))
+    by_name = {table["name"]: table for table in tables}
+    for name, definition in made["$defs"].items():
+        if "fields" in definition:
+            fields = [field for table in definition["fields"] for field in by_name[table]["fields"]]
+            made["$defs"][name] = schema_of_fields(definition.get("description"), fields, definition)
+    for table in tables:
+        made["$defs"].setdefault(table["name"], schema_of_fields(table["sentence"], table["fields"]))
+    return compact(made) + "\n"
+
+
+# --- Python ------------------------------------------------------------------------------------------------------
+
+ARRAYS = {"count": "uint64", "vertex": "int32", "element": "int32", "number": "float64"}
+PLAIN = {"flag": "bool", "count": "int", "whole": "int", "number": "float", "vertex": "int", "element": "int"}
+
+
+def python_of_item(kind):
+    if kind["kind"] == "record":
+        return kind["record"] if "record" in kind else f"dict[str, {python_of_type(kind['fields'][0]['type'])}]"
+    if kind["kind"] == "text":
+        return f"Literal[{', '.join(map(json.dumps, kind['words']))}]" if kind["words"] else "str"
+    return PLAIN[kind["kind"]]
+
+
+def python_of_type(kind):
+    if kind["sizes"] == [0] and kind["kind"] in ARRAYS:
+        made = f"npt.NDArray[np.{ARRAYS[kind['kind']]}]"
+    else:
+        made = python_of_item(kind)
+        for size in reversed(kind["sizes"]):
+            made = f"tuple[{', '.join([made] * size)}]" if size else f"list[{made}]"
+    return made + (" | None" if kind["optional"] else "")
+
+
+def docstring(text, indent="    "):
+    text = text.replace("|", "\\\\|")  # which is Markdown's otherwise
+    lines = textwrap.wrap(f'"""{text}"""', WIDTH - len(indent), break_long_words=False, break_on_hyphens=False)
+    return "".join(f"{indent}{line}\n" for line in lines)
+
+
+def python(tables, looks):
+    """`looks`: names of classes in _looks.py, which give a record more than its fields."""
+    text = f'"""{NOTE}"""\n\nfrom __future__ import annotations\n\nimport dataclasses\nfrom typing import Literal\n\n'
+    text += "import numpy as np\nimport numpy.typing as npt\n\nfrom . import _looks\nfrom ._records import Record\n"
+    for table in tables:
+        if table["name"] in PROGRAM_ALONE or table["name"] in SAME_CLASS:
+            continue
+        others = [other for other in tables if SAME_CLASS.get(other["name"]) == table["name"]]
+        absent = {f["key"] for other in others for f in other["fields"] if f["type"]["optional"]}
+        base = f"_looks.{table['name']}" if table["name"] in looks else "Record"
+        text += f"\n\n@dataclasses.dataclass(frozen=True, eq=False)\nclass {table['name']}({base}):\n" + docstring(table["sentence"]) + "\n"
+        for field in table["fields"]:
+            kind = {**field["type"], "optional": field["type"]["optional"] or field["key"] in absent}
+            hidden = " = dataclasses.field(repr=False)" if field["shown"] == "by_key" else ""
+            text += f"    {field['key']}: {python_of_type(kind)}{hidden}\n"
+            text += docstring(sentence_of(field)) if field["sentence"] else ""
+        text += MORE.get(table["name"], "")
+    return text
+
+
+# --- TypeScript --------------------------------------------------------------------------------------------------
+
+
+def typescript_of_item(kind):
+    if kind["kind"] == "record" and "record" not in kind:
+        keys = " | ".join(f"'{field['key']}'" for field in kind["fields"])
+        return f"Record<{keys}, {typescript_of_type(kind['fields'][0]['type'])}>"
+    if kind["kind"] == "record":
+        return kind["record"]
+    if kind["kind"] == "text":
+        return " | ".join(f"'{word}'" for word in kind["words"]) or "string"
+    return "boolean" if kind["kind"] == "flag" else "number"
+
+
+def typescript_of_type(kind):
+    made = typescript_of_item(kind)
+    for size in reversed(kind["sizes"]):
+        made = f"[{', '.join([made] * size)}]" if size else (f"({made})[]" if " " in made and made[0] != "[" else f"{made}[]")
+    return made + (" | null" if kind["optional"] else "")
+
+
+def typescript(tables):
+    text = f"// {NOTE}\n"
+    for table in tables:
+        if table["name"] in PROGRAM_ALONE or table["name"] in NOT_IN_NPM or table["name"].startswith(("Tet", "WorstTet")):
+            continue
+        text += f"\n/** {table['sentence'].replace('``', '`')} */\nexport interface {table['name']} {{\n"
+        for field in table["fields"]:
+            text += f"  /** {sentence_of(field)} */\n" if field["sentence"] else ""
+            text += f"  {field['key']}: {typescript_of_type(field['type'])};\n"
+        text += "}\n"
+    return text
+
+
+def main(program, write=False):
+    said = subprocess.run([program, "--help=reports"], check=True, capture_output=True, text=True, encoding="utf-8").stdout
+    tables = json.loads(said)
+    looks = set(re.findall(r"^class (\w+)", (ROOT / "python/temper/_looks.py").read_text(encoding="utf-8"), re.M))
+    files = {
+        f"docs/schema/temper-{VERSION}.schema.json": schema(tables),
+        "python/temper/_reports.py": python(tables, looks),
+        "web/npm/src/records.ts": typescript(tables),
+    }
+    stale = [name for name, text in files.items() if not (ROOT / name).exists() or (ROOT / name).read_text(encoding="utf-8") != text]
+    for name in stale:
+        if write:
+            (ROOT / name).write_text(files[name], encoding="utf-8")
+        else:
+            print(f"{name}: is not what the tables of reports say: run scripts/docs/records.py --write PROGRAM")
+    return int(bool(stale) and not write)
+
+
+if __name__ == "__main__":
+    words = [word for word in sys.argv[1:] if word != "--write"]
+    sys.exit(main(words[0], "--write" in sys.argv) if len(words) == 1 else __doc__)
